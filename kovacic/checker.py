@@ -42,7 +42,7 @@ import multiprocessing
 import re
 import sys
 from collections.abc import Callable, Iterable, Iterator
-from contextlib import contextmanager, suppress
+from contextlib import suppress
 from dataclasses import dataclass
 from functools import cached_property, partial
 from itertools import chain, islice
@@ -54,7 +54,6 @@ from flint import (
     Ordering,
     acb,
     acb_poly,
-    acb_series,
     arb,
     ctx,
     fmpq,
@@ -478,19 +477,13 @@ def incomplete_gamma(tower: Tower, s: Function, u: Function) -> Any:
     return tower.new(f"gamma {s.key} {u.key}", lambda _: slope, lambda at: at(u).gamma_lower(at(s)))
 
 
-def rational_parameters(name: str, parameters: Iterable[Function]) -> list[Any]:
-    """The numbers that these are."""
-    numbers = [p.rational for p in parameters]
-    if None in numbers:
-        raise NotImplementedError(name)
-    return numbers
-
-
 def hypergeometric(tower: Tower, above: Any, below: Any, z: Function) -> Any:
     """2F1 by Gauss' equation z (1 - z) F'' = a b F - (c - (a + b + 1) z) F', 1F1 by Kummer's z F'' = a F - (c - z) F'."""
     if not isinstance(above, tuple) or not isinstance(below, tuple) or (len(above), len(below)) not in ((2, 1), (1, 1)):
         raise NotImplementedError("hyper")
-    numbers = rational_parameters("hyper", (*above, *below))
+    numbers = [p.rational for p in (*above, *below)]
+    if None in numbers:
+        raise NotImplementedError("hyper")
     bound = dict(zip("abc" if len(above) == 2 else "ac", (*above, *below), strict=True))
     texts = ("((a + b + 1)*z - c)/(z*(1 - z))", "a*b/(z*(1 - z))") if len(above) == 2 else ("(z - c)/z", "a/z")
     values = acb.hypgeom_2f1 if len(above) == 2 else acb.hypgeom_1f1
@@ -505,7 +498,9 @@ def hypergeometric(tower: Tower, above: Any, below: Any, z: Function) -> Any:
 
 def bessel(kind: str, q: str, tower: Tower, n: Function, z: Function) -> Any:
     """F'' = -F'/z + q F."""
-    (order,) = rational_parameters("a Bessel function of another order", [n])
+    order = n.rational
+    if order is None:
+        raise NotImplementedError("a Bessel function of another order")
 
     def ball(at: Any, shift: int = 0) -> Any:
         return getattr(at, f"bessel_{kind}")(acb(order + shift))
@@ -821,23 +816,6 @@ def frobenius(E: Any, M: Any, e: int, count: int, q: int) -> tuple[Any, bool]:
     return nmod(a, q), True
 
 
-def square_root(square: Any) -> Any:
-    """The root of the square of a rational number; None for other numbers."""
-    root = fmpq(isqrt(int(max(square.p * square.q, 0))), square.q)
-    return root if root * root == square else None
-
-
-@contextmanager
-def series_of_length(n: int) -> Iterator[None]:
-    """FLINT's series end after so many terms, in the block."""
-    before = ctx.cap
-    ctx.cap = n
-    try:
-        yield
-    finally:
-        ctx.cap = before
-
-
 class Place(Point):
     """A point with the multiplicity k in den, where S = num/den; infinity as z = 0 for S(1/z)/z^4."""
 
@@ -866,7 +844,9 @@ class Place(Point):
         """Delta >= 0, the difference of the exponents, if it is a rational number (1 at an ordinary point)."""
         if self.is_irregular or self.leading.degree() > 0:
             return None
-        return square_root(self.leading[0])
+        square = self.leading[0]
+        root = fmpq(isqrt(int(max(square.p * square.q, 0))), square.q)
+        return root if root * root == square else None
 
     @property
     def can_branch(self) -> bool:
@@ -925,18 +905,21 @@ class Place(Point):
         """Balls around half the difference of the exponents, up to its sign, at the conjugates for a root t of the modulus."""
         if self.difference is not None:
             return [acb(self.difference) / 2] * self.size
-        with series_of_length(self.nu + 1):
-            above = [g for g, _ in self.P.complex_roots() if acb_poly([acb(c) for c in self.t.coeffs()])(g).overlaps(t)]
-            return [self.half_difference_at(g) for g in above]
+        above = [g for g, _ in self.P.complex_roots() if acb_poly([acb(c) for c in self.t.coeffs()])(g).overlaps(t)]
+        return [self.half_difference_at(g) for g in above]
 
     def half_difference_at(self, g: Any) -> Any:
+        """From s = z^(2 nu) S: the root of 1/4 + s_0, or at an irregular place the coefficient of z^(nu - 1) in that of s."""
         nu = self.nu
-        num = self.series_at(self.num, g, nu + 1)
-        rest = self.series_at(self.den, g, self.k + nu + 1)[self.k :]
-        ratio = acb_series([acb(0)] * (2 * nu - self.k) + num, nu + 1) / acb_series(rest, nu + 1)  # z^(2 nu) S
-        if self.is_irregular:
-            return ratio[0].sqrt() * (ratio / ratio[0]).sqrt()[nu - 1]
-        return (1 + 4 * ratio[0]).sqrt() / 2
+        num = [acb(0)] * (2 * nu - self.k) + self.series_at(self.num, g, nu)
+        den = self.series_at(self.den, g, self.k + nu)[self.k :]
+        s: list[Any] = []
+        root: list[Any] = []
+        for n in range(nu):
+            s.append((num[n] - sum(map(mul, s, den[n:0:-1]), start=acb(0))) / den[0])
+            rest = s[n] - sum(map(mul, root[1:n], root[n - 1 : 0 : -1]), start=acb(0))
+            root.append(rest / (2 * root[0]) if n else rest.sqrt())
+        return root[-1] if self.is_irregular else (s[0] + acb(1) / 4).sqrt()
 
     def series_at(self, f: Any, g: Any, count: int) -> list[Any]:
         """f(t, r + z) for a root g of P in C."""
@@ -958,22 +941,17 @@ class Place(Point):
 
         With a logarithm omega belongs to the solution without, which has the larger exponent.
         """
-        delta = self.delta_modulo(s0, q)
-        if delta is None:
-            return []
+        if self.difference is not None:
+            delta = int(self.difference.p) * pow(int(self.difference.q), -1, q)
+        else:
+            square = fmpz(s0 if self.is_irregular else 1 + 4 * s0) % q
+            if square.jacobi(q) == -1:
+                return []
+            delta = int(square.sqrtmod(q))
         if self.is_irregular:
             return [delta, -delta]
         half = pow(2, -1, q)
-        larger = (1 + delta) * half % q
-        smaller = (1 - delta) * half % q
-        return [larger] if self.logarithm else [larger, smaller]
-
-    def delta_modulo(self, s0: int, q: int) -> int | None:
-        """Delta modulo q, or a square root of s_0 at an irregular place; None if there is none."""
-        if self.difference is not None:
-            return int(self.difference.p) * pow(int(self.difference.q), -1, q) % q
-        square = fmpz(s0 if self.is_irregular else 1 + 4 * s0) % q
-        return None if square.jacobi(q) == -1 else int(square.sqrtmod(q))
+        return [(1 + sign * delta) * half % q for sign in ((1,) if self.logarithm else (1, -1))]
 
     def continued(self, first: int, s: Any, count: int, q: int) -> Any:
         """w with this first coefficient: z^(2 nu) (omega' + omega^2) = s, a term after the other.
@@ -1418,7 +1396,6 @@ class Imprimitive:
     H = (u'/u)^2, and eta = du/u = sqrt(H) dx is a differential on the curve z^2 = H.  If the equation is Fuchsian, eta has
     simple poles only, with the residues Delta and -Delta (1 and -1 at an ordinary point, where y1 or y2 is zero).  The group
     is dicyclic of order 4n, n least with u^n a function on the curve, or N(T) if there is no such n.
-    A rule is a method that tells the family, or None where it doesn't apply; RULES has their order.
     """
 
     exclusions: Exclusions
@@ -1426,49 +1403,46 @@ class Imprimitive:
     H: Function
     group: dict[str, Any]
 
-    def infinite_monodromy(self) -> Family | None:
-        """An irregular place, or an exponent difference that isn't rational: an element of infinite order."""
-        return (
-            ("infinite dihedral", None) if any(place.difference is None for place in self.exclusions.places) else None
-        )
+    def decide(self) -> tuple[Family, set[str]]:
+        """The family, and the evidence that was used."""
+        infinite = "infinite dihedral", None
+        # an irregular place, or an exponent difference that isn't rational: an element of infinite order
+        if any(place.difference is None for place in self.exclusions.places):
+            return infinite, set()
+        # f isn't defined over K: its conjugates are further pairs of lines; three pairs belong to the quaternion group
+        if max(f.degrees()[0] for f in (self.slope.num, self.slope.den)) > 0:
+            return ("dicyclic", 2), set()
+        # two branch points: every divisor of degree 0 is that of a function, and n the common denominator of the residues
+        if sum(place.size for place, order in self.points if order % 2) == 2:
+            return ("dicyclic", lcm(*(int(place.difference.q) for place in self.poles))), set()
+        # a differential without poles, on a curve of positive genus: its integral is no logarithm of a function
+        if not self.poles:
+            return infinite, set()
+        if self.group.get("orders"):
+            self.no_torsion(self.group["orders"])
+            return infinite, {"orders"}
+        if self.group.get("function"):
+            return self.function(self.group["function"]), {"function"}
+        raise NotImplementedError("the order of a group on a curve of positive genus")
 
-    def three_pairs_of_lines(self) -> Family | None:
-        """f isn't defined over Q: its conjugates are further pairs of lines; three pairs belong to the quaternion group."""
-        return ("dicyclic", 2) if max(f.degrees()[0] for f in (self.slope.num, self.slope.den)) > 0 else None
-
-    def genus_zero(self) -> Family | None:
-        """Two branch points: every divisor of degree 0 is that of a function, and n the common denominator of the residues."""
-        branching = sum(place.size for place, order in self.points if order % 2)
-        return ("dicyclic", lcm(*(int(place.difference.q) for place in self.poles))) if branching == 2 else None
-
-    def first_kind(self) -> Family | None:
-        """A differential without poles, on a curve of positive genus: its integral is no logarithm of a function."""
-        return None if self.poles else ("infinite dihedral", None)
-
-    def no_torsion(self) -> Family | None:
+    def no_torsion(self, orders: Any) -> None:
         """The divisor D of l eta, l the common denominator, has no finite order.
 
         Reduction modulo a prime of good reduction is injective on classes of finite order: orders that differ prove that there
         is none.
         """
-        if not self.group.get("orders"):
-            return None
-        for entry in the_list(self.group["orders"], "the evidence"):
+        for entry in the_list(orders, "the evidence"):
             demand_keys(entry, "an order", "prime order")
-        shown = {self.order_modulo(entry["prime"], entry["order"]) for entry in self.group["orders"]}
+        shown = {self.order_modulo(entry["prime"], entry["order"]) for entry in orders}
         demand(len(shown) > 1, "the order isn't finite")
-        return "infinite dihedral", None
 
-    def function(self) -> Family | None:
+    def function(self, data: Any) -> Family:
         """n log u is half the logarithm of f = prod (a + b y)^e over its conjugate, plus the integral of w dx/y, y^2 = h.
 
         The differential of this is an identity of rational functions, up to the sign of u.  With w = 0, and a norm of f that is
         a constant times a square, u^n is a function; n is the least one if it is no power of another function.  With w dx/y
         holomorphic and not 0 no power of u is a function: what is left would be the logarithm of one, without poles.
         """
-        data = self.group.get("function")
-        if not data:
-            return None
         demand_keys(data, "the function", "multiple h pieces rest")
         tower = self.H.tower
         f = CurveFunction(self.exclusions.modulus, data, tower)
@@ -1486,24 +1460,6 @@ class Imprimitive:
         for prime, _ in fmpz(n).factor():
             demand(f.is_no_power(int(prime)), f"the function isn't a power with the exponent {prime}")
         return "dicyclic", n
-
-    #: In this order; the second place is the evidence that a rule uses.
-    RULES = (
-        (infinite_monodromy, ""),
-        (three_pairs_of_lines, ""),
-        (genus_zero, ""),
-        (first_kind, ""),
-        (no_torsion, "orders"),
-        (function, "function"),
-    )
-
-    def decide(self) -> tuple[Family, set[str]]:
-        """The family, and the evidence that was used."""
-        for rule, evidence in self.RULES:
-            family = rule(self)
-            if family is not None:
-                return family, {evidence} - {""}
-        raise NotImplementedError("the order of a group on a curve of positive genus")
 
     @cached_property
     def points(self) -> list[tuple[Place, int]]:
@@ -1621,10 +1577,10 @@ class Piece(NamedTuple):
         demand_keys(data, "a piece", "exponent a b")
         return cls(whole(data["exponent"]), *(polynomial(tower.read(data[name]), modulus) for name in "ab"))
 
-    def value(self, x: int, y: int, q: int, t: int) -> int:
+    def value(self, x: int, y: int, q: int) -> int:
         """At a point modulo q, over the norm to the power of the integral part of exponent/2; 0 where a norm is 0."""
-        even = int(image(self.a, q, t, 0)(x))
-        odd = int(image(self.b, q, t, 0)(x)) * y
+        even = int(self.a(x))
+        odd = int(self.b(x)) * y
         norm = (even - odd) * (even + odd) % q
         return pow(even + odd, self.exponent, q) * pow(norm, -(self.exponent // 2), q) % q if norm else 0
 
@@ -1682,14 +1638,15 @@ class CurveFunction:
         demand(h.gcd(h.derivative()).degree() == 0, f"{q} is a good prime")
         factors = (image(point.minimal, q, t, 0) ** k for point, k in self.roots_of_norms)
         G = prod(factors, start=nmod([1], q))
+        pieces = [Piece(e, image(a, q, t, 0), image(b, q, t, 0)) for e, a, b in self.pieces]
         for x in range(60):
             square = fmpz(int(h(x)))
             root = int(G(x))
             if square.jacobi(q) == 1 and root:
                 y = int(square.sqrtmod(q))
                 value = pow(root, -1, q)
-                for piece in self.pieces:
-                    value = value * piece.value(x, y, q, t) % q
+                for piece in pieces:
+                    value = value * piece.value(x, y, q) % q
                 if value:
                     yield value
 
@@ -1938,27 +1895,18 @@ class Answer:
         """The keys that have no part in what was checked."""
         looked_at = "input" if "S from input" in checked else ""
         yield from (key for key in NOT_LOOKED_AT if key in self.data and key != looked_at)
-        yield from self.not_looked_at_in_the_equation("gauge" in checked)
+        equation = self.data.get("equation") or {}
+        if "gauge" in checked:
+            yield from (f"equation.{key}" for key in NOT_LOOKED_AT_IN_THE_EQUATION if key in equation)
+        elif equation:
+            yield from ("equation", "gauge")
         if "group" in self.data and "group" not in checked:
             yield "group"
-        if self.names_zeros() and self.exclusions.zeros[1]:
+        evidence = chain(*(entry["evidence"] for entry in self.proof["excluded"]))
+        if any(item["kind"] == "no_rational_omega" for item in evidence) and self.exclusions.zeros[1]:
             yield "degree of no_rational_omega"
         others = set(self.data) - set(REQUIRED.split()) - set(OPTIONAL.split())
         yield from (key if key.isidentifier() else ascii(key)[:60] for key in sorted(others))
-
-    def not_looked_at_in_the_equation(self, has_gauge: bool) -> Iterator[str]:
-        equation = self.data.get("equation")
-        if equation is None:
-            return
-        if has_gauge:
-            yield from (f"equation.{key}" for key in NOT_LOOKED_AT_IN_THE_EQUATION if key in equation)
-        else:
-            yield from ("equation", "gauge")
-
-    def names_zeros(self) -> bool:
-        """Does the evidence say how many zeros a solution can have?"""
-        evidence = chain(*(entry["evidence"] for entry in self.proof["excluded"]))
-        return any(item["kind"] == "no_rational_omega" for item in evidence)
 
     def case(self) -> None:
         """Everything before the structure is excluded, each once and in order; without a structure, all five are."""
