@@ -181,8 +181,11 @@ class Arithmetic:
             return base
         if n == 0:
             return Monomial(1, 0)
-        if isinstance(base, RatFunc):
-            return self._ratfunc_power(base, n)
+        if isinstance(base, RatFunc):  # powers of what is in lowest terms are, too
+            above, below = (base.num, base.den) if n > 0 else (base.den, base.num)
+            num, den = self._poly_power(above, abs(n)), self._poly_power(below, abs(n))
+            leading = den.lc.inverse()
+            return RatFunc(num * leading, den * leading, reduced=True)
         power = self._poly_power(base, abs(n))
         if n > 0:
             return power
@@ -224,14 +227,6 @@ class Arithmetic:
         self._check(n * base.degree, bits)
         self._check_terms((base, n))
         return base**n
-
-    def _ratfunc_power(self, base: RatFunc, n: int) -> RatFunc:
-        """Powers of what is in lowest terms are, too; n isn't 0."""
-        above, below = (base.num, base.den) if n > 0 else (base.den, base.num)
-        num = self._poly_power(above, abs(n))
-        den = self._poly_power(below, abs(n))
-        leading = den.lc.inverse()
-        return RatFunc(num * leading, den * leading, reduced=True)
 
     def _check(self, degree: int, bits: int) -> None:
         limits = self.limits

@@ -281,7 +281,7 @@ class _Translation:
             return (self.partner.get(k) or self.bars[k]) + 1
         if text in _FRACTIONS:
             middle = self.operand_end(k + 1, depth + 1)
-            return None if middle is None else self.operand_end(middle, depth + 1)
+            return middle and self.operand_end(middle, depth + 1)
         if text == "\\sqrt":
             index = self.partner.get(k + 1, k) if self.texts[k + 1] == "[" else k
             return self.operand_end(index + 1, depth + 1)
@@ -335,9 +335,13 @@ class _Translation:
         if text in _FRACTIONS:
             begin, slash = k + 1, self.operand_end(k + 1)
             end = None if slash is None else self.operand_end(slash)
-        elif text.startswith("d") or text == "(":
+        elif text.startswith("d") or text == "(":  # the denominator is dx^2, (dx)^2 or (dx^2)
             begin, slash = k, next((j for j in range(k, min(k + 12, len(self.scan))) if self.texts[j] == "/"), None)
-            end = None if slash is None else self.differential_end(slash + 1)
+            end = slash and (slash + 3 if self.texts[slash + 1] == "d" else self.partner.get(slash + 1, slash + 1) + 1)
+            if end and self.texts[end] in _POWERS:
+                end = self.operand_end(end + 1) or end
+            elif end:
+                end += self.kinds[end] == "SUPERSCRIPT"
         else:
             return None
         if slash is None or end is None or end - k > _MOST:
@@ -347,13 +351,6 @@ class _Translation:
         if not numerator or not denominator or numerator[1] != denominator[2]:
             return None
         return numerator[2], denominator[1], int(numerator[1] or 1), end
-
-    def differential_end(self, k: int) -> int:
-        """The number of the token behind dx^2, (dx)^2 or (dx^2)."""
-        end = k + 2 if self.texts[k] == "d" else self.partner.get(k, k) + 1
-        if self.texts[end] in _POWERS:
-            return self.operand_end(end + 1) or end
-        return end + (self.kinds[end] == "SUPERSCRIPT")
 
     def method(self, token: Token) -> bool:
         """y(x).diff(x, 2): what stands before the point is differentiated."""
@@ -493,7 +490,7 @@ class _Translation:
 
     def fraction(self, token: Token) -> bool:
         middle = self.operand_end(self.k + 1)
-        end = None if middle is None else self.operand_end(middle)
+        end = middle and self.operand_end(middle)
         if middle is None or end is None:
             raise error_at(self.text, "something is missing behind this", [token], _EXAMPLE)
         self.write("LPAR", "(", token)

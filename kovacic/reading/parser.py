@@ -15,6 +15,7 @@ What the numbers, names and calls mean is a reader's affair: a rational function
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import dataclass, field
 from typing import Any, NamedTuple
 
 from kovacic.errors import InputError, LimitExceeded, NotRational, ParseError
@@ -38,14 +39,14 @@ _GROUPED = 3
 _SUPERSCRIPTS = str.maketrans("⁺⁻⁰¹²³⁴⁵⁶⁷⁸⁹", "+-0123456789")
 
 
+@dataclass(slots=True)
 class Site:
     """Where the operation stands that is being carried out: tokens `begin`, ..., `end - 1`, the last operand from `right`."""
 
-    __slots__ = ("begin", "end", "right", "tokens")
-
-    def __init__(self, tokens: Tokens) -> None:
-        self.tokens = tokens
-        self.begin = self.right = self.end = 0
+    tokens: Tokens
+    begin: int = 0
+    right: int = 0
+    end: int = 0
 
     def text(self) -> str:
         """The text of the operation with its operands, shortened."""
@@ -94,31 +95,27 @@ class Comparison(NamedTuple):
     values: tuple[Any, ...] = ()
 
 
+@dataclass(slots=True)
 class _Operand:
-    """A value that was read, and its first token."""
+    """A value that was read, its first token, and of a product without a sign the first token of the second factor."""
 
-    __slots__ = ("begin", "split", "value")
-
-    def __init__(self, value: Any, begin: int) -> None:
-        self.value = value
-        self.begin = begin
-        #: Where it is a product without a sign: the first token of the second factor.
-        self.split = 0
+    value: Any
+    begin: int
+    split: int = 0
 
 
+@dataclass(slots=True)
 class _Group:
-    """What a parenthesis encloses, and the operands in it before a comma; or the whole text, and what is left of its =."""
+    """What a parenthesis encloses, and the operands in it before a comma; or the whole text, and what is left of its =.
 
-    __slots__ = ("arguments", "is_call", "is_pair", "opened", "signs")
+    `opened` is the token of the parenthesis, or of the name before it, -1 for the whole text; `signs` those of a comparison.
+    """
 
-    def __init__(self, opened: int, *, is_call: bool = False) -> None:
-        #: The token of the parenthesis, or of the name before it; -1 for the whole text.
-        self.opened = opened
-        self.is_call = is_call
-        self.is_pair = False
-        #: Those of the comparison in a pair.
-        self.signs: list[str] = []
-        self.arguments: list[_Operand] = []
+    opened: int
+    is_call: bool = False
+    is_pair: bool = False
+    signs: list[str] = field(default_factory=list)
+    arguments: list[_Operand] = field(default_factory=list)
 
 
 class _Parser:
@@ -126,19 +123,6 @@ class _Parser:
 
     Each of these methods takes the number of its token, and answers whether an operand is expected next.
     """
-
-    __slots__ = (
-        "argument_lists",
-        "arithmetic",
-        "groups",
-        "kinds",
-        "operands",
-        "pending",
-        "pieces",
-        "reader",
-        "site",
-        "tokens",
-    )
 
     def __init__(self, tokens: Tokens, reader: Any) -> None:
         self.tokens = tokens
@@ -159,7 +143,9 @@ class _Parser:
         operand_is_next = True
         for k, kind in enumerate(self.kinds):
             table = _PREFIX if operand_is_next else _INFIX
-            operand_is_next = table.get(kind, _Parser.misplaced)(self, k)
+            if kind not in table:
+                raise self.syntax_error(k)
+            operand_is_next = table[kind](self, k)
         right = self.operands[-1]
         if not self.groups[0].arguments:
             return right.value
@@ -309,9 +295,6 @@ class _Parser:
         if self.groups[-1].opened >= 0:
             raise self.syntax_error(k)
         return False
-
-    def misplaced(self, k: int) -> bool:
-        raise self.syntax_error(k)
 
     def complete(self, end: int) -> None:
         """Carries out all that is pending in the innermost group."""

@@ -150,9 +150,9 @@ def _statements(scan: Scan) -> Iterator[list[Token]]:
 
 def _comma_separates(scan: Scan, k: int, _: Scan, __: bool) -> bool:
     """Not that of a decimal, 1,5: no blank about it between two numbers."""
-    around = [*scan[max(0, k - 1) : k], *scan[k + 1 : k + 2]]
-    is_decimal = len(around) == 2 and around[0].kind == around[1].kind == "NUMBER"
-    return not is_decimal or around[0].end < around[1].start - 1
+    around = scan[max(0, k - 1) : k + 2]
+    is_decimal = [token.kind for token in around] == ["NUMBER", "SIGN", "NUMBER"]
+    return not is_decimal or around[0].end < around[2].start - 1
 
 
 def _line_separates(scan: Scan, k: int, current: Scan, is_complete: bool) -> bool:

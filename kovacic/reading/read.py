@@ -131,14 +131,9 @@ def read_coefficients(
         y = _new_function(given, _variable_name(var))
         equation = a * y.diff(y.args[0], 2) + b * y.diff() + c * y - f
         return read_source(source_of(equation, None, unknown=y, equation=True), limits)
-    line = "({})*y'' + ({})*y' + ({})*y = {}".format(*map(_coefficient_text, given))
+    texts = [value.to_str() if isinstance(value, RatFunc) else exact_text(value, "a coefficient") for value in given]
+    line = "({})*y'' + ({})*y' + ({})*y = {}".format(*texts)
     return read_input(line, var=var, limits=limits, names=names)
-
-
-def _coefficient_text(value: Any) -> str:
-    if isinstance(value, RatFunc):
-        return value.to_str()
-    return exact_text(value, "a coefficient")
 
 
 def _new_function(coefficients: Sequence[Any], variable: str | None) -> Any:
