@@ -26,9 +26,8 @@ from kovacic.equation import Equation
 from kovacic.errors import LimitExceeded, NotRational
 from kovacic.limits import Limits
 from kovacic.reading.change_of_variable import SQUARES, function_of_x, is_of_a_line, user_variable
-from kovacic.reading.parts import parts_of
 from kovacic.reading.read import read_input
-from kovacic.reading.source import source_of
+from kovacic.reading.source import parts_of, source_of
 
 
 def coefficients_of_any(equation: Any, params: Mapping[str, object] | None, limits: Limits) -> Coefficients:

@@ -65,7 +65,7 @@ from kovacic.numbers.numerals import as_text
 from kovacic.parametric.assumptions import read_assumptions
 from kovacic.reading.pieces import taken_apart
 from kovacic.reading.read import declared
-from kovacic.reading.systems import read_equations
+from kovacic.reading.symbolic import read_equations
 
 Expr = Any  # SymPy publishes no types
 #: Names of the one method.

@@ -31,8 +31,8 @@ from kovacic.parametric.riemann import Schwarz
 from kovacic.parametric.statements import Both, Either, Statement, Vanishes
 from kovacic.reading.arithmetic import VARIABLE, Arithmetic, Value
 from kovacic.reading.constants import Constants
+from kovacic.reading.differential import WrittenReader, written_equation
 from kovacic.reading.expression import parse_with
-from kovacic.reading.written import WrittenReader, written_equation
 
 #: What was written by the package was within its limits.
 _LIMITS = Limits(degree=10**6, bits=10**8, digits=10**7, text_length=10**8, exponent=10**6)

@@ -13,20 +13,27 @@ Within an equation the unknown function may follow a coefficient without a sign:
 
 from __future__ import annotations
 
+from collections.abc import Mapping
+from dataclasses import dataclass
+from types import SimpleNamespace
 from typing import Any
 
+from kovacic.algebra.extension import AlgebraicField
+from kovacic.algebra.poly import Field, Poly
+from kovacic.algebra.ratfunc import RatFunc
 from kovacic.equation import ENERGY, EULER, PI, UNKNOWN, Equation, over
 from kovacic.errors import NotLinear, NotRational, ParseError
 from kovacic.limits import Limits
 from kovacic.numbers.numerals import as_text
-from kovacic.reading.arithmetic import VARIABLE, Monomial, NotAnInteger
-from kovacic.reading.constants import Constants
-from kovacic.reading.expression import OperationPlace, RationalReader
+from kovacic.reading.arithmetic import VARIABLE, Arithmetic, Monomial, NotAnInteger, Value
+from kovacic.reading.constants import Constants, read_with_constants
+from kovacic.reading.dialects import tokenize
+from kovacic.reading.expression import OperationPlace, RationalReader, parse_with
 from kovacic.reading.lexer import DERIVATIVES, PRIMES
 from kovacic.reading.linear import REST, DerivativeOperator, LinearArithmetic, LinearForm, differentiations, is_rational
 from kovacic.reading.names import FUNCTION_NAMES, NUMBERS, SEVERAL_ARGUMENTS, TRANSCENDENTAL_HINT
 from kovacic.reading.naming import OPERATOR
-from kovacic.reading.parser import Site
+from kovacic.reading.parser import Site, evaluate
 
 _ORDER = 2
 _LARGEST_ORDER = 100
@@ -243,3 +250,56 @@ def _derivative_of_unknown(order: int) -> LinearForm:
 
 def _order_of(primes: str) -> int:
     return len(primes) + primes.count("″")  # one character, two primes
+
+
+@dataclass(frozen=True)
+class WrittenReader:
+    """`names` are what the names stand for that occur, formulas such as sqrt(2) among them, in the field or below it."""
+
+    field: Field
+    names: Mapping[str, Value]
+    arithmetic: Arithmetic
+
+    def plain(self, text: str) -> tuple[str, dict[str, Value]]:
+        """The text with a name for each formula among the names, and the values of all of them."""
+        names: dict[str, Value] = {}
+        for number, (name, value) in enumerate(self.names.items()):
+            plain = name if name.isidentifier() else f"constant_{number}_"
+            names[plain] = value
+            if plain != name:
+                text = text.replace(name, f"({plain})")
+        return text, names
+
+    def ratfunc(self, text: str) -> RatFunc:
+        """Raises `InputError` for what isn't a rational function in these names."""
+        text, names = self.plain(text)
+        return over(self.arithmetic.rational(parse_with(text, names, self.arithmetic)), self.field)
+
+    def poly(self, text: str) -> Poly:
+        """Raises `ValueError` where it isn't a polynomial."""
+        value = self.ratfunc(text)
+        if not value.is_polynomial:
+            raise ValueError(f"{text!r} isn't a polynomial")
+        return value.num
+
+
+def written_equation(text: str, variable: str, unknown: str, known: Constants) -> Equation:
+    """The equation that a text denotes over the field of these constants, whose parameters may be called like formulas."""
+
+    def read(constants: Constants) -> Equation:
+        field = constants.field
+        values: dict[str, Value] = {
+            name: field.ground.generator(name).over(field)  # type: ignore[attr-defined]
+            for name in constants.parameters
+        }
+        if isinstance(field, AlgebraicField):
+            values[field.name] = field.generator
+        plain, names = WrittenReader(field, values, Arithmetic(constants.limits)).plain(text)
+        source = SimpleNamespace(
+            variable=variable, unknown=unknown, declared=(), has_operator=False, has_functions=False
+        )
+        reader = EquationReader(source, constants.limits, constants)
+        reader.names = {**reader.names, **names}
+        return reader.equation_of(evaluate(tokenize(plain), reader), plain)
+
+    return read_with_constants(read, known.limits, known)

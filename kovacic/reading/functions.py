@@ -15,9 +15,8 @@ from kovacic.errors import InputError, NotRational
 from kovacic.limits import Limits
 from kovacic.reading.exponentials import in_exponentials
 from kovacic.reading.letters import with_letters, without_shifts
-from kovacic.reading.parts import parts_of, source_of_parts
 from kovacic.reading.powers import in_powers
-from kovacic.reading.source import Source, read_source, read_with_numbers
+from kovacic.reading.source import Source, parts_of, read_source, read_with_numbers, source_of_parts
 from kovacic.reading.symbolic import expression_of, functions_in
 
 Expr = Any  # SymPy publishes no types

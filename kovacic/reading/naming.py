@@ -12,6 +12,7 @@ import re
 from collections import Counter
 from collections.abc import Collection
 from dataclasses import dataclass, replace
+from typing import NamedTuple
 
 from kovacic.equation import DEFAULT_VARIABLE, ENERGY, EULER, UNKNOWN
 from kovacic.errors import InputError, ParseError
@@ -38,17 +39,17 @@ _DIFFERENTIATED = re.compile(rf"(?<!\S)(?:({_NAME})'+|(?:{'|'.join(DERIVATIVES)}
 _NAMED = ("NAME", "PRIMED", "HEAD")
 
 
-@dataclass(frozen=True)
-class Named:
-    """The tokens of an expression in which every name is known; the `unknown` is empty for S alone."""
+class Named(NamedTuple):
+    """The tokens of an expression in which every name is known; the `unknown` is empty for S alone.
+
+    `has_operator`: D stands for the derivative.  `guesses` are those of the notes that say what was guessed.
+    """
 
     tokens: Tokens
     variable: str
     unknown: str
     notes: tuple[str, ...]
-    #: D stands for the derivative.
     has_operator: bool = False
-    #: The notes that say what was guessed, and not only how names are taken.
     guesses: tuple[str, ...] = ()
 
 

@@ -23,8 +23,7 @@ from kovacic.limits import Limits
 from kovacic.numbers.numerals import as_text
 from kovacic.reading.change_of_variable import function_of_x
 from kovacic.reading.exponentials import common_power, in_exponentials, new_variable
-from kovacic.reading.parts import parts_of, source_of_parts
-from kovacic.reading.source import Source, read_source
+from kovacic.reading.source import Source, parts_of, read_source, source_of_parts
 
 Expr = Any  # SymPy publishes no types
 

@@ -5,7 +5,7 @@ given -> `Source`, which can be walked -> a reader, which calculates -> `Parsed`
 
 from __future__ import annotations
 
-from collections.abc import Callable, Collection
+from collections.abc import Callable, Collection, Sequence
 from contextlib import suppress
 from functools import partial
 from typing import Any, NamedTuple
@@ -163,3 +163,32 @@ def read_source(source: Source, limits: Limits) -> Parsed:
         return Parsed(equation.S, x, notes, equation, tuple(reader.letters.items()))
 
     return read_with_constants(read, limits)
+
+
+def parts_of(source: Source, limits: Limits) -> tuple[Sequence[Any], list[str]]:
+    """a, b, c and r of a y'' + b y' + c y + r = 0, expressions of any functions, and what should be known of the reading."""
+    import sympy
+
+    from kovacic.reading.differential import EquationReader
+    from kovacic.reading.linear import REST, Symbols
+
+    reader = EquationReader(source, limits, Symbols())  # type: ignore[arg-type]
+    reader.arithmetic.coefficient = lambda expression: expression  # any one
+    value = source.walk(reader)
+    parts = getattr(value, "parts", {}) if source.unknown else {2: Monomial(1, 0), 0: reader.arithmetic.negate(value)}
+    found = {k: reader.arithmetic.expression(c) for k, c in parts.items()}
+    if max(found, default=0) != 2:
+        raise NotLinear("a linear equation of second order is expected")
+    return [found.get(k, sympy.Integer(0)) for k in (2, 1, 0, REST)], reader.notices()
+
+
+def source_of_parts(parts: Sequence[Any], source: Source) -> Source:
+    """The equation with these coefficients and the unknown function of `source`; S alone if that has S alone."""
+    import sympy
+
+    a, b, c, rest = parts
+    if not source.unknown:
+        return source_of(-c, source.variable)
+    x = sympy.Symbol(source.variable)
+    y = sympy.Function(source.unknown)(x)
+    return source_of(a * y.diff(x, 2) + b * y.diff(x) + c * y + rest, source.variable, unknown=y, equation=True)

@@ -12,17 +12,18 @@ n*exp(2) + 2*sqrt(2)
 from __future__ import annotations
 
 from collections.abc import Callable, Collection, Mapping
-from dataclasses import dataclass
+from dataclasses import replace
 from fractions import Fraction
-from functools import reduce
+from functools import partial, reduce
 from operator import index
-from typing import Any
+from types import SimpleNamespace
+from typing import Any, NamedTuple
 
 import sympy
 from sympy.core.function import AppliedUndef
 
 from kovacic.errors import InputError, LimitExceeded, NotLinear, NotRational
-from kovacic.limits import Limits
+from kovacic.limits import DEFAULT_LIMITS, Limits
 from kovacic.numbers.numerals import as_text
 from kovacic.reading.arithmetic import VARIABLE, Monomial, NotAnInteger
 from kovacic.reading.dialects import tokens_of
@@ -30,22 +31,14 @@ from kovacic.reading.expression import OperationPlace, RationalReader
 from kovacic.reading.lexer import DERIVATIVES, PRIMES
 from kovacic.reading.linear import LinearArithmetic, Symbols, differentiations
 from kovacic.reading.names import FUNCTION_NAMES, NUMBER_NAMES, NUMBERS, SEVERAL_ARGUMENTS, is_function
+from kovacic.reading.naming import Vocabulary, argument_of, differentiated
 from kovacic.reading.parser import Site, evaluate, shown
+from kovacic.reading.pieces import Paste, taken_apart
 
 LIMITS = Limits(text_length=10_000, digits=1000, exponent=1000, bits=10_000)
 #: Infinity as it is written in texts.
 _INFINITE = dict.fromkeys(("oo", "inf", "infty", "infinity", "Infinity"), sympy.oo)
 _CONSTANTS = {name: getattr(sympy, number).expand(func=True) for name, number in NUMBERS.items()}
-
-
-@dataclass(frozen=True)
-class _Node:
-    """The place of an operation, for messages."""
-
-    node: Any
-
-    def text(self) -> str:
-        return shown(self.node, 60)
 
 
 def walked(expression: Any, reader: RationalReader) -> Any:
@@ -72,7 +65,8 @@ def _combined(node: Any, arguments: list[Any], reader: RationalReader) -> Any:
     """The value of a sum, a product or a power of these values."""
     try:
         if node.is_Pow:
-            return reader.power(arguments[0], arguments[1], _Node(node))
+            base, exponent = arguments
+            return reader.power(base, exponent, SimpleNamespace(text=partial(shown, node, 60)))
         if node.is_Add:
             return reader.arithmetic.sum(arguments)
         return reduce(reader.arithmetic.multiply, arguments)
@@ -193,6 +187,53 @@ def expression_of(source: Any, limits: Limits, *, what: str = "the equation") ->
     if isinstance(value, sympy.Equality):
         return value.lhs - value.rhs
     return LinearArithmetic(limits).expression(value)
+
+
+class SystemReading(NamedTuple):
+    """Equations in unknown functions of one variable, `conditions`, pairs of a place and its value, and what was guessed."""
+
+    equations: tuple[Any, ...]
+    functions: tuple[Any, ...]
+    conditions: tuple[tuple[str, str], ...]
+    guesses: tuple[str, ...]
+
+
+def read_equations(
+    text: str | Paste, *, var: str | None = None, names: Collection[str] = (), limits: Limits = DEFAULT_LIMITS
+) -> SystemReading:
+    """Several equations in one text, of any order, as SymPy has them; `names` are declared parameters.
+
+    Raises `InputError`.
+
+    >>> reading = read_equations("x' = y, y' = -x, x(0) = 1")
+    >>> reading.equations
+    (Eq(Derivative(x(t), t), y(t)), Eq(Derivative(y(t), t), -x(t)))
+    >>> reading.functions, reading.conditions
+    ((x(t), y(t)), (PlacedValue(place='x(0)', value='1'),))
+
+    The variable is what an unknown function is applied to or differentiated by; else t, and x where that occurs and isn't
+    unknown.
+    """
+    paste = text if isinstance(text, Paste) else taken_apart(text)
+    limits = replace(limits, exponent=min(limits.exponent, 1000), bits=min(limits.bits, 10_000))
+    unknowns = tuple(dict.fromkeys(name for tokens in paste.equations for name in differentiated(tokens)))
+    if not unknowns:
+        raise InputError("these equations contain no derivative", hint="for example x' = y, y' = -x")
+    arguments = (argument_of(tokens, unknown) for tokens in paste.equations for unknown in unknowns)
+    occurring = {name for tokens in paste.equations for name in tokens.names} - {*unknowns}
+    usual = "x" if "x" in occurring and "t" not in occurring else "t"
+    chosen = var or paste.variable or next(filter(None, arguments), usual)
+    guesses = dict.fromkeys(paste.notes)
+    equations = []
+    for tokens in paste.equations:
+        named = Vocabulary(chosen, unknowns[0], frozenset({*names, *unknowns})).equation(tokens)
+        guesses |= dict.fromkeys(named.guesses)
+        reader = SymbolicReader.of_equations(chosen, unknowns, limits, "the equation")
+        reader.has_functions = True  # those that aren't differentiated
+        equations.append(evaluate(named.tokens, reader))
+    x = sympy.Symbol(chosen)
+    functions = tuple(sympy.Function(name)(x) for name in unknowns)
+    return SystemReading(tuple(equations), functions, paste.conditions, tuple(guesses))
 
 
 class SymbolicReader(RationalReader):

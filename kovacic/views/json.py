@@ -46,9 +46,9 @@ from kovacic.errors import InputError, LimitExceeded, VerificationFailed
 from kovacic.limits import Limits
 from kovacic.numbers.numerals import as_text, for_json
 from kovacic.reading.arithmetic import VARIABLE, Arithmetic, Value
+from kovacic.reading.differential import WrittenReader
 from kovacic.reading.names import words_among
 from kovacic.reading.read import read_input
-from kovacic.reading.written import WrittenReader
 from kovacic.verify import verify
 from kovacic.verify.factors import is_a_field
 from kovacic.verify.identity import form_numerators
