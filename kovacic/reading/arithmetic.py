@@ -61,17 +61,14 @@ class Arithmetic:
         self.limits = limits
 
     def integer(self, digits: str) -> int:
-        """The integer with these decimal digits."""
         if len(digits) > self.limits.digits:
             raise LimitExceeded(f"{len(digits)} digits, above the limit of {self.limits.digits}", limit="digits")
         return int(digits) if len(digits) <= _LONG else int(fmpz(digits))
 
     def signed_integer(self, text: str) -> int:
-        """The integer that a sign, or none, and decimal digits denote."""
         return -self.integer(text[1:]) if text[0] == "-" else self.integer(text.lstrip("+"))
 
     def constant(self, value: int | Fraction) -> Value:
-        """A rational number as a value."""
         bits = _bits(value)
         self._check(0, bits)
         return Monomial(value, 0) if bits <= _SMALL_BITS and type(value) is int else _term(value, 0)
@@ -88,7 +85,6 @@ class Arithmetic:
         return QQ.poly([self.integer(whole + digits) * 10 ** max(power, 0)]) * QQ.poly([10 ** max(-power, 0)]).inverse()
 
     def number(self, value: Value) -> Fraction | None:
-        """The rational number that a value is, or None."""
         closed = self.closed(value)
         if isinstance(closed, Poly) and closed.is_constant:
             return closed.field.rational_value(closed)
@@ -107,7 +103,6 @@ class Arithmetic:
         return -self.closed(value)
 
     def sum(self, terms: Sequence[Value]) -> Value:
-        """The sum of at least one term."""
         if len(terms) == 1:
             return terms[0]
         summands = _Summands()
@@ -192,7 +187,6 @@ class Arithmetic:
         return self.divide(Monomial(1, 0), power)
 
     def closed(self, value: Value) -> Poly | RatFunc:
-        """The value as a polynomial or rational function."""
         if isinstance(value, Monomial):
             return _monomial(value.coefficient, value.power)
         return value

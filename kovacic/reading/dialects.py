@@ -152,7 +152,6 @@ class _Latex:
         return list(self.scan[first : self.k])
 
     def index(self) -> None:
-        """A name with its index is one name."""
         name = self.found[-1] if self.found else None
         group = [token for token in self.group() if token.text not in _STYLES and token.text not in "{}"]
         index = "".join(token.text.removeprefix("\\") for token in group)
@@ -181,7 +180,6 @@ _VARIABLES = frozenset("xtzsr") | {"theta", "phi", "tau", "xi", "rho"}
 
 
 def _is_name(text: str) -> bool:
-    """A letter, with an index or not, or the name of one."""
     bare = text.partition("_")[0]
     return (len(bare) == 1 and bare.isalpha()) or bare in GREEK or bare in SPECIAL_LETTERS
 
@@ -263,7 +261,6 @@ class _Translation:
         self.closers[k] = [*tokens, *self.closers.get(k, [])]
 
     def head(self, name: str, token: Token) -> None:
-        """A name with a parenthesis that opens."""
         self.write("HEAD", name, token)
         self.write("LPAR", "(")
 
@@ -450,7 +447,6 @@ class _Translation:
         return k + 1
 
     def word(self, token: Token) -> bool:
-        """A name, with its primes."""
         self.k += 1
         primes = self.scan[self.k] if self.kinds[self.k] == "PRIMES" else None
         if primes is not None and primes.start <= token.end:
@@ -542,7 +538,6 @@ class _Translation:
         return True
 
     def ordinary(self, token: Token) -> bool:
-        """A number or a sign that is one everywhere."""
         kind = _KINDS.get(token.text, "") if token.kind == "SIGN" else token.kind
         if not kind:
             return False

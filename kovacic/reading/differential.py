@@ -50,7 +50,8 @@ class EquationReader(RationalReader):
         super().__init__({source.variable: VARIABLE}, source.variable, arithmetic, constants)
         self.source = source
         self.unknown = source.unknown
-        self.declared = source.declared
+        # y is a parameter where the unknown function has another name.
+        self.declared = {*source.declared, *([UNKNOWN] if source.unknown else [])}
         #: The letters that stand for numbers which aren't algebraic.
         self.letters: dict[str, Any] = {}
 
@@ -142,7 +143,6 @@ class EquationReader(RationalReader):
         return self._derived(walked(node.expr, self), order)
 
     def _is_unknown(self, node: Any) -> bool:
-        """Is it the unknown function of the variable?"""
         if node.func.__name__ != self.unknown or len(node.args) != 1:
             return False
         return bool(node.args[0].is_Symbol and node.args[0].name == self.variable)
@@ -152,16 +152,11 @@ class EquationReader(RationalReader):
             return _derivative_of_unknown(0)
         if name == OPERATOR and self.source.has_operator:
             return DerivativeOperator({1: Monomial(1, 0)})
-        if name in self.names:
-            return self.names[name]
-        if name in self.declared:
-            return self.constants.parameter(name)
-        if name != self.variable and name in NUMBERS and name != "I":
+        is_known = name in self.names or name in self.declared
+        if name in NUMBERS and name != "I" and not is_known:
             import sympy
 
             return getattr(sympy, NUMBERS[name]).expand(func=True)
-        if name == UNKNOWN and self.unknown:  # the unknown function has another name
-            return self.constants.parameter(name)
         return super().name(name)
 
     def derivative(self, text: str) -> Any:
@@ -223,7 +218,6 @@ class EquationReader(RationalReader):
             return self.arithmetic.applied(head, arguments[0])
 
     def _call_of_unknown(self, head: str, arguments: list[Any], site: Site) -> LinearForm:
-        """y(x) or y''(x)."""
         y = self.unknown
         if len(arguments) != 1:
             raise NotLinear(f"{y} is a function of {self.variable} alone")
@@ -276,7 +270,6 @@ class WrittenReader:
         return over(self.arithmetic.rational(parse_with(text, names, self.arithmetic)), self.field)
 
     def poly(self, text: str) -> Poly:
-        """Raises `ValueError` where it isn't a polynomial."""
         value = self.ratfunc(text)
         if not value.is_polynomial:
             raise ValueError(f"{text!r} isn't a polynomial")

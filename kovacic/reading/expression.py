@@ -102,7 +102,6 @@ class RationalReader:
         return self.constants.parameter(name)
 
     def derivative(self, text: str) -> Value:
-        """A name with primes."""
         raise NotRational(f"{shortened(text)} is a derivative, and S contains none", hint=_ALONE)
 
     def equation(self, left: Value, right: Value) -> Value:
@@ -137,7 +136,6 @@ class RationalReader:
         raise NotRational(f"{site.text()} isn't a rational function of {self.variable}", hint=usage(head))
 
     def _index(self, value: Value) -> int:
-        """The n of root(q, n)."""
         number = self.arithmetic.number(value)
         if number is None or number.denominator != 1 or not 1 < number <= _LARGEST_INDEX:
             said = f"the index of a root is an integer from 2 to {_LARGEST_INDEX}"
@@ -184,7 +182,6 @@ class RationalReader:
 
 
 def usage(name: str) -> str:
-    """How a function is written that wasn't understood."""
     name = name.rstrip(PRIMES)
     if name in ROOTS:
         return "roots are those of numbers: sqrt(2), cbrt(2), root(2, 5)"

@@ -102,7 +102,6 @@ def scanned(text: str) -> list[Token]:
 
 
 def _ordinary(text: str, k: int) -> str:
-    """What stands for a character of a text."""
     character = text[k]
     if character.isascii():
         return character
@@ -163,11 +162,9 @@ class Tokens:
         return self.spaced.count(" ", 0, offset)
 
     def are(self, k: int, *kinds: str) -> bool:
-        """True if the tokens from number k on have these kinds."""
         return self.kinds[k : k + len(kinds)] == [*kinds]
 
     def piece(self, begin: int, end: int) -> str:
-        """The text of the tokens begin, ..., end - 1."""
         return self.text[self.starts[begin] : self.ends[end - 1]] if end > begin else ""
 
     def error(self, kind: type[InputError], message: str, begin: int, end: int, **hints: str | None) -> InputError:
@@ -213,7 +210,6 @@ def error_at(text: str, message: str, scan: Sequence[Token], hint: str | None = 
 
 
 def unexpected(text: str, token: Token) -> ParseError:
-    """What to say of a character that means nothing."""
     char = text[token.start] if token.start < len(text) else token.text[0]
     shown = repr(char) if char.isprintable() else f"U+{ord(char):04X}"
     hint = _HINTS.get(token.text[0])

@@ -106,7 +106,6 @@ class LinearArithmetic(Arithmetic):
         return (num / den).xreplace({sympy.Symbol(field.name): root})
 
     def _checked(self, value: Any) -> Any:
-        """A result of SymPy, a number in our own form."""
         if value.is_Rational:
             return self.constant(Fraction(int(value.p), int(value.q)))
         return value
@@ -190,7 +189,6 @@ class LinearArithmetic(Arithmetic):
         return self._checked(function(*((self.expression(value), self._condition(case)) for value, case in arguments)))
 
     def _condition(self, case: Any) -> Any:
-        """The condition of a piece."""
         import sympy
 
         if not isinstance(case, Comparison):
@@ -233,7 +231,6 @@ class LinearArithmetic(Arithmetic):
         return base
 
     def symbolic_power(self, base: Any, exponent: Any) -> Any:
-        """`base ** exponent` by SymPy."""
         base = self.expression(base)
         exponent = self.expression(exponent)
         self._check_exponent(exponent)
@@ -270,7 +267,6 @@ class LinearArithmetic(Arithmetic):
         return self._checked(value)
 
     def derivative(self, value: Any) -> Any:
-        """The derivative with respect to the variable."""
         if isinstance(value, LinearForm):
             # (c y^(k))' = c' y^(k) + c y^(k+1)
             kind = type(value)

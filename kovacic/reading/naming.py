@@ -82,7 +82,6 @@ class Vocabulary:
         return Named(_with_factors(split, x, y), x, y, (*notes, *guesses), has_operator, tuple(guesses))
 
     def S(self, tokens: Tokens) -> Named:
-        """The names of S alone."""
         x = self.variable or _variable_of_S(tokens, self.declared)
         if x in ("e", "E"):
             _check_decimals(tokens, x)
@@ -134,7 +133,6 @@ class Vocabulary:
         return is_letter(name) or is_call
 
     def _unknown_name(self, tokens: Tokens, k: int, x: str, y: str) -> InputError:
-        """What to say of a name that means nothing here."""
         name = tokens.pieces[k].rstrip(PRIMES)
         meant = f"write {unglued(name)}"
         said = f"{name} is one name, and not a known one"

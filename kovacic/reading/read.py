@@ -128,29 +128,17 @@ def read_coefficients(
             raise InputError(f"a coefficient is a function of the variable, not {value}")
     has_text = any(isinstance(value, str | RatFunc) for value in given)
     if not has_text and any(map(_is_sympy, given)):
-        y = _new_function(given, _variable_name(var))
+        import sympy
+
+        symbols = {s.name: s for value in given if _is_sympy(value) for s in sorted(value.free_symbols, key=str)}
+        only = next(iter(symbols)) if len(symbols) == 1 else DEFAULT_VARIABLE
+        name = _variable_name(var) or only
+        y = sympy.Function("y_" if "y" in symbols else "y")(symbols.get(name, sympy.Symbol(name)))
         equation = a * y.diff(y.args[0], 2) + b * y.diff() + c * y - f
         return read_source(source_of(equation, None, unknown=y, equation=True), limits)
     texts = [value.to_str() if isinstance(value, RatFunc) else exact_text(value, "a coefficient") for value in given]
     line = "({})*y'' + ({})*y' + ({})*y = {}".format(*texts)
     return read_input(line, var=var, limits=limits, names=names)
-
-
-def _new_function(coefficients: Sequence[Any], variable: str | None) -> Any:
-    """y(x) for an equation with these coefficients; x is the only symbol, if the variable isn't given."""
-    import sympy
-
-    symbols: dict[str, Any] = {}
-    for value in filter(_is_sympy, coefficients):
-        symbols |= {symbol.name: symbol for symbol in sorted(value.free_symbols, key=str)}
-    name = variable
-    if name is None:
-        name = DEFAULT_VARIABLE
-        if len(symbols) == 1:
-            (name,) = symbols
-    x = symbols.get(name, sympy.Symbol(name))
-    unknown = "y_" if "y" in symbols else "y"
-    return sympy.Function(unknown)(x)
 
 
 def _is_sympy(value: Any) -> bool:

@@ -109,10 +109,7 @@ def names_of(expression: Any) -> list[str]:
 
 def functions_in(value: Any) -> set[Any]:
     """The applied undefined functions, such as y(x)."""
-    if not hasattr(value, "atoms"):
-        return set()
-    found: set[Any] = value.atoms(AppliedUndef)
-    return found
+    return value.atoms(AppliedUndef) if hasattr(value, "atoms") else set()
 
 
 def is_sympy_equation(value: Any) -> bool:
