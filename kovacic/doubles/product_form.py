@@ -218,7 +218,9 @@ class ProductForm:
             growth.append(self.sheet(Complex(point.re), Complex(s)))
             t = Complex(parameter)
             size = np.max(np.abs(double(parameter)), initial=0.0)
-        product = _Product(t, careful, size + self._reach)
+        zetas = (f.zeta for f in self.factors)
+        reach = max((math.hypot(z.re.hi, 0.0 if z.im is None else z.im.hi) for z in zetas), default=0.0)
+        product = _Product(t, careful, size + reach)
         if self.polynomial is not None:
             product.begin(*self.polynomial.parts(x))
         for f in self.factors:
@@ -238,12 +240,6 @@ class ProductForm:
         """The points x, their parts double-doubles if careful."""
         point = Complex(x) if self.region.is_real else Complex(x.real, x.imag)
         return point.each(_with_low_part) if careful else point
-
-    @property
-    def _reach(self) -> float:
-        """The largest modulus of a zero or a singular point."""
-        sizes = [math.hypot(f.zeta.re.hi, 0.0 if f.zeta.im is None else f.zeta.im.hi) for f in self.factors]
-        return max(sizes, default=0.0)
 
 
 @dataclass(frozen=True)

@@ -123,7 +123,10 @@ def compare(local: tuple[LocalMonodromy, ...], group: Group, fuchsian: bool) -> 
             return _enumerate(generators, angles, group)
         if not generators:
             return Agreement(None, "there is no finite singular point, so the monodromy is trivial")
-        return _by_conditions(_words(generators), group, fuchsian)
+        # The generators and their products in pairs; with one generator, itself and its square.
+        longer = [generators[0] ** 2] if len(generators) == 1 else _products(generators)
+        words = [*generators, *longer][: max(_WORDS, len(generators))]
+        return _by_conditions(words, group, fuchsian)
 
 
 def _inverse(m: acb_mat) -> acb_mat:
@@ -328,14 +331,6 @@ def _is_proper_order(words: list[acb_mat], n: int) -> bool:
         if all((word ** (n // p)).trace().real > bound for word in words):
             return True
     return False
-
-
-def _words(generators: list[acb_mat]) -> list[acb_mat]:
-    """The generators and their products in pairs; with one generator, itself and its square."""
-    longer = _products(generators)
-    if len(generators) == 1:
-        longer = [generators[0] ** 2]
-    return [*generators, *longer][: max(_WORDS, len(generators))]
 
 
 def _products(words: list[acb_mat]) -> list[acb_mat]:

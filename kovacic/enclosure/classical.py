@@ -105,11 +105,8 @@ class Classical:
         return max(0.0, 2 * max(squares, default=0.0) / math.log(10))
 
     def is_cheap(self, digits: int, *, from_zero: bool) -> bool:
-        """Do they cost less than the Taylor route, for a start at a zero of f or another?"""
-        most = self.cost.most
-        if from_zero:
-            most = max(most, _MOST_FROM_ZERO)
-        return digits <= most
+        """True if they cost less than the Taylor route, for a start at a zero of f or another."""
+        return digits <= max(self.cost.most, _MOST_FROM_ZERO if from_zero else 0)
 
     def coordinate(self, point: ExactPoint) -> int:
         """That of the standard equation which serves best there."""

@@ -180,7 +180,12 @@ def _expansions(
     if point.difference == 0:
         dominant = _Beginning(lower, delta, start=(0, 1))
     else:
-        dominant = _Beginning(lower, delta, _resonance(point, op, lower))
+        N = point.difference
+        resonance = None
+        if N is not None:  # whether there is a logarithm is decided where that costs little
+            is_known = point.is_rational and N <= _SOUGHT
+            resonance = _Resonance(N, not is_known or _has_logarithm(op, lower, N))
+        dominant = _Beginning(lower, delta, resonance)
     found: list[FrobeniusSeries | None] = [None, None]
     for k, beginning in enumerate((dominant, _Beginning(upper, arb(0)))):
         if needed[k]:
@@ -207,19 +212,6 @@ class _Beginning:
     delta: arb
     resonance: _Resonance | None = None
     start: tuple[int, int] = (1, 0)
-
-
-def _resonance(point: Singular, op: Operator, lower: Any) -> _Resonance | None:
-    """That of the solution with the lower exponent; None where the exponents don't differ by an integer.
-
-    Where that costs little, it is decided whether there is a logarithm.
-    """
-    N = point.difference
-    if N is None:
-        return None
-    if not point.is_rational or N > _SOUGHT:
-        return _Resonance(N)
-    return _Resonance(N, _has_logarithm(op, lower, N))
 
 
 def limit(point: Singular, start: State) -> State:
@@ -321,8 +313,10 @@ def _expand(op: Operator, beginning: _Beginning, length: arb, bound: Majorant, p
     first = max(_first(beginning.delta), len(op.A))
     if resonance is not None:
         first = max(first, resonance.number + 1)
-    lam = _in_the_field_of(op, exponent)
-    kind = type(lam)
+    kind = type(op.A[0])
+    if not isinstance(exponent, fmpq) and not acb(exponent).imag.is_zero():
+        kind = acb
+    lam = kind(exponent) if kind is acb or isinstance(exponent, fmpq) else kind(acb(exponent).real)
     terms: list[LogPair] = [(kind(beginning.start[0]), kind(beginning.start[1]))]
     cap = 40 * prec + 4000 + 4 * first
     more = first
@@ -342,16 +336,6 @@ def _expand(op: Operator, beginning: _Beginning, length: arb, bound: Majorant, p
             return FrobeniusSeries(exponent, lam, U, V, ((F / n).upper(), (F * (1 + (size + 1) / n)).upper()))
         if n > cap:
             raise LimitExceeded(f"a Frobenius expansion needs more than {cap} terms", limit="unknown_degree")
-
-
-def _in_the_field_of(op: Operator, exponent: Any) -> Any:
-    """The exponent as a ball: real where it and the operator are."""
-    kind = type(op.A[0])
-    if isinstance(exponent, fmpq):
-        return kind(exponent)
-    if kind is acb or not exponent.imag.is_zero():
-        return acb(exponent)
-    return kind(exponent.real)
 
 
 def _defect(op: Operator, lam: Any, terms: list[LogPair], length: arb) -> arb:

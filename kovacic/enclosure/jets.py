@@ -327,7 +327,12 @@ class _Recurrence:
                     total += self.C[k - j] * self.values[j]
             self.slopes.append(-total / (k + 1))
             self.values.append(self.slopes[-1] / (k + 2))
-        self._look()
+        check_time()
+        count = len(self.values)
+        if count > self.most:
+            raise LimitExceeded(f"a Taylor expansion needs more than {self.most} terms", limit="unknown_degree")
+        last = self.slopes[-_QUIET:]  # where these are small, the others are, too
+        self.ended = count > max(self.least, _QUIET + 2) and all(abs(value) < self.small for value in last)
 
     def _give(self, low: int, middle: int, high: int) -> None:
         """To the sums k = middle, ..., high - 1 what comes from j = low, ..., middle - 1."""
@@ -340,12 +345,3 @@ class _Recurrence:
         self.sums += [self.kind([0])[0]] * (middle + len(given) - len(self.sums))
         for k, value in enumerate(given, start=middle):
             self.sums[k] += value
-
-    def _look(self) -> None:
-        """Are the last terms so small that the others are, too?"""
-        check_time()
-        count = len(self.values)
-        if count > self.most:
-            raise LimitExceeded(f"a Taylor expansion needs more than {self.most} terms", limit="unknown_degree")
-        last = self.slopes[-_QUIET:]
-        self.ended = count > max(self.least, _QUIET + 2) and all(abs(value) < self.small for value in last)

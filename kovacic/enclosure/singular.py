@@ -62,7 +62,14 @@ class Singular:
         """
         a, b, c = problem.equation
         if point is None:
-            found = cls(_inverted(a, b, c), fmpq_poly([0, 1]), ExactPoint(0), inverted=True)
+            # In t = 1/x: t^4 a y.. + (2 t^3 a - t^2 b) y. + c y = 0, cleared of denominators.
+            size = max(a.degree(), b.degree(), c.degree())
+
+            def reverse(poly: fmpq_poly, power: int) -> fmpq_poly:  # t^(power + size) poly(1/t)
+                return fmpq_poly([0] * (power + size - poly.degree()) + poly.coeffs()[::-1])
+
+            inverted = reverse(a, 4), 2 * reverse(a, 3) - reverse(b, 2), reverse(c, 0)
+            found = cls(inverted, fmpq_poly([0, 1]), ExactPoint(0), inverted=True)
         elif isinstance(point, ExactPoint):
             minimal = [-point.x, 1] if point.is_real() else [point.norm_squared(), -2 * point.x, 1]
             found = cls((a, b, c), fmpq_poly(minimal), point)
@@ -195,16 +202,6 @@ class Singular:
             if len(others) == len(found) - own:
                 return others
             prec *= 2
-
-
-def _inverted(a: fmpq_poly, b: fmpq_poly, c: fmpq_poly) -> OperatorCoefficients:
-    """The equation in t = 1/x: t^4 a y.. + (2 t^3 a - t^2 b) y. + c y = 0, cleared of denominators."""
-    size = max(a.degree(), b.degree(), c.degree())
-
-    def reverse(poly: fmpq_poly, power: int) -> fmpq_poly:  # t^(power + size) poly(1/t)
-        return fmpq_poly([0] * (power + size - poly.degree()) + poly.coeffs()[::-1])
-
-    return reverse(a, 4), 2 * reverse(a, 3) - reverse(b, 2), reverse(c, 0)
 
 
 def _order(poly: fmpq_poly, minimal: fmpq_poly) -> int:

@@ -230,15 +230,6 @@ def position(here: ExactPoint, x: ExactPoint) -> Any:
     return max(abs(step.x), abs(step.y))
 
 
-def by_rays(here: ExactPoint, stops: Sequence[ExactPoint]) -> list[list[ExactPoint]]:
-    """The points but `here`, each once, those in one direction together, the nearest first."""
-    found: dict[ExactPoint, list[ExactPoint]] = {}
-    for stop in sorted({*stops} - {here}, key=lambda stop: position(here, stop)):
-        direction = (stop - here).scaled(1 / position(here, stop))
-        found.setdefault(direction, []).append(stop)
-    return [*found.values()]
-
-
 @dataclass(frozen=True)
 class _Passed:
     """A disc that was passed, and the maps to the state where it was entered."""
@@ -371,11 +362,15 @@ class Traveller:
 
     def along_rays(self, stops: Sequence[ExactPoint]) -> dict[ExactPoint, State]:
         """In discs that are kept for the next call."""
-        assert isinstance(self.here, ExactPoint)
+        here = self.here
+        assert isinstance(here, ExactPoint)
+        rays: dict[ExactPoint, list[ExactPoint]] = {}  # the points in one direction together, the nearest first
+        for stop in sorted({*stops}, key=lambda stop: position(here, stop)):
+            rays.setdefault((stop - here).scaled(1 / position(here, stop)), []).append(stop)
         found: dict[ExactPoint, State] = {}
-        for on_it in by_rays(self.here, stops):
-            far = self.way.horizon(self.here, on_it[-1])
+        for on_it in rays.values():
+            far = self.way.horizon(here, on_it[-1])
             if far not in self.rays:
-                self.rays[far] = Ray(self.way, self.here, far, self.start, self.product, self.particular)
+                self.rays[far] = Ray(self.way, here, far, self.start, self.product, self.particular)
             found |= {stop: self.rays[far].state(stop) for stop in on_it}
         return found
