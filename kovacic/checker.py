@@ -1696,7 +1696,7 @@ class ClassGroup:
 
 REQUIRED = "schema input variable S status case riccati constants verified proof notices seconds"
 #: The other keys that an answer has; whatever else is there belongs to the user, as the lines and names of a batch.
-OPTIONAL = "field equation gauge generic_conditions group solutions"
+OPTIONAL = "field letters equation gauge generic_conditions group solutions"
 NOT_LOOKED_AT = ("input", "notices", "seconds")
 NOT_LOOKED_AT_IN_THE_EQUATION = ("change", "f", "h", "text", "unknown")
 
@@ -1856,6 +1856,7 @@ class Answer:
         demand_equal(data["case"], None if structure is None else STRUCTURES[structure].case, "the case")
         demand_equal(data["status"], "none" if structure is None else "liouvillian", "the status")
         demand(data.get("generic_conditions") is None, "an S without parameters has no conditions on them")
+        demand(data.get("letters", {}) == {}, "an S without parameters has no letters for numbers")
         if structure is None:
             beside = [data["riccati"], data["constants"], self.proof["invariant"], self.proof["semi_invariant"]]
             demand(beside == [None] * 4, "there is no solution beside a proof that there is none")

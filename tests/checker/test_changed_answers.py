@@ -35,7 +35,7 @@ ANSWERS = [
 WRONG = [None, True, 3, -1, 0.5, "7", "t", "", [], {}, ["x"], 10**30, "1/0", "y'' + (", "infinity", "\ud800\n"]
 
 #: Keys without which the answer claims less, or which are absent in answers of older versions.
-MAY_BE_ABSENT = {"field", "generic_conditions", "group", "solutions", "family", "n", "change"}
+MAY_BE_ABSENT = {"field", "letters", "generic_conditions", "group", "solutions", "family", "n", "change"}
 #: Fewer places may prove the same, and one order with the absence of a form.
 FEWER = {"places", "orders"}
 #: Another prime, point or place may prove the same; another rational form may be one; names may be others.
