@@ -342,7 +342,7 @@ class Writer:
 
 def _real_at(factor: Expr, x: Any, point: Expr) -> Expr:
     """With (-u)^e for u^e where u is negative at the point."""
-    powers = (p for p in factor.atoms(sympy.Pow) if not p.exp.is_Integer and p.base.xreplace({x: point}).is_negative)
+    powers = (p for p in factor.atoms(sympy.Pow) if not p.exp.is_Integer and p.base.subs(x, point).is_negative)
     return factor.xreplace({p: (-p.base) ** p.exp for p in powers})
 
 
