@@ -128,6 +128,10 @@ def _by_index(match: Match) -> str:
     return f"diff ( {match['y']} , {match['x']} , {2 if match['second'] else 1} )"
 
 
+def _raised(match: Match) -> str:
+    return primes_of(match[1] or match[2])
+
+
 def _exponential(match: Match) -> str:
     """E of Mathematica, whose notation it is where functions have brackets."""
     return "e ^" if _occurs(r"(?:\w|') \[ +[a-z] +\]|[A-Z][a-z]+ \[", match.string) else match[0]
@@ -138,11 +142,11 @@ _SYNONYMS = {
     "ArcSin": "asin",
     "ArcCos": "acos",
     "ArcTan": "atan",
-    "Sign": "sign",
     "UnitStep": "heaviside",
     "HeavisideTheta": "heaviside",
     "DiracDelta": "dirac",
     "Dirac": "dirac",
+    "Sign": "sign",
     "Max": "max",
     "Min": "min",
     **{name.capitalize(): name for name in (*BARE - {"ln"}, "sqrt", "erf", "abs", "floor")},
@@ -154,15 +158,13 @@ def _rule(notation: str, text: str, result: str | Callable[[Match], str] = "", k
 
 
 _PACKAGES = "sympy|sp|sm|sy|np|math|numpy"
+_MAKERS = "Function|function|Symbol|symbols|var"
 _OF_X = r"(LETTER) \( (LETTER) \)"
+_SLOPE = rf"(?:diff|Derivative) \( {_OF_X} , \2 \)"
 _BEHIND_NAME = r"(?:(?<=\w\x20)|(?<=\w\x20\x20))"
 NOTATIONS = (
     _rule("the name of a package", rf"(?:{_PACKAGES}) \."),
-    _rule(
-        "a quoted name",
-        r"(?<!=\x20)(?<!=\x20\x20)(?:Function|function|Symbol|symbols|var) \( ['\"] (\w+) ['\"] \)",
-        r"\1",
-    ),
+    _rule("a quoted name", rf"(?<!=\x20)(?<!=\x20\x20)(?:{_MAKERS}) \( ['\"] (\w+) ['\"] \)", r"\1"),
     _rule("Maple", r"OPEN D @@ (?P<n>\d) CLOSE OPEN (?P<y>LETTER) CLOSE", _derivative),
     _rule("Mathematica", r"Derivative OPEN (?P<n>\d) CLOSE OPEN (?P<y>LETTER) CLOSE", _derivative),
     _rule("Maple", r"OPEN D OPEN D OPEN (LETTER) CLOSE CLOSE CLOSE(?= OPEN)", r"\1 ''"),
@@ -172,31 +174,19 @@ NOTATIONS = (
     _rule("MATLAB", r"(?<!\.\x20)diff OPEN (?P<y>LETTER) , (?P<n>[1-4]) CLOSE", _derivative),
     _rule("MATLAB", r"D(?P<n>[2-4]?)(?P<y>[xyzuvwqf])", _by_time),
     _rule("SymPy", rf"{_OF_X} \. diff \( \2(?: , 1)? \) \. subs \( \2 ,", r"\1 ' ("),
-    _rule("SymPy", rf"(?:diff|Derivative) \( {_OF_X} , \2 \) \. subs \( \2 ,", r"\1 ' ("),
+    _rule("SymPy", rf"{_SLOPE} \. subs \( \2 ,", r"\1 ' ("),
     _rule("SymPy", rf"{_OF_X} \. subs \( \2 ,", r"\1 ("),
-    _rule("SymPy", rf"Subs \( (?:diff|Derivative) \( {_OF_X} , \2 \) , \2 ,", r"\1 ' ("),
-    _rule(
-        "SymPy",
-        rf"Subs \( (?:diff|Derivative) \( {_OF_X} , \2 \) , \( \2 , \) , \( (\S+) , \) \)",
-        r"\1 ' ( \3 )",
-    ),
+    _rule("SymPy", rf"Subs \( {_SLOPE} , \2 ,", r"\1 ' ("),
+    _rule("SymPy", rf"Subs \( {_SLOPE} , \( \2 , \) , \( (\S+) , \) \)", r"\1 ' ( \3 )"),
     _rule("Maple", r"` \$ ` \( (LETTER) , (\d) \)", r"\1 , \2"),
     _rule("Maple", r"([^\W\d]\w*) \$ (\d+)", r"\1 , \2"),
     _rule("Maxima", r"'(?= diff )"),
     _rule("Maxima", r"%~(e|pi)", r"\1"),
     _rule("Maxima", r"%~i", "I"),
-    _rule(
-        "names of functions",
-        rf"(?:{'|'.join(_SYNONYMS)})(?= [(\[])",
-        lambda match: _SYNONYMS[match[0]],
-    ),
+    _rule("names of functions", rf"(?:{'|'.join(_SYNONYMS)})(?= [(\[])", lambda match: _SYNONYMS[match[0]]),
     _rule("pi", "Pi|π", "pi"),
     _rule("Mathematica", r"E \^", _exponential),
-    _rule(
-        "raised primes",
-        rf"{_BEHIND_NAME}\^ (?:OPEN ((?:['\"]+ )+)CLOSE|(['\"]+(?: '+)*))",
-        lambda match: primes_of(match[1] or match[2]),
-    ),
+    _rule("raised primes", rf"{_BEHIND_NAME}\^ (?:OPEN ((?:['\"]+ )+)CLOSE|(['\"]+(?: '+)*))", _raised),
     _rule("indices", r"(?P<y>[a-zA-Z])_(?P<x>[xtzsr])(?P<second>(?P=x))?", _by_index),
 )
 #: For what the commands of LaTeX have become signs and letters.

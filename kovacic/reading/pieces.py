@@ -181,54 +181,38 @@ class _Around(NamedTuple):
     """What is left out before or behind a statement where the pattern is found; without a role it is layout."""
 
     name: str
-    pattern: re.Pattern[str]
+    pattern: str
     role: str = ""
-    note: str = ""
 
 
-_NUMBER = "{} was taken for a number in a list"
-_LEFT_OUT = "left out: {}"
+#: What is said of each role.
+_NOTES = {
+    "number": "{} was taken for a number in a list",
+    "label": "{} was taken for the number of the equation",
+    "prose": "left out: {}",
+}
 #: Words that have numbers.
 _LABELS = "Exercise|Problem|Example|Question|Equation|Task|Aufgabe|Ex|No|Nr"
-_IN_SENTENCES = r"(?:[^\W\d]+|[-,.!?'])"
 _SOME = r"(?:(?:[^\W\d]\S*|[-:,.]) ){0,40}"
 _NO_OPERATOR = r"(?! (?:==?|:=|[*/^)\[])(?!\S))"
+_LETTERS = r"\d+|[a-i]|i{2,3}|iv|vi{1,3}"
 #: In the order in which they are left out; in patterns · is a gap between tokens, ~ none.
 _AROUND = (
-    _Around(
-        "the next sentence",
-        pattern(r"(?<=\.\x20\x20)[A-Z][a-z]* (?:[^\W\d]+|[-,.!?'])(?: (?:[^\W\d]+|[-,.!?']))*$"),
-        "prose",
-        _LEFT_OUT,
-    ),
-    _Around("the end of a sentence", pattern(r"(?<!^)[.:$,?](?: [.:$,?])*$")),
-    _Around("a prompt", pattern(r"^(?:>(?: >){0,2}|sage :|In \[ \S+ \] :=|\( % \w+ \))")),
-    _Around("1.", pattern(r"^\d+\.(?=\x20\x20)"), "number", _NUMBER),
-    _Around("1)", pattern(r"^[^\s(]{1,2} \)(?= \S+ \S)"), "number", _NUMBER),
-    _Around("(1)", pattern(r"^\( (?:\d+|[a-i]|i{2,3}|iv|vi{1,3}) \)(?=\x20\x20\S+ )"), "number", _NUMBER),
-    _Around(
-        "Problem 3:",
-        pattern(rf"^(?:WORD|{_LABELS})(?: \.)? \d+(?:\.\d+)?(?:\.(?=\x20\x20)| [:.)])"),
-        "prose",
-        _LEFT_OUT,
-    ),
-    _Around("Problem 3", pattern(rf"^(?:{_LABELS})(?: \.)? \d+(?=\x20\x20\S+ )"), "number", _NUMBER),
-    _Around(
-        "a sentence",
-        pattern(rf"^{_SOME}?WORD {_SOME}(?:WORD|of|to|is|by|(?<=\w\x20):){_NO_OPERATOR}"),
-        "prose",
-        _LEFT_OUT,
-    ),
-    _Around("a capital", pattern(rf"^(?=[A-Z][a-z]+ )WORD{_NO_OPERATOR}(?! \()"), "prose", _LEFT_OUT),
-    _Around(
-        "the number behind an equation",
-        pattern(r"(?<=[^-+*/^=,:.\s]\x20\x20)\( \d+ \)$"),
-        "number",
-        "{} was taken for the number of the equation",
-    ),
-    _Around("a remark behind an equation", pattern(r"(?<=\x200\x20\x20)\( WORD(?: \S+){0,5} \)$"), "prose", _LEFT_OUT),
-    _Around("the end of a sentence", pattern(r"[.:,](?: [.:,])*$")),
+    _Around("the next sentence", r"(?<=\.\x20\x20)[A-Z][a-z]*(?: (?:[^\W\d]+|[-,.!?']))+$", "prose"),
+    _Around("the end of a sentence", r"(?<!^)[.:$,?](?: [.:$,?])*$"),
+    _Around("a prompt", r"^(?:>(?: >){0,2}|sage :|In \[ \S+ \] :=|\( % \w+ \))"),
+    _Around("1.", r"^\d+\.(?=\x20\x20)", "number"),
+    _Around("1)", r"^[^\s(]{1,2} \)(?= \S+ \S)", "number"),
+    _Around("(1)", rf"^\( (?:{_LETTERS}) \)(?=\x20\x20\S+ )", "number"),
+    _Around("Problem 3:", rf"^(?:WORD|{_LABELS})(?: \.)? \d+(?:\.\d+)?(?:\.(?=\x20\x20)| [:.)])", "prose"),
+    _Around("Problem 3", rf"^(?:{_LABELS})(?: \.)? \d+(?=\x20\x20\S+ )", "number"),
+    _Around("a sentence", rf"^{_SOME}?WORD {_SOME}(?:WORD|of|to|is|by|(?<=\w\x20):){_NO_OPERATOR}", "prose"),
+    _Around("a capital", rf"^(?=[A-Z][a-z]+ )WORD{_NO_OPERATOR}(?! \()", "prose"),
+    _Around("the number behind an equation", r"(?<=[^-+*/^=,:.\s]\x20\x20)\( \d+ \)$", "label"),
+    _Around("a remark behind an equation", r"(?<=\x200\x20\x20)\( WORD(?: \S+){0,5} \)$", "prose"),
+    _Around("the end of a sentence", r"[.:,](?: [.:,])*$"),
 )
+_AROUND_PATTERNS = [pattern(rule.pattern) for rule in _AROUND]
 
 
 class _Apart:
@@ -264,8 +248,9 @@ class _Apart:
     def without_surroundings(self, scan: list[Token]) -> list[Token]:
         """Without prompts, numbers of lists and equations, prose and punctuation."""
         spaced = Spaced(scan)
-        for rule in () if scan[0].text in _DECLARATIONS else _AROUND:
-            match = rule.pattern.search(spaced.text)
+        rules = () if scan[0].text in _DECLARATIONS else zip(_AROUND, _AROUND_PATTERNS, strict=True)
+        for rule, compiled in rules:
+            match = compiled.search(spaced.text)
             if match is None:
                 continue
             first, behind = spaced.number(match.start()), spaced.number(match.end())
@@ -276,7 +261,7 @@ class _Apart:
             if rule.name in ("(1)", "Problem 3"):
                 self.check_number(left, rest)
             if rule.role:
-                self.notes.append(rule.note.format(self.written(left)))
+                self.notes.append(_NOTES[rule.role].format(self.written(left)))
                 self.add(rule.role, left)
             scan = rest
             spaced = Spaced(scan)
@@ -545,13 +530,8 @@ def _is_condition(scan: Scan, *, is_first: bool = False) -> bool:
 
 
 def _spelled(tokens: Tokens) -> str:
-    """Tokens in this package's notation."""
-    text = ""
-    for piece in tokens.pieces:
-        if text and piece and (text[-1].isalnum() or text[-1] in "_'") and (piece[0].isalnum() or piece[0] == "_"):
-            text += " "
-        text += piece
-    return text
+    """Tokens in this package's notation: a blank stands between names and numbers alone."""
+    return re.sub(r"(?<![\w']) | (?!\w)", "", " ".join(tokens.pieces))
 
 
 def _given(text: str, scan: Scan) -> Iterator[PlacedValue]:

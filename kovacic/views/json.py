@@ -127,7 +127,7 @@ def to_dict(answer: Answer, *, full: bool = False) -> dict[str, Any]:
         "riccati": riccati,
         "constants": constants,
         "field": _field_dict(answer.S.field),
-        "letters": {name: as_text(meaning) for name, meaning in answer.letters},
+        **({"letters": {name: as_text(meaning) for name, meaning in answer.letters}} if answer.letters else {}),
         "generic_conditions": conditions,
         "verified": answer.verified,
         "proof": _proof(decision, names),
