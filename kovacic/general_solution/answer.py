@@ -142,10 +142,12 @@ class SecondOrderAnswer(ProblemAnswer):
     def pair_exceptions(self) -> tuple[Expr, ...]:
         if self.determined is None:
             return self.basis.exceptions
-        # With given values a constant that vanishes is a denominator of the answer.
+        # With given values a constant that vanishes is a denominator of the answer, or a gamma function has a pole.
         members = self.basis.y1.atoms(sympy.Function) | self.basis.y2.atoms(sympy.Function)
-        occur = members & self.eq.rhs.atoms(sympy.Function)
-        return tuple(map(self.question.own, self.basis.undefined)) if occur else ()
+        occur = members & self.eq.xreplace(self.known).rhs.atoms(sympy.Function)
+        found = map(self.question.own, self.basis.undefined) if occur else ()
+        poles = (e for e in self.basis.dependent if isinstance(1 / e, sympy.gamma) and self.eq.has(sympy.gamma))
+        return (*found, *poles)
 
     @cached_property
     def exceptions(self) -> tuple[Exceptional, ...]:

@@ -171,7 +171,8 @@ class Basis:
 
     def _is_wronskian(self, W: Expr) -> bool:
         """Is the constant the same wherever roots have other branches?"""
-        if not any(_has_branches(y, self.x) for y in (self.y1, self.y2)):
+        powers = self.y1.atoms(sympy.Pow) | self.y2.atoms(sympy.Pow)
+        if not any(p.base.has(self.x) and not p.exp.is_Integer for p in powers):
             return True
         with working_digits(2 * DIGITS), suppress(NotImplementedError):
             return all(self._is_wronskian_at(W, point) for point in points())
@@ -232,8 +233,3 @@ def _simplified(c: Expr) -> Expr:
 def _is_negative_root(p: Expr, x: Expr) -> bool:
     """Is it a power of something that is negative at 0, with an exponent that isn't an integer?"""
     return bool(not p.exp.is_integer and p.base.subs(x, 0).is_negative)
-
-
-def _has_branches(y: Expr, x: Expr) -> bool:
-    """Are there powers of functions of x whose exponents aren't integers?"""
-    return any(p.base.has(x) and not p.exp.is_Integer for p in y.atoms(sympy.Pow))

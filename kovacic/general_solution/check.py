@@ -8,8 +8,9 @@ near it, where these aren't lost to cancellation.
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
+from functools import partial
 from itertools import islice
 from types import MappingProxyType
 from typing import Any
@@ -62,11 +63,14 @@ def check_answer(
     if not is_finite(value):
         raise _failed(question, value, "has no value")
     numbers = _numbers_for(question, value, natural)
-    unchecked = _check_equation(question, value, start, numbers)
+    here = replace(question, symbols={name: numbers.get(symbol, symbol) for name, symbol in question.symbols.items()})
+    beside = None if start is None else start.xreplace(numbers)
+    unchecked = _check(question, value, "the equation", lambda: _is_wrong_at(here, value.xreplace(numbers), beside))
     for condition in question.conditions:
         place = limits.get(condition.points[0])
         if place is None:
-            unchecked += _check_condition(question, value, condition, numbers)
+            is_violated = partial(_is_violated, question, value, condition, numbers)
+            unchecked += _check(question, value, condition.text, is_violated)
             continue
         part = value.diff(question.x, condition.terms[0].order).xreplace(numbers)
         if is_refuted(condition.value, part, question.x, place):
@@ -87,28 +91,14 @@ def _jumps(question: Question, value: Expr) -> bool:
     return jumps(parts[0], question.x, parts[1:])
 
 
-def _check_equation(question: Question, value: Expr, start: Expr | None, numbers: dict[Expr, Expr]) -> list[str]:
-    """Is the residual 0?  As `check_answer`."""
-    if start is not None:
-        start = start.xreplace(numbers)
-    symbols = {name: numbers.get(symbol, symbol) for name, symbol in question.symbols.items()}
+def _check(question: Question, value: Expr, what: str, is_wrong: Callable[[], bool]) -> list[str]:
+    """What is said where a test couldn't be made.  Raises `VerificationFailed` where the answer fails it."""
     try:
-        is_wrong = _is_wrong_at(replace(question, symbols=symbols), value.xreplace(numbers), start)
+        fails = is_wrong()
     except _NOT_EVALUATED as reason:
-        return [f"the answer wasn't put into the equation, numerically: {_said(reason)}"]
-    if is_wrong:
-        raise _failed(question, value, "doesn't satisfy the equation")
-    return []
-
-
-def _check_condition(question: Question, value: Expr, condition: Condition, numbers: dict[Expr, Expr]) -> list[str]:
-    """Are the two sides the same?  As `check_answer`."""
-    try:
-        is_violated = _is_violated(question, value, condition, numbers)
-    except _NOT_EVALUATED as reason:
-        return [f"the answer wasn't put into {condition.text}, numerically: {_said(reason)}"]
-    if is_violated:
-        raise _failed(question, value, f"doesn't satisfy {condition.text}")
+        return [f"the answer wasn't put into {what}, numerically: {_said(reason)}"]
+    if fails:
+        raise _failed(question, value, f"doesn't satisfy {what}")
     return []
 
 
@@ -247,14 +237,10 @@ def _antiderivatives(value: Expr, x: Expr, start: Expr | None = None) -> Expr:
             return e.function.subs(s, start) * (x - start)
         return sympy.Integral(e.function.subs(s, x), x)
 
-    return value.replace(lambda e: _is_up_to(e, x), other)
-
-
-def _is_up_to(e: Expr, x: Expr) -> bool:
-    """Is it an integral from a point to x?"""
-    if not isinstance(e, sympy.Integral):
-        return False
-    return len(e.limits[0]) == 3 and e.limits[0][-1] == x
+    # those from a point to x
+    return value.replace(
+        lambda e: isinstance(e, sympy.Integral) and len(e.limits[0]) == 3 and e.limits[0][-1] == x, other
+    )
 
 
 def _concrete(e: Expr, functions: Sequence[Any]) -> Expr:

@@ -159,7 +159,10 @@ def _of_rank_one(rows: Sequence[Row], names: Values) -> DeterminedConstants:
     others = [other for other in rows if other is not row]
     norm = _norm(row)
     if norm is not None:
-        return _along(row, norm, others, names[0])
+        # (C1, C2) = r (u, v)/(u^2 + v^2) + C (v, -u): the multiple of the row, and all that is orthogonal to it
+        c1 = tidy(row.r * row.u / norm) + row.v * names[0]
+        c2 = tidy(row.r * row.v / norm) - row.u * names[0]
+        return DeterminedConstants((c1, c2), [other.rest(c1, c2).subs(names[0], 0) for other in others])
     if row.r == 0 and _are_gammas_without_common_poles(row):
         return DeterminedConstants(
             (row.v * names[0], -row.u * names[0]), [other.rest(row.v, -row.u) for other in others]
@@ -170,13 +173,6 @@ def _of_rank_one(rows: Sequence[Row], names: Values) -> DeterminedConstants:
         return DeterminedConstants((c1, c2), [other.u * row.r - other.r * row.u for other in others], row.u)
     c2 = tidy(row.r / row.v) - tidy(row.u / row.v) * c1  # with a free C1
     return DeterminedConstants((c1, c2), [other.v * row.r - other.r * row.v for other in others], row.v)
-
-
-def _along(row: Row, norm: Expr, others: Sequence[Row], name: Expr) -> DeterminedConstants:
-    """(C1, C2) = r (u, v)/(u^2 + v^2) + C (v, -u): the multiple of the row, and all that is orthogonal to it."""
-    c1 = tidy(row.r * row.u / norm) + row.v * name
-    c2 = tidy(row.r * row.v / norm) - row.u * name
-    return DeterminedConstants((c1, c2), [other.rest(c1, c2).subs(name, 0) for other in others])
 
 
 def _are_gammas_without_common_poles(row: Row) -> bool:

@@ -25,7 +25,6 @@ from kovacic.general_solution.constants import Determined, Outcome, ParameterCas
 from kovacic.general_solution.question import Question
 from kovacic.general_solution.substitution import finite_value
 from kovacic.general_solution.values import value_at
-from kovacic.general_solution.zero import agree
 
 Expr = Any  # SymPy publishes no types
 _ZERO = sympy.Integer(0)
@@ -68,7 +67,7 @@ def constants_of(
             of_limit, zeros = _rows_of_limit(limit, solutions)
             rows += of_limit
             exceptional |= zeros
-    found = determine(rows, names, _wronskian(question, basis, rows, limits), _scale(question, basis, limits))
+    found = determine(rows, names, _wronskian(question, basis, rows, limits), _scale(question, basis))
     for symbol in sorted(exceptional, key=str):
         found.particular.append(ParameterCase((symbol,), Outcome.OPEN))
     return found
@@ -96,21 +95,14 @@ def _wronskian(question: Question, basis: Basis, rows: Sequence[Row], limits: di
     if determinant.is_Rational:
         return determinant
     point = question.conditions[0].points[0]
-    W = sign * question.own(value_at(basis.wronskian, basis.x, point))
-    is_known = W.has(sympy.mathieuc)  # by theory, for functions that can't be evaluated
-    if is_known or agree(W, determinant):
-        return W
-    return determinant
+    W = finite_value(question.own(basis.wronskian), question.x, point)
+    return determinant if W is None else sign * W
 
 
-def _scale(question: Question, basis: Basis, limits: dict[Expr, Approach]) -> Expr:
-    """The Wronskian at the first ordinary point, where that is an elementary number; else 1."""
-    ordinary = (point for condition in question.conditions for point in condition.points if point not in limits)
-    point = next(ordinary, None)
-    value = None if point is None else finite_value(question.own(basis.wronskian), question.x, point)
-    if value is None or value.is_zero or value.has(sympy.Function) or value.has(sympy.Integral):
-        return _ONE
-    return value
+def _scale(question: Question, basis: Basis) -> Expr:
+    """The constant of the Wronskian, where that is elementary; else 1."""
+    c = question.own(basis.constant)
+    return _ONE if c.is_zero or c.has(sympy.Function, sympy.Integral, question.x) else c
 
 
 def _orders_at_one_point(conditions: Sequence[Condition], limits: dict[Expr, Approach]) -> tuple[int, ...]:

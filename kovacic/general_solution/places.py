@@ -189,17 +189,13 @@ def _points(question: Question) -> list[Expr]:
     return [*given_points(question), *jump_points(question)]
 
 
-def _is_entire(y: Expr, x: Expr) -> bool:
-    """Is it made of functions that are analytic everywhere, by sums, products and natural powers?"""
-    return all(_keeps_entire(e, x) for e in sympy.preorder_traversal(y) if e.has(x))
-
-
-def _keeps_entire(e: Expr, x: Expr) -> bool:
-    """Is it x, a sum, a product, a natural power or such a function: analytic everywhere if its arguments are?"""
+def _is_entire(e: Expr, x: Expr) -> bool:
+    """Is it made of x and functions that are analytic everywhere, by sums, products and natural powers?"""
+    if e == x or not e.has(x):
+        return True
     if e.is_Pow and not isinstance(e, sympy.exp):
-        return bool(e.exp.is_Integer and e.exp > 0)
-    is_sum_or_product = e.is_Add or e.is_Mul
-    return e == x or is_sum_or_product or isinstance(e, _ENTIRE)
+        return bool(e.exp.is_Integer and e.exp > 0) and _is_entire(e.base, x)
+    return (e.is_Add or e.is_Mul or isinstance(e, _ENTIRE)) and all(_is_entire(part, x) for part in e.args)
 
 
 def real_basis_at(question: Question, basis: Basis, start: Expr) -> Basis:
@@ -232,13 +228,11 @@ def real_particular_at(question: Question, basis: Basis, particular: Expr, start
 def _check_one_side(solutions: Sequence[Expr], question: Question) -> None:
     """Raises `InputError` where roots or logarithms have arguments of both signs at the points."""
     points = [point for point in _points(question) if point.is_real]
-    ordinary = [point for point in points if not is_singular(question, point)]
-    sides = {_negative(solutions, question, point) for point in ordinary}
+    sides = {
+        frozenset(e for y in solutions for e in negative_arguments(y, question.x, point))
+        for point in points
+        if not is_singular(question, point)
+    }
     if len(sides) > 1:
         said = ", ".join(map(str, points))
         raise InputError(f"a singular point of the equation lies between {said}: on each side the solutions are others")
-
-
-def _negative(solutions: Sequence[Expr], question: Question, point: Expr) -> frozenset[Expr]:
-    """The roots and logarithms in solutions whose arguments are negative at a point."""
-    return frozenset().union(*(negative_arguments(y, question.x, point) for y in solutions))

@@ -10,7 +10,7 @@ from typing import Any
 import sympy
 
 from kovacic.algebra.poly import Poly
-from kovacic.algebra.ratfunc import RatFunc
+from kovacic.algebra.ratfunc import RatFunc, over_one_denominator
 from kovacic.algebra.rationals import QQ
 from kovacic.closed_form.atoms import Atoms
 from kovacic.equation import Equation
@@ -118,7 +118,11 @@ def solve_riccati(
         return RiccatiSolutions((), None, polynomial, all_algebraic, solution)
     gauge = atoms.ratio(linear.gauge)
     factor = atoms.ratio(R)
-    family = _family(solution, factor, atoms.x) if all_algebraic else None
+    family = None
+    if all_algebraic:  # w for u = y1 + C1 y2
+        y1, y2 = solution.solutions
+        u = y1 + sympy.Symbol("C1") * y2
+        family = sympy.cancel(sympy.powsimp(sympy.expand(-u.diff(atoms.x) / (factor * u))))
     if group is not None and group.order in (1, 2):  # infinitely many are rational
         return RiccatiSolutions((), family, None, all_algebraic, solution)
     rational = tuple(sympy.cancel(-(omega + gauge) / factor) for omega in _rational_omegas(solution, atoms))
@@ -146,13 +150,6 @@ def _read_coefficients(p: Any, q: Any, r: Any, var: str | None, limits: Limits) 
     return given
 
 
-def _family(solution: Solution, factor: Any, x: Any) -> Any:
-    """w for u = y1 + C1 y2."""
-    y1, y2 = solution.solutions
-    u = y1 + sympy.Symbol("C1") * y2
-    return sympy.cancel(sympy.powsimp(sympy.expand(-u.diff(x) / (factor * u))))
-
-
 def _polynomial(solution: Solution, gauge: RatFunc, factor: RatFunc, atoms: Atoms) -> Any:
     """The polynomial of omega = -r w - gauge in w, without a common factor; None where that for omega isn't known."""
     if solution.riccati is None:
@@ -172,10 +169,7 @@ def _polynomial(solution: Solution, gauge: RatFunc, factor: RatFunc, atoms: Atom
 
 def _coprime(fractions: list[RatFunc]) -> list[Poly]:
     """The multiples of rational functions that are polynomials without a common factor; over Q with coprime integers."""
-    den = fractions[0].den
-    for fraction in fractions[1:]:
-        den = den * (fraction.den // den.gcd(fraction.den))
-    found = [(fraction * den).num for fraction in fractions]
+    found = over_one_denominator(fractions)
     common = found[-1]
     for polynomial in found[:-1]:
         common = common.gcd(polynomial)

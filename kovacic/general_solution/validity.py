@@ -44,47 +44,21 @@ class Validity:
         """`x > 0, c**2 - 4*k*m != 0`."""
         if sympy.false in self.real:
             return "no value"
-        texts = [_relation_text(relation) for relation in self.real]
-        texts += [f"{e} != 0" for e in self.exceptions]
-        return ", ".join(texts)
-
-
-def _relation_text(relation: Expr) -> str:
-    """As SymPy writes it, but for Ne(x, 0)."""
-    if isinstance(relation, sympy.Ne):
-        return f"{relation.lhs} != 0"
-    return str(relation)
+        nonzero = [f"{e} != 0" for e in self.exceptions]
+        return ", ".join([*(f"{r.lhs} != 0" if isinstance(r, sympy.Ne) else str(r) for r in self.real), *nonzero])
 
 
 def needed_for(value: Expr, x: Expr, exceptions: Iterable[Expr] = ()) -> Validity:
     """What a formula needs, part by part; `exceptions` are those of the pair of solutions in it."""
-    needed = _sorted(needs_of(value), x)
-    nonzero = [factor for e in needed.nonzero for factor in vanishing(e)]
+    relations = dict.fromkeys(needs_of(value))
+    of_letters = [r for r in relations if isinstance(r, sympy.Ne) and not r.has(x)]
+    on_x = [r for r in relations if r not in of_letters and not _holds_for_real_symbols(r)]
+    nonzero = [factor for relation in of_letters for factor in vanishing(relation.lhs)]
     nonzero += [e for e in exceptions if not is_nowhere_zero(e)]
     # The bounds of an integral may be infinite.
     numbers = (node for node in sympy.preorder_traversal(value) if node.is_number)
     is_of_real_numbers = all(number.is_extended_real for number in numbers)
-    return Validity(_without_weaker(needed.on_x), without_implied(nonzero), is_of_real_numbers)
-
-
-@dataclass(frozen=True)
-class _Relations:
-    """Those on x, and expressions in parameters alone that aren't zero."""
-
-    on_x: list[Expr]
-    nonzero: list[Expr]
-
-
-def _sorted(relations: Iterable[Expr], x: Expr) -> _Relations:
-    """Each once, by what it is about."""
-    on_x = []
-    nonzero = []
-    for relation in dict.fromkeys(relations):
-        if isinstance(relation, sympy.Ne) and not relation.has(x):
-            nonzero.append(relation.lhs)
-        elif not _holds_for_real_symbols(relation):
-            on_x.append(relation)
-    return _Relations(on_x, nonzero)
+    return Validity(_without_weaker(on_x), without_implied(nonzero), is_of_real_numbers)
 
 
 def _holds_for_real_symbols(relation: Expr) -> bool:
