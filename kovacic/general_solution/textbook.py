@@ -183,8 +183,9 @@ def _as_one(polynomial: Expr, letters: Collection[Expr]) -> list[Expr]:
 
 def _by_letters(polynomial: Expr, letters: Collection[Expr]) -> list[Expr]:
     """Factors without common letters: X^2 - 1, which is sinh, stays whole."""
+    constant, polynomial = polynomial.as_independent(*letters, as_Add=False)  # SymPy can't sort powers a^n of letters
     number, factors = sympy.factor_list(polynomial, *letters)
-    groups: list[Expr] = [number]
+    groups: list[Expr] = [constant * number]
     for base, k in factors:
         common = [group for group in groups if group.free_symbols & base.free_symbols & {*letters}]
         groups = [group for group in groups if group not in common] + [sympy.Mul(base**k, *common)]
