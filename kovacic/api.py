@@ -33,10 +33,8 @@ class Verdict:
     case : int or None
         Kovacic's case, 1 to 3.
     reason : str or None
-        Why an equation is undecided.
+        The limit that left an equation undecided.
 
-    Examples
-    --------
     >>> import kovacic
     >>> kovacic.decide("x^2 + 3")
     Verdict(status=<Status.LIOUVILLIAN: 'liouvillian'>, case=1, reason=None)
@@ -136,11 +134,6 @@ def decide(
         Names of parameters that have more than one letter, as "EI" or "mass"; other such names are refused.
     limits : Limits
         Bounds on the input and on the work; by default those of `Limits()`.
-
-    Returns
-    -------
-    Verdict
-        `status`; `case`, None without a solution; `reason`, where it is undecided.
 
     Raises
     ------

@@ -60,23 +60,17 @@ class Change:
         return f"C({self.expression.replace('**', '^')})"
 
     def to_dict(self) -> dict[str, str]:
-        """For JSON.
-
-        Returns
-        -------
-        dict
-            variable, expression and field.
-        """
+        """For JSON: variable, expression and field."""
         return {"variable": self.variable, "expression": self.expression, "field": self.field}
 
     @classmethod
     def from_dict(cls, data: Mapping[str, str]) -> Change:
-        """The way back from `to_dict`.
+        """The inverse of `to_dict`.
 
         Parameters
         ----------
         data : mapping
-            What `to_dict` returned.
+            The result of `to_dict`.
         """
         return cls(data["variable"], data["expression"])
 
@@ -100,7 +94,7 @@ class Equation:
     Raises
     ------
     ValueError
-        Where a is zero.
+        If a is zero.
 
     Examples
     --------
@@ -148,31 +142,23 @@ class Equation:
         return not self.b and self.is_homogeneous
 
     def text(self, *, caret: bool = True) -> str:
-        """As it is written: `x^2*y'' + x*y' + (x^2 - 1)*y = 0`.
+        """The equation in one line.
 
         Parameters
         ----------
         caret : bool
-            With False, powers are written as Python writes them.  True by default.
-
-        Returns
-        -------
-        str
-            One line.
+            False writes powers as in Python.  True by default.
 
         Examples
         --------
         >>> import kovacic
         >>> equation = kovacic.solve("x^2*y'' + x*y' + (x^2 - 1)*y = x").equation
-        >>> print(equation.text())
-        x^2*y'' + x*y' + (x^2 - 1)*y = x
-        >>> print(equation.text(caret=False))
-        x**2*y'' + x*y' + (x**2 - 1)*y = x
+        >>> equation.text(), equation.text(caret=False)
+        ("x^2*y'' + x*y' + (x^2 - 1)*y = x", "x**2*y'' + x*y' + (x**2 - 1)*y = x")
         """
         y = self.unknown
-        terms = [(self.a, y + "''"), (self.b, y + "'"), (self.c, y)]
         products = []
-        for coefficient, name in terms:
+        for coefficient, name in ((self.a, y + "''"), (self.b, y + "'"), (self.c, y)):
             text = _coefficient(coefficient, self.variable)
             if text in ("1", "-1"):
                 products.append(text[:-1] + name)

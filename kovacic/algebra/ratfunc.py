@@ -44,10 +44,7 @@ class RatFunc(Immutable):
     den: Poly
 
     def __init__(self, num: Poly, den: Poly | None = None, *, reduced: bool = False) -> None:
-        """`num/den`; `reduced=True` promises that they are coprime and den is monic.
-
-        Raises `ZeroDivisionError` for a zero denominator.
-        """
+        """`num/den`; `reduced=True` promises that they are coprime and den is monic."""
         if den is None:
             num, den = num, num.field.poly([1])
         elif not reduced:
@@ -168,7 +165,7 @@ class RatFunc(Immutable):
         Parameters
         ----------
         variable : str
-            The name of the variable, which a function doesn't know; "x" by default.
+            The name of the variable, "x" by default.
         """
         return quotient_str(self.num, self.den, variable)
 

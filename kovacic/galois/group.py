@@ -191,15 +191,9 @@ class Group:
     def generators(self) -> tuple[Any, ...] | None:
         """SymPy matrices that generate the group, acting on (y1, y2) suitably chosen and scaled.
 
-        Returns
-        -------
-        tuple of sympy.Matrix, or None
-            For a finite group they generate it; for G_m there is one, with a free parameter t.  None for the other groups.
-
-        Notes
-        -----
-        The diagonal ones are diagonal in the basis of the solutions with y'/y rational (cyclic, G_m) or of degree 2
-        (dicyclic); the bases of the primitive groups are those of Klein's forms [Ikosaeder (1884), part I, chapter II].
+        For a finite group they generate it; for G_m there is one, with a free parameter t; None for the other groups.  The
+        diagonal ones are diagonal in the basis of the solutions with y'/y rational (cyclic, G_m) or of degree 2 (dicyclic);
+        the bases of the primitive groups are those of Klein's forms [Ikosaeder (1884), part I, chapter II].
         """
         import sympy
 

@@ -105,15 +105,12 @@ class Eigenvalues(Sequence[Level]):
     def wave(self, k: int) -> Callable[[Any], Any]:
         """The eigenfunction of level k for pictures: not proven, scaled to a maximum of 1.
 
+        A function for arrays of NumPy, 0 beyond the end of its decay.  Raises `InputError` for periodic problems.
+
         Parameters
         ----------
         k : int
             Its place in this sequence.
-
-        Returns
-        -------
-        callable
-            A function for arrays of NumPy; 0 where the function has decayed.  Raises `InputError` for periodic problems.
 
         Examples
         --------

@@ -136,7 +136,7 @@ def as_code(expression: Expr, language: str) -> str:
     Parameters
     ----------
     expression : sympy.Expr
-        What `solutions`, `special`, `dsolve(...).rhs` and others return.
+        A solution of `solutions`, `special`, `dsolve(...).rhs` and others.
     language : str
         "mathematica", "maple" or "julia" (with SpecialFunctions.jl, HypergeometricFunctions.jl and Elliptic.jl).
 
