@@ -22,6 +22,7 @@ import threading
 import time
 from collections.abc import Callable
 from contextlib import suppress
+from functools import lru_cache
 from typing import IO, Any, cast
 
 from kovacic.errors import LimitExceeded
@@ -114,11 +115,13 @@ class Process:
         return status, self._errors.read().decode("utf-8", errors="replace").strip()
 
 
+@lru_cache(maxsize=32)
 def computed_apart(what: str, function: Callable[..., Any], *arguments: Any) -> Any:
     """The value of a function of a module, computed in a process that is killed when the watched time is over.
 
-    Arguments and value must be picklable.  Raises `LimitExceeded`, with `what` was computed, if there is no value for lack
-    of time, memory or a process; in this process the computation might never end.
+    The last values are kept, since the kernel and the views ask for them again.  Arguments and value must be picklable.
+    Raises `LimitExceeded`, with `what` was computed, if there is no value for lack of time, memory or a process; in this
+    process the computation might never end.
     """
     check_time()
     seconds = watched_seconds(_LONGEST_SECONDS)

@@ -13,7 +13,6 @@ zeros of short ones, if they lie in clusters, would take longer than the time th
 from __future__ import annotations
 
 from fractions import Fraction
-from functools import lru_cache
 from itertools import count
 from typing import Any
 
@@ -54,7 +53,10 @@ def complex_zeros(polynomial: fmpz_poly) -> Zeros:
         return _isolated_here(polynomial)
     if degree == 2:
         return _of_quadratic(polynomial)
-    found = _isolated_apart(tuple([int(c) for c in polynomial.coeffs()]), ctx.prec)
+    from kovacic.process import computed_apart
+
+    coefficients = tuple([int(c) for c in polynomial.coeffs()])
+    found = computed_apart(f"zeros of a polynomial of degree {degree}", _dyadic_zeros, coefficients, ctx.prec)
     return tuple((acb(_ball_of_dyadic(real), _ball_of_dyadic(imaginary)), k) for real, imaginary, k in found)
 
 
@@ -74,15 +76,6 @@ def _of_quadratic(polynomial: fmpz_poly) -> Zeros:
         if square > 0:
             return (acb(middle - distance), 1), (acb(middle + distance), 1)
         return (acb(middle, distance), 1), (acb(middle, -distance), 1)
-
-
-@lru_cache(maxsize=16)
-def _isolated_apart(coefficients: tuple[int, ...], prec: int) -> list[tuple[Any, Any, int]]:
-    """Midpoints and radii, found where the computation can be stopped."""
-    from kovacic.process import computed_apart
-
-    what = f"zeros of a polynomial of degree {len(coefficients) - 1}"
-    return computed_apart(what, _dyadic_zeros, coefficients, prec)  # type: ignore[no-any-return]
 
 
 def _dyadic_zeros(coefficients: tuple[int, ...], prec: int) -> list[tuple[Any, Any, int]]:

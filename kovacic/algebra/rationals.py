@@ -5,7 +5,6 @@ from __future__ import annotations
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
-from functools import lru_cache
 from math import inf
 from typing import Any
 
@@ -311,9 +310,12 @@ class RationalField(Field):
         check_time()
         numerator = polynomial.rep.numer()  # type: ignore[attr-defined]
         if _may_take_long(numerator):
-            factors = [
-                (fmpz_poly(list(factor)), k) for factor, k in _factored_by_process(_integer_coefficients(numerator))
-            ]
+            # It may take hours, for x^5040 - 1 or where many factors lie modulo p.
+            from kovacic.process import computed_apart
+
+            what = f"factors of a polynomial of degree {numerator.degree()}"
+            found = computed_apart(what, _integer_factors, _integer_coefficients(numerator))
+            factors = [(fmpz_poly(list(factor)), k) for factor, k in found]
         else:
             factors = _factored_over_z(numerator)
         if len(factors) > 1:
@@ -441,18 +443,6 @@ def _monic_root(power: Any, n: int) -> Any:
     series = top.mul_low(inverse.pow_trunc(n - 1, size), size)
     root = fmpq_poly([series[size - 1 - i] for i in range(size)])
     return root if root**n == power else None
-
-
-@lru_cache(maxsize=16)
-def _factored_by_process(coefficients: tuple[int, ...]) -> list[tuple[tuple[int, ...], int]]:
-    """The factors, found where it can be stopped: that may take hours, for x^5040 - 1 or where many factors lie modulo p.
-
-    The last ones are kept, since the kernel and the views ask for them again.
-    """
-    from kovacic.process import computed_apart
-
-    what = f"factors of a polynomial of degree {len(coefficients) - 1}"
-    return computed_apart(what, _integer_factors, coefficients)  # type: ignore[no-any-return]
 
 
 def _integer_factors(coefficients: tuple[int, ...]) -> list[tuple[tuple[int, ...], int]]:

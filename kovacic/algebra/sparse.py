@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from functools import lru_cache
 from math import inf, lcm
 from typing import Any
 
@@ -63,20 +62,12 @@ def factorisation(polynomial: Any) -> tuple[int, list[tuple[Any, int]]]:
     check_time()
     if polynomial.is_constant() or max(polynomial.degrees()) <= _LONGEST_AT_ONCE or watched_seconds(inf) == inf:
         return _factored_at_once(polynomial)
-    context = polynomial.context()
-    content, factors = _sparse_factors_by_process(tuple(context.names()), terms_of(polynomial))
-    return content, [(context.from_dict(dict(terms)), k) for terms, k in factors]
-
-
-@lru_cache(maxsize=16)
-def _sparse_factors_by_process(
-    names: tuple[str, ...], terms: _SparseTerms
-) -> tuple[int, list[tuple[_SparseTerms, int]]]:
-    """The factorisation by a process that can be stopped, as for long polynomials over Q."""
     from kovacic.process import computed_apart
 
+    context = polynomial.context()
     what = "factors of a polynomial in the variable and the parameters"
-    return computed_apart(what, _sparse_factors, names, terms)  # type: ignore[no-any-return]
+    content, factors = computed_apart(what, _sparse_factors, tuple(context.names()), terms_of(polynomial))
+    return content, [(context.from_dict(dict(terms)), k) for terms, k in factors]
 
 
 def _sparse_factors(names: tuple[str, ...], terms: _SparseTerms) -> tuple[int, list[tuple[_SparseTerms, int]]]:

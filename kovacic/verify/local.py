@@ -194,22 +194,17 @@ class Expansions:
         """All of them, order by order: the numbers of their product are much shorter than those of its power in den."""
         found = {}
         for order in {order for _, order in self.factors}:
+            # With den = P^order R, P the product of the places p of this order, q is (P/p)^order R.
             places = [p for p, other in self.factors if other == order]
-            found.update(self._of_order(places, order))
-        return found
-
-    def _of_order(self, places: list[Poly], order: int) -> dict[Poly, tuple[Poly, Poly]]:
-        """The expansions at places of one order: with den = P^order R, P the product of the places, q is (P/p)^order R."""
-        nu = max(order // 2, 1)
-        P = product(places)
-        R = self.S.den // P**order
-        moduli = [p**nu for p in places]
-        nums = _remainders_by_halves(self.S.num, moduli)
-        outer = _remainders_by_halves(R, moduli)
-        inner = _remainders_by_halves(P, [p ** (nu + 1) for p in places])
-        found = {}
-        for p, modulus, N, far, near in zip(places, moduli, nums, outer, inner, strict=True):
-            found[p] = (N, _power_modulo(near // p, order, modulus) * far % modulus)
+            nu = max(order // 2, 1)
+            P = product(places)
+            R = self.S.den // P**order
+            moduli = [p**nu for p in places]
+            nums = _remainders_by_halves(self.S.num, moduli)
+            outer = _remainders_by_halves(R, moduli)
+            inner = _remainders_by_halves(P, [p ** (nu + 1) for p in places])
+            for p, modulus, N, far, near in zip(places, moduli, nums, outer, inner, strict=True):
+                found[p] = (N, _power_modulo(near // p, order, modulus) * far % modulus)
         return found
 
 

@@ -155,9 +155,9 @@ def as_code(expression: Expr, language: str) -> str:
     >>> import kovacic
     >>> y1, y2 = kovacic.solve("(-32*x**2 + 27*x - 27)/(144*x**2*(x - 1)**2)").solutions
     >>> print(kovacic.as_code(y1, "mathematica"))
-    x^(1/4)*(x - 1)^(1/3)*HypergeometricPFQ[{-1/12, 1/4}, {1/2}, x]
+    x^(1/4)*(1 - x)^(1/3)*HypergeometricPFQ[{-1/12, 1/4}, {1/2}, x]
     >>> print(kovacic.as_code(y1, "maple"))
-    x^(1/4)*(x - 1)^(1/3)*hypergeom([-1/12, 1/4], [1/2], x)
+    x^(1/4)*(1 - x)^(1/3)*hypergeom([-1/12, 1/4], [1/2], x)
     """
     chosen = LANGUAGES.get(language)
     if chosen is None:

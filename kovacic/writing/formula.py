@@ -163,21 +163,15 @@ def shortened(text: str) -> str:
 def _is_long(function: RatFunc) -> bool:
     """True if the function has more terms, or longer coefficients, than anybody reads."""
     for part in (function.num, function.den):
-        terms = _terms_to_print(part)
+        terms = part.degree + 1  # an upper bound of the coefficients other than 0, which are counted for a high degree
+        if part.degree >= LARGEST_DEGREE:
+            coefficients = part.rep.numer().coeffs() if isinstance(part, RationalPoly) else part
+            terms = sum(map(bool, coefficients))
         if terms > LARGEST_DEGREE or terms * part.height_bits() > _LARGEST_SIZE:
             return True
         if parameters_of(part.field) and part.extent()[0] > _MOST_PRINTED_TERMS:
             return True
     return False
-
-
-def _terms_to_print(polynomial: Poly) -> int:
-    """The number of coefficients that aren't 0; for a low degree, an upper bound is enough."""
-    if polynomial.degree < LARGEST_DEGREE:
-        return polynomial.degree + 1
-    if isinstance(polynomial, RationalPoly):
-        return sum(map(bool, polynomial.rep.numer().coeffs()))
-    return sum(map(bool, polynomial))
 
 
 def _degrees(function: RatFunc) -> str:
