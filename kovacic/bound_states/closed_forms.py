@@ -180,21 +180,6 @@ def _is_between(value: Any, low: Any, high: Any) -> bool:
     return bool(is_above and is_below)
 
 
-class _Numbers(NamedTuple):
-    """Degrees to be tried (None if there is none to choose), and whether these are all."""
-
-    some: tuple[int | None, ...]
-    are_all: bool
-
-
-class _Listed(NamedTuple):
-    """Degrees (None if there is none to choose) with irreducible polynomials in E; whether all degrees are there, and all E."""
-
-    pairs: tuple[tuple[int | None, Any], ...]
-    has_all_degrees: bool
-    are_all: bool
-
-
 @dataclass(frozen=True)
 class _ClosedFormSearch:
     """Through the regions of the conditions."""
@@ -222,14 +207,17 @@ class _ClosedFormSearch:
         complete = True
         higher = None
         for region in self.conditions.regions:
-            listed = self._listed(region.statement)
-            complete = complete and listed.are_all
-            if not listed.has_all_degrees and region.case == 1 and self._are_examined:
+            pairs, has_all_degrees, are_all = self._listed(region.statement)
+            complete = complete and are_all
+            if not has_all_degrees and region.case == 1 and self._are_examined:
                 higher = self.max_degree + 1
-            for number, polynomial in listed.pairs:
+            for number, polynomial in pairs:
                 if not self.window.has_zero_of(polynomial, self.E):
                     continue
-                solutions = [one for one in region.solution(number) if _vanish(one.conditions, polynomial, self.E)]
+                solutions = []
+                for one in region.solution(number):
+                    rests = (sympy.rem(sympy.numer(sympy.together(f)), polynomial, self.E) for f in one.conditions)
+                    solutions += [] if any(rests) else [one]
                 fits = [self._fits(one, polynomial) for one in solutions if self._are_examined]
                 here = [one for one, fit in zip(solutions, fits, strict=False) if fit == [True, True]]
                 if sympy.degree(polynomial, self.E) == 1:
@@ -247,8 +235,11 @@ class _ClosedFormSearch:
                 complete = complete and linear and self.conditions.case_at(value) is None
         return ClosedForms(self.conditions, tuple(levels), complete, tuple(excluded), higher)
 
-    def _listed(self, statement: Statement) -> _Listed:
-        """The E for which the statement may hold, and that are possible for a level."""
+    def _listed(self, statement: Statement) -> tuple[list[tuple[int | None, Any]], bool, bool]:
+        """The E for which the statement may hold: degrees (None if there is none to choose) with irreducible polynomials in E.
+
+        And whether all degrees are there, and all E.
+        """
         pairs: list[tuple[int | None, Any]] = []
         has_all_degrees = are_all = True
         for alternative in alternatives_of(statement):
@@ -256,9 +247,9 @@ class _ClosedFormSearch:
             if None in map(_zero_where, parts):
                 are_all = False
                 continue
-            numbers = self._numbers(parts)
-            has_all_degrees = has_all_degrees and numbers.are_all
-            for number in numbers.some:
+            numbers, have_all = self._numbers(parts)
+            has_all_degrees = has_all_degrees and have_all
+            for number in numbers:
                 functions = [_function_for(part, number, self.constants) for part in parts]
                 if None in functions:
                     are_all = False
@@ -268,16 +259,16 @@ class _ClosedFormSearch:
                 are_rational = all(polynomial.domain.is_QQ or polynomial.domain.is_ZZ for polynomial in polynomials)
                 are_all = are_all and are_rational
                 pairs += [(number, polynomial.as_expr()) for polynomial in polynomials if are_rational]
-        return _Listed(tuple(pairs), has_all_degrees, are_all and has_all_degrees)
+        return pairs, has_all_degrees, are_all and has_all_degrees
 
-    def _numbers(self, parts: Sequence[Statement]) -> _Numbers:
-        """The degrees that are to be tried: all for which E may be in the window, where they are finitely many."""
+    def _numbers(self, parts: Sequence[Statement]) -> tuple[Sequence[int | None], bool]:
+        """The degrees to be tried, and whether these are all for which E may be in the window."""
         natural = [part for part in parts if isinstance(part, Natural)]
         if not natural:
-            return _Numbers((None,), are_all=True)
+            return (None,), True
         lasts = [self.window.last_number(factor, self.E, _NUMBER) for factor in _factors_of(natural[0])]
         bounds = [last for last in lasts if last is not None]
-        return _Numbers(tuple(range(max([self.max_degree + 1, *bounds]))), are_all=None not in lasts)
+        return range(max([self.max_degree + 1, *bounds])), None not in lasts
 
     @property
     def _are_examined(self) -> bool:
@@ -304,13 +295,13 @@ class _ClosedFormSearch:
         higher = None
         for region in self.conditions.regions if self._are_examined else ():
             parts = both(region.statement).parts
-            numbers = self._numbers(parts)
-            if not numbers.are_all and region.case == 1:
+            numbers, have_all = self._numbers(parts)
+            if not have_all and region.case == 1:
                 higher = self.max_degree + 1
             if None in map(_zero_where, parts):
                 continue
             functions = [_zero_where(part) for part in parts if isinstance(part, Vanishes)]
-            for number in numbers.some:
+            for number in numbers:
                 for solution in region.solution(number):
                     levels.update(dict.fromkeys(self._under_conditions(solution, functions)))
         return ClosedForms(self.conditions, tuple(levels), not self.conditions.regions, higher=higher)
@@ -344,13 +335,19 @@ class _ClosedFormSearch:
         question = self.question
         parsed = question.parsed
         original = Original.of(parsed.equation, question.x, question.signs)
+        # The factors of y that are polynomials in t, but for those that vanish at an end: they have the zeros of y.
+        t = sympy.Symbol(parsed.variable)
+        bases = (
+            power.base if power.is_Pow else power for power in sympy.Mul.make_args(solution.y) if power.is_polynomial(t)
+        )
+        inside = (base for base in bases if all(base.subs(t, end.point) != 0 for end in self.ends))
         level = Algebraic(
             int(solution.degree),
             constraint,
             sympy.factor(polynomial),
             solution.y if parsed.equation is None else translated(solution.y, parsed.equation),
             tuple(map(question.plain, tidied(conditions, question.signs))),
-            P=_polynomial_in(solution.y, sympy.Symbol(parsed.variable), self.ends),
+            P=sympy.Poly(sympy.Mul(*inside), t),
             range=monotonic_range(original, question.domain, question.signs),
         )
         if question.parameters:
@@ -393,11 +390,6 @@ def _function_for(statement: Statement, number: int | None, constants: dict[Any,
     return found.subs(constants)
 
 
-def _vanish(functions: Sequence[Any], polynomial: Any, E: Any) -> bool:
-    """True if the functions are 0 at the zeros of an irreducible polynomial."""
-    return all(sympy.rem(sympy.numer(sympy.together(f)), polynomial, E) == 0 for f in functions)
-
-
 def demand_at(end: End, v: Any, question: SpectralProblem) -> Any:
     """When a function v of t, whose v'/v is rational, is the square integrable one at an end, in real symbols."""
     signs = question.signs
@@ -424,10 +416,3 @@ def _bounds(constraint: Any, solution: PolynomialSolution, signs: Signs) -> list
             value = sympy.factor(-constraint.coeff(symbol, 0) / constraint.coeff(symbol, 1))
             return signs.bounds_of(symbol.name, value) if signs.admits(symbol.name, value) else None
     return None
-
-
-def _polynomial_in(v: Any, t: Any, ends: Sequence[End]) -> Any:
-    """The product of the factors of v that are polynomials in t, but for those that vanish at an end: it has the zeros of v."""
-    factors = [power.base if power.is_Pow else power for power in sympy.Mul.make_args(v) if power.is_polynomial(t)]
-    inside = (factor for factor in factors if not any(factor.subs(t, end.point) == 0 for end in ends))
-    return sympy.Poly(sympy.Mul(*inside), t)

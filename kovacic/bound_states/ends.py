@@ -75,7 +75,7 @@ def check_inside(real: RealPotential, domain: tuple[Any, Any], signs: Signs) -> 
     if not points:
         return
     first, last = (original.theta_at(end, signs) for end in domain)
-    angles = [angle for point in points for angle in _angles(original.kind, point, (first, last))]
+    angles = [angle for point in points for angle in original.angles_at(point, (first, last))]
     inside = [(a - original.offset) / original.rate for a in angles if is_between(a, first, last, signs)]
     if not inside:
         return
@@ -116,28 +116,6 @@ def real_zeros(polynomial: Any, signs: Signs) -> list[Any]:
     if sum(roots.values()) < polynomial.degree() or any(root.is_real is None for root in roots):
         raise Uncovered("whether V has a pole inside the domain isn't known")
     return [root for root in roots if root.is_real]
-
-
-def _angles(kind: str, point: Any, ends: tuple[Any, Any]) -> list[Any]:
-    """The real angles at which t has a value; for a sine, cosine or tangent those near the domain and between its ends."""
-    if kind == "x":
-        return [point]
-    if kind == "sinh":
-        return [sympy.asinh(point)]
-    if kind == "exp":
-        return [] if point.is_positive is False else [sympy.log(point)]
-    if kind == "cosh":
-        angle = sympy.acosh(point)
-        return [] if angle.is_real is False else [angle, -angle]
-    inverse = {"cos": sympy.acos, "sin": sympy.asin, "tan": sympy.atan}[kind]
-    angle = sympy.pi / 2 if point == sympy.oo else inverse(point)
-    if angle.is_real is False:
-        return []
-    other = {"cos": -angle, "sin": sympy.pi - angle, "tan": angle + sympy.pi}[kind]
-    period = 2 * sympy.pi
-    lowest = sympy.floor(min(ends) / period) - 1
-    number = int(sympy.ceiling((max(ends) - min(ends)) / period)) + 3
-    return [a + period * (lowest + k) for a in dict.fromkeys((angle, other)) for k in range(number)]
 
 
 @dataclass(frozen=True)

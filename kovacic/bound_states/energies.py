@@ -39,17 +39,12 @@ class Root:
         root = exact_root(square)
         if root is not None:
             return cls(square, root)
-        if square.has(sympy.I):
-            return cls._complex(square)
-        symbol = sympy.Dummy("r", positive=True)
-        return cls(square, symbol, radicals=((symbol, sympy.sqrt(sympy.factor(square))),))
-
-    @classmethod
-    def _complex(cls, square: Any) -> Root:
-        """sqrt(re + i im) = p + i q with p = sqrt((size + re)/2) and q = im/(2 p)."""
+        if not square.has(sympy.I):
+            symbol = sympy.Dummy("r", positive=True)
+            return cls(square, symbol, radicals=((symbol, sympy.sqrt(sympy.factor(square))),))
+        # sqrt(re + i im) = p + i q with p = sqrt((size + re)/2) and q = im/(2 p)
         expanded = sympy.expand(square)
-        re = sympy.factor(sympy.re(expanded))
-        im = sympy.factor(sympy.im(expanded))
+        re, im = sympy.factor(sympy.re(expanded)), sympy.factor(sympy.im(expanded))
         size = sympy.sqrt(sympy.factor(re**2 + im**2))
         real = sympy.sqrt(2) * sympy.sqrt(size + re) / 2
         p = sympy.Dummy("p", positive=True)

@@ -96,26 +96,37 @@ class Original:
         value = sympy.simplify(getattr(sympy, self.kind)(theta))
         return sympy.oo if value.is_infinite else value  # the pole of a tangent
 
+    def angles_at(self, point: Any, ends: tuple[Any, Any]) -> list[Any]:
+        """The real theta with a value of t; of a sine, cosine or tangent those near the domain and between its ends."""
+        if self.kind == "x":
+            return [point]
+        if self.kind == "sinh":
+            return [sympy.asinh(point)]
+        if self.kind == "exp":
+            return [] if point.is_positive is False else [sympy.log(point)]
+        inverse = {"cosh": sympy.acosh, "cos": sympy.acos, "sin": sympy.asin, "tan": sympy.atan}[self.kind]
+        angle = sympy.pi / 2 if point == sympy.oo else inverse(point)
+        if angle.is_real is False:
+            return []
+        other = sympy.pi - angle if self.kind == "sin" else angle + sympy.pi if self.kind == "tan" else -angle
+        in_a_period = list(dict.fromkeys((angle, other)))
+        if self.kind == "cosh":
+            return in_a_period
+        period = 2 * sympy.pi
+        lowest = sympy.floor(min(ends) / period) - 1
+        number = int(sympy.ceiling((max(ends) - min(ends)) / period)) + 3
+        return [a + period * (lowest + k) for a in in_a_period for k in range(number)]
+
     def turning_points(self, domain: tuple[Any, Any], signs: Signs) -> list[Any]:
-        """Where dt/dx vanishes inside the domain."""
-        if self.kind not in ("cosh", "cos", "sin"):
+        """Where dt/dx vanishes inside the domain: where t is 1 or -1."""
+        values = {"cosh": (1,), "cos": (1, -1), "sin": (1, -1)}.get(self.kind)
+        if values is None:
             return []
         first, last = (self.theta_at(end, signs) for end in domain)
-        if self.kind == "cosh":
-            angles = [sympy.Integer(0)]
-        elif first.is_number and last.is_number:
-            angles = _turning_angles(self.kind, first, last)
-        else:
+        if self.kind != "cosh" and not (first.is_number and last.is_number):
             raise Uncovered(f"the ends of the domain aren't multiples of pi/({self.rate})")
+        angles = [a for value in values for a in self.angles_at(sympy.Integer(value), (first, last))]
         return [(a - self.offset) / self.rate for a in angles if is_between(a, first, last, signs)]
-
-
-def _turning_angles(kind: str, first: Any, last: Any) -> list[Any]:
-    """The angles at which the sine or the cosine is 1 or -1, from below the domain to above it."""
-    start = sympy.pi / 2 if kind == "sin" else sympy.Integer(0)
-    lowest = sympy.floor(min(first, last) / sympy.pi)
-    number = int(sympy.ceiling(abs(last - first) / sympy.pi)) + 2
-    return [start + sympy.pi * (lowest + k) for k in range(number)]
 
 
 @dataclass(frozen=True)

@@ -68,8 +68,7 @@ def with_matching(found: Spectrum) -> Spectrum:
         if end.is_finite:  # a regular end
             wishes[side] = found.conditions[side] or Robin(sympy.S.One, sympy.S.Zero)
     with suppress(InputError, NotImplementedError):
-        pieces = pieces_of(V, sympy.S.One, x, (domain[0], domain[1]))
-        pieces = tuple(replace(piece, W=weight) for piece in pieces)
+        pieces = tuple(replace(p, W=weight) for p in pieces_of(V, sympy.S.One, x, (domain[0], domain[1])))
         equations = matching_equations(SturmProblem(x, pieces, (wishes[0], wishes[1])), E)
         return replace(found, matching=tuple(equation.xreplace(plain) for equation in equations))
     return found
@@ -93,8 +92,7 @@ def unsolved(
         {sympy.Symbol(n): read_expression(exact_text(v, "a value")) for n, v in values.items()}
     )
     ends = tuple(map(read_end, domain))
-    names = {symbol.name for part in (potential, *ends) for symbol in part.free_symbols} - {variable}
-    parameters = tuple(sorted(names))
+    parameters = tuple(sorted({s.name for part in (potential, *ends) for s in part.free_symbols} - {variable}))
     known = read_assumptions(rest or None, V, parameters)
     given = read_boundary(boundary, ends, variable)
     is_open = any(end.is_finite and wish is None for end, wish in zip(ends, given.wishes, strict=True))

@@ -11,14 +11,6 @@ import sympy
 from kovacic.bound_states.energies import shortest
 from kovacic.bound_states.signs import Signs
 
-#: By the sign of the side on which it holds, and whether it is strict.
-_RELATIONS = {
-    (1, True): sympy.StrictGreaterThan,
-    (1, False): sympy.GreaterThan,
-    (-1, True): sympy.StrictLessThan,
-    (-1, False): sympy.LessThan,
-}
-
 
 def tidied(conditions: Iterable[Any], signs: Signs, radicals: Mapping[Any, Any] | None = None) -> tuple[Any, ...]:
     """The conditions that don't hold anyway, each solved for n, or for a parameter, where it is linear in it.
@@ -152,8 +144,7 @@ def _degree(expression: Any, unknown: Any) -> Any:
 
 def _beyond(unknown: Any, bound: Any, sign: int, *, is_strict: bool) -> Any:
     """unknown > bound for the sign 1, unknown < bound for -1; or >= and <=."""
-    relation = _RELATIONS[sign, is_strict]
-    return relation(unknown, bound)
+    return sympy.Rel(unknown, bound, (">" if sign == 1 else "<") + ("" if is_strict else "="))
 
 
 def _solved_for_square(rest: Any, signs: Signs, *, is_strict: bool) -> Any:

@@ -22,7 +22,8 @@ class Signs:
     def __init__(self, known: Assumptions, names: Iterable[str]) -> None:
         found = known.symbols()
         self._known_of = known.of
-        self.symbols = {name: _real(name, found.get(name)) for name in names}
+        facts = {name: symbol.assumptions0 for name, symbol in found.items()}
+        self.symbols = {name: sympy.Symbol(name, **{**facts.get(name, {}), "real": True}) for name in names}
         #: The number of a level.
         self.n = sympy.Dummy("n", integer=True, nonnegative=True)
         bounds = {name: known.of(name).bounds for name in self.symbols}
@@ -97,14 +98,6 @@ class Signs:
                 if found is not None:
                     return bool(found)
         return None
-
-
-def _real(name: str, known: Any) -> Any:
-    """A real symbol with this name, and with the facts of the one that is known, if any is."""
-    facts: dict[str, bool] = {}
-    if known is not None:
-        facts = known.assumptions0
-    return sympy.Symbol(name, **{**facts, "real": True})
 
 
 def _end_of(bound: Bound) -> Any:

@@ -148,7 +148,7 @@ def jacobi_wave(frame: SingularFrame, roots: list[Root], deltas: list[Any], sign
     norm = None if form.scale.has(frame.z) else _norm(form)
     if norm is None:
         return Wave(y)
-    return Wave(y, _on_domain(frame, norm / whole.constant**2))
+    return Wave(y, _tidy(frame, norm / whole.constant**2))
 
 
 def _jacobi_form(frame: SingularFrame, roots: list[Root], deltas: list[Any], signs: Signs) -> _JacobiForm:
@@ -164,12 +164,6 @@ def _jacobi_form(frame: SingularFrame, roots: list[Root], deltas: list[Any], sig
     slope = sympy.diff(w_of_z, z) ** 2 * frame.slope
     scale = sympy.simplify(slope / ((1 - w_of_z) ** first.spot.mu * (1 + w_of_z) ** second.spot.mu))
     return _JacobiForm(frame, w, (first, second, third), scale, signs.n)
-
-
-def _on_domain(frame: SingularFrame, norm: Any) -> Any:
-    """The norm on the whole domain from that on its right half, where the problem is one on this half."""
-    tidy = _tidy(norm)
-    return tidy if frame.fold is None else 2 * tidy
 
 
 def _argument(frame: SingularFrame, w: Any) -> Any:
@@ -202,7 +196,7 @@ def _complex_pair(form: _JacobiForm) -> Wave:
     norm = _norm_on_line(form, a, b)
     if norm is None:
         return Wave(y)
-    return Wave(y, _tidy(-norm / powers.dropped))
+    return Wave(y, _tidy(form.frame, -norm / powers.dropped))
 
 
 class _RealPowers(NamedTuple):
@@ -319,15 +313,16 @@ def laguerre_wave(frame: SingularFrame, origin: Spot, kappa: Any, delta: Any, si
     if j not in known or scale.has(z) or signs.sign(kappa) == -1:
         return Wave(y)
     integral = rate ** (origin.mu - 2 - delta) * weight * known[j]
-    return Wave(y, _on_domain(frame, integral / sympy.sqrt(sympy.Abs(scale)) / whole.constant**2))
+    return Wave(y, _tidy(frame, integral / sympy.sqrt(sympy.Abs(scale)) / whole.constant**2))
 
 
-def _tidy(norm: Any) -> Any:
-    """The shorter of the norm itself and its form with simplified quotients of Gamma functions."""
+def _tidy(frame: SingularFrame, norm: Any) -> Any:
+    """The norm or its form with simplified quotients of Gamma functions, the shorter; doubled on half of a domain."""
     simplified = sympy.gammasimp(norm).replace(
         lambda e: e.func == sympy.gamma and e.args[0].is_integer, lambda e: sympy.factorial(e.args[0] - 1)
     )
-    return min((_shortened(norm), _shortened(simplified)), key=lambda e: len(str(e)))
+    shortest_form = min((_shortened(norm), _shortened(simplified)), key=lambda e: len(str(e)))
+    return shortest_form if frame.fold is None else 2 * shortest_form
 
 
 def _shortened(norm: Any) -> Any:
