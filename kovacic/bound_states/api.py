@@ -162,9 +162,12 @@ def spectrum(
         unread = reason
         found = unsolved(V, reason, domain=domain, energy=energy, var=var, assume=assume, boundary=boundary)
     found = with_matching(found if read is None else read.physical(found))
-    if unread is not None and levels is None and not found.matching:
+    if unread is not None and levels is None:
         hint = "the lowest levels of other potentials are computed as proven numbers"
-        raise NotRational(str(unread), hint=f"{hint}: levels=5", shell=f"{hint}: --levels 5")
+        python, shell = f"{hint}: levels=5", f"{hint}: --levels 5"
+        if not found.matching:
+            raise NotRational(str(unread), hint=python, shell=shell)
+        found = found if found.parameters else replace(found, hint=python, shell=shell)
     return with_numbers(found, levels, digits, limits)
 
 

@@ -300,7 +300,7 @@ class _ClosedFormSearch:
                 higher = self.max_degree + 1
             if None in map(_zero_where, parts):
                 continue
-            functions = [_zero_where(part) for part in parts if isinstance(part, Vanishes)]
+            functions = [_zero_where(part).subs(self.constants) for part in parts if isinstance(part, Vanishes)]
             for number in numbers:
                 for solution in region.solution(number):
                     levels.update(dict.fromkeys(self._under_conditions(solution, functions)))
