@@ -16,21 +16,14 @@ from kovacic.algebra.embedding import complex_zeros
 from kovacic.closed_form.balls import BallEvaluator
 
 
-def levels_of(polynomial: Any, E: Any) -> Iterator[tuple[Any, Any]]:
+def levels_of(polynomial: Any, E: Any) -> Iterator[tuple[Any, arb]]:
     """The real zeros of a polynomial with rational coefficients, as SymPy's numbers and as balls."""
     for factor, _ in sympy.factor_list(polynomial, E)[1]:
         exact = sympy.Poly(factor, E)
-        yield from zip(exact.real_roots(), _real_zeros_in_balls(exact), strict=True)
-
-
-def _real_zeros_in_balls(polynomial: Any) -> list[arb]:
-    """The real zeros of an irreducible polynomial, from left to right."""
-    scaled = polynomial
-    if polynomial.domain.is_QQ:
-        _, scaled = polynomial.clear_denoms()
-    balls = complex_zeros(fmpz_poly([int(c) for c in reversed(scaled.all_coeffs())]))
-    real = [ball.real for ball, _ in balls if ball.imag == 0]
-    return sorted(real, key=lambda ball: float(ball.mid()))
+        scaled = exact.clear_denoms()[1] if exact.domain.is_QQ else exact
+        balls = complex_zeros(fmpz_poly([int(c) for c in reversed(scaled.all_coeffs())]))
+        real = sorted((ball.real for ball, _ in balls if ball.imag == 0), key=lambda ball: float(ball.mid()))
+        yield from zip(exact.real_roots(), real, strict=True)
 
 
 def zeros_inside(P: Any, E: Any, ball: arb, bounds: tuple[Any, Any]) -> int | None:
