@@ -32,8 +32,10 @@ from kovacic.limits import check_time, watched_seconds
 _INTERPRETER_SOURCE = (
     "import json, sys; sys.path[:] = json.loads(sys.argv[1]); from kovacic.process import main; main()"
 )
+# The end of the error stream that `last_words` reads: a traceback of some hundred lines.
 _SHOWN_ERROR_BYTES = 20_000
 _PARENT_CHECK_SECONDS = 1.0
+# Three years: timers overflow for longer times, math.inf among them.
 _LONGEST_SECONDS = 1e8
 
 

@@ -49,10 +49,9 @@ def rational_reconstruction(residue: int, modulus: int, bound: int) -> tuple[int
     Where the modulus is much larger than the bound another pair than the sought one is improbable; whether the numerator
     or the denominator is the long one doesn't matter [Monagan, Proc. ISSAC 2004, 243-249].
     """
-    r0 = modulus
-    r1 = residue % modulus
-    t0 = 0
-    t1 = 1
+    # r_i = t_i residue modulo the modulus, for i = 0 and 1 and along Euclid's algorithm.
+    r0, r1 = modulus, residue % modulus
+    t0, t1 = 0, 1
     # As long as r1 |t1| > bound: nearly always their lengths say so, and long numbers needn't be multiplied.
     while r1 and (r1.bit_length() + t1.bit_length() > bound.bit_length() + 1 or r1 * abs(t1) > bound):
         quotient = r0 // r1

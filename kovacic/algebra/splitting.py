@@ -217,6 +217,7 @@ class Ideals(Collector):
         n = len(powers)
         if value == 0:
             return [fmpq(0)] * n
+        # Rows (d, v_0, ..., v_(n-1)) generate the lattice: (0, M), (1, a), and -c^j + c^j = 0 for j > 0.
         rows = [[0, self._modulus, *[0] * (n - 1)], [1, value, *[0] * (n - 1)]]
         for j in range(1, n):
             row = [0, -powers[j], *[0] * (n - 1)]

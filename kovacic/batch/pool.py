@@ -33,6 +33,7 @@ from kovacic.process import Channel, Process
 
 # Seconds beyond the timeout in which a process may end by itself, with an answer that has the exclusions so far.
 GRACE_SECONDS = 0.25
+# Seconds for the start of a process, which takes less than one on an idle machine.
 _START_SECONDS = 120.0
 
 # A signal may come from somebody else: starts in a row, or processes of one item, that may end by one.

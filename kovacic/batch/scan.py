@@ -20,6 +20,7 @@ from kovacic.reading.read import read_input
 from kovacic.reading.substitution import Template, number_text
 from kovacic.writing.maps import CellKind, draw_cells, new_axes
 
+# Values of one parameter: `range` takes more, but nobody waits for them.
 _LARGEST_GRID = 10**9
 
 # Okabe and Ito's palette, which colour-blind readers can tell apart; "none" is light, so that the solvable values stand out.
@@ -34,6 +35,7 @@ _COLOURS_AND_NAMES = {
     "bad input": ("#777777", "not defined"),
     "failed": ("#000000", "failed"),
 }
+# Cells of a map, as many as the pixels of a large screen.
 _LARGEST_MAP = 4_000_000
 
 

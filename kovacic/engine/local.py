@@ -301,7 +301,7 @@ def rational_omega(c: ModularChart, Q: Any, degree: int) -> tuple[Any, Any] | No
 
 def omega_parts(h: Homomorphism, problem: Problem, c: ModularChart, A: Any, P: Any) -> tuple[Any, int]:
     """R and the degree of P for omega = R/D + P'/P in the coordinate x, modulo p."""
-    if c.inverted:
+    if c.inverted:  # t = 1/x
         # omega(x) = 1/x - omega_z(1/x)/x^2 with omega_z = A/B.
         B = c.D * P
         size = max(A.degree(), B.degree())

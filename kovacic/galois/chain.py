@@ -70,6 +70,7 @@ def function_of_order(H: RatFunc, k: int) -> CurveFunction | None:
     """
     model = model_of(H)
     l = lcm(*(residue.denominator for _, residue in model.poles))  # noqa: E741 - as in the module's text
+    # k D = sum k l Delta (P - P') has the class of sum 2 k l Delta P, since P + P' is principal up to infinity.
     multiples = [int(2 * k * l * residue) for _, residue in model.poles]
     pieces = _doubled(model, multiples)
     if pieces is None:

@@ -145,6 +145,7 @@ def _infinite_dihedral(N: int, f: SemiInvariant, rho: RatFunc) -> str:
     T is connected, so that over C(x, f) it and gamma are independent.  In the second case the coset is that of w zeta, w in
     N(T) of square -1 and zeta of order N; it makes a difference where zeta isn't in mu_lcm(2, n): (w zeta)^2 = 1 for N = 4.
     """
+    # gamma^(N/2)/f rational: the characters of gamma and of f, which is -1 on the coset, agree to the power N/2.
     twisted = N % 4 == 0 and _is_integral(rho * (N // 2) - f.theta)
     if twisted:
         return "O(2)" if N == 4 else f"N(T) with the scalars mu_{N // 2}, twisted"

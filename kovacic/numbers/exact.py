@@ -19,6 +19,7 @@ from kovacic.errors import InputError, LimitExceeded
 from kovacic.numbers.numerals import as_text, in_a_message, plain_text
 
 _DECIMAL_OR_FRACTION = re.compile(r"\s*([+-]?\d+)\s*/\s*(\d+)\s*|\s*([+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?)\s*")
+# Decimal exponents and characters of a number, beyond the limits of input: exact numbers of that size take seconds.
 _MAX_EXPONENT = 100_000
 _MAX_TEXT = 200_000
 

@@ -27,6 +27,7 @@ from kovacic.sturm_liouville.discs import Road, march
 from kovacic.sturm_liouville.ends import CutEnd, End
 from kovacic.sturm_liouville.problem import Span, SturmProblem, ball
 
+#: Parts of the interval, at whose ends the depth of the well is sampled; 65 avoids its middle.
 _DEPTH_SAMPLES = 65
 #: The share of the oscillations to the left of the point where the solutions are matched: no symmetric point.
 _MATCH = 0.43

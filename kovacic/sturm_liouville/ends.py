@@ -262,7 +262,7 @@ def end_of(problem: SturmProblem, side: int) -> End:
     piece = problem.pieces[-side]
     at = problem.ends[side]
     wish = problem.conditions[side]
-    inwards = 1 - 2 * side
+    inwards = 1 - 2 * side  # the sign of dx from the end into the interval
     if isinstance(wish, Robin) and not wish.is_zero and not is_regular(piece, problem, at):
         raise InputError(
             f"at {problem.x} = {at} the condition is y = 0, or that y is bounded: there is no value of y' there"

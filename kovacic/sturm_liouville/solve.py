@@ -17,6 +17,7 @@ from kovacic.sturm_liouville.levels import Eigenvalues, Level
 from kovacic.sturm_liouville.problem import Span, SturmProblem, ball
 from kovacic.sturm_liouville.search import LevelSearch
 
+#: Bits of the count at the bottom of the essential spectrum, which has to be one of few levels.
 _TOTAL_BITS = 128
 #: Pairs of periodic levels often coincide: twice the digits are tried, not more.
 _PERIODIC_SEPARATIONS = 2
