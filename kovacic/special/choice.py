@@ -92,7 +92,8 @@ def shortest(forms: Sequence[Any]) -> Any:
 def _length(form: Any) -> int:
     text = as_text(form)
     for step in form.atoms(Heaviside):
-        text = text.replace(f"({as_text(step.args[0])})", "x")
+        u = as_text(step.args[0])
+        text = text.replace(f"({u})", "x").replace("Heavisidex", f"Heaviside({u})")
     return len(text)
 
 
