@@ -9,7 +9,6 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
-from math import lcm
 from typing import Any
 
 import sympy
@@ -87,10 +86,24 @@ def _is_root(question: Question, polynomial: Poly, point: Expr) -> bool:
 
 def poles_between(question: Question, first: Expr, last: Expr) -> Iterator[Expr]:
     """The singular points without parameters between two points."""
-    of_coefficients = [*rational_poles(question), *_changed_poles(question, first, last)]
-    for pole in [*of_coefficients, *_poles_on_the_right(question, first, last)]:
-        if pole.is_number and first < pole < last:
+    x = question.x
+    equation = question.equation
+    parts = [] if equation.h is None else [equation.h]
+    if equation.change is not None:
+        if is_power(equation) and first < 0 < last:
+            yield sympy.Integer(0)
+        elif not is_power(equation) and not is_of_a_line(equation):
+            raise NotImplementedError("undecided: whether a singular point lies between the points that are given")
+        parts += [question.own(rate) for rate in _rates_in_x(equation, x)]
+    for pole in rational_poles(question):
+        if first < pole < last:
             yield pole
+    for below in {base: None for part in parts for base in _below_the_line(part, x)}:
+        for point in _zeros(below, x, first, last):
+            is_between = point.is_number and first < point < last
+            is_candidate = is_between and (equation.change is not None or is_singular(question, point))
+            if is_candidate and not _is_analytic(parts, x, point):
+                yield point
 
 
 def rational_poles(question: Question) -> Iterator[Expr]:
@@ -113,86 +126,37 @@ def _real_roots(polynomial: Expr, x: Expr) -> list[Expr]:
     return [*dict.fromkeys(roots)]
 
 
-def _changed_poles(question: Question, first: Expr, last: Expr) -> Iterator[Expr]:
-    """Singular points between two points, of an equation in t = f(k x + c)."""
-    equation = question.equation
-    if equation.change is None:
-        return
-    if is_power(equation):
-        yield from _poles_of_a_power(question)
-        return
-    if not is_of_a_line(equation):
-        raise NotImplementedError("undecided: whether a singular point lies between the points that are given")
-    value = function_of_x(equation)
-    rates = _rates_in_x(question, value)
-    for root in _poles_in_t(equation):
-        candidates = _preimages(value, root, question.x, first, last)
-        yield from (x0 for x0 in candidates if not _is_analytic(rates, question.x, x0))
-
-
-def _poles_on_the_right(question: Question, first: Expr, last: Expr) -> Iterator[Expr]:
-    """The points between two where the right-hand side has no value, of those where a denominator or a wave below is zero."""
-    h = question.equation.h
-    if h is None:
-        return
-    x = question.x
-    for below in _below_the_line(h, x):
-        for point in _zeros(below, x, first, last):
-            is_candidate = first < point < last and is_singular(question, point)
-            if is_candidate and not _is_analytic([h], x, point):
-                yield point
-
-
-def _below_the_line(h: Expr, x: Expr) -> list[Expr]:
+def _below_the_line(e: Expr, x: Expr) -> list[Expr]:
     """What poles of an expression are zeros of: bases of powers, cosines below tangents and sines below cotangents."""
-    powers = [power for power in h.atoms(sympy.Pow) if power.exp.is_Integer and power.exp < 0]
+    powers = [power for power in e.atoms(sympy.Pow) if power.exp.is_Integer and power.exp < 0]
     found = [power.base for power in powers]
-    found += [sympy.cos(f.args[0]) for f in h.atoms(sympy.tan, sympy.sec)]
-    found += [sympy.sin(f.args[0]) for f in h.atoms(sympy.cot, sympy.csc)]
+    found += [sympy.cos(f.args[0]) for f in e.atoms(sympy.tan, sympy.sec)]
+    found += [sympy.sin(f.args[0]) for f in e.atoms(sympy.cot, sympy.csc)]
     return sorted({base for base in found if base.free_symbols == {x}}, key=str)
 
 
 def _zeros(e: Expr, x: Expr, first: Expr, last: Expr) -> Iterator[Expr]:
-    """Those of a polynomial, of one in a root of x, or of a wave of a line; none of other expressions."""
-    if e.func in (sympy.sin, sympy.cos) and _is_line(e.args[0], x):
-        yield from _preimages(e, sympy.Integer(0), x, first, last)
-        return
+    """Those of a polynomial in x, in f(k x + c), or in a root or power of x; none of other expressions."""
+    t = sympy.Dummy()
     if e.is_polynomial(x):
         yield from _real_roots(e, x)
         return
-    s = sympy.Dummy(positive=True)
-    q = lcm(*(int(power.exp.q) for power in e.atoms(sympy.Pow) if power.base == x and power.exp.is_Rational))
-    in_root = e.subs(x, s**q)
-    if in_root.is_polynomial(s):
-        yield from (root**q for root in _real_roots(in_root, s) if root.is_positive)
-
-
-def _is_line(e: Expr, x: Expr) -> bool:
-    slope = e.diff(x)
-    return not slope.has(x) and slope != 0
-
-
-def _poles_in_t(equation: Equation) -> list[Expr]:
-    """Those without parameters of b/a, c/a and f/a in the variable of the equation."""
-    t = sympy.Symbol(equation.variable)
-    found: set[Expr] = set()
-    for polynomial in _denominators(equation):
-        den = Atoms(t).poly(polynomial)
-        if den.free_symbols == {t}:
-            found.update(sympy.roots(den, t))
-    return sorted(found, key=str)
-
-
-def _poles_of_a_power(question: Question) -> Iterator[Expr]:
-    """Singular points for t = x^k: 0, and the positive ones."""
-    equation = question.equation
-    t = sympy.Symbol(equation.variable)
-    yield sympy.Integer(0)
-    for polynomial in _denominators(equation):
-        roots = sympy.roots(question.own(Atoms(t).poly(polynomial)), t)
-        for root in roots.keys() - {0}:
-            if root.is_positive is not False:
-                yield root ** (1 / function_of_x(equation).exp)
+    values = {f for f in e.atoms(*_INVERSES) if f.has(x)}
+    if len(values) == 1:
+        (value,) = values
+        in_t = e.subs(value, t)
+        slope = value.args[0].diff(x)
+        if in_t.is_polynomial(t) and not in_t.has(x) and not slope.has(x):
+            for root in sympy.roots(in_t, t):
+                yield from _preimages(value, root, x, first, last)
+        return
+    powers = [power for power in e.atoms(sympy.Pow) if power.base == x and power.exp.is_number]
+    if powers:  # of one power x^k = t, or of x^(1/q) = t
+        k = sympy.gcd_list([1, *(power.exp for power in powers)]) if e.subs(powers[0], t).has(x) else powers[0].exp
+        t = sympy.Dummy(positive=True)
+        in_t = sympy.powsimp(e.subs(x, t ** (1 / k)))
+        if in_t.is_polynomial(t):
+            yield from (root ** (1 / k) for root in sympy.roots(in_t, t) if root.is_positive)
 
 
 def _preimages(value: Expr, root: Expr, x: Expr, first: Expr, last: Expr) -> Iterator[Expr]:
@@ -220,13 +184,13 @@ def _repeated(x0: Expr, step: Expr, first: Expr, last: Expr) -> Iterator[Expr]:
         yield x0 + m * step
 
 
-def _rates_in_x(question: Question, value: Expr) -> list[Expr]:
+def _rates_in_x(equation: Equation, x: Expr) -> list[Expr]:
     """The coefficients of y'' + B y' + C y = F in x: B = t' b/a - t''/t', C = t'^2 c/a, F = t'^2 f/a."""
-    equation = question.equation
     t = sympy.Symbol(equation.variable)
+    value = function_of_x(equation)
     b, c, f = (Atoms(t).ratio(part / equation.a).subs(t, value) for part in (equation.b, equation.c, equation.f))
-    slope = value.diff(question.x)
-    return [b * slope - slope.diff(question.x) / slope, c * slope**2, f * slope**2]
+    slope = value.diff(x)
+    return [b * slope - slope.diff(x) / slope, c * slope**2, f * slope**2]
 
 
 def _is_analytic(rates: Sequence[Expr], x: Expr, point: Expr) -> bool:
