@@ -9,8 +9,8 @@ position in the text, what would be too large `LimitExceeded` before it is compu
 `pieces` takes a paste apart (an equation, its values, what stands around them); `dialects` reads what may have anything in it:
 fractions, roots, bars, derivatives.  `naming` decides what every name is, and `parser` carries out the operations.  A SymPy
 expression is walked by `symbolic`.  Both call a reader, which says what numbers, names and calls mean: `expression` (S),
-`differential` (equations), or `symbolic` (SymPy's expressions, and the equations of `systems`).  Readers calculate with
-`arithmetic`, or with `linear` where an unknown function or what isn't rational may occur; `exponentials` makes exp(k x) a
-variable, and `change_of_variable` has the way back; `constants` has the field, `names` the names with a meaning; the results,
-`Equation` and `Parsed`, are `kovacic.equation`'s.
+`differential` (equations), or `symbolic` (SymPy's expressions, and systems).  Readers calculate with `arithmetic`, or with
+`linear` where an unknown function or what isn't rational may occur.  What isn't rational in x is tried by `functions`:
+`exponentials` makes exp(k x) a variable, `powers` x^k, `letters` stand for constants; `change_of_variable` has the way back to
+x.  `constants` has the field, `names` the names with a meaning; the results, `Equation` and `Parsed`, are `kovacic.equation`'s.
 """

@@ -114,7 +114,10 @@ class Arithmetic:
                 summands.fractions.append(part)
             else:
                 summands.polynomials.append(part)
-        polynomials = summands.all_polynomials()
+        polynomials = summands.polynomials
+        if summands.coefficients:
+            row = [summands.coefficients.get(k, 0) for k in range(max(summands.coefficients) + 1)]
+            polynomials = [QQ.poly(row), *polynomials]
         if not summands.fractions:
             return _total(polynomials, self._poly_sum)
         fraction = _total(summands.fractions, self._ratfunc_sum)
@@ -277,13 +280,6 @@ class _Summands:
             return False
         self.coefficients[term.power] = known + term.coefficient
         return True
-
-    def all_polynomials(self) -> list[Poly]:
-        """The monomials as one polynomial, and the others."""
-        if not self.coefficients:
-            return self.polynomials
-        row = [self.coefficients.get(k, 0) for k in range(max(self.coefficients) + 1)]
-        return [QQ.poly(row), *self.polynomials]
 
 
 def _total(parts: Sequence[T], add: Callable[[T, T], T]) -> T:

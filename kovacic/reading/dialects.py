@@ -15,8 +15,8 @@ from collections.abc import Callable, Sequence
 from itertools import pairwise
 
 from kovacic.errors import ParseError
-from kovacic.limits import Limits, check_time
-from kovacic.reading.lexer import DERIVATIVES, DOTS, PRIMES, Token, Tokens, check_length, error_at, scanned, unexpected
+from kovacic.limits import check_time
+from kovacic.reading.lexer import DERIVATIVES, DOTS, PRIMES, Token, Tokens, error_at, scanned, unexpected
 from kovacic.reading.names import BARE, FUNCTION_NAMES, GREEK, LETTER, SPECIAL_LETTERS, is_function, unglued
 from kovacic.reading.notations import LATEX, NOTATIONS, primes_of, rewritten
 
@@ -592,15 +592,6 @@ def _bars(scan: Sequence[Token]) -> dict[int, int]:
             found[opened[-1]] = k  # type: ignore[index]
             opened[-1] = None
     return found
-
-
-def tokens_of(text: str, limits: Limits, *, what: str, hint: str | None = None) -> Tokens:
-    """The tokens of a text that isn't empty and not too long; `what` it is and the `hint` are for the message."""
-    check_length(text, limits, what=what)
-    tokens = tokenize(text)
-    if len(tokens.kinds) == 1:
-        raise ParseError(f"there is no expression: {what} is empty", text=text, position=0, hint=hint)
-    return tokens
 
 
 def tokenize(text: str) -> Tokens:

@@ -66,11 +66,9 @@ class RationalReader:
 
     def notices(self) -> list[str]:
         """What the user should know about how the text was read."""
-        found = self.decimals[:_SHOWN_DECIMALS]
         more = len(self.decimals) - _SHOWN_DECIMALS
-        if more > 0:
-            found.append(f"{more} more decimals were taken exactly")
-        return found
+        rest = [f"{more} more decimals were taken exactly"] if more > 0 else []
+        return self.decimals[:_SHOWN_DECIMALS] + rest
 
     def number(self, text: str) -> Value:
         if text.isdigit():

@@ -164,8 +164,9 @@ class _LetterTable:
         line = _solved_for(base, symbols) if one in rates else None
         if line is not None:
             rates[one].append(one)
-        units = {monomial: _unit(of_monomial) for monomial, of_monomial in rates.items()}
-        for monomial in units:
+        units: dict[Expr, Expr] = {}
+        for monomial, of_monomial in rates.items():
+            units[monomial] = abs(reduce(sympy.gcd, of_monomial)) * (-1 if all(rate < 0 for rate in of_monomial) else 1)
             if monomial != 1 and not base.is_negative:
                 units[monomial] /= 2  # so that the root, which solutions often have, is rational
         roots = {monomial: self.letter(base ** (unit * monomial)) for monomial, unit in units.items()}
@@ -186,12 +187,6 @@ def _monomials(power: Expr) -> dict[Expr, Expr]:
         rate, monomial = term.as_coeff_Mul(rational=True)
         found[monomial] = found.get(monomial, sympy.S.Zero) + rate
     return found
-
-
-def _unit(rates: Sequence[Expr]) -> Expr:
-    """The greatest common divisor of rational numbers, negative where they all are negative."""
-    divisor = abs(reduce(sympy.gcd, rates))
-    return -divisor if all(rate < 0 for rate in rates) else divisor
 
 
 def _solved_for(base: Expr, known: Meanings) -> tuple[Expr, Expr, Expr] | None:

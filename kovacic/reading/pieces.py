@@ -90,11 +90,6 @@ class Paste:
     def error(self, message: str, scan: Scan, hint: str) -> ParseError:
         return error_at(self.text, message, scan, hint)
 
-    def equation_text(self) -> str:
-        """The equation as the user wrote it."""
-        scan = self.scans("equation")[0]
-        return self.text[scan[0].start : scan[-1].end]
-
 
 def taken_apart(text: str) -> Paste:
     """The pieces of a text.  Raises `ParseError` for arguments of a command that say nothing about the equation."""

@@ -108,11 +108,9 @@ def _with_note(parsed: Parsed) -> Parsed:
     from kovacic.reading.symbolic import functions_in
 
     names = ", ".join(sorted(map(str, functions_in(parsed.equation.h))))
-    if not names:
-        return parsed
-    y = parsed.equation.unknown
-    said = f"{names} on the right-hand side is any function: what is said of {y} holds for the equation with 0 there"
-    return replace(parsed, notices=(*parsed.notices, f"{said}; dsolve has solutions with it"))
+    said = f"{names} on the right-hand side is any function: what is said of {parsed.equation.unknown} holds for the"
+    notice = f"{said} equation with 0 there; dsolve has solutions with it"
+    return replace(parsed, notices=(*parsed.notices, notice)) if names else parsed
 
 
 def read_coefficients(
@@ -146,8 +144,7 @@ def _is_sympy(value: Any) -> bool:
 
 
 def _variable_name(var: Any) -> str | None:
-    is_symbol = _is_sympy(var) and getattr(var, "is_Symbol", False)
-    name = var.name if is_symbol else var
+    name = var.name if _is_sympy(var) and getattr(var, "is_Symbol", False) else var
     if not (name is None or isinstance(name, str)):
         raise InputError(f"{var!r} can't be a variable", hint="give its name, or a SymPy symbol")
     if name is not None and not name.isidentifier():

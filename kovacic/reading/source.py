@@ -60,7 +60,8 @@ def source_of(
         given = taken_apart(given)
         values = given.scans("condition")
         if values:
-            hint = f"give the equation: {given.equation_text()}"
+            scan = given.scans("equation")[0]
+            hint = f"give the equation: {given.text[scan[0].start : scan[-1].end]}"
             raise given.error("initial values are accepted by `dsolve` only", values[0], hint)
     tokens = _only_equation(given)
     vocabulary = Vocabulary(variable or given.variable, unknown, frozenset(names))

@@ -138,13 +138,11 @@ def with_values(S: Any, parsed: Parsed, assume: Mapping[Any, Any] | None, limits
 
 
 def values_among(assume: Mapping[Any, Any]) -> tuple[dict[str, Any], dict[Any, Any]]:
-    """The values, by name, and what else is assumed."""
-    told = {name: _told(str(name), what) for name, what in assume.items()}
+    """The values, by name, and what else is assumed; an inequality with two ends is in two parts."""
+    told = dict(assume)
+    for name, what in assume.items():
+        chain = relations(what) if isinstance(what, str) else None
+        if chain is not None and chain[0] == str(name):
+            told[name] = chain[1]
     others = {name: what for name, what in told.items() if _WORDS.fullmatch(plain_text(what)) is not None}
     return {str(name): what for name, what in told.items() if name not in others}, others
-
-
-def _told(name: str, what: Any) -> Any:
-    """What is said of a parameter; an inequality with two ends in two parts."""
-    chain = relations(what) if isinstance(what, str) else None
-    return what if chain is None or chain[0] != name else chain[1]

@@ -22,13 +22,13 @@ from typing import Any, NamedTuple
 import sympy
 from sympy.core.function import AppliedUndef
 
-from kovacic.errors import InputError, LimitExceeded, NotLinear, NotRational
+from kovacic.errors import InputError, LimitExceeded, NotLinear, NotRational, ParseError
 from kovacic.limits import DEFAULT_LIMITS, Limits
 from kovacic.numbers.numerals import as_text
 from kovacic.reading.arithmetic import VARIABLE, Monomial, NotAnInteger
-from kovacic.reading.dialects import tokens_of
+from kovacic.reading.dialects import tokenize
 from kovacic.reading.expression import OperationPlace, RationalReader
-from kovacic.reading.lexer import DERIVATIVES, PRIMES
+from kovacic.reading.lexer import DERIVATIVES, PRIMES, check_length
 from kovacic.reading.linear import LinearArithmetic, Symbols, differentiations
 from kovacic.reading.names import FUNCTION_NAMES, NUMBER_NAMES, NUMBERS, SEVERAL_ARGUMENTS, is_function
 from kovacic.reading.naming import Vocabulary, argument_of, differentiated
@@ -262,7 +262,11 @@ class SymbolicReader(RationalReader):
 
     def read(self, text: str) -> Any:
         """The expression that a text denotes."""
-        return self.arithmetic.expression(evaluate(tokens_of(text, self.arithmetic.limits, what=self.what), self))
+        check_length(text, self.arithmetic.limits, what=self.what)
+        tokens = tokenize(text)
+        if len(tokens.kinds) == 1:
+            raise ParseError(f"there is no expression: {self.what} is empty", text=text, position=0)
+        return self.arithmetic.expression(evaluate(tokens, self))
 
     def name(self, name: str) -> Any:
         if self.x is not None and name in self.unknowns:
