@@ -86,7 +86,7 @@ def spread_by(coefficients: Callable[[acb], tuple[acb, acb, acb, bool]], number:
 
 
 def read_start(
-    problem: NumericProblem,
+    problem: NumericProblem | None,
     x0: object,
     *,
     y0: object,
@@ -94,17 +94,20 @@ def read_start(
     frobenius: Sequence[object] | None,
     which: str | None,
 ) -> Start:
-    """The start that the arguments of `evaluate` describe."""
+    """The start that the arguments of `evaluate` describe; without a `problem` for coefficients that are functions of x."""
     if which not in (None, "regular", "decaying"):
         raise InputError(f"which = {which!r} isn't known", hint="which='regular' or which='decaying'")
     has_values = y0 is not None or dy0 is not None
     has_coordinates = frobenius is not None
     if which is not None or has_coordinates:
-        plain = "an equation {} needs y0 and dy0 at a regular point"
-        if problem.right is not None:
-            raise InputError(plain.format("with a right-hand side"))
-        if problem.embedded is not None:
-            raise InputError(plain.format("whose constants aren't rational"))
+        if problem is None:
+            reason = "whose coefficients are functions of x"
+        elif problem.right is not None:
+            reason = "with a right-hand side"
+        else:
+            reason = "whose constants aren't rational" if problem.embedded is not None else ""
+        if reason:
+            raise InputError(f"an equation {reason} needs y0 and dy0 at a regular point")
     if which == "decaying":
         if dy0 is not None or has_coordinates:
             raise InputError("the decaying solution is given by y0 alone")
@@ -117,6 +120,7 @@ def read_start(
         if y0 is None or dy0 is None:
             raise InputError("both y0 and dy0 are needed", hint=_STARTS, shell=_SHELL_STARTS)
         return Start(as_number(x0, "x0"), (as_number(y0, "y0"), as_number(dy0, "dy0")))
+    assert problem is not None
     singular = place_of(problem, x0, "x0")
     return Start(singular, _frobenius_coordinates(singular, frobenius))
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import logging
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence, Set
 from contextlib import suppress
 from dataclasses import dataclass
 from functools import lru_cache
@@ -12,17 +12,16 @@ from typing import TYPE_CHECKING, Any, Literal
 from flint import arb
 
 from kovacic.algebra.precision import working_precision
-from kovacic.enclosure.arguments import check_method, comparable, comparables, looked_up
 from kovacic.enclosure.classical import NotServed
 from kovacic.enclosure.constants import Number, as_number, to_ball
 from kovacic.enclosure.journey import Journey
-from kovacic.enclosure.points import ExactPoint
-from kovacic.enclosure.precision import Method, PointValue, number_of_digits, raise_precision
+from kovacic.enclosure.points import ExactPoint, as_point
+from kovacic.enclosure.precision import METHODS, Method, PointValue, number_of_digits, raise_precision
 from kovacic.enclosure.problem import Coefficients, NumericProblem, as_problem, change_of
 from kovacic.enclosure.rational import way_for
 from kovacic.enclosure.routes import TAYLOR, route_of
 from kovacic.enclosure.singular import Singular
-from kovacic.enclosure.start import Start, read_start
+from kovacic.enclosure.start import read_start
 from kovacic.errors import InputError, LimitExceeded, NotRational
 from kovacic.limits import Budget, Limits, limits_of
 
@@ -94,20 +93,21 @@ def question_of(
     """The solution that the keywords of `evaluate` describe."""
     limits = limits_of(limits)
     digits = number_of_digits(digits, limits)
-    check_method(method)
-    start = [comparable(value) for value in (x0, y0, dy0)]
-    given = *start, comparables(frobenius, "frobenius"), which, comparables(path, "path")
+    _check_method(method)
+    start = [_comparable(value) for value in (x0, y0, dy0)]
+    given = *start, _comparables(frobenius, "frobenius"), which, _comparables(path, "path")
     if change_of(equation) is None and not isinstance(equation, Coefficients):
         try:
             problem = as_problem(equation, params, forced=True, constants=True)
-            return AskedSolution(looked_up(journey_of, problem, *given), digits, method, limits)
+            return AskedSolution(_looked_up(journey_of, problem, *given), digits, method, limits)
         except NotRational:
             pass
     from kovacic.enclosure.functions import coefficients_of_any  # imports SymPy
 
     coefficients = coefficients_of_any(equation, params, limits)
-    _check_analytic(y0, dy0, method, which, frobenius)
-    journey, through = looked_up(analytic_journeys, coefficients, *given)
+    if method == "closed form":
+        raise InputError("the method 'closed form' is for rational coefficients", hint="leave the method out")
+    journey, through = _looked_up(analytic_journeys, coefficients, *given)
     return AskedSolution(journey, digits, method, limits, through)
 
 
@@ -136,38 +136,32 @@ def journey_of(
 
 @lru_cache(maxsize=32, typed=True)
 def analytic_journeys(
-    coefficients: Coefficients, x0: object, y0: object, dy0: object, frobenius: object, which: object, path: Path
+    coefficients: Coefficients,
+    x0: object,
+    y0: object,
+    dy0: object,
+    frobenius: Sequence[object] | None,
+    which: str | None,
+    path: Path,
 ) -> tuple[Journey, Through | None]:
     """The same where coefficients are functions of x: in x and, if the path is straight, in t."""
     if path in ("above", "below"):
         hint = "path=[v1, v2, ...] goes through these vertices"
         raise InputError(f"path={path!r} isn't for equations whose coefficients are functions of x", hint=hint)
     vertices = _vertices_of(path)
-    place = as_number(x0, "x0")
-    data = as_number(y0, "y0"), as_number(dy0, "dy0")
+    start = read_start(None, x0, y0=y0, dy0=dy0, frobenius=frobenius, which=which)
     from kovacic.enclosure.constant import ConstantWay, constant_way
     from kovacic.enclosure.through import Substitution, Through
 
     way = constant_way(coefficients)
-    journey = Journey(way, Start(place, data), vertices, chain=path == "chain")
+    journey = Journey(way, start, vertices, chain=path == "chain")
     change = None if vertices or isinstance(way, ConstantWay) else Substitution.of(coefficients)
-    if change is None or not change.is_real([place]):
+    assert not isinstance(start.place, Singular)
+    if change is None or not change.is_real([start.place]):
         return journey, None
-    start = change.start(place, data)
-    in_t = journey_of(change.problem, start.place, *start.data, None, None, path)
+    begun = change.start(start.place, start.data)
+    in_t = journey_of(change.problem, begun.place, *begun.data, None, None, path)
     return journey, Through(change, in_t)
-
-
-def _check_analytic(y0: object, dy0: object, method: str | None, which: object, frobenius: object) -> None:
-    """Raise InputError for what needs rational coefficients."""
-    if method == "closed form":
-        raise InputError("the method 'closed form' is for rational coefficients", hint="leave the method out")
-    name = "which" if which is not None else "frobenius"
-    if which is not None or frobenius is not None:
-        said = f"{name} isn't for equations whose coefficients are functions of x"
-        raise InputError(said, hint="give y0 and dy0 at a regular point")
-    if y0 is None or dy0 is None:
-        raise InputError("both y0 and dy0 are needed where coefficients are functions of x")
 
 
 def _vertices_of(path: Path) -> tuple[Number, ...]:
@@ -190,3 +184,32 @@ def _check_regular(problem: NumericProblem, numbers: Sequence[Number]) -> None:
             ball = to_ball(number)
             if any(abs(ball - z).lower() < _APART for z in problem.enclosures(256)):
                 raise InputError(f"{number} is a singular point of the equation, or can't be told from one")
+
+
+def _check_method(method: object) -> None:
+    """Raise InputError for an unknown one."""
+    if method is not None and method not in METHODS:
+        raise InputError(f"unknown method {method!r}", hint=f"one of {', '.join(map(repr, METHODS))}, or None")
+
+
+def _comparable(value: object) -> object:
+    """A number of NumPy's as a point: SymPy can't compare all of them with its own, when journeys are looked up."""
+    return as_point(value, "a number of the start") if type(value).__module__ == "numpy" else value
+
+
+def _comparables(values: object, name: str) -> Any:
+    """A sequence of numbers as a tuple of such; a word, or None, as it is."""
+    if values is None or isinstance(values, str):
+        return values
+    if isinstance(values, bytes | Mapping | Set) or not isinstance(values, Iterable):
+        raise InputError(f"{name} is a sequence of numbers, not {type(values).__name__!r}")
+    return tuple(map(_comparable, values))
+
+
+def _looked_up(cached: Any, *given: Any) -> Any:
+    """A function that keeps its values; of lists and FLINT's balls, which can't be looked up, computed anew."""
+    try:
+        hash(given)
+    except (TypeError, ValueError):
+        return cached.__wrapped__(*given)
+    return cached(*given)

@@ -22,7 +22,7 @@ from kovacic.algebra.precision import working_precision
 from kovacic.enclosure.constants import Number
 from kovacic.enclosure.frobenius import limit
 from kovacic.enclosure.matrices import Matrix, MatrixProduct, State, apply
-from kovacic.enclosure.points import ExactPoint, power_of_two, to_acb
+from kovacic.enclosure.points import ExactPoint, around_zero, power_of_two, to_acb
 from kovacic.enclosure.singular import Singular
 from kovacic.errors import InputError, LimitExceeded
 from kovacic.limits import watched_seconds
@@ -63,21 +63,14 @@ class Local:
         if u.norm_squared() > self.reach * self.reach:
             raise ArithmeticError("the target lies outside of its disc")
         with working_precision(self.precision):
-            return self._state(u)
-
-    def _state(self, u: ExactPoint) -> State:
-        h = arb((1, self.e))
-        if isinstance(self.poly, arb_poly) and u.is_real():
-            at = arb(u.x)
-            return acb(self.poly(at) + arb(0, self.error)), acb((self.slope(at) + arb(0, self.slope_error)) / h)
-        z = to_acb(u)
-        y = acb_poly(self.poly)(z)
-        dy = acb_poly(self.slope)(z)
-        return y + _square(self.error), (dy + _square(self.slope_error)) / h
-
-
-def _square(radius: arb) -> acb:
-    return acb(arb(0, radius), arb(0, radius))
+            h = arb((1, self.e))
+            if isinstance(self.poly, arb_poly) and u.is_real():
+                at = arb(u.x)
+                return acb(self.poly(at) + arb(0, self.error)), acb((self.slope(at) + arb(0, self.slope_error)) / h)
+            z = to_acb(u)
+            y = acb_poly(self.poly)(z) + around_zero(self.error, real=False)
+            dy = acb_poly(self.slope)(z) + around_zero(self.slope_error, real=False)
+            return y, dy / h
 
 
 class Followed(Protocol):
