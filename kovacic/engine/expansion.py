@@ -43,16 +43,12 @@ def polynomial_invariant(problem: Problem, m: int, N: int, valuations: Sequence[
     place = _cheapest_place(problem, m, valuations)
     D, R, T, point = _local_coefficients(problem, place, valuations)
     solutions, conditions = _local_solutions(problem, _recurrence_factors(m, D, R, T), N)
-    # The combination is unique up to a factor.  Short rows are filled with zeros: a condition that is met early
-    # doesn't concern solutions that begin later.
-    columns = len(solutions)
-    entries = [value for row in conditions for value in (*row, *[fmpq(0)] * (columns - len(row)))]
-    basis, nullity = fmpq_mat(len(conditions), columns, entries).numer_denom()[0].nullspace()
-    if nullity != 1:
+    combination = _unique_null_vector(conditions, len(solutions))
+    if combination is None:
         return None
     P = fmpq_poly([])
-    for i, solution in enumerate(solutions):
-        P += solution.truncated(N) * basis[i, 0]
+    for factor, solution in zip(combination, solutions, strict=True):
+        P += solution.truncated(N) * factor
     if place is not None and place.at_infinity:
         return RationalPoly(fmpq_poly(P.coeffs()[::-1]).left_shift(N - P.degree())).monic()
     return RationalPoly(P)(QQ.poly([-point, 1])).monic()
@@ -158,3 +154,13 @@ def _recurrence_factors(m: int, D: Any, R: Any, T: Any) -> list[Any]:
     lowest = 0 if constant_term(D) else m + 1
     polynomials = [columns.get(j, {0: 0}) for j in range(lowest, max(columns) + 1)]
     return [fmpz_poly([terms.get(k, 0) for k in range(max(terms) + 1)]) for terms in polynomials]
+
+
+def _unique_null_vector(rows: list[list[Any]], columns: int) -> list[Any] | None:
+    """The vector v with rows v = 0 if it is unique up to a factor, else None.
+
+    Short rows are filled with zeros: a condition that is met early doesn't concern the solutions that begin later.
+    """
+    entries = [value for row in rows for value in (*row, *[fmpq(0)] * (columns - len(row)))]
+    basis, nullity = fmpq_mat(len(rows), columns, entries).numer_denom()[0].nullspace()
+    return [basis[i, 0] for i in range(columns)] if nullity == 1 else None
