@@ -23,6 +23,7 @@ import sympy as sp
 from sympy import cos, sin
 
 from kovacic.ball.body import A1, A3, InRoots, U, X, x1, x2
+from kovacic.elimination import eliminated
 from kovacic.limits import Limits
 from kovacic.reading.read import read_input
 
@@ -238,9 +239,7 @@ def _elimination() -> Iterator[tuple[str, list[Any]]]:
         K["K33"] * rates[0] + K["K23"] * rates[1] - ten["a2'"] * n - ten["b2'"] * slope,
     ]
     yield "a1, a2, b1, b2", parts
-    growth = sp.diff(p["b1"], u) / p["b1"]
-    d1 = -(growth + p["a1"] + p["b2"])
-    d2 = growth * p["b2"] - sp.diff(p["b2"], u) + p["a1"] * p["b2"] - p["a2"] * p["b1"]
+    d1, d2 = eliminated(((p["b2"], p["b1"]), (p["a2"], p["a1"])), u)  # n is eliminated
     yield "(11)", [p["d1"] - d1, p["d2"] - d2]
 
 

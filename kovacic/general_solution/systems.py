@@ -18,6 +18,7 @@ from typing import Any
 import sympy
 from sympy.core.function import AppliedUndef
 
+from kovacic.elimination import eliminated
 from kovacic.errors import InputError, NotLinear
 from kovacic.general_solution.check import is_finite
 from kovacic.general_solution.conditions import Condition, ConditionReader, exact
@@ -62,13 +63,12 @@ class LinearSystem:
     @property
     def equation(self) -> Expr:
         """Equation (1) for the first unknown, b not zero."""
-        (a, b), (c, d) = self.matrix
+        (_, b), (_, d) = self.matrix
         f, g = self.right
         x, t = self.functions[0], self.t
-        rate = sympy.cancel(b.diff(t) / b)
-        first = sympy.cancel(-(a + d + rate))
-        zeroth = sympy.cancel(a * d - b * c - a.diff(t) + a * rate)
-        return sympy.Eq(x.diff(t, 2) + first * x.diff(t) + zeroth * x, f.diff(t) + b * g - (d + rate) * f)
+        first, zeroth = map(sympy.cancel, eliminated(self.matrix, t))
+        right = f.diff(t) + b * g - (d + sympy.cancel(b.diff(t) / b)) * f
+        return sympy.Eq(x.diff(t, 2) + first * x.diff(t) + zeroth * x, right)
 
     def second(self, x: Expr) -> Expr:
         """The second unknown where the first one is x, b not zero."""
