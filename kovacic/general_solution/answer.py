@@ -154,7 +154,7 @@ class SecondOrderAnswer(ProblemAnswer):
         if self.determined is not None:
             return ()
         zeros = dict.fromkeys([*self.basis.dependent, *self.basis.exceptions])
-        cases = (case for zero in zeros for case in _cases(zero.xreplace(self.own)))
+        cases = (case for zero in zeros for case in _cases(zero))
         return tuple(replace(case, _ask=self._there) for case in cases)
 
     def _there(self, case: Exceptional) -> ProblemAnswer:
@@ -164,8 +164,9 @@ class SecondOrderAnswer(ProblemAnswer):
         a, b, c, f = (
             self.question.own(e).xreplace({self.question.x: x, **self.own}) for e in self.question.coefficients
         )
+        values = {letter.xreplace(self.own): value.xreplace(self.own) for letter, value in case.values.items()}
         equation = a * y.diff(x, 2) + b * y.diff(x) + c * y - f
-        return self.ask(equation.subs(case.values), y, assume=case.assume)
+        return self.ask(equation.subs(values), y, assume=case.assume)
 
 
 @dataclass(frozen=True)
@@ -177,19 +178,32 @@ class FirstOrderAnswer(ProblemAnswer):
 
 
 def _cases(zero: Expr) -> Iterator[Exceptional]:
-    """Where an expression in letters is zero: a value of one of them; its integers, where it is sin(pi l)."""
-    inner = zero.args[0] / sympy.pi if isinstance(zero, sympy.sin) else None
-    if inner is not None and inner.is_Symbol:
-        for said in ("positive integer", "nonpositive integer"):
-            yield Exceptional(f"{inner} is a {said}", assume={inner.name: said})
+    """Where an expression in letters is zero: a value of one of them, or integers, for sin(pi l) and 1/gamma(l)."""
+    if isinstance(zero, sympy.sin) and (zero.args[0] / sympy.pi).is_Symbol:
+        yield from _integers(zero.args[0] / sympy.pi, "positive", "nonpositive")
         return
-    for letter in sorted(zero.free_symbols, key=str):
-        slope = zero.diff(letter)
-        if slope.is_number and slope.is_nonzero:
-            value = sympy.expand(letter - zero / slope)
-            yield Exceptional(f"{letter} = {value}", values={letter: value})
+    if isinstance(1 / zero, sympy.gamma):
+        number = (1 / zero).args[0]
+        if number.is_Symbol or (-number).is_Symbol:
+            yield from _integers(
+                number if number.is_Symbol else -number, "nonpositive" if number.is_Symbol else "nonnegative"
+            )
             return
+    for is_known in (lambda slope: slope.is_number, lambda slope: not slope.is_Add):
+        for letter in sorted(zero.free_symbols, key=str):
+            slope = sympy.factor(zero.diff(letter))
+            if not slope.has(letter) and is_known(slope) and slope.is_zero is not True:
+                value = sympy.expand(letter - zero / slope)
+                yield Exceptional(f"{letter} = {value}", values={letter: value})
+                return
     yield Exceptional(condition_of(zero))
+
+
+def _integers(letter: Expr, *signs: str) -> Iterator[Exceptional]:
+    """The integers of these signs that a letter can be."""
+    for sign in signs:
+        if getattr(letter, f"is_{sign}") is not False:
+            yield Exceptional(f"{letter} is a {sign} integer", assume={letter.name: f"{sign} integer"})
 
 
 def remember(answer: ProblemAnswer) -> None:

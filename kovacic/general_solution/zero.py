@@ -240,21 +240,16 @@ def _with_gammas_in_a_strip(value: Expr) -> Expr:
     >>> _with_gammas_in_a_strip(sympy.gamma(sympy.Rational(-2, 3)) + sympy.gamma(sympy.Rational(1, 3)) * 3 / 2)
     0
     """
-    known = {f: _in_a_strip(f.args[0]) for f in value.atoms(sympy.gamma) if f.args[0].is_Rational}
-    return value.xreplace({f: found for f, found in known.items() if found is not None})
-
-
-def _in_a_strip(q: Expr) -> Expr | None:
-    """Gamma(q); None for a pole and far away."""
-    steps = int(sympy.floor(q))
-    if q.is_integer or abs(steps) > _FAR:
-        return None
-    inner = q - steps
-    if inner <= sympy.Rational(1, 2):
-        strip = sympy.gamma(inner)
-    else:
-        strip = sympy.pi / (sympy.sin(sympy.pi * inner) * sympy.gamma(1 - inner))
-    return strip * sympy.rf(inner, steps)
+    known = {}
+    for f in value.atoms(sympy.gamma):
+        q = f.args[0]
+        if q.is_Rational and not q.is_integer and abs(q) <= _FAR:
+            inner = q - sympy.floor(q)
+            strip = sympy.gamma(inner)
+            if 2 * inner > 1:
+                strip = sympy.pi / (sympy.sin(sympy.pi * inner) * sympy.gamma(1 - inner))
+            known[f] = strip * sympy.rf(inner, sympy.floor(q))
+    return value.xreplace(known)
 
 
 def is_algebraic_zero(value: Expr) -> bool:

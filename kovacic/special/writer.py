@@ -341,9 +341,13 @@ class Writer:
 
 
 def _real_at(factor: Expr, x: Any, point: Expr) -> Expr:
-    """With (-u)^e for u^e where u is negative at the point."""
-    powers = (p for p in factor.atoms(sympy.Pow) if not p.exp.is_Integer and p.base.subs(x, point).is_negative)
-    return factor.xreplace({p: (-p.base) ** p.exp for p in powers})
+    """With (-u)^e for u^e where u is negative at the point, x (1 - x) for -x (x - 1)."""
+    changed = {}
+    for p in factor.atoms(sympy.Pow):
+        negative = [u for u in Mul.make_args(p.base) if u.subs(x, point).is_negative]
+        if not p.exp.is_Integer and negative:
+            changed[p] = p.base.xreplace({u: -u for u in negative}) ** p.exp
+    return factor.xreplace(changed)
 
 
 def _sine_of_letters(number: Expr) -> Expr:
