@@ -24,7 +24,6 @@ from kovacic.algebra.poly import Field, Poly
 from kovacic.algebra.precision import working_precision
 from kovacic.algebra.ratfunc import RatFunc
 from kovacic.algebra.rationals import QQ
-from kovacic.answer import Answer
 from kovacic.decision import Status
 from kovacic.derived import group
 from kovacic.equation import Equation
@@ -53,7 +52,7 @@ from kovacic.parametric.functions import (
 from kovacic.parametric.natural import Natural
 from kovacic.parametric.parametric_answer import ParametricAnswer
 from kovacic.parametric.prose import ABELIAN, NOT_ABELIAN
-from kovacic.parametric.regions import ParameterRegion, RegionVerdict, verdict_of
+from kovacic.parametric.regions import ParameterRegion, verdict_of
 from kovacic.parametric.solutions import GivenSolutions
 from kovacic.parametric.statements import Statement, Vanishes, both
 from kovacic.reading.change_of_variable import function_of_x, user_variable
@@ -153,20 +152,14 @@ def contradictions(found: ParametricAnswer, point: ParameterPoint) -> Iterator[s
     answer = found.answer_at(point)
     if answer.status is not Status.UNDECIDED and answer.case != predicted.case:
         yield f"{predicted} is printed, {verdict_of(answer.decision)} is found"
-    yield from _false_groups(predicted, answer)
+    # The kernel has verified the group of the answer.
+    said = predicted.abelian
+    known = group(answer) if said in (ABELIAN, NOT_ABELIAN) else None
+    if known is not None and known.dimension is not None and (known.dimension < 2) is not (said == ABELIAN):
+        yield f"the identity component is printed as {prose.text_of(said or ())}, and the group is {known}"
     inside = found.region_at(point)
     if inside is not None and inside.case == 1:
         yield from _false_formulas(found, inside, point, answer.S)
-
-
-def _false_groups(predicted: RegionVerdict, answer: Answer) -> Iterator[str]:
-    """A reducible group whose identity component isn't as it is printed; the kernel has verified the group of the answer."""
-    said = predicted.abelian
-    known = group(answer) if said in (ABELIAN, NOT_ABELIAN) else None
-    if known is None or known.dimension is None:
-        return
-    if (known.dimension < 2) is not (said == ABELIAN):
-        yield f"the identity component is printed as {prose.text_of(said or ())}, and the group is {known}"
 
 
 def _false_formulas(

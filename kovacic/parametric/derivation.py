@@ -22,7 +22,7 @@ from kovacic.parametric.natural import Natural
 from kovacic.parametric.partition import Partition, Settings, partition, together
 from kovacic.parametric.powers import in_powers
 from kovacic.parametric.regions import Limited, ParameterRegion, settled, verdict_of
-from kovacic.parametric.restriction import reduced, with_free_constant
+from kovacic.parametric.restriction import in_lowest_powers, with_free_constant
 from kovacic.parametric.solutions import GivenSolutions, Origin
 from kovacic.parametric.statements import Statement
 
@@ -79,7 +79,9 @@ def _distinct(regions: Iterable[ParameterRegion], constant: ParameterPoint, budg
     """The regions with statements about all parameters, each statement once, and without those that earlier ones cover."""
     different: dict[Statement, ParameterRegion] = {}
     for region in regions:
-        statement = without_implied(reduced(region.statement, constant))
+        # With high powers of the constant replaced by means of its minimal polynomial.
+        reduced = region.statement.rewritten(partial(in_lowest_powers, constant=constant))
+        statement = without_implied(reduced)
         different.setdefault(statement, replace(region, statement=statement))
     distinct = [*different.values()]
     with budget.watched(), suppress(LimitExceeded):

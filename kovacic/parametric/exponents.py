@@ -258,8 +258,7 @@ def _singular(problem: Problem) -> list[Place]:
 def _with_rational_points(problem: Problem) -> Problem | None:
     """The same problem over an extension over which its singular points are rational; None where that is too large."""
     base = problem.field
-    factor = _several_points(problem)
-    while factor is not None:
+    while factor := next((place.factor for place in problem.finite_places if place.degree > 1), None):
         if factor.degree == 2:
             extension = _square_root(factor[1] * factor[1] - 4 * factor[0], problem.field).field
         else:
@@ -268,13 +267,7 @@ def _with_rational_points(problem: Problem) -> Problem | None:
             return None
         S = RatFunc(problem.S.num.over(extension), problem.S.den.over(extension), reduced=True)
         problem = analyse(S, problem.budget)
-        factor = _several_points(problem)
     return problem
-
-
-def _several_points(problem: Problem) -> Poly | None:
-    """The first factor of the denominator whose roots aren't in the field; None without any."""
-    return next((place.factor for place in problem.finite_places if place.degree > 1), None)
 
 
 def _degree_over(field: Field, base: Field) -> int:

@@ -49,13 +49,9 @@ def plot(
     steps: int = 48,
     fixed: Mapping[str, Any] | None = None,
 ) -> Any:
-    """Draw the cases, given by their labels, over a grid of exact rational points into matplotlib axes, which are returned.
+    """Draw the cases, given by their labels, over a grid of exact rational points, so that lines such as n - 1/2 in Z are met.
 
-    `parameters` are the two that vary (by default the first two), `fixed` gives values to the others; `ranges` (by default
-    from -4 to 4) with `steps` intervals each make the grid, whose points are rational, so that lines such as
-    n - 1/2 in Z are met exactly when the step divides them.  Without `axes` a figure is made with the Agg backend; save it
-    with `axes.figure.savefig`.  Nothing is ever shown on a screen.  With one parameter, a strip is drawn.  Raises
-    `InputError` for names that aren't parameters.
+    The arguments are those of `ParametricAnswer.plot`.  Nothing is ever shown on a screen: a new figure has the Agg backend.
     """
     chosen = tuple(parameters or names[:2])
     if len(chosen) not in (1, 2) or not {*chosen} <= {*names}:

@@ -312,13 +312,11 @@ def _inside(S: RatFunc, function: FunctionPoly, settings: Settings) -> list[Para
     inner = partition(restricted, settings.on(surface))
     rest = _rest(statement, surface, restricted, inner, settings)
     special = _special(inner.regions, surface)
-    while special and special[-1].defined and _says(special[-1]) == _says(rest):
+    while special and special[-1].defined and special[-1].verdict == rest.verdict:
+        if special[-1].complete != rest.complete:
+            break
         special.pop()  # it needn't be named
     return [*_also(special, statement), rest]
-
-
-def _says(region: ParameterRegion) -> tuple[RegionVerdict, bool | str]:
-    return region.verdict, region.complete
 
 
 def _rest(

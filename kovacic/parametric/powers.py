@@ -37,7 +37,13 @@ class InPowers:
         assert isinstance(field, FunctionField)
         names = dict(zip(field.names, self.powers, strict=True))
         origin = region.origin and Carried(region.origin, partial(_with_powers, names))
-        statement = _in_factors(region.statement.rewritten(partial(_raised, powers=names)))
+
+        def raised(function: FunctionPoly) -> FunctionPoly:  # of some of the parameters
+            own = function.field
+            values = [own.generator(name) ** names.get(name, 1) for name in own.names]
+            return over_parameters(function.value_at(values, own))
+
+        statement = _in_factors(region.statement.rewritten(raised))
         return replace(region, statement=statement, origin=origin)
 
 
@@ -86,9 +92,3 @@ def _in_factors(statement: Statement) -> Statement:
         factors = union([over_parameters(factor) for factor, _ in one] for one in factored)
         return replace(statement, factors=tuple(factors))
     return statement
-
-
-def _raised(function: FunctionPoly, powers: dict[str, int]) -> FunctionPoly:
-    """The same function, with t^k for T; of some of the parameters."""
-    field = function.field
-    return over_parameters(function.value_at([field.generator(n) ** powers.get(n, 1) for n in field.names], field))

@@ -190,14 +190,6 @@ def is_named(numbers: Classes) -> bool:
     return numbers in _KINDS
 
 
-def _integral(form: FunctionPoly, letter: str) -> Math:
-    """`2*n - 1/2 in Z`: of the constant term only what it is modulo 1."""
-    constant = constant_term(form)
-    rest = function(form - constant, letter)
-    shift = f" - {-constant % 1}" if constant.denominator > 1 else ""
-    return in_set(formula(rest + shift), "Z")
-
-
 # ------------------------------------------------------------------------------- claims
 
 
@@ -218,8 +210,10 @@ def unequal(zero: FunctionPoly) -> Math:
 
 def _in_classes(claim: InClasses) -> Words:
     numbers = claim.numbers
-    if numbers == INTEGERS:
-        return (_integral(claim.form, "x"),)
+    if numbers == INTEGERS:  # 2*n - 1/2 in Z: of the constant term only what it is modulo 1
+        constant = constant_term(claim.form)
+        shift = f" - {-constant % 1}" if constant.denominator > 1 else ""
+        return (in_set(formula(function(claim.form - constant) + shift), "Z"),)
     form = formula(function(claim.form))
     if is_named(numbers):
         return (form, " is ", *kind(numbers))

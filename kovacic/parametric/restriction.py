@@ -289,11 +289,6 @@ def over_all(statement: Statement, field: FunctionField) -> Statement:
     return statement.rewritten(lambda function: function if function.field == field else in_field(function, field))
 
 
-def reduced(statement: Statement, constant: ParameterPoint) -> Statement:
-    """The same statement, with high powers of the constant replaced by means of its minimal polynomial."""
-    return statement.rewritten(lambda function: in_lowest_powers(function, constant))
-
-
 def in_lowest_powers(function: FunctionPoly, constant: ParameterPoint) -> FunctionPoly:
     """The function with its numerator in lowest powers of the constant, the last parameter of its field, if there is one."""
     if not constant.names:

@@ -105,7 +105,16 @@ def search(problem: Problem) -> Findings:
     if candidates is not None:
         findings.candidates += candidates
         wanted = {m: [Structure.REDUCIBLE] for m, structures in wanted.items() if Structure.REDUCIBLE in structures}
-    equations = _equations_by_degree(problem, wanted, findings)
+    #: The equations for the number of zeros, for each degree where there is anything to say.
+    equations: dict[int, tuple[FunctionPoly, ...] | None] = {}
+    for m, structures in wanted.items():
+        factors = _equations_for_zeros(problem, m, findings)
+        if factors == ():
+            continue
+        if any(place.kind is Kind.REGULAR and place.delta_squared is None for place in problem.places):
+            findings.unproven.append(f"case {structures[0].case}")
+        else:
+            equations[m] = factors
     # A reducible group has an invariant of degree m, which doesn't show that it is one.
     if any(Structure.REDUCIBLE in wanted[m] and not _shows(m, Structure.REDUCIBLE, wanted) for m in equations):
         _add_reducible(problem, findings)
@@ -121,22 +130,6 @@ def _shows(m: int, structure: Structure, wanted: Degrees) -> bool:
     if structure not in wanted[m]:
         return False
     return structure is not Structure.REDUCIBLE or m <= _SHOWS_CASE_1
-
-
-def _equations_by_degree(
-    problem: Problem, wanted: Degrees, findings: Findings
-) -> dict[int, tuple[FunctionPoly, ...] | None]:
-    """What `_equations_for_zeros` gives for each degree where there is anything to say."""
-    found: dict[int, tuple[FunctionPoly, ...] | None] = {}
-    for m, structures in wanted.items():
-        factors = _equations_for_zeros(problem, m, findings)
-        if factors == ():
-            continue
-        if any(place.kind is Kind.REGULAR and place.delta_squared is None for place in problem.places):
-            findings.unproven.append(f"case {structures[0].case}")
-        else:
-            found[m] = factors
-    return found
 
 
 def _degrees_that_decide(problem: Problem) -> Degrees | None:

@@ -334,21 +334,16 @@ def martinet_ramis(problem: Problem, variable: str) -> Theorem | None:
         family = phrase("the Borel group, or `G_m` where both exponential factors occur")
         where = ("abelian exactly where both exponential factors occur",)
         verdict = RegionVerdict(Structure.REDUCIBLE, family=family, abelian=where)
-    region = ParameterRegion(_condition(form), verdict, origin=origin)
-    return Theorem(name, [*restriction.undefined(problem), *irreducible_factors(form.q or form.r)], [region])
-
-
-def _condition(form: Confluent) -> Statement:
-    """That N = +-beta +- Delta is n modulo 2n; for q = 0, N = 2 Delta."""
+    # N = +-beta +- Delta is n modulo 2n; for q = 0, N = 2 Delta.
     z = form.b.field.poly([0, 0, 1])  # N^2
     delta_squared = 1 + 4 * form.b
+    equation = z - 4 * delta_squared
     if form.q:
         beta_squared = form.r * form.r / form.q
         equation = (z - beta_squared - delta_squared) ** 2 - 4 * beta_squared * delta_squared
-    else:
-        equation = z - 4 * delta_squared
     n = form.coordinate.n
-    return integer_roots(over_parameters(equation), [n], 2 * n)
+    region = ParameterRegion(integer_roots(over_parameters(equation), [n], 2 * n), verdict, origin=origin)
+    return Theorem(name, [*restriction.undefined(problem), *irreducible_factors(form.q or form.r)], [region])
 
 
 def _confluent(problem: Problem, variable: str) -> Confluent | None:
