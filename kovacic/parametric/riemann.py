@@ -17,7 +17,6 @@ Reference: T. Kimura, Funkcial. Ekvac. 12 (1969) 269-281.
 
 from __future__ import annotations
 
-import re
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass, replace
 from fractions import Fraction
@@ -182,13 +181,16 @@ class Schwarz(Statement, Claim):
 
     def sentence(self) -> Words:
         """Which differences are in which rows."""
-        names = differences(self.cubic)
-        if self.structures == (Structure.IMPRIMITIVE,) and len(names) == 3:
-            return prose.phrase(_two_half_integers(names))
+        known = differences(self.cubic)
+        if self.structures == (Structure.IMPRIMITIVE,) and known.names is not None:
+            return prose.phrase(known.two_half_integers)
         rows = [number for number, row in _SCHWARZ.items() if row.structure in self.structures]
         which = "row 1 (two half-integers)"
         if rows:
             which = f"rows {rows[0]}-{rows[-1]}"
+        names = (
+            (f"(the square roots of the roots of {shown(self.cubic, 'Z')})",) if known.names is None else known.names
+        )
         return prose.phrase(f"the exponent differences {_listed(names)} are in Schwarz's {which}")
 
     def resolved(self) -> ResolvedDifferences:
@@ -196,10 +198,10 @@ class Schwarz(Statement, Claim):
 
         Else no names, and the rows of Schwarz's table: the differences modulo 1, and whether the sum of the integers is even.
         """
-        constants = _split(self.cubic).constants
-        names = _without_numbers(differences(self.cubic))
-        if len(constants) == 1 and len(names) == 2 and constants[0] is not None:
-            return ResolvedDifferences(names, self._rows_beside(constants[0]))
+        known = differences(self.cubic)
+        third = known.constants[0] if len(known.constants) == 1 else None
+        if known.names is not None and len(known.free) == 2 and third is not None:
+            return ResolvedDifferences([*known.free], self._rows_beside(third))
         rows: list[tuple[Structure, list[Words]]] = []
         for row in _SCHWARZ.values():
             if row.structure in self.structures:
@@ -248,37 +250,78 @@ def _class(sixtieths: int, lattice: str) -> Words:
     return (Math(f"{number.text} + {lattice}", f"{number.latex} + {latex}"),)
 
 
-def _without_numbers(names: Iterable[str]) -> list[str]:
-    """The exponent differences that depend on the parameters."""
-    return [name for name in names if not re.fullmatch(r"[\d/]+", name)]
-
-
 def _listed(names: Iterable[str]) -> str:
     return ", ".join(f"`{name}`" for name in names)
 
 
-def _two_half_integers(names: list[str]) -> str:
-    """That two of the exponent differences, of which no constant one is a half-integer, are half-integers."""
-    free = _without_numbers(names)
-    for name in free:
-        if free.count(name) > 1:
-            return f"`{name}` is a half-integer"
-    if len(free) == 1:
-        return f"`{free[0]}` is a half-integer"
-    if len(free) == 2:
-        return f"`{free[0]}` and `{free[1]}` are half-integers"
-    return f"two of {_listed(free)} are half-integers"
+@dataclass(frozen=True)
+class Differences:
+    """The exponent differences whose squares are the roots of a cubic: what they are called, and those without parameters."""
+
+    #: Sums of square roots; None where one isn't.
+    names: tuple[str, ...] | None
+    #: Those of the names that aren't rational numbers.
+    free: tuple[str, ...]
+    #: Rational numbers, and None for irrational ones.
+    constants: tuple[Fraction | None, ...]
+    #: The square of the one with parameters, if there is exactly one.
+    variable: Poly | None
+
+    @property
+    def two_half_integers(self) -> str:
+        """That two of them, of which no constant one is a half-integer, are half-integers."""
+        twice = [name for name in self.free if self.free.count(name) > 1]
+        if twice or len(self.free) == 1:
+            return f"`{(twice or self.free)[0]}` is a half-integer"
+        if len(self.free) == 2:
+            return f"`{self.free[0]}` and `{self.free[1]}` are half-integers"
+        return f"two of {_listed(self.free)} are half-integers"
+
+    @property
+    def rational(self) -> str:
+        """That they are rational, those that aren't numbers anyway."""
+        if self.names is None:
+            return "the exponent differences are rational"
+        free = [*dict.fromkeys(self.free)]
+        return f"{_listed(free)} {'is' if len(free) == 1 else 'are'} rational"
+
+    @property
+    def imprimitive_group(self) -> str:
+        """Dicyclic or the infinite dihedral one, by the difference that stands beside two half-integers."""
+        halves: list[Fraction | None] = []
+        others: list[Fraction | None] = []
+        for constant in self.constants:
+            is_half = constant is not None and constant.denominator == 2
+            (halves if is_half else others).append(constant)
+        beside = [*others, *halves[2:]]
+        if len(self.constants) >= 2 and beside:
+            return "the infinite dihedral group" if beside[0] is None else "dicyclic"
+        third = "the third exponent difference"
+        if len(self.constants) == 2 and self.variable is not None:
+            third = f"`{root_written(self.variable)}`"
+        return f"dicyclic where {third} is rational, else the infinite dihedral group"
 
 
-def differences(cubic: FunctionPoly) -> list[str]:
-    """The exponent differences where they are sums of square roots over Q(t), else one text that says what they are."""
-    found: list[str] = []
+@lru_cache(maxsize=64)
+def differences(cubic: FunctionPoly) -> Differences:
+    """By the factors of the cubic: those without parameters, and those with."""
+    names: list[str] | None = []
+    free: list[str] = []
+    constants: list[Fraction | None] = []
+    squares: list[Poly] = []
     for factor, k in cubic.field.factor(cubic):
-        roots_of_it = _square_roots_of_roots(factor)
-        if roots_of_it is None:
-            return [f"(the square roots of the roots of {shown(cubic, 'Z')})"]
-        found += roots_of_it * k
-    return found
+        constant = None
+        if _has_parameters(factor):
+            squares += [factor] * k
+        else:
+            constant = rational_square_root(-factor[0]) if factor.degree == 1 else None
+            constants += [constant] * (factor.degree * k)
+        roots = _square_roots_of_roots(factor)
+        names = None if names is None or roots is None else names + roots * k
+        if roots is not None and constant is None:
+            free += roots * k
+    variable = -squares[0][0] if len(squares) == 1 and squares[0].degree == 1 else None
+    return Differences(None if names is None else tuple(names), tuple(free), tuple(constants), variable)
 
 
 def _square_roots_of_roots(factor: Poly) -> list[str] | None:
@@ -335,41 +378,17 @@ def verdict(problem: Problem, structure: Structure) -> RegionVerdict:
     multiples are rational logarithmic derivatives exactly where the exponents are rational.  On the curve w^2 = F of an
     imprimitive equation, which is rational because it has two branch points, the same holds for the third difference.
     """
-    cubic = squares_of_differences(problem)
-    split = _split(cubic)
+    known = differences(squares_of_differences(problem))
     if structure is Structure.IMPRIMITIVE:
-        return RegionVerdict(structure, family=prose.phrase(_imprimitive_group(split)))
+        return RegionVerdict(structure, family=prose.phrase(known.imprimitive_group))
     if structure is not Structure.REDUCIBLE:
         return RegionVerdict(structure)
-    if len(split.constants) >= 2 and None not in split.constants:
+    if len(known.constants) >= 2 and None not in known.constants:
         # These make the third one rational: its sum with them is an integer.
         return RegionVerdict(structure, family=prose.phrase(_CYCLIC), abelian=prose.ABELIAN)
-    rational = _rational(differences(cubic))
-    family = prose.phrase(f"{_CYCLIC}, where {rational}; else `G_m`, or the Borel group")
-    abelian = prose.phrase(f"abelian where {rational}; elsewhere exactly where the group is `G_m`")
+    family = prose.phrase(f"{_CYCLIC}, where {known.rational}; else `G_m`, or the Borel group")
+    abelian = prose.phrase(f"abelian where {known.rational}; elsewhere exactly where the group is `G_m`")
     return RegionVerdict(structure, family=family, abelian=abelian)
-
-
-def _rational(names: Iterable[str]) -> str:
-    """That the exponent differences are rational, those that aren't numbers anyway."""
-    free = _without_numbers(dict.fromkeys(names))
-    if len(free) != 1:
-        return f"{_listed(free)} are rational"
-    if free[0].startswith("(the "):
-        return "the exponent differences are rational"
-    return f"{_listed(free)} is rational"
-
-
-def _imprimitive_group(split: _Split) -> str:
-    """Dicyclic or the infinite dihedral one, by the difference that stands beside two half-integers."""
-    is_half = [difference is not None and difference.denominator == 2 for difference in split.constants]
-    halves = [difference for difference, half in zip(split.constants, is_half, strict=True) if half]
-    beside = [difference for difference, half in zip(split.constants, is_half, strict=True) if not half] + halves[2:]
-    if len(split.constants) >= 2 and beside:
-        return "the infinite dihedral group" if beside[0] is None else "dicyclic"
-    if len(split.constants) == 2 and split.variable is not None:
-        return f"dicyclic where `{root_written(split.variable)}` is rational, else the infinite dihedral group"
-    return "dicyclic where the third exponent difference is rational, else the infinite dihedral group"
 
 
 def structures(problem: Problem) -> Iterator[tuple[Structure, Statement]]:
@@ -382,7 +401,7 @@ def structures(problem: Problem) -> Iterator[tuple[Structure, Statement]]:
     z = over_parameters(cubic.field.poly([0, 0, 1]))
     sums = over_parameters(((z - s1) ** 2 - 4 * s2) ** 2 - 64 * s3 * z)  # its roots N are the four sums, up to signs
     yield Structure.REDUCIBLE, integer_roots(sums, [1], 2)
-    constants = _split(cubic).constants
+    constants = differences(cubic).constants
     always = kimura(constants)
     if always is not None:
         yield always, ALWAYS
@@ -557,27 +576,3 @@ def _numbers_in_table(line: _DifferenceLine, period: Fraction) -> set[Fraction]:
             first = (_F(k, denominator) - line.shift) / line.slope
             found |= {(first + j * step) % period for j in steps}
     return found
-
-
-@dataclass(frozen=True)
-class _Split:
-    """The constant exponent differences (None: irrational), and the square of the other one if there is exactly one."""
-
-    constants: Sequence[Fraction | None]
-    variable: Poly | None
-
-
-def _split(cubic: FunctionPoly) -> _Split:
-    """By the factors of the cubic: those without parameters, and those with."""
-    constants: list[Fraction | None] = []
-    variable: list[Poly] = []
-    for factor, multiplicity in cubic.field.factor(cubic):
-        if _has_parameters(factor):
-            variable += [factor] * multiplicity
-        elif factor.degree == 1:
-            constants += [rational_square_root(-factor[0])] * multiplicity
-        else:
-            constants += [None] * (factor.degree * multiplicity)
-    if len(variable) == 1 and variable[0].degree == 1:
-        return _Split(constants, -variable[0][0])
-    return _Split(constants, None)
