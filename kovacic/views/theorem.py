@@ -21,6 +21,7 @@ from kovacic.errors import InputError, LimitExceeded
 from kovacic.limits import DEFAULT_LIMITS, Budget
 from kovacic.parametric import prose
 from kovacic.parametric.cases import Case, outside, solvable_cases
+from kovacic.parametric.claims import IntegerFamily
 from kovacic.parametric.facts import WORDS
 from kovacic.parametric.formulas import partial_fractions
 from kovacic.parametric.integers import free_letter
@@ -29,6 +30,7 @@ from kovacic.parametric.natural import NO_FORMULA, Natural
 from kovacic.parametric.parametric_answer import ParametricAnswer
 from kovacic.parametric.regions import ParameterRegion, RegionVerdict
 from kovacic.parametric.riemann import Schwarz
+from kovacic.parametric.rows import SolutionRow, families_of, rows_of
 from kovacic.parametric.solutions import GivenSolutions, PolynomialSolution, general, translated, weight_by_signs
 from kovacic.parametric.statements import Both, Either, Statement, Vanishes, both
 from kovacic.parametric.unexpanded import unexpanded
@@ -297,12 +299,34 @@ class _TheoremWriter:
             yield from _values(naturals[0], len(region.determinants))
             return
         solutions = [*region.solution()]
+        families = families_of(region.statement.claim) if case.statement == region.statement else []
+        rows = [rows_of(solutions, family) for family in families]
+        if rows and all(rows):
+            for family, found in zip(families, rows, strict=True):
+                yield from self._in_rows(family, found, are_several=len(rows) > 1)
+            poles = prose.poles_of(families)
+            if not poles:
+                return
+            yield say("For ", *_joined_by_or(poles), ":")
         if len(solutions) > _ONE_BY_ONE:
             together = general(region.formulas, self.signs)
             if together is not None:
                 solutions = [together]
         for solution in solutions:
             yield from self._with_degree(solution, case)
+
+    def _in_rows(self, family: IntegerFamily, rows: list[SolutionRow], *, are_several: bool) -> Iterator[Block]:
+        """A formula for each progression of integers."""
+        n = family.letter
+        start: list[str | Math] = []
+        if are_several:
+            start = [prose.equals(family.parameter, family.value, n), ", "]
+        without: list[str | Math] = []
+        for root in (prose.function(pole.root, n) for pole in family.poles):
+            without += [", ", Math(f"{n} != {root}", rf"{n} \ne {latex_text(root)}")]
+        for row in rows:
+            yield say("For ", *start, *row.numbers.said(n), *without, ":")
+            yield Formula(self._named_solution(row.solution))
 
     def _with_degree(self, solution: PolynomialSolution, case: Case) -> Iterator[Block]:
         """A formula, with symbols for signs maybe, where its degree, which gets a name, is a natural number."""
@@ -482,6 +506,11 @@ def _kind_of_number(words: list[str]) -> str:
         is_integer = "even" in words or "odd" in words
         nouns = ["integer"] if is_integer else ["number"]
     return " ".join([*adjectives, *nouns])
+
+
+def _joined_by_or(parts: list[prose.Words]) -> list[str | Math]:
+    first, *others = parts
+    return [*first, *(piece for part in others for piece in (" or ", *part))]
 
 
 def _name(name: str) -> Math:

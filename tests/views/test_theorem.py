@@ -348,8 +348,10 @@ def test_the_command_prints_the_theorem(capsys: pytest.CaptureFixture[str]) -> N
 @parametrize(
     ("S", "sentence"),
     [
+        # The solutions are in the integer of the condition.
+        ("l*(l+1)/x^2 + x^2 - E", "For E = 4*n + 2*l + 3, n >= 0:"),
         # A name means one thing: the integer of the condition isn't the degree, and no group is named after a parameter.
-        ("l*(l+1)/x^2 + x^2 - E", "where N = -(E*epsilon + zeta*(2*l + 1) + 2)/4 is a natural number"),
+        ("k*(1+g/x)", "where N = (epsilon*g*sqrt(k) - zeta - 1)/2 is a natural number"),
         # What holds for l = 0 and l = -1 is said once.
         ("a*x^2 + c + l*(l+1)/x^2 + x^6", "(1) l = 0 or -1, and a = +-(2*d + 3), d in N, and Delta_d = 0."),
         (
