@@ -20,7 +20,7 @@ Expr = Any
 
 
 @dataclass(frozen=True)
-class _Line:
+class _LinearPiece:
     """Y'' = (a x + b) Y between two points."""
 
     low: Expr
@@ -72,7 +72,7 @@ def matching_equations(problem: SturmProblem, E: Expr) -> tuple[Expr, ...]:
         q = sympy.expand(piece.Q - E * piece.W)
         if not q.is_polynomial(x) or sympy.degree(q, x) > 1:
             return ()
-        lines.append(_Line(piece.low, piece.high, q.coeff(x, 1), q.coeff(x, 0)))
+        lines.append(_LinearPiece(piece.low, piece.high, q.coeff(x, 1), q.coeff(x, 0)))
     outwards = (-lines[0].a, lines[-1].a)
     falls = [end.is_infinite and not slope.is_nonnegative for end, slope in zip(problem.ends, outwards, strict=True)]
     first, last = (end.is_infinite for end in problem.ends)
@@ -96,7 +96,7 @@ def matching_equations(problem: SturmProblem, E: Expr) -> tuple[Expr, ...]:
     return (_equation(Y * ends[1][1] - slope * ends[1][0], E),)
 
 
-def _middle(lines: list[_Line], problem: SturmProblem) -> Expr | None:
+def _middle(lines: list[_LinearPiece], problem: SturmProblem) -> Expr | None:
     """The point about which the problem is even, or None."""
     x = problem.x
     low, high = problem.ends
