@@ -15,9 +15,11 @@ from hypothesis import strategies as st
 
 import kovacic
 from kovacic import InputError, LimitExceeded, Limits, NotRational, ParseError
+from kovacic.reading import notations
 from kovacic.reading.arithmetic import VARIABLE, Arithmetic
 from kovacic.reading.dialects import tokenize
 from kovacic.reading.expression import parse_with
+from kovacic.reading.lexer import scanned
 from kovacic.reading.parser import Site, evaluate
 
 # Far from every root that the small numbers of the strategies produce.
@@ -812,3 +814,15 @@ def test_two_letters_in_an_exponent_are_refused_with_the_product_as_the_hint(tex
 
 def test_the_hint_for_two_letters_in_an_exponent_is_read() -> None:
     assert kovacic.dsolve("y'' = e^(a*x)", ics={"y(0)": 0, "y'(0)": 0}).rhs.has(sympy.exp)
+
+
+_PLAIN_TOKENS = [*"xtyabeEDIn1234+-*/^()='", "**", "''", "17", "  "]
+
+
+@settings(max_examples=3000)
+@given(st.lists(st.sampled_from(_PLAIN_TOKENS), max_size=14).map("".join))
+def test_no_notation_is_looked_for_where_there_are_numbers_letters_and_signs_alone(text: str) -> None:
+    """Tables are asked unless a text is plain, and no rule of theirs has anything to say about one that is."""
+    spaced = notations.Spaced(scanned(text))
+    if notations._PLAIN.fullmatch(spaced.text):
+        assert not any(rule.pattern.search(spaced.text) for rule in (*notations.NOTATIONS, *notations.AROUND))
