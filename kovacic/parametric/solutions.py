@@ -124,7 +124,7 @@ class PolynomialSolution:
         """The solution with other expressions in the place of the parameters, by symbol."""
         conditions = tuple(condition.xreplace(values) for condition in self.conditions)
         parameters = tuple(parameter.xreplace(values) for parameter in self.jacobi)
-        y, degree = self.y.xreplace(values), sympy.sympify(self.degree).xreplace(values)
+        y, degree = self.y.xreplace(values), sympy.sympify(self.degree, strict=True).xreplace(values)
         return replace(self, y=y, degree=degree, conditions=conditions, jacobi=parameters)
 
     def __str__(self) -> str:
