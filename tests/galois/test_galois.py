@@ -721,3 +721,12 @@ def test_of_three_pairs_of_lines_the_one_with_the_fewest_zeros_is_taken(multiple
     assert solution.group.name == "dicyclic of order 8"
     assert solution.verify()
     assert "; case; omega; group;" in checker.verdict(solution.to_json(full=True))
+
+
+def test_a_divisor_that_is_principal_itself() -> None:
+    """u^2 = (y - 1)/(y + 1) on y^2 = x^3 + t: over Q(t) no prime shows an order, and the first one, 1, is right."""
+    x, t = sympy.symbols("x t")
+    f_squared = 4 * (x**3 + t) * (x**3 + t - 1) ** 2 / (9 * x**4)  # f = y1 y2 = 1/(log u)', with Wronskian 1
+    phi = f_squared.diff(x) / (2 * f_squared)
+    S = sympy.factor(phi.diff(x) / 2 + phi**2 / 4 + 1 / (4 * f_squared))
+    assert kovacic.solve(S, var="x").group.name == "dicyclic of order 8"
