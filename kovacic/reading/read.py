@@ -49,6 +49,8 @@ def read_input(
         source = source_of(S, variable, limits, unknown=unknown, equation=equation, names=names)
         parsed = _with_note(_read(S, source, limits, exponentials=exponentials))
         lost = tuple(note for note in source.notes if note not in parsed.notices)
+        if not lost and not source.guesses:
+            return parsed
         return replace(parsed, notices=(*lost, *parsed.notices), guesses=source.guesses)
     if is_rational(S):
         return Parsed(RatFunc(QQ.poly([exact_real(S, "S")])), variable or DEFAULT_VARIABLE)
