@@ -163,7 +163,7 @@ def spectrum(
         found = unsolved(V, reason, domain=domain, energy=energy, var=var, assume=assume, boundary=boundary)
     found = with_matching(found if read is None else read.physical(found))
     if unread is not None and levels is None:
-        hint = "the lowest levels of other potentials are computed as proven numbers"
+        hint = "the lowest levels are computed as proven numbers"
         python, shell = f"{hint}: levels=5", f"{hint}: --levels 5"
         if not found.matching:
             raise NotRational(str(unread), hint=python, shell=shell)

@@ -343,9 +343,7 @@ class Spectrum:
         for algebraic in self.algebraic:
             lines += _algebraic_lines(algebraic, self.energy)
         which = ("the even levels solve", "the odd levels solve") if len(self.matching) == 2 else ("the levels solve",)
-        lines += [
-            f"  {said} {_relation(one).replace('==', '=')}" for said, one in zip(which, self.matching, strict=False)
-        ]
+        lines += [f"  {said} {_relation(one)}" for said, one in zip(which, self.matching, strict=False)]
         lines += [f"  {line}" for line in self._conclusion]
         lines += [f"  {line}" for line in str(self.numeric).splitlines() if self.numeric != ()]
         hint = self.shell if shell else self.hint
@@ -563,7 +561,8 @@ def _algebraic_lines(algebraic: Algebraic, energy: str) -> list[str]:
 def _relation(relation: Any) -> str:
     if relation in (sympy.true, sympy.false):
         return str(relation)
-    return f"{_text(relation.lhs)} {relation.rel_op} {_text(relation.rhs)}"
+    sign = "=" if isinstance(relation, sympy.Eq) else relation.rel_op
+    return f"{_text(relation.lhs)} {sign} {_text(relation.rhs)}"
 
 
 def _text(expression: Any) -> str:
