@@ -10,6 +10,7 @@ A pole of gamma is a singular point of the user's equation even where S is regul
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from functools import cached_property
@@ -19,17 +20,18 @@ from flint import acb, acb_poly
 from kovacic.enclosure.classical import Classical, Closed
 from kovacic.enclosure.closed_form import value
 from kovacic.enclosure.constants import Number
+from kovacic.enclosure.frame import foreseen_growth, frequency, largest_exponent
 from kovacic.enclosure.frobenius import basis, junction
 from kovacic.enclosure.log_derivative import LogDerivative, log_derivative
 from kovacic.enclosure.matrices import Matrix, MatrixProduct, State, apply, multiply, real_part
 from kovacic.enclosure.oscillation import swing, swing_from
-from kovacic.enclosure.points import ExactPoint, to_acb, to_double
+from kovacic.enclosure.points import ExactPoint, power_of_two, to_acb, to_double
 from kovacic.enclosure.problem import NumericProblem
 from kovacic.enclosure.singular import Singular
 from kovacic.enclosure.splitting import is_split
 from kovacic.enclosure.start import logarithmic_derivative, spread_by
-from kovacic.enclosure.transport import Stop, forecast, growth_of_disc, walk
-from kovacic.enclosure.way import NOTHING, Forecast, Traveller, Way, WayStep
+from kovacic.enclosure.transport import Stop, growth_of_disc, walk
+from kovacic.enclosure.way import MAX_DISCS, NOTHING, Forecast, Traveller, Way, WayStep
 from kovacic.limits import check_time, count_work
 
 
@@ -56,7 +58,15 @@ class RationalWay(Way):
         self.problem.check_segment(a, b)
 
     def forecast(self, a: ExactPoint, b: ExactPoint) -> Forecast:
-        return forecast(self.problem.system, *self._in_discs(a, b), self.prec)
+        system = self.problem.system
+        enter, leave = self._in_discs(a, b)
+        # A disc of growth g bits, on either side of its centre, has int |S|^(1/2) below 2 (g + 10) log 2.
+        in_a_disc = 2 * (growth_of_disc(self.prec, alone=True) + 10) * math.log(2)
+        found = Forecast(enter, leave, lambda: foreseen_growth(frequency(system), enter, leave), in_a_disc)
+        e = largest_exponent(system, enter)
+        if e is not None and power_of_two(2 * e) * MAX_DISCS**2 < (leave - enter).norm_squared():
+            found.refuse()  # too many steps, were all as short as the first one has to be
+        return found
 
     def walk(self, a: ExactPoint, b: ExactPoint, *, alone: bool = False) -> Iterator[WayStep]:
         system = self.problem.system
@@ -127,7 +137,7 @@ class RationalWay(Way):
             farthest = waiting[-1].point
             self.check(here, farthest)
             product = traveller.product if inward is None else traveller.product.after(inward)
-            ahead = forecast(self.problem.system, here, farthest, self.prec)
+            ahead = self.forecast(here, farthest)
             for number, leg in enumerate(walk(self.problem.system, here, farthest, self.prec), 1):
                 served = [*leg.disc.served(self.problem.system, here, waiting)]
                 if served:

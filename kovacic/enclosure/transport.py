@@ -25,13 +25,13 @@ from typing import Any, NamedTuple
 
 from flint import acb, fmpq
 
-from kovacic.enclosure.frame import REACH, Frame, fitting, foreseen_growth, frequency, largest_exponent, log2
+from kovacic.enclosure.frame import REACH, Frame, fitting, largest_exponent, log2
 from kovacic.enclosure.matrices import Matrix, State, adjugate, apply, multiply, product
 from kovacic.enclosure.points import ExactPoint, power_of_two, to_double
 from kovacic.enclosure.splitting import legs
 from kovacic.enclosure.system import System, distance_lower, is_apart
 from kovacic.enclosure.taylor import TaylorSeries, expand, local_solution, transition
-from kovacic.enclosure.way import MAX_DISCS, Forecast, Local
+from kovacic.enclosure.way import Local
 from kovacic.errors import LimitExceeded
 from kovacic.limits import check_time, count_work
 
@@ -140,18 +140,6 @@ class Leg:
         return local_solution(self.expansion, state)
 
 
-def forecast(system: System, a: ExactPoint, b: ExactPoint, prec: int) -> Forecast:
-    """What the discs of the straight way from a to b will take; raises LimitExceeded if they are far too many."""
-    # A disc of growth g bits, on either side of its centre, has int |S|^(1/2) below 2 (g + 10) log 2.
-    found = Forecast(
-        a, b, lambda: foreseen_growth(frequency(system), a, b), 2 * (_allowed_growth(prec) + 10) * math.log(2)
-    )
-    e = largest_exponent(system, a)
-    if e is not None and power_of_two(2 * e) * MAX_DISCS**2 < (b - a).norm_squared():
-        found.refuse()  # too many steps, were all as short as the first one has to be
-    return found
-
-
 def walk(
     system: System, a: ExactPoint, b: ExactPoint, prec: int, *, growth: float | None = None, split: bool = False
 ) -> Iterator[Leg]:
@@ -169,13 +157,9 @@ def walk(
 
 
 def growth_of_disc(prec: int, *, alone: bool) -> float:
-    """The bits by which the solutions may grow in a disc: less where it is kept, for shorter polynomials at its targets."""
-    return _allowed_growth(prec) if alone else max(_KEPT_GROWTH, prec * _GROWTH)
-
-
-def _allowed_growth(prec: int) -> float:
-    """The bits by which the solutions may grow from the centre of a disc to its junctions."""
-    return max(100.0, prec * _GROWTH)
+    """The bits by which the solutions may grow from the centre of a disc to its junctions: less where it is kept, for shorter
+    polynomials at its targets."""
+    return max(100.0 if alone else _KEPT_GROWTH, prec * _GROWTH)
 
 
 def cover(system: System, a: ExactPoint, b: ExactPoint, prec: int, growth: float | None = None) -> Iterator[Disc]:
@@ -184,7 +168,7 @@ def cover(system: System, a: ExactPoint, b: ExactPoint, prec: int, growth: float
     if a == b:
         return
     if growth is None:
-        growth = _allowed_growth(prec)
+        growth = growth_of_disc(prec, alone=True)
     piece = StraightPiece(system, a, b, growth)
     t = fmpq(0)
     enter = a
