@@ -184,7 +184,9 @@ def _by_tangent(r: RatFunc, g: Poly, inner: RatFunc | None, atoms: Atoms) -> lis
     for residue in done.residues:
         tau = -residue.factor[0]
         rho = residue.value[0]
-        of_F += angle.part_of_F(tau, rho, atoms)
+        # by the first of (2) where tau < 0, else by the second
+        is_first = atoms.is_negative(tau) and bool(1 + tau)
+        of_F += -rho / (1 + tau if is_first else 2 * tau)
         terms += angle.terms_of_pole(tau, rho, atoms)
     modulus = atoms.constant(angle.m)
     return [*terms, (of_F, elliptic_f(angle.phi, modulus)), (-done.rest[1] * 2, elliptic_e(angle.phi, modulus))]
@@ -199,13 +201,6 @@ class _Angle:
     w: Expr
     phi: Expr
     m: Poly
-
-    def part_of_F(self, tau: Poly, rho: Poly, atoms: Atoms) -> Poly:
-        """The factor of F for a pole tau with the residue rho: by the first of (2) where tau < 0, else by the second."""
-        above = 1 + tau
-        if atoms.is_negative(tau) and above:
-            return -rho / above
-        return -rho / (2 * tau)
 
     def terms_of_pole(self, tau: Poly, rho: Poly, atoms: Atoms) -> list[tuple[Poly, Expr]]:
         """Pi and the logarithm for it."""

@@ -185,14 +185,12 @@ def _joined(bases: list[Poly]) -> list[Poly]:
     result = []
     while pending:
         base = pending.pop(0)
-        partner = next((other for other in pending if _are_opposite(base, other)), None)
+        # x + a beside x - a, for a other than 0
+        is_line = base.degree == 1 and bool(base[0])
+        lines = (other for other in pending if is_line and other.degree == 1)
+        partner = next((other for other in lines if base[0] * other[1] == -other[0] * base[1]), None)
         if partner is not None:
             pending.remove(partner)
             base = base * partner
         result.append(base)
     return result
-
-
-def _are_opposite(p: Poly, q: Poly) -> bool:
-    """Are these multiples of x - a and x + a, for a other than 0?"""
-    return p.degree == q.degree == 1 and bool(p[0]) and p[0] * q[1] == -q[0] * p[1]

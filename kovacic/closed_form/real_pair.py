@@ -41,10 +41,6 @@ class _SurdPair:
     powers: tuple[Power, ...]
     halves: tuple[tuple[Poly, int], ...] = ()
 
-    def rotated(self, delta: Poly, re: Poly, im: Poly) -> _SurdPair:
-        """Multiplied by re + sqrt(delta) im."""
-        return replace(self, A=self.A * re + self.B * im * delta, B=self.A * im + self.B * re)
-
 
 def is_real_pair(form: Conjugate, atoms: Atoms) -> bool:
     """Are the two solutions complex conjugates: real coefficients (for real parameters) and delta < 0?"""
@@ -126,7 +122,9 @@ def _half_turns(
     re = p.derivative() * Fraction(1, 2)
     im = p.field.poly([sign * ratio / 2])
     for _ in range(turns):
-        pair = pair.rotated(delta, re, im)
+        pair = replace(
+            pair, A=pair.A * re + pair.B * im * delta, B=pair.A * im + pair.B * re
+        )  # times re + sqrt(delta) im
     powers = (*pair.powers, Power(p, p.field.poly([-abs(q) / 2])))
     halves = ((p, sign),) if half else ()
     return replace(pair, powers=powers, halves=(*pair.halves, *halves))

@@ -114,12 +114,6 @@ class _Distribution:
         found = [*self.points, *self.apparent]
         return found if len(found) <= _WITH_APPARENT else self.points
 
-    @property
-    def least_degree(self) -> int:
-        """n + 2 points lie over 0, 1 and infinity, and as many more as there is ramification elsewhere."""
-        elsewhere = sum(int(rational_square_root(point.square) or 1) * point.degree for point in self.apparent)
-        return _count(self.points) - 2 - elsewhere - self.hidden
-
 
 def _functions(search: _Distribution) -> Iterator[tuple[Fibre, Fibre, RatFunc]]:
     """The functions f, each once, with their zeros and poles.  Raises `LimitExceeded` for too many of them."""
@@ -139,10 +133,13 @@ def _distributed(search: _Distribution) -> Iterator[tuple[Fibre, Fibre, list[Poi
     """Fibres over 0 and infinity of one degree n that have no point in common, and the points that are left over 1."""
     among = search.among
     by_degree: dict[int, list[Fibre]] = {}
+    # n + 2 points lie over 0, 1 and infinity, and as many more as there is ramification elsewhere
+    elsewhere = sum(int(rational_square_root(point.square) or 1) * point.degree for point in search.apparent)
+    least_degree = _count(search.points) - 2 - elsewhere - search.hidden
     for fibre in fibres(among, 2 * _count(among) - 4):
         search.budget.check()
         count_work(1)
-        if fibre.degree >= search.least_degree:
+        if fibre.degree >= least_degree:
             by_degree.setdefault(fibre.degree, []).append(fibre)
     for n, found in sorted(by_degree.items()):
         for zeros, poles in combinations(found, 2):

@@ -367,17 +367,11 @@ def _reducible(writer: Writer, forms: list[_GaussForm]) -> WrittenPair | None:
     even = next((form for form in signed_forms if form.alpha == form.beta), None)
     if even is not None:
         return writer.pair(*_even_and_odd(even), even.bracket_of_parity)
-    regular = next((form for form in signed_forms if _is_irreducible_at(form)), None)
-    if regular is None:
-        return None
-    return _at_two_points(regular, regular.swapped)
-
-
-def _is_irreducible_at(form: _GaussForm) -> bool:
-    """Are -alpha and -beta natural, and the upper parameters positive where they are integers?"""
-    writer = form.writer
-    are_natural = writer.is_natural(-form.alpha) and writer.is_natural(-form.beta)
-    return are_natural and all(writer.is_natural(value - 1) or not writer.is_integer(value) for value in form.upper)
+    for form in signed_forms:  # the larger exponents at 0 and at 1, and no polynomial
+        are_natural = writer.is_natural(-form.alpha) and writer.is_natural(-form.beta)
+        if are_natural and all(writer.is_natural(a - 1) or not writer.is_integer(a) for a in form.upper):
+            return _at_two_points(form, form.swapped)
+    return None
 
 
 def _jacobi(form: _GaussForm) -> WrittenPair:
@@ -427,7 +421,7 @@ def _gegenbauer(form: _GaussForm) -> WrittenPair:
         before = replace(form, alpha=form.alpha * 0, beta=form.beta * 0).factor
         scale = (-1) ** a * sympy.factorial(2 * a) / (2**a * sympy.factorial(a))
         bracket *= scale * writer.argument(4 * form.f * (1 - form.f)) ** (a / 2)
-    shown = writer.without_constant(polynomial)  # P_N(-z) is (-1)^N P_N(z)
+    shown = polynomial.as_independent(writer.atoms.x, as_Add=False)[1]  # P_N(-z) is (-1)^N P_N(z)
     return writer.pair((before, shown), second, lambda: bracket * shown / polynomial)
 
 

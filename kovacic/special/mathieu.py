@@ -16,7 +16,7 @@ import sympy
 from sympy import I, atan, cancel, mathieuc, mathieus, mathieusprime, pi, tan
 
 from kovacic.algebra.ratfunc import RatFunc
-from kovacic.closed_form.atoms import Atoms, Expr, display
+from kovacic.closed_form.atoms import Atoms, display
 from kovacic.closed_form.product import product
 from kovacic.equation import Equation
 from kovacic.reading.change_of_variable import function_of_x, user_variable
@@ -53,7 +53,11 @@ def mathieu(S: RatFunc, gauge: RatFunc, equation: Equation) -> WrittenPair | Non
     cosine, sine = (sympy.expand(part.subs(t, start)) for part in (f - mean, slope / kappa))
     if mean.has(t) or sympy.expand(cosine**2 + sine**2) == 0:
         return None
-    size, shift = _size_and_shift(cosine, sine)
+    # cosine cos(u) + sine sin(u) = size cos(u - shift)
+    size, shift = sine, pi / 2
+    if cosine:
+        ratio = sine / cosine
+        size, shift = cosine * sympy.sqrt(1 + ratio**2), atan(ratio)
     a, q = (sympy.expand(2 * part / kappa**2) for part in (-2 * mean, size))
     # exp(int gauge dt)/sqrt(s), but for its constant: v = u/sqrt(s), and s is t or 1 + t^2 times one.
     X = RatFunc(gauge.field.poly([0, 1]))
@@ -63,11 +67,3 @@ def mathieu(S: RatFunc, gauge: RatFunc, equation: Equation) -> WrittenPair | Non
     z = sympy.expand((unit * angle - shift) / 2)
     W = factor**2 * z.diff(x) * mathieuc(a, q, 0) * mathieusprime(a, q, 0)  # Mathieu's equation has no w'
     return WrittenPair(factor * mathieuc(a, q, z), factor * mathieus(a, q, z), lambda: W)
-
-
-def _size_and_shift(cosine: Expr, sine: Expr) -> tuple[Expr, Expr]:
-    """size and shift for cosine cos(u) + sine sin(u) = size cos(u - shift)."""
-    if not cosine:
-        return sine, pi / 2
-    ratio = sine / cosine
-    return cosine * sympy.sqrt(1 + ratio**2), atan(ratio)

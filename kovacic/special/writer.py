@@ -335,10 +335,6 @@ class Writer:
         """That of cos(pi N/2) even E + sin(pi N/2) odd O with `by_parity`, if E and O have 1, 0 and 0, 1 in the middle."""
         return even * sympy.cos(sympy.pi * N / 2) ** 2 - odd * sympy.sin(sympy.pi * N / 2) ** 2
 
-    def without_constant(self, polynomial: Expr) -> Expr:
-        """Without the (-1)**N of P_N(-z)."""
-        return polynomial.as_independent(self.atoms.x, as_Add=False)[1]
-
 
 def _real_at(factor: Expr, x: Any, point: Expr) -> Expr:
     """With (-u)^e for u^e where u is negative at the point, x (1 - x) for -x (x - 1)."""
