@@ -2,15 +2,15 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, replace
+from collections.abc import Collection, Mapping, Sequence
+from dataclasses import dataclass
 from typing import Any
 
 import sympy
 from sympy.core.function import AppliedUndef
 
 from kovacic.errors import InputError
-from kovacic.general_solution.conditions import Condition, ConditionReader, Term, as_mapping
+from kovacic.general_solution.conditions import Condition, ConditionReader, as_mapping, periodicity
 from kovacic.limits import DEFAULT_LIMITS, Limits, limited
 from kovacic.numbers.exact import exact_text, whole
 from kovacic.reading.names import words_among
@@ -119,7 +119,8 @@ def read_eigenproblem(
     if not isinstance(conditions, Mapping | str | None):
         raise InputError("conditions are a text or a mapping", hint='"y(0)=0, y(1)=0"')
     reader = ConditionReader(linear.function, linear.function.func.__name__)
-    given = [_with_values(reader.read(key, value), values) for key, value in as_mapping(conditions).items()]
+    named = {sympy.Symbol(name): value for name, value in values.items()}
+    given = [reader.read(key, value).in_symbols(named) for key, value in as_mapping(conditions).items()]
     ends = _interval_ends(given, domain)
     wrap, wishes = _wishes(given, ends)
     pieces, B, sign = normal_form(linear.x, linear.coefficients, ends)
@@ -143,46 +144,21 @@ class _Linear:
         return self.function.args[0]
 
 
-def _with_values(condition: Condition, values: Mapping[str, Expr]) -> Condition:
-    """The condition with values for parameters in its points and coefficients."""
-    named = {sympy.Symbol(name): value for name, value in values.items()}
-    terms = (
-        Term(t.point.xreplace(named), t.order, sympy.sympify(t.coefficient).xreplace(named)) for t in condition.terms
-    )
-    return replace(condition, terms=tuple(terms))
-
-
 def _linear_in_parameter(
     equation: Any, var: str | None, parameter: str, values: Mapping[str, Expr], limits: Limits
 ) -> _Linear:
+    """a, b, c0, c1 from the derivatives of what is zero by y'', y', y, and of that by the parameter."""
     expression, function = _expression(equation, var, words_among((parameter, *values)), limits)
     x = function.args[0]
-    named = {s: values[s.name] for s in expression.free_symbols if s.name in values}
-    expression = expression.xreplace(named)
-    symbol = next((s for s in expression.free_symbols if s.name == parameter and s != x), None)
-    if symbol is None:
-        names = ", ".join(sorted(s.name for s in expression.free_symbols - {x})) or "none"
-        raise InputError(
-            f"the parameter {parameter} doesn't occur in the equation",
-            hint=f'names in it: {names}; parameter="E" names another',
-            shell=f"names in it: {names}; --parameter E names another",
-        )
-    others = expression.free_symbols - {x, symbol}
-    if others:
-        needed = sorted(s.name for s in others)
-        raise InputError(
-            f"eigenvalues are numbers: values are needed for {', '.join(needed)}",
-            hint=f"params={dict.fromkeys(needed, 3)}, for instance",
-            shell=" ".join(f"--param {name}=3" for name in needed) + ", for instance",
-        )
-    unknown = [sympy.Dummy("y2"), sympy.Dummy("y1"), sympy.Dummy("y0")]
-    derivatives = [function.diff(x, 2), function.diff(x), function]
-    plain = expression.doit().xreplace(dict(zip(derivatives, unknown, strict=True)))
-    a, b, c = (sympy.expand(plain.diff(u)) for u in unknown)
-    rest = sympy.expand(plain - sum(k * u for k, u in zip((a, b, c), unknown, strict=True)))
+    expression = expression.xreplace({s: values[s.name] for s in expression.free_symbols if s.name in values})
+    symbol = _parameter_among(expression.free_symbols - {x}, parameter)
+    y2, y1, y0 = letters = sympy.symbols("y2 y1 y0", cls=sympy.Dummy)
+    derivatives = (function.diff(x, 2), function.diff(x), function)
+    plain = expression.doit().xreplace(dict(zip(derivatives, letters, strict=True)))
+    a, b, c = (sympy.expand(plain.diff(letter)) for letter in letters)
     c1 = sympy.simplify(c.diff(symbol))
-    is_linear = rest == 0 and not (a.has(symbol) or b.has(symbol) or c1.has(symbol)) and a != 0
-    if not is_linear or plain.atoms(AppliedUndef):
+    is_linear_in_y = sympy.expand(plain - a * y2 - b * y1 - c * y0) == 0 and not plain.has(AppliedUndef)
+    if a == 0 or not is_linear_in_y or any(part.has(symbol) for part in (a, b, c1)):
         raise InputError(
             f"a y'' + b y' + (c0 + {parameter} c1) y = 0 is expected, linear in y and in {parameter}",
             hint=f"where {parameter}^2 stands, call that {parameter}",
@@ -190,6 +166,26 @@ def _linear_in_parameter(
     if c1 == 0:
         raise InputError(f"the parameter {parameter} cancels out of the equation")
     return _Linear(function, (a, b, sympy.expand(c - symbol * c1), c1))
+
+
+def _parameter_among(symbols: Collection[Expr], parameter: str) -> Expr:
+    """The symbol with this name, where there is no other one.  Raises `InputError`."""
+    names = sorted(s.name for s in symbols)
+    if parameter not in names:
+        said = f"names in it: {', '.join(names) or 'none'}"
+        raise InputError(
+            f"the parameter {parameter} doesn't occur in the equation",
+            hint=f'{said}; parameter="E" names another',
+            shell=f"{said}; --parameter E names another",
+        )
+    needed = [name for name in names if name != parameter]
+    if needed:
+        raise InputError(
+            f"eigenvalues are numbers: values are needed for {', '.join(needed)}",
+            hint=f"params={dict.fromkeys(needed, 3)}, for instance",
+            shell=" ".join(f"--param {name}=3" for name in needed) + ", for instance",
+        )
+    return next(iter(symbols))
 
 
 def _expression(equation: Any, var: str | None, names: Sequence[str], limits: Limits) -> tuple[Expr, Expr]:
@@ -255,7 +251,14 @@ def _wishes(conditions: Sequence[Condition], ends: tuple[Expr, Expr]) -> tuple[i
                 f"{condition.text}: the conditions of eigenvalue problems are homogeneous, with 0 on one side"
             )
     if any(len(set(condition.points)) > 1 for condition in conditions):
-        return _periodicity(conditions, ends), (None, None)
+        wrap = periodicity(conditions, ends)
+        if not wrap:
+            a, b = ends
+            raise InputError(
+                "conditions on both ends together are periodic or antiperiodic ones",
+                hint=f"y({a}) = y({b}), y'({a}) = y'({b}), or both with a minus sign",
+            )
+        return wrap, (None, None)
     wishes: list[Wish] = [None, None]
     for condition in conditions:
         side = ends.index(condition.points[0])
@@ -269,20 +272,3 @@ def _wish(condition: Condition) -> Wish:
     if condition.value is None:
         return Bounded()
     return Robin.of(((term.order, term.coefficient) for term in condition.terms), condition.text)
-
-
-def _periodicity(conditions: Sequence[Condition], ends: tuple[Expr, Expr]) -> int:
-    """1 for y(a) = y(b), y'(a) = y'(b), and -1 for the same with a sign.  Raises `InputError` for others."""
-    quotients = {}
-    for condition in conditions:
-        orders = {term.order for term in condition.terms}
-        at = {term.point: term.coefficient for term in condition.terms}
-        if len(orders) == 1 and len(at) == 2:
-            quotients[orders.pop()] = sympy.simplify(-at[ends[1]] / at[ends[0]])
-    if len(conditions) == 2 and quotients in ({0: 1, 1: 1}, {0: -1, 1: -1}):
-        return int(quotients[0])
-    a, b = ends
-    raise InputError(
-        "conditions on both ends together are periodic or antiperiodic ones",
-        hint=f"y({a}) = y({b}), y'({a}) = y'({b}), or both with a minus sign",
-    )

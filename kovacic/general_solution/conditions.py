@@ -7,7 +7,7 @@ y(a) = "bounded" that it stays bounded.
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
@@ -63,6 +63,26 @@ class Condition:
     def is_value(self) -> bool:
         """Is it y(a) = v or y'(a) = v?"""
         return len(self.terms) == 1 and self.terms[0].coefficient == 1 and self.value is not None
+
+    @property
+    def by_order(self) -> tuple[Expr, Expr]:
+        """alpha and beta, where the terms are alpha y + beta y' at one point."""
+        parts = [sympy.S.Zero, sympy.S.Zero]
+        for term in self.terms:
+            parts[term.order] += term.coefficient
+        return parts[0], parts[1]
+
+
+def periodicity(conditions: Sequence[Condition], ends: tuple[Expr, Expr]) -> int:
+    """1 for y(a) = y(b), y'(a) = y'(b), -1 for y(a) = -y(b), y'(a) = -y'(b), and 0 for other conditions."""
+    factors = {}
+    for condition in conditions:
+        orders = {term.order for term in condition.terms}
+        at = {term.point: term.coefficient for term in condition.terms}
+        if len(orders) == 1 and {*at} == {*ends}:
+            factors[orders.pop()] = sympy.simplify(-at[ends[1]] / at[ends[0]])
+    is_periodic = len(conditions) == 2 and factors in ({0: 1, 1: 1}, {0: -1, 1: -1})
+    return int(factors[0]) if is_periodic else 0
 
 
 def as_mapping(ics: Mapping[Any, Any] | str | None) -> dict[Any, Any]:

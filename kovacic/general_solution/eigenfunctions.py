@@ -5,7 +5,6 @@ Two homogeneous conditions at two points, and an equation with lambda (or mu) in
 
 from __future__ import annotations
 
-from collections.abc import Iterator
 from typing import Any
 
 import sympy
@@ -13,7 +12,7 @@ import sympy
 from kovacic.enclosure.functions import in_the_given_variable
 from kovacic.equation import Equation
 from kovacic.errors import InputError, LimitExceeded
-from kovacic.general_solution.conditions import Condition
+from kovacic.general_solution.conditions import periodicity
 from kovacic.general_solution.question import Question
 from kovacic.sturm_liouville.families import EigenvalueFamily, family
 from kovacic.sturm_liouville.problem import Robin, SturmProblem, normal_form
@@ -81,32 +80,14 @@ def _conditions(question: Question) -> tuple[tuple[Expr, Expr], Any] | None:
         if given[0].points[0] == given[1].points[0]:
             return None
         first, second = sorted(given, key=lambda condition: condition.points[0] != low)
-        return (low, high), (_robin(first), _robin(second))
-    wraps = {tuple(_wrap(condition, low)) for condition in given}
-    for sign in (1, -1):
-        if wraps == {(0, -sign), (1, -sign)}:
-            return (low, high), sign
-    return None
+        return (low, high), (Robin(*first.by_order), Robin(*second.by_order))
+    sign = periodicity(given, (low, high))
+    return ((low, high), sign) if sign else None
 
 
 def _positive(e: Expr) -> Expr:
     """With positive symbols."""
     return e.xreplace({s: sympy.Symbol(s.name, positive=True) for s in e.free_symbols})
-
-
-def _robin(condition: Condition) -> Robin:
-    parts = [sympy.S.Zero, sympy.S.Zero]
-    for term in condition.terms:
-        parts[term.order] += term.coefficient
-    return Robin(*parts)
-
-
-def _wrap(condition: Condition, low: Expr) -> Iterator[Any]:
-    """The order and the quotient of the coefficients at the two ends."""
-    yield condition.terms[0].order
-    at = {term.point == low: term.coefficient for term in condition.terms}
-    same = len({term.order for term in condition.terms}) == 1 and len(at) == 2
-    yield sympy.simplify(at[False] / at[True]) if same else None
 
 
 def _is_solution(found: EigenvalueFamily, B: Expr, c: Expr, x: Expr) -> bool:
