@@ -229,21 +229,22 @@ def _letters(symbols: set[Expr]) -> Iterator[dict[Expr, Expr]]:
 def is_refuted(value: Expr | None, y: Expr, x: Expr, place: Approach) -> bool:
     """Do values near the point show that y doesn't tend to the value, or for None isn't bounded?  False where they are lost."""
     e = y if value is None else y - value
-    sample = next(_letters(e.free_symbols - {x}))
-    for stages in _STAGES:
-        sizes = [_size_near(e.xreplace(sample), x, place, t) for t in stages]
-        if None not in sizes:
-            far, middle, near = sizes
-            return bool(near > middle * 2) and bool(middle > far * 2)
-    return False
+    sizes = _sizes_near(e.xreplace(next(_letters(e.free_symbols - {x}))), x, place)
+    return bool(sizes) and all(bool(near > far * 2) for far, near in pairwise(sizes))
 
 
 def _approaches(found: Expr, e: Expr, x: Expr, place: Approach) -> bool:
+    sizes = _sizes_near(e, x, place)
+    return bool(sizes) and all(_is_nearer(found, far, near) for far, near in pairwise(sizes))
+
+
+def _sizes_near(e: Expr, x: Expr, place: Approach) -> list[Any]:
+    """The size at three distances, from the largest on; none where the values are lost."""
     for stages in _STAGES:
         sizes = [_size_near(e, x, place, t) for t in stages]
         if None not in sizes:
-            return all(_is_nearer(found, far, near) for far, near in pairwise(sizes))
-    return False
+            return sizes
+    return []
 
 
 def _is_nearer(found: Expr, far: Any, near: Any) -> bool:
@@ -313,23 +314,21 @@ def _none(_: Sequence[Any], z: Expr) -> None:
     return None
 
 
-def _zeta(z: Expr) -> Expr:
-    return 2 * z ** Rational(3, 2) / 3
+def _airy(constant: Expr, sign: int, power: Rational, wave: Any, shift: Expr) -> tuple[Rule, Rule]:
+    """Ai, Bi and their derivatives: constant e^(+-zeta) z^power/sqrt(pi) with zeta = 2 z^(3/2)/3, and waves of zeta."""
+
+    def zeta(z: Expr) -> Expr:
+        return 2 * z ** Rational(3, 2) / 3
+
+    return (
+        lambda _, z: constant * exp(sign * zeta(z)) * z**power / sqrt(pi),
+        lambda _, z: wave(zeta(z) + shift) * z**power / sqrt(pi),
+    )
 
 
-def _airy(constant: Expr, sign: int, power: Rational) -> Rule:
-    """Ai, Bi and their derivatives at infinity: a constant times exp(-+2 z^(3/2)/3) z^(-+1/4)."""
-    return lambda _, z: constant * exp(sign * _zeta(z)) * z**power / sqrt(pi)
-
-
-def _airy_wave(wave: Any, shift: Expr, power: Rational, constant: int = 1) -> Rule:
-    """The same at minus infinity: waves."""
-    return lambda _, z: constant * wave(_zeta(z) + shift) * z**power / sqrt(pi)
-
-
-def _bessel_wave(wave: Any) -> Rule:
+def _bessel_wave(wave: Any) -> tuple[Rule, Rule]:
     """J and Y: waves with the amplitude sqrt(2/(pi z))."""
-    return lambda p, z: sqrt(2 / (pi * z)) * wave(z - p[0] * pi / 2 - pi / 4)
+    return lambda p, z: sqrt(2 / (pi * z)) * wave(z - p[0] * pi / 2 - pi / 4), _none
 
 
 def _polynomial(leading: Callable[..., Expr]) -> tuple[Rule, Rule]:
@@ -462,12 +461,12 @@ _AT_ZERO: dict[Any, Rule] = {
 }
 #: For arguments z and -z, z to +oo.
 _AT_INFINITY: dict[Any, tuple[Rule, Rule]] = {
-    sympy.airyai: (_airy(sympy.S.Half, -1, -Rational(1, 4)), _airy_wave(cos, -pi / 4, -Rational(1, 4))),
-    sympy.airybi: (_airy(_ONE, 1, -Rational(1, 4)), _airy_wave(cos, pi / 4, -Rational(1, 4))),
-    sympy.airyaiprime: (_airy(-sympy.S.Half, -1, Rational(1, 4)), _airy_wave(sin, -pi / 4, Rational(1, 4))),
-    sympy.airybiprime: (_airy(_ONE, 1, Rational(1, 4)), _airy_wave(sin, pi / 4, Rational(1, 4))),
-    sympy.besselj: (_bessel_wave(cos), _none),
-    sympy.bessely: (_bessel_wave(sin), _none),
+    sympy.airyai: _airy(sympy.S.Half, -1, -Rational(1, 4), cos, -pi / 4),
+    sympy.airybi: _airy(_ONE, 1, -Rational(1, 4), cos, pi / 4),
+    sympy.airyaiprime: _airy(-sympy.S.Half, -1, Rational(1, 4), sin, -pi / 4),
+    sympy.airybiprime: _airy(_ONE, 1, Rational(1, 4), sin, pi / 4),
+    sympy.besselj: _bessel_wave(cos),
+    sympy.bessely: _bessel_wave(sin),
     sympy.besseli: (lambda _, z: exp(z) / sqrt(2 * pi * z), _none),
     sympy.besselk: (lambda _, z: exp(-z) * sqrt(pi / (2 * z)), _none),
     sympy.hyper: (_confluent, _confluent_below),
