@@ -5,7 +5,7 @@ statement with Kovacic's case, and whether the list is proven to be complete.  R
 module:
 
 1. `api` reads S, and makes an algebraic constant one more parameter; `assumptions` are what is known about the parameters:
-   `facts` reads the words, and `sympy_words` has those for SymPy's symbols;
+   `facts` reads the words, and what SymPy knows of its symbols;
 2. `partition` asks the engine for the generic answer, and treats the values at which S changes by recursion on hypersurfaces:
    `restriction` says which these are, and gives S there;
 3. `theorems` describe all other values where there are few singular points, maybe in z = s^n: Kimura's (`riemann`, at most
@@ -16,6 +16,7 @@ module:
 6. `regions`: statement, case and group, without those that earlier ones cover;
 7. `claims`: what is printed of a statement, true or false at a point as a reader takes it; `solving` makes them, with every
    stratum of a condition that was solved for a parameter; `prose` alone writes them, and `formulas` the functions in them;
+   `solutions` are formulas for a region, `rows` those in the integer of its condition;
 8. `parametric_answer`: what is returned; statements as data by `record`; `check` compares with the engine at exact points,
    `map` draws.
 """

@@ -44,7 +44,14 @@ def find_conditions(
     parsed, letters = spelled(parsed)
     names = parameters_of(parsed.S.field)
     if not names:
-        raise _without_parameters(parsed, given, is_guessed=var is None)
+        what = "S has no parameters"
+        if parsed is not given:
+            what = "every parameter has a value"
+        elif var is None and parsed.S.degree:  # one was taken for x, maybe
+            what += f": {parsed.variable} is taken for the variable"
+        hint = "solve decides equations without parameters;"
+        python = f"{hint} var= says which name is the variable"
+        raise InputError(what, hint=python, shell=f"{hint} --var says which name is the variable")
     most = whole(max_degree, "max_degree")
     known = read_assumptions(assume, S, names)
     if PI in names:
@@ -53,19 +60,6 @@ def find_conditions(
         known = known.also(name, ("nonzero",))
     found = conditions_of(parsed, known, most, limits, letters)
     return replace(found, given=S) if isinstance(S, str) else found
-
-
-def _without_parameters(parsed: Parsed, given: Parsed, *, is_guessed: bool) -> InputError:
-    """What is said where all parameters of the `given` input got values, or there were none; maybe one was taken for x."""
-    if parsed is not given:
-        what = "every parameter has a value"
-    elif is_guessed and parsed.S.degree:
-        what = f"S has no parameters: {parsed.variable} is taken for the variable"
-    else:
-        what = "S has no parameters"
-    hint = "solve decides equations without parameters;"
-    python = f"{hint} var= says which name is the variable"
-    return InputError(what, hint=python, shell=f"{hint} --var says which name is the variable")
 
 
 def conditions_of(

@@ -81,8 +81,12 @@ class Assumptions:
     def __str__(self) -> str:
         """`m positive integer, n > 1/2`."""
         parts: list[str] = []
-        for name, known in self.known:
-            parts += _written(name, known.words)
+        for name, known in self.known:  # the words together, and each relation
+            others = [word for word in known.words if not is_relation(word)]
+            if others:
+                parts.append(f"{name} {' '.join(others)}")
+            relations = filter(is_relation, known.words)
+            parts += [re.sub("^([<>]=?|!=)", rf"{name} \1 ", word) for word in relations]
         return ", ".join(parts)
 
     def symbols(self) -> dict[str, Any]:
@@ -326,13 +330,3 @@ def _has_number_between(residue: Fraction, modulus: Fraction, bounds: Sequence[B
     low = max(bounds, key=lambda bound: bound.sign)
     first = residue + ceil((low.end - residue) / modulus) * modulus
     return any(all(bound.admits(number) for bound in bounds) for number in (first, first + modulus))
-
-
-def _written(name: str, words: Iterable[str]) -> list[str]:
-    """What is known about one parameter: the words together, and each relation."""
-    relations = [word for word in words if is_relation(word)]
-    others = [word for word in words if word not in relations]
-    found = [re.sub("^([<>]=?|!=)", rf"{name} \1 ", word) for word in relations]
-    if others:
-        found.insert(0, f"{name} {' '.join(others)}")
-    return found

@@ -37,7 +37,7 @@ from kovacic.parametric.record import (
     verdict_data,
     verdict_from,
 )
-from kovacic.parametric.regions import Limited, ParameterRegion, RegionVerdict, Theory, said_of, settled
+from kovacic.parametric.regions import Limited, ParameterRegion, RegionVerdict, Theory, settled
 from kovacic.parametric.solutions import Later, Origin
 from kovacic.parametric.statements import Statement, both
 from kovacic.reading.constants import with_root
@@ -620,7 +620,7 @@ class ParametricAnswer:
             for number in range(len(region.determinants)):
                 known += region.solution(number)
             said = [*map(str, known)] or [region.why_no_solution] * (region.case == 1)
-            lines += ["", f"{region.statement.text()}: {said_of(region)}", *(f"  {line}" for line in said)]
+            lines += ["", f"{region.statement.text()}: {region.said}", *(f"  {line}" for line in said)]
         return visible("\n".join(lines))
 
     def __str__(self) -> str:

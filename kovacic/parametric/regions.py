@@ -265,30 +265,28 @@ class ParameterRegion:
         return self.verdict.group if self.defined else "S isn't defined"
 
     @property
+    def said(self) -> str:
+        """What holds in words: the case, or that S isn't defined."""
+        return str(self.verdict) if self.defined else self.group
+
+    @property
     def plain(self) -> bool:
         """Is there nothing to say beside the statement and the case?"""
         is_proven = self.complete is True and self.verdict.known
         return self.defined and is_proven and self.shown_degree is None
 
     def __repr__(self) -> str:
-        return f"<ParameterRegion {self.statement.text()}: {said_of(self)}>"
+        return f"<ParameterRegion {self.statement.text()}: {self.said}>"
 
     def _repr_latex_(self) -> str:
-        return rf"${self.statement.latex()}\colon\ \text{{{said_of(self)}}}$"
+        return rf"${self.statement.latex()}\colon\ \text{{{self.said}}}$"
 
     def __str__(self) -> str:
         known = ""
         if self.defined and self.complete is not True:
             known = f" [{self.complete}]"
-        first = f"{self.statement.text()}: {said_of(self)}{known}"
+        first = f"{self.statement.text()}: {self.said}{known}"
         return "\n      ".join([first, *self.determinants])
-
-
-def said_of(region: ParameterRegion) -> str:
-    """What holds in a region in words: the case, or that S isn't defined."""
-    if region.defined:
-        return str(region.verdict)
-    return region.group
 
 
 def settled(

@@ -410,7 +410,10 @@ class _TheoremWriter:
             if m == 1:
                 yield from self._delta_of_omega(letters[m])
             else:
-                yield _delta_of_invariant(letters[m], m)
+                delta = _delta_named(letters[m])
+                what = f" for an invariant of degree {m} says that there is a rational function of x that is "
+                what += f"a form of degree {m} in two solutions and has "
+                yield say(delta.equals(Math("0", "0")), what, _name(letters[m]), " zeros.")
 
     def _delta_of_omega(self, d: str) -> Iterator[Block]:
         """Where omega is rational: the equation of the polynomial of degree d."""
@@ -488,14 +491,6 @@ def _written(equation: Equation | None) -> tuple[str, str]:
 
 def _delta_named(d: str) -> Math:
     return Math(f"Delta_{d}", rf"\Delta_{{{d}}}")
-
-
-def _delta_of_invariant(d: str, m: int) -> Block:
-    """Where an invariant of degree m has d zeros."""
-    delta = _delta_named(d)
-    what = f" for an invariant of degree {m} says that there is a rational function of x that is "
-    what += f"a form of degree {m} in two solutions and has "
-    return say(Math(f"{delta.text} = 0", f"{delta.latex} = 0"), what, _name(d), " zeros.")
 
 
 def _kind_of_number(words: list[str]) -> str:

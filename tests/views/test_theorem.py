@@ -349,7 +349,7 @@ def test_the_command_prints_the_theorem(capsys: pytest.CaptureFixture[str]) -> N
     ("S", "sentence"),
     [
         # The solutions are in the integer of the condition.
-        ("l*(l+1)/x^2 + x^2 - E", "For E = 4*n + 2*l + 3, n >= 0:"),
+        ("l*(l+1)/x^2 + x^2 - E", "For E = 4*n - 2*l + 1, n >= 0:"),
         # A name means one thing: the integer of the condition isn't the degree, and no group is named after a parameter.
         ("k*(1+g/x)", "where N = (epsilon*g*sqrt(k) - zeta - 1)/2 is a natural number"),
         # What holds for l = 0 and l = -1 is said once.
