@@ -60,7 +60,7 @@ def blocks() -> list[dict[str, Any]]:
     import sys
 
     import kovacic
-    from kovacic.enclosure import points
+    from kovacic.algebra import precision as points
 
     original, counts = points.working_precision, [0]
 

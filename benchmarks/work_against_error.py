@@ -99,14 +99,14 @@ def correct(values: list[Any], exact: list[Any]) -> float:
 
 def ours(problem: tuple[Any, ...], exact: list[Any]) -> list[dict[str, Any]]:
     import kovacic
-    from kovacic.enclosure import analytic, functions, states
+    from kovacic.enclosure import functions, states
     from kovacic.enclosure import problem as problems
 
     name, equation, x0, first, second, _ = problem
     rows = []
     for method in ("taylor", "closed form"):
         for digits in DIGITS:
-            for cached in (states.journey_of, analytic._journey_of, problems._of_text, functions._of_text):
+            for cached in (states.journey_of, states.analytic_journeys, problems._of_text, functions._of_text):
                 cached.cache_clear()
             start = {"x0": x0, "y0": 1, "dy0": 0, "digits": digits, "method": method}
             try:
