@@ -49,7 +49,7 @@ class Answer:
     limits: Limits = field(default=DEFAULT_LIMITS, compare=False)
     known: KnownParameters | None = field(default=None, compare=False)
     #: Parameters of S that stand for constants, as SymPy expressions: e for Euler's number.
-    letters: tuple[tuple[str, Any], ...] = ()
+    letters: tuple[tuple[str, Any], ...] = field(default=(), compare=False)
 
     @property
     def gauge(self) -> RatFunc:

@@ -139,7 +139,6 @@ class _Parser:
         self.argument_lists = 0
 
     def read(self) -> Any:
-        """The value of the text."""
         operand_is_next = True
         for k, kind in enumerate(self.kinds):
             table = _PREFIX if operand_is_next else _INFIX
@@ -154,7 +153,6 @@ class _Parser:
         return self.reader.equation(left.value, right.value)
 
     def at(self, begin: int, right: int, end: int) -> None:
-        """Says where the next operation stands."""
         site = self.site
         site.begin = begin
         site.right = right
@@ -173,7 +171,6 @@ class _Parser:
         return True
 
     def head(self, k: int) -> bool:
-        """The name of a function."""
         self.at(k, k, k + 1)
         self.open(_Group(k, is_call=True))
         self.argument_lists += 1
@@ -463,7 +460,6 @@ def _comma(tokens: Tokens, k: int) -> _Fault:
 
 
 def shown(value: Any, width: int = 40) -> str:
-    """Any value as text, shortened."""
     try:
         return shortened(str(value), width)
     except ValueError:  # Python prints integers of at most 4300 digits

@@ -274,7 +274,6 @@ class _Apart:
         raise error_at(self.text, said, number, f"leave it out, or write {label}* for a factor")
 
     def statement(self, scan: list[Token], *, is_alone: bool) -> None:
-        """Gives a statement its role."""
         if not scan:
             return
         if scan[0].text in _DECLARATIONS or (len(scan) == 1 and scan[0].text in SOLVERS):
@@ -320,7 +319,6 @@ class _Apart:
         return True
 
     def resolved(self, part: list[Token]) -> list[Token]:
-        """What was assigned to a name."""
         return self.named.pop(part[0].text, part) if len(part) == 1 else part
 
     def list_of(self, scan: list[Token]) -> bool:
@@ -498,7 +496,6 @@ def _listed(scan: Scan, signs: Collection[str] = (",",)) -> list[list[Token]]:
 
 
 def _unquoted(part: list[Token]) -> list[Token]:
-    """Without quotation marks around it."""
     while len(part) > 2 and part[0].kind == part[-1].kind == "PRIMES" and part[0].text == part[-1].text:
         part = part[1:-1]
     return part

@@ -62,7 +62,6 @@ def walked(expression: Any, reader: RationalReader) -> Any:
 
 
 def _combined(node: Any, arguments: list[Any], reader: RationalReader) -> Any:
-    """The value of a sum, a product or a power of these values."""
     try:
         if node.is_Pow:
             base, exponent = arguments
@@ -173,7 +172,7 @@ def written_expression(text: str) -> Any:
     """The expression that `as_text` wrote, in which e is a letter: Euler's number is exp(1) there."""
     reader = SymbolicReader(None, "a function", LIMITS, {})
     reader.names = {name: value for name, value in reader.names.items() if name != "e"}
-    return reader.read(text)
+    return reader.read(text.replace("gamma(", "Gamma("))
 
 
 def expression_of(source: Any, limits: Limits, *, what: str = "the equation") -> Any:
@@ -261,7 +260,6 @@ class SymbolicReader(RationalReader):
         return reader
 
     def read(self, text: str) -> Any:
-        """The expression that a text denotes."""
         check_length(text, self.arithmetic.limits, what=self.what)
         tokens = tokenize(text)
         if len(tokens.kinds) == 1:
