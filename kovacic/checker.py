@@ -1736,8 +1736,9 @@ class NumberField:
             powers = (value.to_the(k) * tower.number(c) for k, c in enumerate(modulus.coeffs()))
             demand(sum(powers, start=tower.number(0)).num == 0, "the symbol is a root of its polynomial")
         root = acb("nan")
-        if data.get("near") is not None:
-            near = acb(*(float(part) for part in data["near"]))
+        if "near" in data:  # older versions didn't say which root is meant
+            real, imaginary = the_list(data["near"], "a complex number")
+            near = acb(float(real), float(imaginary))
             root = min((root for root, _ in modulus.complex_roots()), key=lambda root: float(abs(root - near).mid()))
             meant = root if is_name else tower.at(POINTS[0], value)
             demand(abs(near - meant) < 1e-9 * (1 + abs(near)), "the root is near this number")
@@ -1885,12 +1886,20 @@ class Answer:
         """Where S itself was given, in the notation that can be read here, it is this S; any other notation isn't looked at."""
         text = self.data["input"]
         demand(isinstance(text, str), "the input is a text")
-        try:
-            given = self.tower.read(str(text).replace("^", "**"))
-        except (AssertionError, LookupError, ValueError, NotImplementedError):
-            return []
-        demand((self.S - given).num == 0, "S is that of the input")
-        return ["S from input"]
+        text = text.replace("^", "**")
+        unreadable = AssertionError, LookupError, ValueError, NotImplementedError
+        difference = None
+        with suppress(*unreadable):
+            difference = self.S - self.tower.read(text)
+        if difference is not None:
+            demand(difference.num == 0, "S is that of the input")
+            return ["S from input"]
+        if self.field is not None:  # roots that aren't written by its generator: values may refute, and prove nothing
+            with suppress(*unreadable):
+                tower, (S, given) = read_formulas([self.data["S"], text], self.data["variable"], self.field)
+                difference = None if isinstance(given, str) else S - given
+            demand(difference is None or not tower.is_refuted(difference), "S is that of the input")
+        return []
 
     def not_looked_at(self, checked: list[str]) -> Iterator[str]:
         """The keys that have no part in what was checked."""

@@ -907,6 +907,10 @@ FIELD = {"parameters": [], "symbol": "sqrt(2)", "minimal_polynomial": "t**2 - 2"
         ("x^2 + sqrt(2)*x", {"field": None}),
         ("x^2 + sqrt(2)*x", {"S": "x**2 - sqrt(2)*x"}),  # the conjugate of what was given
         ("(sqrt(2)*x+1)/(x^2-sqrt(3))^2", {"field__near": ["3", "0"]}),
+        (
+            "(sqrt(2)*x+1)/(x^2-sqrt(3))^2",  # roots of which the checker doesn't know how they are written by alpha
+            {"S": "-((alpha**3 - 9*alpha)*x + 2)/(2*x**4 + (2*alpha**3 - 22*alpha)*x**2 + 6)"},
+        ),
         ("(sqrt(2)*x+1)/(x^2-sqrt(3))^2", {"field__minimal_polynomial": "t**4 - 10*t**2 + 2"}),
         ("y'' + sqrt(2)/x*y' - y = 0", {"gauge": "sqrt(2)/(2*x)"}),
         ("y'' + sqrt(2)/x*y' - y = 0", {"equation__b": "-sqrt(2)/x"}),
