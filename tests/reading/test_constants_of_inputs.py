@@ -124,3 +124,9 @@ def test_declared_letters_are_parameters() -> None:
     found = kovacic.solve("y'' = e^2*y", parameters=["e"])
     assert found.solutions[0].free_symbols == {x, sympy.Symbol("e")}
     assert kovacic.conditions("e*x^2 + a", parameters=["e"]).parameters == ("e", "a")
+
+
+def test_values_of_other_letters_leave_numbers_alone() -> None:
+    found = kovacic.solve("e^2*x^2 + a*e", assume={"a": 1})
+    assert found.solutions[0] == sympy.exp(sympy.E * x**2 / 2)
+    assert kovacic.conditions("e*x^2 + a + b", assume={"b": 2}).parameters == ("a",)
