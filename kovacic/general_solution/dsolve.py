@@ -5,7 +5,7 @@ Riccati equations are made linear, and back, in `riccati_equation`.
 The steps, each in a module of this package:
 
 1. `question`: the equation, the unknown function, the conditions, and the user's own symbols;
-2. `homogeneous`: two independent solutions y1, y2 for f = 0, by Kovacic's algorithm or in special functions;
+2. `homogeneous`: a `basis` y1, y2 of the solutions for f = 0, by Kovacic's algorithm or in special functions;
 3. `particular`: one solution y0;
 4. `determined`: linear conditions on y are linear equations for C1 and C2, solved by rank in `constants`;
 5. `check`: the whole is put into the equation and into the conditions;
