@@ -9,7 +9,7 @@ import logging
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from itertools import repeat
-from typing import Literal, Protocol
+from typing import Literal
 
 from flint import acb, arb
 
@@ -18,6 +18,7 @@ from kovacic.enclosure.ball import Ball, Route, finite_ball
 from kovacic.enclosure.classical import Closed, NotServed
 from kovacic.enclosure.constants import Number
 from kovacic.enclosure.frame import upper_exponent
+from kovacic.enclosure.journey import Journey
 from kovacic.enclosure.matrices import State
 from kovacic.errors import InputError, LimitExceeded
 from kovacic.limits import Limits
@@ -79,18 +80,8 @@ def number_of_digits(given: object, limits: Limits) -> int:
     return digits
 
 
-class Travel(Protocol):
-    """A journey to targets."""
-
-    def is_exact(self, targets: Sequence[Number]) -> bool:
-        """True if a higher precision makes every ball smaller."""
-
-    def states(self, targets: Sequence[Number], closed: Closed | None, prec: int) -> list[State]:
-        """The states at the targets, at about so many bits."""
-
-
 def raise_precision(
-    journey: Travel, targets: Sequence[Number], closed: Closed | None, digits: int, limits: Limits, *, begin: int = 0
+    journey: Journey, targets: Sequence[Number], closed: Closed | None, digits: int, limits: Limits, *, begin: int = 0
 ) -> tuple[PointValue, ...]:
     """Make the journey at rising precision until every relative radius is small enough; not below `begin` bits."""
     exact = journey.is_exact(targets)
@@ -142,7 +133,7 @@ class _Run:
     finite: bool
 
     @classmethod
-    def made(cls, journey: Travel, targets: Sequence[Number], closed: Closed | None, route: Route) -> _Run:
+    def made(cls, journey: Journey, targets: Sequence[Number], closed: Closed | None, route: Route) -> _Run:
         """Make the journey once, at the precision of this route."""
         doubled = route.runs == 1 or closed is not None
         with working_precision(route.bits + 40):

@@ -26,7 +26,7 @@ from kovacic.errors import InputError, LimitExceeded, NotRational
 from kovacic.limits import Budget, Limits, limits_of
 
 if TYPE_CHECKING:
-    from kovacic.enclosure.through import Through
+    from kovacic.enclosure.through import Substitution
 
 _LOG = logging.getLogger(__name__)
 
@@ -39,14 +39,14 @@ _APART = arb(2) ** -200  # what is nearer to a singular point can't be told from
 class AskedSolution:
     """One solution, of which values are asked for: the journey keeps what was computed for them.
 
-    `through` is the same journey in another variable, in which the coefficients are rational.
+    `through` is a change of the variable, and the same journey in one in which the coefficients are rational.
     """
 
     journey: Journey
     digits: int
     method: Method | None
     limits: Limits
-    through: Through | None = None
+    through: tuple[Substitution, Journey] | None = None
 
     def states(self, points: Sequence[object]) -> tuple[PointValue, ...]:
         """y and y' with the circumstances, for each of `points` (no warnings: see `PointValue.note`)."""
@@ -54,26 +54,25 @@ class AskedSolution:
         if self.journey.problem is not None:
             _check_regular(self.journey.problem, targets)
         with Budget(self.limits).watched():
-            if self.through is not None and self.through.change.is_real(targets):
+            if self.through is not None and self.through[0].is_real(targets):
+                change, journey = self.through
                 with suppress(InputError, LimitExceeded):  # whose reasons would speak of t
-                    return self._states(self.through, targets)
+                    found = self._states(journey, [change.image(target) for target in targets])
+                    return tuple(map(change.seen, targets, found))
             return self._states(self.journey, targets)
 
-    def _states(self, travel: Journey | Through, targets: Sequence[Number]) -> tuple[PointValue, ...]:
-        if isinstance(travel, Journey):
-            route = route_of(travel, targets, self.method, self.digits)
-        else:
-            route = route_of(travel.journey, travel.images(targets), self.method, self.digits)
+    def _states(self, journey: Journey, targets: Sequence[Number]) -> tuple[PointValue, ...]:
+        route = route_of(journey, targets, self.method, self.digits)
         if route is not None:
             _LOG.info("route: %s", route.closed)
             try:
-                return raise_precision(travel, targets, route.closed, self.digits, self.limits, begin=route.bits)
+                return raise_precision(journey, targets, route.closed, self.digits, self.limits, begin=route.bits)
             except NotServed:
                 if self.method is not None:
                     raise InputError("the closed form doesn't prove its values on this path", hint=TAYLOR) from None
                 _LOG.info("it doesn't prove its values on this path")
         _LOG.info("route: Taylor's method")
-        return raise_precision(travel, targets, None, self.digits, self.limits)
+        return raise_precision(journey, targets, None, self.digits, self.limits)
 
 
 def question_of(
@@ -143,7 +142,7 @@ def analytic_journeys(
     frobenius: Sequence[object] | None,
     which: str | None,
     path: Path,
-) -> tuple[Journey, Through | None]:
+) -> tuple[Journey, tuple[Substitution, Journey] | None]:
     """The same where coefficients are functions of x: in x and, if the path is straight, in t."""
     if path in ("above", "below"):
         hint = "path=[v1, v2, ...] goes through these vertices"
@@ -151,7 +150,7 @@ def analytic_journeys(
     vertices = _vertices_of(path)
     start = read_start(None, x0, y0=y0, dy0=dy0, frobenius=frobenius, which=which)
     from kovacic.enclosure.constant import ConstantWay, constant_way
-    from kovacic.enclosure.through import Substitution, Through
+    from kovacic.enclosure.through import Substitution
 
     way = constant_way(coefficients)
     journey = Journey(way, start, vertices, chain=path == "chain")
@@ -160,8 +159,7 @@ def analytic_journeys(
     if change is None or not change.is_real([start.place]):
         return journey, None
     begun = change.start(start.place, start.data)
-    in_t = journey_of(change.problem, begun.place, *begun.data, None, None, path)
-    return journey, Through(change, in_t)
+    return journey, (change, journey_of(change.problem, begun.place, *begun.data, None, None, path))
 
 
 def _vertices_of(path: Path) -> tuple[Number, ...]:

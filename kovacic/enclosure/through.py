@@ -10,18 +10,16 @@ What a wave exp(i k x) makes of a segment is no segment; its discs in x serve as
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
 import sympy
 from flint import acb
 
 from kovacic.algebra.precision import working_precision
-from kovacic.enclosure.classical import Closed
 from kovacic.enclosure.constants import Constant, Number, in_balls, to_ball
-from kovacic.enclosure.journey import Journey
-from kovacic.enclosure.matrices import State
 from kovacic.enclosure.points import are_real
+from kovacic.enclosure.precision import PointValue
 from kovacic.enclosure.problem import Coefficients, NumericProblem, as_problem
 from kovacic.enclosure.start import Start
 from kovacic.errors import NotRational
@@ -73,23 +71,8 @@ class Substitution:
         with working_precision(_BITS):
             return are_real([f(x) for x in numbers for f in (to_ball, lambda x: to_ball(self.image(x)), self.slope)])
 
-
-@dataclass(frozen=True, eq=False)
-class Through:
-    """A journey in t, seen from x."""
-
-    change: Substitution
-    journey: Journey
-
-    def is_exact(self, targets: Sequence[Number]) -> bool:
-        """True if a higher precision makes every ball smaller."""
-        return self.journey.is_exact(self.images(targets))
-
-    def images(self, targets: Sequence[Number]) -> list[Number]:
-        """Where these are in t."""
-        return [self.change.image(target) for target in targets]
-
-    def states(self, targets: Sequence[Number], closed: Closed | None, prec: int) -> list[State]:
-        """The states at the targets, at about so many bits."""
-        found = self.journey.states(self.images(targets), closed, prec)
-        return [(y, dy * self.change.slope(target)) for target, (y, dy) in zip(targets, found, strict=True)]
+    def seen(self, target: Number, value: PointValue) -> PointValue:
+        """The value at t(target) as one at the target: y' = t' Y'."""
+        with working_precision(value.route.bits + 2 * _BITS):
+            y, dy = value.state
+            return replace(value, x=target, state=(y, dy * self.slope(target)))
