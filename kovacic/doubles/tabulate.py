@@ -46,9 +46,11 @@ from kovacic.limits import Limits, check_time, limited, limits_of
 _PREC = 300
 GROWTH = 12.0
 """The sums of the coefficients of y1 and y2 are at most so large."""
-_PIECES = 5
+_PIECES = 25
+_TOGETHER = 10_000
 _SMALLEST = -1000
-"""So many pieces for each unit of the limit `unknown_degree`: 100,000 by default, of a kilobyte and 0.3 ms each (measured)."""
+"""So many pieces for each unit of the limit `unknown_degree`: 500,000 by default, of a kilobyte and 0.3 ms each (measured);
+so many are treated together, which takes some 10 kilobytes each."""
 _STRIDE = 24
 _ROUGH = 2.0**-88
 _LOST = 2.0**-58
@@ -323,7 +325,7 @@ def tabulate(
     InputError
         For an empty interval, and a singular point in it or between it and x0.
     LimitExceeded
-        For more pieces than five times the limit `unknown_degree` (100,000 by default), and where the time is over.
+        For more pieces than 25 times the limit `unknown_degree` (500,000 by default), and where the time is over.
 
     Examples
     --------
@@ -350,16 +352,23 @@ def table_of(chart: PieceChart, region: Region, careful: bool, limits: Limits | 
     variant = _CAREFUL if careful else _PLAIN
     with working_precision(_PREC):
         cells, found = _pieces(region, lambda some: _series(chart, some, variant), limits)
-    series = Pair(*np.stack(found, axis=-1))
-    states, powers = _states(chart, cells, series, variant, limits)
-    coefficients = series[:, 0, None] * states[0] + series[:, 1, None] * states[1]
-    if chart.is_forced:
-        own = scaled(series[:, 2, None], -powers)
-        is_real_part = np.array([1.0, 0.0])[: states.hi.shape[1], None]  # the right-hand side is real
-        coefficients += Pair(own.hi * is_real_part, own.lo * is_real_part)
+    rows = []
+    for first in range(0, len(cells), _TOGETHER):
+        some = slice(first, first + _TOGETHER)
+        series = Pair(*np.stack(found[some], axis=-1))
+        states, powers = _states(chart, cells[some], series, variant, limits)
+        coefficients = series[:, 0, None] * states[0] + series[:, 1, None] * states[1]
+        if chart.is_forced:
+            own = scaled(series[:, 2, None], -powers)
+            is_real_part = np.array([1.0, 0.0])[: states.hi.shape[1], None]  # the right-hand side is real
+            coefficients += Pair(own.hi * is_real_part, own.lo * is_real_part)
+        rows.append((_lowered(coefficients, variant), powers))
     x0 = chart.given.get("x0")
     base = x0 if isinstance(x0, ExactPoint) else None
-    return replace(_assembled(region, cells, coefficients, powers, variant), base=base)
+    parts = max(len(table) for table, _ in rows)  # one for a real function
+    tables = [np.pad(table, ((0, parts - len(table)), (0, 0), (0, 0), (0, 0))) for table, _ in rows]
+    powers = np.concatenate([part for _, part in rows])
+    return replace(_assembled(region, cells, np.concatenate(tables, axis=-1), powers, variant), base=base)
 
 
 def polynomial_table(
@@ -370,18 +379,19 @@ def polynomial_table(
     cells, found = _pieces(region, lambda some: [expand(cell, variant) for cell in some])
     with working_precision(_PREC):
         table, powers = _rounded(found, variant)
-    return _assembled(region, cells, _given(table), powers, variant)
+    return _assembled(region, cells, _lowered(_given(table), variant), powers, variant)
 
 
-def _assembled(
-    region: Region, cells: list[Cell], coefficients: Pair, powers: Any, variant: Variant
-) -> TabulatedFunction:
-    """The table with the highest terms lowered, from an array of terms, parts and pieces."""
+def _lowered(coefficients: Pair, variant: Variant) -> Any:
+    """From an array of terms, parts and pieces that of parts, halves, terms and pieces, with the highest terms lowered."""
     lowered = np.tensordot(_lowering(len(coefficients.hi), variant.kept), coefficients.hi[variant.kept :], 1)
     coefficients = coefficients[: variant.kept] + Pair(lowered)
+    return np.array([coefficients.hi, coefficients.lo]).transpose(2, 0, 1, 3)
+
+
+def _assembled(region: Region, cells: list[Cell], table: Any, powers: Any, variant: Variant) -> TabulatedFunction:
     edges = np.array([float(c + power_of_two(e)) for c, e in cells[:-1]])
     exponents = np.array([e for _, e in cells])
-    table = np.array([coefficients.hi, coefficients.lo]).transpose(2, 0, 1, 3)
     arrays = edges, np.array([float(c) for c, _ in cells]), exponents, powers, table
     for array in arrays:
         array.flags.writeable = False
@@ -411,7 +421,10 @@ def _pieces(
             raise LimitExceeded(f"the table needs more than {most} pieces", limit="unknown_degree")
         check_time()
         inside = [cell for cell in untried if low <= cell[0] <= high]  # values are inside only
-        found = dict(zip(inside, expand(inside), strict=True)) if inside else {}
+        found: dict[Cell, Any] = {}
+        for first in range(0, len(inside), _TOGETHER):
+            some = inside[first : first + _TOGETHER]
+            found |= zip(some, expand(some), strict=True)
         done |= {cell: item for cell, item in found.items() if item is not None}
         untried = [half for cell in untried if cell not in done for half in _halves(cell, low, high)]
     cells = sorted(done)
