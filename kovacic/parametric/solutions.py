@@ -381,9 +381,26 @@ def _in_factors(y: Any, x: Any) -> Any:
 
 def _without_constant(base: Any, x: Any) -> Any:
     """The base of a power times a constant, so that it has no denominator: k x^2 - 1 for x^2 - 1/k."""
-    above, below = sympy.fraction(sympy.cancel(base))
-    has_radicals = any(not power.exp.is_Integer for power in base.atoms(sympy.Pow))
-    return base if has_radicals or below.has(x) or below.is_number else above
+    signs = _letters_under_roots(base)
+    roots = {name: sympy.Dummy(positive=True) for name in signs}
+    # sqrt(a) is a letter, so that it is no factor of everything: that would vanish where a does.
+    in_letters = base.subs({name: signs[name] * root**2 for name, root in roots.items()})
+    above, below = sympy.fraction(sympy.cancel(in_letters))
+    if below.has(x) or below.is_number:
+        return base
+    return above.subs({root: sympy.sqrt(signs[name] * name) for name, root in roots.items()})
+
+
+def _letters_under_roots(expression: Any) -> dict[Any, int]:
+    """1 for an a with sqrt(a) or 1/sqrt(a) in an expression, -1 for sqrt(-a)."""
+    signs: dict[Any, int] = {}
+    for power in expression.atoms(sympy.Pow):
+        if abs(power.exp) == sympy.S.Half:
+            for sign in (1, -1):
+                letter = sign * power.base
+                if letter.is_Symbol:
+                    signs[letter] = sign
+    return signs
 
 
 def _local_factor(u: Poly | None, exponent: Any, main: Any, x: Any) -> Any:

@@ -18,9 +18,9 @@ x = sympy.Symbol("x")
 
 CASES: list[tuple[str, dict[str, Any]]] = [
     ("(4*n^2-1)/(4*x^2) - 1", {"n": R(-7, 2)}),
-    ("-2*e - 2*Z/x + l*(l+1)/x^2", {"e": R(-9, 32), "Z": 3, "l": 2}),
+    ("-2*q - 2*Z/x + l*(l+1)/x^2", {"q": R(-9, 32), "Z": 3, "l": 2}),
     ("1/4 - k/x + (4*m^2-1)/(4*x^2)", {"k": R(10, 3), "m": R(5, 6)}),
-    ("x^2 - e + l*(l+1)/x^2", {"e": 11, "l": 2}),
+    ("x^2 - q + l*(l+1)/x^2", {"q": 11, "l": 2}),
     ("x^4 + mu*x", {"mu": -8}),
     ("b/x^4 + c/x^3", {"b": 4, "c": 24}),
     # irregular at a finite point, and the regular one, or the centre, elsewhere

@@ -23,6 +23,7 @@ from kovacic.parametric.cases import solvable_cases
 from kovacic.parametric.check import Sampler
 from kovacic.parametric.prose import text_of
 from kovacic.parametric.riemann import Schwarz, kimura
+from kovacic.parametric.rows import families_of
 from kovacic.parametric.statements import Both, Either, Statement
 from kovacic.views.theorem import blocks
 from kovacic.writing.document import Formula, Math, Paragraph, Table
@@ -202,6 +203,19 @@ def printed_solutions(answer: kovacic.Conditions) -> Iterator[tuple[str, str, li
                 yield block.math.text.removeprefix("y = "), degree, signs
 
 
+def printed_rows(answer: kovacic.Conditions) -> Iterator[tuple[str, list[int]]]:
+    """y, and the integers n of its progression with small absolute values, as the theorem prints them."""
+    for block, following in pairwise(blocks(answer)):
+        if isinstance(block, Paragraph) and isinstance(following, Formula):
+            said = "".join(part if isinstance(part, str) else part.text for part in block.sentence)
+            found = re.fullmatch(r"For (even |odd |)n ([<>])= (-?\d+)(?:, n != .*)?:", said)
+            if found is not None:
+                parity, sign, end = found.groups()
+                numbers = range(int(end), 30, 1) if sign == ">" else range(int(end), -30, -1)
+                step = 2 if parity else 1
+                yield following.math.text.removeprefix("y = "), [*numbers][::step]
+
+
 @parametrize(
     ("name", "S", "values"),
     [
@@ -230,6 +244,16 @@ def test_printed_solutions_solve_the_equation(name: str, S: str, values: dict[st
             y = sympy.expand_func(parsed(text, given)).doit()
             value = (y.diff(x, 2) - right * y).subs(x, R(13, 7)).evalf(30)
             assert abs(value) < sympy.Float("1e-20") * abs(y.subs(x, R(13, 7)).evalf(30)), (text, given)
+    families = [family for region in conditions(name).regions for family in families_of(region.statement.claim)]
+    for text, numbers in printed_rows(conditions(name)):
+        for n in numbers:
+            given = {**values, "n": n}
+            solved = {family.parameter: parsed(family.value.to_str("n"), given) for family in families}
+            if any(sympy.nsimplify(value - values[parameter]) == 0 for parameter, value in solved.items()):
+                natural += 1
+                y = sympy.expand_func(parsed(text, given)).doit()
+                value = (y.diff(x, 2) - right * y).subs(x, R(13, 7)).evalf(30)
+                assert abs(value) < sympy.Float("1e-20") * abs(y.subs(x, R(13, 7)).evalf(30)), (text, given)
     assert natural
 
 
