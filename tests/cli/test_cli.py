@@ -334,7 +334,7 @@ START = ["--x0", "0", "--y0", "1", "--dy0", "0", "--at", "1"]
         (["explain", "-o*x"], "Kovacic's algorithm for y'' = -o x y"),
         (["conditions", "-h*x"], "y'' = -h x y, parameters h"),
         (["evaluate", "-v", "--x0", "-1", "--y0", "0", "--dy0", "0", "--at", "1"], None),
-        (["evaluate", *START, "--", "-v"], "y(1) = 0.83881231016976"),
+        (["evaluate", *START, "--var", "v", "--", "-v"], "y(1) = 0.83881231016976"),
         (["evaluate", "-v*x", "--param", "v=1", *START], "y(1) = 0.83881231016976"),
         (["evaluate", "-omega^2*x", "--param", "omega=1", *START], "y(1) = 0.83881231016976"),
         (["scan", "-j*x", "-j", "1", "-q", "--format", "csv", "j=1,2"], "j,status,case"),
