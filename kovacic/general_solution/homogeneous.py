@@ -24,7 +24,15 @@ from kovacic.general_solution.textbook import of_chebyshev, with_waves
 from kovacic.limits import Budget
 from kovacic.parametric.api import conditions_of
 from kovacic.parametric.assumptions import NOTHING_ASSUMED, Assumptions
-from kovacic.reading.change_of_variable import function_of_x, in_x, is_power, solution_in_x, user_variable
+from kovacic.reading.change_of_variable import (
+    function_of_x,
+    in_x,
+    is_power,
+    is_turned,
+    pair_in_x,
+    solution_in_x,
+    user_variable,
+)
 from kovacic.solution import Solution, solve
 from kovacic.special.choice import solutions
 from kovacic.special.mathieu import mathieu
@@ -67,7 +75,7 @@ def _basis(question: Question, solution: Solution, pair: WrittenPair) -> Basis:
     if is_power(equation):  # whose exponent has plain symbols
         plain = {symbol: sympy.Symbol(name) for name, symbol in question.parameters.items()}
         pair = pair.mapped(lambda e: e.xreplace(plain))
-    y1, y2 = (solution_in_x(equation, y).xreplace(NUMBERS) for y in pair)
+    y1, y2 = (y.xreplace(NUMBERS) for y in pair_in_x(equation, *pair))
     basis = Basis(y1, y2, question.x, equation, question.own, _stated(equation, pair), pair.undefined, solution)
     S = equation.S
     constant = S.num[0] if S.is_polynomial and S.num.degree == 0 else None
@@ -83,6 +91,8 @@ def _stated(equation: Equation, pair: WrittenPair) -> Expr | None:
     W = pair.wronskian
     if W is None or equation.change is None or not pair.y1.has(sympy.Symbol(equation.variable)):
         return W
+    if any(is_turned(equation, y) for y in pair):  # by constants that are left out
+        return None
     numbers = [sympy.powsimp(solution_in_x(equation, y) / in_x(equation, y)) for y in pair]
     if not all(number.is_number for number in numbers):
         return None

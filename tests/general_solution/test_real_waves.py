@@ -1,0 +1,46 @@
+"""Equations in sines whose solutions are algebraic in t = sin(x) by roots of t^2 - 1, which is negative for all real x."""
+
+from __future__ import annotations
+
+import sympy
+from build import parametrize
+
+import kovacic
+
+x, C1, C2 = sympy.symbols("x C1 C2")
+
+#: y cos(x) = u or y sin(x) = u with u'' = m u; the potentials 2/sin(x)^2 and 6/cos(x)^2; an omega of degree 2.
+EQUATIONS = [
+    *(f"y'' - 2*tan(x)*y' - ({m + 1})*y" for m in (9, 5, -2, -7)),
+    *(f"y'' + 2*cot(x)*y' - ({m + 1})*y" for m in (9, 5, -2, -7)),
+    *(f"y'' + ({k} - 2/sin(x)^2)*y" for k in (5, "1/3", -4)),
+    *(f"y'' + ({k} - 6/cos(x)^2)*y" for k in (3, "7/2")),
+    *(f"y'' + ({k} - 8/sin(2*x)^2)*y" for k in (3, 7)),
+    "y'' + 2*tan(x)*y' + y",
+    "y'' + (k^2 - 2/sin(x)^2)*y",
+]
+
+
+@parametrize("text", EQUATIONS, ids=str, ordinary=3, always=EQUATIONS[:1] + EQUATIONS[8:9])
+def test_solutions_are_real_and_independent(text: str) -> None:
+    answer = kovacic.dsolve(text + " = 0")
+    general = answer.rhs
+    pair = [general.subs({C1: 1, C2: 0}), general.subs({C1: 0, C2: 1})]
+    letter = {symbol: sympy.Rational(7, 5) for symbol in general.free_symbols - {x, C1, C2}}
+    plain = sympy.sympify(text.replace("y''", "D2").replace("y'", "D1").replace("^", "**"))
+    for point in (sympy.Rational(1, 3), sympy.Rational(5, 2)):
+        jets = []
+        for y in [*pair, *kovacic.solve(text + " = 0").solutions]:
+            jet = [sympy.N(y.diff(x, k).subs(letter).subs(x, point), 30) for k in range(3)]
+            assert all(value.is_real for value in jet), y
+            values = {"y": jet[0], "D1": jet[1], "D2": jet[2], "x": point} | {str(k): v for k, v in letter.items()}
+            assert abs(sympy.N(plain.subs(values), 25)) < 1e-18
+            jets.append(jet)
+        assert abs(jets[0][0] * jets[1][1] - jets[0][1] * jets[1][0]) > 1e-6
+        assert abs(jets[2][0] * jets[3][1] - jets[2][1] * jets[3][0]) > 1e-6
+    assert not general.has(sympy.I)
+
+
+def test_the_answer_of_a_book() -> None:
+    """Solved in books by u = y cos(x); no value of x was in the domain of the former answer."""
+    assert str(kovacic.dsolve("y'' - 2*tan(x)*y' - 10*y = 0").rhs) == "(C1*cosh(3*x) + C2*sinh(3*x))/cos(x)"
