@@ -283,7 +283,7 @@ def test_singular_points_on_the_way_are_refused(equation: str, x0: Any, x: Any, 
 
 
 def test_values_from_a_frobenius_basis_are_refused() -> None:
-    with pytest.raises(kovacic.InputError, match="which isn't for equations"):
+    with pytest.raises(kovacic.InputError, match="needs y0 and dy0 at a regular point"):
         kovacic.evaluate("2*sech(x)^2*(-1) + 1", 2, x0=1, which="regular")
     with pytest.raises(kovacic.InputError):
         read_input("sin(x)")
