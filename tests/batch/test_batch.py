@@ -29,7 +29,7 @@ import kovacic
 from kovacic import InputError, KovacicError, Limits
 from kovacic.batch.files import answers, count_items, guess_format, item_from, read_items, take_up
 from kovacic.batch.pool import GRACE_SECONDS, Pool
-from kovacic.batch.records import LABELS, Item, Job, ProcessLost, Record, Summary, refused, stopped
+from kovacic.batch.records import LABELS, Item, Job, ProcessLost, Record, Summary, label_of, refused, stopped
 from kovacic.batch.worker import solve_item
 from kovacic.limits import DEFAULT_LIMITS
 
@@ -762,3 +762,16 @@ def test_quantiles_and_exit_status() -> None:
 
 def test_an_empty_summary() -> None:
     assert Summary().quantile(0.5) == 0.0
+
+
+@pytest.mark.parametrize(
+    ("S", "label"),
+    [
+        ("(-32*x^2 + 27*x - 27)/(144*x^2*(x - 1)^2)", "case 3 (4)"),
+        ("(-135*x^2 + 115*x - 108)/(576*x^2*(x - 1)^2)", "case 3 (6)"),
+    ],
+)
+def test_a_record_that_is_read_again_has_its_label(S: str, label: str) -> None:
+    """The pull-backs of Klein with the differences 1/2, 1/3 and 1/3 or 1/4 at 0, 1 and infinity."""
+    (record,) = kovacic.solve_many([S], jobs=1)
+    assert record.label == label_of(record.data) == label
