@@ -239,7 +239,7 @@ def _from_rest(p: Expr, basis: Basis, values: tuple[Expr, Expr], a: Expr) -> Exp
     """p - u for the solution u of the homogeneous equation with u(a), u'(a) = `values`: p(a) and p'(a), for a step."""
     x = basis.x
     value, rate = values
-    wronskian = tidy(basis.wronskian.subs(x, a))
+    wronskian = tidy(value_at(basis.wronskian, x, a))  # a limit where t(x) alone is singular
     if wronskian == 0 or not _has_value(wronskian):
         raise NotImplementedError(f"the functions of the closed form are singular at {a}, where the solutions aren't")
     (u, du), (v, dv) = (values_at(y, x, a) for y in (basis.y1, basis.y2))
