@@ -122,7 +122,7 @@ def _in_given_variable(answer: Answer, found: Any) -> Any:
     """`found` with y1 and y2 in the user's variable."""
     if answer.equation is None or answer.change is None:
         return found
-    from kovacic.reading.change_of_variable import pair_in_x
+    from kovacic.closed_form.real_pair import pair_in_x
 
     y1, y2 = pair_in_x(answer.equation, found.y1, found.y2)
     return replace(found, y1=y1, y2=y2)

@@ -9,7 +9,8 @@ For an integer q, exp(i q phi) = ((x - c) + i t)^q p^(-q/2); for q in 1/2 + Z a 
 
     exp(i phi/2) = (u + i t/u) / (sqrt(2) p^(1/4)),      u = sqrt(sqrt(p) + x - c),                                    (2)
 
-which makes the answers for the ball on the sphere algebraic; otherwise phi = pi/2 - atan((x - c)/t).
+which makes the answers for the ball on the sphere algebraic; otherwise phi = pi/2 - atan((x - c)/t).  In the variable x of
+t = sin(x) or cos(x), where t^2 - 1 is negative, the parts are taken of functions of x.
 """
 
 from __future__ import annotations
@@ -29,7 +30,9 @@ from kovacic.closed_form.atoms import Atoms, Expr, display, rational
 from kovacic.closed_form.product import Power, gathered
 from kovacic.closed_form.structure import Conjugate
 from kovacic.engine.places import rational_square_root
+from kovacic.equation import Equation
 from kovacic.numbers.exact import radical as sqrt
+from kovacic.reading.change_of_variable import function_of_x, solution_in_x
 
 
 @dataclass(frozen=True)
@@ -149,3 +152,32 @@ def _conjugate_root(form: Conjugate, s: Expr, atoms: Atoms) -> Expr:
     powers = Mul(*(atoms.primitive(base)[1] ** sympy.expand_mul(e) for base, e in exponents.items()))
     rest = display(replace(form.common, powers=()), atoms)
     return Add(atoms.poly(form.A), sympy.expand_mul(s * atoms.poly(form.B))) * powers * rest * sympy.exp(Add(*inner))
+
+
+def is_turned(equation: Equation, y: Expr) -> bool:
+    """True if sqrt(t^2 - 1) with a sine t is in the solution, which is written by exp(i w) then."""
+    t = sympy.Symbol(equation.variable)
+    is_wave = equation.change is not None and function_of_x(equation).func in (sympy.sin, sympy.cos)
+    return is_wave and any(power.base == t**2 - 1 for power in y.atoms(sympy.Pow))
+
+
+def pair_in_x(equation: Equation, y1: Expr, y2: Expr) -> tuple[Expr, Expr]:
+    """Both of a pair; for complex conjugates, and multiples of i, that are `is_turned` real functions with the same span."""
+    first, second = solution_in_x(equation, y1), solution_in_x(equation, y2)
+    if not (is_turned(equation, y1) or is_turned(equation, y2)):
+        return first, second
+    real = {symbol: sympy.Dummy(real=True) for symbol in first.free_symbols | second.free_symbols}
+    back = {letter: symbol for symbol, letter in real.items()}
+    re1, im1 = sympy.expand(first.xreplace(real), complex=True).as_real_imag()
+    re2, im2 = sympy.expand(second.xreplace(real), complex=True).as_real_imag()
+    pair = (re1 or im1, re2 or im2)
+    if 0 not in (re1, im1):
+        if sympy.expand(re1**2 - re2**2) != 0 or sympy.expand(im1**2 - im2**2) != 0:
+            return first, second
+        pair = (re1, im1)
+    elif 0 not in (re2, im2):
+        return first, second
+    if any(part.has(sympy.re, sympy.im, sympy.arg) for part in pair):
+        return first, second
+    y1, y2 = (sympy.factor_terms(part.xreplace(back)) for part in pair)
+    return -y1 if y1.could_extract_minus_sign() else y1, -y2 if y2.could_extract_minus_sign() else y2

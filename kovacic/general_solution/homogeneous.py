@@ -13,6 +13,7 @@ from kovacic.algebra.rationals import QQ
 from kovacic.closed_form.atoms import Atoms
 from kovacic.closed_form.check import are_independent
 from kovacic.closed_form.klein import Covariants
+from kovacic.closed_form.real_pair import is_turned, pair_in_x
 from kovacic.decision import Status
 from kovacic.equation import Equation, Parsed, parameters_of
 from kovacic.errors import LimitExceeded
@@ -28,8 +29,6 @@ from kovacic.reading.change_of_variable import (
     function_of_x,
     in_x,
     is_power,
-    is_turned,
-    pair_in_x,
     solution_in_x,
     user_variable,
 )

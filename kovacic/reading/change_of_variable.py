@@ -129,23 +129,15 @@ def _continued(expression: Any, t: Any) -> Any:
     if t.func not in (sympy.sin, sympy.cos):
         return expression
     powers = {e for e in expression.atoms(sympy.Pow) if e.base == t**2 - 1 and (2 * e.exp).is_Integer}
-    return _with_turns(expression.xreplace({e: (sympy.I * other(w)) ** (2 * e.exp) for e in powers}), t, other(w))
-
-
-def _with_turns(expression: Any, t: Any, s: Any) -> Any:
-    """With exp(+-i p w) for (t +- i s)^p, where t and s are the sine and the cosine of w, and +-i w for its logarithm.
-
-    cos(w) +- i sin(w) = exp(+-i w) and sin(w) +- i cos(w) = +-i exp(-+i w).  The constants are left out: a solution stays
-    one where log(t + i s), which is no algebraic function of t, is continued with another constant.
-    """
-    w = t.args[0]
-    turned = {}
-    for sign in (1, -1):
-        angle = sign * sympy.I * (w if t.func is sympy.cos else -w)
-        base = t + sign * sympy.I * s
-        turned[sympy.log(base)] = angle
-        powers = (e for e in expression.atoms(sympy.Pow) if e.base == base and not e.exp.is_Integer)
-        turned |= {e: sympy.exp(e.exp * angle) for e in powers}
+    expression = expression.xreplace({e: (sympy.I * other(w)) ** (2 * e.exp) for e in powers})
+    # cos(w) +- i sin(w) = exp(+-i w), and sin(w) +- i cos(w) = +-i exp(-+i w).  The constant is left out: a solution stays one
+    # where the logarithm of t +- i other(w), which isn't algebraic in t, is continued with another constant.
+    turned: dict[Any, Any] = {}
+    for i in (sympy.I, -sympy.I):
+        angle = i * w if t.func is sympy.cos else -i * w
+        base = t + i * other(w)
+        powers = {e for e in expression.atoms(sympy.Pow) if e.base == base and not e.exp.is_Integer}
+        turned |= {e: sympy.exp(e.exp * angle) for e in powers} | {sympy.log(base): angle}
     return expression.xreplace(turned)
 
 
@@ -158,35 +150,6 @@ def solution_in_x(equation: Equation, y: Any) -> Any:
         return result
     number, rest = result.as_independent(*result.free_symbols, as_Add=False)
     return rest if number.is_number else result
-
-
-def is_turned(equation: Equation, y: Any) -> bool:
-    """True if sqrt(t^2 - 1) with a sine t is in the solution, which is written by exp(i w) then."""
-    t = sympy.Symbol(equation.variable)
-    is_wave = equation.change is not None and function_of_x(equation).func in (sympy.sin, sympy.cos)
-    return is_wave and any(power.base == t**2 - 1 for power in y.atoms(sympy.Pow))
-
-
-def pair_in_x(equation: Equation, y1: Any, y2: Any) -> tuple[Any, Any]:
-    """Both of a pair; for complex conjugates, and multiples of i, that are `is_turned` real functions with the same span."""
-    first, second = solution_in_x(equation, y1), solution_in_x(equation, y2)
-    if not (is_turned(equation, y1) or is_turned(equation, y2)):
-        return first, second
-    real = {symbol: sympy.Dummy(real=True) for symbol in first.free_symbols | second.free_symbols}
-    back = {letter: symbol for symbol, letter in real.items()}
-    re1, im1 = sympy.expand(first.xreplace(real), complex=True).as_real_imag()
-    re2, im2 = sympy.expand(second.xreplace(real), complex=True).as_real_imag()
-    pair = (re1 or im1, re2 or im2)
-    if 0 not in (re1, im1):
-        if sympy.expand(re1**2 - re2**2) != 0 or sympy.expand(im1**2 - im2**2) != 0:
-            return first, second
-        pair = (re1, im1)
-    elif 0 not in (re2, im2):
-        return first, second
-    if any(part.has(sympy.re, sympy.im, sympy.arg) for part in pair):
-        return first, second
-    y1, y2 = (sympy.factor_terms(part.xreplace(back)) for part in pair)
-    return -y1 if y1.could_extract_minus_sign() else y1, -y2 if y2.could_extract_minus_sign() else y2
 
 
 def _with_powers(expression: Any, own: Any, k: Any, x: Any) -> Any:
