@@ -178,8 +178,7 @@ def product_of_zeros(function: Any, k: int) -> Any:
     from flint import arb, ctx
 
     from kovacic.doubles.double_double import Complex, Pair
-    from kovacic.doubles.factors import RationalFunction, RootFactor
-    from kovacic.doubles.product_form import ProductForm
+    from kovacic.doubles.product_form import ProductForm, RationalFunction, RootFactor
 
     one, quarter = Complex(Pair(1.0)), Complex(Pair(0.25))
     with ctx.workprec(200):

@@ -29,8 +29,7 @@ from kovacic.algebra.ratfunc import RatFunc
 from kovacic.closed_form.curve import integrate_on_curve
 from kovacic.closed_form.structure import curve_of
 from kovacic.doubles.double_double import Complex, Pair
-from kovacic.doubles.factors import Conic, RationalFunction, RootFactor, Shape
-from kovacic.doubles.product_form import ProductForm
+from kovacic.doubles.product_form import Conic, ProductForm, RationalFunction, RootFactor, Shape
 from kovacic.doubles.region import Region
 from kovacic.doubles.tabulate import GROWTH, Cell, Variant, polynomial_table
 from kovacic.enclosure.closed_form import Exponential, certified, exponentials, omega, value

@@ -32,11 +32,10 @@ from kovacic.doubles.product_form import ProductForm
 from kovacic.doubles.region import Measured, Region
 from kovacic.doubles.tabulate import TabulatedFunction, table_of
 from kovacic.enclosure.ball import ball_from_flint
-from kovacic.enclosure.evaluate import InitialValues
+from kovacic.enclosure.evaluate import InitialValues, with_variable
 from kovacic.enclosure.points import ExactPoint, as_point, to_acb
 from kovacic.enclosure.precision import AccuracyWarning
 from kovacic.enclosure.states import Path
-from kovacic.enclosure.variable import with_variable
 from kovacic.errors import InputError, LimitExceeded, check_keywords, warn_user
 from kovacic.limits import DEFAULT_LIMITS, Limits, bounded_work, limited
 from kovacic.numbers.exact import exact_real, whole

@@ -95,18 +95,15 @@ class Region:
         if np.ma.is_masked(points):
             middle: Any = (self.low + self.high) / 2
             points = np.ma.array(points.filled(middle.real if self.is_real else middle), mask=points.mask)
-        if points.size and not self._contains(points):
+        # By the extremes, but for NaN, which has the value NaN.
+        inside = not points.size or _between(self.low.real, points.real, self.high.real)
+        if not self.is_real and points.size:
+            inside = inside and _between(self.low.imag, points.imag, self.high.imag)
+        ends = zip((self.low, self.high), self.singular, strict=True)
+        if not inside or any(singular and np.any(points == end) for end, singular in ends):
             shown = (self.low.real, self.high.real) if self.is_real else (self.low, self.high)
             raise InputError(f"a point lies outside of the interval {shown} of this function, or on a singular point")
         return points
-
-    def _contains(self, points: Any) -> bool:
-        """By the extremes, but for NaN, which has the value NaN."""
-        inside = _between(self.low.real, points.real, self.high.real)
-        if not self.is_real:
-            inside = inside and _between(self.low.imag, points.imag, self.high.imag)
-        ends = zip((self.low, self.high), self.singular, strict=True)
-        return bool(inside and not any(singular and np.any(points == end) for end, singular in ends))
 
     @property
     def interval(self) -> tuple[float, float]:

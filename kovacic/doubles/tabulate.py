@@ -36,10 +36,9 @@ from kovacic.algebra.rationals import to_fmpq
 from kovacic.doubles.chart import PieceChart, chart_of
 from kovacic.doubles.double_double import Pair, double, folded, halves, horner, scaled, two_sum
 from kovacic.doubles.region import BLOCK, Measured, Region, facts, in_blocks
-from kovacic.enclosure.evaluate import StartOptions
+from kovacic.enclosure.evaluate import StartOptions, with_variable
 from kovacic.enclosure.frame import log2
 from kovacic.enclosure.points import ExactPoint, power_of_two
-from kovacic.enclosure.variable import with_variable
 from kovacic.errors import InputError, LimitExceeded, check_keywords
 from kovacic.limits import Limits, check_time, limited, limits_of
 

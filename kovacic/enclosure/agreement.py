@@ -191,7 +191,10 @@ class _Enumeration:
         angles = [angle for angle, value in self.traces.items() if candidate.trace().overlaps(value)]
         if not angles:
             return Agreement(False, f"the monodromy group has an element whose trace isn't one of {self.group}")
-        beside_known = self._beside_known(candidate)
+        # The quotients by the known elements.  The identity comes before what is unclear: an element that is known is no other.
+        quotients = {self._kind(candidate * _inverse(element)) for element in self.elements}
+        ranked = (_Element.UNIPOTENT, _Element.IDENTITY, _Element.UNCLEAR)
+        beside_known = next((kind for kind in ranked if kind in quotients), _Element.OTHER)
         if beside_known is _Element.UNIPOTENT:
             return Agreement(False, f"the monodromy group has a unipotent element, unlike {self.group}")
         if beside_known is _Element.UNCLEAR or len(angles) > 1:
@@ -202,17 +205,6 @@ class _Enumeration:
         if len(self.elements) > self.order:
             return Agreement(False, f"the monodromy group has more elements than {self.group}")
         return None
-
-    def _beside_known(self, candidate: acb_mat) -> _Element:
-        """What the quotients of a matrix by the known elements are: the first of these kinds that is among them.
-
-        The identity comes before what is unclear: an element that is known is no other one.
-        """
-        quotients = {self._kind(candidate * _inverse(element)) for element in self.elements}
-        for kind in (_Element.UNIPOTENT, _Element.IDENTITY, _Element.UNCLEAR):
-            if kind in quotients:
-                return kind
-        return _Element.OTHER
 
     def _kind(self, element: acb_mat) -> _Element:
         """Which an element is whose trace is one of these."""

@@ -19,12 +19,14 @@ from decimal import Decimal
 from fractions import Fraction
 from typing import Any, Literal, TypedDict, Unpack, overload
 
+from kovacic.answer import Answer
 from kovacic.enclosure.ball import Ball
 from kovacic.enclosure.precision import AccuracyWarning, Method, number_of_digits
 from kovacic.enclosure.states import Path, question_of
-from kovacic.enclosure.variable import with_variable
-from kovacic.errors import check_keywords, warn_user
-from kovacic.limits import Limits, limited
+from kovacic.errors import InputError, NotRational, check_keywords, warn_user
+from kovacic.limits import Limits, limited, limits_of
+from kovacic.reading.names import words_among
+from kovacic.reading.source import source_of
 
 
 class InitialValues(TypedDict, total=False):
@@ -326,3 +328,28 @@ def _prepared(equation: object, x0: object, options: Mapping[str, Any]) -> Prepa
     equation = with_variable(equation, given.pop("var", None), given.get("limits"), given.get("params"))
     start = {name: given.get(name) for name in ("x0", "y0", "dy0", "frobenius", "which")}
     return Prepared(question_of(equation, **given), start)
+
+
+def with_variable(
+    equation: object, var: object, limits: Limits | None = None, params: Mapping[str, object] | None = None
+) -> object:
+    """The equation, read with this name of its variable; as it was given where none is named.  Warns of what is guessed."""
+    declared = words_among(params or ())
+    if isinstance(equation, str):
+        for guess in source_of(equation, None if var is None else str(var), limits_of(limits), names=declared).guesses:
+            warn_user(guess)
+    if var is None and not (declared and isinstance(equation, str)):
+        return equation
+    if isinstance(equation, Answer):
+        if str(var) != equation.variable:
+            raise InputError(f"the variable of this answer is {equation.variable}, not {var}")
+        return equation
+    from kovacic.reading.read import read_input
+
+    limits = limits_of(limits)
+    try:
+        return read_input(equation, var=var, limits=limits, exponentials=True, names=declared)
+    except NotRational:
+        from kovacic.enclosure.functions import as_written  # imports SymPy
+
+        return as_written(equation, var, limits, declared)

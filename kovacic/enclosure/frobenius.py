@@ -183,8 +183,12 @@ def _expansions(
         N = point.difference
         resonance = None
         if N is not None:  # whether there is a logarithm is decided where that costs little
-            is_known = point.is_rational and N <= _SOUGHT
-            resonance = _Resonance(N, not is_known or _has_logarithm(op, lower, N))
+            resonance = _Resonance(N)
+            if point.is_rational and N <= _SOUGHT:
+                terms: list[LogPair] = [(fmpq(1), fmpq(0))]  # of the smaller exponent, in exact numbers
+                while len(terms) <= N:
+                    terms.append(_next(op, lower + len(terms), terms, resonance))
+                resonance = _Resonance(N, bool(terms[N][1] != 0))
         dominant = _Beginning(lower, delta, resonance)
     found: list[FrobeniusSeries | None] = [None, None]
     for k, beginning in enumerate((dominant, _Beginning(upper, arb(0)))):
@@ -256,14 +260,6 @@ def _next(op: Operator, nu: Any, terms: list[LogPair], resonance: _Resonance | N
     value = (op.A[0] * nu + op.B[0]) * nu + op.C[0]
     v = f1 / value
     return (f0 - slope * v) / value, v
-
-
-def _has_logarithm(op: Operator, lower: Any, N: int) -> bool:
-    """Does the solution of the smaller exponent have a logarithm?  In exact numbers."""
-    terms: list[LogPair] = [(fmpq(1), fmpq(0))]
-    while len(terms) <= N:
-        terms.append(_next(op, lower + len(terms), terms, _Resonance(N)))
-    return bool(terms[N][1] != 0)
 
 
 @dataclass(frozen=True)

@@ -1,4 +1,5 @@
-"""Equations y'' + b y' + c y = f whose coefficients are functions of x that aren't rational: what they are, as expressions.
+"""Equations y'' + b y' + c y = f whose coefficients are functions of x that aren't rational: what they are, as expressions, and
+values in another variable.
 
 Where an equation is rational in t = exp(k x), sin(k x), ... it is Y'' + p Y' + q Y = r in t, reduced exactly, and with
 t'^2 = k^2 sigma(t), sigma a polynomial, so that t'' = k^2 sigma'(t)/2,
@@ -7,25 +8,36 @@ t'^2 = k^2 sigma(t), sigma a polynomial, so that t'' = k^2 sigma'(t)/2,
 
 The brackets are rational functions of t in lowest terms: what cancels there is no singular point.  Where t = tan(u) they are
 written in sin(u) and cos(u), since a pole of t alone is none of the equation.  Any other equation is taken as it was written.
+
+An equation that is rational in t = exp(k x + c) is evaluated in t.  The guarantee is that of `kovacic.enclosure.journey`, for
+y(x) = Y(t(x)).  Where k and x are real, t is real, positive and monotone: a segment of the x-axis is mapped onto a segment of
+the t-axis, so that the straight way in t continues the same solution.  Points are carried through as balls, and y' = t'
+Y'.  What a wave exp(i k x) makes of a segment is no segment; its discs in x serve as well.
 """
 
 from __future__ import annotations
 
-from collections.abc import Collection, Mapping
-from dataclasses import replace
+from collections.abc import Collection, Mapping, Sequence
+from dataclasses import dataclass, replace
 from functools import lru_cache
 from typing import Any
 
 import sympy
+from flint import acb
 
 from kovacic.algebra.poly import Field, Poly
+from kovacic.algebra.precision import working_precision
 from kovacic.algebra.ratfunc import RatFunc
 from kovacic.closed_form.atoms import Atoms
-from kovacic.enclosure.problem import Coefficients, change_of
+from kovacic.enclosure.constants import Constant, Number, in_balls, to_ball
+from kovacic.enclosure.points import are_real
+from kovacic.enclosure.precision import PointValue
+from kovacic.enclosure.problem import Coefficients, NumericProblem, as_problem, change_of
+from kovacic.enclosure.start import Start
 from kovacic.equation import Equation
 from kovacic.errors import LimitExceeded, NotRational
 from kovacic.limits import Limits
-from kovacic.reading.change_of_variable import SQUARES, function_of_x, is_of_a_line, user_variable
+from kovacic.reading.change_of_variable import SQUARES, function_of_x, is_of_a_line, user_variable, without_change
 from kovacic.reading.read import read_input
 from kovacic.reading.source import parts_of, source_of
 
@@ -110,8 +122,13 @@ def in_the_given_variable(equation: Equation) -> Coefficients:
     """Equation (1)."""
     t = function_of_x(equation)
     x = user_variable(equation)
-    if not is_of_a_line(equation):
-        return _of_any_change(equation, t, x)
+    if not is_of_a_line(equation):  # t' b/a - t''/t', t'^2 c/a and t'^2 f/a, as they are
+        atoms = Atoms(sympy.Dummy("t"))
+        p, q, r = (
+            atoms.ratio(part / equation.a).xreplace({atoms.x: t}) for part in (equation.b, equation.c, equation.f)
+        )
+        slope = t.diff(x)
+        return Coefficients(x, slope * p - slope.diff(x) / slope, slope**2 * q, slope**2 * r + (equation.h or 0))
     rate = t.args[0].diff(x)
     field = equation.a.field
     sigma = RatFunc(_sigma(t, field))
@@ -129,14 +146,6 @@ def in_the_given_variable(equation: Equation) -> Coefficients:
         parts = slope * _in(t, b), rate**2 * _in(t, c), rate**2 * _in(t, f)
     h = 0 if equation.h is None else equation.h  # over the coefficient of y'', in x
     return Coefficients(x, parts[0], parts[1], parts[2] + h)
-
-
-def _of_any_change(equation: Equation, t: Any, x: Any) -> Coefficients:
-    """t' b/a - t''/t', t'^2 c/a and t'^2 f/a, as they are."""
-    atoms = Atoms(sympy.Dummy("t"))
-    b, c, f = (atoms.ratio(part / equation.a).xreplace({atoms.x: t}) for part in (equation.b, equation.c, equation.f))
-    slope = t.diff(x)
-    return Coefficients(x, slope * b - slope.diff(x) / slope, slope**2 * c, slope**2 * f + (equation.h or 0))
 
 
 def _sigma(t: Any, field: Field) -> Poly:
@@ -208,3 +217,56 @@ def _in_sines(u: Any, function: RatFunc, atoms: Atoms) -> Any:
         return sympy.Add(*(c * sympy.sin(u) ** k * sympy.cos(u) ** (poly.degree - k) for k, c in terms))
 
     return homogeneous(function.num) / homogeneous(denominator) * sympy.cos(u) ** powers
+
+
+_BITS = 64
+
+
+@dataclass(frozen=True)
+class Substitution:
+    """t as a function of x, and the equation in t."""
+
+    t: Any
+    x: Any
+    problem: NumericProblem
+
+    @classmethod
+    def of(cls, coefficients: Coefficients) -> Substitution | None:
+        """None unless the equation is rational in an exponential of x."""
+        changed: Any = coefficients.changed
+        if changed is None or getattr(changed, "letters", None):
+            return None
+        t = function_of_x(changed.equation)
+        if t.func is not sympy.exp or t.free_symbols != {coefficients.variable}:
+            return None
+        values: dict[str, object] = dict(coefficients.values)
+        try:
+            problem = as_problem(without_change(changed), values or None, forced=True, constants=True)
+        except NotRational:
+            return None
+        return cls(t, coefficients.variable, problem)
+
+    def image(self, x: Number) -> Number:
+        """t at a number, to every precision that this has."""
+        return Constant(f"t({x})", lambda: in_balls(self.t, {self.x: to_ball(x)}), getattr(x, "fixed", False))
+
+    def slope(self, x: Number) -> acb:
+        """dt/dx at a number, at the working precision in force."""
+        return in_balls(self.t.diff(self.x), {self.x: to_ball(x)})
+
+    def start(self, x0: Number, data: tuple[Number, Number]) -> Start:
+        """The start in t with these values of y and y'."""
+        y, dy = data
+        fixed = any(getattr(number, "fixed", False) for number in (dy, x0))
+        return Start(self.image(x0), (y, Constant("y'/t'", lambda: to_ball(dy) / self.slope(x0), fixed)))
+
+    def is_real(self, numbers: Sequence[Number]) -> bool:
+        """True if these numbers, and t and its derivative there, are real."""
+        with working_precision(_BITS):
+            return are_real([f(x) for x in numbers for f in (to_ball, lambda x: to_ball(self.image(x)), self.slope)])
+
+    def seen(self, target: Number, value: PointValue) -> PointValue:
+        """The value at t(target) as one at the target: y' = t' Y'."""
+        with working_precision(value.route.bits + 2 * _BITS):
+            y, dy = value.state
+            return replace(value, x=target, state=(y, dy * self.slope(target)))

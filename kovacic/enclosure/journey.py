@@ -76,7 +76,7 @@ class Journey:
 
     @cached_property
     def routes(self) -> dict[Any, Any]:
-        """The choices of `kovacic.enclosure.routes`, by what they depend on."""
+        """The choices of `kovacic.enclosure.states`, by what they depend on."""
         return {}
 
     def _begin(self, closed: Closed | None, prec: int) -> Traveller:

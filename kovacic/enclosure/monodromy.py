@@ -21,6 +21,7 @@ from flint import acb, acb_mat, arb, fmpq
 
 from kovacic.algebra.precision import working_precision
 from kovacic.enclosure.ball import Ball, ball_from_flint, ball_to_flint, finite_ball
+from kovacic.enclosure.evaluate import with_variable
 from kovacic.enclosure.frobenius import basis, junction
 from kovacic.enclosure.matrices import Matrix, inverse, multiply
 from kovacic.enclosure.points import ExactPoint, as_point, midpoint, power_of_two, to_acb
@@ -29,7 +30,6 @@ from kovacic.enclosure.problem import NumericProblem, as_problem
 from kovacic.enclosure.rational import way_for
 from kovacic.enclosure.singular import Singular
 from kovacic.enclosure.start import place_of
-from kovacic.enclosure.variable import with_variable
 from kovacic.enclosure.way import Traveller
 from kovacic.errors import InputError, LimitExceeded
 from kovacic.limits import Budget, Limits, check_time, limited, limits_of
@@ -338,7 +338,13 @@ def _loops(places: list[tuple[ExactPoint, Any]]) -> list[tuple[tuple[ExactPoint,
     if star.share == 0:
         raise LimitExceeded("no base point was found that sees the singular points apart", limit="unknown_degree")
     base = star.base
-    loops = [(_loop(base, z, radius), z) for (z, _), radius in zip(places, star.radii, strict=True)]
+    loops = []
+    for (z, _), radius in zip(places, star.radii, strict=True):
+        # A segment to a square around the point, the square counter-clockwise, and the segment back.
+        corners = [(base - z).scaled(_root_below(radius * radius / (base - z).norm_squared()))]
+        for _ in range(4):
+            corners.append(corners[-1] * ExactPoint(0, 1))
+        loops.append(((base, *(z + corner for corner in corners), base), z))
     return sorted(loops, key=lambda item: (item[1].x - base.x) / (base.y - item[1].y))
 
 
@@ -375,15 +381,6 @@ class _Star:
             radii.append(min([largest, *distances]) / 2)
         share = min(radius / largest for radius, (_, largest) in zip(radii, places, strict=True))
         return cls(base, radii, share)
-
-
-def _loop(base: ExactPoint, z: ExactPoint, radius: Any) -> tuple[ExactPoint, ...]:
-    """A segment to a square around the point, the square counter-clockwise, and the segment back."""
-    offset = base - z
-    corners = [offset.scaled(_root_below(radius * radius / offset.norm_squared()))]
-    for _ in range(4):
-        corners.append(corners[-1] * ExactPoint(0, 1))
-    return (base, *(z + corner for corner in corners), base)
 
 
 def _root_below(square: Any) -> Any:

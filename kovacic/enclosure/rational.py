@@ -6,6 +6,28 @@ from u to v, with gamma = g'/g,
     (z, z')(v) = E G(v) M G(u)^-1 (z, z')(u),    E = exp int_u^v gamma,    G(x) = (1, 0; gamma(x), 1).
 
 A pole of gamma is a singular point of the user's equation even where S is regular: lines through one are refused.
+
+Solutions that oscillate towards infinity, over any distance in one step: by amplitude and phase.
+
+The guarantee: from `edge` on, on its half of the real axis, every state that is carried lies in the ball that is returned.
+
+The mathematics.  Let S be real and S ~ -c x^d for x to infinity, c > 0 and d >= -1 (to minus infinity: S(-x) instead).  With
+any smooth f > 0 and phi' = sqrt(c) f,
+
+    w = f^(-1/2) (cos phi, sin phi)    solves    w'' = S~ w,    S~ = -c f^2 + 3/4 (f'/f)^2 - f''/(2 f),
+
+and its Wronskian is sqrt(c).  Here f = x^(d/2) T(1/x) with a polynomial T, so phi is elementary, and the defect S~ - S is known
+exactly: with t = 1/x, U = (d/2) T - t T', V = (d/2 - 1) U - t U' and S = x^d n(t)/D(t),
+
+    f^2 (S~ - S) = x^(2 d) E(t)/D(t),    E = D (-c T^4 + t^(d+2) (3/4 U^2 - 1/2 T V)) - n T^2.
+
+A solution y of y'' = S y and y' are w.C and w'.C with C' = -(S~ - S) (-w_2, w_1) (w.C)/sqrt(c), so |C'| <= |S~ - S|/(sqrt(c) f)
+|C|: over any part of the half line C moves by at most (exp(I) - 1) |C|, I = int |S~ - S|/(sqrt(c) f).
+
+T is chosen so that E begins with a high power of t: 1/T is the series of the product M = x^(d/2) (w_1^2 + w_2^2) of solutions,
+N = x^(-d/2) M(t) with N''' = 4 S N' + 2 S' N, which is a recurrence over Q.
+
+References: F. W. J. Olver, "Asymptotics and Special Functions" (1974), chapters 6 and 7; NIST DLMF, 2.7(ii) and 10.18.
 """
 
 from __future__ import annotations
@@ -13,26 +35,232 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
-from functools import cached_property
+from functools import cached_property, lru_cache
+from typing import Any
 
-from flint import acb, acb_poly
+from flint import acb, acb_poly, arb, arb_poly, fmpq, fmpq_poly
 
+from kovacic.algebra.precision import working_precision
 from kovacic.enclosure.classical import Classical, Closed
 from kovacic.enclosure.closed_form import value
 from kovacic.enclosure.constants import Number
-from kovacic.enclosure.frame import foreseen_growth, frequency, largest_exponent
+from kovacic.enclosure.frame import foreseen_growth, frequency, largest_exponent, log2
 from kovacic.enclosure.frobenius import basis, junction
 from kovacic.enclosure.log_derivative import LogDerivative, log_derivative
-from kovacic.enclosure.matrices import Matrix, MatrixProduct, State, apply, multiply, real_part
-from kovacic.enclosure.oscillation import swing, swing_from
-from kovacic.enclosure.points import ExactPoint, power_of_two, to_acb, to_double
+from kovacic.enclosure.matrices import Matrix, MatrixProduct, State, apply, fundamental, inverse, multiply, real_part
+from kovacic.enclosure.points import ExactPoint, around_zero, power_of_two, to_acb, to_double
 from kovacic.enclosure.problem import NumericProblem
 from kovacic.enclosure.singular import Singular
 from kovacic.enclosure.splitting import is_split
 from kovacic.enclosure.start import logarithmic_derivative, spread_by
+from kovacic.enclosure.system import System
 from kovacic.enclosure.transport import Stop, growth_of_disc, walk
 from kovacic.enclosure.way import MAX_DISCS, NOTHING, Forecast, Traveller, Way, WayStep
 from kovacic.limits import check_time, count_work
+
+_WORTH = 4  # times as many radians as bits, on the whole way: with fewer, discs are as fast
+_DOUBLINGS = 64  # of the least abscissa at which the series can be that sharp: singular points far away
+_MOST_TERMS = 2000
+_BITS = 64
+_GUARD = 40
+
+
+@dataclass(frozen=True)
+class Oscillation:
+    """Amplitude and phase on the half line sign * x >= edge, to about 2^-prec."""
+
+    sign: int
+    d: int
+    c: Any
+    T: Any
+    edge: Any
+    change: arb
+    prec: int
+
+    def reaches(self, x: ExactPoint) -> bool:
+        """Does the point lie on the half line?"""
+        return x.is_real() and bool(self.sign * x.x >= self.edge)
+
+    def fundamental(self, x: ExactPoint) -> Matrix:
+        """w and dw/dx at a point of the half line."""
+        abscissa = self.sign * x.x
+        bits = self.prec + _GUARD + max(0, int(self.phase_bits(abscissa)))
+        with working_precision(bits):
+            t = 1 / arb(abscissa)
+            head = _half_power(arb(abscissa), self.d)
+            f = head * arb_poly(self.T)(t)
+            slope = head * t * arb_poly(self.T * fmpq(self.d, 2) - self.T.derivative() * fmpq_poly([0, 1]))(t)
+            kappa = arb(self.c).sqrt()
+            phi = arb(0)
+            for k, coefficient in enumerate(self.T.coeffs()):
+                e = fmpq(self.d, 2) - k + 1
+                phi += (arb(coefficient / e) * t**k) if e != 0 else arb(coefficient) * t**k * arb(abscissa).log()
+            phi *= kappa * head * arb(abscissa)
+            sin, cos = phi.sin_cos()
+            y1 = cos / f.sqrt()
+            y2 = sin / f.sqrt()
+            share = slope / f / 2
+            dy1 = self.sign * (-share * y1 - kappa * f * y2)
+            dy2 = self.sign * (-share * y2 + kappa * f * y1)
+            return acb(y1), acb(y2), acb(dy1), acb(dy2)
+
+    def phase_bits(self, abscissa: Any) -> float:
+        """log2 of about the phase at an abscissa."""
+        return _phase_bits(self.c, self.d, abscissa)
+
+
+def _phase_bits(c: Any, d: int, abscissa: Any) -> float:
+    return log2(arb(c)) / 2 + (d / 2 + 1) * log2(arb(abscissa)) - math.log2(d / 2 + 1)
+
+
+def _half_power(x: arb, d: int) -> arb:
+    """x^(d/2)."""
+    return x ** (d // 2) if d % 2 == 0 else x ** ((d - 1) // 2) * x.sqrt()
+
+
+@dataclass(frozen=True)
+class Swing:
+    """The step from one point of the half line to another: a `WayStep`."""
+
+    oscillation: Oscillation
+    enter: ExactPoint
+    leave: ExactPoint
+
+    @property
+    def matrix(self) -> Matrix:
+        """The matrix of the step."""
+        first, second = (self.local(state).state(self.leave) for state in ((acb(1), acb(0)), (acb(0), acb(1))))
+        return fundamental(first, second)
+
+    @property
+    def added(self) -> State:
+        """There is no right-hand side."""
+        return acb(0), acb(0)
+
+    def local(self, state: State) -> Swinging:
+        """The solution on the half line, from its state where the step begins."""
+        count_work(self.oscillation.prec)
+        with working_precision(self.oscillation.prec + _GUARD):
+            C = apply(inverse(self.oscillation.fundamental(self.enter)), state)
+            error = (self.oscillation.change * (abs(C[0]).upper() + abs(C[1]).upper())).upper()
+        real = C[0].imag.is_zero() and C[1].imag.is_zero()
+        off = around_zero(error, real=real)
+        return Swinging(self.oscillation, (C[0] + off, C[1] + off))
+
+
+@dataclass(frozen=True)
+class Swinging:
+    """A solution on the half line: with constants that hold everywhere on it."""
+
+    oscillation: Oscillation
+    constants: State
+
+    def state(self, x: ExactPoint) -> State:
+        """(y, dy/dx); raises ArithmeticError elsewhere."""
+        if not self.oscillation.reaches(x):
+            raise ArithmeticError("the target lies outside of its half line")
+        with working_precision(self.oscillation.prec + _GUARD):
+            return apply(self.oscillation.fundamental(x), self.constants)
+
+
+def swing_from(system: System, near: ExactPoint, end: ExactPoint, prec: int) -> ExactPoint:
+    """Where, on the way from `near` out to `end`, one step to the end may begin; the end itself if discs are to go there."""
+    found = _towards(system, end, prec) if near.is_real() and end.is_real() else None
+    if found is None or (abs(near.x) >= abs(end.x) and found.reaches(near)):
+        return end
+    edge = near if found.reaches(near) else ExactPoint(found.sign * found.edge)
+    share = (end - edge).x / end.x
+    return edge if share > 0 and found.phase_bits(abs(end.x)) + log2(arb(share)) > math.log2(_WORTH * prec) else end
+
+
+def swing(system: System, a: ExactPoint, b: ExactPoint, prec: int) -> Swing:
+    """The step between two points of a half line, one of which `swing_from` gave for the other."""
+    found = _towards(system, max(a, b, key=lambda point: abs(point.x)), prec)
+    assert found is not None
+    return Swing(found, a, b)
+
+
+def _towards(system: System, end: ExactPoint, prec: int) -> Oscillation | None:
+    """The solutions on the half line on which the end lies, where the way there may be worth while."""
+    d = len(system.num) - len(system.den)
+    if d < -1 or not system.num or end.x == 0:
+        return None
+    sign = 1 if end.x > 0 else -1
+    c = -fmpq(system.num[-1], system.den[-1]) * sign ** abs(d)
+    with working_precision(_BITS):
+        if c < 0 or not _phase_bits(c, d, abs(end.x)) > math.log2(_WORTH * prec):
+            return None
+    return _oscillation(system, sign, prec)
+
+
+@lru_cache(maxsize=64)
+def _oscillation(system: System, sign: int, prec: int) -> Oscillation | None:
+    """The solutions on one half line; None where singular points far away leave no sharp series, or it would be long."""
+    d = len(system.num) - len(system.den)
+    half = fmpq(d, 2)
+    length = math.ceil((prec / 4 + 10) * (d / 2 + 1))  # enough at twice the least phase at which the series is so sharp
+    if length > _MOST_TERMS:
+        return None
+    num, den = ([fmpq(v) * sign**k / system.den[-1] for k, v in enumerate(part)] for part in (system.num, system.den))
+    num, den = ([v * sign ** (len(den) - 1) for v in part] for part in (num, den))  # S(sign x), and den with the head 1
+    c = -num[-1]
+    T = _inverse(_modulus(num, den, half, length))
+    t = fmpq_poly([0, 1])
+    U = T * half - t * T.derivative()
+    V = U * (half - 1) - t * U.derivative()
+    n, D = (fmpq_poly(part[::-1]) for part in (num, den))
+    E = D * (T**4 * -c + t ** (d + 2) * (U * U * fmpq(3, 4) - T * V / 2)) - n * T * T
+    with working_precision(_BITS):
+        sizes = [[abs(arb(v)) for v in part.coeffs()] for part in (E, T, D)]
+        least = (math.log2(prec) - 1 - _phase_bits(c, d, fmpq(1))) / (d / 2 + 1)
+        for e in range(int(least), int(least) + _DOUBLINGS):
+            change = _change(sizes, c, d, arb((1, e)))
+            if change is not None and change < arb((1, -prec)):
+                return Oscillation(sign, d, c, T, power_of_two(e), change, prec)
+    return None
+
+
+def _modulus(num: Sequence[Any], den: Sequence[Any], half: Any, length: int) -> list[Any]:
+    """M from A N''' = B N' + G N with A = den^2, B = 4 num den and G = 2 (num' den - num den')."""
+    p, q = fmpq_poly(list(num)), fmpq_poly(list(den))
+    A = q * q
+    B = p * q * 4
+    G = (p.derivative() * q - p * q.derivative()) * 2
+    top = B.degree()
+    d = top - A.degree()
+    found = [fmpq(1)]
+    for k in range(1, length):
+        check_time()
+        total = fmpq(0)  # of x^(top - 1 - half - k), and found[j] goes with x^r
+        for j in range(max(0, k - top), k):
+            r = -half - j
+            total += found[j] * (B[top + j - k] * r + G[top - 1 + j - k])
+        for j in range(max(0, k - d - 2 - A.degree()), k - d - 1):
+            r = -half - j
+            total -= found[j] * A[j + d + 2 + A.degree() - k] * r * (r - 1) * (r - 2)
+        found.append(-total / (B[top] * (-half - k) + G[top - 1]))
+    return found
+
+
+def _inverse(series: Sequence[Any]) -> Any:
+    """1/series, for one that begins with 1."""
+    found = [fmpq(1)]
+    for k in range(1, len(series)):
+        check_time()
+        found.append(-sum((series[j] * found[k - j] for j in range(1, k + 1) if series[j] != 0), fmpq(0)))
+    return fmpq_poly(found)
+
+
+def _change(sizes: Sequence[Sequence[arb]], c: Any, d: int, x: arb) -> arb | None:
+    """A bound of exp(I) - 1 from x on, from the absolute values of the coefficients of E, T and D; None if there is none."""
+    t = 1 / x
+    E, T, D = sizes
+    T_least, D_least = (1 - sum((v * t**k for k, v in enumerate(part) if k), arb(0)) for part in (T, D))
+    if not (T_least > 0 and D_least > 0):
+        return None
+    powers = ((v / (k - arb(d) / 2 - 1)) * t**k for k, v in enumerate(E) if v != 0)
+    integral = sum(powers, arb(0)) * _half_power(x, d) * x / (arb(c).sqrt() * D_least * T_least**3)
+    return (integral.exp() - 1).upper() if integral < 1 else None
 
 
 @dataclass(frozen=True, eq=False)

@@ -103,15 +103,6 @@ class Singular:
         """True if the equation is regular here."""
         return self._orders[0] == 0
 
-    @property
-    def has_regular(self) -> bool:
-        """Is there a solution that is smaller than all others at the point?"""
-        if self.difference is not None:
-            return True
-        with working_precision(256):
-            lower, upper = (acb(v).real for v in self.exponents())
-        return bool(lower < upper)
-
     def __str__(self) -> str:
         return "infinity" if self.inverted else str(self.near)
 

@@ -128,7 +128,9 @@ def read_start(
 def _frobenius_coordinates(place: Singular, frobenius: Sequence[object] | None) -> tuple[Number, Number]:
     """The two that are given; without, those of the regular solution.  Raises `InputError` where there is none."""
     if frobenius is None:
-        if not place.has_regular:
+        with working_precision(256):
+            lower, upper = (acb(v).real for v in place.exponents())
+        if place.difference is None and not lower < upper:
             said = f"no solution is smaller than all others at {place}"
             raise InputError(said, hint="give frobenius=(c1, c2)", shell="give --frobenius C1,C2")
         frobenius = (0, 1)

@@ -36,7 +36,7 @@ class Cost:
 BEGIN = 0.8
 """The start of Taylor's method."""
 DISC = Price(0.35, 45, 1.0)
-"""A disc, as `kovacic.enclosure.routes` foresees them: near singular points two or three stand for one."""
+"""A disc, as `kovacic.enclosure.states` foresees them: near singular points two or three stand for one."""
 TARGET = Price(0.055, 75)
 """A target in a disc that is there."""
 FIRST = 0.3

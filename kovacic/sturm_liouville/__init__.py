@@ -6,10 +6,9 @@ exact number E, from the zeros of the solutions that belong to the two ends (Stu
 numbers with N <= k and N >= k + 1; how these two were guessed needs no proof.  Read `count` first.  One step a module:
 
 1. `problem`: the normal form, its analytic pieces, the conditions at the ends;
-2. `bounds`: lower bounds of a function on a half-line, for ends at infinity;
-3. `ends`: with which values the solution of an end begins, or between which;
-4. `discs`: Taylor series with proven errors, along the axis;
-5. `count`: N(E), for separated and for periodic conditions;
-6. `search`: brackets, their refinement, and the proof; `levels` has the results;
-7. `families`: the eigenvalues as formulas, where the equation has constant coefficients after a change of variable.
+2. `ends`: with which values the solution of an end begins, or between which, by lower bounds on a half-line;
+3. `discs`: Taylor series with proven errors, along the axis;
+4. `count`: N(E), for separated and for periodic conditions;
+5. `solve`: brackets, their refinement, and the proof; `levels` has the results;
+6. `families`: the eigenvalues as formulas, where the equation has constant coefficients after a change of variable.
 """

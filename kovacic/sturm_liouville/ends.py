@@ -6,12 +6,22 @@ to be positive from the end to a cut: there the principal solution has Y'/Y betw
 infinitely steep, and between sqrt(m) and sqrt(M) in that direction where m <= Q - E W <= M is known.  So its angle
 lies between those of two solutions, and the counts that belong to these are an upper and a lower bound of the count
 (the angle at the other end is monotonic in the one at the cut).
+
+Lower bounds of an elementary function on a half-line [c, oo), proven in interval arithmetic with infinite ends.
+
+>>> import sympy
+>>> x = sympy.Symbol("x")
+>>> round(float(lower_bound(x**4 - 20*x**2, x, sympy.Integer(5))), 9)  # x^4 (1 - 20/x^2)
+125.0
+>>> float(lower_bound(sympy.cosh(x) - x**2, x, sympy.Integer(4))) > 11
+True
 """
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
-from functools import cached_property
+from functools import cached_property, reduce
 from typing import Any
 
 import sympy
@@ -20,9 +30,179 @@ from flint import acb, arb, ctx
 from kovacic.algebra.precision import working_precision
 from kovacic.closed_form.balls import BallEvaluator
 from kovacic.errors import InputError, LimitExceeded
-from kovacic.sturm_liouville.bounds import lower_bound
 from kovacic.sturm_liouville.discs import coefficients, size
 from kovacic.sturm_liouville.problem import Robin, Span, Stretch, SturmProblem, Wish, ball, kept, plain
+
+#: Exact lower and upper bound, possibly infinite.
+Range = tuple[Any, Any]
+
+_INFINITY = arb.pos_inf()
+_EVERYTHING = (-_INFINITY, _INFINITY)
+#: Derivatives that are tried: cosh(x) - x^2 needs three.
+_MOST_DERIVATIVES = 4
+_HYPERBOLIC = [sympy.sinh, sympy.cosh, sympy.tanh, sympy.coth, sympy.sech, sympy.csch]
+#: Terms of a sum, up to which each is tried as the dominant one.
+_MOST_TERMS_OF_SUM = 12
+
+
+def lower_bound(e: Expr, x: Expr, c: Expr, *, derivatives: int = _MOST_DERIVATIVES) -> Any:
+    """A number (an exact arb, maybe -oo) that isn't above any value of e on [c, oo).
+
+    The expression as it stands, with its dominant term as a factor, and, where its derivative isn't negative, its
+    value at c.
+    """
+    simple = _direct(e, x, c)
+    if simple > -_INFINITY:
+        return simple
+    factored = _dominated(e, x, c)
+    if factored > -_INFINITY:
+        return factored
+    if derivatives == 0:
+        return -_INFINITY
+    slope = lower_bound(sympy.expand(e.diff(x)), x, c, derivatives=derivatives - 1)
+    if slope >= 0:
+        value = BallEvaluator({x: BallEvaluator({})(c)})(e).real
+        if value.is_finite():
+            return value.lower()
+    return -_INFINITY
+
+
+def _direct(e: Expr, x: Expr, c: Expr) -> Any:
+    start = BallEvaluator({})(c).real
+    try:
+        return _Ranges(x, (start.lower(), _INFINITY)).of(e)[0]
+    except InputError:  # a function that isn't known here
+        return -_INFINITY
+
+
+def _dominated(e: Expr, x: Expr, c: Expr) -> Any:
+    """num/den, each as a term times 1 plus quotients of terms; for hyperbolic functions in exponentials."""
+    in_exponentials = e.rewrite(_HYPERBOLIC, sympy.exp)
+    num, den = sympy.fraction(sympy.together(in_exponentials))
+    best = -_INFINITY
+    for above in _by_its_terms(num):
+        for below in _by_its_terms(den):
+            leading = sympy.powsimp(above[0] / below[0])
+            best = max(best, _direct(leading * above[1] / below[1], x, c))
+    return best
+
+
+def _by_its_terms(e: Expr) -> list[tuple[Expr, Expr]]:
+    """(T, e/T) for each term T of e, with e/T expanded."""
+    terms = sympy.Add.make_args(sympy.expand(e))
+    if len(terms) > _MOST_TERMS_OF_SUM:
+        return [(e, sympy.Integer(1))]
+    return [(term, sympy.Add(*(sympy.powsimp(other / term) for other in terms))) for term in terms]
+
+
+class _Ranges:
+    """The range of an expression whose variable has a range."""
+
+    def __init__(self, x: Expr, start: Range) -> None:
+        self.known: dict[Expr, Range] = {x: start}
+
+    def of(self, e: Expr) -> Range:
+        """Raises `InputError` for functions that aren't known here."""
+        found = self.known.get(e)
+        if found is None:
+            found = self.known[e] = self._computed(e)
+        return found
+
+    def _computed(self, e: Expr) -> Range:
+        if not e.free_symbols:
+            value = BallEvaluator({})(e)
+            if not value.is_finite() or not value.imag.is_zero():
+                raise InputError(f"{e} isn't known to be real")
+            return value.real.lower(), value.real.upper()
+        if e.is_Add:
+            lower, upper = zip(*map(self.of, e.args), strict=True)
+            return reduce(lambda a, b: _exact_lower(a + b), lower), reduce(lambda a, b: _exact_upper(a + b), upper)
+        if e.is_Mul:
+            return reduce(_product_of_ranges, map(self.of, e.args))
+        if e.is_Pow and e.base is not sympy.E:
+            return self._power(e)
+        argument = self.of(e.exp if e.is_Pow else e.args[0])
+        if e.func in (sympy.sin, sympy.cos):
+            return -arb(1), arb(1)
+        if e.func in (sympy.cosh, sympy.Abs):
+            return _even(_INCREASING[e.func], argument)
+        increasing = sympy.exp if e.is_Pow else e.func
+        if increasing not in _INCREASING:
+            raise InputError(f"the range of {e} isn't known here")
+        return _monotone(_INCREASING[increasing], argument)
+
+    def _power(self, e: Expr) -> Range:
+        low, high = self.of(e.base)
+        exponent = e.exp
+        if exponent.free_symbols:
+            raise InputError(f"the range of {e} isn't known here")
+        if exponent.is_negative:
+            low, high = self.of(e.base ** (-exponent))
+            return (
+                (_exact_lower(_reciprocal(high)), _exact_upper(_reciprocal(low)))
+                if low > 0 or high < 0
+                else _EVERYTHING
+            )
+        if exponent.is_Integer and exponent % 2 == 0:
+            return _even(lambda b: b ** int(exponent), (low, high))
+        if exponent.is_Integer:
+            return _monotone(lambda b: b ** int(exponent), (low, high))
+        if not low >= 0:
+            return _EVERYTHING
+        ball = BallEvaluator({})(exponent).real
+        return _monotone(lambda b: b**ball, (low, high))
+
+
+#: Increasing functions, the last two of the absolute value.
+_INCREASING: dict[Any, Callable[[Any], Any]] = {
+    sympy.exp: lambda b: arb(0) if b < 0 and not b.is_finite() else b.exp(),
+    sympy.log: lambda b: b.log() if b > 0 else -_INFINITY,
+    sympy.sinh: lambda b: b.sinh(),
+    sympy.tanh: lambda b: b.tanh() if b.is_finite() else b.sgn(),
+    sympy.atan: lambda b: b.atan() if b.is_finite() else b.sgn() * arb.pi() / 2,
+    sympy.cosh: lambda b: b.cosh(),
+    sympy.Abs: lambda b: b,
+}
+
+
+def _monotone(function: Callable[[Any], Any], argument: Range) -> Range:
+    return _exact_lower(_limit_at(function, argument[0])), _exact_upper(_limit_at(function, argument[1]))
+
+
+def _limit_at(function: Callable[[Any], Any], bound: Any) -> Any:
+    """The value at a bound; a function that isn't bounded there tends to an infinity of the same sign."""
+    value = function(bound)
+    return bound if value.is_nan() else value
+
+
+def _even(function: Callable[[Any], Any], argument: Range) -> Range:
+    low, high = argument
+    nearest = max(low, -high, arb(0))
+    return _monotone(function, (nearest, max(-low, high)))
+
+
+def _product_of_ranges(a: Range, b: Range) -> Range:
+    """Infinite bounds aren't reached, so that 0 times such a one is 0."""
+    products = [arb(0) if s == 0 or t == 0 else s * t for s in a for t in b]
+    return min(map(_exact_lower, products)), max(map(_exact_upper, products))
+
+
+def _reciprocal(bound: Any) -> Any:
+    return 1 / bound if bound.is_finite() else arb(0)
+
+
+def _exact_lower(bound: Any) -> Any:
+    """An exact lower bound; -oo where nothing is known (oo - oo)."""
+    if bound.is_nan():
+        return -_INFINITY
+    return bound.lower() if bound.is_finite() else bound
+
+
+def _exact_upper(bound: Any) -> Any:
+    if bound.is_nan():
+        return _INFINITY
+    return bound.upper() if bound.is_finite() else bound
+
 
 Expr = Any
 State = tuple[Any, Any]
@@ -146,16 +326,13 @@ class CutEnd:
             after = (tau + step).mid()
             action += root * abs(self._x(after) - self._x(tau))
             tau = after
-            if action > needed - self._saved(tau, root):
+            saved = arb(0)  # half the logarithm of S over what S varies by beyond, where that is known
+            if self.threshold is not None:
+                variation = abs(self._S(tau, ball(self.threshold)))
+                saved = ((root * root / variation).log() / 2).max(arb(0)) if variation > 0 else arb(1000)
+            if action > needed - saved:
                 return self._x(tau).mid()
         raise LimitExceeded(f"the solutions don't decay fast enough towards {self._name()}", limit="unknown_degree")
-
-    def _saved(self, tau: Any, root: Any) -> Any:
-        """Half the logarithm of S over what S varies by beyond: so much less decay is needed where that is known."""
-        if self.threshold is None:
-            return 0
-        variation = abs(self._S(tau, ball(self.threshold)))
-        return ((root * root / variation).log() / 2).max(arb(0)) if variation > 0 else 1000
 
     @kept
     def _potential_beyond(self, x: Any) -> tuple[Any, Any]:
@@ -275,22 +452,22 @@ def end_of(problem: SturmProblem, side: int) -> End:
         slope = problem.slope(at) if wish.beta != 0 else 0
         return RegularEnd(at, wish.alpha - wish.beta * slope, wish.beta, inwards)
     t = sympy.Dummy("t", positive=True)
-    Q, W = (_in_lowest_terms(e.subs(problem.x, at + inwards * t) * t**2, t) for e in (piece.Q, piece.W))
+    Q, W = (e.subs(problem.x, at + inwards * t) * t**2 for e in (piece.Q, piece.W))
+    Q, W = (plain(e, t) if e.is_rational_function(t) else sympy.expand(e) for e in (Q, W))
     length = arb(1)  # a lower bound of the piece's; 1 for an infinite one
     if piece.low.is_finite and piece.high.is_finite:
         with working_precision(64):
             length = (ball(piece.high) - ball(piece.low)).lower()
     found = SingularEnd(at, t, Q, W, inwards, length)
     if _is_analytic_at_zero(Q, t) and _is_analytic_at_zero(W, t) and W.subs(t, 0) == 0:
-        _check_exponents(found, problem.x)
+        square = found.square
+        if square != 0 and not ball(square) > 0:
+            said = f"at {problem.x} = {at} the exponents are 1/2 ± sqrt({square}), not known to be real"
+            raise InputError(f"{said}: then solutions oscillate, and there is no lowest level")
         _check_wish(found, problem, wish)
         return found
     tau = sympy.Dummy("tau", positive=True)
     return CutEnd(problem.x, tau, at + inwards / tau, piece, inwards, None, (1 / length).upper())
-
-
-def _in_lowest_terms(e: Expr, t: Expr) -> Expr:
-    return plain(e, t) if e.is_rational_function(t) else sympy.expand(e)
 
 
 def is_regular(piece: Stretch, problem: SturmProblem, at: Expr) -> bool:
@@ -304,15 +481,6 @@ def is_regular(piece: Stretch, problem: SturmProblem, at: Expr) -> bool:
 
 def _is_analytic_at_zero(e: Expr, t: Expr) -> bool:
     return bool(size(e, t, arb(0), arb(1) / 2**40).is_finite())
-
-
-def _check_exponents(end: SingularEnd, x: Expr) -> None:
-    """Raise `InputError` unless the exponents are known to be real."""
-    square = end.square
-    if square == 0 or ball(square) > 0:
-        return
-    said = f"at {x} = {end.at} the exponents are 1/2 ± sqrt({square}), not known to be real"
-    raise InputError(f"{said}: then solutions oscillate, and there is no lowest level")
 
 
 def _check_wish(end: SingularEnd, problem: SturmProblem, wish: Wish) -> None:
@@ -340,7 +508,11 @@ def _infinite_end(x: Expr, piece: Stretch, at: Expr, inwards: int) -> CutEnd:
     elif limit.is_finite and limit.is_number and limit.is_real:
         threshold = limit
     elif limit is -sympy.oo:
-        raise InputError(_said_of_oscillation(Q, tau, x, at))
+        # The end is a limit circle if int |Q|^(-1/2) converges, as for Q < -tau^2.1.
+        said = f"the potential tends to -oo at {x} = {at}, where all solutions oscillate"
+        if sympy.limit(Q / tau ** sympy.Rational(21, 10), tau, sympy.oo) is -sympy.oo:
+            raise InputError(f"{said} and are square integrable (limit circle): a boundary condition is needed")
+        raise InputError(f"{said}: there is no lowest level")
     else:
         raise InputError(f"{Q.subs(tau, x)} has no limit at {at}: whether there are levels isn't known here")
     if W.has(tau) and not lower_bound(W, tau, sympy.Integer(10)) > 0:
@@ -348,12 +520,3 @@ def _infinite_end(x: Expr, piece: Stretch, at: Expr, inwards: int) -> CutEnd:
     other = piece.low if at is sympy.oo else piece.high
     origin = arb(0) if other.is_infinite else (-inwards * ball(other)).mid()
     return CutEnd(x, tau, place, piece, inwards, threshold, origin)
-
-
-def _said_of_oscillation(Q: Expr, tau: Expr, x: Expr, at: Expr) -> str:
-    """The message for Q -> -oo: the end is a limit circle if int |Q|^(-1/2) converges, as for Q < -tau^2.1."""
-    said = f"the potential tends to -oo at {x} = {at}"
-    if sympy.limit(Q / tau ** sympy.Rational(21, 10), tau, sympy.oo) is -sympy.oo:
-        circle = "where all solutions oscillate and are square integrable (limit circle)"
-        return f"{said}, {circle}: a boundary condition is needed"
-    return f"{said}, where all solutions oscillate: there is no lowest level"

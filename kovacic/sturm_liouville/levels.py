@@ -18,7 +18,6 @@ from kovacic.closed_form.balls import BallEvaluator
 from kovacic.enclosure.ball import Ball, ball_to_flint
 from kovacic.errors import InputError
 from kovacic.sturm_liouville.count import SeparatedCounter
-from kovacic.sturm_liouville.discs import TaylorStep
 from kovacic.sturm_liouville.ends import CutEnd, End, end_of
 from kovacic.sturm_liouville.problem import Span, SturmProblem
 
@@ -162,9 +161,9 @@ def _half_wave(counter: SeparatedCounter, side: int, E: Any) -> list[tuple[Any, 
     u, v = counter.ends[side].state(E, counter.span, x, high=False)
     found = [*_tail(counter.ends[side], x.mid(), u.mid(), v.mid()), (x.mid(), u.mid(), v.mid())]
     for step in counter.road.steps(x, counter.middle, _PICTURE_BITS):
-        found += [
-            (x + step.t * k / _POINTS_OF_STEP, *_inside_step(step, u, v, E, k)) for k in range(1, _POINTS_OF_STEP)
-        ]
+        a = step.series(u, v, E)
+        shares = [arb(k) / _POINTS_OF_STEP for k in range(1, _POINTS_OF_STEP)]
+        found += [(x + step.t * share, sum(c * share**n for n, c in enumerate(a)), arb(0)) for share in shares]
         u, v = (value.mid() for value in step.advance(u, v, E))
         x = (x + step.t).mid()
         found.append((x, u, v))
@@ -178,12 +177,6 @@ def _tail(end: End, x: Any, u: Any, v: Any) -> list[tuple[Any, Any, Any]]:
     rate = abs(v / u)
     points = [(x - end.inwards * k / (4 * rate), (-arb(k) / 4).exp()) for k in range(_POINTS_OF_TAIL, 0, -1)]
     return [(at.mid(), (u * factor).mid(), (v * factor).mid()) for at, factor in points]
-
-
-def _inside_step(step: TaylorStep, u: Any, v: Any, E: Any, k: int) -> tuple[Any, Any]:
-    a = step.series(u, v, E)
-    share = arb(k) / _POINTS_OF_STEP
-    return sum(c * share**n for n, c in enumerate(a)), arb(0)
 
 
 def _gauge(problem: SturmProblem) -> Any:

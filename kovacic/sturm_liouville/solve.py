@@ -1,8 +1,12 @@
-"""The levels of a problem: its counter, its range, and the notes on it."""
+"""From counts to the levels of a problem: its counter and its range, brackets, guesses, and the proof of each ball.
+
+Where the ball is doesn't need a proof; that it is right is proven by two counts: at its lower end the upper count is at most k,
+at its upper end the lower one at least k + 1.  So eigenvalue number k is inside, and no other if both are equalities.
+"""
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass, field
 from functools import cached_property, partial
 from typing import Any
@@ -11,11 +15,309 @@ from flint import arb
 
 from kovacic.algebra.precision import working_precision
 from kovacic.closed_form.balls import BallEvaluator
+from kovacic.enclosure.ball import Ball, finite_ball
+from kovacic.errors import LimitExceeded
+from kovacic.limits import check_time
 from kovacic.sturm_liouville.count import PeriodicCounter, SeparatedCounter
 from kovacic.sturm_liouville.ends import End, SingularEnd, at_threshold, end_of
 from kovacic.sturm_liouville.levels import Eigenvalues, Level
-from kovacic.sturm_liouville.problem import Span, SturmProblem, ball
-from kovacic.sturm_liouville.search import LevelSearch
+from kovacic.sturm_liouville.problem import Span, SturmProblem, ball, kept
+
+#: Raises of the precision, by half each, until balls are narrow enough to count.
+_RAISES = 5
+#: Steps of regula falsi towards a level, and balls that are tried about it.
+_REFINEMENTS = 100
+_PROOFS = 8
+#: Doublings of the digits, to tell two levels apart or to cut an end nearer to infinity.
+_SEPARATIONS = 4
+#: Digits while the range is being looked for.
+_ROUGH_DIGITS = 4
+#: Steps of the range's upper end, each four times as far away.
+_RANGE_STEPS = 24
+#: Steps towards the essential spectrum, each to a quarter of the distance.
+_APPROACHES = 7
+#: Radii of a ball that are free of other levels on both sides of it: balls of neighbours are disjoint, also as printed.
+_FREE_RADII = 16
+#: Where an interval is divided; the next share is taken if a count fails, as it does at an eigenvalue.
+_SHARES = tuple(arb(n) / 64 for n in (31, 37, 23, 41))
+
+
+class _Near(Exception):
+    """A number is so near to an eigenvalue that it isn't known on which side it lies."""
+
+
+@dataclass(frozen=True)
+class Count:
+    """N at an exact number, and roughly a function that is zero at the eigenvalues."""
+
+    E: Any
+    count: int
+    mismatch: Any
+
+
+class Searcher:
+    """Levels from a counter, which is for a range of E and a number of digits; balls have `digits` of them."""
+
+    def __init__(self, counter: Any, digits: int) -> None:
+        self.counter = counter
+        self.digits = digits
+        self.bits = 40 + int(counter.digits * 3.33)
+        self.unit = arb(0)
+        self._known: dict[tuple[Any, bool], Count] = {}
+
+    def at(self, E: Any, *, high: bool = False, raises: int = _RAISES) -> Count:
+        """The count at E; raises `_Near` if E is too near to an eigenvalue."""
+        key = (E.man_exp(), high)
+        if key not in self._known:
+            self._known[key] = self._counted(E, high, raises)
+        return self._known[key]
+
+    def _counted(self, E: Any, high: bool, raises: int) -> Count:
+        bits = self.bits
+        for _ in range(raises):
+            check_time()
+            reading = self.counter.at(E, bits, high=high)
+            if reading.count is not None:
+                return Count(E, reading.count, reading.mismatch)
+            bits += max(bits // 2, 64)
+            if reading.mismatch is None:
+                self.bits = bits
+        raise _Near
+
+    def range_with(self, low: Any, high: Any) -> tuple[Count, Count]:
+        """N at the ends of a range, the lower end being below all levels.  Raises `LimitExceeded`."""
+        try:
+            below, above = self.at(low), self.at(high)
+            is_free = self.at(low, high=True).count == 0
+        except _Near:
+            is_free = False
+        if not is_free:
+            raise LimitExceeded("the levels weren't counted", limit="digits")
+        with working_precision(64):
+            self.unit = ((above.E - below.E) / (1024 * max(above.count, 1))).mid()
+        return below, above
+
+    def between(self, a: Any, b: Any) -> Count:
+        """N somewhere near the middle of an interval.  Raises `LimitExceeded` if it can't be counted at any of the shares."""
+        for share in _SHARES:
+            try:
+                return self.at(self._rounded(a + (b - a) * share, b - a))
+            except _Near:
+                continue
+        raise LimitExceeded("eigenvalues can't be told apart at this precision", limit="digits")
+
+    def _rounded(self, E: Any, unit: Any) -> Any:
+        """A dyadic number with few digits, within 2^-8 of the unit."""
+        with working_precision(2 * self.bits + 200):
+            power = arb(2) ** (_log2(unit) - 8)
+            return ((E / power).floor() * power).mid()
+
+    def radius(self, a: Count, b: Count, digits: int) -> Any:
+        """The radius of a ball with this many digits, for a level between two numbers: relative to it, or to a larger unit."""
+        with working_precision(64):
+            return (max(abs(a.E), abs(b.E), self.unit) / (4 * arb(10) ** digits)).mid()
+
+    def _radius_inside(self, E: Any, free: tuple[Any, Any], a: Count, b: Count) -> Any:
+        """The radius of a ball about E with all digits, far from the ends of an interval that is free of other levels."""
+        least, most = free
+        room = min(E - least, most - E) / _FREE_RADII
+        return min(self.radius(a, b, self.digits), room).mid()
+
+    def bracket(self, k: int, low: Count, high: Count) -> tuple[Count, Count]:
+        """The nearest known counts around level k, halved until no other level is between, or they are too near."""
+        known = [low, high, *(c for (_, upper), c in self._known.items() if not upper)]
+        a = max((c for c in known if c.count <= k), key=lambda c: c.E)
+        b = min((c for c in known if c.count > k), key=lambda c: c.E)
+        while (a.count, b.count) != (k, k + 1):
+            with working_precision(2 * self.bits):
+                width = b.E - a.E
+                if width < self.radius(a, b, self.counter.digits):
+                    break
+                middle = self.between(a.E, b.E)
+            a, b = (middle, b) if middle.count <= k else (a, middle)
+        return a, b
+
+    def level(self, k: int, low: Count, high: Count) -> tuple[Any, Any] | None:
+        """The lower and the upper end of a ball with level k alone in it; None if more digits are needed."""
+        a, b = self.bracket(k, low, high)
+        if (a.count, b.count) != (k, k + 1):
+            return None
+        free = a.E, b.E
+        for _ in range(_PROOFS):
+            guess, a, b = self._refined(k, a, b, free)
+            with working_precision(2 * self.bits):
+                radius = self._radius_inside(guess, free, a, b)
+                lower = self._rounded(guess - radius, radius)
+                upper = self._rounded(guess + radius, radius)
+            try:
+                below, above = self.at(lower), self.at(upper)
+                if below.count == k and above.count == k + 1:
+                    # The upper count has to say the same as the lower one.
+                    upper_counts = [self.at(E, high=self.counter.is_bracket).count for E in (lower, upper)]
+                    return (lower, upper) if upper_counts == [k, k + 1] else None
+                a, b = (a, below) if below.count > k else (above, b)
+            except _Near:
+                return None
+        return None
+
+    def _refined(self, k: int, a: Count, b: Count, free: tuple[Any, Any]) -> tuple[Any, Count, Count]:
+        """A number near the zero of the mismatch in (a, b): regula falsi with the weights of Anderson and Bjorck."""
+        fa, fb = a.mismatch, b.mismatch
+        E = last = a.E
+        side = 0
+        with working_precision(2 * self.bits):
+            before = b.E - a.E
+            for number in range(_REFINEMENTS):
+                E = ((a.E * fb - b.E * fa) / (fb - fa)).mid()
+                width = b.E - a.E
+                is_slow = number % 4 == 3 and width * 4 > before
+                if number % 4 == 3:
+                    before = width
+                is_steep = number < 4 and not abs(fa) / 1000 < abs(fb) < abs(fa) * 1000
+                if is_slow or is_steep or not a.E < E < b.E:
+                    E = ((a.E + b.E) / 2).mid()
+                radius = self._radius_inside(E, free, a, b)
+                if abs(E - last) < radius / 16 or width < radius:
+                    break
+                last = E
+                try:
+                    c = self.at(self._rounded(E, radius / 64), raises=2)
+                except _Near:
+                    break
+                if c.count <= k:
+                    fb = _weighted(fb, c.mismatch, fa) if side < 0 else fb
+                    a, fa, side = c, c.mismatch, -1
+                else:
+                    fa = _weighted(fa, c.mismatch, fb) if side > 0 else fa
+                    b, fb, side = c, c.mismatch, 1
+        return E, a, b
+
+
+def _weighted(other: Any, new: Any, old: Any) -> Any:
+    """The value at the end that stays, made smaller [Anderson and Bjorck]: else regula falsi would keep that end for long."""
+    factor = 1 - new / old
+    return other * (factor if factor > 0 else arb(1) / 2)
+
+
+def _log2(value: Any) -> int:
+    """The exponent e with 2^e <= value < 2^(e+1), for the midpoint of a positive number."""
+    mantissa, exponent = value.mid().man_exp()
+    return int(mantissa).bit_length() - 1 + int(exponent)
+
+
+@dataclass(frozen=True)
+class Range:
+    """Two numbers: no eigenvalue is below the first, and at least `count` are below the second."""
+
+    low: Any
+    high: Any
+    count: int
+
+
+class LevelSearch:
+    """The lowest levels of a problem, one after the other.
+
+    `counters(span, digits)` makes a counter; `threshold` is the bottom of the essential spectrum, or None, and
+    `total()` the number of levels below it, or None if that isn't known.
+    """
+
+    def __init__(
+        self,
+        counters: Callable[[Span, int], Any],
+        scale: Any,
+        *,
+        threshold: Any = None,
+        total: Callable[[], int | None] = lambda: None,
+        separations: int = _SEPARATIONS,
+    ) -> None:
+        self.counters = counters
+        self.scale = scale
+        self.threshold = threshold
+        self.total = total
+        self.separations = separations
+        self.complete = False
+        self.exhausted = False
+
+    def levels(self, count: int, digits: int) -> Iterator[Level]:
+        """The lowest levels, `count` at most.  Raises `InputError` and `LimitExceeded`."""
+        found = self._range(count)
+        k = 0
+        while k < found.count:
+            for level in self._next(k, found, digits):
+                yield level
+                k += 1
+
+    def _next(self, k: int, found: Range, digits: int) -> list[Level]:
+        """Level k, or all that share its ball."""
+        for attempt in range(self.separations):
+            size = max(abs(found.low), abs(found.high))
+            searcher = self._searcher(found.high, size, digits, digits * 2**attempt)
+            below, above = searcher.range_with(found.low, found.high)
+            ends = searcher.level(k, below, above)
+            if ends is not None:
+                return [Level(_ball(*ends), searcher.counter.zeros(k))]
+        a, b = searcher.bracket(k, below, above)
+        if searcher.at(a.E, high=True).count != k or b.count < k + 2:
+            raise LimitExceeded(f"level number {k} wasn't found to {digits} digits", limit="digits")
+        return [Level(_ball(a.E, b.E), searcher.counter.zeros(n), alone=False) for n in range(k, b.count)]
+
+    @kept
+    def _searcher(self, high: Any, size: Any, digits: int, more: int) -> Searcher:
+        """For |E| <= size and E <= high, balls with `digits` digits, and counts with `more`."""
+        return Searcher(self.counters(Span(high, size), more), digits)
+
+    def _range(self, count: int) -> Range:
+        """A range with the `count` lowest levels, or with all."""
+        low = self._free_of_levels()
+        total = None
+        for number in range(_RANGE_STEPS if self.threshold is None else _APPROACHES):
+            with working_precision(64):
+                if self.threshold is None:
+                    E = self._short(self.scale * arb(4) ** number * 15 / 16)
+                else:
+                    E = self._short(self.threshold - self.scale / arb(4) ** (number + 1))
+            found = self._rough(E, low, high=False)
+            if found >= count:
+                return Range(low, E, count)
+            if self.threshold is not None and number == 0:
+                total = self.total()
+            if found == total:
+                self.complete = True
+                return Range(low, E, total)
+        if self.threshold is None:
+            raise LimitExceeded(f"{count} levels weren't found", limit="unknown_degree")
+        self.exhausted = True
+        return Range(low, E, found)
+
+    def _free_of_levels(self) -> Any:
+        """A number below all levels."""
+        start = -self.scale / 7 if self.threshold is None else self.threshold - self.scale
+        with working_precision(64):
+            for number in range(_RANGE_STEPS):
+                E = self._short(start - self.scale * (arb(4) ** number - 1))
+                if self._rough(E, E, high=True) == 0:
+                    return E
+        raise LimitExceeded("no lower bound of the levels was found", limit="unknown_degree")
+
+    def _short(self, E: Any) -> Any:
+        """A dyadic number near E, with few digits."""
+        unit = arb(2) ** (_log2(abs(E) + self.scale / 2**20) - 30)
+        return ((E / unit).floor() * unit).mid()
+
+    def _rough(self, E: Any, low: Any, *, high: bool) -> int:
+        searcher = self._searcher(E, max(abs(low), abs(E)), _ROUGH_DIGITS, _ROUGH_DIGITS)
+        for shift in range(3):
+            try:
+                return searcher.at(E if shift == 0 else self._short(E - self.scale * shift / 2**20), high=high).count
+            except _Near:
+                continue
+        raise LimitExceeded("levels weren't counted", limit="digits")
+
+
+def _ball(low: Any, high: Any) -> Ball:
+    with working_precision(64 + 2 * max(low.bits(), high.bits())):
+        return finite_ball(low.union(high))
+
 
 #: Bits of the count at the bottom of the essential spectrum, which has to be one of few levels.
 _TOTAL_BITS = 128

@@ -28,11 +28,10 @@ from kovacic import derived
 from kovacic.answer import Answer
 from kovacic.doubles.chart import PieceChart, chart_of
 from kovacic.doubles.curve import Arc, Envelope, arcs, coefficients
-from kovacic.enclosure.evaluate import Accuracy, InitialValues
+from kovacic.enclosure.evaluate import Accuracy, InitialValues, with_variable
 from kovacic.enclosure.functions import as_written
 from kovacic.enclosure.points import ExactPoint, as_point
 from kovacic.enclosure.problem import Coefficients
-from kovacic.enclosure.variable import with_variable
 from kovacic.equation import Parsed
 from kovacic.errors import InputError, NotRational, check_keywords
 from kovacic.limits import limited, limits_of
