@@ -18,8 +18,8 @@ from kovacic.parametric.assumptions import read_assumptions
 from kovacic.reading.substitution import values_among
 from kovacic.reading.symbolic import read_expression
 from kovacic.sturm_liouville.ends import is_regular
+from kovacic.sturm_liouville.families import matching_equations
 from kovacic.sturm_liouville.levels import Eigenvalues
-from kovacic.sturm_liouville.matching import matching_equations
 from kovacic.sturm_liouville.problem import STEPS, Robin, SturmProblem, Wish, pieces_of
 from kovacic.sturm_liouville.solve import Eigenproblem
 

@@ -98,13 +98,6 @@ def _exponential(
     return ProductForm(region, base, factors, _exponent(theta), is_real, polynomial=table, careful=careful)
 
 
-class _CellSeries(NamedTuple):
-    """Coefficients, and the most that one may be."""
-
-    row: list[Any]
-    most: Any
-
-
 @dataclass(frozen=True)
 class _Expansion:
     """The Taylor series of P/P(base) on a piece, by the recurrence of its equation a P'' + b P' + c P = 0 in balls, which loses
@@ -131,17 +124,18 @@ class _Expansion:
             series = self._series(cell, variant, prec)
             if series is None:
                 return None
+            row, most = series
             with working_precision(200 + prec // 4):
-                sizes = [abs(v) for v in series.row]
+                sizes = [abs(v) for v in row]
                 small = max(v.mid() for v in sizes) * arb((1, -variant.bits))
                 if all(v.rad() <= small for v in sizes):
-                    converges = sum(sizes, arb(0)) <= series.most and max(v.mid() for v in sizes[-2:]) <= small
-                    return series.row if converges else None
+                    converges = sum(sizes, arb(0)) <= most and max(v.mid() for v in sizes[-2:]) <= small
+                    return row if converges else None
             prec *= 2
         return None
 
-    def _series(self, cell: Cell, variant: Variant, prec: int) -> _CellSeries | None:
-        """The coefficients in balls at this precision; None where one is too large."""
+    def _series(self, cell: Cell, variant: Variant, prec: int) -> tuple[list[Any], Any] | None:
+        """The coefficients in balls at this precision, and the most that one may be; None where one is larger."""
         x = arb(cell[0])
         h = arb((1, cell[1]))
         with working_precision(prec):
@@ -151,7 +145,7 @@ class _Expansion:
             most = GROWTH * max(abs(v).upper() for v in row)
             line = type(P)([x, h])
             local = [[v * h**k for v in part(line).coeffs()] for k, part in enumerate(equation)]
-            return _CellSeries(row, most) if _continued(row, local, variant.tested, most) else None
+            return (row, most) if _continued(row, local, variant.tested, most) else None
 
     def _balls(self, prec: int) -> list[Any]:
         """P, P' and the equation's coefficients, real polynomials where they are real; P(base) = 1."""

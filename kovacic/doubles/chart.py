@@ -16,15 +16,14 @@ from kovacic.algebra.precision import working_precision
 from kovacic.algebra.rationals import foresee_move
 from kovacic.answer import Answer
 from kovacic.doubles.region import Region, region_of
+from kovacic.enclosure.analytic import way_of
 from kovacic.enclosure.ball import ball_from_flint
 from kovacic.enclosure.closed_form import Exponential, exponentials, finite_base, omega
-from kovacic.enclosure.constant import way_of
-from kovacic.enclosure.constants import in_balls
 from kovacic.enclosure.functions import coefficients_of_any
 from kovacic.enclosure.jets import CoefficientField
 from kovacic.enclosure.log_derivative import LogDerivative, embed
 from kovacic.enclosure.matrices import State
-from kovacic.enclosure.points import ExactPoint, as_point, midpoint, power_of_two, to_acb
+from kovacic.enclosure.points import ExactPoint, as_point, in_balls, midpoint, power_of_two, to_acb
 from kovacic.enclosure.precision import start_bits
 from kovacic.enclosure.problem import Coefficients, NumericProblem, as_problem, change_of
 from kovacic.enclosure.states import evaluate_states

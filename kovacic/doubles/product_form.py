@@ -262,17 +262,12 @@ class ProductForm:
         return ProductDerivative(self, self.careful)
 
     def __call__(self, x: Any) -> Any:
-        """y(x).
+        """y(x), of the shape of x; inf or 0 where the value is beyond the doubles.
 
         Parameters
         ----------
         x : number or array
             Within the region.
-
-        Returns
-        -------
-        float, complex or array
-            Of the shape of x; inf or 0 where the value is beyond the doubles.
 
         Raises
         ------
@@ -289,22 +284,12 @@ class ProductForm:
         return in_blocks(self._values, self.region.points(x))
 
     def log(self, x: Any) -> tuple[Any, Any]:
-        """The sign (or for complex functions y/|y|) and log |y|, without overflow.
+        """The sign (or for complex functions y/|y|) and log |y|, of the shape of x, without overflow.  Raises as a call does.
 
         Parameters
         ----------
         x : number or array
             Within the region.
-
-        Returns
-        -------
-        pair
-            Each of the shape of x.
-
-        Raises
-        ------
-        InputError
-            For an argument outside of the region, or one that isn't numerical.
 
         Examples
         --------
@@ -413,22 +398,12 @@ class ProductDerivative:
         return self.form.interval
 
     def __call__(self, x: Any) -> Any:
-        """y'(x).
+        """y'(x), of the shape of x.  Raises as a call of y does.
 
         Parameters
         ----------
         x : number or array
             Within the region.
-
-        Returns
-        -------
-        float, complex or array
-            Of the shape of x.
-
-        Raises
-        ------
-        InputError
-            For an argument outside of the region, or one that isn't numerical.
 
         Examples
         --------
@@ -449,15 +424,12 @@ class ProductDerivative:
             hit = factor.zeros(t)
             if hit.any():
                 dt_there = dt[hit] if np.ndim(dt) else dt
-                total[hit] = self._rest(factor, x[hit]) * dt_there
+                rest: Any = 0.0  # y' over dt/dx at a simple zero: the product of the other factors
+                if factor.whole == 1:
+                    others = tuple(f for f in self.form.factors if f is not factor)
+                    rest = replace(form, factors=others)._values(x[hit])
+                total[hit] = rest * dt_there
         return total
-
-    def _rest(self, factor: RootFactor, x: Any) -> Any:
-        """What y' is over dt/dx at a zero of this factor: the product of the others, where it is a simple one."""
-        if factor.whole != 1:
-            return 0.0
-        others = tuple(f for f in self.form.factors if f is not factor)
-        return replace(self.form, factors=others, careful=self.careful)._values(x)
 
     def _slope(self, x: Any) -> tuple[Complex, Any, Any]:
         """t, dt/dx and the logarithmic derivative of the product, arrays."""

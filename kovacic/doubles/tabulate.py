@@ -160,17 +160,12 @@ class TabulatedFunction:
     measured: Measured | None = None
 
     def __call__(self, x: Any) -> Any:
-        """y(x).
+        """y(x), of the shape of x; inf or 0 where the value is beyond the doubles, and NaN for NaN.
 
         Parameters
         ----------
         x : number or array
             Within the interval.
-
-        Returns
-        -------
-        float, complex or array
-            Of the shape of x; inf or 0 where the value is beyond the doubles, and NaN for NaN.
 
         Raises
         ------
@@ -253,15 +248,15 @@ class TabulatedFunction:
         ----------
         flat : array
             Of one dimension, within the interval.
-
-        Notes
-        -----
-
-        Piece by piece, so that the coefficients are numbers, where many points lie on each.
         """
         index = np.searchsorted(self.edges, flat, side="right")
         found = np.zeros((len(self.coefficients), 1 + self.careful, flat.size))
-        for where, k in self._runs(index):
+        runs: list[tuple[Any, Any]] = [(slice(None), index)]
+        if index.size >= _CROWD * self.centres.size:  # piece by piece, so that the coefficients are numbers
+            order = np.argsort(index, kind="stable")
+            ends = np.searchsorted(index[order], np.arange(self.centres.size + 1))
+            runs = [(order[ends[k] : ends[k + 1]], k) for k in np.flatnonzero(np.diff(ends))]
+        for where, k in runs:
             u = scaled(two_sum(flat[where], -self.centres[k]), -self.exponents[k])
             for row, table in zip(found, self.coefficients[:, :, ::-1, k], strict=True):
                 value = horner(map(Pair, *table), u) if self.careful else Pair(horner(table[0], u.hi))
@@ -270,14 +265,6 @@ class TabulatedFunction:
         numbers = [Pair(*row) for row in found] if self.careful else [row[0] for row in found]
         powers = self.powers[index] if self.powers.any() else None
         return numbers, powers
-
-    def _runs(self, index: Any) -> list[tuple[Any, Any]]:
-        """Which points are treated together, and on which pieces: all of them, or those of one piece after the other."""
-        if index.size < _CROWD * self.centres.size:
-            return [(slice(None), index)]
-        order = np.argsort(index, kind="stable")
-        ends = np.searchsorted(index[order], np.arange(self.centres.size + 1))
-        return [(order[ends[k] : ends[k + 1]], k) for k in np.flatnonzero(np.diff(ends))]
 
 
 @limited
@@ -293,7 +280,7 @@ def tabulate(
     limits: Limits | None = None,
     **given: Unpack[StartOptions],
 ) -> TabulatedFunction:
-    """One solution on [start, stop] in double precision; the interval must be regular.
+    """One solution on [start, stop] in double precision, perhaps with complex values; the interval must be regular.
 
     Parameters
     ----------
@@ -313,11 +300,6 @@ def tabulate(
         The name of the variable, where the equation is text or a SymPy expression.
     limits : Limits
         What the work may cost.
-
-    Returns
-    -------
-    TabulatedFunction
-        Its values may be complex.
 
     Raises
     ------

@@ -9,27 +9,52 @@ bounded: with |b| <= B, |c| <= C and |f| <= F on a piece of length r, for any s 
 (s y'/s, -b (s y') - s c y + s f), and with K >= max(1/s, B + s C) it changes by at most
 
     (exp(K r) - 1) (max(|y|, s |y'|) + s F/K)    [Gronwall].                                                               (1)
+
+Two kinds of equations have steps over any distance.  Constant coefficients, and a right-hand side of powers, exponentials and
+waves: one step to every target.  With t = x - u the functions t^k exp(alpha t) of the right-hand side and of its derivatives
+form a vector g with g' = J g, and f = w g.  On the way from u to v
+
+    (y, y', g)' = A (y, y', g),    A = (0, 1, 0; -c, -b, w; 0, 0, J),    (y, y', g)(v) = exp((v - u) A) (y, y', g)(u);
+
+at u the functions with k = 0 are 1 and the others 0.  FLINT's exponential of a matrix is a ball around the exact one.
+
+Coefficients with a common period T: any number of periods in one step.  With the map P from the state at a to that at a + T,
+affine where there is a right-hand side, and R from a to a + r, the map to a + n T + r is R P^n [Floquet].  T is known by a
+ball: discs lead to the midpoint of a + T, and its state is spread over the ball.
 """
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
-from functools import cached_property
+from functools import cached_property, lru_cache
+from math import gcd, lcm
 from typing import Any
 
-from flint import acb, acb_poly, arb, arb_poly, fmpq
+import sympy
+from flint import acb, acb_mat, acb_poly, arb, arb_poly, ctx, fmpq
 
+from kovacic.algebra.extension import AlgebraicField
 from kovacic.algebra.precision import working_precision
-from kovacic.enclosure.constants import Number
-from kovacic.enclosure.frame import foreseen_growth
+from kovacic.closed_form.atoms import Atoms
+from kovacic.enclosure.frame import foreseen_growth, upper_exponent
 from kovacic.enclosure.jets import CoefficientField, JetBasis
-from kovacic.enclosure.matrices import Matrix, State, apply, multiply
-from kovacic.enclosure.points import ExactPoint, are_real, around_zero, power_of_two, to_acb
-from kovacic.enclosure.problem import NumericProblem
-from kovacic.enclosure.start import spread_by, steepness_of
-from kovacic.enclosure.way import Forecast, Local, Way, WayStep
-from kovacic.errors import InputError
+from kovacic.enclosure.matrices import Matrix, MatrixProduct, State, apply, fundamental, identity, multiply, real_part
+from kovacic.enclosure.points import (
+    Constant,
+    ExactPoint,
+    Number,
+    are_real,
+    around_zero,
+    in_balls,
+    power_of_two,
+    to_acb,
+    to_ball,
+)
+from kovacic.enclosure.problem import Coefficients, NumericProblem, root_of
+from kovacic.enclosure.start import middle, spread_by, steepness_of
+from kovacic.enclosure.way import NOTHING, Forecast, Local, Traveller, Way, WayStep
+from kovacic.errors import InputError, LimitExceeded
 from kovacic.limits import check_time, count_work
 
 _STEEPEST = 40.0
@@ -247,3 +272,230 @@ def _check_size(a: ExactPoint, b: ExactPoint, t: Any, e: int, start: int) -> Non
             hint="go around it through the complex plane, e.g. path=[...] with a vertex off the axis; "
             "the result depends on the side",
         )
+
+
+_FEWEST_PERIODS = 4
+"""Periods from which on they are taken in one step."""
+_LOST = 64
+"""Precisions rise by multiples of so many bits."""
+_WAVES = (sympy.sin, sympy.cos, sympy.tan, sympy.cot, sympy.sec, sympy.csc, sympy.exp)
+Affine = tuple[Matrix, State]  # v -> M v + p
+
+
+@dataclass(frozen=True, eq=False)
+class PeriodicWay(AnalyticWay):
+    """An equation all of whose coefficients have the `period`, an expression."""
+
+    period: Any = None
+
+    def _length(self) -> arb:
+        return abs(in_balls(self.period, self.functions.coefficients.at(sympy.Integer(0))))
+
+    def _periods(self, a: ExactPoint, b: ExactPoint) -> int:
+        """The whole periods from a to b, about, negative to the left; 0 beside the real axis."""
+        if not (a.is_real() and b.is_real()):
+            return 0
+        with working_precision(64 + (b - a).height_bits()):
+            return int((arb((b - a).x) / self._length()).mid().floor().unique_fmpz())
+
+    def carried(
+        self, a: ExactPoint, b: ExactPoint, product: MatrixProduct, particular: State
+    ) -> tuple[MatrixProduct, State]:
+        n = self._periods(a, b)
+        if abs(n) < _FEWEST_PERIODS:
+            return super().carried(a, b, product, particular)
+        # Where P isn't diagonal, P^m is of the size m, and its square loses log2(m) bits and some more; n T loses those of n.
+        squares = n.bit_length()
+        lost = -(-squares * (squares + 12) // (2 * _LOST)) * _LOST
+        with working_precision(ctx.prec + lost):
+            way = replace(self, prec=self.prec + lost)
+            step = self._length() * (1 if n > 0 else -1)
+            key = a, n > 0, lost
+            if key not in self._maps:
+                self._maps[key] = way._map(a, Constant("a period later", lambda: to_acb(a) + step))
+            power: Affine = (identity(), NOTHING)
+            square = self._maps[key]
+            for bit in reversed(bin(abs(n))[2:]):
+                power = _after(square, power) if bit == "1" else power
+                square = _after(square, square)
+            rest = way._map(a, Constant("less than a period later", lambda: to_acb(b) - step * abs(n)))
+            matrix, added = _after(rest, power)
+        y, dy = apply(matrix, particular)
+        return product.after(matrix), (y + added[0], dy + added[1])
+
+    @cached_property
+    def _maps(self) -> dict[Any, Affine]:
+        return {}
+
+    def _map(self, a: ExactPoint, number: Constant) -> Affine:
+        """From the state at a to that at a number in a ball."""
+        stop = middle(number)
+        M, particular = identity(), NOTHING
+        if stop != a:
+            product, particular = super().carried(a, stop, MatrixProduct(), NOTHING)
+            M = product.matrix()
+        first, second, own = (self.spread(number, v) for v in ((M[0], M[2]), (M[1], M[3]), particular))
+        return fundamental(first, second), own
+
+    def fan(self, traveller: Traveller, stops: Sequence[ExactPoint]) -> dict[ExactPoint, State]:
+        here = traveller.here
+        assert isinstance(here, ExactPoint)
+        periods = {stop: abs(self._periods(here, stop)) for stop in stops}
+        if max(periods.values()) < _FEWEST_PERIODS + len(stops):  # discs on the way serve all of them
+            return super().fan(traveller, stops)
+        return {stop: traveller.moved(stop).state for stop in stops}
+
+
+def _after(second: Affine, first: Affine) -> Affine:
+    """The first map, then the second one."""
+    y, dy = apply(second[0], first[1])
+    return multiply(second[0], first[0]), (y + second[1][0], dy + second[1][1])
+
+
+def period_of(coefficients: Coefficients) -> Any:
+    """A period of functions of waves of commensurable frequencies; None where none is seen."""
+    x = coefficients.variable
+    waves = {e for part in coefficients.parts for e in part.atoms(*_WAVES) if e.has(x)}
+    waves = {e for e in waves if not e.args[0].diff(x).has(x)}
+    known = {e: sympy.Dummy() for e in waves}
+    if not waves or any(part.xreplace(known).has(x) for part in coefficients.parts):
+        return None
+    rates = [e.args[0].diff(x) / (sympy.I if e.func is sympy.exp else 1) for e in sorted(waves, key=str)]
+    shares = [sympy.simplify(rate / rates[0]) for rate in rates]
+    if not all(share.is_Rational for share in shares):
+        return None
+    under = lcm(*(int(share.q) for share in shares))
+    period = 2 * sympy.pi * under / (rates[0] * gcd(*(int(share * under) for share in shares)))
+    value = in_balls(period, coefficients.at(to_ball(ExactPoint(0))))
+    return period if value.is_finite() and value.imag.is_zero() and not value.contains(0) else None
+
+
+_LARGEST = 12
+"""The length of g, at most: matrices of these sizes cost less than a disc."""
+_LONGEST = 10_000
+"""Bits by which the precision may rise for a long way: half a second (measured)."""
+Term = tuple[Any, tuple[Any, ...]]
+
+
+@dataclass(frozen=True, eq=False)
+class ConstantWay(AnalyticWay):
+    """The right-hand side is the sum of the `terms` exp(alpha x) P(x): alpha, and the coefficients of P from low to high."""
+
+    terms: tuple[Term, ...] = ()
+
+    def carried(
+        self, a: ExactPoint, b: ExactPoint, product: MatrixProduct, particular: State
+    ) -> tuple[MatrixProduct, State]:
+        check_time()
+        count_work(self.prec)
+        self.check(a, b)
+        start = to_acb(a)
+        values = self.functions.coefficients.at(start)
+        p, q, _ = self.functions.values(start)
+        weights, rates = [], []
+        for alpha, polynomial in self.terms:  # in powers of x - a
+            rate = in_balls(alpha, values)
+            moved = acb_poly([in_balls(weight, values) for weight in polynomial])(acb_poly([start, 1]))
+            weights += [moved[k] * (rate * start).exp() for k in range(len(polynomial))]
+            rates += [(rate, k) for k in range(len(polynomial))]
+        size = max((abs(weight).mid() for weight in weights), default=arb(0))
+        unit = acb(size) if size > 0 else acb(1)  # A large weight would make the whole matrix large.
+        A = acb_mat(2 + len(rates), 2 + len(rates))
+        A[0, 1], A[1, 0], A[1, 1] = acb(1), -q, -p
+        for row, ((rate, k), weight) in enumerate(zip(rates, weights, strict=True), 2):
+            A[1, row] = weight / unit
+            A[row, row] = rate
+            if k > 0:  # (t^k exp(alpha t))' = alpha t^k exp(alpha t) + k t^(k-1) exp(alpha t)
+                A[row, row - 1] = acb(k)
+        # (v - u) A is halved until it is small, and as many squares make a ball a few times as wide each.
+        size = sum((abs(entry) for entry in A.entries()), arb(1)) * abs(to_acb(b - a))
+        lost = 4 * max(0, upper_exponent(size))
+        if lost > _LONGEST:
+            raise LimitExceeded(f"the way is so long that values lose {lost} bits", limit="digits")
+        with working_precision(ctx.prec + lost):
+            E = (A * to_acb(b - a)).exp()
+        ones = [column for column, (_, k) in enumerate(rates, 2) if k == 0]
+        matrix: Matrix = (E[0, 0], E[0, 1], E[1, 0], E[1, 1])
+        added = [sum((E[row, column] for column in ones), acb(0)) * unit for row in (0, 1)]
+        if a.is_real() and b.is_real() and self.functions.is_real(a, 0):
+            matrix = real_part(matrix)
+            added = [acb(value.real) for value in added]
+        y, dy = apply(matrix, particular)
+        return product.after(matrix), (y + added[0], dy + added[1])
+
+    def fan(self, traveller: Traveller, stops: Sequence[ExactPoint]) -> dict[ExactPoint, State]:
+        return {stop: traveller.moved(stop).state for stop in stops}
+
+
+def constant_way(coefficients: Coefficients, problem: NumericProblem | None = None) -> AnalyticWay:
+    """The way by matrices where there is one, else that by power series, over many periods at once where there are any."""
+    functions = CoefficientField(coefficients)
+    x = coefficients.variable
+    terms = None if coefficients.b.has(x) or coefficients.c.has(x) else _terms(coefficients.f, x)
+    if terms is not None:
+        return ConstantWay(functions, problem, terms=terms)
+    period = period_of(coefficients)
+    return AnalyticWay(functions, problem) if period is None else PeriodicWay(functions, problem, period=period)
+
+
+def _terms(f: Any, x: Any) -> tuple[Term, ...] | None:
+    """The terms of a right-hand side; None for another one."""
+    weights: dict[Any, dict[int, Any]] = {}
+    for term in sympy.Add.make_args(sympy.expand(f.rewrite(sympy.exp))):
+        weight, rest = term.as_independent(x, as_Add=False)
+        k = 0
+        alpha = sympy.Integer(0)
+        for factor in sympy.Mul.make_args(rest):
+            if factor.func is sympy.exp and not factor.args[0].diff(x).has(x):
+                alpha += factor.args[0].diff(x)
+                weight *= sympy.exp(factor.args[0].xreplace({x: sympy.Integer(0)}))
+            elif factor.as_base_exp()[0] == x and factor.as_base_exp()[1].is_Integer and factor.as_base_exp()[1] > 0:
+                k += int(factor.as_base_exp()[1])
+            elif factor != 1:
+                return None
+        if weight != 0:
+            known = weights.setdefault(sympy.expand(alpha), {})
+            known[k] = known.get(k, sympy.Integer(0)) + weight
+    found = [(alpha, tuple(w.get(k, sympy.Integer(0)) for k in range(max(w) + 1))) for alpha, w in weights.items()]
+    return tuple(found) if sum(len(polynomial) for _, polynomial in found) <= _LARGEST else None
+
+
+@lru_cache(maxsize=32)
+def way_of(problem: NumericProblem) -> AnalyticWay:
+    """b/a, c/a and (f + h)/a, for a right-hand side beside rational coefficients, or constants that are known by balls."""
+    equation = problem.right
+    if equation is None:
+        assert problem.embedded is not None
+        b, c = problem.embedded.quotients()
+        atoms = _Letters(sympy.Symbol("the variable"))  # no parameter has this name
+        coefficients = atoms.ratio(b), atoms.ratio(c), sympy.Integer(0)
+    else:
+        atoms = _Letters(sympy.Symbol(equation.variable))
+        over = 1 / equation.a
+        b, c, f, inverse = (
+            atoms.ratio(part) for part in (equation.b * over, equation.c * over, equation.f * over, over)
+        )
+        if equation.h is not None:
+            f += (
+                equation.h.xreplace({symbol: sympy.Symbol(symbol.name) for symbol in equation.h.free_symbols}) * inverse
+            )
+        coefficients = b, c, f
+    values = dict(atoms.constants)
+    if problem.embedded is not None:
+        values |= problem.embedded.values
+    return constant_way(Coefficients(atoms.x, *coefficients, tuple(sorted(values.items()))), problem)
+
+
+class _Letters(Atoms):
+    """With the generators of algebraic fields as symbols, whose values are `constants`."""
+
+    @cached_property
+    def constants(self) -> dict[str, Number]:
+        """By their names."""
+        return {}
+
+    def generator(self, field: Any) -> Any:
+        """A symbol."""
+        assert isinstance(field, AlgebraicField)
+        self.constants[field.name] = Constant(field.name, lambda: root_of(field))
+        return sympy.Symbol(field.name)

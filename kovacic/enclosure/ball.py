@@ -25,8 +25,7 @@ from flint import acb, arb
 
 from kovacic.algebra.precision import working_precision
 from kovacic.algebra.rationals import to_fmpq
-from kovacic.enclosure.constants import as_number, to_ball
-from kovacic.enclosure.points import ExactPoint, as_point
+from kovacic.enclosure.points import ExactPoint, as_number, as_point, to_ball
 from kovacic.errors import InputError, LimitExceeded
 from kovacic.numbers.exact import whole
 
@@ -147,11 +146,6 @@ class Ball:
         mantissa, exponent : int
             Any integers.
 
-        Returns
-        -------
-        Ball
-            With the radius 0.
-
         Examples
         --------
         >>> float(Ball.exact(3, -2))
@@ -163,17 +157,12 @@ class Ball:
 
     @classmethod
     def of(cls, value: object) -> Ball:
-        """The ball of a number.
+        """The ball of a number; a ball is returned as it is.
 
         Parameters
         ----------
         value : number
             A number or a ball of any kind that `kovacic.evaluate` takes; constants such as "pi" are taken to 100 digits.
-
-        Returns
-        -------
-        Ball
-            A ball is returned as it is.
 
         Raises
         ------
@@ -213,11 +202,6 @@ class Ball:
     def is_exact(self) -> bool:
         """True if the radius is zero.
 
-        Returns
-        -------
-        bool
-            True if the radius is 0.
-
         Examples
         --------
         >>> Ball.of("1/2").is_exact(), Ball.of("1/3").is_exact()
@@ -226,12 +210,7 @@ class Ball:
         return self.rad[0] == 0
 
     def contains_zero(self) -> bool:
-        """True if the exact value may be zero.
-
-        Returns
-        -------
-        bool
-            False proves that it isn't zero.
+        """True if the exact value may be zero; False proves that it isn't.
 
         Examples
         --------
@@ -241,17 +220,12 @@ class Ball:
         return self.overlaps(Ball.exact(0))
 
     def contains(self, number: object) -> bool:
-        """Does the number lie in the ball?
+        """True if the number is proven to lie in the ball.
 
         Parameters
         ----------
         number : number or Ball
             int, Fraction, float, complex, Decimal, decimal text, mpmath or SymPy rational; or a ball, as a whole.
-
-        Returns
-        -------
-        bool
-            True is proven.
 
         Examples
         --------
@@ -271,11 +245,6 @@ class Ball:
         ----------
         other : number or Ball
             The other one.
-
-        Returns
-        -------
-        bool
-            True where the balls have a number in common.
 
         Examples
         --------
@@ -308,12 +277,7 @@ class Ball:
         return self.mid
 
     def to_mpmath(self) -> Any:
-        """The midpoint as an mpmath number, exactly (mpf where `real`, else mpc).
-
-        Returns
-        -------
-        mpf or mpc
-            With as many bits as the midpoint has.
+        """The midpoint as an mpmath number (mpf where `real`, else mpc), exactly: with as many bits as it has.
 
         Examples
         --------
@@ -326,12 +290,7 @@ class Ball:
         return parts[0] if self.real else mpmath.mpc(*parts)
 
     def to_interval(self) -> Any:
-        """An mpmath interval, real or complex, that contains the ball.
-
-        Returns
-        -------
-        mpmath interval
-            At mpmath's working precision.
+        """An mpmath interval, real or complex, at mpmath's working precision, that contains the ball.
 
         Examples
         --------
@@ -347,12 +306,7 @@ class Ball:
         return interval(self.re) if self.real else mpmath.iv.mpc(interval(self.re), interval(self.im))
 
     def to_flint(self) -> arb | acb:
-        """The ball as python-flint's: arb where `real`, else an acb that contains it.
-
-        Returns
-        -------
-        flint.arb or flint.acb
-            With the same midpoint; the radius may be larger by its rounding.
+        """The ball as python-flint's: arb where `real`, else an acb that contains it; the radius may be larger by its rounding.
 
         Examples
         --------
@@ -363,14 +317,10 @@ class Ball:
         return value.real if self.real else value
 
     def to_dict(self) -> dict[str, str]:
-        """Real and imaginary part of a midpoint, and a radius, as decimal text: the exact value lies in that disc.
+        """A disc in which the exact value lies, as decimal text: "re" and "im" of its midpoint, and "radius".
 
-        The midpoint is rounded to some digits more than are known, and the radius covers that.
-
-        Returns
-        -------
-        dict
-            Keys "re", "im", "radius": what `kovacic evaluate --json` prints.
+        The midpoint is rounded to some digits more than are known, and the radius covers that.  It is what
+        `kovacic evaluate --json` prints.
 
         Examples
         --------

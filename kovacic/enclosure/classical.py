@@ -36,7 +36,6 @@ from kovacic.enclosure.singular import Singular
 from kovacic.enclosure.system import System, check_segment
 from kovacic.errors import LimitExceeded
 from kovacic.limits import Budget, Limits, bounded_work
-from kovacic.special.prices import Cost
 from kovacic.special.pullback import Pullback
 from kovacic.special.search import find
 from kovacic.special.values import StandardForm, is_integer
@@ -82,14 +81,9 @@ class Classical:
     def __str__(self) -> str:
         return f"FLINT's functions: {self.pullback.equation.name} equation in {self.pullback.f}"
 
-    @cached_property
-    def cost(self) -> Cost:
-        """What the functions cost."""
-        return self.pullback.equation.cost
-
     def price(self, digits: float) -> float:
         """That of a target."""
-        return self.cost.target(digits)
+        return self.pullback.equation.cost.target(digits)
 
     def lost_digits(self, start: ExactPoint) -> float:
         """About: by Y(b) Y(a)^-1 for b beside a, where both solutions are of the size g and their Wronskian isn't.
@@ -106,7 +100,7 @@ class Classical:
 
     def is_cheap(self, digits: int, *, from_zero: bool) -> bool:
         """True if they cost less than the Taylor route, for a start at a zero of f or another."""
-        return digits <= max(self.cost.most, _MOST_FROM_ZERO if from_zero else 0)
+        return digits <= max(self.pullback.equation.cost.most, _MOST_FROM_ZERO if from_zero else 0)
 
     def coordinate(self, point: ExactPoint) -> int:
         """That of the standard equation which serves best there."""

@@ -200,6 +200,8 @@ class Prepared:
     def __call__(self, x: object, *, derivative: bool = False, digits: int | None = None) -> Any:
         """A ball that contains y(x), or a pair with y'(x); a tuple or an array of these for many points.
 
+        What is returned and raised is as for `evaluate`.
+
         Parameters
         ----------
         x : number, sequence or array
@@ -208,18 +210,6 @@ class Prepared:
             With True pairs of balls, y and y', come back.  False by default.
         digits : int
             The accuracy of this call; by default that of the solution.
-
-        Returns
-        -------
-        Ball, pair of Ball, or a tuple or an array of these
-            What `evaluate` returns.
-
-        Raises
-        ------
-        InputError
-            For a point that can't be reached from the start, and for digits beyond the limit.
-        LimitExceeded
-            Where the limits don't suffice.
 
         Examples
         --------
@@ -283,7 +273,7 @@ def prepared(equation: object, *, x0: object, **options: Unpack[Options]) -> Pre
 
     A value of an interval that was passed is that of a polynomial, with its proven error, and takes some tenths of a
     millisecond; the interval grows with the questions.  The solution may be called from several threads, which wait for one
-    another.
+    another.  Raises what `evaluate` raises for the start; calls return and raise what it does for their points.
 
     Parameters
     ----------
@@ -293,16 +283,6 @@ def prepared(equation: object, *, x0: object, **options: Unpack[Options]) -> Pre
         Where the solution starts.
     y0, dy0, frobenius, which, path, params, var, digits, method, limits
         The solution, its accuracy, and what each call may cost, as for `evaluate`.
-
-    Returns
-    -------
-    Prepared
-        Called with a number, a sequence or an array, `derivative` and `digits`, it returns what `evaluate` does.
-
-    Raises
-    ------
-    InputError
-        What `evaluate` raises for the start; calls raise what it raises for their points.
 
     Examples
     --------

@@ -11,8 +11,8 @@ written in sin(u) and cos(u), since a pole of t alone is none of the equation.  
 
 An equation that is rational in t = exp(k x + c) is evaluated in t.  The guarantee is that of `kovacic.enclosure.journey`, for
 y(x) = Y(t(x)).  Where k and x are real, t is real, positive and monotone: a segment of the x-axis is mapped onto a segment of
-the t-axis, so that the straight way in t continues the same solution.  Points are carried through as balls, and y' = t'
-Y'.  What a wave exp(i k x) makes of a segment is no segment; its discs in x serve as well.
+the t-axis, so that the straight way in t continues the same solution.  Points are carried through as balls, and
+y' = t' Y'.  What a wave exp(i k x) makes of a segment is no segment; its discs in x serve as well.
 """
 
 from __future__ import annotations
@@ -29,8 +29,7 @@ from kovacic.algebra.poly import Field, Poly
 from kovacic.algebra.precision import working_precision
 from kovacic.algebra.ratfunc import RatFunc
 from kovacic.closed_form.atoms import Atoms
-from kovacic.enclosure.constants import Constant, Number, in_balls, to_ball
-from kovacic.enclosure.points import are_real
+from kovacic.enclosure.points import Constant, Number, are_real, in_balls, to_ball
 from kovacic.enclosure.precision import PointValue
 from kovacic.enclosure.problem import Coefficients, NumericProblem, as_problem, change_of
 from kovacic.enclosure.start import Start

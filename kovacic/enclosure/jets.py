@@ -178,13 +178,20 @@ class CoefficientEvaluator(BallEvaluator):
         if reach.is_zero():
             reach = arb(_NEAR)
         for wider in _WIDER:
-            size = self._size(function, symbol, zero, reach * wider)
+            # A bound in a disc; not finite where the function isn't known to be analytic there.
+            radius = (reach * wider).upper()
+            box = acb(zero.real + arb(0, radius), zero.imag + arb(0, radius))
+            around = CoefficientEvaluator({**self.values, symbol: box}, variable=symbol, analytic=True)
+            size = abs(around(function)).upper()
             if size.is_finite():
                 break
         else:
             return self(function) / (x - zero) ** k
         terms = int(ctx.prec / math.log2(wider)) + 8
-        coefficients = self._series(function, symbol, zero, terms + k)[k:]
+        with series_length(terms + k):
+            beside = CoefficientEvaluator({**self.values, symbol: acb_series([zero, acb(1)])}, variable=symbol)
+            given = beside(function).coeffs()
+        coefficients = [*given, *[acb(0)] * (terms + k - len(given))][k:]
         tail = (size / (reach * wider) ** k * arb(wider) ** -terms / (1 - 1 / arb(wider))).upper()
         polynomial = acb_poly(coefficients)
         inside = zero + arb(0, reach)
@@ -195,20 +202,6 @@ class CoefficientEvaluator(BallEvaluator):
         found = polynomial(acb_poly([centre, scale])).coeffs()[: ctx.cap]
         found += [acb(0)] * (ctx.cap - len(found))
         return acb_series([value + error / 2**j for j, value in enumerate(found)])
-
-    def _size(self, function: Any, symbol: Any, zero: acb, radius: arb) -> arb:
-        """A bound in a disc; not finite where the function isn't known to be analytic there."""
-        radius = radius.upper()
-        box = acb(zero.real + arb(0, radius), zero.imag + arb(0, radius))
-        values = {**self.values, symbol: box}
-        return abs(CoefficientEvaluator(values, variable=symbol, analytic=True)(function)).upper()
-
-    def _series(self, function: Any, symbol: Any, zero: acb, terms: int) -> list[acb]:
-        """The coefficients at the zero."""
-        with series_length(terms):
-            values = {**self.values, symbol: acb_series([zero, acb(1)])}
-            found = CoefficientEvaluator(values, variable=symbol)(function).coeffs()
-        return [*found, *[acb(0)] * (terms - len(found))]
 
 
 @lru_cache(maxsize=1024)

@@ -11,9 +11,8 @@ from functools import cached_property
 from typing import Any, NamedTuple
 
 from kovacic.enclosure.classical import Closed
-from kovacic.enclosure.constants import Number
 from kovacic.enclosure.matrices import State
-from kovacic.enclosure.points import ExactPoint, power_of_two
+from kovacic.enclosure.points import ExactPoint, Number, power_of_two
 from kovacic.enclosure.problem import NumericProblem
 from kovacic.enclosure.rational import ClosedWay, sides
 from kovacic.enclosure.singular import Singular

@@ -83,11 +83,6 @@ class LocalMonodromy:
     def acb_mat(self) -> acb_mat:
         """The matrix as python-flint's, at the working precision in force.
 
-        Returns
-        -------
-        flint.acb_mat
-            Two by two.
-
         Examples
         --------
         >>> import kovacic
@@ -105,17 +100,12 @@ class LocalMonodromy:
             return m.det().contains(1) and (self.trace is None or m.trace().overlaps(ball_to_flint(self.trace)))
 
     def is_identity_to_the_power(self, order: int) -> bool:
-        """Can the matrix to this power be the identity?
+        """Can the matrix to this power be the identity?  False proves that it isn't.
 
         Parameters
         ----------
         order : int
             The power.
-
-        Returns
-        -------
-        bool
-            False proves that it isn't.
 
         Examples
         --------
@@ -146,8 +136,8 @@ def connection_matrix(
     digits: int = 15,
     limits: Limits | None = None,
 ) -> tuple[tuple[Ball, Ball], tuple[Ball, Ball]]:
-    """Balls around the matrix that turns coordinates at the first point of `path` into those at the last one, of the same
-    solution continued along this polygon.
+    """Balls around the rows of the matrix that turns coordinates at the first point of `path` into those at the last one, of
+    the same solution continued along this polygon.
 
     Parameters
     ----------
@@ -165,11 +155,6 @@ def connection_matrix(
         The radii are at most 10^-digits relative to the largest entry; 15 by default.
     limits : Limits
         What the work may cost.
-
-    Returns
-    -------
-    pair of pairs of Ball
-        The rows of the matrix.
 
     Raises
     ------
@@ -285,11 +270,6 @@ def monodromy(
         The accuracy of the matrices: 15 by default.
     limits : Limits
         What the work may cost.
-
-    Returns
-    -------
-    tuple of LocalMonodromy
-        One for each finite singular point.
 
     Raises
     ------

@@ -16,10 +16,10 @@ from flint import acb, arb
 from kovacic.algebra.precision import working_precision
 from kovacic.enclosure.ball import Ball, Route, finite_ball
 from kovacic.enclosure.classical import Closed, NotServed
-from kovacic.enclosure.constants import Number
 from kovacic.enclosure.frame import upper_exponent
 from kovacic.enclosure.journey import Journey
 from kovacic.enclosure.matrices import State
+from kovacic.enclosure.points import Number
 from kovacic.errors import InputError, LimitExceeded
 from kovacic.limits import Limits
 from kovacic.numbers.exact import whole

@@ -27,9 +27,8 @@ from kovacic.algebra.ratfunc import RatFunc
 from kovacic.algebra.rationals import QQ, RationalPoly, to_fmpq
 from kovacic.answer import Answer, computed_once
 from kovacic.decision import Decision
-from kovacic.enclosure.constants import Number, as_number, to_ball
 from kovacic.enclosure.log_derivative import sharp_roots
-from kovacic.enclosure.points import ExactPoint, are_real, midpoint, to_acb
+from kovacic.enclosure.points import ExactPoint, Number, are_real, as_number, midpoint, to_acb, to_ball
 from kovacic.enclosure.system import System, Zeros, check_segment
 from kovacic.equation import Change, Equation, Parsed, parameters_of
 from kovacic.errors import InputError, LimitExceeded, NotRational

@@ -43,12 +43,11 @@ from flint import acb, acb_poly, arb, arb_poly, fmpq, fmpq_poly
 from kovacic.algebra.precision import working_precision
 from kovacic.enclosure.classical import Classical, Closed
 from kovacic.enclosure.closed_form import value
-from kovacic.enclosure.constants import Number
 from kovacic.enclosure.frame import foreseen_growth, frequency, largest_exponent, log2
 from kovacic.enclosure.frobenius import basis, junction
 from kovacic.enclosure.log_derivative import LogDerivative, log_derivative
 from kovacic.enclosure.matrices import Matrix, MatrixProduct, State, apply, fundamental, inverse, multiply, real_part
-from kovacic.enclosure.points import ExactPoint, around_zero, power_of_two, to_acb, to_double
+from kovacic.enclosure.points import ExactPoint, Number, around_zero, power_of_two, to_acb, to_double
 from kovacic.enclosure.problem import NumericProblem
 from kovacic.enclosure.singular import Singular
 from kovacic.enclosure.splitting import is_split
@@ -84,7 +83,7 @@ class Oscillation:
     def fundamental(self, x: ExactPoint) -> Matrix:
         """w and dw/dx at a point of the half line."""
         abscissa = self.sign * x.x
-        bits = self.prec + _GUARD + max(0, int(self.phase_bits(abscissa)))
+        bits = self.prec + _GUARD + max(0, int(_phase_bits(self.c, self.d, abscissa)))
         with working_precision(bits):
             t = 1 / arb(abscissa)
             head = _half_power(arb(abscissa), self.d)
@@ -104,12 +103,9 @@ class Oscillation:
             dy2 = self.sign * (-share * y2 + kappa * f * y1)
             return acb(y1), acb(y2), acb(dy1), acb(dy2)
 
-    def phase_bits(self, abscissa: Any) -> float:
-        """log2 of about the phase at an abscissa."""
-        return _phase_bits(self.c, self.d, abscissa)
-
 
 def _phase_bits(c: Any, d: int, abscissa: Any) -> float:
+    """log2 of about the phase at an abscissa."""
     return log2(arb(c)) / 2 + (d / 2 + 1) * log2(arb(abscissa)) - math.log2(d / 2 + 1)
 
 
@@ -170,7 +166,9 @@ def swing_from(system: System, near: ExactPoint, end: ExactPoint, prec: int) -> 
         return end
     edge = near if found.reaches(near) else ExactPoint(found.sign * found.edge)
     share = (end - edge).x / end.x
-    return edge if share > 0 and found.phase_bits(abs(end.x)) + log2(arb(share)) > math.log2(_WORTH * prec) else end
+    if share > 0 and _phase_bits(found.c, found.d, abs(end.x)) + log2(arb(share)) > math.log2(_WORTH * prec):
+        return edge
+    return end
 
 
 def swing(system: System, a: ExactPoint, b: ExactPoint, prec: int) -> Swing:
@@ -359,7 +357,8 @@ class RationalWay(Way):
         """Along the line to the farthest stop, again and again: the discs on it serve others, too."""
         origin = to_double(here)
         found: dict[ExactPoint, State] = {}
-        waiting = sorted(Stop.all(stops), key=lambda stop: abs(stop.near - origin))
+        all_stops = [Stop(number, point, to_double(point)) for number, point in enumerate(stops)]
+        waiting = sorted(all_stops, key=lambda stop: abs(stop.near - origin))
         inward = self.into(here)
         while waiting:
             farthest = waiting[-1].point
@@ -420,7 +419,7 @@ def way_for(problem: NumericProblem) -> Way:
     """The way of an equation with rational coefficients."""
     if problem.right is None and problem.embedded is None:
         return RationalWay(problem)
-    from kovacic.enclosure.constant import way_of  # imports SymPy
+    from kovacic.enclosure.analytic import way_of  # imports SymPy
 
     return way_of(problem)
 

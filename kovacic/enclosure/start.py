@@ -22,9 +22,8 @@ from dataclasses import dataclass
 from flint import acb, acb_poly, arb
 
 from kovacic.algebra.precision import working_precision
-from kovacic.enclosure.constants import Constant, Number, as_number, to_ball
 from kovacic.enclosure.matrices import MatrixProduct, State
-from kovacic.enclosure.points import ExactPoint, are_real, around_zero, to_acb
+from kovacic.enclosure.points import Constant, ExactPoint, Number, are_real, around_zero, as_number, to_acb, to_ball
 from kovacic.enclosure.problem import NumericProblem
 from kovacic.enclosure.singular import Singular
 from kovacic.enclosure.system import System

@@ -22,10 +22,9 @@ from flint import acb, arb
 from kovacic.algebra.precision import working_precision
 from kovacic.enclosure.classical import Classical, Closed, NotServed, classical_of
 from kovacic.enclosure.closed_form import CaseOneForm, closed_form_of, decided
-from kovacic.enclosure.constants import Number, as_number, to_ball
 from kovacic.enclosure.frame import foreseen_growth, frequency
 from kovacic.enclosure.journey import Journey
-from kovacic.enclosure.points import ExactPoint, as_point
+from kovacic.enclosure.points import ExactPoint, Number, as_number, as_point, to_ball
 from kovacic.enclosure.precision import METHODS, Method, PointValue, number_of_digits, raise_precision, start_bits
 from kovacic.enclosure.problem import Coefficients, NumericProblem, as_problem, change_of
 from kovacic.enclosure.rational import way_for
@@ -247,7 +246,8 @@ def question_of(
     """The solution that the keywords of `evaluate` describe."""
     limits = limits_of(limits)
     digits = number_of_digits(digits, limits)
-    _check_method(method)
+    if method is not None and method not in METHODS:
+        raise InputError(f"unknown method {method!r}", hint=f"one of {', '.join(map(repr, METHODS))}, or None")
     start = [_comparable(value) for value in (x0, y0, dy0)]
     given = *start, _comparables(frobenius, "frobenius"), which, _comparables(path, "path")
     if change_of(equation) is None and not isinstance(equation, Coefficients):
@@ -304,7 +304,7 @@ def analytic_journeys(
         raise InputError(f"path={path!r} isn't for equations whose coefficients are functions of x", hint=hint)
     vertices = _vertices_of(path)
     start = read_start(None, x0, y0=y0, dy0=dy0, frobenius=frobenius, which=which)
-    from kovacic.enclosure.constant import ConstantWay, constant_way
+    from kovacic.enclosure.analytic import ConstantWay, constant_way
     from kovacic.enclosure.functions import Substitution
 
     way = constant_way(coefficients)
@@ -337,12 +337,6 @@ def _check_regular(problem: NumericProblem, numbers: Sequence[Number]) -> None:
             ball = to_ball(number)
             if any(abs(ball - z).lower() < _APART for z in problem.enclosures(256)):
                 raise InputError(f"{number} is a singular point of the equation, or can't be told from one")
-
-
-def _check_method(method: object) -> None:
-    """Raise InputError for an unknown one."""
-    if method is not None and method not in METHODS:
-        raise InputError(f"unknown method {method!r}", hint=f"one of {', '.join(map(repr, METHODS))}, or None")
 
 
 def _comparable(value: object) -> object:

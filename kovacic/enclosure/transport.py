@@ -54,11 +54,6 @@ class Stop:
     point: ExactPoint
     near: complex
 
-    @classmethod
-    def all(cls, points: Sequence[ExactPoint]) -> list[Stop]:
-        """The stops at these points."""
-        return [cls(number, point, to_double(point)) for number, point in enumerate(points)]
-
 
 @dataclass(frozen=True)
 class Disc:

@@ -19,10 +19,9 @@ from typing import Any, Protocol
 from flint import acb, acb_poly, arb, arb_poly
 
 from kovacic.algebra.precision import working_precision
-from kovacic.enclosure.constants import Number
 from kovacic.enclosure.frobenius import limit
 from kovacic.enclosure.matrices import Matrix, MatrixProduct, State, apply
-from kovacic.enclosure.points import ExactPoint, around_zero, power_of_two, to_acb
+from kovacic.enclosure.points import ExactPoint, Number, around_zero, power_of_two, to_acb
 from kovacic.enclosure.singular import Singular
 from kovacic.errors import InputError, LimitExceeded
 from kovacic.limits import watched_seconds

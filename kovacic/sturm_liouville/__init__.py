@@ -10,5 +10,6 @@ numbers with N <= k and N >= k + 1; how these two were guessed needs no proof.  
 3. `discs`: Taylor series with proven errors, along the axis;
 4. `count`: N(E), for separated and for periodic conditions;
 5. `solve`: brackets, their refinement, and the proof; `levels` has the results;
-6. `families`: the eigenvalues as formulas, where the equation has constant coefficients after a change of variable.
+6. `families`: the eigenvalues as formulas, where the equation has constant coefficients after a change of variable,
+   and equations for them, where it has linear ones in pieces.
 """

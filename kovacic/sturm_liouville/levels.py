@@ -18,7 +18,7 @@ from kovacic.closed_form.balls import BallEvaluator
 from kovacic.enclosure.ball import Ball, ball_to_flint
 from kovacic.errors import InputError
 from kovacic.sturm_liouville.count import SeparatedCounter
-from kovacic.sturm_liouville.ends import CutEnd, End, end_of
+from kovacic.sturm_liouville.ends import CutEnd, end_of
 from kovacic.sturm_liouville.problem import Span, SturmProblem
 
 
@@ -159,7 +159,14 @@ def _half_wave(counter: SeparatedCounter, side: int, E: Any) -> list[tuple[Any, 
     """(x, Y, Y') from an end to the matching point."""
     x = counter.positions[side]
     u, v = counter.ends[side].state(E, counter.span, x, high=False)
-    found = [*_tail(counter.ends[side], x.mid(), u.mid(), v.mid()), (x.mid(), u.mid(), v.mid())]
+    end = counter.ends[side]
+    found = []
+    if isinstance(end, CutEnd) and end.place.is_polynomial(end.tau) and u.mid() != 0 and v.mid() != 0:
+        # Beyond the cut of an infinite end y decays at the rate y'/y that it has there; the farthest point comes first.
+        rate = abs(v.mid() / u.mid())
+        points = [(x.mid() - end.inwards * k / (4 * rate), (-arb(k) / 4).exp()) for k in range(_POINTS_OF_TAIL, 0, -1)]
+        found = [(at, u.mid() * factor, v.mid() * factor) for at, factor in points]
+    found.append((x, u, v))
     for step in counter.road.steps(x, counter.middle, _PICTURE_BITS):
         a = step.series(u, v, E)
         shares = [arb(k) / _POINTS_OF_STEP for k in range(1, _POINTS_OF_STEP)]
@@ -168,15 +175,6 @@ def _half_wave(counter: SeparatedCounter, side: int, E: Any) -> list[tuple[Any, 
         x = (x + step.t).mid()
         found.append((x, u, v))
     return [(at.mid(), y.mid(), dy.mid()) for at, y, dy in found]
-
-
-def _tail(end: End, x: Any, u: Any, v: Any) -> list[tuple[Any, Any, Any]]:
-    """Beyond the cut of an infinite end, where y decays at the rate y'/y that it has there; the farthest point first."""
-    if not isinstance(end, CutEnd) or not end.place.is_polynomial(end.tau) or u == 0 or v == 0:
-        return []
-    rate = abs(v / u)
-    points = [(x - end.inwards * k / (4 * rate), (-arb(k) / 4).exp()) for k in range(_POINTS_OF_TAIL, 0, -1)]
-    return [(at.mid(), (u * factor).mid(), (v * factor).mid()) for at, factor in points]
 
 
 def _gauge(problem: SturmProblem) -> Any:
