@@ -26,9 +26,8 @@ from kovacic.closed_form.product import product
 from kovacic.equation import Equation
 from kovacic.general_solution.constants import vanishing_factors
 from kovacic.general_solution.integrands import NUMBERS, radicands
-from kovacic.general_solution.residual import points
 from kovacic.general_solution.substitution import finite_value, slope
-from kovacic.general_solution.zero import ball, by_parity, is_nowhere_zero
+from kovacic.general_solution.zero import ball, by_parity, is_nowhere_zero, points
 from kovacic.limits import check_time
 from kovacic.reading.change_of_variable import function_of_x, in_x
 from kovacic.solution import Solution

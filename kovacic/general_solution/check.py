@@ -28,10 +28,9 @@ from kovacic.general_solution.conditions import Condition
 from kovacic.general_solution.continuity import cuts_of, jumps
 from kovacic.general_solution.jumps import between, break_points, in_steps, on_piece
 from kovacic.general_solution.question import Question
-from kovacic.general_solution.residual import Residual
 from kovacic.general_solution.steps import JUMPING, Apart, taken_apart
 from kovacic.general_solution.values import have_values, value_at
-from kovacic.general_solution.zero import ball, sample_value, samples
+from kovacic.general_solution.zero import Residual, ball, sample_value, samples
 
 Expr = Any  # SymPy publishes no types
 _INFINITE = {sympy.nan, sympy.zoo, sympy.oo, -sympy.oo}

@@ -15,8 +15,7 @@ from kovacic.closed_form.integrals import integral, logarithms
 from kovacic.closed_form.product import product
 from kovacic.equation import EULER, PI
 from kovacic.errors import InputError
-from kovacic.general_solution.expanded_size import expanded_size
-from kovacic.general_solution.substitution import size
+from kovacic.general_solution.substitution import expanded_size, size
 from kovacic.limits import check_duration
 from kovacic.reading.read import read_input
 

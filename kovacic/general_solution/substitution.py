@@ -1,8 +1,15 @@
-"""The value of an expression at a point by substitution, where each part of it is finite; its size, and its derivative."""
+"""The value of an expression at a point by substitution, where each part of it is finite; its derivative; and its size.
+
+How much SymPy writes when it expands an expression is counted before, since it can't be stopped inside.
+"""
 
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
+from dataclasses import dataclass
+from functools import reduce
+from operator import mul
 from typing import Any
 
 import sympy
@@ -14,7 +21,12 @@ _ZERO = sympy.Integer(0)
 _ONE = sympy.Integer(1)
 #: Mathieu's odd function, and the slope of his even one, which SymPy leaves as they are at 0.
 _ODD = (sympy.mathieus, sympy.mathieucprime)
+#: Not a value.
 _OPEN = {sympy.nan, sympy.zoo, sympy.oo, -sympy.oo}
+#: From which on terms and exponent of a power aren't counted.
+_MANY = 10**4
+#: A power of the variable with its coefficient has so many subexpressions.
+_MONOMIAL = 5
 
 
 class _SingularError(Exception):
@@ -28,11 +40,6 @@ def finite_value(expression: Expr, x: Expr, point: Expr) -> Expr | None:
         return _substituted(expression, x, point)
     except _SingularError:
         return None
-
-
-def size(expression: Expr) -> int:
-    """The number of subexpressions."""
-    return 1 + sum(map(size, expression.args))
 
 
 def slope(expression: Expr, x: Expr) -> Expr:
@@ -84,3 +91,87 @@ def _at_zero(value: Expr) -> Expr:
     value = value.xreplace(known)
     empty = [i for i in value.atoms(sympy.Integral) if i.limits[0][1:2] == i.limits[0][2:]]
     return value.xreplace(dict.fromkeys(empty, _ZERO))
+
+
+# ---------------------------------------------------------------------------------------------------------------- size
+
+
+def size(expression: Expr) -> int:
+    """The number of subexpressions."""
+    return 1 + sum(map(size, expression.args))
+
+
+@dataclass(frozen=True)
+class _Size:
+    """Terms and subexpressions at most, and the degree of a polynomial in the variable, infinite for anything else."""
+
+    terms: float
+    parts: float
+    degree: float
+
+    def __mul__(self, other: _Size) -> _Size:
+        """A part of a factor is written beside every term of the other one; like powers of the variable are gathered."""
+        degree = self.degree + other.degree
+        terms = self.terms * other.terms
+        parts = self.parts * other.terms + other.parts * self.terms + terms
+        return _Size(min(terms, degree + 1), min(parts, _MONOMIAL * (degree + 1)), degree)
+
+    def __pow__(self, k: int) -> _Size:
+        """Each term has at most k of the terms of the base as factors; SymPy writes all of them before it gathers any."""
+        terms = _terms_of_power(self.terms, k)
+        if terms == math.inf:
+            return _Size(math.inf, math.inf, math.inf)
+        parts = terms * min(k, self.terms) * (self.parts / self.terms + 2)
+        return _Size(terms, parts, self.degree * k)
+
+
+def expanded_size(expression: Expr) -> float:
+    """The number of subexpressions at most, under roots and in functions, too; those of products of denominators aren't known.
+
+    >>> import sympy
+    >>> from sympy.abc import x
+    >>> expanded_size((x + 1) * (x + 2) * (x + 3) * (x + 4))
+    25.0
+    >>> expanded_size((x + sympy.sin(x)) * (x + sympy.cos(x)) * (x + sympy.exp(x)))
+    52.0
+    """
+    has_one_symbol = len(expression.free_symbols) == 1
+    return float(_size(expression, 1 if has_one_symbol else math.inf).parts)
+
+
+def _size(expression: Expr, degree: float) -> _Size:
+    """`degree`: that of a symbol."""
+    if expression.is_Symbol:
+        return _Size(1, 1, degree)
+    if expression.is_Number:
+        return _Size(1, 1, 0)
+    inner = [_size(part, degree) for part in expression.args]
+    if expression.is_Add:
+        terms = sum(one.terms for one in inner)
+        return _Size(terms, _parts(inner), max(one.degree for one in inner))
+    if expression.is_Mul:
+        return reduce(mul, sorted(inner, key=lambda part: part.degree))
+    if expression.is_Pow and expression.exp.is_Rational and expression.exp >= 1:
+        return _of_power(inner[0], expression.exp)
+    return _Size(1, 1 + _parts(inner), math.inf)
+
+
+def _parts(sizes: Sequence[_Size]) -> float:
+    return sum(one.parts for one in sizes)
+
+
+def _of_power(base: _Size, exponent: Expr) -> _Size:
+    """u^(7/3) is expanded as u^2 u^(1/3)."""
+    power = base ** int(exponent)
+    if exponent.is_Integer:
+        return power
+    return _Size(power.terms, power.parts, math.inf)
+
+
+def _terms_of_power(n: float, k: int) -> float:
+    """That many monomials of degree k in n terms: binomial(n + k - 1, k)."""
+    if n == 1:
+        return 1.0
+    if n * k >= _MANY:
+        return math.inf
+    return float(math.comb(int(n) + k - 1, k))

@@ -29,8 +29,8 @@ import sympy
 from sympy import Abs, Heaviside, cos, cosh, exp, sin, sinh, tan, tanh
 from sympy.simplify.fu import TR8, TR10i
 
-from kovacic.general_solution.expanded_size import expanded_size
 from kovacic.general_solution.steps import place_of
+from kovacic.general_solution.substitution import expanded_size
 from kovacic.general_solution.zero import is_zero
 from kovacic.special.choice import shortest
 

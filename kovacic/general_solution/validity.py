@@ -1,18 +1,28 @@
-"""Domain of validity: where a solution is real, and which parameter values are excluded."""
+"""Domain of validity: where a solution is real, and which parameter values are excluded.
+
+A formula needs a relation for each part that isn't real and finite at every real x.  Powers, roots and functions have the
+values that SymPy gives them: x^(1/3), too, is complex for a negative x.  A function with a cut needs an argument u beside it.
+Where the argument has an i, as in Ei((1 + i) x), the part is complex and its conjugate is another part; what is needed then
+is that u isn't the branch point.
+
+Reference: DLMF 4.2, 4.23, 4.37 (logarithms, inverse functions), 6.4 (Ei, Ci), 8.2 (gamma functions), 10.2, 10.25 (Bessel),
+14.3 (Legendre), 15.2, 16.2 (hypergeometric functions), 19.2 (elliptic integrals), 25.12 (polylogarithms).
+"""
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass
 from typing import Any
 
 import sympy
 
 from kovacic.general_solution.basis import vanishing, without_implied
-from kovacic.general_solution.needs import needs_of
 from kovacic.general_solution.zero import is_nowhere_zero
 
 Expr = Any  # SymPy publishes no types
+#: What a function needs, from an application of it.
+Need = Callable[[Expr], Expr]
 
 
 @dataclass(frozen=True)
@@ -82,3 +92,198 @@ def _without_weaker(relations: list[Expr]) -> tuple[Expr, ...]:
 def _is_strict(relation: Expr) -> bool:
     """Is it e > 0?"""
     return isinstance(relation, sympy.StrictGreaterThan)
+
+
+# ------------------------------------------------------------------------------------------------------ part by part
+
+
+def needs_of(e: Expr) -> Iterator[Expr]:
+    """Relations that make an expression real and finite, part by part; `false` for a part that is complex.
+
+    >>> x = sympy.Symbol("x")
+    >>> list(needs_of(1 / sympy.log(x)))
+    [x > 0, Ne(log(x), 0)]
+    """
+    if isinstance(e, sympy.Integral):
+        yield from _needs_of_integral(e)
+        return
+    if isinstance(e, sympy.RootSum):
+        yield from _needs_at_real_roots(e)
+        return
+    for argument in e.args:
+        yield from needs_of(argument)
+    for relation in sympy.And.make_args(_need_of_part(e)):
+        if relation != sympy.true:
+            yield relation
+
+
+def _needs_of_integral(integral: Expr) -> Iterator[Expr]:
+    """Those of the integrand at x, where it is integrated up to x.  An end without x may be a singular point of it."""
+    variable, *ends = integral.limits[0]
+    upper = variable
+    if ends:
+        upper = ends[-1]
+    if upper.free_symbols:
+        yield from needs_of(integral.function.subs(variable, upper))
+
+
+def _needs_at_real_roots(total: Expr) -> Iterator[Expr]:
+    """Those of the terms of a `RootSum` at its real roots: the others come in pairs.  Roots with parameters aren't known."""
+    polynomial = total.poly
+    if not (polynomial.domain.is_ZZ or polynomial.domain.is_QQ):
+        return
+    for root, _ in sympy.real_roots(polynomial, multiple=False):
+        yield from needs_of(total.fun(root))
+
+
+def _need_of_part(e: Expr) -> Expr:
+    """What a part needs whose arguments are real and finite."""
+    if e.is_Pow and not isinstance(e, sympy.exp):
+        return _of_power(e)
+    need = _OF_FUNCTIONS.get(e.func)
+    if need is None:
+        return sympy.true
+    return need(e)
+
+
+def _of_power(e: Expr) -> Expr:
+    if e.base.is_number:
+        return sympy.true
+    if e.exp.is_nonnegative and e.exp.is_integer:
+        return sympy.true
+    if e.exp.is_integer:
+        return sympy.Ne(e.base, 0)
+    if e.exp.is_Rational and e.exp > 0:
+        return _not_negative(e.base)
+    return _positive(e.base)
+
+
+# ----------------------------------------------------------------------------------------------------------- relations
+
+
+def _positive(u: Expr) -> Expr:
+    """u > 0, which SymPy refuses to write for what is known not to be real."""
+    short = _of_the_same_sign(u)
+    if short.is_extended_real is False:
+        return sympy.false
+    return short > 0
+
+
+def _not_negative(u: Expr) -> Expr:
+    """u >= 0, which SymPy refuses to write for what is known not to be real."""
+    short = _of_the_same_sign(u)
+    if short.is_extended_real is False:
+        return sympy.false
+    return short >= 0
+
+
+def _of_the_same_sign(u: Expr) -> Expr:
+    """Without a positive factor that is rational; the base of a root or an odd power, u being real."""
+    _, short = u.as_content_primitive()
+    if short.is_Mul or short.is_Pow:  # -1/x > 0 where -x > 0
+        odd = {p: p.base for p in sympy.Mul.make_args(short) if p.is_Pow and p.exp.is_odd and p.exp.is_negative}
+        short = sympy.Mul(*(odd.get(factor, factor) for factor in sympy.Mul.make_args(short)))
+    is_even_power = short.is_Pow and short.exp.is_even
+    if short.is_Pow and short.exp.is_Rational and not is_even_power:
+        return short.base
+    return short
+
+
+def _nonzero(u: Expr) -> Expr:
+    """u != 0, said without factors that are numbers, and without the denominator, which needs something itself."""
+    factors = sympy.Mul.make_args(sympy.numer(u))
+    return sympy.Ne(sympy.Mul(*(factor for factor in factors if not factor.is_number)), 0)
+
+
+def _off_the_cut(u: Expr) -> Expr:
+    """u > 0 for a cut from 0 to -oo; of an argument with an i it is said that it isn't 0."""
+    if u.has(sympy.I):
+        return _nonzero(u)
+    return _positive(u)
+
+
+# ----------------------------------------------------------------------------------------------------------- functions
+
+
+def _of_last(need: Need) -> Need:
+    """That of the last argument."""
+    return lambda e: need(e.args[-1])
+
+
+def _below_one(u: Expr) -> Expr:
+    return _off_the_cut(1 - u)
+
+
+def _for_integers(need: Need, otherwise: Need) -> Need:
+    """One of the last argument, by whether the first is an integer."""
+    return lambda e: (need if e.args[0].is_integer else otherwise)(e.args[-1])
+
+
+def _nothing(u: Expr) -> Expr:
+    return sympy.true
+
+
+def _of_associated_legendre(e: Expr) -> Expr:
+    """P_n^m(u) = (1 - u^2)^(m/2) times a polynomial for integers n and m."""
+    n, m, u = e.args
+    if n.is_integer and m.is_even:
+        return sympy.true
+    return _off_the_cut(1 - u**2)
+
+
+def _of_elliptic_integral(e: Expr) -> Expr:
+    """F(phi, m) and E(phi, m), and E(m) for phi = pi/2: the root of 1 - m sin(phi)^2 is real up to phi."""
+    m = e.args[-1]
+    if len(e.args) == 1:
+        return _below_one(m)
+    return _off_the_cut(1 - m * sympy.sin(e.args[0]) ** 2)
+
+
+def _of_third_elliptic_integral(e: Expr) -> Expr:
+    """Pi(n, phi, m), where 1 - n sin(phi)^2 has no zero, either."""
+    n, *others = e.args
+    if len(others) == 1:
+        return sympy.And(_below_one(n), _below_one(others[0]))
+    square = sympy.sin(others[0]) ** 2
+    return sympy.And(_off_the_cut(1 - n * square), _off_the_cut(1 - others[1] * square))
+
+
+def _of_hypergeometric(e: Expr) -> Expr:
+    """pFq: entire for p <= q; with a cut from 1 on for p = q + 1, from 0 on for p > q + 1; or a polynomial.
+
+    It has poles where a lower parameter is 0, -1, ....
+    """
+    defined = sympy.And(*(sympy.Ne(1 / sympy.gamma(c), 0) for c in e.bq if c.free_symbols))
+    if len(e.ap) <= len(e.bq) or any(a.is_integer and a.is_nonpositive for a in e.ap):
+        return defined
+    if len(e.ap) == len(e.bq) + 1:
+        return sympy.And(_below_one(e.argument), defined)
+    return sympy.And(_off_the_cut(-e.argument), defined)
+
+
+_OF_FUNCTIONS: dict[Any, Need] = {
+    # inverse functions, and those with poles
+    sympy.log: _of_last(_positive),
+    **dict.fromkeys((sympy.asin, sympy.acos), _of_last(lambda u: _not_negative(1 - u**2))),
+    sympy.acosh: _of_last(lambda u: _not_negative(u - 1)),
+    sympy.atanh: _of_last(lambda u: _positive(1 - u**2)),
+    **dict.fromkeys((sympy.tan, sympy.sec), _of_last(lambda u: _nonzero(sympy.cos(u)))),
+    **dict.fromkeys((sympy.cot, sympy.csc), _of_last(lambda u: _nonzero(sympy.sin(u)))),
+    **dict.fromkeys((sympy.coth, sympy.csch, sympy.Ei), _of_last(_nonzero)),
+    # integrals
+    **dict.fromkeys((sympy.Ci, sympy.expint, sympy.uppergamma, sympy.lowergamma), _of_last(_off_the_cut)),
+    **dict.fromkeys((sympy.polylog, sympy.elliptic_k), _of_last(_below_one)),
+    **dict.fromkeys((sympy.elliptic_e, sympy.elliptic_f), _of_elliptic_integral),
+    sympy.elliptic_pi: _of_third_elliptic_integral,
+    # J_n(u) is (u/2)^n times an entire function; y_n(u) is rational in u beside waves for an integer n
+    **dict.fromkeys((sympy.besselj, sympy.besseli, sympy.jn), _for_integers(_nothing, _positive)),
+    **dict.fromkeys((sympy.bessely, sympy.besselk), _of_last(_positive)),
+    sympy.yn: _for_integers(_nonzero, _positive),
+    # polynomials for an integer n; else u > -1
+    **dict.fromkeys(
+        (sympy.legendre, sympy.gegenbauer, sympy.jacobi, sympy.chebyshevt, sympy.chebyshevu),
+        _for_integers(_nothing, lambda u: _off_the_cut(u + 1)),
+    ),
+    sympy.assoc_legendre: _of_associated_legendre,
+    sympy.hyper: _of_hypergeometric,
+}

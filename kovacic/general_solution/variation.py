@@ -23,10 +23,10 @@ from kovacic.general_solution.antiderivatives import antiderivative
 from kovacic.general_solution.basis import Basis, rates, with_single_waves
 from kovacic.general_solution.continuity import jumps
 from kovacic.general_solution.integrands import prepared
-from kovacic.general_solution.residual import Residual, points
 from kovacic.general_solution.special_integrals import without_crossings
 from kovacic.general_solution.steps import JUMPING
 from kovacic.general_solution.substitution import size
+from kovacic.general_solution.zero import Residual, points
 
 Expr = Any  # SymPy publishes no types
 #: Functions that appear with complex arguments, and how many of these are better than an integral.

@@ -4,18 +4,21 @@ A constant is an expression in the user's own symbols, with what is assumed of t
 always" with them, is proven by a ball that doesn't contain zero, at values of the parameters that fit the assumptions.
 "Always" is proven by rewriting as a sum of monomials; and, for numbers made of roots, by their minimal polynomial.  All work
 is bounded by sizes.
+
+A formula is put into an equation in the same way: at points, in balls.
 """
 
 from __future__ import annotations
 
 import math
 from collections.abc import Callable, Iterator, Sequence
+from dataclasses import dataclass
 from enum import Enum
 from itertools import islice
 from typing import Any
 
 import sympy
-from flint import acb, arb
+from flint import acb, arb, fmpq
 from sympy.simplify.fu import TR8
 
 from kovacic.algebra.precision import working_digits
@@ -38,6 +41,8 @@ _PRECISE = 400
 _SAMPLES = 6
 #: By how many steps of its recurrence a gamma function is rewritten.
 _FAR = 100
+#: Points x/101 + i y/89 in each quadrant and on the axis, where a formula is substituted: wrong branches of roots don't pass.
+_POINTS = [(137, 71), (-151, 83), (-97, -119), (163, -79), (23, 0), (67, 0), (173, 0), (431, 0), (-41, 0), (-257, 0)]
 
 
 class Zero(Enum):
@@ -263,3 +268,28 @@ def is_algebraic_zero(value: Expr) -> bool:
         return False
     x = sympy.Dummy()
     return bool(sympy.minimal_polynomial(value, x) == x)
+
+
+@dataclass(frozen=True)
+class Residual:
+    """a y'' + b y' + c y - f, for expressions a, b, c and f in x."""
+
+    x: Expr
+    coefficients: tuple[Expr, Expr, Expr, Expr]
+
+    def at(self, y: Expr, point: Any) -> tuple[Any, Any]:
+        """Its absolute value at a point, and the sum of those of its terms.
+
+        Raises `NotImplementedError` where a part can't be evaluated, or isn't finite.
+        """
+        a, b, c, f = (jet(e, self.x, point)[0] for e in self.coefficients)
+        value, first, second = jet(y, self.x, point)
+        terms = [a * second, b * first, c * value, -f]
+        if not all(term.is_finite() for term in terms):
+            raise NotImplementedError("a value isn't finite")
+        return abs(sum(terms)), sum(map(abs, terms), arb(0))
+
+
+def points() -> Iterator[Any]:
+    """Those in each quadrant and on the axis."""
+    return (acb(arb(fmpq(real, 101)), arb(fmpq(imaginary, 89))) for real, imaginary in _POINTS)
