@@ -149,7 +149,8 @@ class Basis:
         """w(x), real about 0 where c is found: (1 - x)^e for (x - 1)^e."""
         t = sympy.Symbol(self.equation.variable)
         w = display(product(self.equation.gauge * 2), Atoms(t), around_zero=True).xreplace(NUMBERS)
-        w = w.xreplace({p: (-p.base) ** p.exp for p in w.atoms(sympy.Pow) if _is_negative_root(p, t)})
+        roots = [p for p in w.atoms(sympy.Pow) if not p.exp.is_integer]
+        w = w.xreplace({p: (-p.base) ** p.exp for p in roots if p.base.subs(t, 0).is_negative})
         if self.equation.change is None:
             return w
         return in_x(self.equation, w) * function_of_x(self.equation).diff(self.x)
@@ -227,8 +228,3 @@ def _simplified(c: Expr) -> Expr:
     if c.free_symbols and c.is_rational_function():
         return sympy.factor(sympy.cancel(c))
     return sympy.radsimp(c)
-
-
-def _is_negative_root(p: Expr, x: Expr) -> bool:
-    """Is it a power of something that is negative at 0, with an exponent that isn't an integer?"""
-    return bool(not p.exp.is_integer and p.base.subs(x, 0).is_negative)

@@ -28,7 +28,7 @@ from kovacic.general_solution.conditions import Condition
 from kovacic.general_solution.continuity import cuts_of, jumps
 from kovacic.general_solution.jumps import between, break_points, in_steps, on_piece
 from kovacic.general_solution.question import Question
-from kovacic.general_solution.steps import JUMPING, Apart, taken_apart
+from kovacic.general_solution.steps import JUMPING, taken_apart
 from kovacic.general_solution.values import have_values, value_at
 from kovacic.general_solution.zero import Residual, ball, sample_value, samples
 
@@ -95,7 +95,10 @@ def _check(question: Question, value: Expr, what: str, is_wrong: Callable[[], bo
     try:
         fails = is_wrong()
     except _NOT_EVALUATED as reason:
-        return [f"the answer wasn't put into {what}, numerically: {_said(reason)}"]
+        said = "a part of it can't be evaluated"
+        if isinstance(reason, NotImplementedError):  # the messages of other errors are no help
+            said = str(reason)
+        return [f"the answer wasn't put into {what}, numerically: {said}"]
     if fails:
         raise _failed(question, value, f"doesn't satisfy {what}")
     return []
@@ -130,13 +133,6 @@ def _symbols_of(conditions: Sequence[Condition]) -> Iterator[Expr]:
         yield from getattr(condition.value, "free_symbols", ())
         for term in condition.terms:
             yield from term.point.free_symbols | term.coefficient.free_symbols
-
-
-def _said(reason: Exception) -> str:
-    """Why a value isn't known; the messages of other errors than ours are no help."""
-    if isinstance(reason, NotImplementedError):
-        return str(reason)
-    return "a part of it can't be evaluated"
 
 
 def is_finite(value: Expr) -> bool:
@@ -258,20 +254,16 @@ def _has_wrong_jump(left: Expr, right: Expr, rates: tuple[Expr, Expr], x: Expr, 
     if apart is None or any(impulse.order > 1 for impulse in apart.impulses):
         return False
     at = ball(point)
-    zero, first = (jet(_strength(apart, point, order), x, at)[0] for order in (0, 1))
-    if any(impulse.a == point for impulse in apart.impulses):
+    here = [impulse for impulse in apart.impulses if impulse.a == point]
+    strengths = (sympy.Add(*(impulse.strength for impulse in here if impulse.order == order)) for order in (0, 1))
+    zero, first = (jet(strength, x, at)[0] for strength in strengths)
+    if here:
         zero -= jet(B, x, at)[0] * first
     before = jet(left, x, at)
     after = jet(right, x, at)
     scale = abs(before[0]) + abs(before[1]) + abs(after[0]) + abs(after[1]) + 1
     misses = (after[0] - before[0] - first, after[1] - before[1] - zero)
     return any(bool(abs(miss) > _SMALL * scale) for miss in misses)
-
-
-def _strength(apart: Apart, point: Expr, order: int) -> Expr:
-    """That of all impulses of an order at a point."""
-    here = [impulse for impulse in apart.impulses if impulse.a == point]
-    return sympy.Add(*(impulse.strength for impulse in here if impulse.order == order))
 
 
 def _is_large(residual: Residual, y: Expr, point: Any) -> bool:

@@ -98,11 +98,11 @@ def jumps(y: Expr, x: Expr, coefficients: Sequence[Expr]) -> bool:
 
 def _letters(symbols: set[Expr], inside: set[Expr]) -> Iterator[dict[Expr, Expr]]:
     """Values of letters, and the opposite ones of those `inside` whose sign isn't known."""
-    for numbers in islice(samples(symbols), 1):
-        yield numbers
-        unknown = {s for s in symbols & inside if s.is_positive is None and s.is_negative is None}
-        if unknown:
-            yield numbers | {s: -numbers[s] for s in unknown}
+    numbers = next(samples(symbols))
+    yield numbers
+    unknown = {s for s in symbols & inside if s.is_positive is None and s.is_negative is None}
+    if unknown:
+        yield numbers | {s: -numbers[s] for s in unknown}
 
 
 def cuts_of(y: Expr, x: Expr) -> list[Expr]:
@@ -147,8 +147,10 @@ class _Course:
             return False
         for a, b in pairwise(self._points()):
             suspects = islice(self._suspects(a, b, _HALVINGS), _MOST_SUSPECTS)
-            if any(self._jumps_within(*suspect) for suspect in suspects):
-                return True
+            for left, right in suspects:
+                is_ordinary = self._is_ordinary(arb(left).union(arb(right)))
+                if is_ordinary and any(self._differ(left, right, order) for order in (0, 1)):
+                    return True
         return False
 
     def _is_singular_on(self, cut: Expr) -> bool:
@@ -179,11 +181,6 @@ class _Course:
         middle = (3 * a + 4 * b) / 7
         yield from self._suspects(a, middle, halvings - 1)
         yield from self._suspects(middle, b, halvings - 1)
-
-    def _jumps_within(self, a: Any, b: Any) -> bool:
-        """Is the equation regular on a short interval, and do y or y' differ at its ends?"""
-        is_ordinary = self._is_ordinary(arb(a).union(arb(b)))
-        return is_ordinary and any(self._differ(a, b, order) for order in (0, 1))
 
     def _is_ordinary(self, here: Any) -> bool:
         """Are the coefficients analytic on a real ball?"""

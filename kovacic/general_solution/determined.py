@@ -67,7 +67,10 @@ def constants_of(
             of_limit, zeros = _rows_of_limit(limit, solutions)
             rows += of_limit
             exceptional |= zeros
-    found = determine(rows, names, _wronskian(question, basis, rows, limits), _scale(question, basis))
+    scale = question.own(basis.constant)
+    if scale.is_zero or scale.has(sympy.Function, sympy.Integral, question.x):  # it isn't elementary
+        scale = _ONE
+    found = determine(rows, names, _wronskian(question, basis, rows, limits), scale)
     for symbol in sorted(exceptional, key=str):
         found.particular.append(ParameterCase((symbol,), Outcome.OPEN))
     return found
@@ -88,32 +91,18 @@ def _applied(condition: Condition, y: Expr, x: Expr) -> Expr:
 
 def _wronskian(question: Question, basis: Basis, rows: Sequence[Row], limits: dict[Expr, Approach]) -> Expr | None:
     """For y and y' at one point, given first: the determinant, which isn't zero, in a form that is short; else None."""
-    sign = _SIGNS.get(_orders_at_one_point(question.conditions[:2], limits))
-    if sign is None:
+    if not all(condition.is_value for condition in question.conditions[:2]):
+        return None
+    terms = [condition.terms[0] for condition in question.conditions[:2]]
+    points = {term.point for term in terms}
+    sign = _SIGNS.get(tuple(term.order for term in terms))
+    if sign is None or len(points) != 1 or not points.isdisjoint(limits):
         return None
     determinant = rows[0].u * rows[1].v - rows[0].v * rows[1].u
     if determinant.is_Rational:
         return determinant
-    point = question.conditions[0].points[0]
-    W = finite_value(question.own(basis.wronskian), question.x, point)
+    W = finite_value(question.own(basis.wronskian), question.x, terms[0].point)
     return determinant if W is None else sign * W
-
-
-def _scale(question: Question, basis: Basis) -> Expr:
-    """The constant of the Wronskian, where that is elementary; else 1."""
-    c = question.own(basis.constant)
-    return _ONE if c.is_zero or c.has(sympy.Function, sympy.Integral, question.x) else c
-
-
-def _orders_at_one_point(conditions: Sequence[Condition], limits: dict[Expr, Approach]) -> tuple[int, ...]:
-    """The orders of values y(a), y'(a) at one ordinary point; none for other conditions."""
-    if not all(condition.is_value for condition in conditions):
-        return ()
-    terms = [condition.terms[0] for condition in conditions]
-    points = {term.point for term in terms}
-    if len(points) != 1 or not points.isdisjoint(limits):
-        return ()
-    return tuple(term.order for term in terms)
 
 
 # ------------------------------------------------------------------------------------------------------------- limits
@@ -205,7 +194,8 @@ def _rows_of_limit(limit: _Limit, solutions: _Solutions) -> tuple[list[Row], set
     """The rows, and symbols that were taken for positive where it is only known that they aren't negative."""
     forms = [y.diff(limit.x, limit.order) for y in solutions]
     symbols = set().union(*(y.free_symbols for y in forms))
-    natural = {s: sympy.Dummy(s.name, integer=s.is_integer, positive=True) for s in symbols if _is_zero_open(s)}
+    perhaps_zero = [s for s in symbols if s.is_nonnegative and not s.is_positive]
+    natural = {s: sympy.Dummy(s.name, integer=s.is_integer, positive=True) for s in perhaps_zero}
     for positive in ({}, natural):
         try:
             own = replace(limit, W=limit.W.xreplace(positive))
@@ -216,10 +206,6 @@ def _rows_of_limit(limit: _Limit, solutions: _Solutions) -> tuple[list[Row], set
         back = {dummy: symbol for symbol, dummy in positive.items()}
         return [Row(*(part.xreplace(back) for part in (row.u, row.v, row.r))) for row in rows], {*positive}
     raise NotImplementedError(f"undecided: the solutions' behaviour at {limit.place.point}: {reason}")
-
-
-def _is_zero_open(symbol: Expr) -> bool:
-    return bool(symbol.is_nonnegative and not symbol.is_positive)
 
 
 def _without_gammas(ratio: Expr) -> Row:

@@ -171,14 +171,10 @@ def start_of(question: Question, limits: dict[Expr, Approach]) -> Expr:
     place = finite[-1]
     others = [approach.point for approach in finite if approach.point != place.point]
     ahead = [pole for pole in poles if ((pole - place.point) * place.direction).is_positive]
-    return _beside(place, [*ahead, *others])
-
-
-def _beside(place: Approach, ends: Sequence[Expr]) -> Expr:
-    """Half way from a finite place to the nearest of the ends; one step away from it without any."""
+    ends = [*ahead, *others]
     if not ends:
         return place.point + place.direction
-    nearest = min(ends, key=lambda end: abs(end - place.point).evalf())
+    nearest = min(ends, key=lambda end: abs(end - place.point).evalf())  # half way to it there are no others
     return (place.point + nearest) / 2
 
 
@@ -333,51 +329,38 @@ def _parts(y: Expr, point: Expr, x: Expr) -> list[Expr]:
 
 
 def _with_positive_arguments(y: Expr, point: Expr, x: Expr, back: dict[Expr, Expr]) -> dict[Expr, Expr]:
-    """Logarithms and roots of p, or of -p = p exp(i pi), for a positive symbol p; `back` says what it is."""
+    """Logarithms and roots of p, or of -p = p exp(i pi), for a positive symbol p, one for u and -u; `back` says what it is."""
     real: dict[Expr, Expr] = {}
     for e, u in _arguments(y, x).items():
         value = u.subs(x, point)
         if value.is_negative:
-            real[e] = _of_positive(e, _letter_for(-u, back), sympy.I * sympy.pi)
+            p, phase = -u, sympy.I * sympy.pi
         elif value.is_positive and not u.has(*real):
-            real[e] = _of_positive(e, _letter_for(u, back), sympy.Integer(0))
+            p, phase = u, sympy.Integer(0)
+        else:
+            continue
+        known = [letter for letter, meaning in back.items() if meaning in (p, -p)]
+        letter = next(iter(known), sympy.Dummy(positive=True))
+        back[letter] = p
+        if e.func is sympy.log:
+            real[e] = sympy.log(letter) + phase
+        else:
+            real[e] = letter**e.exp * sympy.exp(phase * e.exp)
     return real
 
 
-def _letter_for(p: Expr, back: dict[Expr, Expr]) -> Expr:
-    """A positive symbol for p, the one that stands for p or -p already if there is one."""
-    known = [letter for letter, meaning in back.items() if meaning in (p, -p)]
-    letter = next(iter(known), sympy.Dummy(positive=True))
-    back[letter] = p
-    return letter
-
-
-def _of_positive(e: Expr, p: Expr, phase: Expr) -> Expr:
-    """The logarithm, or the power with the exponent of e, of p exp(phase)."""
-    if e.func is sympy.log:
-        return sympy.log(p) + phase
-    return p**e.exp * sympy.exp(phase * e.exp)
-
-
 def _with_polar_powers(whole: Expr, x: Expr, back: dict[Expr, Expr]) -> Expr:
-    """With powers of complex numbers of a constant modulus as exponential functions."""
+    """With (a + i b)^e of a constant modulus m as m^e exp(i e phi), where `back` says what phi is."""
     for power in whole.atoms(sympy.Pow):
-        polar = _polar(power, x, back)
-        if polar is not None:
-            whole = whole.xreplace({power: polar})
+        a, b = power.base.as_real_imag()
+        square = sympy.expand((a**2 + b**2).xreplace(back))
+        if b == 0 or power.exp.is_Integer or square.has(x):
+            continue
+        m = sympy.sqrt(square)
+        angle = sympy.acos(a.xreplace(back) / m)
+        if b.could_extract_minus_sign():
+            angle = -angle
+        phi = sympy.Dummy(real=True)
+        back[phi] = angle
+        whole = whole.xreplace({power: m**power.exp * sympy.exp(sympy.I * power.exp * phi)})
     return whole
-
-
-def _polar(power: Expr, x: Expr, back: dict[Expr, Expr]) -> Expr | None:
-    """(a + i b)^e with a constant modulus m as m^e exp(i e phi), where `back` says what phi is; None for another power."""
-    a, b = power.base.as_real_imag()
-    square = sympy.expand((a**2 + b**2).xreplace(back))
-    if b == 0 or power.exp.is_Integer or square.has(x):
-        return None
-    m = sympy.sqrt(square)
-    angle = sympy.acos(a.xreplace(back) / m)
-    if b.could_extract_minus_sign():
-        angle = -angle
-    phi = sympy.Dummy(real=True)
-    back[phi] = angle
-    return m**power.exp * sympy.exp(sympy.I * power.exp * phi)

@@ -7,7 +7,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import reduce
 from operator import mul
 from typing import Any
@@ -48,39 +48,28 @@ def slope(expression: Expr, x: Expr) -> Expr:
     if expression.is_Add:
         return sympy.Add(*[slope(term, x) for term in expression.args])
     if expression.is_Mul:
-        return _slope_of_product(expression.args, x)
+        factors = expression.args
+        slopes = [(i, slope(factor, x)) for i, factor in enumerate(factors)]
+        products = [(*factors[:i], inner, *factors[i + 1 :]) for i, inner in slopes if inner != 0]
+        return sympy.Add(*(math.prod(product, start=_ONE) for product in products))
     if expression.is_Pow and expression.exp.is_Number:
         inner = slope(expression.base, x)
         return expression * (inner * expression.exp / expression.base)
     return expression.diff(x)
 
 
-def _slope_of_product(factors: tuple[Expr, ...], x: Expr) -> Expr:
-    terms = []
-    for i, factor in enumerate(factors):
-        inner = slope(factor, x)
-        if inner != 0:
-            terms.append(math.prod((*factors[:i], inner, *factors[i + 1 :]), start=_ONE))
-    return sympy.Add(*terms)
-
-
 def _substituted(e: Expr, x: Expr, point: Expr) -> Expr:
     """The value of a function, of a series at 0, or of an integral from the point on."""
+    # Beside the root alone: SymPy's substitution would compute rational sums exactly, without end.
     sums = e.atoms(sympy.RootSum)
-    if sums:
-        e = e.xreplace({r: _substituted_in_sum(r, x, point) for r in sums})
+    terms = {r: sympy.Lambda(r.fun.variables, _substituted(r.fun.expr, x, point)) for r in sums}
+    e = e.xreplace({r: sympy.RootSum(r.poly, term, auto=False) for r, term in terms.items()})
     value = e.subs(x, point)
     if value.has(sympy.hyper, sympy.Integral, *_ODD):
         value = _at_zero(value)
     if not _OPEN.isdisjoint(value.atoms()):
         raise _SingularError
     return value
-
-
-def _substituted_in_sum(r: Expr, x: Expr, point: Expr) -> Expr:
-    """Beside the root alone: SymPy's substitution would compute rational sums exactly, without end."""
-    term = sympy.Lambda(r.fun.variables, _substituted(r.fun.expr, x, point))
-    return sympy.RootSum(r.poly, term, auto=False)
 
 
 def _at_zero(value: Expr) -> Expr:
@@ -118,9 +107,11 @@ class _Size:
 
     def __pow__(self, k: int) -> _Size:
         """Each term has at most k of the terms of the base as factors; SymPy writes all of them before it gathers any."""
-        terms = _terms_of_power(self.terms, k)
-        if terms == math.inf:
-            return _Size(math.inf, math.inf, math.inf)
+        terms = 1.0
+        if self.terms > 1:
+            if self.terms * k >= _MANY:
+                return _Size(math.inf, math.inf, math.inf)
+            terms = math.comb(int(self.terms) + k - 1, k)  # the monomials of degree k in so many letters
         parts = terms * min(k, self.terms) * (self.parts / self.terms + 2)
         return _Size(terms, parts, self.degree * k)
 
@@ -152,26 +143,12 @@ def _size(expression: Expr, degree: float) -> _Size:
     if expression.is_Mul:
         return reduce(mul, sorted(inner, key=lambda part: part.degree))
     if expression.is_Pow and expression.exp.is_Rational and expression.exp >= 1:
-        return _of_power(inner[0], expression.exp)
+        power = inner[0] ** int(expression.exp)
+        if expression.exp.is_Integer:
+            return power
+        return replace(power, degree=math.inf)  # u^(7/3) is expanded as u^2 u^(1/3)
     return _Size(1, 1 + _parts(inner), math.inf)
 
 
 def _parts(sizes: Sequence[_Size]) -> float:
     return sum(one.parts for one in sizes)
-
-
-def _of_power(base: _Size, exponent: Expr) -> _Size:
-    """u^(7/3) is expanded as u^2 u^(1/3)."""
-    power = base ** int(exponent)
-    if exponent.is_Integer:
-        return power
-    return _Size(power.terms, power.parts, math.inf)
-
-
-def _terms_of_power(n: float, k: int) -> float:
-    """That many monomials of degree k in n terms: binomial(n + k - 1, k)."""
-    if n == 1:
-        return 1.0
-    if n * k >= _MANY:
-        return math.inf
-    return float(math.comb(int(n) + k - 1, k))

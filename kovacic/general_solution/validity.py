@@ -13,6 +13,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass
+from functools import partial
 from typing import Any
 
 import sympy
@@ -84,14 +85,9 @@ def _without_weaker(relations: list[Expr]) -> tuple[Expr, ...]:
     """Without e >= 0 and e != 0 beside e > 0; `false` alone where it is one of them."""
     if sympy.false in relations:
         return (sympy.false,)
-    positive = {relation.lhs for relation in relations if _is_strict(relation)}
-    nonzero = positive | {-u for u in positive}
-    return tuple(relation for relation in relations if _is_strict(relation) or relation.lhs not in nonzero)
-
-
-def _is_strict(relation: Expr) -> bool:
-    """Is it e > 0?"""
-    return isinstance(relation, sympy.StrictGreaterThan)
+    strict = [relation for relation in relations if isinstance(relation, sympy.StrictGreaterThan)]
+    nonzero = {u for relation in strict for u in (relation.lhs, -relation.lhs)}
+    return tuple(relation for relation in relations if relation in strict or relation.lhs not in nonzero)
 
 
 # ------------------------------------------------------------------------------------------------------ part by part
@@ -112,7 +108,10 @@ def needs_of(e: Expr) -> Iterator[Expr]:
         return
     for argument in e.args:
         yield from needs_of(argument)
-    for relation in sympy.And.make_args(_need_of_part(e)):
+    need = _OF_FUNCTIONS.get(e.func, _nothing)
+    if e.is_Pow and not isinstance(e, sympy.exp):
+        need = _of_power
+    for relation in sympy.And.make_args(need(e)):
         if relation != sympy.true:
             yield relation
 
@@ -136,17 +135,8 @@ def _needs_at_real_roots(total: Expr) -> Iterator[Expr]:
         yield from needs_of(total.fun(root))
 
 
-def _need_of_part(e: Expr) -> Expr:
-    """What a part needs whose arguments are real and finite."""
-    if e.is_Pow and not isinstance(e, sympy.exp):
-        return _of_power(e)
-    need = _OF_FUNCTIONS.get(e.func)
-    if need is None:
-        return sympy.true
-    return need(e)
-
-
 def _of_power(e: Expr) -> Expr:
+    """What a power needs whose base and exponent are real and finite."""
     if e.base.is_number:
         return sympy.true
     if e.exp.is_nonnegative and e.exp.is_integer:
@@ -161,20 +151,16 @@ def _of_power(e: Expr) -> Expr:
 # ----------------------------------------------------------------------------------------------------------- relations
 
 
-def _positive(u: Expr) -> Expr:
-    """u > 0, which SymPy refuses to write for what is known not to be real."""
+def _compared(relation: Any, u: Expr) -> Expr:
+    """u > 0 or u >= 0, which SymPy refuses to write for what is known not to be real."""
     short = _of_the_same_sign(u)
     if short.is_extended_real is False:
         return sympy.false
-    return short > 0
+    return relation(short, 0)
 
 
-def _not_negative(u: Expr) -> Expr:
-    """u >= 0, which SymPy refuses to write for what is known not to be real."""
-    short = _of_the_same_sign(u)
-    if short.is_extended_real is False:
-        return sympy.false
-    return short >= 0
+_positive = partial(_compared, sympy.StrictGreaterThan)
+_not_negative = partial(_compared, sympy.GreaterThan)
 
 
 def _of_the_same_sign(u: Expr) -> Expr:

@@ -36,7 +36,9 @@ def value_at(expression: Expr, x: Expr, point: Expr, order: int = 0) -> Expr:
     e = sympy.sympify(expression, strict=True)
     if not e.has_free(x):
         return _ZERO if order else e
-    e = _with_constant_jumps(e, x, point, order)
+    # Steps and impulses have the values just before the point: neither has a slope there.
+    steps = [jump for jump in e.atoms(sympy.Heaviside, sympy.DiracDelta) if jump.has(x)]
+    e = e.xreplace({jump: _just_before(e, jump, x, point, order) for jump in steps})
     if order:
         e = e.diff(x)
     value = finite_value(e, x, point)
@@ -48,34 +50,21 @@ def value_at(expression: Expr, x: Expr, point: Expr, order: int = 0) -> Expr:
     return value
 
 
-def _with_constant_jumps(e: Expr, x: Expr, point: Expr, order: int) -> Expr:
-    """With the values that steps and impulses have just before the point: neither has a slope there."""
-    jumps = [jump for jump in e.atoms(sympy.Heaviside, sympy.DiracDelta) if jump.has(x)]
-    if not jumps:
-        return e
-    return e.xreplace({jump: _just_before(e, jump, x, point, order) for jump in jumps})
-
-
 def _just_before(e: Expr, jump: Expr, x: Expr, point: Expr, order: int) -> Expr:
     """The value of a step or an impulse just before the point; as H(u, 0) where parameters may put the point on the step."""
     if isinstance(jump, sympy.DiracDelta):
         return _ZERO
     u = sympy.expand(jump.args[0].subs(x, point))
-    at_the_jump = _value_before(jump, x)
+    place = place_of(jump, x)
+    at_the_jump = _ZERO
+    if place is not None and place.slope.is_negative:  # H(s (x - a)) is 1 before a
+        at_the_jump = sympy.Integer(1)
     if u == 0:
         return at_the_jump
     step = sympy.Heaviside(u)
     if not isinstance(step, sympy.Heaviside) or _is_smooth_across(e, jump, x, order):
         return step
     return sympy.Heaviside(u, at_the_jump)
-
-
-def _value_before(step: Expr, x: Expr) -> Expr:
-    """That of H(s (x - a)) just before a: 1 where s is negative."""
-    place = place_of(step, x)
-    if place is not None and place.slope.is_negative:
-        return sympy.Integer(1)
-    return _ZERO
 
 
 def _is_smooth_across(e: Expr, step: Expr, x: Expr, order: int) -> bool:

@@ -69,7 +69,9 @@ def with_integrals(basis: Basis, right: Expr, start: Expr | None) -> Expr:
         if whole is not None:
             return whole.replace(lambda e: e.func is sympy.Integral, lambda e: _open(e.function, x, start))
     for integrals in (known, [None, None]):
-        solution = _from_integrals(basis, _with_open_ones(integrals, integrands, x, start))
+        pairs = zip(integrals, integrands, strict=True)
+        opened = [_open(integrand, x, start) if found is None else found for found, integrand in pairs]
+        solution = _from_integrals(basis, opened)
         if _is_right(basis, solution, right, coefficients):
             return solution
     # The Wronskian may be on another branch.
@@ -129,17 +131,6 @@ def _without_homogeneous(basis: Basis, total: Expr) -> Expr:
     for y in (basis.y1, basis.y2):
         terms = [term for term in terms if not _is_constant(term / y, basis.x)]
     return sympy.factor_terms(sympy.Add(*terms))
-
-
-def _with_open_ones(known: Sequence[Any], integrands: Sequence[Expr], x: Expr, start: Expr | None) -> list[Expr]:
-    """The integrals, unevaluated where they aren't known."""
-    integrals = []
-    for found, integrand in zip(known, integrands, strict=True):
-        if found is None:
-            integrals.append(_open(integrand, x, start))
-        else:
-            integrals.append(found)
-    return integrals
 
 
 def _is_constant(quotient: Expr, x: Expr) -> bool:

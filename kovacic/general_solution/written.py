@@ -22,15 +22,11 @@ def free_constants(question: Question, basis: Basis, particular: Expr) -> tuple[
     for condition in question.conditions:
         used += [condition.value, *condition.points]
         used += [term.coefficient for term in condition.terms]
-    taken = set(question.symbols).union(*map(_names_in, used))
+    # a value that is only bounded is None, and has no symbols
+    taken = {*question.symbols, *(symbol.name for e in used for symbol in getattr(e, "free_symbols", ()))}
     excluded = [sympy.Symbol(name) for name in taken]
     c1, c2 = islice(sympy.numbered_symbols("C", start=1, exclude=excluded), 2)
     return c1, c2
-
-
-def _names_in(e: Any) -> set[str]:
-    """The names of its symbols; none for None, as for a value that is only bounded."""
-    return {symbol.name for symbol in getattr(e, "free_symbols", ())}
 
 
 def combination(question: Question, basis: Basis, particular: Expr, constants: tuple[Expr, Expr]) -> Expr:
@@ -72,7 +68,10 @@ def with_floats(e: Expr) -> Expr:
     if e.is_Integer or e.is_Symbol or isinstance(e, sympy.Integral):
         return e
     if e.is_number and not e.has(sympy.Integral):
-        return _as_float(e)
+        value = e.evalf(_DIGITS)
+        if e.is_real:  # to as many digits as are given back; complex numbers as SymPy writes them
+            return sympy.Float(str(value), _DIGITS)
+        return value
     is_power = e.is_Pow and not isinstance(e, sympy.exp)
     if is_power and e.exp.is_Rational and e.exp.q <= 2:
         return with_floats(e.base) ** e.exp
@@ -80,11 +79,3 @@ def with_floats(e: Expr) -> Expr:
         *parameters, argument = e.args
         return e.func(*parameters, with_floats(argument), evaluate=False)
     return e.func(*map(with_floats, e.args))
-
-
-def _as_float(number: Expr) -> Expr:
-    """To as many digits as are given back; complex numbers as SymPy writes them."""
-    value = number.evalf(_DIGITS)
-    if not number.is_real:
-        return value
-    return sympy.Float(str(value), _DIGITS)

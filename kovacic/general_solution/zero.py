@@ -11,7 +11,7 @@ A formula is put into an equation in the same way: at points, in balls.
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from enum import Enum
 from itertools import islice
@@ -67,19 +67,14 @@ def when_zero(value: Expr) -> Zero:
         return Zero.NEVER
     tried = islice(samples(value.free_symbols), _SAMPLES)
     if any(differs_from_zero(value, sample) for sample in tried):
-        return _where_not_always(value)
+        # A number that isn't zero never is; what has parameters may be for other values of these.
+        parts = by_parity(value)
+        if value.free_symbols and not (parts and all(map(is_nowhere_zero, parts))):
+            return Zero.SOMETIMES
+        return Zero.NEVER
     if is_identically_zero(value):
         return Zero.ALWAYS
     raise NotImplementedError(f"undecided: whether {shown(value, 60)} is zero")
-
-
-def _where_not_always(value: Expr) -> Zero:
-    """A number that isn't zero never is; what has parameters may be for other values of these."""
-    parts = by_parity(value)
-    is_nowhere_zeroby_parity = bool(parts) and all(map(is_nowhere_zero, parts))
-    if value.free_symbols and not is_nowhere_zeroby_parity:
-        return Zero.SOMETIMES
-    return Zero.NEVER
 
 
 def is_zero(value: Expr) -> bool:
@@ -129,8 +124,9 @@ _WITHOUT_ZEROS: tuple[tuple[tuple[Any, ...], Callable[[Expr], Any]], ...] = (
 
 
 def by_parity(value: Expr) -> list[Expr]:
-    """The value for even and for odd n, where n/2 for an integer n occurs in a wave or a gamma function; else nothing."""
-    halved = _integers_of_unknown_parity(value)
+    """The value for even and for odd n, where that is the only symbol in a wave or a gamma function; else nothing."""
+    alone = (f.free_symbols for f in value.atoms(sympy.sin, sympy.cos, sympy.gamma) if len(f.free_symbols) == 1)
+    halved = {n for symbols in alone for n in symbols if n.is_integer and n.is_odd is None}
     if len(halved) != 1:
         return []
     (n,) = halved
@@ -140,36 +136,26 @@ def by_parity(value: Expr) -> list[Expr]:
     return [sympy.factor_terms(sympy.powsimp(part)) for part in parts]
 
 
-def _integers_of_unknown_parity(value: Expr) -> set[Expr]:
-    """The integers that are the only symbol in a wave or a gamma function, and may be even and odd."""
-    found = set()
-    for f in value.atoms(sympy.sin, sympy.cos, sympy.gamma):
-        symbols = f.free_symbols
-        if len(symbols) == 1:
-            found |= {n for n in symbols if n.is_integer and n.is_odd is None}
-    return found
-
-
 def samples(symbols: set[Expr]) -> Iterator[dict[Expr, Expr]]:
     """Values of symbols that fit what is assumed of them, small integers, the symbols in many orders: without an end."""
     ordered = sorted(symbols, key=str)
     for k in range(10**6):
-        yield {symbol: sample_value(symbol, k + 3 * position) for position, symbol in enumerate(_reordered(ordered, k))}
-
-
-def _reordered(symbols: Sequence[Expr], k: int) -> list[Expr]:
-    """Turned round k/2 times, and backwards for odd k: which of two is the larger one may matter."""
-    start = k // 2 % max(len(symbols), 1)
-    turned = [*symbols[start:], *symbols[:start]]
-    if k % 2:
-        turned.reverse()
-    return turned
+        # turned round k/2 times, and backwards for odd k: which of two is the larger one may matter
+        start = k // 2 % max(len(ordered), 1)
+        turned = [*ordered[start:], *ordered[:start]]
+        if k % 2:
+            turned.reverse()
+        yield {symbol: sample_value(symbol, k + 3 * position) for position, symbol in enumerate(turned)}
 
 
 def sample_value(symbol: Expr, k: int) -> Expr:
-    """The k-th value of a symbol."""
-    if symbol.is_integer:
-        value = _integer_sample(symbol, k)
+    """The k-th value of a symbol: of integers the k-th natural number, or the k-th of those that are even or odd."""
+    if symbol.is_odd:
+        value = sympy.Integer(2 * k + 1)
+    elif symbol.is_even:
+        value = sympy.Integer(2 * k + 2)
+    elif symbol.is_integer:
+        value = sympy.Integer(k + 1)
     else:
         # between 1 and 2.01 but for k, with a large numerator and denominator: another one for most other names
         code = sum(ord(character) * 31**place for place, character in enumerate(symbol.name))
@@ -177,15 +163,6 @@ def sample_value(symbol: Expr, k: int) -> Expr:
     if symbol.is_negative or symbol.is_nonpositive:
         return -value
     return value
-
-
-def _integer_sample(symbol: Expr, k: int) -> Expr:
-    """The k-th natural number, or the k-th of those that are even or odd."""
-    if symbol.is_odd:
-        return sympy.Integer(2 * k + 1)
-    if symbol.is_even:
-        return sympy.Integer(2 * k + 2)
-    return sympy.Integer(k + 1)
 
 
 def ball(value: Expr, sample: dict[Expr, Expr] | None = None) -> Any:
