@@ -78,7 +78,9 @@ def integral_of_product(term: Expr, x: Expr) -> Expr | None:
         return -turned.subs(x, -x)
     if any(_has_unlike_exponentials(base) for base in term.atoms(sympy.Add)):  # the rate isn't rational
         return None
-    rate = ratfunc(sympy.cancel(sympy.powsimp(sympy.expand(term.diff(x) / term))), x)
+    # by factors: SymPy takes long to cancel a sum of fractions with exponentials
+    slopes = (factor.diff(x) / factor for factor in sympy.Mul.make_args(sympy.factor_terms(term)))
+    rate = ratfunc(sympy.cancel(sympy.powsimp(sympy.expand(sympy.Add(*slopes)))), x)
     if rate is None:
         return None
     return _integral_by_rate(rate, term, x)
