@@ -60,6 +60,9 @@ html_math_renderer = "mathml"
 
 
 def _mathml(formula: str, display: str) -> str:
+    # Browsers set no space beside the name of a function: sin kx would be sinkx.
+    formula = re.sub(r"(\\(?:sinh|sin|cosh|cos|exp|log))\s+(?![\\({])", r"\1\\, ", formula)
+    formula = re.sub(r"(?<=\w)\s*(\\(?:sinh|sin|cosh|cos|exp|log)\b)", r"\\, \1", formula)
     written = convert(formula, display=display)
     return re.sub(
         r"<msup>(<mi>[^<]*</mi>)<mi>(&#x0?203\d;)</mi></msup>", r"\1<mo lspace='0' rspace='0'>\2</mo>", written

@@ -59,7 +59,7 @@ class Limits:
     ...
     kovacic.errors.LimitExceeded: x^9 at position 0 would have a degree of up to 9, above the limit of 5
     >>> print(kovacic.solve("x^2 + 201", limits=Limits(unknown_degree=5)).reason)
-    the polynomial part of a solution may have degree 8, above the limit of 5
+    the polynomial part of a solution may have degree 100, above the limit of 5
     """
 
     text_length: int = 1_000_000

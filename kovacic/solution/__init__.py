@@ -571,7 +571,7 @@ def solve(
     >>> kovacic.solve("x").status
     <Status.NONE_EXISTS: 'none'>
     >>> print(kovacic.solve("x^2 + 201", limits=kovacic.Limits(unknown_degree=5)).reason)
-    the polynomial part of a solution may have degree 8, above the limit of 5
+    the polynomial part of a solution may have degree 100, above the limit of 5
 
     Equations, as text and by coefficients:
 

@@ -43,7 +43,7 @@ _EQUATIONS = {
 _CONDITIONS = {
     1: "every pole has order 1 or an even order; at infinity the order is even or > 2",
     2: "some pole has order 2 or an odd order > 2",
-    3: "no pole has an order > 2, at infinity the order is >= 2; every Delta is rational",
+    3: "no pole has an order > 2; at infinity the order is >= 2; every Delta is rational",
 }
 #: Families shown in a table, and trials of step 3.
 _MOST_SHOWN = 24
