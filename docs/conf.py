@@ -15,9 +15,9 @@ from pathlib import Path
 from typing import Any
 
 from docutils import nodes
-from latex2mathml.converter import convert
 
 import kovacic
+from kovacic.writing.document import mathml
 
 HERE = Path(__file__).parent
 sys.path.insert(0, str(HERE))
@@ -59,23 +59,13 @@ html_copy_source = False
 html_math_renderer = "mathml"
 
 
-def _mathml(formula: str, display: str) -> str:
-    # Browsers set no space beside the name of a function: sin kx would be sinkx.
-    formula = re.sub(r"(\\(?:sinh|sin|cosh|cos|exp|log))\s+(?![\\({])", r"\1\\, ", formula)
-    formula = re.sub(r"(?<=\w)\s*(\\(?:sinh|sin|cosh|cos|exp|log)\b)", r"\\, \1", formula)
-    written = convert(formula, display=display)
-    return re.sub(
-        r"<msup>(<mi>[^<]*</mi>)<mi>(&#x0?203\d;)</mi></msup>", r"\1<mo lspace='0' rspace='0'>\2</mo>", written
-    )
-
-
 def _inline(writer: Any, node: nodes.math) -> None:
-    writer.body.append(_mathml(node.astext(), "inline"))
+    writer.body.append(mathml(node.astext(), "inline"))
     raise nodes.SkipNode
 
 
 def _display(writer: Any, node: nodes.math_block) -> None:
-    writer.body.append(f'<div class="formula">{_mathml(node.astext(), "block")}</div>')
+    writer.body.append(f'<div class="formula">{mathml(node.astext(), "block")}</div>')
     raise nodes.SkipNode
 
 

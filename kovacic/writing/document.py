@@ -169,14 +169,25 @@ def _html_table(rows: list[list[str]]) -> str:
     return f'<div class="wide" style="{_SCROLLED}"><table>{table}</table></div>'
 
 
+_THIN = "<mspace width='.17em'/>"
+
+
 def _mathml(math: Math, display: str = "inline") -> str:
     """Presentation MathML, which browsers show without a script or a font from elsewhere."""
-    from latex2mathml.converter import convert
-
     if not math.latex:
         return _code(math)
     check_time()
-    written = convert(math.latex, display=display)
+    return mathml(math.latex, display)
+
+
+def mathml(latex: str, display: str = "inline") -> str:
+    """What a formula in LaTeX is in MathML."""
+    from latex2mathml.converter import convert
+
+    written = convert(latex, display=display)
+    # Browsers set no space beside the name of a function: t sin x would be tsinx.
+    written = re.sub(r"(</m(?:i|n|row|sup|sub)>)((?:<msup>)?<mi>[a-z]{2,}</mi>)", rf"\1{_THIN}\2", written)
+    written = re.sub(r"(<mi>[a-z]{2,}</mi>)(<m[in]>)", rf"\1{_THIN}\2", written)
     # A prime is raised and small by itself, and infinity is no operator.
     written = re.sub(
         r"<msup>(<mi>[^<]*</mi>)<mi>(&#x0?203\d;)</mi></msup>", r"\1<mo lspace='0' rspace='0'>\2</mo>", written
