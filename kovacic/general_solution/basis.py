@@ -211,14 +211,10 @@ def vanishing(nonzero: Expr) -> Iterator[Expr]:
         base = factor
         while base.is_Pow and base.exp.is_positive:
             base = base.base
-        if base.free_symbols and not all(map(_is_nonzero, by_parity(base) or [base])):
+        factors = (part for case in by_parity(base) or [base] for part in sympy.Mul.make_args(case))
+        without_gammas = [part for part in factors if not isinstance(part, sympy.gamma)]  # which have no zeros
+        if base.free_symbols and not all(map(is_nowhere_zero, without_gammas)):
             yield -base if base.could_extract_minus_sign() else base
-
-
-def _is_nonzero(e: Expr) -> bool:
-    """True if no factor has zeros, as gamma functions have none."""
-    factors = [factor for factor in sympy.Mul.make_args(e) if not isinstance(factor, sympy.gamma)]
-    return all(map(is_nowhere_zero, factors))
 
 
 def _simplified(c: Expr) -> Expr:

@@ -30,7 +30,7 @@ from kovacic.general_solution.jumps import between, break_points, in_steps, on_p
 from kovacic.general_solution.question import Question
 from kovacic.general_solution.steps import JUMPING, taken_apart
 from kovacic.general_solution.values import have_values, value_at
-from kovacic.general_solution.zero import Residual, ball, sample_value, samples
+from kovacic.general_solution.zero import Residual, ball, samples
 
 Expr = Any  # SymPy publishes no types
 _INFINITE = {sympy.nan, sympy.zoo, sympy.oo, -sympy.oo}
@@ -110,22 +110,13 @@ def _numbers_for(question: Question, value: Expr, natural: Expr | None) -> dict[
     The answer has a value for them, if such are found: it is for generic ones, and a small integer needn't be generic.
     """
     known = sympy.Tuple(value, *question.symbols.values()).free_symbols | {*_symbols_of(question.conditions)}
-    special = [s for s in known if s.is_integer or s.is_negative or s.is_nonpositive]
-    symbols = sorted(special, key=str)
-    candidates = [*_candidates(symbols, natural)]
+    special = {s for s in known if s.is_integer or s.is_negative or s.is_nonpositive}
+    tried = islice(samples(special), 1, 1 + 2 * _SAMPLES)  # from the second on, which is less special
+    candidates = [numbers for numbers in tried if natural is None or not natural.xreplace(numbers).is_negative]
     for numbers in candidates:
         if is_finite(value.xreplace(numbers)):
             return numbers
     return next(iter(candidates), {})
-
-
-def _candidates(symbols: list[Expr], natural: Expr | None) -> Iterator[dict[Expr, Expr]]:
-    """Values of the symbols in either order, at which the integer `natural` isn't negative."""
-    for k in range(1, 1 + _SAMPLES):
-        for ordered in (symbols, symbols[::-1]):
-            numbers = {symbol: sample_value(symbol, k + 3 * position) for position, symbol in enumerate(ordered)}
-            if natural is None or not natural.xreplace(numbers).is_negative:
-                yield numbers
 
 
 def _symbols_of(conditions: Sequence[Condition]) -> Iterator[Expr]:
@@ -153,7 +144,11 @@ def _is_wrong_at(question: Question, value: Expr, start: Expr | None) -> bool:
     value = value.xreplace(dict.fromkeys(definite, sympy.Integer(1)))  # they are factors of y1 and y2
     h = question.given.h
     if h is not None and h.has(*JUMPING, AppliedUndef):
-        return _is_wrong_in_pieces(question, value)
+        pieces = _in_pieces(question, value)
+        with working_digits(DIGITS):
+            if any(pieces.is_wrong_at(point) for point in pieces.points):
+                return True
+            return any(pieces.is_wrong_across(k) for k in range(len(pieces.breaks)))
     base = acb(fmpq(23, 71), fmpq(41, 89))
     if start is not None:
         base = ball(start)
@@ -190,24 +185,28 @@ class _Pieces:
         return _is_large(Residual(self.x, (a, b, c, f)), y, acb(fmpq(int(point.p), int(point.q))))
 
     def is_wrong_across(self, k: int) -> bool:
-        """Have y and y' a wrong jump at the k-th break?  At a singular point of the equation any jump is right."""
+        """Do y and y' jump at the k-th break by anything else than the impulses say?
+
+        False at a singular point of the equation, where any jump is right, and where impulses are of higher order.
+        """
         a, b, c, f = self.coefficients
         point = self.breaks[k]
         if not have_values((b / a, c / a), self.x, point):
             return False
-        here = _antiderivatives(self.y, self.x, point)
-        left = on_piece(here, self.x, self.points[k])
-        right = on_piece(here, self.x, self.points[k + 1])
-        return _has_wrong_jump(left, right, (b / a, f / a), self.x, point)
-
-
-def _is_wrong_in_pieces(question: Question, value: Expr) -> bool:
-    """Is the residual seen not to be zero on a piece of the line, or do y and y' have wrong jumps?"""
-    pieces = _in_pieces(question, value)
-    with working_digits(DIGITS):
-        if any(pieces.is_wrong_at(point) for point in pieces.points):
-            return True
-        return any(pieces.is_wrong_across(k) for k in range(len(pieces.breaks)))
+        apart = taken_apart(in_steps(f / a, self.x), self.x)
+        if apart is None or any(impulse.order > 1 for impulse in apart.impulses):
+            return False
+        at = ball(point)
+        here = [impulse for impulse in apart.impulses if impulse.a == point]
+        strengths = (sympy.Add(*(impulse.strength for impulse in here if impulse.order == order)) for order in (0, 1))
+        zero, first = (jet(strength, self.x, at)[0] for strength in strengths)
+        if here:
+            zero -= jet(b / a, self.x, at)[0] * first
+        y = _antiderivatives(self.y, self.x, point)
+        before, after = (jet(on_piece(y, self.x, side), self.x, at) for side in self.points[k : k + 2])
+        scale = abs(before[0]) + abs(before[1]) + abs(after[0]) + abs(after[1]) + 1
+        misses = (after[0] - before[0] - first, after[1] - before[1] - zero)
+        return any(bool(abs(miss) > _SMALL * scale) for miss in misses)
 
 
 def _in_pieces(question: Question, value: Expr) -> _Pieces:
@@ -245,25 +244,6 @@ def _concrete(e: Expr, functions: Sequence[Any]) -> Expr:
     for k, function in enumerate(functions):
         e = e.replace(function, lambda u, k=k: sympy.exp(sympy.Rational(k + 1, 3) * u))
     return e.replace(sympy.Derivative, lambda *args: sympy.Derivative(*args).doit())
-
-
-def _has_wrong_jump(left: Expr, right: Expr, rates: tuple[Expr, Expr], x: Expr, point: Expr) -> bool:
-    """Do y and y' jump by anything else than the impulses say?  False where these are of higher order."""
-    B, F = rates
-    apart = taken_apart(in_steps(F, x), x)
-    if apart is None or any(impulse.order > 1 for impulse in apart.impulses):
-        return False
-    at = ball(point)
-    here = [impulse for impulse in apart.impulses if impulse.a == point]
-    strengths = (sympy.Add(*(impulse.strength for impulse in here if impulse.order == order)) for order in (0, 1))
-    zero, first = (jet(strength, x, at)[0] for strength in strengths)
-    if here:
-        zero -= jet(B, x, at)[0] * first
-    before = jet(left, x, at)
-    after = jet(right, x, at)
-    scale = abs(before[0]) + abs(before[1]) + abs(after[0]) + abs(after[1]) + 1
-    misses = (after[0] - before[0] - first, after[1] - before[1] - zero)
-    return any(bool(abs(miss) > _SMALL * scale) for miss in misses)
 
 
 def _is_large(residual: Residual, y: Expr, point: Any) -> bool:

@@ -92,7 +92,12 @@ def determine(
     minor = _best_minor(rows, wronskian)
     if minor is None:
         return _split(_of_rank_one(rows, names))._replace(rows=tuple(rows))
-    found = _split(_of_rank_two(rows, minor))
+    # Cramer's rule for two of the rows; the others must be satisfied.
+    first, second = minor.rows
+    c1 = tidy((first.r * second.v - first.v * second.r) / minor.value)
+    c2 = tidy((first.u * second.r - first.r * second.u) / minor.value)
+    others = [row for row in rows if row is not first and row is not second]
+    found = _split(DeterminedConstants((c1, c2), [row.rest(c1, c2) for row in others]))
     if minor.when is Zero.SOMETIMES:
         found.particular.append(_where_minor_vanishes(rows, names, minor.value / scale))
     return found._replace(rows=tuple(rows))
@@ -139,15 +144,6 @@ def _best_minor(rows: Sequence[Row], wronskian: Expr | None) -> _Minor | None:
     if undecided is not None:
         raise undecided
     return next(iter(sometimes), None)
-
-
-def _of_rank_two(rows: Sequence[Row], minor: _Minor) -> DeterminedConstants:
-    """Cramer's rule for two of the rows; the others must be satisfied."""
-    first, second = minor.rows
-    c1 = tidy((first.r * second.v - first.v * second.r) / minor.value)
-    c2 = tidy((first.u * second.r - first.r * second.u) / minor.value)
-    others = [row for row in rows if row is not first and row is not second]
-    return DeterminedConstants((c1, c2), [row.rest(c1, c2) for row in others])
 
 
 def _of_rank_one(rows: Sequence[Row], names: Values) -> DeterminedConstants:

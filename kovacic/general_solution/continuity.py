@@ -118,17 +118,6 @@ def _is_beside_cut(cut: Acb) -> bool:
     return bool(cut.imag == 0 or not cut.imag.contains(0) or cut.real > 0)
 
 
-def _real_zeros(cut: Expr, x: Expr) -> list[Any] | None:
-    """The real zeros and poles, as balls, of a fraction with rational coefficients; None for anything else."""
-    if not cut.is_rational_function(x):
-        return None
-    polynomial = sympy.Poly(sympy.Mul(*cut.as_numer_denom()), x)
-    if not (polynomial.domain.is_ZZ or polynomial.domain.is_QQ):
-        return None
-    integers = polynomial.clear_denoms(convert=True)[1].all_coeffs()[::-1]
-    return [zero.real for zero, _ in complex_zeros(fmpz_poly([int(c) for c in integers])) if zero.imag == 0]
-
-
 @dataclass(frozen=True)
 class _Course:
     """A formula with numbers for its letters, and the coefficients of its equation, along the real axis."""
@@ -158,8 +147,14 @@ class _Course:
 
         An analytic function that satisfies the equation on a part of an interval without singular points does so on the whole.
         """
-        zeros = _real_zeros(cut, self.x)
-        return zeros is not None and not any(map(self._is_ordinary, zeros))
+        if not cut.is_rational_function(self.x):
+            return False
+        polynomial = sympy.Poly(sympy.Mul(*cut.as_numer_denom()), self.x)  # zeros and poles
+        if not (polynomial.domain.is_ZZ or polynomial.domain.is_QQ):
+            return False
+        integers = polynomial.clear_denoms(convert=True)[1].all_coeffs()[::-1]
+        zeros = complex_zeros(fmpz_poly([int(c) for c in integers]))
+        return not any(self._is_ordinary(zero.real) for zero, _ in zeros if zero.imag == 0)
 
     def _points(self) -> list[Any]:
         """The grid, and points on both sides of each real x at which a linear argument is real, or a tangent has a pole."""

@@ -61,7 +61,8 @@ def constants_of(
     for condition in question.conditions:
         place = _limit_place(condition, limits)
         if place is None:
-            rows.append(_row(condition, solutions, question.x, steps))
+            u, v, of_particular = (_applied(condition, y, question.x) for y in solutions)
+            rows.append(Row(u, v, condition.value - of_particular.xreplace(steps)))
         else:
             limit = _Limit(condition, place, question.own(basis.wronskian), question.x)
             of_limit, zeros = _rows_of_limit(limit, solutions)
@@ -74,13 +75,6 @@ def constants_of(
     for symbol in sorted(exceptional, key=str):
         found.particular.append(ParameterCase((symbol,), Outcome.OPEN))
     return found
-
-
-def _row(condition: Condition, solutions: _Solutions, x: Expr, steps: Mapping[Expr, Expr]) -> Row:
-    """(l(y1), l(y2), v - l(y0))."""
-    u = _applied(condition, solutions.y1, x)
-    v = _applied(condition, solutions.y2, x)
-    return Row(u, v, condition.value - _applied(condition, solutions.y0, x).xreplace(steps))
 
 
 def _applied(condition: Condition, y: Expr, x: Expr) -> Expr:

@@ -8,7 +8,6 @@ from typing import Any
 import sympy
 
 from kovacic.algebra.function_field import FunctionPoly
-from kovacic.algebra.poly import Poly
 from kovacic.algebra.rationals import QQ
 from kovacic.closed_form.atoms import Atoms
 from kovacic.closed_form.check import are_independent
@@ -59,7 +58,11 @@ def find_basis(question: Question, budget: Budget, *, special: bool = False) -> 
     """
     solution = decide(question, budget)
     if solution.case is not None and not special:
-        return _basis(question, solution, WrittenPair(*_liouvillian(question, solution, budget)))
+        form = solutions(solution.S, solution.decision, solution.gauge, solution.variable, budget)
+        joined = None
+        if question.conditions and isinstance(form.structure, Covariants):
+            joined = _joined(solution, form.structure, budget)
+        return _basis(question, solution, WrittenPair(*(joined or (form.y1, form.y2))))
     pair = _in_special_functions(question, solution, budget, special=special)
     if not isinstance(pair, BySign):
         return _basis(question, solution, pair)
@@ -125,16 +128,6 @@ def decide(question: Question, budget: Budget) -> Solution:
     return found
 
 
-def _liouvillian(question: Question, solution: Solution, budget: Budget) -> Pair:
-    """The closed form; in case 3 with given conditions one that doesn't jump where J is 1 or infinite."""
-    form = solutions(solution.S, solution.decision, solution.gauge, solution.variable, budget)
-    if question.conditions and isinstance(form.structure, Covariants):
-        joined = _joined(solution, form.structure, budget)
-        if joined is not None:
-            return joined
-    return form.y1, form.y2
-
-
 def _in_special_functions(
     question: Question, solution: Solution, budget: Budget, *, special: bool
 ) -> WrittenPair | BySign:
@@ -182,20 +175,14 @@ def _joined(solution: Solution, form: Covariants, budget: Budget) -> Pair | None
     places = form.J.den * (form.J.num - form.J.den)
     while (common := places.gcd(S.den)).degree > 0:
         places //= common
-    if not _may_be_zero(places):
+    if places.degree == 0:
+        return None
+    # zeros over Q must be real ones
+    if places.field == QQ and not Atoms(sympy.Symbol("x")).poly(places).as_poly().count_roots():
         return None
     pair = special_functions(S, solution.gauge, solution.variable, budget)
     is_known = pair and are_independent(pair.y1, pair.y2, sympy.Symbol(solution.variable))
     return (pair.y1, pair.y2) if is_known else None
-
-
-def _may_be_zero(polynomial: Poly) -> bool:
-    """Has it zeros, which over Q must be real ones?"""
-    if polynomial.degree == 0:
-        return False
-    if polynomial.field != QQ:
-        return True
-    return bool(Atoms(sympy.Symbol("x")).poly(polynomial).as_poly().count_roots())
 
 
 def no_solution(solution: Solution, known: Assumptions = NOTHING_ASSUMED) -> str:

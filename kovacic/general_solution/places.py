@@ -294,13 +294,13 @@ def _arguments(y: Expr, x: Expr) -> dict[Expr, Expr]:
 
 def all_turned(y: Expr, x: Expr, point: Expr) -> Expr:
     """With log(-u), (-u)^e for arguments u that are negative at the point."""
-    return y.xreplace({e: _turned(e) for e in negative_arguments(y, x, point)})
-
-
-def _turned(e: Expr) -> Expr:
-    if e.is_Pow:
-        return (-e.base) ** e.exp
-    return e.func(*e.args[:-1], -e.args[-1], evaluate=False)  # SymPy writes J(-z) as J(z) (-z)^nu/z^nu
+    turned = {}
+    for e in negative_arguments(y, x, point):
+        if e.is_Pow:
+            turned[e] = (-e.base) ** e.exp
+        else:  # SymPy writes J(-z) as J(z) (-z)^nu/z^nu
+            turned[e] = e.func(*e.args[:-1], -e.args[-1], evaluate=False)
+    return y.xreplace(turned)
 
 
 def negative_arguments(y: Expr, x: Expr, point: Expr) -> dict[Expr, Expr]:

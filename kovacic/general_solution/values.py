@@ -8,7 +8,7 @@ from typing import Any
 import sympy
 
 from kovacic.general_solution.behaviour import Approach, finite_limit
-from kovacic.general_solution.steps import place_of
+from kovacic.general_solution.steps import HeavisidePlace, place_of
 from kovacic.general_solution.substitution import finite_value
 from kovacic.general_solution.zero import agree, is_zero
 from kovacic.limits import check_time
@@ -42,12 +42,14 @@ def value_at(expression: Expr, x: Expr, point: Expr, order: int = 0) -> Expr:
     if order:
         e = e.diff(x)
     value = finite_value(e, x, point)
-    if value is None:
-        value = _limit(e, x, point)
-    if value is None:
+    if value is not None:
+        return value
+    # The limit from the right, if it is that from the left: a closed form with roots may be another solution there.
+    right, left = (finite_limit(e, x, Approach(point, direction)) for direction in (1, -1))
+    if right is None or left is None or not agree(right, left):
         said = f"the functions of the closed form are singular at {point}, where the solutions aren't"
         raise NotImplementedError(f"{said}: kovacic.evaluate gives the values of this solution")
-    return value
+    return right
 
 
 def _just_before(e: Expr, jump: Expr, x: Expr, point: Expr, order: int) -> Expr:
@@ -62,14 +64,13 @@ def _just_before(e: Expr, jump: Expr, x: Expr, point: Expr, order: int) -> Expr:
     if u == 0:
         return at_the_jump
     step = sympy.Heaviside(u)
-    if not isinstance(step, sympy.Heaviside) or _is_smooth_across(e, jump, x, order):
+    if not isinstance(step, sympy.Heaviside) or _is_smooth_across(e, jump, place, x, order):
         return step
     return sympy.Heaviside(u, at_the_jump)
 
 
-def _is_smooth_across(e: Expr, step: Expr, x: Expr, order: int) -> bool:
+def _is_smooth_across(e: Expr, step: Expr, place: HeavisidePlace | None, x: Expr, order: int) -> bool:
     """Has the function, or its slope, no jump where the step has one?"""
-    place = place_of(step, x)
     if place is None:
         return False
     jump = e.xreplace({step: sympy.Integer(1)}) - e.xreplace({step: _ZERO})
@@ -92,14 +93,3 @@ def have_values(expressions: Sequence[Expr], x: Expr, point: Expr) -> bool:
     except NotImplementedError:
         return False
     return True
-
-
-def _limit(expression: Expr, x: Expr, point: Expr) -> Expr | None:
-    """The limit from the right, if it is that from the left: None without, or where it isn't known.
-
-    A closed form with roots may be another solution on the other side.
-    """
-    right, left = (finite_limit(expression, x, Approach(point, direction)) for direction in (1, -1))
-    if right is None or left is None or not agree(right, left):
-        return None
-    return right
