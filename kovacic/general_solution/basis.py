@@ -15,7 +15,7 @@ from typing import Any
 
 import sympy
 from flint import arb
-from sympy import cos, expand, sin
+from sympy import cos, exp, expand, sin
 from sympy.simplify.fu import TR8
 
 from kovacic.algebra.precision import working_digits
@@ -24,9 +24,9 @@ from kovacic.closed_form.check import DIGITS
 from kovacic.closed_form.jets import jet
 from kovacic.closed_form.product import product
 from kovacic.equation import Equation
-from kovacic.general_solution.constants import vanishing_factors
 from kovacic.general_solution.integrands import NUMBERS, radicands
-from kovacic.general_solution.substitution import finite_value, slope
+from kovacic.general_solution.substitution import finite_value, size, slope
+from kovacic.general_solution.textbook import in_hyperbolic_functions
 from kovacic.general_solution.zero import ball, by_parity, is_nowhere_zero, points
 from kovacic.limits import check_time
 from kovacic.reading.change_of_variable import function_of_x, in_x
@@ -35,6 +35,9 @@ from kovacic.solution import Solution
 Expr = Any  # SymPy publishes no types
 #: Functions whose values at points aren't known in closed form.
 _UNKNOWN = (sympy.RootSum, sympy.Integral)
+#: The longest expression that is factored, in subexpressions, and the most symbols, functions and roots in it.
+_LONGEST_FACTORED = 300
+_MOST_ATOMS = 10
 
 
 @dataclass(frozen=True)
@@ -215,6 +218,29 @@ def vanishing(nonzero: Expr) -> Iterator[Expr]:
         without_gammas = [part for part in factors if not isinstance(part, sympy.gamma)]  # which have no zeros
         if base.free_symbols and not all(map(is_nowhere_zero, without_gammas)):
             yield -base if base.could_extract_minus_sign() else base
+
+
+def vanishing_factors(zero: Expr) -> Expr:
+    """The factors that may be zero, each once; a long expression is taken with the factors that are seen."""
+    factored = zero
+    # what SymPy takes for variables when it factors
+    powers = {power for power in zero.atoms(sympy.Pow) if not power.exp.is_Integer}
+    atoms = {*zero.free_symbols, *zero.atoms(sympy.Function), *powers}
+    if size(zero) <= _LONGEST_FACTORED and len(atoms) <= _MOST_ATOMS:
+        whole, below = sympy.fraction(sympy.together(zero))
+        whole /= sympy.Mul(*(f for f in sympy.Mul.make_args(below) if isinstance(f, sympy.gamma)))  # 0 at its poles
+        waves = sympy.expand(TR8(sympy.expand(whole)))
+        factored = min(map(sympy.factor, (whole, waves)), key=size)
+    factors = [factor for factor in sympy.Mul.make_args(factored) if not _is_nowhere_zero(factor)]
+    once = [factor.base if factor.is_Pow and factor.exp.is_positive else factor for factor in factors]
+    return sympy.Mul(*once)
+
+
+def _is_nowhere_zero(factor: Expr) -> bool:
+    """True if that is seen of a factor, or where it is a difference of exponentials of its hyperbolic functions."""
+    if is_nowhere_zero(factor):
+        return True
+    return factor.has(exp) and all(map(is_nowhere_zero, sympy.Mul.make_args(in_hyperbolic_functions(factor))))
 
 
 def _simplified(c: Expr) -> Expr:

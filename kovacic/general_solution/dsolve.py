@@ -25,18 +25,10 @@ import sympy
 from kovacic.decision import Status
 from kovacic.errors import InputError, LimitExceeded, warn_user
 from kovacic.general_solution.answer import FirstOrderAnswer, ProblemAnswer, SecondOrderAnswer, remember
-from kovacic.general_solution.basis import Basis
+from kovacic.general_solution.basis import Basis, vanishing_factors
 from kovacic.general_solution.check import check_answer
 from kovacic.general_solution.conditions import Condition, ConditionReader, as_mapping
-from kovacic.general_solution.constants import (
-    Outcome,
-    ParameterCase,
-    can_be,
-    condition_of,
-    exception_of,
-    vanishing_factors,
-)
-from kovacic.general_solution.determined import constants_of
+from kovacic.general_solution.constants import Outcome, ParameterCase, can_be, condition_of, constants_of, exception_of
 from kovacic.general_solution.eigenfunctions import eigenfunctions
 from kovacic.general_solution.first_order import FirstOrderEquation, read_first_order, solved_linear
 from kovacic.general_solution.homogeneous import find_basis, no_solution
