@@ -28,9 +28,9 @@ from kovacic.algebra.precision import working_precision
 from kovacic.algebra.ratfunc import RatFunc
 from kovacic.closed_form.curve import integrate_on_curve
 from kovacic.closed_form.structure import curve_of
+from kovacic.doubles.chart import Region
 from kovacic.doubles.double_double import Complex, Pair
 from kovacic.doubles.product_form import Conic, ProductForm, RationalFunction, RootFactor, Shape
-from kovacic.doubles.region import Region
 from kovacic.doubles.tabulate import GROWTH, Cell, Variant, polynomial_table
 from kovacic.enclosure.closed_form import Exponential, certified, exponentials, omega, value
 from kovacic.enclosure.frame import foreseen_growth, frequency

@@ -32,6 +32,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
+from kovacic.doubles.chart import Measured, Region, facts, in_blocks
 from kovacic.doubles.double_double import (
     LOG_2,
     Complex,
@@ -45,7 +46,6 @@ from kovacic.doubles.double_double import (
     split,
     square_root,
 )
-from kovacic.doubles.region import Measured, Region, facts, in_blocks
 from kovacic.doubles.tabulate import TabulatedFunction
 from kovacic.enclosure.points import ExactPoint
 

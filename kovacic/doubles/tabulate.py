@@ -33,9 +33,8 @@ from numpy.polynomial import chebyshev
 
 from kovacic.algebra.precision import working_precision
 from kovacic.algebra.rationals import to_fmpq
-from kovacic.doubles.chart import PieceChart, chart_of
+from kovacic.doubles.chart import BLOCK, Measured, PieceChart, Region, chart_of, facts, in_blocks
 from kovacic.doubles.double_double import Pair, double, folded, halves, horner, scaled, two_sum
-from kovacic.doubles.region import BLOCK, Measured, Region, facts, in_blocks
 from kovacic.enclosure.evaluate import StartOptions, with_variable
 from kovacic.enclosure.frame import log2
 from kovacic.enclosure.points import ExactPoint, power_of_two
@@ -379,23 +378,19 @@ def _assembled(region: Region, cells: list[Cell], table: Any, powers: Any, varia
     return TabulatedFunction(region, None, *arrays, careful=variant is _CAREFUL)
 
 
-def _root(region: Region) -> Cell:
-    """A piece that contains the interval."""
-    low = Fraction(region.low.real)
-    high = Fraction(region.high.real)
-    e = math.frexp(float(high - low))[1]
-    # Off the round numbers, at which solutions may be zero: that couldn't be told from other small values.
-    grain = max(Fraction(2) ** (e - 24), Fraction(math.ulp(max(-low, high))))
-    return to_fmpq((low // grain - Fraction(2) ** e * Fraction(53, 128) // grain) * grain + Fraction(2) ** e), e
-
-
 def _pieces(
     region: Region, expand: Callable[[list[Cell]], list[Any]], limits: Limits | None = None
 ) -> tuple[list[Cell], list[Any]]:
     """The pieces from left to right, no more than the limits allow, and what `expand` makes of them (None: nothing)."""
     low, high = (fmpq(*end.as_integer_ratio()) for end in (region.low.real, region.high.real))
     most = limits_of(limits).unknown_degree * _PIECES
-    untried = [_root(region)]
+    # The first piece contains the interval, off the round numbers, at which solutions may be zero: that couldn't be told from
+    # other small values.
+    start, length = Fraction(region.low.real), Fraction(region.high.real) - Fraction(region.low.real)
+    e = math.frexp(float(length))[1]
+    scale = Fraction(2) ** e
+    grain = max(scale / 2**24, Fraction(math.ulp(max(-region.low.real, region.high.real))))
+    untried: list[Cell] = [(to_fmpq((start // grain - scale * Fraction(53, 128) // grain) * grain + scale), e)]
     done: dict[Cell, Any] = {}
     while untried:
         if len(untried) + len(done) > most:

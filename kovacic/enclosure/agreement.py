@@ -55,17 +55,8 @@ _IMPRIMITIVE = (GroupKind.DICYCLIC, GroupKind.INFINITE_DIHEDRAL, GroupKind.IMPRI
 _PRIMITIVE = {
     GroupKind.TETRAHEDRAL: {"0": 1, "1/2": 1, "1/4": 6, "1/3": 8, "1/6": 8},
     GroupKind.OCTAHEDRAL: {"0": 1, "1/2": 1, "1/4": 18, "1/3": 8, "1/6": 8, "1/8": 6, "3/8": 6},
-    GroupKind.ICOSAHEDRAL: {
-        "0": 1,
-        "1/2": 1,
-        "1/4": 30,
-        "1/3": 20,
-        "1/6": 20,
-        "1/5": 12,
-        "2/5": 12,
-        "1/10": 12,
-        "3/10": 12,
-    },
+    GroupKind.ICOSAHEDRAL: {"0": 1, "1/2": 1, "1/4": 30, "1/3": 20, "1/6": 20}
+    | dict.fromkeys(("1/5", "2/5", "1/10", "3/10"), 12),
 }
 
 

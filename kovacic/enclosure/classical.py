@@ -29,11 +29,11 @@ from kovacic.algebra.precision import working_precision
 from kovacic.algebra.ratfunc import RatFunc
 from kovacic.algebra.rationals import QQ, RationalPoly
 from kovacic.enclosure.closed_form import CaseOneForm
+from kovacic.enclosure.frame import System, check_segment
 from kovacic.enclosure.log_derivative import log_derivative
 from kovacic.enclosure.matrices import Matrix, State, fundamental, inverse, multiply
 from kovacic.enclosure.points import ExactPoint, kept_at_precision, to_acb
 from kovacic.enclosure.singular import Singular
-from kovacic.enclosure.system import System, check_segment
 from kovacic.errors import LimitExceeded
 from kovacic.limits import Budget, Limits, bounded_work
 from kovacic.special.pullback import Pullback

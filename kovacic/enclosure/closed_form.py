@@ -30,11 +30,11 @@ from kovacic.algebra.poly import Poly
 from kovacic.algebra.precision import working_precision
 from kovacic.algebra.ratfunc import RatFunc
 from kovacic.decision import Decision
+from kovacic.enclosure.frame import check_segment
 from kovacic.enclosure.log_derivative import LogDerivative, conjugates, embed, log_derivative, sharp_roots
 from kovacic.enclosure.matrices import Matrix, State, fundamental, inverse, multiply
 from kovacic.enclosure.points import ExactPoint, kept_at_precision, to_acb
 from kovacic.enclosure.problem import NumericProblem
-from kovacic.enclosure.system import check_segment
 from kovacic.engine.decide import decide_reducible
 from kovacic.errors import InputError, VerificationFailed
 from kovacic.limits import Budget, Limits, bounded_work, check_time

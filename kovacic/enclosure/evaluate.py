@@ -4,10 +4,8 @@ The guarantee: the exact value of the solution (in its homotopy class of paths) 
 most 10^-digits relative to the value, unless the problem forbids it (a value that is zero or can't be told from zero, numbers
 that are balls themselves, a limit that was reached); then the ball is wide and an `AccuracyWarning` says why.
 
-Two independent routes: "taylor" (the equation itself, `kovacic.enclosure.transport`; every S) and "closed form" (the
-certificate of a decision, `kovacic.enclosure.closed_form`, solutions of case 1; or FLINT's special functions,
-`kovacic.enclosure.classical`, where S is a pull-back of their equations).  A start at a regular singular point begins with its
-Frobenius series (`kovacic.enclosure.frobenius`), unless FLINT's functions have it.
+Two independent routes: "taylor" (the equation itself, every S) and "closed form" (the certificate of a decision, solutions of
+case 1; or FLINT's special functions, where S is a pull-back of their equations).
 """
 
 from __future__ import annotations

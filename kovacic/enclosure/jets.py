@@ -255,11 +255,6 @@ class Jets:
         """H."""
         return arb((1, self.e))
 
-    @property
-    def is_real(self) -> bool:
-        """Are the polynomials real?"""
-        return all(isinstance(part, arb_poly) for part in self.parts)
-
 
 class CoefficientField:
     """The coefficients as functions in balls."""
@@ -430,8 +425,8 @@ def _local(jets: Jets, poly: Any, error: arb) -> Local:
 def _solved(jets: Jets, start: tuple[int, int], *, right: bool) -> Local:
     """The solution with this start at the centre, with or without the right-hand side."""
     B, C, F = jets.parts
-    kind = arb_poly if jets.is_real else acb_poly
-    number = arb if jets.is_real else acb
+    is_real = all(isinstance(part, arb_poly) for part in jets.parts)
+    kind, number = (arb_poly, arb) if is_real else (acb_poly, acb)
     right_side = kind(F) if right else kind([])
     recurrence = _Recurrence(kind(B), kind(C), right_side, kind, jets.bits)
     values = recurrence.run((number(start[0]), number(start[1])))

@@ -35,6 +35,9 @@ from kovacic.errors import InputError, LimitExceeded
 from kovacic.limits import Budget, Limits, check_time, limited, limits_of
 
 BallMatrix = tuple[tuple[Ball, Ball], tuple[Ball, Ball]]
+_Polygon = tuple[
+    ExactPoint | Singular, list[ExactPoint], ExactPoint | Singular
+]  # the first end, vertices, the last end
 
 
 @dataclass(frozen=True)
@@ -178,7 +181,7 @@ def connection_matrix(
     limits = limits_of(limits)
     digits = number_of_digits(digits, limits)
     problem = as_problem(with_variable(equation, var, limits, params), params, constants=True)
-    way = _Way.of(problem, path)
+    way = _polygon(problem, path)
     budget = Budget(limits)
     prec = start_bits(digits)
     while True:
@@ -195,28 +198,17 @@ def connection_matrix(
         budget.check()
 
 
-@dataclass(frozen=True)
-class _Way:
-    """A polygon between two ends."""
-
-    first: ExactPoint | Singular
-    middle: list[ExactPoint]
-    last: ExactPoint | Singular
-
-    @classmethod
-    def of(cls, problem: NumericProblem, path: Sequence[object]) -> _Way:
-        """That through these vertices; two singular points alone get one between them."""
-        if len(path) < 2:
-            raise InputError("a path needs at least two vertices")
-        first, last = (_end(problem, value) for value in (path[0], path[-1]))
-        middle = [as_point(v, "a vertex") for v in path[1:-1]]
-        if len(path) == 2 and isinstance(first, Singular) and isinstance(last, Singular):
-            if first.inverted or last.inverted:
-                raise InputError(
-                    "a path between a singular point and infinity needs a vertex", hint="e.g. [0, 1j, 'oo']"
-                )
-            middle = [(first.near + last.near).scaled(fmpq(1, 2)).rounded(-64)]
-        return cls(first, middle, last)
+def _polygon(problem: NumericProblem, path: Sequence[object]) -> _Polygon:
+    """That through these vertices; two singular points alone get one between them."""
+    if len(path) < 2:
+        raise InputError("a path needs at least two vertices")
+    first, last = (_end(problem, value) for value in (path[0], path[-1]))
+    middle = [as_point(v, "a vertex") for v in path[1:-1]]
+    if len(path) == 2 and isinstance(first, Singular) and isinstance(last, Singular):
+        if first.inverted or last.inverted:
+            raise InputError("a path between a singular point and infinity needs a vertex", hint="e.g. [0, 1j, 'oo']")
+        middle = [(first.near + last.near).scaled(fmpq(1, 2)).rounded(-64)]
+    return first, middle, last
 
 
 def _end(problem: NumericProblem, value: object) -> ExactPoint | Singular:
@@ -227,13 +219,13 @@ def _end(problem: NumericProblem, value: object) -> ExactPoint | Singular:
     return place.near if place.is_ordinary else place
 
 
-def _connection(problem: NumericProblem, way: _Way, prec: int) -> Matrix:
+def _connection(problem: NumericProblem, way: _Polygon, prec: int) -> Matrix:
     """The matrix at about so many bits."""
-    traveller = Traveller(way_for(problem).at(prec), way.first, (acb(1), acb(1)))
-    for vertex in way.middle:
+    first, middle, end = way
+    traveller = Traveller(way_for(problem).at(prec), first, (acb(1), acb(1)))
+    for vertex in middle:
         traveller = traveller.moved(vertex)
     there = None
-    end = way.last
     if isinstance(end, Singular):
         here = traveller.here
         assert isinstance(here, ExactPoint)
@@ -314,12 +306,12 @@ def _loops(places: list[tuple[ExactPoint, Any]]) -> list[tuple[tuple[ExactPoint,
     """
     if not places:
         return []
-    star = max((_Star.seen_from(base, places) for base in _bases(places)), key=lambda star: star.share)
-    if star.share == 0:
+    stars = [(base, *_star(base, places)) for base in _bases(places)]
+    base, radii, share = max(stars, key=lambda star: star[2])
+    if share == 0:
         raise LimitExceeded("no base point was found that sees the singular points apart", limit="unknown_degree")
-    base = star.base
     loops = []
-    for (z, _), radius in zip(places, star.radii, strict=True):
+    for (z, _), radius in zip(places, radii, strict=True):
         # A segment to a square around the point, the square counter-clockwise, and the segment back.
         corners = [(base - z).scaled(_root_below(radius * radius / (base - z).norm_squared()))]
         for _ in range(4):
@@ -339,28 +331,16 @@ def _bases(places: list[tuple[ExactPoint, Any]]) -> Iterator[ExactPoint]:
         yield ExactPoint(middle + (spread * shift + 1) / 97, top).rounded(e)
 
 
-@dataclass(frozen=True)
-class _Star:
-    """The segments from a base point to the singular points, and the radii of squares around these that keep off the others.
-
-    `share` is the least of the radii over what is allowed.
-    """
-
-    base: ExactPoint
-    radii: list[Any]
-    share: Any
-
-    @classmethod
-    def seen_from(cls, base: ExactPoint, places: list[tuple[ExactPoint, Any]]) -> _Star:
-        """The star of a base point."""
-        centres = [z for z, _ in places]
-        radii = []
-        for z, largest in places:
-            check_time()
-            distances = [_distance_below(z, base, other) for other in centres if other != z]
-            radii.append(min([largest, *distances]) / 2)
-        share = min(radius / largest for radius, (_, largest) in zip(radii, places, strict=True))
-        return cls(base, radii, share)
+def _star(base: ExactPoint, places: list[tuple[ExactPoint, Any]]) -> tuple[list[Any], Any]:
+    """The radii of squares around the singular points that keep off the segments from the base to the others; and the least of
+    the radii over what is allowed."""
+    centres = [z for z, _ in places]
+    radii = []
+    for z, largest in places:
+        check_time()
+        distances = [_distance_below(z, base, other) for other in centres if other != z]
+        radii.append(min([largest, *distances]) / 2)
+    return radii, min(radius / largest for radius, (_, largest) in zip(radii, places, strict=True))
 
 
 def _root_below(square: Any) -> Any:

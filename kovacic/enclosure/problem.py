@@ -27,9 +27,9 @@ from kovacic.algebra.ratfunc import RatFunc
 from kovacic.algebra.rationals import QQ, RationalPoly, to_fmpq
 from kovacic.answer import Answer, computed_once
 from kovacic.decision import Decision
+from kovacic.enclosure.frame import System, Zeros, check_segment
 from kovacic.enclosure.log_derivative import sharp_roots
 from kovacic.enclosure.points import ExactPoint, Number, are_real, as_number, midpoint, to_acb, to_ball
-from kovacic.enclosure.system import System, Zeros, check_segment
 from kovacic.equation import Change, Equation, Parsed, parameters_of
 from kovacic.errors import InputError, LimitExceeded, NotRational
 from kovacic.numbers.numerals import as_text
@@ -91,11 +91,6 @@ class Embedded:
         """b/a and c/a, for a z'' + b z' + c z = 0, z = g y."""
         gamma = self.gauge or self.S * 0
         return -2 * gamma, gamma * gamma - gamma.derivative() - self.S
-
-    def value(self, function: RatFunc, x: acb) -> acb:
-        """Another function over the same field, on a ball."""
-        value: acb = self._embed(function.num)(x) / self._embed(function.den)(x)
-        return value
 
     def _embed(self, poly: Poly) -> acb_poly:
         """The polynomial at the working precision in force."""
@@ -302,7 +297,13 @@ def as_problem(
         raise NotRational(f"numerical evaluation needs coefficients that are rational in {equation.variable} here")
     if isinstance(equation, System):
         return NumericProblem(equation)
-    found = _looked_up(equation) if params is None else read_problem(equation, params)
+    if params is not None or not isinstance(equation, Answer | str):
+        found = read_problem(equation, params)
+    else:  # answers and text are read once
+        known = problem_of(equation) if isinstance(equation, Answer) else _of_text(equation)
+        if isinstance(known, NotRational):
+            raise known.with_traceback(None)
+        found = known
     if found.right is not None and not forced:
         raise InputError("an equation without a right-hand side is needed here")
     if found.embedded is not None and not constants:
@@ -315,18 +316,6 @@ def change_of(equation: object) -> Change | None:
     if isinstance(equation, Answer | Parsed) and equation.equation is not None:
         return equation.equation.change
     return None
-
-
-def _looked_up(equation: object) -> NumericProblem:
-    """The problem without values of parameters; text and answers are read once."""
-    if isinstance(equation, Answer):
-        return problem_of(equation)
-    if not isinstance(equation, str):
-        return read_problem(equation)
-    known = _of_text(equation)
-    if isinstance(known, NotRational):
-        raise known.with_traceback(None)
-    return known
 
 
 @computed_once

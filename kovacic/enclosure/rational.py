@@ -36,14 +36,14 @@ import math
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from functools import cached_property, lru_cache
-from typing import Any
+from typing import Any, ClassVar
 
 from flint import acb, acb_poly, arb, arb_poly, fmpq, fmpq_poly
 
 from kovacic.algebra.precision import working_precision
 from kovacic.enclosure.classical import Classical, Closed
 from kovacic.enclosure.closed_form import value
-from kovacic.enclosure.frame import foreseen_growth, frequency, largest_exponent, log2
+from kovacic.enclosure.frame import System, foreseen_growth, frequency, largest_exponent, log2
 from kovacic.enclosure.frobenius import basis, junction
 from kovacic.enclosure.log_derivative import LogDerivative, log_derivative
 from kovacic.enclosure.matrices import Matrix, MatrixProduct, State, apply, fundamental, inverse, multiply, real_part
@@ -52,7 +52,6 @@ from kovacic.enclosure.problem import NumericProblem
 from kovacic.enclosure.singular import Singular
 from kovacic.enclosure.splitting import is_split
 from kovacic.enclosure.start import logarithmic_derivative, spread_by
-from kovacic.enclosure.system import System
 from kovacic.enclosure.transport import Stop, growth_of_disc, walk
 from kovacic.enclosure.way import MAX_DISCS, NOTHING, Forecast, Traveller, Way, WayStep
 from kovacic.limits import check_time, count_work
@@ -121,17 +120,13 @@ class Swing:
     oscillation: Oscillation
     enter: ExactPoint
     leave: ExactPoint
+    added: ClassVar[State] = NOTHING  # there is no right-hand side
 
     @property
     def matrix(self) -> Matrix:
         """The matrix of the step."""
         first, second = (self.local(state).state(self.leave) for state in ((acb(1), acb(0)), (acb(0), acb(1))))
         return fundamental(first, second)
-
-    @property
-    def added(self) -> State:
-        """There is no right-hand side."""
-        return acb(0), acb(0)
 
     def local(self, state: State) -> Swinging:
         """The solution on the half line, from its state where the step begins."""

@@ -46,10 +46,9 @@ from typing import Any
 from flint import acb, arb, arb_mat, fmpz_mat
 
 from kovacic.algebra.precision import working_precision
-from kovacic.enclosure.frame import Frame, log2, make_frame, shift
+from kovacic.enclosure.frame import Frame, System, log2, make_frame, shift
 from kovacic.enclosure.matrices import Matrix
 from kovacic.enclosure.points import ExactPoint, to_acb
-from kovacic.enclosure.system import System
 from kovacic.enclosure.taylor import error_radii, expand, transition
 from kovacic.errors import LimitExceeded
 from kovacic.limits import check_time

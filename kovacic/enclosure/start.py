@@ -22,11 +22,11 @@ from dataclasses import dataclass
 from flint import acb, acb_poly, arb
 
 from kovacic.algebra.precision import working_precision
+from kovacic.enclosure.frame import System
 from kovacic.enclosure.matrices import MatrixProduct, State
 from kovacic.enclosure.points import Constant, ExactPoint, Number, are_real, around_zero, as_number, to_acb, to_ball
 from kovacic.enclosure.problem import NumericProblem
 from kovacic.enclosure.singular import Singular
-from kovacic.enclosure.system import System
 from kovacic.enclosure.way import NOTHING, Way
 from kovacic.errors import InputError, LimitExceeded
 from kovacic.numbers.numerals import plain_text

@@ -21,17 +21,16 @@ import math
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
-from typing import Any, NamedTuple
+from typing import Any, ClassVar, NamedTuple
 
-from flint import acb, fmpq
+from flint import fmpq
 
-from kovacic.enclosure.frame import REACH, Frame, fitting, largest_exponent, log2
+from kovacic.enclosure.frame import REACH, Frame, System, distance_lower, fitting, is_apart, largest_exponent, log2
 from kovacic.enclosure.matrices import Matrix, State, adjugate, apply, multiply, product
 from kovacic.enclosure.points import ExactPoint, power_of_two, to_double
 from kovacic.enclosure.splitting import legs
-from kovacic.enclosure.system import System, distance_lower, is_apart
 from kovacic.enclosure.taylor import TaylorSeries, expand, local_solution, transition
-from kovacic.enclosure.way import Local
+from kovacic.enclosure.way import NOTHING, Local
 from kovacic.errors import LimitExceeded
 from kovacic.limits import check_time, count_work
 
@@ -100,6 +99,7 @@ class Leg:
     disc: Disc
     expansion: TaylorSeries | None
     split: Matrix | None = None
+    added: ClassVar[State] = NOTHING  # there is no right-hand side
 
     @cached_property
     def to_centre(self) -> Matrix | None:
@@ -121,11 +121,6 @@ class Leg:
     def leave(self) -> ExactPoint:
         """Where the disc is left."""
         return self.disc.leave
-
-    @property
-    def added(self) -> State:
-        """There is no right-hand side."""
-        return acb(0), acb(0)
 
     def local(self, state: State) -> Local:
         """The solution in the disc, from its state where the disc is entered."""

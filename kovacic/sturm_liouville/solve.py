@@ -18,9 +18,8 @@ from kovacic.closed_form.balls import BallEvaluator
 from kovacic.enclosure.ball import Ball, finite_ball
 from kovacic.errors import LimitExceeded
 from kovacic.limits import check_time
-from kovacic.sturm_liouville.count import PeriodicCounter, SeparatedCounter
 from kovacic.sturm_liouville.ends import End, SingularEnd, at_threshold, end_of
-from kovacic.sturm_liouville.levels import Eigenvalues, Level
+from kovacic.sturm_liouville.levels import Eigenvalues, Level, PeriodicCounter, SeparatedCounter
 from kovacic.sturm_liouville.problem import Span, SturmProblem, ball, kept
 
 #: Raises of the precision, by half each, until balls are narrow enough to count.

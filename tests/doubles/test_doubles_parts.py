@@ -17,10 +17,9 @@ from published import load
 import kovacic
 from kovacic import AccuracyWarning, InputError, LimitExceeded, tabulate
 from kovacic.doubles import double_double as dd
-from kovacic.doubles.chart import RationalChart
+from kovacic.doubles.chart import BLOCK, RationalChart
 from kovacic.doubles.lambdify import lambdify, measure, samples
 from kovacic.doubles.product_form import ProductForm
-from kovacic.doubles.region import BLOCK
 from kovacic.enclosure.ball import ball_from_flint
 from kovacic.enclosure.closed_form import omega
 from kovacic.enclosure.points import as_point

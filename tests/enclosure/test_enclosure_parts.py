@@ -21,12 +21,11 @@ from hypothesis import strategies as st
 
 from kovacic import Ball, InputError, Limits
 from kovacic.enclosure import frobenius
-from kovacic.enclosure.frame import foreseen_growth, frequency, shift
+from kovacic.enclosure.frame import check_segment, distance_lower, foreseen_growth, frequency, shift
 from kovacic.enclosure.log_derivative import _principal_part
 from kovacic.enclosure.matrices import Matrix, MatrixProduct, State
 from kovacic.enclosure.points import as_point
 from kovacic.enclosure.singular import Singular
-from kovacic.enclosure.system import check_segment, distance_lower
 from kovacic.enclosure.transport import cover
 from kovacic.enclosure.way import Forecast, Local, Ray, Way
 

@@ -30,11 +30,10 @@ from kovacic.closed_form.atoms import Atoms
 from kovacic.closed_form.check import is_exact_solution, residual
 from kovacic.closed_form.jets import jet
 from kovacic.closed_form.structure import Triangular
-from kovacic.enclosure.frame import make_frame
+from kovacic.enclosure.frame import System, make_frame
 from kovacic.enclosure.points import ExactPoint
 from kovacic.enclosure.problem import as_problem
 from kovacic.enclosure.states import evaluate_states
-from kovacic.enclosure.system import System
 from kovacic.engine.places import analyse
 from kovacic.galois import Ground
 from kovacic.limits import Budget, bounded_work
