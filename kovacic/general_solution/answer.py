@@ -184,11 +184,10 @@ def _cases(zero: Expr) -> Iterator[Exceptional]:
         return
     if isinstance(1 / zero, sympy.gamma):
         number = (1 / zero).args[0]
-        if number.is_Symbol or (-number).is_Symbol:
-            yield from _integers(
-                number if number.is_Symbol else -number, "nonpositive" if number.is_Symbol else "nonnegative"
-            )
-            return
+        for letter, sign in ((number, "nonpositive"), (-number, "nonnegative")):
+            if letter.is_Symbol:
+                yield from _integers(letter, sign)
+                return
     for is_known in (lambda slope: slope.is_number, lambda slope: not slope.is_Add):
         for letter in sorted(zero.free_symbols, key=str):
             slope = sympy.factor(zero.diff(letter))

@@ -443,7 +443,9 @@ class _Limit:
         ratio = self.of(y1 / y2)
         if ratio in (0, sympy.oo, OSCILLATING):  # of other sizes, or waves in other phases: no combination is smaller
             return both
-        smaller = self._of_smaller(y2)
+        if self.order:
+            raise UnknownLimit("the slope of a combination of solutions of the same size isn't known")
+        smaller = self.of(self.W / y2.diff(self.x))  # the limit of y1 - r y2
         if not self.is_allowed(smaller):
             return both
         return [_without_gammas(ratio), *self._of_limits(smaller, _ZERO, rest)]
@@ -453,12 +455,6 @@ class _Limit:
         if self.condition.value is None:
             return []
         return [Row(first, second, self.condition.value - rest)]
-
-    def _of_smaller(self, larger: Expr) -> Expr:
-        """The limit of the combination that is smaller than y1 and y2."""
-        if self.order:
-            raise UnknownLimit("the slope of a combination of solutions of the same size isn't known")
-        return self.of(self.W / larger.diff(self.x))
 
     def _with_a_large_particular(self, y1: Expr, y2: Expr, y0: Expr) -> list[Row]:
         """Where y0 isn't allowed: r = lim y0/y for the larger one of y1 and y2, and y0 - r y in its place."""

@@ -18,6 +18,7 @@ from kovacic.errors import InputError
 from kovacic.general_solution.first_order import read_first_order
 from kovacic.limits import DEFAULT_LIMITS, Limits, check_time, limited
 from kovacic.numbers.numerals import as_latex, plain_text
+from kovacic.reading.read import read_coefficients
 from kovacic.solution import Solution, solve
 
 
@@ -131,8 +132,6 @@ def solve_riccati(
 
 def _read_coefficients(p: Any, q: Any, r: Any, var: str | None, limits: Limits) -> Equation:
     """r, q and p as the coefficients a, b and c of an equation; `p` alone may be Riccati's equation."""
-    from kovacic.reading.read import read_coefficients
-
     if q is None and r is None:
         equation = read_first_order(p, None, var, limits)
         if equation is None or equation.is_linear:
