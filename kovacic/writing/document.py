@@ -169,6 +169,11 @@ def _html_table(rows: list[list[str]]) -> str:
     return f'<div class="wide" style="{_SCROLLED}"><table>{table}</table></div>'
 
 
+#: A pair of stretched parentheses around no fraction, root, table, bound of a sum or stretched sign.
+_LOW = re.compile(
+    r'<mo stretchy="true"( fence="true" form="prefix">&#x00028;</mo>(?:(?!<mf|<msq|<mt|<mu|<mo stretchy="true").)*)'
+    r'<mo stretchy="true"( fence="true" form="postfix">)'
+)
 _THIN = "<mspace width='.17em'/>"
 
 
@@ -192,6 +197,10 @@ def mathml(latex: str, display: str = "inline") -> str:
     written = re.sub(
         r"(<mo[^>]*>(?:&#x0003D;|&#x0002C;|&#x00028;)</mo>)<mo>&#x02212;", r"\1<mo form='prefix'>&#x02212;", written
     )
+    # Stretched, parentheses around a line of ordinary height stand apart from it; the inner ones first.
+    count = 1
+    while count:
+        written, count = _LOW.subn(r'<mo stretchy="false"\1<mo stretchy="false"\2', written)
     # A prime is raised and small by itself, and infinity is no operator.
     written = re.sub(
         r"<msup>(<mi>[^<]*</mi>)<mi>(&#x0?203\d;)</mi></msup>", r"\1<mo lspace='0' rspace='0'>\2</mo>", written
