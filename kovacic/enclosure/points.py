@@ -225,6 +225,8 @@ def as_number(value: Any, name: str) -> Number:
     if fixed is not None:
         if not fixed.is_finite():
             raise InputError(f"{name} isn't a finite ball: {value}")
+        if fixed.real.is_exact() and fixed.imag.is_exact():
+            return midpoint(fixed)
         return Constant(str(value), lambda: fixed, True)
     try:
         return as_point(value, name)

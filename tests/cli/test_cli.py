@@ -118,7 +118,7 @@ def test_dsolve_prints_the_general_solution(capsys: pytest.CaptureFixture[str]) 
     ("equation", "start", "route"),
     [
         ("x^3 + 1", ["--x0", "0", "--y0", "1", "--dy0", "0"], "Taylor's method"),
-        ("x", ["--x0", "0", "--y0", "1", "--dy0", "0"], "FLINT's functions: Airy's equation in x"),
+        ("x", ["--x0", "-60", "--y0", "1", "--dy0", "0"], "FLINT's functions: Airy's equation in x"),
         ("x^2*y'' + x*y' + (x^2 + x^5)*y = 0", ["--x0", "0", "--regular"], "Taylor's method"),
     ],
 )
