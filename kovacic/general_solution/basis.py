@@ -231,12 +231,12 @@ def vanishing_factors(zero: Expr) -> Expr:
         whole /= sympy.Mul(*(f for f in sympy.Mul.make_args(below) if isinstance(f, sympy.gamma)))  # 0 at its poles
         waves = sympy.expand(TR8(sympy.expand(whole)))
         factored = min(map(sympy.factor, (whole, waves)), key=size)
-    factors = [factor for factor in sympy.Mul.make_args(factored) if not _is_nowhere_zero(factor)]
+    factors = [factor for factor in sympy.Mul.make_args(factored) if not _has_no_zero(factor)]
     once = [factor.base if factor.is_Pow and factor.exp.is_positive else factor for factor in factors]
     return sympy.Mul(*once)
 
 
-def _is_nowhere_zero(factor: Expr) -> bool:
+def _has_no_zero(factor: Expr) -> bool:
     """True if that is seen of a factor, or where it is a difference of exponentials of its hyperbolic functions."""
     if is_nowhere_zero(factor):
         return True

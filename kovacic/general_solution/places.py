@@ -19,7 +19,6 @@ from sympy.functions.special.bessel import BesselBase
 
 from kovacic.closed_form.atoms import Atoms
 from kovacic.closed_form.check import are_independent, is_numerical_solution
-from kovacic.equation import Equation
 from kovacic.errors import InputError
 from kovacic.general_solution.basis import Basis, rates
 from kovacic.general_solution.behaviour import Approach
@@ -227,12 +226,25 @@ def real_basis_at(question: Question, basis: Basis, start: Expr) -> Basis:
 
 
 def real_particular_at(question: Question, basis: Basis, particular: Expr, start: Expr) -> Expr:
-    """The particular solution, real at `start`.  Raises `InputError` as `real_basis_at` does."""
+    """A particular solution that is real at `start`, if one is found; else the given one.
+
+    Raises `InputError` as `real_basis_at` does.
+    """
     check_between(question, (basis.y1, basis.y2, particular))
     if question.equation.change is not None:
         return particular
     _check_one_side((particular,), question)
-    return real_particular(particular, question.equation, question.x, start)
+    x = question.x
+    is_settled = not start.is_real or particular.has(sympy.Integral, sympy.Heaviside)
+    if is_settled or not negative_arguments(particular, x, start):
+        return particular
+    equation = question.equation
+    right = (Atoms(x).sum(equation.f) + (equation.h or 0)) / Atoms(x).ratio(equation.a)
+    coefficients = rates(equation, x)
+    for candidate in [all_turned(particular, x, start), *_parts(particular, start, x)[:1]]:
+        if is_solution(candidate, coefficients, right, x):
+            return candidate
+    return particular
 
 
 def _check_one_side(solutions: Sequence[Expr], question: Question) -> None:
@@ -266,21 +278,6 @@ def real_basis(solution: Solution, y1: Expr, y2: Expr, x: Expr, point: Expr) -> 
         if are_independent(candidates[0], second, x):
             return candidates[0], second
     return y1, y2
-
-
-def real_particular(y: Expr, equation: Equation, x: Expr, point: Expr) -> Expr:
-    """A solution of the inhomogeneous equation that is real at the point, if one is found; else the given one."""
-    if not point.is_real or y.has(sympy.Integral, sympy.Heaviside):
-        return y
-    if not negative_arguments(y, x, point):
-        return y
-    right = (Atoms(x).sum(equation.f) + (equation.h or 0)) / Atoms(x).ratio(equation.a)
-    coefficients = rates(equation, x)
-    real_part = _parts(y, point, x)[:1]
-    for candidate in [all_turned(y, x, point), *real_part]:
-        if is_solution(candidate, coefficients, right, x):
-            return candidate
-    return y
 
 
 def _arguments(y: Expr, x: Expr) -> dict[Expr, Expr]:
