@@ -341,7 +341,7 @@ def _real_at(factor: Expr, x: Any, point: Expr) -> Expr:
     changed = {}
     for p in factor.atoms(sympy.Pow):
         negative = [u for u in Mul.make_args(p.base) if u.subs(x, point).is_negative]
-        if not p.exp.is_Integer and negative:
+        if p.base.has(x) and not p.exp.is_Integer and negative:  # not the root of -i in an exponent
             changed[p] = p.base.xreplace({u: -u for u in negative}) ** p.exp
     return factor.xreplace(changed)
 

@@ -526,3 +526,16 @@ def test_values_of_mathieus_functions(coefficient: str) -> None:
         values = {even: 3, slope: 0, odd: 0, odd_slope: 5}
     assert [e.subs(x, 0).xreplace(values) for e in (found, found.diff(x))] == [1, 2]
     assert len(str(found)) < 300
+
+
+@parametrize(
+    "text",
+    ["tan(x)", "2*tan(x)", "tan(x)/3", "tan(x)^2 + tan(x)", "cot(x)", "1/(x^2+1)^2 + x/(x^2+1)^2"],
+    ids=str,
+    ordinary=1,
+    long=5,
+)
+def test_roots_in_complex_exponents_keep_their_branches(text: str) -> None:
+    """Powers of x are made real between the singular points; sqrt(-i) in an exponent is no such power."""
+    answer = kovacic.solve(f"y'' + ({text})*y = 0")
+    assert answer.case is not None or answer.special is not None
