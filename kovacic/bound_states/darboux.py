@@ -28,7 +28,7 @@ from kovacic.bound_states.ends import End
 from kovacic.bound_states.question import SpectralProblem
 from kovacic.engine.places import analyse
 from kovacic.limits import Budget
-from kovacic.parametric.darboux import transformation
+from kovacic.parametric.partition import transformation
 
 
 @dataclass(frozen=True)

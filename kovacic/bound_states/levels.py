@@ -17,8 +17,7 @@ from kovacic.closed_form.balls import BallEvaluator
 from kovacic.errors import InputError, needs, visible
 from kovacic.numbers.exact import exact_text, whole
 from kovacic.numbers.numerals import as_latex, as_text
-from kovacic.parametric.assumptions import NOTHING_ASSUMED, Assumptions
-from kovacic.parametric.facts import Known
+from kovacic.parametric.assumptions import NOTHING_ASSUMED, Assumptions, Known
 from kovacic.reading.symbolic import read_expression
 from kovacic.writing.escaped import json_line, latex
 from kovacic.writing.formula import caret

@@ -12,8 +12,7 @@ from typing import Any
 
 import sympy
 
-from kovacic.parametric.assumptions import Assumptions
-from kovacic.parametric.facts import Bound
+from kovacic.parametric.assumptions import Assumptions, Bound
 
 
 class Signs:

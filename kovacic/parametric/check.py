@@ -31,7 +31,7 @@ from kovacic.errors import LimitExceeded, VerificationFailed
 from kovacic.limits import Budget
 from kovacic.parametric import prose
 from kovacic.parametric.assumptions import Assumptions
-from kovacic.parametric.charts import equation_at, normal_form
+from kovacic.parametric.cases import equation_at, normal_form
 from kovacic.parametric.claims import (
     AllOf,
     Alternatives,

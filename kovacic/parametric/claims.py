@@ -1,7 +1,7 @@
 """What is printed of a statement: claims, each true or false at a point in the way in which a reader takes it.
 
 A statement is decided by its equations, a claim by what was made of them: a parameter as a function of an integer, a sum of
-square roots, a table.  So the two can be compared at points, and each claim that leaves is.  `solving` makes claims, `prose`
+square roots, a table.  So the two can be compared at points, and each claim that leaves is.  `integers` makes claims, `prose`
 writes them.
 """
 

@@ -56,12 +56,11 @@ from kovacic.parametric.functions import (
     over_parameters,
     union,
 )
-from kovacic.parametric.integers import LETTERS, free_letter
+from kovacic.parametric.integers import LETTERS, alternatives, free_letter
 from kovacic.parametric.prose import Words
 from kovacic.parametric.ranks import RankConditions
 from kovacic.parametric.restriction import Hypersurface, everywhere, hypersurface, in_lowest_powers
 from kovacic.parametric.solutions import PolynomialSolution, solution_of_degree
-from kovacic.parametric.solving import alternatives
 from kovacic.parametric.statements import Setting, Statement
 from kovacic.writing.formula import Math
 

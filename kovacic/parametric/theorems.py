@@ -62,10 +62,9 @@ from kovacic.algebra.ratfunc import RatFunc
 from kovacic.decision import Structure
 from kovacic.engine.places import Kind, Place, Problem, analyse
 from kovacic.parametric import restriction, riemann
-from kovacic.parametric.formulas import shifted
+from kovacic.parametric.formulas import shifted, shorter_sum
 from kovacic.parametric.functions import irreducible_factors, over_parameters
 from kovacic.parametric.integers import integer_roots
-from kovacic.parametric.powers_of_factors import shorter_sum
 from kovacic.parametric.prose import ABELIAN, phrase
 from kovacic.parametric.regions import ParameterRegion, RegionVerdict, Theorem, Theory
 from kovacic.parametric.solutions import BySigns, Origin, PolynomialSolution, Signed, jacobi, root

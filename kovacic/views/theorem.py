@@ -20,9 +20,9 @@ from kovacic.equation import PI, Equation
 from kovacic.errors import InputError, LimitExceeded
 from kovacic.limits import DEFAULT_LIMITS, Budget
 from kovacic.parametric import prose
+from kovacic.parametric.assumptions import WORDS
 from kovacic.parametric.cases import Case, outside, solvable_cases
 from kovacic.parametric.claims import IntegerFamily
-from kovacic.parametric.facts import WORDS
 from kovacic.parametric.formulas import partial_fractions
 from kovacic.parametric.integers import free_letter
 from kovacic.parametric.letters import spelled
@@ -30,8 +30,16 @@ from kovacic.parametric.natural import NO_FORMULA, Natural
 from kovacic.parametric.parametric_answer import ParametricAnswer
 from kovacic.parametric.regions import ParameterRegion, RegionVerdict
 from kovacic.parametric.riemann import Schwarz
-from kovacic.parametric.rows import SolutionRow, families_of, rows_of
-from kovacic.parametric.solutions import GivenSolutions, PolynomialSolution, general, translated, weight_by_signs
+from kovacic.parametric.solutions import (
+    GivenSolutions,
+    PolynomialSolution,
+    SolutionRow,
+    families_of,
+    general,
+    rows_of,
+    translated,
+    weight_by_signs,
+)
 from kovacic.parametric.statements import Both, Either, Statement, Vanishes, both
 from kovacic.parametric.unexpanded import unexpanded
 from kovacic.reading.names import words_among

@@ -13,7 +13,7 @@ from build import parametrize
 from parametric_formulas import residual
 
 import kovacic
-from kovacic.parametric.rows import families_of, rows_of
+from kovacic.parametric.solutions import families_of, rows_of
 
 x = sympy.Symbol("x")
 #: a, b, c of the equations, and values of the parameters beside the one that is solved for.

@@ -25,9 +25,9 @@ from kovacic.decision import Structure
 from kovacic.parametric import solutions
 from kovacic.parametric.claims import DegreeExists
 from kovacic.parametric.functions import Classes
+from kovacic.parametric.integers import integer_condition
 from kovacic.parametric.natural import Natural
 from kovacic.parametric.regions import RegionVerdict
-from kovacic.parametric.solving import integer_condition
 
 x = sympy.Symbol("x")
 #: k g^2 = n^2 and its kin: at the zeros of g, or of a product, every k is possible.
@@ -73,7 +73,7 @@ def test_a_parameter_is_free_where_its_coefficient_vanishes() -> None:
 
 
 PLANTED: dict[str, tuple[str, str, Callable[..., Any]]] = {
-    "a stratum isn't said": ("k*(1+g/x)", "kovacic.parametric.solving.on_zeros", lambda rest, zero: rest * 0 + 1),
+    "a stratum isn't said": ("k*(1+g/x)", "kovacic.parametric.integers.on_zeros", lambda rest, zero: rest * 0 + 1),
     "a class is wrong": (
         "k*(1+g/x)",
         "kovacic.parametric.integers.integer_condition",
@@ -83,7 +83,7 @@ PLANTED: dict[str, tuple[str, str, Callable[..., Any]]] = {
     ),
     "a gauge is the generic one": (
         "(1+L*x)*y''+b*y'+c*y=0",
-        "kovacic.parametric.charts.equation_at",
+        "kovacic.parametric.cases.equation_at",
         lambda equation, point: equation,
     ),
     "a formula is another function": (

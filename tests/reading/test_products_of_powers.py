@@ -8,7 +8,7 @@ import sympy
 from build import parametrize
 
 import kovacic
-from kovacic.parametric.powers_of_factors import gathered
+from kovacic.parametric.formulas import gathered
 
 x, a, b, L = sympy.symbols("x a b L")
 BASES = [

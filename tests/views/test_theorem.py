@@ -23,7 +23,7 @@ from kovacic.parametric.cases import solvable_cases
 from kovacic.parametric.check import Sampler
 from kovacic.parametric.prose import text_of
 from kovacic.parametric.riemann import Schwarz, kimura
-from kovacic.parametric.rows import families_of
+from kovacic.parametric.solutions import families_of
 from kovacic.parametric.statements import Both, Either, Statement
 from kovacic.views.theorem import blocks
 from kovacic.writing.document import Formula, Math, Paragraph, Table
