@@ -124,21 +124,17 @@ def _continued(expression: Any, t: Any) -> Any:
     for function, inverse in _INVERSES[t.func].items():
         expression = expression.xreplace({function(t, evaluate=False): inverse(w)})
     square, other, sign = _ROOTS[t.func]
-    powers = {e for e in expression.atoms(sympy.Pow) if e.base == square(t) and (2 * e.exp).is_Integer}
-    expression = expression.xreplace({e: other(w) ** (2 * sign * e.exp) for e in powers})
-    if t.func not in (sympy.sin, sympy.cos):
-        return expression
-    powers = {e for e in expression.atoms(sympy.Pow) if e.base == t**2 - 1 and (2 * e.exp).is_Integer}
-    expression = expression.xreplace({e: (sympy.I * other(w)) ** (2 * e.exp) for e in powers})
+    for base, root in ((square(t), other(w) ** sign), (-square(t), sympy.I * other(w) ** sign)):
+        powers = {e for e in expression.atoms(sympy.Pow) if e.base == base and (2 * e.exp).is_Integer}
+        expression = expression.xreplace({e: root ** (2 * e.exp) for e in powers})
     # cos(w) +- i sin(w) = exp(+-i w), and sin(w) +- i cos(w) = +-i exp(-+i w).  The constant is left out: a solution stays one
     # where the logarithm of t +- i other(w), which isn't algebraic in t, is continued with another constant.
-    turned: dict[Any, Any] = {}
-    for i in (sympy.I, -sympy.I):
+    for i in (sympy.I, -sympy.I) if t.func in (sympy.sin, sympy.cos) else ():
         angle = i * w if t.func is sympy.cos else -i * w
         base = t + i * other(w)
         powers = {e for e in expression.atoms(sympy.Pow) if e.base == base and not e.exp.is_Integer}
-        turned |= {e: sympy.exp(e.exp * angle) for e in powers} | {sympy.log(base): angle}
-    return expression.xreplace(turned)
+        expression = expression.xreplace({e: sympy.exp(e.exp * angle) for e in powers} | {sympy.log(base): angle})
+    return expression
 
 
 def solution_in_x(equation: Equation, y: Any) -> Any:

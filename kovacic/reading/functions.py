@@ -40,12 +40,10 @@ def _first(readers: Sequence[_Reader], source: Source, limits: Limits) -> tuple[
     reason = None
     for reader in readers:
         try:
-            found = reader(source, limits)
+            if (found := reader(source, limits)) is not None:
+                return found, None
         except NotRational as error:
             reason = reason or error
-        else:
-            if found is not None:
-                return found, None
     return None, reason
 
 
@@ -77,19 +75,16 @@ def _in_letters(source: Source, limits: Limits) -> Parsed | None:
         if found is not None:
             meanings = tuple((letter.name, meaning) for letter, meaning in lettered.meanings.items())
             said = [f"{name} is {meaning}" for name, meaning in meanings if name != str(meaning)]
-            notices = [*notices, *said, *found.notices]
-            return replace(found, notices=tuple(notices), letters=(*found.letters, *meanings))
+            return replace(found, notices=(*notices, *said, *found.notices), letters=(*found.letters, *meanings))
     return None
 
 
 def multiplied_out(given: Any, source: Source, limits: Limits) -> Expr | None:
-    """An equation without the unknown function in denominators; None where that doesn't make it linear.
+    """An equation without the unknown function in denominators, y = 0 left out; None where that doesn't make it linear.
 
     >>> x, y = sympy.Symbol("x"), sympy.Function("y")(sympy.Symbol("x"))
     >>> multiplied_out(y.diff(x, 2) / y - x, Source(print, "x", "y"), Limits())
     -x*y(x) + Derivative(y(x), (x, 2))
-
-    y = 0 is left out.
     """
     if source.tokens is not None:
         y = sympy.Function(source.unknown)(sympy.Symbol(source.variable))

@@ -136,10 +136,6 @@ def _by_index(match: Match) -> str:
     return f"diff ( {match['y']} , {match['x']} , {2 if match['second'] else 1} )"
 
 
-def _raised(match: Match) -> str:
-    return primes_of(match[1] or match[2])
-
-
 def _exponential(match: Match) -> str:
     """E of Mathematica, whose notation it is where functions have brackets."""
     return "e ^" if _occurs(r"(?:\w|') \[ +[a-z] +\]|[A-Z][a-z]+ \[", match.string) else match[0]
@@ -194,7 +190,11 @@ NOTATIONS = (
     _rule("names of functions", rf"(?:{'|'.join(_SYNONYMS)})(?= [(\[])", lambda match: _SYNONYMS[match[0]]),
     _rule("pi", "Pi|π", "pi"),
     _rule("Mathematica", r"E \^", _exponential),
-    _rule("raised primes", rf"{_BEHIND_NAME}\^ (?:OPEN ((?:['\"]+ )+)CLOSE|(['\"]+(?: '+)*))", _raised),
+    _rule(
+        "raised primes",
+        rf"{_BEHIND_NAME}\^ (?:OPEN ((?:['\"]+ )+)CLOSE|(['\"]+(?: '+)*))",
+        lambda m: primes_of(m[1] or m[2]),
+    ),
     _rule("indices", r"(?P<y>[a-zA-Z])_(?P<x>[xtzsr])(?P<second>(?P=x))?", _by_index),
 )
 #: For what the commands of LaTeX have become signs and letters.

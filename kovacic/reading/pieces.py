@@ -521,16 +521,12 @@ def _is_condition(scan: Scan, *, is_first: bool = False) -> bool:
     return False
 
 
-def _spelled(tokens: Tokens) -> str:
-    """Tokens in this package's notation: a blank stands between names and numbers alone."""
-    return re.sub(r"(?<![\w']) | (?!\w)", "", " ".join(tokens.pieces))
-
-
 def _given(text: str, scan: Scan) -> Iterator[PlacedValue]:
     """The conditions that one statement has; y(0) = y'(0) = 1 are two."""
     plain = [token for token in scan if token.text not in ("$", "`")]
     sides = [translated(text, side, condition=True) for side in _listed(plain, _ASSIGNS)]
-    *places, value = map(_spelled, sides)
+    # In this package's notation a blank stands between names and numbers alone.
+    *places, value = (re.sub(r"(?<![\w']) | (?!\w)", "", " ".join(tokens.pieces)) for tokens in sides)
     if not places or not all((*places, value)):
         hint = 'write "y(0)=1, y\'(0)=0", each with its value'
         raise error_at(text, f"{text[scan[0].start : scan[-1].end]!r} isn't an initial value", scan, hint)
