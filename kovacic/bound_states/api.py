@@ -10,9 +10,9 @@ from typing import Any
 
 import sympy
 
-from kovacic.bound_states.closed_forms import closed_forms
-from kovacic.bound_states.darboux import step
+from kovacic.bound_states.closed_forms import closed_forms, step
 from kovacic.bound_states.ends import End, check_inside, end_of, potential_in_t
+from kovacic.bound_states.energies import tidied
 from kovacic.bound_states.families import (
     Transcendental,
     constant_families,
@@ -21,16 +21,19 @@ from kovacic.bound_states.families import (
     laguerre_families,
     no_families,
 )
-from kovacic.bound_states.first_levels import check_first_levels
 from kovacic.bound_states.frame import Original, RealPotential, SingularFrame, frames
-from kovacic.bound_states.letters import between, in_their_meanings, with_named_roots
 from kovacic.bound_states.levels import Algebraic, BoundState, Levels, Spectrum
-from kovacic.bound_states.numeric import unsolved, with_matching, with_numbers
-from kovacic.bound_states.periodic import NO_LEVELS, check_poles, on_real_circle
-from kovacic.bound_states.physical import is_equation, read_schroedinger, without_left_side
+from kovacic.bound_states.numeric import check_first_levels, unsolved, with_matching, with_numbers
 from kovacic.bound_states.question import FRIEDRICHS, SpectralProblem, Uncovered, read_question
-from kovacic.bound_states.ranges import tidied
-from kovacic.bound_states.repulsive import REASON, is_repulsive
+from kovacic.bound_states.translations import (
+    between,
+    in_their_meanings,
+    is_equation,
+    read_schroedinger,
+    with_named_roots,
+    without_left_side,
+)
+from kovacic.bound_states.without_levels import NO_LEVELS, REASON, check_poles, is_repulsive, on_real_circle
 from kovacic.equation import ENERGY
 from kovacic.errors import InputError, LimitExceeded, NotRational
 from kovacic.limits import DEFAULT_LIMITS, Budget, Limits, check_duration, limited

@@ -9,10 +9,25 @@ them is the function of a level if it is the square integrable one at both ends,
   isn't square integrable at the other; where it isn't above the infimum of V, or above a threshold of the continuous spectrum;
 - each value is of case 1: each level with a closed form has a polynomial of some degree d.
 
-Which level it is says Sturm's theorem: a square integrable solution with k zeros is the k-th level; `zeros` counts them.
+Which level it is says Sturm's theorem: a square integrable solution with k zeros is the k-th level.
 
 References: A. V. Turbiner, Comm. Math. Phys. 118 (1988) 467; A. G. Ushveridze, Quasi-exactly Solvable Models (1994);
 M. Razavy, Amer. J. Phys. 48 (1980) 285; M. F. Manning, J. Chem. Phys. 3 (1935) 136.
+
+`step` is Darboux' transformation: a rational potential with apparent singularities as one without, all levels at once.  With a
+rational W, W' + W^2 = V - E0, the operator d/dx - W takes solutions for V to solutions for V - 2 W' with the same E,
+and d/dx + W takes them back, up to the factor E0 - E.  Where W has no residue 1 inside the domain y0 = exp(int W) has no zero,
+so that E0 isn't above the lowest level; it is this level exactly where y0 is square integrable.  At a regular end both
+operators take the smaller solution to the smaller one where nu >= 1 for V and for V - 2 W'; at an irregular end they keep the
+decaying one.  So the levels for V are those for V - 2 W', and E0 where y0 is square integrable; and
+
+    int ((d/dx + W) y)^2 dx = (E - E0) int y^2 dx.
+
+W comes from `kovacic.parametric`, which lowers apparent singularities by it for `conditions`; the one-step exceptional families
+(Hermite, Laguerre) are of this kind, with y0 = (a weight)/(a polynomial).
+
+References: D. Gomez-Ullate, N. Kamran & R. Milson, J. Math. Anal. Appl. 359 (2009) 352; C. Quesne, J. Phys. A 41 (2008) 392001;
+J. F. Carinena, A. M. Perelomov, M. F. Ranada & M. Santander, J. Phys. A 41 (2008) 085301.
 """
 
 from __future__ import annotations
@@ -25,22 +40,57 @@ from typing import Any, NamedTuple
 import sympy
 
 from kovacic.bound_states.ends import End, leading
+from kovacic.bound_states.energies import tidied
 from kovacic.bound_states.families import possible
 from kovacic.bound_states.frame import Original, RealPotential, monotonic_range
 from kovacic.bound_states.levels import NO_FORMULA, Algebraic
-from kovacic.bound_states.norms import norm_of
 from kovacic.bound_states.question import SpectralProblem, above
-from kovacic.bound_states.ranges import tidied
 from kovacic.bound_states.signs import Signs
-from kovacic.errors import LimitExceeded
-from kovacic.limits import Limits
+from kovacic.closed_form.atoms import Atoms, factors
+from kovacic.closed_form.integrals import integral
+from kovacic.closed_form.product import product
+from kovacic.engine.places import analyse
+from kovacic.errors import InputError, LimitExceeded
+from kovacic.limits import Budget, Limits
 from kovacic.numbers.numerals import as_text
 from kovacic.parametric.api import conditions_of
 from kovacic.parametric.natural import Natural
 from kovacic.parametric.parametric_answer import ParametricAnswer
+from kovacic.parametric.partition import transformation
 from kovacic.parametric.solutions import PolynomialSolution, translated
 from kovacic.parametric.statements import Statement, Vanishes, alternatives_of, both
+from kovacic.reading.read import read_input
 from kovacic.writing.formula import caret
+
+#: Functions in an antiderivative whose limits at the ends are found at once.
+_WITH_LIMITS = (sympy.exp, sympy.log, sympy.atan, sympy.erf)
+
+
+def norm_of(wave: Any, x: Any, domain: tuple[Any, Any]) -> Any:
+    """The integral, None if the antiderivative isn't found, or its limits at the ends aren't.
+
+    >>> x = sympy.Symbol("x")
+    >>> norm_of(sympy.exp(-1 / x) / x, x, (0, sympy.oo))
+    1/2
+    """
+    square = wave**2
+    rate = sympy.cancel(sympy.diff(square, x) / square)
+    if not rate.is_rational_function(x) or rate.free_symbols - {x}:
+        return None
+    try:
+        h = product(read_input(rate, var=x.name).S)
+        found = integral(h, Atoms(x))
+    except (InputError, LimitExceeded):
+        return None
+    if found is None or not all(isinstance(f, _WITH_LIMITS) for f in found.atoms(sympy.Function)):
+        return None
+    scale, shown = factors(h, Atoms(x))
+    constant = sympy.cancel(sympy.powsimp(square / (scale * sympy.Mul(*shown))))
+    first, last = domain
+    total = sympy.limit(found, x, last, "-") - sympy.limit(found, x, first, "+")
+    norm = sympy.simplify(constant * total)
+    return norm if norm.is_positive and not norm.has(x) else None
+
 
 #: The natural number in conditions.
 _NUMBER = sympy.Dummy("d")
@@ -416,3 +466,33 @@ def _bounds(constraint: Any, solution: PolynomialSolution, signs: Signs) -> list
             value = sympy.factor(-constraint.coeff(symbol, 0) / constraint.coeff(symbol, 1))
             return signs.bounds_of(symbol.name, value) if signs.admits(symbol.name, value) else None
     return None
+
+
+@dataclass(frozen=True)
+class DarbouxStep:
+    """W, E0, y0, and whether y0 is square integrable; in real symbols, y0 in the user's variable."""
+
+    W: Any
+    energy: Any
+    wave: Any
+    is_level: bool
+
+
+def step(question: SpectralProblem, ends: Sequence[End], budget: Budget) -> DarbouxStep | None:
+    """The transformation that lowers the apparent singularities of a V in x; None if none is known to apply."""
+    if question.parsed.equation is not None or not all(end.circle is False for end in ends):
+        return None
+    found = transformation(analyse(question.parsed.S, budget))
+    signs = question.signs
+    x = sympy.Symbol(question.variable)
+    if found is None or any(signs.sign(signs.real(f.to_sympy(x))) is None for f in found.exceptions):
+        return None
+    W = signs.real(found.W.num.to_sympy(x) / found.W.den.to_sympy(x))
+    energy = sympy.cancel(sympy.together(signs.real(question.V) - W**2 - sympy.diff(W, x)))
+    if energy.has(x):
+        return None
+    wave = sympy.exp(sympy.integrate(sympy.apart(W, x), x))
+    known = [signs.holds(demand_at(end, wave, question)) for end in ends]
+    if None in known:
+        return None
+    return DarbouxStep(W.xreplace({x: question.x}), energy, wave, all(known))

@@ -12,10 +12,9 @@ from typing import Any
 
 import sympy
 
-from kovacic.bound_states.energies import exact_root
+from kovacic.bound_states.energies import exact_root, tidied
 from kovacic.bound_states.frame import Original, RealPotential, is_between
 from kovacic.bound_states.question import SpectralProblem, Uncovered
-from kovacic.bound_states.ranges import tidied
 from kovacic.bound_states.signs import Signs
 from kovacic.errors import InputError
 from kovacic.numbers.numerals import as_text

@@ -33,11 +33,10 @@ from typing import Any
 
 import sympy
 
-from kovacic.bound_states.energies import Root, conjugate, solved
+from kovacic.bound_states.energies import Root, conjugate, solved, tidied
 from kovacic.bound_states.frame import SingularFrame, Spot
 from kovacic.bound_states.levels import Levels
 from kovacic.bound_states.question import SpectralProblem, Uncovered, above
-from kovacic.bound_states.ranges import tidied
 from kovacic.bound_states.signs import Signs
 from kovacic.bound_states.waves import Wave, jacobi_wave, laguerre_wave
 from kovacic.numbers.numerals import as_text

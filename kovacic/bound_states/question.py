@@ -9,8 +9,8 @@ from typing import Any
 
 import sympy
 
-from kovacic.bound_states.letters import assumed_of_letters
 from kovacic.bound_states.signs import Signs
+from kovacic.bound_states.translations import assumed_of_letters
 from kovacic.equation import DEFAULT_VARIABLE, EULER, PI, Parsed, parameters_of
 from kovacic.errors import InputError, LimitExceeded, NotRational
 from kovacic.general_solution.conditions import ConditionReader, as_mapping

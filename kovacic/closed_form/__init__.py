@@ -1,7 +1,7 @@
 """y1 and y2 in closed form: a decision with its certificate goes in, two checked SymPy expressions come out.
 
 `form` is the entry, and the module to read first.  `structure.build` gives the same as data, without SymPy: products
-(`product`), integrals (`primitive`, `exponential_integrals`, `curve`, `torsion`) and Klein's invariant (`klein`).  `atoms`,
-`real_pair`, `integrals`, `curve_display` and `elliptic` write each kind down; `check` verifies the structure exactly, and what
+(`product`), integrals (`primitive`, `curve`) and Klein's invariant.  `atoms`,
+`real_pair`, `integrals` and `curve_display` write each kind down; `check` verifies the structure exactly, and what
 is shown by `jets`.
 """

@@ -13,10 +13,9 @@ from kovacic.algebra.partial_fractions import Residue
 from kovacic.algebra.poly import Poly
 from kovacic.closed_form.atoms import Atoms, Expr, display, factors, rational
 from kovacic.closed_form.curve import CurveIntegral
-from kovacic.closed_form.curve_display import curve_integral
-from kovacic.closed_form.elliptic import elliptic
-from kovacic.closed_form.exponential_integrals import ExponentialPrimitive
+from kovacic.closed_form.curve_display import curve_integral, elliptic
 from kovacic.closed_form.primitive import (
+    ExponentialPrimitive,
     OpenPrimitive,
     RationalPrimitive,
     integrate,
@@ -172,7 +171,7 @@ def _sum_at_poles(residue: Residue, primitive: ExponentialPrimitive, atoms: Atom
 
 
 def _gamma(factor: Poly, n: int, t: Expr, power: Fraction, atoms: Atoms) -> Scaled:
-    """int t^power exp(beta t^n) dt: equation (1) of `kovacic.closed_form.exponential_integrals`."""
+    """int t^power exp(beta t^n) dt: equation (1) of `kovacic.closed_form.primitive`."""
     beta = atoms.constant(factor)
     s = (power + 1) / n
     if s == 0:

@@ -1,22 +1,260 @@
 """int y^-2 dx for a product y: the second solution y int y^-2 of a reducible equation.
 
 With h = y^-2 = r k, r rational and k the part that isn't, the integral is W k plus what no W k can express: logarithms for
-k = 1, the integrals (2) of `kovacic.closed_form.curve` for k = 1/sqrt(g), and those of
-`kovacic.closed_form.exponential_integrals` for k = t^alpha exp(E).
+k = 1, the integrals (2) of `kovacic.closed_form.curve` for k = 1/sqrt(g), and for k = t^alpha exp(E), E rational, these:
+
+    int^q u^(m + alpha) exp(b u^n) du,      E = e + b q^n,                                                               (1)
+
+whose derivative is t^alpha exp(E - e) q' q^m (q = t for alpha other than 0): Ei(q) for m = -1 and b = n = 1, error functions
+for n = 2 and m = 0, and, where E = e + b t^n, gamma functions for 0 <= s = (m + alpha + 1)/n < 1.
+
+Hermite's reduction leaves simple poles of r outside those of E.  At such a pole a, e = E(a); the zeros of E - e are poles then,
+with residues in proportion to their multiplicities, or there is no such integral.  The other e without a choice are the value
+at infinity, where E - e has no zero, and the values at zeros of E' for which (E - e)/b is a square.  What is left is
+W' + W (E' + alpha/t) with a W whose denominator and degree are bounded by those of r and E, and constant multiples of (1):
+linear equations over K.
+
+Reference: Risch's algorithm for exponentials [Bronstein, Symbolic Integration I, ch. 5]; with erf as in G. W. Cherry,
+J. Symb. Comp. 1 (1985) 283-302, and Ei (there li) as in SIAM J. Comput. 15 (1986) 1-21; here for constants e in K only.
 """
 
 from __future__ import annotations
 
+from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, replace
 from fractions import Fraction
 
-from kovacic.algebra.partial_fractions import Decomposition, decompose
+from kovacic.algebra.factors import combination
+from kovacic.algebra.partial_fractions import Decomposition, Residue, decompose, prime_part, reduce_poles
 from kovacic.algebra.poly import Poly
-from kovacic.algebra.ratfunc import RatFunc
-from kovacic.closed_form.curve import CurveIntegral, integrate_on_curve
-from kovacic.closed_form.exponential_integrals import ExponentialPrimitive, integrate_exponential, monomial
+from kovacic.algebra.ratfunc import RatFunc, over_one_denominator
+from kovacic.closed_form.curve import CurveIntegral, completed, integrate_on_curve
 from kovacic.closed_form.product import Product
-from kovacic.closed_form.torsion import completed
+
+
+@dataclass(frozen=True)
+class GammaTerm:
+    """`coefficient` * exp(e) times the integral (1)."""
+
+    coefficient: Poly
+    q: RatFunc
+    b: Poly
+    e: Poly
+    n: int
+    power: int
+
+    @property
+    def derivative(self) -> RatFunc:
+        """That of the term, over t^alpha exp(E)."""
+        return self.q.derivative() * self.q**self.power * self.coefficient
+
+
+@dataclass(frozen=True)
+class ExponentialPrimitive:
+    """int r k dx, k = t^alpha exp(E): W k + `terms`, and what conjugate simple `poles` a with residues rho give.
+
+    t is x - c or (x - c)/(x - d), and everything else a function of t.  The poles give, for E = beta t + constant and
+    alpha = 0, rho exp(E(a)) Ei(E - E(a)); and for E = 0, n the denominator of alpha, rho * sum of
+    z^(n alpha) log(t^(1/n) - z) over the n-th roots z of a.
+    """
+
+    t: RatFunc
+    E: RatFunc
+    W: RatFunc
+    alpha: Fraction = Fraction(0)
+    terms: tuple[GammaTerm, ...] = ()
+    poles: tuple[Residue, ...] = ()
+
+    @property
+    def kernel_derivative(self) -> RatFunc:
+        """k'/k."""
+        return _rate(self.E, self.alpha)(self.t) * self.t.derivative()
+
+    @property
+    def integrand(self) -> RatFunc:
+        """r, recomputed from the result by (1)."""
+        total = self.W.derivative() + self.W * _rate(self.E, self.alpha)
+        total = sum((term.derivative for term in self.terms), total)
+        return sum((residue.logarithmic for residue in self.poles), total)(self.t) * self.t.derivative()
+
+
+def _rate(E: RatFunc, alpha: Fraction) -> RatFunc:
+    """dk/dt over k, for k = t^alpha exp(E)."""
+    if not alpha:
+        return E.derivative()
+    return E.derivative() + alpha / RatFunc(E.field.poly([0, 1]))
+
+
+def monomial(E: RatFunc) -> tuple[Poly, int, Poly] | None:
+    """(beta, n, c) with E = beta x^n + c, None if it isn't so."""
+    c = E.num[0] if E.is_polynomial else E.num // E.den
+    if c.degree > 0:
+        return None
+    rest = E - c
+    n = rest.num.degree - rest.den.degree
+    x = RatFunc(E.field.poly([0, 1]))
+    if rest != x**n * rest.num.lc:
+        return None
+    return rest.num.lc, n, c
+
+
+@dataclass(frozen=True)
+class _AtPoles:
+    """What simple poles of r outside those of E give, and what is left of r; `terms` have Ei, `poles` are roots a."""
+
+    rest: RatFunc
+    terms: tuple[GammaTerm, ...]
+    poles: tuple[Residue, ...]
+
+
+def integrate_exponential(r: RatFunc, E: RatFunc, alpha: Fraction = Fraction(0)) -> ExponentialPrimitive | str:
+    """int r x^alpha exp(E) dx, or why it is left; alpha isn't an integer other than 0.
+
+    >>> from kovacic.algebra.rationals import QQ
+    >>> x = RatFunc(QQ.poly([0, 1]))
+    >>> done = integrate_exponential((x**2 + 1) / (x * (x**2 - 1)), x - 1 / x)  # Ei(x - 1/x)
+    >>> print(done.W, [(str(term.coefficient), str(term.q), term.power) for term in done.terms])
+    0 [('1', '(x**2 - 1)/x', -1)]
+    """
+    x = RatFunc(r.field.poly([0, 1]))
+    apart = E.den * x.num if alpha else E.den
+    W, reduced, residues = reduce_poles(r, _rate(E, alpha), apart)
+    found = _at_poles(reduced, residues, E, alpha)
+    if found is None or prime_part(found.rest.den, apart).degree > 0:
+        return "a pole with a residue remains beside the exponential"
+    levels = [term.e for term in found.terms]
+    candidates = [term for term in _candidates(E, alpha) if term.power != -1 or term.e not in levels]
+    solved = _with_rational_part(found.rest, E, alpha, [term.derivative for term in candidates])
+    if solved is None:
+        return "it isn't a rational function times the exponential, with Ei and erf of rational functions"
+    more, constants = solved
+    others = [replace(term, coefficient=c) for term, c in zip(candidates, constants, strict=True) if c]
+    return ExponentialPrimitive(x, E, W + more, alpha, (*found.terms, *others), found.poles)
+
+
+def _at_poles(r: RatFunc, residues: Iterable[Residue], E: RatFunc, alpha: Fraction) -> _AtPoles | None:
+    """The terms that the residues tell of; None where one belongs to no such term."""
+    rest = r
+    terms: list[GammaTerm] = []
+    poles: list[Residue] = []
+    for found in residues:
+        if rest.den % found.factor:  # dealt with at another zero of E - e
+            continue
+        term = None if alpha else _exponential_integral(found, E)
+        if term is not None:
+            terms.append(term)
+            rest = rest - term.derivative
+        elif E.is_polynomial and E.num.degree <= (0 if alpha else 1):
+            # Conjugate poles have terms of their own for E = beta x + constant, or for a constant E beside a power of x.
+            poles.append(found)
+            rest = rest - found.logarithmic
+        else:
+            return None
+    return _AtPoles(rest, tuple(terms), tuple(poles))
+
+
+def _exponential_integral(found: Residue, E: RatFunc) -> GammaTerm | None:
+    """exp(e) Ei(E - e) with the residue, e the value of E at the pole; None where e or the residue isn't in K."""
+    p = found.factor
+    e = E.num * E.den.inverse_modulo(p) % p
+    if e.degree > 0 or found.value.degree > 0:
+        return None
+    multiplicity = (E - e).num.remove(p)[1]
+    if not multiplicity:
+        return None
+    one = E.field.poly([1])
+    return GammaTerm(found.value * Fraction(1, multiplicity), E - e, one, e, 1, -1)
+
+
+def _candidates(E: RatFunc, alpha: Fraction) -> Iterator[GammaTerm]:
+    """The terms (1) that no pole tells of, with the coefficient 1."""
+    one = E.field.poly([1])
+    if not alpha:
+        for e in _limit(E):
+            if (E - e).num.degree == 0:
+                yield GammaTerm(one, E - e, one, e, 1, -1)
+        for q, b, e in _squares(E):
+            yield GammaTerm(one, q, b, e, 2, 0)
+    shape = monomial(E) if E else None
+    if shape is not None:
+        yield from _gamma_terms(*shape, alpha)
+
+
+def _gamma_terms(beta: Poly, n: int, e: Poly, alpha: Fraction) -> Iterator[GammaTerm]:
+    """Those with 0 <= s < 1 for E = beta x^n + e; without alpha, s = 0 and s = 1/2 are Ei and error functions."""
+    x = RatFunc(beta.field.poly([0, 1]))
+    one = beta.field.poly([1])
+    known = () if alpha else (0, Fraction(1, 2))
+    for m in range(-abs(n) - 2 - int(alpha), abs(n) + 2 - int(alpha)):
+        s = (m + alpha + 1) / n
+        if 0 <= s < 1 and s not in known:
+            yield GammaTerm(one, x, beta, e, n, m)
+
+
+def _limit(E: RatFunc) -> list[Poly]:
+    """The value at infinity, if E is finite there."""
+    if E.num.degree > E.den.degree:
+        return []
+    if E.num.degree < E.den.degree:
+        return [E.num * 0]
+    return [E.num.lc / E.den.lc]
+
+
+def _squares(E: RatFunc) -> Iterator[tuple[RatFunc, Poly, Poly]]:
+    """(q, b, e) with E = e + b q^2."""
+    slope = E.derivative().num
+    factors = E.field.factor(slope) if slope.degree > 0 else []
+    values = [E.num * E.den.inverse_modulo(p) % p for p, _ in factors] + _limit(E)
+    for e in dict.fromkeys(values):
+        level = E - e
+        if e.degree > 0 or not level:
+            continue
+        top = level.num.monic().root(2)
+        bottom = level.den.monic().root(2)
+        if top is not None and bottom is not None:
+            yield RatFunc(top, bottom), level.num.lc / level.den.lc, e
+
+
+def _with_rational_part(
+    r: RatFunc, E: RatFunc, alpha: Fraction, candidates: list[RatFunc]
+) -> tuple[RatFunc, list[Poly]] | None:
+    """(W, constants), r = W' + W (E' + alpha/x) + the sum of constants times candidates; None where there are none."""
+    x = r.field.poly([0, 1])
+    rate = _rate(E, alpha)
+    functions = [f for f in (r, *candidates) if f]
+    den = _denominator(functions, E, alpha)
+    basis = [RatFunc(x**j, den) for j in range(_degree(functions, E) + den.degree + 1)]
+    images = [w.derivative() + w * rate for w in basis] + candidates
+    wanted, *numerators = over_one_denominator([r, *images])
+    found = combination(wanted, numerators)
+    if found is None:
+        return None
+    W = sum((w * c for w, c in zip(basis, found, strict=False)), RatFunc(r.field.poly([])))
+    return W, found[len(basis) :]
+
+
+def _denominator(functions: list[RatFunc], E: RatFunc, alpha: Fraction) -> Poly:
+    """Of W: a pole of order m of E raises the order of a pole of W by m + 1, and a factor x^alpha by 1."""
+    field = E.field
+    x = field.poly([0, 1])
+    poles = field.factor(E.den) if E.den.degree > 0 else []
+    if alpha and E.den[0]:
+        poles = [*poles, (x, 0)]
+    den = field.poly([1])
+    for p, m in poles:
+        order = max((f.den.remove(p)[1] for f in functions), default=0)
+        den = den * p ** max(order - m - 1, 0)
+    return den
+
+
+def _degree(functions: list[RatFunc], E: RatFunc) -> int:
+    """A bound of the degree of W as a function, deg num - deg den, from what it gives."""
+    growth = max((f.num.degree - f.den.degree for f in functions), default=0)
+    at_infinity = E.num.degree - E.den.degree
+    if at_infinity > 0:
+        return growth - at_infinity + 1
+    return max(growth + 1, 0)
+
 
 #: A pair of solutions is short if it takes at most so many characters, or so many times those of the shortest form.
 SHORT = 1000

@@ -36,9 +36,8 @@ from kovacic.enclosure.points import ExactPoint, kept_at_precision, to_acb
 from kovacic.enclosure.singular import Singular
 from kovacic.errors import LimitExceeded
 from kovacic.limits import Budget, Limits, bounded_work
-from kovacic.special.pullback import Pullback
+from kovacic.special.pullback import Pullback, StandardForm, is_integer
 from kovacic.special.search import find
-from kovacic.special.values import StandardForm, is_integer
 
 _BITS = 64  # in which the course of a leg is proven
 _PIECES = 400  # into which a leg is cut for that, at most

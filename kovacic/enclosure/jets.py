@@ -47,7 +47,7 @@ import sympy
 from flint import acb, acb_poly, acb_series, arb, arb_poly, ctx, fmpq
 
 from kovacic.algebra.precision import series_length, working_precision
-from kovacic.closed_form.balls import BallEvaluator
+from kovacic.closed_form.jets import BallEvaluator
 from kovacic.enclosure.frame import log2
 from kovacic.enclosure.matrices import Matrix, State, fundamental
 from kovacic.enclosure.points import ExactPoint, are_real, around_zero, power_of_two, to_acb

@@ -287,7 +287,7 @@ def in_balls(expression: Any, values: Mapping[Any, Any]) -> acb:
     Values may be power series, too: then the result is one, or a ball where it is a number.  Raises InputError for functions
     that aren't known here.
     """
-    from kovacic.closed_form.balls import BallEvaluator  # imports SymPy
+    from kovacic.closed_form.jets import BallEvaluator  # imports SymPy
 
     value: acb = BallEvaluator(values)(expression)
     return value

@@ -11,8 +11,8 @@ from kovacic.algebra.function_field import FunctionPoly
 from kovacic.algebra.rationals import QQ
 from kovacic.closed_form.atoms import Atoms
 from kovacic.closed_form.check import are_independent
-from kovacic.closed_form.klein import Covariants
 from kovacic.closed_form.real_pair import is_turned, pair_in_x
+from kovacic.closed_form.structure import Covariants
 from kovacic.decision import Status
 from kovacic.equation import Equation, Parsed, parameters_of
 from kovacic.errors import LimitExceeded

@@ -2,8 +2,7 @@
 
 A file a standard equation: `airy`, `bessel`, `whittaker` and `gauss` have its S0, its pull-backs, how its solutions are written
 and what their values are; `pullback.StandardEquation` says what such a file has to have, and `airy` is the one to read first.
-`search` goes through them; it returns nothing that doesn't satisfy its identity exactly.  What they share: `polar_parts` and
-`fibres` find functions f from the polar parts and from the exponents of S; `numbers` and `writer` write; `values` are what
-FLINT's functions have in common.
+`search` goes through them; it returns nothing that doesn't satisfy its identity exactly.  What they share: `maps`
+finds functions f from the polar parts and from the exponents of S; `numbers` and `writer` write.
 `mathieu` is for coefficients that are waves.
 """

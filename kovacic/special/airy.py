@@ -17,7 +17,7 @@ from kovacic.algebra.poly import Poly
 from kovacic.algebra.ratfunc import RatFunc
 from kovacic.engine.places import Problem
 from kovacic.special import prices
-from kovacic.special.polar_parts import (
+from kovacic.special.maps import (
     check_conjugates,
     integral_of_cubic_root,
     irregular_places,
@@ -25,8 +25,15 @@ from kovacic.special.polar_parts import (
     scales,
     value_at,
 )
-from kovacic.special.pullback import Pullback, StandardEquation, standard_part, variable
-from kovacic.special.values import StandardForm, ValueAndSlope, rational
+from kovacic.special.pullback import (
+    Pullback,
+    StandardEquation,
+    StandardForm,
+    ValueAndSlope,
+    rational,
+    standard_part,
+    variable,
+)
 
 if TYPE_CHECKING:
     from kovacic.special.writer import Writer, WrittenPair

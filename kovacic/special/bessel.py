@@ -30,11 +30,12 @@ from kovacic.algebra.ratfunc import RatFunc
 from kovacic.engine.places import Kind, Place, Problem
 from kovacic.limits import count_work
 from kovacic.special import prices
-from kovacic.special.fibres import Fibre, Point, fibres
+from kovacic.special.maps import Fibre, Point, fibres, irregular_places, leading_square, square, zeros
 from kovacic.special.numbers import HALF, Number, multiplicities
-from kovacic.special.polar_parts import irregular_places, leading_square, square, zeros
-from kovacic.special.pullback import TRIAL, Pullback, StandardEquation, variable
-from kovacic.special.values import (
+from kovacic.special.pullback import (
+    TRIAL,
+    Pullback,
+    StandardEquation,
     StandardForm,
     StandardSolution,
     ValueAndSlope,
@@ -42,6 +43,7 @@ from kovacic.special.values import (
     is_integer,
     rational,
     square_root,
+    variable,
 )
 
 if TYPE_CHECKING:

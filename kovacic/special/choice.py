@@ -29,10 +29,9 @@ from kovacic.algebra.rationals import RationalPoly
 from kovacic.closed_form.check import independent
 from kovacic.closed_form.form import EXACT, ClosedForm, verified, written
 from kovacic.closed_form.jets import jet
-from kovacic.closed_form.klein import Covariants
 from kovacic.closed_form.primitive import FACTOR, LONG, SHORT, OpenPrimitive
 from kovacic.closed_form.product import written_length
-from kovacic.closed_form.structure import ClosedStructure, Triangular, build
+from kovacic.closed_form.structure import ClosedStructure, Covariants, Triangular, build
 from kovacic.decision import Decision
 from kovacic.errors import LimitExceeded, VerificationFailed
 from kovacic.limits import Budget, bounded_work, check_time

@@ -39,7 +39,7 @@ from kovacic.limits import count_work
 from kovacic.special.airy import Airy
 from kovacic.special.bessel import Bessel
 from kovacic.special.gauss import Gauss
-from kovacic.special.polar_parts import half_rate, integral_of_square_root, irregular_places, scales, unit
+from kovacic.special.maps import half_rate, integral_of_square_root, irregular_places, scales, unit
 from kovacic.special.pullback import TRIAL, Pullback, StandardEquation
 from kovacic.special.whittaker import Whittaker
 

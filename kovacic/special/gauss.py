@@ -1,6 +1,6 @@
 """Gauss' hypergeometric equation, with the squares A, B, C of the exponent differences at 0, 1 and infinity.
 
-Pull-backs: f from its fibres over 0, 1 and infinity, `fibres`.
+Pull-backs: f from its fibres over 0, 1 and infinity.
 
 Solutions: with the exponent differences alpha, beta, gamma at 0, 1, infinity, in any order of these points, with any signs,
 
@@ -43,15 +43,16 @@ from flint import acb, fmpq, fmpq_poly
 from kovacic.algebra.extension import AlgebraicField
 from kovacic.algebra.poly import Poly
 from kovacic.algebra.ratfunc import RatFunc
-from kovacic.closed_form.klein import Covariants
+from kovacic.closed_form.structure import Covariants
 from kovacic.decision import Structure
 from kovacic.engine.places import Kind, Problem, analyse, rational_square_root
 from kovacic.limits import Budget
 from kovacic.special import prices
-from kovacic.special.fibres import Point, coverings
+from kovacic.special.maps import Point, coverings
 from kovacic.special.numbers import HALF, Number
-from kovacic.special.pullback import Pullback, StandardEquation, variable
-from kovacic.special.values import (
+from kovacic.special.pullback import (
+    Pullback,
+    StandardEquation,
     StandardForm,
     StandardSolution,
     ValueAndSlope,
@@ -60,6 +61,7 @@ from kovacic.special.values import (
     is_integer,
     rational,
     square_root,
+    variable,
 )
 
 if TYPE_CHECKING:

@@ -12,7 +12,7 @@ from kovacic.errors import LimitExceeded, VerificationFailed
 from kovacic.limits import Budget, bounded_work
 from kovacic.numbers.numerals import as_latex, as_text
 from kovacic.special.gauge import EQUATIONS, GaugeTransform, transforms
-from kovacic.special.polar_parts import irregular_places
+from kovacic.special.maps import irregular_places
 from kovacic.special.pullback import Pullback, StandardEquation
 
 if TYPE_CHECKING:

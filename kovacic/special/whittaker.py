@@ -37,8 +37,7 @@ from kovacic.algebra.ratfunc import RatFunc
 from kovacic.engine.places import Problem
 from kovacic.limits import count_work
 from kovacic.special import bessel, prices
-from kovacic.special.numbers import HALF, Number, multiplicities
-from kovacic.special.polar_parts import (
+from kovacic.special.maps import (
     PolarPart,
     check_conjugates,
     integral_of_square_root,
@@ -47,8 +46,11 @@ from kovacic.special.polar_parts import (
     unit,
     zeros,
 )
-from kovacic.special.pullback import TRIAL, Pullback, StandardEquation, variable
-from kovacic.special.values import (
+from kovacic.special.numbers import HALF, Number, multiplicities
+from kovacic.special.pullback import (
+    TRIAL,
+    Pullback,
+    StandardEquation,
     StandardForm,
     StandardSolution,
     ValueAndSlope,
@@ -57,6 +59,7 @@ from kovacic.special.values import (
     is_integer,
     rational,
     square_root,
+    variable,
 )
 
 if TYPE_CHECKING:

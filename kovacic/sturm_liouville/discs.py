@@ -19,7 +19,7 @@ import sympy
 from flint import acb, acb_series, arb
 
 from kovacic.algebra.precision import series_length, working_precision
-from kovacic.closed_form.balls import BallEvaluator
+from kovacic.closed_form.jets import BallEvaluator
 from kovacic.errors import InputError, LimitExceeded
 from kovacic.limits import check_time, count_work
 from kovacic.sturm_liouville.problem import Span, Stretch, SturmProblem, ball, kept

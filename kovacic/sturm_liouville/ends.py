@@ -28,7 +28,7 @@ import sympy
 from flint import acb, arb, ctx
 
 from kovacic.algebra.precision import working_precision
-from kovacic.closed_form.balls import BallEvaluator
+from kovacic.closed_form.jets import BallEvaluator
 from kovacic.errors import InputError, LimitExceeded
 from kovacic.sturm_liouville.discs import coefficients, size
 from kovacic.sturm_liouville.problem import Robin, Span, Stretch, SturmProblem, Wish, ball, kept, plain

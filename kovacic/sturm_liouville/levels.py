@@ -29,7 +29,7 @@ import sympy
 from flint import acb, arb
 
 from kovacic.algebra.precision import working_precision
-from kovacic.closed_form.balls import BallEvaluator
+from kovacic.closed_form.jets import BallEvaluator
 from kovacic.enclosure.ball import Ball, ball_to_flint
 from kovacic.errors import InputError
 from kovacic.sturm_liouville.discs import Road, march

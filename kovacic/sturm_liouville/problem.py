@@ -16,7 +16,7 @@ import sympy
 from flint import acb, arb, fmpq
 from sympy.core.relational import Relational
 
-from kovacic.closed_form.balls import BallEvaluator
+from kovacic.closed_form.jets import BallEvaluator
 from kovacic.errors import InputError
 
 Expr = Any

@@ -14,7 +14,7 @@ from typing import Any
 from flint import arb
 
 from kovacic.algebra.precision import working_precision
-from kovacic.closed_form.balls import BallEvaluator
+from kovacic.closed_form.jets import BallEvaluator
 from kovacic.enclosure.ball import Ball, finite_ball
 from kovacic.errors import LimitExceeded
 from kovacic.limits import check_time

@@ -27,12 +27,18 @@ from sympy.abc import x
 import kovacic
 from kovacic.closed_form.check import is_numerical_solution, value_at
 from kovacic.closed_form.curve import CurveIntegral, integrate_on_curve
-from kovacic.closed_form.exponential_integrals import ExponentialPrimitive
-from kovacic.closed_form.klein import Covariants
-from kovacic.closed_form.primitive import RationalPrimitive
+from kovacic.closed_form.primitive import ExponentialPrimitive, RationalPrimitive
 from kovacic.closed_form.product import product
 from kovacic.closed_form.real_pair import is_real_pair
-from kovacic.closed_form.structure import Conjugate, Diagonal, OnCurve, build, curve_of, logarithmic_derivative
+from kovacic.closed_form.structure import (
+    Conjugate,
+    Covariants,
+    Diagonal,
+    OnCurve,
+    build,
+    curve_of,
+    logarithmic_derivative,
+)
 from kovacic.special.choice import solutions
 
 X = RatFunc(QQ.poly([0, 1]))

@@ -18,18 +18,17 @@ from sympy.abc import t, x
 
 import kovacic
 from kovacic import Structure
-from kovacic.closed_form.curve import integrate_on_curve, unit
+from kovacic.closed_form.curve import completed, integrate_on_curve, unit
 from kovacic.closed_form.curve_display import curve_integral
-from kovacic.closed_form.exponential_integrals import ExponentialPrimitive, integrate_exponential
 from kovacic.closed_form.form import ClosedForm
 from kovacic.closed_form.integrals import logarithms
-from kovacic.closed_form.klein import RATIOS, Covariants
 from kovacic.closed_form.primitive import (
+    ExponentialPrimitive,
+    integrate_exponential,
     integrate_inverse_square,
 )
 from kovacic.closed_form.product import product
-from kovacic.closed_form.structure import build
-from kovacic.closed_form.torsion import completed
+from kovacic.closed_form.structure import RATIOS, Covariants, build
 from kovacic.special import choice
 from kovacic.special.choice import solutions
 from kovacic.special.gauss import klein_pullback

@@ -27,7 +27,7 @@ infinite: each pair is analytic where its argument z = J, 1 - J, 1/J keeps away 
 one of the three, so a leg is cut into pieces on which z of one pair is proven to do so; there the matrix is
 Y(b) Y(a)^-1.  No branch of F is chosen, and the powers are followed by `kovacic.enclosure.log_derivative`.
 
-References: F. Klein, Vorlesungen ueber das Ikosaeder (1884); see also `kovacic.closed_form.klein`.
+References: F. Klein, Vorlesungen ueber das Ikosaeder (1884); see also `kovacic.closed_form.structure`.
 """
 
 from __future__ import annotations
@@ -43,7 +43,7 @@ from build import Poly, RatFunc
 from flint import acb, acb_poly, fmpq
 
 from kovacic import Solution, Structure
-from kovacic.closed_form.klein import covariants
+from kovacic.closed_form.structure import covariants
 from kovacic.decision import SemiInvariant
 from kovacic.enclosure.closed_form import CaseOneForm, closed_form_of
 from kovacic.enclosure.log_derivative import LogDerivative, conjugates, embed

@@ -5,16 +5,27 @@ poles of V are real zeros of a polynomial in u, and u = oo.  They come back in e
 
 Where V has no poles there is no eigenvalue on the whole line: the multipliers of a period have the product 1, so that what
 decays at one end grows at the other [Floquet; Eastham, The Spectral Theory of Periodic Differential Equations, 1973].
+
+Repulsive potentials have no eigenvalues either, by the virial theorem.  Let c be the finite end of a half-line, or any point
+of the line, and (x - c) V'(x) <= 0, V not constant.  For y'' = (V - E) y
+
+    G = (x - c) (y'^2 - (V - E) y^2) + y y'        has        G' = 2 y'^2 - (x - c) V' y^2 >= 0.
+
+V has finite limits at infinity, where y and y' are square integrable, so that G comes as near to 0 as one likes; and G -> 0 at
+the end c, where y is the smaller solution: V' <= 0 means that V isn't below -1/(4 (x - c)^2) there.  So G = 0, and y = 0.
+
+Reference: J. Weidmann, Bull. Amer. Math. Soc. 73 (1967) 452.
 """
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from typing import Any
 
 import sympy
 
-from kovacic.bound_states.ends import domain_as_given, real_zeros
-from kovacic.bound_states.frame import Original, RealPotential
+from kovacic.bound_states.ends import End, domain_as_given, real_zeros
+from kovacic.bound_states.frame import Original, RealPotential, range_of
 from kovacic.bound_states.question import Uncovered
 from kovacic.bound_states.signs import Signs
 from kovacic.errors import InputError
@@ -80,3 +91,44 @@ def _poles(real: RealPotential, signs: Signs) -> list[Any]:
     if num.degree() > den.degree():
         found.append(angle * sympy.pi / 2)
     return found
+
+
+REASON = "a repulsive potential, (x - c) V'(x) <= 0 for some c: no solution is square integrable (the virial theorem)"
+
+
+def is_repulsive(real: RealPotential, ends: Sequence[End], signs: Signs) -> bool:
+    """True if the theorem is proven to apply."""
+    original = real.original
+    infinite = [end for end in ends if end.at.is_infinite]
+    has_limits = all(end.threshold is not None for end in infinite)
+    rate = signs.sign(original.rate)
+    if (
+        not infinite
+        or not has_limits
+        or original.kind not in ("x", "exp", "sinh")
+        or rate is None
+        or not real.V.has(real.t)
+    ):
+        return False
+    first, last = (end.at for end in ends)
+    centre = next((at for at in (first, last) if at.is_finite), sympy.Integer(0))
+    slope = sympy.factor(sympy.diff(real.V, real.t))
+    # V increases on the left of the centre, and falls on the right; t grows with x for a positive rate.
+    for sign, half in ((rate, (first, centre)), (-rate, (centre, last))):
+        is_empty = half[0] == half[1]
+        if not is_empty and not _has_sign(slope, real.t, range_of(original, half, signs), sign, signs):
+            return False
+    return True
+
+
+def _has_sign(function: Any, t: Any, bounds: tuple[Any, Any], sign: int, signs: Signs) -> bool:
+    """True if the function isn't of the other sign between two bounds, of which one may be infinite."""
+    low, high = bounds
+    s = sympy.Dummy("s", positive=True)
+    if low is not None and high is not None:
+        inside = low + (high - low) * s / (1 + s)
+    elif low is None and high is None:
+        inside = sympy.Dummy("t", real=True)
+    else:
+        inside = low + s if high is None else high - s
+    return signs.is_nonnegative(sign * function.xreplace({t: inside})) is True

@@ -1,0 +1,450 @@
+"""The functions f of pull-backs, from the polar parts of S or from its exponents.
+
+For irregular singular points: f from its polar parts, up to its constant term.  The irregular places of S are the poles of f,
+where S = f'^2 S0(f) + O(order 2).  With q = S0(infinity), and S0 = q - r/z + ...,
+
+- q != 0: sqrt(S/q) dx = df - (r/(2 q)) dlog f + ..., so f is the integral of the polar parts of sqrt(S/q), up to a sign at each
+  place; the residues, r/(2 q) times the order of the pole, tell the signs where r != 0.  All orders of poles of S are even;
+- q = 0, r = 1: S = -f'^2/f + ..., so where all orders are odd all polar parts of f are determined;
+- S0 = q z (Airy's), q F'^2 F = S + ...: F is a cubic root, and all polar parts are determined.
+
+S0(f) has its only other pole at f = 0: so the zeros of f, which give its constant term, are the regular places of S, or
+critical points of f.  What is found is tested by the exact identity; the theory shows that nothing of the first three kinds is
+overlooked but where a scale q or a root of unity lies in the residue field of a conjugate set of poles alone.
+
+At a finite place with the irreducible p, S = V/p^k for a p-adic unit V.  Infinity is the place z = 0 of S(1/z)/z^4, and what
+is found there is a polynomial in x = 1/z.  All computing is in K[x]/p^j, so that conjugate poles stay together.
+
+References: R. Debeerst, M. van Hoeij, W. Koepf, ISSAC 2008, 39-46; Q. Yuan, M. van Hoeij, ISSAC 2010, 37-43.
+
+Where all singular points are regular, for Gauss' equation: f from its fibres over 0, 1 and infinity.  The singular points that
+aren't apparent lie over 0, 1 or infinity, and where f has the multiplicity m over a point with exponent difference e, the
+exponent difference of S is m e.  So the singular places are distributed: zeros of f, poles of f, and the rest, zeros of f - 1.
+The first two groups have to be complete; then f is known up to a constant factor, which a place of the third group determines,
+or, where that has none because m e = 1 at its points, a critical value of f.
+
+A function of degree n has 2 n - 2 ramification points, so that there are n + 2 + R points over 0, 1 and infinity, R being the
+ramification elsewhere, which the apparent places show.
+
+Reference: M. van Hoeij & R. Vidunas, J. Algebra 441 (2015) 626-659 [vHV15], for the patterns of branching.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable, Iterator
+from dataclasses import dataclass
+from fractions import Fraction
+from functools import cached_property
+from itertools import combinations
+from math import gcd, lcm
+
+from kovacic.algebra.extension import AlgebraicField, ExtensionPoly
+from kovacic.algebra.partial_fractions import decompose
+from kovacic.algebra.poly import Poly
+from kovacic.algebra.ratfunc import RatFunc
+from kovacic.algebra.rationals import QQ
+from kovacic.engine.places import Kind, Place, Problem, rational_square_root
+from kovacic.errors import LimitExceeded
+from kovacic.limits import Budget, check_time, count_work
+from kovacic.special.numbers import root
+
+#: Conjugate poles up to which roots are taken where the field has parameters: factoring there takes long.
+_WITH_PARAMETERS = 2
+
+
+def irregular_places(problem: Problem) -> list[Place]:
+    """The poles of f."""
+    return [place for place in problem.places if place.kind in (Kind.UNRAMIFIED, Kind.RAMIFIED)]
+
+
+def check_conjugates(problem: Problem, places: list[Place]) -> None:
+    """Raise `LimitExceeded` where poles are conjugate over a larger field than the limit on constants allows."""
+    largest = max(place.degree for place in places)
+    most = problem.budget.limits.constants if problem.field.ground == QQ else _WITH_PARAMETERS
+    if largest > most:
+        raise LimitExceeded(f"f has {largest} conjugate poles; roots are taken up to degree {most}", limit="constants")
+
+
+@dataclass(frozen=True)
+class PolarPart:
+    """That of int sqrt(S/q) dx, up to the sign, its order, and the residue of sqrt(S/q) dx, a constant in K[x]/p."""
+
+    part: RatFunc
+    order: int
+    residue: Poly
+
+
+def half_rate(m: Poly) -> RatFunc:
+    """The logarithmic derivative of sqrt(m)."""
+    return RatFunc(m.derivative(), m) * Fraction(1, 2)
+
+
+def unit(place: Place, precision: int) -> Poly:
+    """V modulo p^precision, for S = V/p^k."""
+    power = place.factor**precision
+    return place.num * (place.den // place.factor**place.order).inverse_modulo(power) % power
+
+
+def root_modulo(v: Poly, p: Poly, n: int, precision: int) -> Poly | None:
+    """A square (n = 2) or cubic (n = 3) root of v modulo p^precision, None if there is none; by Newton's method."""
+    if p.degree == 1:
+        w = root(v % p, n)
+    else:
+        extension = AlgebraicField(v.field, p, "_a")
+        element = root(ExtensionPoly(extension, tuple((v % p)[k] for k in range(p.degree))), n)
+        w = None if element is None else v.field.poly([part[0] for part in element.parts])
+    known = 1
+    while w is not None and known < precision:
+        known = min(2 * known, precision)
+        power = p**known
+        w = (w * (n - 1) + v * (w ** (n - 1)).inverse_modulo(power)) * Fraction(1, n) % power
+    return w
+
+
+def integral_of_square_root(place: Place, q: Poly) -> PolarPart | None:
+    """int sqrt(S/q) dx at an unramified place, up to its sign.
+
+    None if S/q has no square root over the residue field, or its residues at the roots of p aren't equal.
+    """
+    p = place.factor
+    m = place.order // 2
+    s = root_modulo(unit(place, m) / q, p, 2, m)
+    if s is None:
+        return None
+    parts = decompose(RatFunc(s, p**m))
+    residue = parts.residues[0].value if parts.residues else s.field.poly([])
+    return None if residue.degree > 0 else PolarPart(in_x(parts.exact, place), m - 1, residue)
+
+
+def leading_square(place: Place) -> Poly:
+    """T modulo p for the t = T/p^d with t'^2/t = -S + ..., d = k - 2: d^2 p'^2 T = -V."""
+    p = place.factor
+    d = place.order - 2
+    return -unit(place, 1) * (d * d * p.derivative() ** 2).inverse_modulo(p) % p
+
+
+def square(place: Place) -> RatFunc:
+    """The polar part of t with t'^2/t = -S + ... at a ramified place: (T'p - d T p')^2 = -T V modulo p^d for t = T/p^d."""
+    p = place.factor
+    d = place.order - 2
+    return in_x(RatFunc(expanded_square(place, d), p**d), place)
+
+
+def expanded_square(place: Place, precision: int) -> Poly:
+    """T modulo p^precision, term by term; for even d = k - 2 only d/2 terms are determined."""
+    p = place.factor
+    d = place.order - 2
+    V = unit(place, precision)
+    slope = p.derivative()
+    T = leading_square(place)
+    scale = (d * slope * slope * T).inverse_modulo(p)
+    for i in range(1, precision):
+        # T + p^i e changes the difference of both sides by d (d - 2 i) p'^2 T e p^i.
+        step = T.derivative() * p - d * slope * T
+        rest = (step * step + T * V) // p**i
+        T = T - rest * scale % p * Fraction(1, d - 2 * i) * p**i
+    return T
+
+
+def integral_of_cubic_root(place: Place, q: Poly) -> RatFunc | None:
+    """F at a place where q F'^2 F = S + ...: F^3 = -9 t/q has a pole of order d = k - 2; None without a cubic root."""
+    p = place.factor
+    d = (place.order - 2) // 3
+    W = root_modulo(expanded_square(place, d) * -9 / q, p, 3, d)
+    return None if W is None else in_x(RatFunc(W, p**d), place)
+
+
+def in_x(function: RatFunc, place: Place) -> RatFunc:
+    """A function of the coordinate of the place as one of x."""
+    if not place.at_infinity:
+        return function
+    field = function.field
+    return function(RatFunc(field.poly([1]), field.poly([0, 1])))
+
+
+# ------------------------------------------------------------------------------------------ scale and constant
+
+
+def scales(places: list[Place], value: Callable[[Place], Poly], n: int) -> list[Poly]:
+    """What q can be, up to n-th powers: the leading coefficient at a place of degree 1; else 1, -1 and what norms tell."""
+    place = min(places, key=lambda place: place.degree)
+    v = value(place)
+    field = place.num.field
+    one = field.poly([1])
+    if place.degree == 1:
+        is_power = root(v[0], n) is not None
+        return [one] if is_power else [v[0]]
+    scales = [one] if n == 3 else [one, -one]
+    if place.degree == 2 and n == 2:
+        # v = q w^2 has the norm (q N(w))^2, and (v + sqrt N(v))^2 = v (tr v + 2 sqrt N(v)).
+        p = place.factor
+        trace = 2 * v[0] - v[1] * p[1]
+        norm = field.sqrt(v[0] * v[0] - v[0] * v[1] * p[1] + v[1] * v[1] * p[0])
+        if norm is not None:
+            scales += [trace + 2 * norm, trace - 2 * norm]
+    return list(dict.fromkeys(scale for scale in scales if scale))
+
+
+def zeros(problem: Problem, polar: RatFunc, *, shifted: bool) -> Iterator[tuple[RatFunc, Poly]]:
+    """f with its constant, and e^2 for the standard equation's exponent difference e at 0: a k-fold zero of f has k e.
+
+    Zeros of f are all places with exponents that integers don't explain; without such, apparent places or critical points.
+    With `shifted`, S has k e up to integers only.
+    """
+    if not polar.derivative():
+        return
+    regular = [place for place in problem.places if place.kind is Kind.REGULAR]
+    seen = [place for place in regular if not place.is_apparent]
+    points = [(place.factor, place.at_infinity, place.delta_squared) for place in seen or regular]
+    if not seen:
+        slope = polar.derivative().num
+        critical = slope.field.factor(slope) if slope.degree > 0 else []
+        one = slope.field.poly([1])
+        points += [*((p, False, one) for p, _ in critical), (slope.field.poly([0, 1]), True, one)]
+    for p, at_infinity, delta_squared in points:
+        value = value_at(polar, p, at_infinity=at_infinity)
+        if value is None or delta_squared is None:
+            continue
+        check_time()
+        f = polar - value
+        k = -f.degree if at_infinity else f.num.remove(p)[1]
+        yield f, delta_squared * Fraction(1, k * k)
+        if shifted:
+            yield from ((f, e_squared) for e_squared in _shifted_differences(delta_squared, k))
+
+
+def value_at(f: RatFunc, p: Poly, *, at_infinity: bool) -> Poly | None:
+    """The value at all roots of p, or at infinity, if it is one and finite."""
+    if at_infinity:
+        if not f or f.degree < 0:
+            return f.num * 0
+        return f.num.lc / f.den.lc if f.degree == 0 else None
+    if f.den.gcd(p).degree > 0:
+        return None
+    value = f.num * f.den.inverse_modulo(p) % p
+    return value if value.degree <= 0 else None
+
+
+def _shifted_differences(square: Poly, k: int) -> Iterator[Poly]:
+    """The squares of e with k e = Delta up to sign and integers, small ones first where they are rational."""
+    root = square.field.sqrt(square) if square else square
+    if root is None:
+        return
+    rational = root.field.rational_value(root)
+    centre = 0 if rational is None else round(rational)
+    found = [(root - centre + j) * Fraction(1, k) for j in range(-k, k + 1)]
+    if rational is not None:
+        found.sort(key=lambda e: abs(e.field.rational_value(e) or Fraction(0)))
+    yield from (e * e for e in found)
+
+
+#: What a function f costs, in pairs of fibres, about.
+_TRIAL = 20
+#: The most places that are distributed, up to which number apparent ones are among them, and the most functions f.
+_PLACES = 14
+_WITH_APPARENT = 7
+_TRIALS = 1000
+
+
+@dataclass(frozen=True)
+class Covering:
+    """f with the squares of the exponent differences at its zeros, at its ones and at its poles."""
+
+    f: RatFunc
+    zeros: Poly
+    ones: Poly
+    poles: Poly
+
+
+@dataclass(frozen=True)
+class Point:
+    """All roots of a polynomial, or infinity, and the square of the exponent difference there."""
+
+    factor: Poly
+    at_infinity: bool
+    square: Poly
+
+    @property
+    def degree(self) -> int:
+        return self.factor.degree
+
+
+def coverings(points: list[Point], apparent: list[Point], budget: Budget, hidden: int = 0) -> Iterator[Covering]:
+    """Those that are possible for these singular points, of small degree first.
+
+    Apparent ones may lie anywhere; up to `hidden` ramification points may lie at places that S doesn't show.
+    """
+    if len(points) > _PLACES:
+        return
+    for zeros, poles, f in _functions(_Distribution(points, apparent, budget, hidden)):
+        ones = _difference_at_ones(f, zeros.degree, [*points, *apparent])
+        if ones is not None:
+            yield Covering(f, zeros.square, ones, poles.square)
+
+
+# ------------------------------------------------------------------------------------------ places to fibres
+
+
+@dataclass(frozen=True)
+class Fibre:
+    """All points over one of 0, 1, infinity with their multiplicities, and the square of the exponent difference."""
+
+    multiplicities: tuple[tuple[Point, int], ...]
+    square: Poly
+    mask: int = 0
+    """The points as bits, by their numbers among those that are distributed."""
+
+    @cached_property
+    def degree(self) -> int:
+        return sum(k * point.degree for point, k in self.multiplicities)
+
+    @property
+    def points(self) -> int:
+        return _count(point for point, _ in self.multiplicities)
+
+    @property
+    def polynomial(self) -> Poly:
+        """The product over the finite ones."""
+        result = self.square.field.poly([1])
+        for point, k in self.multiplicities:
+            if not point.at_infinity:
+                result = result * point.factor**k
+        return result
+
+
+@dataclass(frozen=True)
+class _Distribution:
+    points: list[Point]
+    apparent: list[Point]
+    budget: Budget
+    hidden: int
+
+    @property
+    def among(self) -> list[Point]:
+        """The points that are distributed."""
+        found = [*self.points, *self.apparent]
+        return found if len(found) <= _WITH_APPARENT else self.points
+
+
+def _functions(search: _Distribution) -> Iterator[tuple[Fibre, Fibre, RatFunc]]:
+    """The functions f, each once, with their zeros and poles.  Raises `LimitExceeded` for too many of them."""
+    tried = set()
+    for zeros, poles, rest in _distributed(search):
+        for f in _scaled(zeros.polynomial, poles.polynomial, rest):
+            if f in tried:
+                continue
+            tried.add(f)
+            count_work(_TRIAL)
+            if len(tried) > _TRIALS:
+                raise LimitExceeded(f"there are more than {_TRIALS} functions f to try", limit="degree")
+            yield zeros, poles, f
+
+
+def _distributed(search: _Distribution) -> Iterator[tuple[Fibre, Fibre, list[Point]]]:
+    """Fibres over 0 and infinity of one degree n that have no point in common, and the points that are left over 1."""
+    among = search.among
+    by_degree: dict[int, list[Fibre]] = {}
+    # n + 2 points lie over 0, 1 and infinity, and as many more as there is ramification elsewhere
+    elsewhere = sum(int(rational_square_root(point.square) or 1) * point.degree for point in search.apparent)
+    least_degree = _count(search.points) - 2 - elsewhere - search.hidden
+    for fibre in fibres(among, 2 * _count(among) - 4):
+        search.budget.check()
+        count_work(1)
+        if fibre.degree >= least_degree:
+            by_degree.setdefault(fibre.degree, []).append(fibre)
+    for n, found in sorted(by_degree.items()):
+        for zeros, poles in combinations(found, 2):
+            search.budget.check()
+            count_work(1)
+            if zeros.mask & poles.mask:
+                continue
+            used = zeros.mask | poles.mask
+            rest = [point for point in search.points if not used >> among.index(point) & 1]
+            over_one = _count(rest)
+            multiple = (n - over_one) // 2  # at most: S doesn't show these
+            if zeros.points + poles.points + over_one + multiple >= n + 2:
+                yield zeros, poles, rest
+
+
+def _count(points: Iterable[Point]) -> int:
+    """How many points these are."""
+    return sum(point.degree for point in points)
+
+
+def fibres(points: list[Point], most: int) -> Iterator[Fibre]:
+    """Every set of points that can be a whole fibre of a function of degree `most` or less, with its multiplicities."""
+    for chosen, mask in _commensurable(points, most, 0, [], 0):
+        least = _least_multiplicities(chosen)
+        size = sum(m * point.degree for m, point in zip(least, chosen, strict=True))
+        for k in range(1, most // size + 1):
+            multiplicities = tuple((point, k * m) for point, m in zip(chosen, least, strict=True))
+            square = chosen[0].square * Fraction(1, (k * least[0]) ** 2)
+            yield Fibre(multiplicities, square, mask)
+
+
+def _least_multiplicities(chosen: list[Point]) -> list[int]:
+    """The smallest natural numbers in the proportion of the exponent differences.
+
+    Where these are 0 the multiplicities are free, and only equal ones are tried.
+    """
+    if not chosen[0].square:
+        return [1] * len(chosen)
+    ratios = [ratio for point in chosen if (ratio := _ratio(point, chosen[0])) is not None]
+    unit = Fraction(gcd(*(r.numerator for r in ratios)), lcm(*(r.denominator for r in ratios)))
+    return [int(ratio / unit) for ratio in ratios]
+
+
+def _commensurable(
+    points: list[Point], most: int, index: int, chosen: list[Point], mask: int
+) -> Iterator[tuple[list[Point], int]]:
+    """Sets of `most` points or fewer with rational quotients of their exponent differences, as lists and as bits: what has been
+    chosen before the index, and all that goes with it from there."""
+    if chosen:
+        yield chosen, mask
+    left = most - _count(chosen)
+    for k in range(index, len(points)):
+        point = points[k]
+        goes_with_others = not chosen or _ratio(point, chosen[0]) is not None
+        if goes_with_others and point.degree <= left:
+            yield from _commensurable(points, most, k + 1, [*chosen, point], mask | 1 << k)
+
+
+def _ratio(point: Point, other: Point) -> Fraction | None:
+    """The quotient of the exponent differences if it is rational; 1 where both vanish."""
+    if point.square and other.square:
+        return rational_square_root(point.square / other.square)
+    return None if point.square or other.square else Fraction(1)
+
+
+# ------------------------------------------------------------------------------------------ fibres to f
+
+
+def _scaled(zeros: Poly, poles: Poly, rest: list[Point]) -> Iterator[RatFunc]:
+    """The multiples of zeros/poles that are 1 at the points of the rest, or have 1 for a critical value."""
+    f = RatFunc(zeros, poles)
+    factors = [point.factor for point in rest[:1] if not point.at_infinity]
+    slope = f.derivative().num
+    if not rest and slope.degree > 0:
+        factors = [p for p, _ in slope.field.factor(slope)]
+    values = [value_at(f, p, at_infinity=False) for p in factors]
+    if f.degree == 0 and not (rest and factors):
+        values.append(f.num.lc)
+    yield from (f / value for value in values if value)
+
+
+def _difference_at_ones(f: RatFunc, degree: int, points: list[Point]) -> Poly | None:
+    """The square of the exponent difference over 1, from that and the multiplicity of one point there; None if f is 1.
+
+    A point that isn't singular has the exponent difference 1.
+    """
+    over_one = f.num - f.den
+    if over_one.degree < 0:
+        return None
+    m = degree - over_one.degree  # at infinity
+    if m:
+        found = [point.square for point in points if point.at_infinity]
+    else:
+        p, m = max(over_one.field.factor(over_one), key=lambda pair: pair[1])
+        found = [point.square for point in points if point.factor == p and not point.at_infinity]
+    square = found[0] if found else over_one.field.poly([1])
+    return square * Fraction(1, m * m)
