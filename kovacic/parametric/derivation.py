@@ -6,7 +6,7 @@ hypersurface such as 4 w^2 + 1 = 0 no parameter is eliminated; on 4 W + 1 = 0 on
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Iterable, Mapping
 from contextlib import suppress
 from dataclasses import dataclass, replace
 from functools import partial
@@ -76,16 +76,13 @@ def in_powers(S: RatFunc) -> InPowers | None:
     powers = tuple(gcd(*found) or 1 for found in occurring)  # the largest k for which t occurs in powers of t^k only
     if max(powers) == 1:
         return None
-    num, den = (_lowered(part, powers) for part in parts)
-    return InPowers(RatFunc(num, den), powers)
-
-
-def _lowered(function: FunctionPoly, powers: Sequence[int]) -> FunctionPoly:
-    terms = {}
-    for (first, *exponents), coefficient in function.num.to_dict().items():
-        lower = [n // k for n, k in zip(exponents, powers, strict=True)]
-        terms[(first, *lower)] = coefficient
-    return element(function.field, function.field.context.from_dict(terms))
+    lowered: list[FunctionPoly] = []
+    for part in parts:
+        terms = {}
+        for (first, *exponents), coefficient in part.num.to_dict().items():  # t^(k n) -> T^n
+            terms[(first, *(n // k for n, k in zip(exponents, powers, strict=True)))] = coefficient
+        lowered.append(element(part.field, part.field.context.from_dict(terms)))
+    return InPowers(RatFunc(*lowered), powers)
 
 
 def _in_factors(statement: Statement) -> Statement:

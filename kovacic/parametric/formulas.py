@@ -270,18 +270,14 @@ def _polynomial(polynomial: Any, names: Sequence[str]) -> str:
     reordered = re.sub(_VARIABLE_FIRST, r"\2*\1", str(polynomial))
 
     def written_power(match: re.Match[str]) -> str:
-        return _power_of_name(names[1 + int(match[1] or -1)], int(match[2] or 1))
+        name, k = names[1 + int(match[1] or -1)], int(match[2] or 1)
+        if name.startswith("sqrt(") and name.endswith(")") and k > 1:  # sqrt(a)^3 is a*sqrt(a)
+            inside = in_product(name.removeprefix("sqrt(").removesuffix(")"))
+            whole = inside if k < 4 else f"{inside}^{k // 2}"
+            return f"{whole}*{name}" if k % 2 else whole
+        return name if k == 1 else f"{name}^{k}"
 
     return re.sub(r"(?:x|t(\d+))(?:\^(\d+))?", written_power, reordered)
-
-
-def _power_of_name(name: str, k: int) -> str:
-    """The power of a parameter, which may be a root: sqrt(a)^3 is a*sqrt(a)."""
-    if name.startswith("sqrt(") and name.endswith(")") and k > 1:
-        inside = in_product(name.removeprefix("sqrt(").removesuffix(")"))
-        whole = inside if k < 4 else f"{inside}^{k // 2}"
-        return f"{whole}*{name}" if k % 2 else whole
-    return name if k == 1 else f"{name}^{k}"
 
 
 def _term(term: _FormulaTerm, names: Sequence[str]) -> str:
@@ -293,20 +289,14 @@ def _term(term: _FormulaTerm, names: Sequence[str]) -> str:
     sign = "-" if term.number < 0 else ""
     above = "*".join(top) or "1"
     if bottom:
-        return f"{sign}{above}/{_divisor(bottom)}"
+        # Behind a slash only a single name, number, power or sum in parentheses stands without further ones.
+        below = "*".join(bottom)
+        is_closed = len(bottom) == 1 and ("*" not in below or below.startswith(("(", "sqrt(")))
+        return f"{sign}{above}/{below if is_closed else f'({below})'}"
     if sign or len(top) != 1:
         return sign + above
     is_sum = above.startswith("(") and above.endswith(")")
     return above[1:-1] if is_sum else above
-
-
-def _divisor(factors: list[str]) -> str:
-    """A product behind a slash: in parentheses, unless it is a single name, number, power or sum in parentheses."""
-    if len(factors) > 1:
-        return f"({'*'.join(factors)})"
-    (factor,) = factors
-    is_closed = "*" not in factor or factor.startswith(("(", "sqrt("))
-    return factor if is_closed else f"({factor})"
 
 
 def _pieces(number: int, factors: tuple[Power, ...], root: Any, names: Sequence[str]) -> list[str]:

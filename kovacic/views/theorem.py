@@ -70,26 +70,24 @@ def theorem(answer: ParametricAnswer, *, format: str = "text") -> str:
     """
     chosen = format_of(format)
     if format == "latex":
-        return _in_environments(blocks(answer))
+        written, latex = blocks(answer), FORMATS["latex"]
+        start, end = written.index(_PROOF), written.index(_REFERENCES)
+        environments = {
+            "theorem": written[1:start],
+            "proof": written[start + 1 : end],
+        }  # the references keep their heading
+        # Ragged lines, as in `explain`, end with their group: they aren't left behind in the author's document.
+        parts = [
+            f"\\begin{{{name}}}\\raggedright\n{latex.render(inside)}\\end{{{name}}}\n"
+            for name, inside in environments.items()
+        ]
+        return "\n".join([*parts, f"{{{latex.render(written[end:])}\\par}}\n"])
     return chosen.document(f"y'' = {answer.right.text}", blocks(answer))
 
 
 def blocks(answer: ParametricAnswer) -> list[Block]:
     """The theorem, and what it rests on."""
     return [*_TheoremWriter(answer).blocks()]
-
-
-def _in_environments(written: list[Block]) -> str:
-    """LaTeX with `theorem` and `proof` in place of these headings; the references keep theirs."""
-    latex = FORMATS["latex"]
-    start, end = written.index(_PROOF), written.index(_REFERENCES)
-    environments = {"theorem": written[1:start], "proof": written[start + 1 : end]}
-    # Ragged lines, as in `explain`, end with their group: they aren't left behind in the author's document.
-    parts = [
-        f"\\begin{{{name}}}\\raggedright\n{latex.render(inside)}\\end{{{name}}}\n"
-        for name, inside in environments.items()
-    ]
-    return "\n".join([*parts, f"{{{latex.render(written[end:])}\\par}}\n"])
 
 
 class _TheoremWriter:
@@ -108,9 +106,14 @@ class _TheoremWriter:
             number = f"({k}) " if len(cases) > 1 else ""
             yield from self._case(case, number)
         if self.is_solvable:
-            yield from self._otherwise(cases)
+            otherwise = "Otherwise" if cases else "For all values"
+            if self.answer.complete is not True:
+                otherwise += ", for generic values,"
+            yield say(f"{otherwise} it is case {self.answer.generic.case}. ", *_group(self.answer.generic))
         yield from self._exceptions()
-        yield from self._field()
+        change = self.answer.equation and self.answer.equation.change
+        if change:  # the field isn't C(x)
+            yield say("Cases and groups are those over ", rational_functions(change.expression), ".")
         yield from self._delta(cases)
         yield from self._proof()
 
@@ -130,11 +133,13 @@ class _TheoremWriter:
             return
         expanded = Math(str(equation), latex_text(equation.text(caret=False)))
         yield Formula(given or expanded)
-        start = self._in_changed()
+        start: list[str | Math] = []
         if given and equation.change:
             yield say("is, in ", self._change(), ", the equation")
             yield Formula(expanded)
             start = ["which "]
+        elif equation.change:
+            start = ["in ", self._change(), " (", _name(equation.change.variable), " is the variable that was given) "]
         if v == equation.unknown:
             yield say(*start, "has the normal form")
         else:
@@ -193,12 +198,6 @@ class _TheoremWriter:
                 why = f"what holds there isn't known, {region.complete}"
             yield say("Values with ", *_said(region.statement), f" are left out: {why}.")
 
-    def _field(self) -> Iterator[Block]:
-        """Over which field the cases and groups are those, where that isn't C(x)."""
-        change = self.answer.equation and self.answer.equation.change
-        if change:
-            yield say("Cases and groups are those over ", rational_functions(change.expression), ".")
-
     def _assumed(self, name: str) -> list[str | Math]:
         """`, n a nonnegative integer, E > 0`."""
         found: list[str | Math] = []
@@ -215,13 +214,6 @@ class _TheoremWriter:
                 latex = f"{latex_text(name)} {_LATEX_RELATIONS.get(sign, sign)} {latex_text(value)}"
                 found += [", ", Math(f"{name} {sign} {value}", latex)]
         return found
-
-    def _in_changed(self) -> list[str | Math]:
-        """`in t = exp(x) (x is the variable that was given) `; nothing in the user's own variable."""
-        change = self.answer.equation and self.answer.equation.change
-        if not change:
-            return []
-        return ["in ", self._change(), " (", _name(change.variable), " is the variable that was given) "]
 
     def _change(self) -> Math:
         change = self.answer.equation and self.answer.equation.change
@@ -272,17 +264,9 @@ class _TheoremWriter:
         else:
             yield say(number, *_said(case.statement), *without, ".")
         yield from _schwarz(case.statement)
-        yield self._group(case.regions[0])
+        region = case.regions[0]
+        yield say(f"Case {region.case}. ", *_group(region.verdict))
         yield from self._solutions(case)
-
-    def _group(self, region: ParameterRegion) -> Block:
-        return say(f"Case {region.case}. ", *_group(region.verdict))
-
-    def _otherwise(self, cases: list[Case]) -> Iterator[Block]:
-        otherwise = "Otherwise" if cases else "For all values"
-        if self.answer.complete is not True:
-            otherwise += ", for generic values,"
-        yield say(f"{otherwise} it is case {self.answer.generic.case}. ", *_group(self.answer.generic))
 
     # Solutions
 
@@ -315,7 +299,8 @@ class _TheoremWriter:
             poles = prose.poles_of(families)
             if not poles:
                 return
-            yield say("For ", *_joined_by_or(poles), ":")
+            first, *others = poles
+            yield say("For ", *first, *(piece for part in others for piece in (" or ", *part)), ":")
         if len(solutions) > _ONE_BY_ONE:
             together = general(region.formulas, self.signs)
             if together is not None:
@@ -396,7 +381,11 @@ class _TheoremWriter:
     def _collected(self, expression: sympy.Expr) -> sympy.Expr:
         """A sum as one fraction whose numerator is sorted by the signs: -(epsilon*(c - 1) + zeta*(a + b - c) + 1)/2."""
         by_sign = sympy.collect(sympy.expand(expression), self.signs, evaluate=False)
-        terms = [_scaled_term(coefficient, sign) for sign, coefficient in by_sign.items()]
+        terms: list[_ScaledTerm] = []
+        for sign, coefficient in by_sign.items():  # the minus of each is in the number, none before the rest
+            number, other = sympy.factor(coefficient).as_coeff_Mul()
+            is_turned = other.could_extract_minus_sign()
+            terms.append(_ScaledTerm(-number, -other * sign) if is_turned else _ScaledTerm(number, other * sign))
         if len(terms) < 2:
             return expression
         below = sympy.ilcm(1, *(term.number.q for term in terms))
@@ -460,14 +449,11 @@ class _TheoremWriter:
             if not notice.startswith(f"in {answer.variable} = "):
                 yield say(f"Note: {notice}.")
         yield _REFERENCES
-        yield from (say(literature()[key].text()) for key in self._sources())
-
-    def _sources(self) -> list[str]:
-        """The keys of the publications on which the theory rests, each once."""
-        keys = [*self.answer.theory.sources]
+        keys = [*answer.theory.sources]
         if any(_schwarz_in(case.statement) for case in self.cases):
             keys.append("Kim69")
-        return [key for key in dict.fromkeys(keys) if key in literature()] or ["Kov86"]
+        known = [key for key in dict.fromkeys(keys) if key in literature()] or ["Kov86"]
+        yield from (say(literature()[key].text()) for key in known)
 
 
 class _ScaledTerm(NamedTuple):
@@ -475,14 +461,6 @@ class _ScaledTerm(NamedTuple):
 
     number: sympy.Rational
     rest: sympy.Expr
-
-
-def _scaled_term(coefficient: sympy.Expr, sign: sympy.Expr) -> _ScaledTerm:
-    """A coefficient in factors times the symbol for a sign, with a minus in the number and none before the rest."""
-    number, other = sympy.factor(coefficient).as_coeff_Mul()
-    if other.could_extract_minus_sign():
-        return _ScaledTerm(-number, -other * sign)
-    return _ScaledTerm(number, other * sign)
 
 
 def _naturals_in(statement: Statement) -> list[Natural]:
@@ -509,11 +487,6 @@ def _kind_of_number(words: list[str]) -> str:
         is_integer = "even" in words or "odd" in words
         nouns = ["integer"] if is_integer else ["number"]
     return " ".join([*adjectives, *nouns])
-
-
-def _joined_by_or(parts: list[prose.Words]) -> list[str | Math]:
-    first, *others = parts
-    return [*first, *(piece for part in others for piece in (" or ", *part))]
 
 
 def _name(name: str) -> Math:
