@@ -14,6 +14,8 @@ from typing import Any, Protocol
 
 import sympy
 from sympy import Mul, exp
+from sympy.polys.polyerrors import HeuristicGCDFailed
+from sympy.polys.polytools import parallel_poly_from_expr
 
 from kovacic.algebra.poly import Poly
 from kovacic.algebra.ratfunc import RatFunc
@@ -198,9 +200,9 @@ class Writer:
         rate = self.atoms.ratio(transform.a + transform.b * (before.product.logarithmic_derivative - self.gauge))
         rate += b * sympy.Add(*(sympy.diff(sympy.log(other), x) for other in before.others))
         s, t, root, other = _derivative(function, x)
-        of_F = sympy.cancel(sympy.together(rate + b * s))
-        of_other = sympy.cancel(sympy.together(b * t))
-        n, d = sympy.fraction(sympy.cancel(of_F / of_other))
+        of_F = _in_lowest_terms(rate + b * s)
+        of_other = _in_lowest_terms(b * t)
+        n, d = sympy.fraction(_in_lowest_terms(of_F / of_other))
         total = before.product.logarithmic_derivative + half_rate(transform.m)
         common = sympy.factor(of_other / d).as_independent(x, as_Add=False)[1]
         if total.field == QQ:  # its powers join those of the product
@@ -334,6 +336,17 @@ class Writer:
     def wronskian_by_parity(self, N: Expr, even: Expr, odd: Expr) -> Expr:
         """That of cos(pi N/2) even E + sin(pi N/2) odd O with `by_parity`, if E and O have 1, 0 and 0, 1 in the middle."""
         return even * sympy.cos(sympy.pi * N / 2) ** 2 - odd * sympy.sin(sympy.pi * N / 2) ** 2
+
+
+def _in_lowest_terms(quotient: Expr) -> Expr:
+    """As `sympy.cancel` has it, and with pseudo-remainders where its heuristic finds no greatest common divisor."""
+    n, d = sympy.fraction(sympy.together(quotient))
+    try:
+        return sympy.cancel(n / d)
+    except HeuristicGCDFailed:
+        (P, Q), _ = parallel_poly_from_expr((n, d))
+        c, P, Q = P.cancel(Q)
+        return c * P.as_expr() / Q.as_expr()
 
 
 def _real_at(factor: Expr, x: Any, point: Expr) -> Expr:

@@ -539,3 +539,12 @@ def test_roots_in_complex_exponents_keep_their_branches(text: str) -> None:
     """Powers of x are made real between the singular points; sqrt(-i) in an exponent is no such power."""
     answer = kovacic.solve(f"y'' + ({text})*y = 0")
     assert answer.case is not None or answer.special is not None
+
+
+def test_lowest_terms_where_the_heuristic_gcd_gives_up() -> None:
+    """SymPy's `cancel` raises HeuristicGCDFailed on the coefficients of this gauge transform of Bessel's equation."""
+    pair = kovacic.solve(
+        "(x^6 + 154*x^4 + 56*x^3 + 7672*x^2 + 3136*x + 131712)/(x^6 + 112*x^4 + 3136*x^2)"
+    ).special.pair
+    assert pair is not None
+    assert pair.y1.has(sympy.besseli)
