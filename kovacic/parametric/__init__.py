@@ -10,13 +10,13 @@ module:
    `restriction` says which these are, and gives S there;
 3. `theorems` describe all other values where there are few singular points, maybe in z = s^n: Kimura's (`riemann`, at most
    three regular ones) and that of Martinet & Ramis (one irregular one);
-4. `search` treats everything else, by the `exponents` and the `ranks` of matrices that depend on the parameters;
+4. `search` treats everything else, by the `exponents` and the ranks of matrices that depend on the parameters;
 5. both give exact `statements` about the parameters, true or false at every algebraic point: a function vanishes, an equation
    has a root among `integers`, Delta_d vanishes for a `natural` number d; `functions` has what they are made of;
 6. `regions`: statement, case and group, without those that earlier ones cover;
 7. `claims`: what is printed of a statement, true or false at a point as a reader takes it; `integers` makes them, with every
    stratum of a condition that was solved for a parameter; `prose` alone writes them, and `formulas` the functions in them;
    `solutions` are formulas for a region, also in the integer of its condition;
-8. `parametric_answer`: what is returned; statements as data by `record`; `check` compares with the engine at exact points,
+8. `parametric_answer`: what is returned; statements as data by `record`; `api` compares with the engine at exact points,
    `map` draws.
 """

@@ -1,27 +1,292 @@
-"""For which values of the parameters is the equation solvable?  From the input to `ParametricAnswer`."""
+"""For which values of the parameters is the equation solvable?  From the input to `ParametricAnswer`, and its check.
+
+Conditions as printed are compared with the engine and its kernel at exact points inside and outside of the regions.
+
+A claim is evaluated at the point, and has to agree with the statement it was made of; the verdict with what the engine finds
+and the kernel verifies there; each formula has to solve the equation that was given.  One point in each region is compared
+before conditions leave, more by `compare`.
+"""
 
 from __future__ import annotations
 
 import re
-from collections.abc import Mapping, Sequence
+from collections import Counter
+from collections.abc import Iterator, Mapping, Sequence
 from contextlib import suppress
-from dataclasses import replace
+from dataclasses import dataclass, replace
+from itertools import chain, cycle, islice
+from random import Random
 from typing import Any
 
+import sympy
+from flint import acb, fmpq
+
 from kovacic.algebra.extension import AlgebraicField
+from kovacic.algebra.function_field import FunctionPoly
+from kovacic.algebra.poly import Field, Poly
+from kovacic.algebra.precision import working_precision
+from kovacic.algebra.ratfunc import RatFunc
+from kovacic.algebra.rationals import QQ
 from kovacic.decision import Decision, Status
-from kovacic.equation import PI, Parsed, over, parameters_of
-from kovacic.errors import InputError, LimitExceeded
+from kovacic.derived import group
+from kovacic.equation import PI, Equation, Parsed, over, parameters_of
+from kovacic.errors import InputError, LimitExceeded, VerificationFailed
 from kovacic.limits import Budget, Limits
 from kovacic.numbers.exact import whole
+from kovacic.parametric import prose
 from kovacic.parametric.assumptions import Assumptions, read_assumptions
-from kovacic.parametric.check import check_each_region
-from kovacic.parametric.derivation import derived
-from kovacic.parametric.letters import Letters, nonzero, own_parameters, spelled
+from kovacic.parametric.cases import equation_at, normal_form
+from kovacic.parametric.claims import (
+    AllOf,
+    Alternatives,
+    AnyOf,
+    Claim,
+    DegreeClaim,
+    DegreeExists,
+    IntegerFamily,
+    ThatIs,
+)
+from kovacic.parametric.functions import (
+    ParameterPoint,
+    coefficients_in,
+    degrees,
+    irreducible_factors,
+    over_parameters,
+)
+from kovacic.parametric.natural import Natural
 from kovacic.parametric.parametric_answer import ParametricAnswer
-from kovacic.parametric.restriction import with_free_constant
+from kovacic.parametric.partition import derived
+from kovacic.parametric.prose import ABELIAN, NOT_ABELIAN
+from kovacic.parametric.regions import ParameterRegion, verdict_of
+from kovacic.parametric.restriction import Letters, nonzero, own_parameters, spelled, with_free_constant
+from kovacic.parametric.solutions import GivenSolutions
+from kovacic.parametric.statements import Statement, Vanishes, both
+from kovacic.reading.change_of_variable import function_of_x, user_variable
 from kovacic.reading.read import read_input
 from kovacic.reading.substitution import with_values
+
+
+@dataclass(frozen=True)
+class CheckReport:
+    """The outcome of `kovacic.solution.conditions.Conditions.check`: true when every sample agrees.
+
+    Attributes
+    ----------
+    inside, outside : int
+        The number of points that were solved in a special region, and in the generic one.
+    open : int
+        The number of points for which the regions claim nothing.
+    disagreements : tuple of str
+        What is printed falsely, a sentence each that begins with the point.
+    """
+
+    inside: int
+    outside: int
+    open: int
+    disagreements: tuple[str, ...]
+
+    def __bool__(self) -> bool:
+        return not self.disagreements
+
+
+#: Samples of a region, one of which has to lie in no region before it.
+_ATTEMPTS = 4
+#: Bits with which formulas are compared.
+_PRECISION = 192
+#: Degrees of P up to which formulas are compared whose coefficients depend on the parameters.
+_LARGEST = 1
+
+
+def check_each_region(found: ParametricAnswer) -> None:
+    """Compare what is printed at a point in each region, on each stratum and outside: `VerificationFailed` if it is false."""
+    sampler = Sampler(found.constant, found.names, found.assumptions, Random(1))
+    points = [sampler.point_in(found, region) for region in (*found.regions, None)]
+    strata = chain.from_iterable(_strata(region.statement.claim) for region in found.regions)
+    points += [sampler.point(Vanishes(zero)) for zero in dict.fromkeys(strata)]
+    for point in filter(None, points):
+        wrong = next(contradictions(found, point), None)
+        if wrong is not None:
+            raise VerificationFailed(f"conditions failed their own check at {point}: {wrong}; please report it")
+
+
+def compare(found: ParametricAnswer, samples: int, seed: int) -> CheckReport:
+    """What is printed against engine and kernel at so many points, fewer if the time is over."""
+    sampler = Sampler(found.constant, found.names, found.assumptions, Random(seed))
+    points = islice(sampler.points([region.statement for region in found.regions]), 20 * samples)
+    counts = Counter[str](inside=0, outside=0, open=0)
+    wrong = list[str]()
+    with Budget(found.limits).watched(), suppress(LimitExceeded):
+        for point in filter(None, points):
+            predicted = found.predicted(point)
+            if predicted is None:
+                continue
+            inside = "outside" if found.region_at(point) is None else "inside"
+            counts[inside if predicted.known else "open"] += 1
+            wrong += [f"{point}: {sentence}" for sentence in contradictions(found, point)]
+            if counts.total() == samples:
+                break
+    return CheckReport(**counts, disagreements=tuple(wrong))
+
+
+def _strata(claim: Claim | DegreeClaim) -> Iterator[FunctionPoly]:
+    """The functions of the parameters that are denominators in what is printed: it isn't defined at their zeros."""
+    parts: tuple[Claim | DegreeClaim, ...] = ()
+    if isinstance(claim, IntegerFamily):
+        below = over_parameters(claim.value.cleared()[1])
+        yield from (factor for factor in irreducible_factors(below) if not factor.degree)
+    elif isinstance(claim, AllOf | AnyOf):
+        parts = claim.parts
+    elif isinstance(claim, ThatIs):
+        parts = (claim.second,)
+    elif isinstance(claim, DegreeExists):
+        parts = (claim.degree,)
+    elif isinstance(claim, Alternatives):
+        parts = claim.families
+    for part in parts:
+        yield from _strata(part)
+
+
+def contradictions(found: ParametricAnswer, point: ParameterPoint) -> Iterator[str]:
+    """What is printed falsely at a point, in a sentence each."""
+    for region in found.regions:
+        holds = region.statement.holds(point)
+        if region.statement.claim.holds(point) is not holds:
+            yield f"{region.statement} is printed, and {'holds' if holds else 'does not hold'} there"
+        if holds:
+            break
+    predicted = found.predicted(point)
+    if predicted is None or not predicted.known:
+        return
+    answer = found.answer_at(point)
+    if answer.status is not Status.UNDECIDED and answer.case != predicted.case:
+        yield f"{predicted} is printed, {verdict_of(answer.decision)} is found"
+    # The kernel has verified the group of the answer.
+    said = predicted.abelian
+    known = group(answer) if said in (ABELIAN, NOT_ABELIAN) else None
+    if known is not None and known.dimension is not None and (known.dimension < 2) is not (said == ABELIAN):
+        yield f"the identity component is printed as {prose.text_of(said or ())}, and the group is {known}"
+    inside = found.region_at(point)
+    if inside is not None and inside.case == 1:
+        yield from _false_formulas(found, inside, point, answer.S)
+
+
+def _false_formulas(
+    found: ParametricAnswer, region: ParameterRegion, point: ParameterPoint, S: RatFunc
+) -> Iterator[str]:
+    """The solutions of a region that provably don't solve the equation at a rational point."""
+    if point.field != QQ or found.letters:
+        return
+    x = sympy.Dummy()
+    values = {sympy.Symbol(name): value.to_sympy(x) for name, value in zip(point.names, point.values, strict=True)}
+    equation = normal_form(S, found.variable) if found.equation is None else equation_at(found.equation, point)
+    if equation is None:
+        return
+    natural = [part for part in both(region.statement).parts if isinstance(part, Natural) and part.m == 1]
+    numbers: list[int | None] = [number for part in natural for number in part.numbers_at(point) if number <= _LARGEST]
+    if not natural:
+        numbers = [None]
+    for number in numbers:
+        formulas = region.formulas
+        if not isinstance(formulas, GivenSolutions):
+            return
+        # Formulas that aren't meant at these values aren't even translated to the equation that was given.
+        meant = [solution for solution in formulas.found(number) if solution.at(values) is not None]
+        for solution in formulas.of(meant):
+            y = solution.at(values)
+            if y is not None and (y.has(sympy.nan, sympy.zoo, sympy.oo) or _is_false(y, S, equation, values)):
+                yield f"{solution} is no solution"
+
+
+def _is_false(y: Any, S: RatFunc, equation: Equation, values: Mapping[Any, Any]) -> bool:
+    """True if y provably doesn't solve the equation with this normal form at values of the parameters."""
+    from kovacic.closed_form.check import residual
+
+    x = t = sympy.Symbol(equation.variable)
+    if equation.change is not None:
+        x = user_variable(equation)
+        t = function_of_x(equation).xreplace(values)
+    try:
+        with working_precision(_PRECISION):
+            return not residual(y, x, S, equation.gauge, acb(fmpq(13, 7)), inner=t).contains(0)
+    except (NotImplementedError, ZeroDivisionError, ValueError, TypeError):  # functions without balls
+        return False
+
+
+@dataclass(frozen=True)
+class Sampler:
+    """Points with small coordinates: values of the `names` that the assumptions admit, beside the `start`, which is fixed."""
+
+    start: ParameterPoint
+    names: Sequence[str]
+    assumptions: Assumptions
+    random: Random
+
+    def points(self, statements: Sequence[Statement]) -> Iterator[ParameterPoint | None]:
+        """Every other one where one of the statements holds; None where an attempt failed."""
+        chosen: Sequence[Statement | None] = statements or [None]
+        for statement in cycle(chosen):
+            yield self.point(statement)
+            yield self.point(None)
+
+    def point_in(self, found: ParametricAnswer, region: ParameterRegion | None) -> ParameterPoint | None:
+        """One that belongs to no region before, None: to no region; None if a few attempts find none."""
+        for _ in range(_ATTEMPTS):
+            point = self.point(None if region is None else region.statement)
+            if point is not None and found.region_at(point) is region:
+                return point
+        return None
+
+    def point(self, statement: Statement | None) -> ParameterPoint | None:
+        """An admitted one at which the statement holds, if there is one; None where an attempt failed."""
+        point = self._point(statement)
+        if point is not None and not self.assumptions.admits(zip(point.names, point.values, strict=True)):
+            return None
+        return point
+
+    def _point(self, statement: Statement | None) -> ParameterPoint | None:
+        """A point at which the statement holds, any one without a statement; None if none was found."""
+        values = dict(zip(self.start.names, self.start.values, strict=True))
+        values |= {name: QQ.poly([self.assumptions.of(name).sample(self.random)]) for name in self.names}
+        if statement is None:
+            return self._with_values(values, self.start.field)
+        try:
+            # One parameter is chosen for each function so that it vanishes, the last function first.
+            field = self.start.field
+            free = list(self.names)
+            for function in reversed(statement.sample(self.random)):
+                field = self._solve_for_zero(function, values, field, free)
+        except (ZeroDivisionError, ValueError):
+            return None
+        point = self._with_values(values, field)
+        return point if statement.holds(point) else None
+
+    def _with_values(self, values: dict[str, Poly], field: Field) -> ParameterPoint:
+        in_one_field = tuple(value.over(field) for value in values.values())
+        return ParameterPoint((*self.start.names, *self.names), in_one_field, field)
+
+    def _solve_for_zero(self, function: FunctionPoly, values: dict[str, Poly], field: Field, free: list[str]) -> Field:
+        """Choose one free parameter so that the function vanishes; the field of all values.  `ValueError` if none does it."""
+        names = function.field.names
+        powers = dict(zip(names, degrees(function), strict=True))
+        candidates = [name for name in free if powers.get(name, 0) > 0]
+        self.random.shuffle(candidates)
+        candidates.sort(key=powers.__getitem__)
+        known = [values[name].over(field) for name in names]
+        for name in candidates:
+            equation = field.poly(coefficients_in(function, names.index(name), known, field))
+            if equation.degree < 1:
+                continue
+            factor = self.random.choice([f for f, _ in field.factor(equation)])
+            is_alone = len(free) == len(names) == 1
+            if factor.degree > 1 and not (is_alone and field == QQ):
+                continue
+            # A root in its field, or in an extension.
+            value = -factor[0] if factor.degree == 1 else AlgebraicField(QQ, factor, "alpha").generator
+            values[name] = value
+            free.remove(name)
+            return value.field
+        raise ValueError("no parameter can be chosen")
+
 
 #: The largest d for which the determinants of conditions with a natural number d are computed.
 DEFAULT_DEGREE = 2

@@ -89,11 +89,6 @@ class Bound:
             end = _ball_of(self.end) if self.ball is None else self.ball
             return bool((value - end) * self.sign < 0)
 
-    def is_stronger_than(self, other: Bound) -> bool:
-        """For two lower bounds, or two upper ones; the same isn't stronger, unless both are strict."""
-        distance = self.sign * (self.end - other.end)
-        return distance > 0 or (distance == 0 and self.strict)
-
     def among(self, numbers: Classes) -> Bound:
         """The same bound for numbers of a single class, by the nearest of them."""
         (start,) = numbers.residues
@@ -150,7 +145,9 @@ class Known:
         for one in self.inequalities:
             bound = one if self.coset is None else one.among(self.coset)
             known = strongest.get(bound.sign)
-            if known is None or bound.is_stronger_than(known):
+            # The same end isn't stronger, unless both are strict.
+            distance = 0 if known is None else bound.sign * (bound.end - known.end)
+            if known is None or distance > 0 or (distance == 0 and bound.strict):
                 strongest[bound.sign] = bound
         return tuple(strongest.values())
 
@@ -237,12 +234,6 @@ def words_of(symbol: Any) -> list[str]:
     if symbol.is_zero is False and not Known(tuple(words)).nonzero:
         words.append("nonzero")
     return words
-
-
-def check_words(words: Iterable[str]) -> None:
-    """Raises `InputError` for bounds that aren't real numbers."""
-    for word in filter(_BOUND.fullmatch, words):
-        _bound(word)
 
 
 def is_relation(word: str) -> bool:
@@ -509,20 +500,13 @@ def read_assumptions(assume: Mapping[Any, str] | None, S: Any, names: tuple[str,
             hint = f"the parameters are {', '.join(names) or 'none'}"
             raise InputError(f"{name} isn't a parameter of S", hint=hint)
         words[name] += _read_words(what)
-    for name, said in words.items():
-        _check_that_agree(name, said)
     known = [(name, Known(_useful(said))) for name, said in words.items()]
+    for name, facts in known:
+        if facts.is_contradiction():
+            pairs = (pair for pair in combinations(facts.words, 2) if Known(pair).is_contradiction())
+            both = " and ".join(next(pairs, facts.words))
+            raise InputError(f"the assumptions on {name} contradict one another: {both}", hint="leave one of them out")
     return Assumptions(tuple((name, facts) for name, facts in known if facts.words))
-
-
-def _check_that_agree(name: str, words: Sequence[str]) -> None:
-    """Raises `InputError` for assumptions on one parameter that exclude one another, with the two that do."""
-    said = _useful(words)
-    if not Known(said).is_contradiction():
-        return
-    pairs = (pair for pair in combinations(said, 2) if Known(pair).is_contradiction())
-    both = " and ".join(next(pairs, said))
-    raise InputError(f"the assumptions on {name} contradict one another: {both}", hint="leave one of them out")
 
 
 def check_mapping(assume: object) -> None:
@@ -550,7 +534,8 @@ def _read_words(what: object) -> list[str]:
             f"{' '.join(unknown) or what!r} isn't an assumption that is known",
             hint=f"known are {', '.join((*_ABBREVIATIONS, *WORDS))}, >=1/2, !=1, a value",
         )
-    check_words(words)
+    for word in filter(_BOUND.fullmatch, words):
+        _bound(word)
     return words
 
 

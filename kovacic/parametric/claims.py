@@ -23,11 +23,11 @@ from kovacic.errors import VerificationFailed
 from kovacic.parametric.functions import Classes, ParameterPoint, over_parameters
 
 
-class Claim(ABC):
-    """What is said of the parameters."""
+class Proposition(ABC):
+    """What is true or false at a point."""
 
     def holds(self, point: ParameterPoint) -> bool:
-        """True if a reader finds it true at the point; a formula that isn't defined there makes it false."""
+        """True if it is true at the point; a formula that isn't defined there makes it false."""
         try:
             return self._holds(point)
         except ZeroDivisionError:
@@ -35,6 +35,10 @@ class Claim(ABC):
 
     @abstractmethod
     def _holds(self, point: ParameterPoint) -> bool: ...
+
+
+class Claim(Proposition):
+    """What is said of the parameters: true where a reader finds it true."""
 
 
 @dataclass(frozen=True)

@@ -338,7 +338,9 @@ class Congruence(Statement):
         m = Fraction(modulus)
         k = equation.degree
         if k == 1:
-            return cls._of_form(-equation[0] / equation[1], classes, m)
+            form, scale, offset = normal_form(-equation[0] / equation[1])  # the root N = form/scale + offset
+            scaled = {(residue - offset) * scale for residue in classes}
+            return cls._with_least_modulus(over_parameters(form.field.poly([0, 1]) - form), scaled, abs(m * scale))
         field = equation.field
         mean = field.rational_value(-equation[k - 1] / (k * equation.lc))
         if mean is None:
@@ -352,14 +354,6 @@ class Congruence(Statement):
         if is_symmetric:
             moved_classes |= {twice - residue for residue in moved_classes}
         return cls._with_least_modulus(moved, moved_classes, m)
-
-    @classmethod
-    def _of_form(cls, value: Poly, classes: Iterable[Fraction], modulus: Fraction) -> Congruence:
-        """A form of the parameters is congruent to one of the classes: value = form/scale + shift."""
-        form, scale, shift = normal_form(value)
-        equation = over_parameters(form.field.poly([0, 1]) - form)
-        scaled = {(residue - shift) * scale for residue in classes}
-        return cls._with_least_modulus(equation, scaled, abs(modulus * scale))
 
     @classmethod
     def _with_least_modulus(cls, equation: FunctionPoly, classes: Iterable[Fraction], modulus: Fraction) -> Congruence:

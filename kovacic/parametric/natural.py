@@ -37,6 +37,7 @@ from kovacic.parametric.claims import (
     rational_roots,
 )
 from kovacic.parametric.exponents import (
+    RankConditions,
     choices_of_degree,
     conditions_of_degree,
     degrees_of_solutions,
@@ -58,7 +59,6 @@ from kovacic.parametric.functions import (
 )
 from kovacic.parametric.integers import LETTERS, alternatives, free_letter
 from kovacic.parametric.prose import Words
-from kovacic.parametric.ranks import RankConditions
 from kovacic.parametric.restriction import Hypersurface, everywhere, hypersurface, in_lowest_powers
 from kovacic.parametric.solutions import PolynomialSolution, solution_of_degree
 from kovacic.parametric.statements import Setting, Statement
@@ -261,18 +261,25 @@ class Natural(Statement):
         """The equations for d that can have a natural root."""
         if self.factors is None:
             return None
-        return tuple(factor for factor in self.factors if not _has_no_natural_root(factor, assumptions))
+        found: list[FunctionPoly] = []
+        for factor in self.factors:
+            if factor.degree == 1 and assumptions.meets_classes(-factor[0] / factor[1], INTEGERS) is False:
+                continue
+            # A polynomial with a positive constant term and no negative coefficient is positive for all d >= 0.
+            is_positive = assumptions.is_positive(over_parameters(factor[0]))
+            if not is_positive or not all(
+                assumptions.is_positive(over_parameters(c), or_zero=True) for c in factor if c
+            ):
+                found.append(factor)
+        return tuple(found)
 
     @cached_property
     def claim(self) -> Claim:
-        return DegreeExists(self._degree, self.m, self.exists)
-
-    @property
-    def _degree(self) -> DegreeClaim:
-        """The equations for the number, each solved for a parameter; sums of exponents where one with parameters can't be."""
+        # Equations for the number, each solved for a parameter; sums of exponents where one with parameters can't be.
         listed = alternatives(self.factors or (), self.letter, self.setting)
         is_open = self.factors is None or any(any(degrees(one.equation)) for one in listed.equations)
-        return (self._by_exponents() if is_open else None) or listed
+        degree = (self._by_exponents() if is_open else None) or listed
+        return DegreeExists(degree, self.m, self.exists)
 
     def _by_exponents(self) -> DegreeClaim | None:
         """The same numbers as sums of exponents: `d + 1 = +-sqrt(b)/2 +- c`, or `d = 6 + j*a + k*b` with integers j and k."""
@@ -298,15 +305,6 @@ class _GivenBy(NamedTuple):
     exponents: FunctionPoly
     surface: Hypersurface
     S: RatFunc
-
-
-def _has_no_natural_root(factor: FunctionPoly, assumptions: Assumptions) -> bool:
-    """Is the root of a linear polynomial never natural, or the polynomial positive for all d >= 0?"""
-    if factor.degree == 1 and assumptions.meets_classes(-factor[0] / factor[1], INTEGERS) is False:
-        return True
-    if not assumptions.is_positive(over_parameters(factor[0])):
-        return False
-    return all(assumptions.is_positive(over_parameters(c), or_zero=True) for c in factor if c)
 
 
 @lru_cache(maxsize=64)

@@ -22,11 +22,10 @@ from kovacic.numbers.exact import whole
 from kovacic.parametric import prose
 from kovacic.parametric.assumptions import NOTHING_ASSUMED, Assumptions, read_assumptions
 from kovacic.parametric.cases import in_lines
-from kovacic.parametric.derivation import derived
 from kovacic.parametric.functions import NO_CONSTANT, ParameterPoint
-from kovacic.parametric.letters import Letters, letters_from, values_of_letters
 from kovacic.parametric.map import plot
 from kovacic.parametric.natural import Determinant, Natural
+from kovacic.parametric.partition import derived
 from kovacic.parametric.record import (
     StatementReader,
     constant_data,
@@ -38,6 +37,7 @@ from kovacic.parametric.record import (
     verdict_from,
 )
 from kovacic.parametric.regions import Limited, ParameterRegion, RegionVerdict, Theory, settled
+from kovacic.parametric.restriction import Letters, values_of_letters
 from kovacic.parametric.solutions import Later, Origin
 from kovacic.parametric.statements import Statement, both
 from kovacic.reading.constants import with_root
@@ -326,6 +326,8 @@ class ParametricAnswer:
         >>> print(bessel.point({"n": "3/2"}))
         n = 3/2
         """
+        from sympy import Basic, Expr
+
         if isinstance(values, ParameterPoint):
             return values
         given = {str(name): value for name, value in values.items()}
@@ -334,7 +336,11 @@ class ParametricAnswer:
         if missing or unknown:
             hint = f"missing: {missing or 'none'}; unknown: {unknown or 'none'}"
             raise InputError(f"values are needed for {', '.join(self.parameters)}", hint=hint)
-        given = {name: _as_sympy(value, self.limits) for name, value in given.items()}
+        for name, value in given.items():
+            number = value if isinstance(value, Basic) else read_expression(number_text(value, self.limits))
+            if not isinstance(number, Expr) or number.free_symbols:
+                raise InputError(f"the values of parameters are numbers, not {value!r}")
+            given[name] = number
         given |= values_of_letters(given, self.letters)
         point = _point(self.names, [given[name] for name in self.names], self.constant, self.limits)
         for name, value in zip(point.names, point.values, strict=True):
@@ -428,7 +434,8 @@ class ParametricAnswer:
             variable = data["variable"]
             theorem = data.get("theorem", {"said": data["theory"], "sources": ()})
             constant = constant_from(data)
-            letters = letters_from(names, parameters)
+            # Names that are no parameters of the user's are formulas, and numbers.
+            letters = tuple((name, read_expression(name)) for name in names if name not in parameters)
             if not all(name.isidentifier() for name in (*parameters, variable)):
                 raise ValueError("a parameter or the variable isn't a name")
             field = FunctionField((*names, *constant.names))
@@ -668,13 +675,3 @@ def _point(names: tuple[str, ...], values: list[Any], constant: ParameterPoint, 
         *numbers, root = with_root(numbers, field, constant.field, limits)
         return ParameterPoint(together, (*numbers, root), root.field)
     return ParameterPoint(together, (*numbers, *constant.values), field)
-
-
-def _as_sympy(value: Any, limits: Limits) -> Any:
-    """A number as SymPy's.  Raises `InputError` for anything else."""
-    import sympy
-
-    found = value if isinstance(value, sympy.Basic) else read_expression(number_text(value, limits))
-    if not isinstance(found, sympy.Expr) or found.free_symbols:
-        raise InputError(f"the values of parameters are numbers, not {value!r}")
-    return found

@@ -15,17 +15,23 @@ v'' = (V - 2 W' - E) v, and v -> v' + W v takes them back, times E0 - E.  W is r
 solutions where the other one has, with the same case and group.  At a pole with the exponents -m and m + 1, the same for all E,
 and W = -m/(x - c) + ..., V - 2 W' has the coefficient m (m - 1) where V has m (m + 1).
 
+Last, each region is said once, under assumptions, with solutions of the given equation.  Where a parameter t occurs in S in
+powers of t^k only, there are conditions for T = t^k, too, and what they say of t: on a hypersurface such as 4 w^2 + 1 = 0 no
+parameter is eliminated; on 4 W + 1 = 0 one is.
+
 References: G. Darboux, C. R. Acad. Sci. 94 (1882) 1456; D. Gomez-Ullate, Y. Grandati & R. Milson, J. Phys. A 47 (2014) 015203.
 """
 
 from __future__ import annotations
 
 import re
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from contextlib import suppress
 from dataclasses import dataclass, replace
 from fractions import Fraction
 from functools import partial
 from itertools import chain
+from math import gcd
 
 import sympy
 
@@ -36,27 +42,48 @@ from kovacic.algebra.rationals import QQ
 from kovacic.decision import Structure
 from kovacic.engine.decide import decide
 from kovacic.engine.places import Kind, Problem, analyse
+from kovacic.equation import Equation
 from kovacic.errors import LimitExceeded
 from kovacic.galois import group_of
-from kovacic.limits import Budget, count_work
+from kovacic.limits import Budget, bounded_work, count_work
+from kovacic.numbers.numerals import as_text
 from kovacic.parametric import prose, restriction
+from kovacic.parametric.assumptions import Assumptions
+from kovacic.parametric.cases import equations_on, normal_form, without_empty, without_implied, without_redundant
 from kovacic.parametric.functions import (
     ParameterPoint,
     degrees,
     denominators,
+    element,
     in_field,
     irreducible_factors,
     over_parameters,
     powers_of,
     union,
 )
-from kovacic.parametric.regions import Limited, ParameterRegion, RegionVerdict, Theorem, Theory, verdict_of
-from kovacic.parametric.restriction import Hypersurface, hypersurface, undefined
+from kovacic.parametric.integers import Congruence, integer_roots
+from kovacic.parametric.natural import Natural
+from kovacic.parametric.regions import Limited, ParameterRegion, RegionVerdict, Theorem, Theory, settled, verdict_of
+from kovacic.parametric.restriction import (
+    Hypersurface,
+    Letters,
+    hypersurface,
+    in_lowest_powers,
+    undefined,
+    with_free_constant,
+)
 from kovacic.parametric.search import Findings, all_half_integers, degree_equation, search
-from kovacic.parametric.solutions import Carried, PolynomialSolution, derivative, solutions_there
-from kovacic.parametric.statements import ALWAYS, NEVER, Statement, Vanishes, both
+from kovacic.parametric.solutions import (
+    Carried,
+    GivenSolutions,
+    Origin,
+    PolynomialSolution,
+    derivative,
+    solutions_there,
+)
+from kovacic.parametric.statements import ALWAYS, NEVER, Both, Either, Statement, Vanishes, both, either
 from kovacic.parametric.theorems import kimura, martinet_ramis
-from kovacic.writing.formula import Math
+from kovacic.writing.formula import Math, caret
 
 #: Degrees of P up to which an E0 is looked for.
 _DEGREE = 4
@@ -130,9 +157,13 @@ def _rational_logarithmic_derivatives(problem: Problem, energies: list[int]) -> 
         return
     for d in range(_DEGREE + 1):
         for special in irreducible_factors(equation(Fraction(d))):
-            surfaces = (surface for surface in (_solved_for(special, i) for i in energies) if surface is not None)
-            surface = next(surfaces, None)
-            W = None if surface is None else _logarithmic_derivative(problem, surface)
+            surfaces: list[Hypersurface] = []
+            for i in energies:
+                powers = powers_of(special, i)
+                is_linear = 1 in powers and powers.keys() <= {0, 1}
+                if is_linear and powers[1].num.is_constant():
+                    surfaces.append(hypersurface(special, i))
+            W = _logarithmic_derivative(problem, surfaces[0]) if surfaces else None
             if W is not None:
                 yield special, W
 
@@ -150,15 +181,6 @@ def _logarithmic_derivative(problem: Problem, surface: ParameterPoint) -> RatFun
     if not isinstance(W.num, FunctionPoly):
         return RatFunc(field.poly(W.num.rational_coefficients()), field.poly(W.den.rational_coefficients()))
     return RatFunc(*(in_field(over_parameters(part), field) for part in W.cleared()))
-
-
-def _solved_for(function: FunctionPoly, i: int) -> ParameterPoint | None:
-    """The values of the parameters where a function vanishes, if it is linear in parameter i with a constant coefficient."""
-    powers = powers_of(function, i)
-    is_linear = 1 in powers and powers.keys() <= {0, 1}
-    if not is_linear or not powers[1].num.is_constant():
-        return None
-    return hypersurface(function, i)
 
 
 #: What is a formula in the name of a group.
@@ -498,3 +520,169 @@ def _special(regions: Iterable[ParameterRegion], surface: Hypersurface) -> list[
             region = replace(region, statement=statement, verdict=_without_formulas(region.verdict), origin=None)
         special.append(region)
     return special
+
+
+@dataclass(frozen=True)
+class InPowers:
+    """S with T for t^k, T by the name of t, and the k of each parameter."""
+
+    S: RatFunc
+    powers: tuple[int, ...]
+
+    def back(self, region: ParameterRegion) -> ParameterRegion:
+        """What a region of T says of t."""
+        field = self.S.field
+        assert isinstance(field, FunctionField)
+        names = dict(zip(field.names, self.powers, strict=True))
+        origin = region.origin and Carried(region.origin, partial(_with_powers, names))
+
+        def raised(function: FunctionPoly) -> FunctionPoly:  # of some of the parameters
+            own = function.field
+            values = [own.generator(name) ** names.get(name, 1) for name in own.names]
+            return over_parameters(function.value_at(values, own))
+
+        statement = _in_factors(region.statement.rewritten(raised))
+        return replace(region, statement=statement, origin=origin)
+
+
+def _with_powers(powers: Mapping[str, int], solution: PolynomialSolution) -> PolynomialSolution:
+    """A solution with t^k for T."""
+    raised = solution.with_values({sympy.Symbol(name): sympy.Symbol(name) ** k for name, k in powers.items()})
+    if not raised.conditions and raised.where:
+        return raised
+    where = ", ".join(f"{caret(as_text(sympy.factor(condition)))} = 0" for condition in raised.conditions)
+    return replace(raised, where=where)
+
+
+def in_powers(S: RatFunc) -> InPowers | None:
+    """None where each parameter occurs in powers without a common divisor."""
+    field = S.field
+    assert isinstance(field, FunctionField)
+    parts = [over_parameters(part) for part in S.cleared()]
+    occurring = [[n for part in parts for n in powers_of(part, i)] for i in range(len(field.names))]
+    powers = tuple(gcd(*found) or 1 for found in occurring)  # the largest k for which t occurs in powers of t^k only
+    if max(powers) == 1:
+        return None
+    lowered: list[FunctionPoly] = []
+    for part in parts:
+        terms = {}
+        for (first, *exponents), coefficient in part.num.to_dict().items():  # t^(k n) -> T^n
+            terms[(first, *(n // k for n, k in zip(exponents, powers, strict=True)))] = coefficient
+        lowered.append(element(part.field, part.field.context.from_dict(terms)))
+    return InPowers(RatFunc(*lowered), powers)
+
+
+def _in_factors(statement: Statement) -> Statement:
+    """The same statement, said of irreducible polynomials: T and T - t are, t^2 and t^2 - s^2 aren't."""
+    if isinstance(statement, Both):
+        return both(*map(_in_factors, statement.parts))
+    if isinstance(statement, Either):
+        return either(*map(_in_factors, statement.parts))
+    if isinstance(statement, Vanishes):
+        return either(*map(Vanishes, irreducible_factors(statement.function)))
+    if isinstance(statement, Congruence) and statement.form is None:
+        return integer_roots(statement.equation, [*map(int, statement.residues)], int(statement.modulus))
+    if isinstance(statement, Natural) and statement.factors is not None:
+        factored = [equation.field.factor(equation) for equation in statement.factors]  # over Q(t)
+        factors = union([over_parameters(factor) for factor, _ in one] for one in factored)
+        return replace(statement, factors=tuple(factors))
+    return statement
+
+
+#: Strata of parameter space up to which they are examined: Heun's general equation, in six parameters, has some hundreds.
+_STRATA = 4000
+
+
+def derived(
+    S: RatFunc,
+    variable: str,
+    equation: Equation | None,
+    known: Assumptions,
+    budget: Budget,
+    max_degree: int | None,
+    letters: Letters = (),
+) -> Partition:
+    """The partition of parameter space for S; `max_degree` None: by theorems only, else Delta_d is shown up to this d."""
+    lifted, _, constant = with_free_constant(S)
+    assumptions = replace(known, values=tuple(zip(constant.names, constant.values, strict=True)))
+    settings = Settings(budget, variable, only_theorems=max_degree is None)
+    with budget.watched():
+        with bounded_work(_STRATA):
+            found = partition(lifted, settings)
+        if found.complete is not True:
+            found = _in_powers(lifted, settings, found)
+    field = lifted.field.ground
+    assert isinstance(field, FunctionField)
+    regions = _distinct(found.regions, constant, budget)
+    result = _under(assumptions, replace(found, regions=tuple(regions)), S, budget)
+    with budget.watched(), suppress(LimitExceeded):
+        generic = result.generic if result.complete is True else None
+        result = replace(result, regions=tuple(without_redundant(result.regions, generic)))
+    regions = settled(result.regions, variable, field.names, constant)
+    given = equation or normal_form(lifted, variable)
+    return replace(result, regions=tuple([_finished(region, given, max_degree, budget, letters) for region in regions]))
+
+
+def _in_powers(S: RatFunc, settings: Settings, direct: Partition) -> Partition:
+    """The partition by powers of the parameters, where it is complete; else the direct one."""
+    try:
+        powers = in_powers(S)
+        if powers is None:
+            return direct
+        with bounded_work(_STRATA):
+            found = partition(powers.S, settings)
+    except LimitExceeded as limit:
+        return replace(direct, complete=Limited.by(limit))
+    if found.complete is True:
+        return replace(found, regions=tuple(map(powers.back, found.regions)))
+    return replace(direct, complete=found.complete) if isinstance(found.complete, Limited) else direct
+
+
+def _distinct(regions: Iterable[ParameterRegion], constant: ParameterPoint, budget: Budget) -> list[ParameterRegion]:
+    """The regions with statements about all parameters, each statement once, and without those that earlier ones cover."""
+    different: dict[Statement, ParameterRegion] = {}
+    for region in regions:
+        # With high powers of the constant replaced by means of its minimal polynomial.
+        reduced = region.statement.rewritten(partial(in_lowest_powers, constant=constant))
+        statement = without_implied(reduced)
+        different.setdefault(statement, replace(region, statement=statement))
+    distinct = [*different.values()]
+    with budget.watched(), suppress(LimitExceeded):
+        distinct = without_empty(distinct)
+    return distinct
+
+
+def _under(assumptions: Assumptions, found: Partition, S: RatFunc, budget: Budget) -> Partition:
+    """What is left to say where the assumptions hold."""
+    generic = found.generic
+    complete = found.complete
+    regions: list[ParameterRegion] = []
+    for region in found.regions:
+        decided = region.statement.decided(assumptions)
+        if decided is True:
+            generic = region.verdict
+            if not generic.known:
+                generic = verdict_of(decide(S, budget, certify=False))
+            complete = together([*regions, region])
+            break
+        statement = region.statement.narrowed(assumptions)
+        if decided is None and statement.decided(assumptions) is not False:
+            regions.append(replace(region, statement=statement))
+    return Partition(generic, complete, found.theory, tuple(regions))
+
+
+def _finished(
+    region: ParameterRegion, equation: Equation, max_degree: int | None, budget: Budget, letters: Letters
+) -> ParameterRegion:
+    """With solutions of the equation that was given, and the degree up to which determinants are shown."""
+    statement = region.statement
+    if region.origin is not None:
+        pieces = tuple(equations_on(region.statement, equation))
+        # With an algebraic constant the statement knows its value; the origin is about all values.
+        origin: Origin = region.origin
+        if isinstance(statement, Natural) and statement.constant.names:
+            origin = partial(statement.solutions, equation.variable)
+        region = replace(region, origin=GivenSolutions(origin, pieces, letters) if pieces else None)
+    if max_degree is None or not isinstance(statement, Natural) or statement.m > 1:
+        return region
+    return replace(region, shown_degree=max_degree, limits=budget.limits)

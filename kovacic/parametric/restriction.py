@@ -8,15 +8,21 @@ solvable than generically, and `kovacic.conditions` says where exactly.
 
 S over Q(t)(alpha), alpha an algebraic number, is S over Q(t, alpha) at one value of the parameter alpha.  A partition of the
 larger space that is right at all of its points is right on the slice, and if it is complete there it is complete here.
+
+Parameters that stand for constants, sqrt(a) or exp(a/2), have the names of what they stand for.  The engine computes with a
+letter for each; in all that is printed, in values and in solutions they are the user's own.
 """
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, replace
 from fractions import Fraction
 from itertools import chain, combinations, count
 from math import gcd
-from typing import NamedTuple
+from typing import Any, NamedTuple
+
+import sympy
 
 from kovacic.algebra.extension import AlgebraicField, ExtensionPoly, norm
 from kovacic.algebra.factors import product
@@ -26,7 +32,10 @@ from kovacic.algebra.ratfunc import RatFunc
 from kovacic.algebra.rationals import QQ
 from kovacic.answer import Answer
 from kovacic.engine.places import Kind, Problem, analyse
+from kovacic.equation import Parsed
+from kovacic.errors import InputError
 from kovacic.limits import Budget
+from kovacic.numbers.numerals import as_text
 from kovacic.parametric import functions
 from kovacic.parametric.formulas import shown
 from kovacic.parametric.functions import (
@@ -40,6 +49,7 @@ from kovacic.parametric.functions import (
     union,
 )
 from kovacic.parametric.statements import Statement
+from kovacic.writing.formula import caret
 
 
 def undefined(problem: Problem) -> list[FunctionPoly]:
@@ -308,3 +318,81 @@ def everywhere(field: FunctionField, constant: ParameterPoint) -> Hypersurface:
     extension = AlgebraicField(base, base.poly([QQ.rational_value(c) or 0 for c in numbers.modulus]), name)
     values = [extension.embed(base.generator(other)) for other in others]
     return Hypersurface(field.names, (*values, extension.generator), extension)
+
+
+#: Names of parameters that aren't the user's, with what they stand for.
+Letters = tuple[tuple[str, Any], ...]
+
+
+def spelled(parsed: Parsed) -> tuple[Parsed, Letters]:
+    """The input over the field whose parameters are called like what they stand for; as it is without letters.
+
+    Beside an algebraic constant the letters stay.
+    """
+    field = parsed.S.field
+    if not isinstance(field, FunctionField):
+        return parsed, parsed.letters
+    if not parsed.letters:
+        return parsed, ()
+    meanings = dict(parsed.letters)
+    letters = tuple((_spelling(meanings[name]), meanings[name]) for name in field.names if name in meanings)
+    larger = FunctionField(tuple(_spelling(meanings[name]) if name in meanings else name for name in field.names))
+    equation = parsed.equation
+    if equation is not None:
+        a, b, c, f = (_over(part, larger) for part in (equation.a, equation.b, equation.c, equation.f))
+        equation = replace(equation, a=a, b=b, c=c, f=f)
+    said = tuple(f"{name} is " for name in meanings)
+    notices = tuple(notice for notice in parsed.notices if not notice.startswith(said))
+    return replace(parsed, S=_over(parsed.S, larger), equation=equation, notices=notices, letters=()), letters
+
+
+def _spelling(meaning: Any) -> str:
+    """sqrt(a), exp(a/2), and powers in parentheses: (a^(1/3)), so that they can be raised to others."""
+    text = caret(as_text(meaning))
+    is_power = meaning.is_Pow and meaning.exp != sympy.S.Half and meaning.base != sympy.E
+    return f"({text})" if is_power else text
+
+
+def _over(function: RatFunc, field: FunctionField) -> RatFunc:
+    """The same function with other names for the parameters."""
+    return RatFunc(_renamed(function.num, field), _renamed(function.den, field), reduced=True)
+
+
+def _renamed(polynomial: Poly, field: FunctionField) -> FunctionPoly:
+    known = over_parameters(polynomial)
+    return FunctionPoly(field, known.num, known.den)
+
+
+def own_parameters(names: Sequence[str], letters: Letters) -> tuple[str, ...]:
+    """The user's parameters: those in what letters stand for, in the place of the letters."""
+    meanings = dict(letters)
+    found: dict[str, None] = {}
+    for name in names:
+        symbols = sorted(symbol.name for symbol in meanings[name].free_symbols) if name in meanings else [name]
+        found.update(dict.fromkeys(symbols))
+    return tuple(found)
+
+
+def nonzero(letters: Letters) -> list[str]:
+    """The letters for exponentials, and powers of numbers, which have no zeros."""
+    found = []
+    for name, meaning in letters:
+        base, _ = meaning.as_base_exp()
+        if isinstance(meaning, sympy.exp) or (base.is_number and base.is_nonzero):
+            found.append(name)
+    return found
+
+
+def values_of_letters(values: Mapping[str, Any], letters: Letters) -> dict[str, Any]:
+    """The values of the letters where the user's parameters have these, SymPy's.
+
+    Raises `InputError` for what isn't an algebraic number.
+    """
+    numbers = {sympy.Symbol(name): value for name, value in values.items()}
+    found = {}
+    for name, meaning in letters:
+        value = meaning.subs(numbers)
+        if not value.is_algebraic:
+            raise InputError(f"{name} is {value} there, which isn't known to be an algebraic number")
+        found[name] = value
+    return found

@@ -26,6 +26,7 @@ from kovacic.limits import check_time
 from kovacic.parametric import riemann
 from kovacic.parametric.claims import signed_sums
 from kovacic.parametric.exponents import (
+    RankConditions,
     conditions_of_degree,
     degrees_of_solutions,
     form_conditions,
@@ -34,7 +35,6 @@ from kovacic.parametric.exponents import (
 from kovacic.parametric.functions import degrees, irreducible_factors, over_parameters
 from kovacic.parametric.integers import integer_roots
 from kovacic.parametric.natural import Natural
-from kovacic.parametric.ranks import RankConditions
 from kovacic.parametric.regions import Theory
 from kovacic.parametric.restriction import hypersurface
 from kovacic.parametric.statements import ALWAYS, NEVER, Statement, all_of

@@ -40,8 +40,8 @@ from kovacic.parametric.claims import AllOf, AnyOf, Claim, IntegerFamily, IsNonz
 from kovacic.parametric.exponents import Exponents, places_of
 from kovacic.parametric.formulas import gathered, shorter_sum
 from kovacic.parametric.functions import element, irreducible_factors, over_parameters
-from kovacic.parametric.letters import Letters
 from kovacic.parametric.prose import Words
+from kovacic.parametric.restriction import Letters
 from kovacic.reading.change_of_variable import is_power, solution_in_x, user_variable, with_roots_of_factors
 from kovacic.writing.formula import Math, caret
 

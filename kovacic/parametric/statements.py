@@ -6,7 +6,7 @@ for Schwarz's table, `natural` for determinants.  Nothing here is numerical.
 
 from __future__ import annotations
 
-from abc import ABC, abstractmethod
+from abc import abstractmethod
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
@@ -17,7 +17,7 @@ from typing import ClassVar
 from kovacic.algebra.function_field import FunctionPoly
 from kovacic.parametric import prose
 from kovacic.parametric.assumptions import Assumptions
-from kovacic.parametric.claims import AllOf, AnyOf, Claim, IsZero
+from kovacic.parametric.claims import AllOf, AnyOf, Claim, IsZero, Proposition
 from kovacic.parametric.functions import NO_CONSTANT, ParameterPoint, numerator
 
 
@@ -40,18 +40,8 @@ class Setting:
         return any(known <= {*zeros} for known in self.covered)
 
 
-class Statement(ABC):
+class Statement(Proposition):
     """A statement about the parameters."""
-
-    def holds(self, point: ParameterPoint) -> bool:
-        """Is it true at the point?  Not where a function in it isn't defined."""
-        try:
-            return self._holds(point)
-        except ZeroDivisionError:
-            return False
-
-    @abstractmethod
-    def _holds(self, point: ParameterPoint) -> bool: ...
 
     @cached_property
     @abstractmethod

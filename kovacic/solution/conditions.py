@@ -8,8 +8,7 @@ from typing import Any
 
 from kovacic.limits import DEFAULT_LIMITS, Limits, limits_of
 from kovacic.numbers.exact import whole
-from kovacic.parametric.api import DEFAULT_DEGREE, find_conditions
-from kovacic.parametric.check import CheckReport, compare
+from kovacic.parametric.api import DEFAULT_DEGREE, CheckReport, compare, find_conditions
 from kovacic.parametric.parametric_answer import ParametricAnswer, Values
 from kovacic.reading.read import declared
 from kovacic.solution import Solution

@@ -23,12 +23,12 @@ from kovacic.parametric import prose
 from kovacic.parametric.assumptions import WORDS
 from kovacic.parametric.cases import Case, outside, solvable_cases
 from kovacic.parametric.claims import IntegerFamily
-from kovacic.parametric.formulas import partial_fractions
+from kovacic.parametric.formulas import partial_fractions, unexpanded
 from kovacic.parametric.integers import free_letter
-from kovacic.parametric.letters import spelled
 from kovacic.parametric.natural import NO_FORMULA, Natural
 from kovacic.parametric.parametric_answer import ParametricAnswer
 from kovacic.parametric.regions import ParameterRegion, RegionVerdict
+from kovacic.parametric.restriction import spelled
 from kovacic.parametric.riemann import Schwarz
 from kovacic.parametric.solutions import (
     GivenSolutions,
@@ -41,7 +41,6 @@ from kovacic.parametric.solutions import (
     weight_by_signs,
 )
 from kovacic.parametric.statements import Both, Either, Statement, Vanishes, both
-from kovacic.parametric.unexpanded import unexpanded
 from kovacic.reading.names import words_among
 from kovacic.reading.read import read_input
 from kovacic.reading.source import source_of

@@ -20,10 +20,10 @@ from kovacic import Structure
 from kovacic.parametric import prose
 from kovacic.parametric.assumptions import read_assumptions
 from kovacic.parametric.cases import without_empty
+from kovacic.parametric.exponents import without_constant_pivots
 from kovacic.parametric.formulas import root_written, written
 from kovacic.parametric.functions import over_parameters
 from kovacic.parametric.integers import Congruence, alternatives
-from kovacic.parametric.ranks import without_constant_pivots
 from kovacic.parametric.regions import ParameterRegion, RegionVerdict
 from kovacic.parametric.restriction import hypersurface
 from kovacic.parametric.riemann import kimura

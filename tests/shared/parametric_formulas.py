@@ -14,7 +14,7 @@ from build import AlgebraicField
 from parametric_cases import FAMILIES
 from parametric_texts import RANGE, NotReadError, numbers_said, says
 
-from kovacic.parametric.check import Sampler
+from kovacic.parametric.api import Sampler
 from kovacic.parametric.claims import DegreeExists
 from kovacic.parametric.functions import ParameterPoint
 from kovacic.parametric.natural import Natural

@@ -15,8 +15,8 @@ from parametric_formulas import text_differs
 from kovacic.decision import Status
 from kovacic.engine.decide import decide
 from kovacic.limits import Budget
+from kovacic.parametric.api import Sampler
 from kovacic.parametric.cases import Case, solvable_cases
-from kovacic.parametric.check import Sampler
 from kovacic.parametric.functions import ParameterPoint
 from kovacic.parametric.parametric_answer import ParametricAnswer
 from kovacic.parametric.regions import RegionVerdict

@@ -19,8 +19,8 @@ from build import Conditions, parametrize, run
 from parametric_cases import hypergeometric
 
 import kovacic
+from kovacic.parametric.api import Sampler
 from kovacic.parametric.cases import solvable_cases
-from kovacic.parametric.check import Sampler
 from kovacic.parametric.prose import text_of
 from kovacic.parametric.riemann import Schwarz, kimura
 from kovacic.parametric.solutions import families_of
