@@ -427,9 +427,16 @@ class Spectrum:
         """
         rows = []
         for levels in self.levels:
-            rows += _latex_rows(levels, self.energy)
+            n = as_latex(levels.number)
+            rows.append(rf"{self.energy}_{{{n}}} &= {as_latex(levels.energy)},\quad {n} = 0, 1, 2, \ldots")
+            rows.append(rf"y_{{{n}}} &= {as_latex(levels.wave)}")
+            if levels.conditions:
+                conditions = r",\; ".join(as_latex(c) for c in levels.conditions)
+                rows.append(rf"&{conditions}")
         for algebraic in self.algebraic:
-            rows += _algebraic_latex_rows(algebraic)
+            rows.append(rf"d = {algebraic.degree}\colon\quad & {as_latex(algebraic.polynomial)} = 0")
+            if algebraic.constraint != 0:
+                rows.append(rf"& {as_latex(algebraic.constraint)} = 0")
         rows += [rf"& {as_latex(equation)}" for equation in self.matching]
         if not rows:
             rows.append(rf"&\text{{{latex(' '.join(self._conclusion))}}}")
@@ -529,25 +536,6 @@ def _data(value: Any) -> Any:
     else:
         return _relation(value) if isinstance(value, Relational | BooleanAtom) else _text(value)
     return {name: _data(getattr(value, name)) for name in names}
-
-
-def _latex_rows(levels: Levels, energy: str) -> list[str]:
-    n = as_latex(levels.number)
-    rows = [
-        rf"{energy}_{{{n}}} &= {as_latex(levels.energy)},\quad {n} = 0, 1, 2, \ldots",
-        rf"y_{{{n}}} &= {as_latex(levels.wave)}",
-    ]
-    if levels.conditions:
-        conditions = r",\; ".join(as_latex(c) for c in levels.conditions)
-        rows.append(rf"&{conditions}")
-    return rows
-
-
-def _algebraic_latex_rows(algebraic: Algebraic) -> list[str]:
-    rows = [rf"d = {algebraic.degree}\colon\quad & {as_latex(algebraic.polynomial)} = 0"]
-    if algebraic.constraint != 0:
-        rows.append(rf"& {as_latex(algebraic.constraint)} = 0")
-    return rows
 
 
 def _lines(levels: Levels, energy: str) -> list[str]:

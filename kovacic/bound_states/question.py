@@ -237,16 +237,12 @@ def _variable_of(expression: Any) -> tuple[str, tuple[str, ...]]:
     names = names_of(expression)
     if DEFAULT_VARIABLE in names or not names:
         return DEFAULT_VARIABLE, ()
-    only = _usual_one(names) or chosen_variable(names)
+    # The only name that usually is a variable, as r in l (l+1)/r^2 - Z/r.
+    usual = [name for name in names if name in USUAL_VARIABLES and name.islower()]
+    only = usual[0] if len(usual) == 1 else chosen_variable(names)
     if only in USUAL_VARIABLES:
         return only, (f"{only} is taken for the variable, of which V is a function",)
     return DEFAULT_VARIABLE, (f"{DEFAULT_VARIABLE} is the variable, {only} a parameter",)
-
-
-def _usual_one(names: Sequence[str]) -> str | None:
-    """The only name that usually is a variable, as r in l (l+1)/r^2 - Z/r; None without one, or if x is among the names."""
-    usual = [name for name in names if name in USUAL_VARIABLES and name.islower()]
-    return usual[0] if len(usual) == 1 and DEFAULT_VARIABLE not in names else None
 
 
 def _read_potential(V: Any, energy: str, var: str | None, names: Sequence[str]) -> tuple[Any, tuple[str, ...]]:

@@ -43,7 +43,10 @@ def factor_at(frame: SingularFrame, c: Any) -> WaveProduct:
     original = frame.original
     half = original.theta / 2
     two = sympy.Integer(2)
-    is_above = _is_above(frame, c)
+    # c isn't inside the domain: t is larger than c there, unless c is beyond the upper end
+    low, high = frame.limits_of_t
+    is_below = high is not None and sympy.simplify(c - high).is_nonnegative
+    is_above = (low is not None and sympy.simplify(low - c).is_nonnegative) or not is_below
     match original.kind, c:
         case "exp", 0:
             return WaveProduct(exponent=original.theta)
@@ -56,15 +59,6 @@ def factor_at(frame: SingularFrame, c: Any) -> WaveProduct:
         case ("cosh" | "cos") as kind, -1:
             return WaveProduct(two, powers={getattr(sympy, kind)(half): 2})
     return WaveProduct(powers={original.t - c if is_above else c - original.t: 1})
-
-
-def _is_above(frame: SingularFrame, c: Any) -> bool:
-    """True if t is larger than c on the domain; c isn't inside."""
-    low, high = frame.limits_of_t
-    if low is not None and sympy.simplify(low - c).is_nonnegative:
-        return True
-    is_below = high is not None and sympy.simplify(c - high).is_nonnegative
-    return not is_below
 
 
 def as_product(frame: SingularFrame, expression: Any) -> WaveProduct:

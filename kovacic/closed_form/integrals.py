@@ -110,7 +110,12 @@ def logarithms(residues: Iterable[Residue], atoms: Atoms) -> list[Expr]:
         opposite = [other for other in pending if _is_at_a_point(other) and other.value == -first.value]
         if opposite and _is_at_a_point(first):
             pending.remove(opposite[0])
-            terms.append(_logarithm_of_quotient(first, opposite[0], atoms))
+            # rho log((x - a)/(x - b)), or of (x - a)/(b - x) where 0 lies between a and b
+            top, bottom = (atoms.primitive(residue.factor)[1] for residue in (first, opposite[0]))
+            at_zero = first.factor.field.rational_value(first.factor[0] * opposite[0].factor[0])
+            if at_zero is not None and at_zero < 0:
+                bottom = -bottom
+            terms.append(atoms.constant(first.value) * sympy.log(top / bottom, evaluate=False))
         else:
             terms.append(atoms.log_sum(first))
     return terms[::-1]
@@ -120,22 +125,17 @@ def _is_at_a_point(residue: Residue) -> bool:
     return residue.is_constant and residue.factor.degree == 1
 
 
-def _logarithm_of_quotient(first: Residue, second: Residue, atoms: Atoms) -> Expr:
-    """rho log((x - a)/(x - b)), or of (x - a)/(b - x) where 0 lies between a and b."""
-    top = atoms.primitive(first.factor)[1]
-    bottom = atoms.primitive(second.factor)[1]
-    at_zero = first.factor.field.rational_value(first.factor[0] * second.factor[0])
-    if at_zero is not None and at_zero < 0:
-        bottom = -bottom
-    return atoms.constant(first.value) * sympy.log(top / bottom, evaluate=False)
-
-
 def _exponential(y: Product, primitive: ExponentialPrimitive, first: Factors, atoms: Atoms) -> list[Scaled]:
     """first * (W k + the terms with Ei, error and gamma functions, and logarithms of t^(1/n) - z)."""
     scale, parts = first
     terms = []
     if primitive.W:
-        terms.append(_kernel_term(y, primitive, atoms))
+        # y W t^alpha exp(E)
+        t = primitive.t
+        quotient = [(t.num, primitive.alpha), (t.den, -primitive.alpha)]
+        more = [Power(p, y.field.poly([e])) for p, e in quotient if p.degree > 0]
+        whole = Product(gathered((*y.powers, *more)), y.roots, y.exponential + primitive.E(t))
+        terms.append(_scaled(*factors(whole, atoms, primitive.W(t), like=y)))
     for term in primitive.terms:
         q = atoms.sum(term.q(primitive.t))
         c, function = _gamma(term.b, term.n, q, primitive.alpha + term.power, atoms)
@@ -143,16 +143,6 @@ def _exponential(y: Product, primitive: ExponentialPrimitive, first: Factors, at
         terms.append(_scaled(scale * atoms.constant(term.coefficient) * c, [*parts, shift, function]))
     at_poles = [_sum_at_poles(residue, primitive, atoms) for residue in primitive.poles]
     return terms + [_scaled(scale, [*parts, found]) for found in at_poles]
-
-
-def _kernel_term(y: Product, primitive: ExponentialPrimitive, atoms: Atoms) -> Scaled:
-    """y W t^alpha exp(E)."""
-    t = primitive.t
-    quotient = [(t.num, primitive.alpha), (t.den, -primitive.alpha)]
-    more = [Power(p, y.field.poly([e])) for p, e in quotient if p.degree > 0]
-    powers = gathered((*y.powers, *more))
-    exponential = y.exponential + primitive.E(t)
-    return _scaled(*factors(Product(powers, y.roots, exponential), atoms, primitive.W(t), like=y))
 
 
 def _sum_at_poles(residue: Residue, primitive: ExponentialPrimitive, atoms: Atoms) -> Expr:

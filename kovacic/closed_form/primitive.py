@@ -223,7 +223,11 @@ def _with_rational_part(
     rate = _rate(E, alpha)
     functions = [f for f in (r, *candidates) if f]
     den = _denominator(functions, E, alpha)
-    basis = [RatFunc(x**j, den) for j in range(_degree(functions, E) + den.degree + 1)]
+    # A bound of deg num - deg den for W, from what W' + W E' gives.
+    growth = max((f.num.degree - f.den.degree for f in functions), default=0)
+    at_infinity = E.num.degree - E.den.degree
+    most = growth - at_infinity + 1 if at_infinity > 0 else max(growth + 1, 0)
+    basis = [RatFunc(x**j, den) for j in range(most + den.degree + 1)]
     images = [w.derivative() + w * rate for w in basis] + candidates
     wanted, *numerators = over_one_denominator([r, *images])
     found = combination(wanted, numerators)
@@ -245,15 +249,6 @@ def _denominator(functions: list[RatFunc], E: RatFunc, alpha: Fraction) -> Poly:
         order = max((f.den.remove(p)[1] for f in functions), default=0)
         den = den * p ** max(order - m - 1, 0)
     return den
-
-
-def _degree(functions: list[RatFunc], E: RatFunc) -> int:
-    """A bound of the degree of W as a function, deg num - deg den, from what it gives."""
-    growth = max((f.num.degree - f.den.degree for f in functions), default=0)
-    at_infinity = E.num.degree - E.den.degree
-    if at_infinity > 0:
-        return growth - at_infinity + 1
-    return max(growth + 1, 0)
 
 
 #: A pair of solutions is short if it takes at most so many characters, or so many times those of the shortest form.
@@ -294,23 +289,15 @@ Primitive = RationalPrimitive | CurveIntegral | ExponentialPrimitive | OpenPrimi
 def integrate_inverse_square(y: Product) -> Primitive:
     """int y^-2 dx; left where it would be too long beside the integral as it stands."""
     h = y.to_power(-2)
-    terms = _number_of_terms(h)
+    # About how many terms the integral has, with coefficients of as many digits: this number squared is about its length.
+    # (x - 1)^-40 (x - 2)^-2 exp(-2 x) has 42 and 2,000 characters, its power 400 has 1.5 million.
+    poles = [(power.base.degree, -(power.rational_exponent or 0)) for power in h.powers]
+    is_a_power = len(poles) == 1 and poles[0][0] == 1 and not h.exponential
+    terms = 1 if is_a_power else sum(degree * int(order) for degree, order in poles if order > 0)
     most = max(SHORT, FACTOR * (2 * y.length + h.length))
     if terms**2 > 4 * most:
         return OpenPrimitive(LONG.format(terms**2))
     return integrate(h)
-
-
-def _number_of_terms(h: Product) -> int:
-    """About how many terms int h dx has, with coefficients of as many digits: about this number squared is its length.
-
-    (x - 1)^-40 (x - 2)^-2 exp(-2 x) has 42 and 2,000 characters, its power 400 has 1.5 million.
-    """
-    poles = [(power.base.degree, -(power.rational_exponent or 0)) for power in h.powers]
-    is_a_power = len(poles) == 1 and poles[0][0] == 1 and not h.exponential
-    if is_a_power:
-        return 1
-    return sum(degree * int(order) for degree, order in poles if order > 0)
 
 
 def integrate(h: Product) -> Primitive:

@@ -374,24 +374,18 @@ def _count(points: Iterable[Point]) -> int:
 def fibres(points: list[Point], most: int) -> Iterator[Fibre]:
     """Every set of points that can be a whole fibre of a function of degree `most` or less, with its multiplicities."""
     for chosen, mask in _commensurable(points, most, 0, [], 0):
-        least = _least_multiplicities(chosen)
+        # The smallest natural numbers in the proportion of the exponent differences; where these are 0 the multiplicities are
+        # free, and only equal ones are tried.
+        least = [1] * len(chosen)
+        if chosen[0].square:
+            ratios = [ratio for point in chosen if (ratio := _ratio(point, chosen[0])) is not None]
+            unit = Fraction(gcd(*(r.numerator for r in ratios)), lcm(*(r.denominator for r in ratios)))
+            least = [int(ratio / unit) for ratio in ratios]
         size = sum(m * point.degree for m, point in zip(least, chosen, strict=True))
         for k in range(1, most // size + 1):
             multiplicities = tuple((point, k * m) for point, m in zip(chosen, least, strict=True))
             square = chosen[0].square * Fraction(1, (k * least[0]) ** 2)
             yield Fibre(multiplicities, square, mask)
-
-
-def _least_multiplicities(chosen: list[Point]) -> list[int]:
-    """The smallest natural numbers in the proportion of the exponent differences.
-
-    Where these are 0 the multiplicities are free, and only equal ones are tried.
-    """
-    if not chosen[0].square:
-        return [1] * len(chosen)
-    ratios = [ratio for point in chosen if (ratio := _ratio(point, chosen[0])) is not None]
-    unit = Fraction(gcd(*(r.numerator for r in ratios)), lcm(*(r.denominator for r in ratios)))
-    return [int(ratio / unit) for ratio in ratios]
 
 
 def _commensurable(

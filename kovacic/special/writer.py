@@ -233,16 +233,15 @@ class Writer:
 
     def constant(self, value: Number | Poly) -> Expr:
         if value not in self._shown:
-            self._shown[value] = self._constant(value)
+            if isinstance(value, Number):
+                roots = [self.constant(c) * radical(self.constant(square)) for square, c in value.roots]
+                shown = sympy.Add(self.constant(value.part), *roots)
+            else:
+                shown = self.atoms.constant(value)
+                if value.field.height and value.field.ground != QQ:
+                    shown = sympy.cancel(shown)
+            self._shown[value] = shown
         return self._shown[value]
-
-    def _constant(self, value: Number | Poly) -> Expr:
-        if isinstance(value, Number):
-            return sympy.Add(
-                self.constant(value.part), *(self.constant(c) * radical(self.constant(s)) for s, c in value.roots)
-            )
-        shown = self.atoms.constant(value)
-        return sympy.cancel(shown) if value.field.height and value.field.ground != QQ else shown
 
     def is_integer(self, value: Number) -> bool:
         """Is it known to be an integer?"""
