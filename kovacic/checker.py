@@ -1198,8 +1198,12 @@ class Exclusions:
         count = affordable(top + zeros + 12, "the number of zeros of a solution")
         for w in place.expansions(g, q, count):
             multiple = den.right_shift(place.nu).mul_low(w, count)  # A/B, if w is that of a rational function
-            found = least_denominator(multiple, count, top) <= zeros
-            demand(not found, "no expansion of omega is that of a rational function")
+            # Euclid's algorithm for t^count and the series: the least degree of a B != 0 with B series = A + O(t^count),
+            # deg A <= top, is count - deg r0 for the remainder r0 before A
+            r0, r1 = nmod([1], q).left_shift(count), multiple
+            while r1.degree() > top:
+                r0, r1 = r1, r0 % r1
+            demand(count - r0.degree() > zeros, "no expansion of omega is that of a rational function")
 
     @cached_property
     def zeros(self) -> tuple[int, bool]:
@@ -1232,18 +1236,6 @@ class Exclusions:
             if total.imag.contains(0) and n >= total.real.lower():
                 found.append(n)
         return affordable(max(found), "the number of zeros of a solution"), is_bound
-
-
-def least_denominator(series: Any, count: int, top: int) -> int:
-    """The least degree of a B != 0 with B series = A + O(t^count), deg A <= top.
-
-    By Euclid's algorithm for t^count and the series: deg B = count - deg r0 for the remainder r0 before A.
-    """
-    r0 = nmod([1], series.modulus()).left_shift(count)
-    r1 = series
-    while r1.degree() > top:
-        r0, r1 = r1, r0 % r1
-    return int(count - r0.degree())
 
 
 # ------------------------------------------------------------------------------------------- forms

@@ -6,7 +6,7 @@ In goes V with real parameters and a domain, out comes a `Spectrum`.  Read `api`
 1. `ends`: how many solutions are square integrable at each end; `signs`: what is known of the sign of an expression;
 2. `frame`: the coordinates z(x) in which the equation may be a standard one;
 3. `families`: the standard equations, each with its levels for all n at once, and why these are all; `energies` solves for E
-   and writes the conditions, `waves` the solutions and their norms; `without_levels` are periodic and repulsive potentials;
+   and writes the conditions; `without_levels` are periodic and repulsive potentials;
 4. `closed_forms`: where no formula is known, the levels with a closed form, from the conditions on E, and are these all?
    Darboux' transformation brings other potentials to the families;
 5. `levels`: what is returned.

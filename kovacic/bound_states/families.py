@@ -23,26 +23,345 @@ So every square integrable y is of this kind, and what is found is all there is.
 
 References: R. Dutt, A. Khare & U. P. Sukhatme, Amer. J. Phys. 56 (1988) 163; F. Cooper, A. Khare & U. Sukhatme, Phys. Rep. 251
 (1995) 267; DLMF 13.14, 15.10, 18.8.
+
+In the wave functions every factor |t - c| is written by its half angle, exp(theta) + 1 = 2 exp(theta/2) cosh(theta/2) and so
+on; constant factors are dropped, and the norm, a product of Gamma functions, is that of what is shown.
 """
 
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
+from dataclasses import dataclass, field
 from itertools import combinations, product
-from typing import Any
+from typing import Any, NamedTuple
 
 import sympy
 
-from kovacic.bound_states.energies import Root, conjugate, solved, tidied
-from kovacic.bound_states.frame import SingularFrame, Spot
+from kovacic.bound_states.energies import Root, conjugate, shortest, solved, tidied
+from kovacic.bound_states.frame import SingularFrame, Spot, linear_factors
 from kovacic.bound_states.levels import Levels
 from kovacic.bound_states.question import SpectralProblem, Uncovered, above
 from kovacic.bound_states.signs import Signs
-from kovacic.bound_states.waves import Wave, jacobi_wave, laguerre_wave
 from kovacic.numbers.numerals import as_text
+from kovacic.parametric.solutions import jacobi
 from kovacic.sturm_liouville.families import family
 from kovacic.sturm_liouville.problem import Robin
 from kovacic.writing.formula import caret
+
+
+@dataclass
+class WaveProduct:
+    """constant * exp(exponent) * prod base^power."""
+
+    constant: Any = sympy.S.One
+    exponent: Any = sympy.S.Zero
+    powers: dict[Any, Any] = field(default_factory=dict)
+
+    def times(self, other: WaveProduct, power: Any) -> WaveProduct:
+        """The product with a power of another one."""
+        powers = dict(self.powers)
+        for base, k in other.powers.items():
+            powers[base] = powers.get(base, 0) + k * power
+        return WaveProduct(self.constant * other.constant**power, self.exponent + other.exponent * power, powers)
+
+    def shown(self) -> Any:
+        """Without the constant."""
+        parts = [base ** sympy.factor_terms(shortest(power)) for base, power in self.powers.items()]
+        return sympy.Mul(*parts) * sympy.exp(shortest(self.exponent))
+
+
+def factor_at(frame: SingularFrame, c: Any) -> WaveProduct:
+    """|t - c| on the domain."""
+    original = frame.original
+    half = original.theta / 2
+    two = sympy.Integer(2)
+    # c isn't inside the domain: t is larger than c there, unless c is beyond the upper end
+    low, high = frame.limits_of_t
+    is_below = high is not None and sympy.simplify(c - high).is_nonnegative
+    is_above = (low is not None and sympy.simplify(low - c).is_nonnegative) or not is_below
+    match original.kind, c:
+        case "exp", 0:
+            return WaveProduct(exponent=original.theta)
+        case "exp", -1:
+            return WaveProduct(two, half, {sympy.cosh(half): 1})
+        case "exp", 1:
+            return WaveProduct(two, half, {sympy.sinh(half if is_above else -half): 1})
+        case ("cosh" | "cos") as kind, 1:
+            return WaveProduct(two, powers={(sympy.sinh if kind == "cosh" else sympy.sin)(half): 2})
+        case ("cosh" | "cos") as kind, -1:
+            return WaveProduct(two, powers={getattr(sympy, kind)(half): 2})
+    return WaveProduct(powers={original.t - c if is_above else c - original.t: 1})
+
+
+def as_product(frame: SingularFrame, expression: Any) -> WaveProduct:
+    """|expression|, a rational function of t, up to its sign."""
+    constant, exponents = linear_factors(expression, frame.t)
+    found = WaveProduct(sympy.Abs(constant))
+    for root, exponent in exponents.items():
+        found = found.times(factor_at(frame, root), exponent)
+    return found
+
+
+def moebius(z: Any, first: Any, second: Any, third: Any) -> Any:
+    """The map to 1, -1, oo."""
+    if third == sympy.oo:
+        return 1 - 2 * (z - first) / (second - first)
+    if first == sympy.oo:
+        return 1 - 2 * (second - third) / (z - third)
+    if second == sympy.oo:
+        return 1 - 2 * (z - first) / (z - third)
+    return 1 - 2 * (z - first) * (second - third) / ((z - third) * (second - first))
+
+
+def _ordered(frame: SingularFrame, roots: list[Root]) -> list[int]:
+    """Which points are 1, -1 and oo: of the first two the right end, and then the other one, come first.
+
+    The last one doesn't depend on E as the two others do; else it is the first that is no end, or the last one.
+    """
+    depend = [root.unknown for root in roots]
+    alone = [k for k in range(3) if depend.count(depend[k]) == 1]
+    unused = [k for k, spot in enumerate(frame.spots) if not spot.is_used]
+    last = (alone or unused or [2])[0]
+    others = [k for k in range(3) if k != last]
+    others.sort(key=lambda k: (1 not in frame.spots[k].sides, not frame.spots[k].is_used))
+    return [*others, last]
+
+
+class _Point(NamedTuple):
+    """One of the points w = 1, -1, oo, with delta and its sign."""
+
+    spot: Spot
+    delta: Any
+
+
+@dataclass(frozen=True)
+class _JacobiForm:
+    """y = (1 - w)^e1 (1 + w)^e2 P_n^(d1, d2)(w) with the points w = 1, -1, oo in this order.
+
+    (dw/dx)^2 = `scale` (1 - w)^mu1 (1 + w)^mu2.
+    """
+
+    frame: SingularFrame
+    w: Any
+    points: tuple[_Point, _Point, _Point]
+    scale: Any
+    n: Any
+
+    @property
+    def exponents(self) -> tuple[Any, Any]:
+        """e1 and e2."""
+        first, second, _ = self.points
+        return first.spot.exponent(first.delta), second.spot.exponent(second.delta)
+
+
+class Wave(NamedTuple):
+    """A solution y in the user's variable, up to a factor; `norm` is the integral of its square, None if unknown."""
+
+    y: Any
+    norm: Any = None
+
+
+def jacobi_wave(frame: SingularFrame, roots: list[Root], deltas: list[Any], signs: Signs) -> Wave:
+    """The solution by Jacobi's polynomials."""
+    form = _jacobi_form(frame, roots, deltas, signs)
+    if form.w.has(sympy.I):
+        return _complex_pair(form)
+    first, second, _ = form.points
+    e1, e2 = form.exponents
+    whole = WaveProduct().times(as_product(frame, 1 - form.w), e1).times(as_product(frame, 1 + form.w), e2)
+    polynomial = jacobi(form.n, shortest(first.delta), shortest(second.delta), _argument(frame, form.w))
+    y = whole.shown() * polynomial
+    norm = None if form.scale.has(frame.z) else _norm(form)
+    if norm is None:
+        return Wave(y)
+    return Wave(y, _tidy(frame, norm / whole.constant**2))
+
+
+def _jacobi_form(frame: SingularFrame, roots: list[Root], deltas: list[Any], signs: Signs) -> _JacobiForm:
+    """With w of z for the points in their order."""
+    z = frame.z
+    order = _ordered(frame, roots)
+    w_of_z = moebius(z, *(frame.spots[k].point for k in order))
+    if any(sympy.cancel(w_of_z + sympy.I * form) == 0 for form in (z, 1 / z)):  # w = -i z, or -i/z
+        order[0], order[1] = order[1], order[0]
+        w_of_z = moebius(z, *(frame.spots[k].point for k in order))
+    first, second, third = (_Point(frame.spots[k], deltas[k]) for k in order)
+    w = sympy.factor(w_of_z.xreplace({z: frame.coordinate}))
+    slope = sympy.diff(w_of_z, z) ** 2 * frame.slope
+    scale = sympy.simplify(slope / ((1 - w_of_z) ** first.spot.mu * (1 + w_of_z) ** second.spot.mu))
+    return _JacobiForm(frame, w, (first, second, third), scale, signs.n)
+
+
+def _argument(frame: SingularFrame, w: Any) -> Any:
+    """w in the user's variable."""
+    original = frame.original
+    t = frame.t
+    in_x = sympy.expand(sympy.apart(w, t)).xreplace({t: original.t})
+    if original.kind != "exp":
+        return in_x
+    half = original.theta / 2
+    known = {(t - 1) / (t + 1): sympy.tanh(half), (t + 1) / (t - 1): sympy.coth(half)}
+    for form, written in known.items():
+        for sign in (1, -1):
+            if sympy.cancel(w - sign * form) == 0:
+                return sign * written
+    return in_x.replace(lambda e: e.is_Pow and e.base.func is sympy.exp, lambda e: sympy.exp(e.base.exp * e.exp))
+
+
+def _complex_pair(form: _JacobiForm) -> Wave:
+    """w = i r with a real r: (1 - i r)^(p + i q) (1 + i r)^(p - i q) = (1 + r^2)^p exp(2 q atan(r))."""
+    first, second, _ = form.points
+    n = form.n
+    e1, _ = form.exponents
+    p = sympy.expand((e1 + conjugate(e1)) / 2)
+    q = sympy.expand((e1 - conjugate(e1)) / (2 * sympy.I))
+    powers = _real_powers(form, p, q)
+    a = shortest(first.delta)
+    b = shortest(second.delta)
+    y = powers.written * ((-sympy.I) ** n * jacobi(n, a, b, sympy.I * powers.r))
+    norm = _norm_on_line(form, a, b)
+    if norm is None:
+        return Wave(y)
+    return Wave(y, _tidy(form.frame, -norm / powers.dropped))
+
+
+class _RealPowers(NamedTuple):
+    """(1 + r^2)^p exp(2 q atan(r)) as written, without a constant whose square is `dropped`; and r in the variable."""
+
+    written: Any
+    r: Any
+    dropped: Any = sympy.S.One
+
+
+def _real_powers(form: _JacobiForm, p: Any, q: Any) -> _RealPowers:
+    """With 1 + r^2 = cosh^2 for r = +-sinh, and = 1/sin^2 for r = +-cot, where atan(r) is an angle, too."""
+    original = form.frame.original
+    theta = original.theta
+    t = form.frame.t
+    r_of_t = sympy.factor(form.w / sympy.I)
+    if original.kind == "tan" and sympy.cancel(r_of_t**2 - t**-2) == 0:
+        sign = 1 if sympy.cancel(r_of_t - 1 / t) == 0 else -1
+        written = sympy.sin(theta) ** shortest(-2 * p) * sympy.exp(-2 * q * sign * theta)
+        return _RealPowers(written, r=sign * sympy.cot(theta), dropped=sympy.exp(2 * sympy.pi * q * sign))
+    r = r_of_t.xreplace({t: original.t})
+    rest = sympy.exp(2 * q * sympy.atan(r))
+    if original.kind == "sinh" and sympy.expand(r_of_t**2 - t**2) == 0:
+        return _RealPowers(sympy.cosh(theta) ** shortest(2 * p) * rest, r)
+    return _RealPowers((1 + r**2) ** p * rest, r)
+
+
+def _norm_on_line(form: _JacobiForm, a: Any, b: Any) -> Any:
+    """int y^2 dx for w = i r, up to its sign; None if unknown, or if r doesn't run through the whole line."""
+    first, second, _ = form.points
+    n = form.n
+    is_whole_line = any(len(spot.sides) == 2 for spot in form.frame.spots)
+    if not is_whole_line or form.scale.has(form.frame.z):
+        return None
+    middle = 2 * sympy.pi * sympy.gamma(-n - a - b) / (sympy.gamma(-n - a) * sympy.gamma(-n - b))
+    integral = _jacobi_integral(a, b, (1 - first.spot.mu, 1 - second.spot.mu), n, middle)
+    if integral is None:
+        return None
+    return integral / sympy.sqrt(sympy.Abs(form.scale))
+
+
+def _jacobi_integral(a: Any, b: Any, shifts: tuple[Any, Any], n: Any, middle: Any) -> Any:
+    """int (1 - v)^(a + i) (1 + v)^(b + j) P_n^(a, b)(v)^2 dv over (-1, 1), shifts (i, j); None if unknown.
+
+    With `middle` = Gamma(n + a + 1) Gamma(n + b + 1)/Gamma(n + a + b + 1) [Gradshteyn & Ryzhik 7.391; DLMF 18.3].  On the line
+    v = i r all of these have the same factor, 2 sin(pi a) sin(pi b)/sin(pi (a + b)), which is in another `middle`.
+    """
+    common = 2 ** (a + b) * middle / sympy.factorial(n)
+    plain = 2 * common / (2 * n + a + b + 1)
+    left = common / a
+    right = common / b
+    mean = (b**2 - a**2) / ((2 * n + a + b) * (2 * n + a + b + 2))
+    known = {
+        (0, 0): plain,
+        (-1, 0): left,
+        (0, -1): right,
+        (-1, -1): (left + right) / 2,
+        (1, -1): 2 * right - plain,
+        (-1, 1): 2 * left - plain,
+        (1, 0): plain * (1 - mean),
+        (0, 1): plain * (1 + mean),
+    }
+    return known.get(shifts)
+
+
+def _norm(form: _JacobiForm) -> Any:
+    """int y^2 dx between two of the points w = 1, -1, oo, or None if unknown."""
+    first, second, third = form.points
+    if first.spot.is_used and second.spot.is_used:
+        integral = _integral_between(first, second, form.n)
+        return None if integral is None else integral / sympy.sqrt(sympy.Abs(form.scale))
+    if first.spot.is_used and third.spot.is_used:
+        return _norm_to_infinity(form, first, second)
+    if second.spot.is_used and third.spot.is_used:  # w -> -w
+        return _norm_to_infinity(form, second, first)
+    return None
+
+
+def _norm_to_infinity(form: _JacobiForm, end: _Point, other: _Point) -> Any:
+    """Between w = 1, the end, and oo, or None if unknown.
+
+    w = (3 - v)/(1 + v) runs from there for v from 1 to -1, and P_n^(a, b)(w) = (2/(1 + v))^n P_n^(a, c)(v).
+    """
+    n = form.n
+    integral = _integral_between(end, form.points[2], n)
+    if integral is None:
+        return None
+    scale = sympy.Abs(form.scale) * 2 ** (end.spot.mu + 2 * other.spot.mu - 4)
+    powers = 2 * end.spot.exponent(end.delta) + 4 * other.spot.exponent(other.delta) + 2 * n
+    return 2**powers * integral / sympy.sqrt(scale)
+
+
+def _integral_between(first: _Point, second: _Point, n: Any) -> Any:
+    """The integral of `_jacobi_integral` for the deltas and the mu of two points."""
+    a = first.delta
+    b = second.delta
+    middle = sympy.gamma(n + a + 1) * sympy.gamma(n + b + 1) / sympy.gamma(n + a + b + 1)
+    return _jacobi_integral(a, b, (1 - first.spot.mu, 1 - second.spot.mu), n, middle)
+
+
+def laguerre_wave(frame: SingularFrame, origin: Spot, kappa: Any, delta: Any, signs: Signs) -> Wave:
+    """The solution by Laguerre's polynomials."""
+    n = signs.n
+    z = frame.z
+    whole = WaveProduct().times(as_product(frame, frame.coordinate), origin.exponent(delta))
+    base, m = frame.coordinate.as_base_exp()
+    in_x = _argument(frame, base) ** m
+    rate = shortest(2 * kappa)
+    y = whole.shown() * sympy.exp(-rate * in_x / 2) * sympy.assoc_laguerre(n, shortest(delta), rate * in_x)
+    scale = sympy.simplify(frame.slope / z**origin.mu)
+    weight = sympy.gamma(n + delta + 1) / sympy.factorial(n)
+    known = {0: 1, 1: 2 * n + delta + 1, -1: 1 / delta}
+    j = 1 - origin.mu
+    if j not in known or scale.has(z) or signs.sign(kappa) == -1:
+        return Wave(y)
+    integral = rate ** (origin.mu - 2 - delta) * weight * known[j]
+    return Wave(y, _tidy(frame, integral / sympy.sqrt(sympy.Abs(scale)) / whole.constant**2))
+
+
+def _tidy(frame: SingularFrame, norm: Any) -> Any:
+    """The norm or its form with simplified quotients of Gamma functions, the shorter; doubled on half of a domain."""
+    simplified = sympy.gammasimp(norm).replace(
+        lambda e: e.func == sympy.gamma and e.args[0].is_integer, lambda e: sympy.factorial(e.args[0] - 1)
+    )
+    shortest_form = min((_shortened(norm), _shortened(simplified)), key=lambda e: len(str(e)))
+    return shortest_form if frame.fold is None else 2 * shortest_form
+
+
+def _shortened(norm: Any) -> Any:
+    """With short arguments of the Gamma functions, and short exponents."""
+    written = norm.replace(
+        lambda e: e.func in (sympy.gamma, sympy.exp), lambda e: e.func(shortest(sympy.together(e.args[0])))
+    )
+    written = written.replace(lambda e: e.is_Add and e.has(sympy.Dummy), lambda e: shortest(e))
+    for _ in range(2):  # short exponents of one base are added up
+        written = sympy.powsimp(written).replace(
+            lambda e: e.is_Pow and not e.exp.is_number, lambda e: e.base ** shortest(sympy.together(e.exp))
+        )
+    return written
 
 
 def jacobi_families(frame: SingularFrame, question: SpectralProblem) -> Iterator[Levels]:

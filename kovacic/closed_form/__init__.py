@@ -2,6 +2,6 @@
 
 `form` is the entry, and the module to read first.  `structure.build` gives the same as data, without SymPy: products
 (`product`), integrals (`primitive`, `curve`) and Klein's invariant.  `atoms`,
-`real_pair`, `integrals` and `curve_display` write each kind down; `check` verifies the structure exactly, and what
+`real_pair` and `integrals` write each kind down; `check` verifies the structure exactly, and what
 is shown by `jets`.
 """

@@ -35,16 +35,6 @@ def discriminant(p: Poly) -> Fraction | None:
     return p.field.rational_value(p[1] * p[1] - 4 * p[0])
 
 
-def _over_the_rationals(field: AlgebraicField) -> AlgebraicField:
-    """Q(c) for a generator c of K(c), K a number field: a real root of the modulus if there is one."""
-    with working_precision(200):
-        roots = acb_poly([enclosure(c) for c in field.modulus]).roots()
-        target = min(roots, key=lambda root: (not root.imag.contains(0), float(root.real.mid())))
-        return cast(
-            AlgebraicField, adjoined_root(vanishing_factor(norm(field.modulus), target), target, field.name)[1].field
-        )
-
-
 class RootSum(sympy.RootSum):  # type: ignore[misc]
     """SymPy's, for polynomials with irrational coefficients: SymPy compares these with a TypeError, and so can't add two."""
 
@@ -139,7 +129,12 @@ class Atoms:
         if (
             isinstance(field.base, AlgebraicField) and field.ground == QQ
         ):  # SymPy's roots are those of polynomials over Q
-            field = _over_the_rationals(field)
+            # Q(c) for a generator c of K(c): a real root of the modulus if there is one
+            with working_precision(200):
+                roots = acb_poly([enclosure(c) for c in modulus]).roots()
+                target = min(roots, key=lambda root: (not root.imag.contains(0), float(root.real.mid())))
+                over_Q = adjoined_root(vanishing_factor(norm(modulus), target), target, field.name)[1].field
+            field = cast(AlgebraicField, over_Q)
         return chosen_root(sympy.Poly.from_list(self.coefficients(field.modulus)[::-1], self.x), field)
 
     def coefficients(self, polynomial: Poly) -> list[Expr]:

@@ -12,8 +12,7 @@ from sympy import Add, Mul, Symbol, exp
 from kovacic.algebra.ratfunc import RatFunc
 from kovacic.closed_form.atoms import Atoms, Expr, display
 from kovacic.closed_form.check import is_exact_solution, is_numerical_solution
-from kovacic.closed_form.curve_display import exponentials
-from kovacic.closed_form.integrals import triangular
+from kovacic.closed_form.integrals import exponentials, triangular
 from kovacic.closed_form.real_pair import conjugate_roots, is_real_pair, real_pair
 from kovacic.closed_form.structure import ClosedStructure, Conjugate, Diagonal, OnCurve, Triangular
 from kovacic.errors import VerificationFailed

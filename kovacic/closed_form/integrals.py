@@ -1,19 +1,74 @@
-"""The integrals of `kovacic.closed_form.primitive` and `kovacic.closed_form.curve` as SymPy expressions."""
+"""The integrals of `kovacic.closed_form.primitive` and `kovacic.closed_form.curve` as SymPy expressions.
+
+Those on s^2 = g, and exponentials of them, are real where g is positive.  kappa int r dx/sqrt(g) is a sum of kappa C sqrt(g)
+and of kappa c log(Q) or kappa c atan(Q): every logarithm of `kovacic.closed_form.curve` with tau^2 < 0 is turned into an arc
+tangent, -log(A + i eta B s)/(i eta) = atan(A/(eta B s))/eta up to a constant.
+
+`elliptic`: integrals on a curve of genus 1 in Legendre's form, F, E and Pi, where enough of the branch points lie in the field.
+
+A Moebius map takes the four branch points (infinity is one for a cubic g) to t = 0, 1, 1/m, infinity.  With W^2 =
+t (1 - t) (1 - m t) and t = sin(phi)^2, dt/W = 2 dphi/sqrt(1 - m sin(phi)^2), so that Hermite's reduction in t leaves
+
+    int dt/W = 2 F(phi|m),   int t dt/W = 2 (F - E)/m,   int dt/((t - tau) W) = -2 Pi(1/tau; phi|m)/tau.            (1)
+
+For g and r that are even about c, (x - c)^2 takes the place of x: the roots of g themselves needn't lie in the field.
+
+One finite branch point a is enough beside infinity, where the other two may be conjugate: with A^2 = g'(a), x = a + A s the
+curve is w^2 = s (s^2 + b s + 1), and with m = (2 - b)/4, s = tan(phi/2)^2, sin(phi)^2 = 4 s/(1 + s)^2, n = (1 + tau)^2/(4 tau),
+
+    int ds/w = F(phi|m),       int s ds/w = F - 2 E + 2 w/(1 + s),
+    int ds/((s - tau) w) = -F/(1 + tau) + (tau - 1)/(2 tau (1 + tau)) Pi(n; phi|m) - atanh(w(tau) s/(tau w))/w(tau)
+                         = -F/(2 tau) - (tau - 1)/(2 tau (1 + tau)) Pi(m/n; phi|m) + atanh(2 w(tau) w/Q)/w(tau),     (2)
+    Q (tau s - 1) = (1 + tau) (1 - s) tau (s^2 + b s + 1) - (tau - 1) (1 + s) s (tau^2 + b tau + 1),
+
+of which the first is taken for tau < 0 and the second, where n > 1, else.
+
+For an irreducible cubic g over Q with one real root, this is adjoined, and one root of a quartic g goes to infinity.  Left as
+integrals: irreducible cubics with three real roots, quartics without a root in the field that aren't even about their centre;
+poles that are conjugate over the field, and in (2) those where more than one root has to be adjoined, for that takes more
+than a screen.
+
+Reference: NIST Handbook of Mathematical Functions (2010), 19.2 and 19.29; for (2) Byrd & Friedman, Handbook of Elliptic
+Integrals (1971), 239, 260 and 361.54, where the angle is that of cos(phi) = (1 - s)/(1 + s).
+"""
 
 from __future__ import annotations
 
 from collections.abc import Iterable
+from dataclasses import dataclass, field, replace
 from fractions import Fraction
 from math import gcd, lcm
+from typing import Any
 
 import sympy
-from sympy import Add, Ei, Integer, Mul, erf, erfi, exp, pi
+from sympy import (
+    Add,
+    Ei,
+    Integer,
+    Mul,
+    asin,
+    asinh,
+    atan,
+    atanh,
+    cos,
+    elliptic_e,
+    elliptic_f,
+    elliptic_pi,
+    erf,
+    erfi,
+    exp,
+    log,
+    pi,
+    sin,
+)
 
+from kovacic.algebra.extension import AlgebraicField
 from kovacic.algebra.partial_fractions import Residue
-from kovacic.algebra.poly import Poly
-from kovacic.closed_form.atoms import Atoms, Expr, display, factors, rational
-from kovacic.closed_form.curve import CurveIntegral
-from kovacic.closed_form.curve_display import curve_integral, elliptic
+from kovacic.algebra.poly import Field, Poly
+from kovacic.algebra.ratfunc import RatFunc
+from kovacic.algebra.rationals import QQ
+from kovacic.closed_form.atoms import Atoms, Expr, discriminant, display, factors, rational
+from kovacic.closed_form.curve import CurveIntegral, Unit, integrate_on_curve, unit
 from kovacic.closed_form.primitive import (
     ExponentialPrimitive,
     OpenPrimitive,
@@ -22,8 +77,452 @@ from kovacic.closed_form.primitive import (
     normalised_constant,
 )
 from kovacic.closed_form.product import Power, Product, gathered
-from kovacic.closed_form.structure import Triangular
+from kovacic.closed_form.structure import OnCurve, Triangular
 from kovacic.numbers.exact import radical as sqrt
+
+
+@dataclass
+class _Terms:
+    """int r dx/sqrt(g) = sum of c log(base) over `logarithms` (c, base) + sum of `others`; `notes` on what was left.
+
+    `norms` (p, n) stand for a sum of n log(p)/tau with tau^2 = `tau_squared`.
+    """
+
+    logarithms: list[tuple[Expr, Expr]] = field(default_factory=list)
+    norms: list[tuple[Poly, Fraction]] = field(default_factory=list)
+    tau_squared: Poly | None = None
+    others: list[Expr] = field(default_factory=list)
+    notes: tuple[str, ...] = ()
+
+    def join_norms(self, atoms: Atoms) -> None:
+        """The norms as logarithms."""
+        if self.tau_squared is not None:
+            tau = atoms.sqrt(self.tau_squared)
+            self.logarithms += [(n / tau, atoms.poly(p)) for p, n in self.norms]
+
+
+def curve_integral(integral: CurveIntegral, atoms: Atoms) -> tuple[Expr, Expr, tuple[str, ...]]:
+    """(c, F, notes): int r dx/sqrt(g) = c F, where F is real around 0 for g = x^2 - a, a > 0.
+
+    There sqrt(g) = i sqrt(-g), as for the powers of g in `kovacic.closed_form.atoms.factors`.
+    """
+    scale: Expr = Integer(1)
+    if atoms.is_real_beyond_zero(integral.g):
+        integral = _turned(integral)
+        scale = -sympy.I
+    terms = _curve_terms(integral, atoms, alone=False, exponents=False)
+    terms.join_norms(atoms)
+    return scale, Add(*terms.others, *(c * log(base) for c, base in terms.logarithms)), terms.notes
+
+
+def _turned(integral: CurveIntegral) -> CurveIntegral:
+    """int r dx/sqrt(-g)."""
+    return replace(integral, g=-integral.g, exact=-integral.exact)
+
+
+def exponentials(form: OnCurve, atoms: Atoms) -> tuple[Expr, Expr, tuple[str, ...]]:
+    """The two solutions, with cos and sin where kappa is imaginary, and notes."""
+    form = _oriented(form)
+    oscillates = atoms.is_negative(form.kappa_squared)
+    kappa = atoms.sqrt(-form.kappa_squared if oscillates else form.kappa_squared)
+    terms = _curve_terms(form.integral, atoms, alone=form.zeros is None, exponents=True)
+    common, other = _with_norms(form, terms, kappa, atoms)
+    A, B = _zero_factors(form, kappa, atoms)
+    if not terms.others and not terms.logarithms:
+        return common * A, common * B, terms.notes
+    inner = [_times(kappa, term) for term in terms.others]
+    powers = [(base, _times(kappa, c)) for c, base in terms.logarithms]
+    if oscillates:
+        angle = Add(*inner, *(e * log(base) for base, e in powers))
+        c = cos(angle)
+        s = sin(angle)
+        return common * (A * c - B * s), common * (A * s + B * c), terms.notes
+    first = Mul(common, A + B, *(base**e for base, e in powers), exp(Add(*inner)))
+    second = Mul(other, A - B, *(base**-e for base, e in powers), exp(-Add(*inner)))
+    return first, second, terms.notes
+
+
+def _with_norms(form: OnCurve, terms: _Terms, kappa: Expr, atoms: Atoms) -> tuple[Expr, Expr]:
+    """The common factor of both solutions, times prod p^(+-n kappa/tau) over the norms, which join its powers in the field."""
+    ratio = terms.tau_squared and form.common.field.sqrt(form.kappa_squared / terms.tau_squared)
+    if ratio is None:
+        terms.join_norms(atoms)
+        common = display(form.common, atoms)
+        return common, common
+    # Both square roots are written as positive numbers.
+    if atoms.is_negative(ratio):
+        ratio = -ratio
+    first, second = (
+        display(replace(form.common, powers=gathered((*form.common.powers, *more))), atoms)
+        for more in ([Power(p, ratio * (sign * n)) for p, n in terms.norms] for sign in (1, -1))
+    )
+    return first, second
+
+
+def _zero_factors(form: OnCurve, kappa: Expr, atoms: Atoms) -> tuple[Expr, Expr]:
+    """A and B kappa s of the gathered zeros A +- B kappa s, up to a common factor, without denominators; 1 and 0 without."""
+    if form.zeros is None:
+        return Integer(1), Integer(0)
+    a, A = atoms.primitive(form.zeros.A)
+    b, B = atoms.primitive(form.zeros.B)
+    numbers, roots = (rational(b / a) * kappa * sqrt(atoms.poly(form.integral.g))).as_coeff_Mul()
+    return numbers.q * A, numbers.p * B * roots
+
+
+def _times(factor: Expr, term: Expr) -> Expr:
+    """factor * term with the square roots of rational numbers multiplied out."""
+    number = term
+    rest: Expr = Integer(1)
+    if term.free_symbols:
+        number, rest = term.as_independent(*term.free_symbols, as_Add=False)
+    square = sympy.expand_mul(factor**2 * number**2)
+    if not (square.is_Rational and factor.is_real and number.is_real):
+        return sympy.sqrtdenest(sympy.expand_mul(factor * number)) * rest
+    if bool(factor.is_negative) != bool(number.is_negative):
+        return -sqrt(square) * rest
+    return sqrt(square) * rest
+
+
+def _oriented(form: OnCurve) -> OnCurve:
+    """With -g and -kappa^2 instead of g and kappa^2 if all logarithms are real where g is negative.
+
+    Only for rational tau^2, and d = 2 with two real branch points and without a logarithm at infinity.
+    """
+    integral = form.integral
+    if integral.rest or not integral.residues:
+        return form
+    square = discriminant(integral.g)
+    if square is None or square <= 0:
+        return form
+    for residue in integral.residues:
+        found = unit(integral.g, residue)
+        value = None if found is None else found.tau_squared.field.rational_value(found.tau_squared)
+        if value is None or value > 0:
+            return form
+    zeros = form.zeros and replace(form.zeros, B=-form.zeros.B)
+    return OnCurve(form.common, -form.kappa_squared, _turned(integral), zeros)
+
+
+def _curve_terms(integral: CurveIntegral, atoms: Atoms, *, alone: bool, exponents: bool) -> _Terms:
+    """With `exponents` the terms will be exponents, and int dx/sqrt(g) is a logarithm, which becomes a power."""
+    root = sqrt(atoms.poly(integral.g))
+    terms = _Terms()
+    if integral.exact:
+        terms.others.append(atoms.ratio(integral.exact) * root)
+    if not integral.is_elementary:
+        if not integral.units:
+            terms.others.append(sympy.Integral(atoms.ratio(integral.without_exact) / root, atoms.x))
+            terms.notes = (f"integral left because {integral.reason}",)
+        else:
+            for u in integral.units:
+                _append_unit(u, root, atoms, terms, integral.g)
+        return terms
+    if integral.rest:
+        _append_rest(integral, root, atoms, terms, alone=alone, exponents=exponents)
+    for residue in integral.residues:
+        found = unit(integral.g, residue)
+        if found is not None:
+            _append_unit(found, root, atoms, terms, integral.g)
+        else:
+            terms.others.append(_root_sum(integral, residue, root, atoms))
+    return terms
+
+
+def _append_rest(
+    integral: CurveIntegral, root: Expr, atoms: Atoms, terms: _Terms, *, alone: bool, exponents: bool
+) -> None:
+    """c int dx/sqrt(g) = c log(x - (x1 + x2)/2 + sqrt(g)), or an inverse sine."""
+    g = integral.g
+    inverse = None if exponents else _inverse_sine(g, atoms)
+    c = atoms.constant(integral.rest)
+    if inverse is not None:
+        terms.others.append(c * inverse)
+        return
+    roots = atoms.real_roots(g)
+    is_alone = alone and not integral.exact and not integral.residues
+    if is_alone and g[1] and roots:
+        # The square root of the base: its square has another sign of sqrt(g) in some regions, which is of no account alone.
+        terms.logarithms.append((2 * c, Add(*(sqrt(atoms.x - a) for a in roots))))
+        return
+    terms.logarithms.append((c, atoms.poly(g.derivative() * Fraction(1, 2)) + root))
+
+
+def _inverse_sine(g: Poly, atoms: Atoms) -> Expr | None:
+    """int dx/sqrt(g) for g = k^2 - (x - h)^2 or g = (x - h)^2 + k^2 with a number k > 0; None for others."""
+    h = g[1] * g.lc * Fraction(-1, 2)
+    d = g[0] - g[1] * g[1] * g.lc * Fraction(1, 4)
+    if not atoms.constant(d).is_positive:
+        return None
+    z = (atoms.x - atoms.constant(h)) / atoms.sqrt(d)
+    if g.lc == -1:
+        return asin(z)
+    return asinh(z)
+
+
+def _append_unit(u: Unit, root: Expr, atoms: Atoms, terms: _Terms, g: Poly) -> None:
+    """factor * log((A + B tau s)/sqrt(norm))/tau, or the arc tangent for tau^2 < 0."""
+    factor = rational(u.factor)
+    A = u.A
+    B = u.B
+    content, _ = atoms.primitive(A)
+    if content:
+        A = A * (1 / content)
+        B = B * (1 / content)
+    if atoms.is_negative(u.tau_squared):
+        eta = atoms.sqrt(-u.tau_squared)
+        a, top = atoms.primitive(A)
+        b, bottom = atoms.primitive(B)
+        terms.others.append(atan(Mul(rational(a / b) / eta, top, 1 / bottom, 1 / root)) * -factor / eta)
+        return
+    tau = atoms.sqrt(u.tau_squared)
+    argument = atoms.poly(A) + sympy.expand_mul(tau * atoms.poly(B)) * root
+    if u.p is None:
+        norm = u.norm(g)
+        terms.norms += [(p, -u.factor * k / 2) for p, k in norm.field.factor(norm)]
+        terms.tau_squared = u.tau_squared
+    elif u.p.degree > 0:
+        argument = argument / atoms.primitive(u.p)[1]
+    terms.logarithms.append((factor / tau, argument))
+
+
+def _root_sum(integral: CurveIntegral, residue: Residue, root: Expr, atoms: Atoms) -> Expr:
+    """The sum over the roots a of p of -(rho/sqrt(gamma)) log((L_a + sqrt(gamma) s)/(x - a))."""
+    p = residue.factor
+    a = atoms.root
+    gamma = atoms.poly(integral.radicand(residue), a)
+    slope = atoms.poly(integral.g.derivative() * Fraction(1, 2) % p, a)
+    tangent = gamma + slope * (atoms.x - a)
+    body = -atoms.poly(residue.value, a) / sqrt(gamma) * log((tangent + sqrt(gamma) * root) / (atoms.x - a))
+    if roots := atoms.real_roots(p):
+        return Add(*(body.subs(a, value) for value in roots))
+    return atoms.root_sum(atoms.poly(p, a), body)
+
+
+def elliptic(integral: CurveIntegral, atoms: Atoms) -> list[tuple[Expr, Expr]] | None:
+    """Terms (c, e) whose sum of c e is int r dx/sqrt(g) times a constant, on every domain without branch points of the terms.
+
+    None if the genus isn't 1, or for what the module doesn't cover.
+    """
+    if integral.g.degree not in (3, 4):
+        return None
+    r, g, inner = _in_square(integral.integrand, integral.g)
+    quadratic = [p for p, _ in g.field.factor(g) if p.degree == 2]
+    real = [p for p in quadratic if atoms.constant(p[1] * p[1] - 4 * p[0]).is_positive]
+    if len(real) == 1:
+        r, branch, inner = _over(AlgebraicField(g.field, real[0]), r, RatFunc(g), inner)
+        g = branch.num
+    by_roots = _by_sine if len(_roots(g)) == g.degree else _by_tangent
+    terms = by_roots(r, g, inner, atoms)
+    if not terms:
+        return None
+    terms = [(c, e) for c, e in terms if c]
+    last = terms[-1][0].inverse()
+    return [(atoms.constant(c * last), e) for c, e in terms]
+
+
+def _in_square(r: RatFunc, g: Poly) -> tuple[RatFunc, Poly, RatFunc | None]:
+    """r, g, and t where these are in u = t^2, t = x - c; None where there is no such t."""
+    x = RatFunc(g.field.poly([0, 1]))
+    centre = -g[g.degree - 1] / g.degree
+    moved, curve = _moved(r, RatFunc(g), x + centre)
+    if g.degree == 3 or curve[1] or moved(-x) != moved:
+        return r, g, None
+    return RatFunc(_halved(moved.num), _halved(moved.den)), _halved(curve) * x.num, x - centre
+
+
+def _moved(r: RatFunc, g: RatFunc, back: RatFunc) -> tuple[RatFunc, Poly]:
+    """r and a monic g for x = back(t), a Moebius function, up to a constant."""
+    return r(back), (g(back) / back.derivative() ** 2).num.monic()
+
+
+def _by_sine(r: RatFunc, g: Poly, inner: RatFunc | None, atoms: Atoms) -> list[tuple[Poly, Expr]]:
+    """By (1), from all branch points."""
+    start, one, last = _ordered(_roots(g), inner is not None, atoms)
+    x = RatFunc(g.field.poly([0, 1]))
+    t = x - start
+    back = x + start
+    if last is not None:
+        t = (x - start) / (x - last)
+        back = (x * last - start) / (x - 1)
+    if one is not None:
+        scale = (t.num(one) / t.den(one)).inverse()
+        t = t * scale
+        back = back(x / scale)
+    r, g = _moved(r, RatFunc(g), back)
+    m = -(g[2] + 1).inverse()
+    done = integrate_on_curve(r, g)
+    if any(residue.factor.degree > 1 for residue in done.residues):
+        return []
+    shown, root = _square_root(t, inner, atoms)
+    phi = asin(root)
+    modulus = atoms.constant(m)
+    terms: list[tuple[Poly, Expr]] = []
+    if done.exact:
+        W = root * sqrt(atoms.factored(1 - shown)) * sqrt(atoms.factored(1 - shown * m))
+        terms.append((lead := done.exact.num.lc, atoms.factored(done.exact(shown) / (2 * lead)) * W))
+    terms.append((m * done.rest[0] + done.rest[1], elliptic_f(phi, modulus)))
+    terms.append((-done.rest[1], elliptic_e(phi, modulus)))
+    for residue in done.residues:
+        inverse = -residue.factor[0].inverse()  # 1/tau
+        terms.append((-m * residue.value[0] * inverse, elliptic_pi(atoms.constant(inverse), phi, modulus)))
+    return terms
+
+
+@dataclass(frozen=True)
+class _Cubic:
+    """r and a cubic g with the root `a` in u = t(x); `negative` is the sign of A for it."""
+
+    r: RatFunc
+    g: Poly
+    t: RatFunc
+    inner: RatFunc | None
+    a: Poly
+    negative: bool = False
+
+    def over(self, field: Field) -> _Cubic:
+        """The same over a larger field."""
+        r, curve, t, inner = _over(field, self.r, RatFunc(self.g), self.t, self.inner)
+        return replace(self, r=r, g=curve.num, t=t, inner=inner)
+
+
+def _with_a_root(r: RatFunc, g: Poly, inner: RatFunc | None, atoms: Atoms) -> _Cubic | None:
+    """A cubic with a root in the field, or in a larger one; None without.  A root of a quartic goes to infinity."""
+    x = RatFunc(g.field.poly([0, 1]))
+    t = x
+    negative = False
+    roots = _roots(g)
+    if g.degree == 4:
+        if not roots:
+            return None
+        pole = roots[0]
+        negative = atoms.is_negative(g.derivative()(pole))
+        t = 1 / (x - pole)
+        r, g = _moved(r, RatFunc(g), 1 / x + pole)
+        roots = _roots(g)
+    if roots:
+        return _Cubic(r, g, t, inner, roots[0], negative)
+    if g.field != QQ or len(sympy.real_roots(atoms.poly(g))) > 1:
+        return None
+    field = AlgebraicField(QQ, g)
+    return _Cubic(r, g, t, inner, field.generator, negative).over(field)
+
+
+def _by_tangent(r: RatFunc, g: Poly, inner: RatFunc | None, atoms: Atoms) -> list[tuple[Poly, Expr]]:
+    """By (2), from one branch point beside infinity."""
+    cubic = _with_a_root(r, g, inner, atoms)
+    if cubic is None:
+        return []
+    square = cubic.g.derivative()(cubic.a)
+    A = cubic.g.field.sqrt(square)
+    if A is None:
+        field = AlgebraicField(cubic.g.field, cubic.g.field.poly([-square, 0, 1]))
+        cubic = cubic.over(field)
+        A = field.generator
+    if cubic.negative != atoms.is_negative(A):
+        A = -A
+    x = RatFunc(cubic.g.field.poly([0, 1]))
+    g = cubic.g(x.num * A + cubic.a).monic()
+    done = integrate_on_curve(cubic.r(x * A + cubic.a), g)
+    if any(residue.factor.degree > 1 or g.field.height > 1 for residue in done.residues):
+        return []
+    quadratic = g // x.num
+    shown, root = _square_root((cubic.t - cubic.a) / A, cubic.inner, atoms)
+    # w as sqrt(s) (1 + s) sqrt(1 - m sin(phi)^2), for the branches of F and E where s < -1.
+    W = root * sqrt(atoms.factored(RatFunc(quadratic, (x.num + 1) ** 2)(shown)))
+    angle = _Angle(quadratic, shown, W, 2 * atan(root), (2 - g[2]) / 4)
+    terms: list[tuple[Poly, Expr]] = []
+    C = done.exact + done.rest[1] * 2 / (x + 1)
+    if C:
+        leading = C.num.lc
+        terms.append((leading, atoms.factored((C * (x + 1))(shown) / leading) * W))
+    of_F = done.rest[0] + done.rest[1]
+    for residue in done.residues:
+        tau = -residue.factor[0]
+        rho = residue.value[0]
+        # by the first of (2) where tau < 0, else by the second
+        is_first = atoms.is_negative(tau) and bool(1 + tau)
+        of_F += -rho / (1 + tau if is_first else 2 * tau)
+        terms += angle.terms_of_pole(tau, rho, atoms)
+    modulus = atoms.constant(angle.m)
+    return [*terms, (of_F, elliptic_f(angle.phi, modulus)), (-done.rest[1] * 2, elliptic_e(angle.phi, modulus))]
+
+
+@dataclass(frozen=True)
+class _Angle:
+    """The curve w^2 = s quadratic(s); s and w as functions of x, the angle phi and the parameter m of (2)."""
+
+    quadratic: Poly
+    s: RatFunc
+    w: Expr
+    phi: Expr
+    m: Poly
+
+    def terms_of_pole(self, tau: Poly, rho: Poly, atoms: Atoms) -> list[tuple[Poly, Expr]]:
+        """Pi and the logarithm for it."""
+        above = 1 + tau
+        n = above * above / (4 * tau)
+        of_pi = rho / (2 * tau) * (tau - 1)
+        of_logarithm = -rho
+        if atoms.is_negative(tau):
+            z = atoms.factored(self.s / (self.s + 1) / tau) / self.w
+        else:
+            n = self.m / n
+            of_pi = -of_pi
+            of_logarithm = rho
+            # 2 w/Q, where w(tau) isn't a factor yet
+            x = RatFunc(self.quadratic.field.poly([0, 1]))
+            Q = (1 + tau) * tau * (1 - x.num) * self.quadratic
+            Q = (Q - (tau - 1) * (x.num + 1) * x.num * self.quadratic(tau)) // (x.num * tau - 1)
+            z = atoms.factored(((x + 1) * 2 / Q)(self.s)) * self.w
+        terms: list[tuple[Poly, Expr]] = []
+        if above and tau != 1:
+            Pi = elliptic_pi(atoms.constant(n), self.phi, atoms.constant(self.m))
+            terms.append((of_pi / above, Pi))
+        square = tau * self.quadratic(tau)  # w(tau)^2
+        if atoms.is_negative(square):
+            factor = atoms.sqrt(-square)
+            terms.append((of_logarithm, atan(factor * z) / factor))
+        else:
+            factor = atoms.sqrt(square)
+            terms.append((of_logarithm, atanh(factor * z) / factor))
+        return terms
+
+
+def _square_root(t: RatFunc, inner: RatFunc | None, atoms: Atoms) -> tuple[RatFunc, Expr]:
+    """t as a function of x, and its square root."""
+    if inner is None:
+        return t, sqrt(atoms.factored(t))
+    shown = t(inner * inner)
+    return shown, atoms.factored(inner) * sqrt(atoms.factored(shown / (inner * inner)))
+
+
+def _over(field: Field, *functions: Any) -> tuple[Any, ...]:
+    """The functions over a larger field; None stays."""
+    return tuple(f and RatFunc(f.num.over(field), f.den.over(field), reduced=True) for f in functions)
+
+
+def _roots(g: Poly) -> list[Poly]:
+    return [-p[0] for p, _ in g.field.factor(g) if p.degree == 1]
+
+
+def _halved(p: Poly) -> Poly:
+    """q with q(x^2) = p."""
+    return p.field.poly([p[k] for k in range(0, p.degree + 1, 2)])
+
+
+def _ordered(roots: list[Poly], even: bool, atoms: Atoms) -> tuple[Poly, Poly | None, Poly | None]:
+    """What becomes 0, 1, and infinity (None is infinity): 0 < t < 1 for real x, and 0 < m < 1 where there is a choice."""
+    shown = {a: atoms.constant(a) for a in roots}
+    values = {a: float(value) for a, value in shown.items() if value.is_number and value.is_real}
+    points = [*sorted(values, key=lambda a: values[a]), *(a for a in roots if a not in values)]
+    if even:
+        zero = next(a for a in points if not a)
+        above = [a for a in points if values.get(a, 1.0) > 0]
+        return (zero, above[0], None) if above else (zero, None, points[0])
+    if len(points) == 3:
+        return points[0], points[1], None
+    return points[1], points[2], points[0]
+
 
 Scaled = tuple[Expr, Expr]  # a constant and an expression, to be multiplied
 Factors = tuple[Expr, list[Expr]]  # a constant and factors: y1 as `Atoms.factors` gives it

@@ -287,7 +287,14 @@ class _Evaluator(BallEvaluator):
         """c, c', s or s' for an even and an odd solution of w'' = f w, f = 2 q cos(2 z) - a; c s' - c' s is constant."""
         a, q, last = map(self, e.args)
         z = _lifted(last)
-        c, dc, s, ds = _mathieu_values(e.args)
+        # The first three have names, c' = s = 0 at 0, and s' is given by the Wronskian elsewhere.
+        c, dc, s, ds = (parameter_value(str(function(*e.args))) for function in MATHIEU)
+        at_zero = (*e.args[:2], sympy.S.Zero)
+        if e.args == at_zero:
+            dc = s = acb(0)
+        else:
+            W = parameter_value(str(sympy.mathieuc(*at_zero))) * parameter_value(str(sympy.mathieusprime(*at_zero)))
+            ds = (W + dc * s) / c
         value, slope = (c, dc) if isinstance(e, sympy.mathieuc | sympy.mathieucprime) else (s, ds)
         f = 2 * q * (2 * z[0]).cos() - a
         values = [value, slope, f * value, f * slope - 4 * q * (2 * z[0]).sin() * value]
@@ -325,16 +332,6 @@ class _Evaluator(BallEvaluator):
             return [acb(root.real) if others == [root] else root for root, others in zip(roots, mirrored, strict=True)]
         integers = polynomial.clear_denoms()[1].all_coeffs()[::-1]
         return [root for root, _ in complex_zeros(fmpz_poly([int(c) for c in integers]))]
-
-
-def _mathieu_values(arguments: Sequence[Any]) -> tuple[Acb, Acb, Acb, Acb]:
-    """c, c', s and s' at the last argument: the first three by names, c' = s = 0 at 0, and s' by the Wronskian elsewhere."""
-    c, dc, s, ds = (parameter_value(str(function(*arguments))) for function in MATHIEU)
-    at_zero = (*arguments[:2], sympy.S.Zero)
-    if tuple(arguments) == at_zero:
-        return c, acb(0), acb(0), ds
-    W = parameter_value(str(sympy.mathieuc(*at_zero))) * parameter_value(str(sympy.mathieusprime(*at_zero)))
-    return c, dc, s, (W + dc * s) / c
 
 
 def _lifted(value: BallValue) -> BallValue:

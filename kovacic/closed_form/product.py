@@ -108,20 +108,14 @@ def product(logarithmic_derivative: RatFunc, zeros: Poly | None = None) -> Produ
     powers = [Power(residue.factor, residue.value) for residue in parts.residues if residue.is_constant]
     roots = tuple(residue for residue in parts.residues if not residue.is_constant)
     if zeros is not None and zeros.degree > 0:
-        powers = _with_zeros(powers, zeros.over(parts.exact.field).monic())
+        # What the zeros share with the bases joins these, the rest is one factor.
+        rest = zeros.over(parts.exact.field).monic()
+        for i, power in enumerate(powers):
+            rest, count = rest.remove(power.base)
+            powers[i] = Power(power.base, power.exponent + count)
+        if rest.degree > 0:
+            powers.append(Power(rest, rest.field.poly([1])))
     return Product(tuple(power for power in powers if power.exponent), roots, parts.exact)
-
-
-def _with_zeros(powers: list[Power], zeros: Poly) -> list[Power]:
-    """The powers times a polynomial: what it shares with their bases joins these, the rest is one factor."""
-    rest = zeros
-    found = []
-    for power in powers:
-        rest, count = rest.remove(power.base)
-        found.append(Power(power.base, power.exponent + count))
-    if rest.degree > 0:
-        found.append(Power(rest, zeros.field.poly([1])))
-    return found
 
 
 @dataclass(frozen=True)

@@ -190,7 +190,15 @@ def build(S: RatFunc, decision: Decision, gauge: RatFunc) -> ClosedStructure:
     if structure is Structure.REDUCIBLE:
         return _reducible(semi, decision.invariant, gauge)
     if structure is Structure.IMPRIMITIVE:
-        return _imprimitive(S, semi, gauge)
+        g, r, kappa_squared = curve_of(S, semi)
+        common = (semi.theta + gauge * 2) * Fraction(1, 2)
+        zeros = gathered_zeros(g, r, kappa_squared, semi.P)
+        if zeros is None or zeros.p is None:
+            common = common + logarithmic_derivative(semi.P) * Fraction(1, 2)
+        else:
+            common = common - logarithmic_derivative(zeros.p // semi.P) * Fraction(1, 2)
+            r = r - zeros.integrand(g)
+        return OnCurve(product(common), kappa_squared, completed(integrate_on_curve(r, g)), zeros)
     if decision.invariant is None:
         raise ValueError("the decision was made without its certificate")
     return covariants(S, structure, decision.invariant)
@@ -229,18 +237,6 @@ def _conjugate(semi: SemiInvariant, gauge: RatFunc) -> Conjugate:
     u = RatFunc(a * c - b * d * delta, norm)
     v = RatFunc(b * c - a * d, norm)
     return Conjugate(product(u + gauge), delta, decompose(v), *split(semi.P))
-
-
-def _imprimitive(S: RatFunc, semi: SemiInvariant, gauge: RatFunc) -> OnCurve:
-    g, r, kappa_squared = curve_of(S, semi)
-    common = (semi.theta + gauge * 2) * Fraction(1, 2)
-    zeros = gathered_zeros(g, r, kappa_squared, semi.P)
-    if zeros is None or zeros.p is None:
-        common = common + logarithmic_derivative(semi.P) * Fraction(1, 2)
-    else:
-        common = common - logarithmic_derivative(zeros.p // semi.P) * Fraction(1, 2)
-        r = r - zeros.integrand(g)
-    return OnCurve(product(common), kappa_squared, completed(integrate_on_curve(r, g)), zeros)
 
 
 def curve_of(S: RatFunc, semi: SemiInvariant) -> tuple[Poly, RatFunc, Poly]:

@@ -30,8 +30,18 @@ from kovacic.algebra.ratfunc import RatFunc
 from kovacic.engine.places import Kind, Place, Problem
 from kovacic.limits import count_work
 from kovacic.special import prices
-from kovacic.special.maps import Fibre, Point, fibres, irregular_places, leading_square, square, zeros
-from kovacic.special.numbers import HALF, Number, multiplicities
+from kovacic.special.maps import (
+    HALF,
+    Fibre,
+    Number,
+    Point,
+    fibres,
+    irregular_places,
+    leading_square,
+    multiplicities,
+    square,
+    zeros,
+)
 from kovacic.special.pullback import (
     TRIAL,
     Pullback,

@@ -83,17 +83,15 @@ def shortest(forms: Sequence[Any]) -> Any:
     forms = [*dict.fromkeys(forms)]
     if len(forms) == 1:
         return forms[0]
-    kinds = [FormKind.INTEGRAL if form.has(Integral) else FormKind.ELEMENTARY for form in forms]
-    given = [PairForm(kind, _length(form), lambda: None) for kind, form in zip(kinds, forms, strict=True)]
+    given = []
+    for form in forms:
+        kind = FormKind.INTEGRAL if form.has(Integral) else FormKind.ELEMENTARY
+        text = as_text(form)
+        for step in form.atoms(Heaviside):
+            u = as_text(step.args[0])
+            text = text.replace(f"({u})", "x").replace("Heavisidex", f"Heaviside({u})")
+        given.append(PairForm(kind, len(text), lambda: None))
     return forms[given.index(best(given))]
-
-
-def _length(form: Any) -> int:
-    text = as_text(form)
-    for step in form.atoms(Heaviside):
-        u = as_text(step.args[0])
-        text = text.replace(f"({u})", "x").replace("Heavisidex", f"Heaviside({u})")
-    return len(text)
 
 
 def solutions(

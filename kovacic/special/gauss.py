@@ -48,8 +48,7 @@ from kovacic.decision import Structure
 from kovacic.engine.places import Kind, Problem, analyse, rational_square_root
 from kovacic.limits import Budget
 from kovacic.special import prices
-from kovacic.special.maps import Point, coverings
-from kovacic.special.numbers import HALF, Number
+from kovacic.special.maps import HALF, Number, Point, coverings
 from kovacic.special.pullback import (
     Pullback,
     StandardEquation,

@@ -1,4 +1,4 @@
-"""The functions f of pull-backs, from the polar parts of S or from its exponents.
+"""The functions f of pull-backs, from the polar parts of S or from its exponents; and the constants in them.
 
 For irregular singular points: f from its polar parts, up to its constant term.  The irregular places of S are the poles of f,
 where S = f'^2 S0(f) + O(order 2).  With q = S0(infinity), and S0 = q - r/z + ...,
@@ -27,6 +27,8 @@ A function of degree n has 2 n - 2 ramification points, so that there are n + 2 
 ramification elsewhere, which the apparent places show.
 
 Reference: M. van Hoeij & R. Vidunas, J. Algebra 441 (2015) 626-659 [vHV15], for the patterns of branching.
+
+A `Number` is a parameter of special functions, linear in square roots of constants of the field.
 """
 
 from __future__ import annotations
@@ -40,13 +42,67 @@ from math import gcd, lcm
 
 from kovacic.algebra.extension import AlgebraicField, ExtensionPoly
 from kovacic.algebra.partial_fractions import decompose
-from kovacic.algebra.poly import Poly
+from kovacic.algebra.poly import Poly, Scalar
 from kovacic.algebra.ratfunc import RatFunc
 from kovacic.algebra.rationals import QQ
 from kovacic.engine.places import Kind, Place, Problem, rational_square_root
 from kovacic.errors import LimitExceeded
 from kovacic.limits import Budget, check_time, count_work
-from kovacic.special.numbers import root
+
+HALF = Fraction(1, 2)
+
+
+@dataclass(frozen=True)
+class Number:
+    """part + sum of coefficient * sqrt(square) over `roots`, pairs (square, coefficient) of constants of one field."""
+
+    part: Poly
+    roots: tuple[tuple[Poly, Poly], ...] = ()
+
+    def __add__(self, other: Number | Poly | Scalar) -> Number:
+        if not isinstance(other, Number):
+            return Number(self.part + other, self.roots)
+        total = dict(self.roots)
+        for square, coefficient in other.roots:
+            total[square] = total[square] + coefficient if square in total else coefficient
+        return Number(self.part + other.part, tuple((square, c) for square, c in total.items() if c))
+
+    __radd__ = __add__
+
+    def __mul__(self, factor: Poly | Scalar) -> Number:
+        return Number(self.part * factor, tuple((square, c * factor) for square, c in self.roots))
+
+    __rmul__ = __mul__
+
+    def __neg__(self) -> Number:
+        return self * -1
+
+    def __sub__(self, other: Number | Poly | Scalar) -> Number:
+        return self + -other
+
+    def __rsub__(self, other: Poly | Scalar) -> Number:
+        return -self + other
+
+
+def multiplicities(f: RatFunc) -> list[tuple[Poly, int]]:
+    """The monic irreducible factors with their multiplicities, negative in the denominator."""
+    zeros = _factors(f.num)
+    poles = _factors(f.den)
+    return zeros + [(p, -k) for p, k in poles]
+
+
+def _factors(polynomial: Poly) -> list[tuple[Poly, int]]:
+    return polynomial.field.factor(polynomial) if polynomial.degree > 0 else []
+
+
+def root(value: Poly, n: int) -> Poly | None:
+    """A square (n = 2) or cubic (n = 3) root of a constant of the field within it, None if there is none."""
+    field = value.field
+    if n == 2:
+        return field.sqrt(value)
+    factors = field.factor(field.poly([-value, *[0] * (n - 1), 1]))
+    return next((-factor[0] for factor, _ in factors if factor.degree == 1), None)
+
 
 #: Conjugate poles up to which roots are taken where the field has parameters: factoring there takes long.
 _WITH_PARAMETERS = 2

@@ -35,7 +35,7 @@ from kovacic.limits import count_work
 if TYPE_CHECKING:
     from flint import fmpq, fmpq_poly
 
-    from kovacic.special.numbers import Number
+    from kovacic.special.maps import Number
     from kovacic.special.prices import Cost
     from kovacic.special.writer import Writer, WrittenPair
 

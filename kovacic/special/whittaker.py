@@ -38,15 +38,17 @@ from kovacic.engine.places import Problem
 from kovacic.limits import count_work
 from kovacic.special import bessel, prices
 from kovacic.special.maps import (
+    HALF,
+    Number,
     PolarPart,
     check_conjugates,
     integral_of_square_root,
     irregular_places,
+    multiplicities,
     scales,
     unit,
     zeros,
 )
-from kovacic.special.numbers import HALF, Number, multiplicities
 from kovacic.special.pullback import (
     TRIAL,
     Pullback,

@@ -23,8 +23,7 @@ from kovacic.algebra.rationals import QQ
 from kovacic.closed_form.atoms import Atoms, Expr, display, factors, hypergeometric
 from kovacic.closed_form.product import Power, Product, product
 from kovacic.numbers.exact import radical
-from kovacic.special.maps import half_rate
-from kovacic.special.numbers import HALF, Number, multiplicities, root
+from kovacic.special.maps import HALF, Number, half_rate, multiplicities, root
 
 
 @dataclass(frozen=True)

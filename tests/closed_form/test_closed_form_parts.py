@@ -19,9 +19,8 @@ from sympy.abc import t, x
 import kovacic
 from kovacic import Structure
 from kovacic.closed_form.curve import completed, integrate_on_curve, unit
-from kovacic.closed_form.curve_display import curve_integral
 from kovacic.closed_form.form import ClosedForm
-from kovacic.closed_form.integrals import logarithms
+from kovacic.closed_form.integrals import curve_integral, logarithms
 from kovacic.closed_form.primitive import (
     ExponentialPrimitive,
     integrate_exponential,
