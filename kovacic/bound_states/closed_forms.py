@@ -44,8 +44,7 @@ from kovacic.bound_states.energies import tidied
 from kovacic.bound_states.families import possible
 from kovacic.bound_states.frame import Original, RealPotential, monotonic_range
 from kovacic.bound_states.levels import NO_FORMULA, Algebraic
-from kovacic.bound_states.question import SpectralProblem, above
-from kovacic.bound_states.signs import Signs
+from kovacic.bound_states.question import Signs, SpectralProblem, above
 from kovacic.closed_form.atoms import Atoms, factors
 from kovacic.closed_form.integrals import integral
 from kovacic.closed_form.product import product

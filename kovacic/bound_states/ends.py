@@ -14,8 +14,7 @@ import sympy
 
 from kovacic.bound_states.energies import exact_root, tidied
 from kovacic.bound_states.frame import Original, RealPotential, is_between
-from kovacic.bound_states.question import SpectralProblem, Uncovered
-from kovacic.bound_states.signs import Signs
+from kovacic.bound_states.question import Signs, SpectralProblem, Uncovered
 from kovacic.errors import InputError
 from kovacic.numbers.numerals import as_text
 from kovacic.writing.formula import caret

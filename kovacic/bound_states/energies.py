@@ -15,8 +15,7 @@ from typing import Any
 
 import sympy
 
-from kovacic.bound_states.question import Uncovered
-from kovacic.bound_states.signs import Signs
+from kovacic.bound_states.question import Signs, Uncovered
 
 
 @dataclass(frozen=True)

@@ -40,8 +40,7 @@ import sympy
 from kovacic.bound_states.energies import Root, conjugate, shortest, solved, tidied
 from kovacic.bound_states.frame import SingularFrame, Spot, linear_factors
 from kovacic.bound_states.levels import Levels
-from kovacic.bound_states.question import SpectralProblem, Uncovered, above
-from kovacic.bound_states.signs import Signs
+from kovacic.bound_states.question import Signs, SpectralProblem, Uncovered, above
 from kovacic.numbers.numerals import as_text
 from kovacic.parametric.solutions import jacobi
 from kovacic.sturm_liouville.families import family

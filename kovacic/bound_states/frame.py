@@ -19,8 +19,7 @@ from typing import Any
 
 import sympy
 
-from kovacic.bound_states.question import SpectralProblem, Uncovered
-from kovacic.bound_states.signs import Signs
+from kovacic.bound_states.question import Signs, SpectralProblem, Uncovered
 from kovacic.engine.places import Kind, Problem, analyse
 from kovacic.equation import Equation
 from kovacic.limits import Budget

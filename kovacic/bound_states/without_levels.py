@@ -26,8 +26,7 @@ import sympy
 
 from kovacic.bound_states.ends import End, domain_as_given, real_zeros
 from kovacic.bound_states.frame import Original, RealPotential, range_of
-from kovacic.bound_states.question import Uncovered
-from kovacic.bound_states.signs import Signs
+from kovacic.bound_states.question import Signs, Uncovered
 from kovacic.errors import InputError
 from kovacic.numbers.numerals import as_text
 from kovacic.writing.formula import caret
