@@ -17,6 +17,5 @@ module:
 7. `claims`: what is printed of a statement, true or false at a point as a reader takes it; `integers` makes them, with every
    stratum of a condition that was solved for a parameter; `prose` alone writes them, and `formulas` the functions in them;
    `solutions` are formulas for a region, also in the integer of its condition;
-8. `parametric_answer`: what is returned; statements as data by `record`; `api` compares with the engine at exact points,
-   `map` draws.
+8. `parametric_answer`: what is returned; statements as data by `record`; `api` compares with the engine at exact points.
 """

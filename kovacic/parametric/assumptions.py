@@ -364,7 +364,14 @@ class Assumptions:
         solutions = linear.solutions(numbers)
         if known.noninteger and solutions.are_covered_by(INTEGERS):
             return True
-        return not any(_has_number_between(residue, solutions.modulus, known.bounds) for residue in solutions.residues)
+        if len(known.bounds) < 2:
+            return False
+        low = max(known.bounds, key=lambda bound: bound.sign)
+        for residue in solutions.residues:  # the first number of the class beyond the lower end, or the next one
+            first = residue + ceil((low.end - residue) / solutions.modulus) * solutions.modulus
+            if any(all(bound.admits(n) for bound in known.bounds) for n in (first, first + solutions.modulus)):
+                return False
+        return True
 
     def vanishes(self, function: FunctionPoly) -> bool | None:
         """Does the function vanish: True (always), False (never) or None?"""
@@ -500,7 +507,8 @@ def read_assumptions(assume: Mapping[Any, str] | None, S: Any, names: tuple[str,
             hint = f"the parameters are {', '.join(names) or 'none'}"
             raise InputError(f"{name} isn't a parameter of S", hint=hint)
         words[name] += _read_words(what)
-    known = [(name, Known(_useful(said))) for name, said in words.items()]
+    kept = {name: dict.fromkeys(word for word in said if word not in _SAY_NOTHING) for name, said in words.items()}
+    known = [(name, Known(tuple(said))) for name, said in kept.items()]
     for name, facts in known:
         if facts.is_contradiction():
             pairs = (pair for pair in combinations(facts.words, 2) if Known(pair).is_contradiction())
@@ -513,11 +521,6 @@ def check_mapping(assume: object) -> None:
     """Raises `InputError` for what can't be assumptions."""
     if assume is not None and not isinstance(assume, Mapping):
         raise InputError(f"assumptions are a mapping, not {assume!r}", hint='assume={"n": "integer"}')
-
-
-def _useful(words: Iterable[str]) -> tuple[str, ...]:
-    """Each once, without those that say nothing."""
-    return tuple(word for word in dict.fromkeys(words) if word not in _SAY_NOTHING)
 
 
 def _read_words(what: object) -> list[str]:
@@ -553,12 +556,3 @@ def _is_positive_beyond(bounds: Sequence[Bound], form: FunctionPoly, *, or_zero:
         return True
     # A monomial is positive where each of its parameters is strictly beyond the bound.
     return any(all(bound.strict for bound, k in zip(bounds, powers[1:], strict=True) if k) for powers in terms)
-
-
-def _has_number_between(residue: Fraction, modulus: Fraction, bounds: Sequence[Bound]) -> bool:
-    """Is there a number of the class within the bounds?"""
-    if len(bounds) < 2:
-        return True
-    low = max(bounds, key=lambda bound: bound.sign)
-    first = residue + ceil((low.end - residue) / modulus) * modulus
-    return any(all(bound.admits(number) for bound in bounds) for number in (first, first + modulus))

@@ -228,17 +228,9 @@ class Case:
     without: tuple[Statement, ...] = ()
 
     @property
-    def verdict(self) -> RegionVerdict:
-        return self.regions[0].verdict
-
-    @property
     def region(self) -> ParameterRegion:
         """All of it as one region: they say the same."""
         return replace(self.regions[0], statement=self.statement)
-
-    def holds(self, point: ParameterPoint) -> bool:
-        """Is the point one of this case, if it is none of an earlier one?"""
-        return self.statement.holds(point) and not any(statement.holds(point) for statement in self.without)
 
 
 def outside(regions: Iterable[ParameterRegion]) -> Iterator[ParameterRegion]:
@@ -404,7 +396,16 @@ class _Block:
         if not isinstance(first, Vanishes) or not isinstance(last, Vanishes) or len(cases) != len(self.cases):
             return False
         difference = first.function.field.rational_value(first.function - last.function)
-        return bool(difference) and all(_says_as_much(*pair, is_same) for pair in zip(self.cases, cases, strict=True))
+        if not difference:
+            return False
+        for case, other in zip(self.cases, cases, strict=True):
+            if case.statement != other.statement or case.without != other.without:
+                return False
+            own, new = case.regions[0], other.regions[0]
+            is_alike = replace(own, statement=ALWAYS, verdict=new.verdict) == replace(new, statement=ALWAYS)
+            if not is_alike or not is_same(own, new):
+                return False
+        return True
 
     def add(self, first: Statement, cases: list[Case]) -> None:
         self.firsts.append(first)
@@ -415,15 +416,6 @@ class _Block:
         beginning = either(*self.firsts)
         for case in self.cases:
             yield replace(case, statement=all_of((beginning, *both(case.statement).parts)))
-
-
-def _says_as_much(case: Case, other: Case, is_same: Likeness) -> bool:
-    """Do they say the same, of the same values?"""
-    if case.statement != other.statement or case.without != other.without:
-        return False
-    first, second = case.regions[0], other.regions[0]
-    is_alike = replace(first, statement=ALWAYS, verdict=second.verdict) == replace(second, statement=ALWAYS)
-    return is_alike and is_same(first, second)
 
 
 def _mirrored(cases: Iterable[Case], is_same: Likeness) -> list[Case]:

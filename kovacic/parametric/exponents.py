@@ -43,7 +43,7 @@ from kovacic.engine.places import Kind, Place, Problem, analyse
 from kovacic.engine.riccati import Form, singular_part
 from kovacic.errors import LimitExceeded
 from kovacic.limits import bounded_work, check_time, count_work
-from kovacic.parametric.functions import element, in_field, irreducible_factors, over_parameters
+from kovacic.parametric.functions import element, in_field, irreducible_factors, lifted, over_parameters
 
 #: Determinants whose common factors are taken, and minors up to which all of them are computed.
 _DETERMINANTS = 3
@@ -101,7 +101,7 @@ def rank_conditions(images: Sequence[Poly], field: Field) -> RankConditions:
     surface = None
     if isinstance(field, AlgebraicField):
         surface = _Surface.of(field)
-        images = [surface.lifted(image) for image in images]
+        images = [lifted(image, surface.field) for image in images]
         field = surface.field
     assert isinstance(field, FunctionField)
     try:
@@ -216,14 +216,6 @@ class _Surface:
         larger = FunctionField((*base.names, field.name))
         modulus = in_field(over_parameters(field.modulus), larger)
         return cls(larger, over_parameters(modulus(larger.generator(field.name))).num)
-
-    def lifted(self, image: Poly) -> FunctionPoly:
-        """The polynomial of the lowest degree in the algebraic parameter that is equal to the image there."""
-        last = self.field.generator(self.field.names[-1])
-        total = self.field.poly([])
-        for power, part in enumerate(image.parts):
-            total = total + in_field(over_parameters(part), self.field) * last**power
-        return over_parameters(total)
 
     def values_of_last(self, others: Sequence[int], p: int) -> list[int]:
         """The values modulo p of the algebraic parameter, where the others have these."""

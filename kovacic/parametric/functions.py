@@ -9,6 +9,7 @@ from itertools import chain, product
 from math import gcd
 from typing import Any, NamedTuple
 
+from kovacic.algebra.extension import ExtensionPoly
 from kovacic.algebra.function_field import FunctionField, FunctionPoly
 from kovacic.algebra.poly import Field, Poly
 from kovacic.algebra.ratfunc import RatFunc
@@ -29,6 +30,15 @@ def over_parameters(value: Poly) -> FunctionPoly:
 def in_field(function: FunctionPoly, field: FunctionField) -> FunctionPoly:
     """The same function over a field that has its parameters among others."""
     return over_parameters(function.value_at([field.generator(name) for name in function.field.names], field))
+
+
+def lifted(polynomial: Poly, larger: FunctionField) -> FunctionPoly:
+    """The polynomial with the generator of its field replaced by the last parameter of the larger field."""
+    assert isinstance(polynomial, ExtensionPoly)
+    total: Poly = larger.poly([])
+    for part in reversed(polynomial.parts):
+        total = total * larger.generator(larger.names[-1]) + in_field(over_parameters(part), larger)
+    return over_parameters(total)
 
 
 def element(field: FunctionField, num: Any) -> FunctionPoly:

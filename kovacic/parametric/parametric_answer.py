@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
+from fractions import Fraction
 from functools import lru_cache, partial
 from typing import Any
 
@@ -18,12 +19,12 @@ from kovacic.engine.decide import decide
 from kovacic.equation import Equation, parameters_of
 from kovacic.errors import InputError, LimitExceeded, VerificationFailed, visible
 from kovacic.limits import DEFAULT_LIMITS, Budget, Limits, limited
-from kovacic.numbers.exact import whole
+from kovacic.numbers.exact import exact_real, whole
+from kovacic.numbers.numerals import in_a_message, plain_text
 from kovacic.parametric import prose
 from kovacic.parametric.assumptions import NOTHING_ASSUMED, Assumptions, read_assumptions
 from kovacic.parametric.cases import in_lines
 from kovacic.parametric.functions import NO_CONSTANT, ParameterPoint
-from kovacic.parametric.map import plot
 from kovacic.parametric.natural import Determinant, Natural
 from kovacic.parametric.partition import derived
 from kovacic.parametric.record import (
@@ -46,11 +47,25 @@ from kovacic.reading.substitution import number_text
 from kovacic.reading.symbolic import read_expression
 from kovacic.writing.escaped import json_line
 from kovacic.writing.formula import Formulas, Math
+from kovacic.writing.maps import CellKind, draw_cells, new_axes
 
 #: A number for each parameter by name or symbol, or the point that they make up.
 Values = Mapping[Any, Any] | ParameterPoint
 #: Regions that are written unless all are asked for.
 _SCREEN = 24
+#: What can be known at a point, in colours that keep apart in print and for colour-blind readers [Okabe & Ito].
+_KINDS = (
+    CellKind("no Liouvillian solution", "#ffffff"),
+    CellKind("case 1", "#0072b2"),
+    CellKind("case 2", "#e69f00"),
+    CellKind("case 3", "#cc79a7"),
+    CellKind("not determined", "#dddddd"),
+    CellKind("S not defined", "#000000"),
+)
+#: The ends of ranges, and so many intervals, at most.
+_FARTHEST = 10**300
+_MOST_STEPS = 10_000
+_LABELS = tuple(kind.name for kind in _KINDS)
 
 
 @dataclass(frozen=True)
@@ -510,6 +525,8 @@ class ParametricAnswer:
     ) -> Any:
         """A map of two parameters, or a strip for one, coloured by what the regions claim.
 
+        It needs matplotlib (the extra `plot`).  Nothing is ever shown on a screen: a new figure has the Agg backend.
+
         Parameters
         ----------
         axes : matplotlib.axes.Axes
@@ -543,14 +560,39 @@ class ParametricAnswer:
         >>> strip.get_xlabel(), strip.get_ylabel()
         ('n', '')
         """
+        chosen = tuple(parameters or self.parameters[:2])
+        if len(chosen) not in (1, 2) or not {*chosen} <= {*self.parameters}:
+            raise InputError(
+                "a map needs one parameter or two", hint=f"the parameters are {', '.join(self.parameters)}"
+            )
+        if any(name in chosen for name in fixed or {}):
+            raise InputError(f"a parameter that is fixed doesn't vary: {', '.join(chosen)}")
+        # Exact rational points, so that lines such as n - 1/2 in Z are met.
+        grids = _grids(chosen, ranges, steps)
+        columns = grids[0]
+        is_map = len(chosen) == 2
+        rows = grids[1] if is_map else None
 
-        def label_at(values: Mapping[Any, Any]) -> str:
-            return str(self.predicted(self.point(values)) or "S not defined")
+        def colour(*point: Fraction) -> int:
+            values = dict(zip(chosen, point, strict=True))
+            verdict = self.predicted(self.point({**(fixed or {}), **values}))
+            return _LABELS.index(str(verdict or "S not defined"))
 
-        title = f"y'' = {self.right.text}"
-        return plot(
-            label_at, self.parameters, title, axes, parameters=parameters, ranges=ranges, steps=steps, fixed=fixed
-        )
+        if rows is None:
+            table = [[colour(first) for first in columns]]
+        else:
+            table = [[colour(first, second) for first in columns] for second in rows]
+        if axes is None:
+            axes = new_axes(6.5, 5.5)
+        handles = draw_cells(axes, columns, rows, table, _KINDS)
+        axes.legend(handles=handles, loc="upper left", bbox_to_anchor=(1.0, 1.0), frameon=False)
+        axes.set(xlabel=chosen[0])
+        if is_map:
+            axes.set(ylabel=chosen[1])
+        else:
+            axes.set(yticks=[])
+        axes.set_title(f"y'' = {self.right.text}", fontsize="medium")
+        return axes
 
     def text(self, *, all: bool = False) -> str:
         """The partition in lines: regions in a row with the same case are written together.
@@ -675,3 +717,25 @@ def _point(names: tuple[str, ...], values: list[Any], constant: ParameterPoint, 
         *numbers, root = with_root(numbers, field, constant.field, limits)
         return ParameterPoint(together, (*numbers, root), root.field)
     return ParameterPoint(together, (*numbers, *constant.values), field)
+
+
+def _grids(chosen: Sequence[str], ranges: Sequence[tuple[Any, Any]] | None, steps: int) -> list[list[Fraction]]:
+    given = [(-4, 4) for _ in chosen] if ranges is None else list(ranges)
+    if len(given) != len(chosen):
+        raise InputError(f"{len(given)} ranges for {len(chosen)} parameters", hint="ranges=[(0, 1), (-2, 2)]")
+    steps = whole(steps, "steps", least=1)
+    if steps > _MOST_STEPS:
+        raise InputError(f"steps = {in_a_message(steps)}: at most {_MOST_STEPS} are drawn")
+    return [_grid(low, high, steps) for low, high in given]
+
+
+def _grid(low: Any, high: Any, steps: int) -> list[Fraction]:
+    """So many intervals from one number to another, exactly."""
+    first = exact_real(low, "an end of a range")
+    last = exact_real(high, "an end of a range")
+    if max(abs(first), abs(last)) > _FARTHEST:
+        raise InputError("a range of a map is beyond the range of doubles, in which pictures are drawn")
+    if first >= last:
+        said = f"the range from {plain_text(first)[:60]} to {plain_text(last)[:60]} is empty"
+        raise InputError(said, hint="give the smaller number first")
+    return [first + (last - first) * k / steps for k in range(steps + 1)]

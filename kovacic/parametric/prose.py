@@ -86,11 +86,6 @@ def length_of(words: Words) -> int:
     return len(text_of(words))
 
 
-def length(claim: Claim | DegreeClaim) -> int:
-    """The same of a claim."""
-    return length_of(sentence(claim))
-
-
 @lru_cache(maxsize=1024)
 def sentence(claim: Claim | DegreeClaim) -> Words:
     """What is said, by the writer of its kind."""

@@ -45,6 +45,7 @@ from kovacic.parametric.functions import (
     element,
     in_field,
     irreducible_factors,
+    lifted,
     over_parameters,
     union,
 )
@@ -276,22 +277,13 @@ def with_free_constant(S: RatFunc) -> WithFreeConstant:
     while name in base.names:
         name += "_"
     larger = FunctionField((*base.names, name))
-    factors = [_free(S.den.lc, larger)]
-    factors += [_free(factor, larger) ** k for factor, k in field.factor(S.den)]
-    num = _free(S.num, larger)
+    factors = [lifted(S.den.lc, larger)]
+    factors += [lifted(factor, larger) ** k for factor, k in field.factor(S.den)]
+    num = lifted(S.num, larger)
     modulus = QQ.poly([base.rational_value(c) or 0 for c in field.modulus])
     numbers = AlgebraicField(QQ, modulus, field.name, field.approximation)
     point = ParameterPoint((name,), (numbers.generator,), numbers)
-    return WithFreeConstant(RatFunc(num, product(factors)), RatFunc(num, _free(S.den, larger)), point)
-
-
-def _free(polynomial: Poly, larger: FunctionField) -> Poly:
-    """The polynomial with the generator of its field replaced by the last parameter of the larger field."""
-    assert isinstance(polynomial, ExtensionPoly)
-    total = larger.poly([])
-    for part in reversed(polynomial.parts):
-        total = total * larger.generator(larger.names[-1]) + in_field(over_parameters(part), larger)
-    return total
+    return WithFreeConstant(RatFunc(num, product(factors)), RatFunc(num, lifted(S.den, larger)), point)
 
 
 def over_all(statement: Statement, field: FunctionField) -> Statement:
@@ -304,7 +296,7 @@ def in_lowest_powers(function: FunctionPoly, constant: ParameterPoint) -> Functi
     if not constant.names:
         return function
     field = function.field
-    total = _free(everywhere(field, constant).at(functions.numerator(function)), field)
+    total = lifted(everywhere(field, constant).at(functions.numerator(function)), field)
     return over_parameters(total / element(field, function.den))
 
 

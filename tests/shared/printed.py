@@ -60,7 +60,7 @@ def verdict_of_theorem(answer: ParametricAnswer, cases: list[Case], point: Param
     """What the theorem says at a point: the first case whose sentence is true there, and none of its exceptions."""
     for case in cases:
         if case.statement.claim.holds(point) and not any(other.claim.holds(point) for other in case.without):
-            return case.verdict
+            return case.regions[0].verdict
     return answer.generic
 
 
