@@ -3,11 +3,11 @@
 In goes V with real parameters and a domain, out comes a `Spectrum`.  Read `api` first.  One step a module:
 
 0. `question`: the potential, the domain and the assumptions as they were given; `translations` name constants with roots;
-1. `ends`: how many solutions are square integrable at each end;
-2. `frame`: the coordinates z(x) in which the equation may be a standard one;
-3. `families`: the standard equations, each with its levels for all n at once, and why these are all; `energies` solves for E
+1. `frame`: how many solutions are square integrable at each end, and the coordinates z(x) in which the equation may be a
+   standard one;
+2. `families`: the standard equations, each with its levels for all n at once, and why these are all; `energies` solves for E
    and writes the conditions; `without_levels` are periodic and repulsive potentials;
-4. `closed_forms`: where no formula is known, the levels with a closed form, from the conditions on E, and are these all?
+3. `closed_forms`: where no formula is known, the levels with a closed form, from the conditions on E, and are these all?
    Darboux' transformation brings other potentials to the families;
-5. `levels`: what is returned.
+4. `levels`: what is returned.
 """

@@ -11,7 +11,6 @@ from typing import Any
 import sympy
 
 from kovacic.bound_states.closed_forms import closed_forms, step
-from kovacic.bound_states.ends import End, check_inside, end_of, potential_in_t
 from kovacic.bound_states.energies import tidied
 from kovacic.bound_states.families import (
     Transcendental,
@@ -21,7 +20,16 @@ from kovacic.bound_states.families import (
     laguerre_families,
     no_families,
 )
-from kovacic.bound_states.frame import Original, RealPotential, SingularFrame, frames
+from kovacic.bound_states.frame import (
+    End,
+    Original,
+    RealPotential,
+    SingularFrame,
+    check_inside,
+    end_of,
+    frames,
+    potential_in_t,
+)
 from kovacic.bound_states.levels import Algebraic, BoundState, Levels, Spectrum
 from kovacic.bound_states.numeric import check_first_levels, unsolved, with_matching, with_numbers
 from kovacic.bound_states.question import FRIEDRICHS, SpectralProblem, Uncovered, read_question

@@ -39,10 +39,9 @@ from typing import Any, NamedTuple
 
 import sympy
 
-from kovacic.bound_states.ends import End, leading
 from kovacic.bound_states.energies import tidied
 from kovacic.bound_states.families import possible
-from kovacic.bound_states.frame import Original, RealPotential, monotonic_range
+from kovacic.bound_states.frame import End, Original, RealPotential, leading, monotonic_range
 from kovacic.bound_states.levels import NO_FORMULA, Algebraic
 from kovacic.bound_states.question import Signs, SpectralProblem, above
 from kovacic.closed_form.atoms import Atoms, factors

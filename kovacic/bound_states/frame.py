@@ -8,21 +8,29 @@ the exponents (1 +- delta)/2 at z = c, y has
 
 and where x is finite at c (mu < 2), z - c ~ (x - a)^p with p = 2/(2 - mu), so that y ~ (x - a)^(1/2 +- nu), nu = p delta/2.
 At z = oo the coordinate is 1/z, and the sum of all mu is 4.
+
+An `End` says how many of the solutions are square integrable there [Weyl; see Titchmarsh 1962].  V ~ s u^(-j) in
+a local coordinate u of t, (du/dx)^2 ~ u^mu.  At a finite regular end V ~ (nu^2 - 1/4)/(x - a)^2, and both solutions are square
+integrable where nu^2 < 1: the limit circle.  Where V -> -oo both oscillate, and both are square
+integrable if int |V|^(-1/2) dx is finite, which is mu < j + 2.  Everywhere else one solution at most is.
 """
 
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
 from contextlib import suppress
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
 import sympy
 
+from kovacic.bound_states.energies import exact_root, tidied
 from kovacic.bound_states.question import Signs, SpectralProblem, Uncovered
 from kovacic.engine.places import Kind, Problem, analyse
 from kovacic.equation import Equation
+from kovacic.errors import InputError
 from kovacic.limits import Budget
+from kovacic.numbers.numerals import as_text
 from kovacic.parametric import riemann
 from kovacic.parametric.theorems import roots_of, symmetries
 from kovacic.reading.change_of_variable import SQUARES
@@ -310,7 +318,6 @@ def _spots(
 
 
 def _is_same(first: Any, second: Any) -> bool:
-    """True if two points are one."""
     if sympy.oo in (first, second):
         return bool(first == second)
     return bool(sympy.simplify(first - second) == 0)
@@ -355,3 +362,288 @@ def range_of(original: Original, half: tuple[Any, Any], signs: Signs) -> tuple[A
     is_increasing = difference.is_positive or last == sympy.oo or first == -sympy.oo
     low, high = (first, last) if is_increasing else (last, first)
     return None if low == -sympy.oo else low, None if high == sympy.oo else high
+
+
+#: How far from an end, in theta, the sign of a local coordinate is read off.
+_STEP = sympy.Rational(1, 1000)
+
+
+@dataclass(frozen=True)
+class End:
+    """One end: where both solutions are square integrable (`circle`, a relation, True or False), and a sentence about it.
+
+    `oscillates` says that V falls without bound there, so that no boundary condition is distinguished; `oscillation` is where
+    the solutions oscillate at a regular end, which has the same effect.  `threshold` is where
+    the continuous spectrum begins at an infinite end, None if it doesn't.  The end is t = `point`, with
+    (du/dx)^2 ~ u^mu for a local coordinate u of this `direction` inside the domain.  It `is_ordinary` where the exponents are
+    those at an ordinary point, and `is_regular` where V has a value.
+    """
+
+    at: Any
+    circle: Any
+    sentence: str
+    oscillates: bool = False
+    oscillation: Any = False
+    threshold: Any = None
+    is_right: bool = True
+    point: Any = sympy.oo
+    mu: int = 4
+    direction: int = 1
+    is_ordinary: bool = False
+    is_regular: bool = False
+
+
+def potential_in_t(question: SpectralProblem, original: Original) -> RealPotential:
+    """V as a function of t, which may be complex here."""
+    signs = question.signs
+    parsed = question.parsed
+    equation = parsed.equation
+    t = sympy.Symbol(parsed.variable)
+    if equation is None or equation.change is None:
+        S = signs.real(parsed.S.num.to_sympy(t) / parsed.S.den.to_sympy(t))
+        return RealPotential(sympy.cancel(S + question.E), original, t, question.kinetic)
+    quotient = equation.c / equation.a
+    c = signs.real(quotient.num.to_sympy(t) / quotient.den.to_sympy(t))
+    V = sympy.cancel(question.E - original.slope_squared(t) * c)
+    return RealPotential(V, original, t, question.kinetic)
+
+
+def check_inside(real: RealPotential, domain: tuple[Any, Any], signs: Signs) -> None:
+    """Raises `InputError` where V has a pole inside the domain, and `Uncovered` where that isn't known."""
+    original = real.original
+    denominator = sympy.Poly(sympy.denom(real.V), real.t)
+    points = real_zeros(denominator, signs)
+    if original.kind == "tan" and sympy.degree(sympy.numer(real.V), real.t) > denominator.degree():
+        points.append(sympy.oo)
+    if not points:
+        return
+    first, last = (original.theta_at(end, signs) for end in domain)
+    angles = [angle for point in points for angle in original.angles_at(point, (first, last))]
+    inside = [(a - original.offset) / original.rate for a in angles if is_between(a, first, last, signs)]
+    if not inside:
+        return
+    message = f"V isn't regular at {original.x} = {caret(as_text(inside[0]))}, inside the domain"
+    hint = "choose a domain without a pole inside"
+    largest = [point for point in inside if all(signs.is_nonnegative(point - other) for other in inside)]
+    if not largest:
+        raise InputError(message, hint=hint)
+    python, shell = domain_as_given(largest[0], domain[1])
+    raise InputError(message, hint=f"{hint}: {python}", shell=f"{hint}: {shell}")
+
+
+def domain_as_given(first: Any, last: Any) -> tuple[str, str]:
+    """How a domain is given in Python and at the command line."""
+    start = _as_given(first)
+    stop = _as_given(last)
+    options = f"--from {start}"
+    if last != sympy.oo:
+        options = f"{options} --to {stop}"
+    return f"domain=({start}, {stop})", options
+
+
+def _as_given(end: Any) -> str:
+    """An integer, or anything else as text in quotes."""
+    shown = end if end.is_infinite else sympy.simplify(end)
+    text = caret(as_text(shown))
+    return text if shown.is_Integer else f'"{text}"'
+
+
+def real_zeros(polynomial: Any, signs: Signs) -> list[Any]:
+    """Each once.  Raises `Uncovered` where it isn't known which zeros are real."""
+    if all(c.is_Rational for c in polynomial.coeffs()):
+        return [*dict.fromkeys(polynomial.real_roots())]
+    at_a_real_point = polynomial.as_expr().xreplace({polynomial.gen: sympy.Dummy("t", real=True)})
+    if signs.sign(at_a_real_point) is not None:
+        return []
+    roots = sympy.roots(polynomial)
+    if sum(roots.values()) < polynomial.degree() or any(root.is_real is None for root in roots):
+        raise Uncovered("whether V has a pole inside the domain isn't known")
+    return [root for root in roots if root.is_real]
+
+
+@dataclass(frozen=True)
+class _Place:
+    """An end of the domain as a point t = `point` with the local coordinate u: t = point + u, or 1/u.
+
+    `slope` is (du/dx)^2 ~ u^mu, and V ~ strength u^(-pole).  `direction` is the sign of u inside the domain, and
+    `distance` the printed distance of x from the end.
+    """
+
+    at: Any
+    x: Any
+    distance: Any
+    point: Any
+    u: Any
+    slope: Any
+    mu: int
+    pole: int
+    strength: Any
+    direction: int
+
+    @property
+    def where(self) -> str:
+        """The end in a sentence."""
+        shown = str(self.at) if self.at.is_infinite else caret(as_text(self.at))
+        return f"{self.x} -> {shown}"
+
+    @property
+    def inside(self) -> Any:
+        """The strength for |u|: that of V inside the domain."""
+        return self.strength * self.direction ** abs(self.pole)
+
+
+def end_of(real: RealPotential, domain: tuple[Any, Any], signs: Signs, *, is_right: bool) -> End:
+    """An end of the domain."""
+    place = _place(real, domain, signs, is_right=is_right)
+    if place.at.is_infinite:
+        end = _infinite(place, signs, real.kinetic)
+    elif place.pole > 2 - place.mu:
+        end = _unbounded(place, signs)
+    else:
+        end = _finite(place, signs)
+    return replace(
+        end,
+        is_right=is_right,
+        point=place.point,
+        mu=place.mu,
+        direction=place.direction,
+        is_regular=place.at.is_finite and place.pole <= 0,
+    )
+
+
+def _place(real: RealPotential, domain: tuple[Any, Any], signs: Signs, *, is_right: bool) -> _Place:
+    """The end in its local coordinate."""
+    original = real.original
+    at, other = (domain[1], domain[0]) if is_right else domain
+    point = original.at(at, signs)
+    u = sympy.Dummy("u")
+    t, dt_du_squared = (1 / u, u**-4) if point == sympy.oo else (point + u, sympy.Integer(1))
+    slope = sympy.cancel(original.slope_squared(t) / dt_du_squared)
+    order, strength = leading(sympy.cancel(real.V.xreplace({real.t: t})), u)
+    return _Place(
+        at,
+        original.x,
+        distance=at - original.x if is_right else original.x - at,
+        point=point,
+        u=u,
+        slope=slope,
+        mu=leading(slope, u)[0],
+        pole=-order,
+        strength=strength,
+        direction=_side(original, at, other, point, signs),
+    )
+
+
+def leading(function: Any, u: Any) -> tuple[int, Any]:
+    """The order at u = 0 and the coefficient; (0, 0) for 0."""
+    num, den = sympy.fraction(sympy.together(function))
+    if sympy.Poly(num, u).is_zero:
+        return 0, sympy.Integer(0)
+    (above,), top = sympy.Poly(num, u).terms()[-1]
+    (below,), bottom = sympy.Poly(den, u).terms()[-1]
+    return above - below, sympy.factor(top / bottom)
+
+
+def _side(original: Original, at: Any, other: Any, point: Any, signs: Signs) -> int:
+    """The sign of the local coordinate of t on the domain, near this end."""
+    kind = original.kind
+    if kind == "cosh" or (kind == "exp" and point in (0, sympy.oo)):
+        return 1  # t > 0, and t > 1 for the hyperbolic cosine
+    is_left = at == -sympy.oo or other == sympy.oo or (at != sympy.oo and signs.sign(other - at) == 1)
+    if kind in ("x", "exp", "sinh"):  # t grows with theta: u > 0 beside a left end, and at a right one that is infinite
+        sign = signs.sign(original.rate)
+        if sign is None:
+            raise Uncovered(f"the sign of {original.rate} isn't known: assume that it is positive")
+        return sign if is_left != at.is_infinite else -sign
+    angle = original.theta_at(at, signs)
+    if not angle.is_number:
+        raise Uncovered(f"the end {at} isn't a multiple of pi/({original.rate})")
+    t = getattr(sympy, kind)(angle + (_STEP if is_left else -_STEP))
+    u = 1 / t if point == sympy.oo else t - point
+    return 1 if u > 0 else -1
+
+
+def _infinite(place: _Place, signs: Signs, kinetic: Any) -> End:
+    """An infinite end, by what V tends to."""
+    if place.pole < 0 or place.inside == 0:
+        said = f"{place.where}: V -> 0, continuous spectrum from 0"
+        return End(place.at, False, said, threshold=sympy.Integer(0))
+    if place.pole == 0:
+        shown = caret(as_text(sympy.factor(kinetic * place.inside)))
+        said = f"{place.where}: V -> {shown}, continuous spectrum from there"
+        return End(place.at, False, said, threshold=place.inside)
+    return _unbounded(place, signs)
+
+
+def _unbounded(place: _Place, signs: Signs) -> End:
+    """Where V -> oo or V -> -oo; in the second case int |V|^(-1/2) dx may be finite, at a finite end or where V falls fast."""
+    at = place.at
+    where = place.where
+    sign = signs.sign(place.inside)
+    is_fast = at.is_finite or place.mu < place.pole + 2
+    if sign == 1:
+        return End(at, False, f"{where}: V -> oo, one solution decays")
+    if not is_fast:
+        said = "at most one solution" if sign is None else "V -> -oo, no solution"
+        return End(at, False, f"{where}: {said} is square integrable", oscillates=sign == -1)
+    if sign == -1:
+        said = "V -> -oo so fast that both solutions are square integrable (limit circle)"
+        return End(at, True, f"{where}: {said}", oscillates=True)
+    said = f"one solution decays where {caret(as_text(place.inside))} > 0"
+    return End(at, sympy.Lt(place.inside, 0), f"{where}: {said}", oscillates=True)
+
+
+def _finite(place: _Place, signs: Signs) -> End:
+    """A finite regular end: V ~ (nu^2 - 1/4)/(x - a)^2."""
+    at = place.at
+    where = place.where
+    if place.mu >= 2:
+        raise Uncovered(f"the coordinate isn't regular at {where}")
+    # u ~ (x - a)^p with p = 2/(2 - mu), so that with (du/dx)^2 ~ C u^mu it is (x - a)^p (C/p^2)^(p/2).
+    square = sympy.Rational(1, 4)
+    if place.pole == 2 - place.mu:
+        _, C = leading(place.slope, place.u)
+        square = sympy.factor(sympy.factor(4 * place.strength / (C * (2 - place.mu) ** 2)) + square)
+    circle = _less_than_1(square, signs)
+    known = signs.holds(circle)
+    powers = _powers(place.distance, square)
+    if known is False:
+        return End(at, False, f"{where}: y ~ {powers}, the smaller one is square integrable")
+    if signs.is_nonnegative(square) is False:
+        shown = caret(as_text(-sympy.Symbol("c") / place.distance**2))
+        said = f"V ~ {shown} with c > 1/4, the solutions oscillate (limit circle)"
+        return End(at, True, f"{where}: {said}", oscillates=True)
+    said = f"y ~ {powers}, both are square integrable (limit circle)"
+    is_ordinary = square == sympy.Rational(1, 4)
+    oscillation = False if signs.is_nonnegative(square) else sympy.Lt(square, 0)
+    if known:
+        return End(at, True, f"{where}: {said}", oscillation=oscillation, is_ordinary=is_ordinary)
+    condition = tidied([circle], signs)[0]
+    relation = f"{caret(as_text(condition.lhs))} {condition.rel_op} {caret(as_text(condition.rhs))}"
+    return End(at, circle, f"{where}: {said} where {relation}", oscillation=oscillation)
+
+
+def _less_than_1(square: Any, signs: Signs) -> Any:
+    """square < 1, for nu where that is no radical and has a sign."""
+    root = exact_root(square)
+    is_of_square = square.is_number or root is None or signs.holds(sympy.Lt(square, 1)) is not None
+    if is_of_square:
+        return sympy.Lt(square, 1)
+    sign = signs.sign(root)
+    size = sympy.Abs(root) if sign is None else sign * root
+    return tidied([sympy.Lt(size, 1)], signs)[0]
+
+
+def _powers(distance: Any, square: Any) -> str:
+    """How the two solutions behave at a distance from an end where the exponents are 1/2 +- nu."""
+    shown = caret(as_text(distance))
+    if square == sympy.Rational(1, 4):
+        return f"{shown} or 1"
+    root = exact_root(square)
+    nu = sympy.sqrt(square) if root is None else root
+    larger, smaller = (sympy.factor(sympy.expand(sympy.Rational(1, 2) + s * nu)) for s in (1, -1))
+    first = caret(as_text(distance**larger))
+    second = caret(as_text(distance**smaller))
+    if square == 0:
+        return f"{first} or {second}*log({shown})"
+    return f"{first} or {second}"

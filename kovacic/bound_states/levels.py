@@ -562,7 +562,6 @@ def _lines(levels: Levels, energy: str) -> list[str]:
 
 
 def _joined(relations: Iterable[Any]) -> str:
-    """Relations in a row."""
     return ", ".join(map(_relation, relations))
 
 

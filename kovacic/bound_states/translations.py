@@ -151,7 +151,6 @@ class Schroedinger:
 
     @property
     def scaled(self) -> Any:
-        """V/kinetic."""
         return sympy.expand(self.V / self.kinetic)
 
     @property

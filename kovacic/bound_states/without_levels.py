@@ -24,8 +24,7 @@ from typing import Any
 
 import sympy
 
-from kovacic.bound_states.ends import End, domain_as_given, real_zeros
-from kovacic.bound_states.frame import Original, RealPotential, range_of
+from kovacic.bound_states.frame import End, Original, RealPotential, domain_as_given, range_of, real_zeros
 from kovacic.bound_states.question import Signs, Uncovered
 from kovacic.errors import InputError
 from kovacic.numbers.numerals import as_text

@@ -67,7 +67,6 @@ class Product:
         return written_length(factors)
 
     def to_power(self, n: int) -> Product:
-        """y^n."""
         powers = tuple(Power(power.base, power.exponent * n) for power in self.powers)
         roots = tuple(Residue(residue.factor, residue.value * n) for residue in self.roots)
         return Product(powers, roots, self.exponential * n)

@@ -262,5 +262,4 @@ def curve_of(S: RatFunc, semi: SemiInvariant) -> tuple[Poly, RatFunc, Poly]:
 
 
 def logarithmic_derivative(polynomial: Poly) -> RatFunc:
-    """p'/p."""
     return RatFunc(polynomial.derivative(), polynomial)

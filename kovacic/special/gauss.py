@@ -297,7 +297,6 @@ class _GaussForm:
 
     @property
     def upper(self) -> list[Number]:
-        """The upper parameters."""
         return [(1 - self.alpha - self.beta + sign * self.gamma) * HALF for sign in (-1, 1)]
 
     @property

@@ -35,7 +35,6 @@ class WrittenFactor:
 
     @property
     def size(self) -> int:
-        """The number of factors."""
         return len(self.product.powers) + len(self.product.roots) + bool(self.product.exponential) + len(self.others)
 
 
@@ -301,7 +300,6 @@ class Writer:
         return self.atoms.poly(f.num) if f.is_polynomial else self.atoms.factored(f)
 
     def rate(self, f: RatFunc) -> Expr:
-        """f'/f."""
         return self.atoms.factored(f.derivative() / f)
 
     def multiple(self, number: Number, f: RatFunc) -> Expr:
@@ -315,7 +313,6 @@ class Writer:
         return self.root(f.num.lc, 2) * Mul(scale, *shown)
 
     def hypergeometric(self, top: Sequence[Number], bottom: Sequence[Number], z: Expr) -> Expr:
-        """The hypergeometric function of these parameters."""
         above, below = (tuple(self.constant(value) for value in values) for values in (top, bottom))
         return hypergeometric(above, below, z)
 
