@@ -227,11 +227,6 @@ class Case:
     regions: tuple[ParameterRegion, ...]
     without: tuple[Statement, ...] = ()
 
-    @property
-    def region(self) -> ParameterRegion:
-        """All of it as one region: they say the same."""
-        return replace(self.regions[0], statement=self.statement)
-
 
 def outside(regions: Iterable[ParameterRegion]) -> Iterator[ParameterRegion]:
     """The regions of which a theorem doesn't speak: S isn't defined there, or nothing is known."""
@@ -264,7 +259,8 @@ def solvable_cases(regions: Sequence[ParameterRegion]) -> list[Case]:
 def in_lines(regions: Sequence[ParameterRegion]) -> list[ParameterRegion]:
     """The regions as they are listed: those in a row in which the same case holds are one."""
     cases = [Case(region.statement, (region,)) for region in regions]
-    return [case.region for case in grouped(cases, lambda first, second: first.case == second.case)]
+    together = grouped(cases, lambda first, second: first.case == second.case)
+    return [replace(case.regions[0], statement=case.statement) for case in together]
 
 
 def without_empty(regions: Sequence[ParameterRegion]) -> list[ParameterRegion]:

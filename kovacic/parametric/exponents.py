@@ -217,14 +217,6 @@ class _Surface:
         modulus = in_field(over_parameters(field.modulus), larger)
         return cls(larger, over_parameters(modulus(larger.generator(field.name))).num)
 
-    def values_of_last(self, others: Sequence[int], p: int) -> list[int]:
-        """The values modulo p of the algebraic parameter, where the others have these."""
-        parts = by_power(self.equation, len(others) + 1)
-        coefficients = [0] * (max(parts) + 1)
-        for k, part in parts.items():
-            coefficients[k] = int(part(0, *others, 1)) % p
-        return [int(root) for root, _ in nmod_poly(coefficients, p).roots()]
-
 
 def _random_point(field: FunctionField, surface: _Surface | None) -> tuple[int, list[int]]:
     """A prime, and values of the parameters modulo the prime, on the surface if there is one."""
@@ -234,9 +226,14 @@ def _random_point(field: FunctionField, surface: _Surface | None) -> tuple[int, 
         point = [random.randrange(p) for _ in field.names]
         if surface is None:
             return p, point
-        last = surface.values_of_last(point[:-1], p)
-        if last:
-            return p, [*point[:-1], last[0]]
+        *others, _ = point
+        parts = by_power(surface.equation, len(point))
+        coefficients = [0] * (max(parts) + 1)  # of the equation for the algebraic parameter, the last one
+        for k, part in parts.items():
+            coefficients[k] = int(part(0, *others, 1)) % p
+        found = nmod_poly(coefficients, p).roots()
+        if found:
+            return p, [*others, int(found[0][0])]
     raise AssertionError("the sequence of primes is infinite")
 
 

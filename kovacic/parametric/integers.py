@@ -200,7 +200,8 @@ def _spectrum(equation: FunctionPoly, numbers: Classes, letter: str, setting: Se
     for k, solved in enumerate(energies or known):
         strata = tuple(one for one in solved.strata if not setting.covers(one.zero))
         for family in _choices(equation, solved, numbers, letter):
-            length = _WEIGHT * shortest_length(family.value, family.letter) + prose.length_of(prose.numbers_of(family))
+            length = _WEIGHT * shortest_length(family.value, family.letter)
+            length += len(prose.text_of(prose.numbers_of(family)))
             cost = _LATER * k + _STRATUM * len(strata) + length
             if best is None or cost < least:
                 best = IntegerCondition(family, strata, is_solved=True)

@@ -81,11 +81,6 @@ def text_of(words: Words) -> str:
     return "".join(part.text if isinstance(part, Math) else part for part in words)
 
 
-def length_of(words: Words) -> int:
-    """What it costs to read a sentence, in characters."""
-    return len(text_of(words))
-
-
 @lru_cache(maxsize=1024)
 def sentence(claim: Claim | DegreeClaim) -> Words:
     """What is said, by the writer of its kind."""
