@@ -23,6 +23,8 @@ from kovacic.limits import Limits
 from kovacic.numbers.exact import exact_text
 from kovacic.numbers.numerals import as_text
 from kovacic.parametric.assumptions import Assumptions, Bound, read_assumptions
+from kovacic.reading.lexer import scanned
+from kovacic.reading.names import NUMBER_NAMES, is_letter
 from kovacic.reading.naming import USUAL_VARIABLES, chosen_variable
 from kovacic.reading.read import read_input
 from kovacic.reading.source import source_of
@@ -261,7 +263,7 @@ def read_question(
         raise InputError("a domain is a pair of ends", hint='domain=(0, "oo")')
     ends = [read_end(value) for value in domain]
     V_read, guesses = _read_potential(V, energy, None if var is None else str(var), names)
-    x, notices = _variable_of(V_read) if var is None else (str(var), ())
+    x, notices = _variable_of(names_of(V_read)) if var is None else (str(var), ())
     values, rest = values_among(assume or {})
     at = {sympy.Symbol(name): read_expression(value_text(v, name, x, limits=limits)) for name, v in values.items()}
     known_names = sorted({symbol.name for part in (V_read, *ends) for symbol in part.free_symbols} - {x})
@@ -334,9 +336,8 @@ def read_boundary(boundary: str | None, ends: Sequence[Any], variable: str) -> B
     return Boundary((wishes[0], wishes[1]), boundary)
 
 
-def _variable_of(expression: Any) -> tuple[str, tuple[str, ...]]:
+def _variable_of(names: Sequence[str]) -> tuple[str, tuple[str, ...]]:
     """x, or the only name if it usually is a variable, and a note if it isn't x.  Raises `InputError` for several names."""
-    names = names_of(expression)
     if DEFAULT_VARIABLE in names or not names:
         return DEFAULT_VARIABLE, ()
     # The only name that usually is a variable, as r in l (l+1)/r^2 - Z/r.
@@ -352,8 +353,11 @@ def _read_potential(V: Any, energy: str, var: str | None, names: Sequence[str]) 
     guesses: tuple[str, ...] = ()
     if isinstance(V, str):
         if var is None:
-            with suppress(InputError):  # with the position, below
-                var, _ = _variable_of(read_expression(V))
+            with suppress(
+                InputError
+            ):  # with the position, below; names only, since l(l + 1) is a product or a function
+                letters = (token.text for token in scanned(V) if is_letter(token.text))
+                var, _ = _variable_of([name for name in dict.fromkeys(letters) if name not in NUMBER_NAMES])
         source = source_of(V, var, SYMBOLIC, names=(*names, energy))
         if source.unknown:
             raise InputError(
