@@ -147,8 +147,8 @@ class Vocabulary:
         elif name.startswith(("asin", "acos", "atan")):
             inside = name[4:] and f"({unglued(name[4:])})"
             meant = f"write a*{name[1:4]}{inside} for the product, {name[:4]}{inside} for the inverse function"
-        elif len(name) > 4 and meant.count("*") == len(name) - 1:
-            said, meant = f"{name} is a word that isn't known here", "leave it out"
+        elif len(name) > 3 and meant.count("*") == len(name) - 1:
+            said, meant = f"{name} is a word that isn't known here", f"leave it out, {meant} for a product"
         hint = f"{meant}, or declare it: parameters=[{name!r}]"
         return tokens.error(ParseError, said, k, k + 1, hint=hint, shell=f"{meant}, or declare it: --names {name}")
 
