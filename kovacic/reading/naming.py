@@ -10,7 +10,7 @@ from __future__ import annotations
 
 import re
 from collections import Counter
-from collections.abc import Collection
+from collections.abc import Collection, Sequence
 from dataclasses import dataclass, replace
 from typing import NamedTuple
 
@@ -330,7 +330,7 @@ def _variable_of_S(tokens: Tokens, declared: Collection[str]) -> str:
         raise tokens.error(InputError, error.message, k, k + 1, hint=error.hint, shell=error.shell) from None
 
 
-def chosen_variable(names: list[str]) -> str:
+def chosen_variable(names: Sequence[str]) -> str:
     """The only name, or x.  Raises `InputError` where neither is among several names."""
     if len(names) == 1:
         return names[0]
