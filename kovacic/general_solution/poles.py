@@ -188,7 +188,10 @@ def _rates_in_x(equation: Equation, x: Expr) -> list[Expr]:
     """The coefficients of y'' + B y' + C y = F in x: B = t' b/a - t''/t', C = t'^2 c/a, F = t'^2 f/a."""
     t = sympy.Symbol(equation.variable)
     value = function_of_x(equation)
-    b, c, f = (Atoms(t).ratio(part / equation.a).subs(t, value) for part in (equation.b, equation.c, equation.f))
+    # In factors, in which exp(x) stands alone: exp(x) - 2, and not exp(3 x) - 2 exp(2 x).
+    b, c, f = (
+        sympy.factor(Atoms(t).ratio(part / equation.a)).subs(t, value) for part in (equation.b, equation.c, equation.f)
+    )
     slope = value.diff(x)
     return [b * slope - slope.diff(x) / slope, c * slope**2, f * slope**2]
 

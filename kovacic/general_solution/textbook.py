@@ -35,15 +35,17 @@ from kovacic.general_solution.zero import is_zero
 from kovacic.special.choice import shortest
 
 Expr = Any  # SymPy publishes no types
+#: The most symbols, functions and constants in a complex quotient whose lowest terms are computed: some 50 ms.
+_MOST_ATOMS = 6
 #: The largest expression, in subexpressions when it is multiplied out, for which other forms are looked for: some 50 ms.
 _LARGEST = 400
 
 
 def in_book_form(value: Expr, x: Expr, *, is_general: bool = False) -> Expr:
     """The shortest form of an answer; in a general one the functions that the free constants belong to stay."""
+    is_small = _is_small(value)
     for short in _RULES_FOR_COEFFICIENTS:
         value = shortest([value, *short(value, x)])
-    is_small = _is_small(value)
     for rule in _RULES_OF_GENERAL_SOLUTIONS if is_general else _RULES:
         if not is_small:
             break
@@ -345,7 +347,9 @@ def sums(value: Expr, x: Expr) -> Iterator[Expr]:
 
 def over_one_denominator(value: Expr, x: Expr) -> Iterator[Expr]:
     """A quotient in lowest terms, unless it is one already, or too large to be multiplied out."""
-    if value.has(sympy.Add) and not _is_multiplied_out(value) and _is_small(value):
+    atoms = {*value.free_symbols, *value.atoms(sympy.Function, sympy.NumberSymbol)}
+    is_slow = len(atoms) > _MOST_ATOMS and value.has(sympy.I)  # in ten variables over Z[i]
+    if value.has(sympy.Add) and not is_slow and not _is_multiplied_out(value) and _is_small(value):
         yield sympy.cancel(sympy.together(value))
 
 
