@@ -56,8 +56,8 @@ def in_book_form(value: Expr, x: Expr, *, is_general: bool = False) -> Expr:
 
 
 def in_hyperbolic_functions(value: Expr) -> Expr:
-    """By (1), times an exponential function; the same where it isn't of this kind."""
-    return next(_hyperbolic(value, sympy.Dummy()), value)
+    """By (1), times an exponential function; the same where it isn't of this kind, or long."""
+    return next(_hyperbolic(value, sympy.Dummy()), value) if _is_small(value) else value
 
 
 def _is_small(value: Expr) -> bool:
