@@ -348,9 +348,9 @@ def _real_at(factor: Expr, x: Any, point: Expr) -> Expr:
     """With (-u)^e for u^e where u is negative at the point, x (1 - x) for -x (x - 1)."""
     changed = {}
     for p in factor.atoms(sympy.Pow):
-        negative = [u for u in Mul.make_args(p.base) if u.subs(x, point).is_negative]
-        if p.base.has(x) and not p.exp.is_Integer and negative:  # not the root of -i in an exponent
-            changed[p] = p.base.xreplace({u: -u for u in negative}) ** p.exp
+        if p.base.has(x) and not p.exp.is_Integer:  # not the root of -i in an exponent
+            factors = (-u if u.subs(x, point).is_negative else u for u in Mul.make_args(p.base))
+            changed[p] = Mul(*factors) ** p.exp
     return factor.xreplace(changed)
 
 
