@@ -65,5 +65,7 @@ def mathieu(S: RatFunc, gauge: RatFunc, equation: Equation) -> WrittenPair | Non
     factor = display(product(gauge + half_of_slope), Atoms(t)).subs(t, T)
     factor = factor.replace(lambda e: e.func is atan and e.args[0] == T, lambda e: angle)
     z = sympy.expand((unit * angle - shift) / 2)
+    if z.could_extract_minus_sign():  # one function is even, the other odd
+        z = -z
     W = factor**2 * z.diff(x) * mathieuc(a, q, 0) * mathieusprime(a, q, 0)  # Mathieu's equation has no w'
     return WrittenPair(factor * mathieuc(a, q, z), factor * mathieus(a, q, z), lambda: W)
