@@ -91,7 +91,7 @@ def unsolved(
     boundary: str | None,
 ) -> Spectrum:
     """The problem alone, for a potential that no formulas are known for."""
-    potential = read_expression(V, what="the potential") if isinstance(V, str) else sympy.sympify(V)
+    potential = read_expression(V, what="the potential") if isinstance(V, str) else sympy.sympify(V, strict=True)
     variable = str(var or "x")
     values, rest = values_among(assume or {})
     potential = potential.xreplace(

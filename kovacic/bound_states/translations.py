@@ -43,7 +43,7 @@ LevelsOrAlgebraic = TypeVar("LevelsOrAlgebraic", Levels, Algebraic)
 def with_named_roots(V: Any) -> tuple[Any, dict[str, Any]]:
     """V with names for its roots of numbers, where there are several or nested ones, and what the names mean."""
     try:
-        expression = read_expression(V) if isinstance(V, str) else sympy.sympify(V)
+        expression = read_expression(V) if isinstance(V, str) else sympy.sympify(V, strict=True)
     except (InputError, sympy.SympifyError):  # reported by the reader
         return V, {}
     powers = (power for power in expression.atoms(sympy.Pow) if power.is_number and not power.exp.is_Integer)

@@ -986,3 +986,11 @@ def test_the_radial_variable_beside_a_product_without_a_sign(text: str) -> None:
     found = kovacic.spectrum(text, domain=(0, "oo"), assume={"l": ">=1", "Z": "positive"})
     assert str(found.variable) == "r"
     assert str(found.levels[0].energy) == "-Z**2/(l + n + 1)**2"
+
+
+@pytest.mark.parametrize(
+    "potential", [[1, 2], None, b"x^2", {"x": 1}, object()], ids=["list", "None", "bytes", "dict", "object"]
+)
+def test_what_is_no_potential_is_refused(potential: object) -> None:
+    with pytest.raises(kovacic.InputError, match="the potential isn't a number that is known exactly"):
+        kovacic.spectrum(potential)

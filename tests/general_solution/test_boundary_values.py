@@ -221,8 +221,10 @@ def test_values_are_those_of_an_integration(a2: str, a1: str, a0: str, f: str, i
         ("y'' - 2*y/sin(x)^2 = 0", "y(-1)=1, y(1)=0"),
         ("x*y'' + y' + x*y = 0", "y(-1)=1, y(0)=bounded, y(1)=2"),
         ("(exp(x) - 1)*y'' + y = 0", "y(-1)=1, y(1)=0"),
+        ("(exp(x) - 2)*y'' + y = 0", "y(-1)=1, y(1)=0"),
     ],
     ordinary=3,
+    always=[("(exp(x) - 2)*y'' + y = 0", "y(-1)=1, y(1)=0")],
 )
 def test_two_sides_of_a_singular_point(text: str, values: str) -> None:
     with pytest.raises(kovacic.InputError, match="a singular point of the equation lies between"):
