@@ -55,7 +55,11 @@ class Validity:
         """`x > 0, c**2 - 4*k*m != 0`."""
         if sympy.false in self.real:
             return "no value"
-        nonzero = [f"{e} != 0" for e in self.exceptions]
+        nonzero = []
+        for e in self.exceptions:
+            gamma = 1 / e  # whose poles are the integers up to 0
+            is_gamma = isinstance(gamma, sympy.gamma)
+            nonzero.append(f"{gamma.args[0]} is none of 0, -1, -2, ..." if is_gamma else f"{e} != 0")
         return ", ".join([*(f"{r.lhs} != 0" if isinstance(r, sympy.Ne) else str(r) for r in self.real), *nonzero])
 
 
