@@ -32,7 +32,7 @@ from kovacic.closed_form.structure import Conjugate
 from kovacic.engine.places import rational_square_root
 from kovacic.equation import Equation
 from kovacic.numbers.exact import radical as sqrt
-from kovacic.reading.change_of_variable import function_of_x, solution_in_x
+from kovacic.reading.change_of_variable import function_of_x, solution_in_x, user_variable
 
 
 @dataclass(frozen=True)
@@ -166,8 +166,12 @@ def pair_in_x(equation: Equation, y1: Expr, y2: Expr) -> tuple[Expr, Expr]:
     first, second = solution_in_x(equation, y1), solution_in_x(equation, y2)
     if not (is_turned(equation, y1) or is_turned(equation, y2)):
         return first, second
-    real = {symbol: sympy.Dummy(real=True) for symbol in first.free_symbols | second.free_symbols}
-    back = {letter: symbol for symbol, letter in real.items()}
+    # Letters and roots of them stand for real numbers: the parts are analytic in these, and so solutions for all values.
+    x = user_variable(equation)
+    powers = first.atoms(sympy.Pow) | second.atoms(sympy.Pow)
+    roots = {power for power in powers if power.free_symbols and not power.has(x) and not power.exp.is_Integer}
+    real = {e: sympy.Dummy(real=True) for e in (*roots, *(first.free_symbols | second.free_symbols))}
+    back = {letter: e for e, letter in real.items()}
     re1, im1 = sympy.expand(first.xreplace(real), complex=True).as_real_imag()
     re2, im2 = sympy.expand(second.xreplace(real), complex=True).as_real_imag()
     pair = (re1 or im1, re2 or im2)

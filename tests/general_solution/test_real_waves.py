@@ -18,10 +18,12 @@ EQUATIONS = [
     *(f"y'' + ({k} - 8/sin(2*x)^2)*y" for k in (3, 7)),
     "y'' + 2*tan(x)*y' + y",
     "y'' + (k^2 - 2/sin(x)^2)*y",
+    "y'' + (k - 2/sin(x)^2)*y",
+    "y'' + 2*cot(x)*y' + (1 + k)*y",
 ]
 
 
-@parametrize("text", EQUATIONS, ids=str, ordinary=3, always=EQUATIONS[:1] + EQUATIONS[8:9])
+@parametrize("text", EQUATIONS, ids=str, ordinary=3, always=EQUATIONS[:1] + EQUATIONS[8:9] + EQUATIONS[-2:])
 def test_solutions_are_real_and_independent(text: str) -> None:
     answer = kovacic.dsolve(text + " = 0")
     general = answer.rhs
