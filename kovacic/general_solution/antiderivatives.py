@@ -15,12 +15,12 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
+from functools import reduce
 from math import lcm
 from typing import Any
 
 import sympy
 from sympy import atan, cos, exp, log, sin, tan
-from sympy.integrals.manualintegrate import find_substitutions
 
 from kovacic.general_solution.integrands import integral_of_fraction, integral_of_product, prepared, radicands, sum_of
 from kovacic.general_solution.special_integrals import (
@@ -160,13 +160,13 @@ def in_powers(expression: Expr, t: Expr, u: Expr) -> Expr:
 
 
 def _in_an_argument(term: Expr, x: Expr) -> Expr | None:
-    """In u, beside whose slope the term is one of u: a function, an argument of one, or what SymPy proposes."""
+    """In u, beside whose slope the term is one of u: a function, or an argument of one."""
     t = sympy.Dummy()
     own = term.atoms(*_BY_PARTS) | {f.args[0] for f in term.atoms(sympy.Function) if f.args[0].has(exp, sin, cos, log)}
-    proposed = [(u, 1, (term / u.diff(x)).subs(u, t)) for u in sorted(own, key=str) if u.has(x)]
-    for u, factor, inner in [*proposed, *find_substitutions(term, x, t)]:
+    for u in sorted((u for u in own if u.has(x)), key=str):
+        inner = (term / u.diff(x)).subs(u, t)
         if not inner.has(x) and not _leads_back(u, inner, t):
-            found = _known(factor * inner, t)
+            found = _known(inner, t)
             if found is not None:
                 return in_powers(found, t, u.args[0]) if isinstance(u, log) else found.subs(t, u)
     return None
@@ -177,6 +177,35 @@ def _leads_back(u: Expr, inner: Expr, t: Expr) -> bool:
     if u.is_rational_function() or (u.is_Pow and not isinstance(u, exp)):
         return True
     return u.has(exp) and any(not (f.args[0] / t).has(t) for f in inner.atoms(log))
+
+
+def _in_exponentials(term: Expr, x: Expr) -> Expr | None:
+    """In u = exp(k x), for which x is written."""
+    term = sympy.expand(term)
+    slopes = {e: e.args[0].diff(x) for e in term.atoms(exp) if e.args[0].subs(x, 0) == 0}
+    rates = {
+        e: slope for e, slope in slopes.items() if slope != 0 and not slope.has(x)
+    }  # exp(sin(x)) isn't one of them
+    first, *_ = *rates.values(), None
+    ratios = [rate / first for rate in rates.values()]
+    if not ratios or not all(ratio.is_Rational for ratio in ratios):
+        return None
+    k = first * reduce(sympy.gcd, ratios)  # gcd_list stops at 1, though 1/2 may follow
+    # One u for all terms, or logarithms that cancel would stay; polynomials in it under roots and in logarithms.
+    k = -k if k.could_extract_minus_sign() else k
+    inner = {e for a in (*radicands(term), *(f.args[0] for f in term.atoms(log))) for e in a.atoms(exp)}
+    powers = [rates[e] / k for e in inner if e in rates]
+    if powers and all(power.is_negative for power in powers):
+        k = -k
+    u = sympy.Dummy()
+    in_u = term.xreplace({e: u ** (rate / k) for e, rate in rates.items()}) / (k * u)
+    if in_u.has(x):
+        return None
+    integrand = prepared(in_u.xreplace({u: x}))
+    found = integral_of_fraction(integrand, x) or by_coefficients(integrand, x)
+    if found is None and not integrand.has(log(x)):  # in t = log(u) exponentials would come back
+        found = _known(integrand, x)
+    return None if found is None else found.subs(x, exp(k * x))
 
 
 def _has_roots_in_all_functions_by_parts(term: Expr, _: Expr) -> bool:
@@ -350,8 +379,9 @@ def _only_wave_below(term: Expr) -> Expr | None:
 
 _RULES = (
     _Rule("int P exp(r x) cos(w x) dx: undetermined coefficients", lambda e, x: True, by_coefficients),
-    _Rule("int R(sin(u), cos(u)) dx for linear u: rational in a wave or tangent", _has_waves, _in_waves),
     _Rule("int f(u) u' dx = int f(u) du", lambda e, x: bool(_functions(e)), _in_an_argument),
+    _Rule("int f(exp(k x)) dx = int f(u)/(k u) du", lambda e, x: bool(e.has(exp)), _in_exponentials),
+    _Rule("int R(sin(u), cos(u)) dx for linear u: rational in a wave or tangent", _has_waves, _in_waves),
     _Rule("products of powers and exponentials of rational functions", lambda e, x: True, integral_of_product),
     _Rule("int P sin(q) dx for quadratic q: Fresnel functions", _has_waves, fresnel),
     _Rule(

@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
+from dataclasses import dataclass
 from typing import Any
 
 import sympy
-from sympy import cos, cosh, cot, coth, csc, csch, exp, sec, sech, sin, sinh, tan, tanh
+from sympy import cos, cosh, cot, coth, csc, csch, exp, log, sec, sech, sin, sinh, tan, tanh
 
 from kovacic.algebra.partial_fractions import decompose
 from kovacic.algebra.ratfunc import RatFunc
@@ -76,19 +77,10 @@ def integral_of_product(term: Expr, x: Expr) -> Expr | None:
         if turned is None:
             return None
         return -turned.subs(x, -x)
-    if any(_has_unlike_exponentials(base) for base in term.atoms(sympy.Add)):  # the rate isn't rational
-        return None
-    # by factors: SymPy takes long to cancel a sum of fractions with exponentials
-    slopes = (factor.diff(x) / factor for factor in sympy.Mul.make_args(sympy.factor_terms(term)))
-    rate = ratfunc(sympy.cancel(sympy.powsimp(sympy.expand(sympy.Add(*slopes)))), x)
+    rate = ratfunc(_rate(term, x), x)
     if rate is None:
         return None
     return _integral_by_rate(rate, term, x)
-
-
-def _has_unlike_exponentials(total: Expr) -> bool:
-    exponentials = {sympy.Mul(*(f for f in sympy.Mul.make_args(term) if isinstance(f, exp))) for term in total.args}
-    return len(exponentials) > 1
 
 
 def _integral_by_rate(rate: RatFunc, term: Expr, x: Expr) -> Expr | None:
@@ -127,6 +119,48 @@ def _polynomial_radicands(term: Expr, x: Expr) -> list[Expr]:
     return [sympy.Poly(base, x) for base in bases if base.is_polynomial(x)]
 
 
+def _rate(g: Expr, x: Expr) -> Expr:
+    """The logarithmic derivative, by factors; that of t (1 + u/t + ...) for a sum t + u + ..."""
+    first, *rest = (_PowerProduct.of(term) for term in sympy.Add.make_args(g))
+    others = sympy.Integer(1)
+    for term in rest:
+        quotient = sympy.Mul(*(base**e for base, e in term.powers), *(base**-e for base, e in first.powers))
+        others += quotient * exp(sympy.cancel(term.exponent - first.exponent))
+    own = first.exponent.diff(x)
+    for base, e in first.powers:
+        own += _rate_of_power(base, e, x)
+    return own + others.diff(x) / others
+
+
+def _rate_of_power(base: Expr, e: Expr, x: Expr) -> Expr:
+    """That of base^e, where not both depend on x."""
+    if not base.has(x):
+        return e.diff(x) * log(base)
+    if base.is_Add and base.has(exp) and e.is_Rational:  # as in exp(-x)/(x + 1), which SymPy expands
+        return e * _rate(base, x)
+    return e * base.diff(x) / base
+
+
+@dataclass(frozen=True)
+class _PowerProduct:
+    """A product of powers (base, e) and exp(exponent)."""
+
+    powers: list[tuple[Expr, Expr]]
+    exponent: Expr
+
+    @classmethod
+    def of(cls, term: Expr) -> _PowerProduct:
+        powers = []
+        exponent = sympy.Integer(0)
+        for factor in sympy.Mul.make_args(term):
+            base, e = factor.as_base_exp()
+            if base is sympy.E:
+                exponent += e
+            else:
+                powers.append((base, e))
+        return cls(powers, exponent)
+
+
 def integral_of_fraction(g: Expr, x: Expr) -> Expr | None:
     """By partial fractions; None where g isn't a rational function of x."""
     r = ratfunc(g, x)
@@ -142,6 +176,6 @@ def ratfunc(expression: Expr, x: Expr) -> RatFunc | None:
     if not expression.is_rational_function(x):
         return None
     try:
-        return read_input(expression.xreplace({sympy.pi: sympy.Symbol(PI)}), var=x.name).S
+        return read_input(expression, var=x.name).S
     except InputError:
         return None

@@ -10,12 +10,12 @@ from typing import Any
 import mpmath
 import pytest
 import sympy
-from build import parametrize, read_input
+from build import parametrize
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from sympy import Rational, Symbol, cos, exp, log, oo, pi, sin, sqrt
 
-from kovacic import dsolve
+from kovacic import answer_to, dsolve
 from kovacic.general_solution.antiderivatives import antiderivative
 from kovacic.general_solution.behaviour import Approach, UnknownLimit, limit_at
 from kovacic.general_solution.check import is_finite
@@ -23,7 +23,7 @@ from kovacic.general_solution.constants import Outcome, Row, determine
 from kovacic.general_solution.substitution import finite_value
 from kovacic.general_solution.undetermined import undetermined
 from kovacic.general_solution.values import values_at
-from kovacic.general_solution.variation import Basis, DefiniteIntegral
+from kovacic.general_solution.variation import DefiniteIntegral
 from kovacic.general_solution.zero import Zero, is_algebraic_zero, when_zero
 
 x, C1, C2, w = sympy.symbols("x C1 C2 w")
@@ -292,12 +292,9 @@ def test_an_integral_that_is_not_elementary_stays_beside_a_tangent() -> None:
 )
 def test_wronskians_of_special_functions(text: str) -> None:
     """No Wronskian is written out under an integral; that of the two solutions is the one of the equation."""
-    equation = read_input(text).equation
-    assert equation is not None
     found = dsolve(text).rhs
-    y1, y2 = (found.coeff(c) if found.coeff(c) != 0 else sympy.expand(found).coeff(c) for c in (C1, C2))
-    basis = Basis(y1, y2, x, equation)
-    direct = y1 * y2.diff(x) - y1.diff(x) * y2
+    basis = answer_to(text).basis
+    direct = basis.y1 * basis.y2.diff(x) - basis.y1.diff(x) * basis.y2
     point = Rational(2, 7)
     assert abs(sympy.N((direct / basis.wronskian).subs(x, point) - 1, 30)) < 1e-20
     functions = (sympy.hyper, sympy.legendre)
