@@ -57,7 +57,7 @@ class Exceptional:
         return self.where
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, repr=False)
 class ProblemAnswer:
     """The answer to an equation with its right-hand side and its values.
 
@@ -77,6 +77,12 @@ class ProblemAnswer:
     notices: list[str]
     unchecked: tuple[str, ...] = field(default=(), kw_only=True)
     known: Mapping[Expr, Expr] = field(default_factory=dict, kw_only=True)
+
+    def __repr__(self) -> str:
+        return f"<{type(self).__name__}: {self}>"
+
+    def __str__(self) -> str:
+        return f"{self.eq.lhs} = {self.eq.rhs}"
 
     @property
     def own(self) -> dict[Expr, Expr]:
@@ -105,7 +111,7 @@ class ProblemAnswer:
         )
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, repr=False)
 class SecondOrderAnswer(ProblemAnswer):
     """y = C1 y1 + C2 y2 + y0.
 
@@ -169,7 +175,7 @@ class SecondOrderAnswer(ProblemAnswer):
         return self.ask(equation.subs(values), y, assume=case.assume)
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, repr=False)
 class FirstOrderAnswer(ProblemAnswer):
     """That of an equation of first order, linear or Riccati's, which is here with its conditions."""
 

@@ -29,6 +29,7 @@ import sympy
 from sympy import Abs, Heaviside, cos, cosh, exp, sin, sinh, tan, tanh
 from sympy.simplify.fu import TR8, TR10i
 
+from kovacic.general_solution.integrands import radicands
 from kovacic.general_solution.steps import place_of
 from kovacic.general_solution.substitution import expanded_size
 from kovacic.general_solution.zero import is_zero
@@ -91,7 +92,8 @@ def of_chebyshev(y1: Expr, y2: Expr) -> tuple[Expr, Expr]:
         return y1, y2
     n = y1.exp
     for f, rest in (y1.base.as_two_terms(), y1.base.as_two_terms()[::-1]):
-        if sympy.expand(rest**2 - f**2) == -1 and not n.is_number:
+        # sqrt(x^2 + 1) + x is one for f = x i alone
+        if not radicands(f) and sympy.expand(rest**2 - f**2) == -1 and not n.is_number:
             angle = n * sympy.acos(f)
             return cos(angle), sin(angle)
     return y1, y2

@@ -77,10 +77,16 @@ def needed_for(value: Expr, x: Expr, exceptions: Iterable[Expr] = ()) -> Validit
 
 
 def _holds_for_real_symbols(relation: Expr) -> bool:
-    """As exp(x) + 1 != 0 and x^2 + 1 > 0 do; nothing has to be said then."""
+    """As exp(x) + 1 != 0, x^2 + 1 > 0 and x + sqrt(x^2 + 1) > 0 do; nothing has to be said then."""
     real = {symbol: sympy.Dummy(real=True) for symbol in relation.free_symbols if symbol.is_real is None}
     try:
-        return bool(relation.xreplace(real) == sympy.true)
+        relation = relation.xreplace(real)
+        if relation == sympy.true:
+            return True
+        roots, others = sympy.sift(sympy.Add.make_args(relation.lhs), lambda e: e.is_Pow, binary=True)
+        if len(roots) != 1 or roots[0].exp != sympy.S.Half:
+            return False
+        return bool(sympy.expand(roots[0].base - sympy.Add(*others) ** 2).is_positive)  # sqrt(g) > |f|
     except TypeError:  # what is complex has no sign
         return False
 

@@ -177,3 +177,19 @@ def test_a_sum_over_roots_names_no_other_symbol() -> None:
 
 def test_conjugate_parts_need_only_be_finite() -> None:
     assert str(kovacic.validity(kovacic.dsolve("y'' + y = exp(x)/x"))) == "x != 0"
+
+
+@pytest.mark.parametrize("equation", ["(x^2+1)*y'' + x*y' - n^2*y = 0", "(9*x^2+4)*y'' + 9*x*y' - n^2*y = 0"])
+def test_a_root_above_what_stands_beside_it(equation: str) -> None:
+    """x + sqrt(x^2 + 1) > 0 everywhere; in cosines of n acos(sqrt(x^2 + 1)) the solutions are real for x = 0 alone."""
+    found = kovacic.dsolve(equation)
+    assert str(kovacic.validity(found)) == "n != 0"
+    x = sympy.Symbol("x")
+    for n in (1, sympy.Rational(7, 3)):
+        values = [sympy.im(found.rhs.subs({"n": n, "C1": 2, "C2": -3, x: at}).evalf(20)) for at in (-5, 0, 3)]
+        assert values == [0, 0, 0]
+
+
+def test_an_answer_is_shown_as_its_formula() -> None:
+    assert repr(kovacic.answer_to("y'' + y = 1")) == "<SecondOrderAnswer: y(x) = C1*cos(x) + C2*sin(x) + 1>"
+    assert str(kovacic.answer_to("y' = a*y")) == "y(x) = C1*exp(a*x)"
