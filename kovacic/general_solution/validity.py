@@ -17,6 +17,7 @@ from functools import partial
 from typing import Any
 
 import sympy
+from sympy.logic.boolalg import BooleanAtom
 
 from kovacic.general_solution.basis import vanishing, without_implied
 from kovacic.general_solution.zero import is_nowhere_zero
@@ -81,8 +82,8 @@ def _holds_for_real_symbols(relation: Expr) -> bool:
     real = {symbol: sympy.Dummy(real=True) for symbol in relation.free_symbols if symbol.is_real is None}
     try:
         relation = relation.xreplace(real)
-        if relation == sympy.true:
-            return True
+        if isinstance(relation, BooleanAtom):
+            return bool(relation)
         roots, others = sympy.sift(sympy.Add.make_args(relation.lhs), lambda e: e.is_Pow, binary=True)
         if len(roots) != 1 or roots[0].exp != sympy.S.Half:
             return False
