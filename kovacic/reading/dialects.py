@@ -4,7 +4,7 @@
 belongs to it, and writes tokens of the parser's grammar; what has to stand behind a bracket or a factor that is still to be
 read is kept in `closers` until then.  Linear time, no recursion; every token keeps its place in the user's text.
 
->>> translated("", scanned(r"\\frac{d^2y}{dx^2} = x^{2} \\sin^2 \\omega x")).pieces
+>>> translated("", Scan(scanned(r"\\frac{d^2y}{dx^2} = x^{2} \\sin^2 \\omega x"))).pieces
 ['diff', '(', 'y', ',', 'x', ',', '2', ')', '=', 'x', '^', '(', '2', ')', 'sin', '(', 'omega', 'x', ')', '^', '2', '']
 """
 
@@ -18,7 +18,7 @@ from kovacic.errors import ParseError
 from kovacic.limits import check_time
 from kovacic.reading.lexer import DERIVATIVES, DOTS, PRIMES, Token, Tokens, error_at, scanned, unexpected
 from kovacic.reading.names import BARE, FUNCTION_NAMES, GREEK, LETTER, SPECIAL_LETTERS, is_function, unglued
-from kovacic.reading.notations import LATEX, NOTATIONS, primes_of, rewritten
+from kovacic.reading.notations import CLOSING, LATEX, NOTATIONS, OPENING, Scan, primes_of, rewritten
 
 _KINDS = {
     "+": "PLUS",
@@ -32,8 +32,6 @@ _KINDS = {
     **dict.fromkeys(("=", "=="), "EQUAL"),
     **dict.fromkeys(("<", ">", "<=", ">=", "≤", "≥"), "COMPARISON"),
 }
-OPENING = frozenset("([{")
-CLOSING = frozenset(")]}")
 #: The condition of the last of several pieces.
 _OTHERWISE = ("True", "otherwise")
 _POWERS = ("^", "**")
@@ -52,7 +50,7 @@ LAYOUT = frozenset(
 #: Commands about a name that is set upright, or in another style, and those of them for text.
 _STYLES = frozenset(r"\operatorname \mathrm \mathop \mathit \mathbf \text \textrm \textit".split())  # noqa: SIM905
 _MATHEMATICAL_STYLES = ("\\mathrm", "\\mathit", "\\mathbf", "\\mathop")
-_FRACTIONS = frozenset({"\\frac", "\\dfrac", "\\tfrac", "\\cfrac"})
+FRACTIONS = frozenset({"\\frac", "\\dfrac", "\\tfrac", "\\cfrac"})
 #: What commands stand for.
 _COMMANDS = {
     **dict.fromkeys(("\\cdot", "\\times"), ("SIGN", "*")),
@@ -67,7 +65,7 @@ _COMMANDS = {
     **{f"\\{name}": ("WORD", name) for name in (*GREEK, *SPECIAL_LETTERS, *BARE)},
     **{f"\\var{name}": ("WORD", name) for name in GREEK},
     # Read by `_Translation`.
-    **{name: ("COMMAND", name) for name in (*_FRACTIONS, "\\sqrt", "\\dot", "\\ddot", "\\dddot")},
+    **{name: ("COMMAND", name) for name in (*FRACTIONS, "\\sqrt", "\\dot", "\\ddot", "\\dddot")},
 }
 #: Words that are one name in LaTeX without a backslash, too; mu and nu may be products.
 _WORDS = sorted((*FUNCTION_NAMES, *(name for name in GREEK if len(name) > 2), "pi", "diff"), key=len, reverse=True)
@@ -80,14 +78,13 @@ _EXAMPLE = "write for example (x^2 + 1)/(2*x), y''"
 class _Latex:
     """The tokens of a text in LaTeX as those of other texts: letters are names, commands are signs and words."""
 
-    def __init__(self, text: str, scan: Sequence[Token]) -> None:
+    def __init__(self, text: str, scan: Scan) -> None:
         self.text = text
         self.scan = scan
-        self.found: list[Token] = []
+        self.found = Scan()
         self.k = 0
-        self.partner = partners(scan)
 
-    def ordinary(self) -> list[Token]:
+    def ordinary(self) -> Scan:
         while self.k < len(self.scan):
             token = self.scan[self.k]
             self.k += 1
@@ -99,7 +96,7 @@ class _Latex:
                 self.found.append(Token(*_COMMANDS[token.text], token.start, token.end))
             elif token.text == "_":
                 self.index()
-            elif token.kind == "NUMBER" and token.text.isdigit() and self.found and self.found[-1].text in _FRACTIONS:
+            elif token.kind == "NUMBER" and token.text.isdigit() and self.found and self.found[-1].text in FRACTIONS:
                 # Of \frac12 each digit is an argument.
                 first = token.start
                 self.found += [Token("NUMBER", digit, first + k, first + k + 1) for k, digit in enumerate(token.text)]
@@ -143,7 +140,7 @@ class _Latex:
         """The tokens in the braces that follow, or the one that follows; they are passed over."""
         first = self.k
         if self.scan[first : first + 1] and self.scan[first].text == "{":
-            closing = self.partner.get(first)
+            closing = self.scan.partners.get(first)
             if closing is None:
                 raise self.error("a brace is never closed", self.scan[first])
             self.k = closing + 1
@@ -184,14 +181,17 @@ def _is_name(text: str) -> bool:
     return (len(bare) == 1 and bare.isalpha()) or bare in GREEK or bare in SPECIAL_LETTERS
 
 
-def translated(text: str, scan: Sequence[Token], *, condition: bool = False) -> Tokens:
+def translated(text: str, scan: Scan, *, condition: bool = False) -> Tokens:
     """The tokens of an expression or equation, in which `NOTATIONS` are rewritten but for those that LaTeX hides.
 
     Those of a `condition` have the unknown function at points.  Raises `ParseError` for what has no meaning in any notation.
     """
-    scan = [token for token in scan if token.kind != "NEWLINE"]
-    has_braces = any(b.text == "{" and (a.text == "^" or a.text.endswith("_")) for a, b in pairwise(scan))
-    latex = has_braces or any(token.kind == "COMMAND" for token in scan)
+    if scan.has("\n"):
+        scan = Scan(token for token in scan if token.kind != "NEWLINE")
+    has_braces = scan.has("{") and any(
+        b.text == "{" and (a.text == "^" or a.text.endswith("_")) for a, b in pairwise(scan)
+    )
+    latex = has_braces or scan.has(("COMMAND",))
     if latex:
         scan = rewritten(_Latex(text, scan).ordinary(), LATEX)
     return _Translation(text, scan, latex=latex, condition=condition).tokens()
@@ -200,7 +200,7 @@ def translated(text: str, scan: Sequence[Token], *, condition: bool = False) -> 
 class _Translation:
     """One pass over the tokens, number `k` of which is the next one."""
 
-    def __init__(self, text: str, scan: list[Token], *, latex: bool, condition: bool) -> None:
+    def __init__(self, text: str, scan: Scan, *, latex: bool, condition: bool) -> None:
         self.text = text
         self.scan = scan
         #: Of the tokens, and of nothing behind them.
@@ -216,8 +216,8 @@ class _Translation:
         #: What is written before a token.
         self.closers: dict[int, list[tuple[str, str]]] = {}
         self.skipped: set[int] = set()
-        self.partner = partners(scan)
-        self.bars = _bars(scan) if "|" in self.texts else {}
+        self.partner = scan.partners
+        self.bars = _bars(scan) if scan.has("|") else {}
 
     def tokens(self) -> Tokens:
         while self.k < len(self.scan):
@@ -238,7 +238,10 @@ class _Translation:
             self.k = k
             self.close()
         end = max(self.scan[-1].end if self.scan else 0, len(self.text))
-        variable = "t" if any(token.kind == "PRIMES" and DOTS in token.text for token in self.scan) else None
+        has_dots = self.scan.has(("PRIMES",)) and any(
+            token.kind == "PRIMES" and DOTS in token.text for token in self.scan
+        )
+        variable = "t" if has_dots else None
         return Tokens.of(self.text, [*self.found, ("$END", "", end, end)], variable)
 
     def write(self, kind: str, piece: str, token: Token | None = None) -> None:
@@ -276,7 +279,7 @@ class _Translation:
             return None
         if k in self.partner or k in self.bars:
             return (self.partner.get(k) or self.bars[k]) + 1
-        if text in _FRACTIONS:
+        if text in FRACTIONS:
             middle = self.operand_end(k + 1, depth + 1)
             return middle and self.operand_end(middle, depth + 1)
         if text == "\\sqrt":
@@ -329,7 +332,7 @@ class _Translation:
             inner = self.quotient(k + 1)
             if inner is not None and inner[3] == self.partner.get(k):
                 return (*inner[:3], inner[3] + 1)
-        if text in _FRACTIONS:
+        if text in FRACTIONS:
             begin, slash = k + 1, self.operand_end(k + 1)
             end = None if slash is None else self.operand_end(slash)
         elif text.startswith("d") or text == "(":  # the denominator is dx^2, (dx)^2 or (dx^2)
@@ -428,7 +431,7 @@ class _Translation:
         end = k + (self.kinds[k] == "NUMBER")
         if self.kinds[end] == "WORD" and not is_function(self.texts[end]):
             end = self.letters_end(end)
-        elif end == k or self.texts[end] in _FRACTIONS | {"\\sqrt"}:
+        elif end == k or self.texts[end] in FRACTIONS | {"\\sqrt"}:
             end = self.operand_end(end) or end
         if end == k:
             return None
@@ -555,7 +558,7 @@ _RULES: dict[str, tuple[_Rule, ...]] = {
     "TEXT": (_Translation.prose,),
     "COMMAND": (),
     **dict.fromkeys(FUNCTION_NAMES, (_Translation.function, _Translation.word)),
-    **dict.fromkeys(_FRACTIONS, (_Translation.derivative, _Translation.fraction)),
+    **dict.fromkeys(FRACTIONS, (_Translation.derivative, _Translation.fraction)),
     **dict.fromkeys(("\\sqrt", "√", "∛"), (_Translation.root,)),
     "(": (_Translation.derivative, _Translation.opening),
     "{": (_Translation.derivative, _Translation.opening),
@@ -563,18 +566,6 @@ _RULES: dict[str, tuple[_Rule, ...]] = {
     ".": (_Translation.method,),
     "|": (_Translation.bar,),
 }
-
-
-def partners(scan: Sequence[Token]) -> dict[int, int]:
-    """The number of the bracket that closes, by that of the one that opens."""
-    found: dict[int, int] = {}
-    opened: list[int] = []
-    for k, token in enumerate(scan):
-        if token.text in OPENING:
-            opened.append(k)
-        elif token.text in CLOSING and opened:
-            found[opened.pop()] = k
-    return found
 
 
 def _bars(scan: Sequence[Token]) -> dict[int, int]:
@@ -596,4 +587,4 @@ def _bars(scan: Sequence[Token]) -> dict[int, int]:
 
 def tokenize(text: str) -> Tokens:
     """The tokens of an expression.  Raises `ParseError` for what has no meaning."""
-    return translated(text, rewritten(scanned(text), NOTATIONS))
+    return translated(text, rewritten(Scan(scanned(text)), NOTATIONS))

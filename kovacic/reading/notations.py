@@ -1,6 +1,6 @@
 """Notations of other systems and of books, as a table: a few tokens of theirs, and the same in tokens of this package.
 
->>> [token.text for token in rewritten(scanned("(D@@2)(y)(x) + Sin[x] = 0"), NOTATIONS)]
+>>> [token.text for token in rewritten(Scan(scanned("(D@@2)(y)(x) + Sin[x] = 0")), NOTATIONS)]
 ['y', "''", '(', 'x', ')', '+', 'sin', '[', 'x', ']', '=', '0']
 """
 
@@ -8,14 +8,17 @@ from __future__ import annotations
 
 import re
 from bisect import bisect_left
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Collection, Sequence
 from functools import cached_property, lru_cache
+from itertools import accumulate, pairwise
 from typing import NamedTuple
 
 from kovacic.reading.lexer import DERIVATIVES, DOTS, PRIMES, Token, scanned
 from kovacic.reading.names import BARE, FUNCTION_NAMES, GREEK, LETTER
 
 Match = re.Match[str]
+OPENING = frozenset("([{")
+CLOSING = frozenset(")]}")
 
 #: Commands that solve an equation, in other systems.
 SOLVERS = frozenset("DSolve NDSolve DSolveValue NDSolveValue dsolve desolve ode2 rhs kovacicsols".split())  # noqa: SIM905
@@ -39,70 +42,95 @@ def pattern(text: str) -> re.Pattern[str]:
     return re.compile(rf"(?s)(?<!\S)(?:{_SIGN.sub(lambda sign: _SIGNS[sign[0]], text)})(?!\S)")
 
 
-class Spaced:
-    """Tokens as one text for such patterns: a space behind each of them, two where a gap follows."""
-
-    def __init__(self, scan: Sequence[Token]) -> None:
-        self.scan = scan
-        starts = [token.start for token in scan[1:]]
-        parts = [f"{t.text}  " if t.end < start else f"{t.text} " for t, start in zip(scan, starts, strict=False)]
-        self.parts = [*parts, scan[-1].text] if scan else []
-        self.text = "".join(self.parts)
+class Scan(list[Token]):
+    """Tokens of a text in their order, with what rules ask about them; nothing is added to it once it is made."""
 
     @cached_property
-    def starts(self) -> list[int]:
-        found = [0]
-        for part in self.parts:
-            found.append(found[-1] + len(part))
+    def marks(self) -> frozenset[str]:
+        """Texts and kinds of the tokens; PROSE for a word that means nothing, "_" for an index, "." for 1."""
+        found = {token.text for token in self} | {token.kind for token in self}
+        for kind, text, _, _ in self:
+            if kind == "WORD" and len(text) > 2:
+                found.add("PROSE" if text.isalpha() and text not in _KNOWN else "_" if "_" in text else text)
+            elif kind == "NUMBER" and text[-1] == ".":
+                found.add(".")
+        return frozenset(found)
+
+    def has(self, marks: Collection[str]) -> bool:
+        """True if one of these marks occurs."""
+        return not self.marks.isdisjoint(marks)
+
+    @cached_property
+    def spaced(self) -> str:
+        """The tokens as one text for patterns: a space behind each of them, two where a gap follows."""
+        return "".join(self._parts)
+
+    @cached_property
+    def _parts(self) -> list[str]:
+        parts = [f"{a.text}  " if a.end < b.start else f"{a.text} " for a, b in pairwise(self)]
+        return [*parts, self[-1].text] if self else []
+
+    @cached_property
+    def _offsets(self) -> list[int]:
+        return [0, *accumulate(map(len, self._parts))]
+
+    def span(self, match: Match, group: int = 0) -> tuple[int, int]:
+        """The numbers of the first token of a match of the spaced text, and of the one behind it."""
+        return bisect_left(self._offsets, match.start(group)), bisect_left(self._offsets, match.end(group))
+
+    @cached_property
+    def partners(self) -> dict[int, int]:
+        """The number of the bracket that closes, by that of the one that opens."""
+        found: dict[int, int] = {}
+        opened: list[int] = []
+        for k, token in enumerate(self):
+            if token.text in OPENING:
+                opened.append(k)
+            elif token.text in CLOSING and opened:
+                found[opened.pop()] = k
         return found
 
-    def number(self, offset: int) -> int:
-        """The number of the token that begins with a character, or behind it."""
-        return bisect_left(self.starts, offset)
+    @property
+    def is_enclosed(self) -> bool:
+        """True if the first token is a bracket that the last one closes."""
+        return len(self) > 1 and self.partners.get(0) == len(self) - 1
 
 
 class Rewrite(NamedTuple):
-    """A notation: where its `pattern` occurs, tokens are replaced by the `result`."""
+    """A notation: where its `pattern` occurs, with one of its `marks`, tokens are replaced by the `result`."""
 
     notation: str
+    marks: frozenset[str]
     pattern: re.Pattern[str]
     result: str | Callable[[Match], str] = ""
     #: What the words of the first group become, which stay where they are.
     kind: str = ""
 
-    def applied(self, spaced: Spaced) -> list[Token]:
-        found: list[Token] = []
+    def applied(self, scan: Scan) -> Scan:
+        found = Scan()
         done = 0
-        for match in self.pattern.finditer(spaced.text):
-            first, behind = spaced.number(match.start()), spaced.number(match.end())
-            found += spaced.scan[done:first]
+        for match in self.pattern.finditer(scan.spaced):
+            first, behind = scan.span(match)
+            found += scan[done:first]
             done = behind
             if self.kind:
-                group = spaced.scan[spaced.number(match.start(1)) : spaced.number(match.end(1))]
-                found += [token._replace(kind=self.kind) if token.kind == "WORD" else token for token in group]
+                begin, end = scan.span(match, 1)
+                found += [t._replace(kind=self.kind) if t.kind == "WORD" else t for t in scan[begin:end]]
                 continue
             result = match.expand(self.result) if isinstance(self.result, str) else self.result(match)
-            place = spaced.scan[first].start, spaced.scan[behind - 1].end
+            place = scan[first].start, scan[behind - 1].end
             kinds = {text: "NEWLINE" if text == "\n" else scanned(text)[0].kind for text in result.split(" ") if text}
             found += [Token(kinds[text], text, *place) for text in result.split(" ") if text]
-        return [*found, *spaced.scan[done:]]
+        found += scan[done:]
+        return found
 
 
-#: Numbers, letters but D and E, and signs of arithmetic that are no comment: no rule is about these alone.
-_PLAIN = re.compile(
-    r"(?!.*\^ +\(.*')(?:(?:\d+|[a-zA-CF-Z]|[+)=]|-(?! +-)|\*\*?|\((?! +\*)|/(?! +[/*])|\^(?! +')|''?)(?: +|$))*"
-)
-
-
-def rewritten(scan: Sequence[Token], rules: Sequence[Rewrite]) -> list[Token]:
+def rewritten(scan: Scan, rules: Sequence[Rewrite]) -> Scan:
     """The tokens after all rules, in their order."""
-    spaced = Spaced(scan)
-    if _PLAIN.fullmatch(spaced.text):  # as most texts are: some fifty searches are saved
-        return list(scan)
     for rule in rules:
-        if rule.pattern.search(spaced.text):
-            spaced = Spaced(rule.applied(spaced))
-    return list(spaced.scan)
+        if not rule.marks.isdisjoint(scan.marks) and rule.pattern.search(scan.spaced):
+            scan = rule.applied(scan)
+    return scan
 
 
 def primes_of(marks: str) -> str:
@@ -157,50 +185,58 @@ _SYNONYMS = {
 }
 
 
-def _rule(notation: str, text: str, result: str | Callable[[Match], str] = "", kind: str = "") -> Rewrite:
-    return Rewrite(notation, pattern(text), result, kind)
+def _rule(notation: str, marks: str, text: str, result: str | Callable[[Match], str] = "", kind: str = "") -> Rewrite:
+    return Rewrite(notation, frozenset(marks.split(" ")), pattern(text), result, kind)
 
 
+#: MATLAB's D2y and the like.
+_SLOPES = " ".join(f"D{n}{y}" for n in ("", 2, 3, 4) for y in "xyzuvwqf")
 _PACKAGES = "sympy|sp|sm|sy|np|math|numpy"
 _MAKERS = "Function|function|Symbol|symbols|var"
 _OF_X = r"(LETTER) \( (LETTER) \)"
 _SLOPE = rf"(?:diff|Derivative) \( {_OF_X} , \2 \)"
 _BEHIND_NAME = r"(?:(?<=\w\x20)|(?<=\w\x20\x20))"
 NOTATIONS = (
-    _rule("the name of a package", rf"(?:{_PACKAGES}) \."),
-    _rule("a quoted name", rf"(?<!=\x20)(?<!=\x20\x20)(?:{_MAKERS}) \( ['\"] (\w+) ['\"] \)", r"\1"),
-    _rule("Maple", r"OPEN D @@ (?P<n>\d) CLOSE OPEN (?P<y>LETTER) CLOSE", _derivative),
-    _rule("Mathematica", r"Derivative OPEN (?P<n>\d) CLOSE OPEN (?P<y>LETTER) CLOSE", _derivative),
-    _rule("Maple", r"OPEN D OPEN D OPEN (LETTER) CLOSE CLOSE CLOSE(?= OPEN)", r"\1 ''"),
-    _rule("Maple", r"D OPEN D OPEN (LETTER) CLOSE CLOSE(?= OPEN)", r"\1 ''"),
-    _rule("Maple", r"OPEN D OPEN (LETTER) CLOSE CLOSE(?= OPEN)", r"\1 '"),
-    _rule("Maple", r"(?:OPEN D CLOSE|D) OPEN (LETTER) CLOSE(?= OPEN)", r"\1 '"),
-    _rule("MATLAB", r"(?<!\.\x20)diff OPEN (?P<y>LETTER) , (?P<n>[1-4]) CLOSE", _derivative),
-    _rule("MATLAB", r"D(?P<n>[2-4]?)(?P<y>[xyzuvwqf])", _by_time),
-    _rule("SymPy", rf"{_OF_X} \. diff \( \2(?: , 1)? \) \. subs \( \2 ,", r"\1 ' ("),
-    _rule("SymPy", rf"{_SLOPE} \. subs \( \2 ,", r"\1 ' ("),
-    _rule("SymPy", rf"{_OF_X} \. subs \( \2 ,", r"\1 ("),
-    _rule("SymPy", rf"Subs \( {_SLOPE} , \2 ,", r"\1 ' ("),
-    _rule("SymPy", rf"Subs \( {_SLOPE} , \( \2 , \) , \( (\S+) , \) \)", r"\1 ' ( \3 )"),
-    _rule("Maple", r"` \$ ` \( (LETTER) , (\d) \)", r"\1 , \2"),
-    _rule("Maple", r"([^\W\d]\w*) \$ (\d+)", r"\1 , \2"),
-    _rule("Maxima", r"'(?= diff )"),
-    _rule("Maxima", r"%~(e|pi)", r"\1"),
-    _rule("Maxima", r"%~i", "I"),
-    _rule("names of functions", rf"(?:{'|'.join(_SYNONYMS)})(?= [(\[])", lambda match: _SYNONYMS[match[0]]),
-    _rule("pi", "Pi|π", "pi"),
-    _rule("Mathematica", r"E \^", _exponential),
+    _rule("the name of a package", ".", rf"(?:{_PACKAGES}) \."),
+    _rule("a quoted name", "PRIMES", rf"(?<!=\x20)(?<!=\x20\x20)(?:{_MAKERS}) \( ['\"] (\w+) ['\"] \)", r"\1"),
+    _rule("Maple", "@@", r"OPEN D @@ (?P<n>\d) CLOSE OPEN (?P<y>LETTER) CLOSE", _derivative),
+    _rule("Mathematica", "Derivative", r"Derivative OPEN (?P<n>\d) CLOSE OPEN (?P<y>LETTER) CLOSE", _derivative),
+    _rule("Maple", "D", r"OPEN D OPEN D OPEN (LETTER) CLOSE CLOSE CLOSE(?= OPEN)", r"\1 ''"),
+    _rule("Maple", "D", r"D OPEN D OPEN (LETTER) CLOSE CLOSE(?= OPEN)", r"\1 ''"),
+    _rule("Maple", "D", r"OPEN D OPEN (LETTER) CLOSE CLOSE(?= OPEN)", r"\1 '"),
+    _rule("Maple", "D", r"(?:OPEN D CLOSE|D) OPEN (LETTER) CLOSE(?= OPEN)", r"\1 '"),
+    _rule("MATLAB", "diff", r"(?<!\.\x20)diff OPEN (?P<y>LETTER) , (?P<n>[1-4]) CLOSE", _derivative),
+    _rule("MATLAB", _SLOPES, r"D(?P<n>[2-4]?)(?P<y>[xyzuvwqf])", _by_time),
+    _rule("SymPy", "subs", rf"{_OF_X} \. diff \( \2(?: , 1)? \) \. subs \( \2 ,", r"\1 ' ("),
+    _rule("SymPy", "subs", rf"{_SLOPE} \. subs \( \2 ,", r"\1 ' ("),
+    _rule("SymPy", "subs", rf"{_OF_X} \. subs \( \2 ,", r"\1 ("),
+    _rule("SymPy", "Subs", rf"Subs \( {_SLOPE} , \2 ,", r"\1 ' ("),
+    _rule("SymPy", "Subs", rf"Subs \( {_SLOPE} , \( \2 , \) , \( (\S+) , \) \)", r"\1 ' ( \3 )"),
+    _rule("Maple", "$", r"` \$ ` \( (LETTER) , (\d) \)", r"\1 , \2"),
+    _rule("Maple", "$", r"([^\W\d]\w*) \$ (\d+)", r"\1 , \2"),
+    _rule("Maxima", "diff", r"'(?= diff )"),
+    _rule("Maxima", "%", r"%~(e|pi)", r"\1"),
+    _rule("Maxima", "%", r"%~i", "I"),
+    _rule("functions", " ".join(_SYNONYMS), rf"(?:{'|'.join(_SYNONYMS)})(?= [(\[])", lambda match: _SYNONYMS[match[0]]),
+    _rule("pi", "Pi π", "Pi|π", "pi"),
+    _rule("Mathematica", "E", r"E \^", _exponential),
     _rule(
         "raised primes",
+        "PRIMES",
         rf"{_BEHIND_NAME}\^ (?:OPEN ((?:['\"]+ )+)CLOSE|(['\"]+(?: '+)*))",
         lambda m: primes_of(m[1] or m[2]),
     ),
-    _rule("indices", r"(?P<y>[a-zA-Z])_(?P<x>[xtzsr])(?P<second>(?P=x))?", _by_index),
+    _rule("indices", "_", r"(?P<y>[a-zA-Z])_(?P<x>[xtzsr])(?P<second>(?P=x))?", _by_index),
 )
 #: For what the commands of LaTeX have become signs and letters.
 LATEX = (
-    _rule("dots", r"\\(d{1,3})ot (?:\{ (\S+) \}|(\S+))", lambda m: f"{m[2] or m[3]} {DOTS * len(m[1])}"),
-    _rule("an order", rf"{_BEHIND_NAME}\^ \{{ \( ([1-4]) \) \}}", lambda match: PRIMES * int(match[1])),
+    _rule(
+        "dots",
+        r"\dot \ddot \dddot",
+        r"\\(d{1,3})ot (?:\{ (\S+) \}|(\S+))",
+        lambda m: f"{m[2] or m[3]} {DOTS * len(m[1])}",
+    ),
+    _rule("an order", "{", rf"{_BEHIND_NAME}\^ \{{ \( ([1-4]) \) \}}", lambda match: PRIMES * int(match[1])),
     *NOTATIONS,
 )
 
@@ -209,20 +245,25 @@ _NO_INDEX = r"(?<!_\x20)(?<!_\x20\{\x20)"
 _NO_NAME = rf"(?!(?:{'|'.join(FUNCTION_NAMES)}|\w) \}})"
 #: Comments, breaks and layout, before all else.
 AROUND = (
-    _rule("Mathematica", r"\(~\* .{0,2000}? \*~\)"),
-    _rule("C", r"/~\* .{0,2000}? \*~/"),
-    _rule("a whole line", rf"{_LINE}(?:/~/|#|%(?!~(?:e|i|pi|o\d*|i\d+)(?!\S)))[^\n]*"),
-    _rule("behind a line", rf"(?:{_LINE}|(?<=\x20\x20))(?:/~/|#|%|-~-) (?:WORD|hi|an?|is|no)(?!\S)[^\n]*"),
-    _rule("environments", r"\\(?:begin|end|label|tag|ref)(?: [^\s}]+){0,12} \}", "\n"),
+    _rule("within a line", "*", r"[(/]~\* .{0,2000}? \*~[)/]"),
+    _rule("a whole line", "/ # %", rf"{_LINE}(?:/~/|#|%(?!~(?:e|i|pi|o\d*|i\d+)(?!\S)))[^\n]*"),
+    _rule(
+        "behind a line",
+        "PROSE hi a an is no",
+        rf"(?:{_LINE}|(?<=\x20\x20))(?:/~/|#|%|-~-) (?:WORD|hi|an?|is|no)(?!\S)[^\n]*",
+    ),
+    _rule("environments", r"\begin \end \label \tag \ref", r"\\(?:begin|end|label|tag|ref)(?: [^\s}]+){0,12} \}", "\n"),
     _rule(
         "words",
+        r"\text \textrm \mbox \textnormal",
         rf"{_NO_INDEX}\\(?:text|textrm|mbox|textnormal) \{{ {_NO_NAME}((?:(?:[^\W\d_]+|[^\w\s}}]) ){{0,99}})\}}",
         kind="TEXT",
     ),
-    _rule("breaks", r"\\\\|\\quad|\\qquad", "\n"),
-    _rule("the end of a line", r"\\$"),
+    _rule("breaks", r"\\ \quad \qquad", r"\\\\|\\quad|\\qquad", "\n"),
+    _rule("the end of a line", "\\", r"\\$"),
     _rule(
         "dollars",
+        "$",
         r"(?<![^\W\d]\x20)(?<!`\x20)\$|\$(?! [\d`])",
         lambda match: "\n" if _occurs(r"\$.*\$", match.string) else "$" if match.start() == 0 else " ; ",  # Maxima's
     ),

@@ -22,12 +22,10 @@ from functools import cached_property
 from typing import NamedTuple
 
 from kovacic.errors import ParseError
-from kovacic.reading.dialects import CLOSING, LAYOUT, OPENING, partners, translated
+from kovacic.reading.dialects import FRACTIONS, LAYOUT, translated
 from kovacic.reading.lexer import DERIVATIVES, PRIMES, Token, Tokens, error_at, scanned
 from kovacic.reading.names import is_function, is_letter
-from kovacic.reading.notations import AROUND, NOTATIONS, SOLVERS, Spaced, pattern, rewritten
-
-Scan = Sequence[Token]
+from kovacic.reading.notations import AROUND, CLOSING, NOTATIONS, OPENING, SOLVERS, Scan, pattern, rewritten
 
 #: Words between an equation and what is said of it.
 _BETWEEN = frozenset("and with where subject such given for if at when".split())  # noqa: SIM905
@@ -40,6 +38,7 @@ _ASSIGNS = ("=", "==", ":=")
 #: With what Eq(left, right) begins.
 _WHOLE = frozenset({"Eq", "Equality"})
 _WORDS = ("WORD", "COMMAND", "NEWLINE", "TEXT")
+_DISPLAYS = ("\\displaystyle", "\\boxed")
 _INEQUALITIES = frozenset({*"<>≤≥≠", "<=", ">="})
 _POINTS = frozenset({"oo", "inf", "infty", "infinity", "Infinity", "pi", "\\pi"})
 
@@ -52,7 +51,7 @@ class PastedPiece(NamedTuple):
     """
 
     role: str
-    scan: tuple[Token, ...]
+    scan: Scan
 
 
 class PlacedValue(NamedTuple):
@@ -71,7 +70,7 @@ class Paste:
     variable: str | None = None
     notes: tuple[str, ...] = ()
 
-    def scans(self, role: str) -> list[tuple[Token, ...]]:
+    def scans(self, role: str) -> list[Scan]:
         return [piece.scan for piece in self.pieces if piece.role == role]
 
     @cached_property
@@ -87,7 +86,7 @@ class Paste:
     def conditions(self) -> tuple[PlacedValue, ...]:
         return tuple(given for scan in self.scans("condition") for given in _given(self.text, scan))
 
-    def error(self, message: str, scan: Scan, hint: str) -> ParseError:
+    def error(self, message: str, scan: Sequence[Token], hint: str) -> ParseError:
         return error_at(self.text, message, scan, hint)
 
 
@@ -106,25 +105,23 @@ def is_equation(text: str) -> bool:
     return taken_apart(text).is_equation
 
 
-def _lines(text: str) -> list[Token]:
+def _lines(text: str) -> Scan:
     """The tokens in this package's notation, without comments, layout, and marks around the whole."""
-    scan = rewritten(scanned(text), AROUND)
-    found = [token for token in scan if token.text not in LAYOUT]
-    found = rewritten(found, NOTATIONS)
-    is_displayed = (
-        re.search(r"\\displaystyle|\\boxed", text) is not None and partners(found).get(0) == len(found) - 1
-    )  # as Wikipedia has its formulas
-    is_quoted = (
-        len(found) > 2
-        and found[0].kind == found[-1].kind == "PRIMES"
-        and found[0].text == found[-1].text
-        and not (found[-2].kind == "WORD" and found[-2].end == found[-1].start)
-    )
-    return found[1:-1] if is_displayed or is_quoted else found
+    scan = rewritten(Scan(scanned(text)), AROUND)
+    is_displayed = scan.has(_DISPLAYS)  # as Wikipedia has its formulas
+    if scan.has(LAYOUT):
+        scan = Scan(token for token in scan if token.text not in LAYOUT)
+    found = rewritten(scan, NOTATIONS)
+    is_name = len(found) > 2 and found[-2].kind == "WORD" and found[-2].end == found[-1].start  # y'
+    is_around = (is_displayed and found.is_enclosed) or (_is_quoted(found) and not is_name)
+    return Scan(found[1:-1]) if is_around else found
 
 
-def _statements(scan: Scan) -> Iterator[list[Token]]:
+def _statements(scan: Scan) -> Iterator[Scan]:
     """What stands between commas, semicolons, words and ends of lines that separate."""
+    if scan and not scan.has(_SEPARATORS):
+        yield scan
+        return
     current: list[Token] = []
     depth = 0
     is_first = True
@@ -132,7 +129,7 @@ def _statements(scan: Scan) -> Iterator[list[Token]]:
     for k, token in enumerate(scan):
         depth = max(0, depth + (token.text in OPENING) - (token.text in CLOSING))
         if depth == 0 and token.text in _SEPARATORS and _SEPARATORS[token.text](scan, k, current, is_complete):
-            yield from [current] * bool(current)
+            yield from [Scan(current)] * bool(current)
             is_first = is_first and not current
             current, is_complete = [], False
         elif token.kind != "NEWLINE" and (current or is_first or token.text not in (*_FILLERS, *_BETWEEN)):
@@ -140,17 +137,17 @@ def _statements(scan: Scan) -> Iterator[list[Token]]:
                 not current and token.text in _WHOLE | _DECLARATIONS
             )
             current.append(token)
-    yield from [current] * bool(current)
+    yield from [Scan(current)] * bool(current)
 
 
-def _comma_separates(scan: Scan, k: int, _: Scan, __: bool) -> bool:
+def _comma_separates(scan: Scan, k: int, *_: object) -> bool:
     """Not that of a decimal, 1,5: no blank about it between two numbers."""
     around = scan[max(0, k - 1) : k + 2]
     is_decimal = [token.kind for token in around] == ["NUMBER", "SIGN", "NUMBER"]
     return not is_decimal or around[0].end < around[2].start - 1
 
 
-def _line_separates(scan: Scan, k: int, current: Scan, is_complete: bool) -> bool:
+def _line_separates(scan: Scan, k: int, current: list[Token], is_complete: bool) -> bool:
     """Between two statements, each of which has an equals sign or solves something."""
     if not is_complete or {current[-1].text, scan[min(k + 1, len(scan) - 1)].text} & _OPERATORS:
         return False
@@ -160,7 +157,7 @@ def _line_separates(scan: Scan, k: int, current: Scan, is_complete: bool) -> boo
 
 
 #: What may separate statements, and when it does; Maple has colons behind them.
-_SEPARATORS: dict[str, Callable[[Scan, int, Scan, bool], bool]] = {
+_SEPARATORS: dict[str, Callable[[Scan, int, list[Token], bool], bool]] = {
     ";": lambda *_: True,
     ",": _comma_separates,
     ":": lambda scan, k, _, is_complete: is_complete and k + 1 < len(scan),
@@ -176,8 +173,14 @@ class _Around(NamedTuple):
     """What is left out before or behind a statement where the pattern is found; without a role it is layout."""
 
     name: str
-    pattern: str
+    #: One of them is in each occurrence.
+    marks: frozenset[str]
+    pattern: re.Pattern[str]
     role: str = ""
+
+
+def _around(name: str, marks: str, text: str, role: str = "") -> _Around:
+    return _Around(name, frozenset(marks.split()), pattern(text), role)
 
 
 #: What is said of each role.
@@ -192,22 +195,21 @@ _SOME = r"(?:(?:[^\W\d]\S*|[-:,.]) ){0,40}"
 _NO_OPERATOR = r"(?! (?:==?|:=|[*/^)\[])(?!\S))"
 _LETTERS = r"\d+|[a-i]|i{2,3}|iv|vi{1,3}"
 #: In the order in which they are left out; in patterns · is a gap between tokens, ~ none.
-_AROUND = (
-    _Around("the next sentence", r"(?<=\.\x20\x20)[A-Z][a-z]*(?: (?:[^\W\d]+|[-,.!?']))+$", "prose"),
-    _Around("the end of a sentence", r"(?<!^)[.:$,?](?: [.:$,?])*$"),
-    _Around("a prompt", r"^(?:>(?: >){0,2}|sage :|In \[ \S+ \] :=|\( % \w+ \))"),
-    _Around("1.", r"^\d+\.(?=\x20\x20)", "number"),
-    _Around("1)", r"^[^\s(]{1,2} \)(?= \S+ \S)", "number"),
-    _Around("(1)", rf"^\( (?:{_LETTERS}) \)(?=\x20\x20\S+ )", "number"),
-    _Around("Problem 3:", rf"^(?:WORD|{_LABELS})(?: \.)? \d+(?:\.\d+)?(?:\.(?=\x20\x20)| [:.)])", "prose"),
-    _Around("Problem 3", rf"^(?:{_LABELS})(?: \.)? \d+(?=\x20\x20\S+ )", "number"),
-    _Around("a sentence", rf"^{_SOME}?WORD {_SOME}(?:WORD|of|to|is|by|(?<=\w\x20):){_NO_OPERATOR}", "prose"),
-    _Around("a capital", rf"^(?=[A-Z][a-z]+ )WORD{_NO_OPERATOR}(?! \()", "prose"),
-    _Around("the number behind an equation", r"(?<=[^-+*/^=,:.\s]\x20\x20)\( \d+ \)$", "label"),
-    _Around("a remark behind an equation", r"(?<=\x200\x20\x20)\( WORD(?: \S+){0,5} \)$", "prose"),
-    _Around("the end of a sentence", r"[.:,](?: [.:,])*$"),
+SURROUNDINGS = (
+    _around("the next sentence", ".", r"(?<=\.\x20\x20)[A-Z][a-z]*(?: (?:[^\W\d]+|[-,.!?']))+$", "prose"),
+    _around("the end of a sentence", ". : $ , ?", r"(?<!^)[.:$,?](?: [.:$,?])*$"),
+    _around("a prompt", "> sage In %", r"^(?:>(?: >){0,2}|sage :|In \[ \S+ \] :=|\( % \w+ \))"),
+    _around("1.", ".", r"^\d+\.(?=\x20\x20)", "number"),
+    _around("1)", ")", r"^[^\s(]{1,2} \)(?= \S+ \S)", "number"),
+    _around("(1)", ")", rf"^\( (?:{_LETTERS}) \)(?=\x20\x20\S+ )", "number"),
+    _around("Problem 3:", ". : )", rf"^(?:WORD|{_LABELS})(?: \.)? \d+(?:\.\d+)?(?:\.(?=\x20\x20)| [:.)])", "prose"),
+    _around("Problem 3", _LABELS.replace("|", " "), rf"^(?:{_LABELS})(?: \.)? \d+(?=\x20\x20\S+ )", "number"),
+    _around("a sentence", "PROSE", rf"^{_SOME}?WORD {_SOME}(?:WORD|of|to|is|by|(?<=\w\x20):){_NO_OPERATOR}", "prose"),
+    _around("a capital", "PROSE", rf"^(?=[A-Z][a-z]+ )WORD{_NO_OPERATOR}(?! \()", "prose"),
+    _around("the number behind an equation", ")", r"(?<=[^-+*/^=,:.\s]\x20\x20)\( \d+ \)$", "label"),
+    _around("a remark behind an equation", "PROSE", r"(?<=\x200\x20\x20)\( WORD(?: \S+){0,5} \)$", "prose"),
+    _around("the end of a sentence", ". : ,", r"[.:,](?: [.:,])*$"),
 )
-_AROUND_PATTERNS = [pattern(rule.pattern) for rule in _AROUND]
 
 
 class _Apart:
@@ -219,7 +221,7 @@ class _Apart:
         self.found: list[PastedPiece] = []
         self.variable: str | None = None
         #: Statements that have names.
-        self.named: dict[str, list[Token]] = {}
+        self.named: dict[str, Scan] = {}
 
     def paste(self) -> Paste:
         statements = list(_statements(_lines(self.text)))
@@ -232,24 +234,22 @@ class _Apart:
         return Paste(self.text, self.sorted_roles(), self.variable, tuple(self.notes))
 
     def add(self, role: str, scan: Scan) -> None:
-        self.found.append(PastedPiece(role, tuple(_without_eq(scan) if role == "equation" else scan)))
+        self.found.append(PastedPiece(role, _without_eq(scan) if role == "equation" else scan))
 
     def equations(self) -> list[Scan]:
         return [piece.scan for piece in self.found if piece.role == "equation"]
 
-    def written(self, scan: Scan) -> str:
+    def written(self, scan: Sequence[Token]) -> str:
         return self.text[scan[0].start : scan[-1].end] if scan else ""
 
-    def without_surroundings(self, scan: list[Token]) -> list[Token]:
+    def without_surroundings(self, scan: Scan) -> Scan:
         """Without prompts, numbers of lists and equations, prose and punctuation."""
-        spaced = Spaced(scan)
-        rules = () if scan[0].text in _DECLARATIONS else zip(_AROUND, _AROUND_PATTERNS, strict=True)
-        for rule, compiled in rules:
-            match = compiled.search(spaced.text)
+        for rule in SURROUNDINGS if scan[0].text not in _DECLARATIONS else ():
+            match = rule.pattern.search(scan.spaced) if scan.has(rule.marks) else None
             if match is None:
                 continue
-            first, behind = spaced.number(match.start()), spaced.number(match.end())
-            left, rest = scan[first:behind], [*scan[:first], *scan[behind:]]
+            first, behind = scan.span(match)
+            left, rest = Scan(scan[first:behind]), Scan([*scan[:first], *scan[behind:]])
             is_name = len(left) == 2 and left[1].text == ":" and self.text.count(left[0].text) > 1  # eqn: ... ode2(eqn)
             if rule.role and (is_name or not _is_equation(rest)):
                 continue
@@ -259,9 +259,8 @@ class _Apart:
                 self.notes.append(_NOTES[rule.role].format(self.written(left)))
                 self.add(rule.role, left)
             scan = rest
-            spaced = Spaced(scan)
-        if scan and scan[-1].kind == "NUMBER" and _has_equals(scan):  # y(0) = 1.
-            scan = [*scan[:-1], scan[-1]._replace(text=scan[-1].text.rstrip("."))]
+        if scan and scan[-1].kind == "NUMBER" and scan[-1].text[-1] == "." and _has_equals(scan):  # y(0) = 1.
+            return Scan([*scan[:-1], scan[-1]._replace(text=scan[-1].text[:-1])])
         return scan
 
     def check_number(self, number: Scan, rest: Scan) -> None:
@@ -273,14 +272,15 @@ class _Apart:
         said = f"{self.written(number)} may be the number of the equation, or a factor"
         raise error_at(self.text, said, number, f"leave it out, or write {label}* for a factor")
 
-    def statement(self, scan: list[Token], *, is_alone: bool) -> None:
+    def statement(self, scan: Scan, *, is_alone: bool) -> None:
         if not scan:
             return
         if scan[0].text in _DECLARATIONS or (len(scan) == 1 and scan[0].text in SOLVERS):
             self.add("declaration", scan)
             return
         name, scan = _without_assignment(scan)
-        if _IDENTITY.fullmatch(Spaced(scan).text) or (name and scan and scan[0].text in _MAKERS):
+        is_identity = scan.has(("diff", "PRIMES")) and _IDENTITY.fullmatch(scan.spaced)
+        if is_identity or (name and scan and scan[0].text in _MAKERS):
             self.add("declaration", scan)
         elif self.command(scan):
             return
@@ -296,13 +296,13 @@ class _Apart:
         else:
             self.add("equation", scan)
 
-    def command(self, scan: list[Token]) -> bool:
+    def command(self, scan: Scan) -> bool:
         """The arguments of a command of another system: its equation, values, and names that occur in the equation."""
-        match = _COMMAND.match(Spaced(scan).text)
+        match = _COMMAND.match(scan.spaced) if scan.has(SOLVERS) else None
         opening = len(match[0].split()) - 1 if match else 0
-        if not opening or partners(scan).get(opening) != len(scan) - 1:
+        if not opening or scan.partners.get(opening) != len(scan) - 1:
             return False
-        self.add("command", scan[: opening + 1])
+        self.add("command", Scan(scan[: opening + 1]))
         first, *rest = [self.resolved(_unquoted(part)) for part in _listed(scan[opening + 1 : -1])]
         if first and first[0].text in SOLVERS:
             return self.command(first)
@@ -318,12 +318,12 @@ class _Apart:
                 raise error_at(self.text, said, part, f"give the equation and its values: {given}")
         return True
 
-    def resolved(self, part: list[Token]) -> list[Token]:
+    def resolved(self, part: Scan) -> Scan:
         return self.named.pop(part[0].text, part) if len(part) == 1 else part
 
-    def list_of(self, scan: list[Token]) -> bool:
+    def list_of(self, scan: Scan) -> bool:
         """{y'' + y = 0, y(0) = 1}."""
-        is_list = len(scan) > 1 and scan[0].text in ("{", "[") and partners(scan).get(0) == len(scan) - 1
+        is_list = scan.has("{[") and scan[0].text in ("{", "[") and scan.is_enclosed
         parts = [part for part in _listed(scan[1:-1]) if part] if is_list else []
         are_named = all(len(part) == 1 and part[0].text in self.named for part in parts)
         if not is_list or not (are_named or _has_equals(scan, depth=1)):
@@ -333,20 +333,20 @@ class _Apart:
                 self.add("equation", part)
         return True
 
-    def argument(self, part: list[Token], names: set[str]) -> bool:
+    def argument(self, part: Scan, names: set[str]) -> bool:
         """An argument behind the equation; false where it says nothing that is read."""
         match [token.text for token in part]:
             case []:
                 return False
             case ["ivar" | "func" | "function" as keyword, "=", name, *_]:
                 self.variable = name if keyword == "ivar" or len(part) == 3 else self.variable
-                return self.argument(part[2:], names)
+                return self.argument(Scan(part[2:]), names)
             case ["dvar", "=", _, *_]:
-                return self.argument(part[2:], names)
+                return self.argument(Scan(part[2:]), names)
             case ["singsol" | "IncludeSingularSolutions", *_]:
                 return True
             case ["ics", "=", name]:
-                return self.argument([*part[:2], *self.named.pop(name, [])], names)
+                return self.argument(Scan([*part[:2], *self.named.pop(name, [])]), names)
             case ["ics", "="] | ["ics", "=", "{", "}"]:
                 return True
             case ["ics", "=", "{", *_]:
@@ -379,10 +379,10 @@ class _Apart:
         for value in _listed(inside):
             if not any(token.text == ":" for token in value):
                 return False
-            self.add("equation", [token._replace(text="=") if token.text == ":" else token for token in value])
+            self.add("equation", Scan(token._replace(text="=") if token.text == ":" else token for token in value))
         return True
 
-    def values_of_sage(self, inside: list[list[Token]]) -> bool:
+    def values_of_sage(self, inside: Sequence[Scan]) -> bool:
         """Sage's ics=[x0, y0, dy0]."""
         function = next((piece.scan[0] for piece in self.found if piece.role == "name"), None)
         if function is None or len(inside) != 3 or not all(inside):
@@ -390,8 +390,8 @@ class _Apart:
         point, *values = inside
         opening, closing, equals = (Token("SIGN", sign, point[0].start, point[0].end) for sign in "()=")
         primes = Token("PRIMES", PRIMES, function.end, function.end)
-        self.add("equation", [function, opening, *point, closing, equals, *values[0]])
-        self.add("equation", [function, primes, opening, *point, closing, equals, *values[1]])
+        self.add("equation", Scan([function, opening, *point, closing, equals, *values[0]]))
+        self.add("equation", Scan([function, primes, opening, *point, closing, equals, *values[1]]))
         return True
 
     def sorted_roles(self) -> list[PastedPiece]:
@@ -410,8 +410,6 @@ class _Apart:
 _COMMAND = pattern(rf"(?:\w+ [.\[]? ?)?(?:{'|'.join(SOLVERS)}) (?:\] |\[ \w+ \] )?[(\[]")
 #: An equals sign, primes behind something, a derivative.
 _EQUATION = pattern(r"==?|(?<!^)['\"˙]+|\\prime|\\d+ot|(?:diff|Diff|Derivative|D) OPEN")
-#: What no quotient of differentials is without.
-_DIFFERENTIAL = pattern(r"\\[dtc]?frac|/")
 #: MATLAB's Dy = diff(y, t).
 _IDENTITY = pattern(r"(?P<y>LETTER) (?:˙+ = diff \( (?P=y) .*\)|˙ = (?P=y) '|˙˙ = (?P=y) '')")
 #: A name, or what is differentiated, with an argument.
@@ -422,10 +420,9 @@ _NO_VALUE = pattern(r"(?:''|\"|˙˙)(?! OPEN)")
 
 def _is_equation(scan: Scan) -> bool:
     """True if an equals sign, a prime or a derivative occurs."""
-    text = Spaced(scan).text
-    if _EQUATION.search(text):
+    if scan.has(("PRIMES", "\\prime", "\\dot", "\\ddot", *_ASSIGNS, *DERIVATIVES)) and _EQUATION.search(scan.spaced):
         return True
-    if _DIFFERENTIAL.search(text) is None or re.search(r"d|\\partial", text) is None:
+    if not scan.has(("/", *FRACTIONS)) or re.search(r"d|\\partial", scan.spaced) is None:
         return False
     try:
         return "diff" in translated("", scan).pieces
@@ -435,7 +432,7 @@ def _is_equation(scan: Scan) -> bool:
 
 def _arguments(scan: Scan) -> set[str]:
     """The letters that functions are applied to: t of y(t) and y'[t]."""
-    return {match[1] for match in _ARGUMENT.finditer(Spaced(scan).text)} - _POINTS
+    return {match[1] for match in _ARGUMENT.finditer(scan.spaced)} - _POINTS
 
 
 _ARGUMENT = pattern(r"(?:[^\W\d]\S*|['\"˙]+) [(\[] ([^\W\d]\S*) [)\]]")
@@ -445,7 +442,7 @@ def is_word(text: str) -> bool:
     return text.isalpha() and len(text) > 1 and not is_letter(text)
 
 
-def _has_equals(scan: Scan, signs: Collection[str] = _ASSIGNS, depth: int = 0) -> bool:
+def _has_equals(scan: Sequence[Token], signs: Collection[str] = _ASSIGNS, depth: int = 0) -> bool:
     """True if an equals sign, or another one, stands outside all brackets, or as deep as is said."""
     level = 0
     for token in scan:
@@ -462,53 +459,56 @@ _ASSIGNMENT = pattern(
 )
 
 
-def _without_assignment(scan: list[Token]) -> tuple[str, list[Token]]:
+def _without_assignment(scan: Scan) -> tuple[str, Scan]:
     """The name to which an equation or a command is assigned, and the rest."""
-    spaced = Spaced(scan)
-    match = _ASSIGNMENT.match(spaced.text)
+    match = _ASSIGNMENT.match(scan.spaced) if scan.has((":", *_ASSIGNS)) else None
     if match is None and len(scan) > 2 and scan[1].text == "=" and is_word(scan[0].text):
-        return scan[0].text, scan[2:]
-    rest = scan[spaced.number(match.end()) :] if match else []
-    return (match["name"], rest) if match and rest else ("", scan)
+        return scan[0].text, Scan(scan[2:])
+    rest = scan[scan.span(match)[1] :] if match else []
+    return (match["name"], Scan(rest)) if match and rest else ("", scan)
 
 
 def _without_eq(scan: Scan) -> Scan:
     """left = right for Eq(left, right) of SymPy."""
-    if len(scan) < 4 or scan[0].text not in _WHOLE or partners(scan).get(1) != len(scan) - 1:
+    if len(scan) < 4 or scan[0].text not in _WHOLE or scan.partners.get(1) != len(scan) - 1:
         return scan
     left, *others = _listed(scan[2:-1])
     if not left or not others or not others[0]:
         return scan
-    return [*left, Token("SIGN", "=", left[-1].end, others[0][0].start), *others[0]]
+    return Scan([*left, Token("SIGN", "=", left[-1].end, others[0][0].start), *others[0]])
 
 
-def _listed(scan: Scan, signs: Collection[str] = (",",)) -> list[list[Token]]:
+def _listed(scan: Sequence[Token], signs: Collection[str] = (",",)) -> list[Scan]:
     """The parts between commas, or other signs, outside all brackets."""
-    parts: list[list[Token]] = [[]]
+    parts = [Scan()]
     depth = 0
     for token in scan:
         depth += (token.text in OPENING) - (token.text in CLOSING)
         if depth == 0 and token.text in signs:
-            parts.append([])
+            parts.append(Scan())
         else:
             parts[-1].append(token)
     return parts
 
 
-def _unquoted(part: list[Token]) -> list[Token]:
-    while len(part) > 2 and part[0].kind == part[-1].kind == "PRIMES" and part[0].text == part[-1].text:
-        part = part[1:-1]
+def _is_quoted(scan: Scan) -> bool:
+    return len(scan) > 2 and scan[0].kind == scan[-1].kind == "PRIMES" and scan[0].text == scan[-1].text
+
+
+def _unquoted(part: Scan) -> Scan:
+    while _is_quoted(part):
+        part = Scan(part[1:-1])
     return part
 
 
 def _is_condition(scan: Scan, *, is_first: bool = False) -> bool:
     """True if a function stands at a point; a letter is a point behind the equation, and the variable in it."""
-    spaced = Spaced(scan)
-    if not _has_equals(scan) or _NO_VALUE.search(spaced.text):
+    if not _has_equals(scan) or _NO_VALUE.search(scan.spaced):
         return False
-    partner = partners(scan)
-    for match in _CALL.finditer(spaced.text):
-        name, opening = spaced.number(match.start()), spaced.number(match.end()) - 1
+    partner = scan.partners
+    for match in _CALL.finditer(scan.spaced):
+        name, behind = scan.span(match)
+        opening = behind - 1
         if opening not in partner or is_function(scan[name].text) or scan[name].text in DERIVATIVES:
             continue
         inside = scan[opening + 1 : partner[opening]]
@@ -516,14 +516,14 @@ def _is_condition(scan: Scan, *, is_first: bool = False) -> bool:
             return name == 0 and not is_first
         if len(inside) == 1 and inside[0].kind == "NUMBER":
             return True
-        if scan[name].text == "}" or not _is_equation(scan[:name]):  # \dot{y}(0)
+        if scan[name].text == "}" or not _is_equation(Scan(scan[:name])):  # \dot{y}(0)
             return True
     return False
 
 
 def _given(text: str, scan: Scan) -> Iterator[PlacedValue]:
     """The conditions that one statement has; y(0) = y'(0) = 1 are two."""
-    plain = [token for token in scan if token.text not in ("$", "`")]
+    plain = Scan(token for token in scan if token.text not in ("$", "`"))
     sides = [translated(text, side, condition=True) for side in _listed(plain, _ASSIGNS)]
     # In this package's notation a blank stands between names and numbers alone.
     *places, value = (re.sub(r"(?<![\w']) | (?!\w)", "", " ".join(tokens.pieces)) for tokens in sides)

@@ -15,7 +15,7 @@ from hypothesis import strategies as st
 
 import kovacic
 from kovacic import InputError, LimitExceeded, Limits, NotRational, ParseError
-from kovacic.reading import notations
+from kovacic.reading import notations, pieces
 from kovacic.reading.arithmetic import VARIABLE, Arithmetic
 from kovacic.reading.dialects import tokenize
 from kovacic.reading.expression import parse_with
@@ -816,13 +816,18 @@ def test_the_hint_for_two_letters_in_an_exponent_is_read() -> None:
     assert kovacic.dsolve("y'' = e^(a*x)", ics={"y(0)": 0, "y'(0)": 0}).rhs.has(sympy.exp)
 
 
-_PLAIN_TOKENS = [*"xtyabeEDIn1234+-*/^()='", "**", "''", "17", "  "]
+_WORDS = (
+    "D Dy D2y E Pi diff Derivative Subs subs Sin Function In sage Problem Solve the of is sp k_x y_xx y x n 2 1. 0."
+)
+_SIGNS = r"( ) [ ] { } ' '' ^ / * (* *) // # % -- @@ $ ` . : , ? > = == \begin \text \quad \\ \frac \dot"
+_TOKENS = [*_WORDS.split(), *_SIGNS.split(), "π", " ", "  ", "\n"]
 
 
 @settings(max_examples=3000)
-@given(st.lists(st.sampled_from(_PLAIN_TOKENS), max_size=14).map("".join))
-def test_no_notation_is_looked_for_where_there_are_numbers_letters_and_signs_alone(text: str) -> None:
-    """Tables are asked unless a text is plain, and no rule of theirs has anything to say about one that is."""
-    spaced = notations.Spaced(scanned(text))
-    if notations._PLAIN.fullmatch(spaced.text):
-        assert not any(rule.pattern.search(spaced.text) for rule in (*notations.NOTATIONS, *notations.AROUND))
+@given(st.lists(st.sampled_from(_TOKENS), max_size=12).map("".join) | st.lists(st.sampled_from(_TOKENS)).map(" ".join))
+def test_a_rule_is_asked_wherever_its_pattern_occurs(text: str) -> None:
+    """Rules are chosen by the tokens of a text: no pattern occurs without one of the marks that its rule states."""
+    scan = notations.Scan(scanned(text))
+    for rule in (*notations.NOTATIONS, *notations.LATEX, *notations.AROUND, *pieces.SURROUNDINGS):
+        if rule.pattern.search(scan.spaced):
+            assert scan.has(rule.marks), (rule, text)
