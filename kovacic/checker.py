@@ -218,6 +218,8 @@ class Tower:
         self.values: list[Ball] = []
         self.relations: list[Any] = []
         self.made: dict[str, Any] = {}
+        self.families: dict[str, list[Function]] = {}
+        self.arcsines: dict[str, Function] = {}
         self.orders = (
             {} if orders is None else orders
         )  # the roots of a function that occur, as their least common multiple
@@ -356,48 +358,51 @@ class Tower:
             found = found * root.to_the(int(c * Q))
         return found
 
-    def pair(self, key: str, z: Function, p: Function, q: Function, balls: tuple[Slope, Slope]) -> tuple[Any, Any]:
-        """F(z) and F'(z), where F'' = p F' + q F."""
-        slope = z.derivative()
-        F = self.new(key, lambda t: t, lambda at: balls[0](at(z)))
-        G = self.new(f"derivative of {key}", lambda t: (p * t + q * F) * slope, lambda at: balls[1](at(z)))
-        self.slopes[self.generator_number(F)] = G * slope
-        return F, G
-
     def generator_number(self, function: Function) -> int:
         return int(self.ring.nvars()) - 1 - int(function.num.degrees().index(1))
 
     def called(self, name: str, arguments: list[Any]) -> Any:
         """The function of this name."""
+        if name == "sin" and arguments[0].key in self.arcsines:
+            return self.arcsines[arguments[0].key]
         if name in CALLS:
             return CALLS[name](self, *arguments)
         if name in ABBREVIATIONS:
             return self.read(ABBREVIATIONS[name], u=arguments[0])
-        if name in DERIVATIVES:
-            return self.primitive(name, *arguments)
+        for family in FAMILIES:
+            if name in family.split():
+                member = self.family(family, arguments)[family.split().index(name)]
+                if name == "asin":
+                    self.arcsines[member.key] = arguments[0]
+                return member
         raise NotImplementedError(name)
 
-    def primitive(self, name: str, u: Function) -> Any:
-        """A function that is known by its derivative."""
-        text, ball = DERIVATIVES[name]
-        function = self.new(f"{name} {u.key}", lambda _: self.read(text, u=u) * u.derivative(), lambda at: ball(at(u)))
-        self.made[f"{name} is {function.key}"] = u
-        return function
+    def family(self, name: str, arguments: list[Any]) -> list[Function]:
+        """F, and perhaps G, which are known by their derivatives."""
+        letters, *members = FAMILIES[name]
+        bound = dict(zip(letters.split(), arguments, strict=False))
+        is_rational = all(value.rational is not None for letter, value in bound.items() if letter != "u")
+        if len(arguments) != len(letters.split()) or not is_rational:
+            raise NotImplementedError(name)
+        key = " ".join([name, *(value.key for value in arguments)])
+        if key not in self.families:
+            balls = {F: partial(at_arguments, arguments, ball) for F, (_, ball) in zip("FG", members, strict=False)}
+            found = {F: self.new(f"{F} of {key}", lambda _: self.number(0), ball) for F, ball in balls.items()}
+            self.families[key] = list(found.values())
+            if name == "cos sin":
+                self.relations.insert(0, self.read("F**2 + G**2 - 1", **found).num)
+            for function, (slope, _) in zip(found.values(), members, strict=True):
+                by_x = self.read(slope, **bound, **found) * bound["u"].derivative()
+                self.slopes[self.generator_number(function)] = by_x
+        return self.families[key]
+
+
+def at_arguments(arguments: list[Function], ball: Callable[..., Any], at: Slope) -> Any:
+    return ball(*map(at, arguments))
 
 
 def exp_at(u: Function, at: Slope) -> Any:
     return at(u).exp()
-
-
-def circular(tower: Tower, u: Function) -> tuple[Any, Any]:
-    """cos and sin, with c' = -s u', s' = c u' and s^2 + c^2 = 1."""
-    slope = u.derivative()
-    c = tower.constant(f"cos {u.key}")
-    s = tower.new(f"sin {u.key}", lambda _: c * slope, lambda at: at(u).sin(), lambda t: t**2 + c.num**2 - 1)
-    i = tower.generator_number(c)
-    tower.slopes[i] = tower.number(-1) * s * slope
-    tower.values[i] = lambda at: at(u).cos()
-    return c, s
 
 
 def integral(tower: Tower, f: Function, variable: Function) -> Any:
@@ -460,63 +465,12 @@ def root_sum(tower: Tower, polynomial: Function, term: tuple[Function, Function]
     return tower.new(f"sum {p} {c}", lambda _: derivative, ball)
 
 
-def elliptic(name: str, derivative: str, tower: Tower, phi: Function, *rest: Function) -> Any:
-    """F or E, an integral from 0 to phi = asin(w), with this derivative by phi."""
-    w = tower.made.get(f"asin is {phi.key}")
-    if w is None or len(rest) != 1 or rest[0].rational is None:
-        raise NotImplementedError("elliptic integrals")
-    (m,) = rest
-    slope = phi.derivative() * tower.read(derivative, m=m, w=w)
-    return tower.new(f"{name} {phi.key} {m.key}", lambda _: slope, lambda at: getattr(acb, name)(at(phi), at(m)))
-
-
-def incomplete_gamma(tower: Tower, s: Function, u: Function) -> Any:
-    """int_0^u t^(s-1) e^-t dt."""
-    demand(s.rational is not None, "the parameter is rational")
-    slope = tower.read("u**(s - 1)*exp(-u)", s=s, u=u) * u.derivative()
-    return tower.new(f"gamma {s.key} {u.key}", lambda _: slope, lambda at: at(u).gamma_lower(at(s)))
-
-
-def hypergeometric(tower: Tower, above: Any, below: Any, z: Function) -> Any:
-    """2F1 by Gauss' equation z (1 - z) F'' = a b F - (c - (a + b + 1) z) F', 1F1 by Kummer's z F'' = a F - (c - z) F'."""
-    if not isinstance(above, tuple) or not isinstance(below, tuple) or (len(above), len(below)) not in ((2, 1), (1, 1)):
-        raise NotImplementedError("hyper")
-    numbers = [p.rational for p in (*above, *below)]
-    if None in numbers:
-        raise NotImplementedError("hyper")
-    bound = dict(zip("abc" if len(above) == 2 else "ac", (*above, *below), strict=True))
-    texts = ("((a + b + 1)*z - c)/(z*(1 - z))", "a*b/(z*(1 - z))") if len(above) == 2 else ("(z - c)/z", "a/z")
-    values = acb.hypgeom_2f1 if len(above) == 2 else acb.hypgeom_1f1
-
-    def slope(at: Any) -> Any:  # F' = (a b/c) F with all parameters larger by 1
-        *first, c = numbers
-        return acb(prod(first) / c) * values(at, *(acb(number + 1) for number in numbers))
-
-    p, q = (tower.read(text, z=z, **bound) for text in texts)
-    return tower.pair(f"hyper {numbers} {z.key}", z, p, q, (lambda at: values(at, *map(acb, numbers)), slope))[0]
-
-
-def bessel(kind: str, q: str, tower: Tower, n: Function, z: Function) -> Any:
-    """F'' = -F'/z + q F."""
-    order = n.rational
-    if order is None:
-        raise NotImplementedError("a Bessel function of another order")
-
-    def ball(at: Any, shift: int = 0) -> Any:
-        return getattr(at, f"bessel_{kind}")(acb(order + shift))
-
-    def slope(at: Any) -> Any:  # F_n' = n F_n/z - F_(n+1), with + for I
-        return acb(order) * ball(at) / at + (ball(at, 1) if kind == "i" else -ball(at, 1))
-
-    key = f"bessel_{kind} {n.key} {z.key}"
-    return tower.pair(key, z, tower.read("-1/z", z=z), tower.read(q, n=n, z=z), (ball, slope))[0]
-
-
-def airy(index: int, tower: Tower, z: Function) -> Any:
-    """Ai, Ai', Bi, Bi', in this order: F'' = z F."""
-    first = index - index % 2
-    balls = (lambda at: at.airy()[first], lambda at: at.airy()[first + 1])
-    return tower.pair(f"airy {first} {z.key}", z, tower.number(0), z, balls)[index % 2]
+def hypergeometric(tower: Tower, *arguments: Any) -> Any:
+    """pFq, where the parameters above are a list, and those below."""
+    lists = [part for part in arguments if isinstance(part, tuple)]
+    return tower.called(
+        "F".join(str(len(part)) for part in lists) or "hyper()", [*chain(*lists), *arguments[len(lists) :]]
+    )
 
 
 #: Functions of u, written in others.
@@ -527,18 +481,52 @@ ABBREVIATIONS = {
     "cosh": "(exp(u) + exp(-u))/2",
     "sinh": "(exp(u) - exp(-u))/2",
 }
-#: Functions of u, with their derivatives by u, and their values.
-DERIVATIVES: dict[str, tuple[str, Callable[[Any], Any]]] = {
-    "log": ("1/u", acb.log),
-    "atan": ("1/(1 + u**2)", acb.atan),
-    "atanh": ("1/(1 - u**2)", acb.atanh),
-    "asin": ("1/sqrt(1 - u**2)", acb.asin),
-    "acos": ("-1/sqrt(1 - u**2)", acb.acos),
-    "asinh": ("1/sqrt(1 + u**2)", acb.asinh),
-    "Ei": ("exp(u)/u", acb.ei),
-    "erf": ("2*exp(-u**2)/sqrt(pi)", acb.erf),
-    "erfi": ("2*exp(u**2)/sqrt(pi)", acb.erfi),
-    "erfc": ("-2*exp(-u**2)/sqrt(pi)", acb.erfc),
+Member = tuple[str, Callable[..., Any]]
+
+
+def bessel(kind: str, above: str, below: str) -> tuple[str, Member, Member]:
+    """F = C_n and G = C_(n+1): F' = n F/u +- G and G' = +-F - (n + 1) G/u [DLMF 10.6.2, 10.29.2]."""
+    C = f"bessel_{kind}"
+    first = f"n/u*F {above} G", lambda n, u: getattr(u, C)(n)
+    return "n u", first, (f"{below}F - (n + 1)/u*G", lambda n, u: getattr(u, C)(n + 1))
+
+
+#: Functions of u and of rational parameters: the arguments, and the derivatives by u and the values of F, or of F and G.
+FAMILIES: dict[str, tuple[Any, ...]] = {
+    "log": ("u", ("1/u", acb.log)),
+    "atan": ("u", ("1/(1 + u**2)", acb.atan)),
+    "atanh": ("u", ("1/(1 - u**2)", acb.atanh)),
+    "asin": ("u", ("1/sqrt(1 - u**2)", acb.asin)),
+    "acos": ("u", ("-1/sqrt(1 - u**2)", acb.acos)),
+    "asinh": ("u", ("1/sqrt(1 + u**2)", acb.asinh)),
+    "Ei": ("u", ("exp(u)/u", acb.ei)),
+    "erf": ("u", ("2*exp(-u**2)/sqrt(pi)", acb.erf)),
+    "erfi": ("u", ("2*exp(u**2)/sqrt(pi)", acb.erfi)),
+    "erfc": ("u", ("-2*exp(-u**2)/sqrt(pi)", acb.erfc)),
+    "cos sin": ("u", ("-G", acb.cos), ("F", acb.sin)),
+    "elliptic_f": ("u m", ("1/sqrt(1 - m*sin(u)**2)", acb.elliptic_f)),
+    "elliptic_e": ("u m", ("sqrt(1 - m*sin(u)**2)", acb.elliptic_e_inc)),
+    "lowergamma": ("s u", ("u**(s - 1)*exp(-u)", lambda s, u: u.gamma_lower(s))),
+    "airyai airyaiprime": ("u", ("G", lambda u: u.airy()[0]), ("u*F", lambda u: u.airy()[1])),
+    "airybi airybiprime": ("u", ("G", lambda u: u.airy()[2]), ("u*F", lambda u: u.airy()[3])),
+    "besselj": bessel("j", "-", ""),
+    "bessely": bessel("y", "-", ""),
+    "besseli": bessel("i", "+", ""),
+    "besselk": bessel("k", "-", "-"),
+    # Kummer's and Gauss' equations, with F' = (a b/c) F with all parameters larger by 1
+    "1F1": (
+        "a c u",
+        ("G", lambda a, c, u: u.hypgeom_1f1(a, c)),
+        ("(a*F - (c - u)*G)/u", lambda a, c, u: a / c * u.hypgeom_1f1(a + 1, c + 1)),
+    ),
+    "2F1": (
+        "a b c u",
+        ("G", lambda a, b, c, u: u.hypgeom_2f1(a, b, c)),
+        (
+            "(a*b*F - (c - (a + b + 1)*u)*G)/(u*(1 - u))",
+            lambda a, b, c, u: a * b / c * u.hypgeom_2f1(a + 1, b + 1, c + 1),
+        ),
+    ),
 }
 CONSTANTS: dict[str, Callable[[Tower], Any]] = {
     # between pi and other numbers no relation is known
@@ -550,24 +538,11 @@ CONSTANTS: dict[str, Callable[[Tower], Any]] = {
 CALLS: dict[str, Callable[..., Any]] = {
     "exp": Tower.exp,
     "root": lambda tower, u, n: tower.power(u, tower.number(1) / n),
-    "cos": lambda tower, u: circular(tower, u)[0],
-    "sin": lambda tower, u: circular(tower, u)[1],
-    "elliptic_f": partial(elliptic, "elliptic_f", "1/sqrt(1 - m*w**2)"),
-    "elliptic_e": partial(elliptic, "elliptic_e_inc", "sqrt(1 - m*w**2)"),
-    "lowergamma": incomplete_gamma,
     "Integral": integral,
     "CRootOf": root_of,
     "Lambda": lambda tower, a, body: (a, body),
     "RootSum": root_sum,
     "hyper": hypergeometric,
-    "besselj": partial(bessel, "j", "n**2/z**2 - 1"),
-    "bessely": partial(bessel, "y", "n**2/z**2 - 1"),
-    "besseli": partial(bessel, "i", "n**2/z**2 + 1"),
-    "besselk": partial(bessel, "k", "n**2/z**2 + 1"),
-    "airyai": partial(airy, 0),
-    "airyaiprime": partial(airy, 1),
-    "airybi": partial(airy, 2),
-    "airybiprime": partial(airy, 3),
 }
 
 #: How strongly an operator binds, and what it does.

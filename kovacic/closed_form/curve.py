@@ -43,7 +43,7 @@ from __future__ import annotations
 from dataclasses import dataclass, replace
 from fractions import Fraction
 
-from kovacic.algebra.partial_fractions import Residue, residue
+from kovacic.algebra.partial_fractions import Residue, reduce_poles
 from kovacic.algebra.poly import Poly
 from kovacic.algebra.ratfunc import RatFunc
 from kovacic.decision import CurveFunction, SemiInvariant
@@ -95,10 +95,7 @@ class CurveIntegral:
     @property
     def integrand(self) -> RatFunc:
         """r, recomputed from the result by equation (1)."""
-        g = self.g
-        C = self.exact
-        total = C.derivative() * g + C * g.derivative() * Fraction(1, 2) + self.rest
-        return sum((residue.logarithmic for residue in self.residues), total)
+        return sum((residue.logarithmic for residue in self.residues), _slope(self.exact, self.g) + self.rest)
 
     @property
     def without_exact(self) -> RatFunc:
@@ -129,70 +126,34 @@ def integrate_on_curve(r: RatFunc, g: Poly) -> CurveIntegral:
     >>> print(done.exact, len(done.residues), done.rest)
     -1/x 0 0
     """
-    reduction = _Reduction(r, g.over(r.field))
-    factors = r.field.factor(r.den) if r.den.degree > 0 else []
-    for p, multiplicity in factors:
-        if reduction.g % p:
-            reduction.at_a_pole(p, multiplicity)
-        else:
-            reduction.at_a_branch_point(p, multiplicity)
-    reduction.at_infinity()
-    return CurveIntegral(reduction.g, reduction.exact, tuple(reduction.residues), reduction.r.num)
+    field = r.field
+    g = g.over(field)
+    d = g.degree
+    # with the kernel 1/s: int r/s = W/s + ..., and W/s = (W/g) s
+    W, r, residues = reduce_poles(r, RatFunc(g.derivative(), g) * Fraction(-1, 2), g)
+    exact = W / g
+    r = r - sum((found.logarithmic for found in residues), r * 0)
+    factors = field.factor(r.den) if r.den.degree > 0 else []
+    for p, j in [(p, j) for p, multiplicity in factors for j in range(multiplicity, 0, -1)]:
+        # at a branch point, g = p u: ((B/p^j) s)' s = (1/2 - j) B p' u/p^j + ...
+        cofactor, count = r.den.remove(p)
+        if count == j:
+            B = r.num * (cofactor * p.derivative() * (g // p)).inverse_modulo(p) % p
+            C = RatFunc(B * (1 / (Fraction(1, 2) - j)), p**j)
+            exact = exact + C
+            r = r - _slope(C, g)
+    while r and r.num.degree >= d - 1:
+        # at infinity: ((B x^j) s)' s = (j + d/2) B x^(j + d - 1) + ...
+        j = r.num.degree - d + 1
+        C = RatFunc(field.poly([*[0] * j, 1]) * r.num.lc * (1 / (j + Fraction(d, 2))))
+        exact = exact + C
+        r = r - _slope(C, g)
+    return CurveIntegral(g, exact, residues, r.num)
 
 
-class _Reduction:
-    """Hermite's reduction (1) on its way: r is what is left of r, less the derivatives of `exact` and the simple poles.
-
-    ((B/p^j) s)' s has the leading term (1/2 - j) B p' u/p^j for g = p u, and -j B p' g/p^(j+1) for p prime to g.
-    """
-
-    def __init__(self, r: RatFunc, g: Poly) -> None:
-        self.r = r
-        self.g = g
-        self.exact = RatFunc(g.field.poly([]))
-        self.residues: list[Residue] = []
-
-    def at_a_branch_point(self, p: Poly, multiplicity: int) -> None:
-        """Nothing is left of poles at zeros of g."""
-        inverse = _inverse_slope(p, self.g // p)
-        for j in range(multiplicity, 0, -1):
-            B = self._leading(p, order=j) * inverse % p
-            self._take(RatFunc(B * (1 / (Fraction(1, 2) - j)), p**j))
-
-    def at_a_pole(self, p: Poly, multiplicity: int) -> None:
-        """A simple pole is left of other poles."""
-        inverse = _inverse_slope(p, self.g)
-        for j in range(multiplicity - 1, 0, -1):
-            B = self._leading(p, order=j + 1) * inverse % p
-            self._take(RatFunc(B * Fraction(-1, j), p**j))
-        if not self.r.den % p:
-            self.residues.append(Residue(p, residue(self.r, p)))
-            self.r = self.r - self.residues[-1].logarithmic
-
-    def at_infinity(self) -> None:
-        """Of the polynomial the degree falls below d - 1; the leading term of ((B x^j) s)' s is (j + d/2) B x^(j+d-1)."""
-        x = self.g.field.poly([0, 1])
-        d = self.g.degree
-        while self.r.num.degree >= d - 1 and self.r:
-            j = self.r.num.degree - d + 1
-            self._take(RatFunc(x**j * self.r.num.lc * (1 / (j + Fraction(d, 2)))))
-
-    def _leading(self, p: Poly, *, order: int) -> Poly:
-        """The coefficient of p^-order, modulo p, where r has no pole of a higher order at the roots of p."""
-        cofactor, count = self.r.den.remove(p)
-        if count < order:
-            return p * 0
-        return self.r.num * cofactor.inverse_modulo(p) % p
-
-    def _take(self, C: RatFunc) -> None:
-        """r less the derivative of C s, times s."""
-        self.exact = self.exact + C
-        self.r = self.r - C.derivative() * self.g - C * self.g.derivative() * Fraction(1, 2)
-
-
-def _inverse_slope(p: Poly, unit: Poly) -> Poly:
-    """1/(p' unit) modulo p."""
-    return (p.derivative() * (unit % p)).inverse_modulo(p)
+def _slope(C: RatFunc, g: Poly) -> RatFunc:
+    """(C s)' s."""
+    return C.derivative() * g + C * g.derivative() * Fraction(1, 2)
 
 
 def unit(g: Poly, residue: Residue) -> Unit | None:

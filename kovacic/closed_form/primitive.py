@@ -98,15 +98,6 @@ def monomial(E: RatFunc) -> tuple[Poly, int, Poly] | None:
     return rest.num.lc, n, c
 
 
-@dataclass(frozen=True)
-class _AtPoles:
-    """What simple poles of r outside those of E give, and what is left of r; `terms` have Ei, `poles` are roots a."""
-
-    rest: RatFunc
-    terms: tuple[GammaTerm, ...]
-    poles: tuple[Residue, ...]
-
-
 def integrate_exponential(r: RatFunc, E: RatFunc, alpha: Fraction = Fraction(0)) -> ExponentialPrimitive | str:
     """int r x^alpha exp(E) dx, or why it is left; alpha isn't an integer other than 0.
 
@@ -119,21 +110,24 @@ def integrate_exponential(r: RatFunc, E: RatFunc, alpha: Fraction = Fraction(0))
     x = RatFunc(r.field.poly([0, 1]))
     apart = E.den * x.num if alpha else E.den
     W, reduced, residues = reduce_poles(r, _rate(E, alpha), apart)
-    found = _at_poles(reduced, residues, E, alpha)
-    if found is None or prime_part(found.rest.den, apart).degree > 0:
+    at_poles = _at_poles(reduced, residues, E, alpha)
+    if at_poles is None or prime_part(at_poles[0].den, apart).degree > 0:
         return "a pole with a residue remains beside the exponential"
-    levels = [term.e for term in found.terms]
+    rest, terms, poles = at_poles
+    levels = [term.e for term in terms]
     candidates = [term for term in _candidates(E, alpha) if term.power != -1 or term.e not in levels]
-    solved = _with_rational_part(found.rest, E, alpha, [term.derivative for term in candidates])
+    solved = _with_rational_part(rest, E, alpha, [term.derivative for term in candidates])
     if solved is None:
         return "it isn't a rational function times the exponential, with Ei and erf of rational functions"
     more, constants = solved
     others = [replace(term, coefficient=c) for term, c in zip(candidates, constants, strict=True) if c]
-    return ExponentialPrimitive(x, E, W + more, alpha, (*found.terms, *others), found.poles)
+    return ExponentialPrimitive(x, E, W + more, alpha, (*terms, *others), tuple(poles))
 
 
-def _at_poles(r: RatFunc, residues: Iterable[Residue], E: RatFunc, alpha: Fraction) -> _AtPoles | None:
-    """The terms that the residues tell of; None where one belongs to no such term."""
+def _at_poles(
+    r: RatFunc, residues: Iterable[Residue], E: RatFunc, alpha: Fraction
+) -> tuple[RatFunc, list[GammaTerm], list[Residue]] | None:
+    """What is left of r, terms with Ei for the residues, and conjugate poles; None where a residue belongs to none of these."""
     rest = r
     terms: list[GammaTerm] = []
     poles: list[Residue] = []
@@ -150,7 +144,7 @@ def _at_poles(r: RatFunc, residues: Iterable[Residue], E: RatFunc, alpha: Fracti
             rest = rest - found.logarithmic
         else:
             return None
-    return _AtPoles(rest, tuple(terms), tuple(poles))
+    return rest, terms, poles
 
 
 def _exponential_integral(found: Residue, E: RatFunc) -> GammaTerm | None:
@@ -355,38 +349,24 @@ def _without_exponential(rational: RatFunc, fractional: list[_Root]) -> Primitiv
             g = g * root.p
             rational = rational * RatFunc(root.p) ** int(root.alpha + Fraction(1, 2))
         return completed(integrate_on_curve(rational, g))
-    are_lines = all(root.p.degree == 1 for root in fractional)
-    if are_lines and len(fractional) == 1:
-        (root,) = fractional
-        centre = -root.p[0]
-        return _with_power(rational(RatFunc(root.p.field.poly([centre, 1]))), root.alpha, RatFunc(root.p))
-    if are_lines and len(fractional) == 2:
-        first, second = fractional
+    if all(root.p.degree == 1 for root in fractional) and len(fractional) <= 2:
+        alone = _Root(rational.field.poly([1]), -fractional[0].alpha)
+        first, second = (*fractional, alone)[:2]
         if (first.alpha + second.alpha).denominator == 1:
             return _with_a_quotient(rational, first, second)
     return "it is an incomplete beta integral, with fractional powers of several factors"
 
 
 def _with_a_quotient(rational: RatFunc, first: _Root, second: _Root) -> Primitive | str:
-    """int r (x - c)^alpha (x - d)^beta dx for an integer alpha + beta, by t = (x - c)/(x - d).
-
-    x = (d t - c)/(t - 1), x - d = (d - c)/(t - 1), dx = (c - d) dt/(t - 1)^2.
-    """
-    c = -first.p[0]
-    d = -second.p[0]
-    below = RatFunc(first.p.field.poly([-1, 1]))
-    x = RatFunc(first.p.field.poly([-c, d])) / below
-    r = rational(x) * (RatFunc(d - c) / below) ** int(first.alpha + second.alpha) * (c - d) / (below * below)
-    return _with_power(r, first.alpha, RatFunc(first.p, second.p))
-
-
-def _with_power(r: RatFunc, alpha: Fraction, t: RatFunc) -> Primitive | str:
-    """int r(t) t^alpha dt."""
-    shift = alpha.numerator // alpha.denominator + 1
-    found = integrate_exponential(r * RatFunc(r.field.poly([0, 1])) ** shift, r * 0, alpha - shift)
-    if isinstance(found, str):
-        return found
-    return replace(found, t=t)
+    """int r p^alpha q^beta dx for p = x + c, q = x + d or 1, and an integer alpha + beta, by t = p/q."""
+    p = first.p
+    q = second.p
+    x = RatFunc(p.field.poly([-p[0], q[0]]), p.field.poly([1, -q[1]]))  # t (q_1 x + q_0) = x + p_0
+    r = rational(x) * RatFunc(q)(x) ** int(first.alpha + second.alpha) * x.derivative()
+    shift = first.alpha.numerator // first.alpha.denominator + 1  # to an exponent between -1 and 0
+    t = RatFunc(p.field.poly([0, 1]))
+    found = integrate_exponential(r * t**shift, r * 0, first.alpha - shift)
+    return found if isinstance(found, str) else replace(found, t=RatFunc(p, q))
 
 
 def _with_exponential(r: RatFunc, fractional: list[_Root], E: RatFunc) -> Primitive | str:

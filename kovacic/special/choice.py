@@ -37,8 +37,8 @@ from kovacic.errors import LimitExceeded, VerificationFailed
 from kovacic.limits import Budget, bounded_work, check_time
 from kovacic.numbers.numerals import as_text
 from kovacic.special.gauss import klein_pullback
-from kovacic.special.pullback import Pullback
-from kovacic.special.search import GaugeTransform, find, find_transform, written_pair
+from kovacic.special.pullback import GaugeTransform, Pullback
+from kovacic.special.search import find, find_transform, written_pair
 
 #: Units of work after which no pull-back is sought any more beside a form that is there.
 _SEARCH = 6000

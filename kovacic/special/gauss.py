@@ -219,16 +219,8 @@ class _GaussForm:
     @property
     def arranged(self) -> list[_GaussForm]:
         """The points 0, 1 and infinity in all orders."""
-        f, alpha, beta, gamma = self.f, self.alpha, self.beta, self.gamma
-        orders = [
-            (f, alpha, beta, gamma),
-            (1 - f, beta, alpha, gamma),
-            (1 / f, gamma, beta, alpha),
-            (1 - 1 / f, beta, gamma, alpha),
-            (1 / (1 - f), gamma, alpha, beta),
-            (f / (f - 1), alpha, gamma, beta),
-        ]
-        return [_GaussForm(self.writer, *parts) for parts in orders]
+        orders = _maps(self.f.num, self.f.den, self.alpha, self.beta, self.gamma)
+        return [_GaussForm(self.writer, RatFunc(n, d), *differences) for n, d, *differences in orders]
 
     @property
     def signs(self) -> Iterator[_GaussForm]:

@@ -31,6 +31,7 @@ from kovacic.algebra.ratfunc import RatFunc
 from kovacic.algebra.rationals import RationalPoly
 from kovacic.engine.places import Problem
 from kovacic.limits import count_work
+from kovacic.special.maps import half_rate
 
 if TYPE_CHECKING:
     from flint import fmpq, fmpq_poly
@@ -198,6 +199,28 @@ class Pullback:
         """Does the identity (1) hold exactly?"""
         count_work(TRIAL)
         return self.f.derivative() != 0 and self.S == S
+
+
+@dataclass(frozen=True)
+class GaugeTransform:
+    """y = sqrt(m) (a v + b v'), v a solution of the pulled-back standard equation."""
+
+    pullback: Pullback
+    m: Poly
+    a: RatFunc
+    b: RatFunc
+
+    def gives(self, S: RatFunc) -> bool:
+        """Do the identities (1) of `kovacic.special.search` hold exactly, with a transformation that is invertible?"""
+        T = self.pullback.S
+        D = S - T
+        a, b = self.a, self.b
+        L = half_rate(self.m)
+        da, db = a.derivative() + L * a, b.derivative() + L * b
+        d2a, d2b = da.derivative() + L * da, db.derivative() + L * db
+        first = 2 * da == b * D - d2b
+        second = d2a == a * D - 2 * db * T - b * T.derivative()
+        return first and second and bool(a * a + a * db - da * b - b * b * T)
 
 
 def standard_part(S: RatFunc, f: RatFunc) -> RatFunc:

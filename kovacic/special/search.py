@@ -46,7 +46,7 @@ from kovacic.special.airy import Airy
 from kovacic.special.bessel import Bessel
 from kovacic.special.gauss import Gauss
 from kovacic.special.maps import half_rate, integral_of_square_root, irregular_places, scales, unit
-from kovacic.special.pullback import TRIAL, Pullback, StandardEquation
+from kovacic.special.pullback import TRIAL, GaugeTransform, Pullback, StandardEquation
 from kovacic.special.whittaker import Whittaker
 
 if TYPE_CHECKING:
@@ -58,28 +58,6 @@ EQUATIONS: tuple[type[StandardEquation], ...] = (Airy, Whittaker, Bessel, Gauss)
 #: Unknown coefficients of b, and orders of its poles, up to which the system is set up; with parameters.
 _UNKNOWNS = 125
 _WITH_PARAMETERS = 20
-
-
-@dataclass(frozen=True)
-class GaugeTransform:
-    """y = sqrt(m) (a v + b v'), v a solution of the pulled-back standard equation."""
-
-    pullback: Pullback
-    m: Poly
-    a: RatFunc
-    b: RatFunc
-
-    def gives(self, S: RatFunc) -> bool:
-        """Do the identities (1) hold exactly, with a transformation that is invertible?"""
-        T = self.pullback.S
-        D = S - T
-        a, b = self.a, self.b
-        L = half_rate(self.m)
-        da, db = a.derivative() + L * a, b.derivative() + L * b
-        d2a, d2b = da.derivative() + L * da, db.derivative() + L * db
-        first = 2 * da == b * D - d2b
-        second = d2a == a * D - 2 * db * T - b * T.derivative()
-        return first and second and bool(a * a + a * db - da * b - b * b * T)
 
 
 def transforms(problem: Problem) -> Iterator[GaugeTransform]:
@@ -147,14 +125,13 @@ def _shifts(first: Place | None, second: Place | None) -> list[int]:
     place = first or second
     assert place is not None
     one = place.factor.field.poly([1])
-    squares = [one if p is None or p.kind is Kind.ORDINARY else p.delta_squared for p in (first, second)]
-    if squares[0] is None or squares[1] is None:
-        return [0] if squares[0] is None and squares[1] is None else []
-    roots = [value.field.sqrt(value) if value else value for value in squares]
-    if roots[0] is None or roots[1] is None:
-        return [0] if squares[0] == squares[1] else []
-    values = [one.field.rational_value(value) for value in (roots[0] - roots[1], roots[0] + roots[1])]
-    return [abs(int(value)) for value in values if value is not None and value.denominator == 1]
+    A, B = (one if p is None or p.kind is Kind.ORDINARY else p.delta_squared for p in (first, second))
+    if A is None or B is None:
+        return [0] if A is B else []
+    # n^2 = A + B -+ 2 sqrt(A B), whether the roots of A and B lie in the field or not
+    root = one.field.sqrt(A * B) if A * B else one * 0
+    squares = [] if root is None else [A + B - 2 * root, A + B + 2 * root]
+    return [int(n) for square in squares if (n := rational_square_root(square)) is not None and n.denominator == 1]
 
 
 def _shifts_of_residues(first: Place, second: Place) -> list[int]:
