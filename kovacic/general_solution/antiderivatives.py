@@ -160,11 +160,13 @@ def in_powers(expression: Expr, t: Expr, u: Expr) -> Expr:
 
 
 def _in_an_argument(term: Expr, x: Expr) -> Expr | None:
-    """In u, beside whose slope the term is one of u: a function, or an argument of one."""
-    t = sympy.Dummy()
+    """In u, beside whose slope the term is one of u: a function, or an argument of one; x = exp(u) for u = log(x)."""
+    t = sympy.Dummy(real=True)
     own = term.atoms(*_BY_PARTS) | {f.args[0] for f in term.atoms(sympy.Function) if f.args[0].has(exp, sin, cos, log)}
     for u in sorted((u for u in own if u.has(x)), key=str):
         inner = (term / u.diff(x)).subs(u, t)
+        if u == log(x):
+            inner = prepared(inner.subs(x, exp(t)))
         if not inner.has(x) and not _leads_back(u, inner, t):
             found = _known(inner, t)
             if found is not None:

@@ -26,6 +26,7 @@ from kovacic.general_solution.integrands import prepared
 from kovacic.general_solution.special_integrals import without_crossings
 from kovacic.general_solution.steps import JUMPING
 from kovacic.general_solution.substitution import size
+from kovacic.general_solution.waves import fractions_of_waves
 from kovacic.general_solution.zero import Residual, points
 
 Expr = Any  # SymPy publishes no types
@@ -112,7 +113,7 @@ def _checked(basis: Basis, parts: Sequence[Any], right: Expr, coefficients: tupl
         whole = powsimp(whole)
     forms = [whole]
     if whole.has(sin, cos):
-        forms.append(with_single_waves(whole))
+        forms += [with_single_waves(whole), *fractions_of_waves(whole, basis.x)]
     candidates = [_without_homogeneous(basis, part) for form in forms for part in (form, _gathered(form, basis.x))]
     found = one_exponential(min(candidates, key=size))
     return found if _is_right(basis, found, right, coefficients) else None

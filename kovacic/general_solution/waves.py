@@ -7,13 +7,14 @@ s = sin(theta) and c = cos(theta) for a linear theta = w x + phi.  A rational fu
 
 from __future__ import annotations
 
+from collections import defaultdict
 from dataclasses import dataclass
 from functools import reduce
 from typing import Any
 
 import sympy
 from sympy import atan, cos, log, sin, tan
-from sympy.simplify.fu import TR8, TR2i
+from sympy.simplify.fu import TR2, TR8, TR2i
 
 from kovacic.general_solution.integrands import integral_of_product, sum_of
 from kovacic.general_solution.undetermined import undetermined
@@ -112,6 +113,44 @@ def _common_angle(waves: list[Expr]) -> Expr | None:
     if not all(ratio.is_Rational for ratio in ratios):
         return None
     return first * reduce(sympy.gcd, ratios)
+
+
+def fractions_of_waves(e: Expr, x: Expr) -> list[Expr]:
+    """With partial fractions in the cosine, and in the sine, in place of what is rational in both.
+
+    Of sin(x)^2/cos(x) - 1/(2 cos(x)) the second form is 1/(2 cos(x)) - cos(x), which has a multiple of cos(x) to be left out.
+    """
+    e = sympy.expand(TR2(e))
+    kept = {sympy.Dummy(): f for f in e.atoms(sympy.Function) if f.has(x) and not isinstance(f, sin | cos)}
+    masked = e.xreplace({f: letter for letter, f in kept.items()})
+    waves = sorted(masked.atoms(sin, cos), key=str)
+    theta = _common_angle(waves)
+    if theta is None or e.free_symbols != {x}:
+        return []
+    s, c = sympy.Dummy(), sympy.Dummy()
+    in_both = masked.xreplace({wave: _multiple_angle(wave, theta, s, c) for wave in waves})
+    rational: dict[Expr, Expr] = defaultdict(lambda: sympy.S.Zero)
+    for term in sympy.Add.make_args(in_both):
+        others, factors = sympy.sift(
+            sympy.Mul.make_args(term), lambda f: f.has(x, *kept) or not f.is_rational_function(s, c), binary=True
+        )
+        rational[sympy.Mul(*others)] += sympy.Mul(*factors)
+    forms = [
+        sympy.Add(*(sympy.expand(other * _with_one_square(R, u, v)) for other, R in rational.items()))
+        for u, v in ((s, c), (c, s))
+    ]
+    written = [form.xreplace({s: sin(theta), c: cos(theta)}) for form in forms]
+    return [form.xreplace(kept) for form in (*written, *map(_single_waves, written))]
+
+
+def _with_one_square(R: Expr, u: Expr, v: Expr) -> Expr:
+    """A + B u with partial fractions A and B in v, where u^2 = 1 - v^2."""
+    square = sympy.Poly(u**2 + v**2 - 1, u)
+    n, d = (sympy.rem(sympy.Poly(part, u), square) for part in sympy.fraction(sympy.together(R)))
+    conjugate = sympy.Poly(d.as_expr().subs(u, -u), u)
+    n, d = (sympy.rem(part * conjugate, square) for part in (n, d))
+    A, B = (sympy.apart(n.coeff_monomial(u**k) / d.as_expr(), v) for k in (0, 1))
+    return A + sympy.expand(u * B)
 
 
 def _multiple_angle(wave: Expr, theta: Expr, s: Expr, c: Expr) -> Expr:

@@ -11,6 +11,7 @@ from dataclasses import replace
 from typing import Any
 
 import sympy
+from sympy.simplify.fu import TR2
 
 from kovacic.equation import Equation
 from kovacic.errors import NotRational
@@ -127,6 +128,8 @@ def _continued(expression: Any, t: Any) -> Any:
     for base, root in ((square(t), other(w) ** sign), (-square(t), sympy.I * other(w) ** sign)):
         powers = {e for e in expression.atoms(sympy.Pow) if e.base == base and (2 * e.exp).is_Integer}
         expression = expression.xreplace({e: root ** (2 * e.exp) for e in powers})
+    if t.func is sympy.tan:  # sin(w) for cos(w) tan(w)
+        expression = expression.replace(lambda e: e.is_Mul and e.has(t), lambda e: min(TR2(e), e, key=sympy.count_ops))
     # cos(w) +- i sin(w) = exp(+-i w), and sin(w) +- i cos(w) = +-i exp(-+i w).  The constant is left out: a solution stays one
     # where the logarithm of t +- i other(w), which isn't algebraic in t, is continued with another constant.
     for i in (sympy.I, -sympy.I) if t.func in (sympy.sin, sympy.cos) else ():
