@@ -106,11 +106,13 @@ def _functions(expression: Expr) -> set[Any]:
 
 
 def _by_inverse_functions(integrand: Expr, x: Expr) -> dict[Expr, list[Expr]]:
-    """The terms, those with the same powers of functions that are to be differentiated together."""
+    """The terms, those with the same powers of functions that are to be differentiated together, of x beside waves."""
     groups: dict[Expr, list[Expr]] = {}
     for term in sympy.Add.make_args(integrand):
         factors = [factor for factor in sympy.Mul.make_args(term) if factor.has(x)]
         powers = [factor for factor in factors if factor.as_base_exp()[0].func in _BY_PARTS]
+        if not powers and term.has(sin, cos):
+            powers = [factor for factor in factors if factor.is_polynomial(x)]
         groups.setdefault(sympy.Mul(*powers), []).append(term)
     return groups
 

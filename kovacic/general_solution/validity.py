@@ -18,6 +18,7 @@ from typing import Any
 
 import sympy
 from sympy.logic.boolalg import BooleanAtom
+from sympy.simplify.fu import TR5, TR6
 
 from kovacic.general_solution.basis import vanishing, without_implied
 from kovacic.general_solution.zero import is_nowhere_zero
@@ -93,12 +94,22 @@ def _holds_for_real_symbols(relation: Expr) -> bool:
 
 
 def _without_weaker(relations: list[Expr]) -> tuple[Expr, ...]:
-    """Without e >= 0 and e != 0 beside e > 0; `false` alone where it is one of them."""
+    """Without e >= 0 and e != 0 beside e > 0, nor u != 0 beside u v > 0; `false` alone where it is one of them."""
     if sympy.false in relations:
         return (sympy.false,)
     strict = [relation for relation in relations if isinstance(relation, sympy.StrictGreaterThan)]
-    nonzero = {u for relation in strict for u in (relation.lhs, -relation.lhs)}
-    return tuple(relation for relation in relations if relation in strict or relation.lhs not in nonzero)
+    nonzero = {u for r in strict for e in (r.lhs, *sympy.Mul.make_args(r.lhs)) for u in (e, -e)}
+    left = (relation for relation in relations if relation in strict or relation.lhs not in nonzero)
+    return tuple(dict.fromkeys(map(_of_cosine, left)))
+
+
+def _of_cosine(relation: Expr) -> Expr:
+    """cos(u) != 0 for (1 + sin(u))*(1 - sin(u)) > 0, and sin(u) != 0 for cosines."""
+    if not isinstance(relation, sympy.StrictGreaterThan) or not relation.lhs.is_Mul:
+        return relation
+    square = sympy.expand(relation.lhs)
+    powers = (square_of.as_base_exp() for square_of in (TR5(square), TR6(square)))
+    return next((sympy.Ne(base, 0) for base, exponent in powers if exponent == 2), relation)
 
 
 # ------------------------------------------------------------------------------------------------------ part by part

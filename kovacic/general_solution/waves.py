@@ -135,22 +135,43 @@ def fractions_of_waves(e: Expr, x: Expr) -> list[Expr]:
             sympy.Mul.make_args(term), lambda f: f.has(x, *kept) or not f.is_rational_function(s, c), binary=True
         )
         rational[sympy.Mul(*others)] += sympy.Mul(*factors)
+    is_halved = any(wave.args[0] == 2 * theta for wave in waves)
     forms = [
-        sympy.Add(*(sympy.expand(other * _with_one_square(R, u, v)) for other, R in rational.items()))
-        for u, v in ((s, c), (c, s))
+        {other: _in_fractions(R, s, c, theta, k, doubled=doubled) for other, R in rational.items()}
+        for k in (0, 1)
+        for doubled in (False, True)[: 1 + is_halved]
     ]
-    written = [form.xreplace({s: sin(theta), c: cos(theta)}) for form in forms]
-    return [form.xreplace(kept) for form in (*written, *map(_single_waves, written))]
+    return [sympy.expand_mul(sympy.Add(*(other * R for other, R in form.items()))).xreplace(kept) for form in forms]
 
 
-def _with_one_square(R: Expr, u: Expr, v: Expr) -> Expr:
-    """A + B u with partial fractions A and B in v, where u^2 = 1 - v^2."""
+def _in_fractions(R: Expr, s: Expr, c: Expr, theta: Expr, k: int, *, doubled: bool) -> Expr:
+    """A + B s with partial fractions A and B in c for k = 0, A + B c in s for k = 1, of the double angle if it can be."""
+    A, B = _of_square(R, s, c)
+    if doubled and _is_even(A, c) and _is_even(B * c, c):  # c^2 = (1 + C)/2 and s c = S/2
+        A, B = (sympy.cancel(part.subs(c, sympy.sqrt((1 + c) / 2))) for part in (A, B / (2 * c)))
+        theta *= 2
+    if k == 1:
+        A, B = _of_square(A + B * s, c, s)
+        s, c = c, s
+    A, B = (sympy.Add.make_args(sympy.apart(part, c)) for part in (A, B))
+    terms = (*A, *(term * s for term in B))
+    back = dict(zip((s, c), (sin(theta), cos(theta))[:: 1 - 2 * k], strict=True))
+    polynomials, fractions = sympy.sift(terms, lambda term: term.is_polynomial(s, c), binary=True)
+    return _single_waves(sympy.Add(*polynomials).xreplace(back)) + sympy.Add(*fractions).xreplace(back)
+
+
+def _is_even(f: Expr, c: Expr) -> bool:
+    return bool(sympy.cancel(f - f.subs(c, -c)) == 0)
+
+
+def _of_square(R: Expr, u: Expr, v: Expr) -> tuple[Expr, Expr]:
+    """A and B, rational in v, with R = A + B u where u^2 = 1 - v^2."""
     square = sympy.Poly(u**2 + v**2 - 1, u)
     n, d = (sympy.rem(sympy.Poly(part, u), square) for part in sympy.fraction(sympy.together(R)))
     conjugate = sympy.Poly(d.as_expr().subs(u, -u), u)
     n, d = (sympy.rem(part * conjugate, square) for part in (n, d))
-    A, B = (sympy.apart(n.coeff_monomial(u**k) / d.as_expr(), v) for k in (0, 1))
-    return A + sympy.expand(u * B)
+    A, B = (sympy.cancel(n.coeff_monomial(u**m) / d.as_expr()) for m in (0, 1))
+    return A, B
 
 
 def _multiple_angle(wave: Expr, theta: Expr, s: Expr, c: Expr) -> Expr:

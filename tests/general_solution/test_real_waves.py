@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import random
+
 import sympy
 from build import parametrize
 
@@ -46,3 +48,25 @@ def test_solutions_are_real_and_independent(text: str) -> None:
 def test_the_answer_of_a_book() -> None:
     """Solved in books by u = y cos(x); no value of x was in the domain of the former answer."""
     assert str(kovacic.dsolve("y'' - 2*tan(x)*y' - 10*y = 0").rhs) == "(C1*cosh(3*x) + C2*sinh(3*x))/cos(x)"
+
+
+@parametrize("seed", range(24), ordinary=2, long=10)
+def test_particular_solutions_in_quotients_of_waves(seed: int) -> None:
+    """y0 is built first: what comes back for y0'' + r y0 is as short, has no integral, and is finite where y0 is."""
+    rng = random.Random(seed)
+    c, s = sympy.cos(x), sympy.sin(x)
+    parts = [1 / c, 1 / s, sympy.tan(x), 1 / c**2, 1 / (2 + c), x / c, 1 / c**3, s / c**2, x * sympy.tan(x)]
+    y0 = sum((rng.choice([-2, -1, 1, 3]) * part for part in rng.sample(parts, rng.choice([1, 1, 2]))), sympy.S.Zero)
+    r = rng.choice([1, 4])
+    y = sympy.Function("y")
+    right = y0.diff(x, 2) + r * y0
+    found = kovacic.answer_to(sympy.Eq(y(x).diff(x, 2) + r * y(x), right), y(x)).particular
+    assert not found.has(sympy.Integral)
+    assert sympy.count_ops(found) <= 2 * sympy.count_ops(y0) + 6
+    difference = found - y0  # a solution without right-hand side
+    for point in (0.3, -1.1, 2.5):
+        value = (difference.diff(x, 2) + r * difference).subs(x, point)
+        assert abs(sympy.N(value)) < 1e-8
+    for point in (0, sympy.pi / 2, sympy.pi, -sympy.pi / 2):
+        if y0.subs(x, point).is_finite:
+            assert found.subs(x, point).is_finite
