@@ -180,22 +180,10 @@ def double(a: Any) -> Any:
 
 def absolute(a: Any) -> Any:
     """|a|."""
-    return np.abs(a) if isinstance(a, np.ndarray) else select(a.hi < 0, -a, a)
-
-
-def select(condition: Any, a: Any, b: Any) -> Any:
-    """a where the condition holds, else b."""
-    if isinstance(b, np.ndarray):
-        return np.where(condition, a, b)
-    return Pair(np.where(condition, a.hi, b.hi), np.where(condition, a.lo, b.lo))
-
-
-def square_root(a: Any) -> Any:
-    """sqrt(a) for a > 0."""
     if isinstance(a, np.ndarray):
-        return np.sqrt(a)
-    s = np.sqrt(a.hi)
-    return two_sum(s, (a - two_product(s, s)).hi / (2 * s))
+        return np.abs(a)
+    sign = np.where(a.hi < 0, -1.0, 1.0)
+    return Pair(sign * a.hi, sign * a.lo)
 
 
 def horner(coefficients: Iterable[Any], x: Any) -> Any:
@@ -261,5 +249,5 @@ def angle(z: Complex) -> Any:
     c, s = (Pair(part.hi[index], part.lo[index]) for part in (_COSINES, _SINES))
     turned = z * Complex(c, -s)
     origin = turned.re.hi == 0
-    tangent = turned.im / select(origin, Pair(1.0), turned.re)
+    tangent = turned.im / Pair(np.where(origin, 1.0, turned.re.hi), np.where(origin, 0.0, turned.re.lo))
     return Pair(k / 64, 0.0 * k) + tangent * horner(_ALTERNATING, tangent * tangent)

@@ -4,10 +4,7 @@ Which arrangement, by what the certificate says, where no initial values are giv
 
 - case 1, omega = theta + P'/P: the product exp(int theta) P over the zeros of P, in x (`kovacic.doubles.product_form`);
   real where omega is real, for real or for complex arguments;
-- case 2 on a rational curve s^2 = g, deg g <= 2: the same product in the parameter of the curve, since the integral in
-  the exponent is elementary there (`kovacic.doubles.arrangement`); for an interval of the real axis;
-- everything else on the real axis (case 2 on other curves, case 3, P of degree above 200): a table
-  (`kovacic.doubles.tabulate`).
+- everything else on the real axis (cases 2 and 3, P of degree above 200): a table (`kovacic.doubles.tabulate`).
 
 The error is measured, not proven, in units in the last place against 50 digits: of the closed form in balls in case 1, else of
 the Taylor route (without initial values a constant factor is free: it is fixed as the median of the quotients).
@@ -112,7 +109,7 @@ def lambdify(
         all that `kovacic.evaluate` takes.
     interval : pair
         Two real numbers between which there is no singular point; or, in case 1, two opposite corners of a rectangle of the
-        complex plane, for complex arguments.  The ends may be singular points unless the function is a table.
+        complex plane, for complex arguments.  The ends may be singular points, of a table regular ones: it begins beside them.
     which : int or str
         Without initial values: the number of the logarithmic derivative omega, 0 by default.  In case 1 it numbers the
         conjugates of omega, or the two rational ones; in cases 2 and 3 the roots of the polynomial of omega near the middle of
@@ -145,7 +142,8 @@ def lambdify(
     ------
     InputError
         Without a Liouvillian solution and without initial values; for an interval that is empty or has a singular point
-        inside, for complex arguments in cases 2 and 3, for a table up to a singular point, for constants that aren't rational.
+        inside, for complex arguments in cases 2 and 3, for a table up to an irregular singular point, for constants that aren't
+        rational.
     TypeError
         For a keyword that isn't known.
 
@@ -284,11 +282,11 @@ class _Job:
 
     def function(self, *, careful: bool, plain: Function | None = None) -> Function:
         """The solution in double-doubles or plain doubles, `plain` if that is known."""
-        if isinstance(plain, ProductForm) and plain.polynomial is None:
+        if isinstance(plain, ProductForm):
             return replace(plain, careful=careful)  # the factors are the same
         if self.base is not None and isinstance(self.chart, RationalChart):
             with working_precision(_PREC):
-                form = product_form(self.chart.problem, self.number, self.region, self.base, careful)
+                form = product_form(self.chart.problem, self.number, self.region, self.base)
             if form is not None:
                 return replace(form, careful=careful)
         if not self.region.is_real:
@@ -380,8 +378,6 @@ def _suspects(function: Function, zeros: Any, gaps: Any) -> Any:
         return np.empty(0)
     exact = replace(function, careful=True)
     points = _grid(function)
-    if isinstance(exact, ProductForm) and exact.polynomial is not None:
-        exact = replace(exact, polynomial=replace(exact.polynomial, careful=True))
     if len(zeros):
         starts, stops = (np.searchsorted(zeros + way * gaps, points) for way in (-_BESIDE, _BESIDE))
         beside = [zeros + way * _BESIDE * gaps for way in (-2.0, -1.5, -1.2, -1.0, 1.0, 1.2, 1.5, 2.0)]
@@ -401,10 +397,9 @@ def _suspects(function: Function, zeros: Any, gaps: Any) -> Any:
 def _grid(function: Function) -> Any:
     """Thousands of points all over the region, and on each piece of a table."""
     region = function.region
-    table = getattr(function, "polynomial", function)
     low = region.low.real
     size = region.high - region.low
-    knots = np.append(getattr(table, "edges", ()), low + size.real * np.linspace(0, 1, _MANY + 1))
+    knots = np.append(getattr(function, "edges", ()), low + size.real * np.linspace(0, 1, _MANY + 1))
     knots = np.unique(np.clip(knots, low, region.high.real))
     x = (knots[:-1, None] + np.diff(knots)[:, None] * (np.arange(_EACH) + 0.53) / (_EACH + 0.07)).reshape(-1)
     return x if region.is_real else x + 1j * (region.low.imag + size.imag * (np.arange(x.size) * 0.618 % 1))

@@ -1,19 +1,11 @@
 """Products of powers and exponentials in double precision, arranged so that no digit is lost:
 
-    y(x) = constant * prod_k (t - z_k)^(n_k) * prod_j ((t - zeta_j)/turn_j)^(r_j) * exp(E(x) + s F(x)),
+    y(x) = constant * prod_k (x - z_k)^(n_k) * prod_j ((x - zeta_j)/turn_j)^(r_j) * exp(E(x)).
 
-t = x itself, or the parameter of a rational curve s^2 = sigma g(x), where sigma = +-1 is such that sigma g > 0: real on an
-interval.  With X = x + g'(0)/2 and g = X^2 + m for deg g = 2 (g is monic):
-
-    LINE       deg g = 1:                t = s,                x = -g(0) + sigma t^2,
-    HYPERBOLA  deg g = 2, sigma = 1:     t = X + s,            X = (t^2 - m)/(2 t),
-    ELLIPSE    deg g = 2, sigma = -1:    t = s/(M + X),        X = M (1 - t^2)/(1 + t^2),      M = sqrt(-m).            (1)
-
-- Polynomial factors stay products over their zeros z_k, which are double-doubles: t - z_k keeps its digits near a zero.
-  Those with many zeros are tabulated (`kovacic.doubles.tabulate`).
+- Polynomial factors stay products over their zeros z_k, which are double-doubles: x - z_k keeps its digits near a zero.
 - Powers that are small integers are multiplied out, with the binary exponent apart; all others are one logarithm.
-- E and F are kept as partial fractions.
-- |turn_j| = 1, and (t - zeta_j)/turn_j > 0 at the middle of the interval, so that the principal power is the continuous
+- E is kept as partial fractions.
+- |turn_j| = 1, and (x - zeta_j)/turn_j > 0 at the middle of the interval, so that the principal power is the continuous
   one along the straight line from there: a quotient of points on a line that misses 0 never meets the negative real axis.
 
 In the careful variant the arithmetic is that of double-doubles: huge exponents, and factors that cancel, cost neither range nor
@@ -25,9 +17,7 @@ and values whose factors leave the range of doubles, although they don't.  Nothi
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable
-from dataclasses import dataclass, field, replace
-from enum import Enum
+from dataclasses import dataclass, replace
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -42,71 +32,17 @@ from kovacic.doubles.double_double import (
     double,
     horner,
     log,
-    select,
     split,
-    square_root,
 )
-from kovacic.doubles.tabulate import TabulatedFunction
 from kovacic.enclosure.points import ExactPoint
 
 _MULTIPLIED_OUT = 8
 """Powers up to here are multiplied out, if they are integers."""
 
 
-class Shape(Enum):
-    """The three parametrisations (1)."""
-
-    LINE = "line"
-    HYPERBOLA = "hyperbola"
-    ELLIPSE = "ellipse"
-
-
-@dataclass(frozen=True)
-class Conic:
-    """s^2 = sigma g: `vertex` is -g(0) or -g'(0)/2, `m` as in (1), `ends` the real zeros of g for deg g = 2, in order.
-
-    The numbers are Pairs here, and real balls in `kovacic.doubles.arrangement`.
-    """
-
-    shape: Shape
-    sigma: int
-    vertex: Any
-    m: Any = None
-    ends: tuple[Any, ...] = ()
-
-    def coordinates(self, x: Any) -> tuple[Any, Any]:
-        """(t, s) at points with sigma g(x) > 0, Pairs or arrays."""
-        X = x - self.vertex
-        if self.shape is Shape.LINE:
-            sigma_g = X if self.sigma > 0 else -X
-            s = square_root(sigma_g)
-            return s, s
-        if self.shape is Shape.ELLIPSE:
-            left = x - self.ends[0]
-            right = self.ends[1] - x
-            return square_root(right / left), square_root(left * right)
-        sigma_g = X * X + self.m
-        if self.ends:  # the differences are exact near a branch point
-            sigma_g = (x - self.ends[0]) * (x - self.ends[1])
-        s = square_root(sigma_g)
-        far = absolute(X) + s  # for X < 0, X + s would cancel, and m/(s - X) doesn't
-        return select(double(X) < 0, self.m / far, far), s
-
-    def slopes(self, x: Any, t: Any, s: Any) -> tuple[Any, Any]:
-        """(dt/dx, ds/dx), by s ds/dx = sigma g'(x)/2 and the parametrisations."""
-        if self.shape is Shape.LINE:
-            slope = Pair(0.5 * self.sigma) / s
-            return slope, slope
-        X = x - self.vertex
-        if self.shape is Shape.HYPERBOLA:
-            return t / s, X / s
-        M = (self.ends[1] - self.ends[0]) * Pair(0.5)
-        return -(M / (s * (x - self.ends[0]))), -(X / s)
-
-
 @dataclass(frozen=True)
 class RootFactor:
-    """((t - zeta)/turn)^power; a natural power up to 8 stands without its turn.
+    """((x - zeta)/turn)^power; a natural power up to 8 stands without its turn.
 
     `paired` stands for the product with the complex conjugate factor, which is positive for real t.
     """
@@ -149,18 +85,15 @@ class RationalFunction:
     polynomial: tuple[Complex, ...] = ()
     polar: tuple[tuple[Complex, Complex, int], ...] = ()
 
-    def __call__(self, x: Complex, times: Complex | None = None) -> Complex | None:
-        """The value at x, `times` something; None for the zero function."""
+    def __call__(self, x: Complex) -> Complex | None:
+        """The value at x; None for the zero function."""
         terms = [horner(self.polynomial, x)] if self.polynomial else []
         for a, c, k in self.polar:
             inverse = (x - a).reciprocal()
             for _ in range(k):
                 c *= inverse
             terms.append(c)
-        total = sum_of(terms)
-        if total is None or times is None:
-            return total
-        return total * times
+        return sum_of(terms)
 
     @property
     def derivative(self) -> RationalFunction:
@@ -207,12 +140,6 @@ class ProductForm:
         In the exponential.
     is_real : bool
         Is the function real?  Then pairs of conjugate factors are merged.
-    sheet : RationalFunction
-        What stands beside a square root in the exponent, in case 2.
-    conic : Conic or None
-        The square root of case 2.
-    polynomial : TabulatedFunction or None
-        A factor with many zeros.
     careful : bool
         Double-doubles; else it is plain double arithmetic.
     measured : Measured or None
@@ -234,9 +161,6 @@ class ProductForm:
     factors: tuple[RootFactor, ...]
     exponent: RationalFunction
     is_real: bool
-    sheet: RationalFunction = field(default_factory=RationalFunction)
-    conic: Conic | None = None
-    polynomial: TabulatedFunction | None = None
     careful: bool = True
     measured: Measured | None = None
 
@@ -336,18 +260,10 @@ class ProductForm:
         """The function in the parts of the product."""
         point = self._as_complex(x, careful)
         growth = [self.exponent(point)]
-        t = point
         size = max(abs(self.region.low), abs(self.region.high))
-        if self.conic is not None:
-            parameter, s = self.conic.coordinates(point.re)
-            growth.append(self.sheet(Complex(point.re), Complex(s)))
-            t = Complex(parameter)
-            size = np.max(np.abs(double(parameter)), initial=0.0)
         zetas = (f.zeta for f in self.factors)
         reach = max((math.hypot(z.re.hi, 0.0 if z.im is None else z.im.hi) for z in zetas), default=0.0)
-        product = _Product(t, careful, size + reach)
-        if self.polynomial is not None:
-            product.begin(*self.polynomial.parts(x))
+        product = _Product(point, careful, size + reach)
         for f in self.factors:
             product.multiply(f, growth)
         total = sum_of([g for g in growth if g is not None])
@@ -369,7 +285,7 @@ class ProductForm:
 
 @dataclass(frozen=True)
 class ProductDerivative:
-    """y' of a product form: y times its logarithmic derivative, without what is tabulated, which is differentiated.
+    """y' of a product form: y times its logarithmic derivative.
 
     Where y is exactly 0, so are all terms of the product's derivative but that of the vanishing factor.
 
@@ -416,41 +332,22 @@ class ProductDerivative:
 
     def _values(self, x: Any) -> Any:
         form = replace(self.form, careful=self.careful)
-        t, dt, slope = self._slope(x)
+        point = form._as_complex(x, self.careful)
+        terms = [form.exponent.derivative(point), *(factor.slope(point) for factor in form.factors)]
+        logarithmic = sum_of([term for term in terms if term is not None]) or Complex(0.0 * x.real)
+        slope = double(logarithmic.re)
+        if not form.is_real and logarithmic.im is not None:
+            slope = slope + 1j * double(logarithmic.im)
         total = form._values(x) * slope
-        if form.polynomial is not None:
-            total = total + replace(form, polynomial=form.polynomial.derivative)._values(x)
         for factor in form.factors:
-            hit = factor.zeros(t)
+            hit = factor.zeros(point)
             if hit.any():
-                dt_there = dt[hit] if np.ndim(dt) else dt
-                rest: Any = 0.0  # y' over dt/dx at a simple zero: the product of the other factors
+                rest: Any = 0.0  # at a simple zero: the product of the other factors
                 if factor.whole == 1:
                     others = tuple(f for f in self.form.factors if f is not factor)
                     rest = replace(form, factors=others)._values(x[hit])
-                total[hit] = rest * dt_there
+                total[hit] = rest
         return total
-
-    def _slope(self, x: Any) -> tuple[Complex, Any, Any]:
-        """t, dt/dx and the logarithmic derivative of the product, arrays."""
-        form = self.form
-        point = form._as_complex(x, self.careful)
-        terms = [form.exponent.derivative(point)]
-        t = point
-        dt = Complex(Pair(1.0))
-        if form.conic is not None:
-            parameter, s = form.conic.coordinates(point.re)
-            first, second = form.conic.slopes(point.re, parameter, s)
-            place = Complex(point.re)
-            terms += [form.sheet.derivative(place, Complex(s)), form.sheet(place, Complex(second))]
-            t = Complex(parameter)
-            dt = Complex(first)
-        terms += [factor.slope(t) * dt for factor in form.factors]
-        total = sum_of([term for term in terms if term is not None]) or Complex(0.0 * x.real)
-        slope = double(total.re)
-        if not form.is_real and total.im is not None:
-            slope = slope + 1j * double(total.im)
-        return t, double(dt.re), slope
 
 
 def _with_low_part(v: Any) -> Any:
@@ -468,12 +365,6 @@ class _Product:
         self.binary: Any = 0
         self.bits = 0.0
         self.degree_bits = math.log2(reach + 2.0)
-
-    def begin(self, numbers: Iterable[Any], powers: Any) -> None:
-        """The first factor, a tabulated one: its real part, and its imaginary one if it has one, times 2^powers."""
-        parts = [_with_low_part(v) for v in numbers] if self.careful else numbers
-        self.value = Complex(*parts)
-        self.binary = 0 if powers is None else powers
 
     def multiply(self, f: RootFactor, growth: list[Complex | None]) -> None:
         """One factor more."""

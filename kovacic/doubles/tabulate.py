@@ -8,19 +8,22 @@ little on them and their Taylor series
 
 end within a fixed number of terms; y1 and y2 solve the homogeneous equation, y3 begins with 0, 0 (a right-hand side is
 interpolated at Chebyshev's points).  The series come from the recurrence of the equation, in double-doubles for all pieces at
-once; the states (y, y')(c) are enclosures, or carried on from those by the series.  Polynomials are expanded in balls.
+once; the states (y, y')(c) are enclosures.
 
 Chebyshev's polynomials bring the highest terms down [L. N. Trefethen, Approximation Theory and Approximation Practice, SIAM
 2013, chapter 3].  In the careful variant Horner's scheme is done in double-doubles, too, so that the error is some 2^-95 of the
 largest value on the piece: the value itself keeps its digits near zeros, and where it is far smaller than its neighbours.  In
 plain doubles the error is some 2^-52 of the largest value there.
+
+An end of the interval may be a regular singular point, beside which the pieces shrink like the distance from it.  There the
+table ends at 2^-46 of the larger end, so that the centres of the pieces are doubles.
 """
 
 from __future__ import annotations
 
 import math
 from bisect import bisect_right
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from fractions import Fraction
 from functools import cached_property, lru_cache
@@ -42,18 +45,15 @@ from kovacic.errors import InputError, LimitExceeded, check_keywords
 from kovacic.limits import Limits, check_time, limited, limits_of
 
 _PREC = 300
-GROWTH = 12.0
+_GROWTH = 12.0
 """The sums of the coefficients of y1 and y2 are at most so large."""
 _PIECES = 25
 _TOGETHER = 10_000
 _SMALLEST = -1000
 """So many pieces for each unit of the limit `unknown_degree`: 500,000 by default, of a kilobyte and 0.3 ms each (measured);
-so many are treated together, which takes some 10 kilobytes each."""
-_STRIDE = 24
-_ROUGH = 2.0**-88
-_LOST = 2.0**-58
-"""Of so many states one is an enclosure; relative errors of a transfer, and of a state, at most."""
-_SIGNS = np.array([[[1.0], [-1.0]], [[-1.0], [1.0]]])
+so many are treated together, which takes some 10 kilobytes each; their least binary exponent."""
+_GAP = 2.0**-46
+"""A table begins at this share of the larger end beside a singular point."""
 _ROOM = 900
 _CROWD = 1000
 """Binary exponents up to here stay in the coefficients; fewer points to a piece are treated together (measured)."""
@@ -74,7 +74,7 @@ _FIXED = 112
 """Bits after the binary point, where a single number is the argument."""
 
 _CAREFUL = Variant(48, 48, 34, 60, 96)
-_PLAIN = Variant(48, 32, 22, 32, 60)
+_PLAIN = Variant(48, 32, 22, 22, 60)
 Cell = tuple[fmpq, int]  # c, and e where H = 2^e
 
 
@@ -286,7 +286,8 @@ def tabulate(
     equation
         S or an equation, as for `kovacic.evaluate`, real for real x.
     start, stop : number
-        The ends of the interval, real; no singular point lies between them or at one.
+        The ends of the interval, real; no singular point lies between them.  Where one is a regular singular point, the table
+        begins beside it, at 1.5e-14 of the larger end.
     x0 : number
         Where the solution starts; it may lie outside of the interval, and be a singular point.
     y0, dy0, frobenius, which, path
@@ -303,7 +304,7 @@ def tabulate(
     Raises
     ------
     InputError
-        For an empty interval, and a singular point in it or between it and x0.
+        For an empty interval, a singular point in it or between it and x0, and an irregular one at its end.
     LimitExceeded
         For more pieces than 25 times the limit `unknown_degree` (500,000 by default), and where the time is over.
 
@@ -312,7 +313,7 @@ def tabulate(
     >>> f = tabulate("-1", 0, 10, x0=0, y0=0, dy0=1)
     >>> print(f"{f(10.0):.15f}")      # sin 10
     -0.544021110889370
-    >>> bessel = tabulate("x^2*y'' + x*y' + x^2*y = 0", 1, 9, x0=0, which="regular")
+    >>> bessel = tabulate("x^2*y'' + x*y' + x^2*y = 0", 0, 9, x0=0, which="regular")
     >>> print(f"{bessel(5.0):.15f}")      # J0(5)
     -0.177596771314338
     """
@@ -325,63 +326,57 @@ def table_of(chart: PieceChart, region: Region, careful: bool, limits: Limits | 
     """As `tabulate`, within a budget that is watched."""
     if not region.is_real:
         raise InputError("a table needs an interval of the real axis")
-    if any(region.singular):
-        raise InputError(
-            "an end of the interval is a singular point", hint="a table ends beside it; choose an end at some distance"
-        )
+    region = _beside_singular_ends(chart, region)
     variant = _CAREFUL if careful else _PLAIN
     with working_precision(_PREC):
-        cells, found = _pieces(region, lambda some: _series(chart, some, variant), limits)
+        cells, found = _pieces(chart, region, variant, limits)
     rows = []
     for first in range(0, len(cells), _TOGETHER):
         some = slice(first, first + _TOGETHER)
         series = Pair(*np.stack(found[some], axis=-1))
-        states, powers = _states(chart, cells[some], series, variant, limits)
+        states, powers = _states(chart, cells[some], variant, limits)
         coefficients = series[:, 0, None] * states[0] + series[:, 1, None] * states[1]
         if chart.is_forced:
             own = scaled(series[:, 2, None], -powers)
             is_real_part = np.array([1.0, 0.0])[: states.hi.shape[1], None]  # the right-hand side is real
             coefficients += Pair(own.hi * is_real_part, own.lo * is_real_part)
-        rows.append((_lowered(coefficients, variant), powers))
+        kept = variant.kept
+        lowered = np.tensordot(_lowering(variant.terms, kept), coefficients.hi[kept:], 1)
+        coefficients = coefficients[:kept] + Pair(lowered)
+        rows.append((np.array([coefficients.hi, coefficients.lo]).transpose(2, 0, 1, 3), powers))
     x0 = chart.given.get("x0")
     base = x0 if isinstance(x0, ExactPoint) else None
     parts = max(len(table) for table, _ in rows)  # one for a real function
     tables = [np.pad(table, ((0, parts - len(table)), (0, 0), (0, 0), (0, 0))) for table, _ in rows]
-    powers = np.concatenate([part for _, part in rows])
-    return replace(_assembled(region, cells, np.concatenate(tables, axis=-1), powers, variant), base=base)
-
-
-def polynomial_table(
-    expand: Callable[[Cell, Variant], list[Any] | None], region: Region, careful: bool
-) -> TabulatedFunction:
-    """A function from its Taylor series in balls on the pieces that `expand` says will do; up to singular points, too."""
-    variant = _CAREFUL if careful else _PLAIN
-    cells, found = _pieces(region, lambda some: [expand(cell, variant) for cell in some])
-    with working_precision(_PREC):
-        table, powers = _rounded(found, variant)
-    return _assembled(region, cells, _lowered(_given(table), variant), powers, variant)
-
-
-def _lowered(coefficients: Pair, variant: Variant) -> Any:
-    """From an array of terms, parts and pieces that of parts, halves, terms and pieces, with the highest terms lowered."""
-    lowered = np.tensordot(_lowering(len(coefficients.hi), variant.kept), coefficients.hi[variant.kept :], 1)
-    coefficients = coefficients[: variant.kept] + Pair(lowered)
-    return np.array([coefficients.hi, coefficients.lo]).transpose(2, 0, 1, 3)
-
-
-def _assembled(region: Region, cells: list[Cell], table: Any, powers: Any, variant: Variant) -> TabulatedFunction:
-    edges = np.array([float(c + power_of_two(e)) for c, e in cells[:-1]])
-    exponents = np.array([e for _, e in cells])
-    arrays = edges, np.array([float(c) for c, _ in cells]), exponents, powers, table
+    arrays = (
+        np.array([float(c + power_of_two(e)) for c, e in cells[:-1]]),
+        np.array([float(c) for c, _ in cells]),
+        np.array([e for _, e in cells]),
+        np.concatenate([part for _, part in rows]),
+        np.concatenate(tables, axis=-1),
+    )
     for array in arrays:
         array.flags.writeable = False
-    return TabulatedFunction(region, None, *arrays, careful=variant is _CAREFUL)
+    return TabulatedFunction(region, base, *arrays, careful=careful)
 
 
-def _pieces(
-    region: Region, expand: Callable[[list[Cell]], list[Any]], limits: Limits | None = None
-) -> tuple[list[Cell], list[Any]]:
-    """The pieces from left to right, no more than the limits allow, and what `expand` makes of them (None: nothing)."""
+def _beside_singular_ends(chart: PieceChart, region: Region) -> Region:
+    """The interval without the neighbourhoods of singular ends; raises `InputError` where one is irregular."""
+    ends = (region.low.real, region.high.real)
+    gap = _GAP * max(map(abs, ends))
+    moved = []
+    for end, inward, is_singular in zip(ends, (gap, -gap), region.singular, strict=True):
+        if is_singular and any(abs(complex(point) - end) <= gap for point in chart.irregular):
+            raise InputError(
+                "an end of the interval is an irregular singular point",
+                hint="a table ends beside it; choose an end at some distance",
+            )
+        moved.append(complex(end + inward if is_singular else end))
+    return Region(*moved)
+
+
+def _pieces(chart: PieceChart, region: Region, variant: Variant, limits: Limits | None) -> tuple[list[Cell], list[Any]]:
+    """The pieces from left to right, no more than the limits allow, and the series on them."""
     low, high = (fmpq(*end.as_integer_ratio()) for end in (region.low.real, region.high.real))
     most = limits_of(limits).unknown_degree * _PIECES
     # The first piece contains the interval, off the round numbers, at which solutions may be zero: that couldn't be told from
@@ -400,7 +395,7 @@ def _pieces(
         found: dict[Cell, Any] = {}
         for first in range(0, len(inside), _TOGETHER):
             some = inside[first : first + _TOGETHER]
-            found |= zip(some, expand(some), strict=True)
+            found |= zip(some, _series(chart, some, variant), strict=True)
         done |= {cell: item for cell, item in found.items() if item is not None}
         untried = [half for cell in untried if cell not in done for half in _halves(cell, low, high)]
     cells = sorted(done)
@@ -443,7 +438,7 @@ def _series(chart: PieceChart, cells: list[Cell], variant: Variant) -> list[Any]
         z = _recurrence(numbers, source, variant)
         sizes = np.abs(z[0, : variant.tested])
         converges = (sizes[-4:].max(0) <= sizes.max(0) * 2.0**-variant.bits).all(0)
-        is_bounded = (sizes[:, :2].sum(0) <= GROWTH).all(0)
+        is_bounded = (sizes[:, :2].sum(0) <= _GROWTH).all(0)
     found: list[Any] = [None] * size
     for k in range(size):
         if converges[k] and is_bounded[k]:
@@ -501,93 +496,23 @@ def _lowering(terms: int, kept: int) -> Any:
     return np.array([np.pad(row, (0, kept - len(row))) for row in rows]).T
 
 
-def _states(
-    chart: PieceChart, cells: list[Cell], series: Pair, variant: Variant, limits: Limits | None
-) -> tuple[Pair, Any]:
-    """(y, H y') at the centres over powers of two, an array of both, parts and pieces; and these powers.
-
-    Enclosures, rounded; in the plain variant, without a right-hand side, of every 24th centre: the series carry the state on to
-    the next ones, from the side on which less is lost by an estimate, and where too much is, enclosures serve again.
-    """
-    size = len(cells)
-    exponents = np.array([e for _, e in cells])
-    v = np.zeros((2, 2, 2, size))
-    powers = np.zeros(size, dtype=int)
-    lost = np.full(size, np.inf)
-
-    def enclose(which: Any) -> None:
-        balls = chart.states([ExactPoint(cells[k][0]) for k in which], variant.digits, limits)
-        with working_precision(_PREC):
-            rows = [(y, dy * arb((1, cells[k][1]))) for k, (y, dy) in zip(which, balls, strict=True)]
-            v[..., which], powers[which] = _rounded(rows, variant)
-        lost[which] = 0.0
-
-    is_sparse = variant is _PLAIN and not chart.is_forced
-    stride = _STRIDE if is_sparse else 1
-    known = np.unique(np.append(np.arange(0, size, stride), size - 1))
-    enclose(known)
-    transfers = _transfers(series, exponents) if len(known) < size else ()
-    for sign, matrices in zip((1, -1), transfers, strict=False):
-        k = known
-        while k.size:
-            k = k[(k + sign >= 0) & (k + sign < size)]
-            carry = matrices[:, :, None, np.minimum(k, k + sign)]
-            new = folded(carry * Pair(*v[..., k])[:, None])
-            length = np.linalg.norm(new.hi, axis=(0, 1))
-            with np.errstate(all="ignore"):
-                less = (lost[k] + _ROUGH) * np.linalg.norm(carry.hi, axis=(0, 1))[0] / length
-            better = less < lost[k + sign]
-            shift = np.frexp(length[better])[1]
-            k = k[better] + sign
-            new = new[..., better]
-            v[..., k] = np.ldexp([new.hi, new.lo], -shift)
-            powers[k] = powers[k - sign] + shift
-            lost[k] = less[better]
-    rest = np.flatnonzero(~(lost <= _LOST))
-    if rest.size:
-        enclose(rest)
-    kept = np.where(np.abs(powers) > _ROOM, powers, 0)
-    return scaled(_given(v), powers - kept), kept
-
-
-def _rounded(rows: Sequence[Sequence[Any]], variant: Variant) -> tuple[Any, Any]:
-    """Rows of balls over powers of two: halves, entries, real and imaginary parts (0 if they may be), rows; and the powers."""
+def _states(chart: PieceChart, cells: list[Cell], variant: Variant, limits: Limits | None) -> tuple[Pair, Any]:
+    """(y, H y') at the centres over powers of two, an array of both, parts and pieces; and these powers."""
+    balls = chart.states([ExactPoint(c) for c, _ in cells], variant.digits, limits)
     numbers = list[arb]()
-    powers = list[int]()
-    for row in rows:
-        size = max(abs(v).mid() for v in row)
-        if max(abs(v).rad() for v in row) > size * arb((1, -variant.bits)):
-            raise LimitExceeded("the initial values are too inaccurate for a table", limit="digits")
-        power = int(log2(size)) if size > 0 else 0
-        scale = arb((1, -power))
-        for v in row:
-            imaginary = v.imag * 0 if v.imag.contains(0) else v.imag
-            numbers += [v.real * scale, imaginary * scale]
-        powers.append(power)
-    return halves(numbers).reshape(2, len(rows), -1, 2).transpose(0, 2, 3, 1), np.array(powers)
-
-
-def _given(table: Any) -> Pair:
-    """Without imaginary parts that are all zero."""
-    return Pair(*table[:, :, : 1 + table[:, :, 1].any()])
-
-
-def _transfers(series: Pair, exponents: Any) -> tuple[Pair, Pair]:
-    """The matrices (columns, rows, pieces but one) that carry (y, H y') from a centre to the next one, and back."""
-    n = np.arange(len(series.hi)) + 0.0
-    right, left = (
-        folded(series[:, :2, None] * Pair(np.stack([u**n, n * u ** (n + 1)], axis=1)[:, None, :, None]))
-        for u in (1.0, -1.0)
-    )
-    steps = np.diff(exponents)
-    right = scaled(right[..., :-1], np.array([0 * steps, steps]))
-    columns = Pair(right.hi.swapaxes(0, 1), right.lo.swapaxes(0, 1))
-    forth = folded(_inverse(left[..., 1:])[:, None] * columns[:, :, None])
-    return forth, _inverse(forth)
-
-
-def _inverse(m: Pair) -> Any:
-    """Of 2x2 matrices."""
-    adjugate = Pair(*(_SIGNS * half.swapaxes(0, 1)[::-1, ::-1] for half in (m.hi, m.lo)))
-    determinant = m[0, 0] * m[1, 1] - m[0, 1] * m[1, 0]
-    return adjugate / determinant
+    powers = np.zeros(len(cells), dtype=int)
+    with working_precision(_PREC):
+        for k, ((_, e), (y, dy)) in enumerate(zip(cells, balls, strict=True)):
+            row = (y, dy * arb((1, e)))
+            size = max(abs(v).mid() for v in row)
+            if max(abs(v).rad() for v in row) > size * arb((1, -variant.bits)):
+                raise LimitExceeded("the initial values are too inaccurate for a table", limit="digits")
+            powers[k] = int(log2(size)) if size > 0 else 0
+            scale = arb((1, -int(powers[k])))
+            for v in row:
+                imaginary = v.imag * 0 if v.imag.contains(0) else v.imag
+                numbers += [v.real * scale, imaginary * scale]
+        table = halves(numbers).reshape(2, len(cells), 2, 2).transpose(0, 2, 3, 1)
+    kept = np.where(np.abs(powers) > _ROOM, powers, 0)
+    # Imaginary parts that are all zero are left out.
+    return scaled(Pair(*table[:, :, : 1 + table[:, :, 1].any()]), powers - kept), kept

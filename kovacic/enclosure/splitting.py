@@ -4,8 +4,8 @@ The guarantee: as for `kovacic.enclosure.taylor`, every returned matrix of balls
 centre c to the target s.  Not guaranteed: that the balls are small.
 
 The mathematics.  With x = c + H u and s = c + H z the equation q(u) y'' = p(u) y of `kovacic.enclosure.frame` becomes, for
-u = z v, c, z real, and after clearing denominators, Q(v) y_vv = P(v) y with Q, P over Z and Q_0 > 0, and the target is v = 1.
-Steps of the recurrence for the coefficients b_m of a solution are matrices over Z: with r = max(2, deg P + 2, deg Q),
+u = z v and after clearing denominators, Q(v) y_vv = P(v) y with Q, P over Z[i] and Q_0 > 0, and the target is v = 1.  Steps
+of the recurrence for the coefficients b_m of a solution are matrices over Z[i]: with r = max(2, deg P + 2, deg Q),
 
     Q_0 m (m-1) b_m = sum_j P_j b_(m-2-j) - sum_(j>=1) Q_j (m-j) (m-1-j) b_(m-j),
 
@@ -13,12 +13,14 @@ so the state V_m = (b_(m-r), ..., b_(m-1)) and the sums Y = sum_(k<m) b_k and Y'
 
     D V_(m+1) = C V_m,    D (Y, Y')_(m+1) = D (Y, Y')_m + R V_m,    D = Q_0 m (m-1),
 
-with matrices C, R of polynomials in m.  A run of steps has the same form: two of them in succession give (C2 C1,
-R2 C1 + D2 R1, D2 D1).  Runs are formed by a balanced tree of products with integers of equal length at each level, which
-costs a bounded number of multiplications of long integers at each level: near-linear in the digits, where term by term is
-quadratic.  A run whose integers are about as long as the working precision is a block; blocks act on the state V (the last r
-coefficients of two solutions, in balls) one after the other, because beyond that length exact integers would only grow.  As V
-falls, the blocks get shorter.
+with matrices C, R of polynomials in m.  A matrix A + i B stands as (A, -B; B, A) over Z, and a vector as its real part above
+its imaginary part; where c and z are real, both are as they are.
+
+A run of steps has the same form: two of them in succession give (C2 C1, R2 C1 + D2 R1, D2 D1).  Runs are formed by a balanced
+tree of products with integers of equal length at each level, which costs a bounded number of multiplications of long integers
+at each level: near-linear in the digits, where term by term is quadratic.  A run whose integers are about as long as the
+working precision is a block; blocks act on the state V (the last r coefficients of two solutions, in balls) one after the
+other, because beyond that length exact integers would only grow.  As V falls, the blocks get shorter.
 
 The tail.  The polynomial Y(v) = sum_(k<N) b_k v^k of the *exact* coefficients leaves the defect Q Y'' - P Y, whose
 coefficients vanish but for those that involve b_N and later ones: combinations of V_N.  The majorant of
@@ -46,18 +48,20 @@ from typing import Any
 from flint import acb, arb, arb_mat, fmpz_mat
 
 from kovacic.algebra.precision import working_precision
-from kovacic.enclosure.frame import Frame, System, log2, make_frame, shift
+from kovacic.enclosure.frame import Frame, GaussianParts, System, log2, make_frame, norm, shift
 from kovacic.enclosure.matrices import Matrix
-from kovacic.enclosure.points import ExactPoint, to_acb
+from kovacic.enclosure.points import ExactPoint, around_zero, to_acb
 from kovacic.enclosure.taylor import error_radii, expand, transition
 from kovacic.errors import LimitExceeded
 from kovacic.limits import check_time
 
 _BLOCK = 1.5  # length of the integers of a block, by the bits that are still needed (the first block: 1)
-# Splitting pays above max(1500, factor * order^3) bits; the factor without and with singular points
+# Splitting pays above max(1500, factor * order^3) bits, beside the real axis above three times as many; the factor without
+# and with singular points
 _LOWEST = 1500
 _ENTIRE = 10
 _SINGULAR = 35
+_COMPLEX = 3
 _LEAST = 2000  # bits below which a block isn't shortened any more
 # Bits of the first point of a chain towards a target of many digits; each one has twice as many as the one before
 _BURST = 16
@@ -79,37 +83,49 @@ class Run:
 
 @dataclass(frozen=True)
 class Recurrence:
-    """Q y_vv = P y over Z, with Q_0 > 0; with `mirror` the sums at -v, too."""
+    """Q y_vv = P y over Z[i], with Q_0 > 0; with `mirror` the sums at -v, too."""
 
-    P: list[int]
-    Q: list[int]
+    P: GaussianParts
+    Q: GaussianParts
     mirror: bool
 
     @cached_property
     def order(self) -> int:
-        """r: the length of the state."""
-        return max(2, len(self.P) + 1, len(self.Q) - 1)
+        """r: the number of coefficients in the state."""
+        return max(2, len(self.P[0]) + 1, len(self.Q[0]) - 1)
 
     @cached_property
-    def _terms(self) -> list[tuple[int, int, int]]:
-        """P_(j-2), Q_j and j for j = r, ..., 1."""
-        P, Q = [0, 0, *self.P, *[0] * self.order], [*self.Q, *[0] * self.order]
-        return [(P[j], Q[j], j) for j in range(self.order, 0, -1)]
+    def is_real(self) -> bool:
+        """True if all coefficients are."""
+        return self.P[1] is None and self.Q[1] is None
+
+    @cached_property
+    def _terms(self) -> list[list[tuple[int, int, int]]]:
+        """P_(j-2), Q_j and j for j = r, ..., 1: real parts, and imaginary ones where there are any."""
+        found = []
+        for P, Q in list(zip(self.P, self.Q, strict=True))[: 1 if self.is_real else 2]:
+            p, q = [0, 0, *(P or []), *[0] * self.order], [*(Q or []), *[0] * (self.order + 1)]
+            found.append([(p[j], q[j], j) for j in range(self.order, 0, -1)])
+        return found
 
     def size(self, m: int) -> int:
         """An upper bound of sum |coefficient| for the step to m."""
-        return sum(map(abs, self.P)) + m * m * sum(map(abs, self.Q))
+        return norm(self.P) + m * m * norm(self.Q)
 
     def step(self, m: int) -> Run:
         """The step to m; rows of R: Y, Y' and with `mirror` their values at -v."""
-        r = self.order
-        D = self.Q[0] * m * (m - 1)
-        last = [p - q * ((m - j) * (m - 1 - j)) for p, q, j in self._terms]  # of b_(m-r), ..., b_(m-1)
-        C = [0] * (r * r - r) + last
-        C[1 : r * r - r : r + 1] = [D] * (r - 1)
+        D = self.Q[0][0] * m * (m - 1)
+        # Of b_(m-r), ..., b_(m-1): the last row of A, and of B.
+        last, *imaginary = [[p - q * ((m - j) * (m - 1 - j)) for p, q, j in part] for part in self._terms]
         sign = 1 if m % 2 == 0 else -1
         factors = [1, m, sign, -sign * m] if self.mirror else [1, m]
-        return Run(fmpz_mat(r, r, C), fmpz_mat(len(factors), r, [f * entry for f in factors for entry in last]), D)
+        shift = [[D if k == n + 1 else 0 for k in range(self.order)] for n in range(self.order - 1)]
+        C, R = [*shift, last], [[f * entry for entry in last] for f in factors]
+        for B in imaginary:
+            zero = [0] * self.order
+            C = _as_real(C, [*[zero] * len(shift), B])
+            R = _as_real(R, [[f * entry for entry in B] for f in factors])
+        return Run(fmpz_mat(C), fmpz_mat(R), D)
 
     def block(self, m: int, steps: int) -> Run:
         """The run of so many steps that starts at m, as a balanced tree."""
@@ -121,32 +137,42 @@ class Recurrence:
         return self.block(m + half, steps - half).after(first)
 
 
+def _as_real(A: list[list[int]], B: list[list[int]]) -> list[list[int]]:
+    """(A, -B; B, A)."""
+    upper = [[*a, *(-entry for entry in b)] for a, b in zip(A, B, strict=True)]
+    return upper + [[*b, *a] for a, b in zip(A, B, strict=True)]
+
+
 def _sum_series(
     system: System, frame: Frame, z: ExactPoint, mirror: bool, prec: int
 ) -> tuple[Any, list[tuple[arb, arb]]]:
     """Sums in balls, rows Y, Y' (and at -v), columns b = (1, 0, ...) and (0, 1, ...), and for either column the bounds of |e|
     and |e_v|: blocks until these are about 2^-prec."""
-    (P, _), (Q, _) = shift(system, frame.centre, z.scaled(frame.scale))
-    steps = Recurrence(P, Q, mirror)
-    r = steps.order
+    steps = Recurrence(*shift(system, frame.centre, z.scaled(frame.scale)), mirror)
     m = 2
     goal = prec + int(frame.bound.log2_growth) + 20
     full = goal + 64
     with working_precision(full):
-        V = arb_mat([[0, 0]] * (r - 2) + [[1, 0], [0, 1]])
+        first = [[0, 0]] * (steps.order - 2) + [[1, 0], [0, 1]]
         first_sums = [[1, 1], [0, 1]]  # of b_0 and b_1
         if mirror:
             first_sums += [[1, -1], [0, 1]]
-        sums = arb_mat(first_sums)
-        length = abs(arb(z.x)).upper()
-        ratio = arb(frame.q[0][0]) / steps.Q[0] / abs(arb(z.x)).lower() ** 2
+        rows = len(first_sums)
+        if not steps.is_real:
+            first, first_sums = ([*part, *[[0, 0]] * len(part)] for part in (first, first_sums))
+        V, sums = arb_mat(first), arb_mat(first_sums)
+        length = abs(to_acb(z)).upper()
+        ratio = arb(frame.q[0][0]) / steps.Q[0][0] / abs(to_acb(z)).lower() ** 2
         before: tuple[int, int] | None = None
         while True:
-            heights = [sum((abs(V[n, k]).upper() for n in range(r)), arb(0)).upper() for k in (0, 1)]
+            heights = [sum((abs(V[n, k]).upper() for n in range(len(first))), arb(0)).upper() for k in (0, 1)]
             radii = [error_radii((h * steps.size(m) * ratio).upper(), frame) for h in heights]
             errors = [(e, (slope * length).upper()) for e, slope in radii]
             if all(log2(e) < -goal for pair in errors for e in pair):
-                return sums, errors
+                values = [[acb(sums[n, k]) for k in (0, 1)] for n in range(rows)]
+                if not steps.is_real:
+                    values = [[acb(sums[n, k], sums[n + rows, k]) for k in (0, 1)] for n in range(rows)]
+                return values, errors
             if m > 40 * full + 4000:
                 raise LimitExceeded(f"a Taylor expansion needs more than {m} terms", limit="unknown_degree")
             needed = max(64, full + 33 + int(max(map(log2, heights))))
@@ -177,13 +203,14 @@ def _length(steps: Recurrence, m: int, needed: int, before: tuple[int, int] | No
 
 
 def is_split(system: System, prec: int, *ends: ExactPoint) -> bool:
-    """True if splitting is the cheaper way at this precision: by the order of the recurrence, as measured; on the real axis.
+    """True if splitting is the cheaper way at this precision: by the order of the recurrence, as measured.
 
     (`benchmarks/enclosure_long_series.py` measures both ways on both sides of the bound.)
     """
     order = max(2, len(system.num) + 1, len(system.den) - 1)
     factor = _ENTIRE if len(system.den) == 1 else _SINGULAR
-    return prec > max(_LOWEST, factor * order**3) and all(end.is_real() for end in ends)
+    least = max(_LOWEST, factor * order**3)
+    return prec > (least if all(end.is_real() for end in ends) else _COMPLEX * least)
 
 
 def split_legs(system: System, frame: Frame, target: ExactPoint, prec: int, *, mirror: bool = False) -> list[Matrix]:
@@ -195,10 +222,11 @@ def split_legs(system: System, frame: Frame, target: ExactPoint, prec: int, *, m
     first_rows = (0, 2) if mirror else (0,)
     with working_precision(prec + int(frame.bound.log2_growth) + 84):
         h = to_acb(target - frame.centre)
+        real = frame.centre.is_real() and target.is_real()
         matrices = []
         for row in first_rows:
             (y1, d1), (y2, d2) = (
-                [acb(sums[row + i, k] + arb(0, error)) for i, error in enumerate(errors[k])] for k in (0, 1)
+                [sums[row + i][k] + around_zero(error, real=real) for i, error in enumerate(errors[k])] for k in (0, 1)
             )
             matrices.append((y1, y2 * h, d1 / h, d2))
         return matrices

@@ -58,21 +58,22 @@ PROMISES: list[tuple[Any, Any, str]] = [
     ("-2", (-1, 3 + 2j), "ProductForm"),
     ("x^2 + 3", (-1 - 1j, 2 + 1j), "ProductForm"),
     (CONJUGATE_POLES, (-1 - 1j, 1 + 1j), "ProductForm"),
-    ("1/x - 3/(16*x^2)", (0, 900), "ProductForm"),  # the line s^2 = x
-    ("1/x - 3/(16*x^2)", (-9, 0), "ProductForm"),
-    (ball(Fraction(1, 3), (5, 2, Fraction(1, 2))), (-9, 9), "ProductForm"),  # hyperbola, no real branch point
-    (ball(Fraction(577, 408), (-5, 2, Fraction(1, 2))), (2, 900), "ProductForm"),  # hyperbola, ahead and behind
-    (ball(Fraction(577, 408), (-5, 2, Fraction(1, 2))), (-900, -6), "ProductForm"),
-    (ball(Fraction(577, 408), (-5, 2, Fraction(1, 2))), (-5, 1), "ProductForm"),  # ellipse
-    ("-3/(16*x^2) - 3/(16*(x-1)^2) + 7/(16*x*(x-1))", (0, 1), "ProductForm"),
+    ("1/x - 3/(16*x^2)", (0, 900), "TabulatedFunction"),
+    ("1/x - 3/(16*x^2)", (-9, 0), "TabulatedFunction"),
+    (ball(Fraction(1, 3), (5, 2, Fraction(1, 2))), (-9, 9), "TabulatedFunction"),
+    (ball(Fraction(577, 408), (-5, 2, Fraction(1, 2))), (2, 900), "TabulatedFunction"),
+    (ball(Fraction(577, 408), (-5, 2, Fraction(1, 2))), (-900, -6), "TabulatedFunction"),
+    (ball(Fraction(577, 408), (-5, 2, Fraction(1, 2))), (-5, 1), "TabulatedFunction"),
+    ("-3/(16*x^2) - 3/(16*(x-1)^2) + 7/(16*x*(x-1))", (0, 1), "TabulatedFunction"),
     ("x^2 - 801", (-3, 3), "TabulatedFunction"),
     (ELLIPTIC, (2.5, 6), "TabulatedFunction"),
     (TETRAHEDRAL, (2, 9), "TabulatedFunction"),
+    (TETRAHEDRAL, (0, 1), "TabulatedFunction"),
     (ICOSAHEDRAL, (0.01, 0.99), "TabulatedFunction"),
     ("x^2*y'' + x*y' + (x^2 - 1/4)*y = 0", (0.1, 20), "ProductForm"),
     ("y'' - x*y' + 3*y = 0", (-3, 3), "ProductForm"),
     ("y'' - 2*x*y' + 80*y = 0", (0, 10**7), "ProductForm"),  # H_40, up to 10^292
-    ("1650/(25*x^2 + 40*x + 104)^2", (-1, 1), "ProductForm"),  # a ball with R/R1 = 1/2, complex roots
+    ("1650/(25*x^2 + 40*x + 104)^2", (-1, 1), "TabulatedFunction"),  # a ball with R/R1 = 1/2, complex roots
     ("10/(x^2 + 1)^2", (-3, 3), "ProductForm"),  # sqrt(x^2 + 1) exp(+-3 atan x)
 ]
 
@@ -247,7 +248,7 @@ def test_a_table_of_a_complex_solution_and_of_an_equation_with_a_first_derivativ
         ("2/x^2", {"interval": (1, 2), "which": 2}, "which = 2"),
         ("x^2 + 3", {"interval": (1, 2), "which": 1}, "only which = 0"),
         (TETRAHEDRAL, {"interval": (2, 3 + 1j)}, "case 1"),
-        (TETRAHEDRAL, {"interval": (1, 2)}, "end of the interval is a singular"),
+        ("1/x^3 - 3/(16*x^2)", {"interval": (0, 2)}, "end of the interval is an irregular singular point"),
     ],
 )
 def test_what_lambdify_cannot_do_it_refuses(S: str, options: dict[str, Any], words: str) -> None:
@@ -269,8 +270,10 @@ def test_arguments_are_checked(points: Any, words: str) -> None:
 def test_tables_start_as_evaluate_does() -> None:
     """Algebraic constants, values of parameters, regular singular points, infinity, right-hand sides: known functions."""
     x = np.linspace(1, 9, 41)
-    j0 = tabulate("x^2*y'' + x*y' + x^2*y = 0", 1, 9, x0=0, which="regular")
-    assert np.max(np.abs(j0(x) - scipy.special.j0(x))) < 1e-15
+    j0 = tabulate("x^2*y'' + x*y' + x^2*y = 0", 0, 9, x0=0, which="regular")
+    beside = np.geomspace(1e-12, 9, 200)
+    for points in (x, beside):
+        assert np.max(np.abs(j0(points) - scipy.special.j0(points))) < 1e-15
     y1 = tabulate("x^2*y'' + x*y' + x^2*y = 0", 1, 9, x0=0, frobenius=(1, 0))  # log(x) J0 + ...
     known = np.pi / 2 * scipy.special.y0(x) + (np.log(2) - np.euler_gamma) * scipy.special.j0(x)
     assert np.max(np.abs(y1(x) - known)) < 4e-15
@@ -284,8 +287,6 @@ def test_tables_start_as_evaluate_does() -> None:
     assert np.allclose(gauged(x / 3), np.exp(2**0.5 * x / 3), rtol=1e-14)
     forced = tabulate("y'' + y = x", 0, 9, x0=0, y0=1, dy0=2)
     assert np.allclose(forced(x), np.cos(x) + np.sin(x) + x, rtol=1e-14)
-    with pytest.raises(InputError, match="singular point"):
-        tabulate("x^2*y'' + x*y' + x^2*y = 0", 0, 9, x0=1, y0=1, dy0=0)
     with pytest.raises(LimitExceeded, match="too inaccurate"):
         tabulate("-1", 0, 1, x0=0, y0=flint.arb(1, 1e-12), dy0=0)
 
@@ -330,9 +331,9 @@ def test_polynomials_with_many_zeros_are_tabulated(equation: str, interval: Any)
         with warnings.catch_warnings():
             warnings.simplefilter("ignore", AccuracyWarning)
             f = lambdify(solution, interval=interval, careful=careful)
-        assert kind_of(f) == "ProductForm"
-        assert f.measured.worst < (4 if careful else 1e5)
-        assert f.measured.median < (1 if careful else 20)
+        assert kind_of(f) == "TabulatedFunction"
+        assert f.measured.worst < (4 if careful else 1e3)
+        assert f.measured.median < (1 if careful else 8)
     n = {"1": 150, "2": 250}.get(equation.split("+ ")[-1][0])
     if equation.startswith("(1") and n:
         known = scipy.special.eval_legendre(n, points)
@@ -377,8 +378,8 @@ def test_zeros_beyond_the_range_of_doubles_are_no_error() -> None:
         ("y'' + sin(x)*y' + 4*cos(x)*y = 0", (0, 40), {"x0": 0, "y0": 1, "dy0": 0}),
     ],
 )
-def test_states_carried_by_the_series_are_those_of_enclosures(equation: str, interval: Any, start: Any) -> None:
-    """At the centres of the pieces: within two units in the last place of the largest value there and at the neighbours."""
+def test_plain_tables_have_the_values_of_enclosures_at_their_centres(equation: str, interval: Any, start: Any) -> None:
+    """Within two units in the last place of the largest value there and at the neighbours."""
     table = tabulate(equation, *interval, careful=False, **start)
     known = np.array([complex(y) for y in evaluate(equation, [*map(float, table.centres)], **start)])
     sizes = np.abs(np.concatenate([known[:1], known, known[-1:]]))

@@ -53,10 +53,7 @@ def test_arithmetic_of_pairs_is_good_to_a_hundred_bits() -> None:
         (a - b, [p - q for p, q in zip(exact(a), exact(b), strict=True)]),
     ):
         assert all(abs(g / w - 1) < Fraction(2) ** -100 for g, w in zip(exact(got), wanted, strict=True))
-    size = dd.absolute(a)
-    assert all(
-        abs(r * r / v - 1) < Fraction(2) ** -100 for r, v in zip(exact(dd.square_root(size)), exact(size), strict=True)
-    )
+    assert exact(dd.absolute(a)) == [abs(v) for v in exact(a)]
 
 
 def test_an_array_less_a_constant_loses_neither_half() -> None:
@@ -229,17 +226,6 @@ def test_a_function_that_is_wrong_beside_its_zeros_only_is_seen() -> None:
     assert not measure(Shifted(), "x", start={"x0": 0, "y0": 1, "dy0": 0}).keeps_the_promise  # type: ignore[arg-type]
     even = np.linspace(-8.7, 2.7, 24)  # evenly spread points wouldn't see it
     assert measure(Shifted(), "x", even, start={"x0": 0, "y0": 1, "dy0": 0}).keeps_the_promise  # type: ignore[arg-type]
-
-
-@pytest.mark.long
-def test_few_enclosures_make_a_table_of_many_pieces(monkeypatch: pytest.MonkeyPatch) -> None:
-    """Here no state is lost: the solution oscillates."""
-    asked, states = [], RationalChart.states
-    monkeypatch.setattr(
-        RationalChart, "states", lambda self, points, *rest: asked.extend(points) or states(self, points, *rest)
-    )
-    table = tabulate("x", -300, 0, x0=0, y0=1, dy0=0, careful=False)
-    assert len(asked) < len(table.centres) / 20
 
 
 def test_the_error_is_measured_on_a_slow_machine_too() -> None:

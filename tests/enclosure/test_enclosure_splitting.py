@@ -66,19 +66,30 @@ def _exponent(x: flint.arb) -> int:
 
 @st.composite
 def equations(draw: st.DrawFn) -> Recurrence:
-    """Q y'' = P y over Z."""
-    p, q = ([draw(integers(9)) for _ in range(draw(st.integers(0, most)))] for most in (3, 4))
-    return Recurrence(p, [abs(draw(nonzero(9))), *q], draw(st.booleans()))
+    """Q y'' = P y over Z, or over Z[i]."""
+
+    def polynomial(most: int) -> tuple[list[int], list[int]]:
+        size = draw(st.integers(0, most))
+        return [draw(integers(9)) for _ in range(size)], [draw(integers(9)) for _ in range(size)]
+
+    (p, p_im), (q, q_im) = polynomial(3), polynomial(4)
+    is_complex = draw(st.booleans())
+    P = (p, p_im if is_complex else None)
+    return Recurrence(P, ([abs(draw(nonzero(9))), *q], [0, *q_im] if is_complex else None), mirror=draw(st.booleans()))
 
 
-def coefficients(equation: Recurrence, start: int, count: int) -> list[Fraction]:
+def gaussian(parts: tuple[list[int], list[int] | None]) -> list[ExactPoint]:
+    return [ExactPoint(re, im) for re, im in zip(parts[0], parts[1] or [0] * len(parts[0]), strict=True)]
+
+
+def coefficients(equation: Recurrence, start: int, count: int) -> list[ExactPoint]:
     """b_0, ..., b_(count-1) one by one, exactly."""
-    P, Q = equation.P, equation.Q
-    b = [Fraction(1 - start), Fraction(start)]
+    P, Q = gaussian(equation.P), gaussian(equation.Q)
+    b = [ExactPoint(1 - start), ExactPoint(start)]
     for m in range(2, count):
-        total = sum((c * b[m - 2 - j] for j, c in enumerate(P) if m - 2 - j >= 0), Fraction(0))
-        total -= sum((c * b[m - j] * (m - j) * (m - 1 - j) for j, c in enumerate(Q) if 0 < j <= m), Fraction(0))
-        b.append(total / (Q[0] * m * (m - 1)))
+        terms = [c * b[m - 2 - j] for j, c in enumerate(P) if m - 2 - j >= 0]
+        terms += [(c * b[m - j]).scaled(-(m - j) * (m - 1 - j)) for j, c in enumerate(Q) if 0 < j <= m]
+        b.append(sum(terms, ExactPoint(0)).scaled(1 / (Q[0].x * m * (m - 1))))
     return b
 
 
@@ -88,17 +99,23 @@ def test_a_run_gives_the_same_sums_as_step_by_step(equation: Recurrence, steps: 
     run = equation.block(2, steps)
     r, count = equation.order, 2 + steps
     for start in (0, 1):
-        b = [Fraction(0)] * r + coefficients(equation, start, count)
-        state = b[2 : r + 2]
+        b = [ExactPoint(0)] * r + coefficients(equation, start, count)
+        state = in_parts(b[2 : r + 2], equation)
         for matrix, expected in ((run.C, b[-r:]), (run.R, sums_from_2(b[r:], equation.mirror))):
             rows = [[Fraction(int(entry)) for entry in row] for row in matrix.tolist()]
-            assert [sum(x * y for x, y in zip(row, state, strict=True)) / int(run.D) for row in rows] == expected
+            found = [sum(x * y for x, y in zip(row, state, strict=True)) / int(run.D) for row in rows]
+            assert found == in_parts(expected, equation)
 
 
-def sums_from_2(b: list[Fraction], mirror: bool) -> list[Fraction]:
+def in_parts(vector: list[ExactPoint], equation: Recurrence) -> list[Fraction]:
+    """The real parts, and then the imaginary ones of an equation that isn't real."""
+    return [v.re for v in vector] + ([] if equation.is_real else [v.im for v in vector])
+
+
+def sums_from_2(b: list[ExactPoint], mirror: bool) -> list[ExactPoint]:
     """sum b_m v^m and sum m b_m v^(m-1) over m >= 2 at v = 1 (and at v = -1)."""
     return [
-        sum((b[m] * (v**m if slope == 0 else m * v ** (m - 1)) for m in range(2, len(b))), Fraction(0))
+        sum((b[m].scaled(v**m if slope == 0 else m * v ** (m - 1)) for m in range(2, len(b))), ExactPoint(0))
         for v in ((1, -1) if mirror else (1,))
         for slope in (0, 1)
     ]
@@ -106,7 +123,8 @@ def sums_from_2(b: list[Fraction], mirror: bool) -> list[Fraction]:
 
 # --- both ways --------------------------------------------------------------------------------------------------------
 
-points = st.builds(ExactPoint, fractions(3, (1, 2, 7, 10**9)))
+parts = fractions(3, (1, 2, 7, 10**9))
+points = st.builds(ExactPoint, parts) | st.builds(ExactPoint, parts, parts)
 
 
 @pytest.mark.long
@@ -125,12 +143,13 @@ def random_system(rng: random.Random) -> System:
 
 @parametrize("seed", range(10), ordinary=1, long=5)
 def test_both_ways_agree_at_a_thousand_digits_with_end_points_of_any_length(seed: int) -> None:
-    """Short ends (mirrored legs), decimal ones, and ones of a thousand digits."""
+    """Short ends (mirrored legs), decimal ones, and ones of a thousand digits; on the real axis, or beside it."""
     rng = random.Random(seed)
     system, denominator = random_system(rng), (7, 10**16, 10**1000)[seed % 3]
 
     def end() -> ExactPoint:
-        return ExactPoint(Fraction(rng.randint(-denominator, denominator), denominator))
+        x, y = (Fraction(rng.randint(-denominator, denominator), denominator) for _ in range(2))
+        return ExactPoint(x, y if seed % 2 else 0)
 
     a = end()
     b = a + end().scaled(Fraction(1, 4))

@@ -24,7 +24,6 @@ import kovacic.ball
 #: What the page of the types says isn't public: data behind answers, of which no attribute is promised.
 INTERNAL = {
     "Assumptions",
-    "Conic",
     "Congruence",
     "Decision",
     "ExactPoint",
