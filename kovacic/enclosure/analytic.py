@@ -32,7 +32,7 @@ from math import gcd, lcm
 from typing import Any
 
 import sympy
-from flint import acb, acb_mat, acb_poly, arb, arb_poly, ctx, fmpq
+from flint import acb, acb_mat, acb_poly, arb, ctx, fmpq
 
 from kovacic.algebra.extension import AlgebraicField
 from kovacic.algebra.precision import working_precision
@@ -52,7 +52,7 @@ from kovacic.enclosure.points import (
     to_ball,
 )
 from kovacic.enclosure.problem import Coefficients, NumericProblem, root_of
-from kovacic.enclosure.start import middle, spread_by, steepness_of
+from kovacic.enclosure.start import middle, spread, spread_by
 from kovacic.enclosure.way import NOTHING, Forecast, Local, Traveller, Way, WayStep
 from kovacic.errors import InputError, LimitExceeded
 from kovacic.limits import check_time, count_work
@@ -100,13 +100,11 @@ class AnalyticStep:
 
 @dataclass(frozen=True)
 class Edge:
-    """A short piece on which the coefficients are bounded by (1): `change` is exp(K r) - 1, and `pushed` s F/K."""
+    """A short piece on which b, c and f have bounds (`values`): there a solution changes by (1)."""
 
-    enter: ExactPoint
     leave: ExactPoint
-    s: arb
-    change: arb
-    pushed: arb
+    values: Sequence[acb]
+    length: arb
     real: bool
 
     @classmethod
@@ -115,45 +113,39 @@ class Edge:
         middle = to_acb((enter + leave).scaled(fmpq(1, 2)))
         length = abs(to_acb(leave - enter)).upper()
         real = enter.is_real() and leave.is_real()
-        b, c, f = functions.values(middle + around_zero(length, real=real))
-        if not all(value.is_finite() for value in (b, c, f)):
+        values = functions.values(middle + around_zero(length, real=real))
+        if not all(value.is_finite() for value in values):
             raise InputError(f"the coefficients have no bound beside {enter} or {leave}, an end of the path")
-        s, K = steepness_of(b, c)
-        change = (K * length).expm1().upper()
         # The coefficients are analytic inside the piece, so real on all of it where they are on a part.
         real = real and are_real(functions.values(middle + arb(0, length / 8)))
-        return cls(enter, leave, s, change, (s * abs(f) / K).upper(), real)
-
-    def _errors(self, y: arb, dy: arb) -> State:
-        """Balls of the changes of y and y' for such sizes of (y, s y')."""
-        size = self.change * y.max(dy)
-        return around_zero(size.upper(), real=self.real), around_zero((size / self.s).upper(), real=self.real)
+        return cls(leave, values, length, real)
 
     @property
     def matrix(self) -> Matrix:
         """From where it is entered to where it is left, without the right-hand side."""
-        first, slope = self._errors(arb(1), arb(0))
-        other, second = self._errors(arb(0), self.s)
-        return 1 + first, other, slope, 1 + second
+        b, c, _ = self.values
+        starts = (acb(1), acb(0)), (acb(0), acb(1))
+        return fundamental(*(spread((b, c, acb(0)), self.length, start, real=self.real) for start in starts))
 
     @property
     def added(self) -> State:
         """What the right-hand side adds."""
-        return self._errors(self.pushed, arb(0))
+        return spread(self.values, self.length, NOTHING, real=self.real)
 
-    def local(self, state: State) -> Local:
-        """The solution on the piece: constant, and so is its derivative."""
-        y, dy = state
-        error, slope_error = self._errors(abs(y).upper() + self.pushed, (self.s * abs(dy)).upper())
-        square = (self.leave - self.enter).norm_squared()
-        e = exponent(square) + 1
-        real = self.real and are_real(state)
-        kind, slope = (
-            (arb_poly, arb_poly([dy.real * arb((1, e))])) if real else (acb_poly, acb_poly([dy * arb((1, e))]))
-        )
-        value = kind([y.real if real else y])
-        bounds = abs(error).upper(), (abs(slope_error) * arb((1, e))).upper()
-        return Local(self.enter, e, value, slope, *bounds, reach=fmpq(1), precision=2 * _ROUGH)
+    def local(self, state: State) -> Resting:
+        """The solution on the piece, in one ball."""
+        return Resting(spread(self.values, self.length, state, real=self.real and are_real(state)))
+
+
+@dataclass(frozen=True)
+class Resting:
+    """A solution whose state is in one ball wherever it is asked for."""
+
+    value: State
+
+    def state(self, _x: ExactPoint) -> State:
+        """(y, dy/dx)."""
+        return self.value
 
 
 @dataclass(frozen=True, eq=False)

@@ -8,7 +8,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from functools import cached_property
-from typing import Any, NamedTuple
+from typing import Any
 
 from kovacic.enclosure.classical import Closed
 from kovacic.enclosure.matrices import State
@@ -105,21 +105,13 @@ class Journey:
         for waiting in sides(traveller.here, list(dict.fromkeys(stops))):
             one = traveller
             for detour in _joined(_detours(one.here, waiting[-1], singular), waiting, singular):
-                for stage in detour.stages(side):
-                    nearer = [stop for stop in waiting if detour.sign * (stop.x - stage.reach) <= 0]
-                    found |= one.fan(nearer)
-                    waiting = waiting[len(nearer) :]
-                    for point in stage.onward:
-                        one = one.moved(point)
+                nearer = [stop for stop in waiting if detour.sign * (stop.x - detour.place) < 0]
+                found |= one.fan(nearer)
+                waiting = waiting[len(nearer) :]
+                for point in detour.corners(side):
+                    one = one.moved(point)
             found |= one.fan(waiting)
         return found
-
-
-class _Stage(NamedTuple):
-    """From where we are, the stops up to a place of the real axis (`reach`) are visited; then we go `onward`."""
-
-    reach: Any
-    onward: tuple[ExactPoint, ...]
 
 
 @dataclass(frozen=True)
@@ -143,11 +135,10 @@ class _Detour:
     def _radius(self) -> Any:
         return abs(self.end - self.begin) / 2
 
-    def stages(self, side: str) -> tuple[_Stage, ...]:
-        """To where the axis is left; over the corner "above" or "below" it, to where it is reached again; and back there."""
+    def corners(self, side: str) -> tuple[ExactPoint, ...]:
+        """Where the axis is left, the corner "above" or "below" it, and where it is reached again."""
         top = ExactPoint(self._centre, self._radius if side == "above" else -self._radius)
-        over = (top, ExactPoint(self.end))
-        return _Stage(self.begin, (ExactPoint(self.begin),)), _Stage(self.place, over), _Stage(self.end, ())
+        return ExactPoint(self.begin), top, ExactPoint(self.end)
 
     def is_free(self, singular: Sequence[ExactPoint]) -> bool:
         """True if no singular point beside the real axis lies in the triangle |x - centre| + |y| <= radius, or near it."""

@@ -342,50 +342,50 @@ def read_problem(equation: object, params: Mapping[str, object] | None = None) -
         from kovacic.reading.read import read_input
 
         found = read_input(equation)
-    given = found.equation
-    if given is not None and given.change is not None:
-        raise NotRational(f"numerical evaluation needs coefficients that are rational in {given.change.variable} here")
     S = found.S
-    gauge = None if given is None else given.gauge or None
-    right = None if given is None or given.is_homogeneous else given
-    names = _parameters(found, right)
-    numbers = {}
+    given = found.equation or Equation(S * 0 + 1, S * 0, -S, S * 0)
+    if given.change is not None:
+        raise NotRational(f"numerical evaluation needs coefficients that are rational in {given.change.variable} here")
+    names = set(parameters_of((given.a + given.b + given.c).field))
+    if given.h is not None:
+        names |= {symbol.name for symbol in given.h.free_symbols} - {given.variable}
+    numbers: dict[str, Number] = {}
     if params is not None or names:
         letters = getattr(found, "letters", ())
         constants = {name: meaning for name, meaning in letters if meaning.is_number}
-        numbers = values_of_parameters(names, params or {}, constants)
-    is_rational = all(isinstance(number, ExactPoint) and number.is_real() for number in numbers.values())
-    fields = [part.field for part in (S, gauge, None if right is None else right.f) if part is not None]
-    if not is_rational or any(isinstance(field, AlgebraicField) for field in fields):
-        embedded = Embedded(S, gauge, numbers)
+        numbers = values_of_parameters(tuple(sorted(names)), params or {}, constants)
+    values = {name: n.re for name, n in numbers.items() if isinstance(n, ExactPoint) and n.is_real()}
+    fields = (S.field, given.gauge.field, given.f.field)
+    if len(values) < len(numbers) or any(isinstance(field, AlgebraicField) for field in fields):
+        embedded = Embedded(S, given.gauge or None, numbers)
         embedded.check()
-        return NumericProblem(System((), (1,)), right=right, embedded=embedded)
-    if not numbers:
-        return NumericProblem(System.of(S), S, found.decision if isinstance(found, Answer) else None, gauge, right)
-    # The decision of an answer is that for generic values.
-    values = {name: number.re for name, number in numbers.items() if isinstance(number, ExactPoint)}
-    S = _specialised(S, values)
-    gauge = gauge and _specialised(gauge, values)
-    if right is not None:
-        a, b, c, f = (_specialised(part, values) for part in (right.a, right.b, right.c, right.f))
-        h = right.h
-        if h is not None:
-            h = h.subs({name: as_text(value) for name, value in values.items()})
-        right = replace(right, a=a, b=b, c=c, f=f, h=h)
-    return NumericProblem(System.of(S), S, gauge=gauge, right=right)
+        return NumericProblem(System((), (1,)), right=None if given.is_homogeneous else given, embedded=embedded)
+    decision = found.decision if isinstance(found, Answer) else None
+    if values:  # the decision is that for generic values
+        given, decision = _specialised(given, values), None
+        S = given.S
+    right = None if given.is_homogeneous else given
+    return NumericProblem(System.of(S), S, decision, given.gauge or None, right)
 
 
-def _parameters(found: Answer | Parsed, right: Equation | None) -> tuple[str, ...]:
-    """The names of the parameters, those of a right-hand side that isn't rational among them."""
-    given = found.equation
-    field = found.S.field
-    if given is not None:
-        field = (given.a + given.b + given.c).field
-    names = parameters_of(field)
-    if right is None or right.h is None:
-        return names
-    symbols = {symbol.name for symbol in right.h.free_symbols}
-    return tuple(sorted({*names, *symbols} - {right.variable}))
+def _specialised(given: Equation, values: Mapping[str, Fraction]) -> Equation:
+    """The equation at these values of its parameters."""
+
+    def at(function: RatFunc) -> RatFunc:
+        num, den = function.num, function.den
+        if not isinstance(num, FunctionPoly) or not isinstance(den, FunctionPoly):
+            return function
+        point = [values[name] for name in num.field.names]
+        return RatFunc(num.value_at(point, QQ), den.value_at(point, QQ))
+
+    h = given.h
+    if h is not None:
+        h = h.subs({name: as_text(value) for name, value in values.items()})
+    try:
+        a, b, c, f = map(at, (given.a, given.b, given.c, given.f))
+        return replace(given, a=a, b=b, c=c, f=f, h=h)
+    except (ZeroDivisionError, ValueError):
+        raise InputError("the equation isn't defined at these values of the parameters") from None
 
 
 def values_of_parameters(
@@ -404,16 +404,3 @@ def values_of_parameters(
         hint = f"params={dict.fromkeys(names, 3)}, for instance"
         shell = " ".join(f"--param {name}=3" for name in names) + ", for instance"
     raise InputError(f"values are needed for {wanted}; given are {', '.join(given) or 'none'}", hint=hint, shell=shell)
-
-
-def _specialised(function: RatFunc, values: dict[str, Fraction]) -> RatFunc:
-    """A rational function at these values of its parameters."""
-    num = function.num
-    den = function.den
-    if not isinstance(num, FunctionPoly) or not isinstance(den, FunctionPoly):
-        return function
-    point = [values[name] for name in num.field.names]
-    try:
-        return RatFunc(num.value_at(point, QQ), den.value_at(point, QQ))
-    except ZeroDivisionError:
-        raise InputError("the equation isn't defined at these values of the parameters") from None

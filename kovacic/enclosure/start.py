@@ -59,29 +59,29 @@ def middle(number: Number) -> ExactPoint:
     return number if isinstance(number, ExactPoint) else number.point()
 
 
-def steepness_of(b: acb, c: acb) -> tuple[arb, arb]:
-    """s > 0 and K >= max(1/s, |b| + s |c|), K about as small as can be."""
+def spread(values: Sequence[acb], length: arb, state: State, *, real: bool) -> State:
+    """The state anywhere on a piece so long from that at a point of it; b, c and f of y'' + b y' + c y = f on it are `values`.
+
+    For s > 0 and K >= max(1/s, |b| + s |c|), (y, s y') changes by at most (exp(K r) - 1) (max(|y|, s |y'|) + s |f|/K)
+    [equation (1) of `kovacic.enclosure.analytic`].
+    """
+    b, c, f = values
     steepness = (abs(b) + abs(c).sqrt()).upper()
     s = (1 / steepness).mid() if steepness > 0 else arb(1)
-    return s, (1 / s).max(abs(b) + s * abs(c))
+    K = (1 / s).max(abs(b) + s * abs(c))
+    largest = abs(state[0]).max(s * abs(state[1])) + s * abs(f) / K
+    change = (K * length).expm1() * largest
+    return state[0] + around_zero(change.upper(), real=real), state[1] + around_zero((change / s).upper(), real=real)
 
 
 def spread_by(coefficients: Callable[[acb], tuple[acb, acb, acb, bool]], number: object, state: State) -> State:
     """The state at a number in a ball from that at its midpoint: `coefficients` gives b, c and f of y'' + b y' + c y = f on a
-    ball, and True if they are proven to be real there.
-
-    With the s and K of `steepness_of` and the radius r of the ball (y, s y') changes by at most
-    (exp(K r) - 1) (max(|y|, s |y'|) + s |f|/K) [equation (1) of `kovacic.enclosure.analytic`].
-    """
+    ball, and True if they are proven to be real there."""
     if not isinstance(number, Constant):
         return state
     ball = number.value()
-    b, c, f, real = coefficients(ball)
-    s, K = steepness_of(b, c)
-    largest = abs(state[0]).max(s * abs(state[1])) + s * abs(f) / K
-    change = (K * abs(ball - to_acb(middle(number)))).expm1() * largest
-    real = real and are_real([ball, *state])
-    return state[0] + around_zero(change.upper(), real=real), state[1] + around_zero((change / s).upper(), real=real)
+    *values, real = coefficients(ball)
+    return spread(values, abs(ball - to_acb(middle(number))), state, real=real and are_real([ball, *state]))
 
 
 def read_start(
