@@ -372,7 +372,8 @@ def _beside_singular_ends(chart: PieceChart, region: Region) -> Region:
                 hint="a table ends beside it; choose an end at some distance",
             )
         moved.append(complex(end + inward if is_singular else end))
-    return Region(*moved)
+    low, high = moved
+    return Region(low, high)
 
 
 def _pieces(chart: PieceChart, region: Region, variant: Variant, limits: Limits | None) -> tuple[list[Cell], list[Any]]:
