@@ -494,7 +494,7 @@ class _Writer:
 
 def unexpanded(source: Source) -> Math | None:
     """The equation, or y'' = S y for S alone; None where there is no text, a long one, or one that isn't written like this."""
-    if source.tokens is None or source.has_operator or len(source.text or "") > _LONGEST:
+    if source.tokens is None or "OPERATOR" in source.tokens.kinds or len(source.text or "") > _LONGEST:
         return None
     writer = _Writer(source.unknown)
     try:

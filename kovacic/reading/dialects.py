@@ -44,7 +44,7 @@ _PLAIN = {"LPAR": "(", "RPAR": ")", "EQUAL": "=", "STAR": "*", "SLASH": "/"}
 LAYOUT = frozenset(
     r"""
     \, \; \! \: \[ \] \( \) \\ \quad \qquad \left \right \bigl \bigr \big \Big \bigg \Bigl \Bigr \limits \displaystyle \rm
-    \boxed \nonumber \notag & ~
+    \boxed \nonumber \notag &
     """.split()  # noqa: SIM905
 ) | {"\\ "}
 #: Commands about a name that is set upright, or in another style, and those of them for text.
@@ -310,10 +310,13 @@ class _Translation:
             end += self.texts[end] == "*"
             inner = self.quotient(end)
             behind = inner[3] if inner and inner[0] else self.operand_end(end)
-            if behind is None:
-                return False
-            self.head("diff", whole)
-            self.later(behind, *by)
+            if behind is None:  # d^2/dx^2 - x
+                self.write("OPERATOR", x, whole)
+                self.write("CIRCUMFLEX", "^", whole)
+                self.write("NUMBER", str(order), whole)
+            else:
+                self.head("diff", whole)
+                self.later(behind, *by)
         elif self.texts[end] == "(" and self.condition and self.argument_end(end) is None:
             self.write("PRIMED", y + PRIMES * order, whole)
         else:
@@ -344,7 +347,8 @@ class _Translation:
                 end += self.kinds[end] == "SUPERSCRIPT"
         else:
             return None
-        if slash is None or end is None or end - k > _MOST:
+        is_around = text == "(" and slash is not None and self.partner.get(k, slash) > slash  # (d/dx + 1)
+        if slash is None or end is None or end - k > _MOST or is_around:
             return None
         numerator = _NUMERATOR.fullmatch(self.compact(begin, slash))
         denominator = _DENOMINATOR.fullmatch(self.compact(slash, end).removeprefix("/"))
@@ -364,10 +368,15 @@ class _Translation:
         return True
 
     def primes(self, token: Token) -> bool:
-        """((1 - x^2) y')': what the parentheses enclose is differentiated."""
+        """((1 - x^2) y')': what the parentheses enclose is differentiated; y(x)'' is y''(x)."""
         is_behind = self.found and self.found[-1][0] == "RPAR" and self.texts[self.k - 1] in CLOSING
-        if not is_behind or self.found[max(0, self.closed - 1)][0] == "HEAD":
+        if not is_behind:
             return False
+        kind, name, start, end = self.found[max(0, self.closed - 1)]
+        if kind == "HEAD":
+            self.found[self.closed - 1] = (kind, name + primes_of(token.text), start, end)
+            self.k += 1
+            return True
         for _ in primes_of(token.text):
             self.differentiate_last()
             self.write("RPAR", ")", token)

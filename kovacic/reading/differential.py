@@ -32,7 +32,6 @@ from kovacic.reading.expression import OperationPlace, RationalReader, parse_wit
 from kovacic.reading.lexer import DERIVATIVES, PRIMES
 from kovacic.reading.linear import REST, DerivativeOperator, LinearArithmetic, LinearForm, differentiations, is_rational
 from kovacic.reading.names import FUNCTION_NAMES, NUMBERS, SEVERAL_ARGUMENTS, TRANSCENDENTAL_HINT
-from kovacic.reading.naming import OPERATOR
 from kovacic.reading.parser import Site, evaluate
 
 _ORDER = 2
@@ -45,7 +44,7 @@ class EquationReader(RationalReader):
     arithmetic: LinearArithmetic
 
     def __init__(self, source: Any, limits: Limits, constants: Constants) -> None:
-        """The `source` says which names are declared, and whether D is an operator, and g(x) a function that is given."""
+        """The `source` says which names are declared, and whether g(x) is a function that is given."""
         arithmetic = LinearArithmetic(limits, source.variable, source.unknown, self.coefficient)
         super().__init__({source.variable: VARIABLE}, source.variable, arithmetic, constants)
         self.source = source
@@ -83,7 +82,7 @@ class EquationReader(RationalReader):
         """The equation that says that a linear form is zero; `text` is what it was read from."""
         if isinstance(value, DerivativeOperator):
             hint = f"write what it is applied to: (D^2 + 1) {self.unknown} = 0"
-            raise NotLinear("the operator D is applied to nothing", hint=hint)
+            raise NotLinear(f"the operator d/d{self.variable} is applied to nothing", hint=hint)
         parts = {**value.parts} if isinstance(value, LinearForm) else {REST: value}
         zero = Monomial(0, 0)
         rest = parts.pop(REST, zero)
@@ -150,8 +149,6 @@ class EquationReader(RationalReader):
     def name(self, name: str) -> Any:
         if name == self.unknown:
             return _derivative_of_unknown(0)
-        if name == OPERATOR and self.source.has_operator:
-            return DerivativeOperator({1: Monomial(1, 0)})
         is_known = name in self.names or name in self.declared
         if name in NUMBERS and name != "I" and not is_known:
             import sympy
@@ -167,6 +164,11 @@ class EquationReader(RationalReader):
                 hint = f"write {self.variable}*{text[len(self.variable) :]}"
             raise NotLinear(f"{text} is a derivative of something else than {self.unknown}", hint=hint)
         return _derivative_of_unknown(_order_of(text[len(name) :]))
+
+    def operator(self, variable: str) -> Any:
+        if variable != self.variable:
+            raise NotLinear(f"a derivative with respect to something else than {self.variable}")
+        return DerivativeOperator({1: Monomial(1, 0)})
 
     def equation(self, left: Any, right: Any) -> Any:
         if not isinstance(left, LinearForm):  # f = a y'' + b y' + c y
@@ -288,9 +290,7 @@ def written_equation(text: str, variable: str, unknown: str, known: Constants) -
         if isinstance(field, AlgebraicField):
             values[field.name] = field.generator
         plain, names = WrittenReader(field, values, Arithmetic(constants.limits)).plain(text)
-        source = SimpleNamespace(
-            variable=variable, unknown=unknown, declared=(), has_operator=False, has_functions=False
-        )
+        source = SimpleNamespace(variable=variable, unknown=unknown, declared=(), has_functions=False)
         reader = EquationReader(source, constants.limits, constants)
         reader.names = {**reader.names, **names}
         return reader.equation_of(evaluate(tokenize(plain), reader), plain)

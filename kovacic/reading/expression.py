@@ -17,7 +17,7 @@ from kovacic.reading.arithmetic import VARIABLE, Arithmetic, NotAnInteger, Value
 from kovacic.reading.constants import Constants, Enlarged
 from kovacic.reading.dialects import tokenize
 from kovacic.reading.lexer import PRIMES
-from kovacic.reading.names import FUNCTION_NAMES, NUMBER_NAMES, TRANSCENDENTAL_HINT, is_function
+from kovacic.reading.names import FUNCTION_NAMES, NUMBER_NAMES, TRANSCENDENTAL_HINT, is_function, is_letter
 from kovacic.reading.parser import Site, evaluate, shortened, shown
 
 _SHOWN_DECIMALS = 3
@@ -102,6 +102,9 @@ class RationalReader:
     def derivative(self, text: str) -> Value:
         raise NotRational(f"{shortened(text)} is a derivative, and S contains none", hint=_ALONE)
 
+    def operator(self, variable: str) -> Value:
+        raise NotRational(f"d/d{variable} is a derivative, and S contains none", hint=_ALONE)
+
     def equation(self, left: Value, right: Value) -> Value:
         raise NotRational("an equation, where S alone is expected", hint=_ALONE)
 
@@ -185,7 +188,11 @@ def usage(name: str) -> str:
         return "roots are those of numbers: sqrt(2), cbrt(2), root(2, 5)"
     if name in FUNCTION_NAMES:
         return f"{name} has one argument; S is rational in x, or in exp(k*x), sin(k*x), ..."
+    if name in ("log2", "log10", "lg"):
+        return "write log(x)/log(b) for the logarithm to the base b"
     if name in _STEPS:
         return f"for a product write {name}*(...), for a step heaviside(...), for an impulse dirac(...)"
+    if is_letter(name):
+        return f"for a product write {name}*(...)"
     known = ", ".join(sorted(FUNCTION_NAMES))
     return f"for a product write {name}*(...); the functions are {known}, of one argument"

@@ -305,7 +305,8 @@ def differentiations(
         elif follows_variable and not is_pair:
             order += order_of(argument) - 1
         else:
-            raise NotLinear(f"a derivative with respect to something else than {variable}")
+            hint = "the unknown function has one variable; a partial differential equation isn't read"
+            raise NotLinear(f"a derivative with respect to something else than {variable}", hint=hint)
         follows_variable = not is_pair and is_variable(argument)
     return order
 

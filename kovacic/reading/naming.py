@@ -10,7 +10,7 @@ from __future__ import annotations
 
 import re
 from collections import Counter
-from collections.abc import Collection, Sequence
+from collections.abc import Collection, Iterator, Sequence
 from dataclasses import dataclass, replace
 from typing import NamedTuple
 
@@ -35,21 +35,20 @@ _ROOT = re.compile(r"\^ 1 / (\d+)(?!\S)")
 _STIFFNESS = re.compile(r"(?<!\S)(?:E (?:\* )?I|I (?:\* )?E)(?!\S| \()")
 _EXPONENT = re.compile(rf"(?<!\S)e \^ (- )?[\d.]+ ({_NAME})(?!\S| \()")
 _PRIMED = re.compile(rf"(?<!\S)({_NAME})'+(?!\S)")
-_DIFFERENTIATED = re.compile(rf"(?<!\S)(?:({_NAME})'+|(?:{'|'.join(DERIVATIVES)}) \( ({_NAME})(?= [(,)]))(?!\S)")
+_DIFFERENTIATED = re.compile(rf"(?<!\S)(?:({_NAME})'+|(?:{'|'.join(DERIVATIVES)}) \((?= ({_NAME}) [(,)]))(?!\S)")
 _NAMED = ("NAME", "PRIMED", "HEAD")
 
 
 class Named(NamedTuple):
     """The tokens of an expression in which every name is known; the `unknown` is empty for S alone.
 
-    `has_operator`: D stands for the derivative.  `guesses` are those of the notes that say what was guessed.
+    `guesses` are those of the notes that say what was guessed.
     """
 
     tokens: Tokens
     variable: str
     unknown: str
     notes: tuple[str, ...]
-    has_operator: bool = False
     guesses: tuple[str, ...] = ()
 
 
@@ -65,12 +64,18 @@ class Vocabulary:
         """The names of an equation.  Raises `InputError` for names that mean nothing, or more than one thing."""
         guesses = _guesses(tokens)
         has_other = any(piece.endswith("''") or piece in DERIVATIVES - {OPERATOR} for piece in tokens.pieces)
-        has_operator = OPERATOR not in self.declared and OPERATOR in tokens.names and not has_other
-        y = self.unknown or _primed(tokens, self.declared) or next(iter(differentiated(tokens)), None)
+        has_operator = OPERATOR not in self.declared and OPERATOR in _letters(tokens, self.declared) and not has_other
+        y = (
+            self.unknown
+            or _primed(tokens, self.declared)
+            or next(iter(differentiated(tokens)), None)
+            or _operand(tokens)
+        )
         if y is None:  # what the operator D is applied to
             usual = [name for name in tokens.names if name in _USUAL_UNKNOWNS]
             y = usual[-1] if has_operator and usual and UNKNOWN not in usual else UNKNOWN
         _check_stiffness(tokens, self.declared)
+        _check_powers_of_ten(tokens)
         x, why = (self.variable, None) if self.variable else _variable_of(tokens, y, self.declared)
         split, products = self._with_products(tokens, x, y)
         if why is not None and x not in (DEFAULT_VARIABLE, "t"):
@@ -79,10 +84,16 @@ class Vocabulary:
         guesses += self._imaginary_unit(split, x, y)
         _check_two_exponents(split, y)
         notes = [why] if why is not None and why not in guesses else []
-        return Named(_with_factors(split, x, y), x, y, (*notes, *guesses), has_operator, tuple(guesses))
+        named = _with_factors(split, x, y)
+        if has_operator:
+            kinds = ["OPERATOR" if row[:2] == ("NAME", OPERATOR) else row[0] for row in named.rows()]
+            pieces = [x if kind == "OPERATOR" else piece for kind, piece in zip(kinds, named.pieces, strict=True)]
+            named = replace(named, kinds=kinds, pieces=pieces)
+        return Named(named, x, y, (*notes, *guesses), tuple(guesses))
 
     def S(self, tokens: Tokens) -> Named:
         x = self.variable or _variable_of_S(tokens, self.declared)
+        _check_powers_of_ten(tokens)
         if x in ("e", "E"):
             _check_decimals(tokens, x)
         split, products = self._with_products(tokens, x, "")
@@ -96,9 +107,9 @@ class Vocabulary:
         return Named(_with_factors(split, x, ""), x, "", tuple(guesses), guesses=tuple(guesses))
 
     def _imaginary_unit(self, tokens: Tokens, x: str, y: str) -> list[str]:
-        """That i is a parameter, where it is one that wasn't declared."""
-        is_parameter = "i" in tokens.names and "i" not in (x, y, *self.declared)
-        return ["i is a parameter; the imaginary unit is I"] if is_parameter else []
+        """That i or j is a parameter, where it is one that wasn't declared."""
+        parameters = [name for name in "ij" if name in tokens.names and name not in (x, y, *self.declared)]
+        return [f"{name} is a parameter; the imaginary unit is I" for name in parameters]
 
     def _with_products(self, tokens: Tokens, x: str, y: str) -> tuple[Tokens, list[str]]:
         """With x y for xy; notes say so.  Raises `ParseError` for all other names that aren't known."""
@@ -157,7 +168,21 @@ def _guesses(tokens: Tokens) -> list[str]:
     """What may have been meant in another way: x^1/2 is x/2."""
     found = _ROOT.search(tokens.spaced)
     said = "^1/{0} was read as (...)^1 divided by {0}; a root is written ^(1/{0})"
-    return [said.format(found[1])] if found else []
+    return [*([said.format(found[1])] if found else []), *_divided_functions(tokens)]
+
+
+def _divided_functions(tokens: Tokens) -> Iterator[str]:
+    """Notes on sin x/2, which is (sin x)/2 and may be meant as sin(x/2): no parentheses, and no blank before the slash."""
+    opened: list[int] = []
+    for k, kind in enumerate(tokens.kinds):
+        if kind == "LPAR":
+            opened.append(k)
+        elif kind == "RPAR" and opened:
+            first = opened.pop() - 1
+            is_bare = tokens.starts[k] == tokens.ends[k] and tokens.kinds[first] == "HEAD"
+            if is_bare and tokens.are(k + 1, "SLASH") and tokens.ends[k - 1] == tokens.starts[k + 1]:
+                function, below = tokens.piece(first, k), tokens.pieces[k + 2]
+                yield f"{function}/{below} was read as ({function})/{below}"
 
 
 def _check_stiffness(tokens: Tokens, declared: Collection[str]) -> None:
@@ -182,6 +207,17 @@ def _check_decimals(tokens: Tokens, variable: str) -> None:
         message = f"{text} can be read as a decimal or as {other}, the variable being {variable}"
         hint = "write decimals without an exponent, and products with *"
         raise tokens.error(ParseError, message, k, k + 1, hint=hint)
+
+
+def _check_powers_of_ten(tokens: Tokens) -> None:
+    """Raises `ParseError` for 1e-3y, which is 0.001 y, or e - 3 y."""
+    for k in range(len(tokens.kinds) - 4):
+        e, sign = tokens.pieces[k + 1 : k + 3]
+        is_power = tokens.are(k, "NUMBER", "NAME") and e in ("e", "E") and sign in ("+", "-")
+        if is_power and tokens.are(k + 3, "NUMBER", "NAME") and tokens.ends[k : k + 4] == tokens.starts[k + 1 : k + 5]:
+            number, rest = tokens.piece(k, k + 4), tokens.pieces[k + 4]
+            hint = f"write {number}*{rest} for the decimal"
+            raise tokens.error(ParseError, f"{number}{rest} can be read in two ways", k, k + 5, hint=hint)
 
 
 def _check_two_exponents(tokens: Tokens, unknown: str) -> None:
@@ -221,6 +257,16 @@ def _primed(tokens: Tokens, declared: Collection[str]) -> str | None:
     return name[1] if is_glued else name
 
 
+def _operand(tokens: Tokens) -> str | None:
+    """The name behind the parentheses in which d/dx stands alone: y in (d^2/dx^2 - x) y."""
+    depth = 0
+    for k in range(tokens.kinds.index("OPERATOR"), len(tokens.kinds)) if "OPERATOR" in tokens.kinds else ():
+        depth += tokens.are(k, "LPAR") - tokens.are(k, "RPAR")
+        if depth < 0 and tokens.kinds[k] in ("NAME", "HEAD"):
+            return tokens.pieces[k]
+    return None
+
+
 def differentiated(tokens: Tokens) -> list[str]:
     """The names that have primes, or are y in diff(y, x), diff(y(x), x) and diff(y)."""
     names = (found[1] or found[2] for found in _DIFFERENTIATED.finditer(tokens.spaced))
@@ -234,6 +280,8 @@ def _variable_of(tokens: Tokens, y: str, declared: Collection[str]) -> tuple[str
     if it occurs; else the only usual letter that occurs as only a variable does; else x, and all names are parameters.
     """
     named = argument_of(tokens, y)
+    if "OPERATOR" in tokens.kinds:
+        named = tokens.pieces[tokens.kinds.index("OPERATOR")]
     if named is not None:
         return named, None
     excluded = {*_NO_VARIABLES, y, *declared}

@@ -150,15 +150,15 @@ def _derivative(match: Match) -> str:
 
 
 def _by_time(match: Match) -> str:
-    """MATLAB's D2y: by time, unless x occurs."""
-    is_by_x = match["y"] != "x" and _occurs(r"(?<!\S)x(?!\S)", match.string)
+    """MATLAB's D2y: by time, unless x occurs, or D alone, as in D^2 y + 2Dy."""
+    is_by_x = match["y"] != "x" and _occurs(r"(?<!\S)(?:x|D)(?!\S)", match.string)
     return f"{match['y']} {(PRIMES if is_by_x else DOTS) * int(match['n'] or 1)}"
 
 
 def _by_index(match: Match) -> str:
-    """diff(y, x, 2) for y_xx, and diff(y, x) for y_x beside it, where no derivative is written otherwise."""
-    second = _occurs(r"(?<!\S)([a-zA-Z])_([xtzsr])\2(?!\S)", match.string)
-    is_other = second is None or (match["y"], match["x"]) != second.groups()
+    """diff(u, x, 2) for u_xx, and diff(u, t) for u_t beside it, where no derivative is written otherwise."""
+    second = _occurs(r"(?<!\S)([a-zA-Z])_([xytzsr])\2(?!\S)", match.string)
+    is_other = second is None or match["y"] != second[1]
     if is_other or _occurs(r"\w +['˙]|(?<!\S)(?:diff|D|Derivative)(?!\S)", match.string):
         return match[0]
     return f"diff ( {match['y']} , {match['x']} , {2 if match['second'] else 1} )"
@@ -208,6 +208,8 @@ NOTATIONS = (
     _rule("MATLAB", "diff", r"(?<!\.\x20)diff OPEN (?P<y>LETTER) , (?P<n>[1-4]) CLOSE", _derivative),
     _rule("MATLAB", _SLOPES, r"D(?P<n>[2-4]?)(?P<y>[xyzuvwqf])", _by_time),
     _rule("SymPy", "subs", rf"{_OF_X} \. diff \( \2(?: , 1)? \) \. subs \( \2 ,", r"\1 ' ("),
+    _rule("SymPy", "subs", r"(LETTER) \. diff \( (LETTER)(?: , 1)? \) \. subs \( \2 ,", r"\1 ' ("),
+    _rule("SymPy", "subs", r"(LETTER) \. subs \( LETTER ,", r"\1 ("),
     _rule("SymPy", "subs", rf"{_SLOPE} \. subs \( \2 ,", r"\1 ' ("),
     _rule("SymPy", "subs", rf"{_OF_X} \. subs \( \2 ,", r"\1 ("),
     _rule("SymPy", "Subs", rf"Subs \( {_SLOPE} , \2 ,", r"\1 ' ("),
@@ -217,6 +219,7 @@ NOTATIONS = (
     _rule("Maxima", "diff", r"'(?= diff )"),
     _rule("Maxima", "%", r"%~(e|pi)", r"\1"),
     _rule("Maxima", "%", r"%~i", "I"),
+    _rule("Mathematica", "Subscript", r"Subscript \[ (LETTER) , (\w+) \]", r"\1_\2"),
     _rule("functions", " ".join(_SYNONYMS), rf"(?:{'|'.join(_SYNONYMS)})(?= [(\[])", lambda match: _SYNONYMS[match[0]]),
     _rule("pi", "Pi π", "Pi|π", "pi"),
     _rule("Mathematica", "E", r"E \^", _exponential),
@@ -226,7 +229,7 @@ NOTATIONS = (
         rf"{_BEHIND_NAME}\^ (?:OPEN ((?:['\"]+ )+)CLOSE|(['\"]+(?: '+)*))",
         lambda m: primes_of(m[1] or m[2]),
     ),
-    _rule("indices", "_", r"(?P<y>[a-zA-Z])_(?P<x>[xtzsr])(?P<second>(?P=x))?", _by_index),
+    _rule("indices", "_", r"(?P<y>[a-zA-Z])_(?P<x>[xytzsr])(?P<second>(?P=x))?", _by_index),
 )
 #: For what the commands of LaTeX have become signs and letters.
 LATEX = (
@@ -245,6 +248,7 @@ _NO_INDEX = r"(?<!_\x20)(?<!_\x20\{\x20)"
 _NO_NAME = rf"(?!(?:{'|'.join(FUNCTION_NAMES)}|\w) \}})"
 #: Comments, breaks and layout, before all else.
 AROUND = (
+    _rule("Julia", "~", r"\x7e", lambda m: "" if _occurs(r"(?<!\S)\\", m.string) else "="),
     _rule("within a line", "*", r"[(/]~\* .{0,2000}? \*~[)/]"),
     _rule("a whole line", "/ # %", rf"{_LINE}(?:/~/|#|%(?!~(?:e|i|pi|o\d*|i\d+)(?!\S)))[^\n]*"),
     _rule(

@@ -26,7 +26,7 @@ _OPEN, _SUM, _PRODUCT, _SIGN, _IMPLICIT, _POWER = range(6)
 _SIGNS = ("PLUS", "MINUS")
 _BINARY = {"PLUS": _SUM, "MINUS": _SUM, "STAR": _PRODUCT, "SLASH": _PRODUCT}
 #: The methods of a reader that say what these mean.
-_ATOMS = {"NUMBER": "number", "NAME": "name", "PRIMED": "derivative"}
+_ATOMS = {"NUMBER": "number", "NAME": "name", "PRIMED": "derivative", "OPERATOR": "operator"}
 _OPERANDS = frozenset({*_ATOMS, "HEAD", "LPAR"})
 _OPERATORS = (*_BINARY, "CIRCUMFLEX")
 _NO_OPERANDS = (*_OPERATORS, "RPAR", "COMMA", "EQUAL")
@@ -223,7 +223,8 @@ class _Parser:
 
     def is_derivative(self, k: int) -> bool:
         piece = self.pieces[k]
-        return piece.endswith(PRIMES) or (self.kinds[k] == "HEAD" and piece in DERIVATIVES)
+        is_call = self.kinds[k] == "HEAD" and piece in DERIVATIVES
+        return is_call or piece.endswith(PRIMES) or self.kinds[k] == "OPERATOR"
 
     def close(self, k: int) -> bool:
         self.complete(k)
@@ -386,7 +387,7 @@ def _check_neighbours(tokens: Tokens, reader: Any, begin: int, right: int) -> No
         return
     if tokens.kinds[right] in ("NAME", "PRIMED", "HEAD") and reader.follows_without_sign(tokens.pieces[right]):
         return
-    if tokens.kinds[left] == "NAME" and tokens.kinds[right] in ("NAME", "HEAD", "LPAR"):
+    if tokens.kinds[left] == "NAME" and tokens.kinds[right] in ("NAME", "HEAD", "LPAR", "OPERATOR"):
         return  # letters that stand apart, as `naming` has found
     first = shortened(tokens.pieces[left])
     second = shortened(tokens.pieces[right])

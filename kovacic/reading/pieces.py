@@ -31,8 +31,8 @@ from kovacic.reading.notations import AROUND, CLOSING, NOTATIONS, OPENING, SOLVE
 _BETWEEN = frozenset("and with where subject such given for if at when".split())  # noqa: SIM905
 _FILLERS = frozenset("to that the conditions condition initial boundary by values value".split())  # noqa: SIM905
 #: Statements that say what names are, and solve nothing.
-_DECLARATIONS = frozenset("from import syms with restart clear clc depends assume var init_printing".split())  # noqa: SIM905
-_MAKERS = frozenset("symbols Symbol Function function var symfun".split())  # noqa: SIM905
+_DECLARATIONS = frozenset("@ from import syms with restart clear clc depends assume var init_printing".split())  # noqa: SIM905
+_MAKERS = frozenset("symbols Symbol Function function var symfun Differential".split())  # noqa: SIM905
 _OPERATORS = frozenset("+ - * / ^ ** = == , := .".split())  # noqa: SIM905
 _ASSIGNS = ("=", "==", ":=")
 #: With what Eq(left, right) begins.
@@ -77,6 +77,14 @@ class Paste:
     def is_equation(self) -> bool:
         """True for an equation, false for S alone."""
         return any(map(_is_equation, self.scans("equation")))
+
+    @property
+    def beside(self) -> Scan | None:
+        """What stands beside the one equation or expression: words, or another one."""
+        scans = self.scans("equation")
+        if len(scans) < 2:
+            return None
+        return next((scan for scan in scans if self.is_equation and not _is_equation(scan)), scans[1])
 
     @cached_property
     def equations(self) -> list[Tokens]:
@@ -191,23 +199,28 @@ _NOTES = {
 }
 #: Words that have numbers.
 _LABELS = "Exercise|Problem|Example|Question|Equation|Task|Aufgabe|Ex|No|Nr"
-_SOME = r"(?:(?:[^\W\d]\S*|[-:,.]) ){0,40}"
+_SOME = r"(?:(?:[^\W\d]\S*|'~s|[-:,.]) ){0,40}"
 _NO_OPERATOR = r"(?! (?:==?|:=|[*/^)\[])(?!\S))"
-_LETTERS = r"\d+|[a-i]|i{2,3}|iv|vi{1,3}"
+_LETTERS = r"\d+(?:\.\d+)?|[a-i]|i{2,3}|iv|vi{1,3}"
 #: In the order in which they are left out; in patterns · is a gap between tokens, ~ none.
 SURROUNDINGS = (
     _around("the next sentence", ".", r"(?<=\.\x20\x20)[A-Z][a-z]*(?: (?:[^\W\d]+|[-,.!?']))+$", "prose"),
     _around("the end of a sentence", ". : $ , ?", r"(?<!^)[.:$,?](?: [.:$,?])*$"),
     _around("a prompt", "> sage In %", r"^(?:>(?: >){0,2}|sage :|In \[ \S+ \] :=|\( % \w+ \))"),
-    _around("1.", ".", r"^\d+\.(?=\x20\x20)", "number"),
+    _around("1.", ".", r"^(?:\d+\.|[A-Z]\d+ \.)(?=\x20\x20)", "number"),
     _around("1)", ")", r"^[^\s(]{1,2} \)(?= \S+ \S)", "number"),
     _around("(1)", ")", rf"^\( (?:{_LETTERS}) \)(?=\x20\x20\S+ )", "number"),
     _around("Problem 3:", ". : )", rf"^(?:WORD|{_LABELS})(?: \.)? \d+(?:\.\d+)?(?:\.(?=\x20\x20)| [:.)])", "prose"),
     _around("Problem 3", _LABELS.replace("|", " "), rf"^(?:{_LABELS})(?: \.)? \d+(?=\x20\x20\S+ )", "number"),
     _around("a sentence", "PROSE", rf"^{_SOME}?WORD {_SOME}(?:WORD|of|to|is|by|(?<=\w\x20):){_NO_OPERATOR}", "prose"),
     _around("a capital", "PROSE", rf"^(?=[A-Z][a-z]+ )WORD{_NO_OPERATOR}(?! \()", "prose"),
-    _around("the number behind an equation", ")", r"(?<=[^-+*/^=,:.\s]\x20\x20)\( \d+ \)$", "label"),
-    _around("a remark behind an equation", "PROSE", r"(?<=\x200\x20\x20)\( WORD(?: \S+){0,5} \)$", "prose"),
+    _around("the number behind an equation", ") ]", r"(?<=[^-+*/^=,:.\s]\x20\x20)OPEN \d+(?:\.\d+)? CLOSE$", "label"),
+    _around(
+        "a remark behind an equation",
+        "PROSE < > ≤ ≥ ≠",
+        r"(?:(?<=\x200\x20\x20)|\n ?)\( (?:WORD(?: \S+){0,5}|\S+ [<>≤≥≠] \S+) \)$",
+        "prose",
+    ),
     _around("the end of a sentence", ". : ,", r"[.:,](?: [.:,])*$"),
 )
 
@@ -267,7 +280,8 @@ class _Apart:
         """Raises `ParseError` for (2) y'' + y = 0 on one line, where 2 may be a coefficient."""
         gap = self.text[number[-1].end : rest[0].start]
         label = next(token.text for token in number[::-1] if token.text != ")")
-        if label == "1" or rest[0].kind == "NUMBER" or re.search(r"[\t\n]|\\\\|quad", gap):
+        is_clear = label == "1" or rest[0].kind == "NUMBER" or Scan(rest[:1]).has(("PROSE",))
+        if is_clear or re.search(r"[\t\n]|\\\\|quad", gap):
             return
         said = f"{self.written(number)} may be the number of the equation, or a factor"
         raise error_at(self.text, said, number, f"leave it out, or write {label}* for a factor")
@@ -290,7 +304,7 @@ class _Apart:
             return
         elif not is_alone and len(scan) == 1 and is_letter(scan[0].text) and "=" in self.text:
             self.add("declaration", scan)  # x, t = var("x t")
-        elif not is_alone and _has_equals(scan, _INEQUALITIES):
+        elif not is_alone and _has_equals(scan, _INEQUALITIES) and not scan.has(("else",)):
             self.notes.append(f"not used: {self.written(scan)}")
             self.add("remark", scan)
         else:
@@ -325,6 +339,8 @@ class _Apart:
         """{y'' + y = 0, y(0) = 1}."""
         is_list = scan.has("{[") and scan[0].text in ("{", "[") and scan.is_enclosed
         parts = [part for part in _listed(scan[1:-1]) if part] if is_list else []
+        if len(parts) == 1 and all(token.text in self.named for token in parts[0]):  # MATLAB's [cond1 cond2]
+            parts = [Scan([token]) for token in parts[0]]
         are_named = all(len(part) == 1 and part[0].text in self.named for part in parts)
         if not is_list or not (are_named or _has_equals(scan, depth=1)):
             return False

@@ -31,7 +31,6 @@ class Source(NamedTuple):
     text: str | None = None
     notes: tuple[str, ...] = ()
     tokens: Tokens | None = None
-    has_operator: bool = False
     declared: frozenset[str] = frozenset()
     #: The unknown function was named: others, g(x), are given ones.
     has_functions: bool = False
@@ -73,7 +72,6 @@ def source_of(
         given.text,
         (*given.notes, *named.notes),
         named.tokens,
-        named.has_operator,
         vocabulary.declared,
         has_functions=vocabulary.unknown is not None,
         guesses=(*given.notes, *named.guesses),
@@ -86,11 +84,15 @@ def _only_equation(paste: Paste) -> Tokens:
     if not scans:
         hint = "give S(x), for example x^2 + 3"
         raise ParseError("there is no expression: the text is empty", text=paste.text, position=0, hint=hint)
-    if len(scans) > 1:
-        what, hint = "expression", "decimals are written with a point, and one expression is one S"
+    if paste.beside is not None:
+        message, hint = (
+            "this stands beside the expression",
+            "decimals are written with a point; one expression is one S",
+        )
         if paste.is_equation:
-            what, hint = "equation", "values follow the equation as y(0) = 1; systems of equations aren't read here"
-        raise paste.error(f"one {what} is expected, and this is another one", scans[1], hint)
+            message = "this stands beside the equation"
+            hint = "leave it out; values follow the equation as y(0) = 1, and systems of equations aren't read here"
+        raise paste.error(message, paste.beside, hint)
     (tokens,) = paste.equations
     return tokens
 

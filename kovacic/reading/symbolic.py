@@ -284,6 +284,9 @@ class SymbolicReader(RationalReader):
             raise InputError(f"{self.what} can't contain the derivative {text}")
         return self.unknowns[name](self.x, len(text) - len(name))
 
+    def operator(self, variable: str) -> Any:
+        raise InputError(f"{self.what} can't contain the operator d/d{variable}", hint="write dy/dx, or y'")
+
     def equation(self, left: Any, right: Any) -> Any:
         if self.x is None:
             raise InputError(f"{self.what} is an expression, not an equation")
