@@ -111,7 +111,7 @@ def _equation(
     yield Formula(of_sympy(left, derivatives[-1]).equals(of_sympy(right)))
     if conditions:
         said = ", ".join(condition.text for condition in conditions)
-        yield say("with ", Math(said, latex_text(said)), ".")
+        yield say("with ", Math.of(said), ".")
 
 
 def _steps(answer: SecondOrderAnswer) -> Iterator[Block]:

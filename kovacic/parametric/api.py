@@ -36,16 +36,7 @@ from kovacic.numbers.exact import whole
 from kovacic.parametric import prose
 from kovacic.parametric.assumptions import Assumptions, read_assumptions
 from kovacic.parametric.cases import equation_at, normal_form
-from kovacic.parametric.claims import (
-    AllOf,
-    Alternatives,
-    AnyOf,
-    Claim,
-    DegreeClaim,
-    DegreeExists,
-    IntegerFamily,
-    ThatIs,
-)
+from kovacic.parametric.claims import AllOf, AnyOf, Claim, DegreeExists, IntegerFamily, ThatIs
 from kovacic.parametric.functions import (
     ParameterPoint,
     coefficients_in,
@@ -128,9 +119,9 @@ def compare(found: ParametricAnswer, samples: int, seed: int) -> CheckReport:
     return CheckReport(**counts, disagreements=tuple(wrong))
 
 
-def _strata(claim: Claim | DegreeClaim) -> Iterator[FunctionPoly]:
+def _strata(claim: Claim) -> Iterator[FunctionPoly]:
     """The functions of the parameters that are denominators in what is printed: it isn't defined at their zeros."""
-    parts: tuple[Claim | DegreeClaim, ...] = ()
+    parts: tuple[Claim, ...] = ()
     if isinstance(claim, IntegerFamily):
         below = over_parameters(claim.value.cleared()[1])
         yield from (factor for factor in irreducible_factors(below) if not factor.degree)
@@ -140,8 +131,6 @@ def _strata(claim: Claim | DegreeClaim) -> Iterator[FunctionPoly]:
         parts = (claim.second,)
     elif isinstance(claim, DegreeExists):
         parts = (claim.degree,)
-    elif isinstance(claim, Alternatives):
-        parts = claim.families
     for part in parts:
         yield from _strata(part)
 

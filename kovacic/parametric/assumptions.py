@@ -164,7 +164,7 @@ class Known:
         if self.rational is False or number in self.excluded or (self.noninteger and number.denominator == 1):
             return False
         is_in_classes = all(numbers.contains(number) for numbers in self.classes)
-        return is_in_classes and all(bound.admits(number) for bound in (*self.inequalities, *self.bounds))
+        return is_in_classes and all(bound.admits(number) for bound in self.inequalities)
 
     def admits(self, value: Poly) -> bool:
         """May it have this value?  An algebraic number of which any conjugate may be meant has no sign."""

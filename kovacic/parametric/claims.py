@@ -12,7 +12,7 @@ from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 from functools import reduce
-from itertools import product
+from itertools import chain, product
 
 from kovacic.algebra.extension import AlgebraicField, ExtensionPoly, norm
 from kovacic.algebra.function_field import FunctionPoly
@@ -20,7 +20,7 @@ from kovacic.algebra.poly import Field, Poly
 from kovacic.algebra.ratfunc import RatFunc
 from kovacic.algebra.rationals import QQ
 from kovacic.errors import VerificationFailed
-from kovacic.parametric.functions import Classes, ParameterPoint, over_parameters
+from kovacic.parametric.functions import NATURALS, Classes, ParameterPoint, over_parameters
 
 
 class Proposition(ABC):
@@ -39,6 +39,10 @@ class Proposition(ABC):
 
 class Claim(Proposition):
     """What is said of the parameters: true where a reader finds it true."""
+
+    def numbers_at(self, point: ParameterPoint) -> Iterator[Fraction]:
+        """The integers for which it is true at the point, of a claim about one."""
+        return iter(())
 
 
 @dataclass(frozen=True)
@@ -64,6 +68,10 @@ class AllOf(Claim):
     def _holds(self, point: ParameterPoint) -> bool:
         return all(part.holds(point) for part in self.parts)
 
+    def numbers_at(self, point: ParameterPoint) -> Iterator[Fraction]:
+        if self.holds(point):
+            yield from chain.from_iterable(part.numbers_at(point) for part in self.parts)
+
 
 @dataclass(frozen=True)
 class AnyOf(Claim):
@@ -71,6 +79,9 @@ class AnyOf(Claim):
 
     def _holds(self, point: ParameterPoint) -> bool:
         return any(part.holds(point) for part in self.parts)
+
+    def numbers_at(self, point: ParameterPoint) -> Iterator[Fraction]:
+        yield from chain.from_iterable(part.numbers_at(point) for part in self.parts if part.holds(point))
 
 
 @dataclass(frozen=True)
@@ -120,7 +131,17 @@ class Free:
 
 
 @dataclass(frozen=True)
-class IntegerFamily(Claim):
+class ForInteger(Claim):
+    """True for one of some integers: the subclass says for which."""
+
+    letter: str
+
+    def _holds(self, point: ParameterPoint) -> bool:
+        return any(True for _ in self.numbers_at(point))
+
+
+@dataclass(frozen=True)
+class IntegerFamily(ForInteger):
     """`parameter = value`, a function of n, for an n that is one of the numbers.
 
     `poles` are what is said of the n at which the value isn't defined.
@@ -128,42 +149,30 @@ class IntegerFamily(Claim):
 
     parameter: str
     value: RatFunc
-    letter: str
     numbers: Classes
     poles: tuple[Free, ...] = ()
 
-    def _holds(self, point: ParameterPoint) -> bool:
-        return any(True for _ in self.numbers_at(point))
-
-    def numbers_at(self, point: ParameterPoint) -> Iterator[Poly]:
-        """The n for which it is true at the point, those of which a pole speaks among them."""
+    def numbers_at(self, point: ParameterPoint) -> Iterator[Fraction]:
+        """Those of which a pole speaks are among them."""
         for zero in self.poles:
-            root = point.at(zero.root)
-            number = rational(root)
+            number = rational(point.at(zero.root))
             if number is not None and self.numbers.contains(number) and not point.at(zero.zero):
-                yield root
+                yield number
         above, below = (point.at(over_parameters(part)) for part in self.value.cleared())
         for number in rational_roots(above - below * point.values[point.names.index(self.parameter)]):
-            n = point.field.poly([number])
-            if self.numbers.contains(number) and below(n):
-                yield n
+            if self.numbers.contains(number) and below(point.field.poly([number])):
+                yield number
 
 
 @dataclass(frozen=True)
-class EquationFor(Claim):
+class EquationFor(ForInteger):
     """A polynomial in n over Q(t) vanishes for one of the numbers."""
 
     equation: FunctionPoly
-    letter: str
     numbers: Classes
 
-    def _holds(self, point: ParameterPoint) -> bool:
-        return any(True for _ in self.numbers_at(point))
-
-    def numbers_at(self, point: ParameterPoint) -> Iterator[Poly]:
-        for number in rational_roots(point.at(self.equation)):
-            if self.numbers.contains(number):
-                yield point.field.poly([number])
+    def numbers_at(self, point: ParameterPoint) -> Iterator[Fraction]:
+        return filter(self.numbers.contains, rational_roots(point.at(self.equation)))
 
 
 def rational(constant: Poly) -> Fraction | None:
@@ -199,88 +208,41 @@ def signed_sums(squares: Sequence[Poly], constant: Poly | Fraction, field: Field
 # ------------------------------------------------------------------------------- natural numbers that exponents allow
 
 
-class DegreeClaim(ABC):
-    """Which natural numbers d the exponents allow, as it is said."""
-
-    letter: str
-
-    @abstractmethod
-    def numbers_at(self, point: ParameterPoint) -> set[int]:
-        """Those that it allows at a point."""
-
-
 @dataclass(frozen=True)
-class WhereZero:
-    """What `said` allows where a function vanishes."""
-
-    said: Alternatives
-    zero: FunctionPoly
-
-
-@dataclass(frozen=True)
-class Alternatives(DegreeClaim):
-    """d belongs to one of the families, solves one of the equations, or is allowed where a function vanishes."""
-
-    letter: str
-    families: tuple[IntegerFamily, ...] = ()
-    equations: tuple[EquationFor, ...] = ()
-    where: tuple[WhereZero, ...] = ()
-
-    def numbers_at(self, point: ParameterPoint) -> set[int]:
-        found: set[int] = set()
-        parts: tuple[IntegerFamily | EquationFor, ...] = (*self.families, *self.equations)
-        for part in parts:
-            try:
-                found |= natural_numbers(map(rational, part.numbers_at(point)))
-            except ZeroDivisionError:
-                continue
-        for one in self.where:
-            if not point.at(one.zero):
-                found |= one.said.numbers_at(point)
-        return found
-
-
-@dataclass(frozen=True)
-class DegreeBySum(DegreeClaim):
+class DegreeBySum(ForInteger):
     """d = constant + the sum of j times the root for integers j, from -bound to bound; `has_zero`: they can all be 0.
 
     Without `names` for the integers, each of them is 1 or -1.
     """
 
-    letter: str
     constant: Fraction
     squares: tuple[Poly, ...]
     names: tuple[str, ...] = ()
     bounds: tuple[int, ...] = ()
     has_zero: bool = False
 
-    def numbers_at(self, point: ParameterPoint) -> set[int]:
+    def numbers_at(self, point: ParameterPoint) -> Iterator[Fraction]:
         squares = [point.at(over_parameters(square)) for square in self.squares]
         choices: Iterable[tuple[int, ...]] = [(1,) * len(squares)]
         if self.names:
             choices = product(*(range(bound + 1) for bound in self.bounds))
-        found: set[int] = set()
         for chosen in choices:
             if any(chosen) or self.has_zero or not self.names:
                 multiples = [j * j * square for j, square in zip(chosen, squares, strict=True) if j]
-                found |= natural_numbers(rational_roots(signed_sums(multiples, self.constant, point.field)))
-        return found
-
-
-def natural_numbers(numbers: Iterable[Fraction | None]) -> set[int]:
-    """The natural numbers among rational ones, and None for others."""
-    return {int(number) for number in numbers if number is not None and number.denominator == 1 and number >= 0}
+                roots = rational_roots(signed_sums(multiples, self.constant, point.field))
+                yield from filter(NATURALS.contains, roots)
 
 
 @dataclass(frozen=True)
 class DegreeExists(Claim):
     """For one of the natural numbers that `degree` allows, a polynomial or an invariant of degree m exists."""
 
-    degree: DegreeClaim
+    letter: str
+    degree: Claim
     m: int
     #: Decides whether something with one of these numbers of zeros exists at a point: Delta_d is a determinant.
     exists: Callable[[ParameterPoint, Sequence[int]], bool]
 
     def _holds(self, point: ParameterPoint) -> bool:
-        numbers = sorted(self.degree.numbers_at(point))
+        numbers = sorted(map(int, {*self.degree.numbers_at(point)}))
         return len(numbers) > 0 and self.exists(point, numbers)

@@ -8,8 +8,8 @@ In a product of powers each irreducible factor stands once, up to constant facto
 
     x^(1/2)*(x^2 - 1)^(1/4)*(1 - x)^(3/4)  ->  sqrt(x)*(1 - x)*(x + 1)^(1/4)
 
-A text that the user wrote is a formula with its sums and products as they stand in it, in one spelling, and as LaTeX.  Its
-writer is a reader for the parser, as those are that calculate: so what is printed has the structure that was read.
+A text that the user wrote is a formula with its sums, products and parentheses as they stand in it, in one spelling, and as
+LaTeX: it is made of the tokens that the parser reads.
 """
 
 from __future__ import annotations
@@ -28,13 +28,13 @@ from kovacic.algebra.poly import Poly
 from kovacic.algebra.ratfunc import RatFunc
 from kovacic.algebra.rationals import square_part
 from kovacic.algebra.sparse import by_power, factorisation
-from kovacic.errors import InputError
 from kovacic.numbers.numerals import digits
 from kovacic.parametric.functions import over_parameters
 from kovacic.reading.lexer import PRIMES
 from kovacic.reading.names import is_function
+from kovacic.reading.parser import SUPERSCRIPTS
 from kovacic.reading.source import Source
-from kovacic.writing.formula import Math, caret, latex_text
+from kovacic.writing.formula import Math, caret
 
 #: Terms up to which a quotient is written as a sum.
 _TERMS = 4
@@ -402,106 +402,48 @@ def shorter_sum(exponent: Any) -> Any:
     return sympy.Add(fraction, *roots)
 
 
-#: Characters of a text above which nobody prints it unexpanded; strings are joined anew at each operation.
+#: Characters of a text above which nobody prints it unexpanded.
 _LONGEST = 1000
-#: How strongly the outermost operation of a formula binds.
-_SUM, _NEGATED, _PRODUCT, _POWER, _ATOM = range(5)
-
-
-@dataclass(frozen=True)
-class _Written:
-    text: str
-    strength: int = _ATOM
-    #: Of what this is the negative.
-    opposite: _Written | None = None
-
-    def within(self, strength: int) -> str:
-        """As an operand of an operation that needs at least this strength: in parentheses, where it binds less."""
-        return self.text if self.strength >= strength else f"({self.text})"
-
-
-class _Operations:
-    """What the parser calculates with."""
-
-    def negate(self, value: _Written) -> _Written:
-        return _Written(f"-{value.within(_PRODUCT)}", _NEGATED, value)
-
-    def sum(self, terms: Sequence[_Written]) -> _Written:
-        if len(terms) == 1:
-            return terms[0]
-        text = terms[0].within(_NEGATED)
-        for term in terms[1:]:
-            if term.opposite is None:
-                text += f" + {term.within(_NEGATED)}"
-            else:
-                text += f" - {term.opposite.within(_PRODUCT)}"
-        return _Written(text, _SUM)
-
-    def multiply(self, left: _Written, right: _Written) -> _Written:
-        if left.opposite is not None:  # (-x) y = -(x y)
-            return self.negate(self.multiply(left.opposite, right))
-        return _Written(f"{left.within(_PRODUCT)}*{right.within(_PRODUCT)}", _PRODUCT)
-
-    def divide(self, left: _Written, right: _Written) -> _Written:
-        if left.opposite is not None:
-            return self.negate(self.divide(left.opposite, right))
-        return _Written(f"{left.within(_PRODUCT)}/{right.within(_POWER)}", _PRODUCT)
-
-    def signed_integer(self, text: str) -> int:
-        return int(text)
-
-    def constant(self, value: int) -> _Written:
-        number = _Written(str(abs(value)))
-        return self.negate(number) if value < 0 else number
-
-
-class _Writer:
-    """The reader.
-
-    Raises `InputError` for what it can't write: derivatives as calls, several arguments, and 1e-3.
-    """
-
-    def __init__(self, unknown: str) -> None:
-        self.unknown = unknown
-        self.arithmetic = _Operations()
-
-    def number(self, text: str) -> _Written:
-        if not text.replace(".", "", 1).isdigit():
-            raise InputError(f"{text} has an exponent")
-        return _Written(text)
-
-    def name(self, name: str) -> _Written:
-        return _Written(name)
-
-    derivative = name
-
-    def equation(self, left: _Written, right: _Written) -> _Written:
-        return _Written(f"{left.text} = {right.text}", _SUM)
-
-    def follows_without_sign(self, _: str) -> bool:
-        return True
-
-    def power(self, base: _Written, exponent: _Written, _: Any) -> _Written:
-        return _Written(f"{base.within(_ATOM)}^{exponent.within(_ATOM)}", _POWER)
-
-    def call(self, head: str, arguments: list[Any], _: Any) -> _Written:
-        if len(arguments) != 1 or isinstance(arguments[0], tuple):
-            raise InputError(f"{head} has several arguments")
-        if head.rstrip(PRIMES) != self.unknown and not (is_function(head) and head.isalpha()):
-            raise InputError(f"{head} isn't a function that is written here")
-        return _Written(f"{head}({arguments[0].text})")
+#: What an operand ends with, and begins with: between two operands stands a product.
+_ENDS = ("NUMBER", "NAME", "PRIMED", "RPAR", "SUPERSCRIPT")
+_BEGINNINGS = ("NUMBER", "NAME", "PRIMED", "HEAD", "LPAR")
+#: A number, a name or a power of one in parentheses that aren't those of a call or of a base.
+_IN_PARENTHESES = re.compile(r"(?<![\w'])\((\w+(?:'+|\^\w+)?)\)(?!\^)")
+#: A sign behind an operator, which needs parentheses.
+_SIGN_BEHIND = re.compile(r"[*/^][+-]")
 
 
 def unexpanded(source: Source) -> Math | None:
-    """The equation, or y'' = S y for S alone; None where there is no text, a long one, or one that isn't written like this."""
-    if source.tokens is None or "OPERATOR" in source.tokens.kinds or len(source.text or "") > _LONGEST:
+    """The equation, or y'' = S y for S alone; None where there is no text, a long one, or one that isn't written like this.
+
+    Derivatives as calls, several arguments, 1e-3 and 2*-x aren't.
+    """
+    if source.tokens is None or len(source.text or "") > _LONGEST:
         return None
-    writer = _Writer(source.unknown)
-    try:
-        value = source.walk(writer)
-        if source.unknown:
-            return Math(value.text, latex_text(value.text))
-        S = value.within(_PRODUCT)
-        return Math("y''", "y''").equals(Math(f"{S} y", f"{latex_text(S)} y"))
-    except InputError:
+    text = before = ""
+    depth = 0
+    is_sum = False
+    for kind, piece in zip(source.tokens.kinds, source.tokens.pieces, strict=True):
+        is_known = piece.rstrip(PRIMES) == source.unknown or (is_function(piece) and piece.isalpha())
+        if kind in ("COMMA", "OPERATOR") or (kind == "HEAD" and not is_known) or (kind == "NUMBER" and "e" in piece.lower()):
+            return None
+        depth += {"LPAR": 1, "RPAR": -1}.get(kind, 0)
+        is_sign = kind in ("PLUS", "MINUS")
+        is_sum = is_sum or (is_sign and depth == 0)
+        if kind == "EQUAL" or (is_sign and before in _ENDS):
+            text += f" {piece} "
+        elif kind == "SUPERSCRIPT":
+            text += "^" + piece.translate(SUPERSCRIPTS)
+        else:
+            is_product = before in _ENDS and kind in _BEGINNINGS
+            text += f"*{piece}" if is_product else piece
+        before = kind
+    text = re.sub(r"\^(-\w+)", r"^(\1)", text)
+    count = 1
+    while count:
+        text, count = _IN_PARENTHESES.subn(r"\1", text)
+    if _SIGN_BEHIND.search(text):
         return None
+    if source.unknown:
+        return Math.of(text)
+    return Math.of(f"y'' = ({text}) y" if is_sum else f"y'' = {text} y")

@@ -18,9 +18,10 @@ from __future__ import annotations
 from collections.abc import Callable, Collection, Iterable, Iterator, Sequence
 from dataclasses import dataclass, field, replace
 from fractions import Fraction
-from functools import cached_property
+from functools import cached_property, reduce
 from itertools import chain, count, product
 from math import ceil, floor, lcm
+from operator import mul
 from random import Random
 from typing import NamedTuple
 
@@ -33,7 +34,6 @@ from kovacic.parametric import prose
 from kovacic.parametric.assumptions import Assumptions
 from kovacic.parametric.claims import (
     AllOf,
-    Alternatives,
     AnyOf,
     Claim,
     EquationFor,
@@ -41,9 +41,9 @@ from kovacic.parametric.claims import (
     InClasses,
     IntegerFamily,
     IsNonzero,
+    IsZero,
     SumOfRoots,
     ThatIs,
-    WhereZero,
     rational_roots,
 )
 from kovacic.parametric.formulas import shortest_length
@@ -90,7 +90,7 @@ class SolvedCondition:
 
     def family(self, letter: str, numbers: Classes) -> IntegerFamily:
         """The first stratum and the poles, for n among these numbers."""
-        return IntegerFamily(self.parameter, self.value, letter, numbers, possible(self.poles, numbers))
+        return IntegerFamily(letter, self.parameter, self.value, numbers, possible(self.poles, numbers))
 
 
 def solve_for(name: str, equation: FunctionPoly) -> SolvedCondition | None:
@@ -114,22 +114,13 @@ def solve_for(name: str, equation: FunctionPoly) -> SolvedCondition | None:
             return None
         if factor.degree == 1:
             root = over_parameters(-factor[0] / factor[1])
-            poles += [Free(root, zero) for zero in [_product_of_zeros(rest(root))] if zero is not None]
+            zeros = irreducible_factors(rest(root))
+            if zeros:
+                poles.append(Free(root, over_parameters(reduce(mul, zeros))))
         elif factor not in undefined:
             strata.append(Stratum(factor, on_zeros(rest, factor)))
     poles.sort(key=lambda pole: str(pole.root))
     return SolvedCondition(name, -RatFunc(rest, slope), tuple(poles), tuple(strata))
-
-
-def _product_of_zeros(value: Poly) -> FunctionPoly | None:
-    """The product of the irreducible factors of a function of the parameters; None for a number other than 0."""
-    factors = irreducible_factors(value)
-    if not factors:
-        return None if value else over_parameters(value)
-    total = factors[0]
-    for factor in factors[1:]:
-        total = over_parameters(total * factor)
-    return total
 
 
 def on_zeros(function: FunctionPoly, zero: FunctionPoly) -> FunctionPoly:
@@ -183,7 +174,7 @@ def integer_condition(
     spectrum = _spectrum(equation, numbers, letter, setting)
     roots = _roots(equation, numbers)
     if roots is None:
-        return spectrum or IntegerCondition(EquationFor(equation, letter, numbers))
+        return spectrum or IntegerCondition(EquationFor(letter, equation, numbers))
     if spectrum is None:
         return IntegerCondition(roots)
     if len(roots.squares) > 1:
@@ -216,13 +207,14 @@ def _choices(equation: FunctionPoly, solved: SolvedCondition, numbers: Classes, 
     first = numbers.residues[0]
     are_mirrored = is_mirrored and {*numbers.residues} == {first, -first % numbers.modulus}  # r and -r say the same
     is_single = len(numbers.residues) == 1 or are_mirrored
-    if equation.degree > 1 or not is_single:
+    has_bound = numbers.least is not None
+    if has_bound or equation.degree > 1 or not is_single:
         yield solved.family(letter, numbers)
-    if is_single and (numbers.modulus < 3 or not is_mirrored):
+    if is_single and not has_bound and (numbers.modulus < 3 or not is_mirrored):
         for line in _lines(numbers, N):
             poles = tuple(Free(over_parameters((pole.root - line[0]) / line[1]), pole.zero) for pole in solved.poles)
             value = solved.value(RatFunc(line))
-            yield IntegerFamily(solved.parameter, value, letter, INTEGERS, possible(poles, INTEGERS))
+            yield IntegerFamily(letter, solved.parameter, value, INTEGERS, possible(poles, INTEGERS))
 
 
 def _lines(numbers: Classes, N: Poly) -> Iterator[Poly]:
@@ -281,23 +273,20 @@ def _three_squares(shifted: Poly) -> list[Poly] | None:
 # ------------------------------------------------------------------------------- equations for a natural number
 
 
-def alternatives(equations: Sequence[FunctionPoly], letter: str, setting: Setting) -> Alternatives:
-    """That a natural number d solves one of the equations, each solved for a parameter if it can be."""
-    families: list[IntegerFamily] = []
-    unsolved: list[EquationFor] = []
+def natural_root(equations: Sequence[FunctionPoly], letter: str, setting: Setting) -> AnyOf:
+    """That a natural number d solves one of the equations, each solved for a parameter if it can be.
+
+    The alternatives on strata are last.
+    """
+    parts: list[Claim] = []
     where: dict[FunctionPoly, list[FunctionPoly]] = {}
     for equation in equations:
-        known = all_solved(equation, setting.fixed)
-        if not known:
-            unsolved.append(EquationFor(equation, letter, NATURALS))
-            continue
-        solved = min(known, key=lambda one: sum(not setting.covers(stratum.zero) for stratum in one.strata))
-        families.append(solved.family(letter, NATURALS))
-        for stratum in solved.strata:
-            if not setting.covers(stratum.zero):
-                where.setdefault(stratum.zero, []).extend(_that_can_be_natural(stratum.rest))
-    strata = [WhereZero(alternatives(rests, letter, setting), zero) for zero, rests in where.items() if rests]
-    return Alternatives(letter, tuple(families), tuple(unsolved), tuple(strata))
+        solved = _spectrum(equation, NATURALS, letter, setting)
+        parts.append(EquationFor(letter, equation, NATURALS) if solved is None else solved.claim)
+        for zero, rest in solved.strata if solved else ():
+            where.setdefault(zero, []).extend(_that_can_be_natural(rest))
+    parts += [AllOf((natural_root(rests, letter, setting), IsZero(zero))) for zero, rests in where.items() if rests]
+    return AnyOf(tuple(parts))
 
 
 def _that_can_be_natural(equation: FunctionPoly) -> list[FunctionPoly]:
@@ -476,7 +465,7 @@ class Congruence(Statement):
         found = integer_condition(equation, numbers, self.letter, self.setting)
         claims = [found.claim]
         for zero, rest in found.strata:
-            there = integer_roots(rest, [*map(int, numbers.residues)], int(numbers.modulus)) if rest else ALWAYS
+            there = integer_roots(rest, [*map(int, numbers.residues)], int(numbers.modulus))
             if there != NEVER:
                 claims.append(all_of(both(Vanishes(zero), there).parts).avoiding(self.setting).claim)
         said = claims[0] if len(claims) == 1 else AnyOf(tuple(claims))

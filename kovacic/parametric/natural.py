@@ -15,6 +15,7 @@ from contextlib import suppress
 from dataclasses import dataclass, field, replace
 from fractions import Fraction
 from functools import cached_property, lru_cache, partial
+from itertools import chain
 from random import Random
 from typing import NamedTuple
 
@@ -28,14 +29,7 @@ from kovacic.errors import LimitExceeded
 from kovacic.limits import Budget
 from kovacic.parametric import prose
 from kovacic.parametric.assumptions import Assumptions
-from kovacic.parametric.claims import (
-    Claim,
-    DegreeBySum,
-    DegreeClaim,
-    DegreeExists,
-    natural_numbers,
-    rational_roots,
-)
+from kovacic.parametric.claims import Claim, DegreeBySum, DegreeExists, EquationFor, rational_roots
 from kovacic.parametric.exponents import (
     RankConditions,
     choices_of_degree,
@@ -50,6 +44,7 @@ from kovacic.parametric.exponents import (
 from kovacic.parametric.formulas import in_sum, shown
 from kovacic.parametric.functions import (
     INTEGERS,
+    NATURALS,
     NO_CONSTANT,
     ParameterPoint,
     degrees,
@@ -57,7 +52,7 @@ from kovacic.parametric.functions import (
     over_parameters,
     union,
 )
-from kovacic.parametric.integers import LETTERS, alternatives, free_letter
+from kovacic.parametric.integers import LETTERS, free_letter, natural_root
 from kovacic.parametric.prose import Words
 from kovacic.parametric.restriction import Hypersurface, everywhere, hypersurface, in_lowest_powers
 from kovacic.parametric.solutions import PolynomialSolution, solution_of_degree
@@ -162,10 +157,8 @@ class Natural(Statement):
 
     def numbers_at(self, point: ParameterPoint) -> list[int]:
         """The natural numbers that the exponents allow at a point, as far as they are listed."""
-        roots: set[Fraction] = set()
-        for factor in self.factors or ():
-            roots.update(rational_roots(point.at(factor)))
-        return sorted(natural_numbers(roots))
+        roots = chain.from_iterable(rational_roots(point.at(factor)) for factor in self.factors or ())
+        return sorted(map(int, {*filter(NATURALS.contains, roots)}))
 
     def _holds(self, point: ParameterPoint) -> bool:
         """Decided by the rank of the systems at the point."""
@@ -276,12 +269,13 @@ class Natural(Statement):
     @cached_property
     def claim(self) -> Claim:
         # Equations for the number, each solved for a parameter; sums of exponents where one with parameters can't be.
-        listed = alternatives(self.factors or (), self.letter, self.setting)
-        is_open = self.factors is None or any(any(degrees(one.equation)) for one in listed.equations)
+        listed = natural_root(self.factors or (), self.letter, self.setting)
+        unsolved = [part.equation for part in listed.parts if isinstance(part, EquationFor)]
+        is_open = self.factors is None or any(any(degrees(equation)) for equation in unsolved)
         degree = (self._by_exponents() if is_open else None) or listed
-        return DegreeExists(degree, self.m, self.exists)
+        return DegreeExists(self.letter, degree, self.m, self.exists)
 
-    def _by_exponents(self) -> DegreeClaim | None:
+    def _by_exponents(self) -> Claim | None:
         """The same numbers as sums of exponents: `d + 1 = +-sqrt(b)/2 +- c`, or `d = 6 + j*a + k*b` with integers j and k."""
         problem = analyse(self.S, Budget())
         numbers = degrees_of_solutions(problem) if self.m == 1 else zeros_of_forms(problem, self.m)

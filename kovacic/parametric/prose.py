@@ -15,11 +15,9 @@ from kovacic.algebra.poly import Poly
 from kovacic.algebra.ratfunc import RatFunc
 from kovacic.parametric.claims import (
     AllOf,
-    Alternatives,
     AnyOf,
     Claim,
     DegreeBySum,
-    DegreeClaim,
     DegreeExists,
     EquationFor,
     InClasses,
@@ -50,15 +48,10 @@ ABELIAN: Words = ("abelian",)
 NOT_ABELIAN: Words = ("not abelian",)
 
 
-def formula(text: str) -> Math:
-    """A formula of functions and names alone."""
-    return Math(text, latex_text(text))
-
-
 def phrase(literal: str) -> Words:
     """Words and formulas, written in one line: formulas stand between backquotes."""
     pieces = enumerate(literal.split("`"))
-    return tuple(formula(piece) if k % 2 else piece for k, piece in pieces if piece)
+    return tuple(Math.of(piece) if k % 2 else piece for k, piece in pieces if piece)
 
 
 def marked(words: Words) -> str:
@@ -82,7 +75,7 @@ def text_of(words: Words) -> str:
 
 
 @lru_cache(maxsize=1024)
-def sentence(claim: Claim | DegreeClaim) -> Words:
+def sentence(claim: Claim) -> Words:
     """What is said, by the writer of its kind."""
     found: list[str | Math] = []
     for part in _WRITERS[type(claim)](claim):
@@ -102,37 +95,15 @@ def function(value: Poly | RatFunc, letter: str = "x") -> str:
 
 
 def equals(name: str, value: Poly | RatFunc, letter: str) -> Math:
-    return formula(f"{name} = {function(value, letter)}")
-
-
-def in_set(form: Math, name: str) -> Math:
-    """That a number belongs to Z or N."""
-    return Math(f"{form.text} in {name}", rf"{form.latex} \in \mathbb{{{name}}}")
+    return Math.of(f"{name} = {function(value, letter)}")
 
 
 def congruent(form: Math, residues: str, modulus: Fraction) -> Math:
     """`n = 1, 2 mod 5`."""
     return Math(
         f"{form.text} = {residues} mod {modulus}",
-        rf"{form.latex} \equiv {_with_signs_in_latex(residues)} \pmod{{{latex_text(str(modulus))}}}",
+        rf"{form.latex} \equiv {latex_text(residues)} \pmod{{{latex_text(str(modulus))}}}",
     )
-
-
-def with_both_signs(pieces: Sequence[str], first: str = "") -> Math:
-    """`a +- b +- c`, behind `first`, which may end with a sign, too."""
-    joined = first + " +- ".join(pieces)
-    return Math(joined, _with_signs_in_latex(joined))
-
-
-def _with_signs_in_latex(joined: str) -> str:
-    """Each piece between signs in LaTeX, and \\pm for the signs."""
-    return r"\pm ".join(
-        latex_text(piece) if piece.strip() else piece for piece in joined.replace("+- ", "+-").split("+-")
-    )
-
-
-def delta(letter: str) -> Math:
-    return Math(f"Delta_{letter}", rf"\Delta_{{{letter}}}")
 
 
 # ------------------------------------------------------------------------------- classes of integers
@@ -163,7 +134,7 @@ def classes(residues: Sequence[Fraction], modulus: Fraction) -> str:
 def kind(numbers: Classes, letter: str = "") -> Words:
     """What an integer of these is, maybe with its name: "an odd integer n", "an integer not divisible by 3"."""
     noun = _KINDS.get(numbers)
-    name: Words = (" ", formula(letter)) if letter else ()
+    name: Words = (" ", Math.of(letter)) if letter else ()
     if noun is not None:
         return (noun, *name)
     residues = numbers.residues
@@ -172,7 +143,7 @@ def kind(numbers: Classes, letter: str = "") -> Words:
     listed = classes(residues, numbers.modulus)
     if not letter:
         return ("an integer", congruent(Math("", ""), listed, numbers.modulus))
-    return ("an integer ", congruent(formula(letter), listed, numbers.modulus))
+    return ("an integer ", congruent(Math.of(letter), listed, numbers.modulus))
 
 
 def is_named(numbers: Classes) -> bool:
@@ -186,7 +157,7 @@ def is_named(numbers: Classes) -> bool:
 def equation(zero: FunctionPoly) -> Math:
     """That a function vanishes, solved where that is simple."""
     sides = sides_of_equation(zero)
-    return formula(f"{sides.left} = {sides.right}")
+    return Math.of(f"{sides.left} = {sides.right}")
 
 
 def alternatives_of(formulas: Sequence[Math]) -> Words:
@@ -195,7 +166,7 @@ def alternatives_of(formulas: Sequence[Math]) -> Words:
 
 def unequal(zero: FunctionPoly) -> Math:
     left, right = sides_of_equation(zero)
-    return Math(f"{left} != {right}", rf"{latex_text(left)} \ne {latex_text(right)}")
+    return Math.of(f"{left} != {right}")
 
 
 def _in_classes(claim: InClasses) -> Words:
@@ -203,8 +174,8 @@ def _in_classes(claim: InClasses) -> Words:
     if numbers == INTEGERS:  # 2*n - 1/2 in Z: of the constant term only what it is modulo 1
         constant = constant_term(claim.form)
         shift = f" - {-constant % 1}" if constant.denominator > 1 else ""
-        return (in_set(formula(function(claim.form - constant) + shift), "Z"),)
-    form = formula(function(claim.form))
+        return (Math.of(f"{function(claim.form - constant)}{shift} in Z"),)
+    form = Math.of(function(claim.form))
     if is_named(numbers):
         return (form, " is ", *kind(numbers))
     return (congruent(form, classes(numbers.residues, numbers.modulus), numbers.modulus),)
@@ -215,7 +186,7 @@ def roots_of(claim: SumOfRoots) -> Math:
     terms = [*map(root_written, claim.squares)]
     if claim.mean:
         terms.insert(0, function(claim.mean))
-    return with_both_signs(terms)
+    return Math.of(" +- ".join(terms))
 
 
 def head_of(family: IntegerFamily | EquationFor) -> Words:
@@ -233,7 +204,7 @@ def poles_of(families: Iterable[IntegerFamily]) -> list[Words]:
             factors = irreducible_factors(pole.zero)
             texts = [function(factor) for factor in factors]
             product = texts[0] if len(texts) == 1 else "*".join(map(in_product, texts))
-            found[(formula(f"{product} = 0"), " where ", equals(family.letter, pole.root, family.letter))] = None
+            found[(Math.of(f"{product} = 0"), " where ", equals(family.letter, pole.root, family.letter))] = None
     return [*found]
 
 
@@ -253,7 +224,7 @@ def _unsolved(claim: EquationFor) -> Math:
     f = claim.equation
     if not any(degrees(f)) and f.degree == 1:
         return equals(claim.letter, -f[0] / f[1], claim.letter)
-    return formula(f"{function(numerator(f), claim.letter)} = 0")
+    return Math.of(f"{function(numerator(f), claim.letter)} = 0")
 
 
 # ------------------------------------------------------------------------------- several claims
@@ -276,8 +247,8 @@ def _any_of(claim: AnyOf) -> Words:
     sides = _sides_of_one_value(parts)
     if sides is not None:
         first, *others, last = (right for _, right in sides)
-        listed = _joined([(formula(f"{sides[0].left} = {first}"),), *((formula(one),) for one in others)], ", ")
-        return (*listed, " or ", formula(last))
+        listed = _joined([(Math.of(f"{sides[0].left} = {first}"),), *((Math.of(one),) for one in others)], ", ")
+        return (*listed, " or ", Math.of(last))
     for together in (_of_common_numbers, _of_one_kind):
         found = together(parts)
         if found is not None:
@@ -317,11 +288,11 @@ def _of_one_kind(parts: Sequence[Claim]) -> Words | None:
         if isinstance(part, SumOfRoots):
             forms.append(roots_of(part))
         elif isinstance(part, InClasses) and part.numbers != INTEGERS and is_named(part.numbers):
-            forms.append(formula(function(part.form)))
+            forms.append(Math.of(function(part.form)))
         elif isinstance(part, InClasses) and part.numbers == INTEGERS and len(parts) > 2:
             constant = constant_term(part.form) % 1
             forms.append(
-                formula(function(part.form - constant_term(part.form)) + (f" - {1 - constant}" if constant else ""))
+                Math.of(function(part.form - constant_term(part.form)) + (f" - {1 - constant}" if constant else ""))
             )
         else:
             return None
@@ -345,17 +316,28 @@ def _joined(parts: Sequence[Words], separator: str) -> Words:
 # ------------------------------------------------------------------------------- natural numbers
 
 
-def _alternatives(claim: Alternatives) -> Words:
-    """`b = +-2*(d + 1)`, `n = 2*d, 2*d + 1 or -2*d - 3`, `n or -n - 1 = 2*d or 2*d + 1`."""
+def _alternatives(claim: AnyOf, letter: str) -> Words:
+    """`b = +-2*(d + 1)`, `n = 2*d, 2*d + 1 or -2*d - 3`, `n or -n - 1 = 2*d or 2*d + 1`, and what holds on strata."""
     by_name: dict[str, list[IntegerFamily]] = {}
-    for family in claim.families:
-        by_name.setdefault(family.parameter, []).append(family)
-    said: list[Words] = [(_unsolved(one),) for one in claim.equations]
+    said: list[Words] = []
+    strata: list[Words] = []
+    for part in claim.parts:
+        if isinstance(part, IntegerFamily):
+            by_name.setdefault(part.parameter, []).append(part)
+        elif isinstance(part, EquationFor):
+            said.append((_unsolved(part),))
+        elif isinstance(part, AllOf):
+            there, where = part.parts
+            strata += [(", or ", *_degree(there, letter), " where ", *sentence(where))]
     for name, families in by_name.items():
-        values = _one_of(name, [family.value for family in families], claim.letter)
+        values = _one_of(name, [family.value for family in families], letter)
         said.append((*values, *_in_parentheses(poles_of(families))))
-    strata = [(", or ", *sentence(one.said), " where ", equation(one.zero)) for one in claim.where]
     return (*_joined(said, " or "), *_joined(strata, ""))
+
+
+def _degree(claim: Claim, letter: str) -> Words:
+    """Which natural numbers the exponents allow."""
+    return _alternatives(claim, letter) if isinstance(claim, AnyOf) else sentence(claim)
 
 
 def _one_of(name: str, functions: Sequence[RatFunc], letter: str) -> Words:
@@ -368,7 +350,7 @@ def _one_of(name: str, functions: Sequence[RatFunc], letter: str) -> Words:
     start: Words = ()
     total = _sum_in_pairs(functions)
     if total is not None:
-        start = (formula(name), " or ")
+        start = (Math.of(name), " or ")
         # Of each pair the one that is written without a minus before it.
         pairs = [sorted((f, RatFunc(total) - f), key=str) for f in functions]
         left = [
@@ -379,15 +361,15 @@ def _one_of(name: str, functions: Sequence[RatFunc], letter: str) -> Words:
         f = left.pop(0)
         other = next((g for g in left if _have_a_center(f, g)), None)
         if other is None:
-            said.append(formula(function(f, letter)))
+            said.append(Math.of(function(f, letter)))
             continue
         left.remove(other)
         center = (f + other) / 2
         texts = [function(one - center, letter) for one in (other, f)]
         value = in_sum(min(texts, key=lambda text: text.lstrip("(").startswith("-")))  # without a minus before it
-        said.append(with_both_signs([function(center, letter), value] if center else [value], "" if center else "+-"))
+        said.append(Math.of(f"{function(center, letter)} +- {value}" if center else f"+-{value}"))
     first, *others = said
-    found: list[str | Math] = [*start, Math(f"{name} = {first.text}", f"{latex_text(name)} = {first.latex}")]
+    found: list[str | Math] = [*start, Math.of(name).equals(first)]
     for k, one in enumerate(others, 1):
         found += [" or " if k == len(others) else ", ", one]
     return tuple(found)
@@ -417,22 +399,21 @@ def _degree_by_sum(claim: DegreeBySum) -> Words:
         roots = [in_sum(root_written(square)) for square in claim.squares]
         shift = f" - {claim.constant}" if claim.constant > 0 else f" + {-claim.constant}"
         d = claim.letter + (shift if claim.constant else "")
-        return (with_both_signs(roots, f"{d} = +-"),)
+        return (Math.of(f"{d} = +-{' +- '.join(roots)}"),)
     terms = [str(claim.constant)]
     bounds: list[Words] = []
     for name, square, bound in zip(claim.names, claim.squares, claim.bounds, strict=True):
         terms.append(in_sum(root_written(square, name)))
-        bounds.append((formula(name), f" from -{bound} to {bound}"))
-    said = (formula(f"{claim.letter} = {' + '.join(terms)}"), " for integers ", *_joined(bounds, ", "))
+        bounds.append((Math.of(name), f" from -{bound} to {bound}"))
+    said = (Math.of(f"{claim.letter} = {' + '.join(terms)}"), " for integers ", *_joined(bounds, ", "))
     if claim.has_zero:
         return said
     return (*said, ", not 0" if len(claim.names) == 1 else ", not all 0")
 
 
 def _degree_exists(claim: DegreeExists) -> Words:
-    d = formula(claim.degree.letter)
-    zero = delta(d.text).equals(Math("0", "0"))
-    said = (*sentence(claim.degree), ", ", in_set(d, "N"), ", and ", zero)
+    d = claim.letter
+    said = (*_degree(claim.degree, d), ", ", Math.of(f"{d} in N"), ", and ", Math.of(f"Delta_{d} = 0"))
     return said if claim.m == 1 else (*said, f" for an invariant of degree {claim.m}")
 
 
@@ -447,7 +428,6 @@ _WRITERS: dict[type, Callable[[Any], Words]] = {
     IntegerFamily: lambda claim: (*head_of(claim), *numbers_of(claim)),
     EquationFor: lambda claim: (*head_of(claim), *numbers_of(claim)),
     ThatIs: lambda claim: (*sentence(claim.first), ", that is ", *sentence(claim.second)),
-    Alternatives: _alternatives,
     DegreeBySum: _degree_by_sum,
     DegreeExists: _degree_exists,
 }

@@ -44,7 +44,7 @@ from kovacic.parametric.functions import (
     values_at_integers,
 )
 from kovacic.parametric.integers import Congruence, integer_roots
-from kovacic.parametric.prose import Words, with_both_signs
+from kovacic.parametric.prose import Words
 from kovacic.parametric.regions import RegionVerdict
 from kovacic.parametric.restriction import Hypersurface, hypersurface, over_all
 from kovacic.parametric.statements import ALWAYS, NEVER, Statement, Vanishes, both, either
@@ -245,9 +245,9 @@ class ResolvedDifferences(NamedTuple):
 
 def _class(sixtieths: int, lattice: str) -> Words:
     """`+-1/3 + 2*Z`."""
-    latex = latex_text(lattice.replace("Z", "")) + r"\mathbb{Z}"
-    number = with_both_signs([str(_F(sixtieths, 60))], "+-")
-    return (Math(f"{number.text} + {lattice}", f"{number.latex} + {latex}"),)
+    number = f"+-{_F(sixtieths, 60)}"
+    latex = lattice.replace("2*", "2 ").replace("Z", r"\mathbb{Z}")
+    return (Math(f"{number} + {lattice}", f"{latex_text(number)} + {latex}"),)
 
 
 def _listed(names: Iterable[str]) -> str:

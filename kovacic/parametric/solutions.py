@@ -477,8 +477,7 @@ class Progression:
         if abs(self.step) > 2:
             listed = ", ".join(str(self.start + k * self.step) for k in range(3))
             return [Math(f"{letter} = {listed}, ...", rf"{letter} = {listed}, \ldots")]
-        sign, latex = (">=", r"\ge") if self.step > 0 else ("<=", r"\le")
-        bound = Math(f"{letter} {sign} {self.start}", f"{letter} {latex} {self.start}")
+        bound = Math.of(f"{letter} {'>=' if self.step > 0 else '<='} {self.start}")
         if abs(self.step) == 1:
             return [bound]
         return ["odd " if self.start % 2 else "even ", bound]

@@ -36,7 +36,8 @@ _DEEPEST_CALL = 100
 _COUNTED = 20
 #: So many digits form a group in 1,000.
 _GROUPED = 3
-_SUPERSCRIPTS = str.maketrans("⁺⁻⁰¹²³⁴⁵⁶⁷⁸⁹", "+-0123456789")
+#: Raised signs and digits, as they stand in a line.
+SUPERSCRIPTS = str.maketrans("⁺⁻⁰¹²³⁴⁵⁶⁷⁸⁹", "+-0123456789")
 
 
 @dataclass(slots=True)
@@ -207,7 +208,7 @@ class _Parser:
         self.check_no_superscript_before(k)
         base = self.operands[-1]
         self.at(base.begin, k, k + 1)
-        exponent = self.arithmetic.signed_integer(self.pieces[k].translate(_SUPERSCRIPTS))
+        exponent = self.arithmetic.signed_integer(self.pieces[k].translate(SUPERSCRIPTS))
         base.value = self.reader.power(base.value, self.arithmetic.constant(exponent), self.site)
         return False
 

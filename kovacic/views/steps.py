@@ -216,7 +216,7 @@ class Steps:
     def _point(self, point: SingularPoint) -> Math:
         if point.at is None:
             return self.formulas.place(str(point.place))
-        return Math(self.answer.variable, latex_text(self.answer.variable)).equals(self._shown(point.at))
+        return Math.of(self.answer.variable).equals(self._shown(point.at))
 
     def _trial(self, family: Family) -> Iterator[Block]:
         d = natural(family.d)

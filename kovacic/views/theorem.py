@@ -59,7 +59,6 @@ _LONGEST = 240
 _PROOF = Heading("Proof")
 _REFERENCES = Heading("References")
 _NOUNS = ("integer", "half-integer")
-_LATEX_RELATIONS = {">=": r"\ge", "<=": r"\le", "!=": r"\ne"}
 
 
 def theorem(answer: ParametricAnswer, *, format: str = "text") -> str:
@@ -138,7 +137,13 @@ class _TheoremWriter:
             yield Formula(expanded)
             start = ["which "]
         elif equation.change:
-            start = ["in ", self._change(), " (", _name(equation.change.variable), " is the variable that was given) "]
+            start = [
+                "in ",
+                self._change(),
+                " (",
+                Math.of(equation.change.variable),
+                " is the variable that was given) ",
+            ]
         if v == equation.unknown:
             yield say(*start, "has the normal form")
         else:
@@ -179,7 +184,7 @@ class _TheoremWriter:
         if not names:
             return []
         kind = " be a complex number" if len(names) == 1 else " be complex numbers"
-        sentence: list[str | Math] = ["Let ", *_listed([_name(name) for name in names]), kind]
+        sentence: list[str | Math] = ["Let ", *_listed([Math.of(name) for name in names]), kind]
         for name in names:
             sentence += self._assumed(name)
         for region in filter(_is_unequal, self.left_out):
@@ -205,27 +210,27 @@ class _TheoremWriter:
         if words:
             kind = _kind_of_number(words)
             article = "an" if kind[0] in "aeio" else "a"
-            found += [", ", _name(name), f" {article} {kind}"]
+            found += [", ", Math.of(name), f" {article} {kind}"]
         for bound in said:
             if bound not in WORDS:
                 sign = bound.rstrip("0123456789/+-")
                 value = bound.removeprefix(sign)
-                latex = f"{latex_text(name)} {_LATEX_RELATIONS.get(sign, sign)} {latex_text(value)}"
-                found += [", ", Math(f"{name} {sign} {value}", latex)]
+                found += [", ", Math.of(f"{name} {sign} {value}")]
         return found
 
     def _change(self) -> Math:
         change = self.answer.equation and self.answer.equation.change
         assert change
-        t = Math(self.answer.variable, latex_text(self.answer.variable))
-        return t.equals(Math(change.expression.replace("**", "^"), latex_text(change.expression)))
+        return Math.of(self.answer.variable).equals(
+            Math(change.expression.replace("**", "^"), latex_text(change.expression))
+        )
 
     def _substitution(self, v: str) -> list[str | Math]:
         equation = self.answer.equation
         x = self.answer.variable
         assert equation is not None
         if not equation.gauge:
-            return [_name(equation.unknown).equals(_name(v))]
+            return [Math.of(equation.unknown).equals(Math.of(v))]
         gamma = Formulas(x, equation.gauge.field).math(equation.gauge)
         text = f"{equation.unknown} = {v} exp(int ({gamma.text}) d{x})"
         latex = rf"{equation.unknown} = {v} \exp \int {gamma.latex} \, d{latex_text(x)}"
@@ -315,7 +320,7 @@ class _TheoremWriter:
             start = [prose.equals(family.parameter, family.value, n), ", "]
         without: list[str | Math] = []
         for root in (prose.function(pole.root, n) for pole in family.poles):
-            without += [", ", Math(f"{n} != {root}", rf"{n} \ne {latex_text(root)}")]
+            without += [", ", Math.of(f"{n} != {root}")]
         for row in rows:
             yield say("For ", *start, *row.numbers.said(n), *without, ":")
             yield Formula(self._named_solution(row.solution))
@@ -331,7 +336,7 @@ class _TheoremWriter:
         y = solution.y.xreplace({solution.degree: letter})
         degree = of_sympy(self._collected(solution.degree))
         if y.has(letter):
-            degree = _name(letter.name).equals(degree)
+            degree = Math.of(letter.name).equals(degree)
         yield Formula(self._named_solution(replace(solution, y=y)))
         is_named = y.has(letter) and bool(solution.exclusion(letter.name))
         exclusion = solution.exclusion(letter.name) if is_named else ()
@@ -350,12 +355,12 @@ class _TheoremWriter:
             equation, _ = region.formulas.pieces[0]
             solution = region.formulas.spelled(replace(solution, y=translated(solution.y, equation)))
         yield Formula(self._named_solution(replace(solution, y=P * solution.y)))
-        degree = _name(natural.letter).equals(of_sympy(self._collected(solution.degree)))
+        degree = Math.of(natural.letter).equals(of_sympy(self._collected(solution.degree)))
         in_t: list[str | Math] = []
         if self._variable != self.answer.variable:
-            in_t = [" in ", _name(self.answer.variable)]
+            in_t = [" in ", Math.of(self.answer.variable)]
         yield say(
-            "with a polynomial ", _name(P.name), *in_t, " of degree ", degree, *_chosen(self._signs_in(solution)), "."
+            "with a polynomial ", Math.of(P.name), *in_t, " of degree ", degree, *_chosen(self._signs_in(solution)), "."
         )
 
     def _signs_in(self, solution: PolynomialSolution) -> list[sympy.Symbol]:
@@ -406,25 +411,21 @@ class _TheoremWriter:
             if m == 1:
                 yield from self._delta_of_omega(letters[m])
             else:
-                delta = _delta_named(letters[m])
+                delta = Math.of(f"Delta_{letters[m]}")
                 what = f" for an invariant of degree {m} says that there is a rational function of x that is "
                 what += f"a form of degree {m} in two solutions and has "
-                yield say(delta.equals(Math("0", "0")), what, _name(letters[m]), " zeros.")
+                yield say(delta.equals(Math("0", "0")), what, Math.of(letters[m]), " zeros.")
 
     def _delta_of_omega(self, d: str) -> Iterator[Block]:
         """Where omega is rational: the equation of the polynomial of degree d."""
-        P = Math(f"P_{d}", f"P_{{{d}}}")
-        text = f"P_{d}'' + 2 theta P_{d}' + (theta' + theta^2 - S) P_{d} = 0"
-        latex = rf"P_{{{d}}}'' + 2 \theta P_{{{d}}}' + (\theta' + \theta^2 - S) P_{{{d}}} = 0"
-        theta = Math("theta", r"\theta")
+        P = f"P_{d}"
         several = [" (all of the polynomials in parentheses vanish, where there are several)"] * self._has_systems()
+        what = " vanishes exactly where the linear system for the coefficients of "
         yield say(
-            _delta_named(d), " vanishes exactly where the linear system for the coefficients of ", P, ", of degree ",
-            _name(d), ", has a solution", *several, ":"
-        )  # fmt: skip
-        yield Formula(Math(text, latex))
-        v = self._unknown
-        yield say("with ", theta, " the logarithmic derivative of ", Math(f"{v}/P_{d}", f"{v}/P_{{{d}}}"), ".")
+            Math.of(f"Delta_{d}"), what, Math.of(P), ", of degree ", Math.of(d), ", has a solution", *several, ":"
+        )
+        yield Formula(Math.of(f"{P}'' + 2 theta {P}' + (theta' + theta^2 - S) {P} = 0"))
+        yield say("with ", Math.of("theta"), " the logarithmic derivative of ", Math.of(f"{self._unknown}/{P}"), ".")
 
     def _has_systems(self) -> bool:
         """True if one of the determinants that are printed stands for several polynomials."""
@@ -474,10 +475,6 @@ def _written(equation: Equation | None) -> tuple[str, str]:
     return str(equation), equation.change.expression if equation.change else ""
 
 
-def _delta_named(d: str) -> Math:
-    return Math(f"Delta_{d}", rf"\Delta_{{{d}}}")
-
-
 def _kind_of_number(words: list[str]) -> str:
     """`nonnegative integer`: the adjectives, and then the noun."""
     adjectives = [word for word in words if word not in _NOUNS]
@@ -486,10 +483,6 @@ def _kind_of_number(words: list[str]) -> str:
         is_integer = "even" in words or "odd" in words
         nouns = ["integer"] if is_integer else ["number"]
     return " ".join([*adjectives, *nouns])
-
-
-def _name(name: str) -> Math:
-    return Math(name, latex_text(name))
 
 
 def _listed(parts: list[Math]) -> list[str | Math]:
@@ -507,7 +500,7 @@ def _chosen(signs: list[sympy.Symbol]) -> list[str | Math]:
     """`, with a choice of epsilon and zeta from +-1`."""
     if not signs:
         return []
-    return [", with a choice of ", *_listed([_name(sign.name) for sign in signs]), " from ", Math("+-1", r"\pm 1")]
+    return [", with a choice of ", *_listed([Math.of(sign.name) for sign in signs]), " from ", Math.of("+-1")]
 
 
 def _group(verdict: RegionVerdict) -> list[str | Math]:
@@ -562,7 +555,7 @@ def _schwarz(statement: Statement) -> Iterator[Table]:
     """The rows of Schwarz's table that are meant, for the exponent differences that depend on the parameters."""
     for part in _schwarz_in(statement):
         names, rows = part.resolved()
-        heads: list[Sentence] = [Math(name, latex_text(name)) for name in names]
+        heads: list[Sentence] = [Math.of(name) for name in names]
         if not names:
             heads = ["differences up to order, signs and integers", "sum of the integers"]
         yield Table(["group", *heads], [[structure.value, *values] for structure, values in rows])
@@ -571,7 +564,7 @@ def _schwarz(statement: Statement) -> Iterator[Table]:
 def _values(natural: Natural, number: int) -> Iterator[Block]:
     """The first determinants: d, where it is the degree, and Delta_d in factors; as far as they can be printed."""
     rows: list[list[Sentence]] = []
-    delta = _delta_named(natural.letter)
+    delta = Math.of(f"Delta_{natural.letter}")
     for d in range(number):
         found = natural.values(d)
         if any(len(value) > _LONGEST for value in found):
@@ -580,7 +573,7 @@ def _values(natural: Natural, number: int) -> Iterator[Block]:
             yield say(delta, f" is given by {NO_FORMULA}.")
             return
         for value, places in found.items():
-            said: Sentence = value if value == NO_FORMULA else prose.formula(value)
+            said: Sentence = value if value == NO_FORMULA else Math.of(value)
             rows.append([str(d), [*places], said])
     if rows:
-        yield Table([_name(natural.letter), "where", delta], rows)
+        yield Table([Math.of(natural.letter), "where", delta], rows)

@@ -20,8 +20,16 @@ from kovacic.numbers.numerals import as_latex, as_text
 
 _GREEK_LETTERS = (
     "alpha beta gamma delta epsilon zeta eta theta iota kappa lambda mu nu xi pi rho sigma tau upsilon "
-    "phi chi psi omega"
+    "phi chi psi omega Gamma Delta Theta Lambda Xi Sigma Upsilon Phi Psi Omega"
 )
+# Signs between functions, which are replaced first.
+_RELATIONS = [
+    (re.compile(r" in ([ZN])\b"), r" \\in \\mathbb{\1}"),
+    (re.compile(r"\+- *"), r"\\pm "),
+    (re.compile("!="), r"\\ne"),
+    (re.compile(">="), r"\\ge"),
+    (re.compile("<="), r"\\le"),
+]
 # Replacements for LaTeX, in this order.
 _REPLACEMENTS: list[tuple[re.Pattern[str], Any]] = [
     (re.compile(r"(?:\*\*|\^)(\d+)"), r"^{\1}"),
@@ -61,6 +69,11 @@ class Math:
 
     text: str
     latex: str
+
+    @classmethod
+    def of(cls, text: str) -> Math:
+        """A formula of functions and names, by its text."""
+        return cls(text, latex_text(text))
 
     def equals(self, value: Math) -> Math:
         return Math(f"{self.text} = {value.text}", f"{self.latex} = {value.latex}")
@@ -152,7 +165,7 @@ class Formulas:
             root = "0"
         if root is None or x in root or " " in root:
             return Math(f"{caret(factor)} = 0", f"{latex_text(factor)} = 0")
-        return Math(x, latex_text(x)).equals(Math(root, latex_text(root)))
+        return Math.of(f"{x} = {root}")
 
 
 def shortened(text: str) -> str:
@@ -197,7 +210,7 @@ def caret(text: str) -> str:
 
 
 def latex_text(text: str) -> str:
-    r"""An expression in Python syntax, or with ^: sums of quotients of products, powers, roots, Greek names.
+    r"""An expression in Python syntax, or with ^: sums of quotients of products, powers, roots, Greek names, relations.
 
     >>> print(latex_text("-n*(n + 3)/(2*sqrt(mu)) - b**2"))
     -\frac{n (n + 3)}{2 \sqrt{\mu}} - b^{2}
@@ -205,7 +218,11 @@ def latex_text(text: str) -> str:
     \frac{1}{2} t^{2}
     >>> print(latex_text("sin(x/2)^(n + 1)"))
     \sin\left(\frac{x}{2}\right)^{n + 1}
+    >>> print(latex_text("2*n in Z"), latex_text("n != +-1/2"))
+    2 n \in \mathbb{Z} n \ne \pm \frac{1}{2}
     """
+    for pattern, replacement in _RELATIONS:
+        text = pattern.sub(replacement, text)
     writer = _LatexWriter()
     found = 1
     while found:

@@ -187,7 +187,7 @@ def _comparison(part: Statement, point: ParameterPoint, values: dict[str, Any]) 
         claim = part.claim
         if isinstance(part, Natural) and isinstance(claim, DegreeExists):
             meant = {number for number in part.numbers_at(point) if number < RANGE.stop}
-            return numbers_said(claim.degree, values) == meant
+            return numbers_said(claim, values) == meant
         return says(claim, values) == part.holds(point)
     except (NotReadError, ZeroDivisionError):  # no such sentence, or a function in it isn't defined there
         return None

@@ -12,10 +12,9 @@ import sympy
 
 from kovacic.parametric.claims import (
     AllOf,
-    Alternatives,
     AnyOf,
     Claim,
-    DegreeClaim,
+    DegreeExists,
     EquationFor,
     InClasses,
     IntegerFamily,
@@ -34,7 +33,7 @@ class NotReadError(Exception):
     """A text that these rules don't cover."""
 
 
-def written(claim: Claim | DegreeClaim) -> str:
+def written(claim: Claim) -> str:
     """What is printed, with formulas between backquotes."""
     return marked(sentence(claim))
 
@@ -55,30 +54,29 @@ def says(claim: Claim, values: Values) -> bool:
     raise NotReadError(type(claim).__name__)
 
 
-def numbers_said(degree: DegreeClaim, values: Values) -> set[int]:
+def numbers_said(claim: DegreeExists, values: Values) -> set[int]:
     """The natural numbers below a bound that the text allows."""
-    text, letter = written(degree), degree.letter
-    if isinstance(degree, Alternatives):
-        return _alternative_numbers(degree, values)
+    if isinstance(claim.degree, AnyOf):
+        return _alternative_numbers(claim, claim.degree, values)
+    text, letter = written(claim.degree), claim.letter
     if " for integers " in text:
         return _sums_of_exponents(text, values)
-    if match := re.fullmatch(r"(?:`\w+ = (\d+)`, or )?`(.*)` for an integer `(\w+)` from (\d+) to (\d+)", text):
-        constant, equation, j, least, most = match.groups()
-        pairs = product(range(RANGE.stop), range(int(least), int(most) + 1))
-        found = {d for d, k in pairs if _has_value(equation, {**values, letter: sympy.Integer(d), j: sympy.Integer(k)})}
-        return found if constant is None else found | {int(constant)}
     if re.fullmatch(rf"`{letter}\b[^`=]* = \+-[^`]*`", text):
         return _sums_with_signs(text.strip("`"), letter, values)
     raise NotReadError(text)
 
 
-def _alternative_numbers(degree: Alternatives, values: Values) -> set[int]:
-    letter = degree.letter
+def _alternative_numbers(claim: DegreeExists, degree: AnyOf, values: Values) -> set[int]:
+    letter = claim.letter
     found: set[int] = set()
-    for one in degree.where:
-        if says(IsZero(one.zero), values):
-            found |= numbers_said(one.said, values)
-    text = written(replace(degree, where=()))
+    everywhere = [part for part in degree.parts if not isinstance(part, AllOf)]
+    for part in degree.parts:
+        if isinstance(part, AllOf):
+            there, where = part.parts
+            if says(where, values):
+                found |= numbers_said(replace(claim, degree=there), values)
+    said = written(replace(claim, degree=AnyOf(tuple(everywhere))))
+    text = said.partition(f", `{letter} in N`, and ")[0]
     notes = re.findall(r"`([^`]*) = 0` where `\w+ = ([^`]*)`", text)
     text = re.sub(r" \((?:`[^`]* = 0` where `\w+ = [^`]*`(?:, )?)+\)", "", text)
     for factor, root in notes:
