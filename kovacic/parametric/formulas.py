@@ -409,14 +409,14 @@ _ENDS = ("NUMBER", "NAME", "PRIMED", "RPAR", "SUPERSCRIPT")
 _BEGINNINGS = ("NUMBER", "NAME", "PRIMED", "HEAD", "LPAR")
 #: A number, a name or a power of one in parentheses that aren't those of a call or of a base.
 _IN_PARENTHESES = re.compile(r"(?<![\w'])\((\w+(?:'+|\^\w+)?)\)(?!\^)")
-#: A sign behind an operator, which needs parentheses.
-_SIGN_BEHIND = re.compile(r"[*/^][+-]")
+#: A sign behind an operator, and the power of a power, which would need parentheses.
+_UNCLEAR = re.compile(r"[*/^+-] ?[+-]|\^(?:\w+|\([^()]*\))\^")
 
 
 def unexpanded(source: Source) -> Math | None:
     """The equation, or y'' = S y for S alone; None where there is no text, a long one, or one that isn't written like this.
 
-    Derivatives as calls, several arguments, 1e-3 and 2*-x aren't.
+    Derivatives as calls, several arguments, 1e-3, 2*-x and x^2^3 aren't.
     """
     if source.tokens is None or len(source.text or "") > _LONGEST:
         return None
@@ -442,7 +442,7 @@ def unexpanded(source: Source) -> Math | None:
     count = 1
     while count:
         text, count = _IN_PARENTHESES.subn(r"\1", text)
-    if _SIGN_BEHIND.search(text):
+    if _UNCLEAR.search(text):
         return None
     if source.unknown:
         return Math.of(text)

@@ -423,9 +423,9 @@ def test_the_identity_component_is_named(S: str, expected: str) -> None:
     [
         ("A^2*exp(-2*x) - 2*A*b*exp(-x) - E", "y'' = (A^2*exp(-2*x) - 2*A*b*exp(-x) - E) y"),
         ("y'' + 2y'/x + (n(n+1)/x² - 1)y = 0", "y'' + 2*y'/x + (n*(n + 1)/x^2 - 1)*y = 0"),
-        ("m--(x-b)+(-x)^2", "y'' = (m - (-(x - b)) + (-x)^2) y"),
+        ("m-(-(x-b))+(-x)**2", "y'' = (m - (-(x - b)) + (-x)^2) y"),
         ("-(1-m^2)/(4*x^2)/2 + x*(-2)", "y'' = (-(1 - m^2)/(4*x^2)/2 + x*(-2)) y"),
-        ("1/(2/x)^2^1 - (m/x)*(1/x)", "y'' = (1/(2/x)^(2^1) - m/x*1/x) y"),
+        ("1/(2/x)^2 - (m/(x))*(1/x)", "y'' = (1/(2/x)^2 - (m/x)*(1/x)) y"),
         ("x^4 - (a - (x - m))*x^-2", "y'' = (x^4 - (a - (x - m))*x^(-2)) y"),
     ],
     ordinary=4,
@@ -442,8 +442,8 @@ def test_the_equation_is_printed_as_it_was_given(given: str, printed: str) -> No
 
 def test_the_latex_of_a_given_equation_is_unambiguous() -> None:
     latex = kovacic.conditions("x*3*(1/x)*m + 2*(1/2)*x^2 + (m/x)^2 + m/2*x/3", var="x").theorem(format="latex")
-    assert r"\frac{x \cdot 3 \cdot 1}{x} m" in latex
-    assert r"\frac{2 \cdot 1}{2} x^{2}" in latex
+    assert r"x \cdot 3 \left(\frac{1}{x}\right) m" in latex
+    assert r"2 \left(\frac{1}{2}\right) x^{2}" in latex
     assert r"\left(\frac{m}{x}\right)^{2}" in latex
     assert r"\frac{\frac{m}{2} x}{3}" in latex
 
@@ -453,6 +453,8 @@ def test_an_equation_that_was_not_given_like_this_is_printed_as_it_was_read() ->
     assert "y'' = (2*x^2 + m) y" in kovacic.conditions("a*x^2 + m", assume={"a": 2}).theorem()
     assert "y'' = (x^2 + mu*alpha) y" in kovacic.conditions("(sqrt(2)+cbrt(3))*mu + x^2", var="x").theorem()
     assert "y'' = (x^2 + m) y" in kovacic.conditions(sympy.Symbol("m") + x**2, var="x").theorem()
+    for unclear in ("m--x^2", "m + x^2^1", "m + x*-(-x)"):
+        assert "y'' = (x^2 + m) y" in kovacic.conditions(unclear, var="x").theorem()
     data = kovacic.conditions("m + x^2", var="x").to_dict()
     assert "y'' = (m + x^2) y" in Conditions.from_json(data).theorem()
     assert "y'' = (x^2 + m) y" in Conditions.from_json({**data, "given": "m + x^4"}).theorem()
