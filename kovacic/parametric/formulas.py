@@ -408,7 +408,7 @@ _LONGEST = 1000
 _ENDS = ("NUMBER", "NAME", "PRIMED", "RPAR", "SUPERSCRIPT")
 _BEGINNINGS = ("NUMBER", "NAME", "PRIMED", "HEAD", "LPAR")
 #: A number, a name or a power of one in parentheses that aren't those of a call or of a base.
-_IN_PARENTHESES = re.compile(r"(?<![\w'])\((\w+(?:'+|\^\w+)?)\)(?!\^)")
+_IN_PARENTHESES = re.compile(r"(?<![\w'])\((\w+'*|\w+\^\w+(?=\)(?!\^)))\)")
 #: A sign behind an operator, and the power of a power, which would need parentheses.
 _UNCLEAR = re.compile(r"[*/^+-] ?[+-]|\^(?:\w+|\([^()]*\))\^")
 
