@@ -425,7 +425,11 @@ def unexpanded(source: Source) -> Math | None:
     is_sum = False
     for kind, piece in zip(source.tokens.kinds, source.tokens.pieces, strict=True):
         is_known = piece.rstrip(PRIMES) == source.unknown or (is_function(piece) and piece.isalpha())
-        if kind in ("COMMA", "OPERATOR") or (kind == "HEAD" and not is_known) or (kind == "NUMBER" and "e" in piece.lower()):
+        if (
+            kind in ("COMMA", "OPERATOR")
+            or (kind == "HEAD" and not is_known)
+            or (kind == "NUMBER" and "e" in piece.lower())
+        ):
             return None
         depth += {"LPAR": 1, "RPAR": -1}.get(kind, 0)
         is_sign = kind in ("PLUS", "MINUS")
