@@ -18,7 +18,7 @@ from kovacic.decision import Decision, Exclusion, RiccatiPolynomial, SemiInvaria
 from kovacic.equation import Change, Equation
 from kovacic.limits import DEFAULT_LIMITS, Limits
 
-_T = TypeVar("_T")
+_Computed = TypeVar("_Computed")
 
 
 class KnownParameters(Protocol):
@@ -111,7 +111,7 @@ class Answer:
         return {f.name: self.__dict__[f.name] for f in fields(self)}
 
 
-def computed_once(compute: Callable[[Any], _T]) -> Callable[[Any], _T]:
+def computed_once(compute: Callable[[Any], _Computed]) -> Callable[[Any], _Computed]:
     """A decorator for functions of an answer: the result is kept with the answer.
 
     >>> @computed_once
@@ -128,7 +128,7 @@ def computed_once(compute: Callable[[Any], _T]) -> Callable[[Any], _T]:
     name = _key_of(compute)
 
     @wraps(compute)
-    def found(answer: Answer) -> _T:
+    def found(answer: Answer) -> _Computed:
         kept = answer.__dict__
         if name not in kept:
             kept[name] = compute(answer)

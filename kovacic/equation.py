@@ -242,3 +242,19 @@ def lowered(function: RatFunc) -> RatFunc:
         den = den.parts[0]
     below: tuple[Poly, Poly] = (num, den)
     return RatFunc(*below, reduced=True)
+
+
+def eliminated(matrix: tuple[tuple[Any, Any], tuple[Any, Any]], t: Any) -> tuple[Any, Any]:
+    """Two linear equations of first order as one of second order: the coefficients of x' and x in SymPy, not simplified.
+
+    `matrix` is ((a, b), (c, d)).  For x' = a x + b y, y' = c x + d y with b != 0 it is y = (x' - a x)/b, and x satisfies
+
+        x'' - (a + d + b'/b) x' + (a d - b c - a' + a b'/b) x = 0.
+
+    >>> from sympy.abc import t
+    >>> eliminated(((t, t), (-t, 1 / t)), t)
+    (-t - 2/t, t**2 + 1)
+    """
+    (a, b), (c, d) = matrix
+    rate = b.diff(t) / b
+    return -(a + d + rate), a * d - b * c - a.diff(t) + a * rate

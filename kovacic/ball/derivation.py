@@ -23,7 +23,7 @@ import sympy as sp
 from sympy import cos, sin
 
 from kovacic.ball.body import A1, A3, InRoots, U, X, x1, x2
-from kovacic.elimination import eliminated
+from kovacic.equation import eliminated
 from kovacic.limits import Limits
 from kovacic.reading.read import read_input
 

@@ -27,7 +27,7 @@ UNDECIDED = "undecided"
 ERROR = "bad input"
 FAILED = "failed"
 # By the structure of the group: label, case, degree of omega.
-_LABELS: dict[str | None, tuple[str, int | None, int]] = {
+_STRUCTURE_LABELS: dict[str | None, tuple[str, int | None, int]] = {
     "reducible": ("case 1", 1, 1),
     "imprimitive": ("case 2", 2, 2),
     "tetrahedral": ("case 3 (4)", 3, 4),
@@ -35,7 +35,7 @@ _LABELS: dict[str | None, tuple[str, int | None, int]] = {
     "icosahedral": ("case 3 (12)", 3, 12),
     None: (NONE, None, 0),
 }
-LABELS = (*(label for label, _, _ in _LABELS.values()), UNDECIDED, ERROR, FAILED)
+LABELS = (*(label for label, _, _ in _STRUCTURE_LABELS.values()), UNDECIDED, ERROR, FAILED)
 _EXIT_STATUS = {FAILED: 4, ERROR: 2, UNDECIDED: 3}
 
 
@@ -104,7 +104,7 @@ class Record:
     @property
     def case(self) -> int | None:
         """Kovacic's case, 1 to 3, or None."""
-        return next((case for label, case, _ in _LABELS.values() if label == self.label), None)
+        return next((case for label, case, _ in _STRUCTURE_LABELS.values() if label == self.label), None)
 
     @property
     def error(self) -> str | None:
@@ -177,7 +177,7 @@ def solved(item: Item, solution: Solution, job: Job) -> Record:
     label = UNDECIDED
     if not solution.reason:
         name = None if structure is None else structure.value
-        label, *_ = _LABELS[name]
+        label, *_ = _STRUCTURE_LABELS[name]
     return Record(item.number, label, solution.seconds or 0.0, f"{head[:-1]}, {solution.to_json()[1:]}")
 
 
@@ -192,7 +192,7 @@ def label_of(data: Mapping[str, Any]) -> str:
         return FAILED if data["error"]["type"] in _FAILURES else ERROR
     if data["status"] == UNDECIDED and data["proof"]["undecided"]:
         return UNDECIDED
-    label, case, degree = _LABELS[data["proof"]["structure"]]
+    label, case, degree = _STRUCTURE_LABELS[data["proof"]["structure"]]
     status = "none" if case is None else "liouvillian"
     found = data["riccati"]["degree"] if data["riccati"] else 0
     if (data["status"], data["case"], found) != (status, case, degree) or not data["verified"]:

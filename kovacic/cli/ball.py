@@ -100,7 +100,7 @@ def ball(form: str, latex: bool, explain: bool, **given: Any) -> None:
     if names_a_ball or not explain:
         if not given["simulate"] and given["plot"] is None:
             refuse({"start", "end", *_FORCE}, "without --simulate or --plot")
-        place = _ball_of(given)
+        place = _ball_from_options(given)
         rows = _answer(place, latex=latex)
         if given["simulate"] or given["plot"] is not None:
             motion = _simulate(place, given)
@@ -119,7 +119,7 @@ def ball(form: str, latex: bool, explain: bool, **given: Any) -> None:
             click.echo(line)
 
 
-def _ball_of(given: Mapping[str, Any]) -> Rolling:
+def _ball_from_options(given: Mapping[str, Any]) -> Rolling:
     """The ball of these options; raises `click.UsageError` for options that don't belong together."""
     from kovacic.ball import RollingBall
     from kovacic.ball.body import InRoots, exact

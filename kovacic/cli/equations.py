@@ -233,12 +233,12 @@ def _solution_in_json(equation: str, ics: str, **given: Any) -> str:
                 "latex": as_latex(found),
                 "special": None if shorter is None else as_text(shorter.rhs),
                 "validity": str(validity(found, given.get("assume"))) or None,
-                "exceptions": _exceptions(given_answer(found)),
+                "exceptions": _exception_lines(given_answer(found)),
             }
     return json_line(data | {"notices": [str(warning.message) for warning in noticed]})
 
 
-def _exceptions(answer: Any) -> list[dict[str, str | None]]:
+def _exception_lines(answer: Any) -> list[dict[str, str | None]]:
     """The values of letters for which the solution is another one, and that, where it is known."""
     from kovacic.numbers.numerals import as_text
 

@@ -18,7 +18,7 @@ from typing import Any
 import sympy
 from sympy.core.function import AppliedUndef
 
-from kovacic.elimination import eliminated
+from kovacic.equation import eliminated
 from kovacic.errors import InputError, NotLinear
 from kovacic.general_solution.check import is_finite
 from kovacic.general_solution.conditions import Condition, ConditionReader, exact

@@ -30,9 +30,8 @@ from kovacic.algebra.rationals import square_part
 from kovacic.algebra.sparse import by_power, factorisation
 from kovacic.numbers.numerals import digits
 from kovacic.parametric.functions import over_parameters
-from kovacic.reading.lexer import PRIMES
+from kovacic.reading.lexer import PRIMES, SUPERSCRIPT_DIGITS
 from kovacic.reading.names import is_function
-from kovacic.reading.parser import SUPERSCRIPTS
 from kovacic.reading.source import Source
 from kovacic.writing.formula import Math, caret
 
@@ -437,7 +436,7 @@ def unexpanded(source: Source) -> Math | None:
         if kind == "EQUAL" or (is_sign and before in _ENDS):
             text += f" {piece} "
         elif kind == "SUPERSCRIPT":
-            text += "^" + piece.translate(SUPERSCRIPTS)
+            text += "^" + piece.translate(SUPERSCRIPT_DIGITS)
         else:
             is_product = before in _ENDS and kind in _BEGINNINGS
             text += f"*{piece}" if is_product else piece

@@ -29,7 +29,7 @@ _TOTAL_FACTOR = 100
 _SMALL_BITS = 2048
 
 # Python reads integers of at most 4300 digits, flint longer ones too.
-_LONG = 2000
+_LONG_DIGITS = 2000
 
 
 class Monomial:
@@ -63,7 +63,7 @@ class Arithmetic:
     def integer(self, digits: str) -> int:
         if len(digits) > self.limits.digits:
             raise LimitExceeded(f"{len(digits)} digits, above the limit of {self.limits.digits}", limit="digits")
-        return int(digits) if len(digits) <= _LONG else int(fmpz(digits))
+        return int(digits) if len(digits) <= _LONG_DIGITS else int(fmpz(digits))
 
     def signed_integer(self, text: str) -> int:
         return -self.integer(text[1:]) if text[0] == "-" else self.integer(text.lstrip("+"))
@@ -71,7 +71,7 @@ class Arithmetic:
     def constant(self, value: int | Fraction) -> Value:
         bits = _bits(value)
         self._check(0, bits)
-        return Monomial(value, 0) if bits <= _SMALL_BITS and type(value) is int else _term(value, 0)
+        return Monomial(value, 0) if bits <= _SMALL_BITS and type(value) is int else _scaled_power(value, 0)
 
     def decimal(self, text: str) -> Poly:
         """The rational number that a decimal such as 1.5e-3 denotes."""
@@ -131,7 +131,7 @@ class Arithmetic:
         if isinstance(left, Monomial) and isinstance(right, Monomial):
             power = left.power + right.power
             self._check(power, 0)
-            return _term(left.coefficient * right.coefficient, power)
+            return _scaled_power(left.coefficient * right.coefficient, power)
         left = self.closed(left)
         right = self.closed(right)
         if isinstance(left, RatFunc) or isinstance(right, RatFunc):
@@ -142,7 +142,7 @@ class Arithmetic:
 
     def divide(self, left: Value, right: Value) -> Value:
         if isinstance(left, Monomial) and isinstance(right, Monomial) and right.coefficient and right.power == 0:
-            return _term(Fraction(left.coefficient, right.coefficient), left.power)
+            return _scaled_power(Fraction(left.coefficient, right.coefficient), left.power)
         left = self.closed(left)
         right = self.closed(right)
         if not right:
@@ -296,7 +296,7 @@ def _bits(value: int | Fraction) -> int:
     return max(value.numerator.bit_length(), value.denominator.bit_length())
 
 
-def _term(coefficient: int | Fraction, power: int) -> Monomial | Poly:
+def _scaled_power(coefficient: int | Fraction, power: int) -> Monomial | Poly:
     """`coefficient * x**power`; a whole fraction becomes an integer."""
     if type(coefficient) is not int and coefficient.denominator == 1:
         coefficient = coefficient.numerator

@@ -91,7 +91,7 @@ def in_x(equation: Equation, expression: Any) -> Any:
     }
     with_integrals = expression.xreplace(integrals)
     if is_power(equation):
-        return _with_powers(with_integrals, own, t.exp, x)
+        return _in_powers_of_x(with_integrals, own, t.exp, x)
     result = _continued(with_integrals.xreplace({own: t}), t)
     if t.func in _SINES:  # roots of t + 1 and t - 1 as powers that join where t is 1 or -1
         roots = {e for e in result.atoms(sympy.Pow) if e.base in (t + 1, t - 1, 1 - t) and not e.exp.is_Integer}
@@ -101,7 +101,7 @@ def in_x(equation: Equation, expression: Any) -> Any:
 
 #: For t(w): what an inverse function of t is, a polynomial q(t), and the function s with q(t) = s^2, where w is between 0 and
 #: pi/2.  Both sides are analytic, so that what holds there for solutions holds wherever they are continued.
-_INVERSES: dict[Any, dict[Any, Any]] = {
+_INVERSE_FUNCTIONS: dict[Any, dict[Any, Any]] = {
     sympy.sin: {sympy.asin: lambda w: w, sympy.acos: lambda w: sympy.pi / 2 - w},
     sympy.cos: {sympy.acos: lambda w: w, sympy.asin: lambda w: sympy.pi / 2 - w},
     sympy.tan: {sympy.atan: lambda w: w},
@@ -122,7 +122,7 @@ def _continued(expression: Any, t: Any) -> Any:
     if t.func not in _ROOTS:
         return expression
     w = t.args[0]
-    for function, inverse in _INVERSES[t.func].items():
+    for function, inverse in _INVERSE_FUNCTIONS[t.func].items():
         expression = expression.xreplace({function(t, evaluate=False): inverse(w)})
     square, other, sign = _ROOTS[t.func]
     for base, root in ((square(t), other(w) ** sign), (-square(t), sympy.I * other(w) ** sign)):
@@ -151,7 +151,7 @@ def solution_in_x(equation: Equation, y: Any) -> Any:
     return rest if number.is_number else result
 
 
-def _with_powers(expression: Any, own: Any, k: Any, x: Any) -> Any:
+def _in_powers_of_x(expression: Any, own: Any, k: Any, x: Any) -> Any:
     """With x^k for a variable, by exp(k s) with s = log(x)."""
     s = sympy.Dummy("s")
     joined = _with_joined_powers(expression.xreplace({own: sympy.exp(k * s)}), s)
@@ -199,7 +199,7 @@ def _with_joined_powers(expression: Any, x: Any) -> Any:
         return bool(e.is_Pow and e.base.func is sympy.exp)
 
     found = expression.replace(is_log_of_exponential, lambda e: e.args[0].exp)
-    found = found.replace(is_exponential_and_one, _hyperbolic)
+    found = found.replace(is_exponential_and_one, _by_half_angle)
     found = found.replace(is_product_with_x, lambda e: sympy.expand_power_base(e, force=True))
     found = found.replace(is_power_of_exponential, lambda e: sympy.exp(e.base.exp * e.exp))
     return sympy.powsimp(found, combine="exp")
@@ -219,7 +219,7 @@ def _by_halves(t: Any, power: Any) -> Any:
     return factor**power.exp * function(half) ** (2 * power.exp)
 
 
-def _hyperbolic(e: Any) -> Any:
+def _by_half_angle(e: Any) -> Any:
     """exp(w) + 1 = 2 exp(w/2) cosh(w/2), and exp(w) - 1 with sinh."""
     number, exponential = e.args
     half = exponential.exp / 2

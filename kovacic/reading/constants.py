@@ -28,7 +28,7 @@ T = TypeVar("T")
 _LARGEST_RADICAND = 14_000
 
 #: Digits of the approximation that tells an algebraic number of SymPy from its conjugates.
-_DIGITS = 15
+_APPROXIMATION_DIGITS = 15
 
 
 class Radical(NamedTuple):
@@ -134,7 +134,7 @@ class Constants:
         except NotImplementedError:
             return None
         coefficients = [Fraction(int(c.p), int(c.q)) for c in reversed(minimal.all_coeffs())]
-        real, imaginary = sympy.N(exact, _DIGITS).as_real_imag()
+        real, imaginary = sympy.N(exact, _APPROXIMATION_DIGITS).as_real_imag()
         return self.root(QQ.poly(coefficients), acb(arb(str(real)), arb(str(imaginary))))
 
     def root(self, minimal: Poly, approximation: Any) -> Poly:

@@ -16,11 +16,21 @@ from itertools import pairwise
 
 from kovacic.errors import ParseError
 from kovacic.limits import check_time
-from kovacic.reading.lexer import DERIVATIVES, DOTS, PRIMES, Token, Tokens, error_at, scanned, unexpected
-from kovacic.reading.names import BARE, FUNCTION_NAMES, GREEK, LETTER, SPECIAL_LETTERS, is_function, unglued
+from kovacic.reading.lexer import (
+    DERIVATIVES,
+    DOTS,
+    PRIMES,
+    SUPERSCRIPT_DIGITS,
+    Token,
+    Tokens,
+    error_at,
+    scanned,
+    unexpected,
+)
+from kovacic.reading.names import BARE, FUNCTION_NAMES, GREEK, LETTER, SPECIAL_LETTERS, STEPS, is_function, unglued
 from kovacic.reading.notations import CLOSING, LATEX, NOTATIONS, OPENING, Scan, primes_of, rewritten
 
-_KINDS = {
+_SIGN_KINDS = {
     "+": "PLUS",
     "-": "MINUS",
     **dict.fromkeys(("*", ".*"), "STAR"),
@@ -35,10 +45,9 @@ _KINDS = {
 #: The condition of the last of several pieces.
 _OTHERWISE = ("True", "otherwise")
 _POWERS = ("^", "**")
-_SUPERSCRIPT_DIGITS = str.maketrans("⁺⁻⁰¹²³⁴⁵⁶⁷⁸⁹", "+-0123456789")
 
 #: How tokens of a kind are written, however they were.
-_PLAIN = {"LPAR": "(", "RPAR": ")", "EQUAL": "=", "STAR": "*", "SLASH": "/"}
+_WRITTEN_AS = {"LPAR": "(", "RPAR": ")", "EQUAL": "=", "STAR": "*", "SLASH": "/"}
 
 #: Commands, and letters between dollar signs, that mean nothing.
 LAYOUT = frozenset(
@@ -68,8 +77,10 @@ _COMMANDS = {
     **{name: ("COMMAND", name) for name in (*FRACTIONS, "\\sqrt", "\\dot", "\\ddot", "\\dddot")},
 }
 #: Words that are one name in LaTeX without a backslash, too; mu and nu may be products.
-_WORDS = sorted((*FUNCTION_NAMES, *(name for name in GREEK if len(name) > 2), "pi", "diff"), key=len, reverse=True)
-_LETTERS = re.compile(rf"(?:{'|'.join(_WORDS)})(?![A-Za-z])|[^\W\d_](?:_[A-Za-z0-9])?|[0-9]+|_")
+_LATEX_WORDS = sorted(
+    (*FUNCTION_NAMES, *(name for name in GREEK if len(name) > 2), "pi", "diff"), key=len, reverse=True
+)
+_LATEX_PARTS = re.compile(rf"(?:{'|'.join(_LATEX_WORDS)})(?![A-Za-z])|[^\W\d_](?:_[A-Za-z0-9])?|[0-9]+|_")
 
 
 _EXAMPLE = "write for example (x^2 + 1)/(2*x), y''"
@@ -109,9 +120,9 @@ class _Latex:
 
     def letters(self, word: Token) -> None:
         is_word = len(word.text) > 4 and word.text.isalpha() and unglued(word.text).count("*") == len(word.text) - 1
-        if is_word and word.text not in _WORDS:
+        if is_word and word.text not in _LATEX_WORDS:
             raise self.error(f"{word.text} is a word that isn't known here", word, "leave it out, or write *")
-        for part in _LETTERS.finditer(word.text):
+        for part in _LATEX_PARTS.finditer(word.text):
             if part[0] == "_":
                 self.index()
                 continue
@@ -169,9 +180,7 @@ _DENOMINATOR = re.compile(rf"d({LETTER})\^?([2-9]?)")
 _TOKENS_BETWEEN_LOOKS = 100
 #: Fractions and roots without braces within each other: 2^20 looks where each is looked at twice.
 _DEEPEST = 20
-_MOST = 36  # tokens of the quotient of a derivative
-#: Letters that often are a step or an impulse before a parenthesis, and no factors.
-_STEPS = frozenset({"delta", "theta", "Theta", "H", "u"})
+_LONGEST_QUOTIENT = 36  # tokens of the quotient of a derivative
 #: What the argument of a function without parentheses ends with, as in cos omega t.
 _VARIABLES = frozenset("xtzsr") | {"theta", "phi", "tau", "xi", "rho"}
 
@@ -229,7 +238,7 @@ class _Translation:
             if self.k in self.skipped:
                 self.k += 1
                 continue
-            for rule in _RULES.get(token.text) or _RULES[token.kind]:
+            for rule in _TOKEN_RULES.get(token.text) or _TOKEN_RULES[token.kind]:
                 if rule(self, token):
                     break
             else:
@@ -270,7 +279,7 @@ class _Translation:
     def compact(self, begin: int, end: int) -> str:
         """The tokens without brackets, for comparison."""
         texts = [text for text in self.texts[begin:end] if text not in OPENING and text not in CLOSING]
-        return "".join(texts).replace("**", "^").translate(_SUPERSCRIPT_DIGITS)
+        return "".join(texts).replace("**", "^").translate(SUPERSCRIPT_DIGITS)
 
     def operand_end(self, k: int, depth: int = 0) -> int | None:
         """The number of the token behind the one operand that begins with number k; None where there is none."""
@@ -331,7 +340,7 @@ class _Translation:
     def quotient(self, k: int) -> tuple[str | None, str, int, int] | None:
         """y or None, x, the order, and the number of the token behind d^2y/dx^2 or d^2/dx^2; None for anything else."""
         text = self.texts[k]
-        if text in OPENING and 0 < self.partner.get(k, k) - k < _MOST:
+        if text in OPENING and 0 < self.partner.get(k, k) - k < _LONGEST_QUOTIENT:
             inner = self.quotient(k + 1)
             if inner is not None and inner[3] == self.partner.get(k):
                 return (*inner[:3], inner[3] + 1)
@@ -348,7 +357,7 @@ class _Translation:
         else:
             return None
         is_around = text == "(" and slash is not None and self.partner.get(k, slash) > slash  # (d/dx + 1)
-        if slash is None or end is None or end - k > _MOST or is_around:
+        if slash is None or end is None or end - k > _LONGEST_QUOTIENT or is_around:
             return None
         numerator = _NUMERATOR.fullmatch(self.compact(begin, slash))
         denominator = _DENOMINATOR.fullmatch(self.compact(slash, end).removeprefix("/"))
@@ -451,7 +460,7 @@ class _Translation:
 
     def letters_end(self, k: int) -> int:
         """The number of the token behind the letters up to one that usually is a variable; else behind the first one."""
-        for last in range(k, min(k + _MOST, len(self.scan))):
+        for last in range(k, min(k + _LONGEST_QUOTIENT, len(self.scan))):
             if self.texts[last] in _VARIABLES:
                 return last + 1
             if not _is_name(self.texts[last]) or self.kinds[last + 1] == "PRIMES":
@@ -493,7 +502,7 @@ class _Translation:
         if not self.latex or self.condition or self.argument_end(k) is not None:
             return token.text != "{" or not self.latex
         name = self.found[-1][1]
-        is_step = name in _STEPS and self.texts.count(name) == 1
+        is_step = name in STEPS and self.texts.count(name) == 1
         return token.text == "(" and (is_function(name) or name in DERIVATIVES or is_step)
 
     def fraction(self, token: Token) -> bool:
@@ -550,17 +559,17 @@ class _Translation:
         return True
 
     def ordinary(self, token: Token) -> bool:
-        kind = _KINDS.get(token.text, "") if token.kind == "SIGN" else token.kind
+        kind = _SIGN_KINDS.get(token.text, "") if token.kind == "SIGN" else token.kind
         if not kind:
             return False
         self.k += 1
-        self.write(kind, _PLAIN.get(kind, token.text), token)
+        self.write(kind, _WRITTEN_AS.get(kind, token.text), token)
         return True
 
 
-_Rule = Callable[[_Translation, Token], bool]
+_TokenRule = Callable[[_Translation, Token], bool]
 #: What a sign, a command, a function or else a kind of token may begin, the first rule that applies.
-_RULES: dict[str, tuple[_Rule, ...]] = {
+_TOKEN_RULES: dict[str, tuple[_TokenRule, ...]] = {
     **dict.fromkeys(("NUMBER", "SUPERSCRIPT", "SIGN"), (_Translation.ordinary,)),
     "WORD": (_Translation.derivative, _Translation.word),
     "PRIMES": (_Translation.primes,),

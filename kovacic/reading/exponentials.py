@@ -47,7 +47,7 @@ def in_exponentials(source: Source, limits: Limits) -> Parsed | None:
     """
     x = sympy.Symbol(source.variable)
     parts, notices = parts_of(source, limits)
-    rewritten = [_in_exponentials(part, x) for part in parts]
+    rewritten = [_exponential_form(part, x) for part in parts]
     if all(part.is_rational_function(x) for part in rewritten[:3]):
         with suppress(NotRational):  # everything else cancels, or has the factor 0
             return read_source(source_of_parts(rewritten, source), limits)
@@ -99,7 +99,7 @@ def _right_side(rest: Any, x: Any, powers: dict[Any, Any]) -> tuple[Any, Any]:
     """Of the right-hand side -rest, the terms that are rational in T, and the others in x, None if there are none."""
     in_T, in_x = [], []
     for term in sympy.Add.make_args(sympy.expand(-rest)):
-        rewritten = _in_exponentials(term, x).xreplace(powers)
+        rewritten = _exponential_form(term, x).xreplace(powers)
         free = rewritten.free_symbols | rewritten.atoms(AppliedUndef)
         if rewritten.is_rational_function(*free) and not rewritten.has(x):
             in_T.append(rewritten)
@@ -108,7 +108,7 @@ def _right_side(rest: Any, x: Any, powers: dict[Any, Any]) -> tuple[Any, Any]:
     return sympy.Add(*in_T), sympy.Add(*in_x) if in_x else None
 
 
-def _in_exponentials(expression: Any, x: Any) -> Any:
+def _exponential_form(expression: Any, x: Any) -> Any:
     """The expression with exp(k x) in the place of sin(x), tanh(x), 2^x, ..."""
 
     def is_such(e: Any) -> bool:
@@ -215,13 +215,13 @@ def _best(equation: Equation, k: Any, x: Any) -> _InVariable:
     waves = ((sympy.cos, 1), (sympy.sin, -1)) if is_trigonometric else ((sympy.cosh, 1), (sympy.sinh, -1))
     for h in (g, g // 2) if g % 2 == 0 else (g,):
         for function, sign in waves:
-            quotient = _quotient(form.in_power(h), sign)
+            quotient = _invariant_form(form.in_power(h), sign)
             if quotient is not None and function is sympy.sin:  # (T - 1/T)/2 = i sin
-                quotient = None if i is None else _substituted(quotient, T * i)
+                quotient = None if i is None else _in_moebius_variable(quotient, T * i)
             if quotient is not None:
                 found.append((quotient, function(sympy.expand(h * rate * x))))
     if i is not None:
-        tangent = _substituted(exponential, (1 + T * i) / (1 - T * i))
+        tangent = _in_moebius_variable(exponential, (1 + T * i) / (1 - T * i))
         found.append((tangent, sympy.tan(sympy.expand(g * rate * x / 2))))
     angles = [sympy.expand(h * rate * x) for h in (1, g // 2)]
     return min(((_over_base(monic), function) for monic, function in found), key=partial(_preference, angles))
@@ -248,20 +248,20 @@ def _order_at_infinity(function: RatFunc) -> float:
     return function.den.degree - function.num.degree if function else inf
 
 
-def _substituted(equation: Monic, M: RatFunc) -> Monic:
+def _in_moebius_variable(equation: Monic, M: RatFunc) -> Monic:
     """The equation in w where its variable is M(w)."""
     slope = M.derivative()
     p, q, f = (part(M) for part in equation)
     return p * slope - slope.derivative() / slope, q * slope**2, f * slope**2
 
 
-def _quotient(form: _ThetaEquation, sign: int) -> Monic | None:
+def _invariant_form(form: _ThetaEquation, sign: int) -> Monic | None:
     """The equation in w = (T + sign/T)/2, where it is invariant under T -> sign/T; theta w is (T - sign/T)/2."""
     T = RatFunc(form.P.field.poly([0, 1]))
     found = []
     for part in (form.P * (T * T - sign) / (2 * T), form.Q, form.F):
-        n0, n1 = _reduced(part.num, sign)
-        d0, d1 = _reduced(part.den, sign)
+        n0, n1 = _modulo_quadratic(part.num, sign)
+        d0, d1 = _modulo_quadratic(part.den, sign)
         if n1 * d0 != n0 * d1:
             return None
         found.append(n0 / d0 if d0 else n1 / d1)
@@ -270,7 +270,7 @@ def _quotient(form: _ThetaEquation, sign: int) -> Monic | None:
     return (T + first) / square, second / square, third / square
 
 
-def _reduced(poly: Poly, sign: int) -> tuple[RatFunc, RatFunc]:
+def _modulo_quadratic(poly: Poly, sign: int) -> tuple[RatFunc, RatFunc]:
     """(low, high) with poly = low + high T modulo T^2 - 2 w T + sign, by Horner's rule: functions of w."""
     w = RatFunc(poly.field.poly([0, 1]))
     low = high = RatFunc(poly.field.poly([]))

@@ -17,7 +17,7 @@ from kovacic.reading.arithmetic import VARIABLE, Arithmetic, NotAnInteger, Value
 from kovacic.reading.constants import Constants, Enlarged
 from kovacic.reading.dialects import tokenize
 from kovacic.reading.lexer import PRIMES
-from kovacic.reading.names import FUNCTION_NAMES, NUMBER_NAMES, TRANSCENDENTAL_HINT, is_function, is_letter
+from kovacic.reading.names import FUNCTION_NAMES, NUMBER_NAMES, STEPS, TRANSCENDENTAL_HINT, is_function, is_letter
 from kovacic.reading.parser import Site, evaluate, shortened, shown
 
 _SHOWN_DECIMALS = 3
@@ -25,8 +25,6 @@ _SHOWN_DECIMALS = 3
 #: The functions that stand for roots, with their index (root has it as its second argument).
 ROOTS = {"sqrt": 2, "cbrt": 3, "root": 0}
 _LARGEST_INDEX = 100
-#: Names that steps and impulses have elsewhere.
-_STEPS = frozenset({"H", "u", "theta", "Theta", "delta", "θ", "Θ", "δ"})
 
 _ALONE = "give S alone, the factor of y on the right of y'' = S(x) y"
 
@@ -190,7 +188,7 @@ def usage(name: str) -> str:
         return f"{name} has one argument; S is rational in x, or in exp(k*x), sin(k*x), ..."
     if name in ("log2", "log10", "lg"):
         return "write log(x)/log(b) for the logarithm to the base b"
-    if name in _STEPS:
+    if name in STEPS:
         return f"for a product write {name}*(...), for a step heaviside(...), for an impulse dirac(...)"
     if is_letter(name):
         return f"for a product write {name}*(...)"

@@ -25,7 +25,7 @@ _Reader = Callable[[Source, Limits], Parsed | None]
 
 def in_other_functions(source: Source, limits: Limits, error: NotRational) -> Parsed:
     """The first reading that succeeds.  Raises `NotRational`: why it isn't in exp(k x), where that is known, or the `error`."""
-    found, reason = _first((_divided, in_exponentials, in_powers, _in_letters), source, limits)
+    found, reason = _first_reading((_over_leading, in_exponentials, in_powers, _in_letters), source, limits)
     if found is not None:
         return found
     if reason is None:
@@ -35,7 +35,9 @@ def in_other_functions(source: Source, limits: Limits, error: NotRational) -> Pa
     raise reason from None
 
 
-def _first(readers: Sequence[_Reader], source: Source, limits: Limits) -> tuple[Parsed | None, NotRational | None]:
+def _first_reading(
+    readers: Sequence[_Reader], source: Source, limits: Limits
+) -> tuple[Parsed | None, NotRational | None]:
     """What the first reader finds that finds anything; else the first reason that was given."""
     reason = None
     for reader in readers:
@@ -47,7 +49,7 @@ def _first(readers: Sequence[_Reader], source: Source, limits: Limits) -> tuple[
     return None, reason
 
 
-def _divided(source: Source, limits: Limits) -> Parsed | None:
+def _over_leading(source: Source, limits: Limits) -> Parsed | None:
     """The equation over the coefficient of y'', where that is no rational function and cancels; None elsewhere."""
     (a, *others), notices = parts_of(source, limits)
     if a.is_rational_function(sympy.Symbol(source.variable)):
@@ -71,7 +73,7 @@ def _in_letters(source: Source, limits: Limits) -> Parsed | None:
         if lettered is None:
             continue
         written = source_of_parts(lettered.parts, source)
-        found, _ = _first((read_with_numbers, in_exponentials, in_powers), written, limits)
+        found, _ = _first_reading((read_with_numbers, in_exponentials, in_powers), written, limits)
         if found is not None:
             meanings = tuple((letter.name, meaning) for letter, meaning in lettered.meanings.items())
             said = [f"{name} is {meaning}" for name, meaning in meanings if name != str(meaning)]

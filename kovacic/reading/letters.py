@@ -30,10 +30,10 @@ from kovacic.reading.names import FUNCTION_NAMES, NUMBER_NAMES
 Expr = Any  # SymPy publishes no types
 Meanings = dict[Expr, Expr]  # of letters
 #: The most letters of an equation, and characters of their names.
-_MOST = 20
-_LONGEST = 30
+_MOST_LETTERS = 20
+_LONGEST_NAME = 30
 #: The largest number whose factors are asked for.
-_LARGEST = 10**12
+_LARGEST_FACTORED = 10**12
 
 
 class Lettered(NamedTuple):
@@ -53,7 +53,7 @@ def with_letters(parts: Sequence[Expr], coefficients: int, x: Expr) -> Lettered 
     """
     letters = _LetterTable(x, parts)
     found = tuple(parts)
-    for _ in range(_MOST):
+    for _ in range(_MOST_LETTERS):
         # Beside pi, e becomes a letter, for the two numbers aren't known to be independent.
         e_is_known = not any(part.has(sympy.pi) for part in found[:coefficients])
         inner = {kernel for part in found[:coefficients] for kernel in _kernels(part, x, e_is_known=e_is_known)}
@@ -121,7 +121,7 @@ class _LetterTable:
     def letter(self, meaning: Expr) -> Expr:
         """A new letter for what may contain others."""
         whole = meaning.xreplace(self.meanings)
-        name = re.sub(r"\W+", "_", as_text(whole)).strip("_")[:_LONGEST].rstrip("_")
+        name = re.sub(r"\W+", "_", as_text(whole)).strip("_")[:_LONGEST_NAME].rstrip("_")
         if not name.isidentifier():
             name = f"c_{name}"
         while name in self.taken:
@@ -148,7 +148,7 @@ class _LetterTable:
                 values[kernel] = self.letter(kernel)
         for base, powers in by_bases.items():
             values |= self._powers_of(base, powers, symbols)
-        return tuple(_without_squares(part, kernels).xreplace(values).xreplace(symbols) for part in parts)
+        return tuple(_without_squared_waves(part, kernels).xreplace(values).xreplace(symbols) for part in parts)
 
     def _powers_of(self, base: Expr, powers: Sequence[Expr], symbols: Meanings) -> Meanings:
         """base^(sum of r m), r rational and m monomials, by letters for base^(u m), u the common divisor of the rates r.
@@ -161,7 +161,7 @@ class _LetterTable:
         for terms in exponents.values():
             for monomial, rate in terms.items():
                 rates.setdefault(monomial, []).append(rate)
-        line = _solved_for(base, symbols) if one in rates else None
+        line = _line_in_symbol(base, symbols) if one in rates else None
         if line is not None:
             rates[one].append(one)
         units: dict[Expr, Expr] = {}
@@ -189,7 +189,7 @@ def _monomials(power: Expr) -> dict[Expr, Expr]:
     return found
 
 
-def _solved_for(base: Expr, known: Meanings) -> tuple[Expr, Expr, Expr] | None:
+def _line_in_symbol(base: Expr, known: Meanings) -> tuple[Expr, Expr, Expr] | None:
     """A symbol, not among the `known` ones, and m and r with base = m symbol + r; pi is one, too."""
     if base is sympy.pi:
         return base, sympy.S.One, sympy.S.Zero
@@ -202,13 +202,13 @@ def _solved_for(base: Expr, known: Meanings) -> tuple[Expr, Expr, Expr] | None:
 
 
 #: The sine s and the cosine c of each kind of waves, with s^2 = sign (1 - c^2); the others are quotients of them.
-_WAVES = {TrigonometricFunction: (sympy.sin, sympy.cos, 1), HyperbolicFunction: (sympy.sinh, sympy.cosh, -1)}
-_QUOTIENTS = {"tan": (1, -1), "cot": (-1, 1), "sec": (0, -1), "csc": (-1, 0)}  # the exponents of s and c
+_WAVE_KINDS = {TrigonometricFunction: (sympy.sin, sympy.cos, 1), HyperbolicFunction: (sympy.sinh, sympy.cosh, -1)}
+_WAVE_QUOTIENTS = {"tan": (1, -1), "cot": (-1, 1), "sec": (0, -1), "csc": (-1, 0)}  # the exponents of s and c
 
 
 def _by_others(kernel: Expr, kernels: Sequence[Expr]) -> Expr:
     """A constant in terms of the others, where it depends on them in a known way; else itself."""
-    for kind in _WAVES:
+    for kind in _WAVE_KINDS:
         if isinstance(kernel, kind):
             has_exponentials = any(isinstance(other, sympy.exp) for other in kernels)
             if kind is HyperbolicFunction and has_exponentials:
@@ -216,30 +216,32 @@ def _by_others(kernel: Expr, kernels: Sequence[Expr]) -> Expr:
             return _by_waves(kernel, [other for other in kernels if isinstance(other, kind)], kind)
     if isinstance(kernel, sympy.log):  # log(12) = 2 log(2) + log(3)
         number = kernel.args[0]
-        return sympy.expand_log(kernel, factor=True) if number.is_Rational and abs(number) < _LARGEST else kernel
+        return (
+            sympy.expand_log(kernel, factor=True) if number.is_Rational and abs(number) < _LARGEST_FACTORED else kernel
+        )
     base, exponent = kernel.as_base_exp()
-    if base.is_Rational and 1 / sympy.Integer(_LARGEST) < base < _LARGEST:  # 12^a = 2^(2 a) 3^a
+    if base.is_Rational and 1 / sympy.Integer(_LARGEST_FACTORED) < base < _LARGEST_FACTORED:  # 12^a = 2^(2 a) 3^a
         return sympy.Mul(*(prime ** (k * exponent) for prime, k in sympy.factorrat(base).items()))
     return kernel
 
 
 def _by_waves(kernel: Expr, waves: Sequence[Expr], kind: Any) -> Expr:
     """A wave by those of a part of its argument, or by sine and cosine beside other waves of its argument."""
-    sine, cosine, _ = _WAVES[kind]
+    sine, cosine, _ = _WAVE_KINDS[kind]
     (argument,) = kernel.args
     if any(argument != wave.args[0] and (argument / wave.args[0]).is_Integer for wave in waves):
         return sympy.expand_trig(kernel)
     has_others_beside = any(wave.args == kernel.args and wave != kernel for wave in waves)
     if not has_others_beside or isinstance(kernel, (sine, cosine)):
         return kernel
-    of_sine, of_cosine = _QUOTIENTS[kernel.func.__name__.removesuffix("h")]
+    of_sine, of_cosine = _WAVE_QUOTIENTS[kernel.func.__name__.removesuffix("h")]
     return sine(argument) ** of_sine * cosine(argument) ** of_cosine
 
 
-def _without_squares(part: Expr, kernels: Sequence[Expr]) -> Expr:
+def _without_squared_waves(part: Expr, kernels: Sequence[Expr]) -> Expr:
     """With 1 - cos^2 in the place of sin^2, where sine and cosine of one argument are among the constants; and with sinh^2."""
     squares: Meanings = {}
-    for sine, cosine, sign in _WAVES.values():
+    for sine, cosine, sign in _WAVE_KINDS.values():
         of_kind = [kernel for kernel in kernels if kernel.func is sine and cosine(*kernel.args) in kernels]
         squares |= {wave: sign * (1 - cosine(*wave.args) ** 2) for wave in of_kind}
     powers = [power for power in part.atoms(sympy.Pow) if power.base in squares and power.exp.is_Integer]

@@ -24,6 +24,8 @@ DOTS = "˙"
 DERIVATIVES = frozenset({"diff", "Diff", "Derivative", "D"})
 
 _SUPERSCRIPTS = "⁺⁻⁰¹²³⁴⁵⁶⁷⁸⁹"
+#: How they are written on the line.
+SUPERSCRIPT_DIGITS = str.maketrans(_SUPERSCRIPTS, "+-0123456789")
 _LOWERED = "₀₁₂₃₄₅₆₇₈₉"
 _FRACTIONS = "½⅓⅔¼¾⅕⅖⅗⅘⅙⅚⅛⅜⅝⅞"
 #: What functions are called has dots for derivatives; others with dots are letters of an alphabet.
@@ -182,7 +184,7 @@ class Tokens:
         return found
 
 
-_HINTS = {
+_CHARACTER_HINTS = {
     "!": "write factorials out as numbers",
     "|": "a bar is missing; write abs(...)",
     "√": "write sqrt(...)",
@@ -212,7 +214,7 @@ def error_at(text: str, message: str, scan: Sequence[Token], hint: str | None = 
 def unexpected(text: str, token: Token) -> ParseError:
     char = text[token.start] if token.start < len(text) else token.text[0]
     shown = repr(char) if char.isprintable() else f"U+{ord(char):04X}"
-    hint = _HINTS.get(token.text[0])
+    hint = _CHARACTER_HINTS.get(token.text[0])
     if char in _LOWERED:
         hint = "write indices as ordinary digits: x1"
     elif char.isnumeric():

@@ -25,16 +25,16 @@ from kovacic.reading.parser import Comparison
 #: Bits of a number in SymPy's expressions: Python prints integers of at most 4300 digits.
 _LARGEST_BITS = 14_000
 #: The largest power that SymPy is asked for.
-_LARGEST_EXPONENT = 1000
+_LARGEST_SYMBOLIC_EXPONENT = 1000
 #: The highest power of an operator with D.
 _HIGHEST_POWER = 10
 
 LINEAR_HINT = "the equation is a y'' + b y' + c y = f, where a, b, c and f depend on the variable alone"
 
-_RATIONAL = (Monomial, Poly, RatFunc)
+_RATIONAL_VALUES = (Monomial, Poly, RatFunc)
 
 _ARGUMENTS_HINT = "for example max(x, 0), Piecewise((1, 0 <= x < 5), (0, True))"
-_SIGNS = {"≤": "<=", "≥": ">="}
+_RELATION_SIGNS = {"≤": "<=", "≥": ">="}
 
 #: The key of the part r of a linear form.
 REST = -1
@@ -57,7 +57,7 @@ class DerivativeOperator(LinearForm):
 
 def is_rational(value: Any) -> bool:
     """Is it a value of `Arithmetic`, neither a SymPy expression nor a linear form?"""
-    return isinstance(value, _RATIONAL)
+    return isinstance(value, _RATIONAL_VALUES)
 
 
 class LinearArithmetic(Arithmetic):
@@ -195,7 +195,7 @@ class LinearArithmetic(Arithmetic):
             raise NotRational("a condition is missing behind a piece", hint=_ARGUMENTS_HINT)
         values = [self.expression(value) for value in case.values]
         relations = zip(values, values[1:], case.signs, strict=False)
-        return sympy.And(*(sympy.Rel(left, right, _SIGNS.get(sign, sign)) for left, right, sign in relations))
+        return sympy.And(*(sympy.Rel(left, right, _RELATION_SIGNS.get(sign, sign)) for left, right, sign in relations))
 
     def _coefficient_of(self, factor: Any) -> Any:
         """What has no unknown function, as a factor of it."""
@@ -247,7 +247,7 @@ class LinearArithmetic(Arithmetic):
 
         if not (exponent.is_Rational or exponent.has(log)):
             return
-        largest = min(self.limits.exponent, _LARGEST_EXPONENT)
+        largest = min(self.limits.exponent, _LARGEST_SYMBOLIC_EXPONENT)
         if any(abs(number) > largest for number in exponent.atoms(Rational)):
             raise LimitExceeded(f"an exponent above the limit of {largest}", limit="exponent")
 

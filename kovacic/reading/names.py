@@ -18,13 +18,13 @@ NUMBER_NAMES = {
     "nan": "not a number",
 }
 
-_FUNCTIONS = """
+_FUNCTION_LIST = """
     exp log sin cos tan cot sec csc asin acos atan acot sinh cosh tanh coth sech csch asinh acosh atanh erf sqrt cbrt
     Heaviside DiracDelta floor
 """
 
 #: The functions of one argument that expressions and right-hand sides may contain, with SymPy's names.
-FUNCTION_NAMES = {name: name for name in _FUNCTIONS.split()}
+FUNCTION_NAMES = {name: name for name in _FUNCTION_LIST.split()}
 RECIPROCALS = {"sech": "cosh", "csch": "sinh"}
 FUNCTION_NAMES |= {"ln": "log", "arcsin": "asin", "arccos": "acos", "arctan": "atan", "heaviside": "Heaviside"}
 FUNCTION_NAMES |= {"dirac": "DiracDelta", "abs": "Abs", "Abs": "Abs", "sgn": "sign", "sign": "sign"}
@@ -49,6 +49,9 @@ _GREEK = """
 GREEK = frozenset(_GREEK.split())
 #: Letters of physicists that have names, and common names of numbers without dimension.
 SPECIAL_LETTERS = frozenset({"hbar", "ell", "pi", "eps", "lam"})
+
+#: Letters that often are a step or an impulse before a parenthesis, and no factors.
+STEPS = frozenset({"H", "u", "theta", "Theta", "delta", "θ", "Θ", "δ"})
 
 #: A pattern for a name of one letter, or of a Greek one.
 LETTER = rf"(?:{'|'.join(sorted(GREEK | SPECIAL_LETTERS, key=len, reverse=True))}|[^\W\d_])"

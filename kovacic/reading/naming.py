@@ -12,6 +12,7 @@ import re
 from collections import Counter
 from collections.abc import Collection, Iterator, Sequence
 from dataclasses import dataclass, replace
+from string import digits
 from typing import NamedTuple
 
 from kovacic.equation import DEFAULT_VARIABLE, ENERGY, EULER, UNKNOWN
@@ -29,14 +30,13 @@ _FREQUENCIES = ("omega", "ω", "w")
 _USUAL_UNKNOWNS = frozenset("xyzuvwqf")
 _NO_VARIABLES = frozenset({*NUMBER_NAMES, ENERGY, "e", "D"})
 OPERATOR = "D"
-_DIGITS = "0123456789"
 _NAME = r"[^\W\d]\w*"
 _ROOT = re.compile(r"\^ 1 / (\d+)(?!\S)")
 _STIFFNESS = re.compile(r"(?<!\S)(?:E (?:\* )?I|I (?:\* )?E)(?!\S| \()")
 _EXPONENT = re.compile(rf"(?<!\S)e \^ (- )?[\d.]+ ({_NAME})(?!\S| \()")
 _PRIMED = re.compile(rf"(?<!\S)({_NAME})'+(?!\S)")
 _DIFFERENTIATED = re.compile(rf"(?<!\S)(?:({_NAME})'+|(?:{'|'.join(DERIVATIVES)}) \((?= ({_NAME}) [(,)]))(?!\S)")
-_NAMED = ("NAME", "PRIMED", "HEAD")
+_NAME_KINDS = ("NAME", "PRIMED", "HEAD")
 
 
 class Named(NamedTuple):
@@ -64,7 +64,9 @@ class Vocabulary:
         """The names of an equation.  Raises `InputError` for names that mean nothing, or more than one thing."""
         guesses = _guesses(tokens)
         has_other = any(piece.endswith("''") or piece in DERIVATIVES - {OPERATOR} for piece in tokens.pieces)
-        has_operator = OPERATOR not in self.declared and OPERATOR in _letters(tokens, self.declared) and not has_other
+        has_operator = (
+            OPERATOR not in self.declared and OPERATOR in _single_letters(tokens, self.declared) and not has_other
+        )
         y = (
             self.unknown
             or _primed(tokens, self.declared)
@@ -76,7 +78,7 @@ class Vocabulary:
             y = usual[-1] if has_operator and usual and UNKNOWN not in usual else UNKNOWN
         _check_stiffness(tokens, self.declared)
         _check_powers_of_ten(tokens)
-        x, why = (self.variable, None) if self.variable else _variable_of(tokens, y, self.declared)
+        x, why = (self.variable, None) if self.variable else _equation_variable(tokens, y, self.declared)
         split, products = self._with_products(tokens, x, y)
         if why is not None and x not in (DEFAULT_VARIABLE, "t"):
             guesses.append(why)
@@ -113,7 +115,9 @@ class Vocabulary:
 
     def _with_products(self, tokens: Tokens, x: str, y: str) -> tuple[Tokens, list[str]]:
         """With x y for xy; notes say so.  Raises `ParseError` for all other names that aren't known."""
-        unknown = [k for k, kind in enumerate(tokens.kinds) if kind in _NAMED and not self._is_known(tokens, k, x, y)]
+        unknown = [
+            k for k, kind in enumerate(tokens.kinds) if kind in _NAME_KINDS and not self._is_known(tokens, k, x, y)
+        ]
         if not unknown:
             return tokens, []
         rows = tokens.rows()
@@ -137,8 +141,8 @@ class Vocabulary:
             return True
         if is_call and (name in DERIVATIVES or name in NUMBER_CALLS):
             return True
-        if name.rstrip(_DIGITS) in (x, y) and name not in (f"{x}0", f"{x}1", f"{y}0", f"{y}1"):
-            numbered = [other for other in tokens.names if other.rstrip(_DIGITS) in (x, y) and other not in (x, y)]
+        if name.rstrip(digits) in (x, y) and name not in (f"{x}0", f"{x}1", f"{y}0", f"{y}1"):
+            numbered = [other for other in tokens.names if other.rstrip(digits) in (x, y) and other not in (x, y)]
             if numbered == [name]:
                 return False  # x2 alone may be a product, or a power; x1 and x2 are two points
         return is_letter(name) or is_call
@@ -147,12 +151,12 @@ class Vocabulary:
         name = tokens.pieces[k].rstrip(PRIMES)
         meant = f"write {unglued(name)}"
         said = f"{name} is one name, and not a known one"
-        bare = name.rstrip(_DIGITS)
+        bare = name.rstrip(digits)
         if {*name} == {"E", "I"}:
             meant = "write one letter for a stiffness, such as B"
         elif bare in (x, y):
-            digits = name[len(bare) :]
-            meant = f"write {bare}^{digits} or {digits}*{bare}"
+            number = name[len(bare) :]
+            meant = f"write {bare}^{number} or {number}*{bare}"
         elif name == f"d{x}":
             meant = f"write {y}' or d{y}/d{x} for a derivative"
         elif name.startswith(("asin", "acos", "atan")):
@@ -273,7 +277,7 @@ def differentiated(tokens: Tokens) -> list[str]:
     return [name for name in names if not is_function(name) and name not in DERIVATIVES]
 
 
-def _variable_of(tokens: Tokens, y: str, declared: Collection[str]) -> tuple[str, str | None]:
+def _equation_variable(tokens: Tokens, y: str, declared: Collection[str]) -> tuple[str, str | None]:
     """The variable of an equation, and a note where it was guessed.
 
     It is the argument of the unknown function, or what is differentiated by, or time where the notation says so; else x or t
@@ -285,7 +289,7 @@ def _variable_of(tokens: Tokens, y: str, declared: Collection[str]) -> tuple[str
     if named is not None:
         return named, None
     excluded = {*_NO_VARIABLES, y, *declared}
-    names = [name for name in _letters(tokens, declared) if name not in excluded and is_letter(name)]
+    names = [name for name in _single_letters(tokens, declared) if name not in excluded and is_letter(name)]
     default = tokens.variable or DEFAULT_VARIABLE
     if default == y or default in declared:
         default = next((name for name in "txsz" if name != y and name not in declared), default)
@@ -308,7 +312,7 @@ def _variable_of(tokens: Tokens, y: str, declared: Collection[str]) -> tuple[str
     return default, f"{default} is the variable, {', '.join(names[:6])} {which}"
 
 
-def _letters(tokens: Tokens, declared: Collection[str]) -> list[str]:
+def _single_letters(tokens: Tokens, declared: Collection[str]) -> list[str]:
     """The plain names, those of two glued letters apart."""
     found: dict[str, None] = {}
     for name in tokens.names:
@@ -369,7 +373,7 @@ def _varies(name: str, evidence: dict[str, Counter[str]], names: Collection[str]
 def _variable_of_S(tokens: Tokens, declared: Collection[str]) -> str:
     """The only name that isn't one of a number, the energy or a function, or x.  Asks where it can't be told."""
     no_variables = {*NUMBER_NAMES, ENERGY, UNKNOWN, *declared}
-    letters = [name for name in _letters(tokens, declared) if is_letter(name)]
+    letters = [name for name in _single_letters(tokens, declared) if is_letter(name)]
     names = [name for name in letters if name not in no_variables] or [name for name in letters if name == EULER]
     try:
         return chosen_variable(names)

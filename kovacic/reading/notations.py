@@ -20,26 +20,27 @@ Match = re.Match[str]
 OPENING = frozenset("([{")
 CLOSING = frozenset(")]}")
 
-#: Commands that solve an equation, in other systems.
+#: Commands of other systems that make names, and those that solve an equation.
+MAKERS = frozenset("symbols Symbol Function function var symfun Differential".split())  # noqa: SIM905
 SOLVERS = frozenset("DSolve NDSolve DSolveValue NDSolveValue dsolve desolve ode2 rhs kovacicsols".split())  # noqa: SIM905
-_KNOWN = {*FUNCTION_NAMES, *GREEK, *DERIVATIVES, *SOLVERS, "Eq", "Equality", "hbar", "ell", "eps", "lam"}
-_KNOWN |= {"sqrt", "cbrt", "root", "Piecewise", "SingularityFunction", "max", "min", "Max", "Min"}
+_KNOWN_WORDS = {*FUNCTION_NAMES, *GREEK, *DERIVATIVES, *SOLVERS, "Eq", "Equality", "hbar", "ell", "eps", "lam"}
+_KNOWN_WORDS |= {"sqrt", "cbrt", "root", "Piecewise", "SingularityFunction", "max", "min", "Max", "Min"}
 #: What patterns are written with: one space glues tokens together or not, ~ glues them, and · is a gap between them.
-_SIGNS = {
+_PATTERN_SIGNS = {
     "OPEN": r"[(\[{]",
     "CLOSE": r"[)\]}]",
     "LETTER": LETTER,
-    "WORD": rf"(?!(?:{'|'.join(sorted(_KNOWN, key=len, reverse=True))})(?!\S))[^\W\d_]{{3,}}",
+    "WORD": rf"(?!(?:{'|'.join(sorted(_KNOWN_WORDS, key=len, reverse=True))})(?!\S))[^\W\d_]{{3,}}",
     " ": " +",
     "~": " (?! )",
     "·": "  +",
 }
-_SIGN = re.compile("|".join(_SIGNS))
+_SIGN = re.compile("|".join(_PATTERN_SIGNS))
 
 
 def pattern(text: str) -> re.Pattern[str]:
     """A pattern of whole tokens, in the signs above."""
-    return re.compile(rf"(?s)(?<!\S)(?:{_SIGN.sub(lambda sign: _SIGNS[sign[0]], text)})(?!\S)")
+    return re.compile(rf"(?s)(?<!\S)(?:{_SIGN.sub(lambda sign: _PATTERN_SIGNS[sign[0]], text)})(?!\S)")
 
 
 class Scan(list[Token]):
@@ -51,7 +52,7 @@ class Scan(list[Token]):
         found = {token.text for token in self} | {token.kind for token in self}
         for kind, text, _, _ in self:
             if kind == "WORD" and len(text) > 2:
-                found.add("PROSE" if text.isalpha() and text not in _KNOWN else "_" if "_" in text else text)
+                found.add("PROSE" if text.isalpha() and text not in _KNOWN_WORDS else "_" if "_" in text else text)
             elif kind == "NUMBER" and text[-1] == ".":
                 found.add(".")
         return frozenset(found)
@@ -144,7 +145,7 @@ def _occurs(pattern: str, text: str) -> Match | None:
     return re.search(pattern, text, re.DOTALL)
 
 
-def _derivative(match: Match) -> str:
+def _primed_by_order(match: Match) -> str:
     """y'' for an order n, one if none is said."""
     return f"{match['y']} {PRIMES * int(match['n'] or 1)}"
 
@@ -164,7 +165,7 @@ def _by_index(match: Match) -> str:
     return f"diff ( {match['y']} , {match['x']} , {2 if match['second'] else 1} )"
 
 
-def _exponential(match: Match) -> str:
+def _power_of_e(match: Match) -> str:
     """E of Mathematica, whose notation it is where functions have brackets."""
     return "e ^" if _occurs(r"(?:\w|') \[ +[a-z] +\]|[A-Z][a-z]+ \[", match.string) else match[0]
 
@@ -190,23 +191,22 @@ def _rule(notation: str, marks: str, text: str, result: str | Callable[[Match], 
 
 
 #: MATLAB's D2y and the like.
-_SLOPES = " ".join(f"D{n}{y}" for n in ("", 2, 3, 4) for y in "xyzuvwqf")
+_MATLAB_SLOPES = " ".join(f"D{n}{y}" for n in ("", 2, 3, 4) for y in "xyzuvwqf")
 _PACKAGES = "sympy|sp|sm|sy|np|math|numpy"
-_MAKERS = "Function|function|Symbol|symbols|var"
 _OF_X = r"(LETTER) \( (LETTER) \)"
 _SLOPE = rf"(?:diff|Derivative) \( {_OF_X} , \2 \)"
 _BEHIND_NAME = r"(?:(?<=\w\x20)|(?<=\w\x20\x20))"
 NOTATIONS = (
     _rule("the name of a package", ".", rf"(?:{_PACKAGES}) \."),
-    _rule("a quoted name", "PRIMES", rf"(?<!=\x20)(?<!=\x20\x20)(?:{_MAKERS}) \( ['\"] (\w+) ['\"] \)", r"\1"),
-    _rule("Maple", "@@", r"OPEN D @@ (?P<n>\d) CLOSE OPEN (?P<y>LETTER) CLOSE", _derivative),
-    _rule("Mathematica", "Derivative", r"Derivative OPEN (?P<n>\d) CLOSE OPEN (?P<y>LETTER) CLOSE", _derivative),
+    _rule("a quoted name", "PRIMES", rf"(?<!=\x20)(?<!=\x20\x20)(?:{'|'.join(MAKERS)}) \( ['\"] (\w+) ['\"] \)", r"\1"),
+    _rule("Maple", "@@", r"OPEN D @@ (?P<n>\d) CLOSE OPEN (?P<y>LETTER) CLOSE", _primed_by_order),
+    _rule("Mathematica", "Derivative", r"Derivative OPEN (?P<n>\d) CLOSE OPEN (?P<y>LETTER) CLOSE", _primed_by_order),
     _rule("Maple", "D", r"OPEN D OPEN D OPEN (LETTER) CLOSE CLOSE CLOSE(?= OPEN)", r"\1 ''"),
     _rule("Maple", "D", r"D OPEN D OPEN (LETTER) CLOSE CLOSE(?= OPEN)", r"\1 ''"),
     _rule("Maple", "D", r"OPEN D OPEN (LETTER) CLOSE CLOSE(?= OPEN)", r"\1 '"),
     _rule("Maple", "D", r"(?:OPEN D CLOSE|D) OPEN (LETTER) CLOSE(?= OPEN)", r"\1 '"),
-    _rule("MATLAB", "diff", r"(?<!\.\x20)diff OPEN (?P<y>LETTER) , (?P<n>[1-4]) CLOSE", _derivative),
-    _rule("MATLAB", _SLOPES, r"D(?P<n>[2-4]?)(?P<y>[xyzuvwqf])", _by_time),
+    _rule("MATLAB", "diff", r"(?<!\.\x20)diff OPEN (?P<y>LETTER) , (?P<n>[1-4]) CLOSE", _primed_by_order),
+    _rule("MATLAB", _MATLAB_SLOPES, r"D(?P<n>[2-4]?)(?P<y>[xyzuvwqf])", _by_time),
     _rule("SymPy", "subs", rf"{_OF_X} \. diff \( \2(?: , 1)? \) \. subs \( \2 ,", r"\1 ' ("),
     _rule("SymPy", "subs", r"(LETTER) \. diff \( (LETTER)(?: , 1)? \) \. subs \( \2 ,", r"\1 ' ("),
     _rule("SymPy", "subs", r"(LETTER) \. subs \( LETTER ,", r"\1 ("),
@@ -222,7 +222,7 @@ NOTATIONS = (
     _rule("Mathematica", "Subscript", r"Subscript \[ (LETTER) , (\w+) \]", r"\1_\2"),
     _rule("functions", " ".join(_SYNONYMS), rf"(?:{'|'.join(_SYNONYMS)})(?= [(\[])", lambda match: _SYNONYMS[match[0]]),
     _rule("pi", "Pi π", "Pi|π", "pi"),
-    _rule("Mathematica", "E", r"E \^", _exponential),
+    _rule("Mathematica", "E", r"E \^", _power_of_e),
     _rule(
         "raised primes",
         "PRIMES",

@@ -19,17 +19,17 @@ from dataclasses import dataclass, field
 from typing import Any, NamedTuple
 
 from kovacic.errors import InputError, LimitExceeded, NotRational, ParseError
-from kovacic.reading.lexer import DERIVATIVES, PRIMES, Token, Tokens, unexpected
+from kovacic.reading.lexer import DERIVATIVES, PRIMES, SUPERSCRIPT_DIGITS, Token, Tokens, unexpected
 
 # Strengths; no operation reaches beyond a parenthesis that is open.
 _OPEN, _SUM, _PRODUCT, _SIGN, _IMPLICIT, _POWER = range(6)
-_SIGNS = ("PLUS", "MINUS")
+_UNARY_KINDS = ("PLUS", "MINUS")
 _BINARY = {"PLUS": _SUM, "MINUS": _SUM, "STAR": _PRODUCT, "SLASH": _PRODUCT}
 #: The methods of a reader that say what these mean.
 _ATOMS = {"NUMBER": "number", "NAME": "name", "PRIMED": "derivative", "OPERATOR": "operator"}
 _OPERANDS = frozenset({*_ATOMS, "HEAD", "LPAR"})
-_OPERATORS = (*_BINARY, "CIRCUMFLEX")
-_NO_OPERANDS = (*_OPERATORS, "RPAR", "COMMA", "EQUAL")
+_BINARY_KINDS = (*_BINARY, "CIRCUMFLEX")
+_NO_OPERANDS = (*_BINARY_KINDS, "RPAR", "COMMA", "EQUAL")
 #: SymPy's functions are recursive.
 _DEEPEST_CALL = 100
 #: So many parentheses and more are left to the reader to count.
@@ -37,7 +37,6 @@ _COUNTED = 20
 #: So many digits form a group in 1,000.
 _GROUPED = 3
 #: Raised signs and digits, as they stand in a line.
-SUPERSCRIPTS = str.maketrans("⁺⁻⁰¹²³⁴⁵⁶⁷⁸⁹", "+-0123456789")
 
 
 @dataclass(slots=True)
@@ -208,7 +207,7 @@ class _Parser:
         self.check_no_superscript_before(k)
         base = self.operands[-1]
         self.at(base.begin, k, k + 1)
-        exponent = self.arithmetic.signed_integer(self.pieces[k].translate(SUPERSCRIPTS))
+        exponent = self.arithmetic.signed_integer(self.pieces[k].translate(SUPERSCRIPT_DIGITS))
         base.value = self.reader.power(base.value, self.arithmetic.constant(exponent), self.site)
         return False
 
@@ -306,7 +305,7 @@ class _Parser:
         pending = self.pending
         while pending[-1][0] >= strength:
             level, k = pending.pop()
-            if level != _SIGN and not (level == _POWER and self.kinds[k] in _SIGNS):
+            if level != _SIGN and not (level == _POWER and self.kinds[k] in _UNARY_KINDS):
                 self.combine(level, k, end)
                 continue
             operand = self.operands[-1]
@@ -420,12 +419,12 @@ def _syntax_error(tokens: Tokens, k: int, opened: Sequence[int]) -> InputError:
         fault = "there is nothing between these parentheses", k - 1, k, "leave them out, or write what belongs there"
     elif kind == "RPAR" and not opened:
         fault = "this parenthesis closes nothing", k, k, "remove it, or open it before"
-    elif before in _OPERATORS and kind in _NO_OPERANDS:
+    elif before in _BINARY_KINDS and kind in _NO_OPERANDS:
         said = f"something is missing between {tokens.pieces[k - 1]!r} and {piece!r}"
         fault = said, k - 1, k, "write the number or name that belongs there, or one of the signs"
     elif kind == "COMMA":
         fault = _comma(tokens, k)
-    elif kind in (*_OPERATORS, "SUPERSCRIPT"):
+    elif kind in (*_BINARY_KINDS, "SUPERSCRIPT"):
         fault = (
             f"there is nothing before {piece!r} for it to act on",
             k,
@@ -441,7 +440,7 @@ def _syntax_error(tokens: Tokens, k: int, opened: Sequence[int]) -> InputError:
 def _incomplete(tokens: Tokens, end: int, opened: Sequence[int]) -> _Fault:
     """Of the end of the text."""
     last = end - 1
-    if end and tokens.kinds[last] in (*_OPERATORS, "EQUAL", "COMMA"):
+    if end and tokens.kinds[last] in (*_BINARY_KINDS, "EQUAL", "COMMA"):
         return f"the expression ends after {tokens.pieces[last]!r}", last, last, "something is missing after it"
     if not opened:
         return "the expression isn't complete", end, end, None

@@ -25,22 +25,21 @@ from kovacic.errors import ParseError
 from kovacic.reading.dialects import FRACTIONS, LAYOUT, translated
 from kovacic.reading.lexer import DERIVATIVES, PRIMES, Token, Tokens, error_at, scanned
 from kovacic.reading.names import is_function, is_letter
-from kovacic.reading.notations import AROUND, CLOSING, NOTATIONS, OPENING, SOLVERS, Scan, pattern, rewritten
+from kovacic.reading.notations import AROUND, CLOSING, MAKERS, NOTATIONS, OPENING, SOLVERS, Scan, pattern, rewritten
 
 #: Words between an equation and what is said of it.
 _BETWEEN = frozenset("and with where subject such given for if at when".split())  # noqa: SIM905
 _FILLERS = frozenset("to that the conditions condition initial boundary by values value".split())  # noqa: SIM905
 #: Statements that say what names are, and solve nothing.
 _DECLARATIONS = frozenset("@ from import syms with restart clear clc depends assume var init_printing".split())  # noqa: SIM905
-_MAKERS = frozenset("symbols Symbol Function function var symfun Differential".split())  # noqa: SIM905
-_OPERATORS = frozenset("+ - * / ^ ** = == , := .".split())  # noqa: SIM905
+_UNFINISHED = frozenset("+ - * / ^ ** = == , := .".split())  # noqa: SIM905
 _ASSIGNS = ("=", "==", ":=")
 #: With what Eq(left, right) begins.
 _WHOLE = frozenset({"Eq", "Equality"})
-_WORDS = ("WORD", "COMMAND", "NEWLINE", "TEXT")
+_WORD_KINDS = ("WORD", "COMMAND", "NEWLINE", "TEXT")
 _DISPLAYS = ("\\displaystyle", "\\boxed")
 _INEQUALITIES = frozenset({*"<>≤≥≠", "<=", ">="})
-_POINTS = frozenset({"oo", "inf", "infty", "infinity", "Infinity", "pi", "\\pi"})
+_NAMED_POINTS = frozenset({"oo", "inf", "infty", "infinity", "Infinity", "pi", "\\pi"})
 
 
 class PastedPiece(NamedTuple):
@@ -92,7 +91,7 @@ class Paste:
 
     @cached_property
     def conditions(self) -> tuple[PlacedValue, ...]:
-        return tuple(given for scan in self.scans("condition") for given in _given(self.text, scan))
+        return tuple(given for scan in self.scans("condition") for given in _placed_values(self.text, scan))
 
     def error(self, message: str, scan: Sequence[Token], hint: str) -> ParseError:
         return error_at(self.text, message, scan, hint)
@@ -105,7 +104,7 @@ def taken_apart(text: str) -> Paste:
 
 def conditions_in(text: str) -> tuple[PlacedValue, ...]:
     """Conditions that stand alone: "y(0) = 1, y'(0) = 0".  Raises `ParseError` for anything else."""
-    return tuple(given for statement in _statements(_lines(text)) for given in _given(text, statement))
+    return tuple(given for statement in _statements(_plain_tokens(text)) for given in _placed_values(text, statement))
 
 
 def is_equation(text: str) -> bool:
@@ -113,7 +112,7 @@ def is_equation(text: str) -> bool:
     return taken_apart(text).is_equation
 
 
-def _lines(text: str) -> Scan:
+def _plain_tokens(text: str) -> Scan:
     """The tokens in this package's notation, without comments, layout, and marks around the whole."""
     scan = rewritten(Scan(scanned(text)), AROUND)
     is_displayed = scan.has(_DISPLAYS)  # as Wikipedia has its formulas
@@ -157,7 +156,7 @@ def _comma_separates(scan: Scan, k: int, *_: object) -> bool:
 
 def _line_separates(scan: Scan, k: int, current: list[Token], is_complete: bool) -> bool:
     """Between two statements, each of which has an equals sign or solves something."""
-    if not is_complete or {current[-1].text, scan[min(k + 1, len(scan) - 1)].text} & _OPERATORS:
+    if not is_complete or {current[-1].text, scan[min(k + 1, len(scan) - 1)].text} & _UNFINISHED:
         return False
     rest = scan[k + 1 : k + 200]
     end = next((j for j, t in enumerate(rest) if t.kind == "NEWLINE" or t.text == ";"), len(rest))
@@ -172,7 +171,7 @@ _SEPARATORS: dict[str, Callable[[Scan, int, list[Token], bool], bool]] = {
     "\n": _line_separates,
     **dict.fromkeys(
         _BETWEEN,
-        lambda scan, k, _, is_complete: is_complete and (k + 1 == len(scan) or scan[k + 1].kind in _WORDS),
+        lambda scan, k, _, is_complete: is_complete and (k + 1 == len(scan) or scan[k + 1].kind in _WORD_KINDS),
     ),
 }
 
@@ -198,10 +197,10 @@ _NOTES = {
     "prose": "left out: {}",
 }
 #: Words that have numbers.
-_LABELS = "Exercise|Problem|Example|Question|Equation|Task|Aufgabe|Ex|No|Nr"
+_LABEL_WORDS = "Exercise|Problem|Example|Question|Equation|Task|Aufgabe|Ex|No|Nr"
 _SOME = r"(?:(?:[^\W\d]\S*|'~s|[-:,.]) ){0,40}"
 _NO_OPERATOR = r"(?! (?:==?|:=|[*/^)\[])(?!\S))"
-_LETTERS = r"\d+(?:\.\d+)?|[a-i]|i{2,3}|iv|vi{1,3}"
+_LABEL_NUMBERS = r"\d+(?:\.\d+)?|[a-i]|i{2,3}|iv|vi{1,3}"
 #: In the order in which they are left out; in patterns · is a gap between tokens, ~ none.
 SURROUNDINGS = (
     _around("the next sentence", ".", r"(?<=\.\x20\x20)[A-Z][a-z]*(?: (?:[^\W\d]+|[-,.!?']))+$", "prose"),
@@ -209,9 +208,11 @@ SURROUNDINGS = (
     _around("a prompt", "> sage In %", r"^(?:>(?: >){0,2}|sage :|In \[ \S+ \] :=|\( % \w+ \))"),
     _around("1.", ".", r"^(?:\d+\.|[A-Z]\d+ \.)(?=\x20\x20)", "number"),
     _around("1)", ")", r"^[^\s(]{1,2} \)(?= \S+ \S)", "number"),
-    _around("(1)", ")", rf"^\( (?:{_LETTERS}) \)(?=\x20\x20\S+ )", "number"),
-    _around("Problem 3:", ". : )", rf"^(?:WORD|{_LABELS})(?: \.)? \d+(?:\.\d+)?(?:\.(?=\x20\x20)| [:.)])", "prose"),
-    _around("Problem 3", _LABELS.replace("|", " "), rf"^(?:{_LABELS})(?: \.)? \d+(?=\x20\x20\S+ )", "number"),
+    _around("(1)", ")", rf"^\( (?:{_LABEL_NUMBERS}) \)(?=\x20\x20\S+ )", "number"),
+    _around(
+        "Problem 3:", ". : )", rf"^(?:WORD|{_LABEL_WORDS})(?: \.)? \d+(?:\.\d+)?(?:\.(?=\x20\x20)| [:.)])", "prose"
+    ),
+    _around("Problem 3", _LABEL_WORDS.replace("|", " "), rf"^(?:{_LABEL_WORDS})(?: \.)? \d+(?=\x20\x20\S+ )", "number"),
     _around("a sentence", "PROSE", rf"^{_SOME}?WORD {_SOME}(?:WORD|of|to|is|by|(?<=\w\x20):){_NO_OPERATOR}", "prose"),
     _around("a capital", "PROSE", rf"^(?=[A-Z][a-z]+ )WORD{_NO_OPERATOR}(?! \()", "prose"),
     _around("the number behind an equation", ") ]", r"(?<=[^-+*/^=,:.\s]\x20\x20)OPEN \d+(?:\.\d+)? CLOSE$", "label"),
@@ -237,7 +238,7 @@ class _Apart:
         self.named: dict[str, Scan] = {}
 
     def paste(self) -> Paste:
-        statements = list(_statements(_lines(self.text)))
+        statements = list(_statements(_plain_tokens(self.text)))
         for scan in statements:
             self.statement(self.without_surroundings(scan), is_alone=len(statements) == 1)
         if not self.equations():
@@ -294,7 +295,7 @@ class _Apart:
             return
         name, scan = _without_assignment(scan)
         is_identity = scan.has(("diff", "PRIMES")) and _IDENTITY.fullmatch(scan.spaced)
-        if is_identity or (name and scan and scan[0].text in _MAKERS):
+        if is_identity or (name and scan and scan[0].text in MAKERS):
             self.add("declaration", scan)
         elif self.command(scan):
             return
@@ -317,7 +318,7 @@ class _Apart:
         if not opening or scan.partners.get(opening) != len(scan) - 1:
             return False
         self.add("command", Scan(scan[: opening + 1]))
-        first, *rest = [self.resolved(_unquoted(part)) for part in _listed(scan[opening + 1 : -1])]
+        first, *rest = [self.resolved(_unquoted(part)) for part in _separated(scan[opening + 1 : -1])]
         if first and first[0].text in SOLVERS:
             return self.command(first)
         if not first:
@@ -338,7 +339,7 @@ class _Apart:
     def list_of(self, scan: Scan) -> bool:
         """{y'' + y = 0, y(0) = 1}."""
         is_list = scan.has("{[") and scan[0].text in ("{", "[") and scan.is_enclosed
-        parts = [part for part in _listed(scan[1:-1]) if part] if is_list else []
+        parts = [part for part in _separated(scan[1:-1]) if part] if is_list else []
         if len(parts) == 1 and all(token.text in self.named for token in parts[0]):  # MATLAB's [cond1 cond2]
             parts = [Scan([token]) for token in parts[0]]
         are_named = all(len(part) == 1 and part[0].text in self.named for part in parts)
@@ -368,7 +369,7 @@ class _Apart:
             case ["ics", "=", "{", *_]:
                 return self.values(part[3:-1])
             case ["ics", "=", "[", *_]:
-                return self.values_of_sage(_listed(part[3:-1]))
+                return self.values_of_sage(_separated(part[3:-1]))
             case [name] | [name, "(" | "[", _, _]:
                 is_alone = len(part) == 1 and is_letter(name)
                 if name not in names and not is_alone:
@@ -380,7 +381,7 @@ class _Apart:
             case ["[" | "{", *_] if self.list_of(part):
                 return True
             case ["[" | "{", *_] if not _has_equals(part, depth=1):  # the unknown functions of a system
-                inside = _listed(part[1:-1])  # or a range {t, 0, 30}
+                inside = _separated(part[1:-1])  # or a range {t, 0, 30}
                 return all((inner[:1] and inner[0].kind == "NUMBER") or self.argument(inner, names) for inner in inside)
             case [name, "=", _, *_] if is_word(name):
                 return False
@@ -392,7 +393,7 @@ class _Apart:
 
     def values(self, inside: list[Token]) -> bool:
         """SymPy's ics={y(0): 1}."""
-        for value in _listed(inside):
+        for value in _separated(inside):
             if not any(token.text == ":" for token in value):
                 return False
             self.add("equation", Scan(token._replace(text="=") if token.text == ":" else token for token in value))
@@ -415,8 +416,8 @@ class _Apart:
         equations = self.equations()
         if len(equations) < 2:
             return self.found
-        letters = _arguments(equations[0])
-        conditions = [scan for scan in equations[1:] if _is_condition(scan) and not letters & _arguments(scan)]
+        letters = _argument_letters(equations[0])
+        conditions = [scan for scan in equations[1:] if _is_condition(scan) and not letters & _argument_letters(scan)]
         if _is_condition(equations[0], is_first=True) and len(conditions) < len(equations) - 1:
             conditions.append(equations[0])
         ids = {id(scan) for scan in conditions}
@@ -431,7 +432,7 @@ _IDENTITY = pattern(r"(?P<y>LETTER) (?:˙+ = diff \( (?P=y) .*\)|˙ = (?P=y) '|�
 #: A name, or what is differentiated, with an argument.
 _CALL = pattern(r"(?:[^\W\d]\S*(?: ['\"˙]+)?|\}) [(\[]")
 #: Primes that belong to no value: y'', y''(x).
-_NO_VALUE = pattern(r"(?:''|\"|˙˙)(?! OPEN)")
+_PRIMES_ALONE = pattern(r"(?:''|\"|˙˙)(?! OPEN)")
 
 
 def _is_equation(scan: Scan) -> bool:
@@ -446,9 +447,9 @@ def _is_equation(scan: Scan) -> bool:
         return False
 
 
-def _arguments(scan: Scan) -> set[str]:
+def _argument_letters(scan: Scan) -> set[str]:
     """The letters that functions are applied to: t of y(t) and y'[t]."""
-    return {match[1] for match in _ARGUMENT.finditer(scan.spaced)} - _POINTS
+    return {match[1] for match in _ARGUMENT.finditer(scan.spaced)} - _NAMED_POINTS
 
 
 _ARGUMENT = pattern(r"(?:[^\W\d]\S*|['\"˙]+) [(\[] ([^\W\d]\S*) [)\]]")
@@ -471,7 +472,7 @@ def _has_equals(scan: Sequence[Token], signs: Collection[str] = _ASSIGNS, depth:
 #: The name to which an equation or a command is assigned: ode := ..., eq: ..., eq = Eq(...), ySol(t) = dsolve(...).
 _ASSIGNMENT = pattern(
     rf"(?P<name>[^\W\d]\w*) (?:\( \w+ \) =(?= (?:{'|'.join(SOLVERS)}) )|:(?: =)?(?= \S+ \S)|:=|=(?=.* == )"
-    rf"|=(?= (?:{'|'.join([*SOLVERS, *_MAKERS])}|Eq|Equality) ))"
+    rf"|=(?= (?:{'|'.join([*SOLVERS, *MAKERS])}|Eq|Equality) ))"
 )
 
 
@@ -488,13 +489,13 @@ def _without_eq(scan: Scan) -> Scan:
     """left = right for Eq(left, right) of SymPy."""
     if len(scan) < 4 or scan[0].text not in _WHOLE or scan.partners.get(1) != len(scan) - 1:
         return scan
-    left, *others = _listed(scan[2:-1])
+    left, *others = _separated(scan[2:-1])
     if not left or not others or not others[0]:
         return scan
     return Scan([*left, Token("SIGN", "=", left[-1].end, others[0][0].start), *others[0]])
 
 
-def _listed(scan: Sequence[Token], signs: Collection[str] = (",",)) -> list[Scan]:
+def _separated(scan: Sequence[Token], signs: Collection[str] = (",",)) -> list[Scan]:
     """The parts between commas, or other signs, outside all brackets."""
     parts = [Scan()]
     depth = 0
@@ -519,7 +520,7 @@ def _unquoted(part: Scan) -> Scan:
 
 def _is_condition(scan: Scan, *, is_first: bool = False) -> bool:
     """True if a function stands at a point; a letter is a point behind the equation, and the variable in it."""
-    if not _has_equals(scan) or _NO_VALUE.search(scan.spaced):
+    if not _has_equals(scan) or _PRIMES_ALONE.search(scan.spaced):
         return False
     partner = scan.partners
     for match in _CALL.finditer(scan.spaced):
@@ -528,7 +529,7 @@ def _is_condition(scan: Scan, *, is_first: bool = False) -> bool:
         if opening not in partner or is_function(scan[name].text) or scan[name].text in DERIVATIVES:
             continue
         inside = scan[opening + 1 : partner[opening]]
-        if len(inside) == 1 and inside[0].kind == "WORD" and inside[0].text not in _POINTS:
+        if len(inside) == 1 and inside[0].kind == "WORD" and inside[0].text not in _NAMED_POINTS:
             return name == 0 and not is_first
         if len(inside) == 1 and inside[0].kind == "NUMBER":
             return True
@@ -537,10 +538,10 @@ def _is_condition(scan: Scan, *, is_first: bool = False) -> bool:
     return False
 
 
-def _given(text: str, scan: Scan) -> Iterator[PlacedValue]:
+def _placed_values(text: str, scan: Scan) -> Iterator[PlacedValue]:
     """The conditions that one statement has; y(0) = y'(0) = 1 are two."""
     plain = Scan(token for token in scan if token.text not in ("$", "`"))
-    sides = [translated(text, side, condition=True) for side in _listed(plain, _ASSIGNS)]
+    sides = [translated(text, side, condition=True) for side in _separated(plain, _ASSIGNS)]
     # In this package's notation a blank stands between names and numbers alone.
     *places, value = (re.sub(r"(?<![\w']) | (?!\w)", "", " ".join(tokens.pieces)) for tokens in sides)
     if not places or not all((*places, value)):

@@ -39,9 +39,9 @@ def in_powers(source: Source, limits: Limits) -> Parsed | None:
     if a == 0 or all((part / a).is_rational_function(x) for part in (b, c)):
         return None
     P, Q = sympy.expand(x * b / a) - 1, sympy.expand(x**2 * c / a)
-    waves = [wave for wave in (b / a).atoms(*_WAVES) | (c / a).atoms(*_WAVES) if wave.has(x)]
+    waves = [wave for wave in (b / a).atoms(*_WAVE_FUNCTIONS) | (c / a).atoms(*_WAVE_FUNCTIONS) if wave.has(x)]
     try:
-        found = _of_waves(P, Q, waves, source, limits) if waves else _of_power(P, Q, source, limits)
+        found = _of_waves(P, Q, waves, source, limits) if waves else _in_one_power(P, Q, source, limits)
     except NotRational:
         return None
     if found is None or found.equation is None or found.equation.change is None:
@@ -51,10 +51,10 @@ def in_powers(source: Source, limits: Limits) -> Parsed | None:
     return Parsed(equation.S, equation.variable, (said, *notices, *found.notices), equation, found.letters)
 
 
-_WAVES = (sympy.exp, sympy.sin, sympy.cos, sympy.tan, sympy.sinh, sympy.cosh, sympy.tanh)
+_WAVE_FUNCTIONS = (sympy.exp, sympy.sin, sympy.cos, sympy.tan, sympy.sinh, sympy.cosh, sympy.tanh)
 
 
-def _of_power(P: Expr, Q: Expr, source: Source, limits: Limits) -> Parsed | None:
+def _in_one_power(P: Expr, Q: Expr, source: Source, limits: Limits) -> Parsed | None:
     """theta^2 y + P theta y + Q y = 0 in T = x^k: with x = exp(s) powers of x are exponentials of s, and T is exp(k s)."""
     x, s, T = sympy.Symbol(source.variable), sympy.Dummy("s"), sympy.Dummy("T")
 
@@ -72,7 +72,7 @@ def _of_power(P: Expr, Q: Expr, source: Source, limits: Limits) -> Parsed | None
         return None
     left = (k**2 * T**2, (k**2 + k * P) * T, Q, sympy.S.Zero)
     t = new_variable(left, {x.name, source.unknown})
-    read = read_source(source_of_parts([part.xreplace({T: t}) for part in left], _renamed(source, t.name)), limits)
+    read = read_source(source_of_parts([part.xreplace({T: t}) for part in left], _in_variable(source, t.name)), limits)
     return _with_change(read, source, x**k)
 
 
@@ -88,7 +88,7 @@ def _of_waves(P: Expr, Q: Expr, waves: Sequence[Expr], source: Source, limits: L
     first = sympy.cancel((m**2 + m * P) / (m**2 * T))
     zeroth = sympy.cancel(Q / (m**2 * T**2))
     monic = [sympy.S.One, first.xreplace({T: u}), zeroth.xreplace({T: u}), sympy.S.Zero]
-    found = in_exponentials(source_of_parts(monic, _renamed(source, u.name)), limits)
+    found = in_exponentials(source_of_parts(monic, _in_variable(source, u.name)), limits)
     if found is None or found.equation is None or found.equation.change is None:
         return None
     return _with_change(replace(found, notices=found.notices[1:]), source, function_of_x(found.equation).subs(u, x**m))
@@ -114,6 +114,6 @@ def _power_in(waves: Sequence[Expr], x: Expr) -> Expr | None:
     return None if m.has(x) else m
 
 
-def _renamed(source: Source, variable: str) -> Source:
+def _in_variable(source: Source, variable: str) -> Source:
     """The same, for an equation in another variable."""
     return source._replace(variable=variable, unknown=source.unknown or UNKNOWN)

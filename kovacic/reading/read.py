@@ -62,7 +62,7 @@ def read_input(
         return Parsed(S.S, S.variable, equation=S)
     if isinstance(S, tuple | list) and len(S) == 2:
         numerator, denominator = S
-        return Parsed(_quotient(numerator, denominator, limits), variable or DEFAULT_VARIABLE)
+        return Parsed(_coefficient_quotient(numerator, denominator, limits), variable or DEFAULT_VARIABLE)
     raise InputError(
         f"{type(S).__name__!r} isn't a form of S that can be read",
         hint='give a string "x^2 + 3", a SymPy expression, or the pair of coefficient sequences ([3, 0, 1], [1])',
@@ -154,17 +154,17 @@ def _variable_name(var: Any) -> str | None:
     return name
 
 
-def _quotient(numerator: Any, denominator: Any, limits: Limits) -> RatFunc:
+def _coefficient_quotient(numerator: Any, denominator: Any, limits: Limits) -> RatFunc:
     """The rational function that a pair of sequences of coefficients means."""
-    above = _polynomial(numerator, "numerator", limits)
-    below = _polynomial(denominator, "denominator", limits)
+    above = _coefficient_polynomial(numerator, "numerator", limits)
+    below = _coefficient_polynomial(denominator, "denominator", limits)
     if not below:
         hint = "give the pair (numerator, denominator), low powers first"
         raise NotRational("the denominator is zero", hint=hint)
     return RatFunc(above, below)
 
 
-def _polynomial(coefficients: Sequence[Any], what: str, limits: Limits) -> Poly:
+def _coefficient_polynomial(coefficients: Sequence[Any], what: str, limits: Limits) -> Poly:
     if isinstance(coefficients, str | bytes) or not hasattr(coefficients, "__iter__"):
         raise InputError(
             f"the {what} is {type(coefficients).__name__!r}, not a sequence of coefficients",
@@ -173,7 +173,7 @@ def _polynomial(coefficients: Sequence[Any], what: str, limits: Limits) -> Poly:
     if len(coefficients) > limits.degree + 1:
         said = f"the {what} has {len(coefficients)} coefficients, above the limit of degree {limits.degree}"
         raise LimitExceeded(said, limit="degree")
-    numbers = [_rational(value, power, what) for power, value in enumerate(coefficients)]
+    numbers = [_exact_coefficient(value, power, what) for power, value in enumerate(coefficients)]
     bits = max((max(q.numerator.bit_length(), q.denominator.bit_length()) for q in numbers), default=0)
     if bits > limits.bits:
         said = f"the {what} has coefficients of {bits} bits, above the limit of {limits.bits}"
@@ -181,7 +181,7 @@ def _polynomial(coefficients: Sequence[Any], what: str, limits: Limits) -> Poly:
     return QQ.poly(numbers)
 
 
-def _rational(value: Any, power: int, what: str) -> Fraction:
+def _exact_coefficient(value: Any, power: int, what: str) -> Fraction:
     if is_rational(value):
         return exact_real(value, f"the coefficient of power {power}")
     hint = "give integers, Fraction(1, 2) or sympy.Rational(1, 2)"

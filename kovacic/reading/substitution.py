@@ -21,7 +21,7 @@ from kovacic.reading.read import read_input
 from kovacic.reading.source import source_of
 
 #: What is known about a parameter, in words and inequalities; anything else is its value.
-_WORDS = re.compile(r"(\s*([A-Za-z-]{2,}|([<>]=?|!=)\s*[^\s,<>=!]+),?)*\s*")
+_FACT_WORDS = re.compile(r"(\s*([A-Za-z-]{2,}|([<>]=?|!=)\s*[^\s,<>=!]+),?)*\s*")
 #: `0 < E <= 20`: the lower end, two signs around a name, the upper end.
 _CHAIN = re.compile(r"\s*([^<>=!]+?)\s*([<>]=?)\s*(\w+)\s*([<>]=?)\s*([^<>=!]+?)\s*")
 #: A variable that no value contains.
@@ -144,5 +144,5 @@ def values_among(assume: Mapping[Any, Any]) -> tuple[dict[str, Any], dict[Any, A
         chain = relations(what) if isinstance(what, str) else None
         if chain is not None and chain[0] == str(name):
             told[name] = chain[1]
-    others = {name: what for name, what in told.items() if _WORDS.fullmatch(plain_text(what)) is not None}
+    others = {name: what for name, what in told.items() if _FACT_WORDS.fullmatch(plain_text(what)) is not None}
     return {str(name): what for name, what in told.items() if name not in others}, others

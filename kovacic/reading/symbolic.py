@@ -37,8 +37,8 @@ from kovacic.reading.pieces import Paste, taken_apart
 
 LIMITS = Limits(text_length=10_000, digits=1000, exponent=1000, bits=10_000)
 #: Infinity as it is written in texts.
-_INFINITE = dict.fromkeys(("oo", "inf", "infty", "infinity", "Infinity"), sympy.oo)
-_CONSTANTS = {name: getattr(sympy, number).expand(func=True) for name, number in NUMBERS.items()}
+_INFINITY_NAMES = dict.fromkeys(("oo", "inf", "infty", "infinity", "Infinity"), sympy.oo)
+_NUMBER_VALUES = {name: getattr(sympy, number).expand(func=True) for name, number in NUMBERS.items()}
 
 
 def walked(expression: Any, reader: RationalReader) -> Any:
@@ -164,7 +164,7 @@ def read_expression(
     """
     reader = SymbolicReader(names, what, limits, values or {})
     if values:
-        reader.names = {**reader.names, **_INFINITE}
+        reader.names = {**reader.names, **_INFINITY_NAMES}
     return reader.read(text)
 
 
@@ -238,7 +238,7 @@ class SymbolicReader(RationalReader):
     arithmetic: LinearArithmetic
 
     def __init__(self, names: Mapping[str, Any] | None, what: str, limits: Limits, unknowns: Unknowns) -> None:
-        super().__init__({**_CONSTANTS, **(names or {})}, "", LinearArithmetic(limits), Symbols())  # type: ignore[arg-type]
+        super().__init__({**_NUMBER_VALUES, **(names or {})}, "", LinearArithmetic(limits), Symbols())  # type: ignore[arg-type]
         self.any_name = names is None
         self.unknowns = unknowns
         self.what = what

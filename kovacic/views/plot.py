@@ -49,7 +49,7 @@ if TYPE_CHECKING:
 
 #: The curve ends this share of its interval before a singular point: beside an irregular one, solutions are as large as
 #: exp(1/distance).
-_GAP = Fraction(1, 256)
+_SINGULAR_GAP = Fraction(1, 256)
 _IRREGULAR_GAP = Fraction(1, 16)
 
 #: The ends of pictures.
@@ -166,7 +166,7 @@ def _regular_intervals(chart: PieceChart, a: Fraction, b: Fraction) -> list[tupl
     def share(end: Fraction) -> Fraction:
         if end not in cuts:
             return Fraction(0)
-        return _IRREGULAR_GAP if float(end) in wild else _GAP
+        return _IRREGULAR_GAP if float(end) in wild else _SINGULAR_GAP
 
     found = []
     for left, right in pairwise([a, *cuts, b]):

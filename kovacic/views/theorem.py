@@ -49,14 +49,14 @@ from kovacic.writing.document import FORMATS, Block, Formula, Heading, Sentence,
 from kovacic.writing.formula import Formulas, Math, latex_text, of_sympy, rational_functions
 
 #: What the signs in a solution are called, those that aren't parameters.
-_SIGNS = ("epsilon", "zeta", "eta", "kappa", "iota", "tau", "upsilon", "chi")
+_SIGN_LETTERS = ("epsilon", "zeta", "eta", "kappa", "iota", "tau", "upsilon", "chi")
 #: Solutions that are written one by one; more are written with symbols for their signs.
 _ONE_BY_ONE = 2
 #: Alternatives from which on they stand in a table.
 _TABLE = 3
 #: Characters of Delta_d above which nobody prints it.
-_LONGEST = 240
-_PROOF = Heading("Proof")
+_LONGEST_DETERMINANT = 240
+_PROOF_HEADING = Heading("Proof")
 _REFERENCES = Heading("References")
 _NOUNS = ("integer", "half-integer")
 
@@ -69,7 +69,7 @@ def theorem(answer: ParametricAnswer, *, format: str = "text") -> str:
     chosen = format_of(format)
     if format == "latex":
         written, latex = blocks(answer), FORMATS["latex"]
-        start, end = written.index(_PROOF), written.index(_REFERENCES)
+        start, end = written.index(_PROOF_HEADING), written.index(_REFERENCES)
         environments = {
             "theorem": written[1:start],
             "proof": written[start + 1 : end],
@@ -94,7 +94,7 @@ class _TheoremWriter:
         self.is_solvable = answer.generic.known and answer.generic.case is not None
         self.cases = solvable_cases(answer.regions)
         self.left_out = [*outside(answer.regions)]
-        self.signs = [sign for sign in map(sympy.Symbol, _SIGNS) if sign.name not in answer.parameters]
+        self.signs = [sign for sign in map(sympy.Symbol, _SIGN_LETTERS) if sign.name not in answer.parameters]
 
     def blocks(self) -> Iterator[Block]:
         cases = self.cases
@@ -166,7 +166,7 @@ class _TheoremWriter:
                 read_input(answer.given, var=self._variable, limits=answer.limits, exponentials=True, names=names)
             )
             is_same = read.S.to_str(read.variable) == answer.S.to_str(answer.variable)
-            if is_same and _written(read.equation) == _written(answer.equation):
+            if is_same and _equation_key(read.equation) == _equation_key(answer.equation):
                 return unexpanded(source)
         return None
 
@@ -184,7 +184,7 @@ class _TheoremWriter:
         if not names:
             return []
         kind = " be a complex number" if len(names) == 1 else " be complex numbers"
-        sentence: list[str | Math] = ["Let ", *_listed([Math.of(name) for name in names]), kind]
+        sentence: list[str | Math] = ["Let ", *_enumerated([Math.of(name) for name in names]), kind]
         for name in names:
             sentence += self._assumed(name)
         for region in filter(_is_unequal, self.left_out):
@@ -200,7 +200,7 @@ class _TheoremWriter:
             why = "the equation isn't defined there"
             if region.defined:
                 why = f"what holds there isn't known, {region.complete}"
-            yield say("Values with ", *_said(region.statement), f" are left out: {why}.")
+            yield say("Values with ", *_sentence_of(region.statement), f" are left out: {why}.")
 
     def _assumed(self, name: str) -> list[str | Math]:
         """`, n a nonnegative integer, E > 0`."""
@@ -260,13 +260,13 @@ class _TheoremWriter:
         return f"has Liouvillian solutions if and only if {which}{order}:"
 
     def _case(self, case: Case, number: str) -> Iterator[Block]:
-        rows = _alternatives(case)
-        without = _without(case)
+        rows = _table_rows(case)
+        without = _exclusion_words(case)
         if rows:
             yield say(f"{number}one row of the table holds", *without, ":")
             yield Table(("where", "condition"), rows)
         else:
-            yield say(number, *_said(case.statement), *without, ".")
+            yield say(number, *_sentence_of(case.statement), *without, ".")
         yield from _schwarz(case.statement)
         region = case.regions[0]
         yield say(f"Case {region.case}. ", *_group(region.verdict))
@@ -282,7 +282,7 @@ class _TheoremWriter:
         before: list[str | Math] = []
         for region, block in zip(case.regions, blocks, strict=True):
             if block:
-                yield say("For ", *_said(region.statement), *before, ":")
+                yield say("For ", *_sentence_of(region.statement), *before, ":")
             yield from block
             if isinstance(region.statement, Vanishes):
                 before += [", and ", prose.unequal(region.statement.function)]
@@ -292,7 +292,7 @@ class _TheoremWriter:
         naturals = _naturals_in(region.statement)
         if naturals and naturals[0].m == 1:
             yield from self._with_determinant(region, naturals[0])
-            yield from _values(naturals[0], len(region.determinants))
+            yield from _determinant_table(naturals[0], len(region.determinants))
             return
         solutions = [*region.solution()]
         families = families_of(region.statement.claim) if case.statement == region.statement else []
@@ -340,7 +340,9 @@ class _TheoremWriter:
         yield Formula(self._named_solution(replace(solution, y=y)))
         is_named = y.has(letter) and bool(solution.exclusion(letter.name))
         exclusion = solution.exclusion(letter.name) if is_named else ()
-        yield say("where ", degree, " is a natural number", *exclusion, *_chosen(self._signs_in(solution)), ".")
+        yield say(
+            "where ", degree, " is a natural number", *exclusion, *_choice_of_signs(self._signs_in(solution)), "."
+        )
 
     def _with_determinant(self, region: ParameterRegion, natural: Natural) -> Iterator[Block]:
         """exp(int theta) P for the exponents of the region; P has the degree d."""
@@ -360,7 +362,13 @@ class _TheoremWriter:
         if self._variable != self.answer.variable:
             in_t = [" in ", Math.of(self.answer.variable)]
         yield say(
-            "with a polynomial ", Math.of(P.name), *in_t, " of degree ", degree, *_chosen(self._signs_in(solution)), "."
+            "with a polynomial ",
+            Math.of(P.name),
+            *in_t,
+            " of degree ",
+            degree,
+            *_choice_of_signs(self._signs_in(solution)),
+            ".",
         )
 
     def _signs_in(self, solution: PolynomialSolution) -> list[sympy.Symbol]:
@@ -440,7 +448,7 @@ class _TheoremWriter:
 
     def _proof(self) -> Iterator[Block]:
         answer = self.answer
-        yield _PROOF
+        yield _PROOF_HEADING
         if answer.complete is True:
             yield say("The list is complete (", *answer.theory.words, ").")
         else:
@@ -468,7 +476,7 @@ def _naturals_in(statement: Statement) -> list[Natural]:
     return [part for part in both(statement).parts if isinstance(part, Natural)]
 
 
-def _written(equation: Equation | None) -> tuple[str, str]:
+def _equation_key(equation: Equation | None) -> tuple[str, str]:
     """An equation, over whichever field, and its change of variable; empty where there is none."""
     if equation is None:
         return "", ""
@@ -485,7 +493,7 @@ def _kind_of_number(words: list[str]) -> str:
     return " ".join([*adjectives, *nouns])
 
 
-def _listed(parts: list[Math]) -> list[str | Math]:
+def _enumerated(parts: list[Math]) -> list[str | Math]:
     """`a, b and c`."""
     if len(parts) < 2:
         return [*parts]
@@ -496,11 +504,11 @@ def _listed(parts: list[Math]) -> list[str | Math]:
     return [*found[:-1], " and ", last]
 
 
-def _chosen(signs: list[sympy.Symbol]) -> list[str | Math]:
+def _choice_of_signs(signs: list[sympy.Symbol]) -> list[str | Math]:
     """`, with a choice of epsilon and zeta from +-1`."""
     if not signs:
         return []
-    return [", with a choice of ", *_listed([Math.of(sign.name) for sign in signs]), " from ", Math.of("+-1")]
+    return [", with a choice of ", *_enumerated([Math.of(sign.name) for sign in signs]), " from ", Math.of("+-1")]
 
 
 def _group(verdict: RegionVerdict) -> list[str | Math]:
@@ -509,7 +517,7 @@ def _group(verdict: RegionVerdict) -> list[str | Math]:
     return ["The group is ", *verdict.group_in_words, ". Its identity component is ", *component, "."]
 
 
-def _said(statement: Statement) -> list[str | Math]:
+def _sentence_of(statement: Statement) -> list[str | Math]:
     return [*prose.sentence(statement.claim)]
 
 
@@ -517,7 +525,7 @@ def _is_unequal(region: ParameterRegion) -> bool:
     return not region.defined and isinstance(region.statement, Vanishes)
 
 
-def _without(case: Case) -> list[str | Math]:
+def _exclusion_words(case: Case) -> list[str | Math]:
     """What must not hold in the case: `, and a != 1` where all that are equations, else `, and not: ...` for each."""
     are_equations = all(isinstance(other, Vanishes) for other in case.without)
     found: list[str | Math] = []
@@ -525,11 +533,11 @@ def _without(case: Case) -> list[str | Math]:
         if are_equations and isinstance(other, Vanishes):
             found += [", and ", prose.unequal(other.function)]
         else:
-            found += [", and not: ", *_said(other)]
+            found += [", and not: ", *_sentence_of(other)]
     return found
 
 
-def _alternatives(case: Case) -> list[list[Sentence]]:
+def _table_rows(case: Case) -> list[list[Sentence]]:
     """Rows for many alternatives "k = 3, and ..."; none where a sentence says it."""
     statement = case.statement
     parts = statement.parts if isinstance(statement, Either) else ()
@@ -540,7 +548,7 @@ def _alternatives(case: Case) -> list[list[Sentence]]:
         if not isinstance(part, Both) or not isinstance(part.parts[0], Vanishes):
             return []
         equation, *others = both(part).parts
-        rows.append([_said(equation), _said(Both(tuple(others)))])
+        rows.append([_sentence_of(equation), _sentence_of(Both(tuple(others)))])
     return rows
 
 
@@ -561,13 +569,13 @@ def _schwarz(statement: Statement) -> Iterator[Table]:
         yield Table(["group", *heads], [[structure.value, *values] for structure, values in rows])
 
 
-def _values(natural: Natural, number: int) -> Iterator[Block]:
+def _determinant_table(natural: Natural, number: int) -> Iterator[Block]:
     """The first determinants: d, where it is the degree, and Delta_d in factors; as far as they can be printed."""
     rows: list[list[Sentence]] = []
     delta = Math.of(f"Delta_{natural.letter}")
     for d in range(number):
         found = natural.values(d)
-        if any(len(value) > _LONGEST for value in found):
+        if any(len(value) > _LONGEST_DETERMINANT for value in found):
             break
         if {*found} == {NO_FORMULA}:
             yield say(delta, f" is given by {NO_FORMULA}.")
