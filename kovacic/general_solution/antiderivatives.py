@@ -20,7 +20,7 @@ from math import lcm
 from typing import Any
 
 import sympy
-from sympy import atan, cos, exp, log, sin, tan
+from sympy import atan, cos, exp, log, sin
 
 from kovacic.general_solution.integrands import integral_of_fraction, integral_of_product, prepared, radicands, sum_of
 from kovacic.general_solution.special_integrals import (
@@ -307,36 +307,18 @@ def _beside_logarithm(logarithm: Expr, g: Expr, x: Expr) -> Expr | None:
     return sum_of(_by_parts(logarithm, f, x) if found is None else found for f, found in known.items())
 
 
-def _polynomial_factor(term: Expr, x: Expr) -> Expr:
-    """The product of the factors that are polynomials."""
-    return sympy.Mul(*(factor for factor in sympy.Mul.make_args(term) if factor.is_polynomial(x)))
-
-
-def _has_polynomial_beside_simple_functions(term: Expr, x: Expr) -> bool:
-    """Is it P g with a polynomial P, and functions in g that don't go by parts themselves?"""
-    P = _polynomial_factor(term, x)
-    g = term / P
-    return bool(P.has(x) and g.has(x)) and _functions(g) <= _SIMPLE
-
-
 def _powers_by_parts(term: Expr, x: Expr) -> Expr | None:
-    """int P g dx = P G - int P' G dx, as for x/cos(x)^2."""
-    P = _polynomial_factor(term, x)
-    G = _known(term / P, x)
+    """int P g dx = P G - int P' G dx, as for x/cos(x)^2, with a polynomial P beside functions that don't go by parts."""
+    P = sympy.Mul(*(factor for factor in sympy.Mul.make_args(term) if factor.is_polynomial(x)))
+    g = term / P
+    if not P.has(x) or not g.has(x) or not _functions(g) <= _SIMPLE:
+        return None
+    G = _known(g, x)
     if G is None:
         return None
-    rest = _beside_slope(P.diff(x), G, x)
-    if rest is None or rest.has(sympy.Integral):
-        return None
-    return P * G - rest
-
-
-def _beside_slope(slope: Expr, G: Expr, x: Expr) -> Expr | None:
-    """int P' G dx; term by term where G has functions that go by parts, which would come back to P."""
-    if _functions(G) <= {exp, sin, cos, tan}:
-        return _known(slope * G, x)
-    terms = sympy.Add.make_args(prepared(slope * G))
-    return sum_of(_of_term(term, x) for term in terms)
+    # term by term: functions of G that go by parts would come back to P
+    rest = sum_of(_of_term(part, x) for part in sympy.Add.make_args(prepared(P.diff(x) * G)))
+    return None if rest is None or rest.has(sympy.Integral) else P * G - rest
 
 
 # ------------------------------------------------------------------------------------------------------------ tangents
@@ -395,7 +377,7 @@ _RULES = (
     ),
     _Rule("int q + (a + b s)/c dx where the second part isn't elementary", _has_waves, _beside_tangents),
     _Rule("int f(x, u^(1/q)) dx for u = a x + b: in t = u^(1/q)", _has_roots_in_all_functions_by_parts, _in_a_root),
-    _Rule("int P g dx = P G - int P' G dx", _has_polynomial_beside_simple_functions, _powers_by_parts),
+    _Rule("int P g dx = P G - int P' G dx", lambda e, x: True, _powers_by_parts),
     _Rule("int f(x) cos(u) dx: Ei, erf and gamma functions of complex arguments", _has_waves, in_complex_exponentials),
     _Rule("int x^s exp(c x^m) dx: incomplete gamma functions", lambda e, x: True, incomplete_gamma),
 )

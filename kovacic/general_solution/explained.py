@@ -11,6 +11,7 @@ from typing import Any
 
 import sympy
 
+from kovacic.equation import parameters_of
 from kovacic.errors import InputError, NotLinear
 from kovacic.general_solution.answer import FirstOrderAnswer, SecondOrderAnswer
 from kovacic.general_solution.conditions import Condition
@@ -106,12 +107,24 @@ def _equation(
     name: str, coefficients: Sequence[Expr], right: Expr, conditions: Sequence[Condition] = ()
 ) -> Iterator[Block]:
     """The derivatives of `name` with these coefficients, from y on, equal the right-hand side; and the values."""
-    derivatives = [sympy.Symbol(name + "'" * k) for k in range(len(coefficients))]
-    left = sympy.Add(*(c * derivative for c, derivative in zip(coefficients, derivatives, strict=True)))
-    yield Formula(of_sympy(left, derivatives[-1]).equals(of_sympy(right)))
+    powers = [*enumerate(coefficients)]
+    terms = [_times(c, name + "'" * k) for k, c in reversed(powers) if c != 0]
+    text, latex = (" + ".join(parts).replace("+ -", "- ") for parts in zip(*terms, strict=True))
+    yield Formula(Math(text, latex).equals(of_sympy(right)))
     if conditions:
         said = ", ".join(condition.text for condition in conditions)
         yield say("with ", Math.of(said), ".")
+
+
+def _times(c: Expr, y: str) -> tuple[str, str]:
+    """c y as text and as LaTeX, sums and quotients in parentheses."""
+    sign = "-" if c.could_extract_minus_sign() else ""
+    factor = of_sympy(-c if sign else c)
+    text = f"({factor.text})" if {" ", "/"} & {*factor.text} else factor.text
+    latex = rf"\left({factor.latex}\right)" if c.is_Add else factor.latex
+    if factor.text == "1":
+        return sign + y, sign + of_sympy(sympy.Symbol(y)).latex
+    return f"{sign}{text}*{y}", f"{sign}{latex} {of_sympy(sympy.Symbol(y)).latex}"
 
 
 def _steps(answer: SecondOrderAnswer) -> Iterator[Block]:
@@ -132,7 +145,9 @@ def _steps(answer: SecondOrderAnswer) -> Iterator[Block]:
         yield Heading("Normal form")
         yield from ExplanationWriter(solution).normal_form(y)
     yield Heading("Two solutions without the right-hand side" if F != 0 else "Two solutions")
-    source = "There is no Liouvillian solution, so these are special functions"
+    letters = ", ".join(parameters_of(solution.S.field))
+    generic = f" for generic {letters}" if letters else ""
+    source = f"There is no Liouvillian solution{generic}, so these are special functions"
     if solution.case is not None:
         source = f"By case {solution.case} of Kovacic's algorithm"
     yield say(f"{source}:")
@@ -190,6 +205,8 @@ def _steps_of_first_order(answer: FirstOrderAnswer) -> Iterator[Block]:
         yield Heading("The integrating factor")
         yield say(f"h = exp(int q), q the coefficient of {name}, solves the equation without its right-hand side p:")
         yield _named("h", equation.homogeneous)
+        if equation.p == 0:
+            return
         yield say(f"With {name} = h c it says that c' = p/h, so {name} = h (C1 + int p/h), where")
         yield Formula(Math("p/h", "p/h").equals(of_sympy(shortest([*sums(equation.p / equation.homogeneous, x)]))))
         return

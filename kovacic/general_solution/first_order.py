@@ -13,7 +13,7 @@ from collections.abc import Collection, Mapping, Sequence, Set
 from contextlib import suppress
 from dataclasses import dataclass, replace
 from functools import cached_property
-from itertools import islice, pairwise
+from itertools import islice
 from typing import Any, NamedTuple
 
 import sympy
@@ -24,7 +24,6 @@ from sympy.core.function import AppliedUndef
 from kovacic.algebra.precision import working_digits
 from kovacic.closed_form.atoms import Atoms, display
 from kovacic.closed_form.check import DIGITS
-from kovacic.closed_form.jets import jet
 from kovacic.closed_form.product import product
 from kovacic.errors import InputError, VerificationFailed
 from kovacic.general_solution.antiderivatives import antiderivative
@@ -33,10 +32,10 @@ from kovacic.general_solution.conditions import Condition, exact
 from kovacic.general_solution.continuity import jumps
 from kovacic.general_solution.integrands import NUMBERS, ratfunc
 from kovacic.general_solution.jumps import between, break_points, in_steps, on_piece
-from kovacic.general_solution.steps import JUMPING, taken_apart
+from kovacic.general_solution.steps import JUMPING, Apart, taken_apart
 from kovacic.general_solution.textbook import in_book_form, sums
 from kovacic.general_solution.values import value_at
-from kovacic.general_solution.zero import ball, is_zero, samples
+from kovacic.general_solution.zero import Residual, ball, is_zero, points, samples
 from kovacic.limits import Limits
 from kovacic.numbers.numerals import as_text
 from kovacic.reading.pieces import Paste
@@ -46,10 +45,10 @@ from kovacic.special.choice import shortest
 
 Expr = Any  # SymPy publishes no types
 _ZERO = sympy.Integer(0)
-#: Points at which a solution is put into the equation, and how small a residual is, relative to the size of its terms.
-_POINTS = (acb(fmpq(23, 71), fmpq(41, 89)), acb(fmpq(-83, 97), fmpq(11, 59)))
+#: How small a residual is, relative to the size of its terms.
 _SMALL = arb(10) ** (-DIGITS // 2)
 _NO_VALUE = "a part of it can't be evaluated"
+_NOT_EVALUATED = (NotImplementedError, ZeroDivisionError, AttributeError, ValueError)
 
 
 @dataclass(frozen=True)
@@ -213,8 +212,10 @@ def _exponential_of_integral(q: Expr, x: Expr) -> Expr:
     rate = ratfunc(q, x)
     if rate is not None:
         return _in_own_symbols(display(product(rate), Atoms(x)).xreplace(NUMBERS), q)
-    integral = _integral_with_steps(q, x) if q.has(*JUMPING) else _integral(q, x)
-    return sympy.exp(sympy.Integral(q, x) if integral is None else integral)
+    apart = _apart(q, x)
+    if apart is None or apart.impulses:
+        return sympy.exp(sympy.Integral(q, x))
+    return sympy.exp(_of_parts(apart, sympy.Integer(1), x, None))
 
 
 def _integral(g: Expr, x: Expr) -> Expr | None:
@@ -229,39 +230,30 @@ def _in_own_symbols(found: Expr, given: Expr) -> Expr:
     return found.xreplace({sympy.Symbol(symbol.name): symbol for symbol in given.free_symbols})
 
 
-def _integral_with_steps(q: Expr, x: Expr) -> Expr | None:
-    """A continuous integral: int g H(x - a) dx = H(x - a) (G(x) - G(a)).  None if a part isn't known."""
-    apart = taken_apart(in_steps(q, x), x)
-    if apart is None or apart.impulses:
-        return None
-    total = _integral(apart.plain, x)
-    for step in apart.steps:
-        integral = _integral(step.g, x)
-        if total is None or integral is None:
-            return None
-        total += sympy.Heaviside(x - step.a) * (integral - value_at(integral, x, step.a))
-    return total
-
-
 def _particular(equation: FirstOrderEquation, h: Expr, start: Expr | None) -> Expr:
-    """h int p/h dx, where an integral that isn't known begins at `start`; steps and impulses in p are taken one by one.
-
-    g H(x - a) gives H(x - a) h int_a^x g/h, and s delta(x - a) gives H(x - a) s h(x)/h(a).
-    """
-    x = equation.x
-    p = equation.p
-    if not p.has(*JUMPING):
-        return _integrated(p, h, x, start)
-    apart = taken_apart(in_steps(p, x), x)
+    """h int p/h dx."""
+    apart = _apart(equation.p, equation.x)
     if apart is None or any(impulse.order for impulse in apart.impulses):
         raise NotImplementedError(
             "undecided: the right-hand side jumps at points that aren't constant, or too strongly"
         )
-    total = _integrated(apart.plain, h, x, start)
-    for step in apart.steps:
+    return _of_parts(apart, h, equation.x, start)
+
+
+def _apart(e: Expr, x: Expr) -> Apart | None:
+    return taken_apart(in_steps(e, x), x) if e.has(*JUMPING) else Apart(e, (), ())
+
+
+def _of_parts(p: Apart, h: Expr, x: Expr, start: Expr | None) -> Expr:
+    """h int p/h dx, where an integral that isn't known begins at `start`; steps and impulses in p are taken one by one.
+
+    g H(x - a) gives H(x - a) h int_a^x g/h, and s delta(x - a) gives H(x - a) s h(x)/h(a).
+    """
+    total = _integrated(p.plain, h, x, start)
+    for step in p.steps:
         response = _integrated(step.g, h, x, step.a)
         total += sympy.Heaviside(x - step.a) * (response - h * value_at(response / h, x, step.a))
-    for impulse in apart.impulses:
+    for impulse in p.impulses:
         total += sympy.Heaviside(x - impulse.a) * impulse.strength * h / value_at(h, x, impulse.a)
     return total
 
@@ -346,34 +338,22 @@ def _is_missed(equation: FirstOrderEquation, w: Expr, sample: dict[Expr, Expr], 
 def _is_wrong(equation: FirstOrderEquation, w: Expr, sample: dict[Expr, Expr]) -> bool | None:
     """True if the residual is seen not to vanish at a point, or w to jump; None if nothing can be evaluated."""
     x = equation.x
-    jumping = equation.p + equation.q
-    if jumping.has(*JUMPING):
-        breaks = break_points(jumping.xreplace(sample), x)
-        places = between(breaks)
-        found = [_is_wrong_near(equation, w, sample, place) for place in places]
-        pieces = [on_piece(w.xreplace(sample), x, place) for place in places]
-        for (left, right), a in zip(pairwise(pieces), breaks, strict=True):
-            jump = None if jumping.has(DiracDelta) else ball((left - right).subs(x, a))
-            found.append(None if jump is None else bool(abs(jump) > _SMALL))
-    else:
-        found = [_is_wrong_at(equation, w.xreplace(sample), sample, point) for point in _POINTS]
-    if True in found:
-        return True
-    return False if False in found else None
-
-
-def _is_wrong_near(equation: FirstOrderEquation, w: Expr, sample: dict[Expr, Expr], place: Expr) -> bool | None:
-    """The same beside steps, from what the functions are near a real point."""
-    x = equation.x
-    coefficients = (on_piece(e.xreplace(sample), x, place) for e in equation.parts)
-    here = FirstOrderEquation(equation.function, *coefficients)
-    return _is_wrong_at(here, on_piece(w.xreplace(sample), x, place), sample, acb(fmpq(place.p, place.q)))
-
-
-def _is_wrong_at(equation: FirstOrderEquation, w: Expr, sample: dict[Expr, Expr], point: Any) -> bool | None:
-    with suppress(NotImplementedError, ZeroDivisionError, AttributeError, ValueError):
-        value, slope, _ = jet(w, equation.x, point)
-        p, q, r = (jet(e.xreplace(sample), equation.x, point)[0] for e in equation.parts)
-        terms = [slope, -p, -q * value, -r * value**2]
-        return bool(abs(sum(terms)) > _SMALL * sum(map(abs, terms), arb(0)))
-    return None
+    w, p, q, r = (e.xreplace(sample) for e in (w, *equation.parts))
+    breaks: list[Expr] = []
+    places = [(_ZERO, point) for point in islice(points(), 2)]
+    if (p + q).has(*JUMPING):  # a real point between each two of the breaks
+        breaks = break_points(p + q, x)
+        places = [(place, acb(fmpq(place.p, place.q))) for place in between(breaks)]
+    pieces = [on_piece(w, x, place) for place, _ in places]
+    found = []
+    for piece, (place, point) in zip(pieces, places, strict=True):
+        here = (1, -q - r * piece, p)
+        with suppress(*_NOT_EVALUATED):
+            residual = Residual(x, (_ZERO, *(on_piece(sympy.sympify(e), x, place) for e in here)))
+            miss, scale = residual.at(piece, point)
+            found.append(bool(miss > _SMALL * scale))
+    if not p.has(DiracDelta):
+        sides = zip(pieces, pieces[1:], breaks, strict=False)
+        jumps_there = (ball((left - right).subs(x, a)) for left, right, a in sides)
+        found += [bool(abs(jump) > _SMALL) for jump in jumps_there if jump is not None]
+    return any(found) if found else None

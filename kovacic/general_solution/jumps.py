@@ -18,9 +18,10 @@ from typing import Any
 import sympy
 from sympy import DiracDelta, Heaviside, exp
 from sympy.logic.boolalg import And, Or
+from sympy.solvers.inequalities import solve_poly_inequality
 
 from kovacic.errors import InputError
-from kovacic.general_solution.steps import JUMPING, place_of, taken_apart, with_single_steps
+from kovacic.general_solution.steps import JUMPING, taken_apart, with_single_steps
 
 Expr = Any  # SymPy publishes no types
 #: The largest degree of a polynomial whose sign is asked for.
@@ -204,60 +205,26 @@ def above(u: Expr, x: Expr) -> Expr | None:
     -Heaviside(x - 2) + Heaviside(x + 2)
     """
     u = sympy.expand(u)
-    steps = [step for step in u.atoms(Heaviside) if step.has(x)]
-    if steps:
-        return _above_in_pieces(u, sorted(steps, key=str), x)
+    if any(step.has(x) for step in u.atoms(Heaviside)):
+        pieces = _with_steps_outside(Heaviside(u), x)
+        known = {on: above(on.args[0], x) for on in pieces.atoms(Heaviside) if not _is_simple(on, x) and on.has(x)}
+        apart = None if None in known.values() else taken_apart(pieces.xreplace(known), x)
+        if apart is None:
+            return None
+        return sympy.Add(apart.plain, *(step.g * Heaviside(x - step.a) for step in apart.steps))
     slope = u.diff(x)
-    is_line = not slope.has(x)
-    if is_line and slope.is_positive:
-        return Heaviside(x - sympy.expand(x - u / slope))
-    if is_line and slope.is_negative:
-        return 1 - Heaviside(x - sympy.expand(x - u / slope))
+    if not slope.has(x) and (slope.is_positive or slope.is_negative):
+        step = Heaviside(x - sympy.expand(x - u / slope))
+        return step if slope.is_positive else 1 - step
     if not u.is_polynomial(x) or u.free_symbols != {x}:
         return None
-    return _above_polynomial(sympy.Poly(u, x), x)
-
-
-def _above_polynomial(u: Any, x: Expr) -> Expr | None:
-    """For a polynomial over Q: a step at each zero of odd order."""
-    is_rational = u.domain.is_QQ or u.domain.is_ZZ
-    if not is_rational or u.degree() > _LARGEST_DEGREE:
+    polynomial = sympy.Poly(u, x)
+    if not (polynomial.domain.is_QQ or polynomial.domain.is_ZZ) or polynomial.degree() > _LARGEST_DEGREE:
         return None
-    roots = sympy.real_roots(u, multiple=True)
-    is_positive = u.LC() * (-1) ** u.degree() > 0  # far to the left
-    total = sympy.Integer(bool(is_positive))
-    crossings = [root for root in dict.fromkeys(roots) if roots.count(root) % 2]
-    for root in crossings:
-        if is_positive:
-            total -= Heaviside(x - root)
-        else:
-            total += Heaviside(x - root)
-        is_positive = not is_positive
-    return total
-
-
-def _above_in_pieces(u: Expr, steps: Sequence[Expr], x: Expr) -> Expr | None:
-    """For u with steps at numbers: on each piece in turn."""
-    places: dict[Expr, Expr] = {}
-    for step in steps:
-        place = place_of(step, x)
-        if place is None or not place.a.is_number:
-            return None
-        places[step] = place.a
-    breaks = sorted(set(places.values()), key=lambda point: float(point.evalf()))
-    begins = [sympy.Integer(1), *(Heaviside(x - point) for point in breaks)]
-    ends = [*begins[1:], sympy.Integer(0)]
-    total = sympy.Integer(0)
-    for k in range(len(breaks) + 1):
-        passed = breaks[:k]
-        values = {step: sympy.Integer(a in passed) for step, a in places.items()}
-        on = above(u.xreplace(values), x)
-        if on is None:
-            return None
-        total += (begins[k] - ends[k]) * on
-    apart = taken_apart(total, x)  # with single steps in the place of products of steps at numbers
-    assert apart is not None
-    return sympy.Add(apart.plain, *(step.g * Heaviside(x - step.a) for step in apart.steps))
+    beyond = {-sympy.oo: sympy.Integer(1), sympy.oo: sympy.Integer(0)}
+    ends = ((end.start, end.end) for end in solve_poly_inequality(polynomial, ">"))
+    steps = [beyond.get(a, Heaviside(x - a)) - beyond.get(b, Heaviside(x - b)) for a, b in ends]
+    return sympy.Add(*steps)
 
 
 # ------------------------------------------------------------------------------------------------- between the jumps

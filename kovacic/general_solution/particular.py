@@ -137,8 +137,7 @@ def _by_coefficients(equation: Equation, right: Expr, x: Expr) -> Expr:
     """
     atoms = Atoms(x)
     S = equation.S
-    b = equation.b / equation.a
-    c = equation.c / equation.a
+    b, c = equation.b / equation.a, equation.c / equation.a
     if _is_constant(b) and _is_constant(c):
         return undetermined(atoms.ratio(b).xreplace(NUMBERS), atoms.ratio(c).xreplace(NUMBERS), right, x)
     gauge = display(product(equation.gauge), atoms).xreplace(NUMBERS)
@@ -156,7 +155,7 @@ def _is_constant(r: RatFunc) -> bool:
 
 def _times(gauge: Expr, u: Expr) -> Expr:
     """G u, term by term."""
-    return sympy.Add(*(gauge * term for term in sympy.Add.make_args(u)))
+    return sympy.Add(*(sympy.powsimp(gauge * term) for term in sympy.Add.make_args(u)))
 
 
 def _with_a_double_pole(equation: Equation, den: Poly, gauge: Expr, right: Expr, x: Expr) -> Expr | None:

@@ -5,6 +5,7 @@ H(u)^n = H(u).  What holds at single points doesn't matter.  x is real.
 
 from __future__ import annotations
 
+from collections import defaultdict
 from collections.abc import Sequence
 from dataclasses import dataclass
 from math import comb
@@ -86,98 +87,47 @@ def taken_apart(right: Expr, x: Expr) -> Apart | None:
     terms = sympy.Add.make_args(sympy.expand(right))
     if len(terms) > _MOST_TERMS:
         return None
-    parts: list[Apart] = []
-    for term in terms:
-        found = _term_apart(term, x)
-        if found is None:
-            return None
-        parts.append(found)
-    return _together(parts)
-
-
-def _together(parts: Sequence[Apart]) -> Apart:
-    """Their sum, with one step for each place."""
-    plain = sympy.Add(*(part.plain for part in parts))
-    steps: dict[Expr, Expr] = {}
+    plain = _NOTHING
+    steps: defaultdict[Expr, Expr] = defaultdict(lambda: _NOTHING)
     impulses: list[Impulse] = []
-    for part in parts:
-        impulses += part.impulses
-        for step in part.steps:
-            steps[step.a] = steps.get(step.a, sympy.Integer(0)) + step.g
-    nonzero = tuple(HeavisideTerm(a, g) for a, g in steps.items() if g != 0)
-    return Apart(plain, nonzero, tuple(impulses))
+    for term in map(with_single_steps, terms):
+        jumps = [factor for factor in sympy.Mul.make_args(term) if factor.has(*JUMPING) and factor.has(x)]
+        deltas = [jump for jump in jumps if isinstance(jump, DiracDelta)]
+        places = [place_of(jump, x) if isinstance(jump, Heaviside | DiracDelta) else None for jump in jumps]
+        beside = zip(jumps, places, strict=True)
+        # H(s (x - a)) is H(x - a) for s > 0 alone
+        known = [place.a for jump, place in beside if place and (jump in deltas or place.slope.is_positive)]
+        # H H ... H begins with the last of the steps
+        last = next((a for a in known if all((a - other).is_nonnegative for other in known)), None)
+        g = term / sympy.Mul(*jumps)
+        if not jumps:
+            plain += term
+        elif last is None or len(known) < len(jumps) or len(deltas) > 1:
+            return None
+        elif not deltas:
+            steps[last] += g
+        else:
+            found = _impulses_beside_steps(g, deltas[0], [jump for jump in jumps if jump not in deltas], x)
+            if found is None:
+                return None
+            impulses += found
+    return Apart(plain, tuple(HeavisideTerm(a, g) for a, g in steps.items() if g != 0), tuple(impulses))
 
 
-def _term_apart(term: Expr, x: Expr) -> Apart | None:
-    """The same for a product: without jumps; g H H ... H, which begins with the last step; or g delta^(n) H ... H."""
-    term = with_single_steps(term)
-    jumps = [factor for factor in sympy.Mul.make_args(term) if factor.has(*JUMPING) and factor.has(x)]
-    if not jumps:
-        return Apart(term, (), ())
-    last = _last_place(jumps, x)
-    if last is None:
-        return None
-    g = term / sympy.Mul(*jumps)
-    deltas = [jump for jump in jumps if isinstance(jump, DiracDelta)]
-    if not deltas:
-        return Apart(_NOTHING, (HeavisideTerm(last, g),), ())
-    if len(deltas) > 1:
-        return None
-    steps = [jump for jump in jumps if jump not in deltas]
-    return _impulses_beside_steps(g, deltas[0], steps, x)
+def _impulses_beside_steps(g: Expr, delta: Expr, steps: Sequence[Expr], x: Expr) -> list[Impulse] | None:
+    """g delta^(n) where all steps are 1, nothing where one is 0; None where that isn't known.
 
-
-def _impulses_beside_steps(g: Expr, delta: Expr, steps: Sequence[Expr], x: Expr) -> Apart | None:
-    """g delta^(n) where all steps are 1, 0 where one is 0; None where that isn't known."""
+    g delta^(n) = sum of (-1)^k C(n, k) g^(k)(a) delta^(n - k), and delta^(n)(s u) = delta^(n)(u)/(|s| s^n).
+    """
     place = place_of(delta, x)
     assert place is not None
-    is_on = _are_on(steps, x, place.a)
-    if is_on is None:
-        return None
-    if not is_on:
-        return Apart(_NOTHING, (), ())
-    return Apart(_NOTHING, (), tuple(_impulses(g, delta, place, x)))
-
-
-def _last_place(jumps: Sequence[Expr], x: Expr) -> Expr | None:
-    """The last of the places of steps and impulses; None where it isn't known, or there are other jumps."""
-    points = []
-    for jump in jumps:
-        if not isinstance(jump, Heaviside | DiracDelta):
-            return None
-        place = place_of(jump, x)
-        if place is None:
-            return None
-        points.append(place.a)
-    return _last(points)
-
-
-def _last(places: Sequence[Expr]) -> Expr | None:
-    """The largest of some real numbers, None where that isn't known: where the last of the steps is."""
-    for place in places:
-        if all((place - other).is_nonnegative for other in places):
-            return place
-    return None
-
-
-def _are_on(steps: Sequence[Expr], x: Expr, a: Expr) -> bool | None:
-    """Are all H(x - b) 1 at a; None where that isn't known, or a is such a b."""
+    a = place.a
     distances = [step.args[0].subs(x, a) for step in steps]
     if any(distance.is_negative for distance in distances):
-        return False
-    if all(distance.is_positive for distance in distances):
-        return True
-    return None
-
-
-def _impulses(g: Expr, delta: Expr, place: HeavisidePlace, x: Expr) -> list[Impulse]:
-    """g delta^(n) = sum of (-1)^k C(n, k) g^(k)(a) delta^(n - k), and delta^(n)(s u) = delta^(n)(u)/(|s| s^n)."""
-    a = place.a
+        return []
+    if not all(distance.is_positive for distance in distances):
+        return None
     n = int(delta.args[1]) if len(delta.args) > 1 else 0  # DiracDelta(u) is DiracDelta(u, 0)
     scale = abs(place.slope) * place.slope**n
-    found = []
-    for k in range(n + 1):
-        strength = (-1) ** k * comb(n, k) * g.diff(x, k).subs(x, a) / scale
-        if strength != 0:
-            found.append(Impulse(a, n - k, strength))
-    return found
+    strengths = ((-1) ** k * comb(n, k) * g.diff(x, k).subs(x, a) / scale for k in range(n + 1))
+    return [Impulse(a, n - k, strength) for k, strength in enumerate(strengths) if strength != 0]

@@ -17,6 +17,8 @@ from typing import Any
 
 import sympy
 from sympy.core.function import AppliedUndef
+from sympy.solvers.ode.systems import ODEOrderError, linear_ode_to_matrix
+from sympy.solvers.solveset import NonlinearError
 
 from kovacic.equation import eliminated
 from kovacic.errors import InputError, NotLinear
@@ -104,27 +106,23 @@ def read_system(equations: Sequence[Any], functions: Sequence[Any] | None) -> Li
     whole = [exact(e.lhs - e.rhs if isinstance(e, sympy.Equality) else e) for e in equations]
     x, y = _unknowns(whole, functions)
     t = x.args[0]
-    if any(e.expr in (x, y) and e.derivative_count != 1 for w in whole for e in w.atoms(sympy.Derivative)):
-        raise InputError("a system of equations of first order is expected", hint="for higher order call sympy.dsolve")
-    slopes = [x.diff(t), y.diff(t)]
-    letters = {e: sympy.Dummy() for e in (*slopes, x, y)}
-    plain = [sympy.expand(w.xreplace(letters)) for w in whole]
-    dx, dy, u, v = letters.values()
-    if any(w.diff(first, second) != 0 for w in plain for first in letters.values() for second in letters.values()):
+    try:
+        (mass, A), b = linear_ode_to_matrix(whole, [x, y], t, 1)
+    except ODEOrderError:
+        raise InputError(
+            "a system of equations of first order is expected", hint="for higher order call sympy.dsolve"
+        ) from None
+    except NonlinearError:
         raise NotLinear(
             "the system isn't linear in its unknowns", hint="the equations are x' = a x + b y + f, y' = c x + d y + g"
-        )
-    mass = sympy.Matrix(2, 2, lambda i, j: plain[i].diff((dx, dy)[j]))
+        ) from None
     determinant = sympy.cancel(mass.det())
     if determinant == 0:
         raise InputError("the equations don't determine both derivatives", hint="for such systems call sympy.dsolve")
-    solved = [
-        sympy.cancel(e)
-        for e in mass.adjugate() * sympy.Matrix([dx * w.diff(dx) + dy * w.diff(dy) - w for w in plain]) / determinant
-    ]
-    rows = [tuple(sympy.cancel(sympy.expand(e).diff(letter)) for letter in (u, v)) for e in solved]
-    right = [in_steps(sympy.cancel(e.xreplace({u: 0, v: 0})), t) for e in solved]
-    return LinearSystem((x, y), (rows[0], rows[1]), (right[0], right[1]))
+    inverse = mass.adjugate() / determinant
+    (first, second), right = (inverse * A).applyfunc(sympy.cancel).tolist(), (inverse * b).applyfunc(sympy.cancel)
+    f, g = (in_steps(e, t) for e in right)
+    return LinearSystem((x, y), ((first[0], first[1]), (second[0], second[1])), (f, g))
 
 
 def _unknowns(whole: Sequence[Expr], functions: Sequence[Any] | None) -> tuple[Expr, Expr]:

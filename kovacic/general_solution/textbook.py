@@ -21,18 +21,20 @@ from __future__ import annotations
 
 from collections import defaultdict
 from collections.abc import Callable, Collection, Iterator, Mapping, Sequence
+from contextlib import suppress
 from itertools import chain, combinations
 from math import lcm
 from typing import Any
 
 import sympy
-from sympy import Abs, Heaviside, cos, cosh, exp, sin, sinh, tan, tanh
-from sympy.simplify.fu import TR8, TR10i
+from sympy import Abs, Heaviside, cos, cosh, exp, sin, sinh
+from sympy.simplify.fu import TR8, TR2i, TR10i, hyper_as_trig
 
+from kovacic.closed_form.jets import jet
 from kovacic.general_solution.integrands import radicands
 from kovacic.general_solution.steps import place_of
 from kovacic.general_solution.substitution import expanded_size
-from kovacic.general_solution.zero import is_zero
+from kovacic.general_solution.zero import is_zero, points
 from kovacic.special.choice import shortest
 
 Expr = Any  # SymPy publishes no types
@@ -104,17 +106,21 @@ def without_homogeneous(particular: Expr, y1: Expr, y2: Expr, x: Expr) -> Expr:
     if not _is_small(particular):
         return particular
     forms = [particular, *_single_waves(particular, x), *_common_factors(particular, x)]
-    jumps = {step for step in particular.atoms(Heaviside) if step.has(x)}
-    if len(jumps) == 1:
-        (step,) = jumps
-        g = sympy.expand(particular.xreplace({step: sympy.S.One}) - particular.xreplace({step: sympy.S.Zero}))
-        own = [-term for term in sympy.Add.make_args(g) if any(_is_constant(term / y, x) for y in (y1, y2))]
+    pieces = _before_and_after(particular, x)
+    if pieces is not None:
+        _, before, after = pieces
+        terms = sympy.Add.make_args(sympy.expand(after - before))
+        own = [-term for term in terms if any(is_constant(term / y, x) for y in (y1, y2))]
         for h in (0, *own, sympy.Add(*own) / 2):
             forms += _absolute(particular + h, x)
     return shortest(sorted(forms, key=lambda form: form.could_extract_minus_sign()))
 
 
-def _is_constant(quotient: Expr, x: Expr) -> bool:
+def is_constant(quotient: Expr, x: Expr) -> bool:
+    """True if that is seen, and not if its slope at a point isn't zero."""
+    with suppress(NotImplementedError):
+        if quotient.has(x) and not jet(quotient, x, next(points()))[1].contains(0):
+            return False
     return not sympy.powsimp(sympy.expand(quotient)).has(x)
 
 
@@ -253,7 +259,7 @@ def _single_waves(value: Expr, x: Expr) -> Iterator[Expr]:
 
 
 def _coefficients(value: Expr, x: Expr) -> Iterator[Expr]:
-    """With quotients of letters in factors, squares completed, as in (k - m w^2)^2 + c^2 w^2, and powers of x joined."""
+    """With quotients of letters in factors, squares completed, as in (k - m w^2)^2 + c^2 w^2."""
     if value.free_symbols != {x}:
         yield _with_short_coefficients(value, x)
 
@@ -263,9 +269,8 @@ def _with_short_coefficients(e: Expr, x: Expr) -> Expr:
         return shortest([e, *_quotients(e)])
     if e.is_Mul:
         number, rest = e.as_independent(x)
-        powers = [factor for factor in sympy.Mul.make_args(rest) if factor.is_Pow and factor.base == x]
-        others = [_with_short_coefficients(f, x) for f in sympy.Mul.make_args(rest) if f not in powers]
-        return sympy.Mul(_with_short_coefficients(number, x), *others, x ** sympy.Add(*(power.exp for power in powers)))
+        factors = (number, *sympy.Mul.make_args(rest))
+        return sympy.Mul(*(_with_short_coefficients(factor, x) for factor in factors))
     if e.is_Add:
         parts = [_with_short_coefficients(part, x).as_independent(x, as_Add=False) for part in e.args]
         functions = {sympy.Dummy(): function for _, function in parts}  # what contains x stays apart
@@ -301,18 +306,11 @@ def _with_square(total: Expr) -> Expr:
 
 def _tangents(value: Expr, x: Expr) -> Iterator[Expr]:
     """tan u for sin u/cos u, tanh u for sinh u/cosh u."""
-    if any(isinstance(power.base, cos | cosh) for power in value.atoms(sympy.Pow)):
-        yield value.replace(lambda e: e.is_Mul, _with_tangents)
-
-
-def _with_tangents(product: Expr) -> Expr:
-    powers = product.as_powers_dict()
-    for sine, cosine, tangent in ((sin, cos, tan), (sinh, cosh, tanh)):
-        for wave in [base for base in powers if isinstance(base, sine)]:
-            n = powers[wave]
-            if n.is_positive and powers.get(cosine(wave.args[0]), 0) == -n:
-                product *= tangent(wave.args[0]) ** n * cosine(wave.args[0]) ** n / wave**n
-    return product
+    if any(isinstance(power.base, cos) for power in value.atoms(sympy.Pow)):
+        yield TR2i(value)
+    if any(isinstance(power.base, cosh) for power in value.atoms(sympy.Pow)):
+        waves, back = hyper_as_trig(TR2i(value))
+        yield back(TR2i(waves))
 
 
 def _single_roots(value: Expr, x: Expr) -> Iterator[Expr]:

@@ -17,7 +17,6 @@ from sympy.core.function import AppliedUndef
 from kovacic.algebra.precision import working_digits
 from kovacic.closed_form.check import DIGITS
 from kovacic.closed_form.form import one_exponential
-from kovacic.closed_form.jets import jet
 from kovacic.errors import LimitExceeded
 from kovacic.general_solution.antiderivatives import antiderivative
 from kovacic.general_solution.basis import Basis, rates, with_single_waves
@@ -26,6 +25,7 @@ from kovacic.general_solution.integrands import prepared
 from kovacic.general_solution.special_integrals import without_crossings
 from kovacic.general_solution.steps import JUMPING
 from kovacic.general_solution.substitution import size
+from kovacic.general_solution.textbook import is_constant
 from kovacic.general_solution.waves import fractions_of_waves
 from kovacic.general_solution.zero import Residual, points
 
@@ -51,12 +51,10 @@ class DefiniteIntegral(sympy.Integral):  # type: ignore[misc]
 def at_once(basis: Basis, right: Expr) -> Expr | None:
     """A solution of y'' + ... = right by integrals that are known, substituted before it is returned; None without."""
     right = prepared(right)
-    parts = [_antiderivative(basis, integrand) for integrand in _integrands(basis, right, basis.wronskian)]
-    if any(part is None or part.has(sympy.Integral) for part in parts):
+    known = _known_integrals(basis, _integrands(basis, right, basis.wronskian))
+    if any(part is None or part.has(sympy.Integral) for part in known):
         return None
-    if not _are_readable(parts):
-        return None
-    return _checked(basis, parts, right, rates(basis.equation, basis.x))
+    return _checked(basis, known, right, rates(basis.equation, basis.x))
 
 
 def with_integrals(basis: Basis, right: Expr, start: Expr | None) -> Expr:
@@ -64,7 +62,7 @@ def with_integrals(basis: Basis, right: Expr, start: Expr | None) -> Expr:
     x = basis.x
     coefficients = rates(basis.equation, x)  # while there is time
     integrands = [powsimp(integrand) for integrand in _integrands(basis, right, basis.wronskian)]
-    known = _readable_integrals(basis, integrands)
+    known = _known_integrals(basis, integrands)
     if None not in known and basis.equation.change is None:
         whole = _checked(basis, known, right, coefficients)
         if whole is not None:
@@ -90,18 +88,17 @@ def _from_integrals(basis: Basis, integrals: Sequence[Expr]) -> Expr:
     return basis.y2 * integrals[1] - basis.y1 * integrals[0]
 
 
-def _antiderivative(basis: Basis, integrand: Expr) -> Expr | None:
-    """With the exponential integrals that don't jump on the real axis."""
-    found = antiderivative(integrand, basis.x)
-    return None if found is None else without_crossings(found, basis.x, basis.own)
+def _known_integrals(basis: Basis, integrands: Sequence[Expr]) -> list[Any]:
+    """The integrals that are known within the limits, without exponential integrals that jump on the real axis.
 
-
-def _readable_integrals(basis: Basis, integrands: Sequence[Expr]) -> list[Any]:
-    """The integrals that are known within the limits; none of them where they are harder to read than unknown ones."""
+    None of them with more than a few special functions of complex arguments, which are harder to read than an integral.
+    """
     known: list[Any] = [None for _ in integrands]
     with suppress(LimitExceeded):
-        known = [_antiderivative(basis, integrand) for integrand in integrands]
-    if _are_readable(known):
+        found = [antiderivative(integrand, basis.x) for integrand in integrands]
+        known = [integral and without_crossings(integral, basis.x, basis.own) for integral in found]
+    functions = set().union(*(integral.atoms(*_COMPLEX) for integral in known if integral is not None))
+    if sum(bool(f.has(sympy.I)) for f in functions) <= _MOST_COMPLEX:
         return known
     return [None for _ in integrands]
 
@@ -130,16 +127,8 @@ def _without_homogeneous(basis: Basis, total: Expr) -> Expr:
     """A sum without the terms that are multiples of y1 or y2."""
     terms = sympy.Add.make_args(total)
     for y in (basis.y1, basis.y2):
-        terms = [term for term in terms if not _is_constant(term / y, basis.x)]
+        terms = [term for term in terms if not is_constant(term / y, basis.x)]
     return sympy.factor_terms(sympy.Add(*terms))
-
-
-def _is_constant(quotient: Expr, x: Expr) -> bool:
-    """Is it seen to be constant: not if its slope at a point isn't zero."""
-    with suppress(NotImplementedError):
-        if quotient.has(x) and not jet(quotient, x, next(points()))[1].contains(0):
-            return False
-    return not powsimp(quotient).has(x)
 
 
 def _gathered(form: Expr, x: Expr) -> Expr:
@@ -155,13 +144,6 @@ def _gathered(form: Expr, x: Expr) -> Expr:
             fraction = sympy.factor(fraction)
         found.append(rest * fraction)
     return sympy.Add(*found)
-
-
-def _are_readable(integrals: Sequence[Expr | None]) -> bool:
-    """Are there few special functions of complex arguments?  Else the integrals are easier to read."""
-    known = [integral for integral in integrals if integral is not None]
-    functions = set().union(*(integral.atoms(*_COMPLEX) for integral in known))
-    return sum(bool(f.has(sympy.I)) for f in functions) <= _MOST_COMPLEX
 
 
 def starting_at(y: Expr, x: Expr, start: Expr) -> Expr:

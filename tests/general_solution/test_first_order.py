@@ -275,3 +275,19 @@ def test_json_of_systems_and_of_first_order_follows_the_schema(text: str, capsys
     data = json.loads(capsys.readouterr().out)
     jsonschema.validate(data, json.loads((Path(kovacic.__file__).parent / "views" / "schema.json").read_text("utf-8")))
     assert (data["unknown"] == ["u(t)", "v(t)"]) == ("v'" in text)
+
+
+def test_a_step_whose_side_depends_on_a_sign_is_no_step_at_its_place() -> None:
+    """H(k x - 1) is H(x - 1/k) for k > 0 alone: an answer, if there is one, satisfies the equation for both signs."""
+    x, k = sympy.Symbol("x"), sympy.Symbol("k", real=True, nonzero=True)
+    y = sympy.Function("y")
+    step = sympy.Heaviside(k * x - 1)
+    for rate, right in ((sympy.Integer(-1), step), (step, sympy.Integer(0))):
+        try:
+            w = kovacic.dsolve(y(x).diff(x) - rate * y(x) - right, y(x)).rhs
+        except NotImplementedError:
+            continue
+        miss = w.diff(x) / w - rate - right / w
+        for sign in (1, -1):
+            for point in (-3, Rational(1, 2), 3):
+                assert sympy.simplify(miss.subs({k: sign, "C1": 2}).subs(x, point)) == 0
