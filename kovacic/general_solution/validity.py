@@ -17,8 +17,9 @@ from functools import partial
 from typing import Any
 
 import sympy
+from sympy import cos, sin
 from sympy.logic.boolalg import BooleanAtom
-from sympy.simplify.fu import TR5, TR6
+from sympy.simplify.fu import TR5, TR6, TR8
 
 from kovacic.general_solution.basis import vanishing, without_implied
 from kovacic.general_solution.zero import is_nowhere_zero
@@ -97,19 +98,22 @@ def _without_weaker(relations: list[Expr]) -> tuple[Expr, ...]:
     """Without e >= 0 and e != 0 beside e > 0, nor u != 0 beside u v > 0; `false` alone where it is one of them."""
     if sympy.false in relations:
         return (sympy.false,)
-    strict = [relation for relation in relations if isinstance(relation, sympy.StrictGreaterThan)]
+    both = [*relations, *map(_of_cosine, relations)]
+    strict = [relation for relation in both if isinstance(relation, sympy.StrictGreaterThan)]
     nonzero = {u for r in strict for e in (r.lhs, *sympy.Mul.make_args(r.lhs)) for u in (e, -e)}
-    left = (relation for relation in relations if relation in strict or relation.lhs not in nonzero)
-    return tuple(dict.fromkeys(map(_of_cosine, left)))
+    left = dict.fromkeys(both[len(relations) :])
+    return tuple(relation for relation in left if relation in strict or relation.lhs not in nonzero)
 
 
 def _of_cosine(relation: Expr) -> Expr:
-    """cos(u) != 0 for (1 + sin(u))*(1 - sin(u)) > 0, and sin(u) != 0 for cosines."""
-    if not isinstance(relation, sympy.StrictGreaterThan) or not relation.lhs.is_Mul:
+    """cos(u) != 0 for (1 + sin(u))*(1 - sin(u)) > 0, and other products of sums with waves as one wave."""
+    if not isinstance(relation, sympy.StrictGreaterThan) or not relation.lhs.is_Mul or not relation.lhs.has(sin, cos):
         return relation
-    square = sympy.expand(relation.lhs)
-    powers = (square_of.as_base_exp() for square_of in (TR5(square), TR6(square)))
-    return next((sympy.Ne(base, 0) for base, exponent in powers if exponent == 2), relation)
+    product = sympy.expand(relation.lhs)
+    powers = (square.as_base_exp() for square in (TR5(product), TR6(product)))
+    of_one_wave = sympy.expand(TR8(product)).as_content_primitive()[1]
+    shorter = min(relation, of_one_wave > 0, key=sympy.count_ops)
+    return next((sympy.Ne(base, 0) for base, exponent in powers if exponent == 2), shorter)
 
 
 # ------------------------------------------------------------------------------------------------------ part by part

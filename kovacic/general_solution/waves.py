@@ -33,17 +33,31 @@ class WaveChange:
     u: Expr
 
     def back(self, found: Expr, x: Expr) -> Expr:
-        """An integral that was found in u, in theta."""
+        """An integral that was found in u, in theta; logarithms are real for small angles where they can be."""
+        early = sympy.Rational(99 if self.u.func is cos else 1, 100)
+        found = _joined_logarithms(found).replace(log, lambda q: log(-q if q.subs(x, early).is_negative else q))
         if self.u.func is tan:
             return TR2i(_at_tangent(found, self.u.args[0], x))
         return TR2i(found.xreplace({x: self.u}))
 
 
+def _joined_logarithms(found: Expr) -> Expr:
+    """k log(p/q) for k log(p) - k log(q): where p and q have poles, their logarithms would jump."""
+    terms = sympy.Add.make_args(found)
+    pairs = {term.as_independent(log)[0]: term.as_independent(log)[1] for term in terms}
+    joined = {
+        k: k * log(pairs[k].args[0] / pairs[-k].args[0]) - k * pairs[k] + k * pairs[-k]
+        for k in pairs
+        if -k in pairs and not k.could_extract_minus_sign() and isinstance(pairs[k], log) and isinstance(pairs[-k], log)
+    }
+    return sympy.Add(found, *joined.values())
+
+
 def _at_tangent(found: Expr, angle: Expr, x: Expr) -> Expr:
     """For x = tan(angle), in sines and cosines, without jumps where the tangent has poles.
 
-    A polynomial of the even degree d under a logarithm is Q(sin, cos)/cos^d, and x^2 + 1 = 1/cos^2: the logarithms of the
-    cosine cancel unless the integrand has poles there.
+    A polynomial of the degree d under a logarithm is Q(sin, cos)/cos^d, and x^2 + 1 = 1/cos^2: with log(cos^2)/2 for log(cos),
+    of the same slope, the logarithms of the cosine cancel unless the integrand has poles there.
     """
     s, c = sin(angle), cos(angle)
     u = sympy.Dummy()
@@ -51,13 +65,13 @@ def _at_tangent(found: Expr, angle: Expr, x: Expr) -> Expr:
     in_cosine = sympy.Dummy()  # log(cos(angle)^2)
     known = {arc: _continuous_angle(arc.args[0], angle, u) for arc in found.atoms(atan)}
     for logarithm in found.atoms(log):
-        q = logarithm.args[0]
-        if q.is_polynomial(u) and sympy.degree(q, u) % 2 == 0:
-            d = sympy.degree(q, u)
-            homogeneous = sympy.expand(sympy.expand(q.subs(u, s / c) * c**d))
-            known[logarithm] = (
-                log(_single_waves(homogeneous).as_content_primitive()[1]) - sympy.Rational(d, 2) * in_cosine
-            )
+        parts = sympy.fraction(sympy.together(logarithm.args[0]))
+        if not all(part.is_polynomial(u) for part in parts):
+            continue
+        degrees = [sympy.degree(part, u) for part in parts]
+        in_waves = [sympy.expand(sympy.expand(p.subs(u, s / c) * c**n)) for p, n in zip(parts, degrees, strict=True)]
+        n, m = (_single_waves(part).as_content_primitive()[1] for part in in_waves)
+        known[logarithm] = log(n / m) - sympy.Rational(degrees[0] - degrees[1], 2) * in_cosine
     whole = sympy.expand(found.xreplace(known), deep=False).xreplace({in_cosine: 2 * log(c)})
     return whole.xreplace({u**2 + 1: c**-2}).xreplace({u: s / c})
 

@@ -193,3 +193,31 @@ def test_a_root_above_what_stands_beside_it(equation: str) -> None:
 def test_an_answer_is_shown_as_its_formula() -> None:
     assert repr(kovacic.answer_to("y'' + y = 1")) == "<SecondOrderAnswer: y(x) = C1*cos(x) + C2*sin(x) + 1>"
     assert str(kovacic.answer_to("y' = a*y")) == "y(x) = C1*exp(a*x)"
+
+
+@parametrize(
+    "right",
+    [
+        *(
+            "1/(1+2*cos(x))",
+            "1/(1-2*sin(x))",
+            "1/(sin(x)*cos(2*x))",
+            "1/(1-tan(x))",
+            "tan(2*x)",
+            "tan(x)",
+            "1/(2-5*sin(x))",
+        ),
+        *("1/(1-2*cos(x))", "1/(3*cos(x)-1)", "sec(x)*csc(x)", "1/(cos(x)-2*sin(x))", "1/(1+2*sin(x))", "cot(x)^2"),
+    ],
+    ordinary=2,
+    long=13,
+)
+def test_answers_in_logarithms_of_waves_are_real_for_small_angles(right: str) -> None:
+    """They were log(tan(x/2) - sqrt(3)) beside log(2*cos(x) + 1), both of which are real nowhere."""
+    x = sympy.Symbol("x")
+    found = kovacic.dsolve(f"y'' + y = {right}")
+    needed = kovacic.validity(found)
+    particular = found.rhs.subs({"C1": 0, "C2": 0})
+    for at in (0.05, 0.15):
+        assert all(relation.subs(x, at) == sympy.true for relation in needed.real), needed
+        assert abs(sympy.im(particular.subs(x, at).evalf(20))) < 1e-15
