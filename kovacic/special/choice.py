@@ -200,17 +200,23 @@ class _Equation:
         return None if chosen is None else ClosedForm(*chosen, x, self.gauge, EXACT, build=made)
 
     def _written_best(self, forms: list[PairForm]) -> tuple[PairForm, ClosedForm]:
-        """The preferred one, written: its true length, and whether an integral is left, may be other than was thought."""
+        """The preferred one, written: its true length, and whether an integral is left, may be other than was thought.
+
+        Beside a long one the shortest is written, too: its true length is the measure.
+        """
         while True:
-            form = best(forms)
-            if form.pair is not None:
-                return form, form.pair
+            chosen = best(forms)
+            least = chosen if chosen.length <= SHORT else min(forms, key=lambda other: other.length)
+            form = least if chosen.pair is not None else chosen
+            if chosen.pair is not None and form.pair is not None:
+                return chosen, chosen.pair
             forms.remove(form)
             pair = form.write()
+            if pair is not None and not forms:
+                return form, pair
             if pair is not None:
                 kind = FormKind.INTEGRAL if any(y.has(Integral) for y in pair) else form.kind
-                length = sum(len(str(y)) for y in pair) if forms else form.length
-                forms.append(PairForm(kind, length, form.write, pair))
+                forms.append(PairForm(kind, sum(len(str(y)) for y in pair), form.write, pair))
             elif not forms:
                 forms += self._own_forms()
 
