@@ -48,9 +48,20 @@ def rational(value: Fraction | int) -> Expr:
 
 
 def hypergeometric(top: tuple[Expr, ...], bottom: tuple[Expr, ...], z: Expr) -> Expr:
-    """SymPy's `hyper`, made without asking whether |z| <= 1, which takes milliseconds; parameters above and below cancel."""
+    """SymPy's `hyper`, made without asking whether |z| <= 1, which takes milliseconds; parameters above and below cancel.
+
+    A series that ends at once, a power and an exponential are written as such.
+
+    >>> a, z = sympy.symbols("a z")
+    >>> hypergeometric((a, 2), (2,), z), hypergeometric((2,), (2,), z)
+    ((1 - z)**(-a), exp(z))
+    """
     common = Counter(top) & Counter(bottom)
     above, below = (TupleArg(*ordered((Counter(values) - common).elements())) for values in (top, bottom))
+    if 0 in above:
+        return Integer(1)
+    if not below and len(above) < 2:  # 0F0 and 1F0 [DLMF 15.4.6]
+        return sympy.factor(1 - z) ** -above[0] if above else exp(z)
     return sympy.Function.__new__(sympy.hyper, above, below, z, evaluate=False)
 
 

@@ -71,6 +71,8 @@ if TYPE_CHECKING:
 #: Sets of exponent differences for which coverings are sought, and ramification points of f that may be among apparent ones.
 _MOST_CHOICES = 32
 _HIDDEN = 3
+#: Where it is asked whether solutions are real.
+_SAMPLE = (Fraction(2, 7), Fraction(7, 2), Fraction(-2, 7))
 
 
 @dataclass(frozen=True)
@@ -248,10 +250,20 @@ class _GaussForm:
     @property
     def middle(self) -> Expr | None:
         """The x with f = 1/2, where f is a polynomial of degree 1: between the points at which it is 0 and 1."""
+        return self._line_is(HALF)
+
+    @property
+    def aside(self) -> Expr | None:
+        """The same, but a positive x where f is -c x."""
+        is_turned = not self.f.num[0] and self.writer.is_negative(self.f.num.lc)
+        return self._line_is(-HALF if is_turned else HALF)
+
+    def _line_is(self, value: Fraction) -> Expr | None:
+        """The x with f = value, where f is a polynomial of degree 1."""
         num = self.f.num
         if not self.f.is_polynomial or num.degree != 1:
             return None
-        return self.writer.constant((HALF - num[0]) / num[1])
+        return self.writer.constant((value - num[0]) / num[1])
 
     @property
     def term(self) -> WrittenTerm:
@@ -298,12 +310,17 @@ class _GaussForm:
 
     @property
     def cost(self) -> tuple[bool | int | str, ...]:
-        """What is preferred: polynomials, differences that aren't integers at 0 (unless those at 1 are the same), short f."""
+        """What is preferred: polynomials, differences that aren't integers at 0 (unless those at 1 are the same), short f.
+
+        Solutions at 0 and at 1 are both real where f is between these: at many points, if possible.
+        """
         f = self.f
         natural = self.writer.is_integer(self.alpha)
+        inside = [f.field.rational_value(f.num(x) * (f.den - f.num)(x)) for x in _SAMPLE]  # f (1 - f) up to a square
+        real = sum(value is not None and value > 0 for value in inside) if natural else 0
         terms = sum(bool(c) for c in (*f.num, *f.den))
         uneven = natural and self.alpha != self.beta
-        return not f.is_polynomial, uneven, natural, terms, not self.writer.is_negative(f.num.lc), str(f)
+        return not f.is_polynomial, uneven, natural, -real, terms, not self.writer.is_negative(f.num.lc), str(f)
 
 
 def _named(form: _GaussForm) -> tuple[Expr, Expr]:
@@ -331,7 +348,7 @@ def _at_one_point(form: _GaussForm) -> WrittenPair:
     """u and the solution with -alpha: their leading terms are z^((1 - alpha)/2) and z^((1 + alpha)/2)."""
     first, second = form.shorter, form.turned.shorter
     bracket = partial(first.bracket, second, form.writer.constant(form.alpha))
-    return form.writer.pair(first.term, second.term, bracket, (form.alpha,), real_at=form.middle)
+    return form.writer.pair(first.term, second.term, bracket, (form.alpha,), real_at=form.aside)
 
 
 def _at_two_points(form: _GaussForm, other: _GaussForm) -> WrittenPair:

@@ -359,6 +359,11 @@ class Fibre:
         return _count(point for point, _ in self.multiplicities)
 
     @property
+    def is_at_infinity(self) -> bool:
+        """True if it is that of a polynomial over infinity."""
+        return all(point.at_infinity for point, _ in self.multiplicities)
+
+    @property
     def polynomial(self) -> Poly:
         """The product over the finite ones."""
         result = self.square.field.poly([1])
@@ -409,6 +414,7 @@ def _distributed(search: _Distribution) -> Iterator[tuple[Fibre, Fibre, list[Poi
         if fibre.degree >= least_degree:
             by_degree.setdefault(fibre.degree, []).append(fibre)
     for n, found in sorted(by_degree.items()):
+        found.sort(key=lambda fibre: not fibre.is_at_infinity)  # polynomials f first
         for zeros, poles in combinations(found, 2):
             search.budget.check()
             count_work(1)

@@ -287,9 +287,11 @@ def _laguerre(form: _WhittakerForm) -> WrittenPair | None:
     for mu in (form.mu, -form.mu):
         degree = form.kappa - mu - HALF
         integer = writer.is_integer(2 * mu)
-        if writer.is_degree(degree) and (writer.is_natural(2 * mu) or not integer):
-            N = writer.constant(degree)
-            a = writer.constant(2 * mu)
+        if not writer.is_natural(degree) or (integer and not writer.is_natural(2 * mu)):
+            continue
+        N = writer.constant(degree)
+        a = writer.constant(2 * mu)
+        if writer.is_degree(degree):
             polynomial = sympy.assoc_laguerre(N, a, form.z) if a else sympy.laguerre(N, form.z)
             first = form.factor(mu + HALF), polynomial
             if integer:  # (-z)^N/N! exp(-z/2) and exp(z/2) at infinity
@@ -297,6 +299,9 @@ def _laguerre(form: _WhittakerForm) -> WrittenPair | None:
                 return writer.pair(first, form.turned.tricomi, bracket)
             multiple = sympy.gamma(N + a + 1) / sympy.gamma(N + 1) / sympy.gamma(a + 1)
             return writer.pair(first, form.kummer(-mu), partial(form.bracket, mu, multiple), (2 * mu,))
+        if integer:  # the same less L_N(0) = (a + 1)_N/N!
+            bracket = partial(mul, (-form.z) ** N / sympy.rf(a + 1, N), form.slope)
+            return writer.pair(form.kummer(mu), form.turned.tricomi, bracket)
     return None
 
 

@@ -190,7 +190,7 @@ class Writer:
         s, t, root, other = _derivative(function, x)
         of_F = _in_lowest_terms(rate + b * s)
         of_other = _in_lowest_terms(b * t)
-        n, d = sympy.fraction(_in_lowest_terms(of_F / of_other))
+        n, d = sympy.fraction(sympy.together(_in_lowest_terms(of_F / of_other)))
         total = before.product.logarithmic_derivative + half_rate(transform.m)
         common = sympy.factor(of_other / d).as_independent(x, as_Add=False)[1]
         if total.field == QQ:  # its powers join those of the product
@@ -199,7 +199,12 @@ class Writer:
                 p = QQ.poly([Fraction(int(c.p), int(c.q)) for c in reversed(coefficients)])
                 total = total + RatFunc(p.derivative(), p) * sign
             common = sympy.S.One
-        return Mul(display(product(total), self.atoms), *before.others, common, n * function + d * root * other)
+        shown = Mul.make_args(display(product(total), self.atoms))
+        if total.field != QQ:  # what cancels isn't seen by SymPy's product
+            rational = [part for part in shown if part.is_rational_function(x)]
+            shown = [part for part in shown if part not in rational]
+            common = sympy.factor(Mul(common, *rational)).as_independent(x, as_Add=False)[1]
+        return Mul(*shown, *before.others, common, n * function + d * root * other)
 
     # ------------------------------------------------------------------------------------- constants
 
@@ -354,22 +359,36 @@ def _sine_of_letters(number: Expr) -> Expr:
 
 def _derivative(F: Expr, x: Any) -> tuple[Expr, Expr, Expr, Expr]:
     """(s, t, w, F1) with F' = s F + t w F1: s and t rational functions, w a root of one or 1."""
+    found = _by_argument(F)
+    if found is None:
+        return sympy.S.Zero, sympy.S.One, sympy.S.One, sympy.diff(F, x)
+    s, t, other = found
     z = F.args[-1]
     rate = sympy.cancel(sympy.together(sympy.diff(z, x) / z))
-    root, slope = (sympy.S.One, sympy.cancel(rate * z)) if z.is_rational_function(x) else (z, rate)
+    root = sympy.S.One if z.is_rational_function(x) else z
+    return sympy.cancel(s * z * rate), sympy.cancel(t * z / root * rate), root, other
+
+
+def _by_argument(F: Expr) -> tuple[Expr, Expr, Expr] | None:
+    """(s, t, F1) with dF/dz = s F + t F1 for the last argument z, s and t rational in z; None for other functions."""
+    zero = sympy.S.Zero
+    z = F.args[-1] if F.args else zero
     if isinstance(F, sympy.besselj | sympy.bessely | sympy.besseli | sympy.besselk):
         # C' = C_(nu-1) - (nu/z) C for J, Y and I, with -K_(nu-1) for K; C_0' = -C_1, and C_1 for I.
         nu = F.args[0]
         if nu == 0:
-            return sympy.S.Zero, slope if isinstance(F, sympy.besseli) else -slope, root, F.func(1, z)
-        sign = -1 if isinstance(F, sympy.besselk) else 1
-        return -nu * rate, sign * slope, root, F.func(nu - 1, z, evaluate=False)
+            return zero, sympy.S(1 if isinstance(F, sympy.besseli) else -1), F.func(1, z)
+        return -nu / z, sympy.S(-1 if isinstance(F, sympy.besselk) else 1), F.func(nu - 1, z, evaluate=False)
     if isinstance(F, sympy.airyai | sympy.airybi):
-        prime = sympy.airyaiprime if isinstance(F, sympy.airyai) else sympy.airybiprime
-        return sympy.S.Zero, slope, root, prime(z)
-    if isinstance(F, sympy.hyper):
-        factor = Mul(*F.ap) / Mul(*F.bq)
-        if factor != 0:
-            above, below = (tuple(value + 1 for value in values) for values in (F.ap, F.bq))
-            return sympy.S.Zero, factor * slope, root, hypergeometric(above, below, z)
-    return sympy.S.Zero, sympy.S.One, sympy.S.One, sympy.diff(F, x)
+        return zero, sympy.S.One, (sympy.airyaiprime if isinstance(F, sympy.airyai) else sympy.airybiprime)(z)
+    if isinstance(F, sympy.hyper) and 0 not in F.ap:
+        above, below = (tuple(value + 1 for value in values) for values in (F.ap, F.bq))
+        return zero, Mul(*F.ap) / Mul(*F.bq), hypergeometric(above, below, z)
+    if isinstance(F, sympy.legendre):  # (t^2 - 1) P_nu' = nu (t P_nu - P_(nu-1))
+        nu = F.args[0]
+        return nu * z / (z**2 - 1), -nu / (z**2 - 1), sympy.legendre(nu - 1, z)
+    if isinstance(F, sympy.elliptic_k):  # 2 m (1 - m) K' = E - (1 - m) K [DLMF 19.4.1]
+        return -1 / (2 * z), 1 / (2 * z * (1 - z)), sympy.elliptic_e(z)
+    if isinstance(F, sympy.elliptic_e):  # 2 m E' = E - K
+        return 1 / (2 * z), -1 / (2 * z), sympy.elliptic_k(z)
+    return None

@@ -550,3 +550,58 @@ def test_lowest_terms_where_the_heuristic_gcd_gives_up() -> None:
     ).special.pair
     assert pair is not None
     assert pair.y1.has(sympy.besseli)
+
+
+@pytest.mark.parametrize(
+    ("equation", "points"),
+    [
+        ("(x^3-x)*y'' + (3*x^2-1)*y' + x*y = 0", (0.3, 0.8)),
+        ("(1-x^4)*y'' - 4*x^3*y' - 2*x^2*y = 0", (-0.7, 0.2, 3)),
+        ("x^2*(x+1)*y'' - x*(x-5)*y' - 7*y = 0", (0.3, 2, 9)),
+        ("x*(3+x)*y'' + (1/2+2*x)*y' + y/7 = 0", (0.3, 2, 9)),
+    ],
+)
+def test_solutions_are_real_on_the_half_line_or_between_singular_points(
+    equation: str, points: tuple[float, ...]
+) -> None:
+    for y in kovacic.solve(equation).special:
+        assert all(abs(mpmath.im(function(y, {})(mpmath.mpf(point)))) < 1e-12 for point in points), y
+
+
+@pytest.mark.parametrize("degree", [1, 6, 25])
+@pytest.mark.parametrize("a", [0, 1, 4])
+def test_laguerres_polynomials_are_polynomials_at_zero_too(degree: int, a: int) -> None:
+    """x y'' + (a + 1 - x) y' + N y = 0, and a second solution with the Wronskian that is stated."""
+    pair = kovacic.solve(f"x*y'' + ({a + 1} - x)*y' + {degree}*y = 0").special.pair
+    assert pair is not None
+    assert pair.y1 == sympy.hyper((-degree,), (a + 1,), x)
+    with mpmath.workdps(40):
+        first, second = (mpmath.taylor(function(y, {}), POINT, 1) for y in pair)
+        stated = function(pair.wronskian, {})(POINT)
+        assert abs(first[0] * second[1] - first[1] * second[0] - stated) < 1e-20 * abs(stated)
+
+
+@pytest.mark.parametrize(
+    ("S", "transform", "longest"),
+    [
+        ("(n^2 - 1/4)/x^2 - 1", ("1", "x"), 60),
+        ("(-8/9*x^2 + 8/9*x - 1)/(4*x^2*(x-1)^2)", ("1", "x*(x-1)"), 80),  # Legendre's
+        ("-(x^2 - x + 1)/(4*x^2*(x-1)^2)", ("1", "x*(x-1)"), 70),  # K
+    ],
+)
+def test_derivatives_of_named_functions_are_written_by_such(S: str, transform: tuple[str, str], longest: int) -> None:
+    """y = a v + b v' in two functions, and without a factor that stands above and below."""
+    x, n = sympy.symbols("x n")
+    T, a, b = (sympy.sympify(text.replace("^", "**")) for text in (S, *transform))
+    rows = [(a, b)]
+    for _ in range(2):
+        u, v = rows[-1]
+        rows.append((sympy.diff(u, x) + v * T, sympy.diff(v, x) + u))
+    c2, c1, c0 = (sympy.cancel(rows[i][0] * rows[j][1] - rows[j][0] * rows[i][1]) for i, j in ((0, 1), (2, 0), (1, 2)))
+    answer = kovacic.solve(f"({c2})*y'' + ({c1})*y' + ({c0})*y = 0".replace("**", "^"), var="x")
+    assert answer.special
+    for y in answer.special:
+        assert len(str(y)) <= longest, y
+        assert not y.has(sympy.Derivative)
+        value = (c2 * sympy.diff(y, x, 2) + c1 * sympy.diff(y, x) + c0 * y).subs(n, sympy.Rational(3, 7))
+        assert abs(function(value, {})(POINT)) < 1e-8
