@@ -427,7 +427,7 @@ def _levels(
     radicals = dict(radical for root in roots for radical in root.radicals)
 
     def written(expression: Any) -> Any:
-        return question.plain(sympy.sympify(expression).xreplace(radicals))
+        return question.plain(sympy.sympify(expression, strict=True).xreplace(radicals))
 
     tidy = [written(condition) for condition in tidied(conditions, question.signs, radicals)]
     return Levels(

@@ -239,7 +239,7 @@ def _frame(question: SpectralProblem, original: Original, t: Any, base: Any, m: 
         original,
         t,
         base**m,
-        S=signs.real(sympy.sympify(problem.S.num.to_sympy(z) / problem.S.den.to_sympy(z))),
+        S=signs.real(sympy.sympify(problem.S.num.to_sympy(z) / problem.S.den.to_sympy(z), strict=True)),
         z=z,
         slope=constant * sympy.Mul(*((z - c) ** mu for c, mu in powers.items())),
         spots=tuple(_spots(problem, powers, places, signs, is_fold=fold is not None)),
@@ -281,7 +281,7 @@ def _slope(original: Original, t: Any, base: Any, m: int) -> tuple[Any, dict[Any
     constant, exponents = linear_factors(m**2 * s ** (2 * m - 2) * ds_dx_squared, s)
     powers = dict[Any, Any]()
     for root, exponent in exponents.items():
-        powers[root**m] = powers.get(root**m, 0) + sympy.sympify(exponent) / m  # m roots s for one z
+        powers[root**m] = powers.get(root**m, 0) + sympy.sympify(exponent, strict=True) / m  # m roots s for one z
     return constant, powers
 
 

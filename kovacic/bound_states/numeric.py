@@ -159,7 +159,7 @@ def _admissible(found: Spectrum, known: Assumptions) -> Iterator[dict[str, Fract
 
 def _is_false(y: Any, difference: Any, x: Any, domain: tuple[Any, Any], at: dict[Any, Any]) -> bool:
     """True if y'' = (V - E) y provably fails at a point of the domain."""
-    low, high = (sympy.sympify(end).xreplace(at) for end in domain)
+    low, high = (sympy.sympify(end, strict=True).xreplace(at) for end in domain)
     if low.is_infinite:
         place = sympy.Rational(13, 17) if high.is_infinite else high - sympy.Rational(13, 17)
     else:

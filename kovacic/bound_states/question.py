@@ -108,7 +108,7 @@ class Signs:
         for chosen in product(*self._bounds.values()):
             # Each parameter with bounds as one of them and a variable with a sign.
             values = {symbol: _beyond(bound, symbol) for symbol, bound in zip(symbols, chosen, strict=True)}
-            factored = sympy.factor(sympy.together(sympy.sympify(expression).xreplace(values)))
+            factored = sympy.factor(sympy.together(sympy.sympify(expression, strict=True).xreplace(values)))
             # As a product of sums of products, and in factors.
             factors = (sympy.expand(part) if part.is_Add else part for part in sympy.Mul.make_args(factored))
             expanded = sympy.Mul(*factors, evaluate=False)
@@ -302,7 +302,7 @@ def read_question(
         friedrichs=boundary == FRIEDRICHS,
         boundary=read_boundary(boundary, ends, x),
         notices=(*guesses, *notices),
-        kinetic=signs.real(sympy.sympify(kinetic)),
+        kinetic=signs.real(sympy.sympify(kinetic, strict=True)),
     )
 
 

@@ -104,7 +104,7 @@ def in_their_meanings(found: Spectrum, meanings: Mapping[str, Any]) -> Spectrum:
     values = {sympy.Symbol(name): meaning for name, meaning in meanings.items()}
 
     def put_in(expression: Any) -> Any:
-        return sympy.sympify(expression).xreplace(values)
+        return sympy.sympify(expression, strict=True).xreplace(values)
 
     def said(text: str) -> str:
         for name, meaning in meanings.items():

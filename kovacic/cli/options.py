@@ -19,7 +19,7 @@ import click
 from click.core import ParameterSource
 
 from kovacic.cli.main import BAD_INPUT, CHECK_FAILED, DECIDED, UNDECIDED, reported
-from kovacic.errors import InputError, KovacicError
+from kovacic.errors import InputError, KovacicError, NotLinear
 
 if TYPE_CHECKING:
     from pathlib import Path
@@ -397,12 +397,21 @@ def answer_each(
 def say_reading(equation: str, var: str | None, names: Sequence[str] = ()) -> None:
     """Print how an equation was read to the error stream, if anything was guessed or a parameter isn't among the names."""
     from kovacic.equation import parameters_of
+    from kovacic.limits import DEFAULT_LIMITS
     from kovacic.reading.pieces import taken_apart
     from kovacic.reading.read import read_input
 
     with suppress(KovacicError):  # the command says what is wrong
-        parsed = read_input(taken_apart(equation), var=var, names=names)
-        if parsed.reading and (parsed.guesses or not {*parameters_of(parsed.S.field)} <= {*names}):
+        paste = taken_apart(equation)
+        try:
+            parsed: Any = read_input(paste, var=var, names=names)
+            parameters = {*parameters_of(parsed.S.field)}
+        except NotLinear:
+            from kovacic.general_solution.first_order import read_first_order
+
+            parsed = read_first_order(paste, None, var, DEFAULT_LIMITS, names)
+            parameters = parsed.parameters if parsed else set()
+        if parsed and parsed.reading and (parsed.guesses or not parameters <= {*names}):
             click.echo(f"kovacic: read as {parsed.reading}", err=True)
 
 

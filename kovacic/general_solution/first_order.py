@@ -75,6 +75,18 @@ class FirstOrderEquation:
         return self.p, self.q, self.r
 
     @property
+    def reading(self) -> str:
+        """The reading in one line: y' = k*y, y(x), parameters k."""
+        w = sympy.Symbol(self.function.func.__name__)
+        names = ", ".join(sorted(self.parameters))
+        line = f"{w}' = {as_text(self.p + self.q * w + self.r * w**2)}, {self.function}".replace("**", "^")
+        return f"{line}, parameters {names}" if names else line
+
+    @property
+    def parameters(self) -> set[str]:
+        return {str(symbol) for part in self.parts for symbol in part.free_symbols} - {str(self.x)}
+
+    @property
     def is_linear(self) -> bool:
         return bool(self.r == 0)
 

@@ -191,8 +191,10 @@ def mathml(latex: str, display: str = "inline") -> str:
 
     written = convert(latex, display=display)
     # Browsers set no space beside the name of a function: t sin x would be tsinx.
-    written = re.sub(r"(</m(?:i|n|row|sup|sub)>)((?:<msup>)?<mi>[a-z]{2,}</mi>)", rf"\1{_THIN}\2", written)
-    written = re.sub(r"(<mi>[a-z]{2,}</mi>)(<m[in]>)", rf"\1{_THIN}\2", written)
+    written = re.sub(
+        r"(</m(?:i|n|row|sup|sub|sqrt|root|frac)>)((?:<msup>)?<mi>[a-z]{2,}</mi>)", rf"\1{_THIN}\2", written
+    )
+    written = re.sub(r"(<mi>[a-z]{2,}</mi>)(<m(?:[in]|sqrt|root|frac)>)", rf"\1{_THIN}\2", written)
     # After a sign of relation, a comma or a parenthesis a minus belongs to what follows.
     written = re.sub(
         r"(<mo[^>]*>(?:&#x0003D;|&#x0002C;|&#x00028;)</mo>)<mo>&#x02212;", r"\1<mo form='prefix'>&#x02212;", written

@@ -147,6 +147,7 @@ def test_no_circle_of_imports() -> None:
 TEXT_FACING = (
     "api.py",
     "batch",
+    "bound_states",
     "cli",
     "closed_form",
     "doubles",

@@ -625,6 +625,8 @@ def test_names_are_declared_for_a_batch_or_a_row() -> None:
     ("arguments", "said"),
     [
         (["dsolve", "m x'' + c x' + k x = 0"], "m*x'' + c*x' + k*x = 0, x(t), parameters m, c, k"),
+        (["dsolve", "y' = k y - r y^2"], "y' = k*y - r*y^2, y(x), parameters k, r"),
+        (["dsolve", "y' + y = x"], None),
         (["evaluate", "y'' + xy = 0", "--x0", "0", "--y0", "1", "--dy0", "0", "--at", "1"], "y'' + x*y = 0, y(x)"),
         (["evaluate", "k*x", "--param", "k=2", "--x0", "0", "--y0", "1", "--dy0", "0", "--at", "1"], None),
     ],
