@@ -542,11 +542,19 @@ def triangular(form: Triangular, atoms: Atoms) -> tuple[Expr, Expr, tuple[str, .
     if named is not None:
         note = f"elliptic integrals because {primitive.reason}"
         return first, _sum([_scaled(c, [*parts[1], value]) for c, value in named]), (note,)
+    if atoms.is_real_beyond_zero(primitive.g):
+        primitive = _turned(primitive)
     _, value, notes = curve_integral(primitive, atoms)
-    shown = value.as_content_primitive()[1]
+    content, shown = value.as_content_primitive()
     if shown.could_extract_minus_sign():
-        shown = -shown
-    return first, Add(*(first * term for term in Add.make_args(shown))), notes
+        content, shown = -content, -shown
+    if not primitive.exact:
+        return first, Add(*(first * term for term in Add.make_args(shown))), notes
+    # y1 times the rational function before the root of g, in lowest terms
+    scale, whole = factors(form.first, atoms, primitive.exact)
+    algebraic = Mul(scale / (parts[0] * content), *whole, sqrt(atoms.poly(primitive.g)))
+    _, rest, _ = curve_integral(replace(primitive, exact=primitive.exact * 0), atoms)
+    return first, Add(algebraic, *(first * (term / content) for term in Add.make_args(rest))), notes
 
 
 def integral(h: Product, atoms: Atoms) -> Expr | None:

@@ -11,6 +11,7 @@ from collections.abc import Callable, Iterable, Iterator
 from contextlib import suppress
 from dataclasses import dataclass, replace
 from functools import cached_property
+from itertools import chain, islice
 from typing import Any
 
 import sympy
@@ -27,7 +28,7 @@ from kovacic.equation import Equation
 from kovacic.general_solution.integrands import NUMBERS, radicands
 from kovacic.general_solution.substitution import finite_value, size, slope
 from kovacic.general_solution.textbook import in_hyperbolic_functions
-from kovacic.general_solution.zero import ball, by_parity, is_nowhere_zero, points
+from kovacic.general_solution.zero import by_parity, is_nowhere_zero, points
 from kovacic.limits import check_time
 from kovacic.reading.change_of_variable import function_of_x, in_x
 from kovacic.solution import Solution
@@ -35,6 +36,13 @@ from kovacic.solution import Solution
 Expr = Any  # SymPy publishes no types
 #: Functions whose values at points aren't known in closed form.
 _UNKNOWN = (sympy.RootSum, sympy.Integral)
+#: Functions that occur as antiderivatives, beside others in a sum.
+_ANTIDERIVATIVES = (
+    *(sympy.Integral, sympy.log, sympy.asin, sympy.acos, sympy.atan, sympy.asinh, sympy.acosh, sympy.atanh, sympy.Ei),
+    *(sympy.erf, sympy.erfi, sympy.uppergamma, sympy.elliptic_e, sympy.elliptic_f, sympy.elliptic_pi, sympy.RootSum),
+)
+#: Where the constant of a Wronskian is looked for.
+_POINTS = [*map(sympy.Integer, (0, 1, -1, 2, 3, -2)), sympy.S.Half]
 #: The longest expression that is factored, in subexpressions, and the most symbols, functions and roots in it.
 _LONGEST_FACTORED = 300
 _MOST_ATOMS = 10
@@ -52,8 +60,8 @@ class Basis:
         It gives w(x), the part of the Wronskian that depends on x.
     own
         Puts the user's symbols, with what is known of them, into an expression.
-    stated : sympy.Expr or None
-        The Wronskian as the maker of the pair knows it.
+    stated
+        Gives the Wronskian as the maker of the pair knows it, or None.
     undefined : tuple of sympy.Expr
         Where one of these is zero a member has no value.
     solution : Solution or None
@@ -62,6 +70,8 @@ class Basis:
         An integer that depends on parameters: these are the solutions where it isn't negative.
     otherwise : Basis or None
         Those where it is negative, if they are known.
+    before : Basis or None
+        The pair of which these are combinations.
     """
 
     y1: Expr
@@ -69,25 +79,26 @@ class Basis:
     x: Expr
     equation: Equation
     own: Callable[[Expr], Expr] = sympy.sympify
-    stated: Expr | None = None
+    stated: Callable[[], Expr | None] | None = None
     undefined: tuple[Expr, ...] = ()
     solution: Solution | None = None
     natural: Expr | None = None
     otherwise: Basis | None = None
+    before: Basis | None = None
 
     @cached_property
     def wronskian(self) -> Expr:
         """W = y1 y2' - y1' y2."""
-        if self.stated is not None:
-            constant, rest = self.stated.as_independent(self.x, as_Add=False)
+        W = None if self.stated is None else self.stated()
+        if W is not None:
+            constant, rest = W.as_independent(self.x, as_Add=False)
             if rest.is_rational_function(self.x):
-                rest = sympy.cancel(rest)
+                rest = min(rest, sympy.cancel(rest), key=size)
             return _simplified(constant) * sympy.powsimp(rest)
-        if not self.y1.has(*_UNKNOWN) and not self.y2.has(*_UNKNOWN):
-            W = self._from_a_point()
-            if W is not None and self._is_wronskian(W):
-                return W
-        return self.by_definition
+        W = multiple_of(self._kernel, self.y1, self.y2, self.x)
+        if W is None and self.before is not None and self.before.stated is not None:
+            W = multiple_of(self.before.wronskian, self.y1, self.y2, self.x)
+        return definition(self.y1, self.y2, self.x) if W is None else W
 
     @property
     def constant(self) -> Expr:
@@ -107,20 +118,10 @@ class Basis:
         return without_implied([*self.dependent, *undefined])
 
     def of(self, y1: Expr, y2: Expr) -> Basis:
-        """Other members; where they are the same, what is stated of them stays."""
+        """Combinations of the members; the same ones are the same pair."""
         if (y1, y2) == (self.y1, self.y2):
             return self
-        return replace(self, y1=y1, y2=y2, stated=None, undefined=())
-
-    def turned(self, y1: Expr, y2: Expr, W: Expr, point: Expr) -> Basis:
-        """Other members, with the Wronskian W or -W if that is theirs at a point."""
-        basis = self.of(y1, y2)
-        at = ball(point)
-        with working_digits(2 * DIGITS), suppress(NotImplementedError):
-            for stated in (W, -W) if at is not None else ():
-                if basis._is_wronskian_at(stated, at):
-                    return replace(basis, stated=stated, undefined=self.undefined)
-        return basis
+        return replace(self, y1=y1, y2=y2, stated=None, before=self)
 
     @cached_property
     def rates(self) -> tuple[Expr, Expr]:
@@ -133,57 +134,106 @@ class Basis:
         c = in_x(self.equation, c)
         return b * slope - slope.diff(self.x) / slope, c * slope**2
 
-    @cached_property
-    def by_definition(self) -> Expr:
-        """The Wronskian wherever the solutions are defined, on any branch; without integrals that cancel."""
-        W = self.y1 * slope(self.y2, self.x) - slope(self.y1, self.x) * self.y2
-        for integral in W.atoms(sympy.Integral):
-            check_time()
-            letter = sympy.Dummy()
-            linear = W.xreplace({integral: letter})
-            if expand(linear.diff(letter)) == 0:
-                W = linear.xreplace({letter: sympy.Integer(0)})
-        if radicands(W) and not W.has(*_UNKNOWN, sympy.Function):
-            return sympy.factor(sympy.cancel(sympy.together(W)))
-        return W
-
     @property
     def _kernel(self) -> Expr:
-        """w(x), real about 0 where c is found: (1 - x)^e for (x - 1)^e."""
-        t = sympy.Symbol(self.equation.variable)
-        w = display(product(self.equation.gauge * 2), Atoms(t), around_zero=True).xreplace(NUMBERS)
-        roots = [p for p in w.atoms(sympy.Pow) if not p.exp.is_integer]
-        w = w.xreplace({p: (-p.base) ** p.exp for p in roots if p.base.subs(t, 0).is_negative})
+        """w(x), without numbers as factors."""
+        w = kernel(self.equation).xreplace(NUMBERS)
         if self.equation.change is None:
             return w
         return in_x(self.equation, w) * function_of_x(self.equation).diff(self.x)
 
-    def _from_a_point(self) -> Expr | None:
-        """c w(x) with c = W/w at the first of some points where it is elementary; None without such a point."""
-        w = self._kernel
-        for point in map(sympy.Integer, (0, 1, -1, 2)):
-            check_time()
-            W = finite_value(self.by_definition, self.x, point)
-            below = finite_value(w, self.x, point)
-            if W is None or not below:
-                continue
-            c = with_single_waves(expand(W / below))
-            if c != 0 and c.is_finite is not False and not c.has(sympy.Function, sympy.nan, sympy.zoo):
-                return _simplified(c) * w
-        return None
 
-    def _is_wronskian(self, W: Expr) -> bool:
-        """Is the constant the same wherever roots have other branches?"""
-        powers = self.y1.atoms(sympy.Pow) | self.y2.atoms(sympy.Pow)
-        if not any(p.base.has(self.x) and not p.exp.is_Integer for p in powers):
-            return True
-        with working_digits(2 * DIGITS), suppress(NotImplementedError):
-            return all(self._is_wronskian_at(W, point) for point in points())
-        return False
+def kernel(equation: Equation) -> Expr:
+    """w = exp(-int b/a), without numbers as factors, in the variable of the equation."""
+    return display(product(equation.gauge * 2), Atoms(sympy.Symbol(equation.variable)), around_zero=True)
 
-    def _is_wronskian_at(self, W: Expr, point: Any) -> bool:
-        (u, du, _), (v, dv, _), (w, _, _) = (jet(e, self.x, point) for e in (self.y1, self.y2, W))
-        return bool(abs(u * dv - du * v - w) < arb(10) ** -DIGITS * (abs(u * dv) + abs(du * v)))
+
+def definition(y1: Expr, y2: Expr, x: Expr) -> Expr:
+    """y1 y2' - y1' y2, without the logarithms and integrals that the members are linear in: these cancel.
+
+    >>> x = sympy.Symbol("x")
+    >>> definition(x, x * sympy.log(x), x)
+    x
+    """
+    W = y1 * slope(y2, x) - slope(y1, x) * y2
+    for f in sorted({f for y in (y1, y2) for f in _antiderivatives(y) if f.has(x)}, key=str):
+        check_time()
+        letter = sympy.Dummy()
+        linear = W.xreplace({f: letter})
+        if expand(linear.diff(letter)) == 0:
+            W = linear.xreplace({letter: sympy.Integer(0)})
+    if radicands(W) and not W.has(*_UNKNOWN, sympy.Function):
+        return sympy.factor(sympy.cancel(sympy.together(W)))
+    return W
+
+
+def _antiderivatives(e: Expr) -> Iterator[Expr]:
+    """Those of which a sum of products consists, not those inside of other functions."""
+    if isinstance(e, _ANTIDERIVATIVES):
+        yield e
+    elif e.is_Add or e.is_Mul:
+        for part in e.args:
+            yield from _antiderivatives(part)
+
+
+def multiple_of(w: Expr, y1: Expr, y2: Expr, x: Expr) -> Expr | None:
+    """c w for the constant c with y1 y2' - y1' y2 = c w on each branch of the roots; None where it isn't found.
+
+    c is the quotient at a point where it is elementary, or 1 or -1.
+
+    >>> x, k = sympy.symbols("x k")
+    >>> multiple_of(1 / x, x**k, x**-k, x)
+    -2*k/x
+    """
+    w = _with_roots_like(w, y1 * y2, x)
+    W = definition(y1, y2, x)
+    for c in (*_quotients(W, w, x), sympy.Integer(1), sympy.Integer(-1)):
+        if _is_wronskian(c * w, y1, y2, x):
+            return _simplified(c) * w
+    return None
+
+
+def _with_roots_like(w: Expr, members: Expr, x: Expr) -> Expr:
+    """With (1 - x)^e for (x - 1)^e where the members have this root, or not the other one: real about 0 then."""
+    bases = {expand(p.base) for p in members.atoms(sympy.Pow) if not p.exp.is_integer}
+    turned = {}
+    for p in w.atoms(sympy.Pow):
+        base, other = expand(p.base), expand(-p.base)
+        is_negative = bool(base.subs(x, 0).is_negative)
+        if not p.exp.is_integer and base.has(x) and base not in bases and (other in bases or is_negative):
+            turned[p] = other**p.exp
+    return w.xreplace(turned)
+
+
+def _quotients(W: Expr, w: Expr, x: Expr) -> Iterator[Expr]:
+    """W/w at the points where it is elementary; last, at the singular ones, where powers that w has cancel."""
+    values = ([finite_value(e, x, point) for e in (W, w)] for point in _POINTS)
+    found = (above / below for above, below in values if above is not None and below)
+    for quotient in chain(found, _limits(W, w, x)):
+        check_time()
+        c = with_single_waves(expand(quotient))
+        if c != 0 and c.is_finite is not False and not c.has(sympy.Function, sympy.nan, sympy.zoo):
+            yield c
+
+
+def _limits(W: Expr, w: Expr, x: Expr) -> Iterator[Expr]:
+    """Values of W/w, with its powers joined, at the points."""
+    if size(W) <= _LONGEST_FACTORED:
+        joined = sympy.powsimp(expand(W / w))
+        yield from filter(None, (finite_value(joined, x, point) for point in _POINTS))
+
+
+def _is_wronskian(W: Expr, y1: Expr, y2: Expr, x: Expr) -> bool:
+    """True if W is the Wronskian at a point; in each quadrant and on the axis if there are roots, with their branches."""
+    powers = y1.atoms(sympy.Pow) | y2.atoms(sympy.Pow)
+    has_branches = any(p.base.has(x) and not p.exp.is_Integer for p in powers)
+    with working_digits(2 * DIGITS), suppress(NotImplementedError):
+        for point in points() if has_branches else islice(points(), 1):
+            (u, du, _), (v, dv, _), (w, _, _) = (jet(e, x, point) for e in (y1, y2, W))
+            if not abs(u * dv - du * v - w) < arb(10) ** -DIGITS * (abs(u * dv) + abs(du * v)):
+                return False
+        return True
+    return False
 
 
 def rates(equation: Equation, x: Expr) -> tuple[Expr, Expr]:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import replace
+from functools import partial
 from typing import Any
 
 import sympy
@@ -16,7 +17,7 @@ from kovacic.closed_form.structure import Covariants
 from kovacic.decision import Status
 from kovacic.equation import Equation, Parsed, parameters_of
 from kovacic.errors import LimitExceeded
-from kovacic.general_solution.basis import Basis
+from kovacic.general_solution.basis import Basis, kernel, multiple_of
 from kovacic.general_solution.integrands import NUMBERS
 from kovacic.general_solution.places import limit_points
 from kovacic.general_solution.question import Question
@@ -62,7 +63,9 @@ def find_basis(question: Question, budget: Budget, *, special: bool = False) -> 
         joined = None
         if question.conditions and isinstance(form.structure, Covariants):
             joined = _joined(solution, form.structure, budget)
-        return _basis(question, solution, WrittenPair(*(joined or (form.y1, form.y2))))
+        y1, y2 = joined or (form.y1, form.y2)
+        known = partial(multiple_of, kernel(question.equation), y1, y2, form.variable)
+        return _basis(question, solution, WrittenPair(y1, y2, known))
     pair = _in_special_functions(question, solution, budget, special=special)
     if not isinstance(pair, BySign):
         return _basis(question, solution, pair)
@@ -78,7 +81,9 @@ def _basis(question: Question, solution: Solution, pair: WrittenPair) -> Basis:
         plain = {symbol: sympy.Symbol(name) for name, symbol in question.parameters.items()}
         pair = pair.mapped(lambda e: e.xreplace(plain))
     y1, y2 = (y.xreplace(NUMBERS) for y in pair_in_x(equation, *pair))
-    basis = Basis(y1, y2, question.x, equation, question.own, _stated(equation, pair), pair.undefined, solution)
+    basis = Basis(
+        y1, y2, question.x, equation, question.own, partial(_stated, equation, pair), pair.undefined, solution
+    )
     S = equation.S
     constant = S.num[0] if S.is_polynomial and S.num.degree == 0 else None
     if isinstance(constant, FunctionPoly) and not question.assumptions.is_positive(constant):
@@ -91,7 +96,7 @@ def _basis(question: Question, solution: Solution, pair: WrittenPair) -> Basis:
 def _stated(equation: Equation, pair: WrittenPair) -> Expr | None:
     """The Wronskian in the user's variable, of members without the numbers that `solution_in_x` drops."""
     W = pair.wronskian
-    if W is None or equation.change is None or not pair.y1.has(sympy.Symbol(equation.variable)):
+    if W is None or equation.change is None or not sympy.Tuple(*pair).has(sympy.Symbol(equation.variable)):
         return W
     if any(is_turned(equation, y) for y in pair):  # by constants that are left out
         return None

@@ -217,11 +217,7 @@ def real_basis_at(question: Question, basis: Basis, start: Expr) -> Basis:
     if question.equation.change is None:
         _check_one_side((basis.y1, basis.y2), question)
         assert basis.solution is not None
-        y1, y2 = real_basis(basis.solution, basis.y1, basis.y2, x, start)
-        if basis.stated is not None:
-            basis = basis.turned(y1, y2, all_turned(basis.stated, x, start), start)
-        else:
-            basis = basis.of(y1, y2)
+        basis = basis.of(*real_basis(basis.solution, basis.y1, basis.y2, x, start))
     return basis.of(starting_at(basis.y1, x, start), starting_at(basis.y2, x, start))
 
 

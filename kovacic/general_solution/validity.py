@@ -73,6 +73,8 @@ def needed_for(value: Expr, x: Expr, exceptions: Iterable[Expr] = ()) -> Validit
     on_x = [r for r in relations if r not in of_letters and not _holds_for_real_symbols(r)]
     nonzero = [factor for relation in of_letters for factor in vanishing(relation.lhs)]
     nonzero += [e for e in exceptions if not is_nowhere_zero(e)]
+    positive = {r.lhs for r in on_x if isinstance(r, sympy.StrictGreaterThan)}
+    nonzero = [e for e in nonzero if positive.isdisjoint((e, -e))]
     # The bounds of an integral may be infinite.
     numbers = (node for node in sympy.preorder_traversal(value) if node.is_number)
     is_of_real_numbers = all(number.is_extended_real for number in numbers)

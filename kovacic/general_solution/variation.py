@@ -19,7 +19,7 @@ from kovacic.closed_form.check import DIGITS
 from kovacic.closed_form.form import one_exponential
 from kovacic.errors import LimitExceeded
 from kovacic.general_solution.antiderivatives import antiderivative
-from kovacic.general_solution.basis import Basis, rates, with_single_waves
+from kovacic.general_solution.basis import Basis, definition, rates, with_single_waves
 from kovacic.general_solution.continuity import jumps
 from kovacic.general_solution.integrands import prepared
 from kovacic.general_solution.special_integrals import without_crossings
@@ -74,7 +74,7 @@ def with_integrals(basis: Basis, right: Expr, start: Expr | None) -> Expr:
         if _is_right(basis, solution, right, coefficients):
             return solution
     # The Wronskian may be on another branch.
-    integrands = _integrands(basis, right, with_single_waves(basis.by_definition))
+    integrands = _integrands(basis, right, with_single_waves(definition(basis.y1, basis.y2, x)))
     return _from_integrals(basis, [_open(e, x, start) for e in integrands])
 
 

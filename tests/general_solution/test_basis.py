@@ -140,3 +140,46 @@ def test_beyond_a_singular_point_the_determinant_is_abels(equation: str) -> None
     """Values at -1 are divided by W = c/x there, not by a combination of Bessel's functions."""
     value = kovacic.dsolve(equation, ics="y(-1)=1, y'(-1)=0").rhs
     assert not sympy.denom(sympy.together(value)).has(sympy.besselj, sympy.besselk)
+
+
+def _with_an_algebraic_solution(y1: Any, w: Any) -> str:
+    """The equation with the solution y1 and the Wronskian w: W'/W = -B, C = -(y1'' + B y1')/y1."""
+    B = sympy.cancel(-w.diff(x) / w)
+    C = sympy.cancel(sympy.together(-(y1.diff(x, 2) + B * y1.diff(x)) / y1))
+    return f"y'' + ({B})*y' + ({C})*y = 0".replace("**", "^")
+
+
+@parametrize(
+    ("polynomial", "pole", "power"),
+    [
+        (polynomial, pole, power)
+        for polynomial in (x, x - 4, x * (x - 4), x**2 + x + 3)
+        for pole in (x - 1, x + 2, 2 * x - 3)
+        for power in (sympy.Rational(1, 2), sympy.Rational(3, 2), sympy.Rational(5, 2))
+    ],
+    ordinary=4,
+)
+def test_a_second_solution_on_a_curve_is_in_lowest_terms(polynomial: Any, pole: Any, power: Any) -> None:
+    """W = c/(x - a)^(e + 1) without arc tangents, on both sides of a; the zeros of y1 are no poles of y2."""
+    basis = kovacic.answer_to(_with_an_algebraic_solution(polynomial / pole**power, pole ** (-power - 1))).basis
+    W = basis.wronskian
+    assert W.is_algebraic_expr(x)
+    assert not sympy.diff(sympy.log(W * pole ** (power + 1)), x).expand().simplify()
+    for at in (sympy.Rational(-11, 3), sympy.Rational(13, 3)):
+        y1, y2 = basis.y1, basis.y2
+        numbers = [sympy.N(e.subs(x, at), 40) for e in (y1 * y2.diff(x) - y1.diff(x) * y2, W)]
+        assert abs(numbers[0] / numbers[1] - 1) < 1e-20
+    below = [sympy.denom(sympy.together(term)) for term in sympy.Add.make_args(basis.y2)]
+    assert all(den.subs(x, zero) != 0 for den in below for zero in sympy.roots(polynomial, x))
+
+
+@pytest.mark.parametrize("c", [sympy.Rational(7, 3), sympy.Rational(-2, 5), sympy.Integer(3)])
+def test_beside_an_elementary_solution_the_constant_is_exact(c: Any) -> None:
+    """x^(1-c) (1-x)^(c-2) and 2F1(1, 1; c; x): W = (c - 1) w(x), which vanishes at c = 1, and there alone."""
+    answer = kovacic.answer_to("x*(1-x)*y'' + (c-3*x)*y' - y = 0", ics="y(1/2)=1, y'(1/2)=0")
+    letter = sympy.Symbol("c")
+    assert letter - 1 in answer.basis.dependent
+    value = answer.eq.rhs.subs(letter, c)
+    assert abs(sympy.N(value.subs(x, sympy.S.Half) - 1, 30)) < 1e-20
+    assert abs(sympy.N(value.diff(x).subs(x, sympy.S.Half), 30)) < 1e-20
+    assert not sympy.denom(sympy.together(answer.eq.rhs)).has(sympy.hyper)
