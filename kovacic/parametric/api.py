@@ -29,7 +29,7 @@ from kovacic.algebra.ratfunc import RatFunc
 from kovacic.algebra.rationals import QQ
 from kovacic.decision import Decision, Status
 from kovacic.derived import group
-from kovacic.equation import PI, Equation, Parsed, over, parameters_of
+from kovacic.equation import Equation, Parsed, over, parameters_of
 from kovacic.errors import InputError, LimitExceeded, VerificationFailed
 from kovacic.limits import Budget, Limits
 from kovacic.numbers.exact import whole
@@ -49,7 +49,7 @@ from kovacic.parametric.parametric_answer import ParametricAnswer
 from kovacic.parametric.partition import derived
 from kovacic.parametric.prose import ABELIAN, NOT_ABELIAN
 from kovacic.parametric.regions import ParameterRegion, verdict_of
-from kovacic.parametric.restriction import Letters, nonzero, own_parameters, spelled, with_free_constant
+from kovacic.parametric.restriction import Letters, nonzero, own_parameters, spelled, transcendental, with_free_constant
 from kovacic.parametric.solutions import GivenSolutions
 from kovacic.parametric.statements import Statement, Vanishes, both
 from kovacic.reading.change_of_variable import function_of_x, user_variable
@@ -308,8 +308,8 @@ def find_conditions(
         raise InputError(what, hint=python, shell=f"{hint} --var says which name is the variable")
     most = whole(max_degree, "max_degree")
     known = read_assumptions(assume, S, names)
-    if PI in names:
-        known = known.also(PI, ("irrational", "positive"))
+    for name in transcendental(names, letters):
+        known = known.also(name, ("irrational", "positive"))
     for name in nonzero(letters):
         known = known.also(name, ("nonzero",))
     found = conditions_of(parsed, known, most, limits, letters)

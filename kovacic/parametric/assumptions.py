@@ -351,7 +351,7 @@ class Assumptions:
             if values.are_covered_by(numbers):
                 return True
             return None if values.meet(numbers) else False
-        if self._is_apart(form, numbers) or self._is_irrational(form):
+        if self._is_apart(form, numbers) or self.is_irrational(form):
             return False
         return None
 
@@ -396,7 +396,7 @@ class Assumptions:
         if is_product:
             return all(self.of(name).nonzero for name in parameters_of(function))
         above = numerator(function)
-        return self._is_irrational(function) or self.is_positive(above) or self.is_positive(-1 * above)
+        return self.is_irrational(function) or self.is_positive(above) or self.is_positive(-1 * above)
 
     def _value_of(self, function: FunctionPoly) -> Poly | None:
         """The value of a polynomial in the parameters that have a value; None for any other."""
@@ -433,9 +433,9 @@ class Assumptions:
         are_integers = all(numbers.are_covered_by(INTEGERS) for numbers in classes.values())
         return INTEGERS if are_integers and form.den.is_one() else None
 
-    def _is_irrational(self, form: FunctionPoly) -> bool:
+    def is_irrational(self, form: Poly) -> bool:
         """A linear form in which one parameter is irrational and the others are rational."""
-        linear = linear_of(form)
+        linear = linear_of(over_parameters(form))
         if linear is None:
             return False
         kinds = [self.of(name).rational for name in linear.factors]

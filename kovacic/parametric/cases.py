@@ -13,7 +13,6 @@ from __future__ import annotations
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass, replace
 from itertools import chain, groupby, product
-from typing import Any
 
 from kovacic.algebra.extension import ExtensionPoly
 from kovacic.algebra.function_field import FunctionField, FunctionPoly
@@ -25,7 +24,6 @@ from kovacic.limits import check_time
 from kovacic.parametric.functions import ParameterPoint, irreducible_factors, over_parameters
 from kovacic.parametric.integers import Congruence
 from kovacic.parametric.natural import Natural
-from kovacic.parametric.record import statement_data
 from kovacic.parametric.regions import ParameterRegion, RegionVerdict
 from kovacic.parametric.restriction import Hypersurface, hypersurface, with_free_constant
 from kovacic.parametric.riemann import Schwarz
@@ -266,10 +264,10 @@ def in_lines(regions: Sequence[ParameterRegion]) -> list[ParameterRegion]:
 def without_empty(regions: Sequence[ParameterRegion]) -> list[ParameterRegion]:
     """The regions without those that earlier ones cover, for example because they say the same and more."""
     kept: list[ParameterRegion] = []
-    seen: list[set[Any]] = []
+    seen: list[set[Statement]] = []
     for region in regions:
         check_time()
-        said = {str(statement_data(part)) for part in both(region.statement).parts}
+        said = {*both(region.statement).parts}
         if any(known <= said for known in seen):
             continue
         charts = within(region.statement, everything(region.statement))

@@ -57,12 +57,14 @@ from kovacic.parametric.functions import (
     degrees,
     element,
     irreducible_factors,
+    lifted,
     normal_form,
     numerator,
     over_parameters,
     powers_of,
     values_at_integers,
 )
+from kovacic.parametric.restriction import everywhere
 from kovacic.parametric.statements import ALWAYS, NEVER, Setting, Statement, Vanishes, all_of, both, either
 
 #: How much more the length of f(n) counts than that of what is said about n, and what it costs to solve for a later parameter.
@@ -172,7 +174,7 @@ def integer_condition(
 ) -> IntegerCondition:
     """That a polynomial in N over Q(t) has one of the numbers for a root, as a spectrum or by square roots, or both."""
     spectrum = _spectrum(equation, numbers, letter, setting)
-    roots = _roots(equation, numbers)
+    roots = _roots(equation, numbers, setting.constant)
     if roots is None:
         return spectrum or IntegerCondition(EquationFor(letter, equation, numbers))
     if spectrum is None:
@@ -227,17 +229,22 @@ def _lines(numbers: Classes, N: Poly) -> Iterator[Poly]:
         yield N * (sign * modulus) + numbers.residues[0] + modulus * shift
 
 
-def _roots(equation: FunctionPoly, numbers: Classes) -> SumOfRoots | None:
+def _roots(equation: FunctionPoly, numbers: Classes, constant: ParameterPoint) -> SumOfRoots | None:
     """The roots as a mean +- the square roots of one, two or three squares, for an equation of degree 2, 4 or 8."""
     if equation.degree not in (2, 4, 8):
         return None
-    mean = over_parameters(-equation[equation.degree - 1] / (equation.lc * equation.degree))
-    shifted = equation(equation.field.poly([0, 1]) + mean) / equation.lc
-    squares = _squares(shifted)
+    field = equation.field
+    with_constant = everywhere(field, constant).at(equation)  # over Q(t)(alpha), in which more elements are squares
+    mean = -with_constant[equation.degree - 1] / (with_constant.lc * equation.degree)
+    squares = _squares(with_constant(mean.field.poly([0, 1]) + mean) / with_constant.lc)
     if squares is None:
         return None
-    constant = floor(constant_term(mean) / numbers.modulus) * numbers.modulus
-    return SumOfRoots(over_parameters(mean - constant), tuple(squares), numbers)
+    if constant.names:
+        mean = lifted(mean, field)
+        squares = [lifted(square, field) for square in squares]
+    middle = over_parameters(mean)
+    whole = floor(constant_term(middle) / numbers.modulus) * numbers.modulus
+    return SumOfRoots(over_parameters(middle - whole), tuple(squares), numbers)
 
 
 def _squares(shifted: Poly) -> list[Poly] | None:
@@ -424,10 +431,12 @@ class Congruence(Statement):
             return assumptions.meets_classes(self.form, self.numbers)
         if not assumptions:
             return None
-        for factor, _ in self.equation.field.factor(self.equation):
-            if factor.degree == 1 and assumptions.meets_classes(over_parameters(-factor[0]), self.numbers):
-                return True
-        return None
+        factors = [factor for factor, _ in self.equation.field.factor(self.equation)]
+        if any(f.degree == 1 and assumptions.meets_classes(over_parameters(-f[0]), self.numbers) for f in factors):
+            return True
+        # f(0) is irrational, and f(n) - f(0) rational.
+        are_irrational = all(assumptions.is_irrational(f[0]) and _without_parameters(f - f[0]) for f in factors)
+        return False if are_irrational else None
 
     def narrowed(self, assumptions: Assumptions) -> Statement:
         """The values of an integer parameter t, of which only finitely many make (a t + b)/(c t + d) so integral."""

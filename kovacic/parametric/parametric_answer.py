@@ -38,7 +38,7 @@ from kovacic.parametric.record import (
     verdict_from,
 )
 from kovacic.parametric.regions import Limited, ParameterRegion, RegionVerdict, Theory, settled
-from kovacic.parametric.restriction import Letters, values_of_letters
+from kovacic.parametric.restriction import Letters, setting_of, values_of_letters
 from kovacic.parametric.solutions import Later, Origin
 from kovacic.parametric.statements import Statement, both
 from kovacic.reading.constants import with_root
@@ -456,7 +456,8 @@ class ParametricAnswer:
             field = FunctionField((*names, *constant.names))
             reader = StatementReader(field)
             read = [*map(reader.region, data["regions"])]
-            regions = settled(read, variable, field.names, constant)
+            assumptions = read_assumptions(data["assumptions"] or None, None, names)
+            regions = settled(read, setting_of(variable, field.names, constant, letters, assumptions))
             answer = cls(
                 variable=variable,
                 parameters=parameters,
@@ -465,7 +466,7 @@ class ParametricAnswer:
                 generic=verdict_from(data["generic"]["verdict"]),
                 complete=data["complete"] if data.get("within_limits", True) else Limited(data["complete"]),
                 theory=Theory(theorem["said"], *theorem["sources"]),
-                assumptions=read_assumptions(data["assumptions"] or None, None, names),
+                assumptions=assumptions,
                 S=reader.function(data["S"], variable),
                 notices=tuple(data["notices"]),
                 constant=constant,

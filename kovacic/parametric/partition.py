@@ -69,6 +69,7 @@ from kovacic.parametric.restriction import (
     Letters,
     hypersurface,
     in_lowest_powers,
+    setting_of,
     undefined,
     with_free_constant,
 )
@@ -618,7 +619,7 @@ def derived(
     with budget.watched(), suppress(LimitExceeded):
         generic = result.generic if result.complete is True else None
         result = replace(result, regions=tuple(without_redundant(result.regions, generic)))
-    regions = settled(result.regions, variable, field.names, constant)
+    regions = settled(result.regions, setting_of(variable, field.names, constant, letters, assumptions))
     given = equation or normal_form(lifted, variable)
     return replace(result, regions=tuple([_finished(region, given, max_degree, budget, letters) for region in regions]))
 

@@ -9,11 +9,9 @@ from functools import cached_property
 
 from kovacic.algebra.function_field import FunctionPoly
 from kovacic.decision import Decision, Status, Structure
-from kovacic.equation import PI
 from kovacic.errors import LimitExceeded
 from kovacic.limits import DEFAULT_LIMITS, Budget, Limits
 from kovacic.parametric import prose
-from kovacic.parametric.functions import ParameterPoint
 from kovacic.parametric.natural import Natural
 from kovacic.parametric.prose import Words
 from kovacic.parametric.solutions import Later, Origin, PolynomialSolution
@@ -289,19 +287,13 @@ class ParameterRegion:
         return "\n      ".join([first, *self.determinants])
 
 
-def settled(
-    regions: Sequence[ParameterRegion], variable: str, names: tuple[str, ...], constant: ParameterPoint
-) -> list[ParameterRegion]:
-    """The regions in their order, so that each is printed for the values that belong to none before it.
-
-    `names` are the parameters, among them that of the `constant`, for which nothing is solved, nor for pi.
-    """
-    fixed = (*constant.names, *(name for name in names if name == PI))
+def settled(regions: Sequence[ParameterRegion], setting: Setting) -> list[ParameterRegion]:
+    """The regions in their order, so that each is printed for the values that belong to none before it."""
     covered: list[frozenset[FunctionPoly]] = []
     found = []
     for region in regions:
-        setting = Setting((variable, *names), fixed, tuple(covered), constant)
-        found.append(replace(region, statement=region.statement.avoiding(setting)))
+        here = replace(setting, covered=tuple(covered))
+        found.append(replace(region, statement=region.statement.avoiding(here)))
         for one in alternatives_of(all_of(both(region.statement).parts)):
             parts = both(one).parts
             zeros = [part.function for part in parts if isinstance(part, Vanishes)]

@@ -32,11 +32,12 @@ from kovacic.algebra.ratfunc import RatFunc
 from kovacic.algebra.rationals import QQ
 from kovacic.answer import Answer
 from kovacic.engine.places import Kind, Problem, analyse
-from kovacic.equation import Parsed
+from kovacic.equation import PI, Parsed
 from kovacic.errors import InputError
 from kovacic.limits import Budget
 from kovacic.numbers.numerals import as_text
 from kovacic.parametric import functions
+from kovacic.parametric.assumptions import Assumptions
 from kovacic.parametric.formulas import shown
 from kovacic.parametric.functions import (
     NO_CONSTANT,
@@ -49,7 +50,7 @@ from kovacic.parametric.functions import (
     over_parameters,
     union,
 )
-from kovacic.parametric.statements import Statement
+from kovacic.parametric.statements import Setting, Statement
 from kovacic.writing.formula import caret
 
 
@@ -363,6 +364,20 @@ def own_parameters(names: Sequence[str], letters: Letters) -> tuple[str, ...]:
         symbols = sorted(symbol.name for symbol in meanings[name].free_symbols) if name in meanings else [name]
         found.update(dict.fromkeys(symbols))
     return tuple(found)
+
+
+def transcendental(names: Sequence[str], letters: Letters) -> list[str]:
+    """The names of pi, and of letters for numbers such as e, which no condition is solved for."""
+    numbers = {name for name, meaning in letters if meaning.is_number and meaning.is_algebraic is False}
+    return [name for name in names if name == PI or name in numbers]
+
+
+def setting_of(
+    variable: str, names: tuple[str, ...], constant: ParameterPoint, letters: Letters, assumptions: Assumptions
+) -> Setting:
+    """How statements about these parameters are printed: nothing is solved for the constant among them, nor for pi and e."""
+    fixed = (*constant.names, *transcendental(names, letters))
+    return Setting((variable, *names), fixed, (), constant, assumptions)
 
 
 def nonzero(letters: Letters) -> list[str]:

@@ -344,19 +344,19 @@ def is_fuchsian(problem: Problem) -> bool:
     return all(place.kind in (Kind.ORDINARY, Kind.REGULAR) for place in problem.places)
 
 
-def _singular_places(problem: Problem) -> list[Place]:
+def singular_places(problem: Problem) -> list[Place]:
     return [place for place in problem.places if place.kind is not Kind.ORDINARY]
 
 
 def singular_points(problem: Problem) -> int:
     """How many there are on the sphere."""
-    return sum(place.degree for place in _singular_places(problem))
+    return sum(place.degree for place in singular_places(problem))
 
 
 def squares_of_differences(problem: Problem) -> FunctionPoly:
     """The monic cubic over Q(t) whose roots are the squares of the exponent differences."""
     cubic = problem.field.poly([1])
-    for place in _singular_places(problem):
+    for place in singular_places(problem):
         cubic = cubic * characteristic_polynomial(difference_squared(place), place.factor)
     ordinary = max(3 - cubic.degree, 0)  # at which the difference is 1
     return over_parameters(cubic * problem.field.poly([-1, 1]) ** ordinary)
@@ -456,6 +456,13 @@ def _half_integers(cubic: FunctionPoly, times: int) -> Statement:
             equation = over_parameters(factor(field.poly([0, 0, _F(1, 4)])))
             found.append(integer_roots(equation, [1], 2))
     return either(*found)
+
+
+def has_denominator(square: Poly, denominator: int) -> Statement:
+    """That an exponent difference with this square is a rational number with this denominator."""
+    equation = square.field.poly([-square * denominator**2, 0, 1])
+    coprime = [r for r in range(denominator) if gcd(r, denominator) == 1]
+    return integer_roots(over_parameters(equation), coprime, denominator)
 
 
 def _has_parameters(factor: Poly) -> bool:

@@ -33,11 +33,10 @@ from kovacic.parametric.exponents import (
     zeros_of_forms,
 )
 from kovacic.parametric.functions import degrees, irreducible_factors, over_parameters
-from kovacic.parametric.integers import integer_roots
 from kovacic.parametric.natural import Natural
 from kovacic.parametric.regions import Theory
 from kovacic.parametric.restriction import hypersurface
-from kovacic.parametric.statements import ALWAYS, NEVER, Statement, all_of
+from kovacic.parametric.statements import NEVER, Statement, all_of
 from kovacic.parametric.theorems import mean_of_singular_points
 
 #: Combinations of exponents above which invariants aren't examined.
@@ -293,18 +292,11 @@ def all_half_integers(problem: Problem) -> Statement:
     """
     if not riemann.is_fuchsian(problem) or riemann.singular_points(problem) != _HEUN:
         return NEVER
-    singular = [place for place in problem.places if place.kind is not Kind.ORDINARY]
-    found: dict[Statement, None] = {}
-    for place in singular:
-        square = place.delta_squared
-        if square is None or square.degree > 0:
-            return NEVER
-        equation = square.field.poly([-4 * square, 0, 1])  # (2 Delta)^2 = N^2 with an odd N
-        statement = integer_roots(over_parameters(equation), [1], 2)
-        if statement == NEVER:
-            return NEVER
-        found[statement] = None
-    return all_of([statement for statement in found if statement != ALWAYS])
+    squares = [place.delta_squared for place in riemann.singular_places(problem)]
+    known = [square for square in squares if square is not None and square.degree <= 0]
+    if len(known) < len(squares):
+        return NEVER
+    return all_of([riemann.has_denominator(square, 2) for square in known])
 
 
 def _is_excluded_by_symmetry(problem: Problem) -> bool:

@@ -16,7 +16,7 @@ from typing import ClassVar
 
 from kovacic.algebra.function_field import FunctionPoly
 from kovacic.parametric import prose
-from kovacic.parametric.assumptions import Assumptions
+from kovacic.parametric.assumptions import NOTHING_ASSUMED, Assumptions
 from kovacic.parametric.claims import AllOf, AnyOf, Claim, IsZero, Proposition
 from kovacic.parametric.functions import NO_CONSTANT, ParameterPoint, numerator
 
@@ -26,18 +26,20 @@ class Setting:
     """What a statement is printed beside.
 
     No integer is called like one of the `names`; nothing is solved for one of the `fixed` ones, which are constants; nothing is
-    said of the common zeros of functions that are `covered`, because they belong to earlier regions.  `constant` is the value
-    of the algebraic number among the names, if there is one.
+    said of the common zeros of functions that are `covered`, because they belong to earlier regions, or that the assumptions
+    exclude.  `constant` is the value of the algebraic number among the names, if there is one.
     """
 
     names: tuple[str, ...] = ()
     fixed: tuple[str, ...] = ()
     covered: tuple[frozenset[FunctionPoly], ...] = ()
     constant: ParameterPoint = NO_CONSTANT
+    assumptions: Assumptions = NOTHING_ASSUMED
 
     def covers(self, *zeros: FunctionPoly) -> bool:
-        """True if an earlier region contains the common zeros of the functions."""
-        return any(known <= {*zeros} for known in self.covered)
+        """True if an earlier region contains the common zeros of the functions, or there are none."""
+        is_excluded = any(self.assumptions.vanishes(zero) is False for zero in zeros)
+        return is_excluded or any(known <= {*zeros} for known in self.covered)
 
 
 class Statement(Proposition):
@@ -183,10 +185,11 @@ def both(*statements: Statement) -> Both:
 
 
 def all_of(statements: Sequence[Statement]) -> Statement:
-    """That all of them hold: the only one itself, if there is one."""
-    if len(statements) == 1:
-        return statements[0]
-    return both(*statements)
+    """That all of them hold, each said once: the only one itself, if there is one."""
+    different = dict.fromkeys(one for one in statements if one != ALWAYS)
+    if NEVER in different:
+        return NEVER
+    return next(iter(different)) if len(different) == 1 else both(*different)
 
 
 #: What is true everywhere, and nowhere.

@@ -68,7 +68,7 @@ from kovacic.parametric.integers import integer_roots
 from kovacic.parametric.prose import ABELIAN, phrase
 from kovacic.parametric.regions import ParameterRegion, RegionVerdict, Theorem, Theory
 from kovacic.parametric.solutions import BySigns, Origin, PolynomialSolution, Signed, jacobi, root
-from kovacic.parametric.statements import NEVER, Statement, both
+from kovacic.parametric.statements import Statement, all_of
 from kovacic.reading.symbolic import written_expression
 
 
@@ -273,15 +273,7 @@ def _with_denominators(problem: Problem, denominators: tuple[int, ...]) -> State
         if place.kind is not Kind.ORDINARY and place.delta_squared is not None:
             third = 2 if place.factor[0] else 0
             squares[1 if place.at_infinity else third] = place.delta_squared
-    found: dict[Statement, None] = {}
-    for square, denominator in zip(squares, denominators, strict=False):
-        equation = over_parameters(square.field.poly([-square * denominator**2, 0, 1]))
-        coprime = [r for r in range(denominator) if gcd(r, denominator) == 1]
-        statement = integer_roots(equation, coprime, denominator)
-        if statement == NEVER:
-            return NEVER
-        found[statement] = None
-    return both(*found)
+    return all_of([riemann.has_denominator(*pair) for pair in zip(squares, denominators, strict=False)])
 
 
 @dataclass(frozen=True)

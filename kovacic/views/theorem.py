@@ -124,7 +124,7 @@ class _TheoremWriter:
         yield say(*self._about_parameters(), "The equation")
         v = self._unknown
         normal_form = self._normal_form(v)
-        is_seen = given is None or equation is None or given.latex == normal_form.latex
+        is_seen = given is None or given.text.replace("*", " ") == normal_form.text.replace("*", " ")
         if equation is None or (equation.is_normal_form and not equation.change and is_seen):
             yield Formula(given or normal_form)
             yield say(claim)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import pickle
+import re
 from dataclasses import replace
 from fractions import Fraction
 from typing import Any
@@ -933,3 +934,23 @@ def test_two_pairs_of_conjugate_poles_are_used() -> None:
     found = kovacic.conditions("-3/(4*(x^2+1)^2) + a/((x^2+1)*(x^2+2))")
     assert found.complete
     assert [str(region.statement) for region in found.regions] == ["a = 0"]
+
+
+@pytest.mark.parametrize(
+    "S", ["a*(a-1)/x^2 + 2*a*b/x + e", "l*(l+1)/sin(x)^2 - e", "exp(2)*a/x^2 - b", "a/x^2 + b/x + e*pi"]
+)
+def test_no_condition_is_solved_for_e(S: str) -> None:
+    """e is a number that isn't rational: neither e = n^2/4 nor e = 0 is a condition."""
+    answer = kovacic.conditions(S, var="x", max_degree=0)
+    assert not re.search(r"(exp\(\d\)|pi)(\^\d)? (!?=)| or 2\*sqrt\(exp\(1\)\) is", answer.text())
+    assert Conditions.from_json(answer.to_json()).text() == answer.text()
+
+
+@pytest.mark.parametrize("root", ["sqrt(2)", "sqrt(5)", "i"])
+@pytest.mark.parametrize("S", ["{0}*a^2/x^2 + {0}*b/x - c", "{0}*a*x^2 + b + c/x^2"])
+def test_conditions_with_a_root_in_them_are_sums_of_roots(S: str, root: str) -> None:
+    """beta +- Delta = n, not the equation of degree 4 for n, also where the squares are squares over Q(t, sqrt(2)) alone."""
+    answer = kovacic.conditions(S.format(root), var="x", max_degree=0)
+    assert "n^4" not in answer.text()
+    assert " +- " in answer.text()
+    assert answer.check(30)
