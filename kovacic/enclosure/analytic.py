@@ -260,7 +260,7 @@ def _check_size(a: ExactPoint, b: ExactPoint, t: Any, e: int, start: int) -> Non
             if not where.imag.is_zero():
                 shown = where.str(10, radius=False)
         raise InputError(
-            f"the coefficients aren't known to be analytic near {shown}, on the way to {b}",
+            f"the coefficients aren't known to be analytic near {shown}, on the path from {a}",
             hint="go around it through the complex plane, e.g. path=[...] with a vertex off the axis; "
             "the result depends on the side",
         )

@@ -118,15 +118,7 @@ class LocalMonodromy:
         (True, False)
         """
         with working_precision(1000):
-            m = self.acb_mat()
-            one = acb_mat([[1, 0], [0, 1]])
-            t = m.trace() if self.trace is None else ball_to_flint(self.trace)
-            # M^n = U_n M - U_(n-1), U_(n+1) = t U_n - U_(n-1) (Cayley and Hamilton)
-            before = acb(0)
-            now = acb(1)
-            for _ in range(order - 1):
-                before, now = now, t * now - before
-            return bool((m * now - one * before).contains(one))
+            return bool((self.acb_mat() ** order).contains(acb_mat([[1, 0], [0, 1]])))
 
 
 @limited

@@ -38,9 +38,9 @@ from dataclasses import dataclass
 from functools import cached_property, lru_cache
 from typing import Any, ClassVar
 
-from flint import acb, acb_poly, arb, arb_poly, fmpq, fmpq_poly
+from flint import acb, acb_poly, arb, arb_poly, fmpq, fmpq_poly, fmpq_series
 
-from kovacic.algebra.precision import working_precision
+from kovacic.algebra.precision import series_length, working_precision
 from kovacic.enclosure.classical import Classical, Closed
 from kovacic.enclosure.closed_form import value
 from kovacic.enclosure.frame import System, foreseen_growth, frequency, largest_exponent, log2
@@ -197,7 +197,8 @@ def _oscillation(system: System, sign: int, prec: int) -> Oscillation | None:
     num, den = ([fmpq(v) * sign**k / system.den[-1] for k, v in enumerate(part)] for part in (system.num, system.den))
     num, den = ([v * sign ** (len(den) - 1) for v in part] for part in (num, den))  # S(sign x), and den with the head 1
     c = -num[-1]
-    T = _inverse(_modulus(num, den, half, length))
+    with series_length(length):
+        T = fmpq_poly((1 / fmpq_series(_modulus(num, den, half, length), prec=length)).coeffs())
     t = fmpq_poly([0, 1])
     U = T * half - t * T.derivative()
     V = U * (half - 1) - t * U.derivative()
@@ -233,15 +234,6 @@ def _modulus(num: Sequence[Any], den: Sequence[Any], half: Any, length: int) -> 
             total -= found[j] * A[j + d + 2 + A.degree() - k] * r * (r - 1) * (r - 2)
         found.append(-total / (B[top] * (-half - k) + G[top - 1]))
     return found
-
-
-def _inverse(series: Sequence[Any]) -> Any:
-    """1/series, for one that begins with 1."""
-    found = [fmpq(1)]
-    for k in range(1, len(series)):
-        check_time()
-        found.append(-sum((series[j] * found[k - j] for j in range(1, k + 1) if series[j] != 0), fmpq(0)))
-    return fmpq_poly(found)
 
 
 def _change(sizes: Sequence[Sequence[arb]], c: Any, d: int, x: arb) -> arb | None:
