@@ -25,7 +25,7 @@ from __future__ import annotations
 from collections import Counter
 from collections.abc import Iterable
 from dataclasses import dataclass
-from enum import Enum, auto
+from enum import IntEnum
 from fractions import Fraction
 from itertools import combinations
 
@@ -157,13 +157,16 @@ def _enumerate(generators: list[acb_mat], angles: dict[Fraction, int], group: Gr
     return enumeration.verdict()
 
 
-class _Element(Enum):
-    """What the ball of an element tells: 2 isn't its trace, or may be; or it is, and the element is the identity or isn't."""
+class _Element(IntEnum):
+    """What the ball of an element tells: 2 isn't its trace, or may be; or it is, and the element is the identity or isn't.
 
-    OTHER = auto()
-    UNCLEAR = auto()
-    IDENTITY = auto()
-    UNIPOTENT = auto()
+    Beside known elements a larger kind comes before a smaller one: an element that is known is no other.
+    """
+
+    OTHER = 0
+    UNCLEAR = 1
+    IDENTITY = 2
+    UNIPOTENT = 3
 
 
 class _Enumeration:
@@ -182,10 +185,7 @@ class _Enumeration:
         angles = [angle for angle, value in self.traces.items() if candidate.trace().overlaps(value)]
         if not angles:
             return Agreement(False, f"the monodromy group has an element whose trace isn't one of {self.group}")
-        # The quotients by the known elements.  The identity comes before what is unclear: an element that is known is no other.
-        quotients = {self._kind(candidate * _inverse(element)) for element in self.elements}
-        ranked = (_Element.UNIPOTENT, _Element.IDENTITY, _Element.UNCLEAR)
-        beside_known = next((kind for kind in ranked if kind in quotients), _Element.OTHER)
+        beside_known = max(self._kind(candidate * _inverse(element)) for element in self.elements)
         if beside_known is _Element.UNIPOTENT:
             return Agreement(False, f"the monodromy group has a unipotent element, unlike {self.group}")
         if beside_known is _Element.UNCLEAR or len(angles) > 1:
