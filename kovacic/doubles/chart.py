@@ -292,7 +292,7 @@ class RationalChart:
 
     @cached_property
     def _equation(self) -> Sequence[Any]:
-        return self.problem.equation if self.problem.embedded is None else self.problem.embedded.equation()
+        return self.problem.equation if self.problem.embedded is None else self.problem.embedded.in_balls()
 
     @cached_property
     def singular(self) -> list[ExactPoint]:
@@ -394,7 +394,7 @@ class AnalyticChart:
         parts = self._functions.series(centre, e, terms)
         if parts is None:
             return [[arb(1)], [], [arb("nan")]]
-        rows = [part.coeffs() for part in parts[:2]]
+        rows = [part.coeffs() for part in parts[1:3]]
         return [[arb(1)], *([_real_value(acb(v)) for v in row] for row in rows)]
 
     def source(self, centre: ExactPoint, e: int, u: arb) -> arb:

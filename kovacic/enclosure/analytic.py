@@ -51,7 +51,7 @@ from kovacic.enclosure.points import (
     to_acb,
     to_ball,
 )
-from kovacic.enclosure.problem import Coefficients, NumericProblem, root_of
+from kovacic.enclosure.problem import Coefficients, NumericProblem, cleared, root_of
 from kovacic.enclosure.start import middle, spread, spread_by
 from kovacic.enclosure.way import NOTHING, Forecast, Local, Traveller, Way, WayStep
 from kovacic.errors import InputError, LimitExceeded
@@ -347,6 +347,8 @@ def _after(second: Affine, first: Affine) -> Affine:
 def period_of(coefficients: Coefficients) -> Any:
     """A period of functions of waves of commensurable frequencies; None where none is seen."""
     x = coefficients.variable
+    if coefficients.a != 1:  # a polynomial
+        return None
     waves = {e for part in coefficients.parts for e in part.atoms(*_WAVES) if e.has(x)}
     waves = {e for e in waves if not e.args[0].diff(x).has(x)}
     known = {e: sympy.Dummy() for e in waves}
@@ -423,7 +425,8 @@ def constant_way(coefficients: Coefficients, problem: NumericProblem | None = No
     """The way by matrices where there is one, else that by power series, over many periods at once where there are any."""
     functions = CoefficientField(coefficients)
     x = coefficients.variable
-    terms = None if coefficients.b.has(x) or coefficients.c.has(x) else _terms(coefficients.f, x)
+    parts = (sympy.sympify(coefficients.a), coefficients.b, coefficients.c)
+    terms = None if any(part.has(x) for part in parts) else _terms(coefficients.f, x)
     if terms is not None:
         return ConstantWay(functions, problem, terms=terms)
     period = period_of(coefficients)
@@ -454,28 +457,25 @@ def _terms(f: Any, x: Any) -> tuple[Term, ...] | None:
 
 @lru_cache(maxsize=32)
 def way_of(problem: NumericProblem) -> AnalyticWay:
-    """b/a, c/a and (f + h)/a, for a right-hand side beside rational coefficients, or constants that are known by balls."""
+    """The way of an equation with a right-hand side beside rational coefficients, or constants that are known by balls."""
     equation = problem.right
     if equation is None:
         assert problem.embedded is not None
-        b, c = problem.embedded.quotients()
         atoms = _Letters(sympy.Symbol("the variable"))  # no parameter has this name
-        coefficients = atoms.ratio(b), atoms.ratio(c), sympy.Integer(0)
+        a, b, c = map(atoms.ratio, cleared(*problem.embedded.equation))
+        f = sympy.Integer(0)
     else:
         atoms = _Letters(sympy.Symbol(equation.variable))
-        over = 1 / equation.a
-        b, c, f, inverse = (
-            atoms.ratio(part) for part in (equation.b * over, equation.c * over, equation.f * over, over)
-        )
+        one = equation.a * 0 + 1
+        a, b, c, f, common = map(atoms.ratio, cleared(equation.a, equation.b, equation.c, equation.f, one))
         if equation.h is not None:
-            f += (
-                equation.h.xreplace({symbol: sympy.Symbol(symbol.name) for symbol in equation.h.free_symbols}) * inverse
-            )
-        coefficients = b, c, f
+            f += common * equation.h.xreplace({s: sympy.Symbol(s.name) for s in equation.h.free_symbols})
+    if not a.has(atoms.x):
+        a, b, c, f = sympy.Integer(1), b / a, c / a, f / a
     values = dict(atoms.constants)
     if problem.embedded is not None:
         values |= problem.embedded.values
-    return constant_way(Coefficients(atoms.x, *coefficients, tuple(sorted(values.items()))), problem)
+    return constant_way(Coefficients(atoms.x, b, c, f, tuple(sorted(values.items())), a=a), problem)
 
 
 class _Letters(Atoms):

@@ -1,18 +1,20 @@
-"""Equations y'' + b y' + c y = f with analytic coefficients in a disc: their series, proven bounds, and the solutions' series.
+"""Equations a y'' + b y' + c y = f with analytic coefficients in a disc: series, proven bounds, and the solutions' series.
 
 The guarantee: for every point of the disc the returned balls contain the exact solution there.
 
-The mathematics.  With x = z + H u the equation is y'' + B y' + C y = F, ' = d/du, B = H b, C = H^2 c, F = H^2 f.  Where a
-function is analytic for |u| <= R, bounded by M, which balls show (a box that contains the disc), its coefficients are at most
-M R^-n [Cauchy], and the rest of its series after N terms is at most M R^-N R/(R - 1) for |u| <= 1.  The coefficients themselves
-are those of power series in balls.
+The mathematics.  With x = z + H u the equation is A y'' + B y' + C y = F, ' = d/du, A = a/a(z), B = H b/a(z), C = H^2 c/a(z),
+F = H^2 f/a(z).  Where a function is analytic for |u| <= R, bounded by M, which balls show (a box that contains the disc), its
+coefficients are at most M R^-n [Cauchy], and the rest of its series after N terms is at most M R^-N R/(R - 1) for |u| <= 1.
+The coefficients themselves are those of power series in balls.  A polynomial has no rest: a isn't 1 where b and c would be over
+a polynomial.
 
-Let B~, C~, F~ be these polynomials, and Y the polynomial of degree n - 1 that the recurrence
+Let A~, B~, C~, F~ be these polynomials, and Y the polynomial of degree n - 1 that the recurrence
 
-    (k+1)(k+2) a_(k+2) = F~_k - sum_j B~_j (k+1-j) a_(k+1-j) - sum_j C~_j a_(k-j)
+    (k+1)(k+2) a_(k+2) = F~_k - sum_(j>=1) A~_j (k+2-j)(k+1-j) a_(k+2-j) - sum_j B~_j (k+1-j) a_(k+1-j) - sum_j C~_j a_(k-j)
 
-gives, in balls.  The defect r = Y'' + B~ Y' + C~ Y - F~ has no terms below u^(n-2), so that its size is bounded by sums of
-absolute values; the rests of B, C and F are added.  The error e satisfies |e''| <= beta |e'| + gamma |e| + rho on every ray, so
+gives, in balls.  The defect r = A~ Y'' + B~ Y' + C~ Y - F~ has no terms below u^(n-2), so that its size is bounded by sums of
+absolute values; the rests of A, B, C and F are added.  With |A| >= mu the error e satisfies
+|e''| <= beta |e'| + gamma |e| + rho on every ray, beta, gamma and rho the bounds of B, C and r over mu, so
 
     |e|, |e'| <= rho exp(lambda),    lambda = (beta + (beta^2 + 4 gamma)^(1/2))/2,
 
@@ -39,7 +41,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import lru_cache
 from typing import Any
 
@@ -50,7 +52,7 @@ from kovacic.algebra.precision import series_length, working_precision
 from kovacic.closed_form.jets import BallEvaluator
 from kovacic.enclosure.frame import log2
 from kovacic.enclosure.matrices import Matrix, State, fundamental
-from kovacic.enclosure.points import ExactPoint, are_real, around_zero, power_of_two, to_acb
+from kovacic.enclosure.points import ExactPoint, are_real, around_zero, to_acb
 from kovacic.enclosure.problem import Coefficients
 from kovacic.enclosure.way import Local
 from kovacic.errors import LimitExceeded
@@ -232,6 +234,8 @@ _TERMS = 2
 _MOST_TERMS = 40
 """Terms for each bit, at most: of the coefficients in a disc, and of a solution."""
 _SPARE = 12
+_LEAST = 0.25
+"""mu, at least."""
 _BOX = 4.0
 """Bounds by boxes are so many times too large."""
 _SHARE = 6
@@ -240,12 +244,14 @@ _SHARE = 6
 
 @dataclass(frozen=True)
 class Jets:
-    """B~, C~, F~ in the disc around `centre`, bounds of the rests, and lambda; to so many `bits`, at this `precision`."""
+    """A~ - 1, B~, C~, F~ in the disc around `centre`, bounds of the rests, mu and lambda; to so many `bits`, at this
+    `precision`."""
 
     centre: ExactPoint
     e: int
-    parts: tuple[Any, Any, Any]
-    rests: tuple[arb, arb, arb]
+    parts: Sequence[Any]
+    rests: Sequence[arb]
+    least: arb
     rate: arb
     bits: int
     precision: int
@@ -261,29 +267,38 @@ class CoefficientField:
 
     def __init__(self, coefficients: Coefficients) -> None:
         self.coefficients = coefficients
-        self._parts = [without_removable(part, coefficients.variable) for part in coefficients.parts]
+        x = coefficients.variable
+        self._parts = [without_removable(part, x) for part in (sympy.sympify(coefficients.a), *coefficients.parts)]
+        # Of polynomials; 0 for zero.
+        self._degrees = [
+            max(0, int(sympy.Poly(part, x).degree())) if part != 0 else 0
+            for part in self._parts
+            if part.is_polynomial(x)
+        ]
 
-    def values(self, x: Any, *, analytic: bool = False) -> list[Any]:
-        """b, c and f at a ball or a series; not finite where one of them isn't analytic, with `analytic`."""
+    def all_values(self, x: Any, *, analytic: bool = False) -> list[Any]:
+        """a, b, c and f at a ball or a series; not finite where one of them isn't analytic, with `analytic`."""
         evaluated = CoefficientEvaluator(
             self.coefficients.at(x), variable=self.coefficients.variable, analytic=analytic
         )
         return [evaluated(part) for part in self._parts]
 
+    def values(self, x: acb, *, analytic: bool = False) -> list[Any]:
+        """b, c and f over a at a ball."""
+        a, *others = self.all_values(x, analytic=analytic)
+        return others if self.coefficients.a == 1 else [part / a for part in others]
+
     def is_real(self, centre: ExactPoint, e: int) -> bool:
         """True if the coefficients, analytic in the disc with the scale 2^e, are proven to be real on its real diameter."""
-        return centre.is_real() and are_real(self.values(to_acb(centre) + arb(0, arb((1, e - _SHARE)))))
+        return centre.is_real() and are_real(self.all_values(to_acb(centre) + arb(0, arb((1, e - _SHARE)))))
 
     def is_regular(self, x: acb) -> bool:
         """Are the coefficients known to be analytic on the ball?"""
         return all(value.is_finite() for value in self.values(x, analytic=True))
 
     def sizes(self, centre: ExactPoint, radius: arb) -> list[arb] | None:
-        """Bounds of |b|, |c| and |f| in a disc; None where they aren't known to be analytic there."""
-        z = to_acb(centre)
-        box = acb(z.real + arb(0, radius), z.imag + arb(0, radius))
-        found = [abs(value).upper() for value in self.values(box, analytic=True)]
-        return found if all(size.is_finite() for size in found) else None
+        """Bounds of |b|, |c| and |f| over |a| in a disc; None where they aren't known to be analytic there."""
+        return _sizes(self.values(_box(centre, radius), analytic=True))
 
     def jets(self, centre: ExactPoint, e: int, prec: int, steepest: float) -> Jets | None:
         """The series for solutions to about 2^-prec; None where the disc of twice this scale has a singularity, lambda is above
@@ -305,48 +320,84 @@ class CoefficientField:
             bits = prec + growth + _SPARE
             # An error of dy/du counts for y beyond a small disc, over its size; but not where the coefficients are small.
             lost = max(0, min(-e, int(-log2(rate)))) if rate > 0 else 0
-            bounds = []
-            for radius in _RADII:
-                sizes = self.sizes(centre, h * radius)
-                if sizes is None:
-                    break
-                bounds.append((radius, sizes))
-            if not bounds:
+            found = self._truncated(centre, h, bits + lost)
+            if found is None:
                 return None
-            terms, rests = min(
-                (_terms(radius, sizes, h, bits + lost) for radius, sizes in bounds), key=lambda found: found[0]
-            )
-            if terms > _TERMS * bits:  # the functions are as large as exp(bits) beside the way
-                return None
+            terms, rests = found
         precision = bits + growth + _SPARE
         with working_precision(precision + longer):
             parts = self.series(centre, e, terms)
         if parts is None:
             return None
         with working_precision(_ROUGH):
+            a = to_acb(centre) if self.coefficients.a == 1 else self.all_values(to_acb(centre))[0]
+            scale = arb(1) if self.coefficients.a == 1 else 1 / abs(a).lower()
+            rests = [(rest * scale).upper() for rest in rests]
             sizes = [
                 sum((abs(value) for value in part.coeffs()), rest) for part, rest in zip(parts, rests, strict=True)
             ]
-            beta, gamma, _ = (size.upper() for size in sizes)
+            least = (1 - sizes[0]).lower()
+            if not least > _LEAST:
+                return None
+            beta, gamma = ((size / least).upper() for size in sizes[1:3])
             rate = _rate(beta, gamma)
-        return Jets(centre, e, parts, rests, rate, bits, precision) if rate <= steepest else None
+        return Jets(centre, e, parts, rests, least, rate, bits, precision) if rate <= steepest else None
 
-    def series(self, centre: ExactPoint, e: int, terms: int) -> tuple[Any, Any, Any] | None:
-        """So many coefficients of B, C and F; None where they aren't finite."""
+    def _truncated(self, centre: ExactPoint, h: arb, bits: int) -> tuple[int, list[arb]] | None:
+        """So many terms of A, B, C and F are to be known that the rests are below 2^-bits, and bounds of these, times a(z).
+
+        None where there is a singularity within twice the disc, or functions are as large as exp(bits) beside the way.
+        """
+        longest = max(self._degrees, default=0) + 1
+        polynomials = [part.is_polynomial(self.coefficients.variable) for part in self._parts]
+        if all(polynomials):
+            return longest, [arb(0)] * len(self._parts)
+        found = []
+        for radius in _RADII:
+            sizes = _sizes(self.all_values(_box(centre, h * radius), analytic=True))
+            if sizes is None:
+                break
+            scaled = [
+                arb(0) if has_no_rest else size * factor
+                for size, factor, has_no_rest in zip(sizes, (arb(1), h, h * h, h * h), polynomials, strict=True)
+            ]
+            largest = max(scaled)
+            needed = log2(largest) + bits + 1 if largest > 0 else 0.0
+            terms = max(4, int(needed / math.log2(radius)) + 2)
+            share = arb(radius) ** (1 - terms) / (radius - 1)
+            found.append((terms, [(size * share).upper() for size in scaled]))
+        terms, rests = min(found, key=lambda choice: choice[0], default=(0, []))
+        return (max(terms, longest), rests) if 0 < terms <= _TERMS * bits else None
+
+    def series(self, centre: ExactPoint, e: int, terms: int) -> list[Any] | None:
+        """So many coefficients of A - 1, B, C and F; None where they aren't finite."""
+        H = arb((1, e))
         try:
             with series_length(terms):
-                b, c, f = self.values(acb_series([to_acb(centre), arb((1, e))]))
-                H = arb((1, e))
-                rows = [_coefficients(b * H), _coefficients(c * H**2), _coefficients(f * H**2)]
+                values = self.all_values(acb_series([to_acb(centre), H]))
+                rows = [_coefficients(value) for value in values]
         except (ZeroDivisionError, ValueError):
             return None
+        scale = acb(1) if self.coefficients.a == 1 else 1 / rows[0][0]
+        factors = (scale, scale * H, scale * H**2, scale * H**2)
+        rows = [[value * factor for value in row] for row, factor in zip(rows, factors, strict=True)]
+        rows[0][0] = acb(0)
         if not all(value.is_finite() for row in rows for value in row):
             return None
         if self.is_real(centre, e):
-            B, C, F = (arb_poly([value.real for value in row]) for row in rows)
-        else:
-            B, C, F = map(acb_poly, rows)
-        return B, C, F
+            return [arb_poly([value.real for value in row]) for row in rows]
+        return [acb_poly(row) for row in rows]
+
+
+def _box(centre: ExactPoint, radius: arb) -> acb:
+    """That contains a disc."""
+    return to_acb(centre) + around_zero(radius, real=False)
+
+
+def _sizes(values: list[Any]) -> list[arb] | None:
+    """Bounds of the absolute values; None where one isn't finite."""
+    found = [abs(value).upper() for value in values]
+    return found if all(size.is_finite() for size in found) else None
 
 
 def _coefficients(value: Any) -> list[Any]:
@@ -359,26 +410,20 @@ def _rate(beta: arb, gamma: arb) -> arb:
     return ((beta + (beta * beta + 4 * gamma).sqrt()) / 2).upper()
 
 
-def _terms(radius: int, sizes: Sequence[arb], h: arb, bits: int) -> tuple[int, tuple[arb, arb, arb]]:
-    """So many terms of the series are to be known that the rests are below 2^-bits, and bounds of these."""
-    scaled = [size * factor for size, factor in zip(sizes, (h, h * h, h * h), strict=True)]
-    largest = max(scaled)
-    needed = log2(largest) + bits + 1 if largest > 0 else 0.0
-    terms = max(4, int(needed / log2(arb(radius))) + 2)
-    share = arb(radius) ** (1 - terms) / (radius - 1)
-    b, c, f = ((size * share).upper() for size in scaled)
-    return terms, (b, c, f)
-
-
 class JetBasis:
     """The solutions with the states (1, 0), (0, 1) in u at the centre, and one of the equation with its right-hand side."""
 
     def __init__(self, jets: Jets) -> None:
         self.jets = jets
-        homogeneous = jets.parts[2].degree() < 0 and jets.rests[2].is_zero()
+        homogeneous = jets.parts[3].degree() < 0 and jets.rests[3].is_zero()
         with working_precision(jets.precision):
             self._columns = [_solved(jets, start, right=False) for start in ((1, 0), (0, 1))]
             self._own = None if homogeneous else _solved(jets, (0, 0), right=True)
+            # The Wronskian w = exp(-int B/A) is the slope of the solution of A y'' + B y' = 0 that begins with 0, 1.
+            A, B, C, F = jets.parts
+            without_c = replace(jets, parts=(A, B, C * 0, F), rests=(*jets.rests[:2], arb(0), arb(0)))
+            is_constant = B.degree() < 0 and jets.rests[1].is_zero()
+            self._area = None if is_constant else _solved(without_c, (0, 1), right=False)
 
     def local(self, state: State) -> Local:
         """The solution with this state (y, dy/du) at the centre."""
@@ -401,16 +446,9 @@ class JetBasis:
         return fundamental(first.state(x), second.state(x))
 
     def inverse(self, x: ExactPoint) -> Matrix:
-        """From (y, dy/dx) at x to (y, dy/du) at the centre, without the right-hand side: the Wronskian is exp(-int B)/H."""
+        """From (y, dy/dx) at x to (y, dy/du) at the centre, without the right-hand side: the determinant is w/H."""
         m = self.matrix(x)
-        u = (x - self.jets.centre).scaled(power_of_two(-self.jets.e))
-        area = self.jets.parts[0].integral()
-        rest = self.jets.rests[0]
-        if u.is_real() and isinstance(area, arb_poly):
-            exponent = acb(area(arb(u.x)) + arb(0, rest))
-        else:
-            exponent = acb_poly(area)(to_acb(u)) + acb(arb(0, rest), arb(0, rest))
-        factor = exponent.exp() * self.jets.scale
+        factor = acb(self.jets.scale) if self._area is None else 1 / self._area.state(x)[1]
         return m[3] * factor, -m[1] * factor, -m[2] * factor, m[0] * factor
 
     def particular(self, x: ExactPoint) -> State:
@@ -424,11 +462,11 @@ def _local(jets: Jets, poly: Any, error: arb) -> Local:
 
 def _solved(jets: Jets, start: tuple[int, int], *, right: bool) -> Local:
     """The solution with this start at the centre, with or without the right-hand side."""
-    B, C, F = jets.parts
+    A, B, C, F = jets.parts
     is_real = all(isinstance(part, arb_poly) for part in jets.parts)
     kind, number = (arb_poly, arb) if is_real else (acb_poly, acb)
     right_side = kind(F) if right else kind([])
-    recurrence = _Recurrence(kind(B), kind(C), right_side, kind, jets.bits)
+    recurrence = _Recurrence(kind(A), kind(B), kind(C), right_side, kind, jets.bits)
     values = recurrence.run((number(start[0]), number(start[1])))
     with working_precision(_ROUGH):
         rho = _defect(jets, values, right)
@@ -439,34 +477,37 @@ def _solved(jets: Jets, start: tuple[int, int], *, right: bool) -> Local:
 def _defect(jets: Jets, values: list[Any], right: bool) -> arb:
     """A bound rho of the defect for |u| <= 1."""
     n = len(values)
-    B, C, F = ([abs(value).upper() for value in part.coeffs()] for part in jets.parts)
+    A, B, C, F = ([abs(value).upper() for value in part.coeffs()] for part in jets.parts)
     y = [abs(value).upper() for value in values]
-    dy = [abs(value).upper() * (k + 1) for k, value in enumerate(values[1:])]
-    product = (arb_poly(B) * arb_poly(dy) + arb_poly(C) * arb_poly(y)).coeffs()
+    dy = [value * k for k, value in enumerate(y)][1:]
+    ddy = [value * k for k, value in enumerate(dy)][1:]
+    product = sum((arb_poly(p) * arb_poly(q) for p, q in ((A, ddy), (B, dy), (C, y))), arb_poly([])).coeffs()
     rho = sum(product[n - 2 :], arb(0))
-    rest_b, rest_c, rest_f = jets.rests
-    rho += rest_b * sum(dy, arb(0)) + rest_c * sum(y, arb(0))
+    rho += sum((rest * sum(part, arb(0)) for rest, part in zip(jets.rests, (ddy, dy, y), strict=False)), arb(0))
     if right:
-        rho += sum(F[n - 2 :], arb(0)) + rest_f
-    return rho.upper()
+        rho += sum(F[n - 2 :], arb(0)) + jets.rests[3]
+    return (rho / jets.least).upper()
 
 
 class _Recurrence:
     """The coefficients a_k, `values`, by halving: what the first half gives to the second is a product of polynomials.
 
-    With d_k = (k+1) a_(k+1), the coefficients of Y', s_k = sum_j (B_(k-j) d_j + C_(k-j) a_j) - F_k is -(k+1) d_(k+1).
+    With the coefficients d_k = (k+1) a_(k+1) of Y' and e_k = (k+1) d_(k+1) of Y'', and A_0 = 0 in place of 1,
+    s_k = sum_j (A_(k-j) e_j + B_(k-j) d_j + C_(k-j) a_j) - F_k is -e_k.
     """
 
-    def __init__(self, B: Any, C: Any, F: Any, kind: Any, bits: int) -> None:
+    def __init__(self, A: Any, B: Any, C: Any, F: Any, kind: Any, bits: int) -> None:
         self.kind = kind
+        self.A = A.coeffs()
         self.B = B.coeffs()
         self.C = C.coeffs()
         self.sums = [-value for value in F.coeffs()]
-        self.least = max(len(self.B), len(self.C), len(self.sums))
+        self.least = max(len(self.A), len(self.B), len(self.C), len(self.sums))
         self.small = arb((1, -bits))
         self.most = _MOST_TERMS * bits + 400
         self.values: list[Any] = []
         self.slopes: list[Any] = []
+        self.bends: list[Any] = []
         self.ended = False
 
     def run(self, start: tuple[Any, Any]) -> list[Any]:
@@ -494,11 +535,10 @@ class _Recurrence:
             return
         for k in range(low, high):
             total = self.sums[k] if k < len(self.sums) else self.kind([0])[0]
-            for j in range(low, k + 1):
-                if k - j < len(self.B):
-                    total += self.B[k - j] * self.slopes[j]
-                if k - j < len(self.C):
-                    total += self.C[k - j] * self.values[j]
+            for part, series in ((self.A, self.bends), (self.B, self.slopes), (self.C, self.values)):
+                for j in range(max(low, k + 1 - len(part)), min(k + 1, len(series))):
+                    total += part[k - j] * series[j]
+            self.bends.append(-total)
             self.slopes.append(-total / (k + 1))
             self.values.append(self.slopes[-1] / (k + 2))
         check_time()
@@ -513,7 +553,8 @@ class _Recurrence:
         if self.ended or low == middle:
             return
         count = high - low
-        product = self.kind(self.B[:count]) * self.kind(self.slopes[low:middle])
+        product = self.kind(self.A[:count]) * self.kind(self.bends[low:middle])
+        product += self.kind(self.B[:count]) * self.kind(self.slopes[low:middle])
         product += self.kind(self.C[:count]) * self.kind(self.values[low:middle])
         given = product.coeffs()[middle - low : count]
         self.sums += [self.kind([0])[0]] * (middle + len(given) - len(self.sums))

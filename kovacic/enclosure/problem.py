@@ -29,7 +29,16 @@ from kovacic.answer import Answer, computed_once
 from kovacic.decision import Decision
 from kovacic.enclosure.frame import System, Zeros, check_segment
 from kovacic.enclosure.log_derivative import sharp_roots
-from kovacic.enclosure.points import ExactPoint, Number, are_real, as_number, midpoint, to_acb, to_ball
+from kovacic.enclosure.points import (
+    ExactPoint,
+    Number,
+    are_real,
+    as_number,
+    kept_at_precision,
+    midpoint,
+    to_acb,
+    to_ball,
+)
 from kovacic.equation import Change, Equation, Parsed, parameters_of
 from kovacic.errors import InputError, LimitExceeded, NotRational
 from kovacic.numbers.numerals import as_text
@@ -80,17 +89,15 @@ class Embedded:
             found += [(root, k) for root in roots]
         return found
 
-    def equation(self) -> tuple[arb_poly, arb_poly, arb_poly]:
-        """a, b and c of the user's equation, whose constants are real, at the working precision in force."""
-        gauge = self.gauge or self.S * 0
-        parts = (self.S.num, self.S.den, gauge.num, gauge.den)
-        p, q, n, d = (arb_poly([c.real for c in self._embed(part).coeffs()]) for part in parts)
-        return d * d * q, -2 * n * d * q, (n * n - n.derivative() * d + n * d.derivative()) * q - p * d * d
-
-    def quotients(self) -> tuple[RatFunc, RatFunc]:
-        """b/a and c/a, for a z'' + b z' + c z = 0, z = g y."""
+    @cached_property
+    def equation(self) -> tuple[RatFunc, RatFunc, RatFunc]:
+        """The coefficients of a z'' + b z' + c z = 0, z = g y."""
         gamma = self.gauge or self.S * 0
-        return -2 * gamma, gamma * gamma - gamma.derivative() - self.S
+        return gamma * 0 + 1, -2 * gamma, gamma * gamma - gamma.derivative() - self.S
+
+    def in_balls(self) -> list[arb_poly]:
+        """Polynomials a, b and c of the same, whose constants are real, at the working precision in force."""
+        return [arb_poly([c.real for c in self._embed(part.num).coeffs()]) for part in cleared(*self.equation)]
 
     def _embed(self, poly: Poly) -> acb_poly:
         """The polynomial at the working precision in force."""
@@ -102,6 +109,14 @@ class Embedded:
         assert isinstance(poly, FunctionPoly)
         balls = [to_ball(self.values[name]) for name in poly.field.names]
         return _at(poly.num, balls) * (1 / _at(poly.den, balls)[0])
+
+
+def cleared(a: RatFunc, b: RatFunc, c: RatFunc, *others: RatFunc) -> list[RatFunc]:
+    """All of these times the common denominator of the first three."""
+    common = a.den
+    for part in (b, c):
+        common *= part.den // common.gcd(part.den)
+    return [part * RatFunc(common) for part in (a, b, c, *others)]
 
 
 def check_apart(points: Iterable[acb], a: acb, b: acb) -> None:
@@ -129,6 +144,7 @@ def _at(polynomial: Any, values: list[acb]) -> acb_poly:
     return acb_poly([columns.get(k, acb(0)) for k in range(max(columns, default=-1) + 1)])
 
 
+@kept_at_precision(maxsize=32)
 def root_of(field: AlgebraicField) -> acb:
     """The generator, at the working precision in force."""
     modulus = [field.base.rational_value(field.modulus[k]) for k in range(field.dimension + 1)]
@@ -143,9 +159,10 @@ _BITS = 40  # to which constants are known where nothing was asked for
 
 @dataclass(frozen=True)
 class Coefficients:
-    """y'' + b y' + c y = f with any functions: SymPy expressions in `variable` and the names of `values`.
+    """a y'' + b y' + c y = f with any functions: SymPy expressions in `variable` and the names of `values`.
 
-    `changed` is the equation that was read or solved in another variable t, in which it is rational.
+    a isn't 1 where b and c would be over a polynomial.  `changed` is the equation that was read or solved in another variable
+    t, in which it is rational.
     """
 
     variable: Any
@@ -154,6 +171,7 @@ class Coefficients:
     f: Any
     values: tuple[tuple[str, Number], ...] = ()
     changed: Any = field(default=None, compare=False, repr=False)
+    a: Any = 1
 
     @property
     def parts(self) -> tuple[Any, Any, Any]:
