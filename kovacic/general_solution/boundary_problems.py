@@ -11,9 +11,11 @@ from sympy.core.function import AppliedUndef
 
 from kovacic.errors import InputError
 from kovacic.general_solution.conditions import Condition, ConditionReader, as_mapping, periodicity
+from kovacic.general_solution.question import apart
 from kovacic.limits import DEFAULT_LIMITS, Limits, limited
 from kovacic.numbers.exact import exact_text, whole
 from kovacic.reading.names import words_among
+from kovacic.reading.pieces import Paste
 from kovacic.reading.source import source_of
 from kovacic.reading.symbolic import expression_of, is_sympy_equation, read_expression
 from kovacic.sturm_liouville.levels import Eigenvalues
@@ -115,6 +117,7 @@ def read_eigenproblem(
 ) -> Eigenproblem:
     """The problem of `eigenvalues`, whose levels can then be computed one by one.  Raises `InputError`."""
     values = {str(name): read_expression(exact_text(value, str(name))) for name, value in (params or {}).items()}
+    equation, conditions = apart(equation, conditions)
     linear = _linear_in_parameter(equation, var, parameter, values, limits)
     if not isinstance(conditions, Mapping | str | None):
         raise InputError("conditions are a text or a mapping", hint='"y(0)=0, y(1)=0"')
@@ -171,6 +174,8 @@ def _linear_in_parameter(
 def _parameter_among(symbols: Collection[Expr], parameter: str) -> Expr:
     """The symbol with this name, where there is no other one.  Raises `InputError`."""
     names = sorted(s.name for s in symbols)
+    if parameter == PARAMETER and "λ" in names:
+        parameter = "λ"
     if parameter not in names:
         said = f"names in it: {', '.join(names) or 'none'}"
         raise InputError(
@@ -190,7 +195,7 @@ def _parameter_among(symbols: Collection[Expr], parameter: str) -> Expr:
 
 def _expression(equation: Any, var: str | None, names: Sequence[str], limits: Limits) -> tuple[Expr, Expr]:
     """What is zero, and y(x)."""
-    if isinstance(equation, str):
+    if isinstance(equation, str | Paste):
         source = source_of(equation, var, limits, equation=True, names=names)
         x = sympy.Symbol(source.variable)
         return expression_of(source, limits), sympy.Function(source.unknown)(x)

@@ -417,6 +417,21 @@ def test_a_label_that_may_be_a_factor_is_asked_back(label: str) -> None:
         assert any(label in note for note in read_input(certain).notices)
 
 
+@pytest.mark.parametrize("number", ["(3)", "(1.2)", "[7]"])
+def test_a_number_behind_a_function_is_asked_back(number: str) -> None:
+    """Behind an equation it is its number; behind S alone it may be a factor."""
+    with pytest.raises(kovacic.InputError, match="may be the number of the equation, or a factor") as asked:
+        read_input(f"x^2 + 3 {number}")
+    assert f"*{number[1:-1]}" in (asked.value.hint or "")
+    assert read_input(f"x^2 + 3{number}").S == read_input(f"x^2 + 3*{number[1:-1]}").S
+
+
+def test_eigenvalue_problems_take_their_conditions_from_the_text() -> None:
+    (apart_from_it,) = kovacic.eigenvalues("y'' + lambda*y = 0", "y(0)=0, y(pi)=0", count=1)
+    (within,) = kovacic.eigenvalues("y'' + λ y = 0, y(0)=0, y(π)=0", count=1)
+    assert within == apart_from_it
+
+
 @parametrize("row", PASTED, ordinary=30, long=161, ids=[row["text"] for row in PASTED])
 def test_what_people_paste_is_what_they_mean(row: dict[str, Any]) -> None:
     """The coefficients of an equation, its right-hand side, its variable and its values are those that a reader finds."""
