@@ -384,7 +384,7 @@ class Tower:
         is_rational = all(value.rational is not None for letter, value in bound.items() if letter != "u")
         if len(arguments) != len(letters.split()) or not is_rational:
             raise NotImplementedError(name)
-        key = " ".join([name, *(value.key for value in arguments)])
+        key = family_key(name, arguments)
         if key not in self.families:
             balls = {F: partial(at_arguments, arguments, ball) for F, (_, ball) in zip("FG", members, strict=False)}
             found = {F: self.new(f"{F} of {key}", lambda _: self.number(0), ball) for F, ball in balls.items()}
@@ -395,6 +395,10 @@ class Tower:
                 by_x = self.read(slope, **bound, **found) * bound["u"].derivative()
                 self.slopes[self.generator_number(function)] = by_x
         return self.families[key]
+
+
+def family_key(name: str, arguments: list[Function]) -> str:
+    return " ".join([name, *(value.key for value in arguments)])
 
 
 def at_arguments(arguments: list[Function], ball: Callable[..., Any], at: Slope) -> Any:
@@ -466,11 +470,21 @@ def root_sum(tower: Tower, polynomial: Function, term: tuple[Function, Function]
 
 
 def hypergeometric(tower: Tower, *arguments: Any) -> Any:
-    """pFq, where the parameters above are a list, and those below."""
+    """pFq, where the parameters above are a list, and those below; from a known one if they differ by 1, as for derivatives."""
     lists = [part for part in arguments if isinstance(part, tuple)]
-    return tower.called(
-        "F".join(str(len(part)) for part in lists) or "hyper()", [*chain(*lists), *arguments[len(lists) :]]
-    )
+    name = "F".join(str(len(part)) for part in lists) or "pFq"
+    *parameters, z = *chain(*lists), *arguments[len(lists) :]
+    one = tower.number(1)
+    if name in NEIGHBOURS:
+        lower, upper = ([value - one for value in parameters], [value + one for value in parameters])
+        *above, below = lower
+        if family_key(name, [*lower, z]) in tower.families and all(value.num != 0 for value in lower):
+            return tower.family(name, [*lower, z])[1] * below / prod(above, start=one)
+        if family_key(name, [*upper, z]) in tower.families and parameters[-1].num != 0:
+            F, G = tower.family(name, [*upper, z])
+            bound = dict(zip(FAMILIES[name][0].split(), [*parameters, z], strict=True))
+            return tower.read(NEIGHBOURS[name], F=F, G=G, **bound)
+    return tower.called(name, [*parameters, z])
 
 
 #: Functions of u, written in others.
@@ -528,6 +542,8 @@ FAMILIES: dict[str, tuple[Any, ...]] = {
         ),
     ),
 }
+#: These functions by F with all parameters larger by 1, and G = F': by their equations, for (a b/c) F is their derivative.
+NEIGHBOURS = {"1F1": "(u*G + (c - u)*F)/c", "2F1": "(u*(1 - u)*G + (c - (a + b + 1)*u)*F)/c"}
 CONSTANTS: dict[str, Callable[[Tower], Any]] = {
     # between pi and other numbers no relation is known
     "pi": lambda tower: tower.constant("pi", value=acb.pi()),

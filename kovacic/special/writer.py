@@ -189,7 +189,7 @@ class Writer:
         rate += b * sympy.Add(*(sympy.diff(sympy.log(other), x) for other in before.others))
         s, t, root, other = _derivative(function, x)
         of_F = _in_lowest_terms(rate + b * s)
-        of_other = _in_lowest_terms(b * t)
+        of_other = _in_lowest_terms(b * t) or of_F  # F1 = 0
         n, d = sympy.fraction(sympy.together(_in_lowest_terms(of_F / of_other)))
         total = before.product.logarithmic_derivative + half_rate(transform.m)
         common = sympy.factor(of_other / d).as_independent(x, as_Add=False)[1]
@@ -361,7 +361,10 @@ def _derivative(F: Expr, x: Any) -> tuple[Expr, Expr, Expr, Expr]:
     """(s, t, w, F1) with F' = s F + t w F1: s and t rational functions, w a root of one or 1."""
     found = _by_argument(F)
     if found is None:
-        return sympy.S.Zero, sympy.S.One, sympy.S.One, sympy.diff(F, x)
+        slope = sympy.diff(F, x)
+        if isinstance(F, exp | sympy.Pow) or F.is_Number:
+            return slope / F, sympy.S.Zero, sympy.S.One, sympy.S.Zero
+        return sympy.S.Zero, sympy.S.One, sympy.S.One, slope
     s, t, other = found
     z = F.args[-1]
     rate = sympy.cancel(sympy.together(sympy.diff(z, x) / z))
@@ -382,7 +385,7 @@ def _by_argument(F: Expr) -> tuple[Expr, Expr, Expr] | None:
     if isinstance(F, sympy.airyai | sympy.airybi):
         return zero, sympy.S.One, (sympy.airyaiprime if isinstance(F, sympy.airyai) else sympy.airybiprime)(z)
     if isinstance(F, sympy.hyper) and 0 not in F.ap:
-        above, below = (tuple(value + 1 for value in values) for values in (F.ap, F.bq))
+        above, below = (tuple(sympy.cancel(value + 1) for value in values) for values in (F.ap, F.bq))
         return zero, Mul(*F.ap) / Mul(*F.bq), hypergeometric(above, below, z)
     if isinstance(F, sympy.legendre):  # (t^2 - 1) P_nu' = nu (t P_nu - P_(nu-1))
         nu = F.args[0]
