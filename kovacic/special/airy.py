@@ -48,6 +48,7 @@ class Airy(StandardEquation):
     searched: ClassVar[str] = "Airy's equation in f(x), f rational"
     irregular: ClassVar[bool] = True
     name = "Airy's"
+    cost = prices.AIRY
 
     @property
     def S(self) -> RatFunc:
@@ -80,10 +81,6 @@ class Airy(StandardEquation):
     @property
     def parameters(self) -> list[fmpq]:
         return []
-
-    @property
-    def cost(self) -> prices.Cost:
-        return prices.AIRY
 
     def form(self, n: fmpq_poly, d: fmpq_poly, coordinate: int) -> StandardForm:
         q = rational(self.q)

@@ -70,6 +70,7 @@ class Bessel(StandardEquation):
     searched: ClassVar[str] = "Bessel's equation in the square root of f(x), f rational"
     irregular: ClassVar[bool] = True
     name = "Bessel's"
+    cost = prices.BESSEL
 
     @property
     def S(self) -> RatFunc:
@@ -94,10 +95,6 @@ class Bessel(StandardEquation):
     @property
     def parameters(self) -> list[fmpq]:
         return [4 * rational(self.M) + 1]
-
-    @property
-    def cost(self) -> prices.Cost:
-        return cost(square_root(self.parameters[0]))
 
     def coordinate(self, n: Any, d: Any) -> int:
         return sign_of(n, d)
@@ -192,15 +189,6 @@ def written(writer: Writer, nu_squared: Poly, t: RatFunc, singular: Poly | None)
 
 
 # ------------------------------------------------------------------------------------------ values
-
-
-def cost(order: Any) -> prices.Cost:
-    """Of the functions of this order."""
-    if is_integer(order):
-        return prices.BESSEL_INTEGER
-    if isinstance(order, fmpq):
-        return prices.BESSEL
-    return prices.BESSEL_IRRATIONAL
 
 
 def sign_of(n: Any, d: Any) -> int:

@@ -154,9 +154,6 @@ class Gauss(StandardEquation):
     @property
     def cost(self) -> prices.Cost:
         is_dihedral = self.parameters.count(fmpq(1, 4)) > 1
-        takes_limits = any(is_integer(square_root(v)) for v in self.parameters)
-        if takes_limits:
-            return prices.GAUSS_INTEGER
         return prices.GAUSS_DIHEDRAL if is_dihedral else prices.GAUSS
 
     def coordinate(self, n: Any, d: Any) -> int:

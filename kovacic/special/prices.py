@@ -45,14 +45,9 @@ UNIT = 0.015
 """A unit of the work that the search for a pull-back counts."""
 
 AIRY = Cost(Price(0.05, 200), 20_000)
-BESSEL = Cost(Price(0.1, 85), 20_000)
-BESSEL_IRRATIONAL = Cost(Price(0.15, 80), 2_000)
-BESSEL_INTEGER = Cost(Price(0.26, 105), 20_000)
-"""FLINT takes limits, as for all exponents that differ by an integer."""
-WHITTAKER = Cost(Price(0.15, 63), 2_000)
-WHITTAKER_INTEGER = Cost(Price(0.54, 63), 2_000)
-GAUSS = Cost(Price(0.2, 33), 300)
-GAUSS_INTEGER = Cost(Price(0.3, 33), 300)
+BESSEL = Cost(Price(0.15, 85), 10_000)
+WHITTAKER = Cost(Price(0.3, 63), 2_000)
+GAUSS = Cost(Price(0.25, 33), 300)
 GAUSS_DIHEDRAL = Cost(Price(0.1, 85), 1_000_000_000)
 
 EXPONENTIALS = Price(0.065, 500)

@@ -134,10 +134,7 @@ class Whittaker(StandardEquation):
 
     @property
     def cost(self) -> prices.Cost:
-        doubled = square_root(self.parameters[0])  # 2 mu
-        if not self.r:
-            return bessel.cost(doubled / 2)
-        return prices.WHITTAKER_INTEGER if is_integer(doubled) else prices.WHITTAKER
+        return prices.WHITTAKER if self.r else prices.BESSEL
 
     def coordinate(self, n: Any, d: Any) -> int:
         return bessel.sign_of(n, d)
