@@ -1,4 +1,4 @@
-"""`written` and `verified`: two independent solutions as SymPy expressions, and their check."""
+"""`written`: two independent solutions as SymPy expressions, checked."""
 
 from __future__ import annotations
 
@@ -69,23 +69,19 @@ class ClosedForm:
         return rf"$y_1 = {as_latex(self.y1)},\quad y_2 = {as_latex(self.y2)}$"
 
 
-def written(structure: ClosedStructure, gauge: RatFunc, variable: str) -> ClosedForm:
-    """The solutions that the structure says, as SymPy expressions; not checked yet."""
+def written(structure: ClosedStructure, S: RatFunc, gauge: RatFunc, variable: str) -> ClosedForm:
+    """The solutions that the structure says, as SymPy expressions, checked: the structure exactly, what is shown at a point.
+
+    Raises `VerificationFailed` if a solution doesn't pass, which is a defect of this package.
+    """
     atoms = Atoms(Symbol(variable))
     y1, y2, notes = expressions(structure, atoms)
     notes = (*notes, *atoms.notes)
     build = partial(_same, structure)
-    return ClosedForm(one_exponential(y1), one_exponential(y2), atoms.x, gauge, EXACT, notes, build=build)
-
-
-def verified(form: ClosedForm, structure: ClosedStructure, S: RatFunc) -> ClosedForm:
-    """The same, checked: the structure exactly, and what is shown at a point.
-
-    Raises `VerificationFailed` if a solution doesn't pass, which is a defect of this package.
-    """
+    form = ClosedForm(one_exponential(y1), one_exponential(y2), atoms.x, gauge, EXACT, notes, build=build)
     check_time()
-    passed = is_exact_solution(structure, S, form.gauge)
-    if not passed or not all(is_numerical_solution(y, form.variable, S, form.gauge) for y in form):
+    passed = is_exact_solution(structure, S, gauge)
+    if not passed or not all(is_numerical_solution(y, form.variable, S, gauge) for y in form):
         raise VerificationFailed(f"a closed form for S = {S} failed its check; please report the equation")
     return form
 

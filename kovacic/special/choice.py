@@ -27,7 +27,7 @@ from kovacic.algebra.precision import working_digits
 from kovacic.algebra.ratfunc import RatFunc
 from kovacic.algebra.rationals import RationalPoly
 from kovacic.closed_form.check import independent
-from kovacic.closed_form.form import EXACT, ClosedForm, verified, written
+from kovacic.closed_form.form import EXACT, ClosedForm, written
 from kovacic.closed_form.jets import jet
 from kovacic.closed_form.primitive import FACTOR, LONG, SHORT, OpenPrimitive
 from kovacic.closed_form.product import written_length
@@ -168,7 +168,7 @@ class _Equation:
         return forms
 
     def _written(self, structure: ClosedStructure) -> ClosedForm:
-        return verified(written(structure, self.gauge, self.variable), structure, self.S)
+        return written(structure, self.S, self.gauge, self.variable)
 
     def _special_forms(self) -> list[PairForm]:
         """A pull-back of a standard equation with its actual parameters, if it is found soon."""

@@ -50,7 +50,6 @@ from kovacic.special.pullback import TRIAL, GaugeTransform, Pullback, StandardEq
 from kovacic.special.whittaker import Whittaker
 
 if TYPE_CHECKING:
-    from kovacic.closed_form.atoms import Expr
     from kovacic.special.writer import Writer, WrittenPair
 
 #: In the order in which they are tried.
@@ -433,18 +432,19 @@ def written_pair(
     pullback = source.pullback if isinstance(source, GaugeTransform) else source
     writer = Writer(gauge, sympy.Symbol(variable), symbols, transform)
     found = pullback.equation.written(writer, pullback.f, S.den if joined else None)
-    for y in found or ():
-        _check(y, writer.atoms.x, S, gauge)
-    return None if found is None else _in_own_symbols(found, writer)
+    return None if found is None else _checked(found, writer, S, gauge)
 
 
-def _check(y: Expr, x: Any, S: RatFunc, gauge: RatFunc) -> None:
-    """Raises `VerificationFailed` where it isn't a solution, to 50 digits at a point."""
+def _checked(pair: WrittenPair, writer: Writer, S: RatFunc, gauge: RatFunc) -> WrittenPair:
+    """The pair in the user's symbols; raises `VerificationFailed` where one isn't a solution, to 50 digits at a point."""
     from kovacic.closed_form.check import is_numerical_solution
 
-    if not is_numerical_solution(y, x, S, gauge):
-        said = f"a special function for S = {S} failed its check; please report the equation: {y}"
-        raise VerificationFailed(said)
+    for y in pair:
+        if not is_numerical_solution(y, writer.atoms.x, S, gauge):
+            said = f"a special function for S = {S} failed its check; please report the equation: {y}"
+            raise VerificationFailed(said)
+    own = _own_symbols(writer)
+    return pair.mapped(lambda e: e.xreplace(own))
 
 
 @dataclass(frozen=True)
@@ -480,22 +480,17 @@ def by_sign(
     from kovacic.special.writer import Writer
 
     writer = Writer(gauge, sympy.Symbol(variable), symbols)
-    best = None
     try:
         with budget.watched():
-            for found in _helpful(pullback, writer, S.den if joined else None):
-                best = best or found
-                if found.negative is not None:
-                    best = found
-                    break
+            found = _helpful(pullback, writer, S.den if joined else None)
+            best = max(found, key=lambda found: found.negative is not None, default=None)
             if best is None:
                 return None
-            for y in (*best.natural, *(best.negative or ())):
-                _check(y, writer.atoms.x, S, gauge)
+            natural = _checked(best.natural, writer, S, gauge)
+            negative = None if best.negative is None else _checked(best.negative, writer, S, gauge)
     except LimitExceeded:
         return None
-    negative = None if best.negative is None else _in_own_symbols(best.negative, writer)
-    return BySign(best.integer.xreplace(_own_symbols(writer)), _in_own_symbols(best.natural, writer), negative)
+    return BySign(best.integer.xreplace(_own_symbols(writer)), natural, negative)
 
 
 def _helpful(pullback: Pullback, writer: Writer, singular: Poly | None) -> Iterator[BySign]:
@@ -523,12 +518,6 @@ def _helpful(pullback: Pullback, writer: Writer, singular: Poly | None) -> Itera
 def _own_symbols(writer: Writer) -> dict[Any, Any]:
     """The user's symbols, which carry assumptions, for those that were computed with."""
     return {plain: symbol for plain, symbol in writer.symbols.items() if plain != symbol}
-
-
-def _in_own_symbols(pair: WrittenPair, writer: Writer) -> WrittenPair:
-    """Both solutions in the user's symbols."""
-    own = _own_symbols(writer)
-    return pair.mapped(lambda e: e.xreplace(own))
 
 
 def _assuming(writer: Writer, value: Any, pullback: Pullback, singular: Poly | None) -> WrittenPair | None:
