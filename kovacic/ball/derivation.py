@@ -16,16 +16,20 @@ P. Woronetz, Math. Ann. 70 (1911) 410-453; A. S. Kuleshov & D. V. Katasonova (20
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterator, Mapping
+from dataclasses import dataclass
+from importlib.resources import files
 from typing import Any
 
 import sympy as sp
 from sympy import cos, sin
 
-from kovacic.ball.body import A1, A3, InRoots, U, X, x1, x2
+from kovacic.ball.body import A1, A3, InRoots, U, X, read_expression, x1, x2
 from kovacic.equation import eliminated
 from kovacic.limits import Limits
 from kovacic.reading.read import read_input
+from kovacic.writing.formula import Math
 
 u = U
 x = X
@@ -36,90 +40,52 @@ sigma, tau = sp.symbols("sigma tau")
 #: The partial derivatives of the kinetic energy Theta, and dV/du.
 T_u, T_du, T_dv, T_n, V_u = sp.symbols("Theta_u Theta_u' Theta_v' Theta_n V_u")
 
-# The surface of the ball, with r the radius vector from its centre of mass.
-_k = 1 + R / R1
-_rho = R / R1
-_pull = R / (R + R1)
-_eps = R + a * cos(u)
-_scaled_eps = _k * _eps
-_tilt = (A3 - A1) * R * cos(u) + A3 * a
-_quadratic = A1 * A3 + A1 * m * R**2 * sin(u) ** 2 + A3 * m * (R * cos(u) + a) ** 2
-_sphere_points = {"x": R * sin(u) * cos(v), "y": R * sin(u) * sin(v), "z": R * cos(u) + a}
-_cosines = {
-    "c11": cos(u) * cos(v),
-    "c12": cos(u) * sin(v),
-    "c13": -sin(u),
-    "c21": -sin(v),
-    "c22": cos(v),
-    "c23": sp.Integer(0),
-    "c31": sin(u) * cos(v),
-    "c32": sin(u) * sin(v),
-    "c33": cos(u),
-}
-_K11 = _k**2 * (A1 + m * (R**2 + a**2 + 2 * R * a * cos(u)))
-_K22 = _k**2 * sin(u) ** 2 * (m * _eps**2 + A1 * cos(u) ** 2 + A3 * sin(u) ** 2)
-_K23 = _k * sin(u) ** 2 * (m * a * _eps - (A3 - A1) * cos(u))
-_K33 = (A1 + m * a**2) * sin(u) ** 2 + A3 * cos(u) ** 2
 K11, K22, K23, K33 = sp.symbols("K11 K22 K23 K33")
-#: The coefficients of (9), functions of u.
-_nine = {
-    "a1": -(1 - _rho**2) * sin(u) * K33 - _pull * sin(u) * K11 - m * R * sin(u) * _scaled_eps,
-    "b1": -(1 - _rho**2) * sin(u) * K23,
-    "a2": -_pull * K23 / sin(u) - m * R * a * sin(u),
-    "b2": _pull * (sin(u) * K11 - K22 / sin(u)),
-}
-_a1, _b1, _a2, _b2 = sp.symbols("a1 b1 a2 b2")
 
+
+@dataclass(frozen=True)
+class Step:
+    """A step of the paper: its title, general relations as text and LaTeX, and the formulas of the ball by their names."""
+
+    title: str
+    relations: tuple[Math, ...]
+    formulas: dict[str, sp.Expr]
+
+
+def _steps() -> Iterator[tuple[str, Step]]:
+    """The steps of `paper.txt` with their keys in `PRINTED`, in the order in which one needs the next; (8) comes first.
+
+    There "key | title" stands before the relations and the formulas, which begin with "="; a line that is indented twice
+    continues the one above.  In a formula z_u is the derivative by u of z as it was printed before.
+    """
+    symbols = {
+        *(m, R, a, R1, A1, A3, D, u, v, theta, u1, n, sigma, tau, K11, K22, K23, K33),
+        *(du, dv, dtheta, dv1, T_u, T_du, T_dv, T_n, V_u, *sp.symbols("a1 b1 a2 b2")),
+    }
+    names = {_spelled(symbol.name): symbol for symbol in symbols}
+    text = (files(__package__) / "paper.txt").read_text(encoding="utf-8").strip()
+    for step in re.split(r"\n(?! )", text):
+        heading, *lines = step.replace("\n      ", " ").splitlines()
+        key, _, title = heading.partition("| ")
+        formulas = {}
+        for line in lines:
+            if line.startswith("  = "):
+                name, _, value = line.removeprefix("  = ").partition(" = ")
+                formulas[name] = read_expression(_spelled(value), names=names)
+                names[f"{name}_u"] = formulas[name].diff(u)
+        rows = [line.strip() for line in lines if not line.startswith("  = ")]
+        yield key.strip(), Step(title, tuple(map(Math, rows[::2], rows[1::2])), formulas)
+
+
+def _spelled(text: str) -> str:
+    """With u_dot in the place of u'."""
+    return text.replace("'", "_dot")
+
+
+#: All steps; those without formulas follow from the roots x1, x2 of D, (12) and (13), or from others, (3).
+STEPS = tuple(_steps())
 #: For each of the paper's numbers (and "system", which has none) the formulas by name.  D is a name in "system" and (11).
-PRINTED: dict[str, dict[str, sp.Expr]] = {
-    "8": {**_sphere_points, "E": R**2, "G": R**2 * sin(u) ** 2, "L": -R, "N": -R * sin(u) ** 2},
-    "1": _cosines,
-    "2": {
-        "u1'": _rho * (-du * sin(theta) + dv * sin(u) * cos(theta)),
-        "v1'": _rho * (du * cos(theta) + dv * sin(u) * sin(theta)) / sin(u1),
-    },
-    "4": {
-        "omega_1": tau * dv * cos(u) * cos(v) - sigma * du * sin(v) + n * sin(u) * cos(v),
-        "omega_2": tau * dv * cos(u) * sin(v) + sigma * du * cos(v) + n * sin(u) * sin(v),
-        "omega_3": -tau * dv * sin(u) + n * cos(u),
-    },
-    "5": {"tau": _k * sin(u), "sigma": -_k, "n": -dtheta - cos(u) * dv - cos(u1) * dv1},
-    "6": {"K11": _K11, "K22": _K22, "K23": _K23, "K33": _K33},
-    "7": {
-        "dTheta_u'/dt": T_u
-        + (1 - _rho**2) * sin(u) * dv * T_n
-        + _pull / sin(u) * n * T_dv
-        + m * R * sin(u) * n * (a * n + _scaled_eps * dv)
-        - V_u,
-        "dTheta_v'/dt": -(1 - _rho**2) * sin(u) * du * T_n
-        - _pull * sin(u) * n * T_du
-        - m * R * sin(u) * n * _scaled_eps * du,
-        "dTheta_n/dt": _pull * sin(u) * dv * T_du - _pull / sin(u) * du * T_dv - m * R * a * sin(u) * du * n,
-    },
-    "9": _nine,
-    "10": {
-        "a1'": _a1 - sp.diff(_K23, u),
-        "b1'": _b1 - sp.diff(_K22, u),
-        "a2'": _a2 - sp.diff(_K33, u),
-        "b2'": _b2 - sp.diff(_K23, u),
-    },
-    "system": {
-        "a1": -m * R**2 * _tilt * sin(u) / (R1 * D),
-        "a2": (R1 + R) * ((A3 + m * R**2) * (A3 - A1) - A3 * m * a**2) * sin(u) / (R1 * D),
-        "b1": m * R**3 * A1 * sin(u) / (R1 * D),
-        "b2": m * R * (R1 + R) * _tilt * sin(u) / (R1 * D),
-        "D": _quadratic,
-    },
-    "11": {
-        "d1": -(
-            2 * m * R**2 * (A3 - A1) * sin(u) ** 2 * cos(u)
-            + (3 - cos(u) ** 2) * m * R * a * A3
-            + A3 * (A1 + m * R**2 + m * a**2) * cos(u)
-        )
-        / (D * sin(u)),
-        "d2": m * R**2 * (R1**2 - R**2) * (A3 - A1) * sin(u) ** 2 / (R1**2 * D),
-    },
-}
+PRINTED: dict[str, dict[str, sp.Expr]] = {key: step.formulas for key, step in STEPS if step.formulas}
 
 
 def rate(expression: Any, clock: Mapping[sp.Symbol, Any]) -> Any:

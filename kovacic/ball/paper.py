@@ -2,29 +2,20 @@
 
 from __future__ import annotations
 
-import re
-from importlib.resources import files
-
 import sympy as sp
 from sympy import cos, sin
 
 from kovacic.ball.body import InRoots, Rolling
-from kovacic.ball.derivation import PRINTED, R1, R, V_u, dtheta, du, du1, dv, dv1, u, x
+from kovacic.ball.derivation import R1, STEPS, R, V_u, dtheta, du, du1, dv, dv1, u, x
 from kovacic.writing.document import Block, Formula, Heading, format_of, say
 from kovacic.writing.formula import Math
 
 #: How names are written in LaTeX.
 _TEX = {du: r"\dot{u}", dv: r"\dot{v}", dtheta: r"\dot{\theta}", du1: r"\dot{u}_{1}", dv1: r"\dot{v}_{1}"}
-_TEX[V_u] = r"\frac{dV}{du}"
+_TEX |= {V_u: r"\frac{dV}{du}", **{sp.Symbol(f"{c}{k}'"): f"{c}'_{{{k}}}" for c in "ab" for k in "12"}}  # those of (10)
 for _name, _tex in (("u", "u"), ("u'", r"\dot{u}"), ("v'", r"\dot{v}"), ("n", "n")):
     _part = rf"\frac{{\partial\Theta}}{{\partial {_tex}}}"
     _TEX |= {sp.Symbol(f"Theta_{_name}"): _part, sp.Symbol(f"dTheta_{_name}/dt"): rf"\frac{{d}}{{dt}}{_part}"}
-
-
-#: The paper's steps in the order in which one needs the next; (8) is its surface, so it comes first.  Before a title stands the
-#: key of the ball's formulas in `PRINTED`, below it each of the paper's general relations as text and as LaTeX; a line that is
-#: indented twice continues the one above.
-_STEPS = files(__package__) / "paper.txt"
 
 
 def second_order_equation(d1: sp.Expr, d2: sp.Expr, variable: sp.Symbol = x) -> Math:
@@ -40,10 +31,7 @@ def second_order_equation(d1: sp.Expr, d2: sp.Expr, variable: sp.Symbol = x) -> 
 
 def named(name: str, value: sp.Expr) -> Math:
     """name = value."""
-    if name.endswith("'") and name[0] in "ab":  # the coefficients of (10)
-        left = f"{name[0]}'_{{{name[1]}}}"
-    else:
-        left = sp.latex(sp.Symbol(name), symbol_names=_TEX)
+    left = sp.latex(sp.Symbol(name), symbol_names=_TEX)
     return Math(f"{name} = {value}", f"{left} = {sp.latex(value, symbol_names=_TEX)}")
 
 
@@ -75,15 +63,13 @@ def explained(*, format: str = "text") -> str:
     blocks: list[Block] = [
         say("A ball of radius R rolls on a sphere of radius R1, its centre of mass at the distance a from its centre.")
     ]
-    for step in re.split(r"\n(?! )", _STEPS.read_text(encoding="utf-8").strip()):
-        heading, *lines = step.replace("\n      ", " ").splitlines()
-        key, _, title = heading.partition("| ")
-        relations = [Math(text.strip(), latex.strip()) for text, latex in zip(lines[::2], lines[1::2], strict=True)]
-        printed = [named(name, value) for name, value in PRINTED.get(key.strip(), {}).items()]
-        rows = [*relations, *printed, *(in_roots[number] for number in ("12", "13") if title.startswith(f"({number})"))]
+    for key, step in STEPS:
+        rows = [*step.relations, *(named(name, value) for name, value in step.formulas.items())]
+        if key in ("12", "13"):
+            rows.append(in_roots[key])
         array = r" \\ \displaystyle ".join(row.latex for row in rows)
         formula = Math(
             "\n".join(row.text for row in rows), rf"\begin{{array}}{{l}} \displaystyle {array} \end{{array}}"
         )
-        blocks += [Heading(title), Formula(formula)]
+        blocks += [Heading(step.title), Formula(formula)]
     return format_of(format).render(blocks)

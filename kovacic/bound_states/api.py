@@ -5,12 +5,14 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import suppress
 from dataclasses import dataclass, replace
-from functools import partial
 from typing import Any
 
 import sympy
 
+from kovacic.bound_states.asked import Asked, asked, in_their_meanings
 from kovacic.bound_states.closed_forms import closed_forms, step
+from kovacic.bound_states.coordinates import RealPotential, check_poles, on_real_circle
+from kovacic.bound_states.ends import End, end_of, potential_in_t
 from kovacic.bound_states.energies import tidied
 from kovacic.bound_states.families import (
     Transcendental,
@@ -20,28 +22,12 @@ from kovacic.bound_states.families import (
     laguerre_families,
     no_families,
 )
-from kovacic.bound_states.frame import (
-    End,
-    Original,
-    RealPotential,
-    SingularFrame,
-    check_inside,
-    end_of,
-    frames,
-    potential_in_t,
-)
+from kovacic.bound_states.frame import SingularFrame, frames
 from kovacic.bound_states.levels import Algebraic, BoundState, Levels, Spectrum
-from kovacic.bound_states.numeric import check_first_levels, unsolved, with_matching, with_numbers
-from kovacic.bound_states.question import FRIEDRICHS, SpectralProblem, Uncovered, read_question
-from kovacic.bound_states.translations import (
-    between,
-    in_their_meanings,
-    is_equation,
-    read_schroedinger,
-    with_named_roots,
-    without_left_side,
-)
-from kovacic.bound_states.without_levels import NO_LEVELS, REASON, check_poles, is_repulsive, on_real_circle
+from kovacic.bound_states.numeric import check_first_levels, with_matching, with_numbers
+from kovacic.bound_states.question import FRIEDRICHS, SpectralProblem
+from kovacic.bound_states.signs import Uncovered
+from kovacic.bound_states.without_levels import NO_LEVELS, REASON, is_repulsive
 from kovacic.equation import ENERGY
 from kovacic.errors import InputError, LimitExceeded, NotRational
 from kovacic.limits import DEFAULT_LIMITS, Budget, Limits, check_duration, limited
@@ -150,45 +136,29 @@ def spectrum(
     References: H. Weyl, Math. Ann. 68 (1910) 220; F. Cooper, A. Khare & U. Sukhatme, Phys. Rep. 251 (1995) 267.
     """
     check_mapping(assume)
-    V, var = without_left_side(V, var)
-    ask = partial(
-        _spectrum,
-        max_degree=whole(max_degree, "max_degree"),
-        domain=domain,
-        energy=energy,
-        boundary=boundary,
-        limits=limits,
-        names=declared(parameters, assume),
+    degree = whole(max_degree, "max_degree")
+    names = declared(parameters, assume)
+    question = asked(
+        V, domain=domain, energy=energy, var=var, assume=assume, boundary=boundary, names=names, limits=limits
     )
-    read = None
-    if is_equation(V):
-        read = read_schroedinger(V, var, energy, limits)
-        positive = {name: "positive" for name in read.positive if sympy.Symbol(name) in read.scaled.free_symbols}
-        V, var, assume = read.scaled, read.variable, {**positive, **(assume or {})}
-        ask = partial(ask, kinetic=read.kinetic)
-    unread = None
     try:
-        found = ask(V, var=var, assume=assume)
-    except NotRational as reason:
-        unread = reason
-        found = unsolved(V, reason, domain=domain, energy=energy, var=var, assume=assume, boundary=boundary)
-    found = with_matching(found if read is None else read.physical(found))
-    if unread is not None and levels is None:
-        hint = "the lowest levels are computed as proven numbers"
-        python, shell = f"{hint}: levels=5", f"{hint}: --levels 5"
-        if not found.matching:
-            raise NotRational(str(unread), hint=python, shell=shell)
-        found = found if found.parameters else replace(found, hint=python, shell=shell)
+        found = with_matching(question.physical(_spectrum(question, degree, limits)))
+    except NotRational as unread:
+        found = with_matching(question.physical(question.unsolved(unread)))
+        if levels is None:
+            hint = "the lowest levels are computed as proven numbers"
+            python, shell = f"{hint}: levels=5", f"{hint}: --levels 5"
+            if not found.matching:
+                raise NotRational(str(unread), hint=python, shell=shell) from None
+            found = found if found.parameters else replace(found, hint=python, shell=shell)
     return with_numbers(found, levels, digits, limits)
 
 
-def _spectrum(V: Any, *, assume: Mapping[Any, Any] | None, limits: Limits, max_degree: int, **given: Any) -> Spectrum:
-    """The spectrum of -y'' + V y = E y for what `read_question` reads; sentences about V speak of kinetic * V."""
-    V, roots = with_named_roots(V)
-    if roots:
-        assume = {**(assume or {}), **{name: between(value, name) for name, value in roots.items()}}
-    question = read_question(V, assume=assume, limits=limits, **given)
-    meanings = {**dict(question.parsed.letters), **roots}
+def _spectrum(given: Asked, max_degree: int, limits: Limits) -> Spectrum:
+    """The spectrum of -y'' + V y = E y; sentences about V speak of kinetic * V.  Raises `NotRational`."""
+    lettered = given.with_named_roots()
+    question = lettered.problem(limits)
+    meanings = {**dict(question.parsed.letters), **lettered.roots}
     budget = Budget(limits)
     with budget.watched():
         try:
@@ -203,7 +173,7 @@ def _spectrum(V: Any, *, assume: Mapping[Any, Any] | None, limits: Limits, max_d
         if not meanings:
             with suppress(LimitExceeded):  # as far as time allows
                 check_first_levels(found, question.known)
-    return in_their_meanings(found, meanings) if meanings else found
+    return in_their_meanings(found, meanings)
 
 
 @dataclass(frozen=True)
@@ -246,15 +216,11 @@ def _examined(question: SpectralProblem) -> _Examined:
     `LimitExceeded` where it would take too long.
     """
     _check_branch_point(question)
-    original = Original.of(question.parsed.equation, question.x, question.signs)
+    original = question.original
     terms = question.parsed.S.num.degree + question.parsed.S.den.degree
     check_duration(_END_SECONDS * terms**1.5, f"examining a potential of {terms} terms at its ends")
     real = on_real_circle(potential_in_t(question, original))
-    is_endless = any(at.is_infinite for at in question.domain)
-    if real.original.is_periodic and is_endless:
-        check_poles(real, question.signs)
-    else:
-        check_inside(real, question.domain, question.signs)
+    check_poles(real, question.domain, question.signs)
     ends = []
     for is_right, at in enumerate(question.domain):
         if real.original.is_periodic and at.is_infinite:
@@ -303,7 +269,7 @@ def _answered(examined: _Examined, budget: Budget) -> Spectrum:
             return examined.spectrum(complete=True, reason=NO_LEVELS)
         reason = "V is periodic, and no formula is known for its levels on a half line, which lie between the bands"
         return examined.spectrum(reason=f"undecided: {reason}")
-    is_circular = Original.of(question.parsed.equation, question.x, question.signs).is_circular
+    is_circular = question.original.is_circular
     try:
         if is_circular:
             raise Uncovered(
@@ -408,11 +374,8 @@ def _check_branch_point(question: SpectralProblem) -> None:
 
 def _families(question: SpectralProblem, budget: Budget) -> tuple[list[Levels], str]:
     """Those of the first coordinate and standard equation that fit, and its name."""
-    reasons = []
     for frame in frames(question, budget):
         for families, name in _CLASSES:
-            try:
+            with suppress(Uncovered):
                 return [*families(frame, question)], name
-            except Uncovered as reason:
-                reasons.append(str(reason))
-    raise Uncovered("; ".join(dict.fromkeys(reasons)))
+    raise Uncovered("no formula is known")

@@ -39,11 +39,13 @@ from typing import Any, NamedTuple
 
 import sympy
 
+from kovacic.bound_states.coordinates import RealPotential
+from kovacic.bound_states.ends import End, leading
 from kovacic.bound_states.energies import tidied
 from kovacic.bound_states.families import possible
-from kovacic.bound_states.frame import End, Original, RealPotential, leading, monotonic_range
 from kovacic.bound_states.levels import NO_FORMULA, Algebraic
-from kovacic.bound_states.question import Signs, SpectralProblem, above
+from kovacic.bound_states.question import SpectralProblem
+from kovacic.bound_states.signs import Signs, above
 from kovacic.closed_form.atoms import Atoms, factors
 from kovacic.closed_form.integrals import integral
 from kovacic.closed_form.product import product
@@ -58,6 +60,7 @@ from kovacic.parametric.partition import transformation
 from kovacic.parametric.solutions import PolynomialSolution, translated
 from kovacic.parametric.statements import Statement, Vanishes, alternatives_of, both
 from kovacic.reading.read import read_input
+from kovacic.sturm_liouville.problem import point_between
 from kovacic.writing.formula import caret
 
 #: Functions in an antiderivative whose limits at the ends are found at once.
@@ -90,6 +93,8 @@ def norm_of(wave: Any, x: Any, domain: tuple[Any, Any]) -> Any:
     return norm if norm.is_positive and not norm.has(x) else None
 
 
+#: Lower bounds that are tried, each twice as far away: V may fall to -oo.
+_BOUNDS = 40
 #: The natural number in conditions.
 _NUMBER = sympy.Dummy("d")
 _NUMBERED = "a level with k zeros is number k (Sturm)"
@@ -165,33 +170,31 @@ def _conditions(question: SpectralProblem, limits: Limits) -> ParametricAnswer |
 
 
 class _Window(NamedTuple):
-    """Rational bounds: each level is above the first number and at most the second; None for an unknown bound."""
+    """Bounds: each level is above the first number and at most the second."""
 
-    low: Any = None
-    high: Any = None
+    low: Any = -sympy.oo
+    high: Any = sympy.oo
 
     @classmethod
     def of(cls, question: SpectralProblem, ends: Sequence[End], real: RealPotential | None) -> _Window:
         """From the infimum of V, and the thresholds of the continuous spectrum."""
         thresholds = [end.threshold for end in ends if end.threshold is not None and end.threshold.is_Rational]
-        high = min(thresholds, default=None)
+        high = min(thresholds, default=sympy.oo)
         if real is None or question.boundary.is_mixed:
-            return cls(None, high)
-        bounds = monotonic_range(real.original, question.domain, question.signs)
-        low = None if bounds is None else _number_below(real.V, real.t, bounds)
-        return cls(low, high)
+            return cls(high=high)
+        bounds = real.original.monotonic_range(question.domain, question.signs)
+        return cls(high=high) if bounds is None else cls(_number_below(real.V, real.t, bounds), high)
 
     def has_zero_of(self, polynomial: Any, E: Any) -> bool:
         """True if a polynomial over Q has a real zero in it."""
-        roots = sympy.Poly(polynomial, E).real_roots()
-        return any(root == self.high or _is_between(root, self.low, self.high) for root in roots)
+        return any(self.low < root <= self.high for root in sympy.Poly(polynomial, E).real_roots())
 
     def last_number(self, function: Any, E: Any, d: Any) -> int | None:
         """A degree from which on no E with `function`(E, d) = 0 lies in the window, or None if none is known."""
         if function.free_symbols == {d}:
             return max([0, *(int(sympy.floor(root)) + 1 for root in sympy.Poly(function, d).real_roots())])
         polynomial = sympy.Poly(function, E)
-        if polynomial.degree() != 1 or self.low is None or self.high is None:
+        if polynomial.degree() != 1 or any(end.is_infinite for end in self):
             return None
         energy = -polynomial.coeff_monomial(1) / polynomial.coeff_monomial(E)
         # Beyond the zeros of its denominator, of E(d) - low and of E(d) - high, E(d) stays inside or outside.
@@ -202,30 +205,20 @@ class _Window(NamedTuple):
 
 
 def _number_below(V: Any, t: Any, bounds: tuple[Any, Any]) -> Any:
-    """A rational lower bound of a rational function over Q on an interval, or None if none is found."""
+    """A lower bound of a rational function over Q on an interval where it has no pole, or -oo if none is found.
+
+    It is a number below one of the values, that isn't a value itself.
+    """
+    low, high = bounds
     num, den = (sympy.Poly(part, t) for part in sympy.fraction(sympy.cancel(V)))
     if not all(c.is_Rational for c in (*num.all_coeffs(), *den.all_coeffs())):
-        return None
-    low, high = bounds
-    slope = num.diff(t) * den - num * den.diff(t)
-    stationary = [] if slope.is_zero else sympy.Poly(slope, t).real_roots()
-    inside = [root for root in stationary if _is_between(root, low, high)]
-    at_the_ends = [sympy.limit(V, t, -sympy.oo if low is None else low, "+")]
-    at_the_ends.append(sympy.limit(V, t, sympy.oo if high is None else high, "-"))
-    values = [*(V.subs(t, root) for root in inside), *(value for value in at_the_ends if value != sympy.oo)]
-    if not values or -sympy.oo in values:
-        return None
-    number = min(sympy.floor(value) for value in values) - 1
-    # V is nowhere equal to it.
-    crossings = sympy.Poly(num - number * den, t).real_roots()
-    return None if any(_is_between(root, low, high) for root in crossings) else number
-
-
-def _is_between(value: Any, low: Any, high: Any) -> bool:
-    """None is a bound at infinity."""
-    is_above = low is None or value > low
-    is_below = high is None or value < high
-    return bool(is_above and is_below)
+        return -sympy.oo
+    number = sympy.floor(V.subs(t, point_between(low, high)))
+    for k in range(_BOUNDS):
+        number -= 2**k
+        if not any(low < root < high for root in (num - number * den).real_roots()):
+            return number
+    return -sympy.oo
 
 
 @dataclass(frozen=True)
@@ -382,7 +375,6 @@ class _ClosedFormSearch:
         """With the energies, and which levels they are, where there are no parameters."""
         question = self.question
         parsed = question.parsed
-        original = Original.of(parsed.equation, question.x, question.signs)
         # The factors of y that are polynomials in t, but for those that vanish at an end: they have the zeros of y.
         t = sympy.Symbol(parsed.variable)
         bases = (
@@ -396,7 +388,7 @@ class _ClosedFormSearch:
             solution.y if parsed.equation is None else translated(solution.y, parsed.equation),
             tuple(map(question.plain, tidied(conditions, question.signs))),
             P=sympy.Poly(sympy.Mul(*inside), t),
-            range=monotonic_range(original, question.domain, question.signs),
+            range=question.original.monotonic_range(question.domain, question.signs),
         )
         if question.parameters:
             return level

@@ -15,7 +15,7 @@ from typing import Any
 
 import sympy
 
-from kovacic.bound_states.question import Signs, Uncovered
+from kovacic.bound_states.signs import Signs, Uncovered
 
 
 @dataclass(frozen=True)
@@ -184,7 +184,7 @@ def tidied(conditions: Iterable[Any], signs: Signs, radicals: Mapping[Any, Any] 
     }
     left = [c for c in dict.fromkeys(conditions) if signs.holds(c) is not True]
     found = []
-    implied = {sympy.true}
+    implied = set()
     for condition in _paired(left, signs):
         solved = _solved(condition, signs)
         squared = _squared(solved, squares)
@@ -193,7 +193,7 @@ def tidied(conditions: Iterable[Any], signs: Signs, radicals: Mapping[Any, Any] 
         else:
             found.append(_solved(squared, signs))
             implied |= {_solved(sympy.Ge(square, 0), signs) for square in squares.values()}
-    return _compared([c for c in dict.fromkeys(found) if c not in implied], signs)
+    return _compared([c for c in dict.fromkeys(found) if c not in implied and signs.holds(c) is not True], signs)
 
 
 def _compared(conditions: list[Any], signs: Signs) -> tuple[Any, ...]:

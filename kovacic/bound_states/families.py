@@ -40,7 +40,8 @@ import sympy
 from kovacic.bound_states.energies import Root, conjugate, shortest, solved, tidied
 from kovacic.bound_states.frame import SingularFrame, Spot, linear_factors
 from kovacic.bound_states.levels import Levels
-from kovacic.bound_states.question import Signs, SpectralProblem, Uncovered, above
+from kovacic.bound_states.question import SpectralProblem
+from kovacic.bound_states.signs import Signs, Uncovered, above
 from kovacic.numbers.numerals import as_text
 from kovacic.parametric.solutions import jacobi
 from kovacic.sturm_liouville.families import family
@@ -76,8 +77,7 @@ def factor_at(frame: SingularFrame, c: Any) -> WaveProduct:
     two = sympy.Integer(2)
     # c isn't inside the domain: t is larger than c there, unless c is beyond the upper end
     low, high = frame.limits_of_t
-    is_below = high is not None and sympy.simplify(c - high).is_nonnegative
-    is_above = (low is not None and sympy.simplify(low - c).is_nonnegative) or not is_below
+    is_above = sympy.simplify(low - c).is_nonnegative or not sympy.simplify(c - high).is_nonnegative
     match original.kind, c:
         case "exp", 0:
             return WaveProduct(exponent=original.theta)
@@ -119,10 +119,10 @@ def _ordered(frame: SingularFrame, roots: list[Root]) -> list[int]:
     """
     depend = [root.unknown for root in roots]
     alone = [k for k in range(3) if depend.count(depend[k]) == 1]
-    unused = [k for k, spot in enumerate(frame.spots) if not spot.is_used]
+    unused = [k for k, spot in enumerate(frame.spots) if not spot.sides]
     last = (alone or unused or [2])[0]
     others = [k for k in range(3) if k != last]
-    others.sort(key=lambda k: (1 not in frame.spots[k].sides, not frame.spots[k].is_used))
+    others.sort(key=lambda k: (1 not in frame.spots[k].sides, not frame.spots[k].sides))
     return [*others, last]
 
 
@@ -290,12 +290,12 @@ def _jacobi_integral(a: Any, b: Any, shifts: tuple[Any, Any], n: Any, middle: An
 def _norm(form: _JacobiForm) -> Any:
     """int y^2 dx between two of the points w = 1, -1, oo, or None if unknown."""
     first, second, third = form.points
-    if first.spot.is_used and second.spot.is_used:
+    if first.spot.sides and second.spot.sides:
         integral = _integral_between(first, second, form.n)
         return None if integral is None else integral / sympy.sqrt(sympy.Abs(form.scale))
-    if first.spot.is_used and third.spot.is_used:
+    if first.spot.sides and third.spot.sides:
         return _norm_to_infinity(form, first, second)
-    if second.spot.is_used and third.spot.is_used:  # w -> -w
+    if second.spot.sides and third.spot.sides:  # w -> -w
         return _norm_to_infinity(form, second, first)
     return None
 
@@ -342,11 +342,15 @@ def laguerre_wave(frame: SingularFrame, origin: Spot, kappa: Any, delta: Any, si
 
 
 def _tidy(frame: SingularFrame, norm: Any) -> Any:
-    """The norm or its form with simplified quotients of Gamma functions, the shorter; doubled on half of a domain."""
+    """The norm or its form with simplified quotients of Gamma functions, the shorter; doubled on half of a domain.
+
+    A sine from the reflection formula may be 0 where a Gamma function is infinite: such a form has no value at integers.
+    """
     simplified = sympy.gammasimp(norm).replace(
         lambda e: e.func == sympy.gamma and e.args[0].is_integer, lambda e: sympy.factorial(e.args[0] - 1)
     )
-    shortest_form = min((_shortened(norm), _shortened(simplified)), key=lambda e: len(str(e)))
+    forms = [_shortened(norm)] if simplified.has(sympy.sin) else [_shortened(norm), _shortened(simplified)]
+    shortest_form = min(forms, key=lambda e: len(str(e)))
     return shortest_form if frame.fold is None else 2 * shortest_form
 
 
@@ -375,7 +379,7 @@ def jacobi_families(frame: SingularFrame, question: SpectralProblem) -> Iterator
             deltas = [delta.xreplace(found.values) for delta in signed]
             conditions = _are_real(roots)
             for spot, delta in zip(frame.spots, deltas, strict=True):
-                conditions += _demands(question, spot, delta)
+                conditions += _demands(question, frame, spot, delta)
             if possible(conditions, question.signs):
                 wave = jacobi_wave(frame, roots, deltas, question.signs)
                 zeros = _zeros(frame, deltas, question.signs)
@@ -401,18 +405,20 @@ def laguerre_families(frame: SingularFrame, question: SpectralProblem) -> Iterat
         for found in solved(equation, roots, question.E):
             rate = kappa.xreplace(found.values)
             difference = delta.xreplace(found.values)
-            decay = [above(_direction(frame, side) * rate, 0, strict=True) for s in at_infinity for side in s.sides]
+            decay = [
+                above(_direction(frame, side) * rate, 0, strict=True) for s in at_infinity for side in frame.ends_at(s)
+            ]
             conditions = [*_are_real([root_of_q], positive=True), *_are_real([root_at_0]), *decay]
-            conditions += _demands(question, origin, difference)
+            conditions += _demands(question, frame, origin, difference)
             if possible(conditions, signs):
                 wave = laguerre_wave(frame, origin, rate, difference, signs)
                 zeros = _zeros(frame, [difference], signs, [origin])
                 yield _levels(question, found.energy, wave, conditions, zeros, roots)
 
 
-def _demands(question: SpectralProblem, spot: Spot, delta: Any) -> list[Any]:
+def _demands(question: SpectralProblem, frame: SingularFrame, spot: Spot, delta: Any) -> list[Any]:
     """What is demanded of a signed exponent difference at the ends of the domain that are there."""
-    return [question.demand(side, spot.mu, delta) for side in spot.sides]
+    return [question.demand(side, spot.mu, delta) for side in frame.ends_at(spot)]
 
 
 def _levels(
@@ -478,19 +484,18 @@ def possible(conditions: list[Any], signs: Signs) -> bool:
 
 def _check_ends(frame: SingularFrame) -> None:
     """Both ends are singular points in z, or one and the middle of the domain, where V is regular: even and odd solutions."""
-    sides = sorted(side for spot in frame.spots for side in spot.sides)
-    folds = [spot for spot in frame.spots if spot.is_fold]
-    if sides != ([0, 1] if frame.fold is None else [1]) or len(folds) != (frame.fold is not None):
+    if sorted(side for spot in frame.spots for side in spot.sides) != [0, 1]:
         raise Uncovered("an end of the domain is an ordinary point of the equation")
-    for spot in folds:
-        if sympy.simplify(4 * spot.square - (2 - spot.mu) ** 2) != 0:  # y ~ (x - a)^(1/2 +- delta/(2 - mu))
+    for spot in frame.spots:
+        is_fold = len(frame.ends_at(spot)) < len(spot.sides)
+        if is_fold and sympy.simplify(4 * spot.square - (2 - spot.mu) ** 2) != 0:  # y ~ (x - a)^(1/2 +- delta/(2 - mu))
             raise Uncovered(f"V isn't regular at {frame.original.x} = {frame.fold}, inside the domain")
 
 
 def _zeros(frame: SingularFrame, deltas: list[Any], signs: Signs, spots: Sequence[Spot] = ()) -> Any:
     """The number of zeros inside the domain: n; twice as many about the middle, and one there for an odd solution."""
     for spot, delta in zip(spots or frame.spots, deltas, strict=True):
-        if spot.is_fold:
+        if len(frame.ends_at(spot)) < len(spot.sides):
             return 2 * signs.n + int(bool(delta.is_positive))
     return signs.n
 
@@ -521,7 +526,7 @@ def no_families(frame: SingularFrame, question: SpectralProblem) -> Iterator[Lev
     z = frame.z
     square = sympy.cancel(frame.S * z**2)
     points = {spot.point for spot in frame.spots if spot.sides}
-    is_bessel = _is_polynomial_of_degree(1, square, z) and points == {0, sympy.oo}
+    is_bessel = _is_polynomial_of_degree(1, square, z) and points == {0, sympy.oo} and frame.fold is None
     if not is_bessel or sympy.diff(square, z).has(question.E):
         raise Uncovered("the equation isn't Bessel's")
     yield from ()
@@ -562,7 +567,7 @@ def constant_families(frame: SingularFrame, question: SpectralProblem) -> Iterat
     shifted = {number: n + found.first}
     (wave,) = found.functions
     norm = (last - first) / 2 if left.is_zero or right.is_zero else None
-    energy = found.value.xreplace(shifted)
+    energy = V + sympy.factor(found.value.xreplace(shifted) - V)
     yield _levels(question, energy, Wave(wave.xreplace(shifted), norm), [sympy.Gt(last - first, 0)], n)
 
 

@@ -7,17 +7,17 @@ ball meets the real axis is real, since its conjugate is a root as well.
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from fractions import Fraction
 from functools import cached_property
 from typing import TYPE_CHECKING, Any, cast
 
 import sympy
-from flint import acb, acb_poly, arb, fmpz_poly
+from flint import acb_poly, arb
 from sympy.core.relational import Relational
 from sympy.logic.boolalg import BooleanAtom
 
-from kovacic.algebra.embedding import complex_zeros
+from kovacic.algebra.precision import working_precision
 from kovacic.closed_form.jets import BallEvaluator
 from kovacic.errors import InputError, needs, visible
 from kovacic.numbers.exact import exact_text, whole
@@ -31,35 +31,32 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
 
-def levels_of(polynomial: Any, E: Any) -> Iterator[tuple[Any, arb]]:
-    """The real zeros of a polynomial with rational coefficients, as SymPy's numbers and as balls."""
-    for factor, _ in sympy.factor_list(polynomial, E)[1]:
-        exact = sympy.Poly(factor, E)
-        scaled = exact.clear_denoms()[1] if exact.domain.is_QQ else exact
-        balls = complex_zeros(fmpz_poly([int(c) for c in reversed(scaled.all_coeffs())]))
-        real = sorted((ball.real for ball, _ in balls if ball.imag == 0), key=lambda ball: float(ball.mid()))
-        yield from zip(exact.real_roots(), real, strict=True)
+#: Bits with which the zeros of the polynomial in a solution are counted.
+_PRECISION = 128
 
 
-def zeros_inside(P: Any, E: Any, ball: arb, bounds: tuple[Any, Any]) -> int | None:
-    """Number of zeros of the polynomial P between two bounds (None: unbounded) at the E in the ball.
+def zeros_inside(P: Any, E: Any, value: Any, bounds: Any) -> int | None:
+    """Number of zeros of the polynomial P between two bounds, which may be infinite, where E is an algebraic number.
 
-    None if the balls are too large.
+    None if a zero and a bound aren't told apart.
     """
-    value = BallEvaluator({E: acb(ball)})
-    coefficients = [value(c) for c in reversed(P.all_coeffs())]
-    if len(coefficients) < 2:
-        return 0
-    low, high = (None if bound is None else BallEvaluator({})(bound).real for bound in bounds)
-    count = 0
-    for root in acb_poly(coefficients).roots():
-        distances = [*([] if low is None else [root.real - low]), *([] if high is None else [high - root.real])]
-        if not root.imag.contains(0) or any(distance < 0 for distance in distances):
-            continue
-        if any(distance.contains(0) for distance in distances):
-            return None
-        count += 1
-    return count
+    with working_precision(_PRECISION):
+        number = BallEvaluator({E: BallEvaluator({})(value)})
+        coefficients = [number(c) for c in reversed(P.all_coeffs())]
+        found = acb_poly(coefficients).roots() if len(coefficients) > 1 else []
+        room = [arb(1) for root in found]
+        for bound, sign in zip(bounds, (1, -1), strict=True):
+            if bound.is_finite:
+                end = number(bound).real
+                room = [part * sign * (root.real - end) for part, root in zip(room, found, strict=True)]
+        # A zero that isn't real, or is outside, has no part in it: it is beyond one of the bounds, not of both.
+        real = [part for part, root in zip(room, found, strict=True) if root.imag.contains(0)]
+        return None if any(part.contains(0) for part in real) else sum(bool(part > 0) for part in real)
+
+
+def scaled(energy: Any, k: Any) -> Any:
+    """k times an energy, the shortest of its forms."""
+    return min((k * energy, sympy.factor(k * energy), sympy.expand(k * energy)), key=sympy.count_ops)
 
 
 NO_FORMULA = "undecided: no formula for all levels is known"
@@ -130,8 +127,8 @@ class Algebraic:
     They exist where `constraint` vanishes (a function of the parameters; 0 where it does anyway), and their energies are the
     zeros of `polynomial`, in E; `wave` is a solution for each of them, with E for the energy, square integrable where the
     `conditions` hold.  `states` are the energies without parameters and the zeros of their functions inside the domain.  `P` is
-    the polynomial in the solutions, in its own variable t, and `range` the least and the largest t on the domain (None for
-    an infinite one), both None if t isn't monotonic or not known.
+    the polynomial in the solutions, in its own variable t, and `range` the least and the largest t on the domain, None if t
+    isn't known to be monotonic.
     """
 
     degree: int
@@ -141,7 +138,21 @@ class Algebraic:
     conditions: tuple[Any, ...] = ()
     states: tuple[BoundState, ...] = ()
     P: Any = None
-    range: tuple[Any, Any] | None = None
+    range: tuple[Any, ...] | None = None
+
+    def with_values(self, values: Mapping[Any, Any]) -> Algebraic:
+        """The same with other expressions in the place of letters in P and in its range."""
+        P = None if self.P is None else sympy.Poly(self.P.as_expr().xreplace(values), self.P.gen)
+        bounds = None if self.range is None else tuple(end.xreplace(values) for end in self.range)
+        return replace(self, P=P, range=bounds)
+
+    def scaled(self, energy: Any, k: Any) -> Algebraic:
+        """The same levels of an operator that is k times as large."""
+        inside = {energy: energy / k}
+        polynomial = sympy.factor(sympy.primitive(sympy.numer(sympy.together(self.polynomial.xreplace(inside))))[1])
+        states = tuple(replace(state, energy=scaled(state.energy, k)) for state in self.states)
+        changed = replace(self, polynomial=polynomial, wave=self.wave.xreplace(inside), states=states)
+        return changed.with_values(inside)
 
     def states_at(self, values: Mapping[Any, Any], energy: str) -> Iterator[BoundState]:
         """The levels at rational values of the parameters: of each it is known how many zeros its function has."""
@@ -150,13 +161,12 @@ class Algebraic:
         if not all(_is_true(condition, values) for condition in self.conditions):
             return
         E = sympy.Symbol(energy)
-        low, high = (None if end is None else end.xreplace(values) for end in self.range)
-        P = sympy.Poly(self.P.as_expr().xreplace(values), self.P.gen)
+        here = self.with_values(values)
         polynomial = sympy.numer(sympy.together(self.polynomial.xreplace(values)))
         if not {symbol.name for symbol in polynomial.free_symbols} <= {energy}:
             return
-        for value, ball in levels_of(polynomial, E):
-            number = zeros_inside(P, E, ball, (low, high))
+        for value in dict.fromkeys(sympy.Poly(polynomial, E).real_roots()):
+            number = zeros_inside(here.P, E, value, here.range)
             if number is not None:
                 yield BoundState(number, value, self.wave.xreplace(values).subs(E, value), number)
 
@@ -381,7 +391,8 @@ class Spectrum:
         which = ("the even levels solve", "the odd levels solve") if len(self.matching) == 2 else ("the levels solve",)
         lines += [f"  {said} {_relation(one)}" for said, one in zip(which, self.matching, strict=False)]
         lines += [f"  {line}" for line in self._conclusion]
-        lines += [f"  {line}" for line in str(self.numeric).splitlines() if self.numeric != ()]
+        if self.numeric != () and not self.needs_boundary_condition:  # which is said above
+            lines += [f"  {line}" for line in str(self.numeric).splitlines()]
         hint = self.shell if shell else self.hint
         if hint:
             lines.append(f"  hint: {hint}")

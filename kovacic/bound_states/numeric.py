@@ -7,26 +7,24 @@ from contextlib import suppress
 from dataclasses import replace
 from fractions import Fraction
 from itertools import islice, product
+from types import MappingProxyType
 from typing import Any
 
 import sympy
-from flint import acb, fmpq
+from flint import acb
 
 from kovacic.algebra.precision import working_precision
 from kovacic.algebra.rationals import QQ
 from kovacic.bound_states.levels import Spectrum
-from kovacic.bound_states.question import FRIEDRICHS, read_boundary, read_end
-from kovacic.closed_form.jets import jet
-from kovacic.errors import InputError, LimitExceeded, NotRational, VerificationFailed
+from kovacic.errors import InputError, LimitExceeded, VerificationFailed
+from kovacic.general_solution.zero import Residual
 from kovacic.limits import Budget, Limits
-from kovacic.numbers.exact import exact_text, whole
-from kovacic.parametric.assumptions import Assumptions, read_assumptions
-from kovacic.reading.substitution import values_among
-from kovacic.reading.symbolic import read_expression
+from kovacic.numbers.exact import whole
+from kovacic.parametric.assumptions import Assumptions
 from kovacic.sturm_liouville.ends import is_regular
 from kovacic.sturm_liouville.families import matching_equations
 from kovacic.sturm_liouville.levels import Eigenvalues
-from kovacic.sturm_liouville.problem import STEPS, Robin, SturmProblem, Wish, pieces_of
+from kovacic.sturm_liouville.problem import STEPS, Robin, SturmProblem, Wish, ball, pieces_of, point_between
 from kovacic.sturm_liouville.solve import Eigenproblem
 
 
@@ -48,7 +46,7 @@ def with_numbers(found: Spectrum, levels: int | None, digits: int, limits: Limit
     problem = None
     try:
         with Budget(limits).watched():
-            problem = _problem(found)
+            problem = Eigenproblem(_problem(found), found.energy)
             for _ in problem.levels(count, wanted):
                 pass
             return replace(found, numeric=problem.answer())
@@ -67,58 +65,32 @@ def with_matching(found: Spectrum) -> Spectrum:
     if is_known or not (is_linear or V.has(*STEPS)):
         return found
     assumed = {sympy.Symbol(name): symbol for name, symbol in found.assumptions.symbols().items()}
-    plain = {symbol: name for name, symbol in assumed.items()}
-    V, weight, *domain = (part.xreplace(assumed) for part in (V, 1 / found.kinetic, *found.domain))
-    wishes: list[Wish] = [None, None]
-    for side, end in enumerate(domain):
-        if end.is_finite:  # a regular end
-            wishes[side] = found.conditions[side] or Robin(sympy.S.One, sympy.S.Zero)
     with suppress(InputError, NotImplementedError):
-        pieces = tuple(replace(p, W=weight) for p in pieces_of(V, sympy.S.One, x, (domain[0], domain[1])))
-        equations = matching_equations(SturmProblem(x, pieces, (wishes[0], wishes[1])), E)
+        equations = matching_equations(_problem(found, assumed), E)
+        plain = {symbol: name for name, symbol in assumed.items()}
         return replace(found, matching=tuple(equation.xreplace(plain) for equation in equations))
     return found
 
 
-def unsolved(
-    V: Any,
-    reason: NotRational,
-    *,
-    domain: Sequence[Any],
-    energy: str,
-    var: Any,
-    assume: Mapping[Any, Any] | None,
-    boundary: str | None,
-) -> Spectrum:
-    """The problem alone, for a potential that no formulas are known for."""
-    potential = read_expression(V, what="the potential") if isinstance(V, str) else sympy.sympify(V, strict=True)
-    variable = str(var or "x")
-    values, rest = values_among(assume or {})
-    potential = potential.xreplace(
-        {sympy.Symbol(n): read_expression(exact_text(v, "a value")) for n, v in values.items()}
-    )
-    ends = tuple(map(read_end, domain))
-    parameters = tuple(sorted({s.name for part in (potential, *ends) for s in part.free_symbols} - {variable}))
-    known = read_assumptions(rest or None, V, parameters)
-    given = read_boundary(boundary, ends, variable)
-    is_open = any(end.is_finite and wish is None for end, wish in zip(ends, given.wishes, strict=True))
-    condition = given.text or (FRIEDRICHS if is_open else boundary)
-    found = Spectrum(potential, variable, (ends[0], ends[1]), energy, parameters, known, condition)
-    return replace(found, conditions=given.wishes, reason=f"undecided: {reason.args[0]}")
+def _problem(found: Spectrum, assumed: Mapping[Any, Any] = MappingProxyType({})) -> SturmProblem:
+    """With the conditions that were given, and y = 0 at other regular ends, which the Friedrichs condition is there.
 
-
-def _problem(found: Spectrum) -> Eigenproblem:
-    """With the conditions that were given, and y = 0 at other regular ends, which the Friedrichs condition is there."""
+    Its letters are the `assumed` symbols.
+    """
     x = sympy.Symbol(found.variable)
     if found.potential.has(sympy.I):
         raise InputError("the potential isn't real")
-    pieces = pieces_of(found.potential / found.kinetic, 1 / found.kinetic, x, found.domain)
+    V, weight, *ends = (
+        e.xreplace(assumed) for e in (found.potential / found.kinetic, 1 / found.kinetic, *found.domain)
+    )
+    pieces = tuple(replace(piece, W=weight) for piece in pieces_of(V, sympy.S.One, x, (ends[0], ends[1])))
     problem = SturmProblem(x, pieces)
     wishes: list[Wish] = [None, None]
-    for side, end in enumerate(found.domain):
-        if is_regular(pieces[-side], problem, end):
+    for side, end in enumerate(ends):
+        # With letters there are formulas for a V without singular points alone.
+        if end.is_finite and (found.parameters or is_regular(pieces[-side], problem, end)):
             wishes[side] = found.conditions[side] or Robin(sympy.S.One, sympy.S.Zero)
-    return Eigenproblem(SturmProblem(x, pieces, (wishes[0], wishes[1])), found.energy)
+    return SturmProblem(x, pieces, (wishes[0], wishes[1]))
 
 
 #: Values that are tried for the parameters, and choices of them.
@@ -141,7 +113,8 @@ def check_first_levels(found: Spectrum, known: Assumptions) -> None:
             if not states:
                 continue
             (state,) = states
-            if _is_false(state.wave, found.potential.xreplace(at) / found.kinetic - state.energy, x, found.domain, at):
+            difference = found.potential.xreplace(at) / found.kinetic - state.energy
+            if _is_false(state.wave, difference, x, [end.xreplace(at) for end in found.domain]):
                 said = "".join(f", {name} = {value}" for name, value in values.items())
                 raise VerificationFailed(
                     f"a spectrum failed its own check at n = 0{said}: E = {state.energy}; please report it"
@@ -157,20 +130,13 @@ def _admissible(found: Spectrum, known: Assumptions) -> Iterator[dict[str, Fract
             yield chosen
 
 
-def _is_false(y: Any, difference: Any, x: Any, domain: tuple[Any, Any], at: dict[Any, Any]) -> bool:
-    """True if y'' = (V - E) y provably fails at a point of the domain."""
-    low, high = (sympy.sympify(end, strict=True).xreplace(at) for end in domain)
-    if low.is_infinite:
-        place = sympy.Rational(13, 17) if high.is_infinite else high - sympy.Rational(13, 17)
-    else:
-        place = low + (sympy.Rational(13, 17) if high.is_infinite else (high - low) * sympy.Rational(13, 34))
-    if not place.is_number or y.has(sympy.nan, sympy.zoo) or y.free_symbols - {x}:
+def _is_false(y: Any, difference: Any, x: Any, ends: Sequence[Any]) -> bool:
+    """True if y'' = (V - E) y provably fails at a point between the ends."""
+    if y.has(sympy.nan, sympy.zoo) or y.free_symbols - {x}:
         return False
-    point = Fraction(str(sympy.N(place, 12)))
-    try:
-        with working_precision(_PRECISION):
-            ball = acb(fmpq(point.numerator, point.denominator))
-            value, _, second = jet(y, x, ball)
-            return not (second - jet(difference, x, ball)[0] * value).contains(0)
-    except (NotImplementedError, ZeroDivisionError, ValueError, TypeError):  # functions without balls
-        return False
+    residual = Residual(x, (sympy.S.One, sympy.S.Zero, -difference, sympy.S.Zero))
+    has_no_balls = suppress(InputError, NotImplementedError, ZeroDivisionError, ValueError, TypeError)
+    with has_no_balls, working_precision(_PRECISION):
+        error, _ = residual.at(y, acb(ball(point_between(*ends))))
+        return not error.contains(0)
+    return False

@@ -19,13 +19,15 @@ True
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from dataclasses import dataclass
-from functools import cached_property, reduce
+from functools import cached_property
 from typing import Any
 
+import mpmath
 import sympy
 from flint import acb, arb, ctx
+from mpmath.ctx_iv import MPIntervalContext
+from sympy.printing.pycode import MpmathPrinter
 
 from kovacic.algebra.precision import working_precision
 from kovacic.closed_form.jets import BallEvaluator
@@ -33,11 +35,11 @@ from kovacic.errors import InputError, LimitExceeded
 from kovacic.sturm_liouville.discs import coefficients, size
 from kovacic.sturm_liouville.problem import Robin, Span, Stretch, SturmProblem, Wish, ball, kept, plain
 
-#: Exact lower and upper bound, possibly infinite.
-Range = tuple[Any, Any]
-
 _INFINITY = arb.pos_inf()
-_EVERYTHING = (-_INFINITY, _INFINITY)
+#: Intervals whose ends may be infinite.
+_INTERVALS = MPIntervalContext()
+_INTERVALS.prec = 100
+_QUARTER_TURN = _INTERVALS.pi / 2
 #: Derivatives that are tried: cosh(x) - x^2 needs three.
 _MOST_DERIVATIVES = 4
 _HYPERBOLIC = [sympy.sinh, sympy.cosh, sympy.tanh, sympy.coth, sympy.sech, sympy.csch]
@@ -68,11 +70,34 @@ def lower_bound(e: Expr, x: Expr, c: Expr, *, derivatives: int = _MOST_DERIVATIV
 
 
 def _direct(e: Expr, x: Expr, c: Expr) -> Any:
-    start = BallEvaluator({})(c).real
+    """The lower end of the range of e as it stands; -oo where it has functions that aren't known here."""
+    start = _INTERVALS.mpf(int(c.p)) / int(c.q)
     try:
-        return _Ranges(x, (start.lower(), _INFINITY)).of(e)[0]
-    except InputError:  # a function that isn't known here
+        found = sympy.lambdify(x, e, [_FUNCTIONS], printer=_PRINTER)(_INTERVALS.mpf([start.a, mpmath.inf]))
+    except (AttributeError, NameError, TypeError, ValueError):
         return -_INFINITY
+    sign, mantissa, exponent, _ = _INTERVALS.convert(found)._mpi_[0]
+    if mantissa == 0 and exponent:  # infinite, or unknown
+        return _INFINITY if found.a == mpmath.inf else -_INFINITY
+    return (arb(-mantissa if sign else mantissa) * arb(2) ** exponent).lower()
+
+
+def _atan(v: Any) -> Any:
+    """The range of an arctangent, pi/2 - 1/v < atan(v) < pi/2 for v > 0."""
+    least = _QUARTER_TURN - 1 / v if v.a > 0 else -_QUARTER_TURN
+    return _INTERVALS.mpf([least.a, _QUARTER_TURN.b])
+
+
+#: What functions and constants of mpmath are in intervals.
+_FUNCTIONS = {
+    **{name: getattr(_INTERVALS, name) for name in ("mpf", "exp", "log", "sqrt", "sin", "cos", "pi", "e")},
+    "sinh": lambda v: (_INTERVALS.exp(v) - _INTERVALS.exp(-v)) / 2,
+    "cosh": lambda v: (_INTERVALS.exp(abs(v)) + _INTERVALS.exp(-abs(v))) / 2,
+    "tanh": lambda v: 1 - 2 / (_INTERVALS.exp(2 * v) + 1),
+    "atan": _atan,
+}
+#: As for mpmath: rational numbers are quotients of its numbers.
+_PRINTER = MpmathPrinter({"fully_qualified_modules": False, "inline": True, "allow_unknown_functions": True})
 
 
 def _dominated(e: Expr, x: Expr, c: Expr) -> Any:
@@ -93,115 +118,6 @@ def _by_its_terms(e: Expr) -> list[tuple[Expr, Expr]]:
     if len(terms) > _MOST_TERMS_OF_SUM:
         return [(e, sympy.Integer(1))]
     return [(term, sympy.Add(*(sympy.powsimp(other / term) for other in terms))) for term in terms]
-
-
-class _Ranges:
-    """The range of an expression whose variable has a range."""
-
-    def __init__(self, x: Expr, start: Range) -> None:
-        self.known: dict[Expr, Range] = {x: start}
-
-    def of(self, e: Expr) -> Range:
-        """Raises `InputError` for functions that aren't known here."""
-        found = self.known.get(e)
-        if found is None:
-            found = self.known[e] = self._computed(e)
-        return found
-
-    def _computed(self, e: Expr) -> Range:
-        if not e.free_symbols:
-            value = BallEvaluator({})(e)
-            if not value.is_finite() or not value.imag.is_zero():
-                raise InputError(f"{e} isn't known to be real")
-            return value.real.lower(), value.real.upper()
-        if e.is_Add:
-            lower, upper = zip(*map(self.of, e.args), strict=True)
-            return reduce(lambda a, b: _exact_lower(a + b), lower), reduce(lambda a, b: _exact_upper(a + b), upper)
-        if e.is_Mul:
-            return reduce(_product_of_ranges, map(self.of, e.args))
-        if e.is_Pow and e.base is not sympy.E:
-            return self._power(e)
-        argument = self.of(e.exp if e.is_Pow else e.args[0])
-        if e.func in (sympy.sin, sympy.cos):
-            return -arb(1), arb(1)
-        if e.func in (sympy.cosh, sympy.Abs):
-            return _even(_INCREASING[e.func], argument)
-        increasing = sympy.exp if e.is_Pow else e.func
-        if increasing not in _INCREASING:
-            raise InputError(f"the range of {e} isn't known here")
-        return _monotone(_INCREASING[increasing], argument)
-
-    def _power(self, e: Expr) -> Range:
-        low, high = self.of(e.base)
-        exponent = e.exp
-        if exponent.free_symbols:
-            raise InputError(f"the range of {e} isn't known here")
-        if exponent.is_negative:
-            low, high = self.of(e.base ** (-exponent))
-            return (
-                (_exact_lower(_reciprocal(high)), _exact_upper(_reciprocal(low)))
-                if low > 0 or high < 0
-                else _EVERYTHING
-            )
-        if exponent.is_Integer and exponent % 2 == 0:
-            return _even(lambda b: b ** int(exponent), (low, high))
-        if exponent.is_Integer:
-            return _monotone(lambda b: b ** int(exponent), (low, high))
-        if not low >= 0:
-            return _EVERYTHING
-        ball = BallEvaluator({})(exponent).real
-        return _monotone(lambda b: b**ball, (low, high))
-
-
-#: Increasing functions, the last two of the absolute value.
-_INCREASING: dict[Any, Callable[[Any], Any]] = {
-    sympy.exp: lambda b: arb(0) if b < 0 and not b.is_finite() else b.exp(),
-    sympy.log: lambda b: b.log() if b > 0 else -_INFINITY,
-    sympy.sinh: lambda b: b.sinh(),
-    sympy.tanh: lambda b: b.tanh() if b.is_finite() else b.sgn(),
-    sympy.atan: lambda b: b.atan() if b.is_finite() else b.sgn() * arb.pi() / 2,
-    sympy.cosh: lambda b: b.cosh(),
-    sympy.Abs: lambda b: b,
-}
-
-
-def _monotone(function: Callable[[Any], Any], argument: Range) -> Range:
-    return _exact_lower(_limit_at(function, argument[0])), _exact_upper(_limit_at(function, argument[1]))
-
-
-def _limit_at(function: Callable[[Any], Any], bound: Any) -> Any:
-    """The value at a bound; a function that isn't bounded there tends to an infinity of the same sign."""
-    value = function(bound)
-    return bound if value.is_nan() else value
-
-
-def _even(function: Callable[[Any], Any], argument: Range) -> Range:
-    low, high = argument
-    nearest = max(low, -high, arb(0))
-    return _monotone(function, (nearest, max(-low, high)))
-
-
-def _product_of_ranges(a: Range, b: Range) -> Range:
-    """Infinite bounds aren't reached, so that 0 times such a one is 0."""
-    products = [arb(0) if s == 0 or t == 0 else s * t for s in a for t in b]
-    return min(map(_exact_lower, products)), max(map(_exact_upper, products))
-
-
-def _reciprocal(bound: Any) -> Any:
-    return 1 / bound if bound.is_finite() else arb(0)
-
-
-def _exact_lower(bound: Any) -> Any:
-    """An exact lower bound; -oo where nothing is known (oo - oo)."""
-    if bound.is_nan():
-        return -_INFINITY
-    return bound.lower() if bound.is_finite() else bound
-
-
-def _exact_upper(bound: Any) -> Any:
-    if bound.is_nan():
-        return _INFINITY
-    return bound.upper() if bound.is_finite() else bound
 
 
 Expr = Any
@@ -356,33 +272,16 @@ class CutEnd:
 
     def _positive_from(self, top: Any) -> Any:
         """A number from which on Q - top W > 0 is proven."""
+        Q, W = self.of_tau
+        excess = Q - _dyadic_midpoint(top) * W
         candidates = [self.origin + arb(2) ** k for k in range(-3, _REACH)]
         signs = [bool(self._S(tau, top) > 0) for tau in candidates]
         for k, tau in enumerate(candidates):
-            if all(signs[k : k + 12]) and self._is_positive(tau, top):
+            if all(signs[k : k + 12]) and lower_bound(excess, self.tau, _dyadic_midpoint(tau)) > 0:
                 return tau
         raise InputError(
             f"it isn't proven that the potential is above {top.str(6, radius=False)} towards {self._name()}"
         )
-
-    def _is_positive(self, tau: Any, top: Any) -> bool:
-        Q, W = self.of_tau
-        start = _dyadic_midpoint(tau)
-        if self._rises_from is not None and tau >= self._rises_from:
-            return bool((ball(Q.subs(self.tau, start)) - top * ball(W.subs(self.tau, start))) > 0)
-        return bool(lower_bound(Q - _dyadic_midpoint(top) * W, self.tau, start) > 0)
-
-    @cached_property
-    def _rises_from(self) -> Any:
-        """A number from which on Q is proven to increase while W is constant; None if none was found."""
-        Q, W = self.of_tau
-        if W.has(self.tau):
-            return None
-        for k in range(5):
-            tau = (self.origin + arb(2) ** k).mid()
-            if lower_bound(Q.diff(self.tau), self.tau, _dyadic_midpoint(tau), derivatives=2) >= 0:
-                return tau
-        return None
 
     def state(self, E: Any, span: Span, at: Any, *, high: bool) -> State:
         """The steeper solution, which gives the lower count, or for `high` the flatter one; without bounds Y = 0 or Y' = 0."""

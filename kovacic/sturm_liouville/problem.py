@@ -133,7 +133,7 @@ def pieces_of(Q: Expr, W: Expr, x: Expr, domain: tuple[Expr, Expr]) -> tuple[Str
     places = [domain[0], *_breaks(Q + x * W, x, domain), domain[1]]
     found = []
     for low, high in pairwise(places):
-        inside = _point_between(low, high)
+        inside = point_between(low, high)
         piece = Stretch(low, high, *(_resolved(e, x, inside) for e in (Q, W)))
         _check_weight(piece, x, inside)
         found.append(piece)
@@ -179,7 +179,7 @@ def _is_above_zero(e: Expr) -> bool:
     return bool(e.is_positive)
 
 
-def _point_between(low: Expr, high: Expr) -> Expr:
+def point_between(low: Expr, high: Expr) -> Expr:
     """A rational number between two ends, at 3/7 of the way, where nothing is likely to vanish."""
     if low.is_infinite and high.is_infinite:
         return sympy.Rational(3, 7)
@@ -279,7 +279,7 @@ def normal_form(
         raise InputError("the coefficient of y' is a function in pieces, for which eigenvalues aren't computed")
     Q = plain(B**2 / 4 + B.diff(x) / 2 - c0 / a, x)
     W = plain(c1 / a, x)
-    inside = _point_between(*domain)
+    inside = point_between(*domain)
     sign = 1 if ball(_resolved(W, x, inside).subs(x, inside)) > 0 else -1
     return pieces_of(Q, sign * W, x, domain), B, sign
 

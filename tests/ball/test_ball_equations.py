@@ -13,8 +13,8 @@ from build import parametrize
 
 from kovacic import InputError, LimitExceeded
 from kovacic.ball import InRoots, RollingBall, U, X
-from kovacic.ball.derivation import holds, residuals, vanishes
-from kovacic.ball.paper import PRINTED, equations_of, explained
+from kovacic.ball.derivation import PRINTED, holds, residuals, vanishes
+from kovacic.ball.paper import equations_of, explained
 from kovacic.ball.theorems import theorem
 from kovacic.writing.breaking import breakable
 

@@ -393,7 +393,7 @@ def test_the_numbers_whose_energies_may_be_levels() -> None:
     assert last is not None
     assert last >= 5
     assert window.last_number(E**2 - d, E, d) is None
-    assert _Window(sympy.Integer(-30), None).last_number(2 * d + 1 - E, E, d) is None
+    assert _Window(sympy.Integer(-30)).last_number(2 * d + 1 - E, E, d) is None
 
 
 def test_states_of_a_family_that_is_solvable_for_some_values() -> None:
@@ -994,3 +994,63 @@ def test_the_radial_variable_beside_a_product_without_a_sign(text: str) -> None:
 def test_what_is_no_potential_is_refused(potential: object) -> None:
     with pytest.raises(kovacic.InputError, match="the potential isn't a number that is known exactly"):
         kovacic.spectrum(potential)
+
+
+@parametrize(
+    ("V", "numbers"),
+    [
+        ("-6*sech(x)^2 + 4*tanh(x)", (0,)),
+        ("-12*sech(x)^2 + 2*tanh(x)", (0, 1)),
+        ("-20*sech(x)^2 - 6*tanh(x)", (0, 1, 2)),
+    ],
+    ordinary=1,
+)
+def test_a_norm_has_a_value_for_each_level(V: str, numbers: tuple[int, ...]) -> None:
+    """Where exponents are integers, too: no quotient of a sine that vanishes and an infinite Gamma function."""
+    (levels,) = kovacic.spectrum(V).levels
+    assert levels.members == numbers
+    for number in numbers:
+        wave = levels.wave.subs(n, number).doit()
+        integral = integral_of_square(wave, -40.0, 40.0)
+        assert abs(integral / float(levels.norm.subs(n, number)) - 1) < 1e-9
+
+
+def test_values_of_letters_in_the_kinetic_factor() -> None:
+    """They are put into it and into V; other letters of it are parameters of the answer."""
+    equation = "-hbar^2/(2*m)*psi'' + m*w^2*x^2/2*psi = E*psi"
+    oscillator = kovacic.spectrum(equation, assume={"w": "positive", "m": 3})
+    assert {symbol.name for symbol in oscillator.levels[0].energy.free_symbols} == {"hbar", "w", "n"}
+    assert oscillator.potential == read_expression("3*w^2*x^2/2")
+    assert [s.energy for s in oscillator.states({"hbar": 2, "w": 5}, count=2)] == [5, 15]
+    box = kovacic.spectrum("-hbar^2/(2*m)*psi'' = E*psi", domain=(0, "L"), assume={"L": "positive"})
+    assert box.states({"hbar": 2, "m": 8, "L": 1}, count=1)[0].energy == sympy.pi**2 / 4
+
+
+@pytest.mark.parametrize(
+    ("V", "is_charge"), [("-e^2/r", True), ("-exp(2)/r", False), ("-1/2 u'' - e^2/r*u = E*u", True)]
+)
+def test_a_charge_is_not_taken_for_a_number_in_silence(V: str, is_charge: bool) -> None:
+    found = kovacic.spectrum(V, domain=HALF)
+    assert any("e is Euler's number" in notice for notice in found.notices) == is_charge
+
+
+@pytest.mark.parametrize(
+    ("M", "energies"), [(1, {"3"}), (2, {"5 - 2*sqrt(2)", "5 + 2*sqrt(2)"}), (3, {"3", "7", "15"})]
+)
+def test_a_root_of_a_number_beside_a_letter(M: int, energies: set[str]) -> None:
+    """Razavy's potential with the levels that it has where the letter is a number."""
+    found = kovacic.spectrum("(sqrt(2)*cosh(2*x) - M)^2")
+    assert {state.energy for state in found.states({"M": M})} == {*map(read_expression, energies)}
+
+
+@pytest.mark.parametrize(
+    ("V", "domain", "falls"),
+    [
+        ("-1/sin(x)^3", (0, "pi"), True),
+        ("1/(1 - exp(x))^3", ("-oo", 0), False),
+        ("1/(1 - exp(x))^3", (0, "oo"), True),
+    ],
+)
+def test_an_odd_pole_has_another_sign_on_each_side(V: str, domain: tuple[object, object], falls: bool) -> None:
+    found = kovacic.spectrum(V, domain=domain, max_degree=0)
+    assert any("V -> -oo" in end for end in found.ends) == falls

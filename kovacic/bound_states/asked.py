@@ -1,0 +1,412 @@
+"""The question as it was asked, and its answer in the user's terms.
+
+Text and SymPy objects are read here, once: a potential, "V(x) = ...", or Schroedinger's equation as a physicist writes it,
+-hbar^2/(2 m) psi'' + V psi = E psi.  With the kinetic factor k = hbar^2/(2 m) > 0 the energies are k times those of V/k, with
+the same functions.
+
+Letters stand for sqrt(a), and for square roots of several numbers, while the spectrum is looked for.  One square root, or
+another root of one number, is computed with as such.  Several of them would have a common generator, that isn't written in the
+user's roots; beside sines and cosines there is I, and beside parameters a root isn't seen to be that of its square; so each
+is a positive parameter there, and its value is put in at the end.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Mapping, Sequence
+from contextlib import suppress
+from dataclasses import dataclass, field, fields, replace
+from itertools import count
+from typing import Any, TypeVar
+
+import sympy
+from sympy.functions.elementary.trigonometric import TrigonometricFunction
+
+from kovacic.bound_states.levels import NO_FORMULA, Algebraic, Levels, Spectrum, scaled
+from kovacic.bound_states.question import FRIEDRICHS, Boundary, SpectralProblem, constants_among, read_boundary
+from kovacic.bound_states.signs import Signs
+from kovacic.equation import DEFAULT_VARIABLE, parameters_of
+from kovacic.errors import InputError, LimitExceeded, NotRational
+from kovacic.limits import Limits
+from kovacic.numbers.exact import exact_text
+from kovacic.numbers.numerals import as_text
+from kovacic.parametric.assumptions import read_assumptions
+from kovacic.reading.lexer import scanned
+from kovacic.reading.names import NUMBER_NAMES, is_letter
+from kovacic.reading.naming import USUAL_VARIABLES, chosen_variable
+from kovacic.reading.read import read_input
+from kovacic.reading.source import source_of
+from kovacic.reading.substitution import value_text, values_among
+from kovacic.reading.symbolic import LIMITS as SYMBOLIC
+from kovacic.reading.symbolic import expression_of, function_of, names_of, read_expression
+from kovacic.sturm_liouville.problem import STEPS, pieces_of
+from kovacic.writing.formula import caret
+
+#: What can be assumed of a parameter under a root, and what is known of its root then.
+_SIGNS = {
+    "positive": "positive",
+    ">0": "positive",
+    "nonnegative": "nonnegative",
+    ">=0": "nonnegative",
+    "real": "nonnegative",
+}
+#: A root is enclosed between neighbouring multiples of the inverse of this number.
+_STEPS = 10**6
+_INFINITE = {"oo": sympy.oo, "+oo": sympy.oo, "inf": sympy.oo, "-oo": -sympy.oo, "-inf": -sympy.oo}
+#: V(x) = ..., V = ...
+_LEFT_SIDE = re.compile(r"\s*[VU]\s*(?:\(\s*(\w+)\s*\))?\s*=(?!=)")
+LevelsOrAlgebraic = TypeVar("LevelsOrAlgebraic", Levels, Algebraic)
+
+
+@dataclass(frozen=True)
+class Asked:
+    """-kinetic y'' + V y = E y between two ends, in plain symbols, and what is assumed beside values, which are put in.
+
+    V is any elementary function; `scaled` is V/kinetic, in which `roots` are the meanings of letters.
+    """
+
+    V: Any
+    scaled: Any
+    variable: str
+    ends: tuple[Any, Any]
+    energy: str
+    boundary: Boundary
+    friedrichs: bool
+    assumed: Mapping[Any, Any]
+    kinetic: Any = sympy.S.One
+    names: Sequence[str] = ()
+    notices: tuple[str, ...] = ()
+    roots: Mapping[str, Any] = field(default_factory=dict)
+
+    def with_named_roots(self) -> Asked:
+        """With letters for roots of numbers, where there are several or nested ones, or other letters."""
+        powers = (power for power in self.scaled.atoms(sympy.Pow) if power.is_number and not power.exp.is_Integer)
+        roots = sorted((p for p in powers if p.is_positive and p.is_algebraic), key=sympy.default_sort_key)
+        has_letters = bool({*names_of(self.scaled)} - {self.variable})
+        least = 1 if has_letters or self.scaled.has(TrigonometricFunction) else 2
+        if len(roots) < least:
+            return self
+        outermost = [root for root in roots if not any(root is not other and other.has(root) for other in roots)]
+        names = (name for name in map("root_{}".format, count(1)) if name not in names_of(self.scaled))
+        meanings = dict(zip(names, outermost, strict=False))
+        plain = self.scaled.xreplace({root: sympy.Symbol(name) for name, root in meanings.items()})
+        known = {name: _between(value) for name, value in meanings.items()}
+        return replace(self, scaled=plain, roots=meanings, assumed={**self.assumed, **known})
+
+    def problem(self, limits: Limits) -> SpectralProblem:
+        """The problem for exact methods.  Raises `NotRational` for a V that isn't rational in one function."""
+        potential = self._in_one_piece()
+        S = potential - sympy.Symbol(self.energy)
+        parsed = read_input(S, var=self.variable, limits=limits, exponentials=True, names=self.names)
+        # A shift, as b in 1/cosh(x - b)^2, doesn't occur in the equation in t.
+        meanings = {symbol.name for _, meaning in parsed.letters for symbol in meaning.free_symbols}
+        elsewhere = {symbol.name for part in (potential, *self.ends) for symbol in part.free_symbols}
+        in_S = parameters_of(parsed.S.field)
+        names = (*in_S, *sorted(elsewhere - meanings - {self.variable, *in_S}))
+        known = read_assumptions(_assumed_of_letters(self.assumed, parsed.letters) or None, self.V, names)
+        for constant in constants_among(potential, names):
+            known = known.also(constant, ("irrational", "positive"))
+        signs = Signs(known, names)
+        first, last = (signs.real(end) for end in self.ends)
+        if signs.is_nonnegative(first - last) or first == sympy.oo or last == -sympy.oo:
+            raise InputError(f"the domain is empty: {first} isn't below {last}")
+        return SpectralProblem(
+            potential,
+            parsed,
+            domain=(first, last),
+            variable=self.variable,
+            energy=self.energy,
+            known=known,
+            signs=signs,
+            friedrichs=self.friedrichs,
+            boundary=self.boundary,
+            notices=self.notices,
+            kinetic=signs.real(self.kinetic),
+        )
+
+    def _in_one_piece(self) -> Any:
+        """V without absolute values and steps, if it is one function.  Raises `NotRational` for several pieces."""
+        V = self.scaled
+        if not V.has(*STEPS):
+            return V
+        x = sympy.Symbol(self.variable)
+        pieces = pieces_of(V, sympy.S.One, x, self.ends) if len(names_of(V)) == 1 else ()
+        if len(pieces) != 1:
+            raise NotRational(f"{caret(as_text(V))} is a function in pieces, and its levels have no formula here")
+        return pieces[0].Q
+
+    def unsolved(self, reason: NotRational) -> Spectrum:
+        """The problem alone, for a potential that no formulas are known for."""
+        inside = {symbol.name for part in (self.scaled, *self.ends) for symbol in part.free_symbols}
+        parameters = tuple(sorted(inside - {self.variable}))
+        wishes = self.boundary.wishes
+        is_open = any(end.is_finite and wish is None for end, wish in zip(self.ends, wishes, strict=True))
+        return Spectrum(
+            self.scaled,
+            self.variable,
+            self.ends,
+            self.energy,
+            parameters,
+            read_assumptions(self.assumed or None, self.V, parameters),
+            self.boundary.text or (FRIEDRICHS if is_open or self.friedrichs else None),
+            reason=f"undecided: {reason.args[0]}",
+            conditions=wishes,
+        )
+
+    def physical(self, found: Spectrum) -> Spectrum:
+        """The spectrum of V/kinetic as that of V."""
+        k = self.kinetic
+        if k == 1:
+            return found
+        letters = sorted(symbol.name for symbol in k.free_symbols)
+        known = found.assumptions
+        for name in letters:
+            known = known if name in found.parameters else known.also(name, ("positive",))
+        return replace(
+            found,
+            potential=self.V,
+            kinetic=k,
+            parameters=(*found.parameters, *(name for name in letters if name not in found.parameters)),
+            assumptions=known,
+            levels=tuple(replace(one, energy=scaled(one.energy, k)) for one in found.levels),
+            algebraic=tuple(one.scaled(sympy.Symbol(self.energy), k) for one in found.algebraic),
+            notices=(*found.notices, f"{' and '.join(letters)} taken as positive") if letters else found.notices,
+        )
+
+
+def asked(
+    V: Any,
+    *,
+    domain: Sequence[Any],
+    energy: str,
+    var: Any,
+    assume: Mapping[Any, Any] | None,
+    boundary: str | None,
+    names: Sequence[str],
+    limits: Limits,
+) -> Asked:
+    """The question of a call of `kovacic.spectrum`, where the parameters are described.
+
+    Raises `InputError` for what isn't a potential, a domain or a boundary condition, and `LimitExceeded`.
+    """
+    if not isinstance(energy, str) or not energy.isidentifier():
+        raise InputError(f"{energy!r} can't be the name of the energy")
+    if len(domain) != 2 or isinstance(domain, str):
+        raise InputError("a domain is a pair of ends", hint='domain=(0, "oo")')
+    ends = [read_end(value) for value in domain]
+    read = _read(V, None if var is None else str(var), energy, names, limits)
+    x = read.variable
+    values, rest = values_among(assume or {})
+    at = {sympy.Symbol(name): read_expression(value_text(v, name, x, limits=limits)) for name, v in values.items()}
+    known_names = sorted({symbol.name for part in (read.V, read.kinetic, *ends) for symbol in part.free_symbols} - {x})
+    for name in values:
+        if name not in known_names:
+            raise InputError(
+                f"{name} isn't a parameter of V", hint=f"the parameters are {', '.join(known_names) or 'none'}"
+            )
+    potential, kinetic, first, last = (part.xreplace(at) for part in (read.V, read.kinetic, *ends))
+    if {sympy.Symbol(x), sympy.Symbol(energy)} & (first.free_symbols | last.free_symbols):
+        raise InputError(f"an end of the domain contains {x} or {energy}")
+    plain = potential if kinetic == 1 else sympy.expand(potential / kinetic)
+    positive = {symbol.name: "positive" for symbol in kinetic.free_symbols & plain.free_symbols}
+    return Asked(
+        potential,
+        plain,
+        variable=x,
+        ends=(first, last),
+        energy=energy,
+        boundary=read_boundary(boundary, ends, x),
+        friedrichs=boundary == FRIEDRICHS,
+        assumed={**positive, **rest},
+        kinetic=kinetic,
+        names=names,
+        notices=read.notices,
+    )
+
+
+@dataclass(frozen=True)
+class _PotentialAsRead:
+    """V and the kinetic factor of -kinetic psi'' + V psi = E psi, and what was guessed when a text was read."""
+
+    V: Any
+    variable: str
+    notices: tuple[str, ...]
+    kinetic: Any = sympy.S.One
+
+
+def _read(V: Any, var: str | None, energy: str, names: Sequence[str], limits: Limits) -> _PotentialAsRead:
+    """A text or an expression.  Raises `InputError` for what is no real potential, and no equation of Schroedinger's."""
+    guesses: tuple[str, ...] = ()
+    if isinstance(V, str):
+        left = _LEFT_SIDE.match(V)
+        if left is not None:
+            V = V[left.end() :]
+            var = var or left[1]
+        if "=" in V:
+            return _schroedinger(V, var, energy, limits)
+        named = var
+        if var is None:
+            with suppress(
+                InputError
+            ):  # with the position, below; names only, since l(l + 1) is a product or a function
+                letters = (token.text for token in scanned(V) if is_letter(token.text))
+                named, _ = _variable_of([name for name in dict.fromkeys(letters) if name not in NUMBER_NAMES])
+        source = source_of(V, named, SYMBOLIC, names=(*names, energy))
+        if source.unknown:
+            raise InputError(
+                "a potential is expected, and this is an equation", hint="give V of -y'' + V y = E y alone"
+            )
+        expression, guesses = expression_of(source, SYMBOLIC, what="the potential"), source.guesses
+    else:
+        given = V if hasattr(V, "free_symbols") else read_expression(exact_text(V, "the potential"))
+        expression = given.xreplace({symbol: sympy.Symbol(symbol.name) for symbol in given.free_symbols})
+    _check_real(expression, energy)
+    x, notices = _variable_of(names_of(expression)) if var is None else (var, ())
+    return _PotentialAsRead(expression, x, (*guesses, *notices, *_of_charges(V, expression)))
+
+
+def _letters(text: str) -> list[str]:
+    """The names in a text, each once.  Raises `InputError` for signs that mean nothing."""
+    return [*dict.fromkeys(token.text for token in scanned(text) if is_letter(token.text))]
+
+
+def _of_charges(text: Any, V: Any) -> tuple[str, ...]:
+    """A note where e, Euler's number, may have been meant as a charge."""
+    is_power = any(power.is_number for power in V.atoms(sympy.exp))
+    if isinstance(text, str) and is_power and "e" in _letters(text):
+        return ("e is Euler's number; give a charge another name, q^2 for e^2",)
+    return ()
+
+
+def _check_real(V: Any, energy: str) -> None:
+    """Raises `InputError` for a V with I or the energy in it, and `LimitExceeded` for long numbers."""
+    if energy in names_of(V):
+        raise InputError(
+            f"the potential contains {energy}, the energy",
+            hint="energy= gives it another name",
+            shell="--energy gives it another name",
+        )
+    longest = max((max(abs(int(c.p)), int(c.q)) for c in V.atoms(sympy.Rational)), default=0)
+    if longest.bit_length() > SYMBOLIC.bits:
+        raise LimitExceeded(f"the potential has numbers of more than {SYMBOLIC.bits} bits", limit="bits")
+    if V.has(sympy.I):
+        raise InputError("the potential isn't real")
+
+
+def _variable_of(names: Sequence[str]) -> tuple[str, tuple[str, ...]]:
+    """x, or the only name if it usually is a variable, and a note if it isn't x.  Raises `InputError` for several names."""
+    if DEFAULT_VARIABLE in names or not names:
+        return DEFAULT_VARIABLE, ()
+    # The only name that usually is a variable, as r in l (l+1)/r^2 - Z/r.
+    usual = [name for name in names if name in USUAL_VARIABLES and name.islower()]
+    only = usual[0] if len(usual) == 1 else chosen_variable(names)
+    if only in USUAL_VARIABLES:
+        return only, (f"{only} is taken for the variable, of which V is a function",)
+    return DEFAULT_VARIABLE, (f"{DEFAULT_VARIABLE} is the variable, {only} a parameter",)
+
+
+def _schroedinger(text: str, var: str | None, energy: str, limits: Limits) -> _PotentialAsRead:
+    """The equation in a text.  Raises `InputError` for one that isn't Schroedinger's."""
+    source = source_of(text, var, limits, equation=True)
+    whole = expression_of(source, limits)
+    psi = function_of(whole)
+    x = psi.args[0]
+    letters = [sympy.Dummy() for _ in range(3)]
+    plain = sympy.expand(whole.subs(psi.diff(x, 2), letters[2]).subs(psi.diff(x), letters[1]).subs(psi, letters[0]))
+    c, b, a = (sympy.cancel(plain.diff(letter)) for letter in letters)
+    if b != 0 or a == 0 or plain.subs(dict.fromkeys(letters, 0)) != 0 or {*letters} & (a.free_symbols | c.free_symbols):
+        raise InputError("an equation -k*psi'' + V*psi = E*psi is expected, without a first derivative")
+    slope = sympy.cancel(c.diff(sympy.Symbol(energy)))
+    if slope == 0 or slope.has(sympy.Symbol(energy)):
+        raise InputError(f"the equation has no energy {energy}", hint="energy= gives it another name")
+    kinetic = sympy.cancel(a / slope)
+    if kinetic.has(x) or kinetic.is_negative:
+        raise InputError(f"the factor of psi'' over that of {energy}, {kinetic}, isn't a positive constant")
+    V = sympy.expand(sympy.Symbol(energy) - c / slope)
+    _check_real(V, energy)
+    return _PotentialAsRead(V, x.name, (*source.guesses, *_of_charges(text, V)), kinetic)
+
+
+def read_end(value: Any) -> Any:
+    """An end of the domain, a number, an expression or infinite.  Raises `InputError` for anything else."""
+    text = exact_text(value, "an end of the domain")
+    if text in _INFINITE:
+        return _INFINITE[text]
+    return read_expression(text, what="an end of the domain")
+
+
+def _between(value: Any) -> str:
+    """That a letter lies between two decimals, as an assumption."""
+    below = sympy.floor(value * _STEPS)
+    return f">{sympy.Rational(below, _STEPS)} <{sympy.Rational(below + 1, _STEPS)}"
+
+
+def _assumed_of_letters(assume: Mapping[Any, Any], letters: Sequence[tuple[str, Any]]) -> Mapping[Any, Any]:
+    """What is assumed, and the sign of a letter for log(2), or for sqrt(a): not negative, and positive where a is.
+
+    Raises `InputError` where something else than that is assumed of such an a.
+    """
+    found = dict(assume)
+    for letter, meaning in letters:
+        base, exponent = meaning.as_base_exp()
+        if exponent == sympy.S.Half and base.is_Symbol:
+            found[letter] = _sign_of_root(base.name, found)
+        elif meaning.is_number and meaning.is_real:
+            found[letter] = "positive" if meaning.is_positive else "negative"
+    return found
+
+
+def _sign_of_root(name: str, assumed: dict[Any, Any]) -> str:
+    """Of the root of a parameter, of which nothing is `assumed` afterwards: it occurs in its root alone."""
+    key = next((key for key in assumed if str(key) == name), None)
+    if key is None:
+        return "nonnegative"
+    said = assumed.pop(key)
+    word = said.replace(" ", "") if isinstance(said, str) else said
+    if word not in _SIGNS:
+        raise InputError(
+            f"sqrt({name}) is real, and of {name} it can be assumed only that it is positive or nonnegative",
+            hint=f'assume={{"{name}": "positive"}}, or write {name} = b^2 where more is known',
+            shell=f"--assume {name}=positive, or write {name} = b^2 where more is known",
+        )
+    return _SIGNS[word]
+
+
+def in_their_meanings(found: Spectrum, meanings: Mapping[str, Any]) -> Spectrum:
+    """The answer with the meanings in the place of the letters."""
+    if not meanings:
+        return found
+    values = {sympy.Symbol(name): meaning for name, meaning in meanings.items()}
+
+    def put_in(expression: Any) -> Any:
+        return sympy.sympify(expression, strict=True).xreplace(values)
+
+    def said(text: str) -> str:
+        for name, meaning in meanings.items():
+            shown = caret(as_text(meaning))
+            text = re.sub(rf"\b{name}\b", shown, text)
+        return text
+
+    def of(one: LevelsOrAlgebraic) -> LevelsOrAlgebraic:
+        """The levels without letters, and without conditions that say nothing."""
+        parts = {field.name: getattr(one, field.name) for field in fields(one)}
+        changed = {name: put_in(part) for name, part in parts.items() if isinstance(part, sympy.Expr)}
+        conditions = tuple(condition for condition in map(put_in, one.conditions) if condition != sympy.true)
+        return replace(one, **changed, conditions=conditions)
+
+    levels = tuple(one for one in map(of, found.levels) if sympy.false not in one.conditions)
+    algebraic = tuple(one.with_values(values) for one in map(of, found.algebraic) if sympy.false not in one.conditions)
+    plain = [name for name in found.parameters if name not in meanings]
+    inside = {name for meaning in meanings.values() for name in names_of(meaning)}
+    known = tuple((name, facts) for name, facts in found.assumptions.known if name not in meanings)
+    return replace(
+        found,
+        potential=put_in(found.potential),
+        parameters=(*plain, *sorted(inside - {*plain})),
+        assumptions=replace(found.assumptions, known=known),
+        ends=tuple(map(said, found.ends)),
+        excluded=tuple(relation for relation in map(put_in, found.excluded) if relation != sympy.false),
+        levels=levels,
+        algebraic=algebraic,
+        reason=NO_FORMULA if found.algebraic and not algebraic else said(found.reason),
+    )

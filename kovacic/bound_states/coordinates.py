@@ -1,0 +1,277 @@
+"""t as a function of the user's variable, V as a function of a real t, and the poles of V.
+
+The reader has put t = x, or t = exp(theta), sinh(theta), cos(theta), ... with theta = k x + c.  What is special about each of
+these functions stands in three tables: where it has a value, its period, and its values where its slope vanishes.
+
+With u = tan(theta/2), exp(i theta) = (1 + i u)/(1 - i u): a function of exp(i theta) is one of a real u.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from contextlib import suppress
+from dataclasses import dataclass
+from typing import Any
+
+import sympy
+
+from kovacic.bound_states.signs import Signs, Uncovered
+from kovacic.equation import Equation
+from kovacic.errors import InputError
+from kovacic.numbers.numerals import as_text
+from kovacic.reading.change_of_variable import SQUARES, function_of_x
+from kovacic.writing.formula import caret
+
+#: The theta with t = p, all but for the period.
+_ANGLES: dict[str, Callable[[Any], tuple[Any, ...]]] = {
+    "x": lambda p: (p,),
+    "exp": lambda p: (sympy.log(p),),
+    "sinh": lambda p: (sympy.asinh(p),),
+    "cosh": lambda p: (sympy.acosh(p), -sympy.acosh(p)),
+    "cos": lambda p: (sympy.acos(p), -sympy.acos(p)),
+    "sin": lambda p: (sympy.asin(p), sympy.pi - sympy.asin(p)),
+    "tan": lambda p: (sympy.pi / 2 if p == sympy.oo else sympy.atan(p),),
+}
+_PERIODS = {"cos": 2 * sympy.pi, "sin": 2 * sympy.pi, "tan": sympy.pi}
+#: The values of t where dt/dtheta = 0.
+_TURNS = {"cosh": (1,), "cos": (1, -1), "sin": (1, -1)}
+#: Longer ends of a domain aren't proposed.
+_LONGEST = 30
+
+
+@dataclass(frozen=True)
+class Original:
+    """t as a function of the user's variable: the function's name, and its argument theta = rate * x + offset."""
+
+    x: Any
+    kind: str = "x"
+    rate: Any = sympy.S.One
+    offset: Any = sympy.S.Zero
+
+    @classmethod
+    def of(cls, equation: Equation | None, x: Any, signs: Signs) -> Original:
+        """The one that the reader has chosen."""
+        if equation is None or equation.change is None:
+            return cls(x)
+        t = signs.real(function_of_x(equation)).xreplace({sympy.Symbol(x.name): x})
+        if t.func not in SQUARES:
+            raise Uncovered(f"no formula is known for potentials in {caret(str(t))}")
+        theta = sympy.expand(t.args[0])
+        return cls(x, t.func.__name__, theta.coeff(x, 1), theta.coeff(x, 0))
+
+    @property
+    def is_circular(self) -> bool:
+        """True for t = exp(i theta) with a real theta."""
+        return self.kind == "exp" and self.rate.has(sympy.I)
+
+    @property
+    def is_periodic(self) -> bool:
+        return self.is_circular or self.kind in _PERIODS
+
+    @property
+    def theta(self) -> Any:
+        return self.rate * self.x + self.offset
+
+    @property
+    def t(self) -> Any:
+        return self.value(self.theta)
+
+    def value(self, theta: Any) -> Any:
+        """t at an argument."""
+        return theta if self.kind == "x" else getattr(sympy, self.kind)(theta)
+
+    def slope_squared(self, t: Any) -> Any:
+        """(dt/dx)^2 as a function of t."""
+        if self.kind == "x":
+            return sympy.Integer(1)
+        return SQUARES[getattr(sympy, self.kind)](t) * self.rate**2
+
+    def theta_at(self, end: Any, signs: Signs) -> Any:
+        """The argument at an end of the domain."""
+        return self._direction(signs) * end if end.is_infinite else sympy.simplify(self.rate * end + self.offset)
+
+    def _direction(self, signs: Signs) -> int:
+        """The sign of the rate."""
+        sign = signs.sign(self.rate)
+        if sign is None:
+            raise Uncovered(f"the sign of {self.rate} isn't known: assume that it is positive")
+        return sign
+
+    def at(self, end: Any, signs: Signs) -> Any:
+        """t at an end of the domain, a number or oo (both of its ends are one point)."""
+        theta = self.theta_at(end, signs)
+        if theta.is_infinite and self.kind in _PERIODS:
+            raise Uncovered(f"V is periodic: no solution is square integrable at {self.x} = {end}")
+        value = self.value(theta) if self.kind == "x" else sympy.simplify(self.value(theta))
+        return sympy.oo if value.is_infinite else value  # -oo, and the pole of a tangent
+
+    def side_of(self, end: Any, point: Any, signs: Signs, *, is_right: bool) -> int:
+        """The sign inside the domain of t - point, or of 1/t for oo, near an end of it.
+
+        It is that of the first derivative at the end that isn't zero.
+        """
+        theta = self.theta_at(end, signs)
+        if theta.is_infinite:
+            return -1 if theta == -sympy.oo and self.kind in ("x", "sinh") else 1
+        inwards = self._direction(signs) * (-1 if is_right else 1)
+        angle = sympy.Dummy("theta")
+        t = self.value(angle)
+        u = 1 / t if point == sympy.oo else t
+        for order in (1, 2):
+            slope = sympy.simplify(sympy.simplify(u.diff(angle, order)).subs(angle, theta))
+            if slope != 0:
+                sign = signs.sign(slope)
+                if sign is None:
+                    raise Uncovered(f"the end {end} isn't a multiple of pi/({self.rate})")
+                return sign * inwards**order
+        raise Uncovered(f"the end {end} isn't a point where t changes")
+
+    def angles_at(self, point: Any, ends: tuple[Any, Any]) -> list[Any]:
+        """The real theta with a value of t; of a sine, cosine or tangent those near the domain and between its ends."""
+        found = [angle for angle in dict.fromkeys(_ANGLES[self.kind](point)) if angle.is_real is not False]
+        if self.kind not in _PERIODS:
+            return found
+        period = _PERIODS[self.kind]
+        lowest = sympy.floor(min(ends) / period) - 1
+        number = int(sympy.ceiling((max(ends) - min(ends)) / period)) + 3
+        return [angle + period * (lowest + k) for angle in found for k in range(number)]
+
+    def turning_points(self, domain: tuple[Any, Any], signs: Signs) -> list[Any]:
+        """Where dt/dx vanishes inside the domain: where t is 1 or -1."""
+        values = _TURNS.get(self.kind, ())
+        if not values:
+            return []
+        first, last = (self.theta_at(end, signs) for end in domain)
+        if self.is_periodic and not (first.is_number and last.is_number):
+            raise Uncovered(f"the ends of the domain aren't multiples of pi/({self.rate})")
+        angles = [a for value in values for a in self.angles_at(sympy.Integer(value), (first, last))]
+        return [self.x_at(a) for a in angles if is_between(a, first, last, signs)]
+
+    def x_at(self, theta: Any) -> Any:
+        """The user's variable at an argument."""
+        return (theta - self.offset) / self.rate
+
+    def monotonic_range(self, domain: tuple[Any, Any], signs: Signs) -> tuple[Any, Any] | None:
+        """The least and the largest value of t on the domain, where t is known to be monotonic there."""
+        with suppress(Uncovered):
+            if not self.turning_points(domain, signs):
+                return self.range_of(domain, signs)
+        return None
+
+    def range_of(self, half: tuple[Any, Any], signs: Signs) -> tuple[Any, Any]:
+        """The least and the largest value of t, where it is monotonic; infinite ones for a tangent, which has a pole."""
+        if self.kind == "tan":
+            return -sympy.oo, sympy.oo
+        first, last = (self.value(self.theta_at(end, signs)) for end in half)
+        is_increasing = sympy.simplify(last - first).is_positive or last == sympy.oo or first == -sympy.oo
+        return (first, last) if is_increasing else (last, first)
+
+
+@dataclass(frozen=True)
+class RealPotential:
+    """V as a function of a real t, what t is, and the k of -k y'' + k V y = E y, in which V is shown."""
+
+    V: Any
+    original: Original
+    t: Any
+    kinetic: Any = sympy.S.One
+
+
+def on_real_circle(real: RealPotential) -> RealPotential:
+    """A function of exp(i theta) as one of tan(theta/2); any other one unchanged."""
+    original = real.original
+    t = real.t
+    if not original.is_circular:
+        return real
+    rate = sympy.expand(original.rate / sympy.I)
+    offset = sympy.expand(original.offset / sympy.I)
+    value = (1 + sympy.I * t) / (1 - sympy.I * t)
+    V = sympy.cancel(sympy.together(real.V.xreplace({t: value})), extension=sympy.I)
+    # V is real, but its numerator and denominator may have a complex factor in common.
+    num, den = sympy.fraction(sympy.together(V))
+    scale = sympy.Poly(den, t).LC()
+    V = sympy.expand(sympy.expand(num / scale)) / sympy.expand(sympy.expand(den / scale))
+    return RealPotential(V, Original(original.x, "tan", rate / 2, offset / 2), t, real.kinetic)
+
+
+def is_between(value: Any, first: Any, last: Any, signs: Signs) -> bool:
+    """True strictly between the ends.  Raises `Uncovered` if that isn't known."""
+    from_first, to_last = (sympy.simplify(difference) for difference in (value - first, last - value))
+    if 0 in (from_first, to_last):
+        return False
+    known = [signs.sign(from_first), signs.sign(to_last)]
+    if None not in known:
+        return known[0] == known[1]
+    raise Uncovered(f"whether {value} lies between {first} and {last} isn't known")
+
+
+def check_poles(real: RealPotential, domain: tuple[Any, Any], signs: Signs) -> None:
+    """Raises `InputError` where V has a pole inside the domain, with a domain without, and `Uncovered` where it isn't known."""
+    original = real.original
+    if original.is_periodic and any(end.is_infinite for end in domain):
+        _check_period(real, signs)
+        return
+    first, last = (original.theta_at(end, signs) for end in domain)
+    angles = [angle for point in _poles(real, signs) for angle in original.angles_at(point, (first, last))]
+    inside = [original.x_at(angle) for angle in angles if is_between(angle, first, last, signs)]
+    if inside:
+        largest = [point for point in inside if all(signs.is_nonnegative(point - other) for other in inside)]
+        message = f"V isn't regular at {original.x} = {caret(as_text(inside[0]))}, inside the domain"
+        raise _refused(message, "choose a domain without a pole inside", [(point, domain[1]) for point in largest])
+
+
+def _check_period(real: RealPotential, signs: Signs) -> None:
+    """The same for a periodic V on a domain that ends at infinity."""
+    original = real.original
+    period = _PERIODS[original.kind]
+    angles = [angle for point in _poles(real, signs) for angle in original.angles_at(point, (-period, period))]
+    # Where the leading coefficient vanishes there is a pole of the tangent at t = oo.
+    leading = sympy.Poly(sympy.denom(sympy.cancel(real.V)), real.t).LC()
+    may_have_more = original.kind == "tan" and signs.sign(leading) is None
+    if may_have_more or not all(angle.is_number for angle in angles):
+        raise Uncovered("V is periodic, and where its poles are isn't known")
+    if angles:
+        # The least positive angle, and the one before it: they come back in each period.
+        start = max((angle for angle in angles if not angle > 0), key=float)
+        stop = min((angle for angle in angles if angle > 0), key=float)
+        neighbours = sympy.simplify(original.x_at(start)), sympy.simplify(original.x_at(stop))
+        place = caret(as_text(neighbours[1]))
+        message = f"V has poles on the line, one at {original.x} = {place} and others in each period of it"
+        hint = "choose the domain between two neighbouring poles"
+        raise _refused(message, hint, [neighbours] if len(place) <= _LONGEST else [])
+
+
+def _poles(real: RealPotential, signs: Signs) -> list[Any]:
+    """The real t that are poles of V, and oo for a tangent.  Raises `Uncovered` where they aren't known."""
+    num, den = (sympy.Poly(part, real.t) for part in sympy.fraction(sympy.cancel(real.V)))
+    is_pole_of_tangent = real.original.kind == "tan" and num.degree() > den.degree()
+    return [*_real_zeros(den, signs), *([sympy.oo] if is_pole_of_tangent else [])]
+
+
+def _refused(message: str, hint: str, proposed: list[tuple[Any, Any]]) -> InputError:
+    """The error with the first of the domains that are proposed, if there is one."""
+    for domain in proposed:
+        start, stop = map(_as_given, domain)
+        options = f"--from {start}" if domain[1] == sympy.oo else f"--from {start} --to {stop}"
+        return InputError(message, hint=f"{hint}: domain=({start}, {stop})", shell=f"{hint}: {options}")
+    return InputError(message, hint=hint)
+
+
+def _as_given(end: Any) -> str:
+    """An integer, or anything else as text in quotes."""
+    shown = end if end.is_infinite else sympy.simplify(end)
+    text = caret(as_text(shown))
+    return text if shown.is_Integer else f'"{text}"'
+
+
+def _real_zeros(polynomial: Any, signs: Signs) -> list[Any]:
+    """Each once.  Raises `Uncovered` where it isn't known which zeros are real."""
+    if all(c.is_Rational for c in polynomial.coeffs()):
+        return [*dict.fromkeys(polynomial.real_roots())]
+    at_a_real_point = polynomial.as_expr().xreplace({polynomial.gen: sympy.Dummy("t", real=True)})
+    if signs.sign(at_a_real_point) is not None:
+        return []
+    roots = sympy.roots(polynomial)
+    if sum(roots.values()) < polynomial.degree() or any(root.is_real is None for root in roots):
+        raise Uncovered("whether V has a pole inside the domain isn't known")
+    return [root for root in roots if root.is_real]

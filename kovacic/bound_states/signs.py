@@ -1,0 +1,123 @@
+"""Signs of expressions in the parameters: proven, refuted, or not known.
+
+A parameter with a bound, l >= 1/2, is written 1/2 + s with s >= 0, so that SymPy sees the sign of a sum of terms of one sign.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from fractions import Fraction
+from itertools import product
+from typing import Any
+
+import sympy
+
+from kovacic.parametric.assumptions import Assumptions, Bound
+
+
+class Uncovered(Exception):
+    """Why a problem isn't treated, in a sentence."""
+
+
+class Signs:
+    """The real symbols of the parameters, and what follows from the assumptions about them."""
+
+    def __init__(self, known: Assumptions, names: Iterable[str]) -> None:
+        found = known.symbols()
+        self._known_of = known.of
+        facts = {name: symbol.assumptions0 for name, symbol in found.items()}
+        self.symbols = {name: sympy.Symbol(name, **{**facts.get(name, {}), "real": True}) for name in names}
+        #: The number of a level.
+        self.n = sympy.Dummy("n", integer=True, nonnegative=True)
+        bounds = {name: known.of(name).bounds for name in self.symbols}
+        self._bounds = {name: those for name, those in bounds.items() if those}
+
+    def real(self, expression: Any) -> Any:
+        """The expression in the real symbols, in the place of plain ones of the same names."""
+        plain = (symbol for symbol in expression.free_symbols if not isinstance(symbol, sympy.Dummy))
+        of_parameters = [symbol for symbol in plain if symbol.name in self.symbols]
+        return expression.xreplace({symbol: self.symbols[symbol.name] for symbol in of_parameters})
+
+    def bounds_of(self, name: str, expression: Any) -> list[Any]:
+        """The known bounds of the parameter, as relations for an expression that is its value."""
+        found = []
+        for bound in self._bounds.get(name, ()):
+            relation = sympy.Gt if bound.strict else sympy.Ge
+            found.append(relation(bound.sign * (expression - _end_of(bound)), 0))
+        return found
+
+    def admits(self, name: str, expression: Any) -> bool:
+        """False if the expression can't be the value of the parameter, which is an integer, say."""
+        coset = self._known_of(name).coset
+        if coset is not None and expression.is_Rational:
+            return bool(coset.contains(Fraction(int(expression.p), int(expression.q))))
+        for fact, value in self.symbols[name].assumptions0.items():
+            known = getattr(expression, f"is_{fact}", None)
+            if known is not None and known != value:
+                return False
+        return True
+
+    def holds(self, relation: Any) -> bool | None:
+        """True or False for a relation that holds for all values or for none, None if neither is known.
+
+        A relation with the number of the level in it is false where it is false for all of the numbers.
+        """
+        if relation in (sympy.true, sympy.false):
+            return bool(relation)
+        difference = relation.gts - relation.lts
+        is_strict = relation.func in (sympy.StrictGreaterThan, sympy.StrictLessThan)
+        if is_strict:
+            return self.is_positive(difference)
+        return self.is_nonnegative(difference)
+
+    def is_positive(self, expression: Any) -> bool | None:
+        return self._known(expression, "is_positive")
+
+    def is_nonnegative(self, expression: Any) -> bool | None:
+        return self._known(expression, "is_nonnegative")
+
+    def sign(self, expression: Any) -> int | None:
+        """1 or -1 where that is the sign for all values; None otherwise."""
+        if expression.is_infinite:
+            return 1 if expression == sympy.oo else -1
+        if self.is_positive(expression):
+            return 1
+        if self.is_positive(-expression):
+            return -1
+        return None
+
+    def _known(self, expression: Any, question: str) -> bool | None:
+        """What SymPy says in the first of the charts in which it says something."""
+        symbols = [self.symbols[name] for name in self._bounds]
+        for chosen in product(*self._bounds.values()):
+            # Each parameter with bounds as one of them and a variable with a sign.
+            values = {symbol: _beyond(bound, symbol) for symbol, bound in zip(symbols, chosen, strict=True)}
+            factored = sympy.factor(sympy.together(sympy.sympify(expression, strict=True).xreplace(values)))
+            # As a product of sums of products, and in factors.
+            factors = (sympy.expand(part) if part.is_Add else part for part in sympy.Mul.make_args(factored))
+            expanded = sympy.Mul(*factors, evaluate=False)
+            for form in (expanded, factored):
+                found = getattr(form, question)
+                if found is not None:
+                    return bool(found)
+        return None
+
+
+def _end_of(bound: Bound) -> Any:
+    return sympy.Rational(bound.end.numerator, bound.end.denominator)
+
+
+def _beyond(bound: Bound, symbol: Any) -> Any:
+    """The bound and a variable with a sign, an integer where that is known."""
+    facts = {"positive": True} if bound.strict else {"nonnegative": True}
+    if bound.end.denominator == 1 and symbol.is_integer:
+        facts["integer"] = True
+    return _end_of(bound) + bound.sign * sympy.Dummy("s", **facts)
+
+
+def above(delta: Any, least: Any, *, strict: bool) -> Any:
+    """delta > least, or >=; false for a delta that isn't real."""
+    if delta.is_number and delta.is_real is False:
+        return sympy.false
+    relation = sympy.Gt if strict else sympy.Ge
+    return relation(delta, least)
