@@ -15,9 +15,9 @@ Continuous Dynamical Systems B 10 (2008) 265-293 (Hamiltonian algebrization).
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Collection, Sequence
 from contextlib import suppress
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import partial
 from math import gcd, inf
 from typing import Any, NamedTuple
@@ -34,7 +34,7 @@ from kovacic.equation import UNKNOWN, Change, Equation, Parsed, lowered, over
 from kovacic.errors import NotRational
 from kovacic.limits import Limits
 from kovacic.numbers.numerals import as_text
-from kovacic.reading.source import Source, parts_of, read_source, source_of, source_of_parts
+from kovacic.reading.source import Source, parts_of, read_source, source_of_parts
 
 _HINT = "coefficients are rational in x, or in exp(k*x) and sines, cosines, ... of rational multiples of k*x"
 
@@ -65,34 +65,29 @@ def in_exponentials(source: Source, limits: Limits) -> Parsed | None:
     if any(part.has(x) for part in (a, b, c)):
         raise NotRational(f"{x} beside exp({k * x}): that isn't rational in one exponential function", hint=_HINT)
     right, h = _right_side(parts[3], x, common.powers)
-    unknown = source.unknown or UNKNOWN
-    t = new_variable((a, b, c, right, k), {x.name, unknown})
-    Y = sympy.Function(f"{unknown}_")(t)
-    left = k**2 * T**2 * a * Y.diff(t, 2) + (k**2 * T * a + k * T * b) * Y.diff(t) + c * Y
-    equation, read = _read_in(t, (left - right).xreplace({T: t}), limits)
-    if equation.h is not None:  # numbers such as pi and log(2) are among the factors: as a whole it stays in x
+    left = (k**2 * T**2 * a, k**2 * T * a + k * T * b, c)
+    read = read_in(T, (*left, -right), source, limits, taken=k.free_symbols)
+    if read.equation.h is not None:  # numbers such as pi and log(2) are among the factors: as a whole it stays in x
         h = -parts[3]
-        equation, read = _read_in(t, left.xreplace({T: t}), limits)
+        read = read_in(T, (*left, sympy.S.Zero), source, limits, taken=k.free_symbols)
+    equation, t = read.equation, read.variable
     (p, q, f), function = _best(equation, k, x + common.offset)
     denominator = RatFunc(p.den * (q.den // p.den.gcd(q.den)))
     coefficients = (denominator, p * denominator, q * denominator, f * denominator)
     change = Change(x.name, as_text(function))
-    result = Equation(*coefficients, h=h and h / parts[0], variable=t.name, unknown=unknown, change=change)
+    result = replace(equation, **dict(zip("abcf", coefficients, strict=True)), h=h and h / parts[0], change=change)
     said = f"in {t} = {change.expression}: {result}"
-    return Parsed(result.S, t.name, (said, *notices, *read.notices), result, read.letters)
+    found: Parsed = replace(read, S=result.S, notices=(said, *notices, *read.notices), equation=result)
+    return found
 
 
-def _read_in(t: Any, expression: Any, limits: Limits) -> tuple[Equation, Parsed]:
-    """The equation that says that an expression with an unknown function of t is zero, and how it was read."""
-    read = read_source(source_of(expression, t.name, limits, equation=True), limits)
-    assert read.equation is not None
-    return read.equation, read
-
-
-def new_variable(parts: Sequence[Any], taken: set[str]) -> Any:
-    """A symbol for the new variable: t, or another letter that neither the parts have nor is `taken`."""
-    names = taken.union(*({symbol.name for symbol in part.free_symbols} for part in parts))
-    return sympy.Symbol(next(name for name in ("t", "s", "z", "w", "t_", "s_") if name not in names))
+def read_in(T: Any, parts: Sequence[Any], source: Source, limits: Limits, *, taken: Collection[Any] = ()) -> Any:
+    """The equation with these coefficients in T, read in t, or in another letter that neither they have nor is `taken`."""
+    symbols = set(taken).union(*(part.free_symbols for part in parts))
+    names = {source.variable, source.unknown, UNKNOWN, *(symbol.name for symbol in symbols)}
+    t = sympy.Symbol(next(name for name in ("t", "s", "z", "w", "t_", "s_") if name not in names))
+    renamed = source._replace(variable=t.name, unknown=source.unknown or UNKNOWN)
+    return read_source(source_of_parts([part.xreplace({T: t}) for part in parts], renamed), limits)
 
 
 def _right_side(rest: Any, x: Any, powers: dict[Any, Any]) -> tuple[Any, Any]:

@@ -22,8 +22,8 @@ from kovacic.errors import NotRational
 from kovacic.limits import Limits
 from kovacic.numbers.numerals import as_text
 from kovacic.reading.change_of_variable import function_of_x
-from kovacic.reading.exponentials import common_power, in_exponentials, new_variable
-from kovacic.reading.source import Source, parts_of, read_source, source_of_parts
+from kovacic.reading.exponentials import common_power, in_exponentials, read_in
+from kovacic.reading.source import Source, parts_of, source_of_parts
 
 Expr = Any  # SymPy publishes no types
 
@@ -71,9 +71,7 @@ def _in_one_power(P: Expr, Q: Expr, source: Source, limits: Limits) -> Parsed | 
     if offset != 0 or P.has(s) or Q.has(s):
         return None
     left = (k**2 * T**2, (k**2 + k * P) * T, Q, sympy.S.Zero)
-    t = new_variable(left, {x.name, source.unknown})
-    read = read_source(source_of_parts([part.xreplace({T: t}) for part in left], _in_variable(source, t.name)), limits)
-    return _with_change(read, source, x**k)
+    return _with_change(read_in(T, left, source, limits), source, x**k)
 
 
 def _of_waves(P: Expr, Q: Expr, waves: Sequence[Expr], source: Source, limits: Limits) -> Parsed | None:
@@ -88,7 +86,8 @@ def _of_waves(P: Expr, Q: Expr, waves: Sequence[Expr], source: Source, limits: L
     first = sympy.cancel((m**2 + m * P) / (m**2 * T))
     zeroth = sympy.cancel(Q / (m**2 * T**2))
     monic = [sympy.S.One, first.xreplace({T: u}), zeroth.xreplace({T: u}), sympy.S.Zero]
-    found = in_exponentials(source_of_parts(monic, _in_variable(source, u.name)), limits)
+    renamed = source._replace(variable=u.name, unknown=source.unknown or UNKNOWN)
+    found = in_exponentials(source_of_parts(monic, renamed), limits)
     if found is None or found.equation is None or found.equation.change is None:
         return None
     return _with_change(replace(found, notices=found.notices[1:]), source, function_of_x(found.equation).subs(u, x**m))
@@ -112,8 +111,3 @@ def _power_in(waves: Sequence[Expr], x: Expr) -> Expr | None:
             return None
     m = exponents.pop() if len(exponents) == 1 else x
     return None if m.has(x) else m
-
-
-def _in_variable(source: Source, variable: str) -> Source:
-    """The same, for an equation in another variable."""
-    return source._replace(variable=variable, unknown=source.unknown or UNKNOWN)
