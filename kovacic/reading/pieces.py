@@ -19,7 +19,7 @@ import re
 from collections.abc import Callable, Collection, Iterator, Sequence
 from dataclasses import dataclass, field
 from functools import cached_property
-from typing import NamedTuple, NoReturn
+from typing import NamedTuple
 
 from kovacic.errors import ParseError
 from kovacic.reading.dialects import FRACTIONS, LAYOUT, translated
@@ -267,7 +267,7 @@ class _Apart:
             is_name = len(left) == 2 and left[1].text == ":" and self.text.count(left[0].text) > 1  # eqn: ... ode2(eqn)
             if rule.role and (is_name or not _is_equation(rest)):
                 if rule.role == "label":
-                    self.ask_about_number(left, f"write *{left[1].text} for a factor")
+                    self.notes.append(f"{self.written(left)} was read as a factor; leave the number of an equation out")
                 continue
             if rule.name in ("(1)", "Problem 3"):
                 self.check_number(left, rest)
@@ -286,11 +286,8 @@ class _Apart:
         is_clear = label == "1" or rest[0].kind == "NUMBER" or Scan(rest[:1]).has(("PROSE",))
         if is_clear or re.search(r"[\t\n]|\\\\|quad", gap):
             return
-        self.ask_about_number(number, f"write {label}* for a factor")
-
-    def ask_about_number(self, number: Scan, factor: str) -> NoReturn:
         said = f"{self.written(number)} may be the number of the equation, or a factor"
-        raise error_at(self.text, said, number, f"leave it out, or {factor}")
+        raise error_at(self.text, said, number, f"leave it out, or write {label}* for a factor")
 
     def statement(self, scan: Scan, *, is_alone: bool) -> None:
         if not scan:

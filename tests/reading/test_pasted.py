@@ -418,12 +418,13 @@ def test_a_label_that_may_be_a_factor_is_asked_back(label: str) -> None:
 
 
 @pytest.mark.parametrize("number", ["(3)", "(1.2)", "[7]"])
-def test_a_number_behind_a_function_is_asked_back(number: str) -> None:
-    """Behind an equation it is its number; behind S alone it may be a factor."""
-    with pytest.raises(kovacic.InputError, match="may be the number of the equation, or a factor") as asked:
-        read_input(f"x^2 + 3 {number}")
-    assert f"*{number[1:-1]}" in (asked.value.hint or "")
-    assert read_input(f"x^2 + 3{number}").S == read_input(f"x^2 + 3*{number[1:-1]}").S
+def test_a_number_behind_a_function_is_a_factor_which_is_said(number: str) -> None:
+    """Behind an equation it is its number."""
+    for blank in (" ", ""):
+        read = read_input(f"x^2 + 3{blank}{number}")
+        assert read.S == read_input(f"x^2 + 3*{number[1:-1]}").S
+        assert any(f"{number} was read as a factor" in note for note in read.notices) == bool(blank)
+    assert read_input(f"y'' = x^2*y + 3 {number}").equation == read_input("y'' = x^2*y + 3").equation
 
 
 def test_eigenvalue_problems_take_their_conditions_from_the_text() -> None:
