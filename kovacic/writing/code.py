@@ -12,6 +12,7 @@ from dataclasses import dataclass
 from typing import Any
 
 import sympy
+from sympy.functions.special.bessel import BesselBase
 from sympy.printing.julia import JuliaCodePrinter
 from sympy.printing.maple import MapleCodePrinter
 from sympy.printing.mathematica import MCodePrinter
@@ -179,6 +180,8 @@ def _printer(language: _Language) -> Any:
             kind = type(expr).__name__
             arguments = _pattern_arguments(expr)
             own = known.get(kind) or known.get(f"{kind}/{len(arguments)}")
+            if language.name == "Julia" and isinstance(expr, BesselBase) and expr.order.is_real is False:
+                raise InputError(f"Julia's {kind} has no complex orders")
             if own is not None:
                 return _filled(own, list(map(self._print, arguments)), language)
             if isinstance(expr, sympy.Tuple):

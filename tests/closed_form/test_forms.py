@@ -94,6 +94,7 @@ def test_code_of_other_systems() -> None:
         sympy.lowergamma(n, t): ("Gamma[n, 0, t]", "(GAMMA(n) - GAMMA(n, t))", "(gamma(n) - gamma(n, t))"),
         sympy.hyper((n,), (), t): ("HypergeometricPFQ[{n}, {}, t]", "hypergeom([n], [], t)", "pFq((n,), (), t)"),
         sympy.airyaiprime(t): ("AiryAiPrime[t]", "AiryAi(1, t)", "airyaiprime(t)"),
+        sympy.besselk(2 * sympy.I, t): ("BesselK[2*I, t]", "BesselK(2*I, t)", "Julia's besselk has no complex orders"),
         sympy.Ei(sympy.pi * t): ("ExpIntegralEi[Pi*t]", "Ei(Pi*t)", "expinti(pi * t)"),
         sympy.E * t + sympy.I * sympy.pi: ("E*t + I*Pi", "exp(1)*t + I*Pi", "exp(1) * t + (pi) * im"),
         sympy.Integral(sympy.exp(t**2), (t, 0, n)): (
