@@ -172,16 +172,12 @@ def pair_in_x(equation: Equation, y1: Expr, y2: Expr) -> tuple[Expr, Expr]:
     roots = {power for power in powers if power.free_symbols and not power.has(x) and not power.exp.is_Integer}
     real = {e: sympy.Dummy(real=True) for e in (*roots, *(first.free_symbols | second.free_symbols))}
     back = {letter: e for e, letter in real.items()}
-    re1, im1 = sympy.expand(first.xreplace(real), complex=True).as_real_imag()
-    re2, im2 = sympy.expand(second.xreplace(real), complex=True).as_real_imag()
-    pair = (re1 or im1, re2 or im2)
-    if 0 not in (re1, im1):
-        if sympy.expand(re1**2 - re2**2) != 0 or sympy.expand(im1**2 - im2**2) != 0:
-            return first, second
-        pair = (re1, im1)
-    elif 0 not in (re2, im2):
-        return first, second
-    if any(part.has(sympy.re, sympy.im, sympy.arg) for part in pair):
+    both = [sympy.expand(y.xreplace(real), complex=True).as_real_imag() for y in (first, second)]
+    parts = [[part for part in of_one if part != 0] for of_one in both]
+    pair = parts[0] + parts[1]
+    if len(pair) == 4 and all(sympy.expand(p**2 - q**2) == 0 for p, q in zip(*parts, strict=True)):
+        pair = parts[0]
+    if len(pair) != 2 or any(part.has(sympy.re, sympy.im, sympy.arg) for part in pair):
         return first, second
     y1, y2 = (sympy.factor_terms(part.xreplace(back)) for part in pair)
     return -y1 if y1.could_extract_minus_sign() else y1, -y2 if y2.could_extract_minus_sign() else y2

@@ -168,7 +168,7 @@ def _solved(S: RatFunc, T: RatFunc, orders: Sequence[_Order]) -> tuple[Poly, Rat
     """m, a and b by (2), for b = u B with u = sqrt(m) R and a polynomial B."""
     finite = [(place.factor, least) for place, least in orders if not place.at_infinity]
     (at_infinity,) = (least for place, least in orders if place.at_infinity)
-    poles = [(p, (least - least % 2) // 2) for p, least in finite]
+    poles = [(p, least // 2) for p, least in finite]
     one = S.field.poly([1])
     m = product_of([one, *(p for p, least in finite if least % 2)])
     degree = (-at_infinity - m.degree) // 2 - sum(order * p.degree for p, order in poles)

@@ -309,31 +309,22 @@ def _values(q: Any, r: Any, mu: Any) -> tuple[StandardSolution, StandardSolution
     """Two solutions, and the factor of the slit of the second where that is U."""
     rho = square_root(q)
     kappa = r / (2 * rho)
-    half = fmpq(1, 2)
 
-    def first(mu: Any) -> StandardSolution:
-        a = acb(half + mu - kappa)
+    def solution(mu: Any, *, is_tricomi: bool) -> StandardSolution:
+        a = acb(fmpq(1, 2) + mu - kappa)
         b = acb(1 + 2 * mu)
+        # 1F1' and U' are multiples of 1F1 and U with a + 1 and b + 1
+        function, multiple = (acb.hypgeom_u, -a) if is_tricomi else (acb.hypgeom_1f1, a / b)
 
         def value(z: acb) -> ValueAndSlope:
             decay = (-(rho * z)).exp()
             w = 2 * rho * z
-            F = w.hypgeom_1f1(a, b)
-            above = w.hypgeom_1f1(a + 1, b + 1)
-            return decay * F, decay * rho * (2 * a / b * above - F)
+            F = function(w, a, b)
+            return decay * F, decay * rho * (2 * multiple * function(w, a + 1, b + 1) - F)
 
         return value
 
-    if not is_integer(2 * mu):
-        return first(mu), first(-mu), None
-    a = acb(half + mu - kappa)
-    b = acb(1 + 2 * mu)
-
-    def second(z: acb) -> ValueAndSlope:
-        decay = (-(rho * z)).exp()
-        w = 2 * rho * z
-        U = w.hypgeom_u(a, b)
-        above = w.hypgeom_u(a + 1, b + 1)
-        return decay * U, -decay * rho * (U + 2 * a * above)
-
-    return first(mu), second, rho
+    first = solution(mu, is_tricomi=False)
+    if is_integer(2 * mu):
+        return first, solution(mu, is_tricomi=True), rho
+    return first, solution(-mu, is_tricomi=False), None
