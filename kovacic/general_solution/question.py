@@ -242,46 +242,15 @@ class _Read:
     guesses: tuple[str, ...] = ()
 
 
-@dataclass(frozen=True)
-class _Sought:
-    """The unknown function as the user gives it: `applied` is y(x), `name` is y; None what isn't given."""
-
-    applied: Any = None
-    name: Any = None
-
-    def function(self, unknown: str, variable: str) -> Expr:
-        """y(x), with these names for what isn't given."""
-        if self.applied is not None:
-            return self.applied
-        name = self.name
-        if name is None:
-            name = sympy.Function(unknown)
-        return name(sympy.Symbol(variable))
-
-    def function_in(self, eq: Any) -> Expr:
-        """y(x) in a SymPy equation."""
-        if self.applied is not None:
-            return self.applied
-        if self.name is not None:
-            return _applied_in(eq, self.name)
-        return _only_function(eq)
-
-
-def _sought(func: Any) -> _Sought:
-    """From y(x), y or None.  Raises `InputError` for anything else."""
-    if func is None:
-        return _Sought()
+def _sought(func: Any) -> tuple[Any, Any]:
+    """y(x) and y, None for what isn't given.  Raises `InputError` for what is neither."""
     if isinstance(func, str):
         func = _named(func)
-    if isinstance(func, AppliedUndef):
-        applied = func
-        name = func.func
-    else:
-        applied = None
-        name = func
-    if not isinstance(name, UndefinedFunction):
+    applied = func if isinstance(func, AppliedUndef) else None
+    name = func if applied is None else func.func
+    if name is not None and not isinstance(name, UndefinedFunction):
         raise InputError(f"{func!r} isn't a function", hint="give y(x), or y = Function('y')")
-    return _Sought(applied, name)
+    return applied, name
 
 
 def _named(text: str) -> Any:
@@ -295,33 +264,24 @@ def _named(text: str) -> Any:
 
 def _read_equation(eq: Any, func: Any, var: str | None, limits: Limits, names: Sequence[str]) -> _Read:
     """An equation that has been read, a text, or a SymPy equation.  Raises `InputError` for anything else."""
-    sought = _sought(func)
+    applied, name = _sought(func)
     if isinstance(eq, Equation):
-        return _Read(eq, sought.function(eq.unknown, eq.variable))
+        return _Read(eq, applied or (name or sympy.Function(eq.unknown))(sympy.Symbol(eq.variable)))
+    unknown: Any = None
     if isinstance(eq, str | Paste):
-        return _read_text(eq, sought, var, limits, names)
-    if not hasattr(eq, "free_symbols"):
+        var = var if applied is None else str(applied.args[0])
+        unknown = None if name is None else str(name)
+    elif hasattr(eq, "free_symbols"):
+        names = ()
+        applied = unknown = applied or (_only_function(eq) if name is None else _applied_in(eq, name))
+    else:
         raise InputError(f"{type(eq).__name__!r} isn't an equation", hint="give text or a SymPy equation")
-    function = sought.function_in(eq)
-    parsed = read_input(eq, var=var, limits=limits, exponentials=True, unknown=function, equation=True)
-    assert parsed.equation is not None
-    return _Read(parsed.equation, function, parsed.letters)
-
-
-def _read_text(text: str | Paste, sought: _Sought, var: str | None, limits: Limits, names: Sequence[str]) -> _Read:
-    """An equation as text; the unknown function may be given as y(x), or as y."""
-    if sought.applied is not None:
-        var = str(sought.applied.args[0])
-    unknown = None
-    if sought.name is not None:
-        unknown = str(sought.name)
-    parsed = read_input(text, var=var, limits=limits, exponentials=True, unknown=unknown, equation=True, names=names)
+    parsed = read_input(eq, var=var, limits=limits, exponentials=True, unknown=unknown, equation=True, names=names)
     equation = parsed.equation
     assert equation is not None
-    variable = equation.variable
-    if equation.change is not None:
-        variable = equation.change.variable
-    return _Read(equation, sought.function(equation.unknown, variable), parsed.letters, parsed.guesses)
+    variable = equation.variable if equation.change is None else equation.change.variable
+    function = applied or (name or sympy.Function(equation.unknown))(sympy.Symbol(variable))
+    return _Read(equation, function, parsed.letters, parsed.guesses)
 
 
 def _only_function(eq: Expr) -> Expr:

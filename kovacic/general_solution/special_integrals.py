@@ -5,7 +5,6 @@ References: DLMF 7.2(iii), 8.2, 25.12.
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from typing import Any
 
 import sympy
@@ -144,29 +143,3 @@ def _of_exponential(part: Expr, x: Expr) -> Expr | None:
     if known is not None:
         return known
     return incomplete_gamma(part, x)
-
-
-def without_crossings(e: Expr, x: Expr, own: Callable[[Expr], Expr] = sympy.sympify) -> Expr:
-    """With -E1(-u) for Ei(u) where u, linear in x, crosses the negative axis, the cut of both functions, at a real x.
-
-    The two differ by pi i on either side of the axis [DLMF 6.2.3], and -u crosses only the positive one.  What is known of
-    letters is that of those that `own` puts in their places.
-
-    >>> x = sympy.Symbol("x")
-    >>> print(without_crossings(sympy.Ei(sympy.I * x - 1) + sympy.Ei(sympy.I * x + 1), x))
-    Ei(I*x + 1) - expint(1, -I*x + 1)
-    """
-    integrals = [f for f in e.atoms(sympy.Ei) if _crosses_cut(own(f.args[0]), x)]
-    return e.xreplace({f: -sympy.expint(1, -f.args[0]) for f in integrals})
-
-
-def _crosses_cut(u: Expr, x: Expr) -> bool:
-    """Is u = m x + c with a complex m known to be negative where it is real, for real letters?"""
-    real = {symbol: sympy.Dummy(real=True) for symbol in u.free_symbols if symbol.is_real is None}
-    line = sympy.expand(u.xreplace(real), complex=True)
-    t = real.get(x, x)
-    across = sympy.im(line).expand()
-    if not across.has(t) or across.diff(t).has(t):
-        return False
-    crossing = t - across / across.diff(t)
-    return bool(sympy.re(line).expand().subs(t, sympy.expand(crossing)).is_negative)

@@ -20,7 +20,7 @@ A pair of solutions is changed before constants are given values:
 from __future__ import annotations
 
 from collections import defaultdict
-from collections.abc import Callable, Collection, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping
 from contextlib import suppress
 from itertools import chain, combinations
 from math import lcm
@@ -169,16 +169,12 @@ def _hyperbolic(value: Expr, x: Expr) -> Iterator[Expr]:
     fraction = sympy.fraction(sympy.cancel(sympy.together(value.xreplace(plain))))
     if not all(part.is_polynomial(*rate_of) for part in fraction):  # J(exp(x))
         return
-    for split in (_as_one, _by_letters):
-        parts = [_product([_symmetric(part, rate_of) for part in split(whole, rate_of)]) for whole in fraction]
-        if None in parts:
-            continue
-        (m, top), (n, bottom) = parts
-        if (m - n).has(x):  # decaying exponentials stay apart
-            continue
-        scale = exp(sympy.expand(m - n)) / bottom
-        yield scale * top
-        yield sympy.Add(*(scale * term for term in sympy.Add.make_args(sympy.expand(top))))
+    (m, top), (n, bottom) = (_symmetric_product(part, rate_of) for part in fraction)
+    if top is None or bottom is None or (m - n).has(x):  # decaying exponentials stay apart
+        return
+    scale = exp(sympy.expand(m - n)) / bottom
+    yield scale * top
+    yield sympy.Add(*(scale * term for term in sympy.Add.make_args(sympy.expand(top))))
 
 
 def _rates(exponent: Expr) -> dict[Expr, Expr]:
@@ -187,33 +183,25 @@ def _rates(exponent: Expr) -> dict[Expr, Expr]:
     return {rate: number for number, rate in terms}
 
 
-def _as_one(polynomial: Expr, letters: Collection[Expr]) -> list[Expr]:
-    return [polynomial]
+def _symmetric_product(polynomial: Expr, rate_of: Mapping[Expr, Expr]) -> tuple[Expr, Expr | None]:
+    """m, and the rest without e^m, by factors without common letters: X^2 - 1, which is sinh, stays whole.
 
-
-def _by_letters(polynomial: Expr, letters: Collection[Expr]) -> list[Expr]:
-    """Factors without common letters: X^2 - 1, which is sinh, stays whole."""
-    constant, polynomial = polynomial.as_independent(*letters, as_Add=False)  # SymPy can't sort powers a^n of letters
-    number, factors = sympy.factor_list(polynomial, *letters)
-    groups: list[Expr] = [constant * number]
+    None for the rest if a factor isn't symmetric.
+    """
+    constant, polynomial = polynomial.as_independent(*rate_of, as_Add=False)  # SymPy can't sort powers a^n of letters
+    number, factors = sympy.factor_list(polynomial, *rate_of)
+    groups: list[Expr] = []
     for base, k in factors:
-        common = [group for group in groups if group.free_symbols & base.free_symbols & {*letters}]
+        common = [group for group in groups if group.free_symbols & base.free_symbols & {*rate_of}]
         groups = [group for group in groups if group not in common] + [sympy.Mul(base**k, *common)]
-    return groups
-
-
-_Scaled = tuple[Expr, Expr]
-
-
-def _product(parts: Sequence[_Scaled | None]) -> Any:
-    """The sum of the m and the product of the sums of several (1); None if one isn't symmetric."""
+    parts = [_symmetric(group, rate_of) for group in groups]
+    if None in parts:
+        return sympy.S.Zero, None
     known = [part for part in parts if part is not None]
-    if len(known) < len(parts):
-        return None
-    return sympy.Add(*(m for m, _ in known)), sympy.Mul(*(total for _, total in known))
+    return sympy.Add(*(m for m, _ in known)), sympy.Mul(constant * number, *(total for _, total in known))
 
 
-def _symmetric(part: Expr, rate_of: Mapping[Expr, Expr]) -> _Scaled | None:
+def _symmetric(part: Expr, rate_of: Mapping[Expr, Expr]) -> tuple[Expr, Expr] | None:
     """m, and the sum (1) without e^m, for a polynomial in the letters that stand for e^rate; None if it isn't symmetric."""
     terms = dict(sympy.Poly(part, *rate_of).terms())
     centre = [sympy.Rational(sum(column), len(terms)) for column in zip(*terms, strict=True)]

@@ -22,7 +22,6 @@ from kovacic.general_solution.antiderivatives import antiderivative
 from kovacic.general_solution.basis import Basis, definition, rates, with_single_waves
 from kovacic.general_solution.continuity import jumps
 from kovacic.general_solution.integrands import prepared
-from kovacic.general_solution.special_integrals import without_crossings
 from kovacic.general_solution.steps import JUMPING
 from kovacic.general_solution.substitution import size
 from kovacic.general_solution.textbook import is_constant
@@ -95,12 +94,24 @@ def _known_integrals(basis: Basis, integrands: Sequence[Expr]) -> list[Any]:
     """
     known: list[Any] = [None for _ in integrands]
     with suppress(LimitExceeded):
-        found = [antiderivative(integrand, basis.x) for integrand in integrands]
-        known = [integral and without_crossings(integral, basis.x, basis.own) for integral in found]
+        known = [_without_crossings(basis, antiderivative(integrand, basis.x)) for integrand in integrands]
     functions = set().union(*(integral.atoms(*_COMPLEX) for integral in known if integral is not None))
     if sum(bool(f.has(sympy.I)) for f in functions) <= _MOST_COMPLEX:
         return known
     return [None for _ in integrands]
+
+
+def _without_crossings(basis: Basis, e: Expr | None) -> Expr | None:
+    """With -E1(-u) for Ei(u) where u crosses the negative axis, the cut of both functions, at an ordinary point.
+
+    The two differ by pi i on either side of the axis [DLMF 6.2.3], and -u crosses only the positive one.
+    """
+    if e is None:
+        return None
+    complex_ones = [f for f in e.atoms(sympy.Ei) if f.has(sympy.I)]
+    poles = [basis.own(rate) for rate in basis.rates]
+    crossing = [f for f in complex_ones if jumps(basis.own(f), basis.x, [*poles, basis.own(1 / f.args[0])])]
+    return e.xreplace({f: -sympy.expint(1, -f.args[0]) for f in crossing})
 
 
 def _checked(basis: Basis, parts: Sequence[Any], right: Expr, coefficients: tuple[Expr, Expr]) -> Expr | None:

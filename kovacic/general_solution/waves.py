@@ -135,7 +135,9 @@ def fractions_of_waves(e: Expr, x: Expr) -> list[Expr]:
     Of sin(x)^2/cos(x) - 1/(2 cos(x)) the second form is 1/(2 cos(x)) - cos(x), which has a multiple of cos(x) to be left out.
     """
     e = sympy.expand(TR2(e))
-    kept = {sympy.Dummy(): f for f in e.atoms(sympy.Function) if f.has(x) and not isinstance(f, sin | cos)}
+    kept = {
+        sympy.Dummy(): f for f in e.atoms(sympy.Function, sympy.Integral) if f.has(x) and not isinstance(f, sin | cos)
+    }
     masked = e.xreplace({f: letter for letter, f in kept.items()})
     waves = sorted(masked.atoms(sin, cos), key=str)
     theta = _common_angle(waves)

@@ -24,6 +24,7 @@ from kovacic.general_solution.substitution import finite_value
 from kovacic.general_solution.undetermined import undetermined
 from kovacic.general_solution.values import values_at
 from kovacic.general_solution.variation import DefiniteIntegral
+from kovacic.general_solution.waves import fractions_of_waves
 from kovacic.general_solution.zero import Zero, is_algebraic_zero, when_zero
 
 x, C1, C2, w = sympy.symbols("x C1 C2 w")
@@ -366,3 +367,11 @@ def test_what_is_called_an_antiderivative_is_one(seed: int) -> None:
         for point in ("1.37", "0.61", "2.9"):
             value, size = (complex(sympy.N(e.subs("x", sympy.Float(point, 30)), 20)) for e in (difference, integrand))
             assert abs(value) < 1e-9 * (1 + abs(size))
+
+
+def test_partial_fractions_of_waves_leave_integrands_alone() -> None:
+    """The waves in an integral that stays are not those beside it."""
+    integral = sympy.Integral(exp(x) * sin(x) ** 2 / cos(x), x)
+    forms = fractions_of_waves(integral * sin(x) ** 2 / cos(x) + exp(x), x)
+    assert forms
+    assert all(form.atoms(sympy.Integral) == {integral} for form in forms)
