@@ -15,7 +15,6 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
-from functools import reduce
 from math import lcm
 from typing import Any
 
@@ -30,7 +29,7 @@ from kovacic.general_solution.special_integrals import (
     incomplete_gamma,
 )
 from kovacic.general_solution.substitution import size
-from kovacic.general_solution.waves import beside_waves, by_coefficients, wave_changes
+from kovacic.general_solution.waves import beside_waves, by_coefficients, common_factor, wave_changes
 from kovacic.general_solution.zero import ball, samples
 from kovacic.limits import check_time
 
@@ -169,32 +168,23 @@ def _in_an_argument(term: Expr, x: Expr) -> Expr | None:
         inner = (term / u.diff(x)).subs(u, t)
         if u == log(x):
             inner = prepared(inner.subs(x, exp(t)))
-        if not inner.has(x) and not _leads_back(u, inner, t):
+        # where log(t) is left, exp(x) may come back
+        leads_back = u.has(exp) and any(not (f.args[0] / t).has(t) for f in inner.atoms(log))
+        if not inner.has(x) and not leads_back:
             found = _known(inner, t)
             if found is not None:
                 return in_powers(found, t, u.args[0]) if isinstance(u, log) else found.subs(t, u)
     return None
 
 
-def _leads_back(u: Expr, inner: Expr, t: Expr) -> bool:
-    """True for a change of variable whose inverse may come next: a power of x, or exp(x) where log(u) is left."""
-    if u.is_rational_function() or (u.is_Pow and not isinstance(u, exp)):
-        return True
-    return u.has(exp) and any(not (f.args[0] / t).has(t) for f in inner.atoms(log))
-
-
 def _in_exponentials(term: Expr, x: Expr) -> Expr | None:
     """In u = exp(k x), for which x is written."""
     term = sympy.expand(term)
-    slopes = {e: e.args[0].diff(x) for e in term.atoms(exp) if e.args[0].subs(x, 0) == 0}
-    rates = {
-        e: slope for e, slope in slopes.items() if slope != 0 and not slope.has(x)
-    }  # exp(sin(x)) isn't one of them
-    first, *_ = *rates.values(), None
-    ratios = [rate / first for rate in rates.values()]
-    if not ratios or not all(ratio.is_Rational for ratio in ratios):
+    slopes = {e: e.args[0].diff(x) for e in term.atoms(exp) if e.has(x) and e.args[0].subs(x, 0) == 0}
+    rates = {e: slope for e, slope in slopes.items() if not slope.has(x)}  # exp(sin(x)) isn't one of them
+    k = common_factor([*rates.values()])
+    if k is None:
         return None
-    k = first * reduce(sympy.gcd, ratios)  # gcd_list stops at 1, though 1/2 may follow
     # One u for all terms, or logarithms that cancel would stay; polynomials in it under roots and in logarithms.
     k = -k if k.could_extract_minus_sign() else k
     inner = {e for a in (*radicands(term), *(f.args[0] for f in term.atoms(log))) for e in a.atoms(exp)}
@@ -206,14 +196,10 @@ def _in_exponentials(term: Expr, x: Expr) -> Expr | None:
     if in_u.has(x):
         return None
     integrand = prepared(in_u.xreplace({u: x}))
-    found = integral_of_fraction(integrand, x) or by_coefficients(integrand, x)
+    found = integral_of_fraction(integrand, x)
     if found is None and not integrand.has(log(x)):  # in t = log(u) exponentials would come back
         found = _known(integrand, x)
     return None if found is None else found.subs(x, exp(k * x))
-
-
-def _has_roots_in_all_functions_by_parts(term: Expr, _: Expr) -> bool:
-    return all(radicands(f) for f in term.atoms(*_BY_PARTS))
 
 
 def _in_a_root(term: Expr, x: Expr) -> Expr | None:
@@ -376,7 +362,11 @@ _RULES = (
         beside_waves,
     ),
     _Rule("int q + (a + b s)/c dx where the second part isn't elementary", _has_waves, _beside_tangents),
-    _Rule("int f(x, u^(1/q)) dx for u = a x + b: in t = u^(1/q)", _has_roots_in_all_functions_by_parts, _in_a_root),
+    _Rule(
+        "int f(x, u^(1/q)) dx for u = a x + b: in t = u^(1/q)",
+        lambda e, x: all(radicands(f) for f in e.atoms(*_BY_PARTS)),
+        _in_a_root,
+    ),
     _Rule("int P g dx = P G - int P' G dx", lambda e, x: True, _powers_by_parts),
     _Rule("int f(x) cos(u) dx: Ei, erf and gamma functions of complex arguments", _has_waves, in_complex_exponentials),
     _Rule("int x^s exp(c x^m) dx: incomplete gamma functions", lambda e, x: True, incomplete_gamma),

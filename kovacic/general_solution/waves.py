@@ -8,6 +8,7 @@ s = sin(theta) and c = cos(theta) for a linear theta = w x + phi.  A rational fu
 from __future__ import annotations
 
 from collections import defaultdict
+from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import reduce
 from typing import Any
@@ -105,7 +106,7 @@ def _single_waves(e: Expr) -> Expr:
 def wave_changes(term: Expr, x: Expr) -> list[WaveChange]:
     """The changes that make a term with waves rational, or a root of a wave stays; none where it has more than waves."""
     waves = sorted(term.atoms(sin, cos), key=str)
-    theta = _common_angle(waves)
+    theta = common_factor([wave.args[0] for wave in waves])
     if theta is None:
         return []
     s = sympy.Dummy()
@@ -118,15 +119,12 @@ def wave_changes(term: Expr, x: Expr) -> list[WaveChange]:
     return _changes(R, s, c, theta, x)
 
 
-def _common_angle(waves: list[Expr]) -> Expr | None:
-    """theta, of which the arguments of all waves are integer multiples; None where there is none."""
-    if not waves:
+def common_factor(multiples: Sequence[Expr]) -> Expr | None:
+    """The largest u of which all are integer multiples; None where there is none."""
+    ratios = [sympy.cancel(multiple / multiples[0]) for multiple in multiples]
+    if not ratios or not all(ratio.is_Rational for ratio in ratios):
         return None
-    first = waves[0].args[0]
-    ratios = [sympy.cancel(wave.args[0] / first) for wave in waves]
-    if not all(ratio.is_Rational for ratio in ratios):
-        return None
-    return first * reduce(sympy.gcd, ratios)
+    return multiples[0] * reduce(sympy.gcd, ratios)  # gcd_list stops at 1, though 1/2 may follow
 
 
 def fractions_of_waves(e: Expr, x: Expr) -> list[Expr]:
@@ -140,7 +138,7 @@ def fractions_of_waves(e: Expr, x: Expr) -> list[Expr]:
     }
     masked = e.xreplace({f: letter for letter, f in kept.items()})
     waves = sorted(masked.atoms(sin, cos), key=str)
-    theta = _common_angle(waves)
+    theta = common_factor([wave.args[0] for wave in waves])
     if theta is None or e.free_symbols != {x}:
         return []
     s, c = sympy.Dummy(), sympy.Dummy()
