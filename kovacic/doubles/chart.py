@@ -189,7 +189,6 @@ def _singular_ends(problem: NumericProblem, low: ExactPoint, high: ExactPoint) -
     at_high = False
     a = to_acb(low)
     b = to_acb(high)
-    systems = (problem.system, problem.further_poles)
     for root in problem.enclosures(_PREC):
         is_low = root.overlaps(a)
         is_high = root.overlaps(b)
@@ -197,7 +196,7 @@ def _singular_ends(problem: NumericProblem, low: ExactPoint, high: ExactPoint) -
         is_above_or_below = root.imag < a.imag or root.imag > b.imag
         is_outside = is_beside or is_above_or_below
         if not (is_low or is_high or is_outside):
-            raise InputError(f"the interval contains the singular point {name_of(systems, root)}")
+            raise InputError(f"the interval contains the singular point {name_of(problem.places, root)}")
         at_low = at_low or is_low
         at_high = at_high or is_high
     return at_low, at_high

@@ -462,7 +462,7 @@ def way_of(problem: NumericProblem) -> AnalyticWay:
     if equation is None:
         assert problem.embedded is not None
         atoms = _Letters(sympy.Symbol("the variable"))  # no parameter has this name
-        a, b, c = map(atoms.ratio, cleared(*problem.embedded.equation))
+        a, b, c = map(atoms.ratio, problem.embedded.equation)
         f = sympy.Integer(0)
     else:
         atoms = _Letters(sympy.Symbol(equation.variable))

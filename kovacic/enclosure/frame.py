@@ -213,15 +213,15 @@ def _first_meeting(system: System, a: ExactPoint, b: ExactPoint) -> tuple[str, f
                 return None
             share = min(inside, key=lambda ball: float(ball.mid()))
             if not (share.contains(0) or share.contains(1)):  # the ends were excluded exactly: else refine
-                return name_of([system], to_acb(a) + to_acb(step) * share), float(share.mid())
+                return name_of(system, to_acb(a) + to_acb(step) * share), float(share.mid())
         prec *= 2
 
 
-def name_of(systems: Sequence[System], point: acb) -> str:
+def name_of(system: System, point: acb) -> str:
     """The singular point in this ball, in words: its exact value where that is a short Gaussian rational, else 12 digits."""
     middle = midpoint(point)
     guess = ExactPoint(*(part.limit_denominator(_SHORT) for part in (middle.re, middle.im)))
-    if point.overlaps(to_acb(guess)) and any(system.is_singular(guess) for system in systems):
+    if point.overlaps(to_acb(guess)) and system.is_singular(guess):
         return str(guess)
     re, im = (part.mid().str(12, radius=False) + "..." for part in (point.real, point.imag))
     return re if point.imag.contains(0) else f"{re} + {im}i"

@@ -261,6 +261,10 @@ class Jets:
         """H."""
         return arb((1, self.e))
 
+    def local(self, poly: Any, error: arb) -> Local:
+        """A solution in the disc, off by at most that, and its derivative."""
+        return Local(self.centre, self.e, poly, error, error, fmpq(1), self.precision)
+
 
 class CoefficientField:
     """The coefficients as functions in balls."""
@@ -375,7 +379,7 @@ class CoefficientField:
         try:
             with series_length(terms):
                 values = self.all_values(acb_series([to_acb(centre), H]))
-                rows = [_coefficients(value) for value in values]
+                rows = [value.coeffs() if isinstance(value, acb_series) else [value] for value in values]
         except (ZeroDivisionError, ValueError):
             return None
         scale = acb(1) if self.coefficients.a == 1 else 1 / rows[0][0]
@@ -398,11 +402,6 @@ def _sizes(values: list[Any]) -> list[arb] | None:
     """Bounds of the absolute values; None where one isn't finite."""
     found = [abs(value).upper() for value in values]
     return found if all(size.is_finite() for size in found) else None
-
-
-def _coefficients(value: Any) -> list[Any]:
-    """Those of a series; a number is one, too."""
-    return value.coeffs() if isinstance(value, acb_series) else [value]
 
 
 def _rate(beta: arb, gamma: arb) -> arb:
@@ -438,7 +437,7 @@ class JetBasis:
             if self._own is not None:
                 total = total + self._own.poly
                 error += self._own.error
-            return _local(self.jets, total, error.upper())
+            return self.jets.local(total, error.upper())
 
     def matrix(self, x: ExactPoint) -> Matrix:
         """From (y, dy/du) at the centre to (y, dy/dx) at x, without the right-hand side."""
@@ -456,10 +455,6 @@ class JetBasis:
         return (acb(0), acb(0)) if self._own is None else self._own.state(x)
 
 
-def _local(jets: Jets, poly: Any, error: arb) -> Local:
-    return Local.of(jets.centre, jets.e, poly, (error, error), reach=fmpq(1), precision=jets.precision)
-
-
 def _solved(jets: Jets, start: tuple[int, int], *, right: bool) -> Local:
     """The solution with this start at the centre, with or without the right-hand side."""
     A, B, C, F = jets.parts
@@ -471,7 +466,7 @@ def _solved(jets: Jets, start: tuple[int, int], *, right: bool) -> Local:
     with working_precision(_ROUGH):
         rho = _defect(jets, values, right)
         error = (rho * jets.rate.exp()).upper()
-    return _local(jets, kind(values), error)
+    return jets.local(kind(values), error)
 
 
 def _defect(jets: Jets, values: list[Any], right: bool) -> arb:

@@ -90,14 +90,13 @@ class Embedded:
         return found
 
     @cached_property
-    def equation(self) -> tuple[RatFunc, RatFunc, RatFunc]:
-        """The coefficients of a z'' + b z' + c z = 0, z = g y."""
-        gamma = self.gauge or self.S * 0
-        return gamma * 0 + 1, -2 * gamma, gamma * gamma - gamma.derivative() - self.S
+    def equation(self) -> list[RatFunc]:
+        """Polynomials a, b and c of the user's equation."""
+        return cleared(*gauged(self.S, self.gauge or self.S * 0))
 
     def in_balls(self) -> list[arb_poly]:
-        """Polynomials a, b and c of the same, whose constants are real, at the working precision in force."""
-        return [arb_poly([c.real for c in self._embed(part.num).coeffs()]) for part in cleared(*self.equation)]
+        """The same, whose constants are real, at the working precision in force."""
+        return [arb_poly([c.real for c in self._embed(part.num).coeffs()]) for part in self.equation]
 
     def _embed(self, poly: Poly) -> acb_poly:
         """The polynomial at the working precision in force."""
@@ -109,6 +108,11 @@ class Embedded:
         assert isinstance(poly, FunctionPoly)
         balls = [to_ball(self.values[name]) for name in poly.field.names]
         return _at(poly.num, balls) * (1 / _at(poly.den, balls)[0])
+
+
+def gauged(S: RatFunc, gamma: RatFunc) -> tuple[RatFunc, RatFunc, RatFunc]:
+    """a, b and c of a z'' + b z' + c z = 0, where y'' = S y, z = g y and gamma = g'/g."""
+    return S * 0 + 1, -2 * gamma, gamma * gamma - gamma.derivative() - S
 
 
 def cleared(a: RatFunc, b: RatFunc, c: RatFunc, *others: RatFunc) -> list[RatFunc]:
@@ -226,36 +230,23 @@ class NumericProblem:
         return self.embedded is None or self.embedded.exact
 
     @cached_property
-    def further_poles(self) -> System:
-        """The poles of the gauge, and of a rational right-hand side, where S is regular: singular points of the user's
-        equation."""
-        functions = [] if self.gauge is None else [self.gauge]
-        if self._rational_right is not None and self.embedded is None:
-            functions.append(self._rational_right)
-        den = fmpz_poly([1])
-        own = fmpz_poly(list(self.system.den))
-        for function in functions:
-            part = fmpz_poly(list(System.of(function).den))
-            for known in (own, den):
-                while (common := part.gcd(known)).degree() > 0:
-                    part //= common
-            den *= part
+    def places(self) -> System:
+        """Its denominator vanishes at the singular points of the user's equation: the poles of S, the gauge and a rational
+        right-hand side."""
+        den = fmpz_poly(list(self.system.den))
+        functions = (self.gauge, self._rational_right) if self.embedded is None else ()
+        for part in (fmpz_poly(list(System.of(function).den)) for function in functions if function is not None):
+            den *= part // part.gcd(den)
         return System((), tuple(int(c) for c in den.coeffs()))
 
     @cached_property
     def equation(self) -> tuple[fmpq_poly, fmpq_poly, fmpq_poly]:
-        """The user's equation: with the gauge gamma, z'' - 2 gamma z' + (gamma^2 - gamma' - S) z = 0."""
-        num, den = (fmpq_poly(list(part)) for part in (self.system.num, self.system.den))
-        if self.gauge is None:
+        """Polynomials a, b and c of the user's equation."""
+        if self.gauge is None or self.S is None:
+            num, den = (fmpq_poly(list(part)) for part in (self.system.num, self.system.den))
             return den, fmpq_poly([]), -num
-        gamma = self.gauge
-        square = self.gauge * self.gauge - self.gauge.derivative()
-        parts = [part for function in (gamma, square) for part in (function.num, function.den)]
-        p, q, r, s = (part.rep for part in parts if isinstance(part, RationalPoly))
-        common = den
-        for other in (q, s):
-            common = common * other // common.gcd(other)
-        return common, -2 * p * (common // q), r * (common // s) - num * (common // den)
+        a, b, c = (part.num.rep for part in cleared(*gauged(self.S, self.gauge)) if isinstance(part.num, RationalPoly))
+        return a, b, c
 
     @cached_property
     def _rational_right(self) -> RatFunc | None:
@@ -273,7 +264,7 @@ class NumericProblem:
         """Those of the singular points of the user's equation: the poles of S, of the gauge and of a rational right-hand side,
         some perhaps several times."""
         if self.embedded is None:
-            return [root for system in (self.system, self.further_poles) for root, _ in system.roots("den", prec)]
+            return [root for root, _ in self.places.roots("den", prec)]
         functions = (self.embedded.S, self.embedded.gauge, self._rational_right)
         with working_precision(2 * prec):
             return [root for f in functions if f is not None for root, _ in self.embedded.poles(f)]
@@ -290,9 +281,7 @@ class NumericProblem:
         if self.embedded is not None:
             check_apart(self.enclosures(ctx.prec), to_acb(a), to_acb(b))
             return
-        check_segment(self.system, a, b)
-        if len(self.further_poles.den) > 1:
-            check_segment(self.further_poles, a, b)
+        check_segment(self.places, a, b)
 
     def singular_points(self, prec: int) -> list[ExactPoint]:
         """The midpoints of their enclosures, each once; on the real axis exactly where the singular point is."""

@@ -236,8 +236,7 @@ def local_solution(expansion: TaylorSeries, state: State) -> Local:
                 total += poly * (weight * unit)
                 errors = error_radii(arb((defect + 1, -expansion.w)), frame)
                 radii = [r + abs(factor).upper() * error for r, error in zip(radii, errors, strict=True)]
-        bounds = radii[0].upper(), radii[1].upper()
-        return Local.of(frame.centre, frame.e, total, bounds, reach=REACH, precision=precision)
+        return Local(frame.centre, frame.e, total, radii[0].upper(), radii[1].upper(), REACH, precision)
 
 
 def error_radii(defect: arb, frame: Frame) -> tuple[arb, arb]:

@@ -14,6 +14,7 @@ from abc import ABC, abstractmethod
 from bisect import bisect_left
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, field, replace
+from functools import cached_property
 from typing import Any, Protocol
 
 from flint import acb, acb_poly, arb, arb_poly
@@ -45,16 +46,15 @@ class Local:
     centre: ExactPoint
     e: int
     poly: Any
-    slope: Any
     error: arb
     slope_error: arb
     reach: Any
     precision: int
 
-    @classmethod
-    def of(cls, centre: ExactPoint, e: int, poly: Any, errors: tuple[arb, arb], *, reach: Any, precision: int) -> Local:
-        """With the derivative of the polynomial."""
-        return cls(centre, e, poly, poly.derivative(), *errors, reach, precision)
+    @cached_property
+    def slope(self) -> Any:
+        """The derivative of the polynomial."""
+        return self.poly.derivative()
 
     def state(self, x: ExactPoint) -> State:
         """(y, dy/dx); raises ArithmeticError outside of the disc."""

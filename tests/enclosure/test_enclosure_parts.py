@@ -271,7 +271,7 @@ class StraightStep:
         middle = self.enter + ExactPoint(Fraction(1, 2))
         y, dy = (value.real for value in state)
         poly = arb_poly([y + dy / 2, dy / 2])
-        return Local.of(middle, -1, poly, (arb(0), arb(0)), reach=fmpq(1), precision=64)
+        return Local(middle, -1, poly, arb(0), arb(0), fmpq(1), 64)
 
 
 class Straight(Way):
