@@ -249,27 +249,18 @@ def _follow(ball: Dynamics, force: Force, y: Array, rate: float) -> dict[str, An
     def change(states: Array) -> Array:
         return unsteadiness(states, np.array(ball.rates(force.slope, states)), rate)
 
-    if float(change(y)) < _STEADY:
-        steady = float(colatitude(y[3:6]))
-        return {
-            "_solution": _integrate(ball, force, y, rate, turns=0).sol,
-            "_cycle": 10 / rate,
-            "period": None,
-            "turning_points": (steady, steady),
-            "approach": 1.0,
-            "determined": np.inf,
-        }
-    solution = _integrate(ball, force, y, rate, turns=4)
-    turns = solution.t_events[0]
-    distance = change(solution.y)
-    approach = float(distance.min() / distance.max())
+    approach = 1.0
     determined = np.inf
     period = None
-    if approach < _ASYMPTOTIC:
-        rough = _integrate(ball, force, y, rate, turns=4, tolerance=10 * _RELATIVE_TOLERANCE)
-        cycle = determined = _last_agreement(solution, rough, rate)
-        u = colatitude(solution.sol(np.array([0.0, *turns[turns < cycle], cycle]))[3:6])
+    if float(change(y)) < _STEADY:
+        solution = _integrate(ball, force, y, rate, turns=0)
+        cycle = 10 / rate
+        u = colatitude(y[3:6])
     else:
+        solution = _integrate(ball, force, y, rate, turns=4)
+        turns = solution.t_events[0]
+        distance = change(solution.y)
+        approach = float(distance.min() / distance.max())
         # x'' at two turning points: the period is known best between those where it is larger.
         p = solution.sol(turns[:2])
         f = np.array(ball.rates(force.slope, p))
@@ -277,6 +268,11 @@ def _follow(ball: Dynamics, force: Force, y: Array, rate: float) -> dict[str, An
         start = 0 if first >= second else 1
         cycle = period = float(turns[start + 2] - turns[start])
         u = colatitude(p[3:6])
+    if approach < _ASYMPTOTIC:
+        rough = _integrate(ball, force, y, rate, turns=4, tolerance=10 * _RELATIVE_TOLERANCE)
+        period = None
+        cycle = determined = _last_agreement(solution, rough, rate)
+        u = colatitude(solution.sol(np.array([0.0, *turns[turns < cycle], cycle]))[3:6])
     return {
         "_solution": solution.sol,
         "_cycle": cycle,

@@ -54,6 +54,15 @@ def zeros_inside(P: Any, E: Any, value: Any, bounds: Any) -> int | None:
         return None if any(part.contains(0) for part in real) else sum(bool(part > 0) for part in real)
 
 
+def real_roots(polynomial: Any, E: Any) -> list[Any]:
+    """The real zeros of a polynomial, each once, in order; with square roots where it is quadratic in E^2."""
+    squares, *inner = sympy.decompose(polynomial, E)
+    if inner != [E**2] or sympy.degree(squares, E) != 2:
+        return [*dict.fromkeys(sympy.Poly(polynomial, E).real_roots())]
+    positive = [square for square in sympy.Poly(squares, E).real_roots() if not square.is_negative]
+    return sorted({sign * sympy.sqrt(square) for square in positive for sign in (1, -1)})
+
+
 def scaled(energy: Any, k: Any) -> Any:
     """k times an energy, the shortest of its forms."""
     return min((k * energy, sympy.factor(k * energy), sympy.expand(k * energy)), key=sympy.count_ops)
@@ -165,7 +174,7 @@ class Algebraic:
         polynomial = sympy.numer(sympy.together(self.polynomial.xreplace(values)))
         if not {symbol.name for symbol in polynomial.free_symbols} <= {energy}:
             return
-        for value in dict.fromkeys(sympy.Poly(polynomial, E).real_roots()):
+        for value in real_roots(polynomial, E):
             number = zeros_inside(here.P, E, value, here.range)
             if number is not None:
                 yield BoundState(number, value, self.wave.xreplace(values).subs(E, value), number)
