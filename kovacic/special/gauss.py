@@ -334,8 +334,9 @@ def _named(form: _GaussForm) -> tuple[Expr, Expr]:
     if c == 1 and {a, b} == {half, -half}:
         return sympy.pi / 2, sympy.elliptic_e(z)
     if c == 1 and sympy.expand(a + b) == 1:
-        degree = -b if (-a).could_extract_minus_sign() else -a
-        P = sympy.legendre(degree, sympy.expand(1 - 2 * z))
+        middle = sympy.expand(half - a)  # P_nu is P_(-1-nu)
+        degree = (-middle if middle.could_extract_minus_sign() else middle) - half
+        P = sympy.legendre(sympy.expand(degree), sympy.expand(1 - 2 * z))
         if isinstance(P, sympy.legendre):
             return sympy.S.One, P
     return sympy.S.One, writer.hypergeometric(top, (1 - form.alpha,), z)

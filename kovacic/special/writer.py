@@ -389,7 +389,8 @@ def _by_argument(F: Expr) -> tuple[Expr, Expr, Expr] | None:
         return zero, Mul(*F.ap) / Mul(*F.bq), hypergeometric(above, below, z)
     if isinstance(F, sympy.legendre):  # (t^2 - 1) P_nu' = nu (t P_nu - P_(nu-1))
         nu = F.args[0]
-        return nu * z / (z**2 - 1), -nu / (z**2 - 1), sympy.legendre(nu - 1, z)
+        other = -nu if nu.is_negative else nu - 1  # P_(nu - 1) is P_(-nu)
+        return nu * z / (z**2 - 1), -nu / (z**2 - 1), sympy.legendre(other, z)
     if isinstance(F, sympy.elliptic_k):  # 2 m (1 - m) K' = E - (1 - m) K [DLMF 19.4.1]
         return -1 / (2 * z), 1 / (2 * z * (1 - z)), sympy.elliptic_e(z)
     if isinstance(F, sympy.elliptic_e):  # 2 m E' = E - K
