@@ -132,8 +132,8 @@ class Gauss(StandardEquation):
                     return _jacobi(signed)
             even = next((signed for signed in signed_forms if signed.alpha == signed.beta), None)
             if even is not None and any(map(writer.has_letters, (even.alpha, even.degree))):
-                # Independent for all values of the letters; real between the two points.
-                return writer.pair(*_even_and_odd(even), even.bracket_of_parity, around_zero=True)
+                # Independent for all values of the letters.
+                return _by_parity(even)
         if any(writer.is_integer(form.degree) for form in first.signs):
             return _reducible(writer, forms)
         if not writer.is_integer(first.alpha):
@@ -373,7 +373,7 @@ def _reducible(writer: Writer, forms: list[_GaussForm]) -> WrittenPair | None:
     signed_forms = [signed for form in forms for signed in form.signs]
     even = next((form for form in signed_forms if form.alpha == form.beta), None)
     if even is not None:
-        return writer.pair(*_even_and_odd(even), even.bracket_of_parity)
+        return _by_parity(even)
     for form in signed_forms:  # the larger exponents at 0 and at 1, and no polynomial
         are_natural = writer.is_natural(-form.alpha) and writer.is_natural(-form.beta)
         if are_natural and all(writer.is_natural(a - 1) or not writer.is_integer(a) for a in form.upper):
@@ -430,6 +430,11 @@ def _gegenbauer(form: _GaussForm) -> WrittenPair:
         bracket *= scale * writer.argument(4 * form.f * (1 - form.f)) ** (a / 2)
     shown = polynomial.as_independent(writer.atoms.x, as_Add=False)[1]  # P_N(-z) is (-1)^N P_N(z)
     return writer.pair((before, shown), second, lambda: bracket * shown / polynomial)
+
+
+def _by_parity(form: _GaussForm) -> WrittenPair:
+    """Both, with powers that are real between the two points, or at 0."""
+    return form.writer.pair(*_even_and_odd(form), form.bracket_of_parity, real_at=form.middle or 0)
 
 
 def _even_and_odd(form: _GaussForm) -> tuple[WrittenTerm, WrittenTerm]:

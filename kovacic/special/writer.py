@@ -161,18 +161,17 @@ class Writer:
         bracket: Callable[[], Expr] | None = None,
         undefined: Iterable[Number] = (),
         *,
-        around_zero: bool = False,
         real_at: Expr | None = None,
     ) -> WrittenPair:
         """The solutions P1 F1 and P2 F2, the one with fewer factors first.
 
         `bracket` gives (P2'/P2 - P1'/P1) F1 F2 + F1 F2' - F1' F2, which doesn't change with constant factors of P1 and P2:
         times P1 P2 it is the Wronskian.  A member has no value where one of the numbers `undefined` is an integer.
-        With `around_zero` roots of x^2 - a are those of a - x^2; with `real_at` the powers are real at that point.
+        With `real_at` the powers are real at that point.
         """
         if self.transform is not None:
             return WrittenPair(self._combined(self.transform, *first), self._combined(self.transform, *second))
-        P, Q = (Mul(display(f.product, self.atoms, around_zero=around_zero), *f.others) for f, _ in (first, second))
+        P, Q = (Mul(display(f.product, self.atoms), *f.others) for f, _ in (first, second))
         if real_at is not None:
             P, Q = (_real_at(factor, self.atoms.x, real_at) for factor in (P, Q))
         y, z = P * first[1], Q * second[1]
