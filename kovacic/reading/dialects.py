@@ -4,7 +4,7 @@
 belongs to it, and writes tokens of the parser's grammar; what has to stand behind a bracket or a factor that is still to be
 read is kept in `closers` until then.  Linear time, no recursion; every token keeps its place in the user's text.
 
->>> translated("", Scan(scanned(r"\\frac{d^2y}{dx^2} = x^{2} \\sin^2 \\omega x"))).pieces
+>>> translated("", Tokens(scanned(r"\\frac{d^2y}{dx^2} = x^{2} \\sin^2 \\omega x"))).pieces
 ['diff', '(', 'y', ',', 'x', ',', '2', ')', '=', 'x', '^', '(', '2', ')', 'sin', '(', 'omega', 'x', ')', '^', '2', '']
 """
 
@@ -22,13 +22,12 @@ from kovacic.reading.lexer import (
     PRIMES,
     SUPERSCRIPT_DIGITS,
     Token,
-    Tokens,
     error_at,
     scanned,
     unexpected,
 )
 from kovacic.reading.names import BARE, FUNCTION_NAMES, GREEK, LETTER, SPECIAL_LETTERS, STEPS, is_function, unglued
-from kovacic.reading.notations import CLOSING, LATEX, NOTATIONS, OPENING, Scan, primes_of, rewritten
+from kovacic.reading.notations import CLOSING, LATEX, NOTATIONS, OPENING, Tokens, primes_of, rewritten
 
 _SIGN_KINDS = {
     "+": "PLUS",
@@ -89,13 +88,13 @@ _EXAMPLE = "write for example (x^2 + 1)/(2*x), y''"
 class _Latex:
     """The tokens of a text in LaTeX as those of other texts: letters are names, commands are signs and words."""
 
-    def __init__(self, text: str, scan: Scan) -> None:
+    def __init__(self, text: str, scan: Tokens) -> None:
         self.text = text
         self.scan = scan
-        self.found = Scan()
+        self.found = Tokens()
         self.k = 0
 
-    def ordinary(self) -> Scan:
+    def ordinary(self) -> Tokens:
         while self.k < len(self.scan):
             token = self.scan[self.k]
             self.k += 1
@@ -190,13 +189,13 @@ def _is_name(text: str) -> bool:
     return (len(bare) == 1 and bare.isalpha()) or bare in GREEK or bare in SPECIAL_LETTERS
 
 
-def translated(text: str, scan: Scan, *, condition: bool = False) -> Tokens:
+def translated(text: str, scan: Tokens, *, condition: bool = False) -> Tokens:
     """The tokens of an expression or equation, in which `NOTATIONS` are rewritten but for those that LaTeX hides.
 
     Those of a `condition` have the unknown function at points.  Raises `ParseError` for what has no meaning in any notation.
     """
     if scan.has("\n"):
-        scan = Scan(token for token in scan if token.kind != "NEWLINE")
+        scan = Tokens(token for token in scan if token.kind != "NEWLINE")
     has_braces = scan.has("{") and any(
         b.text == "{" and (a.text == "^" or a.text.endswith("_")) for a, b in pairwise(scan)
     )
@@ -209,7 +208,7 @@ def translated(text: str, scan: Scan, *, condition: bool = False) -> Tokens:
 class _Translation:
     """One pass over the tokens, number `k` of which is the next one."""
 
-    def __init__(self, text: str, scan: Scan, *, latex: bool, condition: bool) -> None:
+    def __init__(self, text: str, scan: Tokens, *, latex: bool, condition: bool) -> None:
         self.text = text
         self.scan = scan
         #: Of the tokens, and of nothing behind them.
@@ -218,7 +217,7 @@ class _Translation:
         self.latex = latex
         self.condition = condition
         self.k = 0
-        self.found: list[tuple[str, str, int, int]] = []
+        self.found: list[Token] = []
         #: The numbers in `found` of the parentheses that are open, and of the one that was closed last.
         self.opened: list[int] = []
         self.closed = 0
@@ -251,7 +250,7 @@ class _Translation:
             token.kind == "PRIMES" and DOTS in token.text for token in self.scan
         )
         variable = "t" if has_dots else None
-        return Tokens.of(self.text, [*self.found, ("$END", "", end, end)], variable)
+        return Tokens([*self.found, Token("$END", "", end, end)], self.text, variable)
 
     def write(self, kind: str, piece: str, token: Token | None = None) -> None:
         """A token where the `token` stands, or behind what was written before."""
@@ -262,7 +261,7 @@ class _Translation:
             self.opened.append(len(self.found))
         elif kind == "RPAR":
             self.closed = self.opened.pop() if self.opened else -1
-        self.found.append((kind, piece, token.start, token.end))
+        self.found.append(Token(kind, piece, token.start, token.end))
 
     def close(self) -> None:
         for kind, piece in self.closers.pop(self.k, ()):
@@ -383,7 +382,7 @@ class _Translation:
             return False
         kind, name, start, end = self.found[max(0, self.closed - 1)]
         if kind == "HEAD":
-            self.found[self.closed - 1] = (kind, name + primes_of(token.text), start, end)
+            self.found[self.closed - 1] = Token(kind, name + primes_of(token.text), start, end)
             self.k += 1
             return True
         for _ in primes_of(token.text):
@@ -400,7 +399,7 @@ class _Translation:
             if first and self.found[first - 1][0] == "HEAD":
                 first -= 1
         start = self.found[first][2]
-        self.found[first:first] = [("HEAD", "diff", start, start), ("LPAR", "(", start, start)]
+        self.found[first:first] = [Token("HEAD", "diff", start, start), Token("LPAR", "(", start, start)]
         self.opened.append(first + 1)
 
     def function(self, token: Token) -> bool:
@@ -491,7 +490,7 @@ class _Translation:
             self.skipped.add(self.partner[k])  # y{\left(x\right)}, as SymPy prints it
             return True
         if self.is_application(token, k):
-            self.found[-1] = ("HEAD", *self.found[-1][1:])
+            self.found[-1] = self.found[-1]._replace(kind="HEAD")
         self.write("LPAR", "(", token)
         return True
 
@@ -605,4 +604,4 @@ def _bars(scan: Sequence[Token]) -> dict[int, int]:
 
 def tokenize(text: str) -> Tokens:
     """The tokens of an expression.  Raises `ParseError` for what has no meaning."""
-    return translated(text, rewritten(Scan(scanned(text)), NOTATIONS))
+    return translated(text, rewritten(Tokens(scanned(text)), NOTATIONS))

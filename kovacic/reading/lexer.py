@@ -1,7 +1,7 @@
 """Text into one stream of tokens: signs, numbers and words as anybody types them, each with its place in the text.
 
 `scanned` is the only reader of characters.  It knows alphabets and typography (dashes, curved primes, x in italics, dots above
-letters, raised and lowered characters), and no notation: that is `dialects`, which makes `Tokens` for the parser.
+letters, raised and lowered characters), and no notation: that is `notations` and `dialects`.
 """
 
 from __future__ import annotations
@@ -9,12 +9,10 @@ from __future__ import annotations
 import re
 import unicodedata
 from collections.abc import Sequence
-from dataclasses import dataclass
-from functools import cached_property
 from itertools import groupby
 from typing import NamedTuple
 
-from kovacic.errors import InputError, LimitExceeded, ParseError
+from kovacic.errors import LimitExceeded, ParseError
 from kovacic.limits import Limits
 
 PRIMES = "'"
@@ -128,60 +126,6 @@ def _ordinary(text: str, k: int) -> str:
 def _kind_of(character: str) -> str:
     """ "<super", "<sub", "<font" or the like for a character that is another one in another style."""
     return unicodedata.decomposition(character).partition(">")[0]
-
-
-@dataclass(frozen=True)
-class Tokens:
-    """The tokens of an expression: token k is `pieces[k]`, of the kind `kinds[k]`; the last one is `$END`, and empty.
-
-    They stand in `text`, which the user gave, from `starts` to `ends`.
-    """
-
-    text: str
-    kinds: list[str]
-    pieces: list[str]
-    starts: list[int]
-    ends: list[int]
-    #: The variable that the notation stands for where none is named.
-    variable: str | None = None
-
-    @classmethod
-    def of(cls, text: str, rows: Sequence[tuple[str, str, int, int]], variable: str | None = None) -> Tokens:
-        """The tokens in these rows of a kind, a piece and its place; the last row is that of `$END`."""
-        kinds, pieces, starts, ends = map(list, zip(*rows, strict=True))
-        return cls(text, kinds, pieces, starts, ends, variable)
-
-    def rows(self) -> list[tuple[str, str, int, int]]:
-        return list(zip(self.kinds, self.pieces, self.starts, self.ends, strict=True))
-
-    @cached_property
-    def spaced(self) -> str:
-        """The tokens as one text, a space between them, for patterns; "x^2" is "x ^ 2 "."""
-        return " ".join(self.pieces)
-
-    def number(self, offset: int) -> int:
-        """The number of the token with this character of `spaced`."""
-        return self.spaced.count(" ", 0, offset)
-
-    def are(self, k: int, *kinds: str) -> bool:
-        return self.kinds[k : k + len(kinds)] == [*kinds]
-
-    def piece(self, begin: int, end: int) -> str:
-        return self.text[self.starts[begin] : self.ends[end - 1]] if end > begin else ""
-
-    def error(self, kind: type[InputError], message: str, begin: int, end: int, **hints: str | None) -> InputError:
-        """An error at the tokens begin, ..., end - 1; `hints` are hint and shell."""
-        length = max(1, self.ends[end - 1] - self.starts[begin])
-        return kind(message, text=self.text, position=self.starts[begin], length=length, **hints)
-
-    @cached_property
-    def names(self) -> dict[str, int]:
-        """The different plain names in order of appearance, each with the number of its first token."""
-        found: dict[str, int] = {}
-        for k, kind in enumerate(self.kinds):
-            if kind == "NAME":
-                found.setdefault(self.pieces[k], k)
-        return found
 
 
 _CHARACTER_HINTS = {

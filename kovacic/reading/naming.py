@@ -11,14 +11,16 @@ from __future__ import annotations
 import re
 from collections import Counter
 from collections.abc import Collection, Iterator, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
+from itertools import pairwise
 from string import digits
 from typing import NamedTuple
 
 from kovacic.equation import DEFAULT_VARIABLE, ENERGY, EULER, UNKNOWN
 from kovacic.errors import InputError, ParseError
-from kovacic.reading.lexer import DERIVATIVES, PRIMES, Tokens
+from kovacic.reading.lexer import DERIVATIVES, PRIMES, Token
 from kovacic.reading.names import FUNCTION_NAMES, NUMBER_CALLS, NUMBER_NAMES, is_function, is_letter, unglued
+from kovacic.reading.notations import Tokens, pattern
 
 #: Names that stand for the variable where they are the only one; others might be parameters of an equation in x.
 USUAL_VARIABLES = frozenset("xtzsruXTZθφτξρζ") | {"theta", "phi", "tau", "xi", "rho", "zeta"}
@@ -31,11 +33,11 @@ _USUAL_UNKNOWNS = frozenset("xyzuvwqf")
 _NO_VARIABLES = frozenset({*NUMBER_NAMES, ENERGY, "e", "D"})
 OPERATOR = "D"
 _NAME = r"[^\W\d]\w*"
-_ROOT = re.compile(r"\^ 1 / (\d+)(?!\S)")
-_STIFFNESS = re.compile(r"(?<!\S)(?:E (?:\* )?I|I (?:\* )?E)(?!\S| \()")
-_EXPONENT = re.compile(rf"(?<!\S)e \^ (- )?[\d.]+ ({_NAME})(?!\S| \()")
-_PRIMED = re.compile(rf"(?<!\S)({_NAME})'+(?!\S)")
-_DIFFERENTIATED = re.compile(rf"(?<!\S)(?:({_NAME})'+|(?:{'|'.join(DERIVATIVES)}) \((?= ({_NAME}) [(,)]))(?!\S)")
+_ROOT = pattern(r"\^ 1 / (\d+)")
+_STIFFNESS = pattern(r"(?:E (?:\* )?I|I (?:\* )?E)(?! \()")
+_EXPONENT = pattern(rf"e \^ (- )?[\d.]+ ({_NAME})(?! \()")
+_PRIMED = pattern(rf"({_NAME})'+")
+_DIFFERENTIATED = pattern(rf"({_NAME})'+|(?:{'|'.join(DERIVATIVES)}) \((?= ({_NAME}) [(,)])")
 _NAME_KINDS = ("NAME", "PRIMED", "HEAD")
 
 
@@ -88,9 +90,10 @@ class Vocabulary:
         notes = [why] if why is not None and why not in guesses else []
         named = _with_factors(split, x, y)
         if has_operator:
-            kinds = ["OPERATOR" if row[:2] == ("NAME", OPERATOR) else row[0] for row in named.rows()]
-            pieces = [x if kind == "OPERATOR" else piece for kind, piece in zip(kinds, named.pieces, strict=True)]
-            named = replace(named, kinds=kinds, pieces=pieces)
+            are_operators = [token[:2] == ("NAME", OPERATOR) for token in named]
+            derived = zip(named, are_operators, strict=True)
+            new = [token._replace(kind="OPERATOR", text=x) if is_one else token for token, is_one in derived]
+            named = Tokens(new, tokens.text, tokens.variable)
         return Named(named, x, y, (*notes, *guesses), tuple(guesses))
 
     def S(self, tokens: Tokens) -> Named:
@@ -120,7 +123,7 @@ class Vocabulary:
         ]
         if not unknown:
             return tokens, []
-        rows = tokens.rows()
+        rows = list(tokens)
         notes: dict[str, None] = {}
         for k in reversed(unknown):
             kind, piece, start, end = rows[k]
@@ -131,8 +134,8 @@ class Vocabulary:
                 hint = f"write ({name[0]}*{name[1]}) for the product"
                 raise tokens.error(ParseError, f"{name} in an exponent can be read in two ways", k, k + 1, hint=hint)
             notes[f"{name} was read as {name[0]}*{name[1]}"] = None
-            rows[k : k + 1] = [("NAME", name[0], start, start + 1), (kind, piece[1:], start + 1, end)]
-        return Tokens.of(tokens.text, rows, tokens.variable), list(reversed(notes))
+            rows[k : k + 1] = [Token("NAME", name[0], start, start + 1), Token(kind, piece[1:], start + 1, end)]
+        return Tokens(rows, tokens.text, tokens.variable), list(reversed(notes))
 
     def _is_known(self, tokens: Tokens, k: int, x: str, y: str) -> bool:
         name = tokens.pieces[k].rstrip(PRIMES)
@@ -183,8 +186,8 @@ def _divided_functions(tokens: Tokens) -> Iterator[str]:
             opened.append(k)
         elif kind == "RPAR" and opened:
             first = opened.pop() - 1
-            is_bare = tokens.starts[k] == tokens.ends[k] and tokens.kinds[first] == "HEAD"
-            if is_bare and tokens.are(k + 1, "SLASH") and tokens.ends[k - 1] == tokens.starts[k + 1]:
+            is_bare = tokens[k].start == tokens[k].end and tokens.kinds[first] == "HEAD"
+            if is_bare and tokens.are(k + 1, "SLASH") and tokens[k - 1].end == tokens[k + 1].start:
                 function, below = tokens.piece(first, k), tokens.pieces[k + 2]
                 yield f"{function}/{below} was read as ({function})/{below}"
 
@@ -196,8 +199,7 @@ def _check_stiffness(tokens: Tokens, declared: Collection[str]) -> None:
         return
     hint = "take one letter for a stiffness, such as B; or declare I as a parameter: "
     said = "E I may be a stiffness, or an energy times the imaginary unit"
-    begin, last = tokens.number(found.start()), tokens.number(found.end())
-    raise tokens.error(ParseError, said, begin, last + 1, hint=f"{hint}parameters=['I']", shell=f"{hint}--names I")
+    raise tokens.error(ParseError, said, *tokens.span(found), hint=f"{hint}parameters=['I']", shell=f"{hint}--names I")
 
 
 def _check_decimals(tokens: Tokens, variable: str) -> None:
@@ -218,7 +220,8 @@ def _check_powers_of_ten(tokens: Tokens) -> None:
     for k in range(len(tokens.kinds) - 4):
         e, sign = tokens.pieces[k + 1 : k + 3]
         is_power = tokens.are(k, "NUMBER", "NAME") and e in ("e", "E") and sign in ("+", "-")
-        if is_power and tokens.are(k + 3, "NUMBER", "NAME") and tokens.ends[k : k + 4] == tokens.starts[k + 1 : k + 5]:
+        are_glued = all(a.end == b.start for a, b in pairwise(tokens[k : k + 5]))
+        if is_power and are_glued and tokens.are(k + 3, "NUMBER", "NAME"):
             number, rest = tokens.piece(k, k + 4), tokens.pieces[k + 4]
             hint = f"write {number}*{rest} for the decimal"
             raise tokens.error(ParseError, f"{number}{rest} can be read in two ways", k, k + 5, hint=hint)
@@ -227,12 +230,12 @@ def _check_powers_of_ten(tokens: Tokens) -> None:
 def _check_two_exponents(tokens: Tokens, unknown: str) -> None:
     """Raises `ParseError` for e^2x, which is e^(2x) or e^2 x."""
     for found in _EXPONENT.finditer(tokens.spaced):
-        e, last = tokens.number(found.start()), tokens.number(found.end())
-        if found[2] != unknown and tokens.ends[last - 1] == tokens.starts[last]:
-            power = tokens.piece(e + 2, last)
+        e, behind = tokens.span(found)
+        if found[2] != unknown and tokens[behind - 2].end == tokens[behind - 1].start:
+            power = tokens.piece(e + 2, behind - 1)
             hint = f"write e^({power}*{found[2]}) or e^({power})*{found[2]}"
-            whole = tokens.piece(e, last + 1)
-            raise tokens.error(ParseError, f"{whole} can be read in two ways", e, last + 1, hint=hint)
+            whole = tokens.piece(e, behind)
+            raise tokens.error(ParseError, f"{whole} can be read in two ways", e, behind, hint=hint)
 
 
 def _with_factors(tokens: Tokens, x: str, y: str) -> Tokens:
@@ -240,15 +243,15 @@ def _with_factors(tokens: Tokens, x: str, y: str) -> Tokens:
     if "HEAD" not in tokens.kinds:
         return tokens
     alone = {*tokens.names, x} - {y}
-    kinds = list(tokens.kinds)
+    rows = list(tokens)
     for k, kind in enumerate(tokens.kinds[:-3]):
         if kind != "HEAD":
             continue
         name = tokens.pieces[k]
         is_applied = tokens.are(k + 2, "NAME", "RPAR") or tokens.are(k + 2, "NUMBER", "RPAR")
         if name in alone and not is_applied and name not in FUNCTION_NAMES and name not in DERIVATIVES:
-            kinds[k] = "NAME"
-    return tokens if kinds == tokens.kinds else replace(tokens, kinds=kinds)
+            rows[k] = rows[k]._replace(kind="NAME")
+    return tokens if rows == tokens else Tokens(rows, tokens.text, tokens.variable)
 
 
 def _primed(tokens: Tokens, declared: Collection[str]) -> str | None:
@@ -323,8 +326,7 @@ def _single_letters(tokens: Tokens, declared: Collection[str]) -> list[str]:
 
 def argument_of(tokens: Tokens, unknown: str) -> str | None:
     """The name in y''(x), or in D(y, x) and Derivative(y, (x, 2)); None where the unknown function stands alone."""
-    pattern = rf"(?<!\S){re.escape(unknown)}'* (?:\( ({_NAME}) \)|, (?:\( )?({_NAME}))(?!\S)"
-    found = re.search(pattern, tokens.spaced)
+    found = pattern(rf"{re.escape(unknown)}'* (?:\( ({_NAME}) \)|, (?:\( )?({_NAME}))").search(tokens.spaced)
     return found and (found[1] or found[2])
 
 

@@ -1,6 +1,6 @@
 """Notations of other systems and of books, as a table: a few tokens of theirs, and the same in tokens of this package.
 
->>> [token.text for token in rewritten(Scan(scanned("(D@@2)(y)(x) + Sin[x] = 0")), NOTATIONS)]
+>>> [token.text for token in rewritten(Tokens(scanned("(D@@2)(y)(x) + Sin[x] = 0")), NOTATIONS)]
 ['y', "''", '(', 'x', ')', '+', 'sin', '[', 'x', ']', '=', '0']
 """
 
@@ -8,11 +8,12 @@ from __future__ import annotations
 
 import re
 from bisect import bisect_left
-from collections.abc import Callable, Collection, Sequence
+from collections.abc import Callable, Collection, Iterable, Sequence
 from functools import cached_property, lru_cache
 from itertools import accumulate, pairwise
 from typing import NamedTuple
 
+from kovacic.errors import InputError
 from kovacic.reading.lexer import DERIVATIVES, DOTS, PRIMES, Token, scanned
 from kovacic.reading.names import BARE, FUNCTION_NAMES, GREEK, LETTER
 
@@ -43,13 +44,50 @@ def pattern(text: str) -> re.Pattern[str]:
     return re.compile(rf"(?s)(?<!\S)(?:{_SIGN.sub(lambda sign: _PATTERN_SIGNS[sign[0]], text)})(?!\S)")
 
 
-class Scan(list[Token]):
-    """Tokens of a text in their order, with what rules ask about them; nothing is added to it once it is made."""
+class Tokens(list[Token]):
+    """Tokens in their order, with what rules, names and the parser ask about them; never changed once they are made.
+
+    The parser's stand in `text`, and the last one is `$END`, and empty; `variable` is what their notation stands for where
+    none is named.
+    """
+
+    def __init__(self, tokens: Iterable[Token] = (), text: str = "", variable: str | None = None) -> None:
+        super().__init__(tokens)
+        self.text = text
+        self.variable = variable
+
+    @cached_property
+    def kinds(self) -> list[str]:
+        return [token.kind for token in self]
+
+    @cached_property
+    def pieces(self) -> list[str]:
+        return [token.text for token in self]
+
+    @cached_property
+    def names(self) -> dict[str, int]:
+        """The different plain names in order of appearance, each with the number of its first token."""
+        found: dict[str, int] = {}
+        for k, token in enumerate(self):
+            if token.kind == "NAME":
+                found.setdefault(token.text, k)
+        return found
+
+    def are(self, k: int, *kinds: str) -> bool:
+        return self.kinds[k : k + len(kinds)] == [*kinds]
+
+    def piece(self, begin: int, end: int) -> str:
+        return self.text[self[begin].start : self[end - 1].end] if end > begin else ""
+
+    def error(self, kind: type[InputError], message: str, begin: int, end: int, **hints: str | None) -> InputError:
+        """An error at the tokens begin, ..., end - 1; `hints` are hint and shell."""
+        start = self[begin].start
+        return kind(message, text=self.text, position=start, length=max(1, self[end - 1].end - start), **hints)
 
     @cached_property
     def marks(self) -> frozenset[str]:
         """Texts and kinds of the tokens; PROSE for a word that means nothing, "_" for an index, "." for 1."""
-        found = {token.text for token in self} | {token.kind for token in self}
+        found = {*self.pieces, *self.kinds}
         for kind, text, _, _ in self:
             if kind == "WORD" and len(text) > 2:
                 found.add("PROSE" if text.isalpha() and text not in _KNOWN_WORDS else "_" if "_" in text else text)
@@ -107,8 +145,8 @@ class Rewrite(NamedTuple):
     #: What the words of the first group become, which stay where they are.
     kind: str = ""
 
-    def applied(self, scan: Scan) -> Scan:
-        found = Scan()
+    def applied(self, scan: Tokens) -> Tokens:
+        found = Tokens()
         done = 0
         for match in self.pattern.finditer(scan.spaced):
             first, behind = scan.span(match)
@@ -126,7 +164,7 @@ class Rewrite(NamedTuple):
         return found
 
 
-def rewritten(scan: Scan, rules: Sequence[Rewrite]) -> Scan:
+def rewritten(scan: Tokens, rules: Sequence[Rewrite]) -> Tokens:
     """The tokens after all rules, in their order."""
     for rule in rules:
         if not rule.marks.isdisjoint(scan.marks) and rule.pattern.search(scan.spaced):

@@ -19,7 +19,8 @@ from dataclasses import dataclass, field
 from typing import Any, NamedTuple
 
 from kovacic.errors import InputError, LimitExceeded, NotRational, ParseError
-from kovacic.reading.lexer import DERIVATIVES, PRIMES, SUPERSCRIPT_DIGITS, Token, Tokens, unexpected
+from kovacic.reading.lexer import DERIVATIVES, PRIMES, SUPERSCRIPT_DIGITS, unexpected
+from kovacic.reading.notations import Tokens
 
 # Strengths; no operation reaches beyond a parenthesis that is open.
 _OPEN, _SUM, _PRODUCT, _SIGN, _IMPLICIT, _POWER = range(6)
@@ -59,7 +60,7 @@ class Site:
     def located(self, error: Exception) -> Exception:
         """An error of the operation with its place in the text."""
         if isinstance(error, LimitExceeded):
-            where = f"{self.text()} at position {self.tokens.starts[self.begin]}"
+            where = f"{self.text()} at position {self.tokens[self.begin].start}"
             said = f"{error} while {where} was read" if error.limit == "seconds" else f"{where} would have {error}"
             return LimitExceeded(said, limit=error.limit)
         if isinstance(error, ZeroDivisionError):
@@ -268,8 +269,7 @@ class _Parser:
         self.complete(k)
         group = self.groups[-1]
         if not group.is_pair:
-            text = self.tokens.text
-            raise unexpected(text, Token("SIGN", self.pieces[k], self.tokens.starts[k], self.tokens.ends[k]))
+            raise unexpected(self.tokens.text, self.tokens[k])
         group.signs.append(self.pieces[k])
         group.arguments.append(self.operands.pop())
         return True
@@ -451,7 +451,7 @@ def _incomplete(tokens: Tokens, end: int, opened: Sequence[int]) -> _Fault:
 def _comma(tokens: Tokens, k: int) -> _Fault:
     """Of a comma outside calls, which may be that of a decimal, or separate values."""
     begin, hint = k, "decimals are written with a point, and one expression is one S"
-    if tokens.are(k - 1, "NUMBER", "COMMA", "NUMBER") and tokens.ends[k - 1] + 1 == tokens.starts[k + 1]:
+    if tokens.are(k - 1, "NUMBER", "COMMA", "NUMBER") and tokens[k - 1].end + 1 == tokens[k + 1].start:
         begin, whole, digits = k - 1, tokens.pieces[k - 1], tokens.pieces[k + 1]
         grouped = f"; digits aren't grouped: {whole}{digits}" if len(digits) == _GROUPED else ""
         hint = f"decimals are written with a point: {whole}.{digits}{grouped}"

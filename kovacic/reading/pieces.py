@@ -23,9 +23,9 @@ from typing import NamedTuple
 
 from kovacic.errors import ParseError
 from kovacic.reading.dialects import FRACTIONS, LAYOUT, translated
-from kovacic.reading.lexer import DERIVATIVES, PRIMES, Token, Tokens, error_at, scanned
+from kovacic.reading.lexer import DERIVATIVES, PRIMES, Token, error_at, scanned
 from kovacic.reading.names import is_function, is_letter
-from kovacic.reading.notations import AROUND, CLOSING, MAKERS, NOTATIONS, OPENING, SOLVERS, Scan, pattern, rewritten
+from kovacic.reading.notations import AROUND, CLOSING, MAKERS, NOTATIONS, OPENING, SOLVERS, Tokens, pattern, rewritten
 
 #: Words between an equation and what is said of it.
 _BETWEEN = frozenset("and with where subject such given for if at when".split())  # noqa: SIM905
@@ -50,7 +50,7 @@ class PastedPiece(NamedTuple):
     """
 
     role: str
-    scan: Scan
+    scan: Tokens
 
 
 class PlacedValue(NamedTuple):
@@ -69,7 +69,7 @@ class Paste:
     variable: str | None = None
     notes: tuple[str, ...] = ()
 
-    def scans(self, role: str) -> list[Scan]:
+    def scans(self, role: str) -> list[Tokens]:
         return [piece.scan for piece in self.pieces if piece.role == role]
 
     @cached_property
@@ -78,7 +78,7 @@ class Paste:
         return any(map(_is_equation, self.scans("equation")))
 
     @property
-    def beside(self) -> Scan | None:
+    def beside(self) -> Tokens | None:
         """What stands beside the one equation or expression: words, or another one."""
         scans = self.scans("equation")
         if len(scans) < 2:
@@ -112,19 +112,19 @@ def is_equation(text: str) -> bool:
     return taken_apart(text).is_equation
 
 
-def _plain_tokens(text: str) -> Scan:
+def _plain_tokens(text: str) -> Tokens:
     """The tokens in this package's notation, without comments, layout, and marks around the whole."""
-    scan = rewritten(Scan(scanned(text)), AROUND)
+    scan = rewritten(Tokens(scanned(text)), AROUND)
     is_displayed = scan.has(_DISPLAYS)  # as Wikipedia has its formulas
     if scan.has(LAYOUT):
-        scan = Scan(token for token in scan if token.text not in LAYOUT)
+        scan = Tokens(token for token in scan if token.text not in LAYOUT)
     found = rewritten(scan, NOTATIONS)
     is_name = len(found) > 2 and found[-2].kind == "WORD" and found[-2].end == found[-1].start  # y'
     is_around = (is_displayed and found.is_enclosed) or (_is_quoted(found) and not is_name)
-    return Scan(found[1:-1]) if is_around else found
+    return Tokens(found[1:-1]) if is_around else found
 
 
-def _statements(scan: Scan) -> Iterator[Scan]:
+def _statements(scan: Tokens) -> Iterator[Tokens]:
     """What stands between commas, semicolons, words and ends of lines that separate."""
     if scan and not scan.has(_SEPARATORS):
         yield scan
@@ -136,7 +136,7 @@ def _statements(scan: Scan) -> Iterator[Scan]:
     for k, token in enumerate(scan):
         depth = max(0, depth + (token.text in OPENING) - (token.text in CLOSING))
         if depth == 0 and token.text in _SEPARATORS and _SEPARATORS[token.text](scan, k, current, is_complete):
-            yield from [Scan(current)] * bool(current)
+            yield from [Tokens(current)] * bool(current)
             is_first = is_first and not current
             current, is_complete = [], False
         elif token.kind != "NEWLINE" and (current or is_first or token.text not in (*_FILLERS, *_BETWEEN)):
@@ -144,17 +144,17 @@ def _statements(scan: Scan) -> Iterator[Scan]:
                 not current and token.text in _WHOLE | _DECLARATIONS
             )
             current.append(token)
-    yield from [Scan(current)] * bool(current)
+    yield from [Tokens(current)] * bool(current)
 
 
-def _comma_separates(scan: Scan, k: int, *_: object) -> bool:
+def _comma_separates(scan: Tokens, k: int, *_: object) -> bool:
     """Not that of a decimal, 1,5: no blank about it between two numbers."""
     around = scan[max(0, k - 1) : k + 2]
     is_decimal = [token.kind for token in around] == ["NUMBER", "SIGN", "NUMBER"]
     return not is_decimal or around[0].end < around[2].start - 1
 
 
-def _line_separates(scan: Scan, k: int, current: list[Token], is_complete: bool) -> bool:
+def _line_separates(scan: Tokens, k: int, current: list[Token], is_complete: bool) -> bool:
     """Between two statements, each of which has an equals sign or solves something."""
     if not is_complete or {current[-1].text, scan[min(k + 1, len(scan) - 1)].text} & _UNFINISHED:
         return False
@@ -164,7 +164,7 @@ def _line_separates(scan: Scan, k: int, current: list[Token], is_complete: bool)
 
 
 #: What may separate statements, and when it does; Maple has colons behind them.
-_SEPARATORS: dict[str, Callable[[Scan, int, list[Token], bool], bool]] = {
+_SEPARATORS: dict[str, Callable[[Tokens, int, list[Token], bool], bool]] = {
     ";": lambda *_: True,
     ",": _comma_separates,
     ":": lambda scan, k, _, is_complete: is_complete and k + 1 < len(scan),
@@ -235,7 +235,7 @@ class _Apart:
         self.found: list[PastedPiece] = []
         self.variable: str | None = None
         #: Statements that have names.
-        self.named: dict[str, Scan] = {}
+        self.named: dict[str, Tokens] = {}
 
     def paste(self) -> Paste:
         statements = list(_statements(_plain_tokens(self.text)))
@@ -247,23 +247,23 @@ class _Apart:
                     self.add("equation", scan)
         return Paste(self.text, self.sorted_roles(), self.variable, tuple(self.notes))
 
-    def add(self, role: str, scan: Scan) -> None:
+    def add(self, role: str, scan: Tokens) -> None:
         self.found.append(PastedPiece(role, _without_eq(scan) if role == "equation" else scan))
 
-    def equations(self) -> list[Scan]:
+    def equations(self) -> list[Tokens]:
         return [piece.scan for piece in self.found if piece.role == "equation"]
 
     def written(self, scan: Sequence[Token]) -> str:
         return self.text[scan[0].start : scan[-1].end] if scan else ""
 
-    def without_surroundings(self, scan: Scan) -> Scan:
+    def without_surroundings(self, scan: Tokens) -> Tokens:
         """Without prompts, numbers of lists and equations, prose and punctuation."""
         for rule in SURROUNDINGS if scan[0].text not in _DECLARATIONS else ():
             match = rule.pattern.search(scan.spaced) if scan.has(rule.marks) else None
             if match is None:
                 continue
             first, behind = scan.span(match)
-            left, rest = Scan(scan[first:behind]), Scan([*scan[:first], *scan[behind:]])
+            left, rest = Tokens(scan[first:behind]), Tokens([*scan[:first], *scan[behind:]])
             is_name = len(left) == 2 and left[1].text == ":" and self.text.count(left[0].text) > 1  # eqn: ... ode2(eqn)
             if rule.role and (is_name or not _is_equation(rest)):
                 if rule.role == "label":
@@ -276,20 +276,20 @@ class _Apart:
                 self.add(rule.role, left)
             scan = rest
         if scan and scan[-1].kind == "NUMBER" and scan[-1].text[-1] == "." and _has_equals(scan):  # y(0) = 1.
-            return Scan([*scan[:-1], scan[-1]._replace(text=scan[-1].text[:-1])])
+            return Tokens([*scan[:-1], scan[-1]._replace(text=scan[-1].text[:-1])])
         return scan
 
-    def check_number(self, number: Scan, rest: Scan) -> None:
+    def check_number(self, number: Tokens, rest: Tokens) -> None:
         """Raises `ParseError` for (2) y'' + y = 0 on one line, where 2 may be a coefficient."""
         gap = self.text[number[-1].end : rest[0].start]
         label = next(token.text for token in number[::-1] if token.text != ")")
-        is_clear = label == "1" or rest[0].kind == "NUMBER" or Scan(rest[:1]).has(("PROSE",))
+        is_clear = label == "1" or rest[0].kind == "NUMBER" or Tokens(rest[:1]).has(("PROSE",))
         if is_clear or re.search(r"[\t\n]|\\\\|quad", gap):
             return
         said = f"{self.written(number)} may be the number of the equation, or a factor"
         raise error_at(self.text, said, number, f"leave it out, or write {label}* for a factor")
 
-    def statement(self, scan: Scan, *, is_alone: bool) -> None:
+    def statement(self, scan: Tokens, *, is_alone: bool) -> None:
         if not scan:
             return
         if scan[0].text in _DECLARATIONS or (len(scan) == 1 and scan[0].text in SOLVERS):
@@ -313,13 +313,13 @@ class _Apart:
         else:
             self.add("equation", scan)
 
-    def command(self, scan: Scan) -> bool:
+    def command(self, scan: Tokens) -> bool:
         """The arguments of a command of another system: its equation, values, and names that occur in the equation."""
         match = _COMMAND.match(scan.spaced) if scan.has(SOLVERS) else None
         opening = len(match[0].split()) - 1 if match else 0
         if not opening or scan.partners.get(opening) != len(scan) - 1:
             return False
-        self.add("command", Scan(scan[: opening + 1]))
+        self.add("command", Tokens(scan[: opening + 1]))
         first, *rest = [self.resolved(_unquoted(part)) for part in _separated(scan[opening + 1 : -1])]
         if first and first[0].text in SOLVERS:
             return self.command(first)
@@ -335,15 +335,15 @@ class _Apart:
                 raise error_at(self.text, said, part, f"give the equation and its values: {given}")
         return True
 
-    def resolved(self, part: Scan) -> Scan:
+    def resolved(self, part: Tokens) -> Tokens:
         return self.named.pop(part[0].text, part) if len(part) == 1 else part
 
-    def list_of(self, scan: Scan) -> bool:
+    def list_of(self, scan: Tokens) -> bool:
         """{y'' + y = 0, y(0) = 1}."""
         is_list = scan.has("{[") and scan[0].text in ("{", "[") and scan.is_enclosed
         parts = [part for part in _separated(scan[1:-1]) if part] if is_list else []
         if len(parts) == 1 and all(token.text in self.named for token in parts[0]):  # MATLAB's [cond1 cond2]
-            parts = [Scan([token]) for token in parts[0]]
+            parts = [Tokens([token]) for token in parts[0]]
         are_named = all(len(part) == 1 and part[0].text in self.named for part in parts)
         if not is_list or not (are_named or _has_equals(scan, depth=1)):
             return False
@@ -352,20 +352,20 @@ class _Apart:
                 self.add("equation", part)
         return True
 
-    def argument(self, part: Scan, names: set[str]) -> bool:
+    def argument(self, part: Tokens, names: set[str]) -> bool:
         """An argument behind the equation; false where it says nothing that is read."""
         match [token.text for token in part]:
             case []:
                 return False
             case ["ivar" | "func" | "function" as keyword, "=", name, *_]:
                 self.variable = name if keyword == "ivar" or len(part) == 3 else self.variable
-                return self.argument(Scan(part[2:]), names)
+                return self.argument(Tokens(part[2:]), names)
             case ["dvar", "=", _, *_]:
-                return self.argument(Scan(part[2:]), names)
+                return self.argument(Tokens(part[2:]), names)
             case ["singsol" | "IncludeSingularSolutions", *_]:
                 return True
             case ["ics", "=", name]:
-                return self.argument(Scan([*part[:2], *self.named.pop(name, [])]), names)
+                return self.argument(Tokens([*part[:2], *self.named.pop(name, [])]), names)
             case ["ics", "="] | ["ics", "=", "{", "}"]:
                 return True
             case ["ics", "=", "{", *_]:
@@ -398,10 +398,10 @@ class _Apart:
         for value in _separated(inside):
             if not any(token.text == ":" for token in value):
                 return False
-            self.add("equation", Scan(token._replace(text="=") if token.text == ":" else token for token in value))
+            self.add("equation", Tokens(token._replace(text="=") if token.text == ":" else token for token in value))
         return True
 
-    def values_of_sage(self, inside: Sequence[Scan]) -> bool:
+    def values_of_sage(self, inside: Sequence[Tokens]) -> bool:
         """Sage's ics=[x0, y0, dy0]."""
         function = next((piece.scan[0] for piece in self.found if piece.role == "name"), None)
         if function is None or len(inside) != 3 or not all(inside):
@@ -409,8 +409,8 @@ class _Apart:
         point, *values = inside
         opening, closing, equals = (Token("SIGN", sign, point[0].start, point[0].end) for sign in "()=")
         primes = Token("PRIMES", PRIMES, function.end, function.end)
-        self.add("equation", Scan([function, opening, *point, closing, equals, *values[0]]))
-        self.add("equation", Scan([function, primes, opening, *point, closing, equals, *values[1]]))
+        self.add("equation", Tokens([function, opening, *point, closing, equals, *values[0]]))
+        self.add("equation", Tokens([function, primes, opening, *point, closing, equals, *values[1]]))
         return True
 
     def sorted_roles(self) -> list[PastedPiece]:
@@ -437,7 +437,7 @@ _CALL = pattern(r"(?:[^\W\d]\S*(?: ['\"˙]+)?|\}) [(\[]")
 _PRIMES_ALONE = pattern(r"(?:''|\"|˙˙)(?! OPEN)")
 
 
-def _is_equation(scan: Scan) -> bool:
+def _is_equation(scan: Tokens) -> bool:
     """True if an equals sign, a prime or a derivative occurs."""
     if scan.has(("PRIMES", "\\prime", "\\dot", "\\ddot", *_ASSIGNS, *DERIVATIVES)) and _EQUATION.search(scan.spaced):
         return True
@@ -449,7 +449,7 @@ def _is_equation(scan: Scan) -> bool:
         return False
 
 
-def _argument_letters(scan: Scan) -> set[str]:
+def _argument_letters(scan: Tokens) -> set[str]:
     """The letters that functions are applied to: t of y(t) and y'[t]."""
     return {match[1] for match in _ARGUMENT.finditer(scan.spaced)} - _NAMED_POINTS
 
@@ -478,49 +478,49 @@ _ASSIGNMENT = pattern(
 )
 
 
-def _without_assignment(scan: Scan) -> tuple[str, Scan]:
+def _without_assignment(scan: Tokens) -> tuple[str, Tokens]:
     """The name to which an equation or a command is assigned, and the rest."""
     match = _ASSIGNMENT.match(scan.spaced) if scan.has((":", *_ASSIGNS)) else None
     if match is None and len(scan) > 2 and scan[1].text == "=" and is_word(scan[0].text):
-        return scan[0].text, Scan(scan[2:])
+        return scan[0].text, Tokens(scan[2:])
     rest = scan[scan.span(match)[1] :] if match else []
-    return (match["name"], Scan(rest)) if match and rest else ("", scan)
+    return (match["name"], Tokens(rest)) if match and rest else ("", scan)
 
 
-def _without_eq(scan: Scan) -> Scan:
+def _without_eq(scan: Tokens) -> Tokens:
     """left = right for Eq(left, right) of SymPy."""
     if len(scan) < 4 or scan[0].text not in _WHOLE or scan.partners.get(1) != len(scan) - 1:
         return scan
     left, *others = _separated(scan[2:-1])
     if not left or not others or not others[0]:
         return scan
-    return Scan([*left, Token("SIGN", "=", left[-1].end, others[0][0].start), *others[0]])
+    return Tokens([*left, Token("SIGN", "=", left[-1].end, others[0][0].start), *others[0]])
 
 
-def _separated(scan: Sequence[Token], signs: Collection[str] = (",",)) -> list[Scan]:
+def _separated(scan: Sequence[Token], signs: Collection[str] = (",",)) -> list[Tokens]:
     """The parts between commas, or other signs, outside all brackets."""
-    parts = [Scan()]
+    parts = [Tokens()]
     depth = 0
     for token in scan:
         depth += (token.text in OPENING) - (token.text in CLOSING)
         if depth == 0 and token.text in signs:
-            parts.append(Scan())
+            parts.append(Tokens())
         else:
             parts[-1].append(token)
     return parts
 
 
-def _is_quoted(scan: Scan) -> bool:
+def _is_quoted(scan: Tokens) -> bool:
     return len(scan) > 2 and scan[0].kind == scan[-1].kind == "PRIMES" and scan[0].text == scan[-1].text
 
 
-def _unquoted(part: Scan) -> Scan:
+def _unquoted(part: Tokens) -> Tokens:
     while _is_quoted(part):
-        part = Scan(part[1:-1])
+        part = Tokens(part[1:-1])
     return part
 
 
-def _is_condition(scan: Scan, *, is_first: bool = False) -> bool:
+def _is_condition(scan: Tokens, *, is_first: bool = False) -> bool:
     """True if a function stands at a point; a letter is a point behind the equation, and the variable in it."""
     if not _has_equals(scan) or _PRIMES_ALONE.search(scan.spaced):
         return False
@@ -535,14 +535,14 @@ def _is_condition(scan: Scan, *, is_first: bool = False) -> bool:
             return name == 0 and not is_first
         if len(inside) == 1 and inside[0].kind == "NUMBER":
             return True
-        if scan[name].text == "}" or not _is_equation(Scan(scan[:name])):  # \dot{y}(0)
+        if scan[name].text == "}" or not _is_equation(Tokens(scan[:name])):  # \dot{y}(0)
             return True
     return False
 
 
-def _placed_values(text: str, scan: Scan) -> Iterator[PlacedValue]:
+def _placed_values(text: str, scan: Tokens) -> Iterator[PlacedValue]:
     """The conditions that one statement has; y(0) = y'(0) = 1 are two."""
-    plain = Scan(token for token in scan if token.text not in ("$", "`"))
+    plain = Tokens(token for token in scan if token.text not in ("$", "`"))
     sides = [translated(text, side, condition=True) for side in _separated(plain, _ASSIGNS)]
     # In this package's notation a blank stands between names and numbers alone.
     *places, value = (re.sub(r"(?<![\w']) | (?!\w)", "", " ".join(tokens.pieces)) for tokens in sides)
@@ -555,7 +555,7 @@ def _placed_values(text: str, scan: Scan) -> Iterator[PlacedValue]:
             hint = "write y(0) = 1, y'(0) = 0"
             if calls:
                 k = calls[0]
-                hint = f"write {text[scan[0].start : tokens.ends[k - 1]]}, {text[tokens.starts[k] : scan[-1].end]}"
+                hint = f"write {text[scan[0].start : tokens[k - 1].end]}, {text[tokens[k].start : scan[-1].end]}"
             raise error_at(text, "a comma is missing between two values", scan, hint)
     for place in places:
         yield PlacedValue(place, value)

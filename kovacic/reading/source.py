@@ -16,8 +16,9 @@ from kovacic.limits import DEFAULT_LIMITS, Limits
 from kovacic.reading.arithmetic import VARIABLE, Arithmetic, Monomial
 from kovacic.reading.constants import Constants, read_with_constants
 from kovacic.reading.expression import RationalReader
-from kovacic.reading.lexer import Tokens, check_length
+from kovacic.reading.lexer import check_length
 from kovacic.reading.naming import Vocabulary, chosen_variable
+from kovacic.reading.notations import Tokens
 from kovacic.reading.parser import evaluate
 from kovacic.reading.pieces import Paste, taken_apart
 

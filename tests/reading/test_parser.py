@@ -283,11 +283,12 @@ def test_tokens_are_the_text_without_its_spaces(expression: Expression) -> None:
     tokens = tokenize(text)
     plain = str.maketrans({"″": "''", "−": "-", "·": "*", "×": "*"})
     assert "".join(tokens.pieces) == "".join(text.split()).translate(plain)
-    written = [text[i:j].translate(plain) for i, j in zip(tokens.starts, tokens.ends, strict=True)]
+    written = [text[token.start : token.end].translate(plain) for token in tokens]
     assert written == tokens.pieces
-    assert tokens.starts == sorted(tokens.starts)
+    starts = [token.start for token in tokens]
+    assert starts == sorted(starts)
     assert tokens.kinds[-1] == "$END"
-    assert tokens.starts[-1] == len(text)
+    assert starts[-1] == len(text)
 
 
 # ------------------------------------------------------------------------------------------ spellings
@@ -825,7 +826,7 @@ _TOKENS = [*_WORDS.split(), *_SIGNS.split(), "π", " ", "  ", "\n"]
 @given(st.lists(st.sampled_from(_TOKENS), max_size=12).map("".join) | st.lists(st.sampled_from(_TOKENS)).map(" ".join))
 def test_a_rule_is_asked_wherever_its_pattern_occurs(text: str) -> None:
     """Rules are chosen by the tokens of a text: no pattern occurs without one of the marks that its rule states."""
-    scan = notations.Scan(scanned(text))
+    scan = notations.Tokens(scanned(text))
     for rule in (*notations.NOTATIONS, *notations.LATEX, *notations.AROUND, *pieces.SURROUNDINGS):
         if rule.pattern.search(scan.spaced):
             assert scan.has(rule.marks), (rule, text)
