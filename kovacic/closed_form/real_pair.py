@@ -29,10 +29,11 @@ from kovacic.algebra.rationals import QQ
 from kovacic.closed_form.atoms import Atoms, Expr, display, rational
 from kovacic.closed_form.product import Power, gathered
 from kovacic.closed_form.structure import Conjugate
+from kovacic.closed_form.way_back import solution_in_x
 from kovacic.engine.places import rational_square_root
 from kovacic.equation import Equation
 from kovacic.numbers.exact import radical as sqrt
-from kovacic.reading.change_of_variable import function_of_x, solution_in_x, user_variable
+from kovacic.reading.change_of_variable import function_of_x, user_variable
 
 
 @dataclass(frozen=True)

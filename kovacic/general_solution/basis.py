@@ -24,13 +24,14 @@ from kovacic.closed_form.atoms import Atoms, display
 from kovacic.closed_form.check import DIGITS
 from kovacic.closed_form.jets import jet
 from kovacic.closed_form.product import product
+from kovacic.closed_form.way_back import in_x
 from kovacic.equation import Equation
 from kovacic.general_solution.integrands import NUMBERS, radicands
 from kovacic.general_solution.substitution import finite_value, size, slope
 from kovacic.general_solution.textbook import in_hyperbolic_functions
 from kovacic.general_solution.zero import by_parity, is_nowhere_zero, points
 from kovacic.limits import check_time
-from kovacic.reading.change_of_variable import function_of_x, in_x
+from kovacic.reading.change_of_variable import function_of_x
 from kovacic.solution import Solution
 
 Expr = Any  # SymPy publishes no types

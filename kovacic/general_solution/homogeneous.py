@@ -14,6 +14,7 @@ from kovacic.closed_form.atoms import Atoms
 from kovacic.closed_form.check import are_independent
 from kovacic.closed_form.real_pair import is_turned, pair_in_x
 from kovacic.closed_form.structure import Covariants
+from kovacic.closed_form.way_back import in_x, solution_in_x
 from kovacic.decision import Status
 from kovacic.equation import Equation, Parsed, parameters_of
 from kovacic.errors import LimitExceeded
@@ -25,13 +26,7 @@ from kovacic.general_solution.textbook import of_chebyshev, with_waves
 from kovacic.limits import Budget
 from kovacic.parametric.api import conditions_of
 from kovacic.parametric.assumptions import NOTHING_ASSUMED, Assumptions
-from kovacic.reading.change_of_variable import (
-    function_of_x,
-    in_x,
-    is_power,
-    solution_in_x,
-    user_variable,
-)
+from kovacic.reading.change_of_variable import function_of_x, is_power, user_variable
 from kovacic.solution import Solution, solve
 from kovacic.special.choice import solutions
 from kovacic.special.mathieu import mathieu

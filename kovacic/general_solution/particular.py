@@ -31,6 +31,7 @@ from kovacic.algebra.poly import Poly
 from kovacic.algebra.ratfunc import RatFunc
 from kovacic.closed_form.atoms import Atoms, display
 from kovacic.closed_form.product import product
+from kovacic.closed_form.way_back import in_x
 from kovacic.equation import Equation
 from kovacic.errors import LimitExceeded
 from kovacic.general_solution.antiderivatives import in_powers
@@ -41,7 +42,7 @@ from kovacic.general_solution.steps import Apart, HeavisideTerm, taken_apart
 from kovacic.general_solution.undetermined import undetermined
 from kovacic.general_solution.values import have_values, value_at, values_at
 from kovacic.general_solution.variation import at_once, with_integrals
-from kovacic.reading.change_of_variable import in_x, slope_squared
+from kovacic.reading.change_of_variable import slope_squared
 
 Expr = Any  # SymPy publishes no types
 #: The most terms of a right-hand side that are treated one by one.

@@ -29,6 +29,7 @@ from kovacic.algebra.rationals import QQ
 from kovacic.closed_form.atoms import Atoms, display
 from kovacic.closed_form.product import product as product_of_powers
 from kovacic.closed_form.structure import Diagonal, build
+from kovacic.closed_form.way_back import solution_in_x, with_roots_of_factors
 from kovacic.engine.decide import decide
 from kovacic.engine.places import Problem
 from kovacic.equation import Equation
@@ -42,7 +43,7 @@ from kovacic.parametric.formulas import gathered, shorter_sum
 from kovacic.parametric.functions import element, irreducible_factors, over_parameters
 from kovacic.parametric.prose import Words
 from kovacic.parametric.restriction import Letters
-from kovacic.reading.change_of_variable import is_power, solution_in_x, user_variable, with_roots_of_factors
+from kovacic.reading.change_of_variable import is_power, user_variable
 from kovacic.writing.formula import Math, caret
 
 

@@ -11,6 +11,6 @@ fractions, roots, bars, derivatives.  `naming` decides what every name is, and `
 expression is walked by `symbolic`.  Both call a reader, which says what numbers, names and calls mean: `expression` (S),
 `differential` (equations), or `symbolic` (SymPy's expressions, and systems).  Readers calculate with `arithmetic`, or with
 `linear` where an unknown function or what isn't rational may occur.  What isn't rational in x is tried by `functions`:
-`exponentials` makes exp(k x) a variable, `powers` x^k, `letters` stand for constants; `change_of_variable` has the way back to
-x.  `constants` has the field, `names` the names with a meaning; the results, `Equation` and `Parsed`, are `kovacic.equation`'s.
+`exponentials` makes exp(k x) a variable, `powers` x^k, which `change_of_variable` knows; `letters` stand for constants.
+`constants` has the field, `names` the names with a meaning; the results, `Equation` and `Parsed`, are `kovacic.equation`'s.
 """

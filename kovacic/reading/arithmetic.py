@@ -105,22 +105,24 @@ class Arithmetic:
     def sum(self, terms: Sequence[Value]) -> Value:
         if len(terms) == 1:
             return terms[0]
-        summands = _Summands()
+        coefficients: dict[int, int | Fraction] = {}  # of the monomials, by their powers
+        polynomials: list[Poly] = []
+        fractions: list[RatFunc] = []
         for term in terms:
-            if isinstance(term, Monomial) and summands.add_monomial(term):
+            # A sum that has become too long for Python's numbers is left as it is.
+            if isinstance(term, Monomial) and _bits(known := coefficients.get(term.power, 0)) <= _SMALL_BITS:
+                coefficients[term.power] = known + term.coefficient
                 continue
             part = self.closed(term)
             if isinstance(part, RatFunc):
-                summands.fractions.append(part)
+                fractions.append(part)
             else:
-                summands.polynomials.append(part)
-        polynomials = summands.polynomials
-        if summands.coefficients:
-            row = [summands.coefficients.get(k, 0) for k in range(max(summands.coefficients) + 1)]
-            polynomials = [QQ.poly(row), *polynomials]
-        if not summands.fractions:
+                polynomials.append(part)
+        if coefficients:
+            polynomials.append(QQ.poly([coefficients.get(k, 0) for k in range(max(coefficients) + 1)]))
+        if not fractions:
             return _total(polynomials, self._poly_sum)
-        fraction = _total(summands.fractions, self._ratfunc_sum)
+        fraction = _total(fractions, self._ratfunc_sum)
         polynomial = _total(polynomials, self._poly_sum) if polynomials else None
         if polynomial:  # the sum needs no reduction
             num = self._poly_sum(fraction.num, self._product(polynomial, fraction.den))
@@ -263,23 +265,6 @@ class Arithmetic:
         if number is None or number.denominator != 1:
             raise NotAnInteger
         return number.numerator
-
-
-class _Summands:
-    """The terms of a sum: the coefficients of its monomials by their powers, and everything else by kinds."""
-
-    def __init__(self) -> None:
-        self.coefficients: dict[int, int | Fraction] = {}
-        self.polynomials: list[Poly] = []
-        self.fractions: list[RatFunc] = []
-
-    def add_monomial(self, term: Monomial) -> bool:
-        """Adds it to those of its power; False where their sum has become too long for Python's numbers."""
-        known = self.coefficients.get(term.power, 0)
-        if _bits(known) > _SMALL_BITS:
-            return False
-        self.coefficients[term.power] = known + term.coefficient
-        return True
 
 
 def _total(parts: Sequence[T], add: Callable[[T, T], T]) -> T:

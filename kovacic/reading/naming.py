@@ -62,54 +62,40 @@ class Vocabulary:
     unknown: str | None = None
     declared: frozenset[str] = frozenset()
 
-    def equation(self, tokens: Tokens) -> Named:
-        """The names of an equation.  Raises `InputError` for names that mean nothing, or more than one thing."""
-        guesses = _guesses(tokens)
-        has_other = any(piece.endswith("''") or piece in DERIVATIVES - {OPERATOR} for piece in tokens.pieces)
-        has_operator = (
-            OPERATOR not in self.declared and OPERATOR in _single_letters(tokens, self.declared) and not has_other
-        )
-        y = (
-            self.unknown
-            or _primed(tokens, self.declared)
-            or next(iter(differentiated(tokens)), None)
-            or _operand(tokens)
-        )
-        if y is None:  # what the operator D is applied to
-            usual = [name for name in tokens.names if name in _USUAL_UNKNOWNS]
-            y = usual[-1] if has_operator and usual and UNKNOWN not in usual else UNKNOWN
-        _check_stiffness(tokens, self.declared)
+    def of(self, tokens: Tokens, *, is_equation: bool) -> Named:
+        """The names of an equation, or of S alone.  Raises `InputError` for names that mean nothing, or more than one thing."""
+        y, has_operator = self._unknown_of(tokens) if is_equation else ("", False)
+        if is_equation:
+            _check_stiffness(tokens, self.declared)
         _check_powers_of_ten(tokens)
-        x, why = (self.variable, None) if self.variable else _equation_variable(tokens, y, self.declared)
+        choose = _equation_variable if is_equation else _variable_of_S
+        x, why = (self.variable, None) if self.variable else choose(tokens, y, self.declared)
+        if not is_equation and x in ("e", "E"):
+            _check_decimals(tokens, x)
         split, products = self._with_products(tokens, x, y)
-        if why is not None and x not in (DEFAULT_VARIABLE, "t"):
-            guesses.append(why)
-        guesses += products
+        if is_equation or x != "e":
+            _check_two_exponents(split, y)
+        is_usual = is_equation and x in (DEFAULT_VARIABLE, "t")
+        notes = [why] if why and is_usual else []
+        guesses = [*_guesses(tokens), *([why] if why and not is_usual else []), *products]
         guesses += self._imaginary_unit(split, x, y)
-        _check_two_exponents(split, y)
-        notes = [why] if why is not None and why not in guesses else []
-        named = _with_factors(split, x, y)
+        named = _with_factors(split, x, y) if "HEAD" in split.kinds else split
         if has_operator:
-            are_operators = [token[:2] == ("NAME", OPERATOR) for token in named]
-            derived = zip(named, are_operators, strict=True)
-            new = [token._replace(kind="OPERATOR", text=x) if is_one else token for token, is_one in derived]
+            new = [t._replace(kind="OPERATOR", text=x) if t[:2] == ("NAME", OPERATOR) else t for t in named]
             named = Tokens(new, tokens.text, tokens.variable)
         return Named(named, x, y, (*notes, *guesses), tuple(guesses))
 
-    def S(self, tokens: Tokens) -> Named:
-        x = self.variable or _variable_of_S(tokens, self.declared)
-        _check_powers_of_ten(tokens)
-        if x in ("e", "E"):
-            _check_decimals(tokens, x)
-        split, products = self._with_products(tokens, x, "")
-        if x != "e":
-            _check_two_exponents(split, "")
-        guesses = [*_guesses(tokens), *products, *self._imaginary_unit(split, x, "")]
-        if self.variable is None and x not in USUAL_VARIABLES and x in split.names:
-            guesses.append(
-                f"{x} is taken for the variable; name another one where it is a parameter: var='x' (--var x)"
-            )
-        return Named(_with_factors(split, x, ""), x, "", tuple(guesses), guesses=tuple(guesses))
+    def _unknown_of(self, tokens: Tokens) -> tuple[str, bool]:
+        """The unknown function of an equation; true if D is the derivative."""
+        has_other = any(piece.endswith("''") or piece in DERIVATIVES - {OPERATOR} for piece in tokens.pieces)
+        is_free = OPERATOR not in self.declared and not has_other
+        has_operator = is_free and OPERATOR in _single_letters(tokens, self.declared)
+        found = [self.unknown, _primed(tokens, self.declared), *differentiated(tokens), _operand(tokens)]
+        y = next(filter(None, found), None)
+        if y is None:  # what the operator D is applied to
+            usual = [name for name in tokens.names if name in _USUAL_UNKNOWNS]
+            y = usual[-1] if has_operator and usual and UNKNOWN not in usual else UNKNOWN
+        return y, has_operator
 
     def _imaginary_unit(self, tokens: Tokens, x: str, y: str) -> list[str]:
         """That i or j is a parameter, where it is one that wasn't declared."""
@@ -173,7 +159,7 @@ class Vocabulary:
 
 def _guesses(tokens: Tokens) -> list[str]:
     """What may have been meant in another way: x^1/2 is x/2."""
-    found = _ROOT.search(tokens.spaced)
+    found = _ROOT.search(tokens.spaced) if "SLASH" in tokens.kinds else None
     said = "^1/{0} was read as (...)^1 divided by {0}; a root is written ^(1/{0})"
     return [*([said.format(found[1])] if found else []), *_divided_functions(tokens)]
 
@@ -181,7 +167,7 @@ def _guesses(tokens: Tokens) -> list[str]:
 def _divided_functions(tokens: Tokens) -> Iterator[str]:
     """Notes on sin x/2, which is (sin x)/2 and may be meant as sin(x/2): no parentheses, and no blank before the slash."""
     opened: list[int] = []
-    for k, kind in enumerate(tokens.kinds):
+    for k, kind in enumerate(tokens.kinds if "HEAD" in tokens.kinds else ()):
         if kind == "LPAR":
             opened.append(k)
         elif kind == "RPAR" and opened:
@@ -194,8 +180,9 @@ def _divided_functions(tokens: Tokens) -> Iterator[str]:
 
 def _check_stiffness(tokens: Tokens, declared: Collection[str]) -> None:
     """Raises `ParseError` for E I, which may be a stiffness, or the energy times the imaginary unit."""
-    found = _STIFFNESS.search(tokens.spaced)
-    if found is None or "I" in declared:
+    has_both = {"E", "I"} <= tokens.names.keys() and "I" not in declared
+    found = _STIFFNESS.search(tokens.spaced) if has_both else None
+    if found is None:
         return
     hint = "take one letter for a stiffness, such as B; or declare I as a parameter: "
     said = "E I may be a stiffness, or an energy times the imaginary unit"
@@ -217,7 +204,7 @@ def _check_decimals(tokens: Tokens, variable: str) -> None:
 
 def _check_powers_of_ten(tokens: Tokens) -> None:
     """Raises `ParseError` for 1e-3y, which is 0.001 y, or e - 3 y."""
-    for k in range(len(tokens.kinds) - 4):
+    for k in range(len(tokens) - 4) if {"e", "E"} & tokens.names.keys() else ():
         e, sign = tokens.pieces[k + 1 : k + 3]
         is_power = tokens.are(k, "NUMBER", "NAME") and e in ("e", "E") and sign in ("+", "-")
         are_glued = all(a.end == b.start for a, b in pairwise(tokens[k : k + 5]))
@@ -229,7 +216,7 @@ def _check_powers_of_ten(tokens: Tokens) -> None:
 
 def _check_two_exponents(tokens: Tokens, unknown: str) -> None:
     """Raises `ParseError` for e^2x, which is e^(2x) or e^2 x."""
-    for found in _EXPONENT.finditer(tokens.spaced):
+    for found in _EXPONENT.finditer(tokens.spaced) if "e" in tokens.names else ():
         e, behind = tokens.span(found)
         if found[2] != unknown and tokens[behind - 2].end == tokens[behind - 1].start:
             power = tokens.piece(e + 2, behind - 1)
@@ -240,18 +227,13 @@ def _check_two_exponents(tokens: Tokens, unknown: str) -> None:
 
 def _with_factors(tokens: Tokens, x: str, y: str) -> Tokens:
     """With factors for heads that are no functions: n(n+1) is a product where n occurs without parentheses, too."""
-    if "HEAD" not in tokens.kinds:
-        return tokens
-    alone = {*tokens.names, x} - {y}
+    alone = {*tokens.names, x} - {y, *FUNCTION_NAMES, *DERIVATIVES}
     rows = list(tokens)
-    for k, kind in enumerate(tokens.kinds[:-3]):
-        if kind != "HEAD":
-            continue
-        name = tokens.pieces[k]
+    for k, (kind, name, _, _) in enumerate(tokens[:-3]):
         is_applied = tokens.are(k + 2, "NAME", "RPAR") or tokens.are(k + 2, "NUMBER", "RPAR")
-        if name in alone and not is_applied and name not in FUNCTION_NAMES and name not in DERIVATIVES:
+        if kind == "HEAD" and name in alone and not is_applied:
             rows[k] = rows[k]._replace(kind="NAME")
-    return tokens if rows == tokens else Tokens(rows, tokens.text, tokens.variable)
+    return Tokens(rows, tokens.text, tokens.variable)
 
 
 def _primed(tokens: Tokens, declared: Collection[str]) -> str | None:
@@ -372,16 +354,18 @@ def _varies(name: str, evidence: dict[str, Counter[str]], names: Collection[str]
     return name == "z" or found["place"] > 1 or any(found[what] for what in _EVIDENCE)
 
 
-def _variable_of_S(tokens: Tokens, declared: Collection[str]) -> str:
+def _variable_of_S(tokens: Tokens, _: str, declared: Collection[str]) -> tuple[str, str | None]:
     """The only name that isn't one of a number, the energy or a function, or x.  Asks where it can't be told."""
     no_variables = {*NUMBER_NAMES, ENERGY, UNKNOWN, *declared}
     letters = [name for name in _single_letters(tokens, declared) if is_letter(name)]
     names = [name for name in letters if name not in no_variables] or [name for name in letters if name == EULER]
     try:
-        return chosen_variable(names)
+        x = chosen_variable(names)
     except InputError as error:
         k = tokens.names.get(names[1], 0)
         raise tokens.error(InputError, error.message, k, k + 1, hint=error.hint, shell=error.shell) from None
+    why = f"{x} is taken for the variable; name another one where it is a parameter: var='x' (--var x)"
+    return x, None if x in USUAL_VARIABLES or x not in letters else why
 
 
 def chosen_variable(names: Sequence[str]) -> str:

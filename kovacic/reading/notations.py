@@ -166,9 +166,9 @@ class Rewrite(NamedTuple):
 
 def rewritten(scan: Tokens, rules: Sequence[Rewrite]) -> Tokens:
     """The tokens after all rules, in their order."""
-    for rule in rules:
-        if not rule.marks.isdisjoint(scan.marks) and rule.pattern.search(scan.spaced):
-            scan = rule.applied(scan)
+    for notation in rules:
+        if not notation.marks.isdisjoint(scan.marks) and notation.pattern.search(scan.spaced):
+            scan = notation.applied(scan)
     return scan
 
 
@@ -224,7 +224,7 @@ _SYNONYMS = {
 }
 
 
-def _rule(notation: str, marks: str, text: str, result: str | Callable[[Match], str] = "", kind: str = "") -> Rewrite:
+def rule(notation: str, marks: str, text: str, result: str | Callable[[Match], str] = "", kind: str = "") -> Rewrite:
     return Rewrite(notation, frozenset(marks.split(" ")), pattern(text), result, kind)
 
 
@@ -235,49 +235,49 @@ _OF_X = r"(LETTER) \( (LETTER) \)"
 _SLOPE = rf"(?:diff|Derivative) \( {_OF_X} , \2 \)"
 _BEHIND_NAME = r"(?:(?<=\w\x20)|(?<=\w\x20\x20))"
 NOTATIONS = (
-    _rule("the name of a package", ".", rf"(?:{_PACKAGES}) \."),
-    _rule("a quoted name", "PRIMES", rf"(?<!=\x20)(?<!=\x20\x20)(?:{'|'.join(MAKERS)}) \( ['\"] (\w+) ['\"] \)", r"\1"),
-    _rule("Maple", "@@", r"OPEN D @@ (?P<n>\d) CLOSE OPEN (?P<y>LETTER) CLOSE", _primed_by_order),
-    _rule("Mathematica", "Derivative", r"Derivative OPEN (?P<n>\d) CLOSE OPEN (?P<y>LETTER) CLOSE", _primed_by_order),
-    _rule("Maple", "D", r"OPEN D OPEN D OPEN (LETTER) CLOSE CLOSE CLOSE(?= OPEN)", r"\1 ''"),
-    _rule("Maple", "D", r"D OPEN D OPEN (LETTER) CLOSE CLOSE(?= OPEN)", r"\1 ''"),
-    _rule("Maple", "D", r"OPEN D OPEN (LETTER) CLOSE CLOSE(?= OPEN)", r"\1 '"),
-    _rule("Maple", "D", r"(?:OPEN D CLOSE|D) OPEN (LETTER) CLOSE(?= OPEN)", r"\1 '"),
-    _rule("MATLAB", "diff", r"(?<!\.\x20)diff OPEN (?P<y>LETTER) , (?P<n>[1-4]) CLOSE", _primed_by_order),
-    _rule("MATLAB", _MATLAB_SLOPES, r"D(?P<n>[2-4]?)(?P<y>[xyzuvwqf])", _by_time),
-    _rule("SymPy", "subs", rf"{_OF_X} \. diff \( \2(?: , 1)? \) \. subs \( \2 ,", r"\1 ' ("),
-    _rule("SymPy", "subs", r"(LETTER) \. diff \( (LETTER)(?: , 1)? \) \. subs \( \2 ,", r"\1 ' ("),
-    _rule("SymPy", "subs", r"(LETTER) \. subs \( LETTER ,", r"\1 ("),
-    _rule("SymPy", "subs", rf"{_SLOPE} \. subs \( \2 ,", r"\1 ' ("),
-    _rule("SymPy", "subs", rf"{_OF_X} \. subs \( \2 ,", r"\1 ("),
-    _rule("SymPy", "Subs", rf"Subs \( {_SLOPE} , \2 ,", r"\1 ' ("),
-    _rule("SymPy", "Subs", rf"Subs \( {_SLOPE} , \( \2 , \) , \( (\S+) , \) \)", r"\1 ' ( \3 )"),
-    _rule("Maple", "$", r"` \$ ` \( (LETTER) , (\d) \)", r"\1 , \2"),
-    _rule("Maple", "$", r"([^\W\d]\w*) \$ (\d+)", r"\1 , \2"),
-    _rule("Maxima", "diff", r"'(?= diff )"),
-    _rule("Maxima", "%", r"%~(e|pi)", r"\1"),
-    _rule("Maxima", "%", r"%~i", "I"),
-    _rule("Mathematica", "Subscript", r"Subscript \[ (LETTER) , (\w+) \]", r"\1_\2"),
-    _rule("functions", " ".join(_SYNONYMS), rf"(?:{'|'.join(_SYNONYMS)})(?= [(\[])", lambda match: _SYNONYMS[match[0]]),
-    _rule("pi", "Pi π", "Pi|π", "pi"),
-    _rule("Mathematica", "E", r"E \^", _power_of_e),
-    _rule(
+    rule("the name of a package", ".", rf"(?:{_PACKAGES}) \."),
+    rule("a quoted name", "PRIMES", rf"(?<!=\x20)(?<!=\x20\x20)(?:{'|'.join(MAKERS)}) \( ['\"] (\w+) ['\"] \)", r"\1"),
+    rule("Maple", "@@", r"OPEN D @@ (?P<n>\d) CLOSE OPEN (?P<y>LETTER) CLOSE", _primed_by_order),
+    rule("Mathematica", "Derivative", r"Derivative OPEN (?P<n>\d) CLOSE OPEN (?P<y>LETTER) CLOSE", _primed_by_order),
+    rule("Maple", "D", r"OPEN D OPEN D OPEN (LETTER) CLOSE CLOSE CLOSE(?= OPEN)", r"\1 ''"),
+    rule("Maple", "D", r"D OPEN D OPEN (LETTER) CLOSE CLOSE(?= OPEN)", r"\1 ''"),
+    rule("Maple", "D", r"OPEN D OPEN (LETTER) CLOSE CLOSE(?= OPEN)", r"\1 '"),
+    rule("Maple", "D", r"(?:OPEN D CLOSE|D) OPEN (LETTER) CLOSE(?= OPEN)", r"\1 '"),
+    rule("MATLAB", "diff", r"(?<!\.\x20)diff OPEN (?P<y>LETTER) , (?P<n>[1-4]) CLOSE", _primed_by_order),
+    rule("MATLAB", _MATLAB_SLOPES, r"D(?P<n>[2-4]?)(?P<y>[xyzuvwqf])", _by_time),
+    rule("SymPy", "subs", rf"{_OF_X} \. diff \( \2(?: , 1)? \) \. subs \( \2 ,", r"\1 ' ("),
+    rule("SymPy", "subs", r"(LETTER) \. diff \( (LETTER)(?: , 1)? \) \. subs \( \2 ,", r"\1 ' ("),
+    rule("SymPy", "subs", r"(LETTER) \. subs \( LETTER ,", r"\1 ("),
+    rule("SymPy", "subs", rf"{_SLOPE} \. subs \( \2 ,", r"\1 ' ("),
+    rule("SymPy", "subs", rf"{_OF_X} \. subs \( \2 ,", r"\1 ("),
+    rule("SymPy", "Subs", rf"Subs \( {_SLOPE} , \2 ,", r"\1 ' ("),
+    rule("SymPy", "Subs", rf"Subs \( {_SLOPE} , \( \2 , \) , \( (\S+) , \) \)", r"\1 ' ( \3 )"),
+    rule("Maple", "$", r"` \$ ` \( (LETTER) , (\d) \)", r"\1 , \2"),
+    rule("Maple", "$", r"([^\W\d]\w*) \$ (\d+)", r"\1 , \2"),
+    rule("Maxima", "diff", r"'(?= diff )"),
+    rule("Maxima", "%", r"%~(e|pi)", r"\1"),
+    rule("Maxima", "%", r"%~i", "I"),
+    rule("Mathematica", "Subscript", r"Subscript \[ (LETTER) , (\w+) \]", r"\1_\2"),
+    rule("functions", " ".join(_SYNONYMS), rf"(?:{'|'.join(_SYNONYMS)})(?= [(\[])", lambda match: _SYNONYMS[match[0]]),
+    rule("pi", "Pi π", "Pi|π", "pi"),
+    rule("Mathematica", "E", r"E \^", _power_of_e),
+    rule(
         "raised primes",
         "PRIMES",
         rf"{_BEHIND_NAME}\^ (?:OPEN ((?:['\"]+ )+)CLOSE|(['\"]+(?: '+)*))",
         lambda m: primes_of(m[1] or m[2]),
     ),
-    _rule("indices", "_", r"(?P<y>[a-zA-Z])_(?P<x>[xytzsr])(?P<second>(?P=x))?", _by_index),
+    rule("indices", "_", r"(?P<y>[a-zA-Z])_(?P<x>[xytzsr])(?P<second>(?P=x))?", _by_index),
 )
 #: For what the commands of LaTeX have become signs and letters.
 LATEX = (
-    _rule(
+    rule(
         "dots",
         r"\dot \ddot \dddot",
         r"\\(d{1,3})ot (?:\{ (\S+) \}|(\S+))",
         lambda m: f"{m[2] or m[3]} {DOTS * len(m[1])}",
     ),
-    _rule("an order", "{", rf"{_BEHIND_NAME}\^ \{{ \( ([1-4]) \) \}}", lambda match: PRIMES * int(match[1])),
+    rule("an order", "{", rf"{_BEHIND_NAME}\^ \{{ \( ([1-4]) \) \}}", lambda match: PRIMES * int(match[1])),
     *NOTATIONS,
 )
 
@@ -286,24 +286,24 @@ _NO_INDEX = r"(?<!_\x20)(?<!_\x20\{\x20)"
 _NO_NAME = rf"(?!(?:{'|'.join(FUNCTION_NAMES)}|\w) \}})"
 #: Comments, breaks and layout, before all else.
 AROUND = (
-    _rule("Julia", "~", r"\x7e", lambda m: "" if _occurs(r"(?<!\S)\\", m.string) else "="),
-    _rule("within a line", "*", r"[(/]~\* .{0,2000}? \*~[)/]"),
-    _rule("a whole line", "/ # %", rf"{_LINE}(?:/~/|#|%(?!~(?:e|i|pi|o\d*|i\d+)(?!\S)))[^\n]*"),
-    _rule(
+    rule("Julia", "~", r"\x7e", lambda m: "" if _occurs(r"(?<!\S)\\", m.string) else "="),
+    rule("within a line", "*", r"[(/]~\* .{0,2000}? \*~[)/]"),
+    rule("a whole line", "/ # %", rf"{_LINE}(?:/~/|#|%(?!~(?:e|i|pi|o\d*|i\d+)(?!\S)))[^\n]*"),
+    rule(
         "behind a line",
         "PROSE hi a an is no",
         rf"(?:{_LINE}|(?<=\x20\x20))(?:/~/|#|%|-~-) (?:WORD|hi|an?|is|no)(?!\S)[^\n]*",
     ),
-    _rule("environments", r"\begin \end \label \tag \ref", r"\\(?:begin|end|label|tag|ref)(?: [^\s}]+){0,12} \}", "\n"),
-    _rule(
+    rule("environments", r"\begin \end \label \tag \ref", r"\\(?:begin|end|label|tag|ref)(?: [^\s}]+){0,12} \}", "\n"),
+    rule(
         "words",
         r"\text \textrm \mbox \textnormal",
         rf"{_NO_INDEX}\\(?:text|textrm|mbox|textnormal) \{{ {_NO_NAME}((?:(?:[^\W\d_]+|[^\w\s}}]) ){{0,99}})\}}",
         kind="TEXT",
     ),
-    _rule("breaks", r"\\ \quad \qquad", r"\\\\|\\quad|\\qquad", "\n"),
-    _rule("the end of a line", "\\", r"\\$"),
-    _rule(
+    rule("breaks", r"\\ \quad \qquad", r"\\\\|\\quad|\\qquad", "\n"),
+    rule("the end of a line", "\\", r"\\$"),
+    rule(
         "dollars",
         "$",
         r"(?<![^\W\d]\x20)(?<!`\x20)\$|\$(?! [\d`])",

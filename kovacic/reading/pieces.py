@@ -25,7 +25,18 @@ from kovacic.errors import ParseError
 from kovacic.reading.dialects import FRACTIONS, LAYOUT, translated
 from kovacic.reading.lexer import DERIVATIVES, PRIMES, Token, error_at, scanned
 from kovacic.reading.names import is_function, is_letter
-from kovacic.reading.notations import AROUND, CLOSING, MAKERS, NOTATIONS, OPENING, SOLVERS, Tokens, pattern, rewritten
+from kovacic.reading.notations import (
+    AROUND,
+    CLOSING,
+    MAKERS,
+    NOTATIONS,
+    OPENING,
+    SOLVERS,
+    Tokens,
+    pattern,
+    rewritten,
+    rule,
+)
 
 #: Words between an equation and what is said of it.
 _BETWEEN = frozenset("and with where subject such given for if at when".split())  # noqa: SIM905
@@ -176,20 +187,6 @@ _SEPARATORS: dict[str, Callable[[Tokens, int, list[Token], bool], bool]] = {
 }
 
 
-class _Around(NamedTuple):
-    """What is left out before or behind a statement where the pattern is found; without a role it is layout."""
-
-    name: str
-    #: One of them is in each occurrence.
-    marks: frozenset[str]
-    pattern: re.Pattern[str]
-    role: str = ""
-
-
-def _around(name: str, marks: str, text: str, role: str = "") -> _Around:
-    return _Around(name, frozenset(marks.split()), pattern(text), role)
-
-
 #: What is said of each role.
 _NOTES = {
     "number": "{} was taken for a number in a list",
@@ -201,28 +198,30 @@ _LABEL_WORDS = "Exercise|Problem|Example|Question|Equation|Task|Aufgabe|Ex|No|Nr
 _SOME = r"(?:(?:[^\W\d]\S*|'~s|[-:,.]) ){0,40}"
 _NO_OPERATOR = r"(?! (?:==?|:=|[*/^)\[])(?!\S))"
 _LABEL_NUMBERS = r"\d+(?:\.\d+)?|[a-i]|i{2,3}|iv|vi{1,3}"
-#: In the order in which they are left out; in patterns · is a gap between tokens, ~ none.
+#: What is left out before or behind a statement, in this order, and as what; without a role it is layout.
 SURROUNDINGS = (
-    _around("the next sentence", ".", r"(?<=\.\x20\x20)[A-Z][a-z]*(?: (?:[^\W\d]+|[-,.!?']))+$", "prose"),
-    _around("the end of a sentence", ". : $ , ?", r"(?<!^)[.:$,?](?: [.:$,?])*$"),
-    _around("a prompt", "> sage In %", r"^(?:>(?: >){0,2}|sage :|In \[ \S+ \] :=|\( % \w+ \))"),
-    _around("1.", ".", r"^(?:\d+\.|[A-Z]\d+ \.)(?=\x20\x20)", "number"),
-    _around("1)", ")", r"^[^\s(]{1,2} \)(?= \S+ \S)", "number"),
-    _around("(1)", ")", rf"^\( (?:{_LABEL_NUMBERS}) \)(?=\x20\x20\S+ )", "number"),
-    _around(
-        "Problem 3:", ". : )", rf"^(?:WORD|{_LABEL_WORDS})(?: \.)? \d+(?:\.\d+)?(?:\.(?=\x20\x20)| [:.)])", "prose"
+    rule("the next sentence", ".", r"(?<=\.\x20\x20)[A-Z][a-z]*(?: (?:[^\W\d]+|[-,.!?']))+$", kind="prose"),
+    rule("the end of a sentence", ". : $ , ?", r"(?<!^)[.:$,?](?: [.:$,?])*$"),
+    rule("a prompt", "> sage In %", r"^(?:>(?: >){0,2}|sage :|In \[ \S+ \] :=|\( % \w+ \))"),
+    rule("1.", ".", r"^(?:\d+\.|[A-Z]\d+ \.)(?=\x20\x20)", kind="number"),
+    rule("1)", ")", r"^[^\s(]{1,2} \)(?= \S+ \S)", kind="number"),
+    rule("(1)", ")", rf"^\( (?:{_LABEL_NUMBERS}) \)(?=\x20\x20\S+ )", kind="number"),
+    rule(
+        "Problem 3:", ". : )", rf"^(?:WORD|{_LABEL_WORDS})(?: \.)? \d+(?:\.\d+)?(?:\.(?=\x20\x20)| [:.)])", kind="prose"
     ),
-    _around("Problem 3", _LABEL_WORDS.replace("|", " "), rf"^(?:{_LABEL_WORDS})(?: \.)? \d+(?=\x20\x20\S+ )", "number"),
-    _around("a sentence", "PROSE", rf"^{_SOME}?WORD {_SOME}(?:WORD|of|to|is|by|(?<=\w\x20):){_NO_OPERATOR}", "prose"),
-    _around("a capital", "PROSE", rf"^(?=[A-Z][a-z]+ )WORD{_NO_OPERATOR}(?! \()", "prose"),
-    _around("the number behind an equation", ") ]", r"(?<=[^-+*/^=,:.\s]\x20\x20)OPEN \d+(?:\.\d+)? CLOSE$", "label"),
-    _around(
+    rule(
+        "Problem 3", _LABEL_WORDS.replace("|", " "), rf"^(?:{_LABEL_WORDS})(?: \.)? \d+(?=\x20\x20\S+ )", kind="number"
+    ),
+    rule("a sentence", "PROSE", rf"^{_SOME}?WORD {_SOME}(?:WORD|of|to|is|by|(?<=\w\x20):){_NO_OPERATOR}", kind="prose"),
+    rule("a capital", "PROSE", rf"^(?=[A-Z][a-z]+ )WORD{_NO_OPERATOR}(?! \()", kind="prose"),
+    rule("the number behind an equation", ") ]", r"(?<=[^-+*/^=,:.\s]\x20\x20)OPEN \d+(?:\.\d+)? CLOSE$", kind="label"),
+    rule(
         "a remark behind an equation",
         "PROSE < > ≤ ≥ ≠",
         r"(?:(?<=\x200\x20\x20)|\n ?)\( (?:WORD(?: \S+){0,5}|\S+ [<>≤≥≠] \S+) \)$",
-        "prose",
+        kind="prose",
     ),
-    _around("the end of a sentence", ". : ,", r"[.:,](?: [.:,])*$"),
+    rule("the end of a sentence", ". : ,", r"[.:,](?: [.:,])*$"),
 )
 
 
@@ -258,22 +257,22 @@ class _Apart:
 
     def without_surroundings(self, scan: Tokens) -> Tokens:
         """Without prompts, numbers of lists and equations, prose and punctuation."""
-        for rule in SURROUNDINGS if scan[0].text not in _DECLARATIONS else ():
-            match = rule.pattern.search(scan.spaced) if scan.has(rule.marks) else None
+        for around in SURROUNDINGS if scan[0].text not in _DECLARATIONS else ():
+            match = around.pattern.search(scan.spaced) if scan.has(around.marks) else None
             if match is None:
                 continue
             first, behind = scan.span(match)
             left, rest = Tokens(scan[first:behind]), Tokens([*scan[:first], *scan[behind:]])
             is_name = len(left) == 2 and left[1].text == ":" and self.text.count(left[0].text) > 1  # eqn: ... ode2(eqn)
-            if rule.role and (is_name or not _is_equation(rest)):
-                if rule.role == "label":
+            if around.kind and (is_name or not _is_equation(rest)):
+                if around.kind == "label":
                     self.notes.append(f"{self.written(left)} was read as a factor; leave the number of an equation out")
                 continue
-            if rule.name in ("(1)", "Problem 3"):
+            if around.notation in ("(1)", "Problem 3"):
                 self.check_number(left, rest)
-            if rule.role:
-                self.notes.append(_NOTES[rule.role].format(self.written(left)))
-                self.add(rule.role, left)
+            if around.kind:
+                self.notes.append(_NOTES[around.kind].format(self.written(left)))
+                self.add(around.kind, left)
             scan = rest
         if scan and scan[-1].kind == "NUMBER" and scan[-1].text[-1] == "." and _has_equals(scan):  # y(0) = 1.
             return Tokens([*scan[:-1], scan[-1]._replace(text=scan[-1].text[:-1])])

@@ -65,7 +65,7 @@ def source_of(
             raise given.error("initial values are accepted by `dsolve` only", values[0], hint)
     tokens = _only_equation(given)
     vocabulary = Vocabulary(variable or given.variable, unknown, frozenset(names))
-    named = vocabulary.equation(tokens) if equation or given.is_equation else vocabulary.S(tokens)
+    named = vocabulary.of(tokens, is_equation=equation or given.is_equation)
     return Source(
         partial(evaluate, named.tokens),
         named.variable,

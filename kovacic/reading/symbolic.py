@@ -222,7 +222,7 @@ def read_equations(
     guesses = dict.fromkeys(paste.notes)
     equations = []
     for tokens in paste.equations:
-        named = Vocabulary(chosen, unknowns[0], frozenset({*names, *unknowns})).equation(tokens)
+        named = Vocabulary(chosen, unknowns[0], frozenset({*names, *unknowns})).of(tokens, is_equation=True)
         guesses |= dict.fromkeys(named.guesses)
         reader = SymbolicReader.of_equations(chosen, unknowns, limits, "the equation")
         reader.has_functions = True  # those that aren't differentiated

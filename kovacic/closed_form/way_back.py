@@ -1,0 +1,164 @@
+"""The way back from t = t(x) to the user's x, for solutions and integrals of an equation with a change of variable.
+
+Everything is computed in t (`reading.exponentials` has why); here results are written in x, where functions that are inverse to
+each other cancel, and roots of t + 1 and t - 1 join.  Every function serves where the equation has no change, too: there t = x.
+"""
+
+from __future__ import annotations
+
+from typing import Any
+
+import sympy
+from sympy.simplify.fu import TR2
+
+from kovacic.equation import Equation
+from kovacic.reading.change_of_variable import function_of_x, is_power, user_variable
+
+
+def in_x(equation: Equation, expression: Any) -> Any:
+    """A SymPy expression in t as one in x; exp(2*x) + 1 becomes 2*exp(x)*cosh(x), powers of exponentials exponentials."""
+    if equation.change is None:
+        return expression
+    own = sympy.Symbol(equation.variable)
+    x = user_variable(equation)
+    t = function_of_x(equation)
+    integrals = {  # int f(t(x)) t'(x) dx for int f(t) dt
+        integral: sympy.Integral(in_x(equation, integral.function) * t.diff(x), x)
+        for integral in expression.atoms(sympy.Integral)
+        if integral.limits == (sympy.Tuple(own),)
+    }
+    with_integrals = expression.xreplace(integrals)
+    if is_power(equation):
+        return _in_powers_of_x(with_integrals, own, t.exp, x)
+    result = _continued(with_integrals.xreplace({own: t}), t)
+    if t.func in _SINES:  # roots of t + 1 and t - 1 as powers that join where t is 1 or -1
+        roots = {e for e in result.atoms(sympy.Pow) if e.base in (t + 1, t - 1, 1 - t) and not e.exp.is_Integer}
+        return result.xreplace({e: _by_halves(t, e) for e in roots})
+    return _with_joined_powers(result, x) if t.func is sympy.exp else result
+
+
+#: For t(w): what an inverse function of t is, a polynomial q(t), and the function s with q(t) = s^2, where w is between 0 and
+#: pi/2.  Both sides are analytic, so that what holds there for solutions holds wherever they are continued.
+_INVERSE_FUNCTIONS: dict[Any, dict[Any, Any]] = {
+    sympy.sin: {sympy.asin: lambda w: w, sympy.acos: lambda w: sympy.pi / 2 - w},
+    sympy.cos: {sympy.acos: lambda w: w, sympy.asin: lambda w: sympy.pi / 2 - w},
+    sympy.tan: {sympy.atan: lambda w: w},
+    sympy.sinh: {sympy.asinh: lambda w: w},
+    sympy.cosh: {sympy.acosh: lambda w: w},
+}
+_ROOTS: dict[Any, Any] = {
+    sympy.sin: (lambda t: 1 - t**2, sympy.cos, 1),
+    sympy.cos: (lambda t: 1 - t**2, sympy.sin, 1),
+    sympy.tan: (lambda t: 1 + t**2, sympy.cos, -1),
+    sympy.sinh: (lambda t: 1 + t**2, sympy.cosh, 1),
+    sympy.cosh: (lambda t: t**2 - 1, sympy.sinh, 1),
+}
+
+
+def _continued(expression: Any, t: Any) -> Any:
+    """With x for asin(sin(x)) and cos(x) for sqrt(1 - sin(x)^2), the analytic continuations, which SymPy's branches aren't."""
+    if t.func not in _ROOTS:
+        return expression
+    w = t.args[0]
+    for function, inverse in _INVERSE_FUNCTIONS[t.func].items():
+        expression = expression.xreplace({function(t, evaluate=False): inverse(w)})
+    square, other, sign = _ROOTS[t.func]
+    for base, root in ((square(t), other(w) ** sign), (-square(t), sympy.I * other(w) ** sign)):
+        powers = {e for e in expression.atoms(sympy.Pow) if e.base == base and (2 * e.exp).is_Integer}
+        expression = expression.xreplace({e: root ** (2 * e.exp) for e in powers})
+    if t.func is sympy.tan:  # sin(w) for cos(w) tan(w)
+        expression = expression.replace(lambda e: e.is_Mul and e.has(t), lambda e: min(TR2(e), e, key=sympy.count_ops))
+    # cos(w) +- i sin(w) = exp(+-i w), and sin(w) +- i cos(w) = +-i exp(-+i w).  The constant is left out: a solution stays one
+    # where the logarithm of t +- i other(w), which isn't algebraic in t, is continued with another constant.
+    for i in (sympy.I, -sympy.I) if t.func in (sympy.sin, sympy.cos) else ():
+        angle = i * w if t.func is sympy.cos else -i * w
+        base = t + i * other(w)
+        powers = {e for e in expression.atoms(sympy.Pow) if e.base == base and not e.exp.is_Integer}
+        expression = expression.xreplace({e: sympy.exp(e.exp * angle) for e in powers} | {sympy.log(base): angle})
+    return expression
+
+
+def solution_in_x(equation: Equation, y: Any) -> Any:
+    """The same for a solution, up to a number as a factor."""
+    if equation.change is None:
+        return y
+    result = in_x(equation, y)
+    if not result.free_symbols:
+        return result
+    number, rest = result.as_independent(*result.free_symbols, as_Add=False)
+    return rest if number.is_number else result
+
+
+def _in_powers_of_x(expression: Any, own: Any, k: Any, x: Any) -> Any:
+    """With x^k for a variable, by exp(k s) with s = log(x)."""
+    s = sympy.Dummy("s")
+    joined = _with_joined_powers(expression.xreplace({own: sympy.exp(k * s)}), s)
+    in_powers = joined.replace(lambda e: e.func is sympy.exp, lambda e: _as_power(e.exp, s, x))
+    found = in_powers.xreplace({s: sympy.log(x)})
+    shorter = {p: x ** sympy.expand(sympy.cancel(p.exp)) for p in found.atoms(sympy.Pow) if p.base == x}
+    return with_roots_of_factors(found.xreplace(shorter), x)
+
+
+def _as_power(exponent: Any, s: Any, x: Any) -> Any:
+    """exp(c s + r) = x^c exp(r) with s = log(x)."""
+    terms = sympy.Add.make_args(sympy.expand(exponent))
+    linear = [term for term in terms if not sympy.cancel(term / s).has(s)]
+    rate = sympy.cancel(sympy.Add(*linear) / s)
+    return x**rate * sympy.exp(sympy.Add(*(term for term in terms if term not in linear)))
+
+
+def with_roots_of_factors(expression: Any, x: Any) -> Any:
+    """sqrt(a)/m for sqrt(a/m^2), where x isn't in it.
+
+    Either sign of a root gives solutions, if it is the same everywhere: so in what belongs to a solution, too.
+    """
+    forced: dict[Any, Any] = {}
+    for power in expression.atoms(sympy.Pow):
+        is_root = power.exp.is_Rational and not power.exp.is_Integer
+        if is_root and not power.has(x):
+            factored = sympy.factor(power.base) ** power.exp
+            forced[power] = sympy.powdenest(sympy.expand_power_base(factored, force=True), force=True)
+    return expression.xreplace(forced)
+
+
+def _with_joined_powers(expression: Any, x: Any) -> Any:
+    """One exponential function in each product, hyperbolic functions for exp(k x) + 1, no logarithm of an exponential."""
+
+    def is_log_of_exponential(e: Any) -> bool:
+        return e.func is sympy.log and e.args[0].func is sympy.exp
+
+    def is_exponential_and_one(e: Any) -> bool:
+        return bool(e.is_Add and len(e.args) == 2 and e.args[0] in (1, -1) and e.args[1].func is sympy.exp)
+
+    def is_product_with_x(e: Any) -> bool:
+        return bool(e.is_Pow and e.base.is_Mul and e.base.has(x))
+
+    def is_power_of_exponential(e: Any) -> bool:
+        return bool(e.is_Pow and e.base.func is sympy.exp)
+
+    found = expression.replace(is_log_of_exponential, lambda e: e.args[0].exp)
+    found = found.replace(is_exponential_and_one, _by_half_angle)
+    found = found.replace(is_product_with_x, lambda e: sympy.expand_power_base(e, force=True))
+    found = found.replace(is_power_of_exponential, lambda e: sympy.exp(e.base.exp * e.exp))
+    return sympy.powsimp(found, combine="exp")
+
+
+#: The function s with t - 1 = 2 sign s(w/2)^2 for t = cos(w) or cosh(w), and the sign.
+_SINES = {sympy.cos: (sympy.sin, -1), sympy.cosh: (sympy.sinh, 1)}
+
+
+def _by_halves(t: Any, power: Any) -> Any:
+    """A power of t + 1 = 2 t(w/2)^2, of t - 1 or of 1 - t, for t = cos(w) or cosh(w)."""
+    half = t.args[0] / 2
+    if power.base == t + 1:
+        return sympy.Integer(2) ** power.exp * t.func(half) ** (2 * power.exp)
+    function, sign = _SINES[t.func]
+    factor = sympy.Integer(2 * sign if power.base == t - 1 else -2 * sign)
+    return factor**power.exp * function(half) ** (2 * power.exp)
+
+
+def _by_half_angle(e: Any) -> Any:
+    """exp(w) + 1 = 2 exp(w/2) cosh(w/2), and exp(w) - 1 with sinh."""
+    number, exponential = e.args
+    half = exponential.exp / 2
+    return 2 * sympy.exp(half) * (sympy.cosh(half) if number == 1 else sympy.sinh(half))
