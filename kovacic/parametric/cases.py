@@ -15,7 +15,7 @@ from dataclasses import dataclass, replace
 from itertools import chain, groupby, product
 
 from kovacic.algebra.extension import ExtensionPoly
-from kovacic.algebra.function_field import FunctionField, FunctionPoly
+from kovacic.algebra.function_field import FunctionPoly
 from kovacic.algebra.poly import Poly
 from kovacic.algebra.ratfunc import RatFunc
 from kovacic.algebra.rationals import QQ
@@ -42,14 +42,7 @@ from kovacic.parametric.statements import (
 
 def everything(statement: Statement) -> list[ParameterPoint]:
     """All values of the parameters, as one chart; none for a statement in which no function occurs."""
-    fields: dict[FunctionField, None] = {}
-
-    def noted(function: FunctionPoly) -> FunctionPoly:
-        fields[function.field] = None
-        return function
-
-    statement.rewritten(noted)
-    return [ParameterPoint.generic(field) for field in fields][:1]
+    return [] if statement.field is None else [ParameterPoint.generic(statement.field)]
 
 
 def within(statement: Statement, charts: list[ParameterPoint]) -> list[ParameterPoint]:

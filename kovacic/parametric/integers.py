@@ -25,7 +25,7 @@ from operator import mul
 from random import Random
 from typing import NamedTuple
 
-from kovacic.algebra.function_field import FunctionPoly
+from kovacic.algebra.function_field import FunctionField, FunctionPoly
 from kovacic.algebra.poly import Poly
 from kovacic.algebra.ratfunc import RatFunc
 from kovacic.algebra.rationals import QQ
@@ -365,6 +365,10 @@ class Congruence(Statement):
         return cls(equation, tuple(sorted(known)), modulus)
 
     @property
+    def field(self) -> FunctionField:
+        return self.equation.field
+
+    @property
     def form(self) -> FunctionPoly | None:
         """The form that is congruent to one of the numbers; None for an equation of higher degree."""
         return over_parameters(-self.equation[0]) if self.equation.degree == 1 else None
@@ -389,8 +393,7 @@ class Congruence(Statement):
         return self._has_one_of(rational_roots(numbers))
 
     def rewritten(self, change: Callable[[FunctionPoly], FunctionPoly]) -> Statement:
-        made = Congruence.make(change(self.equation), self.residues, self.modulus)
-        return replace(made, setting=self.setting)
+        return integer_roots(change(self.equation), self.residues, self.modulus).avoiding(self.setting)
 
     def sample(self, random: Random) -> list[FunctionPoly]:
         N = random.choice(self.residues) + random.randint(-4, 4) * self.modulus
@@ -474,7 +477,7 @@ class Congruence(Statement):
         found = integer_condition(equation, numbers, self.letter, self.setting)
         claims = [found.claim]
         for zero, rest in found.strata:
-            there = integer_roots(rest, [*map(int, numbers.residues)], int(numbers.modulus))
+            there = integer_roots(rest, numbers.residues, numbers.modulus)
             if there != NEVER:
                 claims.append(all_of(both(Vanishes(zero), there).parts).avoiding(self.setting).claim)
         said = claims[0] if len(claims) == 1 else AnyOf(tuple(claims))
@@ -521,8 +524,8 @@ def free_letter(names: Collection[str], preferred: str = LETTERS) -> str:
     return next(letter for letter in chain(preferred, map("n{}".format, count())) if letter not in names)
 
 
-def integer_roots(equation: FunctionPoly, residues: Sequence[int], modulus: int) -> Statement:
-    """When does a polynomial in N over Q(t) have an integer root in these classes?"""
+def integer_roots(equation: FunctionPoly, residues: Iterable[Fraction | int], modulus: Fraction | int) -> Statement:
+    """When does a polynomial in N over Q(t) have a rational root in these classes?  They are integers but for degree 1."""
     classes = {r % modulus for r in residues}
     is_symmetric = classes == {-r % modulus for r in classes}  # and then the signs of N say the same
     statements: list[Statement] = []

@@ -19,7 +19,7 @@ from itertools import chain
 from random import Random
 from typing import NamedTuple
 
-from kovacic.algebra.function_field import FunctionPoly
+from kovacic.algebra.function_field import FunctionField, FunctionPoly
 from kovacic.algebra.ratfunc import RatFunc
 from kovacic.algebra.rationals import QQ
 from kovacic.decision import Structure
@@ -143,17 +143,18 @@ class Natural(Statement):
     def letter(self) -> str:
         return free_letter(self.setting.names, f"d{LETTERS}")
 
+    @property
+    def field(self) -> FunctionField:
+        return over_parameters(self.S.num).field
+
     def rewritten(self, change: Callable[[FunctionPoly], FunctionPoly]) -> Statement:
         S = RatFunc(change(over_parameters(self.S.num)), change(over_parameters(self.S.den)))
         if self.factors is None:
             return replace(self, S=S)
-        changed = list[FunctionPoly]()
-        for factor in map(change, self.factors):
-            if factor.degree > 1 and not any(degrees(factor)):  # numbers: it may have several factors there
-                changed += (over_parameters(part) for part, _ in factor.field.factor(factor))
-            else:
-                changed.append(factor)
-        return replace(self, S=S, factors=tuple(changed))
+        factored = (one.field.factor(one) for one in map(change, self.factors))
+        return replace(
+            self, S=S, factors=tuple(union([over_parameters(factor) for factor, _ in one] for one in factored))
+        )
 
     def numbers_at(self, point: ParameterPoint) -> list[int]:
         """The natural numbers that the exponents allow at a point, as far as they are listed."""

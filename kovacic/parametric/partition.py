@@ -61,7 +61,6 @@ from kovacic.parametric.functions import (
     powers_of,
     union,
 )
-from kovacic.parametric.integers import Congruence, integer_roots
 from kovacic.parametric.natural import Natural
 from kovacic.parametric.regions import Limited, ParameterRegion, RegionVerdict, Theorem, Theory, settled, verdict_of
 from kovacic.parametric.restriction import (
@@ -82,7 +81,7 @@ from kovacic.parametric.solutions import (
     derivative,
     solutions_there,
 )
-from kovacic.parametric.statements import ALWAYS, NEVER, Both, Either, Statement, Vanishes, both, either
+from kovacic.parametric.statements import ALWAYS, NEVER, Statement, Vanishes, both
 from kovacic.parametric.theorems import kimura, martinet_ramis
 from kovacic.writing.formula import Math, caret
 
@@ -542,8 +541,7 @@ class InPowers:
             values = [own.generator(name) ** names.get(name, 1) for name in own.names]
             return over_parameters(function.value_at(values, own))
 
-        statement = _in_factors(region.statement.rewritten(raised))
-        return replace(region, statement=statement, origin=origin)
+        return replace(region, statement=region.statement.rewritten(raised), origin=origin)
 
 
 def _with_powers(powers: Mapping[str, int], solution: PolynomialSolution) -> PolynomialSolution:
@@ -571,23 +569,6 @@ def in_powers(S: RatFunc) -> InPowers | None:
             terms[(first, *(n // k for n, k in zip(exponents, powers, strict=True)))] = coefficient
         lowered.append(element(part.field, part.field.context.from_dict(terms)))
     return InPowers(RatFunc(*lowered), powers)
-
-
-def _in_factors(statement: Statement) -> Statement:
-    """The same statement, said of irreducible polynomials: T and T - t are, t^2 and t^2 - s^2 aren't."""
-    if isinstance(statement, Both):
-        return both(*map(_in_factors, statement.parts))
-    if isinstance(statement, Either):
-        return either(*map(_in_factors, statement.parts))
-    if isinstance(statement, Vanishes):
-        return either(*map(Vanishes, irreducible_factors(statement.function)))
-    if isinstance(statement, Congruence) and statement.form is None:
-        return integer_roots(statement.equation, [*map(int, statement.residues)], int(statement.modulus))
-    if isinstance(statement, Natural) and statement.factors is not None:
-        factored = [equation.field.factor(equation) for equation in statement.factors]  # over Q(t)
-        factors = union([over_parameters(factor) for factor, _ in one] for one in factored)
-        return replace(statement, factors=tuple(factors))
-    return statement
 
 
 #: Strata of parameter space up to which they are examined: Heun's general equation, in six parameters, has some hundreds.

@@ -26,7 +26,7 @@ from math import gcd, lcm
 from random import Random
 from typing import NamedTuple
 
-from kovacic.algebra.function_field import FunctionPoly
+from kovacic.algebra.function_field import FunctionField, FunctionPoly
 from kovacic.algebra.poly import Poly
 from kovacic.algebra.traces import characteristic_polynomial
 from kovacic.decision import Structure
@@ -132,6 +132,10 @@ class Schwarz(Statement, Claim):
 
     def _holds(self, point: ParameterPoint) -> bool:
         return kimura([*map(rational_square_root, roots(point.at(self.cubic)))]) in self.structures
+
+    @property
+    def field(self) -> FunctionField:
+        return self.cubic.field
 
     def rewritten(self, change: Callable[[FunctionPoly], FunctionPoly]) -> Statement:
         return replace(self, cubic=change(self.cubic))

@@ -14,11 +14,11 @@ from itertools import chain
 from random import Random
 from typing import ClassVar
 
-from kovacic.algebra.function_field import FunctionPoly
+from kovacic.algebra.function_field import FunctionField, FunctionPoly
 from kovacic.parametric import prose
 from kovacic.parametric.assumptions import NOTHING_ASSUMED, Assumptions
 from kovacic.parametric.claims import AllOf, AnyOf, Claim, IsZero, Proposition
-from kovacic.parametric.functions import NO_CONSTANT, ParameterPoint, numerator
+from kovacic.parametric.functions import NO_CONSTANT, ParameterPoint, irreducible_factors
 
 
 @dataclass(frozen=True)
@@ -69,9 +69,14 @@ class Statement(Proposition):
         """What is left to say where the assumptions hold."""
         return self
 
+    @property
+    @abstractmethod
+    def field(self) -> FunctionField | None:
+        """That of its functions; None where there are none."""
+
     @abstractmethod
     def rewritten(self, change: Callable[[FunctionPoly], FunctionPoly]) -> Statement:
-        """The same statement about other parameters: each of its functions is changed."""
+        """The same statement about other parameters: each of its functions is changed, and in irreducible factors again."""
 
     def sample(self, random: Random) -> list[FunctionPoly]:
         """Functions, chosen at random, at whose common zeros the statement holds."""
@@ -92,8 +97,13 @@ class Vanishes(Statement):
     def _holds(self, point: ParameterPoint) -> bool:
         return not point.at(self.function)
 
+    @property
+    def field(self) -> FunctionField:
+        return self.function.field
+
     def rewritten(self, change: Callable[[FunctionPoly], FunctionPoly]) -> Statement:
-        return Vanishes(numerator(change(self.function)))
+        changed = change(self.function)
+        return either(*map(Vanishes, irreducible_factors(changed))) if changed else ALWAYS
 
     def sample(self, random: Random) -> list[FunctionPoly]:
         return [self.function]
@@ -116,8 +126,9 @@ class _Several(Statement):
     def _holds(self, point: ParameterPoint) -> bool:
         return any(part.holds(point) is self.decisive for part in self.parts) is self.decisive
 
-    def rewritten(self, change: Callable[[FunctionPoly], FunctionPoly]) -> Statement:
-        return replace(self, parts=tuple(part.rewritten(change) for part in self.parts))
+    @property
+    def field(self) -> FunctionField | None:
+        return next((part.field for part in self.parts if part.field is not None), None)
 
     def avoiding(self, setting: Setting) -> Statement:
         return replace(self, parts=tuple(part.avoiding(setting) for part in self.parts))
@@ -157,6 +168,9 @@ class Either(_Several):
 
 class Both(_Several):
     decisive = False
+
+    def rewritten(self, change: Callable[[FunctionPoly], FunctionPoly]) -> Statement:
+        return all_of([part.rewritten(change) for part in self.parts])
 
     def merged(self, other: Statement) -> Statement | None:
         if not isinstance(other, Both) or other.parts[:-1] != self.parts[:-1]:
