@@ -328,8 +328,9 @@ class Congruence(Statement):
     def make(cls, equation: FunctionPoly, residues: Iterable[Fraction | int], modulus: Fraction | int) -> Congruence:
         """Normalised, with the least modulus, by N -> a N + b.
 
-        A form gets no constant term (in a Laurent series at 0) and coprime coefficients; else the mean of the roots lies in
-        (-1, 0] if it is a number, and the classes are symmetric about it if the equation is.
+        A form gets no constant term (in a Laurent series at 0) and coprime coefficients; else that of the mean of the roots
+        lies in (-1, 0], and the classes are symmetric about it if the equation is.  Equations that differ by N -> +-N + b with
+        an integer b become the same.
         """
         classes = {Fraction(r) for r in residues}
         m = Fraction(modulus)
@@ -338,15 +339,15 @@ class Congruence(Statement):
             form, scale, offset = normal_form(-equation[0] / equation[1])  # the root N = form/scale + offset
             scaled = {(residue - offset) * scale for residue in classes}
             return cls._with_least_modulus(over_parameters(form.field.poly([0, 1]) - form), scaled, abs(m * scale))
-        field = equation.field
-        mean = field.rational_value(-equation[k - 1] / (k * equation.lc))
-        if mean is None:
-            return cls._with_least_modulus(equation, classes, m)
-        shift = ceil(mean)
-        Z = field.poly([0, 1])
-        moved = over_parameters(equation(Z + shift))
-        moved_classes = {residue - shift for residue in classes}
-        twice = 2 * (mean - shift)
+        Z = equation.field.poly([0, 1])
+        mean = constant_term(-equation[k - 1] / (k * equation.lc))
+        forms: list[tuple[Fraction, str, FunctionPoly, set[Fraction]]] = []
+        for sign in (1, -1):  # Z = sign N - shift, by which the mean comes into (-1, 0], and as far from 0 as possible
+            shift = ceil(sign * mean)
+            moved = over_parameters(equation((Z + shift) * sign) * sign**k)
+            forms.append((shift - sign * mean, str(moved), moved, {sign * residue - shift for residue in classes}))
+        distance, _, moved, moved_classes = max(forms, key=lambda form: form[:2])
+        twice = -2 * distance
         is_symmetric = twice.denominator == 1 and moved(twice - Z) == (-1) ** k * moved
         if is_symmetric:
             moved_classes |= {twice - residue for residue in moved_classes}
@@ -400,34 +401,11 @@ class Congruence(Statement):
         return [over_parameters(self.equation(N))]
 
     def merged(self, other: Statement) -> Congruence | None:
-        if not isinstance(other, Congruence):
-            return None
-        relation = self._relation(other.equation)
-        if relation is None:
+        if not isinstance(other, Congruence) or other.equation != self.equation:
             return None
         common = common_multiple(self.modulus, other.modulus)
-        numbers = self.numbers.modulo(common)
-        numbers += [relation.sign * number + relation.shift for number in other.numbers.modulo(common)]
-        made = Congruence.make(self.equation, numbers, common)
+        made = Congruence.make(self.equation, self.numbers.modulo(common) + other.numbers.modulo(common), common)
         return replace(made, setting=self.setting)
-
-    def _relation(self, other: FunctionPoly) -> _Relation | None:
-        """Between the roots of the other equation and those of this one."""
-        own = self.equation
-        k = own.degree
-        if other == own:
-            return _Relation(1, 0)
-        if other.degree != k or other.field != own.field:
-            return None
-        N = own.field.poly([0, 1])
-        for sign in (1, -1):
-            shift = own.field.rational_value((own[k - 1] / own.lc - sign * other[k - 1] / other.lc) / -k)
-            if shift is None or shift.denominator > 1:
-                continue
-            moved = own(sign * N + int(shift))
-            if moved * other.lc == other * moved.lc:
-                return _Relation(sign, int(shift))
-        return None
 
     def decided(self, assumptions: Assumptions) -> bool | None:
         if self.form is not None:
@@ -510,13 +488,6 @@ class Congruence(Statement):
         if has_several_parameters and all_solved(equation, self.setting.fixed):
             return self._solved(equation, Classes.of([residue * scale], modulus * scale))
         return InClasses(form, self.numbers)
-
-
-class _Relation(NamedTuple):
-    """N is a root of one equation exactly where sign * N + shift is one of another."""
-
-    sign: int
-    shift: int
 
 
 def free_letter(names: Collection[str], preferred: str = LETTERS) -> str:
