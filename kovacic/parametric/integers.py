@@ -67,8 +67,9 @@ from kovacic.parametric.functions import (
 from kovacic.parametric.restriction import everywhere
 from kovacic.parametric.statements import ALWAYS, NEVER, Setting, Statement, Vanishes, all_of, both, either
 
-#: How much more the length of f(n) counts than that of what is said about n, and what it costs to solve for a later parameter.
+#: How much the lengths of f(n) and of what is said about n count, and what it costs to solve for a later parameter.
 _WEIGHT = 3
+_WORDS = 2
 _LATER = 10
 #: What it costs, for each stratum of which something has to be said.
 _STRATUM = 20
@@ -194,7 +195,7 @@ def _spectrum(equation: FunctionPoly, numbers: Classes, letter: str, setting: Se
         strata = tuple(one for one in solved.strata if not setting.covers(one.zero))
         for family in _choices(equation, solved, numbers, letter):
             length = _WEIGHT * shortest_length(family.value, family.letter)
-            length += len(prose.text_of(prose.numbers_of(family)))
+            length += _WORDS * len(prose.text_of(prose.numbers_of(family)))
             cost = _LATER * k + _STRATUM * len(strata) + length
             if best is None or cost < least:
                 best = IntegerCondition(family, strata, is_solved=True)

@@ -64,7 +64,7 @@ TABLE = [
     Published(
         "Morse",
         "A^2 - 2*A*b/x - (E + 1/4)/x^2",
-        "E = -(n + 2*b)^2/4 for an odd integer n",
+        "E = -(n - 2*b)^2/4 for an odd integer n",
         1,
         "E = -(b - n - 1/2)^2",
         lambda n, b: {"A": 2, "b": b, "E": -((b - n - F(1, 2)) ** 2)},
@@ -73,7 +73,7 @@ TABLE = [
     Published(
         "Rosen-Morse",
         "-(1-(-E-b))/(4*x^2)-(1-(-E+b))/(4*(x-1)^2)-((-E-b)+(-E+b)-(2*l+1)^2-1)/(4*x*(x-1))",
-        "2*l + 1 +- sqrt(-E + b) +- sqrt(-E - b) is an odd integer, "
+        "2*l +- sqrt(-E + b) +- sqrt(-E - b) is an even integer, "
         "that is E = -(n - l)^2 - b^2/(4*(n - l)^2) (b = 0 where n = l) for an integer n",
         1,
         "E = -(l - n)^2 - b^2/(4 (l - n)^2)",
@@ -84,7 +84,7 @@ TABLE = [
         "Hulthen",
         "-(1-(-E))/(4*(x-1)^2)*0+((-E+V-1)*x-V)/(4*x*(x-1)^2)",
         "sqrt(-E + V) +- sqrt(-E) is an even integer, "
-        "that is E = -(n^2 - V)^2/(4*n^2) (V = 0 where n = 0) for an even integer n",
+        "that is E = -(4*n^2 - V)^2/(16*n^2) (V = 0 where n = 0) for an integer n",
         1,
         "E = -((V - N^2)/(2 N))^2, N even",
         lambda n, v: {"E": -(F(v - 4 * (n + 1) ** 2, 4 * (n + 1)) ** 2), "V": v},
@@ -165,7 +165,7 @@ TABLE = [
         )
         for k, printed in (
             (3, "L = (3*n^2 - n)/2 for an integer n"),
-            (5, "L = n*(5*n + 3)/2 for an integer n"),
+            (5, "L = n*(5*n - 3)/2 for an integer n"),
             (-3, "L = -n*(3*n + 5)/2 for an integer n"),
         )
     ),

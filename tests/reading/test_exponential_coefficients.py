@@ -30,7 +30,7 @@ def residual(solution: Any, S: Any, point: Any) -> Any:
 POTENTIALS = {
     "Morse": (
         "A^2*exp(-2*x) - 2*A*b*exp(-x) - E",
-        "E = -(n + 2*b)^2/4 for an odd integer n: case 1",
+        "E = -(n - 2*b)^2/4 for an odd integer n: case 1",
         lambda n, a, b: {"A": a, "b": b, "E": -((b - n - F(1, 2)) ** 2)},
     ),
     "Poeschl-Teller": (
@@ -45,13 +45,13 @@ POTENTIALS = {
     ),
     "Rosen-Morse": (
         "b*tanh(x) - l*(l+1)*sech(x)^2 - E",
-        "2*l + 1 +- sqrt(-E + b) +- sqrt(-E - b) is an odd integer, "
+        "2*l +- sqrt(-E + b) +- sqrt(-E - b) is an even integer, "
         "that is E = -(n - l)^2 - b^2/(4*(n - l)^2) (b = 0 where n = l) for an integer n: case 1",
         lambda n, a, b: {"l": a, "b": b, "E": -((a - n) ** 2) - b * b / (4 * (a - n) ** 2)},
     ),
     "Eckart": (
         "-2*b*coth(x) + a*(a-1)*csch(x)^2 - E",
-        "2*a + 1 +- sqrt(-E + 2*b) +- sqrt(-E - 2*b) is an odd integer, "
+        "2*a +- sqrt(-E + 2*b) +- sqrt(-E - 2*b) is an even integer, "
         "that is E = -(n - a)^2 - b^2/(n - a)^2 (b = 0 where n = a) for an integer n: case 1",
         lambda n, a, b: {"a": a, "b": b, "E": -((a + n) ** 2) - b * b / (a + n) ** 2},
     ),
