@@ -14,7 +14,7 @@ from functools import cached_property
 from typing import Any, ClassVar, NamedTuple
 
 import numpy as np
-from flint import acb, arb, arb_poly, fmpq_poly
+from flint import acb, arb, fmpq_poly
 
 from kovacic.algebra.precision import working_precision
 from kovacic.algebra.rationals import foresee_move
@@ -290,19 +290,16 @@ class RationalChart:
         return self.problem.right is not None
 
     @cached_property
-    def _equation(self) -> Sequence[Any]:
-        return self.problem.equation if self.problem.embedded is None else self.problem.embedded.in_balls()
-
-    @cached_property
     def singular(self) -> list[ExactPoint]:
         """The midpoints of their enclosures."""
         return self.problem.singular_points(128)
 
     def local(self, centre: ExactPoint, e: int, terms: int) -> list[list[arb]]:
-        """a, H b and H^2 c over a(c), so many terms in u; not numbers where a(c) may be zero."""
-        line: Any = fmpq_poly([centre.x, power_of_two(e)])
-        line = line if self.problem.embedded is None else arb_poly(line)
-        found = [[arb(v) for v in _expanded(part, line, terms)] for part in self._equation]
+        """See `_series_of`."""
+        if self.is_forced or self.problem.embedded is not None:
+            return _series_of(way_of(self.problem).functions, centre, e, terms)
+        line = fmpq_poly([centre.x, power_of_two(e)])
+        found = [[arb(v) for v in _expanded(part, line, terms)] for part in self.problem.equation]
         factors = [arb((1, k * e)) / found[0][0] for k in range(3)]
         return [[v * factor for v in part] for part, factor in zip(found, factors, strict=True)]
 
@@ -314,11 +311,6 @@ class RationalChart:
     def is_regular(self, centre: ExactPoint, e: int) -> bool:
         """True if the disc with the scale 2^e, and four times as much, is free of singular points."""
         return all((point - centre).norm_squared() > power_of_two(2 * e + 4) for point in self.singular)
-
-    def source(self, centre: ExactPoint, e: int, u: arb) -> arb:
-        """H^2 f/a at u."""
-        x = acb(centre.x) + acb(u) * acb(arb((1, e)))
-        return _real_value(acb(way_of(self.problem).functions.values(x)[2])) * arb((1, 2 * e))
 
 
 @dataclass(frozen=True)
@@ -389,17 +381,17 @@ class AnalyticChart:
             return self._functions.sizes(centre, arb((1, e + 1))) is not None
 
     def local(self, centre: ExactPoint, e: int, terms: int) -> list[list[arb]]:
-        """1, H b and H^2 c, so many terms in u; not numbers where they aren't finite."""
-        parts = self._functions.series(centre, e, terms)
-        if parts is None:
-            return [[arb(1)], [], [arb("nan")]]
-        rows = [part.coeffs() for part in parts[1:3]]
-        return [[arb(1)], *([_real_value(acb(v)) for v in row] for row in rows)]
+        """See `_series_of`."""
+        return _series_of(self._functions, centre, e, terms)
 
-    def source(self, centre: ExactPoint, e: int, u: arb) -> arb:
-        """H^2 f at u."""
-        x = acb(centre.x) + acb(u) * acb(arb((1, e)))
-        return _real_value(acb(self._functions.values(x)[2])) * arb((1, 2 * e))
+
+def _series_of(functions: CoefficientField, centre: ExactPoint, e: int, terms: int) -> list[list[arb]]:
+    """a, H b, H^2 c and H^2 f over a(c), so many terms in u; not numbers where they aren't finite."""
+    parts = functions.series(centre, e, terms)
+    if parts is None:
+        return [[arb(1)], [], [arb("nan")], []]
+    (_, *a), *others = ([_real_value(acb(v)) for v in part.coeffs()] or [arb(0)] for part in parts)
+    return [[arb(1), *a], *others]
 
 
 def _real_value(value: acb) -> arb:
@@ -436,15 +428,14 @@ def _real_problem(equation: object, params: Mapping[str, object] | None, constan
     return problem
 
 
-def _expanded(polynomial: Any, line: Any, terms: int) -> list[Any]:
+def _expanded(polynomial: fmpq_poly, line: fmpq_poly, terms: int) -> list[Any]:
     """The first coefficients of the composition with a line: of a few ones, the powers of a long one are never made."""
     degree = polynomial.degree()
     centre = line[0]
     scale = line[1]
     if terms > max(_FEW_TERMS, degree // _DEGREES_A_TERM):
-        if isinstance(line, fmpq_poly):
-            bits = max(int(polynomial.numer().height_bits()), int(polynomial.denom()).bit_length())
-            foresee_move(degree, bits, max(int(centre.height_bits()), int(scale.height_bits())))
+        bits = max(int(polynomial.numer().height_bits()), int(polynomial.denom()).bit_length())
+        foresee_move(degree, bits, max(int(centre.height_bits()), int(scale.height_bits())))
         return polynomial(line).coeffs()[:terms]  # type: ignore[no-any-return]
     found = []
     factor = scale**0

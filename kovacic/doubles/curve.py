@@ -16,7 +16,7 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 from itertools import pairwise
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -47,8 +47,7 @@ _MOST = 400_000
 _DRAWN = 6
 
 
-@dataclass(frozen=True)
-class Arc:
+class Arc(NamedTuple):
     """A part of the curve between singular points: samples with y, y' and the proven error bounds of y."""
 
     x: Floats
@@ -80,8 +79,7 @@ class Envelope:
     periods: float
 
 
-@dataclass(frozen=True)
-class CurveCoefficients:
+class CurveCoefficients(NamedTuple):
     """beta = b/(2a) and S at points x."""
 
     x: Floats
@@ -99,7 +97,7 @@ def coefficients(chart: PieceChart, points: Sequence[ExactPoint]) -> CurveCoeffi
     for k, point in enumerate(points):
         if k % 32 == 0:
             check_time()
-        a, b, c = ([float(v.mid()) for v in part] + [0.0, 0.0] for part in chart.local(point, 0, 2))
+        a, b, c, *_ = ([float(v.mid()) for v in part] + [0.0, 0.0] for part in chart.local(point, 0, 2))
         slope_of_b = b[1] - b[0] * a[1]
         rows.append((b[0] / 2, slope_of_b / 2 + b[0] ** 2 / 4 - c[0]))
     beta, S = np.array(rows).T
@@ -135,7 +133,7 @@ def arcs(
             too_fine[first : last + 1] = False
     found: list[Arc | Envelope] = []
     for first, last in _stretches(too_fine):
-        part = CurveCoefficients(here.x[first : last + 1], here.beta[first : last + 1], here.S[first : last + 1])
+        part = CurveCoefficients(*(values[first : last + 1] for values in here))
         if too_fine[first]:
             found.append(_envelope(chart, part, width, states))
         else:
@@ -194,21 +192,13 @@ def _halved(
     h = arc.x[right] - arc.x[left]
     middles = arc.x[left] + h / 2
     inside = (middles > arc.x[left]) & (middles < arc.x[right])
-    left = left[inside]
-    right = right[inside]
-    h = h[inside]
-    middles = middles[inside]
+    left, right, h, middles = (values[inside] for values in (left, right, h, middles))
     _check(len(arc.x) + len(middles))
     new = _sampled(middles, states)
     cubic = (arc.y[left] + arc.y[right]) / 2 + h * (arc.dy[left] - arc.dy[right]) / 8
     allowed = _TOLERANCE * np.maximum(np.abs(new.y), usual) + new.radius
     missed = np.abs(cubic - new.y) > allowed
-    merged = Arc(
-        np.insert(arc.x, right, new.x),
-        np.insert(arc.y, right, new.y),
-        np.insert(arc.dy, right, new.dy),
-        np.insert(arc.radius, right, new.radius),
-    )
+    merged = Arc(*(np.insert(known, right, one) for known, one in zip(arc, new, strict=True)))
     still = np.zeros(len(merged.x) - 1, dtype=bool)
     places = right + np.arange(len(right))  # of the new samples
     still[places[missed] - 1] = True
@@ -238,12 +228,10 @@ def _periods(x: Floats, frequency: Floats) -> float:
 
 def _sampled(x: Floats, states: Callable[[Sequence[ExactPoint]], Sequence[Any]]) -> Arc:
     found = states([ExactPoint(Fraction(float(at))) for at in x])
-    values = [finite_ball(y) for y, _ in found]
-    slopes = [finite_ball(dy) for _, dy in found]
+    balls = [[finite_ball(value) for value in state] for state in found]
     try:
-        y = np.array([complex(ball.mid) for ball in values])
-        dy = np.array([complex(ball.mid) for ball in slopes])
-        radius = np.array([float(ball.radius) for ball in values])
+        y, dy = (np.array([complex(ball.mid) for ball in part]) for part in zip(*balls, strict=True))
+        radius = np.array([float(value.radius) for value, _ in balls])
     except OverflowError:
         said = "the solution grows beyond the range of doubles, and can't be drawn: take a shorter interval"
         raise LimitExceeded(said, limit="digits") from None

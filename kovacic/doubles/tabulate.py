@@ -6,9 +6,8 @@ little on them and their Taylor series
 
     y(c + H u) = y(c) y1(u) + H y'(c) y2(u) + y3(u),    |u| <= 1,
 
-end within a fixed number of terms; y1 and y2 solve the homogeneous equation, y3 begins with 0, 0 (a right-hand side is
-interpolated at Chebyshev's points).  The series come from the recurrence of the equation, in double-doubles for all pieces at
-once; the states (y, y')(c) are enclosures.
+end within a fixed number of terms; y1 and y2 solve the homogeneous equation, y3 begins with 0, 0.  The series come from the
+recurrence of the equation, in double-doubles for all pieces at once; the states (y, y')(c) are enclosures.
 
 Chebyshev's polynomials bring the highest terms down [L. N. Trefethen, Approximation Theory and Approximation Practice, SIAM
 2013, chapter 3].  In the careful variant Horner's scheme is done in double-doubles, too, so that the error is some 2^-95 of the
@@ -31,7 +30,7 @@ from math import ldexp
 from typing import Any, NamedTuple, Unpack
 
 import numpy as np
-from flint import arb, arb_mat, arb_poly, fmpq
+from flint import arb, fmpq
 from numpy.polynomial import chebyshev
 
 from kovacic.algebra.precision import working_precision
@@ -230,26 +229,9 @@ class TabulatedFunction:
         return {}
 
     def _values(self, flat: Any) -> Any:
-        parts, powers = self.parts(flat)
-        found = [double(part) for part in parts]
-        if powers is not None:
-            found = [np.ldexp(part, powers) for part in found]
-        if len(found) == 1:
-            return found[0]
-        values = np.empty(flat.shape, dtype=complex)  # 1j times an infinite part would be NaN
-        values.real, values.imag = found
-        return values
-
-    def parts(self, flat: Any) -> tuple[list[Any], Any]:
-        """Real and imaginary part as double-doubles or arrays, and the powers of two, None where all are 0.
-
-        Parameters
-        ----------
-        flat : array
-            Of one dimension, within the interval.
-        """
+        """At points of an array of one dimension."""
         index = np.searchsorted(self.edges, flat, side="right")
-        found = np.zeros((len(self.coefficients), 1 + self.careful, flat.size))
+        found = np.zeros((len(self.coefficients), flat.size))  # real and imaginary part
         runs: list[tuple[Any, Any]] = [(slice(None), index)]
         if index.size >= _CROWD * self.centres.size:  # piece by piece, so that the coefficients are numbers
             order = np.argsort(index, kind="stable")
@@ -258,12 +240,14 @@ class TabulatedFunction:
         for where, k in runs:
             u = scaled(two_sum(flat[where], -self.centres[k]), -self.exponents[k])
             for row, table in zip(found, self.coefficients[:, :, ::-1, k], strict=True):
-                value = horner(map(Pair, *table), u) if self.careful else Pair(horner(table[0], u.hi))
-                for half, numbers in zip(row, (value.hi, value.lo), strict=False):
-                    half[where] = numbers
-        numbers = [Pair(*row) for row in found] if self.careful else [row[0] for row in found]
-        powers = self.powers[index] if self.powers.any() else None
-        return numbers, powers
+                row[where] = double(horner(map(Pair, *table), u)) if self.careful else horner(table[0], u.hi)
+        if self.powers.any():
+            found = np.ldexp(found, self.powers[index])
+        if len(found) == 1:
+            return found[0]
+        values = np.empty(flat.shape, dtype=complex)  # 1j times an infinite part would be NaN
+        values.real, values.imag = found
+        return values
 
 
 @limited
@@ -416,25 +400,20 @@ def _halves(cell: Cell, low: fmpq, high: fmpq) -> list[Cell]:
 def _series(chart: PieceChart, cells: list[Cell], variant: Variant) -> list[Any]:
     """y1, y2, and beside a right-hand side y3, on each of these pieces that will do: high and low halves, terms, series.
 
-    The equation a y'' + b y' + c y = source has the coefficients of u^j at a[j], b[j + 1] and c[j + 2].
+    The equation a y'' + b y' + c y = f has the coefficients of u^j at a[j], b[j + 1] and c[j + 2].
     """
     terms = variant.terms
     count = 2 if not chart.is_forced else 3
     size = len(cells)
     equations = _equations(chart, cells, terms)
-    length = max(2, *(len(part) + i for local in equations for i, part in enumerate(local)))
+    length = max(2, *(len(part) + i for local in equations for i, part in enumerate(local[:3])))
     numbers = np.zeros((2, 3, length, size))
-    for k, local in enumerate(equations):
-        for i, part in enumerate(local):
-            numbers[:, i, i : i + len(part), k] = halves(part)
     source = np.zeros((2, terms, count, size))
-    if chart.is_forced:
-        for k, cell in enumerate(cells):
-            # The coefficients of a times the right-hand side, by interpolation.
-            nodes, inverse = _interpolation(terms)
-            factor = arb_poly(equations[k][0])
-            values = [[chart.source(ExactPoint(cell[0]), cell[1], u) * factor(u)] for u in nodes]
-            source[:, :, 2, k] = halves((inverse * arb_mat(values)).entries())
+    for k, local in enumerate(equations):
+        for i, part in enumerate(local[:3]):
+            numbers[:, i, i : i + len(part), k] = halves(part)
+        if chart.is_forced:
+            source[:, : len(local[3]), 2, k] = halves(local[3])
     with np.errstate(all="ignore"):
         z = _recurrence(numbers, source, variant)
         sizes = np.abs(z[0, : variant.tested])
@@ -479,15 +458,8 @@ def _equations(chart: PieceChart, cells: list[Cell], terms: int) -> list[list[li
         if chart.is_regular(point, e):
             found.append(chart.local(point, e, terms))
         else:  # too near to a singular point: not numbers
-            found.append([[arb(1)], [], [arb("nan")]])
+            found.append([[arb(1)], [], [arb("nan")], []])
     return found
-
-
-@lru_cache
-def _interpolation(count: int) -> tuple[list[arb], arb_mat]:
-    """Chebyshev's points, and the matrix that makes coefficients of the values there."""
-    nodes = [(arb.pi() * (2 * k + 1) / (2 * count)).cos() for k in range(count)]
-    return nodes, arb_mat([[u**j for j in range(count)] for u in nodes]).inv()
 
 
 @lru_cache

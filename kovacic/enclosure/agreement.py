@@ -269,12 +269,13 @@ def _by_conditions(words: list[acb_mat], group: Group, fuchsian: bool) -> Agreem
 
 def _contradiction(possible: _Possible, group: Group, fuchsian: bool) -> str | None:
     """Why the monodromy can't be that of the group, as a sentence that its name ends; None if nothing says so."""
-    if group.kind in _TRIANGULAR and not possible.reducible:
-        return "the monodromy matrices have no common eigenvector, unlike"
-    if group.kind in _DIAGONAL and not possible.commuting:
-        return "the monodromy matrices don't commute, unlike"
-    if group.kind in _IMPRIMITIVE and not possible.monomial:
-        return "the squares of the monodromy matrices don't commute, unlike those of"
+    for kinds, holds, said in (
+        (_TRIANGULAR, possible.reducible, "the monodromy matrices have no common eigenvector, unlike"),
+        (_DIAGONAL, possible.commuting, "the monodromy matrices don't commute, unlike"),
+        (_IMPRIMITIVE, possible.monomial, "the squares of the monodromy matrices don't commute, unlike those of"),
+    ):
+        if group.kind in kinds and not holds:
+            return said
     if group.n is not None and group.kind in _WITH_ROOTS_OF_UNITY:
         if not all(_may_have_order(word, group.n) for word in possible.words):
             return "an eigenvalue of a monodromy matrix isn't a root of unity of"

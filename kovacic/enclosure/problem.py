@@ -15,7 +15,7 @@ from fractions import Fraction
 from functools import cached_property, lru_cache
 from typing import Any
 
-from flint import acb, acb_poly, arb, arb_poly, ctx, fmpq_poly, fmpz_poly
+from flint import acb, acb_poly, arb, ctx, fmpq_poly, fmpz_poly
 
 from kovacic.algebra.embedding import root_near
 from kovacic.algebra.extension import AlgebraicField, ExtensionPoly
@@ -93,10 +93,6 @@ class Embedded:
     def equation(self) -> list[RatFunc]:
         """Polynomials a, b and c of the user's equation."""
         return cleared(*gauged(self.S, self.gauge or self.S * 0))
-
-    def in_balls(self) -> list[arb_poly]:
-        """The same, whose constants are real, at the working precision in force."""
-        return [arb_poly([c.real for c in self._embed(part.num).coeffs()]) for part in self.equation]
 
     def _embed(self, poly: Poly) -> acb_poly:
         """The polynomial at the working precision in force."""

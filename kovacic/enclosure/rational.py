@@ -47,12 +47,12 @@ from kovacic.enclosure.frame import System, foreseen_growth, frequency, largest_
 from kovacic.enclosure.frobenius import basis, junction
 from kovacic.enclosure.log_derivative import LogDerivative, log_derivative
 from kovacic.enclosure.matrices import Matrix, MatrixProduct, State, apply, fundamental, inverse, multiply, real_part
-from kovacic.enclosure.points import ExactPoint, Number, around_zero, power_of_two, to_acb, to_double
+from kovacic.enclosure.points import ExactPoint, Number, around_zero, power_of_two, to_acb
 from kovacic.enclosure.problem import NumericProblem
 from kovacic.enclosure.singular import Singular
 from kovacic.enclosure.splitting import is_split
 from kovacic.enclosure.start import logarithmic_derivative, spread_by
-from kovacic.enclosure.transport import Stop, growth_of_disc, walk
+from kovacic.enclosure.transport import growth_of_disc, walk
 from kovacic.enclosure.way import MAX_DISCS, NOTHING, Forecast, Traveller, Way, WayStep
 from kovacic.limits import check_time, count_work
 
@@ -342,13 +342,11 @@ class RationalWay(Way):
 
     def _by_discs(self, traveller: Traveller, here: ExactPoint, stops: Sequence[ExactPoint]) -> dict[ExactPoint, State]:
         """Along the line to the farthest stop, again and again: the discs on it serve others, too."""
-        origin = to_double(here)
         found: dict[ExactPoint, State] = {}
-        all_stops = [Stop(number, point, to_double(point)) for number, point in enumerate(stops)]
-        waiting = sorted(all_stops, key=lambda stop: abs(stop.near - origin))
+        waiting = sorted(set(stops), key=lambda stop: (stop - here).norm_squared())
         inward = self.into(here)
         while waiting:
-            farthest = waiting[-1].point
+            farthest = waiting[-1]
             self.check(here, farthest)
             product = traveller.product if inward is None else traveller.product.after(inward)
             ahead = self.forecast(here, farthest)
@@ -358,11 +356,11 @@ class RationalWay(Way):
                     local = leg.local(product.apply(traveller.start))
                     for stop in served:
                         if self.gauge is not None:
-                            self.check(here, stop.point)
-                        outward = self.out_of(here, stop.point)
-                        state = local.state(stop.point)
-                        found[stop.point] = state if outward is None else apply(outward, state)
-                    waiting = [stop for stop in waiting if stop.point not in found]
+                            self.check(here, stop)
+                        outward = self.out_of(here, stop)
+                        state = local.state(stop)
+                        found[stop] = state if outward is None else apply(outward, state)
+                    waiting = [stop for stop in waiting if stop not in found]
                 if leg.disc.leave != farthest:  # the matrix of the last leg isn't needed
                     product = product.after(leg.matrix)
                     ahead.check(number)

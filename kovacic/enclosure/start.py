@@ -19,10 +19,10 @@ import math
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 
-from flint import acb, acb_poly, arb
+from flint import acb, arb
 
 from kovacic.algebra.precision import working_precision
-from kovacic.enclosure.frame import System
+from kovacic.enclosure.frame import System, foreseen_growth, frequency
 from kovacic.enclosure.matrices import MatrixProduct, State
 from kovacic.enclosure.points import Constant, ExactPoint, Number, are_real, around_zero, as_number, to_acb, to_ball
 from kovacic.enclosure.problem import NumericProblem
@@ -171,26 +171,16 @@ def logarithmic_derivative(way: Way, system: System, x0: ExactPoint, prec: int) 
     rightmost = max((float(root.real.upper()) for root, _ in zeros), default=0.0)
     if math.isinf(rightmost):
         raise LimitExceeded("S has zeros or poles beyond 1e308", limit="unknown_degree")
-    beyond = max(math.ceil(rightmost) + 1, math.ceil(x0.re))
-    far = ExactPoint(_with_growth(system, beyond, prec * math.log(2) / 2))
+    beyond = ExactPoint(max(math.ceil(rightmost) + 1, math.ceil(x0.re)))
+    step = 2
+    while foreseen_growth(frequency(system), beyond, beyond + ExactPoint(step)) < prec * math.log(2) / 2:
+        step = 2 * step
+        if step > _LARGEST_STEP:
+            raise LimitExceeded("no starting point was found for the decaying solution", limit="unknown_degree")
+    far = beyond + ExactPoint(step)
     matrix = way.carried(far, x0, MatrixProduct(), NOTHING)[0].matrix()
     m = matrix[0]
     n = -matrix[1]
     dn = -matrix[3]
     s = acb(arb(0.5, 0.5))  # all that is known of it: 0 < s < 1
     return dn / n + s / (n * (n + s * (m - n)))
-
-
-def _with_growth(system: System, first: int, growth: float) -> int:
-    """The first one of first + 2, first + 4, first + 8, ... to which int S^(1/2) from `first` is so large, about."""
-    num = acb_poly(list(system.num))
-    den = acb_poly(list(system.den))
-    step = 1
-    found = arb(0)
-    while found < growth:
-        x = acb(first + step)
-        step = 2 * step
-        found += (num(x) / den(x)).real.sqrt() * step / 2
-        if step > _LARGEST_STEP:
-            raise LimitExceeded("no starting point was found for the decaying solution", limit="unknown_degree")
-    return first + step

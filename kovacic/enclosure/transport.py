@@ -27,7 +27,7 @@ from flint import fmpq
 
 from kovacic.enclosure.frame import REACH, Frame, System, distance_lower, fitting, is_apart, largest_exponent, log2
 from kovacic.enclosure.matrices import Matrix, State, adjugate, apply, multiply, product
-from kovacic.enclosure.points import ExactPoint, power_of_two, to_double
+from kovacic.enclosure.points import ExactPoint, power_of_two
 from kovacic.enclosure.splitting import legs
 from kovacic.enclosure.taylor import TaylorSeries, expand, local_solution, transition
 from kovacic.enclosure.way import NOTHING, Local
@@ -40,18 +40,6 @@ _LOG = logging.getLogger(__name__)
 _RATIO = 0.625
 _GROWTH = 0.2  # growth of the solutions in one disc, as a share of the working precision
 _KEPT_GROWTH = 30.0
-_LARGEST_EXPONENT = 900  # of the scale of a disc whose size a double can be
-_ROUNDED = 1e-15  # more than the relative errors of doubles
-_EDGE = 1 + 2.0**-17  # a target so far from the centre, in scales, is surely within the reach of the bounds
-
-
-@dataclass(frozen=True)
-class Stop:
-    """A point where the solution is asked for: the `number` in the order of the question, and the point in doubles (`near`)."""
-
-    number: int
-    point: ExactPoint
-    near: complex
 
 
 @dataclass(frozen=True)
@@ -68,7 +56,7 @@ class Disc:
     t_leave: Any
     begin: ExactPoint | None
 
-    def served(self, system: System, a: ExactPoint, stops: Sequence[Stop]) -> Iterator[Stop]:
+    def served(self, system: System, a: ExactPoint, stops: Sequence[ExactPoint]) -> Iterator[ExactPoint]:
         """Those stops to which the disc carries a solution from a as the straight line does: in it, and without a singular
         point in the triangle of a, `begin` and the stop, so that both ways are homotopic; or the end of the way.
         """
@@ -78,17 +66,11 @@ class Disc:
         reach = self.frame.scale * REACH
         corners = [centre + ExactPoint(x * reach, y * reach) for x in (1, -1) for y in (1, -1)]  # around what is served
         is_free = self.begin == a or is_apart(system, a, *corners)
-        near = to_double(centre)
-        radius = -1.0  # beyond the doubles the end alone is served
-        if abs(self.frame.e) < _LARGEST_EXPONENT:
-            radius = math.ldexp(_EDGE, self.frame.e)  # the edge is inside, for a target where two discs meet
+        square = self.frame.scale**2
         for stop in stops:
-            if self.t_leave == 1 and stop.point == self.leave:
-                yield stop
-                continue
-            rounding = _ROUNDED * (abs(stop.near) + abs(near))
-            is_inside = abs(stop.near - near) + rounding <= radius  # `Frame.seen` checks it exactly
-            if is_inside and (is_free or is_apart(system, a, self.begin, stop.point)):
+            is_end = self.t_leave == 1 and stop == self.leave
+            is_inside = is_end or (stop - centre).norm_squared() <= square
+            if is_inside and (is_end or is_free or is_apart(system, a, self.begin, stop)):
                 yield stop
 
 
