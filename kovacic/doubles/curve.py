@@ -192,7 +192,9 @@ def _halved(
     h = arc.x[right] - arc.x[left]
     middles = arc.x[left] + h / 2
     inside = (middles > arc.x[left]) & (middles < arc.x[right])
-    left, right, h, middles = (values[inside] for values in (left, right, h, middles))
+    left = left[inside]
+    right = left + 1
+    h, middles = h[inside], middles[inside]
     _check(len(arc.x) + len(middles))
     new = _sampled(middles, states)
     cubic = (arc.y[left] + arc.y[right]) / 2 + h * (arc.dy[left] - arc.dy[right]) / 8
