@@ -279,7 +279,7 @@ def _of_charges(text: Any, V: Any) -> tuple[str, ...]:
 
 
 def _check_real(V: Any, energy: str) -> None:
-    """Raises `InputError` for a V with I or the energy in it, and `LimitExceeded` for long numbers."""
+    """Raises `InputError` for a V with I, a delta function or the energy in it, and `LimitExceeded` for long numbers."""
     if energy in names_of(V):
         raise InputError(
             f"the potential contains {energy}, the energy",
@@ -291,6 +291,8 @@ def _check_real(V: Any, energy: str) -> None:
         raise LimitExceeded(f"the potential has numbers of more than {SYMBOLIC.bits} bits", limit="bits")
     if V.has(sympy.I):
         raise InputError("the potential isn't real")
+    for unknown in V.atoms(sympy.DiracDelta, sympy.floor):
+        raise InputError(f"the potential can't contain {unknown}", hint="a well is c*Heaviside(a - abs(x))")
 
 
 def _variable_of(names: Sequence[str]) -> tuple[str, tuple[str, ...]]:

@@ -9,7 +9,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass
 from functools import cmp_to_key, wraps
-from itertools import pairwise
+from itertools import combinations, pairwise
 from typing import Any, TypeVar
 
 import sympy
@@ -142,26 +142,32 @@ def pieces_of(Q: Expr, W: Expr, x: Expr, domain: tuple[Expr, Expr]) -> tuple[Str
 
 def _breaks(e: Expr, x: Expr, domain: tuple[Expr, Expr]) -> list[Expr]:
     """The points strictly inside the domain, in order."""
-    switches = set()
-    for step in e.atoms(*STEPS):
-        if not step.has(x):
-            continue
-        if isinstance(step, sympy.Piecewise):
-            switches |= {r.lhs - r.rhs for _, condition in step.args for r in condition.atoms(Relational)}
-        elif isinstance(step, (sympy.Min, sympy.Max)):
-            switches |= {a - b for a in step.args for b in step.args if a is not b}
-        else:
-            switches.add(step.args[0])
+    steps = [step for step in e.atoms(*STEPS) if step.has(x)]
+    switches = {switch for step in steps for switch in _branches(step)[0]}
     points = set()
     while any(switch.has(sympy.Abs) for switch in switches):  # |f| is f or -f
         switches = {switch.replace(sympy.Abs, lambda f, sign=sign: sign * f) for switch in switches for sign in (1, -1)}
     for switch in switches:
         if not switch.is_polynomial(x):
             raise InputError(f"it isn't known where {switch} changes its sign")
-        is_exact = switch.free_symbols == {x}
-        points |= set(sympy.real_roots(sympy.Poly(switch, x)) if is_exact else sympy.solve(switch, x))
+        polynomial = sympy.Poly(switch, x)
+        is_rational = all(c.is_Rational for c in polynomial.coeffs())
+        roots = polynomial.real_roots() if is_rational else sympy.solve(switch, x)
+        points |= {root for root in roots if root.is_real is not False}
     inside = [point for point in points if _is_below(domain[0], point) and _is_below(point, domain[1])]
     return sorted(inside, key=cmp_to_key(lambda a, b: -1 if _is_below(a, b) else 1))
+
+
+def _branches(step: Expr) -> tuple[Sequence[Expr], Sequence[Expr]]:
+    """Functions of which one changes its sign where a step does something, and what the step may be beside these places."""
+    if isinstance(step, sympy.Piecewise):
+        relations = [relation for _, condition in step.args for relation in condition.atoms(Relational)]
+        return [relation.lhs - relation.rhs for relation in relations], [value for value, _ in step.args]
+    if isinstance(step, (sympy.Min, sympy.Max)):
+        return [a - b for a, b in combinations(step.args, 2)], step.args
+    one, zero = sympy.S.One, sympy.S.Zero
+    values = {sympy.Abs: (step.args[0], -step.args[0]), sympy.sign: (one, -one), sympy.Heaviside: (one, zero)}
+    return step.args[:1], values[step.func]
 
 
 def _is_below(a: Expr, b: Expr) -> bool:
@@ -204,20 +210,11 @@ def _resolved(e: Expr, x: Expr, inside: Expr) -> Expr:
         if not steps:
             return e
         innermost = min(steps, key=sympy.count_ops)
-        e = e.xreplace({innermost: _value_of_step(innermost, x, inside)})
-
-
-def _value_of_step(step: Expr, x: Expr, inside: Expr) -> Expr:
-    if isinstance(step, sympy.Piecewise):
-        return next((e for e, condition in step.args if condition.subs(x, inside) == sympy.true), sympy.nan)
-    if isinstance(step, (sympy.Min, sympy.Max)):
-        return next(e for e in step.args if step.subs(x, inside) == e.subs(x, inside))
-    is_positive = _is_above_zero(step.args[0].subs(x, inside))
-    if isinstance(step, sympy.Abs):
-        return step.args[0] if is_positive else -step.args[0]
-    if isinstance(step, sympy.sign):
-        return sympy.Integer(1) if is_positive else sympy.Integer(-1)
-    return sympy.Integer(1) if is_positive else sympy.Integer(0)
+        there = innermost.subs(x, inside)
+        value = next((value for value in _branches(innermost)[1] if value.subs(x, inside) == there), None)
+        if value is None:
+            raise InputError(f"it isn't known what {innermost} is at {x} = {inside}")
+        e = e.xreplace({innermost: value})
 
 
 def _check_weight(piece: Stretch, x: Expr, inside: Expr) -> None:

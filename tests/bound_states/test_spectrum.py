@@ -344,13 +344,14 @@ IN_PIECES = [
     ("Piecewise((0, abs(x) < 1), (-9, abs(x) < 2), (0, True))", LINE, None),
     ("Piecewise((x, x < 3), (3, True))", HALF, None),
     ("2*abs(x - 1) + abs(x + 2)", LINE, None),
+    ("abs(x - sqrt(2))", LINE, None),
     ("10*Heaviside(x)", (-1, 2), None),
     ("-7*Heaviside(2 - abs(x - 1)) - x/2", (-2, 4), "y'(-2) = 0, y'(4) = 0"),
     ("abs(x)", (-1, 1), "y'(-1) = 0, y(1) = 0"),
 ]
 
 
-@parametrize(("V", "domain", "boundary"), IN_PIECES, ordinary=3, long=9)
+@parametrize(("V", "domain", "boundary"), IN_PIECES, ordinary=3, long=10)
 def test_levels_in_pieces_solve_the_equations_of_matching(V: str, domain: Any, boundary: Any) -> None:
     """Each of the numeric levels is next to a sign change of one of the equations, those of even and odd zeros in turn."""
     found = kovacic.spectrum(V, domain=domain, boundary=boundary, levels=4, digits=10)
@@ -491,6 +492,8 @@ def test_an_end_at_an_ordinary_point_is_undecided(V: str, domain: tuple[object, 
         ("1/x^2 + x^2", {}),
         ("x^2 - E", {}),
         ("I*x^2", {}),
+        ("-2*DiracDelta(x)", {}),
+        ("-2*DiracDelta(x)", {"levels": 2}),
         ("x^2", {"domain": (1, 0)}),
         ("x^2", {"domain": (0, "E")}),
         ("x^2", {"boundary": "neumann"}),
