@@ -62,9 +62,11 @@ LevelsOrAlgebraic = TypeVar("LevelsOrAlgebraic", Levels, Algebraic)
 class Asked:
     """-kinetic y'' + V y = E y between two ends, in plain symbols, and what is assumed beside values, which are put in.
 
-    V is any elementary function; `scaled` is V/kinetic, in which `roots` are the meanings of letters.
+    V is any elementary function; `scaled` is V/kinetic, in which `roots` are the meanings of letters, and `given` what the user
+    gave, whose symbols may have assumptions.
     """
 
+    given: Any
     V: Any
     scaled: Any
     variable: str
@@ -103,7 +105,7 @@ class Asked:
         elsewhere = {symbol.name for part in (potential, *self.ends) for symbol in part.free_symbols}
         in_S = parameters_of(parsed.S.field)
         names = (*in_S, *sorted(elsewhere - meanings - {self.variable, *in_S}))
-        known = read_assumptions(_assumed_of_letters(self.assumed, parsed.letters) or None, self.V, names)
+        known = read_assumptions(_assumed_of_letters(self.assumed, parsed.letters) or None, self.given, names)
         for constant in constants_among(potential, names):
             known = known.also(constant, ("irrational", "positive"))
         signs = Signs(known, names)
@@ -147,7 +149,7 @@ class Asked:
             self.ends,
             self.energy,
             parameters,
-            read_assumptions(self.assumed or None, self.V, parameters),
+            read_assumptions(self.assumed or None, self.given, parameters),
             self.boundary.text or (FRIEDRICHS if is_open or self.friedrichs else None),
             reason=f"undecided: {reason.args[0]}",
             conditions=wishes,
@@ -210,6 +212,7 @@ def asked(
     plain = potential if kinetic == 1 else sympy.expand(potential / kinetic)
     positive = {symbol.name: "positive" for symbol in kinetic.free_symbols & plain.free_symbols}
     return Asked(
+        V,
         potential,
         plain,
         variable=x,

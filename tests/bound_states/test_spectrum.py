@@ -529,6 +529,15 @@ def test_a_sympy_expression_and_values() -> None:
     assert at.states() == found.states({"b": 3})
 
 
+def test_what_symbols_assume_is_known() -> None:
+    """Of SymPy's symbols, as of the assumptions."""
+    k = sympy.Symbol("k", positive=True)
+    (levels,) = kovacic.spectrum(k * x**2).levels
+    assert levels.conditions == ()
+    assert kovacic.spectrum("k*x^2").levels[0].conditions != ()
+    assert kovacic.spectrum(sympy.Abs(x) * k, domain=HALF).matching
+
+
 def test_pi_is_a_number() -> None:
     found = kovacic.spectrum("pi*x^2")
     assert found.parameters == ()
