@@ -20,6 +20,7 @@ import sympy
 from sympy import cos, sin
 from sympy.logic.boolalg import BooleanAtom
 from sympy.simplify.fu import TR5, TR6, TR8
+from sympy.solvers.inequalities import reduce_rational_inequalities
 
 from kovacic.general_solution.basis import vanishing, without_implied
 from kovacic.general_solution.zero import is_nowhere_zero
@@ -78,7 +79,7 @@ def needed_for(value: Expr, x: Expr, exceptions: Iterable[Expr] = ()) -> Validit
     # The bounds of an integral may be infinite.
     numbers = (node for node in sympy.preorder_traversal(value) if node.is_number)
     is_of_real_numbers = all(number.is_extended_real for number in numbers)
-    return Validity(_without_weaker(on_x), without_implied(nonzero), is_of_real_numbers)
+    return Validity(_in_one_interval(_without_weaker(on_x), x), without_implied(nonzero), is_of_real_numbers)
 
 
 def _holds_for_real_symbols(relation: Expr) -> bool:
@@ -105,6 +106,33 @@ def _without_weaker(relations: list[Expr]) -> tuple[Expr, ...]:
     nonzero = {u for r in strict for e in (r.lhs, *sympy.Mul.make_args(r.lhs)) for u in (e, -e)}
     left = dict.fromkeys(both[len(relations) :])
     return tuple(relation for relation in left if relation in strict or relation.lhs not in nonzero)
+
+
+def _in_one_interval(relations: tuple[Expr, ...], x: Expr) -> tuple[Expr, ...]:
+    """x > 0 for x != 0, 1 + 1/x > 0, x + 1 > 0, and without what holds there; `false` alone where nothing is left."""
+    rational, others = sympy.sift(relations, lambda r: r.free_symbols == {x} and _is_over_Q(r.lhs, x), binary=True)
+    if len(relations) == 1 or not rational:
+        return relations
+    t = sympy.Dummy(real=True)
+    where = reduce_rational_inequalities([[r.xreplace({x: t}) for r in rational]], t, relational=False)
+    if where is sympy.S.EmptySet:
+        return (sympy.false,)
+    if not isinstance(where, sympy.Interval) or where == sympy.S.Reals or where.has(sympy.CRootOf):
+        return relations
+    a, b = where.start, where.end
+    bounds = [x > a if where.left_open else x >= a] * (a != -sympy.oo)
+    bounds += [x < b if where.right_open else x <= b] * (b != sympy.oo)
+    p = sympy.Dummy(positive=True)
+    inside = a + p if b == sympy.oo else b - p if a == -sympy.oo else (a + b * p) / (1 + p)
+    places = (inside, *(end for end in (a, b) if end in where))
+    others = [r for r in others if not all(sympy.expand(r.xreplace({x: place})) == sympy.true for place in places)]
+    return (*(bounds if len(bounds) < len(rational) else rational), *others)
+
+
+def _is_over_Q(e: Expr, x: Expr) -> bool:
+    if not e.is_rational_function(x) or e.atoms(sympy.NumberSymbol):
+        return False
+    return all(power.exp.is_Integer for power in e.atoms(sympy.Pow))
 
 
 def _of_cosine(relation: Expr) -> Expr:

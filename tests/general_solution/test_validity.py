@@ -221,3 +221,21 @@ def test_answers_in_logarithms_of_waves_are_real_for_small_angles(right: str) ->
     for at in (0.05, 0.15):
         assert all(relation.subs(x, at) == sympy.true for relation in needed.real), needed
         assert abs(sympy.im(particular.subs(x, at).evalf(20))) < 1e-15
+
+
+@pytest.mark.parametrize(
+    ("value", "needed"),
+    [
+        ("log(1 + 1/x) + log(x + 1)", "x > 0"),
+        ("(sqrt(x) + sqrt(x - 1))^(1/3)", "x >= 1"),
+        ("(sqrt(x) + sqrt(x - 1))^(-1/3)", "x >= 1"),
+        ("log(2 - x) + log(x - 1)/x", "x > 1, x < 2"),
+        ("log(x) + log(-x - 1)", "no value"),
+        ("log(x^2 - 4) + sqrt(x - 2)", "x > 2"),
+        ("log(x)/(x - 1)", "x - 1 != 0, x > 0"),
+    ],
+)
+def test_relations_in_x_are_one_interval(value: str, needed: str) -> None:
+    x = sympy.Symbol("x")
+    formula = sympy.Eq(sympy.Function("y")(x), sympy.sympify(value.replace("^", "**"), rational=True))
+    assert str(kovacic.validity(formula)) == needed
