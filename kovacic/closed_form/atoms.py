@@ -68,13 +68,13 @@ def hypergeometric(top: tuple[Expr, ...], bottom: tuple[Expr, ...], z: Expr) -> 
 class Atoms:
     """Conversions for one variable.  Algebraic constants become radicals if they are quadratic, else a `CRootOf`.
 
-    A `CRootOf` is the first root in SymPy's order, which is real if there is a real one.  Roots of x^2 - a, a > 0, are
-    written so that they are real around 0, unless they are to be real beyond the zeros.
+    A `CRootOf` is the first root in SymPy's order, which is real if there is a real one.  Roots of functions of x are
+    written so that they are real at the point `at`, which may be oo; without one those of x^2 - a, a > 0, are real around 0.
     """
 
-    def __init__(self, variable: Symbol, *, beyond_zeros: bool = False) -> None:
+    def __init__(self, variable: Symbol, *, at: Expr = None) -> None:
         self.x = variable
-        self.beyond_zeros = beyond_zeros
+        self.at = at
         self._generators: dict[tuple[Any, ...], Expr] = {}
         self.notes: list[str] = []
 
@@ -248,10 +248,12 @@ class Atoms:
         root = sympy.sqrt(square)
         return total - slope * root * sympy.atan(twice / root)
 
-    def is_real_beyond_zero(self, base: Poly) -> bool:
-        """Is it x^2 - a, a > 0, whose roots aren't real around 0, and is that wanted?"""
-        is_pure_square = base.degree == 2 and not base[1]
-        return not self.beyond_zeros and is_pure_square and bool(self.constant(base[0]).is_negative)
+    def is_turned(self, base: Poly) -> bool:
+        """True for a monic polynomial that is negative where its roots are to be real: those of -base are written."""
+        if self.at is None:
+            is_pure_square = base.degree == 2 and not base[1]
+            return is_pure_square and bool(self.constant(base[0]).is_negative)
+        return not self.at.is_infinite and bool(self.poly(base).subs(self.x, self.at).is_negative)
 
     def root_sum(self, polynomial: Expr, body: Expr) -> Expr:
         """The sum of the body over the roots of a polynomial, both in the symbol `root`."""
@@ -304,7 +306,7 @@ def factors(
 ) -> tuple[Expr, list[Expr]]:
     """(c, factors): y * extra is c times the product of the factors, merged and grouped (`kovacic.closed_form.product`).
 
-    With `around_zero` the roots of x^2 - a, a > 0, are written so that they are real around 0.
+    Roots are real at the point of `atoms`; without one, those of x^2 - a, a > 0, are real around 0 with `around_zero`.
     """
     found = merged(y, extra, like=like)
     scale: Expr = Integer(1)
@@ -328,7 +330,8 @@ def _powers(found: list[Factor], atoms: Atoms, around_zero: bool) -> tuple[Expr,
         bases = []
         for base in group:
             shown = atoms.primitive(base)[1]
-            if around_zero and atoms.is_real_beyond_zero(base) and not index.is_Integer:
+            is_wanted = around_zero or atoms.at is not None
+            if is_wanted and not index.is_Integer and atoms.is_turned(base):
                 shown = -shown
                 scale = scale * Integer(-1) ** index
             bases.append(shown)

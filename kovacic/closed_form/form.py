@@ -14,7 +14,7 @@ from kovacic.closed_form.atoms import Atoms, Expr, display
 from kovacic.closed_form.check import is_exact_solution, is_numerical_solution
 from kovacic.closed_form.integrals import exponentials, triangular
 from kovacic.closed_form.real_pair import conjugate_roots, is_real_pair, real_pair
-from kovacic.closed_form.structure import ClosedStructure, Conjugate, Diagonal, OnCurve, Triangular
+from kovacic.closed_form.structure import ClosedStructure, Conjugate, Covariants, Diagonal, OnCurve, Triangular
 from kovacic.errors import VerificationFailed
 from kovacic.limits import check_time
 from kovacic.numbers.numerals import as_latex
@@ -84,6 +84,14 @@ def written(structure: ClosedStructure, S: RatFunc, gauge: RatFunc, variable: st
     if not passed or not all(is_numerical_solution(y, form.variable, S, gauge) for y in form):
         raise VerificationFailed(f"a closed form for S = {S} failed its check; please report the equation")
     return form
+
+
+def pair_at(form: ClosedForm, point: Any) -> tuple[Expr, Expr]:
+    """Solutions whose roots are real at a point, written from the structure and not checked; the same ones in case 3."""
+    if isinstance(form.structure, Covariants):
+        return form.y1, form.y2
+    y1, y2, _ = expressions(form.structure, Atoms(form.variable, at=point))
+    return one_exponential(y1), one_exponential(y2)
 
 
 def _same(structure: ClosedStructure) -> ClosedStructure:

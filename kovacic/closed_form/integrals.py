@@ -67,7 +67,7 @@ from kovacic.algebra.partial_fractions import Residue
 from kovacic.algebra.poly import Field, Poly
 from kovacic.algebra.ratfunc import RatFunc
 from kovacic.algebra.rationals import QQ
-from kovacic.closed_form.atoms import Atoms, Expr, discriminant, display, factors, rational
+from kovacic.closed_form.atoms import Atoms, Expr, discriminant, display, factors, hypergeometric, rational
 from kovacic.closed_form.curve import CurveIntegral, Unit, integrate_on_curve, unit
 from kovacic.closed_form.primitive import (
     ExponentialPrimitive,
@@ -107,7 +107,7 @@ def curve_integral(integral: CurveIntegral, atoms: Atoms) -> tuple[Expr, Expr, t
     There sqrt(g) = i sqrt(-g), as for the powers of g in `kovacic.closed_form.atoms.factors`.
     """
     scale: Expr = Integer(1)
-    if atoms.is_real_beyond_zero(integral.g):
+    if atoms.is_turned(integral.g):
         integral = _turned(integral)
         scale = -sympy.I
     terms = _curve_terms(integral, atoms, alone=False, exponents=False)
@@ -122,7 +122,10 @@ def _turned(integral: CurveIntegral) -> CurveIntegral:
 
 def exponentials(form: OnCurve, atoms: Atoms) -> tuple[Expr, Expr, tuple[str, ...]]:
     """The two solutions, with cos and sin where kappa is imaginary, and notes."""
-    form = _oriented(form)
+    if atoms.at is None:
+        form = _oriented(form)
+    elif atoms.is_turned(form.integral.g):
+        form = _on_the_other_side(form)
     oscillates = atoms.is_negative(form.kappa_squared)
     kappa = atoms.sqrt(-form.kappa_squared if oscillates else form.kappa_squared)
     terms = _curve_terms(form.integral, atoms, alone=form.zeros is None, exponents=True)
@@ -199,8 +202,13 @@ def _oriented(form: OnCurve) -> OnCurve:
         value = None if found is None else found.tau_squared.field.rational_value(found.tau_squared)
         if value is None or value > 0:
             return form
+    return _on_the_other_side(form)
+
+
+def _on_the_other_side(form: OnCurve) -> OnCurve:
+    """With -g and -kappa^2 instead of g and kappa^2: kappa/sqrt(g) = -kappa'/sqrt(g')."""
     zeros = form.zeros and replace(form.zeros, B=-form.zeros.B)
-    return OnCurve(form.common, -form.kappa_squared, _turned(integral), zeros)
+    return OnCurve(form.common, -form.kappa_squared, _turned(form.integral), zeros)
 
 
 def _curve_terms(integral: CurveIntegral, atoms: Atoms, *, alone: bool, exponents: bool) -> _Terms:
@@ -233,7 +241,7 @@ def _append_rest(
 ) -> None:
     """c int dx/sqrt(g) = c log(x - (x1 + x2)/2 + sqrt(g)), or an inverse sine."""
     g = integral.g
-    inverse = None if exponents else _inverse_sine(g, atoms)
+    inverse = None if exponents and g.lc == 1 else _inverse_sine(g, atoms)
     c = atoms.constant(integral.rest)
     if inverse is not None:
         terms.others.append(c * inverse)
@@ -542,7 +550,7 @@ def triangular(form: Triangular, atoms: Atoms) -> tuple[Expr, Expr, tuple[str, .
     if named is not None:
         note = f"elliptic integrals because {primitive.reason}"
         return first, _sum([_scaled(c, [*parts[1], value]) for c, value in named]), (note,)
-    if atoms.is_real_beyond_zero(primitive.g):
+    if atoms.is_turned(primitive.g):
         primitive = _turned(primitive)
     _, value, notes = curve_integral(primitive, atoms)
     content, shown = value.as_content_primitive()
@@ -645,7 +653,14 @@ def _exponential(y: Product, primitive: ExponentialPrimitive, first: Factors, at
         terms.append(_scaled(*factors(whole, atoms, primitive.W(t), like=y)))
     for term in primitive.terms:
         q = atoms.sum(term.q(primitive.t))
-        c, function = _gamma(term.b, term.n, q, primitive.alpha + term.power, atoms)
+        power = primitive.alpha + term.power
+        b = term.b
+        if atoms.at is not None and q.subs(atoms.x, atoms.at).is_negative:  # by t = -q
+            scale = -scale * Integer(-1) ** rational(power)
+            b, q = b * (-1) ** term.n, -q
+        c, function = _gamma(b, term.n, q, power, atoms)
+        if function.has(sympy.lowergamma, sympy.uppergamma) and atoms.at is not None and atoms.is_negative(-b):
+            c, function = Integer(1), _entire_gamma(b, term.n, q, power, atoms)
         shift = exp(atoms.constant(term.e))
         terms.append(_scaled(scale * atoms.constant(term.coefficient) * c, [*parts, shift, function]))
     at_poles = [_sum_at_poles(residue, primitive, atoms) for residue in primitive.poles]
@@ -665,6 +680,12 @@ def _sum_at_poles(residue: Residue, primitive: ExponentialPrimitive, atoms: Atom
         root = atoms.poly(t.num) ** rational(Fraction(1, n)) * atoms.poly(t.den) ** rational(Fraction(-1, n))
         body *= a ** int(primitive.alpha * n) * sympy.log(root - a)
     return atoms.root_sum(atoms.poly(residue.factor, a**n), body)
+
+
+def _entire_gamma(factor: Poly, n: int, t: Expr, power: Fraction, atoms: Atoms) -> Expr:
+    """int t^power exp(beta t^n) dt = t^(power + 1)/(n s) 1F1(s; s + 1; beta t^n), which is real for a positive t."""
+    s = rational((power + 1) / n)
+    return t ** rational(power + 1) * hypergeometric((s,), (s + 1,), atoms.constant(factor) * t**n) / (n * s)
 
 
 def _gamma(factor: Poly, n: int, t: Expr, power: Fraction, atoms: Atoms) -> Scaled:

@@ -22,6 +22,7 @@ from sympy.simplify.fu import TR8
 from kovacic.algebra.precision import working_digits
 from kovacic.closed_form.atoms import Atoms, display
 from kovacic.closed_form.check import DIGITS
+from kovacic.closed_form.form import ClosedForm
 from kovacic.closed_form.jets import jet
 from kovacic.closed_form.product import product
 from kovacic.closed_form.way_back import in_x
@@ -42,6 +43,8 @@ _ANTIDERIVATIVES = (
     *(sympy.Integral, sympy.log, sympy.asin, sympy.acos, sympy.atan, sympy.asinh, sympy.acosh, sympy.atanh, sympy.Ei),
     *(sympy.erf, sympy.erfi, sympy.uppergamma, sympy.elliptic_e, sympy.elliptic_f, sympy.elliptic_pi, sympy.RootSum),
 )
+#: Quotients of the Wronskians of u(x) and v(x) and those of u(-x) and v(-x), of J and Y and those of I and K.
+_TURNS = [sign * c for c in (sympy.Integer(1), sympy.pi / 2, 2 / sympy.pi) for sign in (1, -1)]
 #: Where the constant of a Wronskian is looked for.
 _POINTS = [*map(sympy.Integer, (0, 1, -1, 2, 3, -2)), sympy.S.Half]
 #: The longest expression that is factored, in subexpressions, and the most symbols, functions and roots in it.
@@ -73,6 +76,8 @@ class Basis:
         Those where it is negative, if they are known.
     before : Basis or None
         The pair of which these are combinations.
+    form : ClosedForm or None
+        The Liouvillian solutions that the members are, where the equation is one in x.
     """
 
     y1: Expr
@@ -86,6 +91,7 @@ class Basis:
     natural: Expr | None = None
     otherwise: Basis | None = None
     before: Basis | None = None
+    form: ClosedForm | None = None
 
     @cached_property
     def wronskian(self) -> Expr:
@@ -180,7 +186,7 @@ def _antiderivatives(e: Expr) -> Iterator[Expr]:
 def multiple_of(w: Expr, y1: Expr, y2: Expr, x: Expr) -> Expr | None:
     """c w for the constant c with y1 y2' - y1' y2 = c w on each branch of the roots; None where it isn't found.
 
-    c is the quotient at a point where it is elementary, or 1 or -1.
+    c is the quotient at a point where it is elementary, or one that other branches of Bessel's functions have.
 
     >>> x, k = sympy.symbols("x k")
     >>> multiple_of(1 / x, x**k, x**-k, x)
@@ -188,7 +194,7 @@ def multiple_of(w: Expr, y1: Expr, y2: Expr, x: Expr) -> Expr | None:
     """
     w = _with_roots_like(w, y1 * y2, x)
     W = definition(y1, y2, x)
-    for c in (*_quotients(W, w, x), sympy.Integer(1), sympy.Integer(-1)):
+    for c in chain(_quotients(W, w, x), _TURNS):
         if _is_wronskian(c * w, y1, y2, x):
             return _simplified(c) * w
     return None

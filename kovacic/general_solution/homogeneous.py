@@ -60,7 +60,7 @@ def find_basis(question: Question, budget: Budget, *, special: bool = False) -> 
             joined = _joined(solution, form.structure, budget)
         y1, y2 = joined or (form.y1, form.y2)
         known = partial(multiple_of, kernel(question.equation), y1, y2, form.variable)
-        return _basis(question, solution, WrittenPair(y1, y2, known))
+        return replace(_basis(question, solution, WrittenPair(y1, y2, known)), form=form)
     pair = _in_special_functions(question, solution, budget, special=special)
     if not isinstance(pair, BySign):
         return _basis(question, solution, pair)

@@ -88,7 +88,7 @@ def _integral_by_rate(rate: RatFunc, term: Expr, x: Expr) -> Expr | None:
     polynomials = _polynomial_radicands(term, x)
     # sqrt(x^2 - 1) and the like are real for large x
     is_real_far_away = bool(polynomials) and all(polynomial.LC().is_positive for polynomial in polynomials)
-    atoms = Atoms(x, beyond_zeros=is_real_far_away)
+    atoms = Atoms(x, at=sympy.oo if is_real_far_away else None)
     h = product(rate)
     scale, shown = factors(h, atoms)
     if any(factor.has(sympy.CRootOf) for factor in shown):  # SymPy's arithmetic with these takes minutes

@@ -4,8 +4,8 @@ Singular points are the poles of b/a and c/a, and those of f/a: a solution isn't
 the other.  At a singular point and at infinity, a condition is one on a limit, from the side on which the others are.
 
 Solutions that are real where x - a is positive may not be where it is negative: log(u) = log(-u) + i pi and
-u^e = exp(i pi e) (-u)^e for u < 0.  Often log(-u) and (-u)^e in their places give a solution as well; otherwise the real and
-the imaginary part of each solution are solutions, the equation being real.
+u^e = exp(i pi e) (-u)^e for u < 0.  Often log(-u) and (-u)^e in their places give a solution as well; elementary solutions
+are written anew, with roots that are real there.
 """
 
 from __future__ import annotations
@@ -19,23 +19,25 @@ from sympy.functions.special.bessel import BesselBase
 
 from kovacic.closed_form.atoms import Atoms
 from kovacic.closed_form.check import are_independent, is_numerical_solution
+from kovacic.closed_form.form import pair_at
 from kovacic.errors import InputError
 from kovacic.general_solution.basis import Basis, rates
 from kovacic.general_solution.behaviour import Approach
+from kovacic.general_solution.integrands import NUMBERS
 from kovacic.general_solution.poles import is_singular, poles_between, rational_poles
 from kovacic.general_solution.question import Question
 from kovacic.general_solution.steps import place_of
-from kovacic.general_solution.substitution import size
 from kovacic.general_solution.variation import is_solution, starting_at
-from kovacic.solution import Solution
 
 Expr = Any  # SymPy publishes no types
 _INFINITIES = (sympy.oo, -sympy.oo)
-#: The largest real part (in subexpressions, by those of the solution) that is written instead of a solution.
-_LARGEST = 4
-#: The largest solution that is separated, in subexpressions.
-_LONGEST = 300
-_COMPLEX = (sympy.re, sympy.im, sympy.Abs, sympy.arg, sympy.atan2)
+#: For Bessel's functions of i z those of z with the same span.
+_OF_IMAGINARY = {
+    sympy.besselj: sympy.besseli,
+    sympy.bessely: sympy.besselk,
+    sympy.besseli: sympy.besselj,
+    sympy.besselk: sympy.bessely,
+}
 #: The functions that are analytic everywhere.
 _ENTIRE = (
     sympy.exp,
@@ -216,8 +218,7 @@ def real_basis_at(question: Question, basis: Basis, start: Expr) -> Basis:
     x = question.x
     if question.equation.change is None:
         _check_one_side((basis.y1, basis.y2), question)
-        assert basis.solution is not None
-        basis = basis.of(*real_basis(basis.solution, basis.y1, basis.y2, x, start))
+        basis = real_basis(basis, start)
     return basis.of(starting_at(basis.y1, x, start), starting_at(basis.y2, x, start))
 
 
@@ -237,10 +238,8 @@ def real_particular_at(question: Question, basis: Basis, particular: Expr, start
     equation = question.equation
     right = (Atoms(x).sum(equation.f) + (equation.h or 0)) / Atoms(x).ratio(equation.a)
     coefficients = rates(equation, x)
-    for candidate in [all_turned(particular, x, start), *_parts(particular, start, x)[:1]]:
-        if is_solution(candidate, coefficients, right, x):
-            return candidate
-    return particular
+    candidate = all_turned(particular, x, start)
+    return candidate if is_solution(candidate, coefficients, right, x) else particular
 
 
 def _check_one_side(solutions: Sequence[Expr], question: Question) -> None:
@@ -259,21 +258,21 @@ def _check_one_side(solutions: Sequence[Expr], question: Question) -> None:
 # ------------------------------------------------------------------------------------------- real on the other side
 
 
-def real_basis(solution: Solution, y1: Expr, y2: Expr, x: Expr, point: Expr) -> tuple[Expr, Expr]:
+def real_basis(basis: Basis, point: Expr) -> Basis:
     """Two solutions that are real at the point, if such are found; else the given ones."""
-    if not point.is_real or not any(negative_arguments(y, x, point) for y in (y1, y2)):
-        return y1, y2
-    candidates: list[Expr] = []
-    for y in (y1, y2):
-        turned = all_turned(y, x, point)
-        if is_numerical_solution(turned, x, solution.S, solution.gauge):
-            candidates.append(turned)
-        else:
-            candidates += _parts(y, point, x)
-    for second in candidates[1:]:
-        if are_independent(candidates[0], second, x):
-            return candidates[0], second
-    return y1, y2
+    x, solution = basis.x, basis.solution
+    assert solution is not None
+    if not point.is_real or not any(negative_arguments(y, x, point) for y in (basis.y1, basis.y2)):
+        return basis
+    pairs = [(basis.y1, basis.y2)]
+    if basis.form is not None:
+        pairs.append(tuple(y.xreplace(NUMBERS) for y in pair_at(basis.form, point)))
+    for pair in pairs:
+        y1, y2 = (all_turned(y, x, point) for y in pair)
+        are_solutions = all(is_numerical_solution(y, x, solution.S, solution.gauge) for y in (y1, y2))
+        if are_solutions and are_independent(y1, y2, x):
+            return basis.of(y1, y2)
+    return basis
 
 
 def _arguments(y: Expr, x: Expr) -> dict[Expr, Expr]:
@@ -286,74 +285,18 @@ def _arguments(y: Expr, x: Expr) -> dict[Expr, Expr]:
 
 
 def all_turned(y: Expr, x: Expr, point: Expr) -> Expr:
-    """With log(-u), (-u)^e for arguments u that are negative at the point."""
-    turned = {}
-    for e in negative_arguments(y, x, point):
-        if e.is_Pow:
-            turned[e] = (-e.base) ** e.exp
-        else:  # SymPy writes J(-z) as J(z) (-z)^nu/z^nu
-            turned[e] = e.func(*e.args[:-1], -e.args[-1], evaluate=False)
+    """With log(-u), (-u)^e for arguments u that are negative at the point; I_nu(z), K_nu(z) for J_nu(i z), Y_nu(i z)."""
+    turned = {e: (-u) ** e.exp for e, u in negative_arguments(y, x, point).items() if e.is_Pow}
+    roots = dict(turned)
+    for e in y.atoms(sympy.log, BesselBase):
+        *order, u = e.args
+        if e.func in _OF_IMAGINARY and (u**2).subs(x, point).is_negative:
+            turned[e] = _OF_IMAGINARY[e.func](*order, u.xreplace(roots))
+        elif u.subs(x, point).is_negative:  # SymPy writes J(-z) as J(z) (-z)^nu/z^nu
+            turned[e] = e.func(*order, -u, evaluate=False)
     return y.xreplace(turned)
 
 
 def negative_arguments(y: Expr, x: Expr, point: Expr) -> dict[Expr, Expr]:
     """Those whose arguments are negative at the point."""
     return {e: u for e, u in _arguments(y, x).items() if u.subs(x, point).is_negative}
-
-
-def _parts(y: Expr, point: Expr, x: Expr) -> list[Expr]:
-    """The real and the imaginary part, those that aren't zero; the expression itself where they would be long.
-
-    They are taken for real parameters; as functions of these they are analytic, and so solutions for others as well.
-    """
-    if y.has(sympy.RootSum, BesselBase) or size(y) > _LONGEST:
-        return [y]
-    back: dict[Expr, Expr] = {}
-    whole = y.xreplace(_with_positive_arguments(y, point, x, back))
-    real = {symbol: sympy.Dummy(real=True) for symbol in whole.free_symbols - back.keys()}
-    back |= {letter: symbol for symbol, letter in real.items()}
-    whole = _with_polar_powers(whole.subs(real), x, back)
-    both = sympy.expand(whole, complex=True).as_real_imag()
-    parts = [part.xreplace(back).as_independent(x, as_Add=False)[1] for part in both if part != 0]
-    most = _LARGEST * (size(y) + 5)
-    if all(size(part) <= most and not part.has(*_COMPLEX) for part in parts):
-        return parts
-    return [y]
-
-
-def _with_positive_arguments(y: Expr, point: Expr, x: Expr, back: dict[Expr, Expr]) -> dict[Expr, Expr]:
-    """Logarithms and roots of p, or of -p = p exp(i pi), for a positive symbol p, one for u and -u; `back` says what it is."""
-    real: dict[Expr, Expr] = {}
-    for e, u in _arguments(y, x).items():
-        value = u.subs(x, point)
-        if value.is_negative:
-            p, phase = -u, sympy.I * sympy.pi
-        elif value.is_positive and not u.has(*real):
-            p, phase = u, sympy.Integer(0)
-        else:
-            continue
-        known = [letter for letter, meaning in back.items() if meaning in (p, -p)]
-        letter = next(iter(known), sympy.Dummy(positive=True))
-        back[letter] = p
-        if e.func is sympy.log:
-            real[e] = sympy.log(letter) + phase
-        else:
-            real[e] = letter**e.exp * sympy.exp(phase * e.exp)
-    return real
-
-
-def _with_polar_powers(whole: Expr, x: Expr, back: dict[Expr, Expr]) -> Expr:
-    """With (a + i b)^e of a constant modulus m as m^e exp(i e phi), where `back` says what phi is."""
-    for power in whole.atoms(sympy.Pow):
-        a, b = power.base.as_real_imag()
-        square = sympy.expand((a**2 + b**2).xreplace(back))
-        if b == 0 or power.exp.is_Integer or square.has(x):
-            continue
-        m = sympy.sqrt(square)
-        angle = sympy.acos(a.xreplace(back) / m)
-        if b.could_extract_minus_sign():
-            angle = -angle
-        phi = sympy.Dummy(real=True)
-        back[phi] = angle
-        whole = whole.xreplace({power: m**power.exp * sympy.exp(sympy.I * power.exp * phi)})
-    return whole
