@@ -12,6 +12,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
+from functools import partial
 from typing import Any
 
 import sympy
@@ -262,22 +263,26 @@ def real_basis(basis: Basis, point: Expr) -> Basis:
     """Two solutions that are real at the point, if such are found; else the given ones."""
     x, solution = basis.x, basis.solution
     assert solution is not None
-    if not point.is_real or not any(negative_arguments(y, x, point) for y in (basis.y1, basis.y2)):
+    if not point.is_real:
         return basis
-    pairs = [(basis.y1, basis.y2)]
+    best, fewest = basis, len(negative_arguments(basis.y1 * basis.y2, x, point))
+    writers = [lambda: (basis.y1, basis.y2)]
     if basis.form is not None:
-        pairs.append(tuple(y.xreplace(NUMBERS) for y in pair_at(basis.form, point)))
-    for pair in pairs:
-        y1, y2 = (all_turned(y, x, point) for y in pair)
+        writers.append(partial(pair_at, basis.form, point))
+    for write in writers:
+        if not fewest:
+            break
+        y1, y2 = (all_turned(y.xreplace(NUMBERS), x, point) for y in write())
+        left = len(negative_arguments(y1 * y2, x, point))
         are_solutions = all(is_numerical_solution(y, x, solution.S, solution.gauge) for y in (y1, y2))
-        if are_solutions and are_independent(y1, y2, x):
-            return basis.of(y1, y2)
-    return basis
+        if are_solutions and are_independent(y1, y2, x) and (left < fewest or best is basis):
+            best, fewest = basis.of(y1, y2), left
+    return best
 
 
 def _arguments(y: Expr, x: Expr) -> dict[Expr, Expr]:
-    """The logarithms, roots and Bessel's functions in an expression, and their arguments."""
-    found = {e: e.args[-1] for e in y.atoms(sympy.log, BesselBase)}
+    """The logarithms, roots, Bessel's and gamma functions in an expression, and their arguments."""
+    found = {e: e.args[-1] for e in y.atoms(sympy.log, BesselBase, sympy.lowergamma, sympy.uppergamma)}
     for power in y.atoms(sympy.Pow):
         if power.base.has(x) and not power.exp.is_Integer:
             found[power] = power.base

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from typing import Any
 
 import sympy
@@ -40,7 +40,7 @@ def value_at(expression: Expr, x: Expr, point: Expr, order: int = 0) -> Expr:
     steps = [jump for jump in e.atoms(sympy.Heaviside, sympy.DiracDelta) if jump.has(x)]
     e = e.xreplace({jump: _just_before(e, jump, x, point, order) for jump in steps})
     if order:
-        e = e.diff(x)
+        e = e.diff(x).xreplace(dict(_contiguous(e, x, point)))
     value = finite_value(e, x, point)
     if value is not None:
         return value
@@ -50,6 +50,16 @@ def value_at(expression: Expr, x: Expr, point: Expr, order: int = 0) -> Expr:
         said = f"the functions of the closed form are singular at {point}, where the solutions aren't"
         raise NotImplementedError(f"{said}: kovacic.evaluate gives the values of this solution")
     return right
+
+
+def _contiguous(e: Expr, x: Expr, point: Expr) -> Iterator[tuple[Expr, Expr]]:
+    """1F1(s + 1; s + 2; z), which derivatives have, as (s + 1)/z (e^z - 1F1(s; s + 1; z)) beside that function."""
+    for f in e.atoms(sympy.hyper):
+        z = f.argument
+        if len(f.ap) != 1 or f.bq != (f.ap[0] + 1,) or z.subs(x, point) == 0:
+            continue
+        s = f.ap[0]
+        yield sympy.hyper((s + 1,), (s + 2,), z), (s + 1) / z * (sympy.exp(z) - f)
 
 
 def _just_before(e: Expr, jump: Expr, x: Expr, point: Expr, order: int) -> Expr:

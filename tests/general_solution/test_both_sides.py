@@ -1,0 +1,77 @@
+"""Initial values on either side of a singular point: the answer is real there, and says so."""
+
+from __future__ import annotations
+
+from itertools import product
+
+import pytest
+import sympy
+from build import parametrize
+from sympy.abc import x
+
+import kovacic
+
+#: Equations with closed forms of every kind, and a point in each interval between singular points.
+EQUATIONS: list[tuple[str, tuple[str, ...]]] = [
+    # a root beside an arc tangent or a logarithm on a curve
+    ("x*(x-1)*y'' + 7/2*x*y' + y = 0", ("-1", "1/2", "2")),
+    ("x*(x-1)*y'' + 5/2*x*y' + y/2 = 0", ("-2", "1/2", "3")),
+    ("(x-1)*(x-3)*y'' + 5/2*(x-1)*y' - y = 0", ("-1", "2", "4")),
+    ("(x^2-4)*y'' + 7*x*y' + 9*y = 0", ("-3", "1", "3")),
+    ("x*(x-1)*(x-2)*y'' + (x-1)*y' - y = 0", ("-1", "1/2", "3/2", "3")),
+    # exponentials on a curve
+    ("4*x*y'' + 2*y' + y = 0", ("-1", "1")),
+    ("4*x*y'' + 2*y' - y = 0", ("-1", "1")),
+    ("(1-x^2)*y'' - x*y' + y/9 = 0", ("-2", "0", "2")),
+    ("x*(1-x)*y'' + (1/2-x)*y' + y/9 = 0", ("-1", "1/3", "2")),
+    ("(x^2-1)*y'' + x*y' + y = 0", ("-2", "0", "2")),
+    ("(x^2-x-1)*y'' + (x-1/2)*y' + y = 0", ("-2", "0", "2")),
+    ("y'' + 3/16*(x^2+3)/(x^2-1)^2*y = 0", ("-2", "0", "2")),
+    # powers, rational logarithms, error and gamma functions
+    ("x^2*y'' + x*y' + y = 0", ("-1", "1")),
+    ("2*x^2*y'' + 3*x*y' - y = 0", ("-1", "1")),
+    ("x^2*(x-1)*y'' + x*y' - y = 0", ("-1", "1/2", "2")),
+    ("(1-x^2)*y'' - 2*x*y' + 2*y = 0", ("-2", "0", "2")),
+    ("x*y'' + (1/2-x)*y' - y/2 = 0", ("-1", "1")),
+    ("2*x*y'' + (1+x)*y' - y = 0", ("-1", "1")),
+    ("x*y'' + (1/3-x)*y' - y/3 = 0", ("-1", "1")),
+    ("x*y'' + (1/3+x)*y' + y/3 = 0", ("-1", "1")),
+    ("x*y'' + (5/3-x)*y' - y = 0", ("-1", "1")),
+    # Bessel's functions of a root
+    ("4*x^2*y'' + 4*x*y' + (4*x-1)*y = 0", ("-1", "1")),
+    ("4*x^2*y'' + 4*x*y' - (4*x+1)*y = 0", ("-1", "1")),
+    # a particular solution
+    ("x*(x-1)*y'' + 5/2*x*y' + y/2 = x", ("-2", "1/2", "2")),
+    ("x^2*y'' + 2*x*y' - 3/4*y = x^3", ("-1", "1")),
+]
+
+
+@parametrize(
+    ("equation", "point", "values"),
+    [(equation, p, v) for equation, points in EQUATIONS for p, v in product(points, [(1, 0), (-2, 3)])],
+    ordinary=12,
+)
+def test_the_solution_is_real_where_its_values_are(equation: str, point: str, values: tuple[int, int]) -> None:
+    """No i and no complex part near the point; the values, and the equation at a point beside."""
+    answer = kovacic.answer_to(equation, ics=f"y({point})={values[0]}, y'({point})={values[1]}")
+    value = answer.eq.rhs
+    assert not value.has(sympy.I)
+    at = sympy.Rational(point)
+    assert all(relation.subs(x, at + sympy.Rational(1, 97)) == sympy.true for relation in answer.validity.real)
+    for order, given in enumerate(values):
+        assert abs(sympy.N(value.diff(x, order).subs(x, at) - given, 25)) < 1e-20
+    a, b, c, f = answer.question.coefficients
+    beside = at + sympy.Rational(1, 13)
+    residual = a * value.diff(x, 2) + b * value.diff(x) + c * value - f
+    assert abs(sympy.N(residual.subs(x, beside), 20)) < 1e-15
+
+
+@pytest.mark.parametrize("point", ["-1", "1/2"])
+def test_an_answer_left_of_a_root_has_the_right_slope_everywhere(point: str) -> None:
+    """Compared with the proven values of the general route, three points further on."""
+    equation = "x*(x-1)*y'' + 7/2*x*y' + y = 0"
+    value = kovacic.dsolve(equation, ics=f"y({point})=1, y'({point})=2").rhs
+    for step in ("1/10", "1/5", "2/5"):
+        at = sympy.Rational(point) + sympy.Rational(step)
+        ball = kovacic.evaluate(equation, str(at), x0=point, y0=1, dy0=2, digits=20)
+        assert abs(sympy.N(value.subs(x, at), 25) - sympy.Float(str(ball.value.real).split(" ")[0], 25)) < 1e-15
