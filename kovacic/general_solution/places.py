@@ -10,7 +10,7 @@ are written anew, with roots that are real there.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from functools import partial
 from typing import Any
@@ -266,7 +266,7 @@ def real_basis(basis: Basis, point: Expr) -> Basis:
     if not point.is_real:
         return basis
     best, fewest = basis, len(negative_arguments(basis.y1 * basis.y2, x, point))
-    writers = [lambda: (basis.y1, basis.y2)]
+    writers: list[Callable[[], tuple[Expr, Expr]]] = [lambda: (basis.y1, basis.y2)]
     if basis.form is not None:
         writers.append(partial(pair_at, basis.form, point))
     for write in writers:
