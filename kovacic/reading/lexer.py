@@ -32,8 +32,8 @@ _DOTS = {"\u0307": DOTS, "\u0308": 2 * DOTS}
 #: What a character stands for; all else stands for itself.
 _CHARACTERS = {
     **dict.fromkeys("\u2010\u2011\u2012\u2013\u2014\u2015−", "-"),
-    **dict.fromkeys("´‘’′", "'"),
-    **dict.fromkeys("“”„″", '"'),
+    **dict.fromkeys("´‘’′ʹʼ", "'"),
+    **dict.fromkeys("“”„″ʺˮ", '"'),
     **dict.fromkeys("\u00ad\u200b\u200c\u200d\u2060\u2061\u2062\u2063\ufeff", ""),
     **dict.fromkeys("·×⋅∙", "*"),
     **dict.fromkeys("÷∕\u2044", "/"),

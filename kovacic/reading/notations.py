@@ -286,6 +286,7 @@ _NO_INDEX = r"(?<!_\x20)(?<!_\x20\{\x20)"
 _NO_NAME = rf"(?!(?:{'|'.join(FUNCTION_NAMES)}|\w) \}})"
 #: Comments, breaks and layout, before all else.
 AROUND = (
+    rule("Julia", "@", r"@~(?:variables|parameters|independent_variables) [^\n;]*"),
     rule("Julia", "~", r"\x7e", lambda m: "" if _occurs(r"(?<!\S)\\", m.string) else "="),
     rule("within a line", "*", r"[(/]~\* .{0,2000}? \*~[)/]"),
     rule("a whole line", "/ # %", rf"{_LINE}(?:/~/|#|%(?!~(?:e|i|pi|o\d*|i\d+)(?!\S)))[^\n]*"),

@@ -42,7 +42,7 @@ from kovacic.reading.notations import (
 _BETWEEN = frozenset("and with where subject such given for if at when".split())  # noqa: SIM905
 _FILLERS = frozenset("to that the conditions condition initial boundary by values value".split())  # noqa: SIM905
 #: Statements that say what names are, and solve nothing.
-_DECLARATIONS = frozenset("@ from import syms with restart clear clc depends assume var init_printing".split())  # noqa: SIM905
+_DECLARATIONS = frozenset("from import syms with restart clear clc depends assume var init_printing".split())  # noqa: SIM905
 _UNFINISHED = frozenset("+ - * / ^ ** = == , := .".split())  # noqa: SIM905
 _ASSIGNS = ("=", "==", ":=")
 #: With what Eq(left, right) begins.
