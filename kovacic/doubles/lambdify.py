@@ -23,9 +23,8 @@ from flint import acb
 
 from kovacic.algebra.precision import working_precision
 from kovacic.api import find_answer
-from kovacic.doubles.arrangement import product_form
 from kovacic.doubles.chart import Measured, PieceChart, RationalChart, Region, chart_of
-from kovacic.doubles.product_form import ProductForm
+from kovacic.doubles.product_form import ProductForm, product_form
 from kovacic.doubles.tabulate import TabulatedFunction, table_of
 from kovacic.enclosure.ball import ball_from_flint
 from kovacic.enclosure.evaluate import InitialValues, with_variable

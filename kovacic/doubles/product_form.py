@@ -4,7 +4,8 @@
 
 - Polynomial factors stay products over their zeros z_k, which are double-doubles: x - z_k keeps its digits near a zero.
 - Powers that are small integers are multiplied out, with the binary exponent apart; all others are one logarithm.
-- E is kept as partial fractions.
+- E is kept as partial fractions.  From the certificate of a solution of case 1, y = exp(int theta) P, the residues of theta are
+  the r_j, and its poles of higher order go into E.
 - |turn_j| = 1, and (x - zeta_j)/turn_j > 0 at the middle of the interval, so that the principal power is the continuous
   one along the straight line from there: a quotient of points on a line that misses 0 never meets the negative real axis.
 
@@ -21,6 +22,7 @@ from dataclasses import dataclass, replace
 from typing import Any, NamedTuple
 
 import numpy as np
+from flint import acb
 
 from kovacic.doubles.chart import Measured, Region, facts, in_blocks
 from kovacic.doubles.double_double import (
@@ -34,7 +36,11 @@ from kovacic.doubles.double_double import (
     log,
     split,
 )
-from kovacic.enclosure.points import ExactPoint
+from kovacic.enclosure.closed_form import exponentials
+from kovacic.enclosure.frame import foreseen_growth, frequency
+from kovacic.enclosure.log_derivative import LogDerivative, embed, zeros
+from kovacic.enclosure.points import ExactPoint, as_point, to_acb
+from kovacic.enclosure.problem import NumericProblem
 
 _MULTIPLIED_OUT = 8
 """Powers up to here are multiplied out, if they are integers."""
@@ -443,3 +449,61 @@ def _complex_array(z: Complex) -> Any:
     result.real = double(z.re)
     result.imag = double(z.im)
     return result
+
+
+_SAME = 2.0**-60
+"""Powers this close to 0 are none: other exponents were separated from it at a far higher precision."""
+
+_FEW_ZEROS = 60
+_MAX_ZEROS = 200
+_SHORT = 2000.0
+"""Zeros take degree^4 time, and may be lost.  With a polynomial of a degree between these a solution is tabulated on an
+interval where it grows and oscillates by less than exp(2000), with one of a higher degree always."""
+
+
+def product_form(problem: NumericProblem, which: int, region: Region, base: ExactPoint) -> ProductForm | None:
+    """The solution number `which` as a product, at a working precision of some 200 bits; None where there is no such form.
+
+    None means cases 2 and 3, and polynomials of degree above 60 where a table is better.
+    """
+    branches = exponentials(problem)
+    if not branches:
+        return None
+    branch = branches[which]
+    c = branch.constant()
+    degree = branch.P.degree
+    is_short = False
+    if degree > _FEW_ZEROS and region.is_real:
+        ends = (as_point(end.real, "an end") for end in (region.low, region.high))
+        is_short = foreseen_growth(frequency(problem.system), *ends) < _SHORT
+    if is_short or degree > _MAX_ZEROS:
+        return None
+    roots = zeros(branch.P, c)
+    if sum(k for _, k in roots) < degree:
+        return None  # not all were found
+    theta = LogDerivative.make(branch.theta, c)
+    powers = [(pole.zeta, pole.coefficients[0]) for pole in theta.poles] + [(z, acb(k)) for z, k in roots]
+    coefficients = [*theta.num.coeffs(), *theta.den.coeffs(), *embed(branch.P, c).coeffs()]
+    is_real = region.is_real and all(value.imag.contains(0) for value in coefficients)
+    # The part of int theta without logarithms.
+    polar = tuple(
+        (Complex.of(pole.zeta), Complex.of(-r / k), k)
+        for pole in theta.poles
+        for k, r in enumerate(pole.coefficients[1:], start=1)
+        if not r.is_zero()
+    )
+    exponent = RationalFunction(tuple(Complex.of(v) for v in reversed(theta.primitive.coeffs())), polar)
+    return ProductForm(region, base, _factors(powers, to_acb(base), is_real), exponent, is_real)
+
+
+def _factors(powers: list[tuple[acb, acb]], base: acb, is_real: bool) -> tuple[RootFactor, ...]:
+    """The factors (x - zeta)^power; for a real function, those of the closed upper half-plane, with their conjugates."""
+    found = []
+    for zeta, power in powers:
+        if power.abs_upper() < _SAME or (is_real and zeta.imag < 0):
+            continue
+        d = base - zeta
+        turn = acb(1) if d.contains(0) else d / abs(d)
+        paired = is_real and not zeta.imag.contains(0)
+        found.append(RootFactor(Complex.of(zeta), Complex.of(power), Complex.of(turn), paired))
+    return tuple(found)

@@ -52,12 +52,8 @@ _BITS = 64
 Ways = tuple[tuple[ExactPoint, ExactPoint], ...]
 
 
-@dataclass(frozen=True)
-class ClosedRoute:
-    """A closed form, for which so many `bits` are the first precision: enough where both solutions grow to the start."""
-
-    closed: Closed
-    bits: int = 0
+ClosedRoute = tuple[Closed, int]
+"""A closed form, for which so many bits are the first precision: enough where both solutions grow to the start."""
 
 
 def route_of(journey: Journey, targets: Sequence[Number], method: Method | None, digits: int) -> ClosedRoute | None:
@@ -90,12 +86,11 @@ def _asked_for(journey: Journey, digits: int) -> ClosedRoute:
     known = None if problem.S is None else decided(problem, DEFAULT_LIMITS.unknown_degree)
     closed = None if known is None else closed_form_of(known)
     if closed is not None and closed.is_elementary and isinstance(journey.place, ExactPoint):
-        return ClosedRoute(closed)
+        return closed, 0
     classical = None if problem.S is None else classical_of(problem.S, None)
     if classical is None:
         raise InputError(NO_CLOSED_FORM, hint=TAYLOR)
-    lost = _lost_digits(classical, journey)
-    return ClosedRoute(classical, start_bits(digits + lost))
+    return classical, start_bits(digits + _lost_digits(classical, journey))
 
 
 def _lost_digits(classical: Classical, journey: Journey) -> float:
@@ -110,7 +105,7 @@ def _chosen(journey: Journey, problem: NumericProblem, foreseen: Foreseen) -> Cl
     if not from_zero:
         closed = _case_1(problem, foreseen)
         if closed is not None and closed.is_cheap(foreseen.digits) and foreseen.pays(closed.price(foreseen.digits)):
-            return ClosedRoute(closed)
+            return closed, 0
         if foreseen.price < _WORTH:
             return None
     assert problem.S is not None
@@ -118,7 +113,7 @@ def _chosen(journey: Journey, problem: NumericProblem, foreseen: Foreseen) -> Cl
     if classical is None or not classical.is_cheap(foreseen.digits, from_zero=from_zero):
         return None
     digits = foreseen.digits + _lost_digits(classical, journey)
-    return ClosedRoute(classical, start_bits(digits)) if from_zero or foreseen.pays(classical.price(digits)) else None
+    return (classical, start_bits(digits)) if from_zero or foreseen.pays(classical.price(digits)) else None
 
 
 def _case_1(problem: NumericProblem, foreseen: Foreseen) -> CaseOneForm | None:
@@ -218,9 +213,10 @@ class AskedSolution:
     def _states(self, journey: Journey, targets: Sequence[Number]) -> tuple[PointValue, ...]:
         route = route_of(journey, targets, self.method, self.digits)
         if route is not None:
-            _LOG.info("route: %s", route.closed)
+            closed, bits = route
+            _LOG.info("route: %s", closed)
             try:
-                return raise_precision(journey, targets, route.closed, self.digits, self.limits, begin=route.bits)
+                return raise_precision(journey, targets, closed, self.digits, self.limits, begin=bits)
             except NotServed:
                 if self.method is not None:
                     raise InputError("the closed form doesn't prove its values on this path", hint=TAYLOR) from None
