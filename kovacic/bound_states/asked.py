@@ -152,6 +152,7 @@ class Asked:
             read_assumptions(self.assumed or None, self.given, parameters),
             self.boundary.text or (FRIEDRICHS if is_open or self.friedrichs else None),
             reason=f"undecided: {reason.args[0]}",
+            notices=self.notices,
             conditions=wishes,
         )
 
@@ -218,7 +219,7 @@ def asked(
         variable=x,
         ends=(first, last),
         energy=energy,
-        boundary=read_boundary(boundary, ends, x),
+        boundary=read_boundary(boundary, (first, last), x),
         friedrichs=boundary == FRIEDRICHS,
         assumed={**positive, **rest},
         kinetic=kinetic,

@@ -529,6 +529,19 @@ def test_a_sympy_expression_and_values() -> None:
     assert at.states() == found.states({"b": 3})
 
 
+def test_a_value_of_an_end_is_put_into_it() -> None:
+    box = kovacic.spectrum("0", domain=(0, "L"), assume={"L": 2}, boundary="y'(2) = 0")
+    assert box.domain == (0, 2)
+    assert box.states(count=1)[0].energy == (sympy.pi / 4) ** 2
+
+
+def test_a_potential_without_formulas_names_its_variable() -> None:
+    found = kovacic.spectrum("-4*exp(-r^2)", levels=1, digits=6)
+    assert found.variable == "r"
+    assert "r is taken for the variable" in found.text()
+    assert abs(float(found.numeric[0].value) + 2.3754390) < 1e-5
+
+
 def test_what_symbols_assume_is_known() -> None:
     """Of SymPy's symbols, as of the assumptions."""
     k = sympy.Symbol("k", positive=True)
