@@ -214,13 +214,22 @@ class GaugeTransform:
         """Do the identities (1) of `kovacic.special.search` hold exactly, with a transformation that is invertible?"""
         T = self.pullback.S
         D = S - T
-        a, b = self.a, self.b
-        L = half_rate(self.m)
-        da, db = a.derivative() + L * a, b.derivative() + L * b
-        d2a, d2b = da.derivative() + L * da, db.derivative() + L * db
+        (a, da, d2a), (b, db, d2b) = map(self._derivatives, (self.a, self.b))
         first = 2 * da == b * D - d2b
         second = d2a == a * D - 2 * db * T - b * T.derivative()
-        return first and second and bool(a * a + a * db - da * b - b * b * T)
+        return first and second and bool(self.factor)
+
+    @property
+    def factor(self) -> RatFunc:
+        """The constant m (a^2 + a b' - a' b - b^2 T), by which the Wronskian of two solutions v is multiplied."""
+        (a, da, _), (b, db, _) = map(self._derivatives, (self.a, self.b))
+        return (a * a + a * db - da * b - b * b * self.pullback.S) * self.m
+
+    def _derivatives(self, c: RatFunc) -> tuple[RatFunc, RatFunc, RatFunc]:
+        """c, and over sqrt(m) the first two derivatives of sqrt(m) c."""
+        rate = half_rate(self.m)
+        dc = c.derivative() + rate * c
+        return c, dc, dc.derivative() + rate * dc
 
 
 def standard_part(S: RatFunc, f: RatFunc) -> RatFunc:

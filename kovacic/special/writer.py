@@ -169,19 +169,27 @@ class Writer:
         times P1 P2 it is the Wronskian.  A member has no value where one of the numbers `undefined` is an integer.
         With `real_at` the powers are real at that point.
         """
-        if self.transform is not None:
-            return WrittenPair(self._combined(self.transform, *first), self._combined(self.transform, *second))
         P, Q = (Mul(display(f.product, self.atoms), *f.others) for f, _ in (first, second))
-        if real_at is not None:
-            P, Q = (_real_at(factor, self.atoms.x, real_at) for factor in (P, Q))
-        y, z = P * first[1], Q * second[1]
         excluded = tuple(_sine_of_letters(self.constant(number)) for number in undefined if self.has_letters(number))
+        x = self.atoms.x
+        if self.transform is not None:
+            (y, C), (z, D) = (self._combined(self.transform, *term) for term in (first, second))
+            if bracket is None or C is None or D is None:
+                return WrittenPair(y, z, None, excluded)
+            others, rational = _by_rationality(C * D * self.atoms.factored(self.transform.factor / self.transform.m), x)
+            return WrittenPair(y, z, lambda: others * sympy.factor(rational) * bracket(), excluded)
+        if real_at is not None:
+            P, Q = (_real_at(factor, x, real_at) for factor in (P, Q))
+        y, z = P * first[1], Q * second[1]
         if second[0].size < first[0].size:
             return WrittenPair(z, y, None if bracket is None else lambda: -P * Q * bracket(), excluded)
         return WrittenPair(y, z, None if bracket is None else lambda: P * Q * bracket(), excluded)
 
-    def _combined(self, transform: GaugeTransform, before: WrittenFactor, function: Expr) -> Expr:
-        """P sqrt(m) ((a + b P'/P) F + b F') for v = P F, F' = s F + t F1 with another function F1."""
+    def _combined(self, transform: GaugeTransform, before: WrittenFactor, function: Expr) -> tuple[Expr, Expr | None]:
+        """P sqrt(m) ((a + b P'/P) F + b F') over a constant c for v = P F, F' = s F + t F1, F1 another function; P sqrt(m)/c.
+
+        Over Q the powers are joined, and c, a number, isn't known.
+        """
         x = self.atoms.x
         b = self.atoms.ratio(transform.b)
         rate = self.atoms.ratio(transform.a + transform.b * (before.product.logarithmic_derivative - self.gauge))
@@ -191,19 +199,17 @@ class Writer:
         of_other = _in_lowest_terms(b * t) or of_F  # F1 = 0
         n, d = sympy.fraction(sympy.together(_in_lowest_terms(of_F / of_other)))
         total = before.product.logarithmic_derivative + half_rate(transform.m)
-        common = sympy.factor(of_other / d).as_independent(x, as_Add=False)[1]
-        if total.field == QQ:  # its powers join those of the product
-            for part, sign in zip(common.as_numer_denom(), (1, -1), strict=True):
+        bracket = n * function + d * root * other
+        if total.field == QQ:
+            for part, sign in zip(sympy.factor(of_other / d).as_numer_denom(), (1, -1), strict=True):
                 coefficients = sympy.Poly(part, x).all_coeffs()
                 p = QQ.poly([Fraction(int(c.p), int(c.q)) for c in reversed(coefficients)])
                 total = total + RatFunc(p.derivative(), p) * sign
-            common = sympy.S.One
-        shown = Mul.make_args(display(product(total), self.atoms))
-        if total.field != QQ:  # what cancels isn't seen by SymPy's product
-            rational = [part for part in shown if part.is_rational_function(x)]
-            shown = [part for part in shown if part not in rational]
-            common = sympy.factor(Mul(common, *rational)).as_independent(x, as_Add=False)[1]
-        return Mul(*shown, *before.others, common, n * function + d * root * other)
+            return Mul(display(product(total), self.atoms), *before.others, bracket), None
+        powers = Mul(display(product(total), self.atoms), *before.others)
+        others, rational = _by_rationality(powers, x)
+        c, common = sympy.factor(of_other / d * rational).as_independent(x, as_Add=False)
+        return Mul(others, common, bracket), powers / c
 
     # ------------------------------------------------------------------------------------- constants
 
@@ -325,6 +331,13 @@ class Writer:
     def wronskian_by_parity(self, N: Expr, even: Expr, odd: Expr) -> Expr:
         """That of cos(pi N/2) even E + sin(pi N/2) odd O with `by_parity`, if E and O have 1, 0 and 0, 1 in the middle."""
         return even * sympy.cos(sympy.pi * N / 2) ** 2 - odd * sympy.sin(sympy.pi * N / 2) ** 2
+
+
+def _by_rationality(product: Expr, x: Any) -> tuple[Expr, Expr]:
+    """The factors that aren't rational in x, and those that are, in which something may cancel that SymPy's product keeps."""
+    parts = Mul.make_args(product)
+    rational = [part for part in parts if part.is_rational_function(x)]
+    return Mul(*(part for part in parts if part not in rational)), Mul(*rational)
 
 
 def _in_lowest_terms(quotient: Expr) -> Expr:

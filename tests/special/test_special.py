@@ -581,6 +581,44 @@ def test_laguerres_polynomials_are_polynomials_at_zero_too(degree: int, a: int) 
         assert abs(first[0] * second[1] - first[1] * second[0] - stated) < 1e-20 * abs(stated)
 
 
+def transformed(S: str, *transform: str) -> tuple[str, tuple[Any, Any, Any]]:
+    """The equation of a v + b v' for v'' = S v, and its coefficients: three vectors in v and v' are dependent."""
+    T, a, b = (sympy.sympify(text.replace("^", "**")) for text in (S, *transform))
+    rows = [(a, b)]
+    for _ in range(2):
+        u, v = rows[-1]
+        rows.append((sympy.diff(u, x) + v * T, sympy.diff(v, x) + u))
+    c2, c1, c0 = (sympy.cancel(rows[i][0] * rows[j][1] - rows[j][0] * rows[i][1]) for i, j in ((0, 1), (2, 0), (1, 2)))
+    return f"({c2})*y'' + ({c1})*y' + ({c0})*y = 0".replace("**", "^"), (c2, c1, c0)
+
+
+@pytest.mark.parametrize(
+    ("S", "transform", "exceptions"),
+    [
+        ("1/4 - 1/(3*x) + (n^2 - 1/4)/x^2", ("1", "x"), "0 1/2 -1/2 1"),
+        ("(n^2 - 1/4)/x^2 - 1", ("1", "x"), ""),
+        ("-2/9/x^2 - 3/(16*(x-1)^2) + (23/36 + n^2)/(4*x*(x-1))", ("1", "x*(x-1)"), ""),
+    ],
+)
+def test_gauge_transforms_know_where_their_solutions_are_dependent(
+    S: str, transform: tuple[str, str], exceptions: str
+) -> None:
+    """The Wronskian that is stated is that of the members; where it vanishes, or they have no value, `validity` says so."""
+    n = sympy.Symbol("n")
+    pair = kovacic.solve(transformed(S, *transform)[0], var="x").special.pair
+    assert pair is not None
+    general = {"n": mpmath.mpf(3) / 7}
+    with mpmath.workdps(40):
+        first, second = (mpmath.taylor(function(y, general), POINT, 1) for y in pair)
+        stated = function(pair.wronskian, general)(POINT)
+        assert abs(first[0] * second[1] - first[1] * second[0] - stated) < 1e-20 * abs(stated)
+    for value in map(sympy.Rational, exceptions.split()):
+        conditions = [*pair.undefined, pair.wronskian]
+        assert any(sympy.simplify(condition.subs(n, value)) == 0 for condition in conditions), value
+    said = str(kovacic.validity(kovacic.dsolve(transformed(S, *transform)[0], var="x")))
+    assert ("!= 0" in said) == bool(exceptions)
+
+
 @pytest.mark.parametrize(
     ("S", "transform", "longest"),
     [
@@ -591,17 +629,11 @@ def test_laguerres_polynomials_are_polynomials_at_zero_too(degree: int, a: int) 
 )
 def test_derivatives_of_named_functions_are_written_by_such(S: str, transform: tuple[str, str], longest: int) -> None:
     """y = a v + b v' in two functions, and without a factor that stands above and below."""
-    x, n = sympy.symbols("x n")
-    T, a, b = (sympy.sympify(text.replace("^", "**")) for text in (S, *transform))
-    rows = [(a, b)]
-    for _ in range(2):
-        u, v = rows[-1]
-        rows.append((sympy.diff(u, x) + v * T, sympy.diff(v, x) + u))
-    c2, c1, c0 = (sympy.cancel(rows[i][0] * rows[j][1] - rows[j][0] * rows[i][1]) for i, j in ((0, 1), (2, 0), (1, 2)))
-    answer = kovacic.solve(f"({c2})*y'' + ({c1})*y' + ({c0})*y = 0".replace("**", "^"), var="x")
+    equation, (c2, c1, c0) = transformed(S, *transform)
+    answer = kovacic.solve(equation, var="x")
     assert answer.special
     for y in answer.special:
         assert len(str(y)) <= longest, y
         assert not y.has(sympy.Derivative)
-        value = (c2 * sympy.diff(y, x, 2) + c1 * sympy.diff(y, x) + c0 * y).subs(n, sympy.Rational(3, 7))
-        assert abs(function(value, {})(POINT)) < 1e-8
+        value = c2 * sympy.diff(y, x, 2) + c1 * sympy.diff(y, x) + c0 * y
+        assert abs(function(value, {"n": mpmath.mpf(3) / 7})(POINT)) < 1e-8
