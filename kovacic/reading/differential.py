@@ -163,7 +163,7 @@ class EquationReader(RationalReader):
             if name == self.variable + self.unknown:
                 hint = f"write {self.variable}*{text[len(self.variable) :]}"
             raise NotLinear(f"{text} is a derivative of something else than {self.unknown}", hint=hint)
-        return _derivative_of_unknown(_order_of(text[len(name) :]))
+        return _derivative_of_unknown(len(text) - len(name))
 
     def operator(self, variable: str) -> Any:
         if variable != self.variable:
@@ -225,7 +225,7 @@ class EquationReader(RationalReader):
             raise NotLinear(f"{y} is a function of {self.variable} alone")
         (argument,) = arguments
         if self._is_variable(argument):
-            return _derivative_of_unknown(_order_of(head[len(y) :]))
+            return _derivative_of_unknown(len(head) - len(y))
         is_value = is_rational(argument) and self.arithmetic.number(argument) is not None
         hint = f"values follow the equation after commas: {y}'' + {y} = 0, {y}(0) = 1" if is_value else None
         said = f"{site.text()} beside {y}({self.variable}): the argument is another one, as with delays"
@@ -242,10 +242,6 @@ class EquationReader(RationalReader):
 
 def _derivative_of_unknown(order: int) -> LinearForm:
     return LinearForm({order: Monomial(1, 0)})
-
-
-def _order_of(primes: str) -> int:
-    return len(primes) + primes.count("″")  # one character, two primes
 
 
 @dataclass(frozen=True)

@@ -12,7 +12,6 @@ import re
 from collections import Counter
 from collections.abc import Collection, Iterator, Sequence
 from dataclasses import dataclass
-from itertools import pairwise
 from string import digits
 from typing import NamedTuple
 
@@ -35,7 +34,9 @@ OPERATOR = "D"
 _NAME = r"[^\W\d]\w*"
 _ROOT = pattern(r"\^ 1 / (\d+)")
 _STIFFNESS = pattern(r"(?:E (?:\* )?I|I (?:\* )?E)(?! \()")
-_EXPONENT = pattern(rf"e \^ (- )?[\d.]+ ({_NAME})(?! \()")
+#: e^2x, which is e^(2x) or e^2 x, and 1e-3y, which is 0.001 y or e - 3 y; what to write.
+_EXPONENT = pattern(rf"e \^ (?:- )?[\d.]+~({_NAME})(?! \()"), "write e^({0}*{1}) or e^({0})*{1}"
+_POWER_OF_TEN = pattern(rf"[\d.]+~[eE]~[-+]~\d+~({_NAME})'*"), "write {0}*{1} for the decimal"
 _PRIMED = pattern(rf"({_NAME})'+")
 _DIFFERENTIATED = pattern(rf"({_NAME})'+|(?:{'|'.join(DERIVATIVES)}) \((?= ({_NAME}) [(,)])")
 _NAME_KINDS = ("NAME", "PRIMED", "HEAD")
@@ -67,14 +68,14 @@ class Vocabulary:
         y, has_operator = self._unknown_of(tokens) if is_equation else ("", False)
         if is_equation:
             _check_stiffness(tokens, self.declared)
-        _check_powers_of_ten(tokens)
+        _check_two_readings(tokens, *_POWER_OF_TEN)
         choose = _equation_variable if is_equation else _variable_of_S
         x, why = (self.variable, None) if self.variable else choose(tokens, y, self.declared)
         if not is_equation and x in ("e", "E"):
             _check_decimals(tokens, x)
         split, products = self._with_products(tokens, x, y)
         if is_equation or x != "e":
-            _check_two_exponents(split, y)
+            _check_two_readings(split, *_EXPONENT, unknown=y)
         is_usual = is_equation and x in (DEFAULT_VARIABLE, "t")
         notes = [why] if why and is_usual else []
         guesses = [*_guesses(tokens), *([why] if why and not is_usual else []), *products]
@@ -202,27 +203,14 @@ def _check_decimals(tokens: Tokens, variable: str) -> None:
         raise tokens.error(ParseError, message, k, k + 1, hint=hint)
 
 
-def _check_powers_of_ten(tokens: Tokens) -> None:
-    """Raises `ParseError` for 1e-3y, which is 0.001 y, or e - 3 y."""
-    for k in range(len(tokens) - 4) if {"e", "E"} & tokens.names.keys() else ():
-        e, sign = tokens.pieces[k + 1 : k + 3]
-        is_power = tokens.are(k, "NUMBER", "NAME") and e in ("e", "E") and sign in ("+", "-")
-        are_glued = all(a.end == b.start for a, b in pairwise(tokens[k : k + 5]))
-        if is_power and are_glued and tokens.are(k + 3, "NUMBER", "NAME"):
-            number, rest = tokens.piece(k, k + 4), tokens.pieces[k + 4]
-            hint = f"write {number}*{rest} for the decimal"
-            raise tokens.error(ParseError, f"{number}{rest} can be read in two ways", k, k + 5, hint=hint)
-
-
-def _check_two_exponents(tokens: Tokens, unknown: str) -> None:
-    """Raises `ParseError` for e^2x, which is e^(2x) or e^2 x."""
-    for found in _EXPONENT.finditer(tokens.spaced) if "e" in tokens.names else ():
-        e, behind = tokens.span(found)
-        if found[2] != unknown and tokens[behind - 2].end == tokens[behind - 1].start:
-            power = tokens.piece(e + 2, behind - 1)
-            hint = f"write e^({power}*{found[2]}) or e^({power})*{found[2]}"
-            whole = tokens.piece(e, behind)
-            raise tokens.error(ParseError, f"{whole} can be read in two ways", e, behind, hint=hint)
+def _check_two_readings(tokens: Tokens, readings: re.Pattern[str], hint: str, unknown: str = "") -> None:
+    """Raises `ParseError` where a pattern occurs whose name, unless it is the unknown, may belong to the number before it."""
+    for found in readings.finditer(tokens.spaced) if {"e", "E"} & tokens.names.keys() else ():
+        begin, behind = tokens.span(found)
+        if found[1] != unknown:
+            said = hint.format(tokens.piece(begin, behind - 1).rpartition("^")[2].strip(), tokens.pieces[behind - 1])
+            whole = tokens.piece(begin, behind)
+            raise tokens.error(ParseError, f"{whole} can be read in two ways", begin, behind, hint=said)
 
 
 def _with_factors(tokens: Tokens, x: str, y: str) -> Tokens:

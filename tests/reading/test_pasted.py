@@ -465,6 +465,8 @@ def test_what_people_paste_is_what_they_mean(row: dict[str, Any]) -> None:
         ("solve y'' + x*y = 0", "solve ", ""),
         ("(2) y'' + y = sec(x)", "(2)", "2*"),
         ("y'' + 1e-3y = 0", "1e-3y", "1e-3*y"),
+        ("y'' + 1e-3y' + y = 0", "1e-3y'", "1e-3*y'"),
+        ("y'' + y = 1e-3sin(x)", "1e-3sin", "1e-3*sin"),
         ("y'' = 2e+1x y", "2e+1x", "2e+1*x"),
         ("(2.3) y'' + y = 0", "(2.3)", "2.3*"),
         ("u_t = u_xx", "u_t", "t"),
