@@ -28,8 +28,9 @@ _TOTAL_FACTOR = 100
 # Above this size, flint's numbers are faster than Python's.
 _SMALL_BITS = 2048
 
-# Python reads integers of at most 4300 digits, flint longer ones too.
+# Python reads and prints integers of at most 4300 digits, flint longer ones too; and the bits of those that are printed.
 _LONG_DIGITS = 2000
+PRINTED_BITS = 14_000
 
 
 class Monomial:

@@ -21,11 +21,9 @@ from kovacic.algebra.rationals import QQ, square_part
 from kovacic.equation import ENERGY, EULER, lowered, over
 from kovacic.errors import LimitExceeded
 from kovacic.limits import DEFAULT_LIMITS, Limits
+from kovacic.reading.arithmetic import PRINTED_BITS
 
 T = TypeVar("T")
-
-#: Bits of a number whose square root becomes the name of a field: Python prints integers of at most 4300 digits.
-_LARGEST_RADICAND = 14_000
 
 #: Digits of the approximation that tells an algebraic number of SymPy from its conjugates.
 _APPROXIMATION_DIGITS = 15
@@ -83,10 +81,10 @@ class Constants:
         value = self._number(radicand)
         if value is None:
             return radicand.field.sqrt(radicand) if n == 2 else None
-        if n == 2 and radicand.field == QQ and radicand.height_bits() > _LARGEST_RADICAND:  # too long for a name
+        if n == 2 and radicand.field == QQ and radicand.height_bits() > PRINTED_BITS:  # too long for a name
             root = QQ.sqrt(radicand)
             if root is None:
-                said = f"a root of a number of {radicand.height_bits()} bits, above the limit of {_LARGEST_RADICAND}"
+                said = f"a root of a number of {radicand.height_bits()} bits, above the limit of {PRINTED_BITS}"
                 raise LimitExceeded(said, limit="bits")
             return root.over(self.field)
         if not value:

@@ -18,12 +18,10 @@ from kovacic.algebra.rationals import QQ
 from kovacic.equation import over
 from kovacic.errors import InputError, LimitExceeded, NotLinear, NotRational
 from kovacic.limits import Limits, check_duration
-from kovacic.reading.arithmetic import Arithmetic, Monomial
+from kovacic.reading.arithmetic import PRINTED_BITS, Arithmetic, Monomial
 from kovacic.reading.names import FUNCTION_NAMES, RECIPROCALS, SEVERAL_ARGUMENTS
 from kovacic.reading.parser import Comparison
 
-#: Bits of a number in SymPy's expressions: Python prints integers of at most 4300 digits.
-_LARGEST_BITS = 14_000
 #: The largest power that SymPy is asked for.
 _LARGEST_SYMBOLIC_EXPONENT = 1000
 #: The highest power of an operator with D.
@@ -91,8 +89,8 @@ class LinearArithmetic(Arithmetic):
             return sympy.Rational(0)
         function = over(function, (function.num * function.den).field)  # they may be over different fields: a/x^2
         bits = max(function.num.height_bits(), function.den.height_bits())
-        if bits > _LARGEST_BITS:  # too long to be printed
-            raise LimitExceeded(f"coefficients of {bits} bits, above the limit of {_LARGEST_BITS}", limit="bits")
+        if bits > PRINTED_BITS:  # too long to be printed
+            raise LimitExceeded(f"coefficients of {bits} bits, above the limit of {PRINTED_BITS}", limit="bits")
         number = self.number(value)
         if number is not None:
             return sympy.Rational(number)

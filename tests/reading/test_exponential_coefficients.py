@@ -40,7 +40,7 @@ POTENTIALS = {
     ),
     "Poeschl-Teller, trigonometric": (
         "a*(a-1)/sin(x)^2 + b*(b-1)/cos(x)^2 - E",
-        "E = (n - b + a)^2 for an odd integer n, or E = (2*n - b - a)^2 for an integer n: case 1",
+        "E = (n + b - a)^2 for an odd integer n, or E = (2*n + b + a)^2 for an integer n: case 1",
         lambda n, a, b: {"a": a, "b": b, "E": (a + b + 2 * n) ** 2},
     ),
     "Rosen-Morse": (
@@ -62,7 +62,7 @@ POTENTIALS = {
     ),
     "Scarf": (
         "(A^2 - A + B^2)/cos(x)^2 - B*(2*A-1)*sin(x)/cos(x)^2 - E",
-        "E = (n - A)^2 for an integer n, or E = (n + 2*B)^2/4 for an odd integer n: case 1",
+        "E = (n - A)^2 for an integer n, or E = (n - 2*B)^2/4 for an odd integer n: case 1",
         lambda n, a, b: {"A": a, "B": b, "E": (a + n) ** 2},
     ),
     "Scarf, hyperbolic": (
