@@ -37,6 +37,7 @@ from kovacic.general_solution.places import (
     ImpulsesInside,
     limit_points,
     real_basis_at,
+    real_particular,
     real_particular_at,
     start_of,
 )
@@ -383,7 +384,8 @@ def _solved(question: Question, budget: Budget, *, special: bool) -> ProblemAnsw
 
 def _general(question: Question, basis: Basis) -> SecondOrderAnswer:
     """C1 y1 + C2 y2 + y0, checked."""
-    particular = without_homogeneous(particular_solution(basis, None), basis.y1, basis.y2, basis.x)
+    particular = real_particular(question, basis, particular_solution(basis, None))
+    particular = without_homogeneous(particular, basis.y1, basis.y2, basis.x)
     constants = free_constants(question, basis, particular)
     value = in_book_form(combination(question, basis, particular, constants), question.x, is_general=True)
     notices = _by_sign(question, basis, particular, constants)

@@ -20,6 +20,7 @@ import sympy
 from flint import acb, arb, fmpq
 from sympy import DiracDelta
 from sympy.core.function import AppliedUndef
+from sympy.simplify.fu import TR2
 
 from kovacic.algebra.precision import working_digits
 from kovacic.closed_form.atoms import Atoms, display
@@ -194,7 +195,8 @@ def solved_linear(
     constant = equation.constant(taken)
     if value is not None:
         constant = _constant_through(equation, h, particular, value, constant)
-    w = shortest([*sums(constant * h + particular, x)])
+    whole = constant * h + particular
+    w = shortest([*sums(whole, x), *sums(TR2(whole), x)])  # sin(x) for cos(x) tan(x)
     if value is not None:
         w = in_book_form(w, x)
     notices = exceptions_of(w, x, (equation.p, equation.q))

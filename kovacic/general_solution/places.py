@@ -243,6 +243,16 @@ def real_particular_at(question: Question, basis: Basis, particular: Expr, start
     return candidate if is_solution(candidate, coefficients, right, x) else particular
 
 
+def real_particular(question: Question, basis: Basis, particular: Expr) -> Expr:
+    """A particular solution that is real where y1 and y2 are: log(1 - x) for log(x - 1) beside log((1 + x)/(1 - x))."""
+    points = [sympy.Rational(k, 3) for k in (1, 4, -1, -4, 13, -13)]
+    pair = (basis.y1, basis.y2)
+    places = [p for p in points if not any(negative_arguments(y, question.x, p) for y in pair)]
+    if places and all(negative_arguments(particular, question.x, p) for p in places):
+        return real_particular_at(question, basis, particular, places[0])
+    return particular
+
+
 def _check_one_side(solutions: Sequence[Expr], question: Question) -> None:
     """Raises `InputError` where roots or logarithms have arguments of both signs at the points."""
     points = [point for point in _points(question) if point.is_real]
@@ -281,8 +291,8 @@ def real_basis(basis: Basis, point: Expr) -> Basis:
 
 
 def _arguments(y: Expr, x: Expr) -> dict[Expr, Expr]:
-    """The logarithms, roots, Bessel's and gamma functions in an expression, and their arguments."""
-    found = {e: e.args[-1] for e in y.atoms(sympy.log, BesselBase, sympy.lowergamma, sympy.uppergamma)}
+    """The logarithms, roots, cosine integrals, Bessel's and gamma functions in an expression, and their arguments."""
+    found = {e: e.args[-1] for e in y.atoms(sympy.log, sympy.Ci, BesselBase, sympy.lowergamma, sympy.uppergamma)}
     for power in y.atoms(sympy.Pow):
         if power.base.has(x) and not power.exp.is_Integer:
             found[power] = power.base

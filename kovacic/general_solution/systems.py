@@ -34,7 +34,7 @@ from kovacic.general_solution.first_order import (
 from kovacic.general_solution.jumps import in_steps
 from kovacic.general_solution.steps import JUMPING, taken_apart
 from kovacic.general_solution.substitution import size
-from kovacic.general_solution.textbook import sums
+from kovacic.general_solution.textbook import in_book_form, sums
 from kovacic.general_solution.values import value_at
 from kovacic.general_solution.zero import Zero, is_zero, when_zero
 from kovacic.special.choice import shortest
@@ -176,6 +176,8 @@ def solved_system(system: LinearSystem, ics: Mapping[Any, Any], solver: Solver) 
 
 def _with_constants_apart(value: Expr, constants: Sequence[Expr], t: Expr) -> Expr:
     """In a short form, the terms with free constants, in which it is linear, apart from the others."""
+    if not constants:
+        return in_book_form(value, t)
     homogeneous = sympy.Add(*(constant * value.diff(constant) for constant in constants))
     rest = value.subs(dict.fromkeys(constants, 0))
     return sympy.Add(*(shortest([*sums(part, t)]) for part in (homogeneous, rest)))

@@ -243,7 +243,16 @@ def _single_waves(value: Expr, x: Expr) -> Iterator[Expr]:
         found = sympy.powsimp(sympy.expand(TR8(expanded)))
         yield found
         yield _factored(found)
-        yield sympy.collect(found, sorted(value.atoms(Heaviside), key=str), _factored)
+        steps = sorted(value.atoms(Heaviside), key=str)
+        yield sympy.collect(found, steps, _factored)
+        if steps:
+            yield sympy.collect(expanded, steps, _as_one_wave)
+
+
+def _as_one_wave(total: Expr) -> Expr:
+    """sin(x - a) for sin(x) cos(a) - cos(x) sin(a), but no sqrt(2) sin(x + pi/4) for sin(x) + cos(x)."""
+    found = TR10i(total)
+    return _factored(total if found.has(sympy.pi) else found)
 
 
 def _coefficients(value: Expr, x: Expr) -> Iterator[Expr]:

@@ -58,7 +58,7 @@ def undetermined(b: Expr, c: Expr, right: Expr, x: Expr) -> Expr | None:
         if Q is None:
             return None
         A, B = (sympy.Add(*(coefficient[part, 0] * x**k for k, coefficient in Q.items())) for part in (0, 1))
-        total.append(sympy.exp(rate.rho * x) * _wave(A, B, rate.omega * x))
+        total.append(sympy.powdenest(sympy.exp(rate.rho * x)) * _wave(A, B, rate.omega * x))
     return sympy.Add(*total)
 
 

@@ -11,7 +11,7 @@ from typing import Any
 
 import sympy
 from flint import arb
-from sympy import cos, expand, powsimp, sin
+from sympy import cos, exp, expand, log, powsimp, sin
 from sympy.core.function import AppliedUndef
 
 from kovacic.algebra.precision import working_digits
@@ -131,7 +131,10 @@ def _is_right(basis: Basis, y: Expr, right: Expr, coefficients: tuple[Expr, Expr
     """Is it a solution, and without jumps at ordinary points?"""
     if basis.equation.change is None and not is_solution(y, coefficients, right, basis.x):
         return False
-    return not jumps(basis.own(y), basis.x, [basis.own(e) for e in (*basis.rates, right)])
+    parts = [basis.own(e) for e in (y, *basis.rates, right)]
+    if any(member.has(log(basis.x)) for member in (basis.y1, basis.y2)):  # which are meant for x > 0
+        parts = [part.subs(basis.x, exp(basis.x)) for part in parts]
+    return not jumps(parts[0], basis.x, parts[1:])
 
 
 def _without_homogeneous(basis: Basis, total: Expr) -> Expr:

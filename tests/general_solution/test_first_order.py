@@ -291,3 +291,17 @@ def test_a_step_whose_side_depends_on_a_sign_is_no_step_at_its_place() -> None:
         for sign in (1, -1):
             for point in (-3, Rational(1, 2), 3):
                 assert sympy.simplify(miss.subs({k: sign, "C1": 2}).subs(x, point)) == 0
+
+
+@pytest.mark.parametrize(("text", "value"), [("cos(x)*y' + sin(x)*y = 1", 1), ("y' + tan(x)*y = sec(x), y(0) = 1", 1)])
+def test_a_tangent_does_not_stay_beside_its_cosine(text: str, value: int) -> None:
+    """C cos(x) + sin(x) has a value at pi/2."""
+    assert kovacic.dsolve(text).rhs.subs("x", pi / 2) == value
+
+
+def test_a_system_with_an_impulse_is_written_as_one_wave() -> None:
+    found, _ = kovacic.dsolve("x' = y, y' = -x + DiracDelta(t-a)", ics="x(0)=0, y(0)=0")
+    t, a = sympy.symbols("t a")
+    response = found.rhs.expand().coeff(Heaviside(t - a))
+    assert sympy.count_ops(response) <= sympy.count_ops(-sin(a - t))
+    assert sympy.simplify(response - sin(t - a)) == 0

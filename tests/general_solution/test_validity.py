@@ -239,3 +239,10 @@ def test_relations_in_x_are_one_interval(value: str, needed: str) -> None:
     x = sympy.Symbol("x")
     formula = sympy.Eq(sympy.Function("y")(x), sympy.sympify(value.replace("^", "**"), rational=True))
     assert str(kovacic.validity(formula)) == needed
+
+
+@parametrize("right", ["x", "sin(x)", "1/x", "cos(2*x)^2", "x*exp(x)"], ordinary=2)
+def test_a_particular_solution_is_real_where_the_pair_is(right: str) -> None:
+    """log(1 - x) and Ci(1 - x), not log(x - 1) and Ci(x - 1), stand beside log((1 + x)/(1 - x))."""
+    found = kovacic.validity(kovacic.dsolve(f"(1-x^2)*y'' - 2*x*y' + 2*y = {right}"))
+    assert all(condition.subs(x, sympy.Rational(1, 2)) == True for condition in found.real)  # noqa: E712
