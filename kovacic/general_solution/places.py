@@ -303,7 +303,7 @@ def all_turned(y: Expr, x: Expr, point: Expr) -> Expr:
     """With log(-u), (-u)^e for arguments u that are negative at the point; I_nu(z), K_nu(z) for J_nu(i z), Y_nu(i z)."""
     turned = {e: (-u) ** e.exp for e, u in negative_arguments(y, x, point).items() if e.is_Pow}
     roots = dict(turned)
-    for e in y.atoms(sympy.log, BesselBase):
+    for e in y.atoms(sympy.log, sympy.Ci, BesselBase):
         *order, u = e.args
         if e.func in _OF_IMAGINARY and (u**2).subs(x, point).is_negative:
             turned[e] = _OF_IMAGINARY[e.func](*order, u.xreplace(roots))
