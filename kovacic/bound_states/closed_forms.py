@@ -58,7 +58,7 @@ from kovacic.parametric.natural import Natural
 from kovacic.parametric.parametric_answer import ParametricAnswer
 from kovacic.parametric.partition import transformation
 from kovacic.parametric.solutions import PolynomialSolution, translated
-from kovacic.parametric.statements import Statement, Vanishes, alternatives_of, both
+from kovacic.parametric.statements import Statement, Vanishes
 from kovacic.reading.read import read_input
 from kovacic.sturm_liouville.problem import point_between
 from kovacic.writing.formula import caret
@@ -283,8 +283,8 @@ class _ClosedFormSearch:
         """
         pairs: list[tuple[int | None, Any]] = []
         has_all_degrees = are_all = True
-        for alternative in alternatives_of(statement):
-            parts = both(alternative).parts
+        for alternative in statement.alternatives:
+            parts = alternative.conjuncts
             if None in map(_zero_where, parts):
                 are_all = False
                 continue
@@ -335,7 +335,7 @@ class _ClosedFormSearch:
         levels: dict[Algebraic, None] = {}
         higher = None
         for region in self.conditions.regions if self._are_examined else ():
-            parts = both(region.statement).parts
+            parts = region.statement.conjuncts
             numbers, have_all = self._numbers(parts)
             if not have_all and region.case == 1:
                 higher = self.max_degree + 1

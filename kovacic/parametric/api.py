@@ -44,14 +44,13 @@ from kovacic.parametric.functions import (
     irreducible_factors,
     over_parameters,
 )
-from kovacic.parametric.natural import Natural
 from kovacic.parametric.parametric_answer import ParametricAnswer
 from kovacic.parametric.partition import derived
 from kovacic.parametric.prose import ABELIAN, NOT_ABELIAN
 from kovacic.parametric.regions import ParameterRegion, verdict_of
 from kovacic.parametric.restriction import Letters, nonzero, own_parameters, spelled, transcendental, with_free_constant
 from kovacic.parametric.solutions import GivenSolutions
-from kovacic.parametric.statements import Statement, Vanishes, both
+from kovacic.parametric.statements import Statement, Vanishes
 from kovacic.reading.change_of_variable import function_of_x, user_variable
 from kovacic.reading.read import read_input
 from kovacic.reading.substitution import with_values
@@ -170,7 +169,7 @@ def _false_formulas(
     equation = normal_form(S, found.variable) if found.equation is None else equation_at(found.equation, point)
     if equation is None:
         return
-    natural = [part for part in both(region.statement).parts if isinstance(part, Natural) and part.m == 1]
+    natural = [part for part in region.naturals if part.m == 1]
     numbers: list[int | None] = [number for part in natural for number in part.numbers_at(point) if number <= _LARGEST]
     if not natural:
         numbers = [None]

@@ -34,8 +34,6 @@ from kovacic.parametric.statements import (
     Statement,
     Vanishes,
     all_of,
-    alternatives_of,
-    both,
     either,
 )
 
@@ -164,7 +162,7 @@ def equations_on(statement: Statement, equation: Equation) -> list[EquationThere
     At the zeros that make up a region, poles of b/a can merge or go to infinity, and the gauge for generic values, specialised,
     is another function.  Pieces that aren't given by functions of fewer parameters are left out.
     """
-    alternatives = [alternatives_of(part) for part in both(statement).parts]
+    alternatives = [part.alternatives for part in statement.conjuncts]
     zeros = [
         [one.function for one in vanishing(parts)] for parts in alternatives if len(vanishing(parts)) == len(parts)
     ]
@@ -260,7 +258,7 @@ def without_empty(regions: Sequence[ParameterRegion]) -> list[ParameterRegion]:
     seen: list[set[Statement]] = []
     for region in regions:
         check_time()
-        said = {*both(region.statement).parts}
+        said = {*region.statement.conjuncts}
         if any(known <= said for known in seen):
             continue
         charts = within(region.statement, everything(region.statement))
@@ -301,7 +299,7 @@ def _is_redundant(
     if not _is_known(region) or region.complete is not True:
         return False
     is_generic = generic is not None and _is_alike(generic, region.verdict)
-    is_variety = all(isinstance(part, Vanishes) for part in both(region.statement).parts)
+    is_variety = all(isinstance(part, Vanishes) for part in region.statement.conjuncts)
     if not is_generic and not is_variety:
         return False
     charts = within(region.statement, everything(region.statement))
@@ -334,7 +332,7 @@ def _proves_a_solution(region: ParameterRegion) -> bool:
 
     Those about Delta_d are decided at each point by the equation there.
     """
-    return region.case is not None and any(isinstance(part, Natural) for part in both(region.statement).parts)
+    return region.case is not None and bool(region.naturals)
 
 
 # ------------------------------------------------------------------------------- what is said in one sentence
@@ -357,14 +355,14 @@ def grouped(cases: Iterable[Case], is_same: Likeness) -> list[Case]:
 
 def _together(last: Case, case: Case, is_same: Likeness) -> Case | None:
     """Two cases in one, where nothing but the verdict is said in them, and their statements are of one kind."""
-    own = either(*(all_of(both(region.statement).parts) for region in case.regions))
+    own = either(*(all_of(region.statement.conjuncts) for region in case.regions))
     are_plain = last.regions[-1].plain and case.regions[0].plain
     if case.statement != own or not are_plain or last.without != case.without:
         return None
     if not is_same(last.regions[-1], case.regions[0]):
         return None
     statement = last.statement.merged(case.statement)
-    kinds = {type(part) for one in (last, case) for part in alternatives_of(one.statement)}
+    kinds = {type(part) for one in (last, case) for part in one.statement.alternatives}
     if statement is None and (len(kinds) > 1 or kinds == {Both}):
         return None
     return Case(statement or either(last.statement, case.statement), (*last.regions, *case.regions), case.without)
@@ -402,7 +400,7 @@ class _Block:
     def complete(self) -> Iterator[Case]:
         beginning = either(*self.firsts)
         for case in self.cases:
-            yield replace(case, statement=all_of((beginning, *both(case.statement).parts)))
+            yield replace(case, statement=all_of((beginning, *case.statement.conjuncts)))
 
 
 def _mirrored(cases: Iterable[Case], is_same: Likeness) -> list[Case]:
@@ -412,9 +410,9 @@ def _mirrored(cases: Iterable[Case], is_same: Likeness) -> list[Case]:
     no value belongs to both, because their functions differ by a number.
     """
     blocks: list[_Block] = []
-    for first, group in groupby(cases, key=lambda case: next(iter(both(case.statement).parts), ALWAYS)):
-        inner = [replace(case, statement=Both(both(case.statement).parts[1:])) for case in group]
-        if any(both(case.statement).parts for case in inner):
+    for first, group in groupby(cases, key=lambda case: next(iter(case.statement.conjuncts), ALWAYS)):
+        inner = [replace(case, statement=Both(case.statement.conjuncts[1:])) for case in group]
+        if any(case.statement.conjuncts for case in inner):
             inner = _mirrored(inner, is_same)
         if blocks and blocks[-1].takes(first, inner, is_same):
             blocks[-1].add(first, inner)

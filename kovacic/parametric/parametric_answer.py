@@ -6,6 +6,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from fractions import Fraction
 from functools import lru_cache, partial
+from itertools import chain, product
 from typing import Any
 
 from kovacic.algebra.extension import AlgebraicField
@@ -25,7 +26,7 @@ from kovacic.parametric import prose
 from kovacic.parametric.assumptions import NOTHING_ASSUMED, Assumptions, read_assumptions
 from kovacic.parametric.cases import in_lines
 from kovacic.parametric.functions import NO_CONSTANT, ParameterPoint
-from kovacic.parametric.natural import Determinant, Natural
+from kovacic.parametric.natural import Determinant
 from kovacic.parametric.partition import derived
 from kovacic.parametric.record import (
     StatementReader,
@@ -40,7 +41,7 @@ from kovacic.parametric.record import (
 from kovacic.parametric.regions import Limited, ParameterRegion, RegionVerdict, Theory, settled
 from kovacic.parametric.restriction import Letters, setting_of, values_of_letters
 from kovacic.parametric.solutions import Later, Origin
-from kovacic.parametric.statements import Statement, both
+from kovacic.parametric.statements import Statement
 from kovacic.reading.constants import with_root
 from kovacic.reading.read import read_input
 from kovacic.reading.substitution import number_text
@@ -197,9 +198,7 @@ class ParametricAnswer:
         >>> [str(delta) for delta in quartic.determinant(1)]
         ['a^4 - 8*a^2*c + 32*a + 16*c^2', 'a^4 - 8*a^2*c + 32*a + 16*c^2']
         """
-        natural: list[Natural] = []
-        for region in self.regions:
-            natural += [part for part in both(region.statement).parts if isinstance(part, Natural)]
+        natural = [*chain.from_iterable(region.naturals for region in self.regions)]
         if not natural:
             raise InputError("no condition has a natural number in it")
         number = whole(number, "the natural number d")
@@ -569,26 +568,20 @@ class ParametricAnswer:
         if any(name in chosen for name in fixed or {}):
             raise InputError(f"a parameter that is fixed doesn't vary: {', '.join(chosen)}")
         # Exact rational points, so that lines such as n - 1/2 in Z are met.
-        grids = _grids(chosen, ranges, steps)
-        columns = grids[0]
-        is_map = len(chosen) == 2
-        rows = grids[1] if is_map else None
+        columns, *rows = _grids(chosen, ranges, steps)
 
         def colour(*point: Fraction) -> int:
             values = dict(zip(chosen, point, strict=True))
             verdict = self.predicted(self.point({**(fixed or {}), **values}))
             return _LABELS.index(str(verdict or "S not defined"))
 
-        if rows is None:
-            table = [[colour(first) for first in columns]]
-        else:
-            table = [[colour(first, second) for first in columns] for second in rows]
+        table = [[colour(first, *others) for first in columns] for others in product(*rows)]
         if axes is None:
             axes = new_axes(6.5, 5.5)
-        handles = draw_cells(axes, columns, rows, table, _KINDS)
+        handles = draw_cells(axes, columns, rows[0] if rows else None, table, _KINDS)
         axes.legend(handles=handles, loc="upper left", bbox_to_anchor=(1.0, 1.0), frameon=False)
         axes.set(xlabel=chosen[0])
-        if is_map:
+        if rows:
             axes.set(ylabel=chosen[1])
         else:
             axes.set(yticks=[])

@@ -512,7 +512,7 @@ def _special(regions: Iterable[ParameterRegion], surface: Hypersurface) -> list[
     elsewhere = {str(factor) for factor in surface.leading}  # as texts: of fewer parameters, maybe
     special: list[ParameterRegion] = []
     for region in regions:
-        first = both(region.statement).parts[0]
+        first = region.statement.conjuncts[0]
         if isinstance(first, Vanishes) and str(first.function) in elsewhere:
             continue
         if surface.curve:  # without its parameter, which isn't one of the user's

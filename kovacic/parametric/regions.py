@@ -20,8 +20,6 @@ from kovacic.parametric.statements import (
     Statement,
     Vanishes,
     all_of,
-    alternatives_of,
-    both,
 )
 
 #: Characters of a determinant that are written.
@@ -178,6 +176,11 @@ class ParameterRegion:
     limits: Limits = field(default=DEFAULT_LIMITS, compare=False)
     origin: Origin | None = field(default=None, compare=False)
 
+    @property
+    def naturals(self) -> list[Natural]:
+        """The conditions with a natural number."""
+        return [part for part in self.statement.conjuncts if isinstance(part, Natural)]
+
     def solution(self, number: int | None = None) -> tuple[PolynomialSolution, ...]:
         """Solutions of y'' = S y for all parameters of the region at once, with the degree d that has to be a natural number.
 
@@ -246,7 +249,7 @@ class ParameterRegion:
             )
         if self.formulas is None:
             return "omega follows from the equation on this part: solve_at, or assume the values"
-        if any(isinstance(part, Natural) for part in both(self.statement).parts):
+        if self.naturals:
             return "P has another degree for each natural number: solution(d), () where the exponents need two square roots"
         if self.solution():
             return ""
@@ -294,8 +297,8 @@ def settled(regions: Sequence[ParameterRegion], setting: Setting) -> list[Parame
     for region in regions:
         here = replace(setting, covered=tuple(covered))
         found.append(replace(region, statement=region.statement.avoiding(here)))
-        for one in alternatives_of(all_of(both(region.statement).parts)):
-            parts = both(one).parts
+        for one in all_of(region.statement.conjuncts).alternatives:
+            parts = one.conjuncts
             zeros = [part.function for part in parts if isinstance(part, Vanishes)]
             if len(zeros) == len(parts):
                 covered.append(frozenset(zeros))

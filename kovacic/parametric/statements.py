@@ -50,6 +50,16 @@ class Statement(Proposition):
     def claim(self) -> Claim:
         """What is printed."""
 
+    @property
+    def conjuncts(self) -> tuple[Statement, ...]:
+        """The statements that hold together: the parts of a `Both`, or this one."""
+        return (self,)
+
+    @property
+    def alternatives(self) -> tuple[Statement, ...]:
+        """The statements of which one has to hold: the parts of an `Either`, or this one."""
+        return (self,)
+
     def text(self) -> str:
         return prose.text(self.claim)
 
@@ -155,6 +165,10 @@ class _Several(Statement):
 class Either(_Several):
     decisive = True
 
+    @property
+    def alternatives(self) -> tuple[Statement, ...]:
+        return self.parts
+
     def rewritten(self, change: Callable[[FunctionPoly], FunctionPoly]) -> Statement:
         return either(*(part.rewritten(change) for part in self.parts))
 
@@ -168,6 +182,10 @@ class Either(_Several):
 
 class Both(_Several):
     decisive = False
+
+    @property
+    def conjuncts(self) -> tuple[Statement, ...]:
+        return self.parts
 
     def rewritten(self, change: Callable[[FunctionPoly], FunctionPoly]) -> Statement:
         return all_of([part.rewritten(change) for part in self.parts])
@@ -189,13 +207,7 @@ class Both(_Several):
 
 
 def both(*statements: Statement) -> Both:
-    parts: list[Statement] = []
-    for one in statements:
-        if isinstance(one, Both):
-            parts += one.parts
-        else:
-            parts.append(one)
-    return Both(tuple(parts))
+    return Both(tuple(chain.from_iterable(one.conjuncts for one in statements)))
 
 
 def all_of(statements: Sequence[Statement]) -> Statement:
@@ -215,18 +227,11 @@ def either(*statements: Statement) -> Statement:
     """One statement that says that at least one of them holds; those about one form are merged."""
     merged: list[Statement] = []
     for one in statements:
-        for part in alternatives_of(one):
+        for part in one.alternatives:
             _add(part, merged)
     if len(merged) == 1:
         return merged[0]
     return Either(tuple(merged))
-
-
-def alternatives_of(statement: Statement) -> tuple[Statement, ...]:
-    """The statements of which one has to hold: the parts of an `Either`, or a statement itself."""
-    if isinstance(statement, Either):
-        return statement.parts
-    return (statement,)
 
 
 def _add(statement: Statement, alternatives: list[Statement]) -> None:

@@ -40,7 +40,7 @@ from kovacic.parametric.solutions import (
     translated,
     weight_by_signs,
 )
-from kovacic.parametric.statements import Both, Either, Statement, Vanishes, both
+from kovacic.parametric.statements import Both, Either, Statement, Vanishes
 from kovacic.reading.names import words_among
 from kovacic.reading.read import read_input
 from kovacic.reading.source import source_of
@@ -289,7 +289,7 @@ class _TheoremWriter:
 
     def _solutions_in(self, region: ParameterRegion, case: Case) -> Iterator[Block]:
         """The formulas for one region."""
-        naturals = _naturals_in(region.statement)
+        naturals = region.naturals
         if naturals and naturals[0].m == 1:
             yield from self._with_determinant(region, naturals[0])
             yield from _determinant_table(naturals[0], len(region.determinants))
@@ -413,7 +413,7 @@ class _TheoremWriter:
         #: The letter of the degree, by the degree m of the invariant.
         letters: dict[int, str] = {}
         for region in (region for case in cases for region in case.regions):
-            for natural in _naturals_in(region.statement):
+            for natural in region.naturals:
                 letters.setdefault(natural.m, natural.letter)
         for m in sorted(letters):
             if m == 1:
@@ -438,7 +438,7 @@ class _TheoremWriter:
     def _has_systems(self) -> bool:
         """True if one of the determinants that are printed stands for several polynomials."""
         for region in self.answer.regions:
-            for natural in _naturals_in(region.statement):
+            for natural in region.naturals:
                 shown = range(len(region.determinants))
                 if any(determinant.system for d in shown for determinant in natural.determinants(d)):
                     return True
@@ -469,11 +469,6 @@ class _ScaledTerm(NamedTuple):
 
     number: sympy.Rational
     rest: sympy.Expr
-
-
-def _naturals_in(statement: Statement) -> list[Natural]:
-    """Those of the parts that hold together."""
-    return [part for part in both(statement).parts if isinstance(part, Natural)]
 
 
 def _equation_key(equation: Equation | None) -> tuple[str, str]:
@@ -547,7 +542,7 @@ def _table_rows(case: Case) -> list[list[Sentence]]:
     for part in parts:
         if not isinstance(part, Both) or not isinstance(part.parts[0], Vanishes):
             return []
-        equation, *others = both(part).parts
+        equation, *others = part.conjuncts
         rows.append([_sentence_of(equation), _sentence_of(Both(tuple(others)))])
     return rows
 

@@ -20,7 +20,7 @@ from kovacic.parametric.functions import ParameterPoint
 from kovacic.parametric.natural import Natural
 from kovacic.parametric.parametric_answer import ParametricAnswer
 from kovacic.parametric.regions import ParameterRegion
-from kovacic.parametric.statements import Statement, both
+from kovacic.parametric.statements import Statement
 
 _PUBLISHED = Path(__file__).parents[1] / "data" / "families.jsonl"
 #: The digits that are computed, and those that have to agree.
@@ -56,7 +56,7 @@ def points_in(
 
 def numbers_in(point: ParameterPoint, region: ParameterRegion) -> list[int | None]:
     """The degrees to be asked for: those that the exponents allow at the point, and None where there is none to choose."""
-    natural = [part for part in both(region.statement).parts if isinstance(part, Natural) and part.m == 1]
+    natural = [part for part in region.naturals if part.m == 1]
     return [number for part in natural for number in part.numbers_at(point)] if natural else [None]
 
 
@@ -167,7 +167,7 @@ def misread(answer: ParametricAnswer, points: int, seed: int = 5) -> tuple[int, 
             name: value.to_sympy(sympy.Symbol("x")) for name, value in zip(point.names, point.values, strict=True)
         }
         for statement in statements:
-            for part in both(statement).parts:
+            for part in statement.conjuncts:
                 said = _comparison(part, point, values)
                 read += said is not None
                 wrong += [f"{part.text()} at {point}"] * (said is False)

@@ -20,7 +20,6 @@ from kovacic.parametric.cases import Case, solvable_cases
 from kovacic.parametric.functions import ParameterPoint
 from kovacic.parametric.parametric_answer import ParametricAnswer
 from kovacic.parametric.regions import RegionVerdict
-from kovacic.parametric.statements import both
 
 _SMALL = (0, 1, -1, 2, Fraction(1, 2), -2, 3)
 
@@ -101,4 +100,4 @@ def texts_that_differ(statement: Any, point: ParameterPoint) -> list[str]:
         return []
     x = sympy.Symbol("x")
     values = {name: value.to_sympy(x) for name, value in zip(point.names, point.values, strict=True)}
-    return [f"{part.text()} at {point}" for part in both(statement).parts if text_differs(part, point, values)]
+    return [f"{part.text()} at {point}" for part in statement.conjuncts if text_differs(part, point, values)]
