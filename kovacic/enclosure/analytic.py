@@ -38,7 +38,7 @@ from kovacic.algebra.extension import AlgebraicField
 from kovacic.algebra.precision import working_precision
 from kovacic.closed_form.atoms import Atoms
 from kovacic.enclosure.frame import foreseen_growth, upper_exponent
-from kovacic.enclosure.jets import CoefficientField, JetBasis
+from kovacic.enclosure.jets import AnalyticStep, CoefficientField
 from kovacic.enclosure.matrices import Matrix, MatrixProduct, State, apply, fundamental, identity, multiply, real_part
 from kovacic.enclosure.points import (
     Constant,
@@ -53,7 +53,7 @@ from kovacic.enclosure.points import (
 )
 from kovacic.enclosure.problem import Coefficients, NumericProblem, cleared, root_of
 from kovacic.enclosure.start import middle, spread, spread_by
-from kovacic.enclosure.way import NOTHING, Forecast, Local, Traveller, Way, WayStep
+from kovacic.enclosure.way import NOTHING, Forecast, Traveller, Way, WayStep
 from kovacic.errors import InputError, LimitExceeded
 from kovacic.limits import check_time, count_work
 
@@ -66,36 +66,6 @@ _EDGE = 16
 """The piece beside an end where the coefficients aren't analytic is 2^-16 of the way over 2^bits."""
 _START = 512
 """Binary exponents that are tried from the length of the way downwards, at its first point."""
-
-
-@dataclass(frozen=True)
-class AnalyticStep:
-    """One disc of a way, entered and left at these points."""
-
-    basis: JetBasis
-    enter: ExactPoint
-    leave: ExactPoint
-
-    @cached_property
-    def _to_centre(self) -> Matrix:
-        return self.basis.inverse(self.enter)
-
-    @cached_property
-    def matrix(self) -> Matrix:
-        """From (y, y') where it is entered to where it is left, without the right-hand side."""
-        return multiply(self.basis.matrix(self.leave), self._to_centre)
-
-    @cached_property
-    def added(self) -> State:
-        """What the right-hand side adds: the particular solution that is zero where the disc is entered."""
-        y, dy = apply(self.matrix, self.basis.particular(self.enter))
-        p, dp = self.basis.particular(self.leave)
-        return p - y, dp - dy
-
-    def local(self, state: State) -> Local:
-        """The solution in the disc with this state where it is entered."""
-        p, dp = self.basis.particular(self.enter)
-        return self.basis.local(apply(self._to_centre, (state[0] - p, state[1] - dp)))
 
 
 @dataclass(frozen=True)
@@ -237,7 +207,7 @@ class AnalyticWay(Way):
                 _check_size(a, b, t, e, max(_START, 2 * self.prec))
             enter = a + length.scaled(t)
             t += 2 * half
-            yield AnalyticStep(JetBasis(jets), enter, b if t == 1 else a + length.scaled(t))
+            yield AnalyticStep(jets, enter, b if t == 1 else a + length.scaled(t))
 
 
 def exponent(square: Any) -> int:

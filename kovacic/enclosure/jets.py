@@ -42,7 +42,7 @@ from __future__ import annotations
 import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
-from functools import lru_cache
+from functools import cached_property, lru_cache
 from typing import Any
 
 import sympy
@@ -51,10 +51,10 @@ from flint import acb, acb_poly, acb_series, arb, arb_poly, ctx, fmpq
 from kovacic.algebra.precision import series_length, working_precision
 from kovacic.closed_form.jets import BallEvaluator
 from kovacic.enclosure.frame import log2
-from kovacic.enclosure.matrices import Matrix, State, fundamental
+from kovacic.enclosure.matrices import Matrix, State, apply, fundamental, multiply
 from kovacic.enclosure.points import ExactPoint, are_real, around_zero, to_acb
 from kovacic.enclosure.problem import Coefficients
-from kovacic.enclosure.way import Local
+from kovacic.enclosure.way import NOTHING, Local
 from kovacic.errors import LimitExceeded
 from kovacic.limits import check_time
 
@@ -409,11 +409,14 @@ def _rate(beta: arb, gamma: arb) -> arb:
     return ((beta + (beta * beta + 4 * gamma).sqrt()) / 2).upper()
 
 
-class JetBasis:
-    """The solutions with the states (1, 0), (0, 1) in u at the centre, and one of the equation with its right-hand side."""
+class AnalyticStep:
+    """One disc of a way, entered and left at these points: the solutions with the states (1, 0), (0, 1) in u at the centre, and
+    one of the equation with its right-hand side, which is zero there."""
 
-    def __init__(self, jets: Jets) -> None:
+    def __init__(self, jets: Jets, enter: ExactPoint, leave: ExactPoint) -> None:
         self.jets = jets
+        self.enter = enter
+        self.leave = leave
         homogeneous = jets.parts[3].degree() < 0 and jets.rests[3].is_zero()
         with working_precision(jets.precision):
             self._columns = [_solved(jets, start, right=False) for start in ((1, 0), (0, 1))]
@@ -424,12 +427,41 @@ class JetBasis:
             is_constant = B.degree() < 0 and jets.rests[1].is_zero()
             self._area = None if is_constant else _solved(without_c, (0, 1), right=False)
 
+    def _from_centre(self, x: ExactPoint) -> Matrix:
+        """From (y, dy/du) at the centre to (y, dy/dx) at x, without the right-hand side."""
+        first, second = self._columns
+        return fundamental(first.state(x), second.state(x))
+
+    @cached_property
+    def _to_centre(self) -> Matrix:
+        """From (y, dy/dx) where it is entered to (y, dy/du) at the centre: the determinant of the inverse is w/H."""
+        m = self._from_centre(self.enter)
+        factor = acb(self.jets.scale) if self._area is None else 1 / self._area.state(self.enter)[1]
+        return m[3] * factor, -m[1] * factor, -m[2] * factor, m[0] * factor
+
+    def _particular(self, x: ExactPoint) -> State:
+        return NOTHING if self._own is None else self._own.state(x)
+
+    @cached_property
+    def matrix(self) -> Matrix:
+        """From (y, y') where it is entered to where it is left, without the right-hand side."""
+        return multiply(self._from_centre(self.leave), self._to_centre)
+
+    @cached_property
+    def added(self) -> State:
+        """What the right-hand side adds: the particular solution that is zero where the disc is entered."""
+        y, dy = apply(self.matrix, self._particular(self.enter))
+        p, dp = self._particular(self.leave)
+        return p - y, dp - dy
+
     def local(self, state: State) -> Local:
-        """The solution with this state (y, dy/du) at the centre."""
+        """The solution in the disc with this state where it is entered."""
+        p, dp = self._particular(self.enter)
         total: Any = arb_poly([])
         error = arb(0)
         with working_precision(self.jets.precision):
-            for factor, column in zip(state, self._columns, strict=True):
+            at_centre = apply(self._to_centre, (state[0] - p, state[1] - dp))
+            for factor, column in zip(at_centre, self._columns, strict=True):
                 if not factor.is_zero():
                     weight = factor.real if factor.imag.is_zero() else factor
                     total = total + column.poly * weight
@@ -438,21 +470,6 @@ class JetBasis:
                 total = total + self._own.poly
                 error += self._own.error
             return self.jets.local(total, error.upper())
-
-    def matrix(self, x: ExactPoint) -> Matrix:
-        """From (y, dy/du) at the centre to (y, dy/dx) at x, without the right-hand side."""
-        first, second = self._columns
-        return fundamental(first.state(x), second.state(x))
-
-    def inverse(self, x: ExactPoint) -> Matrix:
-        """From (y, dy/dx) at x to (y, dy/du) at the centre, without the right-hand side: the determinant is w/H."""
-        m = self.matrix(x)
-        factor = acb(self.jets.scale) if self._area is None else 1 / self._area.state(x)[1]
-        return m[3] * factor, -m[1] * factor, -m[2] * factor, m[0] * factor
-
-    def particular(self, x: ExactPoint) -> State:
-        """(y, dy/dx) at x of the solution that is zero, and its derivative, at the centre."""
-        return (acb(0), acb(0)) if self._own is None else self._own.state(x)
 
 
 def _solved(jets: Jets, start: tuple[int, int], *, right: bool) -> Local:

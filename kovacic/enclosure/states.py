@@ -20,8 +20,9 @@ from typing import TYPE_CHECKING, Any, Literal
 from flint import acb, arb
 
 from kovacic.algebra.precision import working_precision
+from kovacic.algebra.ratfunc import RatFunc
 from kovacic.enclosure.classical import Classical, Closed, NotServed, classical_of
-from kovacic.enclosure.closed_form import CaseOneForm, closed_form_of, decided
+from kovacic.enclosure.closed_form import closed_form_of, decided
 from kovacic.enclosure.frame import foreseen_growth, frequency
 from kovacic.enclosure.journey import Journey
 from kovacic.enclosure.points import ExactPoint, Number, as_number, as_point, to_ball
@@ -73,7 +74,7 @@ def route_of(journey: Journey, targets: Sequence[Number], method: Method | None,
     ways = tuple(_ways(journey, targets))
     key = ways, count, digits
     if key not in journey.routes:
-        journey.routes[key] = _chosen(journey, problem, Foreseen(journey, problem, ways, count, digits))
+        journey.routes[key] = _chosen(journey, problem, problem.S, *key)
     found: ClosedRoute | None = journey.routes[key]
     return found
 
@@ -98,63 +99,49 @@ def _lost_digits(classical: Classical, journey: Journey) -> float:
     return 0.0 if isinstance(journey.place, Singular) else classical.lost_digits(journey.place)
 
 
-def _chosen(journey: Journey, problem: NumericProblem, foreseen: Foreseen) -> ClosedRoute | None:
+def _chosen(
+    journey: Journey, problem: NumericProblem, S: RatFunc, ways: Ways, count: int, digits: int
+) -> ClosedRoute | None:
     """That of case 1, or FLINT's functions, sought for no longer than Taylor's method would take; from a singular point on
     the functions always pay."""
+    price = _foreseen(journey, problem, ways, count, digits)
+    most = (price - prices.FIRST) / count  # for a target
     from_zero = isinstance(journey.place, Singular)
-    if not from_zero:
-        closed = _case_1(problem, foreseen)
-        if closed is not None and closed.is_cheap(foreseen.digits) and foreseen.pays(closed.price(foreseen.digits)):
+    # An equation that wasn't solved is decided only as far as Taylor's method takes that long, a constant S in no time.
+    size = S.num.degree + S.den.degree
+    is_solved = problem.decision is not None
+    if not from_zero and (is_solved or size == 0 or (size <= _DEGREE and price >= _WORTH)):
+        known = decided(problem, _UNKNOWN if is_solved else int(min(_SOUGHT * prices.DEGREES * price, _UNKNOWN)))
+        closed = None if known is None else closed_form_of(known)
+        if closed is not None and closed.is_cheap(digits) and closed.price(digits) <= most:
             return closed, 0
-        if foreseen.price < _WORTH:
-            return None
-    assert problem.S is not None
-    classical = classical_of(problem.S, int(_SOUGHT * min(foreseen.price, _MOST_SEARCH) / prices.UNIT))
-    if classical is None or not classical.is_cheap(foreseen.digits, from_zero=from_zero):
+    if not from_zero and price < _WORTH:
         return None
-    digits = foreseen.digits + _lost_digits(classical, journey)
-    return (classical, start_bits(digits)) if from_zero or foreseen.pays(classical.price(digits)) else None
+    classical = classical_of(S, int(_SOUGHT * min(price, _MOST_SEARCH) / prices.UNIT))
+    if classical is None or not classical.is_cheap(digits, from_zero=from_zero):
+        return None
+    more = digits + _lost_digits(classical, journey)
+    return (classical, start_bits(more)) if from_zero or classical.price(more) <= most else None
 
 
-def _case_1(problem: NumericProblem, foreseen: Foreseen) -> CaseOneForm | None:
-    """The closed form of case 1; an equation that wasn't solved is decided only as far as Taylor's method takes that long."""
-    degree = _UNKNOWN
-    if problem.decision is None:
-        assert problem.S is not None
-        size = problem.S.num.degree + problem.S.den.degree
-        if size > _DEGREE or (size > 0 and foreseen.price < _WORTH):  # a constant S is decided in no time
-            return None
-        degree = int(min(_SOUGHT * prices.DEGREES * foreseen.price, _UNKNOWN))
-    known = decided(problem, degree)
-    return None if known is None else closed_form_of(known)
-
-
-class Foreseen:
+def _foreseen(journey: Journey, problem: NumericProblem, ways: Ways, count: int, digits: int) -> float:
     """What Taylor's method takes on these ways to so many targets, about, in milliseconds."""
+    place = journey.place
+    corners = [place.near if isinstance(place, Singular) else place, *map(middle, journey.vertices)]
+    with working_precision(_BITS):
+        poles = [complex(root) for root, _ in problem.poles(_BITS)]
+        frequent = frequency(problem.system)
+    growth = growth_of_disc(start_bits(digits), alone=False) * _LOG_2
 
-    def __init__(self, journey: Journey, problem: NumericProblem, ways: Ways, count: int, digits: int) -> None:
-        self.digits = digits
-        self._count = count
-        place = journey.place
-        corners = [place.near if isinstance(place, Singular) else place, *map(middle, journey.vertices)]
-        with working_precision(_BITS):
-            poles = [complex(root) for root, _ in problem.poles(_BITS)]
-            frequent = frequency(problem.system)
-        growth = growth_of_disc(start_bits(digits), alone=False) * _LOG_2
+    def rate(x: acb) -> arb:
+        """The inverse of a disc's diameter."""
+        here = complex(x)
+        distances = (abs(here - pole) for pole in poles)
+        near = min((d for d in distances if d > 0), default=math.inf)  # not where a solution starts
+        return (frequent(x) / growth).max(arb(1 / near) / _SHARE) / 2
 
-        def rate(x: acb) -> arb:
-            """The inverse of a disc's diameter."""
-            here = complex(x)
-            distances = (abs(here - pole) for pole in poles)
-            near = min((d for d in distances if d > 0), default=math.inf)  # not where a solution starts
-            return (frequent(x) / growth).max(arb(1 / near) / _SHARE) / 2
-
-        discs = sum(1 + foreseen_growth(rate, a, b) for a, b in [*pairwise(corners), *ways])
-        self.price = prices.BEGIN + count * prices.TARGET(digits) + discs * prices.DISC(digits)
-
-    def pays(self, price: float) -> bool:
-        """True if a closed form takes less, with this price for each target."""
-        return self.price >= prices.FIRST + self._count * price
+    discs = sum(1 + foreseen_growth(rate, a, b) for a, b in [*pairwise(corners), *ways])
+    return prices.BEGIN + count * prices.TARGET(digits) + discs * prices.DISC(digits)
 
 
 def _ways(journey: Journey, targets: Sequence[Number]) -> Iterator[tuple[ExactPoint, ExactPoint]]:
