@@ -40,7 +40,7 @@ from kovacic.general_solution.zero import Residual, ball, is_zero, points, sampl
 from kovacic.limits import Limits
 from kovacic.numbers.numerals import as_text
 from kovacic.reading.pieces import Paste
-from kovacic.reading.source import source_of
+from kovacic.reading.source import parts_of, source_of
 from kovacic.reading.symbolic import expression_of, function_of
 from kovacic.special.choice import shortest
 
@@ -139,6 +139,10 @@ def read_first_order(
         unknown = None if func is None else str(func).partition("(")[0]
         source = source_of(eq, var, limits, unknown=unknown, equation=True, names=names)
         guesses = source.guesses
+        if source.tokens is not None and "OPERATOR" in source.tokens.kinds:  # (D + 2) y = 0
+            (b, c, rest), _ = parts_of(source, limits, order=1)
+            function = sympy.Function(source.unknown)(sympy.Symbol(source.variable))
+            return FirstOrderEquation(function, _quotient(-rest, b), _quotient(-c, b), _ZERO, guesses)
         eq = expression_of(source, limits)
     if not isinstance(eq, sympy.Basic):
         return None

@@ -78,12 +78,16 @@ class EquationReader(RationalReader):
             raise NotRational("pi and e in coefficients: it isn't known whether they are algebraically independent")
         return value
 
-    def equation_of(self, value: Any, text: str | None) -> Equation:
-        """The equation that says that a linear form is zero; `text` is what it was read from."""
+    def parts(self, value: Any) -> dict[int, Any]:
+        """The coefficients of the derivatives, and the rest.  Raises `NotLinear` for an operator that is applied to nothing."""
         if isinstance(value, DerivativeOperator):
             hint = f"write what it is applied to: (D^2 + 1) {self.unknown} = 0"
             raise NotLinear(f"the operator d/d{self.variable} is applied to nothing", hint=hint)
-        parts = {**value.parts} if isinstance(value, LinearForm) else {REST: value}
+        return {**value.parts} if isinstance(value, LinearForm) else {REST: value}
+
+    def equation_of(self, value: Any, text: str | None) -> Equation:
+        """The equation that says that a linear form is zero; `text` is what it was read from."""
+        parts = self.parts(value)
         zero = Monomial(0, 0)
         rest = parts.pop(REST, zero)
         coefficients = {k: self.arithmetic.rational(c) for k, c in parts.items()}

@@ -169,8 +169,11 @@ def read_source(source: Source, limits: Limits) -> Parsed:
     return read_with_constants(read, limits)
 
 
-def parts_of(source: Source, limits: Limits) -> tuple[Sequence[Any], list[str]]:
-    """a, b, c and r of a y'' + b y' + c y + r = 0, expressions of any functions, and what should be known of the reading."""
+def parts_of(source: Source, limits: Limits, order: int = 2) -> tuple[Sequence[Any], list[str]]:
+    """a, b, c and r of a y'' + b y' + c y + r = 0, expressions of any functions, and what should be known of the reading.
+
+    Of b y' + c y + r = 0 for the order 1.
+    """
     import sympy
 
     from kovacic.reading.differential import EquationReader
@@ -179,11 +182,11 @@ def parts_of(source: Source, limits: Limits) -> tuple[Sequence[Any], list[str]]:
     reader = EquationReader(source, limits, Symbols())  # type: ignore[arg-type]
     reader.arithmetic.coefficient = lambda expression: expression  # any one
     value = source.walk(reader)
-    parts = getattr(value, "parts", {}) if source.unknown else {2: Monomial(1, 0), 0: reader.arithmetic.negate(value)}
+    parts = reader.parts(value) if source.unknown else {2: Monomial(1, 0), 0: reader.arithmetic.negate(value)}
     found = {k: reader.arithmetic.expression(c) for k, c in parts.items()}
-    if max(found, default=0) != 2:
-        raise NotLinear("a linear equation of second order is expected")
-    return [found.get(k, sympy.Integer(0)) for k in (2, 1, 0, REST)], reader.notices()
+    if max(found, default=0) != order:
+        raise NotLinear(f"a linear equation of order {order} is expected")
+    return [found.get(k, sympy.Integer(0)) for k in (*range(order, -1, -1), REST)], reader.notices()
 
 
 def source_of_parts(parts: Sequence[Any], source: Source) -> Source:

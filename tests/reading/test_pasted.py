@@ -427,6 +427,30 @@ def test_a_number_behind_a_function_is_a_factor_which_is_said(number: str) -> No
     assert read_input(f"y'' = x^2*y + 3 {number}").equation == read_input("y'' = x^2*y + 3").equation
 
 
+@pytest.mark.parametrize(
+    ("operator", "plain"),
+    [
+        ("(D + 2) y = 0", "y' + 2*y = 0"),
+        ("D y + k y = x", "y' + k*y = x"),
+        ("(d/dx + 2) y = e^x, y(0) = 1", "y' + 2*y = e^x, y(0) = 1"),
+        (r"\left(t\frac{d}{dt} + 1\right) x = t", "t*x' + x = t"),
+        ("(d/dx + 1)(d/dx + 2) y = 0", "y'' + 3*y' + 2*y = 0"),
+        ("(x d/dx)^2 y = n^2 y", "x^2*y'' + x*y' = n^2*y"),
+        (r"\left[\frac{d^2}{dr^2} + \frac{2}{r}\frac{d}{dr} + k^2\right] R(r) = 0", "R'' + 2/r*R' + k^2*R = 0"),
+    ],
+)
+def test_operators_mean_the_derivatives_that_they_take(operator: str, plain: str) -> None:
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore")  # of the letter for the variable
+        assert kovacic.dsolve(operator) == kovacic.dsolve(plain)
+
+
+@pytest.mark.parametrize("text", ["(D + y) y = 0", "(D + 1) = 0", "y'' + (d/dx + x) = 0", "(d/dx + 1) y = dy/dt"])
+def test_operators_that_are_applied_to_nothing_are_refused(text: str) -> None:
+    with pytest.raises(kovacic.InputError):
+        kovacic.dsolve(text)
+
+
 def test_eigenvalue_problems_take_their_conditions_from_the_text() -> None:
     (apart_from_it,) = kovacic.eigenvalues("y'' + lambda*y = 0", "y(0)=0, y(pi)=0", count=1)
     (within,) = kovacic.eigenvalues("y'' + λ y = 0, y(0)=0, y(π)=0", count=1)
