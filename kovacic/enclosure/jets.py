@@ -32,7 +32,7 @@ decided exactly, by their derivatives at z as SymPy evaluates them (sin(0) = 0).
 is (x - z)^(k - l) N/D, and N and D are analytic where n and d are.  Where g = n or d has the series sum g_j u^j at z,
 u = x - z, and is bounded by M for |u| <= R, which balls show,
 
-    g/u^k = sum_(j<T) g_(j+k) u^j + tail,    |tail| <= M R^-k (r/R)^T/(1 - r/R)    for |u| <= r < R                  [Cauchy],
+    g/u^k = sum_(j<T) g_(j+k) u^j + tail,    |tail| <= M R^-k 2^(1-T)    for |u| <= R/2                              [Cauchy],
 
 with the first k coefficients 0 exactly.  Farther from z it is the quotient itself.
 """
@@ -63,8 +63,6 @@ _MOST = 12
 _LONGEST = 60
 """Coefficients of a polynomial that is moved to the middle of a ball, at most."""
 _NEAR = arb(0.5)
-_WIDER = (2.0, 1.25)
-"""R/r, as tried."""
 _QUOTIENTS = {
     sympy.tan: lambda u: sympy.sin(u) / sympy.cos(u),
     sympy.cot: lambda u: sympy.cos(u) / sympy.sin(u),
@@ -179,22 +177,18 @@ class CoefficientEvaluator(BallEvaluator):
         reach = (abs(centre) + 2 * abs(scale)).upper()
         if reach.is_zero():
             reach = arb(_NEAR)
-        for wider in _WIDER:
-            # A bound in a disc; not finite where the function isn't known to be analytic there.
-            radius = (reach * wider).upper()
-            box = acb(zero.real + arb(0, radius), zero.imag + arb(0, radius))
-            around = CoefficientEvaluator({**self.values, symbol: box}, variable=symbol, analytic=True)
-            size = abs(around(function)).upper()
-            if size.is_finite():
-                break
-        else:
+        # A bound in a disc; not finite where the function isn't known to be analytic there.
+        box = zero + around_zero(2 * reach, real=False)
+        around = CoefficientEvaluator({**self.values, symbol: box}, variable=symbol, analytic=True)
+        size = abs(around(function)).upper()
+        if not size.is_finite():
             return self(function) / (x - zero) ** k
-        terms = int(ctx.prec / math.log2(wider)) + 8
+        terms = ctx.prec + 8
         with series_length(terms + k):
             beside = CoefficientEvaluator({**self.values, symbol: acb_series([zero, acb(1)])}, variable=symbol)
             given = beside(function).coeffs()
         coefficients = [*given, *[acb(0)] * (terms + k - len(given))][k:]
-        tail = (size / (reach * wider) ** k * arb(wider) ** -terms / (1 - 1 / arb(wider))).upper()
+        tail = (size / (2 * reach) ** k * arb((1, 1 - terms))).upper()
         polynomial = acb_poly(coefficients)
         inside = zero + arb(0, reach)
         values = CoefficientEvaluator({**self.values, symbol: inside}, variable=symbol)
