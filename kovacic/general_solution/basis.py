@@ -169,7 +169,9 @@ def definition(y1: Expr, y2: Expr, x: Expr) -> Expr:
         linear = W.xreplace({f: letter})
         if expand(linear.diff(letter)) == 0:
             W = linear.xreplace({letter: sympy.Integer(0)})
-    if radicands(W) and not W.has(*_UNKNOWN, sympy.Function):
+    bases = radicands(W)
+    # beside roots of numbers, with polynomials in several of these, SymPy takes minutes
+    if bases and all(base.has(x) for base in bases) and not W.has(*_UNKNOWN, sympy.Function):
         return sympy.factor(sympy.cancel(sympy.together(W)))
     return W
 
