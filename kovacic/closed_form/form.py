@@ -40,6 +40,8 @@ class ClosedForm:
         "exact": the equation was verified in rational functions; what is shown has been checked at a point, too.
     notes : tuple of str
         What was left as an integral, and why; what is to be known about the formulas.
+    undefined : tuple of sympy.Expr
+        Where one of these is zero, for values of letters, a special function has no value, or both solutions are the same.
 
     Examples
     --------
@@ -56,6 +58,7 @@ class ClosedForm:
     gauge: RatFunc
     checked: str
     notes: tuple[str, ...] = ()
+    undefined: tuple[Any, ...] = ()
     build: Callable[[], ClosedStructure] = field(kw_only=True, repr=False, compare=False)
 
     @cached_property

@@ -55,12 +55,15 @@ def find_basis(question: Question, budget: Budget, *, special: bool = False) -> 
     solution = decide(question, budget)
     if solution.case is not None and not special:
         form = solutions(solution.S, solution.decision, solution.gauge, solution.variable, budget)
+        # under the assumptions on letters
+        special = any(question.own(condition) == 0 for condition in form.undefined)
+    if solution.case is not None and not special:
         joined = None
         if question.conditions and isinstance(form.structure, Covariants):
             joined = _joined(solution, form.structure, budget)
         y1, y2 = joined or (form.y1, form.y2)
         known = partial(multiple_of, kernel(question.equation), y1, y2, form.variable)
-        return replace(_basis(question, solution, WrittenPair(y1, y2, known)), form=form)
+        return replace(_basis(question, solution, WrittenPair(y1, y2, known, form.undefined)), form=form)
     pair = _in_special_functions(question, solution, budget, special=special)
     if not isinstance(pair, BySign):
         return _basis(question, solution, pair)

@@ -197,7 +197,7 @@ class _Equation:
         # In an irreducible equation what differs by its exponents is independent.
         chosen = pair if self.decision.case != 1 else independent(pairs, x)
         made = partial(build, self.S, self.decision, self.gauge)
-        return None if chosen is None else ClosedForm(*chosen, x, self.gauge, EXACT, build=made)
+        return None if chosen is None else ClosedForm(*chosen, x, self.gauge, EXACT, (), found.undefined, build=made)
 
     def _written_best(self, forms: list[PairForm]) -> tuple[PairForm, ClosedForm]:
         """The preferred one, written: its true length, and whether an integral is left, may be other than was thought.

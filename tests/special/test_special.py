@@ -637,3 +637,22 @@ def test_derivatives_of_named_functions_are_written_by_such(S: str, transform: t
         assert not y.has(sympy.Derivative)
         value = c2 * sympy.diff(y, x, 2) + c1 * sympy.diff(y, x) + c0 * y
         assert abs(function(value, {"n": mpmath.mpf(3) / 7})(POINT)) < 1e-8
+
+
+@pytest.mark.parametrize("degree", [0, 1, 5])
+def test_an_exponent_that_may_be_an_integer_is_an_exception_or_known_to_be_one(degree: int) -> None:
+    """x y'' + (l + 1 - x) y' + N y = 0: x^-l 1F1(-N - l; 1 - l; x) has no value for l = 1, 2, ..., and is the other at 0."""
+    equation = f"x*y'' + (l + 1 - x)*y' + {degree}*y = 0"
+    assert "sin(pi*l) != 0" in str(kovacic.validity(kovacic.dsolve(equation, var="x")))
+    natural = sympy.Symbol("l", integer=True, nonnegative=True)
+    y = sympy.Function("y")(x)
+    left = x * y.diff(x, 2) + (natural + 1 - x) * y.diff(x) + degree * y
+    general = kovacic.dsolve(sympy.Eq(left, 0)).rhs
+    for value in (0, 1, 3):
+        first, second = (
+            function(general.subs(dict(zip(sympy.symbols("C1 C2"), pair, strict=True))).subs(natural, value), {})
+            for pair in ((1, 0), (0, 1))
+        )
+        with mpmath.workdps(40):
+            (u, du, _), (v, dv, _) = (mpmath.taylor(member, POINT, 2) for member in (first, second))
+            assert abs(u * dv - du * v) > 1e-12 * (abs(u * dv) + abs(du * v))
