@@ -51,10 +51,9 @@ from kovacic.writing.formula import caret
 
 @dataclass
 class WaveProduct:
-    """constant * exp(exponent) * prod base^power."""
+    """constant * prod base^power, e among the bases."""
 
     constant: Any = sympy.S.One
-    exponent: Any = sympy.S.Zero
     powers: dict[Any, Any] = field(default_factory=dict)
 
     def times(self, other: WaveProduct, power: Any) -> WaveProduct:
@@ -62,12 +61,13 @@ class WaveProduct:
         powers = dict(self.powers)
         for base, k in other.powers.items():
             powers[base] = powers.get(base, 0) + k * power
-        return WaveProduct(self.constant * other.constant**power, self.exponent + other.exponent * power, powers)
+        return WaveProduct(self.constant * other.constant**power, powers)
 
     def shown(self) -> Any:
         """Without the constant."""
-        parts = [base ** sympy.factor_terms(shortest(power)) for base, power in self.powers.items()]
-        return sympy.Mul(*parts) * sympy.exp(shortest(self.exponent))
+        short = {base: shortest(power) for base, power in self.powers.items()}
+        exponent = short.pop(sympy.E, sympy.S.Zero)
+        return sympy.Mul(*(base ** sympy.factor_terms(power) for base, power in short.items())) * sympy.exp(exponent)
 
 
 def factor_at(frame: SingularFrame, c: Any) -> WaveProduct:
@@ -80,15 +80,15 @@ def factor_at(frame: SingularFrame, c: Any) -> WaveProduct:
     is_above = sympy.simplify(low - c).is_nonnegative or not sympy.simplify(c - high).is_nonnegative
     match original.kind, c:
         case "exp", 0:
-            return WaveProduct(exponent=original.theta)
+            return WaveProduct(powers={sympy.E: original.theta})
         case "exp", -1:
-            return WaveProduct(two, half, {sympy.cosh(half): 1})
+            return WaveProduct(two, {sympy.E: half, sympy.cosh(half): 1})
         case "exp", 1:
-            return WaveProduct(two, half, {sympy.sinh(half if is_above else -half): 1})
+            return WaveProduct(two, {sympy.E: half, sympy.sinh(half if is_above else -half): 1})
         case ("cosh" | "cos") as kind, 1:
-            return WaveProduct(two, powers={(sympy.sinh if kind == "cosh" else sympy.sin)(half): 2})
+            return WaveProduct(two, {(sympy.sinh if kind == "cosh" else sympy.sin)(half): 2})
         case ("cosh" | "cos") as kind, -1:
-            return WaveProduct(two, powers={getattr(sympy, kind)(half): 2})
+            return WaveProduct(two, {getattr(sympy, kind)(half): 2})
     return WaveProduct(powers={original.t - c if is_above else c - original.t: 1})
 
 
@@ -103,13 +103,12 @@ def as_product(frame: SingularFrame, expression: Any) -> WaveProduct:
 
 def moebius(z: Any, first: Any, second: Any, third: Any) -> Any:
     """The map to 1, -1, oo."""
-    if third == sympy.oo:
-        return 1 - 2 * (z - first) / (second - first)
-    if first == sympy.oo:
-        return 1 - 2 * (second - third) / (z - third)
-    if second == sympy.oo:
-        return 1 - 2 * (z - first) / (z - third)
-    return 1 - 2 * (z - first) * (second - third) / ((z - third) * (second - first))
+
+    def share(c: Any) -> Any:
+        """(z - c)/(second - c), without the factors that are infinite."""
+        return 1 if c == sympy.oo else (z - c) / (1 if second == sympy.oo else second - c)
+
+    return 1 - 2 * share(first) / share(third)
 
 
 def _ordered(frame: SingularFrame, roots: list[Root]) -> list[int]:
