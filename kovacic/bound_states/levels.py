@@ -559,7 +559,7 @@ def _data(value: Any) -> Any:
 
 
 def _lines(levels: Levels, energy: str) -> list[str]:
-    """The energy with its conditions, the wave function or its two pieces, the zeros and the norm."""
+    """The energy with its conditions, the wave function, the zeros and the norm."""
     n = levels.number
     numbers = levels.members
     if numbers is not None and numbers == tuple(range(len(numbers))):
@@ -574,11 +574,7 @@ def _lines(levels: Levels, energy: str) -> list[str]:
     last = f"{_text(levels.zeros)} zeros"
     if levels.norm is not None:
         last += f", norm^2 = {_text(levels.norm)}"
-    waves = [_text(levels.wave)]
-    if levels.wave.is_Piecewise:
-        (even, _), (odd, _) = levels.wave.args
-        waves = [f"{_text(even)} ({n} even)", f"{_text(odd)} ({n} odd)"]
-    return [f"  {first}", *(f"      {line}" for line in (*(f"y_{n} = {wave}" for wave in waves), last))]
+    return [f"  {first}", f"      y_{n} = {_text(levels.wave)}", f"      {last}"]
 
 
 def _joined(relations: Iterable[Any]) -> str:
