@@ -62,23 +62,23 @@ def shifted(text: str, value: Poly) -> str:
     return f"{text} - {amount}"
 
 
-def shortest_length(function: FunctionPoly | RatFunc, letter: str = "x") -> int:
-    """How many characters the shortest of the usual forms has."""
+def shortest(function: FunctionPoly | RatFunc, letter: str) -> str:
+    """The shortest of the usual forms."""
     above, below, names = _cleared(function, letter)
-    return len(_shortest(_forms(above, below), names))
+    return _shortest(_forms(above, below), names)
 
 
 def written(function: FunctionPoly | RatFunc, letter: str = "x") -> str:
     """The shortest of the usual forms, with its denominator in factors; `letter` is the name of the polynomial variable."""
     above, below, names = _cleared(function, letter)
     forms = [*_forms(above, below)]
-    shortest = _shortest(forms, names)
-    has_sum_below = re.search(r"/\([^()]* [+-] [^()]*\)", shortest) is not None
+    best = _shortest(forms, names)
+    has_sum_below = re.search(r"/\([^()]* [+-] [^()]*\)", best) is not None
     if not has_sum_below:
-        return shortest
+        return best
     in_factors = _sum(forms[-1], names)
-    if len(in_factors) > len(shortest) + _FOR_FACTORS:
-        return shortest
+    if len(in_factors) > len(best) + _FOR_FACTORS:
+        return best
     return in_factors
 
 

@@ -46,7 +46,7 @@ from kovacic.parametric.claims import (
     ThatIs,
     rational_roots,
 )
-from kovacic.parametric.formulas import shortest_length
+from kovacic.parametric.formulas import shortest
 from kovacic.parametric.functions import (
     INTEGERS,
     NATURALS,
@@ -189,18 +189,16 @@ def _spectrum(equation: FunctionPoly, numbers: Classes, letter: str, setting: Se
     """A parameter as a function of n, by the cheapest way to choose n; None where no parameter is linear."""
     known = all_solved(equation, setting.fixed)
     energies = [solved for solved in known if solved.parameter == ENERGY]
-    best: IntegerCondition | None = None
-    least = 0
+    found: list[tuple[int, int, IntegerCondition]] = []
     for k, solved in enumerate(energies or known):
         strata = tuple(one for one in solved.strata if not setting.covers(one.zero))
         for family in _choices(equation, solved, numbers, letter):
-            length = _WEIGHT * shortest_length(family.value, family.letter)
-            length += _WORDS * len(prose.text_of(prose.numbers_of(family)))
-            cost = _LATER * k + _STRATUM * len(strata) + length
-            if best is None or cost < least:
-                best = IntegerCondition(family, strata, is_solved=True)
-                least = cost
-    return best
+            text = shortest(family.value, family.letter)
+            said = prose.text_of(prose.numbers_of(family))
+            cost = _LATER * k + _STRATUM * len(strata) + _WEIGHT * len(text) + _WORDS * len(said)
+            # Of two that cost the same the one with the shorter first term: n + k*n*(n - 1)/2, not n*(k*n + k - 2)/2.
+            found.append((cost, len(text.split()[0]), IntegerCondition(family, strata, is_solved=True)))
+    return min(found, key=lambda one: one[:2])[2] if found else None
 
 
 def _choices(equation: FunctionPoly, solved: SolvedCondition, numbers: Classes, letter: str) -> Iterator[IntegerFamily]:

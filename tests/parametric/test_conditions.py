@@ -954,3 +954,13 @@ def test_conditions_with_a_root_in_them_are_sums_of_roots(S: str, root: str) -> 
     assert "n^4" not in answer.text()
     assert " +- " in answer.text()
     assert answer.check(30)
+
+
+@pytest.mark.parametrize("name", ["L", "lam", "a"])
+def test_the_spectrum_of_a_homogeneous_potential_is_written_alike_for_all_names(name: str) -> None:
+    """p + k p (p - 1)/2 [Yoshida 1987], and for k = 5 p (5 p - 3)/2, whatever the order of the parameters is."""
+    S = f"z*(1-z)*y''+((k-1)/k-(3*k-2)/(2*k)*z)*y'+{name}/(2*k)*y=0"
+    general = kovacic.conditions(S, var="z", max_degree=0)
+    assert f"{name} = n + k*n*(n - 1)/2 for an integer n: case 1" in general.text()
+    fifth = kovacic.conditions(S, var="z", max_degree=0, assume={"k": 5})
+    assert f"{name} = n*(5*n - 3)/2 for an integer n: case 1" in fifth.text()
