@@ -439,7 +439,7 @@ def unexpanded(source: Source) -> Math | None:
             text += "^" + piece.translate(SUPERSCRIPT_DIGITS)
         else:
             is_product = before in _ENDS and kind in _BEGINNINGS
-            text += f"*{piece}" if is_product else piece
+            text += f"*{piece}" if is_product else caret(piece)
         before = kind
     text = re.sub(r"\^(-\w+)", r"^(\1)", text)
     count = 1
