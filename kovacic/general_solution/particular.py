@@ -36,6 +36,7 @@ from kovacic.equation import Equation
 from kovacic.errors import LimitExceeded
 from kovacic.general_solution.antiderivatives import in_powers
 from kovacic.general_solution.basis import Basis
+from kovacic.general_solution.check import is_finite
 from kovacic.general_solution.constants import tidy
 from kovacic.general_solution.integrands import NUMBERS, prepared, ratfunc
 from kovacic.general_solution.steps import Apart, HeavisideTerm, taken_apart
@@ -175,8 +176,10 @@ def _with_a_double_pole(equation: Equation, den: Poly, gauge: Expr, right: Expr,
         return None
     t = sympy.Dummy(real=True)
     u = x + atoms.constant(root).xreplace(NUMBERS)
+    if any(f.args[0].subs(x, 1 - u + x).is_negative for f in right.atoms(sympy.log)):  # real on the left of c
+        u = -u
     gauge = gauge.xreplace({atoms.primitive(line)[1]: u})
-    inner = (right / gauge).subs(x, sympy.exp(t) - u + x)
+    inner = (right / gauge).subs(x, (sympy.exp(t) - u) / u.diff(x) + x).replace(lambda e: e.is_Add, sympy.expand)
     found = undetermined(-1, -atoms.ratio(s).xreplace(NUMBERS), sympy.exp(2 * t) * inner, t)
     if found is None:
         return None
@@ -231,16 +234,12 @@ def _strengths(right: Apart, a: Expr) -> dict[int, Expr]:
     return strengths
 
 
-def _has_value(e: Expr) -> bool:
-    return not e.has(sympy.nan, sympy.zoo, sympy.oo)
-
-
 def _from_rest(p: Expr, basis: Basis, values: tuple[Expr, Expr], a: Expr) -> Expr:
     """p - u for the solution u of the homogeneous equation with u(a), u'(a) = `values`: p(a) and p'(a), for a step."""
     x = basis.x
     value, rate = values
     wronskian = tidy(value_at(basis.wronskian, x, a))  # a limit where t(x) alone is singular
-    if wronskian == 0 or not _has_value(wronskian):
+    if wronskian == 0 or not is_finite(wronskian):
         raise NotImplementedError(f"the functions of the closed form are singular at {a}, where the solutions aren't")
     (u, du), (v, dv) = (values_at(y, x, a) for y in (basis.y1, basis.y2))
     first = (value * dv - rate * v) / wronskian
@@ -254,7 +253,7 @@ def _impulse_response(strengths: Mapping[int, Expr], basis: Basis, a: Expr) -> E
     Raises `NotImplementedError` where the equation, or the right-hand side, is singular.
     """
     x = basis.x
-    if not have_values(basis.rates, x, a) or not all(map(_has_value, strengths.values())):
+    if not have_values(basis.rates, x, a) or not all(map(is_finite, strengths.values())):
         said = f"undecided: an impulse at {x} = {a}, a singular point of the equation"
         raise NotImplementedError(f"{said}: there, solutions and their slopes have no values that could jump")
     B, C = basis.rates

@@ -60,13 +60,9 @@ def fresnel(term: Expr, x: Expr) -> Expr | None:
     >>> print(fresnel(x**2 * cos(x**2), x))
     x*sin(x**2)/2 - sqrt(2)*sqrt(pi)*fresnels(sqrt(2)*x/sqrt(pi))/4
     """
-    waves = term.atoms(sin, cos)
-    if len(waves) < 2:
-        return _fresnel(term, x)
-    if not any(_is_quadratic(wave.args[0], x) for wave in waves):
+    if not any(_is_quadratic(wave.args[0], x) for wave in term.atoms(sin, cos)):
         return None
-    singles = sympy.Add.make_args(sympy.expand(TR8(term)))
-    return sum_of([_fresnel(single, x) for single in singles])
+    return sum_of(_fresnel(single, x) for single in sympy.Add.make_args(sympy.expand(TR8(term))))
 
 
 def _is_quadratic(q: Expr, x: Expr) -> bool:
@@ -135,11 +131,4 @@ def in_complex_exponentials(term: Expr, x: Expr) -> Expr | None:
     parts = sympy.Add.make_args(sympy.expand(term.rewrite((sin, cos), exp), power_exp=False))
     if len(parts) > _MOST_EXPONENTIALS:
         return None
-    return sum_of([_of_exponential(part, x) for part in parts])
-
-
-def _of_exponential(part: Expr, x: Expr) -> Expr | None:
-    known = integral_of_product(part, x)
-    if known is not None:
-        return known
-    return incomplete_gamma(part, x)
+    return sum_of([integral_of_product(part, x) or incomplete_gamma(part, x) for part in parts])

@@ -22,7 +22,7 @@ from __future__ import annotations
 from collections import defaultdict
 from collections.abc import Callable, Iterator, Mapping
 from contextlib import suppress
-from itertools import chain, combinations
+from itertools import combinations
 from math import lcm
 from typing import Any
 
@@ -60,7 +60,7 @@ def in_book_form(value: Expr, x: Expr, *, is_general: bool = False) -> Expr:
 
 def in_hyperbolic_functions(value: Expr) -> Expr:
     """By (1), times an exponential function; the same where it isn't of this kind, or long."""
-    return next(_hyperbolic(value, sympy.Dummy()), value) if _is_small(value) else value
+    return next(_hyperbolic(value.rewrite((sinh, cosh), exp), sympy.Dummy()), value) if _is_small(value) else value
 
 
 def _is_small(value: Expr) -> bool:
@@ -155,6 +155,8 @@ def _absolute(value: Expr, x: Expr) -> Iterator[Expr]:
 
 def _hyperbolic(value: Expr, x: Expr) -> Iterator[Expr]:
     """(1) in the numerator and in the denominator, which are polynomials in letters for the e^rate that occur."""
+    if value.has(sinh, cosh):  # t sinh(t) + t cosh(t)
+        yield sympy.expand(value.rewrite((sinh, cosh), exp))
     is_in_sum = any(part.has(exp) for part in value.atoms(sympy.Add))
     if not is_in_sum and all(e.has(x) for e in value.atoms(exp)):  # a product has one exponential, and keeps it
         return
@@ -343,21 +345,11 @@ def sums(value: Expr, x: Expr) -> Iterator[Expr]:
 
 
 def over_one_denominator(value: Expr, x: Expr) -> Iterator[Expr]:
-    """A quotient in lowest terms, unless it is one already, or too large to be multiplied out."""
+    """A quotient in lowest terms, unless it is too large to be multiplied out."""
     atoms = {*value.free_symbols, *value.atoms(sympy.Function, sympy.NumberSymbol)}
     is_slow = len(atoms) > _MOST_ATOMS and value.has(sympy.I)  # in ten variables over Z[i]
-    if value.has(sympy.Add) and not is_slow and not _is_multiplied_out(value) and _is_small(value):
+    if value.has(sympy.Add) and not is_slow and _is_small(value):
         yield sympy.cancel(sympy.together(value))
-
-
-def _is_multiplied_out(value: Expr) -> bool:
-    """Is it a sum of products of rational numbers, symbols, functions and their powers, without a denominator?"""
-    factors = chain.from_iterable(map(sympy.Mul.make_args, sympy.Add.make_args(value)))
-    powers = (factor.as_base_exp() if factor.is_Pow else (factor, sympy.S.One) for factor in factors)
-    return all(
-        n.is_Integer and n.is_positive and (base.is_Rational or base.is_Symbol or base.is_Function) and base.func != exp
-        for base, n in powers
-    )
 
 
 def _common_factors(value: Expr, x: Expr) -> Iterator[Expr]:
