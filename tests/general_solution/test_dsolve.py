@@ -997,3 +997,12 @@ def test_an_integral_is_easier_to_read_than_many_complex_functions() -> None:
     found = dsolve("y'' - y' + exp(2*x)*y = tanh(x)").rhs
     assert found.has(sympy.Integral)
     assert len(str(found)) < 200
+
+
+@parametrize(
+    "text", ["(x-2)^2*y'' + y = log(2-x)", "(x-2)^2*y'' + y = log(x-2)", "x^2*y'' - x*y' + y = log(-x)"], ordinary=1
+)
+def test_logarithms_on_either_side_of_the_singular_point(text: str) -> None:
+    """Undetermined coefficients in the logarithm of the distance, without integrals and complex numbers."""
+    found = kovacic.answer_to(text).particular
+    assert not found.has(sympy.Integral, sympy.I)
