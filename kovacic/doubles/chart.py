@@ -222,10 +222,6 @@ recessive one."""
 
 _COMPLEX = "functions of real numbers need an equation with real coefficients"
 
-#: So many coefficients around a point are found by derivatives: two, or one for so many degrees.
-_FEW_TERMS = 2
-_DEGREES_A_TERM = 40
-
 
 @dataclass(frozen=True)
 class RationalChart:
@@ -429,19 +425,10 @@ def _real_problem(equation: object, params: Mapping[str, object] | None, constan
 
 
 def _expanded(polynomial: fmpq_poly, line: fmpq_poly, terms: int) -> list[Any]:
-    """The first coefficients of the composition with a line: of a few ones, the powers of a long one are never made."""
-    degree = polynomial.degree()
-    centre = line[0]
-    scale = line[1]
-    if terms > max(_FEW_TERMS, degree // _DEGREES_A_TERM):
-        bits = max(int(polynomial.numer().height_bits()), int(polynomial.denom()).bit_length())
-        foresee_move(degree, bits, max(int(centre.height_bits()), int(scale.height_bits())))
-        return polynomial(line).coeffs()[:terms]  # type: ignore[no-any-return]
-    found = []
-    factor = scale**0
-    for k in range(min(terms, degree + 1)):
-        check_time()
-        found.append(polynomial(centre) * factor)
-        polynomial = polynomial.derivative()
-        factor = factor * scale / (k + 1)
-    return found
+    """The first coefficients of the composition with a line: of two, the powers of a long one are never made."""
+    centre, scale = line[0], line[1]
+    if terms == 2:
+        return [polynomial(centre), polynomial.derivative()(centre) * scale]
+    bits = max(int(polynomial.numer().height_bits()), int(polynomial.denom()).bit_length())
+    foresee_move(polynomial.degree(), bits, max(int(centre.height_bits()), int(scale.height_bits())))
+    return polynomial(line).coeffs()[:terms]  # type: ignore[no-any-return]

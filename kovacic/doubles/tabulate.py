@@ -405,7 +405,12 @@ def _series(chart: PieceChart, cells: list[Cell], variant: Variant) -> list[Any]
     terms = variant.terms
     count = 2 if not chart.is_forced else 3
     size = len(cells)
-    equations = _equations(chart, cells, terms)
+    nothing = [[arb(1)], [], [arb("nan")], []]  # too near to a singular point
+    equations = []
+    for k, (c, e) in enumerate(cells):
+        if k % 32 == 0:
+            check_time()
+        equations.append(chart.local(ExactPoint(c), e, terms) if chart.is_regular(ExactPoint(c), e) else nothing)
     length = max(2, *(len(part) + i for local in equations for i, part in enumerate(local[:3])))
     numbers = np.zeros((2, 3, length, size))
     source = np.zeros((2, terms, count, size))
@@ -446,20 +451,6 @@ def _recurrence(equation: Any, source: Any, variant: Variant) -> Any:
         else:  # as small as the last half of the digits
             z[0, n] = (source[0, n - 2] - (weights.hi[:, None] * z[0, n - j]).sum(0)) / (n * (n - 1))
     return z
-
-
-def _equations(chart: PieceChart, cells: list[Cell], terms: int) -> list[list[list[arb]]]:
-    """The coefficients of the equation on each of the pieces."""
-    found = []
-    for k, (centre, e) in enumerate(cells):
-        if k % 32 == 0:
-            check_time()
-        point = ExactPoint(centre)
-        if chart.is_regular(point, e):
-            found.append(chart.local(point, e, terms))
-        else:  # too near to a singular point: not numbers
-            found.append([[arb(1)], [], [arb("nan")], []])
-    return found
 
 
 @lru_cache

@@ -136,10 +136,6 @@ class AnalyticWay(Way):
     def at(self, prec: int) -> AnalyticWay:
         return replace(self, prec=prec)
 
-    @property
-    def _steepest(self) -> float:
-        return max(_STEEPEST, _SHARE * self.prec)
-
     def check(self, a: ExactPoint, b: ExactPoint) -> None:
         if self.problem is not None:
             self.problem.check_segment(a, b)
@@ -155,7 +151,7 @@ class AnalyticWay(Way):
             b_value, c_value, _ = self.functions.values(x)
             return abs(b_value).max(abs(c_value).sqrt())
 
-        found = Forecast(a, b, lambda: foreseen_growth(rate, a, b), 2 * self._steepest)
+        found = Forecast(a, b, lambda: foreseen_growth(rate, a, b), 2 * max(_STEEPEST, _SHARE * self.prec))
         found.refuse()
         return found
 
@@ -200,7 +196,7 @@ class AnalyticWay(Way):
                 )  # 2^e over the length, a dyadic number just below
                 half = min(fmpq(root) * power_of_two(k - 12), rest / 2)
                 centre = a + length.scaled(t + half)
-                jets = self.functions.jets(centre, e, self.prec, self._steepest)
+                jets = self.functions.jets(centre, e, self.prec, max(_STEEPEST, _SHARE * self.prec))
                 if jets is not None:
                     break
                 e -= 1
@@ -226,9 +222,7 @@ def _check_size(a: ExactPoint, b: ExactPoint, t: Any, e: int, start: int) -> Non
     if power_of_two(2 * (e + _LEAST)) < min(behind, ahead):
         where = to_acb(a + (b - a).scaled(t)).mid()
         with working_precision(64):
-            shown = where.real.str(10, radius=False)
-            if not where.imag.is_zero():
-                shown = where.str(10, radius=False)
+            shown = (where.real if where.imag.is_zero() else where).str(10, radius=False)
         raise InputError(
             f"the coefficients aren't known to be analytic near {shown}, on the path from {a}",
             hint="go around it through the complex plane, e.g. path=[...] with a vertex off the axis; "

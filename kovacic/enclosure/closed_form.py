@@ -277,9 +277,7 @@ def exponentials(problem: NumericProblem) -> list[Exponential]:
     if len(found) == 1 and closed.companion is not None:
         found.append(closed.companion)
     gauge = problem.gauge
-    if gauge is None:
-        return found
-    return [Exponential(y.theta + gauge, y.P, y.embedding) for y in found]
+    return found if gauge is None else [Exponential(y.theta + gauge, y.P, y.embedding) for y in found]
 
 
 def omegas(problem: NumericProblem, x0: ExactPoint) -> list[acb]:
