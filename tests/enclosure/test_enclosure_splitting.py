@@ -149,7 +149,7 @@ def test_both_ways_agree_at_a_thousand_digits_with_end_points_of_any_length(seed
 
     def end() -> ExactPoint:
         x, y = (Fraction(rng.randint(-denominator, denominator), denominator) for _ in range(2))
-        return ExactPoint(x, y if seed % 2 else 0)
+        return ExactPoint(x, 0 if seed % 2 else y)
 
     a = end()
     b = a + end().scaled(Fraction(1, 4))
