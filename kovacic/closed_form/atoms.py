@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections import Counter
+from collections.abc import Callable
 from fractions import Fraction
 from functools import cached_property
 from typing import Any, cast
@@ -70,11 +71,13 @@ class Atoms:
 
     A `CRootOf` is the first root in SymPy's order, which is real if there is a real one.  Roots of functions of x are
     written so that they are real at the point `at`, which may be oo; without one those of x^2 - a, a > 0, are real around 0.
+    `own` puts in the user's symbols, whose signs are known.
     """
 
-    def __init__(self, variable: Symbol, *, at: Expr = None) -> None:
+    def __init__(self, variable: Symbol, *, at: Expr = None, own: Callable[[Expr], Expr] = sympy.sympify) -> None:
         self.x = variable
         self.at = at
+        self.own = own
         self._generators: dict[tuple[Any, ...], Expr] = {}
         self.notes: list[str] = []
 
@@ -253,7 +256,7 @@ class Atoms:
         if self.at is None:
             is_pure_square = base.degree == 2 and not base[1]
             return is_pure_square and bool(self.constant(base[0]).is_negative)
-        return not self.at.is_infinite and bool(self.poly(base).subs(self.x, self.at).is_negative)
+        return not self.at.is_infinite and bool(self.own(self.poly(base).subs(self.x, self.at)).is_negative)
 
     def root_sum(self, polynomial: Expr, body: Expr) -> Expr:
         """The sum of the body over the roots of a polynomial, both in the symbol `root`."""

@@ -89,11 +89,11 @@ def written(structure: ClosedStructure, S: RatFunc, gauge: RatFunc, variable: st
     return form
 
 
-def pair_at(form: ClosedForm, point: Any) -> tuple[Expr, Expr]:
+def pair_at(form: ClosedForm, point: Any, own: Callable[[Expr], Expr]) -> tuple[Expr, Expr]:
     """Solutions whose roots are real at a point, written from the structure and not checked; the same ones in case 3."""
     if isinstance(form.structure, Covariants):
         return form.y1, form.y2
-    y1, y2, _ = expressions(form.structure, Atoms(form.variable, at=point))
+    y1, y2, _ = expressions(form.structure, Atoms(form.variable, at=point, own=own))
     return one_exponential(y1), one_exponential(y2)
 
 

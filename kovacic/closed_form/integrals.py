@@ -259,7 +259,7 @@ def _inverse_sine(g: Poly, atoms: Atoms) -> Expr | None:
     """int dx/sqrt(g) for g = k^2 - (x - h)^2 or g = (x - h)^2 + k^2 with a number k > 0; None for others."""
     h = g[1] * g.lc * Fraction(-1, 2)
     d = g[0] - g[1] * g[1] * g.lc * Fraction(1, 4)
-    if not atoms.constant(d).is_positive:
+    if not atoms.own(atoms.constant(d)).is_positive:
         return None
     z = (atoms.x - atoms.constant(h)) / atoms.sqrt(d)
     if g.lc == -1:
@@ -560,7 +560,9 @@ def triangular(form: Triangular, atoms: Atoms) -> tuple[Expr, Expr, tuple[str, .
         return first, Add(*(first * term for term in Add.make_args(shown))), notes
     # y1 times the rational function before the root of g, in lowest terms
     scale, whole = factors(form.first, atoms, primitive.exact)
-    algebraic = Mul(scale / (parts[0] * content), *whole, sqrt(atoms.poly(primitive.g)))
+    c, monic = atoms.primitive(primitive.g * primitive.g.lc)
+    root = sqrt(rational(c)) * sqrt(monic * atoms.constant(primitive.g.lc))
+    algebraic = Mul(scale / (parts[0] * content), *whole, root)
     _, rest, _ = curve_integral(replace(primitive, exact=primitive.exact * 0), atoms)
     return first, Add(algebraic, *(first * (term / content) for term in Add.make_args(rest))), notes
 
@@ -655,7 +657,7 @@ def _exponential(y: Product, primitive: ExponentialPrimitive, first: Factors, at
         q = atoms.sum(term.q(primitive.t))
         power = primitive.alpha + term.power
         b = term.b
-        if atoms.at is not None and q.subs(atoms.x, atoms.at).is_negative:  # by t = -q
+        if atoms.at is not None and atoms.own(q.subs(atoms.x, atoms.at)).is_negative:  # by t = -q
             scale = -scale * Integer(-1) ** rational(power)
             b, q = b * (-1) ** term.n, -q
         c, function = _gamma(b, term.n, q, power, atoms)

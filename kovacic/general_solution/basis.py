@@ -167,13 +167,21 @@ def definition(y1: Expr, y2: Expr, x: Expr) -> Expr:
         check_time()
         letter = sympy.Dummy()
         linear = W.xreplace({f: letter})
-        if expand(linear.diff(letter)) == 0:
+        if expand(linear.diff(letter)) == 0 or _vanishes(linear.diff(letter), x):
             W = linear.xreplace({letter: sympy.Integer(0)})
     bases = radicands(W)
     # beside roots of numbers, with polynomials in several of these, SymPy takes minutes
     if bases and all(base.has(x) for base in bases) and not W.has(*_UNKNOWN, sympy.Function):
         return sympy.factor(sympy.cancel(sympy.together(W)))
     return W
+
+
+def _vanishes(e: Expr, x: Expr) -> bool:
+    """True if it is zero to 50 digits at a point."""
+    with working_digits(2 * DIGITS), suppress(NotImplementedError):
+        value = jet(e, x, next(points()))[0]
+        return bool(abs(value) < arb(10) ** -DIGITS)
+    return False
 
 
 def _antiderivatives(e: Expr) -> Iterator[Expr]:
@@ -273,6 +281,8 @@ def vanishing(nonzero: Expr) -> Iterator[Expr]:
         base = factor
         while base.is_Pow and base.exp.is_positive:
             base = base.base
+        if base.is_Pow and base.exp.is_negative:
+            continue
         factors = (part for case in by_parity(base) or [base] for part in sympy.Mul.make_args(case))
         without_gammas = [part for part in factors if not isinstance(part, sympy.gamma)]  # which have no zeros
         if base.free_symbols and not all(map(is_nowhere_zero, without_gammas)):

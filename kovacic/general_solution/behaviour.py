@@ -24,7 +24,7 @@ from sympy.functions.special.bessel import BesselBase
 from kovacic.algebra.precision import working_digits
 from kovacic.closed_form.jets import ANTIDERIVATIVES, jet
 from kovacic.general_solution.substitution import finite_value, size
-from kovacic.general_solution.zero import is_zero, samples
+from kovacic.general_solution.zero import is_zero, opposite, samples
 from kovacic.limits import check_time
 
 Expr = Any  # SymPy publishes no types
@@ -221,9 +221,8 @@ def _is_confirmed(found: Expr, e: Expr, x: Expr, place: Approach) -> bool:
 
 def _letters(symbols: set[Expr]) -> Iterator[dict[Expr, Expr]]:
     """Values that fit what is assumed, of both signs where that is open."""
-    open_signs = {s for s in symbols if s.is_nonnegative is None and s.is_nonpositive is None}
     for k, sample in enumerate(islice(samples(symbols), 1, 1 + _SAMPLES)):
-        yield {s: -value if k % 2 and s in open_signs else value for s, value in sample.items()}
+        yield opposite(sample) if k % 2 else sample
 
 
 def is_refuted(value: Expr | None, y: Expr, x: Expr, place: Approach) -> bool:

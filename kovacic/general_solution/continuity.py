@@ -22,7 +22,7 @@ from sympy.core.function import AppliedUndef
 from kovacic.algebra.embedding import complex_zeros
 from kovacic.algebra.precision import working_precision
 from kovacic.closed_form.jets import jet
-from kovacic.general_solution.zero import samples
+from kovacic.general_solution.zero import opposite, samples
 from kovacic.limits import check_time
 
 Expr = Any  # SymPy publishes no types
@@ -87,22 +87,15 @@ def jumps(y: Expr, x: Expr, coefficients: Sequence[Expr]) -> bool:
     with working_precision(_BITS):
         # The sign of a letter outside, as a constant's, moves no jump.
         inside = set().union(*(e.free_symbols for e in (*y.atoms(sympy.Function, sympy.Pow), *coefficients)))
-        for numbers in _letters(y.free_symbols - {x}, inside):
+        first = next(samples(y.free_symbols - {x}))
+        second = first | opposite({s: value for s, value in first.items() if s in inside})
+        for numbers in [first, *([second] if second != first else [])]:
             here = y.xreplace(numbers)
             # The terms of each `RootSum`: those of roots to so many digits lie on the same sides of cuts.
             sums = {e: sympy.Add(*map(e.fun, e.poly.nroots(30))) for e in here.atoms(sympy.RootSum)}
             if _Course(x, here.xreplace(sums), [e.xreplace(numbers) for e in coefficients]).jumps_somewhere():
                 return True
     return False
-
-
-def _letters(symbols: set[Expr], inside: set[Expr]) -> Iterator[dict[Expr, Expr]]:
-    """Values of letters, and the opposite ones of those `inside` whose sign isn't known."""
-    numbers = next(samples(symbols))
-    yield numbers
-    unknown = {s for s in symbols & inside if s.is_positive is None and s.is_negative is None}
-    if unknown:
-        yield numbers | {s: -numbers[s] for s in unknown}
 
 
 def cuts_of(y: Expr, x: Expr) -> list[Expr]:

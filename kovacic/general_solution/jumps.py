@@ -22,6 +22,7 @@ from sympy.solvers.inequalities import solve_poly_inequality
 
 from kovacic.errors import InputError
 from kovacic.general_solution.steps import JUMPING, taken_apart, with_single_steps
+from kovacic.general_solution.zero import samples
 
 Expr = Any  # SymPy publishes no types
 #: The largest degree of a polynomial whose sign is asked for.
@@ -177,17 +178,11 @@ def _check_cases(e: Expr, x: Expr) -> None:
     indicators = [_indicator(condition, x) for _, condition in e.args]
     if None in indicators:
         return
-    values = {parameter: _some_value(parameter) for parameter in e.free_symbols - {x}}
+    values = next(samples(e.free_symbols - {x}))
     missing = _alone(indicators)[-1].subs(values)
     has_gap = any(on_piece(missing, x, point) != 0 for point in between(break_points(missing, x)))
     if has_gap or any(value is sympy.nan for value, _ in e.args):
         raise InputError(f"{e} has no value where no case holds", hint="add a last case, such as (0, True)")
-
-
-def _some_value(parameter: Expr) -> Expr:
-    """A number that the parameter may be."""
-    size = sympy.Integer(2) if parameter.is_integer else sympy.Rational(7, 5)
-    return -size if parameter.is_negative else size
 
 
 def _is_simple(e: Expr, x: Expr) -> bool:

@@ -31,6 +31,8 @@ from kovacic.general_solution.steps import place_of
 from kovacic.general_solution.variation import is_solution, starting_at
 
 Expr = Any  # SymPy publishes no types
+#: Puts in symbols that know what is assumed.
+Own = Callable[[Expr], Expr]
 _INFINITIES = (sympy.oo, -sympy.oo)
 #: For Bessel's functions of i z those of z with the same span.
 _OF_IMAGINARY = {
@@ -185,15 +187,15 @@ def check_between(question: Question, solutions: Sequence[Expr]) -> None:
 
     Solutions that are written with functions that are analytic everywhere may be continued.
     """
-    points = [point for point in _points(question) if point not in _INFINITIES]
-    if len(points) < 2 or not all(point.is_real and point.is_number for point in points):
+    points = [point for point in _points(question) if point.is_real and point not in _INFINITIES]
+    if len(points) < 2 or all(_is_entire(question.own(y), question.x) for y in solutions):
         return
-    if all(_is_entire(question.own(y), question.x) for y in solutions):
-        return
-    first = sympy.Min(*points)
-    last = sympy.Max(*points)
-    for pole in poles_between(question, first, last):
-        raise _apart(pole, points)
+    for pole in rational_poles(question):
+        if len({sign for point in points if (sign := sympy.sign(point - pole)) in (1, -1)}) > 1:
+            raise _apart(pole, points)
+    if all(point.is_number for point in points):
+        for pole in poles_between(question, sympy.Min(*points), sympy.Max(*points)):
+            raise _apart(pole, points)
 
 
 def _points(question: Question) -> list[Expr]:
@@ -218,7 +220,6 @@ def real_basis_at(question: Question, basis: Basis, start: Expr) -> Basis:
     check_between(question, (basis.y1, basis.y2))
     x = question.x
     if question.equation.change is None:
-        _check_one_side((basis.y1, basis.y2), question)
         basis = real_basis(basis, start)
     return basis.of(starting_at(basis.y1, x, start), starting_at(basis.y2, x, start))
 
@@ -231,15 +232,14 @@ def real_particular_at(question: Question, basis: Basis, particular: Expr, start
     check_between(question, (basis.y1, basis.y2, particular))
     if question.equation.change is not None:
         return particular
-    _check_one_side((particular,), question)
     x = question.x
     is_settled = not start.is_real or particular.has(sympy.Integral, sympy.Heaviside)
-    if is_settled or not negative_arguments(particular, x, start):
+    if is_settled or not negative_arguments(particular, x, start, question.own):
         return particular
     equation = question.equation
     right = (Atoms(x).sum(equation.f) + (equation.h or 0)) / Atoms(x).ratio(equation.a)
     coefficients = rates(equation, x)
-    candidate = all_turned(particular, x, start)
+    candidate = all_turned(particular, x, start, question.own)
     return candidate if is_solution(candidate, coefficients, right, x) else particular
 
 
@@ -253,19 +253,6 @@ def real_particular(question: Question, basis: Basis, particular: Expr) -> Expr:
     return particular
 
 
-def _check_one_side(solutions: Sequence[Expr], question: Question) -> None:
-    """Raises `InputError` where roots or logarithms have arguments of both signs at the points."""
-    points = [point for point in _points(question) if point.is_real]
-    sides = {
-        frozenset(e for y in solutions for e in negative_arguments(y, question.x, point))
-        for point in points
-        if not is_singular(question, point)
-    }
-    if len(sides) > 1:
-        said = ", ".join(map(str, points))
-        raise InputError(f"a singular point of the equation lies between {said}: on each side the solutions are others")
-
-
 # ------------------------------------------------------------------------------------------- real on the other side
 
 
@@ -275,15 +262,15 @@ def real_basis(basis: Basis, point: Expr) -> Basis:
     assert solution is not None
     if not point.is_real:
         return basis
-    best, fewest = basis, len(negative_arguments(basis.y1 * basis.y2, x, point))
+    best, fewest = basis, len(negative_arguments(basis.y1 * basis.y2, x, point, basis.own))
     writers: list[Callable[[], tuple[Expr, Expr]]] = [lambda: (basis.y1, basis.y2)]
     if basis.form is not None:
-        writers.append(partial(pair_at, basis.form, point))
+        writers.append(partial(pair_at, basis.form, point, basis.own))
     for write in writers:
         if not fewest:
             break
-        y1, y2 = (all_turned(y.xreplace(NUMBERS), x, point) for y in write())
-        left = len(negative_arguments(y1 * y2, x, point))
+        y1, y2 = (all_turned(y.xreplace(NUMBERS), x, point, basis.own) for y in write())
+        left = len(negative_arguments(y1 * y2, x, point, basis.own))
         are_solutions = all(is_numerical_solution(y, x, solution.S, solution.gauge) for y in (y1, y2))
         if are_solutions and are_independent(y1, y2, x) and (left < fewest or best is basis):
             best, fewest = basis.of(y1, y2), left
@@ -299,19 +286,19 @@ def _arguments(y: Expr, x: Expr) -> dict[Expr, Expr]:
     return found
 
 
-def all_turned(y: Expr, x: Expr, point: Expr) -> Expr:
+def all_turned(y: Expr, x: Expr, point: Expr, own: Own = sympy.sympify) -> Expr:
     """With log(-u), (-u)^e for arguments u that are negative at the point; I_nu(z), K_nu(z) for J_nu(i z), Y_nu(i z)."""
-    turned = {e: (-u) ** e.exp for e, u in negative_arguments(y, x, point).items() if e.is_Pow}
+    turned = {e: (-u) ** e.exp for e, u in negative_arguments(y, x, point, own).items() if e.is_Pow}
     roots = dict(turned)
     for e in y.atoms(sympy.log, sympy.Ci, BesselBase):
         *order, u = e.args
-        if e.func in _OF_IMAGINARY and (u**2).subs(x, point).is_negative:
+        if e.func in _OF_IMAGINARY and own((u**2).subs(x, point)).is_negative:
             turned[e] = _OF_IMAGINARY[e.func](*order, u.xreplace(roots))
-        elif u.subs(x, point).is_negative:  # SymPy writes J(-z) as J(z) (-z)^nu/z^nu
+        elif own(u.subs(x, point)).is_negative:  # SymPy writes J(-z) as J(z) (-z)^nu/z^nu
             turned[e] = e.func(*order, -u, evaluate=False)
     return y.xreplace(turned)
 
 
-def negative_arguments(y: Expr, x: Expr, point: Expr) -> dict[Expr, Expr]:
-    """Those whose arguments are negative at the point."""
-    return {e: u for e, u in _arguments(y, x).items() if u.subs(x, point).is_negative}
+def negative_arguments(y: Expr, x: Expr, point: Expr, own: Own = sympy.sympify) -> dict[Expr, Expr]:
+    """Those whose arguments are negative at the point, in the user's symbols that `own` puts in."""
+    return {e: u for e, u in _arguments(y, x).items() if own(u.subs(x, point)).is_negative}

@@ -85,7 +85,7 @@ def _is_root(question: Question, polynomial: Poly, point: Expr) -> bool:
 
 
 def poles_between(question: Question, first: Expr, last: Expr) -> Iterator[Expr]:
-    """The singular points without parameters between two points."""
+    """The singular points between two numbers that `rational_poles` doesn't have."""
     x = question.x
     equation = question.equation
     parts = [] if equation.h is None else [equation.h]
@@ -95,9 +95,6 @@ def poles_between(question: Question, first: Expr, last: Expr) -> Iterator[Expr]
         elif not is_power(equation) and not is_of_a_line(equation):
             raise NotImplementedError("undecided: whether a singular point lies between the points that are given")
         parts += [question.own(rate) for rate in _rates_in_x(equation, x)]
-    for pole in rational_poles(question):
-        if first < pole < last:
-            yield pole
     for below in {base: None for part in parts for base in _below_the_line(part, x)}:
         for point in _zeros(below, x, first, last):
             is_between = point.is_number and first < point < last
@@ -107,12 +104,13 @@ def poles_between(question: Question, first: Expr, last: Expr) -> Iterator[Expr]
 
 
 def rational_poles(question: Question) -> Iterator[Expr]:
-    """The real singular points of an equation with rational coefficients without parameters."""
+    """The real singular points without parameters of an equation with rational coefficients."""
     equation = question.equation
     if equation.change is not None:
         return
     for den in _denominators(equation):
-        yield from _real_roots(question.own(Atoms(question.x).poly(den)), question.x)
+        for factor, _ in den.field.factor(den):
+            yield from _real_roots(question.own(Atoms(question.x).poly(factor)), question.x)
 
 
 def _real_roots(polynomial: Expr, x: Expr) -> list[Expr]:

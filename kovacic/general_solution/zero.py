@@ -148,6 +148,12 @@ def samples(symbols: set[Expr]) -> Iterator[dict[Expr, Expr]]:
         yield {symbol: sample_value(symbol, k + 3 * position) for position, symbol in enumerate(turned)}
 
 
+def opposite(sample: dict[Expr, Expr]) -> dict[Expr, Expr]:
+    """The values with the other sign, where nothing is assumed of it."""
+    is_open = {s: s.is_nonnegative is None and s.is_nonpositive is None for s in sample}
+    return {s: -value if is_open[s] else value for s, value in sample.items()}
+
+
 def sample_value(symbol: Expr, k: int) -> Expr:
     """The k-th value of a symbol: of integers the k-th natural number, or the k-th of those that are even or odd."""
     if symbol.is_odd:
