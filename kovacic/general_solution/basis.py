@@ -281,7 +281,7 @@ def vanishing(nonzero: Expr) -> Iterator[Expr]:
         base = factor
         while base.is_Pow and base.exp.is_positive:
             base = base.base
-        if base.is_Pow and base.exp.is_negative:
+        if base.is_Pow and base.exp.is_negative and not base.has(sympy.gamma):  # whose poles are zeros of the inverse
             continue
         factors = (part for case in by_parity(base) or [base] for part in sympy.Mul.make_args(case))
         without_gammas = [part for part in factors if not isinstance(part, sympy.gamma)]  # which have no zeros

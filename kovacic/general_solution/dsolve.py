@@ -36,6 +36,7 @@ from kovacic.general_solution.particular import particular_solution
 from kovacic.general_solution.places import (
     ImpulsesInside,
     limit_points,
+    on_one_interval,
     real_basis_at,
     real_particular,
     real_particular_at,
@@ -384,6 +385,7 @@ def _solved(question: Question, budget: Budget, *, special: bool) -> ProblemAnsw
 
 def _general(question: Question, basis: Basis) -> SecondOrderAnswer:
     """C1 y1 + C2 y2 + y0, checked."""
+    basis = on_one_interval(basis)
     particular = real_particular(question, basis, particular_solution(basis, None))
     particular = without_homogeneous(particular, basis.y1, basis.y2, basis.x)
     constants = free_constants(question, basis, particular)

@@ -28,6 +28,7 @@ from kovacic.general_solution.integrands import NUMBERS
 from kovacic.general_solution.poles import is_singular, poles_between, rational_poles
 from kovacic.general_solution.question import Question
 from kovacic.general_solution.steps import place_of
+from kovacic.general_solution.validity import needed_for
 from kovacic.general_solution.variation import is_solution, starting_at
 
 Expr = Any  # SymPy publishes no types
@@ -41,6 +42,8 @@ _OF_IMAGINARY = {
     sympy.besseli: sympy.besselj,
     sympy.besselk: sympy.bessely,
 }
+#: Points between and beyond the usual singular ones.
+_INSIDE = [sympy.Rational(p, 2) for p in (1, -1, 3, -3, 5, -5, 9, -9)]
 #: The functions that are analytic everywhere.
 _ENTIRE = (
     sympy.exp,
@@ -275,6 +278,22 @@ def real_basis(basis: Basis, point: Expr) -> Basis:
         if are_solutions and are_independent(y1, y2, x) and (left < fewest or best is basis):
             best, fewest = basis.of(y1, y2), left
     return best
+
+
+def on_one_interval(basis: Basis) -> Basis:
+    """A pair whose members are real together, if one of them is real where the other one isn't; else the given one."""
+
+    def needs(*members: Expr) -> tuple[Expr, ...]:
+        return needed_for(basis.own(sympy.Add(*members)), basis.x).real
+
+    if basis.equation.change is not None or sympy.false not in needs(basis.y1, basis.y2):
+        return basis
+    for point in _INSIDE:
+        if any(all(r.subs(basis.x, point) == sympy.true for r in needs(y)) for y in (basis.y1, basis.y2)):
+            found = real_basis(basis, point)
+            if sympy.false not in needs(found.y1, found.y2):
+                return found
+    return basis
 
 
 def _arguments(y: Expr, x: Expr) -> dict[Expr, Expr]:

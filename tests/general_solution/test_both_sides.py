@@ -75,3 +75,22 @@ def test_an_answer_left_of_a_root_has_the_right_slope_everywhere(point: str) -> 
         at = sympy.Rational(point) + sympy.Rational(step)
         ball = kovacic.evaluate(equation, str(at), x0=point, y0=1, dy0=2, digits=20)
         assert abs(sympy.N(value.subs(x, at), 25) - sympy.Float(str(ball.value.real).split(" ")[0], 25)) < 1e-15
+
+
+@pytest.mark.parametrize("right", ["0", "x"])
+def test_the_members_of_a_pair_are_real_on_one_interval(right: str) -> None:
+    """(1 - x)^(c-2) beside 2F1(1, 1; c; x), which is real below 1."""
+    answer = kovacic.answer_to(f"x*(1-x)*y'' + (c-3*x)*y' - y = {right}")
+    assert str(answer.validity) == "1 - x > 0, x > 0, c is none of 0, -1, -2, ..., c - 1 != 0"
+
+
+def test_letters_have_the_signs_that_are_assumed() -> None:
+    """On the left of a positive a, in roots and in logarithms; and between -L and L lies 0."""
+    circle = kovacic.dsolve("(x^2-a^2)*y'' + x*y' + y = 0", ics="y(0)=1, y'(0)=0", assume={"a": "positive"})
+    assert circle.rhs == sympy.cosh(sympy.asin(x / sympy.Symbol("a")))
+    line = kovacic.dsolve("x*(x-a)*y'' + a*y' = 0", ics="y(-1)=1, y(-2)=0", assume={"a": "positive"})
+    assert not line.rhs.has(sympy.I)
+    with pytest.raises(kovacic.InputError, match="between -L, L: 0"):
+        kovacic.dsolve("x^2*y'' + x*y' - y = 0", ics="y(-L)=1, y(L)=0", assume={"L": "positive"})
+    with pytest.raises(kovacic.InputError, match="between -1, 1: 0"):
+        kovacic.dsolve("x*(x-a)*y'' + a*y' = 0", ics="y(-1)=1, y(1)=0")
