@@ -10,6 +10,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterable, Iterator
 from contextlib import suppress
 from dataclasses import dataclass, replace
+from fractions import Fraction
 from functools import cached_property
 from itertools import chain, islice
 from typing import Any
@@ -20,7 +21,7 @@ from sympy import cos, exp, expand, sin
 from sympy.simplify.fu import TR8
 
 from kovacic.algebra.precision import working_digits
-from kovacic.closed_form.atoms import Atoms, display
+from kovacic.closed_form.atoms import Atoms, display, rational
 from kovacic.closed_form.check import DIGITS
 from kovacic.closed_form.form import ClosedForm
 from kovacic.closed_form.jets import jet
@@ -167,11 +168,11 @@ def definition(y1: Expr, y2: Expr, x: Expr) -> Expr:
         check_time()
         letter = sympy.Dummy()
         linear = W.xreplace({f: letter})
-        if expand(linear.diff(letter)) == 0 or _vanishes(linear.diff(letter), x):
+        if _vanishes(linear.diff(letter), x):
             W = linear.xreplace({letter: sympy.Integer(0)})
     bases = radicands(W)
     # beside roots of numbers, with polynomials in several of these, SymPy takes minutes
-    if bases and all(base.has(x) for base in bases) and not W.has(*_UNKNOWN, sympy.Function):
+    if bases and all(base.free_symbols for base in bases) and not W.has(*_UNKNOWN, sympy.Function):
         return sympy.factor(sympy.cancel(sympy.together(W)))
     return W
 
@@ -203,8 +204,7 @@ def multiple_of(w: Expr, y1: Expr, y2: Expr, x: Expr) -> Expr | None:
     -2*k/x
     """
     w = _with_roots_like(w, y1 * y2, x)
-    W = definition(y1, y2, x)
-    for c in chain(_quotients(W, w, x), _TURNS):
+    for c in chain(_rational_quotient(w, y1, y2, x), _quotients(w, y1, y2, x), _TURNS):
         if _is_wronskian(c * w, y1, y2, x):
             return _simplified(c) * w
     return None
@@ -222,8 +222,22 @@ def _with_roots_like(w: Expr, members: Expr, x: Expr) -> Expr:
     return w.xreplace(turned)
 
 
-def _quotients(W: Expr, w: Expr, x: Expr) -> Iterator[Expr]:
+def _rational_quotient(w: Expr, y1: Expr, y2: Expr, x: Expr) -> Iterator[Expr]:
+    """The rational number of at most nine digits below the line that is nearest to W/w, without letters."""
+    if sympy.Tuple(w, y1, y2).free_symbols - {x}:
+        return
+    with working_digits(2 * DIGITS), suppress(NotImplementedError):
+        (u, du, _), (v, dv, _), (at, _, _) = (jet(e, x, next(points())) for e in (y1, y2, w))
+        quotient = (u * dv - du * v) / at
+        if quotient.is_finite():
+            mantissa, exponent = quotient.real.mid().man_exp()
+            nearest = Fraction(int(mantissa)) * Fraction(2) ** int(exponent)
+            yield rational(nearest.limit_denominator(10**9))
+
+
+def _quotients(w: Expr, y1: Expr, y2: Expr, x: Expr) -> Iterator[Expr]:
     """W/w at the points where it is elementary; last, at the singular ones, where powers that w has cancel."""
+    W = definition(y1, y2, x)
     values = ([finite_value(e, x, point) for e in (W, w)] for point in _POINTS)
     found = (above / below for above, below in values if above is not None and below)
     for quotient in chain(found, _limits(W, w, x)):

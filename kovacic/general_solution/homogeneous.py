@@ -18,7 +18,7 @@ from kovacic.closed_form.way_back import in_x, solution_in_x
 from kovacic.decision import Status
 from kovacic.equation import Equation, Parsed, parameters_of
 from kovacic.errors import LimitExceeded
-from kovacic.general_solution.basis import Basis, kernel, multiple_of
+from kovacic.general_solution.basis import Basis, kernel, multiple_of, vanishing
 from kovacic.general_solution.integrands import NUMBERS
 from kovacic.general_solution.places import limit_points
 from kovacic.general_solution.question import Question
@@ -143,6 +143,12 @@ def _in_special_functions(
     how: dict[str, Any] = {"symbols": question.parameters, "joined": not is_positive}
     found = special_functions(solution.S, solution.gauge, solution.variable, budget, **how)
     pair = found.pair
+    has_integers = any(symbol.is_integer for symbol in question.parameters.values())
+    if has_integers and question.conditions and not limit_points(question):
+        of_any_letters = special_functions(
+            solution.S, solution.gauge, solution.variable, budget, joined=not is_positive
+        )
+        pair = _without_exceptions(of_any_letters.pair, sympy.Symbol(solution.variable)) or pair
     is_asked = not question.conditions or bool(limit_points(question))
     is_asked = is_asked and question.equation.is_homogeneous  # no particular solution is asked for
     if pair is None or is_asked:
@@ -160,6 +166,14 @@ def _in_special_functions(
     if special and not are_independent(pair.y1, pair.y2, sympy.Symbol(solution.variable)):
         raise NotImplementedError(f"{no_solution(solution, question.assumptions)}; {found}")
     return pair
+
+
+def _without_exceptions(pair: WrittenPair | None, x: Expr) -> WrittenPair | None:
+    """A pair that is defined and independent for all values of the letters, as that about an ordinary point; else None."""
+    if pair is None or pair.undefined or pair.wronskian is None:
+        return None
+    constant = pair.wronskian.as_independent(x, as_Add=False)[0]
+    return None if any(True for _ in vanishing(constant)) else pair
 
 
 def _without_second_kind(pair: WrittenPair) -> WrittenPair:

@@ -265,7 +265,7 @@ def real_basis(basis: Basis, point: Expr) -> Basis:
     assert solution is not None
     if not point.is_real:
         return basis
-    best, fewest = basis, len(negative_arguments(basis.y1 * basis.y2, x, point, basis.own))
+    best, fewest = basis, len(negative_arguments(sympy.Tuple(basis.y1, basis.y2), x, point, basis.own))
     writers: list[Callable[[], tuple[Expr, Expr]]] = [lambda: (basis.y1, basis.y2)]
     if basis.form is not None:
         writers.append(partial(pair_at, basis.form, point, basis.own))
@@ -273,7 +273,7 @@ def real_basis(basis: Basis, point: Expr) -> Basis:
         if not fewest:
             break
         y1, y2 = (all_turned(y.xreplace(NUMBERS), x, point, basis.own) for y in write())
-        left = len(negative_arguments(y1 * y2, x, point, basis.own))
+        left = len(negative_arguments(sympy.Tuple(y1, y2), x, point, basis.own))
         are_solutions = all(is_numerical_solution(y, x, solution.S, solution.gauge) for y in (y1, y2))
         if are_solutions and are_independent(y1, y2, x) and (left < fewest or best is basis):
             best, fewest = basis.of(y1, y2), left

@@ -53,13 +53,25 @@ def value_at(expression: Expr, x: Expr, point: Expr, order: int = 0) -> Expr:
 
 
 def _contiguous(e: Expr, x: Expr, point: Expr) -> Iterator[tuple[Expr, Expr]]:
-    """1F1(s + 1; s + 2; z), which derivatives have, as (s + 1)/z (e^z - 1F1(s; s + 1; z)) beside that function."""
-    for f in e.atoms(sympy.hyper):
-        z = f.argument
-        if len(f.ap) != 1 or f.bq != (f.ap[0] + 1,) or z.subs(x, point) == 0:
+    """Functions that derivatives have in those of the expression itself, and of the next degree, which exist for n = 0, too.
+
+    1F1(s + 1; s + 2; z) = (s + 1)/z (e^z - 1F1(s; s + 1; z)), H_n' = 2 x H_n - H_(n+1), and for L_n^(a)'
+    ((n + 1) L_(n+1)^(a) - (n + 1 + a - x) L_n^(a))/x [DLMF 13.3, 18.9].
+    """
+    for f in e.atoms(sympy.hyper, sympy.hermite, sympy.laguerre, sympy.assoc_laguerre):
+        *_, z = f.args
+        if isinstance(f, sympy.hermite):
+            n = f.args[0]
+            yield sympy.hermite(n - 1, z), (2 * z * f - sympy.hermite(n + 1, z)) / (2 * n)
+        elif z.subs(x, point) == 0:
             continue
-        s = f.ap[0]
-        yield sympy.hyper((s + 1,), (s + 2,), z), (s + 1) / z * (sympy.exp(z) - f)
+        elif not isinstance(f, sympy.hyper):
+            n, a = (*f.args[:-1], sympy.Integer(0))[:2]
+            more = sympy.assoc_laguerre(n + 1, a, z)
+            yield sympy.assoc_laguerre(n - 1, a + 1, z), ((n + 1 + a - z) * f - (n + 1) * more) / z
+        elif len(f.ap) == 1 and f.bq == (f.ap[0] + 1,):
+            s = f.ap[0]
+            yield sympy.hyper((s + 1,), (s + 2,), z), (s + 1) / z * (sympy.exp(z) - f)
 
 
 def _just_before(e: Expr, jump: Expr, x: Expr, point: Expr, order: int) -> Expr:

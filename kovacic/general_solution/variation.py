@@ -19,7 +19,7 @@ from kovacic.closed_form.check import DIGITS
 from kovacic.closed_form.form import one_exponential
 from kovacic.errors import LimitExceeded
 from kovacic.general_solution.antiderivatives import antiderivative
-from kovacic.general_solution.basis import Basis, definition, rates, with_single_waves
+from kovacic.general_solution.basis import Basis, rates, with_single_waves
 from kovacic.general_solution.continuity import jumps
 from kovacic.general_solution.integrands import prepared
 from kovacic.general_solution.steps import JUMPING
@@ -50,7 +50,7 @@ class DefiniteIntegral(sympy.Integral):  # type: ignore[misc]
 def at_once(basis: Basis, right: Expr) -> Expr | None:
     """A solution of y'' + ... = right by integrals that are known, substituted before it is returned; None without."""
     right = prepared(right)
-    known = _known_integrals(basis, _integrands(basis, right, basis.wronskian))
+    known = _known_integrals(basis, _integrands(basis, right))
     if any(part is None or part.has(sympy.Integral) for part in known):
         return None
     return _checked(basis, known, right, rates(basis.equation, basis.x))
@@ -60,7 +60,7 @@ def with_integrals(basis: Basis, right: Expr, start: Expr | None) -> Expr:
     """A solution of y'' + ... = right; integrals that aren't known stay, and begin at `start` unless it is None."""
     x = basis.x
     coefficients = rates(basis.equation, x)  # while there is time
-    integrands = [powsimp(integrand) for integrand in _integrands(basis, right, basis.wronskian)]
+    integrands = [powsimp(integrand) for integrand in _integrands(basis, right)]
     known = _known_integrals(basis, integrands)
     if None not in known and basis.equation.change is None:
         whole = _checked(basis, known, right, coefficients)
@@ -71,15 +71,13 @@ def with_integrals(basis: Basis, right: Expr, start: Expr | None) -> Expr:
         opened = [_open(integrand, x, start) if found is None else found for found, integrand in pairs]
         solution = _from_integrals(basis, opened)
         if _is_right(basis, solution, right, coefficients):
-            return solution
-    # The Wronskian may be on another branch.
-    integrands = _integrands(basis, right, with_single_waves(definition(basis.y1, basis.y2, x)))
-    return _from_integrals(basis, [_open(e, x, start) for e in integrands])
+            break
+    return solution
 
 
-def _integrands(basis: Basis, right: Expr, W: Expr) -> list[Expr]:
+def _integrands(basis: Basis, right: Expr) -> list[Expr]:
     """y2 f/(a W) and y1 f/(a W)."""
-    return [y * right / W for y in (basis.y2, basis.y1)]
+    return [y * right / basis.wronskian for y in (basis.y2, basis.y1)]
 
 
 def _from_integrals(basis: Basis, integrals: Sequence[Expr]) -> Expr:

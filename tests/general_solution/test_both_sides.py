@@ -74,7 +74,7 @@ def test_an_answer_left_of_a_root_has_the_right_slope_everywhere(point: str) -> 
     for step in ("1/10", "1/5", "2/5"):
         at = sympy.Rational(point) + sympy.Rational(step)
         ball = kovacic.evaluate(equation, str(at), x0=point, y0=1, dy0=2, digits=20)
-        assert abs(sympy.N(value.subs(x, at), 25) - sympy.Float(str(ball.value.real).split(" ")[0], 25)) < 1e-15
+        assert abs(sympy.N(value.subs(x, at), 25) - sympy.Rational(ball.midpoint[0])) < 1e-15
 
 
 @pytest.mark.parametrize("right", ["0", "x"])
@@ -88,9 +88,21 @@ def test_letters_have_the_signs_that_are_assumed() -> None:
     """On the left of a positive a, in roots and in logarithms; and between -L and L lies 0."""
     circle = kovacic.dsolve("(x^2-a^2)*y'' + x*y' + y = 0", ics="y(0)=1, y'(0)=0", assume={"a": "positive"})
     assert circle.rhs == sympy.cosh(sympy.asin(x / sympy.Symbol("a")))
-    line = kovacic.dsolve("x*(x-a)*y'' + a*y' = 0", ics="y(-1)=1, y(-2)=0", assume={"a": "positive"})
-    assert not line.rhs.has(sympy.I)
+    line = kovacic.answer_to("x*(x-a)*y'' + a*y' = 0", ics="y(-1)=1, y(-2)=0", assume={"a": "positive"})
+    assert not line.eq.has(sympy.I)
     with pytest.raises(kovacic.InputError, match="between -L, L: 0"):
         kovacic.dsolve("x^2*y'' + x*y' - y = 0", ics="y(-L)=1, y(L)=0", assume={"L": "positive"})
     with pytest.raises(kovacic.InputError, match="between -1, 1: 0"):
         kovacic.dsolve("x*(x-a)*y'' + a*y' = 0", ics="y(-1)=1, y(1)=0")
+
+
+@pytest.mark.parametrize("n", range(4))
+def test_values_hold_for_each_natural_number(n: int) -> None:
+    """Also where the derivative has a polynomial of degree n - 1."""
+    for equation in ("x*y'' + (1-x)*y' + n*y = 0", "y'' - 2*x*y' + 2*n*y = 0", "(1-x^2)*y'' - 2*x*y' + n*(n+1)*y = 0"):
+        point = "1" if equation.startswith("x") else "1/2"
+        found = kovacic.answer_to(equation, ics=f"y({point})=2, y'({point})=3", assume={"n": "natural"}).eq.rhs
+        value = found.subs(sympy.Symbol("n"), n)
+        at = sympy.Rational(point)
+        assert abs(sympy.N(value.subs(x, at) - 2, 20)) < 1e-12
+        assert abs(sympy.N(value.diff(x).subs(x, at) - 3, 20)) < 1e-12
