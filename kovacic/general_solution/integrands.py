@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
-from dataclasses import dataclass
 from typing import Any
 
 import sympy
@@ -121,13 +120,15 @@ def _polynomial_radicands(term: Expr, x: Expr) -> list[Expr]:
 
 def _rate(g: Expr, x: Expr) -> Expr:
     """The logarithmic derivative, by factors; that of t (1 + u/t + ...) for a sum t + u + ..."""
-    first, *rest = (_PowerProduct.of(term) for term in sympy.Add.make_args(g))
+    products = [term.as_powers_dict() for term in sympy.Add.make_args(g)]
+    exponents = [powers.pop(sympy.E, sympy.Integer(0)) for powers in products]
+    first = products[0]
     others = sympy.Integer(1)
-    for term in rest:
-        quotient = sympy.Mul(*(base**e for base, e in term.powers), *(base**-e for base, e in first.powers))
-        others += quotient * exp(sympy.cancel(term.exponent - first.exponent))
-    own = first.exponent.diff(x)
-    for base, e in first.powers:
+    for powers, exponent in zip(products[1:], exponents[1:], strict=True):
+        quotient = sympy.Mul(*(base**e for base, e in powers.items()), *(base**-e for base, e in first.items()))
+        others += quotient * exp(sympy.cancel(exponent - exponents[0]))
+    own = exponents[0].diff(x)
+    for base, e in first.items():
         own += _rate_of_power(base, e, x)
     return own + others.diff(x) / others
 
@@ -139,26 +140,6 @@ def _rate_of_power(base: Expr, e: Expr, x: Expr) -> Expr:
     if base.is_Add and base.has(exp) and e.is_Rational:  # as in exp(-x)/(x + 1), which SymPy expands
         return e * _rate(base, x)
     return e * base.diff(x) / base
-
-
-@dataclass(frozen=True)
-class _PowerProduct:
-    """A product of powers (base, e) and exp(exponent)."""
-
-    powers: list[tuple[Expr, Expr]]
-    exponent: Expr
-
-    @classmethod
-    def of(cls, term: Expr) -> _PowerProduct:
-        powers = []
-        exponent = sympy.Integer(0)
-        for factor in sympy.Mul.make_args(term):
-            base, e = factor.as_base_exp()
-            if base is sympy.E:
-                exponent += e
-            else:
-                powers.append((base, e))
-        return cls(powers, exponent)
 
 
 def integral_of_fraction(g: Expr, x: Expr) -> Expr | None:
