@@ -48,7 +48,7 @@ def antiderivative(integrand: Expr, x: Expr) -> Expr | None:
     """int g dx, None where a term isn't of one of these kinds; an `Integral` that isn't elementary beside tangents.
 
     >>> x = sympy.Symbol("x")
-    >>> antiderivative(tan(x) ** 2 + log(x), x)
+    >>> antiderivative(sympy.tan(x) ** 2 + log(x), x)
     x*log(x) - 2*x + tan(x)
     """
     found = _by_rules(integrand, x)
