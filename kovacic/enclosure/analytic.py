@@ -389,7 +389,7 @@ def constant_way(coefficients: Coefficients, problem: NumericProblem | None = No
     """The way by matrices where there is one, else that by power series, over many periods at once where there are any."""
     functions = CoefficientField(coefficients)
     x = coefficients.variable
-    parts = (sympy.sympify(coefficients.a), coefficients.b, coefficients.c)
+    parts = (sympy.sympify(coefficients.a, strict=True), coefficients.b, coefficients.c)
     terms = None if any(part.has(x) for part in parts) else _terms(coefficients.f, x)
     if terms is not None:
         return ConstantWay(functions, problem, terms=terms)

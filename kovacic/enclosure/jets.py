@@ -266,7 +266,9 @@ class CoefficientField:
     def __init__(self, coefficients: Coefficients) -> None:
         self.coefficients = coefficients
         x = coefficients.variable
-        self._parts = [without_removable(part, x) for part in (sympy.sympify(coefficients.a), *coefficients.parts)]
+        self._parts = [
+            without_removable(part, x) for part in (sympy.sympify(coefficients.a, strict=True), *coefficients.parts)
+        ]
         # Of polynomials; 0 for zero.
         self._degrees = [
             max(0, int(sympy.Poly(part, x).degree())) if part != 0 else 0

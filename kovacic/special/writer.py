@@ -10,7 +10,7 @@ from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from fractions import Fraction
 from functools import cached_property, partial
-from typing import Any
+from typing import Any, Protocol
 
 import sympy
 from sympy import Mul, exp
@@ -24,7 +24,6 @@ from kovacic.closed_form.atoms import Atoms, Expr, display, factors, hypergeomet
 from kovacic.closed_form.product import Power, Product, product
 from kovacic.numbers.exact import radical
 from kovacic.special.maps import HALF, Number, half_rate, multiplicities, root
-from kovacic.special.pullback import GaugeTransform
 
 
 @dataclass(frozen=True)
@@ -87,6 +86,22 @@ class WrittenPair:
         return WrittenPair(function(self.y1), function(self.y2), W, tuple(map(function, self.undefined)))
 
 
+class Combined(Protocol):
+    """sqrt(m) (a v + b v'): what a `pullback.GaugeTransform` makes of v."""
+
+    @property
+    def m(self) -> Poly: ...
+
+    @property
+    def a(self) -> RatFunc: ...
+
+    @property
+    def b(self) -> RatFunc: ...
+
+    @property
+    def factor(self) -> RatFunc: ...
+
+
 #: Powers and exponentials, and the special function that they are multiplied with.
 WrittenTerm = tuple[WrittenFactor, Expr]
 
@@ -97,9 +112,7 @@ class Writer:
     With a gauge transformation a v + b v' is written for what would be v without.
     """
 
-    def __init__(
-        self, gauge: RatFunc, x: Any, symbols: Mapping[str, Any], transform: GaugeTransform | None = None
-    ) -> None:
+    def __init__(self, gauge: RatFunc, x: Any, symbols: Mapping[str, Any], transform: Combined | None = None) -> None:
         self.gauge = gauge
         self.transform = transform
         self.atoms = Atoms(x)
@@ -185,7 +198,7 @@ class Writer:
             return WrittenPair(z, y, None if bracket is None else lambda: -P * Q * bracket(), excluded)
         return WrittenPair(y, z, None if bracket is None else lambda: P * Q * bracket(), excluded)
 
-    def _combined(self, transform: GaugeTransform, before: WrittenFactor, function: Expr) -> tuple[Expr, Expr | None]:
+    def _combined(self, transform: Combined, before: WrittenFactor, function: Expr) -> tuple[Expr, Expr | None]:
         """P sqrt(m) ((a + b P'/P) F + b F') over a constant c for v = P F, F' = s F + t F1, F1 another function; P sqrt(m)/c.
 
         Over Q the powers are joined, and c, a number, isn't known.
