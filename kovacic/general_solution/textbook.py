@@ -55,7 +55,17 @@ def in_book_form(value: Expr, x: Expr, *, is_general: bool = False) -> Expr:
         found = shortest([value, *rule(value, x)])
         if found != value:
             value, is_small = found, _is_small(found)
-    return value
+    return _with_equal_roots(value)
+
+
+def _with_equal_roots(value: Expr) -> Expr:
+    """sqrt(c*(4*l - c*r^2)) for sqrt(-c*(c*r^2 - 4*l)) beside it: equal radicands in the shortest of their forms."""
+    forms: dict[Expr, list[Expr]] = defaultdict(list)
+    for base in radicands(value):
+        if not base.is_Symbol and expanded_size(base) <= _LARGEST:
+            forms[sympy.expand(base)].append(base)
+    shortest_forms = {base: min(equal, key=sympy.count_ops) for equal in forms.values() for base in equal}
+    return value.replace(lambda e: e.is_Pow and e.base in shortest_forms, lambda e: shortest_forms[e.base] ** e.exp)
 
 
 def in_hyperbolic_functions(value: Expr) -> Expr:

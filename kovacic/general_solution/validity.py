@@ -59,12 +59,20 @@ class Validity:
         """`x > 0, c**2 - 4*k*m != 0`."""
         if sympy.false in self.real:
             return "no value"
+        signed = {u for e in self.exceptions for u in (e, -e)}
+        # 4*a*c - b^2 > 0 for >= 0 beside != 0; and then no factor of it is zero
+        factors = {
+            r: set(vanishing(r.lhs)) for r in self.real if isinstance(r, sympy.GreaterThan | sympy.StrictGreaterThan)
+        }
+        strict = {r: parts for r, parts in factors.items() if parts and parts <= signed}
+        implied = set().union(*strict.values())
+        real = [r.lhs > 0 if r in strict else r for r in self.real]
         nonzero = []
-        for e in self.exceptions:
+        for e in (e for e in self.exceptions if implied.isdisjoint((e, -e))):
             gamma = 1 / e  # whose poles are the integers up to 0
             is_gamma = isinstance(gamma, sympy.gamma)
             nonzero.append(f"{gamma.args[0]} is none of 0, -1, -2, ..." if is_gamma else f"{e} != 0")
-        return ", ".join([*(f"{r.lhs} != 0" if isinstance(r, sympy.Ne) else str(r) for r in self.real), *nonzero])
+        return ", ".join([*(f"{r.lhs} != 0" if isinstance(r, sympy.Ne) else str(r) for r in real), *nonzero])
 
 
 def needed_for(value: Expr, x: Expr, exceptions: Iterable[Expr] = ()) -> Validity:

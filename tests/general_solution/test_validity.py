@@ -246,3 +246,23 @@ def test_a_particular_solution_is_real_where_the_pair_is(right: str) -> None:
     """log(1 - x) and Ci(1 - x), not log(x - 1) and Ci(x - 1), stand beside log((1 + x)/(1 - x))."""
     found = kovacic.validity(kovacic.dsolve(f"(1-x^2)*y'' - 2*x*y' + 2*y = {right}"))
     assert all(condition.subs(x, sympy.Rational(1, 2)) == True for condition in found.real)  # noqa: E712
+
+
+@pytest.mark.parametrize(
+    ("equation", "needed"),
+    [
+        ("a*y'' + b*y' + c*y = 0", "4*a*c - b**2 > 0, a != 0"),
+        ("L*y'' + R*y' + y/C = 0", "-C**2*R**2 + 4*C*L > 0, L != 0"),
+        ("y'' + k*y = 1", "k > 0"),
+    ],
+)
+def test_at_least_zero_beside_not_zero_is_more_than_zero(equation: str, needed: str) -> None:
+    found = kovacic.validity(kovacic.dsolve(equation, var="x"))
+    assert str(found) == needed
+    assert len(found.exceptions) > needed.count("!=")  # where they are zero another formula holds
+
+
+def test_equal_roots_are_written_alike() -> None:
+    """An oscillating circuit at rest: sqrt(C*(4*L - C*R^2)) beside sqrt(-C*(C*R^2 - 4*L)) before."""
+    current = kovacic.dsolve("L*q'' + R*q' + q/C = E0, q(0)=0, q'(0)=0", var="t").rhs
+    assert len({power.base for power in current.atoms(sympy.Pow) if power.exp in (sympy.S.Half, -sympy.S.Half)}) == 1
