@@ -19,17 +19,24 @@ a rational solution and a term that the constant moves.
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
 import sympy
 
 from kovacic.closed_form.atoms import Atoms, display
 from kovacic.closed_form.product import product
+from kovacic.errors import InputError
 from kovacic.general_solution.antiderivatives import antiderivative
 from kovacic.general_solution.check import is_finite
 from kovacic.general_solution.conditions import Condition
-from kovacic.general_solution.first_order import FirstOrderEquation, GivenValue, check_first_order, value_of
+from kovacic.general_solution.first_order import (
+    FirstOrderEquation,
+    GivenValue,
+    check_first_order,
+    solved_linear,
+    value_of,
+)
 from kovacic.general_solution.integrands import NUMBERS, ratfunc
 from kovacic.general_solution.substitution import size
 from kovacic.general_solution.textbook import in_book_form, over_one_denominator
@@ -82,16 +89,35 @@ def solved_riccati(
     solved_for = equation
     if is_inverted:  # the equation of 1/w
         solved_for = FirstOrderEquation(equation.function, -equation.r, -equation.q, -equation.p)
-    found = _solved_linear(equation, solved_for, value, linear_solution)
+    try:
+        found = _solved_linear(equation, solved_for, value, linear_solution)
+    except InputError:  # a coefficient that isn't rational, nor in a new variable
+        if equation.p != 0:
+            raise
+        return _solved_bernoulli(equation, conditions, value)
     forms = [*_forms(found, solved_for)]
     if is_inverted:
         forms = [1 / w for w in forms]
     forms += [*over_one_denominator(forms[0], equation.x), sympy.signsimp(forms[0])]
+    forms += [-n / -d for n, d in map(sympy.fraction, forms)]
     w = shortest(forms).xreplace(dict.fromkeys(found.constants, equation.constant()))
     if not found.u.has(*found.constants):
         w = in_book_form(w, equation.x)
     unchecked = check_first_order(equation, w, conditions)
     return sympy.Eq(equation.function, w, evaluate=False), found.notices + unchecked
+
+
+def _solved_bernoulli(
+    equation: FirstOrderEquation, conditions: Sequence[Condition], value: GivenValue | None
+) -> tuple[Expr, list[str]]:
+    """The same for w' = q w + r w^2: v = 1/w has v' = -r - q v, and w = 0 through 0."""
+    if value is not None and value.v == 0:
+        return sympy.Eq(equation.function, 0, evaluate=False), []
+    given = [replace(condition, value=1 / value.v) for condition in conditions] if value else []
+    inverse = FirstOrderEquation(equation.function, -equation.r, -equation.q, sympy.S.Zero)
+    found, notices = solved_linear(inverse, given)
+    w = shortest([1 / found.rhs, *over_one_denominator(1 / found.rhs, equation.x)])
+    return sympy.Eq(equation.function, w, evaluate=False), notices + check_first_order(equation, w, conditions)
 
 
 def _solved_linear(

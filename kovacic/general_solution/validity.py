@@ -70,8 +70,12 @@ class Validity:
         nonzero = []
         for e in (e for e in self.exceptions if implied.isdisjoint((e, -e))):
             gamma = 1 / e  # whose poles are the integers up to 0
-            is_gamma = isinstance(gamma, sympy.gamma)
-            nonzero.append(f"{gamma.args[0]} is none of 0, -1, -2, ..." if is_gamma else f"{e} != 0")
+            if not isinstance(gamma, sympy.gamma):
+                nonzero.append(f"{e} != 0")
+            elif gamma.args[0].could_extract_minus_sign():
+                nonzero.append(f"{-gamma.args[0]} is none of 0, 1, 2, ...")
+            else:
+                nonzero.append(f"{gamma.args[0]} is none of 0, -1, -2, ...")
         return ", ".join([*(f"{r.lhs} != 0" if isinstance(r, sympy.Ne) else str(r) for r in real), *nonzero])
 
 

@@ -17,6 +17,7 @@ from dataclasses import dataclass, field, replace
 from enum import IntEnum
 from functools import cached_property, partial
 from itertools import pairwise
+from sys import maxsize
 from typing import Any
 
 from flint import acb, arb, ctx, fmpq
@@ -191,7 +192,7 @@ class _Equation:
         pairs = [pair]
         if self.decision.case == 1 and isinstance(self.structure, Triangular):
             y1 = self._written(replace(self.structure, primitive=OpenPrimitive(""))).y1
-            is_short = len(str(y1)) <= max(len(str(y)) for y in pair)
+            is_short = _length(y1) <= max(map(_length, pair))
             pairs = [*((y1, y2) for y2 in pair if is_short), pair]
         x = Symbol(self.variable)
         # In an irreducible equation what differs by its exponents is independent.
@@ -216,7 +217,7 @@ class _Equation:
                 return form, pair
             if pair is not None:
                 kind = FormKind.INTEGRAL if any(y.has(Integral) for y in pair) else form.kind
-                forms.append(PairForm(kind, sum(len(str(y)) for y in pair), form.write, pair))
+                forms.append(PairForm(kind, sum(map(_length, pair)), form.write, pair))
             elif not forms:
                 forms += self._own_forms()
 
@@ -228,6 +229,14 @@ class _Equation:
         with working_digits(_DIGITS):
             point = _middle_of_the_domain(den)
             return all(jet(y, pair.variable, point)[0].rel_accuracy_bits() > ctx.prec // 2 for y in pair)
+
+
+def _length(y: Any) -> int:
+    """In characters; more than any form has where an integer is longer than Python writes."""
+    try:
+        return len(str(y))
+    except ValueError:
+        return maxsize
 
 
 def _middle_of_the_domain(den: RationalPoly) -> Any:

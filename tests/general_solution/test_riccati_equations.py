@@ -66,7 +66,7 @@ def test_general_solution_and_values(problem: tuple[Any, Any, Any]) -> None:
 
 def test_known_forms() -> None:
     assert kovacic.dsolve("w' = 1 + w^2").rhs == sympy.tan(x + C1)
-    assert kovacic.dsolve("w'(t) = w(t)^2, w(0) = 1/2").rhs == -1 / (sympy.Symbol("t") - 2)
+    assert kovacic.dsolve("w'(t) = w(t)^2, w(0) = 1/2").rhs == 1 / (2 - sympy.Symbol("t"))
     assert kovacic.dsolve("w' = -w^2 + x*w + 1").rhs.has(erf)
 
 
@@ -229,3 +229,28 @@ def test_an_integral_that_stays_has_the_exponential_beside_it(particular: Any, r
     (integral,) = found.atoms(sympy.Integral)
     assert found.atoms(exp) == integral.function.atoms(exp)
     assert found.xreplace({integral: C1}).atoms(exp) == integral.function.atoms(exp)
+
+
+@parametrize(
+    ("h", "r"),
+    [
+        (1 / x, log(x)),
+        (exp(x), log(x)),
+        (1 / (x * log(x)), log(x)),
+        (exp(sympy.sqrt(x)), sympy.Integer(1)),
+        (1 / sympy.sqrt(log(x)), 1 / x),
+        (log(x) ** 2, -1 / x),
+    ],
+    ordinary=2,
+)
+@pytest.mark.parametrize("value", [None, 0, Rational(1, 3)])
+def test_bernoulli_equations_with_functions_in_their_coefficients(h: Any, r: Any, value: Any) -> None:
+    """w' = (h'/h) w + r w^2, whose linear equation of second order isn't rational: 1/w = (C - int h r)/h."""
+    q = sympy.cancel(h.diff(x) / h)
+    ics = None if value is None else {w(2): value}
+    found = kovacic.dsolve(sympy.Eq(w(x).diff(x), q * w(x) + r * w(x) ** 2), ics=ics).rhs.doit()
+    found = found.subs(C1, 3)
+    residual = found.diff(x) - q * found - r * found**2
+    assert abs(sympy.N(residual.subs(x, Rational(7, 3)), 20)) < 1e-12
+    if value is not None:
+        assert abs(sympy.N(found.subs(x, 2) - value, 20)) < 1e-12
