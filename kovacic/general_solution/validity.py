@@ -113,7 +113,7 @@ def _without_weaker(relations: list[Expr]) -> tuple[Expr, ...]:
     """Without e >= 0 and e != 0 beside e > 0, nor u != 0 beside u v > 0; `false` alone where it is one of them."""
     if sympy.false in relations:
         return (sympy.false,)
-    both = [*relations, *map(_of_cosine, relations)]
+    both = [*relations, *(_of_cosine(simpler) for relation in relations for simpler in _of_factors(relation))]
     strict = [relation for relation in both if isinstance(relation, sympy.StrictGreaterThan)]
     nonzero = {u for r in strict for e in (r.lhs, *sympy.Mul.make_args(r.lhs)) for u in (e, -e)}
     left = dict.fromkeys(both[len(relations) :])
@@ -145,6 +145,16 @@ def _is_over_Q(e: Expr, x: Expr) -> bool:
     if not e.is_rational_function(x) or e.atoms(sympy.NumberSymbol):
         return False
     return all(power.exp.is_Integer for power in e.atoms(sympy.Pow))
+
+
+def _of_factors(relation: Expr) -> list[Expr]:
+    """k > 0 and x > 0 for sqrt(k)*sqrt(x)*exp(x/2) > 0, where the roots are real."""
+    if not isinstance(relation, sympy.StrictGreaterThan):
+        return [relation]
+    factors = [f for f in sympy.Mul.make_args(relation.lhs) if not _holds_for_real_symbols(f > 0)]
+    if all(f.is_Pow and f.exp.is_Rational and not f.exp.is_Integer for f in factors):
+        return [f.base > 0 for f in factors]
+    return [sympy.Mul(*factors) > 0]
 
 
 def _of_cosine(relation: Expr) -> Expr:

@@ -266,3 +266,9 @@ def test_equal_roots_are_written_alike() -> None:
     """An oscillating circuit at rest: sqrt(C*(4*L - C*R^2)) beside sqrt(-C*(C*R^2 - 4*L)) before."""
     current = kovacic.dsolve("L*q'' + R*q' + q/C = E0, q(0)=0, q'(0)=0", var="t").rhs
     assert len({power.base for power in current.atoms(sympy.Pow) if power.exp in (sympy.S.Half, -sympy.S.Half)}) == 1
+
+
+@pytest.mark.parametrize(("equation", "needed"), [("y'' = k*y*exp(x)", "k > 0"), ("x*y'' + y' = k*y", "x > 0, k > 0")])
+def test_positive_products_of_roots_are_positive_letters(equation: str, needed: str) -> None:
+    """K0 needs sqrt(k)*sqrt(x) > 0."""
+    assert str(kovacic.validity(kovacic.dsolve(equation, var="x"))) == needed
