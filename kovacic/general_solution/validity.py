@@ -95,18 +95,25 @@ def needed_for(value: Expr, x: Expr, exceptions: Iterable[Expr] = ()) -> Validit
 
 
 def _holds_for_real_symbols(relation: Expr) -> bool:
-    """As exp(x) + 1 != 0, x^2 + 1 > 0 and x + sqrt(x^2 + 1) > 0 do; nothing has to be said then."""
+    """As exp(x) + 1 != 0, x^2 - x + 1 > 0 and x + sqrt(x^2 + 1) > 0 do; nothing has to be said then."""
     real = {symbol: sympy.Dummy(real=True) for symbol in relation.free_symbols if symbol.is_real is None}
     try:
         relation = relation.xreplace(real)
         if isinstance(relation, BooleanAtom):
             return bool(relation)
-        roots, others = sympy.sift(sympy.Add.make_args(relation.lhs), lambda e: e.is_Pow, binary=True)
+        e = relation.lhs
+        if e.has(sympy.I):  # a complex number isn't compared; the sum with its conjugate, which is real, needs nothing
+            return not isinstance(relation, sympy.Ne) or any(p.is_nonzero for p in sympy.expand(e).as_real_imag())
+        if len(e.free_symbols) == 1 and e.is_polynomial():
+            p = sympy.Poly(e, *e.free_symbols)
+            if (p.domain.is_ZZ or p.domain.is_QQ) and p.count_roots() == 0:
+                return isinstance(relation, sympy.Ne) or bool(p.eval(0) > 0)
+        roots, others = sympy.sift(sympy.Add.make_args(e), lambda part: part.is_Pow, binary=True)
         if len(roots) != 1 or roots[0].exp != sympy.S.Half:
             return False
         return bool(sympy.expand(roots[0].base - sympy.Add(*others) ** 2).is_positive)  # sqrt(g) > |f|
-    except TypeError:  # what is complex has no sign
-        return False
+    except TypeError:  # what is complex has no sign, by its i or by what is assumed of letters
+        return bool(relation.has(sympy.I))
 
 
 def _without_weaker(relations: list[Expr]) -> tuple[Expr, ...]:
@@ -142,13 +149,15 @@ def _in_one_interval(relations: tuple[Expr, ...], x: Expr) -> tuple[Expr, ...]:
 
 
 def _is_over_Q(e: Expr, x: Expr) -> bool:
-    if not e.is_rational_function(x) or e.atoms(sympy.NumberSymbol):
+    if not e.is_rational_function(x) or e.has(sympy.NumberSymbol, sympy.CRootOf):
         return False
     return all(power.exp.is_Integer for power in e.atoms(sympy.Pow))
 
 
 def _of_factors(relation: Expr) -> list[Expr]:
-    """k > 0 and x > 0 for sqrt(k)*sqrt(x)*exp(x/2) > 0, where the roots are real."""
+    """k > 0 and x > 0 for sqrt(k)*sqrt(x)*exp(x/2) > 0, where the roots are real; x - a != 0 for a - x != 0."""
+    if isinstance(relation, sympy.Ne) and relation.lhs.could_extract_minus_sign():
+        return [sympy.Ne(-relation.lhs, 0)]
     if not isinstance(relation, sympy.StrictGreaterThan):
         return [relation]
     factors = [f for f in sympy.Mul.make_args(relation.lhs) if not _holds_for_real_symbols(f > 0)]

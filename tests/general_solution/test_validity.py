@@ -272,3 +272,10 @@ def test_equal_roots_are_written_alike() -> None:
 def test_positive_products_of_roots_are_positive_letters(equation: str, needed: str) -> None:
     """K0 needs sqrt(k)*sqrt(x) > 0."""
     assert str(kovacic.validity(kovacic.dsolve(equation, var="x"))) == needed
+
+
+def test_what_has_no_sign_and_what_has_no_zero_need_nothing() -> None:
+    """Conjugate logarithms of complex numbers; x^2 + 3 x + 5; x - r and r - x for one root r."""
+    found = kovacic.validity(kovacic.dsolve("(x^2+3*x+5)*y'' + (x+1/3)*y' + 7*y = log(x^5+x^2-7*x+2)"))
+    assert (str(found), found.claim) == ("x**5 + x**2 - 7*x + 2 > 0", "valid")
+    assert str(kovacic.validity(kovacic.dsolve("y'' - y = 1/(x^7-3*x+1)"))).count("!= 0") == 3
