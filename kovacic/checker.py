@@ -606,7 +606,7 @@ class Reader:
             return self.tower.number(0) - self.expression(3)
         if token == "(":
             values, is_tuple = self.listed()
-            return tuple(values) if is_tuple else values[0]
+            return tuple(values) if is_tuple or not values else values[0]
         return self.tower.number(fmpq(fmpz(token))) if token.isdecimal() else self.named(token)
 
     def listed(self) -> tuple[list[Any], bool]:

@@ -212,7 +212,9 @@ def multiple_of(w: Expr, y1: Expr, y2: Expr, x: Expr) -> Expr | None:
 
 def _with_roots_like(w: Expr, members: Expr, x: Expr) -> Expr:
     """With (1 - x)^e for (x - 1)^e where the members have this root, or not the other one: real about 0 then."""
-    bases = {expand(p.base) for p in members.atoms(sympy.Pow) if not p.exp.is_integer}
+    integrands = [i.function.xreplace({i.variables[0]: x}) for i in members.atoms(sympy.Integral)]
+    roots = sympy.Tuple(members, *integrands).atoms(sympy.Pow)
+    bases = {expand(p.base) for p in roots if not p.exp.is_integer}
     turned = {}
     for p in w.atoms(sympy.Pow):
         base, other = expand(p.base), expand(-p.base)
@@ -256,7 +258,7 @@ def _limits(W: Expr, w: Expr, x: Expr) -> Iterator[Expr]:
 
 def _is_wronskian(W: Expr, y1: Expr, y2: Expr, x: Expr) -> bool:
     """True if W is the Wronskian at a point; in each quadrant and on the axis if there are roots, with their branches."""
-    powers = y1.atoms(sympy.Pow) | y2.atoms(sympy.Pow)
+    powers = sympy.Tuple(W, y1, y2).atoms(sympy.Pow)
     has_branches = any(p.base.has(x) and not p.exp.is_Integer for p in powers)
     with working_digits(2 * DIGITS), suppress(NotImplementedError):
         for point in points() if has_branches else islice(points(), 1):

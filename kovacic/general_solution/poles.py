@@ -125,9 +125,9 @@ def _real_roots(polynomial: Expr, x: Expr) -> list[Expr]:
 
 
 def _below_the_line(e: Expr, x: Expr) -> list[Expr]:
-    """What poles of an expression are zeros of: bases of powers, cosines below tangents and sines below cotangents."""
-    powers = [power for power in e.atoms(sympy.Pow) if power.exp.is_Integer and power.exp < 0]
-    found = [power.base for power in powers]
+    """What singular points of an expression are zeros of: bases of powers, cosines below tangents, what is in logarithms."""
+    powers = [power for power in e.atoms(sympy.Pow) if power.exp.is_Rational and power.exp < 0]
+    found = [power.base for power in powers] + [f.args[0] for f in e.atoms(sympy.log)]
     found += [sympy.cos(f.args[0]) for f in e.atoms(sympy.tan, sympy.sec)]
     found += [sympy.sin(f.args[0]) for f in e.atoms(sympy.cot, sympy.csc)]
     return sorted({base for base in found if base.free_symbols == {x}}, key=str)
