@@ -392,6 +392,7 @@ KNOWN = [
     "pi",
     "sec",
     "sin",
+    "sign",
     "sinh",
     "sqrt",
     "tan",
