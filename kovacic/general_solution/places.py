@@ -286,6 +286,8 @@ def on_one_interval(basis: Basis) -> Basis:
     def needs(*members: Expr) -> tuple[Expr, ...]:
         return needed_for(basis.own(sympy.Add(*members)), basis.x).real
 
+    if not any(_arguments(y, basis.x) or y.has(sympy.hyper) for y in (basis.y1, basis.y2)):
+        return basis  # real everywhere
     if basis.equation.change is not None or sympy.false not in needs(basis.y1, basis.y2):
         return basis
     for point in _INSIDE:
