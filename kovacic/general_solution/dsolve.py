@@ -174,7 +174,7 @@ def dsolve(
     >>> print(dsolve("w' = 1 + w^2"))
     Eq(w(x), tan(C1 + x))
     >>> print(dsolve("w' = 2*w/x + w^2", ics="w(1)=1"))
-    Eq(w(x), -3*x**2/(x**3 - 4))
+    Eq(w(x), 3*x**2/(4 - x**3))
 
     Jumps and constants:
 
