@@ -107,7 +107,7 @@ def _holds_for_real_symbols(relation: Expr) -> bool:
         if len(e.free_symbols) == 1 and e.is_polynomial():
             p = sympy.Poly(e, *e.free_symbols)
             if (p.domain.is_ZZ or p.domain.is_QQ) and p.count_roots() == 0:
-                return isinstance(relation, sympy.Ne) or bool(p.eval(0) > 0)
+                return isinstance(relation, sympy.Ne) or bool(p(0) > 0)
         roots, others = sympy.sift(sympy.Add.make_args(e), lambda part: part.is_Pow, binary=True)
         if len(roots) != 1 or roots[0].exp != sympy.S.Half:
             return False
