@@ -141,6 +141,7 @@ def _in_one_interval(relations: tuple[Expr, ...], x: Expr) -> tuple[Expr, ...]:
     a, b = where.start, where.end
     bounds = [x > a if where.left_open else x >= a] * (a != -sympy.oo)
     bounds += [x < b if where.right_open else x <= b] * (b != sympy.oo)
+    bounds = [bound for bound in bounds if bound != sympy.true]  # of an x that is assumed to be positive
     p = sympy.Dummy(positive=True)
     inside = a + p if b == sympy.oo else b - p if a == -sympy.oo else (a + b * p) / (1 + p)
     places = (inside, *(end for end in (a, b) if end in where))

@@ -279,3 +279,10 @@ def test_what_has_no_sign_and_what_has_no_zero_need_nothing() -> None:
     found = kovacic.validity(kovacic.dsolve("(x^2+3*x+5)*y'' + (x+1/3)*y' + 7*y = log(x^5+x^2-7*x+2)"))
     assert (str(found), found.claim) == ("x**5 + x**2 - 7*x + 2 > 0", "valid")
     assert str(kovacic.validity(kovacic.dsolve("y'' - y = 1/(x^7-3*x+1)"))).count("!= 0") == 3
+
+
+def test_bounds_that_are_assumed_are_not_said() -> None:
+    """-2 < x < 2 is x < 2 for a positive x."""
+    x = sympy.Symbol("x", positive=True)
+    formula = sympy.log(4 - x**2) + sympy.log(5 - x**2) + sympy.log(6 - x**2)
+    assert str(kovacic.validity(sympy.Eq(sympy.Function("y")(x), formula))) == "x < 2"
