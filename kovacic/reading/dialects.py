@@ -13,6 +13,7 @@ from __future__ import annotations
 import re
 from collections.abc import Callable, Sequence
 from itertools import pairwise
+from string import ascii_letters, digits
 
 from kovacic.errors import ParseError
 from kovacic.limits import check_time
@@ -602,6 +603,39 @@ def _bars(scan: Sequence[Token]) -> dict[int, int]:
     return found
 
 
+#: Longer texts aren't asked whether they are plain.
+_LONGEST_PLAIN = 500
+#: This package's own notation alone: whole numbers, single letters with their primes, signs.  Not numbers of lists and
+#: equations, "2) y''", "(2) y''", "y'' = y (2)", nor what may begin a comment.
+_PLAIN = re.compile(
+    r"""
+    (?! \ * (?: [^ (]{1,2}\ *\) | \(\ *\w+\ *\)\  ) | .* (?: \(\ *[0-9]+\ *\)\ *$ | // | -- ) )
+    (?: [0-9]+(?![0-9.eE]) | [A-CF-Za-ce-z](?:'+(?!'))?(?![\w'.]) | \*{1,2}(?!\*) | [(/](?!\*) | =(?!=) | [-+^)\ ] )+
+    """,
+    re.VERBOSE | re.ASCII,
+)
+_PLAIN_TOKEN = re.compile(r"[0-9]+|[A-Za-z]'*|\*\*|[^ ]")
+_PLAIN_KINDS = {**_SIGN_KINDS, **dict.fromkeys(ascii_letters, "NAME"), **dict.fromkeys(digits, "NUMBER")}
+
+
+def plain_tokens(text: str) -> Tokens | None:
+    """What `translated` makes of a text in which there is nothing to translate; None for other texts.
+
+    >>> plain_tokens("y''(x) = -4 y").pieces, plain_tokens("y'' = sin x")
+    (["y''", '(', 'x', ')', '=', '-', '4', 'y', ''], None)
+    """
+    if len(text) > _LONGEST_PLAIN or _PLAIN.fullmatch(text) is None or text.isspace():
+        return None
+    found: list[Token] = []
+    for match in _PLAIN_TOKEN.finditer(text):
+        piece = match[0]
+        kind = _PLAIN_KINDS.get(piece) or ("NUMBER" if piece.isdecimal() else "PRIMED")
+        if piece == "(" and found and found[-1].kind in ("NAME", "PRIMED"):
+            found[-1] = found[-1]._replace(kind="HEAD")
+        found.append(Token(kind, _WRITTEN_AS.get(kind, piece), *match.span()))
+    return Tokens([*found, Token("$END", "", len(text), len(text))], text)
+
+
 def tokenize(text: str) -> Tokens:
     """The tokens of an expression.  Raises `ParseError` for what has no meaning."""
-    return translated(text, rewritten(Tokens(scanned(text)), NOTATIONS))
+    return plain_tokens(text) or translated(text, rewritten(Tokens(scanned(text)), NOTATIONS))

@@ -39,6 +39,7 @@ _PATTERN_SIGNS = {
 _SIGN = re.compile("|".join(_PATTERN_SIGNS))
 
 
+@lru_cache(maxsize=1000)
 def pattern(text: str) -> re.Pattern[str]:
     """A pattern of whole tokens, in the signs above."""
     return re.compile(rf"(?s)(?<!\S)(?:{_SIGN.sub(lambda sign: _PATTERN_SIGNS[sign[0]], text)})(?!\S)")
