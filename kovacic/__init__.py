@@ -25,6 +25,7 @@ _PUBLIC_NAMES = {
     "enclosure.evaluate": ("Prepared", "evaluate", "prepared"),
     "enclosure.monodromy": ("connection_matrix", "monodromy"),
     "enclosure.precision": ("AccuracyWarning",),
+    "enclosure.request": ("Accuracy", "Start"),
     "equation": ("Equation",),
     "errors": (
         "InputError",

@@ -13,6 +13,8 @@ from kovacic.enclosure.evaluate import prepared as prepared
 from kovacic.enclosure.monodromy import connection_matrix as connection_matrix
 from kovacic.enclosure.monodromy import monodromy as monodromy
 from kovacic.enclosure.precision import AccuracyWarning as AccuracyWarning
+from kovacic.enclosure.request import Accuracy as Accuracy
+from kovacic.enclosure.request import Start as Start
 from kovacic.equation import Equation as Equation
 from kovacic.errors import InputError as InputError
 from kovacic.errors import KovacicError as KovacicError

@@ -8,9 +8,8 @@ from __future__ import annotations
 
 import sys
 import warnings
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterator
 from contextlib import contextmanager
-from difflib import get_close_matches
 from functools import partial
 
 
@@ -114,16 +113,6 @@ class VerificationFailed(KovacicError):
 
 class MissingExtra(KovacicError, ImportError):
     """An optional dependency isn't installed; the message has the command that installs it."""
-
-
-def check_keywords(call: str, given: Iterable[str], known: Iterable[str]) -> None:
-    """Raise `TypeError` for an unknown keyword of `call`, as Python does: for functions that hand their keywords on."""
-    known = list(known)
-    for name in given:
-        if name not in known:
-            near = get_close_matches(name, known, n=1)
-            hint = f". Did you mean {near[0]!r}?" if near else ""
-            raise TypeError(f"{call}() got an unexpected keyword argument {name!r}{hint}")
 
 
 #: The package in the index, where the module that is imported has another name.

@@ -220,21 +220,21 @@ _R = TypeVar("_R")
 
 
 def limited(call: Callable[_P, _R]) -> Callable[_P, _R]:
-    """A decorator: the call keeps the limits of its keyword `limits`, or of the object that it is a method of.
+    """A decorator: the call keeps the limits of its keyword `limits`, of its `accuracy`, or of its first argument, an answer.
 
     Every public function is one of these.  `limits=None` is as good as no such keyword.
     """
 
     @wraps(call)
     def within(*arguments: _P.args, **keywords: _P.kwargs) -> _R:
-        own = getattr(arguments[0], "limits", None) if arguments else None
-        limits = own if isinstance(own, Limits) else DEFAULT_LIMITS
-        if "limits" in keywords:
-            if keywords["limits"] is None:
-                del keywords["limits"]
-            else:
-                limits = limits_of(keywords["limits"])
-        with Budget(limits).watched():
+        given: object = keywords.get("limits")
+        if given is None:
+            keywords.pop("limits", None)
+            given = getattr(keywords.get("accuracy"), "limits", None)  # of a `kovacic.Accuracy`
+        if given is None and arguments:
+            own = getattr(arguments[0], "limits", None)
+            given = own if isinstance(own, Limits) else None
+        with Budget(limits_of(given)).watched():
             return call(*arguments, **keywords)
 
     return within

@@ -16,7 +16,7 @@ import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from operator import attrgetter
-from typing import Any, Literal, Required, Unpack
+from typing import Any, Unpack
 
 import numpy as np
 from flint import acb
@@ -27,11 +27,11 @@ from kovacic.doubles.chart import Measured, PieceChart, RationalChart, Region, c
 from kovacic.doubles.product_form import ProductForm, product_form
 from kovacic.doubles.tabulate import TabulatedFunction, table_of
 from kovacic.enclosure.ball import ball_from_flint
-from kovacic.enclosure.evaluate import InitialValues, with_variable
+from kovacic.enclosure.evaluate import with_variable
 from kovacic.enclosure.points import ExactPoint, as_point, to_acb
 from kovacic.enclosure.precision import AccuracyWarning
-from kovacic.enclosure.states import Path
-from kovacic.errors import InputError, LimitExceeded, check_keywords, warn_user
+from kovacic.enclosure.request import Keywords, Path, Request, Start, fields_of
+from kovacic.errors import InputError, LimitExceeded, warn_user
 from kovacic.limits import DEFAULT_LIMITS, Limits, bounded_work, limited
 from kovacic.numbers.exact import exact_real, whole
 
@@ -63,38 +63,14 @@ _PRINTED = ("y1", "y2")
 Function = ProductForm | TabulatedFunction
 
 
-class LambdifyStart(InitialValues, total=False):
-    """Which solution of an equation: the keywords of `lambdify` that say it, beside `x0` and `which`."""
-
-    path: Path
-
-
-class LambdifyOptions(LambdifyStart, total=False):
-    """The keywords of `lambdify`."""
-
-    interval: Required[tuple[object, object]]
-    which: int | Literal["regular", "decaying", "y1", "y2"]
-    careful: bool | None
-    check: bool
-    params: Mapping[str, object] | None
-    var: str | None
-    x0: object
-    limits: Limits | None
-
-
 @limited
 def lambdify(
     solution: object,
     *,
     interval: tuple[object, object],
-    which: int | Literal["regular", "decaying", "y1", "y2"] = 0,
     careful: bool | None = None,
     check: bool = True,
-    params: Mapping[str, object] | None = None,
-    var: str | None = None,
-    x0: object = None,
-    limits: Limits | None = None,
-    **given: Unpack[LambdifyStart],
+    **keywords: Unpack[Keywords],
 ) -> Function:
     """A solution as a vectorised NumPy function in double precision, with its error measured.
 
@@ -113,21 +89,14 @@ def lambdify(
         Without initial values: the number of the logarithmic derivative omega, 0 by default.  In case 1 it numbers the
         conjugates of omega, or the two rational ones; in cases 2 and 3 the roots of the polynomial of omega near the middle of
         the interval, by real and then imaginary part.  The constant factor is that of `kovacic.doubles.product_form`; tables
-        are 1 near the middle.  "y1" or "y2": the solution that `solutions` prints, as a table.  With x0: "regular" or
-        "decaying", as for `kovacic.evaluate`.
+        are 1 near the middle.  "y1" or "y2": the solution that `solutions` prints, as a table.  With x0 the field of `Start`.
     careful : bool or None
         True: the arithmetic is that of double-doubles, 20 times slower; False: that of plain doubles.  By default (None) plain
         doubles, unless the measured error is above 8 (median) or 1,000 (worst) units.
     check : bool
         By default the error is measured; False leaves that out, which is faster, and `measured` is None.
-    params : mapping
-        Rational values of the parameters by name: {"a": 1}.
-    var : str
-        The name of the variable, where an equation is given as text; by default as for `kovacic.solve`.
-    x0, y0, dy0, frobenius, path
-        The solution that starts at x0 in one of the ways of `kovacic.evaluate`, for every equation: it becomes a table.
-    limits : Limits
-        What the work may cost; by default those of `kovacic.Limits()`.
+    initial, path, params, var, limits
+        As for `kovacic.evaluate`, the fields of `initial` as keywords, too: with a start the solution becomes a table.
 
     Returns
     -------
@@ -178,12 +147,14 @@ def lambdify(
     >>> print(f"{J0(2.0):.12f}")
     0.223890779141
     """
-    check_keywords("lambdify", given, LambdifyOptions.__annotations__)
-    start, number = _question(which, x0, given)
+    initial, accuracy, path, params, var = Request.of("lambdify", keywords, unused=("digits", "method"))
+    limits = accuracy.limits
+    which = initial.which
+    start, number = _question(initial, path)
     chart = _chart(with_variable(solution, var, limits, params), start, params, limits)
     region, candidates = chart.region(interval)
     base = None
-    if which in _PRINTED:
+    if isinstance(which, str) and which in _PRINTED:
         chart = replace(chart, given=_printed(solution, which, candidates, params))
     elif not start:
         base = chart.base(number, candidates)
@@ -207,24 +178,22 @@ def lambdify(
     return replace(function, measured=found) if isinstance(found, Measured) else function
 
 
-def _question(which: object, x0: object, given: LambdifyStart) -> tuple[dict[str, Any], int]:
-    """The initial values, if there are any, and else the number of the solution."""
-    start: dict[str, Any] = {**given}
+def _question(initial: Start, path: Path) -> tuple[dict[str, Any], int]:
+    """The keywords of the start and the path, if there are any, and else the number of the solution."""
+    which = initial.which
+    start = fields_of(initial) if path is None else {**fields_of(initial), "path": path}
     number = 0
-    if isinstance(which, str) and which not in _PRINTED:
-        start["which"] = which
-    elif isinstance(which, str) and (start or x0 is not None):
-        raise InputError(f"which={which!r} is a solution without initial values")
-    elif isinstance(which, str):
+    if which in _PRINTED:
+        if len(start) > 1:
+            raise InputError(f"which={which!r} is a solution without initial values")
         return {}, 0
-    else:
-        number = whole(which, "which")
-    if start and x0 is None:
+    if not isinstance(which, str):
+        start.pop("which", None)
+        number = 0 if which is None else whole(which, "which")
+    if start and "x0" not in start:
         raise InputError(f"{', '.join(start)} without a point: x0 is needed", hint="x0=0, y0=1, dy0=0, for instance")
     if start and number:
         raise InputError("which= numbers the solutions where no initial values are given")
-    if x0 is not None:
-        start["x0"] = x0
     return start, number
 
 

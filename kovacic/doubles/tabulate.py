@@ -22,7 +22,6 @@ from __future__ import annotations
 
 import math
 from bisect import bisect_right
-from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from fractions import Fraction
 from functools import cached_property, lru_cache
@@ -37,10 +36,11 @@ from kovacic.algebra.precision import working_precision
 from kovacic.algebra.rationals import to_fmpq
 from kovacic.doubles.chart import BLOCK, Measured, PieceChart, Region, chart_of, facts, in_blocks
 from kovacic.doubles.double_double import Pair, double, folded, halves, horner, scaled, two_sum
-from kovacic.enclosure.evaluate import StartOptions, with_variable
+from kovacic.enclosure.evaluate import with_variable
 from kovacic.enclosure.frame import log2
 from kovacic.enclosure.points import ExactPoint, power_of_two
-from kovacic.errors import InputError, LimitExceeded, check_keywords
+from kovacic.enclosure.request import Keywords, Request, fields_of
+from kovacic.errors import InputError, LimitExceeded
 from kovacic.limits import Limits, check_time, limited, limits_of
 
 _PREC = 300
@@ -256,12 +256,8 @@ def tabulate(
     start: object,
     stop: object,
     *,
-    x0: object,
     careful: bool = True,
-    params: Mapping[str, object] | None = None,
-    var: str | None = None,
-    limits: Limits | None = None,
-    **given: Unpack[StartOptions],
+    **keywords: Unpack[Keywords],
 ) -> TabulatedFunction:
     """One solution on [start, stop] in double precision, perhaps with complex values; the interval must be regular.
 
@@ -272,18 +268,10 @@ def tabulate(
     start, stop : number
         The ends of the interval, real; no singular point lies between them.  Where one is a regular singular point, the table
         begins beside it, at 1.5e-14 of the larger end.
-    x0 : number
-        Where the solution starts; it may lie outside of the interval, and be a singular point.
-    y0, dy0, frobenius, which, path
-        Which solution, as for `kovacic.evaluate`; y0 and dy0 only, where coefficients aren't rational.
     careful : bool
         Double-doubles (the default): a unit in the last place, at 20 times the cost of plain ones.
-    params : mapping
-        Values of the parameters by name.
-    var : str
-        The name of the variable, where the equation is text or a SymPy expression.
-    limits : Limits
-        What the work may cost.
+    initial, path, params, var, limits
+        As for `kovacic.evaluate`, the fields of `initial` as keywords, too; x0 may lie outside of the interval.
 
     Raises
     ------
@@ -301,9 +289,11 @@ def tabulate(
     >>> print(f"{bessel(5.0):.15f}")      # J0(5)
     -0.177596771314338
     """
-    check_keywords("tabulate", given, StartOptions.__annotations__)
-    chart = chart_of(with_variable(equation, var, limits, params), {"x0": x0, **given}, params)
-    return table_of(chart, chart.region((start, stop))[0], careful, limits)
+    initial, accuracy, path, params, var = Request.of("tabulate", keywords, unused=("digits", "method"))
+    chart = chart_of(
+        with_variable(equation, var, accuracy.limits, params), {**fields_of(initial), "path": path}, params
+    )
+    return table_of(chart, chart.region((start, stop))[0], careful, accuracy.limits)
 
 
 def table_of(chart: PieceChart, region: Region, careful: bool, limits: Limits | None) -> TabulatedFunction:

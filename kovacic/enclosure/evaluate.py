@@ -11,50 +11,21 @@ case 1; or FLINT's special functions, where S is a pull-back of their equations)
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Mapping, Sequence, Set
+from collections.abc import Iterable, Mapping, Set
 from dataclasses import replace
 from decimal import Decimal
 from fractions import Fraction
-from typing import Any, Literal, TypedDict, Unpack, overload
+from typing import Any, Literal, Unpack, overload
 
 from kovacic.answer import Answer
 from kovacic.enclosure.ball import Ball
-from kovacic.enclosure.precision import AccuracyWarning, Method, number_of_digits
-from kovacic.enclosure.states import Path, question_of
-from kovacic.errors import InputError, NotRational, check_keywords, warn_user
+from kovacic.enclosure.precision import AccuracyWarning, number_of_digits
+from kovacic.enclosure.request import Keywords, Request, Start, fields_of
+from kovacic.enclosure.states import question_of
+from kovacic.errors import InputError, NotRational, warn_user
 from kovacic.limits import Limits, limited, limits_of
 from kovacic.reading.names import words_among
 from kovacic.reading.source import source_of
-
-
-class InitialValues(TypedDict, total=False):
-    """Values at `x0` that say which solution is meant; see `evaluate`."""
-
-    y0: object
-    dy0: object
-    frobenius: Sequence[object] | None
-
-
-class StartOptions(InitialValues, total=False):
-    """Which solution: the keywords of `evaluate` that say it, beside `x0`, and those of `tabulate`."""
-
-    which: Literal["regular", "decaying"] | None
-    path: Path
-
-
-class Accuracy(TypedDict, total=False):
-    """How well a solution is to be known, and for which values of the parameters; see `evaluate`."""
-
-    params: Mapping[str, object] | None
-    var: str | None
-    digits: int
-    method: Method | None
-    limits: Limits | None
-
-
-class Options(StartOptions, Accuracy, total=False):
-    """The keywords of `evaluate` but `x0` and `derivative`."""
-
 
 OnePoint = str | complex | Fraction | Decimal | Ball
 ManyPoints = list[Any] | tuple[Any, ...] | range
@@ -62,24 +33,24 @@ ManyPoints = list[Any] | tuple[Any, ...] | range
 
 @overload
 def evaluate(
-    equation: object, x: OnePoint, *, x0: object, derivative: Literal[False] = ..., **options: Unpack[Options]
+    equation: object, x: OnePoint, *, derivative: Literal[False] = ..., **keywords: Unpack[Keywords]
 ) -> Ball: ...
 @overload
 def evaluate(
-    equation: object, x: OnePoint, *, x0: object, derivative: Literal[True], **options: Unpack[Options]
+    equation: object, x: OnePoint, *, derivative: Literal[True], **keywords: Unpack[Keywords]
 ) -> tuple[Ball, Ball]: ...
 @overload
 def evaluate(
-    equation: object, x: ManyPoints, *, x0: object, derivative: Literal[False] = ..., **options: Unpack[Options]
+    equation: object, x: ManyPoints, *, derivative: Literal[False] = ..., **keywords: Unpack[Keywords]
 ) -> tuple[Ball, ...]: ...
 @overload
 def evaluate(
-    equation: object, x: ManyPoints, *, x0: object, derivative: Literal[True], **options: Unpack[Options]
+    equation: object, x: ManyPoints, *, derivative: Literal[True], **keywords: Unpack[Keywords]
 ) -> tuple[tuple[Ball, Ball], ...]: ...
 @overload
-def evaluate(equation: object, x: object, *, x0: object, derivative: bool = ..., **options: Unpack[Options]) -> Any: ...
+def evaluate(equation: object, x: object, *, derivative: bool = ..., **keywords: Unpack[Keywords]) -> Any: ...
 @limited
-def evaluate(equation: object, x: object, *, x0: object, derivative: bool = False, **options: Unpack[Options]) -> Any:
+def evaluate(equation: object, x: object, *, derivative: bool = False, **keywords: Unpack[Keywords]) -> Any:
     """A ball that contains y(x) for one solution y of the equation, given by its start at x0.
 
     Numbers are exact: int, Fraction, float and complex (their binary values), Decimal and decimal text, mpmath and SymPy
@@ -96,21 +67,12 @@ def evaluate(equation: object, x: object, *, x0: object, derivative: bool = Fals
         There may be algebraic constants; then no bound is lost, but the start is at a regular point.
     x : number, sequence or array
         Where: a number, a sequence of numbers, or a NumPy array.
-    x0 : number
-        Where the solution starts; infinity is "oo".  A ball, or a constant that isn't rational, stands as x0 of a Frobenius
-        basis for the only singular point that it contains.
     derivative : bool
         With True pairs (y, y') of balls come back.  False by default.
-    y0, dy0 : number
-        y(x0) and y'(x0).
-    frobenius : pair of numbers
-        Instead: (c1, c2) stands for y = c1 y1 + c2 y2 with the Frobenius basis at x0, a regular singular point or an ordinary
-        one, or infinity.  y1 is the dominant one: the leading terms are t^lambda log(t)^k, t = x - x0 (1/x at infinity), by the
-        real part of lambda upwards, and the logarithm first.  Either has the coefficient 1 at its own leading term and 0 at
-        the other's.
-    which : str
-        Instead: "regular" is frobenius=(0, 1), the solution that is smaller than all others at x0; "decaying", with y0, is the
-        one with y(x0) = y0 that becomes smaller than all others as x goes to +infinity.
+    initial : Start
+        The solution: `Start` describes its fields, x0, y0, dy0, which and frobenius, which are keywords here as well.
+    accuracy : Accuracy
+        How accurately: the fields of `Accuracy`, which are digits, method and limits, are keywords as well.
     path : str or sequence of numbers
         By default the straight line from x0 to each x (from infinity: along the line through 0); through a singular point it
         is refused.  "above" or "below" says on which side of the real axis to go around; [v1, v2, ...] goes through these
@@ -119,13 +81,6 @@ def evaluate(equation: object, x: object, *, x0: object, derivative: bool = Fals
         Values of the parameters by name: {"n": "sqrt(2)"}; then the start is at a regular point.
     var : str
         The name of the variable, where the equation is text or a SymPy expression; by default as for `kovacic.solve`.
-    digits : int
-        The accuracy, relative to the value: 15 by default.
-    method : str
-        "taylor" (the equation itself, for all) or "closed form" (the certificate, or FLINT's special functions); by default
-        the one that is faster.
-    limits : Limits
-        What the work may cost.
 
     Returns
     -------
@@ -169,16 +124,15 @@ def evaluate(equation: object, x: object, *, x0: object, derivative: bool = Fals
     >>> evaluate("-1/(4*x^2)", -1, x0=1, y0=1, dy0="1/2", path="above").contains(1j)      # x^(1/2)
     True
     """
-    check_keywords("evaluate", options, Options.__annotations__)
-    return _prepared(equation, x0, options)._values(x, derivative=derivative)
+    return _prepared(equation, Request.of("evaluate", keywords))._values(x, derivative=derivative)
 
 
 class Prepared:
     """One solution, of which values are asked for: made by `prepared`, called with points."""
 
-    def __init__(self, question: Any, start: Mapping[str, object]) -> None:
+    def __init__(self, question: Any, start: Start) -> None:
         self._question = question
-        self._start = dict(start)
+        self._start = start
         self.digits: int = question.digits
 
     @overload
@@ -226,7 +180,7 @@ class Prepared:
         return Prepared(question, self._start)._values(x, derivative=derivative)
 
     def __repr__(self) -> str:
-        start = ", ".join(f"{name}={value}" for name, value in self._start.items() if value is not None)
+        start = ", ".join(f"{name}={value}" for name, value in fields_of(self._start).items())
         return f"<Prepared {start}, {self.digits} digits>"
 
     def _values(self, x: object, *, derivative: bool) -> Any:
@@ -266,7 +220,7 @@ class Prepared:
 
 
 @limited
-def prepared(equation: object, *, x0: object, **options: Unpack[Options]) -> Prepared:
+def prepared(equation: object, **keywords: Unpack[Keywords]) -> Prepared:
     """A solution as a function whose values are balls: what was expanded for one value serves the next ones.
 
     A value of an interval that was passed is that of a polynomial, with its proven error, and takes some tenths of a
@@ -277,9 +231,7 @@ def prepared(equation: object, *, x0: object, **options: Unpack[Options]) -> Pre
     ----------
     equation
         As for `evaluate`.
-    x0 : number
-        Where the solution starts.
-    y0, dy0, frobenius, which, path, params, var, digits, method, limits
+    initial, accuracy, path, params, var
         The solution, its accuracy, and what each call may cost, as for `evaluate`.
 
     Examples
@@ -296,16 +248,13 @@ def prepared(equation: object, *, x0: object, **options: Unpack[Options]) -> Pre
     >>> print([f"{value:.10f}" for value in mathieu([1, 20, 19])])
     ['-0.1436874002', '-0.9028643947', '0.3282230186']
     """
-    check_keywords("prepared", options, Options.__annotations__)
-    return _prepared(equation, x0, options)
+    return _prepared(equation, Request.of("prepared", keywords))
 
 
-def _prepared(equation: object, x0: object, options: Mapping[str, Any]) -> Prepared:
-    """The solution that the keywords describe."""
-    given: dict[str, Any] = {"x0": x0, **options}
-    equation = with_variable(equation, given.pop("var", None), given.get("limits"), given.get("params"))
-    start = {name: given.get(name) for name in ("x0", "y0", "dy0", "frobenius", "which")}
-    return Prepared(question_of(equation, **given), start)
+def _prepared(equation: object, request: Request) -> Prepared:
+    """The solution that is described."""
+    equation = with_variable(equation, request.var, request.accuracy.limits, request.params)
+    return Prepared(question_of(equation, request), request.start)
 
 
 def with_variable(

@@ -32,7 +32,7 @@ from kovacic.closed_form.atoms import Atoms
 from kovacic.enclosure.points import Constant, Number, are_real, in_balls, to_ball
 from kovacic.enclosure.precision import PointValue
 from kovacic.enclosure.problem import Coefficients, NumericProblem, as_problem, change_of
-from kovacic.enclosure.start import Start
+from kovacic.enclosure.start import Origin
 from kovacic.equation import Equation
 from kovacic.errors import LimitExceeded, NotRational
 from kovacic.limits import Limits
@@ -253,11 +253,11 @@ class Substitution:
         """dt/dx at a number, at the working precision in force."""
         return in_balls(self.t.diff(self.x), {self.x: to_ball(x)})
 
-    def start(self, x0: Number, data: tuple[Number, Number]) -> Start:
+    def start(self, x0: Number, data: tuple[Number, Number]) -> Origin:
         """The start in t with these values of y and y'."""
         y, dy = data
         fixed = any(getattr(number, "fixed", False) for number in (dy, x0))
-        return Start(self.image(x0), (y, Constant("y'/t'", lambda: to_ball(dy) / self.slope(x0), fixed)))
+        return Origin(self.image(x0), (y, Constant("y'/t'", lambda: to_ball(dy) / self.slope(x0), fixed)))
 
     def is_real(self, numbers: Sequence[Number]) -> bool:
         """True if these numbers, and t and its derivative there, are real."""

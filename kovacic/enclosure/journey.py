@@ -16,7 +16,7 @@ from kovacic.enclosure.points import ExactPoint, Number, power_of_two
 from kovacic.enclosure.problem import NumericProblem
 from kovacic.enclosure.rational import ClosedWay, sides
 from kovacic.enclosure.singular import Singular
-from kovacic.enclosure.start import Start, middle
+from kovacic.enclosure.start import Origin, middle
 from kovacic.enclosure.way import Traveller, Way
 from kovacic.errors import InputError
 
@@ -33,7 +33,7 @@ class Journey:
     """
 
     way: Way
-    start: Start
+    start: Origin
     vertices: tuple[Number, ...] = ()
     chain: bool = False
     side: str | None = None

@@ -9,7 +9,6 @@ import logging
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from itertools import repeat
-from typing import Literal
 
 from flint import acb, arb
 
@@ -29,9 +28,6 @@ _LOG = logging.getLogger(__name__)
 _BITS_PER_DIGIT = 3.3219280948873626  # log2(10)
 _STEP = 64
 """Precisions by which Taylor's method goes on are multiples of so many bits above the first one."""
-
-Method = Literal["taylor", "closed form"]
-METHODS: tuple[Method, ...] = ("taylor", "closed form")
 
 
 class AccuracyWarning(UserWarning):

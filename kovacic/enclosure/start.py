@@ -26,6 +26,7 @@ from kovacic.enclosure.frame import System, foreseen_growth, frequency
 from kovacic.enclosure.matrices import MatrixProduct, State
 from kovacic.enclosure.points import Constant, ExactPoint, Number, are_real, around_zero, as_number, to_acb, to_ball
 from kovacic.enclosure.problem import NumericProblem
+from kovacic.enclosure.request import Start
 from kovacic.enclosure.singular import Singular
 from kovacic.enclosure.way import NOTHING, Way
 from kovacic.errors import InputError, LimitExceeded
@@ -37,8 +38,9 @@ _SHELL_STARTS = "--y0 and --dy0, or --frobenius C1,C2, or --regular"
 
 
 @dataclass(frozen=True)
-class Start:
-    """A solution: `data` are y and y' at `place`, or its coordinates in the Frobenius basis there; y alone where `decaying`."""
+class Origin:
+    """A `Start` whose numbers were read: `data` are y and y' at `place`, or its coordinates in the Frobenius basis there; y
+    alone where `decaying`."""
 
     place: Number | Singular
     data: tuple[Number, Number]
@@ -84,20 +86,13 @@ def spread_by(coefficients: Callable[[acb], tuple[acb, acb, acb, bool]], number:
     return spread(values, abs(ball - to_acb(middle(number))), state, real=real and are_real([ball, *state]))
 
 
-def read_start(
-    problem: NumericProblem | None,
-    x0: object,
-    *,
-    y0: object,
-    dy0: object,
-    frobenius: Sequence[object] | None,
-    which: str | None,
-) -> Start:
-    """The start that the arguments of `evaluate` describe; without a `problem` for coefficients that are functions of x."""
+def read_start(problem: NumericProblem | None, given: Start) -> Origin:
+    """The solution that is given, its numbers read; without a `problem` for coefficients that are functions of x."""
+    which = given.which
     if which not in (None, "regular", "decaying"):
         raise InputError(f"which = {which!r} isn't known", hint="which='regular' or which='decaying'")
-    has_values = y0 is not None or dy0 is not None
-    has_coordinates = frobenius is not None
+    has_values = given.y0 is not None or given.dy0 is not None
+    has_coordinates = given.frobenius is not None
     if which is not None or has_coordinates:
         if problem is None:
             reason = "whose coefficients are functions of x"
@@ -107,21 +102,22 @@ def read_start(
             reason = "whose constants aren't rational" if problem.embedded is not None else ""
         if reason:
             raise InputError(f"an equation {reason} needs y0 and dy0 at a regular point")
-    if which == "decaying":
-        if dy0 is not None or has_coordinates:
-            raise InputError("the decaying solution is given by y0 alone")
-        place = as_number(x0, "x0")
-        y = ExactPoint(1) if y0 is None else as_number(y0, "y0")
-        return Start(place, (y, ExactPoint(0)), decaying=True)
-    if [has_values, has_coordinates, which == "regular"].count(True) != 1:
+    if which == "decaying" and (given.dy0 is not None or has_coordinates):
+        raise InputError("the decaying solution is given by y0 alone")
+    if which != "decaying" and [has_values, has_coordinates, which == "regular"].count(True) != 1:
         raise InputError("one start is expected", hint=_STARTS, shell=_SHELL_STARTS)
+    if given.x0 is None:
+        raise InputError("the point at which the solution starts is missing", hint="x0=0, for instance", shell="--x0 0")
+    if which == "decaying":
+        y = ExactPoint(1) if given.y0 is None else as_number(given.y0, "y0")
+        return Origin(as_number(given.x0, "x0"), (y, ExactPoint(0)), decaying=True)
     if has_values:
-        if y0 is None or dy0 is None:
+        if given.y0 is None or given.dy0 is None:
             raise InputError("both y0 and dy0 are needed", hint=_STARTS, shell=_SHELL_STARTS)
-        return Start(as_number(x0, "x0"), (as_number(y0, "y0"), as_number(dy0, "dy0")))
+        return Origin(as_number(given.x0, "x0"), (as_number(given.y0, "y0"), as_number(given.dy0, "dy0")))
     assert problem is not None
-    singular = place_of(problem, x0, "x0")
-    return Start(singular, _frobenius_coordinates(singular, frobenius))
+    singular = place_of(problem, given.x0, "x0")
+    return Origin(singular, _frobenius_coordinates(singular, given.frobenius))
 
 
 def _frobenius_coordinates(place: Singular, frobenius: Sequence[object] | None) -> tuple[Number, Number]:

@@ -15,7 +15,7 @@ from contextlib import suppress
 from dataclasses import dataclass
 from functools import lru_cache
 from itertools import pairwise
-from typing import TYPE_CHECKING, Any, Literal
+from typing import TYPE_CHECKING, Any
 
 from flint import acb, arb
 
@@ -26,9 +26,10 @@ from kovacic.enclosure.closed_form import closed_form_of, decided
 from kovacic.enclosure.frame import foreseen_growth, frequency
 from kovacic.enclosure.journey import Journey
 from kovacic.enclosure.points import ExactPoint, Number, as_number, as_point, to_ball
-from kovacic.enclosure.precision import METHODS, Method, PointValue, number_of_digits, raise_precision, start_bits
+from kovacic.enclosure.precision import PointValue, number_of_digits, raise_precision, start_bits
 from kovacic.enclosure.problem import Coefficients, NumericProblem, as_problem, change_of
 from kovacic.enclosure.rational import way_for
+from kovacic.enclosure.request import METHODS, Method, Path, Request, Start
 from kovacic.enclosure.singular import Singular
 from kovacic.enclosure.start import middle, read_start
 from kovacic.enclosure.transport import growth_of_disc
@@ -166,7 +167,6 @@ if TYPE_CHECKING:
 
 _LOG = logging.getLogger(__name__)
 
-Path = Sequence[object] | Literal["chain", "above", "below"] | None
 _NAMED_PATHS = ("chain", "above", "below")
 _APART = arb(2) ** -200  # what is nearer to a singular point can't be told from it
 
@@ -212,27 +212,16 @@ class AskedSolution:
         return raise_precision(journey, targets, None, self.digits, self.limits)
 
 
-def question_of(
-    equation: object,
-    *,
-    x0: object,
-    y0: object = None,
-    dy0: object = None,
-    frobenius: Sequence[object] | None = None,
-    which: str | None = None,
-    params: Mapping[str, object] | None = None,
-    digits: int = 15,
-    method: Method | None = None,
-    path: Path = None,
-    limits: Limits | None = None,
-) -> AskedSolution:
-    """The solution that the keywords of `evaluate` describe."""
-    limits = limits_of(limits)
-    digits = number_of_digits(digits, limits)
+def question_of(equation: object, request: Request) -> AskedSolution:
+    """The solution that is described."""
+    initial, accuracy, path, params, _ = request
+    limits = limits_of(accuracy.limits)
+    digits = 15 if accuracy.digits is None else number_of_digits(accuracy.digits, limits)
+    method = accuracy.method
     if method is not None and method not in METHODS:
         raise InputError(f"unknown method {method!r}", hint=f"one of {', '.join(map(repr, METHODS))}, or None")
-    start = [_comparable(value) for value in (x0, y0, dy0)]
-    given = *start, _comparables(frobenius, "frobenius"), which, _comparables(path, "path")
+    numbers = [_comparable(value) for value in (initial.x0, initial.y0, initial.dy0)]
+    given = _comparables(path, "path"), *numbers, initial.which, _comparables(initial.frobenius, "frobenius")
     if change_of(equation) is None and not isinstance(equation, Coefficients):
         try:
             problem = as_problem(equation, params, forced=True, constants=True)
@@ -250,54 +239,41 @@ def question_of(
 
 def evaluate_states(equation: object, points: Sequence[object], **given: Any) -> tuple[PointValue, ...]:
     """As `evaluate`, with y and y' and the circumstances, for each of `points`."""
-    return question_of(equation, **given).states(points)
+    return question_of(equation, Request.of("evaluate", given)).states(points)
 
 
 @lru_cache(maxsize=32, typed=True)
-def journey_of(
-    problem: NumericProblem,
-    x0: object,
-    y0: object,
-    dy0: object,
-    frobenius: Sequence[object] | None,
-    which: str | None,
-    path: Path,
-) -> Journey:
-    """What doesn't depend on the targets; kept, so that a call for one more point finds the discs that are there."""
+def journey_of(problem: NumericProblem, path: Path, *start: Any) -> Journey:
+    """What doesn't depend on the targets, for the fields of a `Start`; kept, so that a call for one more point finds the discs
+    that are there."""
     vertices = _vertices_of(path)
-    start = read_start(problem, x0, y0=y0, dy0=dy0, frobenius=frobenius, which=which)
-    _check_regular(problem, [n for n in (start.place, *vertices) if not isinstance(n, Singular)])
+    origin = read_start(problem, Start(*start))
+    _check_regular(problem, [n for n in (origin.place, *vertices) if not isinstance(n, Singular)])
     side = path if path in ("above", "below") else None
-    return Journey(way_for(problem), start, vertices, chain=path == "chain", side=side, problem=problem)
+    return Journey(way_for(problem), origin, vertices, chain=path == "chain", side=side, problem=problem)
 
 
 @lru_cache(maxsize=32, typed=True)
 def analytic_journeys(
-    coefficients: Coefficients,
-    x0: object,
-    y0: object,
-    dy0: object,
-    frobenius: Sequence[object] | None,
-    which: str | None,
-    path: Path,
+    coefficients: Coefficients, path: Path, *start: Any
 ) -> tuple[Journey, tuple[Substitution, Journey] | None]:
-    """The same where coefficients are functions of x: in x and, if the path is straight, in t."""
+    """As `journey_of` where coefficients are functions of x: in x and, if the path is straight, in t."""
     if path in ("above", "below"):
         hint = "path=[v1, v2, ...] goes through these vertices"
         raise InputError(f"path={path!r} isn't for equations whose coefficients are functions of x", hint=hint)
     vertices = _vertices_of(path)
-    start = read_start(None, x0, y0=y0, dy0=dy0, frobenius=frobenius, which=which)
+    origin = read_start(None, Start(*start))
     from kovacic.enclosure.analytic import ConstantWay, constant_way
     from kovacic.enclosure.functions import Substitution
 
     way = constant_way(coefficients)
-    journey = Journey(way, start, vertices, chain=path == "chain")
+    journey = Journey(way, origin, vertices, chain=path == "chain")
     change = None if vertices or isinstance(way, ConstantWay) else Substitution.of(coefficients)
-    assert not isinstance(start.place, Singular)
-    if change is None or not change.is_real([start.place]):
+    assert not isinstance(origin.place, Singular)
+    if change is None or not change.is_real([origin.place]):
         return journey, None
-    begun = change.start(start.place, start.data)
-    return journey, (change, journey_of(change.problem, begun.place, *begun.data, None, None, path))
+    begun = change.start(origin.place, origin.data)
+    return journey, (change, journey_of(change.problem, path, begun.place, *begun.data))
 
 
 def _vertices_of(path: Path) -> tuple[Number, ...]:

@@ -6,12 +6,12 @@ This is the top: the methods call the rooms in which the views are computed, and
 from __future__ import annotations
 
 from dataclasses import fields, replace
-from typing import TYPE_CHECKING, Any, Literal, Unpack, overload
+from typing import TYPE_CHECKING, Any, Unpack
 
 from kovacic import derived
 from kovacic.answer import Answer
 from kovacic.api import find_answer
-from kovacic.errors import check_keywords, needs
+from kovacic.errors import needs
 from kovacic.limits import DEFAULT_LIMITS, Limits, limited
 from kovacic.verify import Verification
 
@@ -22,17 +22,15 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
     from kovacic.closed_form.form import ClosedForm
-    from kovacic.doubles.lambdify import LambdifyOptions
     from kovacic.doubles.product_form import ProductForm
     from kovacic.doubles.tabulate import TabulatedFunction
     from kovacic.enclosure.agreement import Agreement
-    from kovacic.enclosure.ball import Ball
-    from kovacic.enclosure.evaluate import ManyPoints, OnePoint, Options, Prepared
+    from kovacic.enclosure.evaluate import Prepared, evaluate
     from kovacic.enclosure.problem import NumericProblem
+    from kovacic.enclosure.request import Keywords
     from kovacic.galois import EquationGroup, Group
     from kovacic.parametric.restriction import GenericConditions
     from kovacic.special.search import SpecialFunctions
-    from kovacic.views.plot import PlotOptions
 
 
 class Solution(Answer):
@@ -129,125 +127,57 @@ class Solution(Answer):
         """y1 and y2, SymPy expressions that solve the equation as given; empty without a Liouvillian solution."""
         return derived.solutions(self)
 
-    @overload
-    def at(self, x: OnePoint, *, x0: object, derivative: Literal[False] = ..., **options: Unpack[Options]) -> Ball: ...
-    @overload
-    def at(
-        self, x: OnePoint, *, x0: object, derivative: Literal[True], **options: Unpack[Options]
-    ) -> tuple[Ball, Ball]: ...
-    @overload
-    def at(
-        self, x: ManyPoints, *, x0: object, derivative: Literal[False] = ..., **options: Unpack[Options]
-    ) -> tuple[Ball, ...]: ...
-    @overload
-    def at(
-        self, x: ManyPoints, *, x0: object, derivative: Literal[True], **options: Unpack[Options]
-    ) -> tuple[tuple[Ball, Ball], ...]: ...
-    @overload
-    def at(self, x: object, *, x0: object, derivative: bool = ..., **options: Unpack[Options]) -> Any: ...
-    @limited
-    def at(self, x: object, *, x0: object, derivative: bool = False, **options: Unpack[Options]) -> Any:
-        """A ball that contains y(x), for the solution y that starts at x0: `kovacic.evaluate` of this equation.
+    if TYPE_CHECKING:
+        at = evaluate
+    else:
 
-        `kovacic.evaluate` describes each keyword, the result, exceptions and warnings.
+        @limited
+        def at(self, x, **keywords):
+            """Balls that contain values of a solution: `kovacic.evaluate` of this equation, with the same keywords.
 
-        Parameters
-        ----------
-        x : number, sequence or array
-            Where; a tuple or an array of balls comes back for a sequence or a NumPy array.
-        x0 : number
-            Where the solution starts.
-        derivative : bool
-            With True, pairs of balls, y and y', come back.  False by default.
-        y0, dy0, frobenius, which, path, params, digits, method, limits
-            The solution, its accuracy, and the limits; y0 and dy0 only unless the coefficients are rational.
+            >>> import kovacic
+            >>> answer = kovacic.solve("x^2 + 3")      # y = x exp(x^2/2) has y(0) = 0, y'(0) = 1
+            >>> print(f"{answer.at(1, x0=0, y0=0, dy0=1):.12f}")
+            1.648721270700
+            """
+            from kovacic.enclosure.evaluate import evaluate
 
-        Examples
-        --------
-        >>> import kovacic
-        >>> answer = kovacic.solve("x^2 + 3")      # y = x exp(x^2/2) has y(0) = 0, y'(0) = 1
-        >>> print(f"{answer.at(1, x0=0, y0=0, dy0=1):.12f}")
-        1.648721270700
-        >>> y, slope = answer.at(1, x0=0, y0=0, dy0=1, derivative=True)
-        >>> print(f"{slope:.12f}")
-        3.297442541400
-        >>> bessel = kovacic.solve("x^2*y'' + x*y' + x^2*y = 0")
-        >>> print([f"{value:.12f}" for value in bessel.at([1, 2], x0=0, which="regular")])
-        ['0.765197686558', '0.223890779141']
-        """
-        from kovacic.enclosure.evaluate import Options, evaluate
+            return evaluate(self, x, **keywords)
 
-        check_keywords("at", options, ["derivative", *Options.__annotations__])
-        return evaluate(self, x, x0=x0, derivative=derivative, **options)
+    def prepared(self, **keywords: Unpack[Keywords]) -> Prepared:
+        """A solution as a function whose values are balls: `kovacic.prepared` of this equation, with the same keywords.
 
-    @limited
-    def prepared(self, *, x0: object, **options: Unpack[Options]) -> Prepared:
-        """The solution that starts at x0 as a function whose values are balls; expansions are kept for later calls.
-
-        Parameters
-        ----------
-        x0 : number
-            Where the solution starts.
-        y0, dy0, frobenius, which, path, params, digits, method, limits
-            The solution, its accuracy, and the limits of each call, as for `kovacic.evaluate`.
-
-        Returns
-        -------
-        Prepared
-            Called with a number, a sequence or an array, `derivative` and `digits`, it returns what `at` does.
-
-        Examples
-        --------
         >>> import kovacic
         >>> airy = kovacic.solve("x").prepared(x0=0, y0=1, dy0=0)
         >>> print(f"{airy(1):.12f}", airy(1, digits=40).digits >= 40)
         1.172299970058 True
         """
-        from kovacic.enclosure.evaluate import Options, prepared
+        from kovacic.enclosure.evaluate import prepared
 
-        check_keywords("prepared", options, Options.__annotations__)
-        return prepared(self, x0=x0, **options)
+        return prepared(self, **keywords)
 
-    @limited
-    def lambdify(self, **options: Unpack[LambdifyOptions]) -> ProductForm | TabulatedFunction:
+    def lambdify(
+        self,
+        *,
+        interval: tuple[object, object],
+        careful: bool | None = None,
+        check: bool = True,
+        **keywords: Unpack[Keywords],
+    ) -> ProductForm | TabulatedFunction:
         """A solution as a vectorised NumPy function in double precision, its error measured.
 
         `kovacic.doubles.lambdify.lambdify` describes each keyword, the result, exceptions and warnings.
 
-        Parameters
-        ----------
-        interval : pair
-            Two real numbers, or two corners of a rectangle of the complex plane (case 1); needed.
-        which : int or str
-            The number of the solution, 0 by default; "y1" or "y2" as `solutions` has them; with x0 "regular" or "decaying".
-        careful : bool or None
-            Double-doubles (True), plain doubles (False), or a choice by the measured error (None, the default).
-        check : bool
-            False leaves the measurement out.  True by default.
-        params, x0, y0, dy0, frobenius, path, limits
-            As for `at`: the solution with these initial values, which every equation has.
-
-        Returns
-        -------
-        ProductForm or TabulatedFunction
-            A function of a number or an array; `measured` is its error.
-
-        Examples
-        --------
         >>> import kovacic
         >>> f = kovacic.solve("x^2 + 3").lambdify(interval=(0, 2))      # x exp(x^2/2)
         >>> print(f"{f(1.0):.12f}", f.measured.worst < 8)
         1.648721270700 True
-        >>> airy = kovacic.solve("x").lambdify(interval=(-9, 2), x0=0, y0=1, dy0=0)
-        >>> print(f"{airy(1.0):.12f}")
-        1.172299970058
         """
         with needs("numeric", "lambdify"):
             from kovacic.doubles.lambdify import lambdify
 
-            return lambdify(self, **options)
+            return lambdify(self, interval=interval, careful=careful, check=check, **keywords)
 
-    @limited
     def plot(
         self,
         start: object,
@@ -255,42 +185,12 @@ class Solution(Answer):
         *,
         title: str | None = None,
         output: str | Path | None = None,
-        **options: Unpack[PlotOptions],
+        points: int = 400,
+        **keywords: Unpack[Keywords],
     ) -> Figure:
-        """A matplotlib figure of proven values over [start, stop]; it isn't shown, except by a notebook.
+        """A matplotlib figure of proven values over [start, stop]; `kovacic.views.plot.plot` describes each keyword.
 
-        Parameters
-        ----------
-        start, stop : number
-            The ends of the interval, real, exact: 0.5 and "1/3"; singular points between them are marked.
-        title : str
-            Above the picture; the equation by default.
-        output : str or Path
-            A file to which the picture is saved; its suffix is png, svg or pdf.
-        x0, y0, dy0 : number
-            The solution with y(x0) = y0 and y'(x0) = dy0, 1 and 0 by default, x0 being `start` by default.  Without any of
-            them y1 and y2 are drawn if they are known, else the solution with the default values at the middle of the longest
-            interval without singular points.  The legend says which.
-        frobenius, which
-            The solution at a singular point x0 instead, as for `kovacic.evaluate`.
-        points : int
-            The least number of samples, 400 by default; more are taken where the solution oscillates or bends.
-        digits : int
-            The accuracy of the samples: 8 by default.
-        params, method, limits
-            As for `kovacic.evaluate`.
-
-        Raises
-        ------
-        InputError
-            Unless start < stop, and as `kovacic.evaluate`.
-
-        Examples
-        --------
         >>> import kovacic
-        >>> figure = kovacic.solve("x^2 + 3").plot(-1, 1, points=20)
-        >>> [line.get_label()[:4] for line in figure.axes[0].get_lines()][:2]
-        ['$y_1', '$y_2']
         >>> figure = kovacic.solve("x").plot(-5, 1, x0=0, y0=1, dy0=0, title="Airy", points=20)
         >>> figure.axes[0].get_title()
         'Airy'
@@ -298,7 +198,7 @@ class Solution(Answer):
         with needs("plot", "a picture"):
             from kovacic.views.plot import plot
 
-            return plot(self, start, stop, title=title, output=output, **options)
+            return plot(self, start, stop, title=title, output=output, points=points, **keywords)
 
     @limited
     def compare_with_monodromy(

@@ -20,7 +20,7 @@ from fractions import Fraction
 from io import BytesIO
 from itertools import pairwise
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, Literal, Unpack
+from typing import TYPE_CHECKING, Any, Unpack
 
 import numpy as np
 
@@ -28,12 +28,13 @@ from kovacic import derived
 from kovacic.answer import Answer
 from kovacic.doubles.chart import PieceChart, chart_of
 from kovacic.doubles.curve import Arc, Envelope, arcs, coefficients
-from kovacic.enclosure.evaluate import Accuracy, InitialValues, with_variable
+from kovacic.enclosure.evaluate import with_variable
 from kovacic.enclosure.functions import as_written
 from kovacic.enclosure.points import ExactPoint, as_point
 from kovacic.enclosure.problem import Coefficients
+from kovacic.enclosure.request import Keywords, Request, Start, fields_of
 from kovacic.equation import Parsed
-from kovacic.errors import InputError, NotRational, check_keywords
+from kovacic.errors import InputError, NotRational
 from kovacic.limits import limited, limits_of
 from kovacic.numbers.exact import has_long_numbers, whole
 from kovacic.numbers.numerals import as_text, plain_text
@@ -72,19 +73,6 @@ _NEAR_IRREGULAR = 0.2
 _RANGE = 4
 
 
-class SampleOptions(InitialValues, Accuracy, total=False):
-    """The keywords of `evaluate` that choose the solution and its accuracy; the path is above the axis."""
-
-    which: Literal["regular", "decaying"] | None
-
-
-class PlotOptions(SampleOptions, total=False):
-    """The keywords of `plot` but the title and the file."""
-
-    x0: object
-    points: int
-
-
 @dataclass(frozen=True)
 class SampledCurve:
     """A solution over an interval, in runs that are separated by singular points; each run is arcs and envelopes in order."""
@@ -92,7 +80,7 @@ class SampledCurve:
     runs: tuple[tuple[Arc | Envelope, ...], ...]
     singular: tuple[complex, ...]
     irregular: tuple[complex, ...]  # those among them beside which solutions are as large as exp(1/distance)
-    x0: object
+    initial: Start  # the values that were missing among them
 
     @property
     def arcs(self) -> list[Arc]:
@@ -109,43 +97,48 @@ def sample(
     start: object,
     stop: object,
     *,
-    x0: object | None = None,
     points: int = 400,
-    **options: Unpack[SampleOptions],
+    **keywords: Unpack[Keywords],
 ) -> SampledCurve:
     """The solution over [start, stop] in proven values; the arguments are those of `plot`.
 
     Raises `InputError` if start isn't below stop, and what `evaluate` raises.
     """
-    check_keywords("sample", options, SampleOptions.__annotations__)
+    return _sampled(equation, start, stop, points, Request.of("sample", keywords, unused=("path",)))
+
+
+def _sampled(equation: object, start: object, stop: object, points: int, request: Request) -> SampledCurve:
+    """As `sample`, of the solution that is described."""
+    initial, accuracy, _, params, var = request
     a, b = _interval_of(start, stop)
     points = whole(points, "points", least=2)
-    asked: dict[str, Any] = {name: value for name, value in options.items() if value is not None}
-    equation = with_variable(equation, asked.pop("var", None), asked.get("limits"), asked.get("params"))
-    chart = chart_of(equation, {}, asked.pop("params", None))
+    equation = with_variable(equation, var, accuracy.limits, params)
+    chart = chart_of(equation, {}, params)
     intervals = _regular_intervals(chart, a, b)
-    if x0 is None:
+    if initial.x0 is None:
         x0 = _middle_of_the_longest(intervals)
-        if {"y0", "dy0"} & {*asked}:
+        if initial.y0 is not None or initial.dy0 is not None:
             x0 = a
             if intervals[0][0] != a:
                 problem = f"the values need a place: {plain_text(a)}, the left end, is a singular point"
                 raise InputError(problem, hint="x0=...", shell="--x0")
-    if "which" not in asked and "frobenius" not in asked:
-        asked = {"y0": 1, "dy0": 0, **asked}
-    digits = asked.pop("digits", 8)
-    limits = asked.pop("limits", None)
-    chart = replace(chart, given={"x0": x0})
+        initial = replace(initial, x0=x0)
+    if initial.which is None and initial.frobenius is None:
+        initial = replace(
+            initial, y0=1 if initial.y0 is None else initial.y0, dy0=0 if initial.dy0 is None else initial.dy0
+        )
+    digits = 8 if accuracy.digits is None else accuracy.digits
+    chart = replace(chart, given=fields_of(initial))
 
     def states(places: Sequence[ExactPoint]) -> Any:
-        return chart.states(list(places), digits, limits, path="above", **asked)
+        return chart.states(list(places), digits, accuracy.limits, path="above", method=accuracy.method)
 
     runs = [tuple(arcs(chart, interval, b - a, points, states)) for interval in intervals]
     singular, irregular = (
         tuple(complex(z) for z in points if max(abs(z.x), abs(z.y)) < _LARGEST_END)
         for points in (chart.singular, chart.irregular)
     )
-    return SampledCurve(tuple(runs), singular, irregular, x0)
+    return SampledCurve(tuple(runs), singular, irregular, initial)
 
 
 def _interval_of(start: object, stop: object) -> tuple[Fraction, Fraction]:
@@ -192,13 +185,43 @@ def plot(
     *,
     title: str | None = None,
     output: str | Path | None = None,
-    **options: Unpack[PlotOptions],
+    points: int = 400,
+    **keywords: Unpack[Keywords],
 ) -> Figure:
     """A figure with the real part over [start, stop], and the imaginary part unless it can't be told from zero.
 
-    `equation` is an answer of `solve`, S or an equation, as for `kovacic.evaluate`, real for real x; `var` is its variable, and
-    `Solution.plot` describes the other keywords.
+    It isn't shown, except by a notebook.
 
+    Parameters
+    ----------
+    equation
+        An answer of `solve`, S or an equation, as for `kovacic.evaluate`, real for real x.
+    start, stop : number
+        The ends of the interval, real, exact: 0.5 and "1/3"; singular points between them are marked.
+    title : str
+        Above the picture; the equation by default.
+    output : str or Path
+        A file to which the picture is saved; its suffix is png, svg or pdf.
+    points : int
+        The least number of samples, 400 by default; more are taken where the solution oscillates or bends.
+    initial : Start
+        The solution; the values are 1 and 0 by default, and x0 is `start`.  Without any of them y1 and y2 of an answer are
+        drawn if they are known, else the solution with these values at the middle of the longest interval without singular
+        points.  The legend says which.
+    accuracy, params, var
+        As for `kovacic.evaluate`.
+
+    Raises
+    ------
+    InputError
+        Unless start < stop, and as `kovacic.evaluate`.
+
+    Examples
+    --------
+    >>> import kovacic
+    >>> figure = kovacic.solve("x^2 + 3").plot(-1, 1, points=20)
+    >>> [line.get_label()[:4] for line in figure.axes[0].get_lines()][:2]
+    ['$y_1', '$y_2']
     >>> figure = plot("a*x", -5, 1, x0=0, y0=1, dy0=0, params={"a": 1}, title="Airy", points=20)
     >>> figure.axes[0].get_title()
     'Airy'
@@ -209,15 +232,16 @@ def plot(
     ...     Path(folder, "wave.svg").exists()
     True
     """
-    check_keywords("plot", options, PlotOptions.__annotations__)
+    request = Request.of("plot", keywords, unused=("path",))
     given = equation
-    if isinstance(equation, str) or options.get("var") is not None:
-        equation = _read_with_variable(equation, options.pop("var", None), options)
+    if isinstance(equation, str) or request.var is not None:
+        equation = _read_with_variable(equation, request)
+        request = request._replace(var=None)
     if title is None:
-        title = _title(equation, given, options.get("params"))
+        title = _title(equation, given, request.params)
     from matplotlib.figure import Figure as NewFigure
 
-    curves = _curves(equation, start, stop, options)
+    curves = _curves(equation, start, stop, points, request)
     low, high = map(float, _interval_of(start, stop))
     lines = [line for label, curve in curves for line in _drawn_parts(label, curve)]
     figure = NewFigure(figsize=(8, 4.8), layout="constrained")
@@ -283,16 +307,16 @@ def _title(equation: object, given: object, params: Mapping[str, object] | None)
     return ",   ".join([_typeset(latex, text), *(_typeset(latex_text(value), value) for value in values)])
 
 
-def _read_with_variable(equation: object, var: str | None, options: Mapping[str, Any]) -> object:
+def _read_with_variable(equation: object, request: Request) -> object:
     """The equation with the name of its variable, which the axis has."""
-    limits = options.get("limits")
-    params = options.get("params") or {}
-    if not isinstance(equation, str) or var is not None:
-        return with_variable(equation, var, limits, params)
+    params = request.params or {}
+    limits = limits_of(request.accuracy.limits)
+    if not isinstance(equation, str) or request.var is not None:
+        return with_variable(equation, request.var, limits, params)
     try:
-        return read_input(equation, limits=limits_of(limits), exponentials=True, names=words_among(params))
+        return read_input(equation, limits=limits, exponentials=True, names=words_among(params))
     except NotRational:
-        return as_written(equation, None, limits_of(limits), words_among(params))
+        return as_written(equation, None, limits, words_among(params))
 
 
 def _axis_names(equation: object) -> tuple[str, str]:
@@ -305,41 +329,41 @@ def _axis_names(equation: object) -> tuple[str, str]:
     return equation.variable if given.change is None else given.change.variable, given.unknown
 
 
-def _curves(equation: object, start: object, stop: object, options: PlotOptions) -> list[tuple[_Label, SampledCurve]]:
+def _curves(
+    equation: object, start: object, stop: object, points: int, request: Request
+) -> list[tuple[_Label, SampledCurve]]:
     """The curves of a picture, each with its name in the legend."""
-    given = {name for name in ("y0", "dy0", "which", "frobenius") if options.get(name) is not None}
-    if isinstance(equation, Answer) and not given:
+    if isinstance(equation, Answer) and not {"y0", "dy0", "which", "frobenius"} & {*fields_of(request.start)}:
         # y1 and y2 solve the homogeneous equation alone.
         is_homogeneous = equation.equation is None or equation.equation.is_homogeneous
-        found = _solution_curves(equation, start, stop, options) if is_homogeneous else []
+        found = _solution_curves(equation, start, stop, points, request) if is_homogeneous else []
         if found:
             return found
-    curve = sample(equation, start, stop, **options)
-    return [(_Label(_name_by_values(_axis_names(equation)[1], options, curve.x0)), curve)]
+    curve = _sampled(equation, start, stop, points, request)
+    return [(_Label(_name_by_values(_axis_names(equation)[1], curve.initial)), curve)]
 
 
-def _name_by_values(y: str, options: PlotOptions, x0: object) -> str:
+def _name_by_values(y: str, initial: Start) -> str:
     """The name of a solution in the legend, by its values or by its behaviour at x0."""
-    at = plain_text(x0)
-    value = "1" if options.get("y0") is None else plain_text(options["y0"])
-    slope = "0" if options.get("dy0") is None else plain_text(options["dy0"])
+    at = plain_text(initial.x0)
+    value = "1" if initial.y0 is None else plain_text(initial.y0)
     value_there = f"{y}({at}) = {value}"
     place = _typeset(latex_text(f"x = {at}"), f"x = {at}")
-    weights = options.get("frobenius")
-    if options.get("which") == "regular":
+    if initial.which == "regular":
         return f"{_typeset(y)} regular at {place}"
-    if weights is not None:
-        c1, c2 = map(plain_text, weights)
+    if initial.frobenius is not None:
+        c1, c2 = map(plain_text, initial.frobenius)
         return f"{_typeset(y)} = ({c1}) {_typeset(f'{y}_1')} + ({c2}) {_typeset(f'{y}_2')} of the Frobenius basis at {place}"
     shown = value_there
     latex = latex_text(value_there)
-    if options.get("which") is None:
+    if initial.which is None:
+        slope = plain_text(initial.dy0)
         shown = f"{shown}, {y}'({at}) = {slope}"
         latex += r",\ " + latex_text(f"{y}'({at}) = {slope}")
     if len(shown) > _LONGEST_LABEL:
         return _typeset(y)
     said = _typeset(latex, shown)
-    return f"{_typeset(y)} decaying, {said}" if options.get("which") == "decaying" else f"{_typeset(y)}, where {said}"
+    return f"{_typeset(y)} decaying, {said}" if initial.which == "decaying" else f"{_typeset(y)}, where {said}"
 
 
 @dataclass(frozen=True)
@@ -358,7 +382,7 @@ class _Label:
 
 
 def _solution_curves(
-    answer: Answer, start: object, stop: object, options: PlotOptions
+    answer: Answer, start: object, stop: object, points: int, request: Request
 ) -> list[tuple[_Label, SampledCurve]]:
     """y1 and y2 of the answer, as the solutions with their values and slopes at x0; empty if these aren't known.
 
@@ -367,13 +391,13 @@ def _solution_curves(
     import sympy
 
     x = sympy.Symbol(_axis_names(answer)[0])
-    pair = _evaluable_pair(answer, x, options.get("params") or {})
+    pair = _evaluable_pair(answer, x, request.params or {})
     if not pair:
         return []
     a, b = _interval_of(start, stop)
-    chart = chart_of(answer, {}, options.get("params"))
+    chart = chart_of(answer, {}, request.params)
     intervals = _regular_intervals(chart, a, b)
-    x0 = options.get("x0")
+    x0 = request.start.x0
     at = _middle_of_the_longest(intervals) if x0 is None else as_point(x0, "x0").re
     digits = 30 + _digits_gained(chart, intervals)
     place = sympy.Rational(at.numerator, at.denominator)
@@ -382,8 +406,8 @@ def _solution_curves(
         return []
 
     def sampled(values: Sequence[Any]) -> SampledCurve:
-        asked: PlotOptions = {**options, "x0": at, "y0": str(values[0]), "dy0": str(values[1])}
-        return sample(answer, start, stop, **asked)
+        initial = Start(at, str(values[0]), str(values[1]))
+        return _sampled(answer, start, stop, points, request._replace(start=initial))
 
     solutions = [(_typeset(f"{_axis_names(answer)[1]}_{k}"), values) for k, values in enumerate(data, start=1)]
     if len(_independent(solutions)) < 2:  # for these values of parameters

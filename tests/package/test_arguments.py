@@ -30,6 +30,7 @@ CALLS: dict[str, tuple[Callable[..., object], tuple[Any, ...], dict[str, Any]]] 
     "tabulate": (kovacic.tabulate, ("x", 0, 1), {**START, "careful": False, "params": None, "limits": None}),
     "at": (POTENTIAL.at, (1,), {**START, "digits": 5, "derivative": True, "path": None, "limits": None}),
     "lambdify": (POTENTIAL.lambdify, (), {"interval": (0, 1), "which": 0, "check": False, "limits": None}),
+    "prepared": (POTENTIAL.prepared, (), {**START, "digits": 5, "path": None, "limits": None}),
     "plot": (POTENTIAL.plot, (0, 1), {"points": 2, "digits": 5, "x0": 0, "title": "y", "limits": None}),
     "compare_with_monodromy": (POTENTIAL.compare_with_monodromy, (), {"digits": 5, "limits": None}),
     "to_json": (POTENTIAL.to_json, (), {"full": False}),
@@ -59,6 +60,51 @@ def test_a_misspelt_keyword_is_refused_by_the_function_that_was_called(name: str
             called = name.replace("Conditions.", "(Conditions|ParametricAnswer).")  # where the data have the method
             with pytest.raises(TypeError, match=rf"\b{called}\(\) got an unexpected keyword argument '{other}'"):
                 function(*positional, **keywords, **{other: value})
+
+
+DOORS: dict[str, Callable[..., object]] = {
+    "evaluate": lambda **given: kovacic.evaluate("-2/(9*x^2)", 2, **given),
+    "prepared": lambda **given: kovacic.prepared("-2/(9*x^2)", **given)(2),
+    "at": lambda **given: kovacic.solve("-2/(9*x^2)").at(2, **given),
+    "Solution.prepared": lambda **given: kovacic.solve("-2/(9*x^2)").prepared(**given)(2),
+    "tabulate": lambda **given: kovacic.tabulate("-2/(9*x^2)", 1, 3, **given)(2.0),
+    "lambdify": lambda **given: kovacic.solve("-2/(9*x^2)").lambdify(interval=(1, 3), **given)(2.0),
+    "plot": lambda **given: kovacic.solve("-2/(9*x^2)").plot(1, 3, points=4, **given).axes[0].get_lines()[0].get_ydata()[-1],
+}  # fmt: skip
+
+
+@pytest.mark.parametrize(
+    "start", [{"x0": 1, "y0": 2, "dy0": "1/3"}, {"x0": 0, "which": "regular"}, {"x0": 0, "frobenius": (1, 2)}]
+)
+@pytest.mark.parametrize("door", DOORS)
+def test_an_object_says_what_its_fields_say_as_keywords(door: str, start: dict[str, Any]) -> None:
+    call = DOORS[door]
+    expected = str(call(**start))
+    assert str(call(initial=kovacic.Start(**start))) == expected
+    assert (
+        str(call(initial=kovacic.Start(**{**start, "x0": 5}), x0=start["x0"])) == expected
+    )  # a keyword replaces a field
+    with pytest.raises(InputError, match=r"a kovacic\.Start is expected, not 'dict'"):
+        call(initial=start)
+    with pytest.raises(InputError, match=r"a kovacic\.Accuracy is expected, not 'int'"):
+        call(accuracy=20, **start)
+    with pytest.raises(kovacic.LimitExceeded, match="time limit of 0 s"):
+        call(accuracy=kovacic.Accuracy(limits=Limits(seconds=0)), **start)
+    if door in ("tabulate", "lambdify"):
+        with pytest.raises(TypeError, match="unexpected keyword argument 'digits'"):
+            call(accuracy=kovacic.Accuracy(digits=30), **start)
+    else:
+        accurate = {"digits": 30, "method": "taylor"}
+        assert str(call(accuracy=kovacic.Accuracy(**accurate), **start)) == str(call(**accurate, **start))
+
+
+@pytest.mark.parametrize(
+    "start", [{"y0": 1, "dy0": 0}, {"which": "regular"}, {"which": "decaying"}, {"frobenius": (1, 0)}]
+)
+def test_a_start_needs_its_point(start: dict[str, Any]) -> None:
+    for door in ("evaluate", "prepared", "at", "tabulate"):
+        with pytest.raises(InputError, match="the point at which the solution starts is missing"):
+            DOORS[door](**start)
 
 
 @pytest.mark.parametrize("given", [{"seconds": 1}, 1, "seconds=1", {}, Limits])
