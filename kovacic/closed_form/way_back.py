@@ -79,14 +79,13 @@ def _continued(expression: Any, t: Any) -> Any:
 
 
 def solution_in_x(equation: Equation, y: Any) -> Any:
-    """The same for a solution, up to a number as a factor."""
+    """A solution in t as one in x, without a constant factor that is never zero."""
     if equation.change is None:
         return y
     result = in_x(equation, y)
-    if not result.free_symbols:
-        return result
-    number, rest = result.as_independent(*result.free_symbols, as_Add=False)
-    return rest if number.is_number else result
+    constant, rest = result.as_independent(user_variable(equation), as_Add=False)
+    kept = sympy.Mul(*(f for f in sympy.Mul.make_args(constant) if not (f.is_number or f.as_base_exp()[0].is_number)))
+    return kept * rest
 
 
 def _in_powers_of_x(expression: Any, own: Any, k: Any, x: Any) -> Any:
@@ -116,8 +115,11 @@ def with_roots_of_factors(expression: Any, x: Any) -> Any:
     for power in expression.atoms(sympy.Pow):
         is_root = power.exp.is_Rational and not power.exp.is_Integer
         if is_root and not power.has(x):
-            factored = sympy.factor(power.base) ** power.exp
-            forced[power] = sympy.powdenest(sympy.expand_power_base(factored, force=True), force=True)
+            factored = sympy.factor(power.base)
+            sums = [f for f in sympy.Mul.make_args(factored) if f.is_Add]
+            if sums and factored.as_coeff_Mul()[0] < 0:  # sqrt(1 - 4*b)/n, and no i
+                factored = sympy.Mul(-factored / sympy.Mul(*sums), sympy.expand(-sympy.Mul(*sums)))
+            forced[power] = sympy.powdenest(sympy.expand_power_base(factored**power.exp, force=True), force=True)
     return expression.xreplace(forced)
 
 

@@ -11,7 +11,7 @@ Reference: DLMF 4.2, 4.23, 4.37 (logarithms, inverse functions), 6.4 (Ei, Ci), 8
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Iterator
+from collections.abc import Callable, Collection, Iterable, Iterator
 from dataclasses import dataclass
 from functools import partial
 from typing import Any
@@ -81,17 +81,40 @@ class Validity:
 
 def needed_for(value: Expr, x: Expr, exceptions: Iterable[Expr] = ()) -> Validity:
     """What a formula needs, part by part; `exceptions` are those of the pair of solutions in it."""
-    relations = dict.fromkeys(needs_of(value))
+    value, roots = _without_even_roots(value, x)
+    relations = dict.fromkeys(relation.xreplace(roots) for relation in needs_of(value))
     of_letters = [r for r in relations if isinstance(r, sympy.Ne) and not r.has(x)]
     on_x = [r for r in relations if r not in of_letters and not _holds_for_real_symbols(r)]
     nonzero = [factor for relation in of_letters for factor in vanishing(relation.lhs)]
     nonzero += [e for e in exceptions if not is_nowhere_zero(e)]
-    positive = {r.lhs for r in on_x if isinstance(r, sympy.StrictGreaterThan)}
-    nonzero = [e for e in nonzero if positive.isdisjoint((e, -e))]
+    real = _in_one_interval(_without_weaker(on_x), x)
+    positive = {r.lhs for r in real if isinstance(r, sympy.StrictGreaterThan)}
+    factors = {factor for e in positive for factor in (e, *sympy.Mul.make_args(e))}
+    nonzero = [e for e in nonzero if factors.isdisjoint((e, -e))]
     # The bounds of an integral may be infinite.
     numbers = (node for node in sympy.preorder_traversal(value) if node.is_number)
     is_of_real_numbers = all(number.is_extended_real for number in numbers)
-    return Validity(_in_one_interval(_without_weaker(on_x), x), without_implied(nonzero), is_of_real_numbers)
+    return Validity(real, without_implied(nonzero), is_of_real_numbers)
+
+
+def _without_even_roots(value: Expr, x: Expr) -> tuple[Expr, dict[Expr, Expr]]:
+    """With a real letter for a root of letters in which the formula is even, real for a negative radicand as well; the roots.
+
+    2F1(a + s, a - s; c; z) is a power series in s^2 with real coefficients.
+    """
+    roots = {}
+    for radicand in {p.base for p in value.atoms(sympy.Pow) if (2 * p.exp).is_odd and p.free_symbols and not p.has(x)}:
+        s = sympy.Dummy(real=True)
+        in_s = value.replace(lambda e: e.is_Pow and e.base == radicand, lambda e: s ** (2 * e.exp))  # noqa: B023
+        if _in_order(in_s) == _in_order(in_s.xreplace({s: -s})):
+            value = in_s
+            roots[s] = sympy.sqrt(radicand)
+    return value, roots
+
+
+def _in_order(e: Expr) -> Expr:
+    """With the upper parameters of hypergeometric functions, which are symmetric in these, in order."""
+    return e.replace(sympy.hyper, lambda top, *rest: sympy.hyper(sorted(top, key=sympy.default_sort_key), *rest))
 
 
 def _holds_for_real_symbols(relation: Expr) -> bool:
@@ -120,11 +143,13 @@ def _without_weaker(relations: list[Expr]) -> tuple[Expr, ...]:
     """Without e >= 0 and e != 0 beside e > 0, nor u != 0 beside u v > 0; `false` alone where it is one of them."""
     if sympy.false in relations:
         return (sympy.false,)
-    both = [*relations, *(_of_cosine(simpler) for relation in relations for simpler in _of_factors(relation))]
-    strict = [relation for relation in both if isinstance(relation, sympy.StrictGreaterThan)]
-    nonzero = {u for r in strict for e in (r.lhs, *sympy.Mul.make_args(r.lhs)) for u in (e, -e)}
-    left = dict.fromkeys(both[len(relations) :])
-    return tuple(relation for relation in left if relation in strict or relation.lhs not in nonzero)
+    known = {r.lhs for r in relations if isinstance(r, sympy.GreaterThan | sympy.StrictGreaterThan)}
+    simpler = (_of_cosine(part) for relation in relations for part in _of_factors(relation, known))
+    left = dict.fromkeys(part for part in simpler if not _holds_for_real_symbols(part))
+    positive = {r.lhs for r in left if isinstance(r, sympy.StrictGreaterThan)}
+    nonzero = {u for e in positive for factor in (e, *sympy.Mul.make_args(e)) for u in (factor, -factor)}
+    implied = {sympy.Ne: nonzero, sympy.GreaterThan: positive}  # x >= 0 isn't implied by a x > 0
+    return tuple(relation for relation in left if relation.lhs not in implied.get(relation.func, ()))
 
 
 def _in_one_interval(relations: tuple[Expr, ...], x: Expr) -> tuple[Expr, ...]:
@@ -155,21 +180,25 @@ def _is_over_Q(e: Expr, x: Expr) -> bool:
     return all(power.exp.is_Integer for power in e.atoms(sympy.Pow))
 
 
-def _of_factors(relation: Expr) -> list[Expr]:
-    """k > 0 and x > 0 for sqrt(k)*sqrt(x)*exp(x/2) > 0, where the roots are real; x - a != 0 for a - x != 0."""
+def _of_factors(relation: Expr, known: Collection[Expr]) -> list[Expr]:
+    """k > 0 and x > 0 for sqrt(k)*sqrt(x)*exp(x/2) > 0, and for k*x > 0 beside k >= 0; x - a != 0 for a - x != 0.
+
+    `known` are those of which it is said that they aren't negative; roots and powers are real.
+    """
     if isinstance(relation, sympy.Ne) and relation.lhs.could_extract_minus_sign():
         return [sympy.Ne(-relation.lhs, 0)]
     if not isinstance(relation, sympy.StrictGreaterThan):
         return [relation]
     factors = [f for f in sympy.Mul.make_args(relation.lhs) if not _holds_for_real_symbols(f > 0)]
-    if all(f.is_Pow and f.exp.is_Rational and not f.exp.is_Integer for f in factors):
-        return [f.base > 0 for f in factors]
-    return [sympy.Mul(*factors) > 0]
+    bases = {f: f.base if f.is_Pow and not f.exp.is_Integer else f for f in factors}
+    apart = [base for f, base in bases.items() if base in known or (f != base and f.exp.is_Rational)]
+    rest = sympy.Mul(*(f for f, base in bases.items() if base not in apart))
+    return [base > 0 for base in (*apart, rest) if base != 1]
 
 
 def _of_cosine(relation: Expr) -> Expr:
     """cos(u) != 0 for (1 + sin(u))*(1 - sin(u)) > 0, and other products of sums with waves as one wave."""
-    if not isinstance(relation, sympy.StrictGreaterThan) or not relation.lhs.is_Mul or not relation.lhs.has(sin, cos):
+    if not isinstance(relation, sympy.StrictGreaterThan) or not relation.lhs.has(sin, cos):
         return relation
     product = sympy.expand(relation.lhs)
     powers = (square.as_base_exp() for square in (TR5(product), TR6(product)))

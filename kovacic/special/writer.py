@@ -54,7 +54,7 @@ class WrittenPair:
 
     y1: Expr
     y2: Expr
-    known_wronskian: Callable[[], Expr] | None = field(default=None, compare=False, repr=False)
+    known_wronskian: Callable[[], Expr | None] | None = field(default=None, compare=False, repr=False)
     undefined: tuple[Expr, ...] = ()
 
     @cached_property
@@ -82,8 +82,11 @@ class WrittenPair:
         WrittenPair
             The pair of the images.
         """
-        W = None if self.known_wronskian is None else lambda: function(self.wronskian)
-        return WrittenPair(function(self.y1), function(self.y2), W, tuple(map(function, self.undefined)))
+
+        def wronskian() -> Expr | None:
+            return None if self.wronskian is None else function(self.wronskian)
+
+        return WrittenPair(function(self.y1), function(self.y2), wronskian, tuple(map(function, self.undefined)))
 
 
 class Combined(Protocol):

@@ -1,0 +1,85 @@
+"""Equations with letters, as handbooks list them: what is printed is a real solution wherever it is said to be one.
+
+The letters and x are drawn at random from small rational numbers; where the printed relations hold, the printed formula is real
+and satisfies the equation, and there are such places.  The equations are of the kinds in A. D. Polyanin and V. F. Zaitsev,
+Handbook of Exact Solutions for Ordinary Differential Equations, section 2.1.
+"""
+
+from __future__ import annotations
+
+from random import Random
+from typing import Any
+
+import mpmath
+import sympy
+from build import parametrize
+
+import kovacic
+
+POLYNOMIALS = """
+y''+a*y=0 | y''-(a*x+b)*y=0 | y''-(a^2*x^2+a)*y=0 | y''-(a*x^2+b)*y=0 | y''+a^3*x*(2-a*x)*y=0 | y''+a*y'+b*y=0
+y''+a*y'+(b*x+c)*y=0 | y''+x*y'+(n+1)*y=0 | y''-2*x*y'+2*n*y=0 | y''+a*x*y'+b*y=0 | y''+a*x*y'+b*x*y=0
+y''+2*a*x*y'+(b*x^4+a^2*x^2+c*x+a)*y=0 | y''+(a*x+b)*y'-a*y=0 | y''+(a*x+b)*y'+a*y=0 | y''+(a*x+b)*y'+c*((a-c)*x+b)*y=0
+y''+(a*x+2*b)*y'+(a*b*x-a+b^2)*y=0 | y''+a*(x^2-b^2)*y'-a*(x+b)*y=0 | y''+(a*x^2+b)*y'+c*(a*x^2+b-c)*y=0
+y''+(a*x^2+2*b)*y'+(a*b*x^2-a*x+b^2)*y=0 | y''+(a*b*x^2+b*x+2*a)*y'+a^2*(b*x^2+1)*y=0
+x*y''+a*y'+b*y=0 | x*y''+a*y'+b*x*y=0 | x*y''+a*x*y'+a*y=0 | x*y''+(b-x)*y'-a*y=0 | x*y''+(2*a*x+b)*y'+a*(a*x+b)*y=0
+x*y''+((a+b)*x+n+m)*y'+(a*b*x+a*n+b*m)*y=0 | x*y''-(2*a*x+1)*y'+(b*x^3+a^2*x+a)*y=0 | x*y''+(a*x^2+b*x+2)*y'+b*y=0
+x*y''+(a*x^2+b)*y'+a*(b-1)*x*y=0 | x*y''-(a*x^2+1)*y'+b*x^3*y=0 | x^2*y''+a*y=0 | x^2*y''+(a*x^2+b)*y=0
+x^2*y''-(a^2*x^2+n*(n+1))*y=0 | x^2*y''-(a*x^2+b*x+c)*y=0 | x^2*y''+a*x*y'+b*y=0 | x^2*y''+x*y'+(x^2-n^2)*y=0
+(1-x^2)*y''-x*y'+n^2*y=0 | (1-x^2)*y''-2*x*y'+n*(n+1)*y=0 | (x^2-1)*y''+a*y=0 | (x^2+a^2)*y''+b^2*y'=0
+(1-x^2)*y''+(b-a-(a+b+2)*x)*y'+n*(n+a+b+1)*y=0 | (a*x^2+b)*y''+a*x*y'+c*y=0 | (x^2+a)*y''+2*b*x*y'+2*(b-1)*y=0
+x*(x-1)*y''+((a+b+1)*x-c)*y'+a*b*y=0 | x^4*y''+a*y=0 | x^4*y''-(a+b)*x^2*y'+((a+b)*x+a*b)*y=0 | x^6*y''-x^5*y'+a*y=0
+"""
+POWERS = """
+y''-a*x^n*y=0 | y''+a*x^n*y'=0 | y''-a*(a*x^(2*n)+n*x^(n-1))*y=0 | y''-a*x^(n-2)*(a*x^n+n+1)*y=0
+y''+a*x^n*y'+b*x^(n-1)*y=0 | y''+2*a*x^n*y'+a*(a*x^(2*n)+n*x^(n-1))*y=0 | x*y''+n*y'+b*x^(1-2*n)*y=0
+x*y''+(1-3*n)*y'-a^2*n^2*x^(2*n-1)*y=0 | x^2*y''+(a*x^n+b)*y=0 | x^2*y''+(a^2*x^(2*n)+b^2)*y=0
+x^2*y''+a*x*y'+(b*x^n+c)*y=0
+"""
+FUNCTIONS = """
+y''+(a*exp(x)-b)*y=0 | y''-(exp(2*x)+a*exp(x)+b)*y=0 | y''+a*exp(x)*y'+b*exp(x)*y=0 | y''-a*y'+b*exp(2*a*x)*y=0
+y''+2*k*exp(x)*y'+k*exp(x)*(k*exp(x)+1)*y=0 | y''+a*tan(x)*y'+b*y=0 | y''+tan(x)*y'-a*(a-1)*cot(x)^2*y=0
+y''-n*(n-1)/cos(x)^2*y=0 | y''-(a^2+n*(n-1)/sin(x)^2)*y=0 | y''+a*tanh(x)*y'+b*y=0
+"""
+LETTERS = [*map(sympy.Rational, ("1/3", "2", "-3/2", "5/7", "3", "-1/4", "7/2", "1", "-2", "9/5"))]
+POINTS = [*map(sympy.Rational, ("1/7", "3/5", "-2/5", "13/10", "-7/4", "12/5", "4", "-5"))]
+#: What mpmath has as a derivative.
+AIRY = {f"airy{k}prime": lambda z, k=k: getattr(mpmath, f"airy{k}")(z, derivative=1) for k in ("ai", "bi")}
+#: Places that are drawn, and places at which the formula is evaluated.
+DRAWN, ENOUGH = 400, 4
+
+
+def _equations(*lists: str) -> list[str]:
+    return [text.strip() for text in " | ".join(lists).replace("\n", " | ").split("|") if text.strip()]
+
+
+def _holds(found: kovacic.Validity, place: dict[Any, Any]) -> bool:
+    values = [e.subs(place) for e in found.exceptions]
+    return all(r.subs(place) == sympy.true for r in found.real) and all(v.is_finite and v != 0 for v in values)
+
+
+def _number(e: Any, place: dict[Any, Any]) -> Any:
+    """At the place; an antiderivative may have any value at one point."""
+    e = e.replace(sympy.Integral, lambda *_: sympy.Rational(3, 7))
+    return mpmath.mpmathify(sympy.lambdify([], e.xreplace(place), [AIRY, "mpmath"])())
+
+
+@parametrize("text", _equations(POLYNOMIALS, POWERS, FUNCTIONS), ordinary=8)
+def test_what_is_printed_is_real_and_a_solution_where_it_says_so(text: str) -> None:
+    answer = kovacic.answer_to(text)
+    y, x = answer.eq.rhs, answer.eq.lhs.args[0]
+    constants = dict(zip(answer.names, (sympy.Integer(2), sympy.Rational(-3, 7)), strict=True))
+    a, b, c, f = (e.xreplace({answer.question.x: x}) for e in answer.question.coefficients)
+    letters = sorted(sympy.Tuple(y, a, b, c).free_symbols - {x, *constants}, key=str)
+    random = Random(text)
+    drawn = ({x: random.choice(POINTS), **{s: random.choice(LETTERS) for s in letters}} for _ in range(DRAWN))
+    places = [place for place in drawn if _holds(answer.validity, place)][:ENOUGH]
+    assert places, answer.validity
+    derivatives = [y.xreplace(constants).diff(x, k) for k in (0, 1, 2)]
+    with mpmath.workdps(40):
+        for place in places:
+            y0, y1, y2 = (_number(e, place) for e in derivatives)
+            assert abs(mpmath.im(y0)) <= 1e-12 * abs(y0) + 1e-25, (place, y0, answer.validity)
+            A, B, C = (_number(e, place) for e in (a, b, c))
+            terms = [A * y2, B * y1, C * y0]
+            assert abs(sum(terms)) <= 1e-20 * sum(map(abs, terms)), (place, answer.validity)
