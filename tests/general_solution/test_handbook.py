@@ -69,7 +69,7 @@ def test_what_is_printed_is_real_and_a_solution_where_it_says_so(text: str) -> N
     answer = kovacic.answer_to(text)
     y, x = answer.eq.rhs, answer.eq.lhs.args[0]
     constants = dict(zip(answer.names, (sympy.Integer(2), sympy.Rational(-3, 7)), strict=True))
-    a, b, c, f = (e.xreplace({answer.question.x: x}) for e in answer.question.coefficients)
+    a, b, c, _ = (e.xreplace({answer.question.x: x}) for e in answer.question.coefficients)
     letters = sorted(sympy.Tuple(y, a, b, c).free_symbols - {x, *constants}, key=str)
     random = Random(text)
     drawn = ({x: random.choice(POINTS), **{s: random.choice(LETTERS) for s in letters}} for _ in range(DRAWN))
