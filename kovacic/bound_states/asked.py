@@ -134,7 +134,7 @@ class Asked:
         x = sympy.Symbol(self.variable)
         pieces = pieces_of(V, sympy.S.One, x, self.ends) if len(names_of(V)) == 1 else ()
         if len(pieces) != 1:
-            raise NotRational(f"{caret(as_text(V))} is a function in pieces, and its levels have no formula here")
+            raise NotRational(f"{caret(as_text(self.V))} is a function in pieces, and its levels have no formula here")
         return pieces[0].Q
 
     def unsolved(self, reason: NotRational) -> Spectrum:
@@ -210,7 +210,7 @@ def asked(
     potential, kinetic, first, last = (part.xreplace(at) for part in (read.V, read.kinetic, *ends))
     if {sympy.Symbol(x), sympy.Symbol(energy)} & (first.free_symbols | last.free_symbols):
         raise InputError(f"an end of the domain contains {x} or {energy}")
-    plain = potential if kinetic == 1 else sympy.expand(potential / kinetic)
+    plain = potential if kinetic == 1 else sympy.expand_mul(potential / kinetic)
     positive = {symbol.name: "positive" for symbol in kinetic.free_symbols & plain.free_symbols}
     return Asked(
         V,
@@ -283,7 +283,7 @@ def _of_charges(text: Any, V: Any) -> tuple[str, ...]:
 
 
 def _check_real(V: Any, energy: str) -> None:
-    """Raises `InputError` for a V with I, a delta function or the energy in it, and `LimitExceeded` for long numbers."""
+    """Raises `InputError` for a V with I, floor or the energy in it, and `LimitExceeded` for long numbers."""
     if energy in names_of(V):
         raise InputError(
             f"the potential contains {energy}, the energy",
@@ -295,7 +295,7 @@ def _check_real(V: Any, energy: str) -> None:
         raise LimitExceeded(f"the potential has numbers of more than {SYMBOLIC.bits} bits", limit="bits")
     if V.has(sympy.I):
         raise InputError("the potential isn't real")
-    for unknown in V.atoms(sympy.DiracDelta, sympy.floor):
+    for unknown in V.atoms(sympy.floor):
         raise InputError(f"the potential can't contain {unknown}", hint="a well is c*Heaviside(a - abs(x))")
 
 
@@ -318,8 +318,9 @@ def _schroedinger(text: str, var: str | None, energy: str, limits: Limits) -> _P
     psi = function_of(whole)
     x = psi.args[0]
     letters = [sympy.Dummy() for _ in range(3)]
-    plain = sympy.expand(whole.subs(psi.diff(x, 2), letters[2]).subs(psi.diff(x), letters[1]).subs(psi, letters[0]))
-    c, b, a = (sympy.cancel(plain.diff(letter)) for letter in letters)
+    plain = whole.subs(psi.diff(x, 2), letters[2]).subs(psi.diff(x), letters[1]).subs(psi, letters[0])
+    c, b, a = (plain.diff(letter) for letter in letters)
+    b = sympy.simplify(b)
     if b != 0 or a == 0 or plain.subs(dict.fromkeys(letters, 0)) != 0 or {*letters} & (a.free_symbols | c.free_symbols):
         raise InputError("an equation -k*psi'' + V*psi = E*psi is expected, without a first derivative")
     slope = sympy.cancel(c.diff(sympy.Symbol(energy)))
@@ -328,7 +329,7 @@ def _schroedinger(text: str, var: str | None, energy: str, limits: Limits) -> _P
     kinetic = sympy.cancel(a / slope)
     if kinetic.has(x) or kinetic.is_negative:
         raise InputError(f"the factor of psi'' over that of {energy}, {kinetic}, isn't a positive constant")
-    V = sympy.expand(sympy.Symbol(energy) - c / slope)
+    V = sympy.expand_mul(sympy.Symbol(energy) - sympy.expand_mul(c) / slope)
     _check_real(V, energy)
     return _PotentialAsRead(V, x.name, (*source.guesses, *_of_charges(text, V)), kinetic)
 
@@ -348,7 +349,7 @@ def _between(value: Any) -> str:
 
 
 def _assumed_of_letters(assume: Mapping[Any, Any], letters: Sequence[tuple[str, Any]]) -> Mapping[Any, Any]:
-    """What is assumed, and the sign of a letter for log(2), or for sqrt(a): not negative, and positive where a is.
+    """What is assumed, and the sign of a letter for log(2), exp(b), or for sqrt(a): not negative, and positive where a is.
 
     Raises `InputError` where something else than that is assumed of such an a.
     """
@@ -357,8 +358,10 @@ def _assumed_of_letters(assume: Mapping[Any, Any], letters: Sequence[tuple[str, 
         base, exponent = meaning.as_base_exp()
         if exponent == sympy.S.Half and base.is_Symbol:
             found[letter] = _sign_of_root(base.name, found)
-        elif meaning.is_number and meaning.is_real:
-            found[letter] = "positive" if meaning.is_positive else "negative"
+            continue
+        real = meaning.xreplace({symbol: sympy.Dummy(real=True) for symbol in meaning.free_symbols})
+        if real.is_positive or real.is_negative:
+            found[letter] = "positive" if real.is_positive else "negative"
     return found
 
 

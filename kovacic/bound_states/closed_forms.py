@@ -57,7 +57,8 @@ from kovacic.parametric.api import conditions_of
 from kovacic.parametric.natural import Natural
 from kovacic.parametric.parametric_answer import ParametricAnswer
 from kovacic.parametric.partition import transformation
-from kovacic.parametric.solutions import PolynomialSolution, translated
+from kovacic.parametric.regions import ParameterRegion
+from kovacic.parametric.solutions import PolynomialSolution, jacobi, translated, weight_by_signs
 from kovacic.parametric.statements import Statement, Vanishes
 from kovacic.reading.read import read_input
 from kovacic.sturm_liouville.problem import point_between
@@ -97,6 +98,7 @@ def norm_of(wave: Any, x: Any, domain: tuple[Any, Any]) -> Any:
 _BOUNDS = 40
 #: The natural number in conditions.
 _NUMBER = sympy.Dummy("d")
+_BARRED = "a solution with a polynomial that decays at one end doesn't at the other, whatever its degree"
 _NUMBERED = "a level with k zeros is number k (Sturm)"
 
 
@@ -105,7 +107,8 @@ class ClosedForms:
     """The levels with a closed form; `complete`: it is proven that these are all.
 
     `excluded` are polynomials in E at whose zeros there is a closed form but no level; `higher` is a possible degree of P
-    that wasn't tried.  `conditions` is None if it is unknown when closed forms exist.
+    that wasn't tried.  `conditions` is None if it is unknown when closed forms exist.  `barred`: with parameters, no solution
+    with a polynomial of any degree is square integrable at both ends.
     """
 
     conditions: ParametricAnswer | None
@@ -113,6 +116,7 @@ class ClosedForms:
     complete: bool = False
     excluded: tuple[Any, ...] = ()
     higher: int | None = None
+    barred: bool = False
 
     def reason(self, energy: str, max_degree: int) -> str:
         """The proven statement about the levels with its reason, or the reason why it is undecided."""
@@ -125,6 +129,8 @@ class ClosedForms:
             others = f"at {zeros} the solution that is square integrable at one end isn't at the other; "
         if self.complete and self.levels:
             return f"{_NUMBERED}; {others}{theory}"
+        if self.barred and self.conditions.regions:
+            return f"{_BARRED}: {theory}" if self.complete else f"{NO_FORMULA}; {_BARRED}"
         if self.complete:
             energies = "the energy of a level" if self.conditions.regions else f"any {energy}"
             if self.excluded:
@@ -334,7 +340,15 @@ class _ClosedFormSearch:
         """The levels with a polynomial of degree 0, 1, ..., `max_degree`."""
         levels: dict[Algebraic, None] = {}
         higher = None
+        is_barred = is_settled = True
         for region in self.conditions.regions if self._are_examined else ():
+            if region.case == 1:
+                is_closed, decays = self._ways_out(region)
+                is_barred, is_settled = is_barred and is_closed, is_settled and decays
+                if is_closed:
+                    continue
+            else:
+                is_settled = False
             parts = region.statement.conjuncts
             numbers, have_all = self._numbers(parts)
             if not have_all and region.case == 1:
@@ -345,7 +359,36 @@ class _ClosedFormSearch:
             for number in numbers:
                 for solution in region.solution(number):
                     levels.update(dict.fromkeys(self._under_conditions(solution, functions)))
-        return ClosedForms(self.conditions, tuple(levels), not self.conditions.regions, higher=higher)
+        complete = not self.conditions.regions or (is_settled and self._are_examined)
+        return ClosedForms(
+            self.conditions, tuple(levels), complete, higher=higher, barred=is_barred and self._are_examined
+        )
+
+    def _ways_out(self, region: ParameterRegion) -> tuple[bool, bool]:
+        """Whether exponents, for each degree, bar solutions with a polynomial from both ends; and all solutions.
+
+        exp(-(1 + d) x) P(exp(x)) decays at one end and grows at the other; what decays at an end is the only one that does.
+        """
+        question, signs = self.question, self.question.signs
+        variable = question.parsed.variable
+        choices = region.solution(0)
+        if region.naturals:
+            weights = (weight_by_signs(analyse(part.S, Budget()), variable) for part in region.naturals)
+            choices = tuple(one for by_signs in weights if by_signs is not None for one in by_signs(None))
+        square = sympy.Symbol(variable) ** 2 + 1  # P has no zero at an end, and its degree at infinity
+        is_settled = bool(choices)
+        for one in choices:
+            y = one.y * square ** (one.degree / 2) if region.naturals else one.y
+            if y.has(jacobi, sympy.assoc_laguerre):
+                return False, False
+            demands = [demand_at(end, y, question) for end in self.ends]
+            if possible([above(signs.real(one.degree), 0, strict=False), *demands], signs):
+                return False, False
+            decays = (
+                end.circle is False and signs.holds(demand) for end, demand in zip(self.ends, demands, strict=True)
+            )
+            is_settled = is_settled and any(decays)
+        return bool(choices), is_settled
 
     def _under_conditions(self, solution: PolynomialSolution, functions: list[Any]) -> Iterator[Algebraic]:
         """The levels where the functions and those in the conditions of the solution vanish, of which one may be free of E."""

@@ -344,7 +344,8 @@ class Spectrum:
         ]
         first, last = (float(end.xreplace(at)) for end in self.domain)
         title = self._equation(at)
-        return draw_levels(function(self.potential), levels, (first, last), variable=self.variable, title=title)
+        plain = self.potential.replace(sympy.DiracDelta, lambda *_: sympy.S.Zero)
+        return draw_levels(function(plain), levels, (first, last), variable=self.variable, title=title)
 
     def _equation(self, at: Mapping[Any, Any]) -> str:
         """Schroedinger's, and what V is."""

@@ -11,7 +11,7 @@ there is one.
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from operator import mul
 from typing import Any
 
@@ -49,7 +49,7 @@ class Passage:
 
 @dataclass(frozen=True)
 class TaylorStep:
-    """From x0 to x0 + t: the Taylor coefficients of Q and W, times t^(k+2)."""
+    """From x0 to x0 + t: the Taylor coefficients of Q and W, times t^(k+2).  Y' grows by `kick` Y at the end of the step."""
 
     t: Any
     radius: Any
@@ -58,6 +58,7 @@ class TaylorStep:
     terms: int
     tail: Any
     turn: Any
+    kick: Any = 0
 
     def series(self, u: Any, v: Any, E: Any) -> list[Any]:
         """The coefficients of Y about the start, times powers of t."""
@@ -74,7 +75,8 @@ class TaylorStep:
         a = self.series(u, v, E)
         error = arb(0, ((abs(u) + self.radius * abs(v)) * self.tail).upper())
         slopes = sum(n * c for n, c in enumerate(a))
-        return sum(a) + error, (slopes + error) / self.t
+        value = sum(a) + error
+        return value, (slopes + error) / self.t + self.kick * value
 
 
 def march(steps: Sequence[TaylorStep], u: Any, v: Any, E: Any) -> Passage | None:
@@ -88,9 +90,9 @@ def march(steps: Sequence[TaylorStep], u: Any, v: Any, E: Any) -> Passage | None
         u, v = step.advance(u, v, E)
         turned += step.turn
         now = _sign_of_ball(u)
-        if now == 0:
+        if now == 0 and step.kick == 0:  # else there may be a zero on each side of the delta function
             continue
-        if sign == 0 or not turned <= _TURN:
+        if 0 in (sign, now) or not turned <= _TURN:
             return None
         zeros += int(now != sign)
         sign = now
@@ -172,12 +174,12 @@ class Road:
     def _steps(self, start: Any, stop: Any, prec: int) -> Iterator[TaylorStep]:
         here = start
         radius = _RADIUS_OVER_STEP * abs(stop - start).upper()
-        for piece, last in self._parts(start, stop):
+        for piece, last, kick in self._parts(start, stop):
             for _ in range(_MAX_STEPS):
                 check_time()
                 count_work(prec)
                 step, is_last = self._step(piece, here, last, radius, prec)
-                yield step
+                yield replace(step, kick=kick) if is_last else step
                 radius = step.radius * 3 / 2
                 here = last if is_last else here + step.t
                 if is_last:
@@ -185,18 +187,20 @@ class Road:
             else:
                 raise LimitExceeded(f"more than {_MAX_STEPS} steps are needed", limit="unknown_degree")
 
-    def _parts(self, start: Any, stop: Any) -> Iterator[tuple[Stretch, Any]]:
-        """The pieces on the way, each with the point at which it is left."""
+    def _parts(self, start: Any, stop: Any) -> Iterator[tuple[Stretch, Any, Any]]:
+        """The pieces on the way, each with the point at which it is left, and the delta function there."""
         forwards = start < stop
-        for piece in self.pieces if forwards else self.pieces[::-1]:
+        pieces = self.pieces if forwards else self.pieces[::-1]
+        for number, piece in enumerate(pieces):
             end = piece.high if forwards else piece.low
             far = None if end.is_infinite else ball(end)
             if far is not None and not (start < far if forwards else far < start):
                 continue
             leaves = far is None or not (far < stop if forwards else stop < far)
-            yield piece, stop if leaves else far
             if leaves:
+                yield piece, stop, 0
                 return
+            yield piece, far, ball(pieces[number + 1].delta) if forwards else -ball(piece.delta)
 
     def _step(self, piece: Stretch, here: Any, last: Any, radius: Any, prec: int) -> tuple[TaylorStep, bool]:
         """The largest one whose radius is `radius` over a power of 2, and whether it leads to `last`."""

@@ -5,7 +5,8 @@ With Y'' = (Q - E W) Y, t = int sqrt(W) dx from the left end and Y = W^(-1/4) v 
 coefficients, Euler's equation and others.  With h = y/v a condition alpha y + beta y' = 0 is (alpha + beta h'/h) v
 + beta t' v_t = 0.
 
-A problem in pieces has an equation for its eigenvalues: solutions on both sides, matched.  On each stretch Y'' = q Y, where q =
+A problem in pieces has an equation for its eigenvalues: solutions on both sides, matched;
+at c delta(x - p), Y' grows by c Y(p).  On each stretch Y'' = q Y, where q =
 a x + b depends on E.  For a = 0 the solutions are waves and exponentials, else Airy's functions of z = c (x + b/a) with c^3 =
 a, since then c^2 z = q.  At an infinite end the decaying solution is meant, at a finite one that with the condition there.  (Y,
 Y') is carried from the left end through the stretches, and E is an eigenvalue where it is a multiple of the solution that is
@@ -170,12 +171,13 @@ def _wrapped(waves: _Waves, t: Expr, n: Expr, wrap: int) -> EigenvalueFamily | N
 
 @dataclass(frozen=True)
 class _LinearPiece:
-    """Y'' = (a x + b) Y between two points."""
+    """Y'' = (a x + b) Y between two points; Y' grows by delta Y at the first."""
 
     low: Expr
     high: Expr
     a: Expr
     b: Expr
+    delta: Expr = sympy.S.Zero
 
     def airy(self, x: Expr, first: Any, second: Any) -> tuple[Expr, Expr, Expr]:
         """Two of Airy's functions at x, and dz/dx."""
@@ -194,6 +196,7 @@ class _LinearPiece:
     def carried(self, start: tuple[Expr, Expr]) -> tuple[Expr, Expr]:
         """(Y, Y') at the high end, from those at the low one."""
         Y, slope = start
+        slope += self.delta * Y
         if self.a == 0:
             k = sympy.sqrt(-self.b)
             cosine, sine = (f(k * (self.high - self.low)) for f in (sympy.cos, sympy.sin))
@@ -221,7 +224,7 @@ def matching_equations(problem: SturmProblem, E: Expr) -> tuple[Expr, ...]:
         q = sympy.expand(piece.Q - E * piece.W)
         if not q.is_polynomial(x) or sympy.degree(q, x) > 1:
             return ()
-        lines.append(_LinearPiece(piece.low, piece.high, q.coeff(x, 1), q.coeff(x, 0)))
+        lines.append(_LinearPiece(piece.low, piece.high, q.coeff(x, 1), q.coeff(x, 0), piece.delta))
     outwards = (-lines[0].a, lines[-1].a)
     falls = [end.is_infinite and not slope.is_nonnegative for end, slope in zip(problem.ends, outwards, strict=True)]
     first, last = (end.is_infinite for end in problem.ends)
@@ -240,8 +243,11 @@ def matching_equations(problem: SturmProblem, E: Expr) -> tuple[Expr, ...]:
         inner = [replace(line, high=sympy.Min(line.high, middle)) for line in inner if line.low < middle]
     for line in inner:
         Y, slope = line.carried((Y, slope))
-    if middle is not None:
-        return _equation(slope, E), _equation(Y, E)
+    if middle is not None:  # an even Y' changes its sign there, by the delta function
+        half = sum((line.delta for line in lines if line.low == middle), sympy.S.Zero) / 2
+        found = _equation(slope + half * Y, E), _equation(Y, E)
+        return tuple(equation for equation in found if equation != sympy.false)
+    slope += lines[-1].delta * Y if last else 0
     return (_equation(Y * ends[1][1] - slope * ends[1][0], E),)
 
 
@@ -252,6 +258,9 @@ def _middle(lines: list[_LinearPiece], problem: SturmProblem) -> Expr | None:
     if low.is_infinite != high.is_infinite or len({getattr(wish, "is_zero", None) for wish in problem.conditions}) > 1:
         return None
     middle = (lines[0].high + lines[-1].low) / 2 if low.is_infinite else (low + high) / 2
+    deltas = {(line.low - middle, line.delta) for line in lines if line.delta != 0}
+    if deltas != {(-distance, delta) for distance, delta in deltas}:
+        return None
     for line, other in zip(lines, reversed(lines), strict=True):
         mirrored = line.a * (2 * middle - x) + line.b
         if line.low + other.high not in (2 * middle, sympy.nan) or sympy.expand(mirrored - other.a * x - other.b) != 0:
@@ -274,4 +283,9 @@ def _equation(function: Expr, E: Expr) -> Expr:
             forms = [(sympy.tan, sympy.simplify(-c * k / s)), (sympy.cot, sympy.simplify(-s * k / c))]
             form, right = min(forms, key=lambda form: sympy.count_ops(form[1]))
             return sympy.Eq(k * form(angle), right)
-    return sympy.Eq(expression, 0)
+    constant, rest = expression.as_independent(E, as_Add=True)
+    factor, rest = rest.as_independent(E, as_Add=False)
+    value = sympy.simplify(-constant / factor)
+    if value.is_positive and rest**2 - rest.subs(E, 0) ** 2 == -E:
+        return sympy.Eq(E, rest.subs(E, 0) ** 2 - value**2)
+    return sympy.Eq(rest, value)

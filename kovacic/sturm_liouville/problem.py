@@ -9,7 +9,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass
 from functools import cmp_to_key, wraps
-from itertools import combinations, pairwise
+from itertools import combinations
 from typing import Any, TypeVar
 
 import sympy
@@ -22,7 +22,7 @@ from kovacic.errors import InputError
 Expr = Any
 _T = TypeVar("_T")
 #: Functions in pieces.
-STEPS = (sympy.Abs, sympy.sign, sympy.Heaviside, sympy.Piecewise, sympy.Min, sympy.Max)
+STEPS = (sympy.Abs, sympy.sign, sympy.Heaviside, sympy.Piecewise, sympy.Min, sympy.Max, sympy.DiracDelta)
 #: Bisections of an interval, before the weight counts as not shown to be positive on it: pieces of 1/16,000 of its length.
 _BISECTIONS = 14
 
@@ -37,12 +37,13 @@ class Span:
 
 @dataclass(frozen=True)
 class Stretch:
-    """Q and W on an interval."""
+    """Q and W on an interval; in Q, `delta` times a delta function at its low end, so that Y' grows by delta Y there."""
 
     low: Expr
     high: Expr
     Q: Expr
     W: Expr
+    delta: Expr = sympy.S.Zero
 
 
 @dataclass(frozen=True)
@@ -128,16 +129,34 @@ def ball(e: Expr) -> Any:
 def pieces_of(Q: Expr, W: Expr, x: Expr, domain: tuple[Expr, Expr]) -> tuple[Stretch, ...]:
     """Q and W between the points at which one of their absolute values, steps or cases changes.
 
-    Raises `InputError` if these points can't be found, or if W isn't shown to be positive between them.
+    Raises `InputError` if these points can't be found, for a delta function at an end or in a product, and if W isn't shown to
+    be positive between them.
     """
     places = [domain[0], *_breaks(Q + x * W, x, domain), domain[1]]
+    deltas = [_delta_at(place, Q, x) for place in places]
+    if deltas[0] != 0 or deltas[-1] != 0 or W.has(sympy.DiracDelta):
+        raise InputError("a delta function at an end of the domain, or as a weight, isn't defined here")
     found = []
-    for low, high in pairwise(places):
+    for low, high, delta in zip(places, places[1:], deltas, strict=False):
         inside = point_between(low, high)
-        piece = Stretch(low, high, *(_resolved(e, x, inside) for e in (Q, W)))
+        piece = Stretch(low, high, _resolved(Q, x, inside), _resolved(W, x, inside), delta)
         _check_weight(piece, x, inside)
         found.append(piece)
     return tuple(found)
+
+
+def _delta_at(place: Expr, Q: Expr, x: Expr) -> Expr:
+    """The strength of the delta functions at a point: f(x) delta(g(x)) has f/|g'| where g = 0."""
+    strength = sympy.S.Zero
+    for step in Q.atoms(sympy.DiracDelta):
+        factor = sympy.expand(Q).coeff(step)
+        rest = sympy.expand(Q - factor * step)
+        if len(step.args) > 1 or factor.has(*STEPS) or rest.has(step):
+            raise InputError(f"{step} is expected alone, or times a function without steps")
+        (g,) = step.args
+        if place.is_finite is not False and sympy.simplify(g.subs(x, place)) == 0:
+            strength += (factor / sympy.Abs(g.diff(x))).subs(x, place)
+    return strength
 
 
 def _breaks(e: Expr, x: Expr, domain: tuple[Expr, Expr]) -> list[Expr]:
@@ -166,7 +185,12 @@ def _branches(step: Expr) -> tuple[Sequence[Expr], Sequence[Expr]]:
     if isinstance(step, (sympy.Min, sympy.Max)):
         return [a - b for a, b in combinations(step.args, 2)], step.args
     one, zero = sympy.S.One, sympy.S.Zero
-    values = {sympy.Abs: (step.args[0], -step.args[0]), sympy.sign: (one, -one), sympy.Heaviside: (one, zero)}
+    values: dict[Any, tuple[Expr, ...]] = {
+        sympy.Abs: (step.args[0], -step.args[0]),
+        sympy.sign: (one, -one),
+        sympy.Heaviside: (one, zero),
+        sympy.DiracDelta: (zero,),
+    }
     return step.args[:1], values[step.func]
 
 

@@ -276,17 +276,17 @@ class LevelSearch:
                 else:
                     E = self._short(self.threshold - self.scale / arb(4) ** (number + 1))
             found = self._rough(E, low, high=False)
-            if found >= count:
-                return Range(low, E, count)
+            if found.count >= count:
+                return Range(low, found.E, count)
             if self.threshold is not None and number == 0:
                 total = self.total()
-            if found == total:
+            if found.count == total:
                 self.complete = True
-                return Range(low, E, total)
+                return Range(low, found.E, total)
         if self.threshold is None:
             raise LimitExceeded(f"{count} levels weren't found", limit="unknown_degree")
         self.exhausted = True
-        return Range(low, E, found)
+        return Range(low, found.E, found.count)
 
     def _free_of_levels(self) -> Any:
         """A number below all levels."""
@@ -294,8 +294,9 @@ class LevelSearch:
         with working_precision(64):
             for number in range(_RANGE_STEPS):
                 E = self._short(start - self.scale * (arb(4) ** number - 1))
-                if self._rough(E, E, high=True) == 0:
-                    return E
+                found = self._rough(E, E, high=True)
+                if found.count == 0:
+                    return found.E
         raise LimitExceeded("no lower bound of the levels was found", limit="unknown_degree")
 
     def _short(self, E: Any) -> Any:
@@ -303,11 +304,12 @@ class LevelSearch:
         unit = arb(2) ** (_log2(abs(E) + self.scale / 2**20) - 30)
         return ((E / unit).floor() * unit).mid()
 
-    def _rough(self, E: Any, low: Any, *, high: bool) -> int:
+    def _rough(self, E: Any, low: Any, *, high: bool) -> Count:
+        """The count at E, or a little below where E may be a level itself."""
         searcher = self._searcher(E, max(abs(low), abs(E)), _ROUGH_DIGITS, _ROUGH_DIGITS)
         for shift in range(3):
             try:
-                return searcher.at(E if shift == 0 else self._short(E - self.scale * shift / 2**20), high=high).count
+                return searcher.at(E if shift == 0 else self._short(E - self.scale * shift / 2**20), high=high)
             except _Near:
                 continue
         raise LimitExceeded("levels weren't counted", limit="digits")

@@ -348,10 +348,16 @@ IN_PIECES = [
     ("10*Heaviside(x)", (-1, 2), None),
     ("-7*Heaviside(2 - abs(x - 1)) - x/2", (-2, 4), "y'(-2) = 0, y'(4) = 0"),
     ("abs(x)", (-1, 1), "y'(-1) = 0, y(1) = 0"),
+    ("-2*DiracDelta(x)", LINE, None),
+    ("-3*DiracDelta(x - 1) - 3*DiracDelta(x + 1)", LINE, None),
+    ("-2*DiracDelta(x) - DiracDelta(2*x - 2)", LINE, None),
+    ("abs(x) - DiracDelta(x)", LINE, None),
+    ("5*DiracDelta(x)", (-1, 1), None),
+    ("-5*Heaviside(1 - abs(x)) + 3*DiracDelta(x)", LINE, None),
 ]
 
 
-@parametrize(("V", "domain", "boundary"), IN_PIECES, ordinary=3, long=10)
+@parametrize(("V", "domain", "boundary"), IN_PIECES, ordinary=4, long=10)
 def test_levels_in_pieces_solve_the_equations_of_matching(V: str, domain: Any, boundary: Any) -> None:
     """Each of the numeric levels is next to a sign change of one of the equations, those of even and odd zeros in turn."""
     found = kovacic.spectrum(V, domain=domain, boundary=boundary, levels=4, digits=10)
@@ -377,6 +383,22 @@ def test_a_square_well_in_letters() -> None:
         kovacic.spectrum("Piecewise((-V0, abs(x) < a), (0, True))")  # a may be negative
 
 
+def test_a_delta_well_has_one_level() -> None:
+    """-psi'' - c delta(x) psi = E psi: psi = exp(-c |x|/2), E = -c^2/4, in any units; none where c < 0."""
+    found = kovacic.spectrum("-hbar^2/(2*m)*psi'' - g*DiracDelta(x)*psi = E*psi", assume={"g": "positive"})
+    assert [str(one) for one in found.matching] == ["Eq(E, -g**2*m/(2*hbar**2))"]
+    well = kovacic.spectrum("-2*DiracDelta(x - 5)", levels=2)
+    assert [level.zeros for level in well.numeric] == [0]
+    assert well.numeric.complete
+    assert well.numeric[0].value.contains(-1)
+    assert not kovacic.spectrum("2*DiracDelta(x)", levels=1).numeric
+
+
+def test_a_level_where_the_search_begins() -> None:
+    """E = -1 is the first number that is tried for a well that ends at 0."""
+    assert kovacic.spectrum("-2/cosh(x)^2", levels=1, digits=8).numeric[0].value.contains(-1)
+
+
 @pytest.mark.parametrize("V", ["-10/cosh(x)^2 + 4/cosh(x)^4", "-15/cosh(x)^2 + 8/cosh(x)^4", "6*tanh(x)^2 - tanh(x)^4"])
 def test_no_level_of_manning_has_a_closed_form(V: str) -> None:
     """A confluent Heun equation, Liouvillian at most at E = V(oo) - (d + 1)^2 or its parts: those above min V are decided."""
@@ -384,6 +406,23 @@ def test_no_level_of_manning_has_a_closed_form(V: str) -> None:
     assert found.closed_forms_complete
     assert not found.algebraic
     assert "no eigenfunction has a closed form" in found.text()
+
+
+@pytest.mark.parametrize(
+    ("V", "assume", "complete"),
+    [
+        ("-A/cosh(x)^2 + 4/cosh(x)^4", {}, False),
+        ("-A/cosh(x)^2 - B^2/cosh(x)^4", {"B": "positive"}, False),
+        ("x^4 + a*x", {}, True),
+    ],
+)
+def test_letters_for_which_no_polynomial_of_any_degree_gives_a_level(V: str, assume: Any, complete: bool) -> None:
+    """Manning's solutions exp(-(d + 1) x) P(exp(2 x)) grow at one end at least; exp(x^3/3) P(x) decays at one."""
+    found = kovacic.spectrum(V, assume=assume)
+    assert found.closed_forms_complete == complete
+    assert "doesn't at the other, whatever its degree" in found.reason
+    assert not found.hint
+    assert not found.algebraic
 
 
 def test_the_numbers_whose_energies_may_be_levels() -> None:
@@ -492,8 +531,8 @@ def test_an_end_at_an_ordinary_point_is_undecided(V: str, domain: tuple[object, 
         ("1/x^2 + x^2", {}),
         ("x^2 - E", {}),
         ("I*x^2", {}),
-        ("-2*DiracDelta(x)", {}),
-        ("-2*DiracDelta(x)", {"levels": 2}),
+        ("-2*DiracDelta(x)", {"domain": (0, "oo")}),
+        ("-2*DiracDelta(x)*Heaviside(x)", {"levels": 2}),
         ("x^2", {"domain": (1, 0)}),
         ("x^2", {"domain": (0, "E")}),
         ("x^2", {"boundary": "neumann"}),
@@ -899,6 +938,16 @@ def test_equations_as_physicists_write_them(equation: str, domain: Any, assume: 
     wanted = read_expression(energy)
     values = {symbol: sympy.Rational(k + 3, 2) for k, symbol in enumerate(sorted(wanted.free_symbols, key=str))}
     assert abs(sympy.N((levels.energy - wanted).subs(values), 20)) < 1e-15
+
+
+def test_a_shift_beside_a_kinetic_factor() -> None:
+    """exp(a*b) is positive, where it is a factor too: no condition is needed."""
+    morse = "-hbar^2/(2*m)*psi'' + D*(1 - exp(-a*(x - b)))^2*psi = E*psi"
+    for equation in (morse, morse.replace("exp(-a*(x - b))", "exp(-a*x)*exp(a*b)")):
+        (levels,) = kovacic.spectrum(equation, assume={"D": "positive", "a": "positive"}).levels
+        assert levels.where == ()
+        at = {"hbar": 1, "m": 1, "D": 8, "a": 1, "b": 5, "n": 1}
+        assert levels.energy.subs(at) == 4 * sympy.Rational(3, 2) - sympy.Rational(9, 8)
 
 
 def test_the_kinetic_factor_of_closed_forms() -> None:
