@@ -48,7 +48,6 @@ from kovacic.parametric.functions import element, in_field, irreducible_factors,
 #: Determinants whose common factors are taken, and minors up to which all of them are computed.
 _DETERMINANTS = 3
 _MINORS = 60
-_PRIME = 2**61 - 1
 #: Products of terms for the determinants of one matrix: those of some seconds.
 _WORK = 10**7
 
@@ -71,26 +70,38 @@ class RankConditions:
     system: tuple[FunctionPoly, ...] | None = ()
     deficient: bool = False
 
+    @property
+    def happen_nowhere(self) -> bool:
+        return not self.polynomials and self.system == () and not self.deficient
+
 
 def has_kernel(images: Sequence[Poly]) -> bool:
     """Are polynomials over Q linearly dependent?
 
-    A rank modulo a prime can only be smaller: where it is full there, it is full.
+    A rank modulo a prime can only be smaller: where it is full there, it is full.  Where it isn't for several primes, they
+    divide all minors of this size, which are 0 if the product of the primes exceeds that of the lengths of the rows [Hadamard].
     """
     count = len(images)
     width = max((image.degree for image in images), default=-1) + 1
     if width < count:
         return True
     rows = []
+    bits = 0
     for image in images:  # the coefficients of a multiple, padded
         coefficients = image.rational_coefficients()
         common = lcm(*(int(c.q) for c in coefficients))
         numbers = [int(c.p) * (common // int(c.q)) for c in coefficients]
         rows.append([*numbers, *[0] * (width - len(numbers))])
-    residues = [entry % _PRIME for entry in chain.from_iterable(rows)]
-    if nmod_mat(count, width, residues, _PRIME).rank() == count:
-        return False
-    return bool(fmpz_mat(rows).rank() < count)
+        bits += sum(number**2 for number in numbers).bit_length() // 2 + 1
+    matrix = fmpz_mat(rows)
+    for p in primes():
+        check_time()
+        if nmod_mat(matrix, p).rank() == count:
+            return False
+        bits -= p.bit_length() - 1
+        if bits < 0:
+            return True
+    raise AssertionError("the sequence of primes is infinite")
 
 
 def rank_conditions(images: Sequence[Poly], field: Field) -> RankConditions:
@@ -154,7 +165,7 @@ class _Matrix:
             different.setdefault(tuple(map(str, normalised)), normalised)
         rows = [*different.values()]
         rank = 0
-        if rows:  # at a random point: a lower bound, and the generic rank but for a probability of about 1/_PRIME
+        if rows:  # at a random point: a lower bound, and the generic rank but for a probability of about 2**-60
             p, point = _random_point(field, surface)
             residues = [int(entry(0, *point)) % p for entry in chain.from_iterable(rows)]
             rank = int(nmod_mat(len(rows), len(rows[0]), residues, p).rank())
@@ -393,6 +404,10 @@ class Exponents:
         R = (sum((part.theta for part in self.parts), RatFunc(0 * D)) * D).num
         return [2 * Form(1, R, x**k).numerators(self.problem)[-1] // D for k in range(d + 1)]
 
+    def conditions(self, d: int, below: Field) -> RankConditions:
+        """Where there is a P of this degree, over a field below."""
+        return rank_conditions(_coordinates(self.images(d), self.field, below), below)
+
     def polynomial(self, d: int) -> PossiblePolynomial | None:
         """The only monic P of degree d that can solve the equation.
 
@@ -485,13 +500,7 @@ def choices_of_degree(problem: Problem, d: int) -> list[Exponents] | None:
 def conditions_of_degree(problem: Problem, d: int) -> list[RankConditions] | None:
     """For each of these choices, where there is a P of the degree: over the field of the problem."""
     chosen = choices_of_degree(problem, d)
-    if chosen is None:
-        return None
-    found = []
-    for exponents in chosen:
-        images = _coordinates(exponents.images(d), exponents.field, problem.field)
-        found.append(rank_conditions(images, problem.field))
-    return found
+    return None if chosen is None else [exponents.conditions(d, problem.field) for exponents in chosen]
 
 
 def has_solution(problem: Problem, d: int) -> bool | None:

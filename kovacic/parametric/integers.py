@@ -189,16 +189,22 @@ def _spectrum(equation: FunctionPoly, numbers: Classes, letter: str, setting: Se
     """A parameter as a function of n, by the cheapest way to choose n; None where no parameter is linear."""
     known = all_solved(equation, setting.fixed)
     energies = [solved for solved in known if solved.parameter == ENERGY]
-    found: list[tuple[int, int, IntegerCondition]] = []
+    found: list[tuple[int, bool, IntegerCondition]] = []
     for k, solved in enumerate(energies or known):
         strata = tuple(one for one in solved.strata if not setting.covers(one.zero))
         for family in _choices(equation, solved, numbers, letter):
             text = shortest(family.value, family.letter)
             said = prose.text_of(prose.numbers_of(family))
             cost = _LATER * k + _STRATUM * len(strata) + _WEIGHT * len(text) + _WORDS * len(said)
-            # Of two that cost the same the one with the shorter first term: n + k*n*(n - 1)/2, not n*(k*n + k - 2)/2.
-            found.append((cost, len(text.split()[0]), IntegerCondition(family, strata, is_solved=True)))
+            # Of n and -n that by which f(1) = 1, if there is one: n + k*n*(n - 1)/2, as Yoshida and Morales & Ramis have it.
+            is_numbered_otherwise = not _is_one_at_one(family.value)
+            found.append((cost, is_numbered_otherwise, IntegerCondition(family, strata, is_solved=True)))
     return min(found, key=lambda one: one[:2])[2] if found else None
+
+
+def _is_one_at_one(value: RatFunc) -> bool:
+    one = Fraction(1)
+    return bool(value.den(one)) and value.num(one) == value.den(one)
 
 
 def _choices(equation: FunctionPoly, solved: SolvedCondition, numbers: Classes, letter: str) -> Iterator[IntegerFamily]:

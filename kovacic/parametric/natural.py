@@ -90,6 +90,11 @@ class Determinant:
                 factors.append(factor)
         return replace(self, factors=tuple(factors), system=tuple(map(change, self.system)))
 
+    @property
+    def is_zero(self) -> bool:
+        """Does P exist wherever d is the degree?"""
+        return self.factors is not None and not all(self.factors)
+
     def holds(self, point: ParameterPoint) -> bool:
         """Is d the degree at the point, and does P exist there?
 
@@ -207,6 +212,9 @@ class Natural(Statement):
             if surface.curve or is_too_large(S.field):
                 continue
             for choice in choices_of_degree(analyse(S, Budget()), number) or ():
+                # One has equations for P that exclude one another: b = 6 and b = 9/2.
+                if S.field.ground != QQ and choice.conditions(number, S.field).happen_nowhere:
+                    continue
                 solution = solution_of_degree(choice, number, variable, exponents)
                 if solution is not None:
                     found[solution] = None
@@ -215,10 +223,14 @@ class Natural(Statement):
     def values(self, number: int) -> dict[str, Words]:
         """What Delta is for a number, in the parameters, each with the equations for the exponents where it is that.
 
-        There is no equation where it is that for all values.
+        There is no equation where it is that for all values.  Where one Delta is 0, no other one says more.
         """
         found: dict[str, dict[Math, None]] = {}
-        for determinant in self.determinants(number):
+        determinants = self.determinants(number)
+        where_zero = {one.exponents for one in determinants if one.is_zero}
+        for determinant in determinants:
+            if determinant.exponents in where_zero and not determinant.is_zero:
+                continue
             places = found.setdefault(str(determinant), {})
             if determinant.exponents:
                 places[prose.equation(determinant.exponents)] = None

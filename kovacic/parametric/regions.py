@@ -12,6 +12,7 @@ from kovacic.decision import Decision, Status, Structure
 from kovacic.errors import LimitExceeded
 from kovacic.limits import DEFAULT_LIMITS, Budget, Limits
 from kovacic.parametric import prose
+from kovacic.parametric.claims import Claim
 from kovacic.parametric.natural import Natural
 from kovacic.parametric.prose import Words
 from kovacic.parametric.solutions import Later, Origin, PolynomialSolution
@@ -291,18 +292,18 @@ class ParameterRegion:
 
 
 def settled(regions: Sequence[ParameterRegion], setting: Setting) -> list[ParameterRegion]:
-    """The regions in their order, so that each is printed for the values that belong to none before it."""
+    """The regions in their order, so that each is printed for the values that belong to none before it, and none twice."""
     covered: list[frozenset[FunctionPoly]] = []
-    found = []
+    found: dict[Claim, ParameterRegion] = {}
     for region in regions:
-        here = replace(setting, covered=tuple(covered))
-        found.append(replace(region, statement=region.statement.avoiding(here)))
+        statement = region.statement.avoiding(replace(setting, covered=tuple(covered)))
+        found.setdefault(statement.claim, replace(region, statement=statement))
         for one in all_of(region.statement.conjuncts).alternatives:
             parts = one.conjuncts
             zeros = [part.function for part in parts if isinstance(part, Vanishes)]
             if len(zeros) == len(parts):
                 covered.append(frozenset(zeros))
-    return found
+    return [*found.values()]
 
 
 @dataclass(frozen=True)

@@ -696,7 +696,7 @@ def test_families_of_integers_are_merged_and_covered_ones_left_out() -> None:
         assert answer.check(60)
         return [str(region.statement) for region in answer.regions]
 
-    assert yoshida(-1) == ["L = -n*(n + 3)/2 for an integer n"]
+    assert yoshida(-1) == ["L = -n*(n - 3)/2 for an integer n"]
     assert yoshida(2) == ["L = n^2 for an integer n"]
     assert yoshida(1) == ["L = (n^2 + n)/2 for an integer n"]
 

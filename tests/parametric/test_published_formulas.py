@@ -166,7 +166,8 @@ TABLE = [
         for k, printed in (
             (3, "L = (3*n^2 - n)/2 for an integer n"),
             (5, "L = n*(5*n - 3)/2 for an integer n"),
-            (-3, "L = -n*(3*n + 5)/2 for an integer n"),
+            (-3, "L = -n*(3*n - 5)/2 for an integer n"),
+            (-5, "L = -n*(5*n - 7)/2 for an integer n"),
         )
     ),
     Published(

@@ -185,3 +185,24 @@ def test_a_solution_doesnt_vanish_where_a_root_in_it_does() -> None:
         y = solution.y.subs(a, value)
         assert y != 0
         assert sympy.simplify(sympy.diff(y, x, 2) - (6 / x**2 + value) * y) == 0
+
+
+@pytest.mark.parametrize("number", [1, 2])
+def test_no_formula_has_equations_that_exclude_one_another(number: int) -> None:
+    """(x - i)^(1/4) (x + i)^(3/4) P would need b = 6 and b = 9/2."""
+    answer = kovacic.conditions("x^2 + a + b/(x^2+1) + 3/(4*(x^2+1)^2)", var="x", max_degree=0)
+    found = [solution for region in answer.regions for solution in region.solution(number)]
+    assert len(found) == 4
+    assert all(sympy.solve(solution.conditions, dict=True) for solution in found)
+
+
+@pytest.mark.long
+def test_no_condition_is_printed_twice() -> None:
+    """The exceptional polynomials X1 of Jacobi with b = 1/a - 1: at a = 1 two theorems say the same."""
+    S = "(x^2-1)*y''+2*a*((1-(1/a-1)*x)/(1/a-1-x))*((x-2/a+1)*y'-y)-L*y=0"
+    answer = kovacic.conditions(S, var="x", max_degree=0)
+    said = [region.statement.text() for region in answer.regions]
+    assert len(said) == len({*said}) > 5
+    # L + 1 = 0 needn't be said where Delta_0 = 0 for all values.
+    deltas = answer.regions[-1].determinants[0]
+    assert deltas.count("L = 2*a - 2") == 1
