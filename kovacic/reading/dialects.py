@@ -176,6 +176,8 @@ class _Latex:
 
 _NUMERATOR = re.compile(rf"d\^?([2-9]?)({LETTER})?({LETTER})?")
 _DENOMINATOR = re.compile(rf"d({LETTER})\^?([2-9]?)")
+#: \partial_x, ∂ₓₓ.
+_INDEXED_OPERATOR = re.compile(r"d_([a-z])\1*")
 #: A token takes some 30 calls of functions, and a look at the clock is due after some thousands.
 _TOKENS_BETWEEN_LOOKS = 100
 #: Fractions and roots without braces within each other: 2^20 looks where each is looked at twice.
@@ -340,6 +342,11 @@ class _Translation:
     def quotient(self, k: int) -> tuple[str | None, str, int, int] | None:
         """y or None, x, the order, and the number of the token behind d^2y/dx^2 or d^2/dx^2; None for anything else."""
         text = self.texts[k]
+        if _INDEXED_OPERATOR.fullmatch(text) and self.text.startswith(("∂", "\\partial"), self.scan[k].start):
+            power, behind = "1", k + 1
+            if self.texts[behind] in _POWERS or self.kinds[behind] == "SUPERSCRIPT":
+                power, behind = self.exponent(behind)
+            return (None, text[2], int(power) * len(text[2:]), behind) if power.isdigit() else None
         if text in OPENING and 0 < self.partner.get(k, k) - k < _LONGEST_QUOTIENT:
             inner = self.quotient(k + 1)
             if inner is not None and inner[3] == self.partner.get(k):

@@ -115,8 +115,9 @@ def _ordinary(text: str, k: int) -> str:
     plain = unicodedata.normalize("NFKC", character)
     if kind == "<sub" and character.isnumeric() and not (before.isalpha() or before in _LOWERED):
         return character
-    if kind == "<sub":
-        return plain if before and _kind_of(before) == "<sub" else f"_{plain}"
+    if kind == "<sub":  # the index ends with the last lowered character: ω₀x is ω_0 x
+        plain = plain if before and _kind_of(before) == "<sub" else f"_{plain}"
+        return plain if _kind_of(text[k + 1 : k + 2]) == "<sub" else f"{plain} "
     letter, *dots = list(unicodedata.normalize("NFD", character))
     if letter in _DOTTED and "".join(dots) in _DOTS:
         return letter + _DOTS["".join(dots)]
@@ -125,7 +126,7 @@ def _ordinary(text: str, k: int) -> str:
 
 def _kind_of(character: str) -> str:
     """ "<super", "<sub", "<font" or the like for a character that is another one in another style."""
-    return unicodedata.decomposition(character).partition(">")[0]
+    return unicodedata.decomposition(character).partition(">")[0] if character else ""
 
 
 _CHARACTER_HINTS = {

@@ -75,10 +75,10 @@ def is_function(name: str) -> bool:
     return name in FUNCTION_NAMES or name in ("sqrt", "cbrt", "root") or name in SEVERAL_ARGUMENTS
 
 
-#: The parts of a word that was glued together: functions, Greek letters, letters with digits; no ell, as in hello.
+#: The parts of a word that was glued together: functions, Greek letters, letters with an index, digits; no ell, as in hello.
 _PARTS = re.compile(
     rf"(?P<function>{'|'.join(sorted(BARE | {'sqrt'}, key=len, reverse=True))})"
-    rf"|(?P<letter>{'|'.join(sorted(GREEK | {'hbar', 'pi'}, key=len, reverse=True))}|[^\W\d_])|(?P<number>\d+)"
+    rf"|(?P<letter>{'|'.join(sorted(GREEK | {'hbar', 'pi'}, key=len, reverse=True))}|[^\W\d_])(?:_\d+)?|(?P<number>\d+)"
 )
 
 

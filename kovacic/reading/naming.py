@@ -18,7 +18,7 @@ from typing import NamedTuple
 from kovacic.equation import DEFAULT_VARIABLE, ENERGY, EULER, UNKNOWN
 from kovacic.errors import InputError, ParseError
 from kovacic.reading.lexer import DERIVATIVES, PRIMES, Token
-from kovacic.reading.names import FUNCTION_NAMES, NUMBER_CALLS, NUMBER_NAMES, is_function, is_letter, unglued
+from kovacic.reading.names import FUNCTION_NAMES, LETTER, NUMBER_CALLS, NUMBER_NAMES, is_function, is_letter, unglued
 from kovacic.reading.notations import Tokens, pattern
 
 #: Names that stand for the variable where they are the only one; others might be parameters of an equation in x.
@@ -37,6 +37,7 @@ _STIFFNESS = pattern(r"(?:E (?:\* )?I|I (?:\* )?E)(?! \()")
 #: e^2x, which is e^(2x) or e^2 x, and 1e-3y, which is 0.001 y or e - 3 y; what to write.
 _EXPONENT = pattern(rf"e \^ (?:- )?[\d.]+~({_NAME})(?! \()"), "write e^({0}*{1}) or e^({0})*{1}"
 _POWER_OF_TEN = pattern(rf"[\d.]+~[eE]~[-+]~\d+~({_NAME})'*"), "write {0}*{1} for the decimal"
+_GLUED_INDEX = re.compile(rf"{LETTER}_\d+([^\W\d_]+)")
 _PRIMED = pattern(rf"({_NAME})'+")
 _DIFFERENTIATED = pattern(rf"({_NAME})'+|(?:{'|'.join(DERIVATIVES)}) \((?= ({_NAME}) [(,)])")
 _NAME_KINDS = ("NAME", "PRIMED", "HEAD")
@@ -131,6 +132,9 @@ class Vocabulary:
             return True
         if is_call and (name in DERIVATIVES or name in NUMBER_CALLS):
             return True
+        indexed = _GLUED_INDEX.fullmatch(name)
+        if indexed is not None and {*indexed[1]} <= {x, y} and "{" not in tokens.piece(k, k + 1):
+            return False  # w_0t is the product w_0 t, or a name
         if name.rstrip(digits) in (x, y) and name not in (f"{x}0", f"{x}1", f"{y}0", f"{y}1"):
             numbered = [other for other in tokens.names if other.rstrip(digits) in (x, y) and other not in (x, y)]
             if numbered == [name]:

@@ -431,7 +431,7 @@ _EQUATION = pattern(r"==?|(?<!^)['\"˙]+|\\prime|\\d+ot|(?:diff|Diff|Derivative|
 #: MATLAB's Dy = diff(y, t).
 _IDENTITY = pattern(r"(?P<y>LETTER) (?:˙+ = diff \( (?P=y) .*\)|˙ = (?P=y) '|˙˙ = (?P=y) '')")
 #: A name, or what is differentiated, with an argument.
-_CALL = pattern(r"(?:[^\W\d]\S*(?: ['\"˙]+)?|\}) [(\[]")
+_CALL = pattern(r"(?:\\?[^\W\d]\S*(?: ['\"˙]+)?|\}) [(\[]")
 #: Primes that belong to no value: y'', y''(x).
 _PRIMES_ALONE = pattern(r"(?:''|\"|˙˙)(?! OPEN)")
 
@@ -453,7 +453,7 @@ def _argument_letters(scan: Tokens) -> set[str]:
     return {match[1] for match in _ARGUMENT.finditer(scan.spaced)} - _NAMED_POINTS
 
 
-_ARGUMENT = pattern(r"(?:[^\W\d]\S*|['\"˙]+) [(\[] ([^\W\d]\S*) [)\]]")
+_ARGUMENT = pattern(r"(?:\\?[^\W\d]\S*|['\"˙]+) [(\[] ([^\W\d]\S*) [)\]]")
 
 
 def is_word(text: str) -> bool:
@@ -527,7 +527,8 @@ def _is_condition(scan: Tokens, *, is_first: bool = False) -> bool:
     for match in _CALL.finditer(scan.spaced):
         name, behind = scan.span(match)
         opening = behind - 1
-        if opening not in partner or is_function(scan[name].text) or scan[name].text in DERIVATIVES:
+        function = scan[name].text.removeprefix("\\")
+        if opening not in partner or is_function(function) or function in DERIVATIVES:
             continue
         inside = scan[opening + 1 : partner[opening]]
         if len(inside) == 1 and inside[0].kind == "WORD" and inside[0].text not in _NAMED_POINTS:
