@@ -42,7 +42,7 @@ from kovacic.reading.symbolic import expression_of, function_of, names_of, read_
 from kovacic.sturm_liouville.problem import STEPS, pieces_of
 from kovacic.writing.formula import caret
 
-#: What can be assumed of a parameter under a root, and what is known of its root then.
+#: Possible assumptions on a parameter under a root, and the resulting properties of the root.
 _SIGNS = {
     "positive": "positive",
     ">0": "positive",
@@ -300,7 +300,7 @@ def _check_real(V: Any, energy: str) -> None:
 
 
 def _variable_of(names: Sequence[str]) -> tuple[str, tuple[str, ...]]:
-    """x, or the only name if it usually is a variable, and a note if it isn't x.  Raises `InputError` for several names."""
+    """The variable: x, or the only name if that usually is one, with a note.  Raises `InputError` for several names."""
     if DEFAULT_VARIABLE in names or not names:
         return DEFAULT_VARIABLE, ()
     # The only name that usually is a variable, as r in l (l+1)/r^2 - Z/r.
@@ -382,7 +382,7 @@ def _sign_of_root(name: str, assumed: dict[Any, Any]) -> str:
 
 
 def in_their_meanings(found: Spectrum, meanings: Mapping[str, Any]) -> Spectrum:
-    """The answer with the meanings in the place of the letters."""
+    """The answer with the letters replaced by their meanings."""
     if not meanings:
         return found
     values = {sympy.Symbol(name): meaning for name, meaning in meanings.items()}

@@ -365,7 +365,7 @@ class _ClosedFormSearch:
         )
 
     def _ways_out(self, region: ParameterRegion) -> tuple[bool, bool]:
-        """Whether exponents, for each degree, bar solutions with a polynomial from both ends; and all solutions.
+        """True if exponents exclude, for each degree, solutions with a polynomial at both ends; and True if they exclude all.
 
         exp(-(1 + d) x) P(exp(x)) decays at one end and grows at the other; what decays at an end is the only one that does.
         """

@@ -35,7 +35,7 @@ _ANGLES: dict[str, Callable[[Any], tuple[Any, ...]]] = {
 _PERIODS = {"cos": 2 * sympy.pi, "sin": 2 * sympy.pi, "tan": sympy.pi}
 #: The values of t where dt/dtheta = 0.
 _TURNS = {"cosh": (1,), "cos": (1, -1), "sin": (1, -1)}
-#: Longer ends of a domain aren't proposed.
+#: Longer ends of a domain aren't suggested.
 _LONGEST = 30
 
 
@@ -148,18 +148,18 @@ class Original:
         return [self.x_at(a) for a in angles if is_between(a, first, last, signs)]
 
     def x_at(self, theta: Any) -> Any:
-        """The user's variable at an argument."""
+        """The value of the user's variable for an argument."""
         return (theta - self.offset) / self.rate
 
     def monotonic_range(self, domain: tuple[Any, Any], signs: Signs) -> tuple[Any, Any] | None:
-        """The least and the largest value of t on the domain, where t is known to be monotonic there."""
+        """The range of t on the domain, if t is known to be monotonic there."""
         with suppress(Uncovered):
             if not self.turning_points(domain, signs):
                 return self.range_of(domain, signs)
         return None
 
     def range_of(self, half: tuple[Any, Any], signs: Signs) -> tuple[Any, Any]:
-        """The least and the largest value of t, where it is monotonic; infinite ones for a tangent, which has a pole."""
+        """The range of t where it is monotonic; infinite for a tangent with a pole."""
         if self.kind == "tan":
             return -sympy.oo, sympy.oo
         first, last = (self.value(self.theta_at(end, signs)) for end in half)
@@ -169,7 +169,7 @@ class Original:
 
 @dataclass(frozen=True)
 class RealPotential:
-    """V as a function of a real t, what t is, and the k of -k y'' + k V y = E y, in which V is shown."""
+    """V as a function of a real t, the meaning of t, and the k of -k y'' + k V y = E y, in which V is shown."""
 
     V: Any
     original: Original
@@ -195,7 +195,7 @@ def on_real_circle(real: RealPotential) -> RealPotential:
 
 
 def is_between(value: Any, first: Any, last: Any, signs: Signs) -> bool:
-    """True strictly between the ends.  Raises `Uncovered` if that isn't known."""
+    """True for a point strictly between the ends.  Raises `Uncovered` if its position can't be determined."""
     from_first, to_last = (sympy.simplify(difference) for difference in (value - first, last - value))
     if 0 in (from_first, to_last):
         return False
@@ -221,7 +221,7 @@ def check_poles(real: RealPotential, domain: tuple[Any, Any], signs: Signs) -> N
 
 
 def _check_period(real: RealPotential, signs: Signs) -> None:
-    """The same for a periodic V on a domain that ends at infinity."""
+    """Raise `InputError` if a periodic V has poles, which recur in each period, on a domain that ends at infinity."""
     original = real.original
     period = _PERIODS[original.kind]
     angles = [angle for point in _poles(real, signs) for angle in original.angles_at(point, (-period, period))]
@@ -229,7 +229,7 @@ def _check_period(real: RealPotential, signs: Signs) -> None:
     leading = sympy.Poly(sympy.denom(sympy.cancel(real.V)), real.t).LC()
     may_have_more = original.kind == "tan" and signs.sign(leading) is None
     if may_have_more or not all(angle.is_number for angle in angles):
-        raise Uncovered("V is periodic, and where its poles are isn't known")
+        raise Uncovered("V is periodic, and its poles couldn't be located")
     if angles:
         # The least positive angle, and the one before it: they come back in each period.
         start = max((angle for angle in angles if not angle > 0), key=float)
@@ -242,7 +242,7 @@ def _check_period(real: RealPotential, signs: Signs) -> None:
 
 
 def _poles(real: RealPotential, signs: Signs) -> list[Any]:
-    """The real t that are poles of V, and oo for a tangent.  Raises `Uncovered` where they aren't known."""
+    """The real poles t of V, and oo for a tangent.  Raises `Uncovered` if they can't be determined."""
     num, den = (sympy.Poly(part, real.t) for part in sympy.fraction(sympy.cancel(real.V)))
     is_pole_of_tangent = real.original.kind == "tan" and num.degree() > den.degree()
     return [*_real_zeros(den, signs), *([sympy.oo] if is_pole_of_tangent else [])]
@@ -273,5 +273,5 @@ def _real_zeros(polynomial: Any, signs: Signs) -> list[Any]:
         return []
     roots = sympy.roots(polynomial)
     if sum(roots.values()) < polynomial.degree() or any(root.is_real is None for root in roots):
-        raise Uncovered("whether V has a pole inside the domain isn't known")
+        raise Uncovered("it couldn't be determined whether V has a pole inside the domain")
     return [root for root in roots if root.is_real]

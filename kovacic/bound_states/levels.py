@@ -150,13 +150,13 @@ class Algebraic:
     range: tuple[Any, ...] | None = None
 
     def with_values(self, values: Mapping[Any, Any]) -> Algebraic:
-        """The same with other expressions in the place of letters in P and in its range."""
+        """A copy with other expressions substituted for letters in P and in its range."""
         P = None if self.P is None else sympy.Poly(self.P.as_expr().xreplace(values), self.P.gen)
         bounds = None if self.range is None else tuple(end.xreplace(values) for end in self.range)
         return replace(self, P=P, range=bounds)
 
     def scaled(self, energy: Any, k: Any) -> Algebraic:
-        """The same levels of an operator that is k times as large."""
+        """The levels of k times the operator."""
         inside = {energy: energy / k}
         polynomial = sympy.factor(sympy.primitive(sympy.numer(sympy.together(self.polynomial.xreplace(inside))))[1])
         states = tuple(replace(state, energy=scaled(state.energy, k)) for state in self.states)

@@ -16,7 +16,7 @@ from kovacic.parametric.assumptions import Assumptions, Bound
 
 
 class Uncovered(Exception):
-    """Why a problem isn't treated, in a sentence."""
+    """A sentence that says why a problem isn't treated."""
 
 
 class Signs:
@@ -58,7 +58,7 @@ class Signs:
         return True
 
     def holds(self, relation: Any) -> bool | None:
-        """True or False for a relation that holds for all values or for none, None if neither is known.
+        """True if a relation holds for all values, False if for none, None if neither is proven.
 
         A relation with the number of the level in it is false where it is false for all of the numbers.
         """
@@ -87,7 +87,7 @@ class Signs:
         return None
 
     def _known(self, expression: Any, question: str) -> bool | None:
-        """What SymPy says in the first of the charts in which it says something."""
+        """SymPy's answer to a question such as `is_positive`, from the first chart that gives one."""
         symbols = [self.symbols[name] for name in self._bounds]
         for chosen in product(*self._bounds.values()):
             # Each parameter with bounds as one of them and a variable with a sign.
@@ -108,7 +108,7 @@ def _end_of(bound: Bound) -> Any:
 
 
 def _beyond(bound: Bound, symbol: Any) -> Any:
-    """The bound and a variable with a sign, an integer where that is known."""
+    """The bound and a variable of known sign, an integer if the assumptions say so."""
     facts = {"positive": True} if bound.strict else {"nonnegative": True}
     if bound.end.denominator == 1 and symbol.is_integer:
         facts["integer"] = True

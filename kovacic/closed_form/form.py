@@ -73,7 +73,7 @@ class ClosedForm:
 
 
 def written(structure: ClosedStructure, S: RatFunc, gauge: RatFunc, variable: str) -> ClosedForm:
-    """The solutions that the structure says, as SymPy expressions, checked: the structure exactly, what is shown at a point.
+    """The solutions of the structure as SymPy expressions, checked: the structure exactly, the expressions at a point.
 
     Raises `VerificationFailed` if a solution doesn't pass, which is a defect of this package.
     """

@@ -127,7 +127,7 @@ def integrate_exponential(r: RatFunc, E: RatFunc, alpha: Fraction = Fraction(0))
 def _at_poles(
     r: RatFunc, residues: Iterable[Residue], E: RatFunc, alpha: Fraction
 ) -> tuple[RatFunc, list[GammaTerm], list[Residue]] | None:
-    """What is left of r, terms with Ei for the residues, and conjugate poles; None where a residue belongs to none of these."""
+    """The rest of r, terms with Ei for the residues, and conjugate poles; None if a residue fits none of these."""
     rest = r
     terms: list[GammaTerm] = []
     poles: list[Residue] = []

@@ -1,4 +1,4 @@
-"""The way back from t = t(x) to the user's x, for solutions and integrals of an equation with a change of variable.
+"""Transforms solutions and integrals from t = t(x) back to the user's x.
 
 Everything is computed in t (`reading.exponentials` has why); here results are written in x, where functions that are inverse to
 each other cancel, and roots of t + 1 and t - 1 join.  Every function serves where the equation has no change, too: there t = x.
@@ -89,7 +89,7 @@ def solution_in_x(equation: Equation, y: Any) -> Any:
 
 
 def _in_powers_of_x(expression: Any, own: Any, k: Any, x: Any) -> Any:
-    """With x^k for a variable, by exp(k s) with s = log(x)."""
+    """Substitutes x^k for a variable by way of exp(k s), s = log(x)."""
     s = sympy.Dummy("s")
     joined = _with_joined_powers(expression.xreplace({own: sympy.exp(k * s)}), s)
     in_powers = joined.replace(lambda e: e.func is sympy.exp, lambda e: _as_power(e.exp, s, x))

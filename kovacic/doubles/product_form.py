@@ -452,7 +452,7 @@ def _complex_array(z: Complex) -> Any:
 
 
 _SAME = 2.0**-60
-"""Powers this close to 0 are none: other exponents were separated from it at a far higher precision."""
+"""An exponent this close to 0 is 0: others were separated from it at a far higher precision."""
 
 _FEW_ZEROS = 60
 _MAX_ZEROS = 200

@@ -335,7 +335,7 @@ def table_of(chart: PieceChart, region: Region, careful: bool, limits: Limits | 
 
 
 def _beside_singular_ends(chart: PieceChart, region: Region) -> Region:
-    """The interval without the neighbourhoods of singular ends; raises `InputError` where one is irregular."""
+    """The interval without neighbourhoods of singular ends.  Raises `InputError` for an irregular one."""
     ends = (region.low.real, region.high.real)
     gap = _GAP * max(map(abs, ends))
     moved = []

@@ -158,7 +158,7 @@ def _enumerate(generators: list[acb_mat], angles: dict[Fraction, int], group: Gr
 
 
 class _Element(IntEnum):
-    """What the ball of an element tells: 2 isn't its trace, or may be; or it is, and the element is the identity or isn't.
+    """Conclusions from the ball of an element: its trace isn't 2, may be 2, or is 2, and the element is the identity or isn't.
 
     Beside known elements a larger kind comes before a smaller one: an element that is known is no other.
     """

@@ -70,7 +70,7 @@ _START = 512
 
 @dataclass(frozen=True)
 class Edge:
-    """A short piece on which b, c and f have bounds (`values`): there a solution changes by (1)."""
+    """A short piece with bounds (`values`) of b, c and f, on which (1) bounds the change of a solution."""
 
     leave: ExactPoint
     values: Sequence[acb]
@@ -109,7 +109,7 @@ class Edge:
 
 @dataclass(frozen=True)
 class Resting:
-    """A solution whose state is in one ball wherever it is asked for."""
+    """A solution whose state lies in one ball on the whole piece."""
 
     value: State
 

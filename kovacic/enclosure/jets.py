@@ -1,4 +1,4 @@
-"""Equations a y'' + b y' + c y = f with analytic coefficients in a disc: series, proven bounds, and the solutions' series.
+"""Equations a y'' + b y' + c y = f with analytic coefficients in a disc: their series with proven bounds, and series solutions.
 
 The guarantee: for every point of the disc the returned balls contain the exact solution there.
 
@@ -297,7 +297,7 @@ class CoefficientField:
         return all(value.is_finite() for value in self.values(x, analytic=True))
 
     def sizes(self, centre: ExactPoint, radius: arb) -> list[arb] | None:
-        """Bounds of |b|, |c| and |f| over |a| in a disc; None where they aren't known to be analytic there."""
+        """Bounds of |b|, |c| and |f| over |a| in a disc, or None unless they are proven to be analytic there."""
         return _sizes(self.values(_box(centre, radius), analytic=True))
 
     def jets(self, centre: ExactPoint, e: int, prec: int, steepest: float) -> Jets | None:
@@ -370,7 +370,7 @@ class CoefficientField:
         return (max(terms, longest), rests) if 0 < terms <= _TERMS * bits else None
 
     def series(self, centre: ExactPoint, e: int, terms: int) -> list[Any] | None:
-        """So many coefficients of A - 1, B, C and F; None where they aren't finite."""
+        """The first `terms` coefficients of A - 1, B, C and F, or None if they aren't finite."""
         H = arb((1, e))
         try:
             with series_length(terms):
@@ -406,7 +406,7 @@ def _rate(beta: arb, gamma: arb) -> arb:
 
 
 class AnalyticStep:
-    """One disc of a way, entered and left at these points: the solutions with the states (1, 0), (0, 1) in u at the centre, and
+    """A disc of a way, entered and left at these points: the solutions with the states (1, 0), (0, 1) in u at the centre, and
     one of the equation with its right-hand side, which is zero there."""
 
     def __init__(self, jets: Jets, enter: ExactPoint, leave: ExactPoint) -> None:
@@ -445,7 +445,7 @@ class AnalyticStep:
 
     @cached_property
     def added(self) -> State:
-        """What the right-hand side adds: the particular solution that is zero where the disc is entered."""
+        """The contribution of the right-hand side: the particular solution that vanishes where the disc is entered."""
         y, dy = apply(self.matrix, self._particular(self.enter))
         p, dp = self._particular(self.leave)
         return p - y, dp - dy

@@ -96,7 +96,7 @@ class Recurrence:
 
     @cached_property
     def is_real(self) -> bool:
-        """True if all coefficients are."""
+        """True if all coefficients are real."""
         return self.P[1] is None and self.Q[1] is None
 
     @cached_property

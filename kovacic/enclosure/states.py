@@ -244,7 +244,7 @@ def evaluate_states(equation: object, points: Sequence[object], **given: Any) ->
 
 @lru_cache(maxsize=32, typed=True)
 def journey_of(problem: NumericProblem, path: Path, *start: Any) -> Journey:
-    """What doesn't depend on the targets, for the fields of a `Start`; kept, so that a call for one more point finds the discs
+    """The part that doesn't depend on the targets, for the fields of a `Start`; cached, so that a further point finds the discs
     that are there."""
     vertices = _vertices_of(path)
     origin = read_start(problem, Start(*start))

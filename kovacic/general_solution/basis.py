@@ -46,7 +46,7 @@ _ANTIDERIVATIVES = (
 )
 #: Quotients of the Wronskians of u(x) and v(x) and those of u(-x) and v(-x), of J and Y and those of I and K.
 _TURNS = [sign * c for c in (sympy.Integer(1), sympy.pi / 2, 2 / sympy.pi) for sign in (1, -1)]
-#: Where the constant of a Wronskian is looked for.
+#: Points at which the constant of a Wronskian is determined.
 _POINTS = [*map(sympy.Integer, (0, 1, -1, 2, 3, -2)), sympy.S.Half]
 #: The longest expression that is factored, in subexpressions, and the most symbols, functions and roots in it.
 _LONGEST_FACTORED = 300
@@ -225,7 +225,7 @@ def _with_roots_like(w: Expr, members: Expr, x: Expr) -> Expr:
 
 
 def _rational_quotient(w: Expr, y1: Expr, y2: Expr, x: Expr) -> Iterator[Expr]:
-    """The rational number of at most nine digits below the line that is nearest to W/w, without letters."""
+    """The rational number nearest to W/w, free of letters, with a denominator of at most nine digits."""
     if sympy.Tuple(w, y1, y2).free_symbols - {x}:
         return
     with working_digits(2 * DIGITS), suppress(NotImplementedError):
@@ -250,7 +250,7 @@ def _quotients(w: Expr, y1: Expr, y2: Expr, x: Expr) -> Iterator[Expr]:
 
 
 def _limits(W: Expr, w: Expr, x: Expr) -> Iterator[Expr]:
-    """Values of W/w, with its powers joined, at the points."""
+    """Values of W/w at the points, after powers have been combined."""
     if size(W) <= _LONGEST_FACTORED:
         joined = sympy.powsimp(expand(W / w))
         yield from filter(None, (finite_value(joined, x, point) for point in _POINTS))

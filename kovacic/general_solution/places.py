@@ -32,7 +32,7 @@ from kovacic.general_solution.validity import needed_for
 from kovacic.general_solution.variation import is_solution, starting_at
 
 Expr = Any  # SymPy publishes no types
-#: Puts in symbols that know what is assumed.
+#: Substitutes symbols that carry the assumptions.
 Own = Callable[[Expr], Expr]
 _INFINITIES = (sympy.oo, -sympy.oo)
 #: For Bessel's functions of i z those of z with the same span.

@@ -125,7 +125,7 @@ def _real_roots(polynomial: Expr, x: Expr) -> list[Expr]:
 
 
 def _below_the_line(e: Expr, x: Expr) -> list[Expr]:
-    """What singular points of an expression are zeros of: bases of powers, cosines below tangents, what is in logarithms."""
+    """Functions whose zeros are singular points: bases of powers, cosines of tangents, arguments of logarithms."""
     powers = [power for power in e.atoms(sympy.Pow) if power.exp.is_Rational and power.exp < 0]
     found = [power.base for power in powers] + [f.args[0] for f in e.atoms(sympy.log)]
     found += [sympy.cos(f.args[0]) for f in e.atoms(sympy.tan, sympy.sec)]

@@ -243,7 +243,7 @@ class _Read:
 
 
 def _sought(func: Any) -> tuple[Any, Any]:
-    """y(x) and y, None for what isn't given.  Raises `InputError` for what is neither."""
+    """y(x) and y, each None if it isn't given.  Raises `InputError` for anything else."""
     if isinstance(func, str):
         func = _named(func)
     applied = func if isinstance(func, AppliedUndef) else None

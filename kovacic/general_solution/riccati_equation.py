@@ -110,7 +110,7 @@ def solved_riccati(
 def _solved_bernoulli(
     equation: FirstOrderEquation, conditions: Sequence[Condition], value: GivenValue | None
 ) -> tuple[Expr, list[str]]:
-    """The same for w' = q w + r w^2: v = 1/w has v' = -r - q v, and w = 0 through 0."""
+    """The solution of w' = q w + r w^2 through a point: v = 1/w has v' = -r - q v, and w = 0 passes through 0."""
     if value is not None and value.v == 0:
         return sympy.Eq(equation.function, 0, evaluate=False), []
     given = [replace(condition, value=1 / value.v) for condition in conditions] if value else []

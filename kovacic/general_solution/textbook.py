@@ -127,7 +127,7 @@ def without_homogeneous(particular: Expr, y1: Expr, y2: Expr, x: Expr) -> Expr:
 
 
 def is_constant(quotient: Expr, x: Expr) -> bool:
-    """True if that is seen, and not if its slope at a point isn't zero."""
+    """True if the expression is seen to be constant; a slope other than zero at one point refutes it first."""
     with suppress(NotImplementedError):
         if quotient.has(x) and not jet(quotient, x, next(points()))[1].contains(0):
             return False

@@ -140,7 +140,7 @@ def _holds_for_real_symbols(relation: Expr) -> bool:
 
 
 def _without_weaker(relations: list[Expr]) -> tuple[Expr, ...]:
-    """Without e >= 0 and e != 0 beside e > 0, nor u != 0 beside u v > 0; `false` alone where it is one of them."""
+    """The relations without implied ones (e >= 0 and e != 0 by e > 0, u != 0 by u v > 0); `false` absorbs all others."""
     if sympy.false in relations:
         return (sympy.false,)
     known = {r.lhs for r in relations if isinstance(r, sympy.GreaterThan | sympy.StrictGreaterThan)}

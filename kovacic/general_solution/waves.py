@@ -120,7 +120,7 @@ def wave_changes(term: Expr, x: Expr) -> list[WaveChange]:
 
 
 def common_factor(multiples: Sequence[Expr]) -> Expr | None:
-    """The largest u of which all are integer multiples; None where there is none."""
+    """The largest u of which all are integer multiples, or None."""
     ratios = [sympy.cancel(multiple / multiples[0]) for multiple in multiples]
     if not ratios or not all(ratio.is_Rational for ratio in ratios):
         return None

@@ -153,7 +153,7 @@ class IntegerFamily(ForInteger):
     poles: tuple[Free, ...] = ()
 
     def numbers_at(self, point: ParameterPoint) -> Iterator[Fraction]:
-        """Those of which a pole speaks are among them."""
+        """The poles named in messages are among them."""
         for zero in self.poles:
             number = rational(point.at(zero.root))
             if number is not None and self.numbers.contains(number) and not point.at(zero.zero):

@@ -405,7 +405,7 @@ class Exponents:
         return [2 * Form(1, R, x**k).numerators(self.problem)[-1] // D for k in range(d + 1)]
 
     def conditions(self, d: int, below: Field) -> RankConditions:
-        """Where there is a P of this degree, over a field below."""
+        """The condition for a polynomial P of this degree, over the field below."""
         return rank_conditions(_coordinates(self.images(d), self.field, below), below)
 
     def polynomial(self, d: int) -> PossiblePolynomial | None:

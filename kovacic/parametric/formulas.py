@@ -63,7 +63,7 @@ def shifted(text: str, value: Poly) -> str:
 
 
 def shortest(function: FunctionPoly | RatFunc, letter: str) -> str:
-    """The shortest of the usual forms."""
+    """The shortest among the usual forms."""
     above, below, names = _cleared(function, letter)
     return _shortest(_forms(above, below), names)
 
@@ -403,7 +403,7 @@ def shorter_sum(exponent: Any) -> Any:
 
 #: Characters of a text above which nobody prints it unexpanded.
 _LONGEST = 1000
-#: What an operand ends with, and begins with: between two operands stands a product.
+#: Last and first tokens of operands: two adjacent operands form a product.
 _ENDS = ("NUMBER", "NAME", "PRIMED", "RPAR", "SUPERSCRIPT")
 _BEGINNINGS = ("NUMBER", "NAME", "PRIMED", "HEAD", "LPAR")
 #: A number, a name or a power of one in parentheses that aren't those of a call or of a base.

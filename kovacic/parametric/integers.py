@@ -67,7 +67,7 @@ from kovacic.parametric.functions import (
 from kovacic.parametric.restriction import everywhere
 from kovacic.parametric.statements import ALWAYS, NEVER, Setting, Statement, Vanishes, all_of, both, either
 
-#: How much the lengths of f(n) and of what is said about n count, and what it costs to solve for a later parameter.
+#: Weights of the lengths of f(n) and of the condition on n, and the cost of solving for a later parameter.
 _WEIGHT = 3
 _WORDS = 2
 _LATER = 10
@@ -501,7 +501,7 @@ def free_letter(names: Collection[str], preferred: str = LETTERS) -> str:
 
 
 def integer_roots(equation: FunctionPoly, residues: Iterable[Fraction | int], modulus: Fraction | int) -> Statement:
-    """When does a polynomial in N over Q(t) have a rational root in these classes?  They are integers but for degree 1."""
+    """The condition that a polynomial in N over Q(t) has a rational root in these classes (integer unless the degree is 1)."""
     classes = {r % modulus for r in residues}
     is_symmetric = classes == {-r % modulus for r in classes}  # and then the signs of N say the same
     statements: list[Statement] = []

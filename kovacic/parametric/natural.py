@@ -92,7 +92,7 @@ class Determinant:
 
     @property
     def is_zero(self) -> bool:
-        """Does P exist wherever d is the degree?"""
+        """True if P exists wherever d is its degree."""
         return self.factors is not None and not all(self.factors)
 
     def holds(self, point: ParameterPoint) -> bool:

@@ -336,7 +336,7 @@ def _alternatives(claim: AnyOf, letter: str) -> Words:
 
 
 def _degree(claim: Claim, letter: str) -> Words:
-    """Which natural numbers the exponents allow."""
+    """The natural numbers that the exponents allow."""
     return _alternatives(claim, letter) if isinstance(claim, AnyOf) else sentence(claim)
 
 

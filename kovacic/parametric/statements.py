@@ -82,11 +82,11 @@ class Statement(Proposition):
     @property
     @abstractmethod
     def field(self) -> FunctionField | None:
-        """That of its functions; None where there are none."""
+        """The field of its functions, or None without any."""
 
     @abstractmethod
     def rewritten(self, change: Callable[[FunctionPoly], FunctionPoly]) -> Statement:
-        """The same statement about other parameters: each of its functions is changed, and in irreducible factors again."""
+        """The statement in other parameters: each of its functions is mapped and factored again."""
 
     def sample(self, random: Random) -> list[FunctionPoly]:
         """Functions, chosen at random, at whose common zeros the statement holds."""

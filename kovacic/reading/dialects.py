@@ -610,7 +610,7 @@ def _bars(scan: Sequence[Token]) -> dict[int, int]:
     return found
 
 
-#: Longer texts aren't asked whether they are plain.
+#: Longer texts aren't tested for being plain.
 _LONGEST_PLAIN = 500
 #: This package's own notation alone: whole numbers, single letters with their primes, signs.  Not numbers of lists and
 #: equations, "2) y''", "(2) y''", "y'' = y (2)", nor what may begin a comment.
@@ -626,7 +626,7 @@ _PLAIN_KINDS = {**_SIGN_KINDS, **dict.fromkeys(ascii_letters, "NAME"), **dict.fr
 
 
 def plain_tokens(text: str) -> Tokens | None:
-    """What `translated` makes of a text in which there is nothing to translate; None for other texts.
+    """The result of `translated` for a text in this package's own notation; None for other texts.
 
     >>> plain_tokens("y''(x) = -4 y").pieces, plain_tokens("y'' = sin x")
     (["y''", '(', 'x', ')', '=', '-', '4', 'y', ''], None)

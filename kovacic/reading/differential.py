@@ -79,7 +79,7 @@ class EquationReader(RationalReader):
         return value
 
     def parts(self, value: Any) -> dict[int, Any]:
-        """The coefficients of the derivatives, and the rest.  Raises `NotLinear` for an operator that is applied to nothing."""
+        """The coefficients of the derivatives, and the rest.  Raises `NotLinear` for an operator without an operand."""
         if isinstance(value, DerivativeOperator):
             hint = f"write what it is applied to: (D^2 + 1) {self.unknown} = 0"
             raise NotLinear(f"the operator d/d{self.variable} is applied to nothing", hint=hint)

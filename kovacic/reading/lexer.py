@@ -22,7 +22,7 @@ DOTS = "˙"
 DERIVATIVES = frozenset({"diff", "Diff", "Derivative", "D"})
 
 _SUPERSCRIPTS = "⁺⁻⁰¹²³⁴⁵⁶⁷⁸⁹"
-#: How they are written on the line.
+#: Raised characters, and the same on the line.
 SUPERSCRIPT_DIGITS = str.maketrans(_SUPERSCRIPTS, "+-0123456789")
 _LOWERED = "₀₁₂₃₄₅₆₇₈₉"
 _FRACTIONS = "½⅓⅔¼¾⅕⅖⅗⅘⅙⅚⅛⅜⅝⅞"
@@ -151,7 +151,7 @@ _CHARACTER_HINTS = {
 
 
 def error_at(text: str, message: str, scan: Sequence[Token], hint: str | None = None) -> ParseError:
-    """An error at these tokens of a text; of all of it without tokens."""
+    """An error that marks these tokens of a text, or all of it without tokens."""
     start, end = (scan[0].start, scan[-1].end) if scan else (0, len(text))
     return ParseError(message, text=text, position=start, length=max(1, end - start), hint=hint)
 

@@ -65,7 +65,7 @@ class Vocabulary:
     declared: frozenset[str] = frozenset()
 
     def of(self, tokens: Tokens, *, is_equation: bool) -> Named:
-        """The names of an equation, or of S alone.  Raises `InputError` for names that mean nothing, or more than one thing."""
+        """The names of an equation, or of S alone.  Raises `InputError` for unknown and for ambiguous names."""
         y, has_operator = self._unknown_of(tokens) if is_equation else ("", False)
         if is_equation:
             _check_stiffness(tokens, self.declared)
@@ -88,7 +88,7 @@ class Vocabulary:
         return Named(named, x, y, (*notes, *guesses), tuple(guesses))
 
     def _unknown_of(self, tokens: Tokens) -> tuple[str, bool]:
-        """The unknown function of an equation; true if D is the derivative."""
+        """The unknown function of an equation, and True if D stands for the derivative."""
         has_other = any(piece.endswith("''") or piece in DERIVATIVES - {OPERATOR} for piece in tokens.pieces)
         is_free = OPERATOR not in self.declared and not has_other
         has_operator = is_free and OPERATOR in _single_letters(tokens, self.declared)
@@ -100,7 +100,7 @@ class Vocabulary:
         return y, has_operator
 
     def _imaginary_unit(self, tokens: Tokens, x: str, y: str) -> list[str]:
-        """That i or j is a parameter, where it is one that wasn't declared."""
+        """Notes that i or j, undeclared, is taken as a parameter."""
         parameters = [name for name in "ij" if name in tokens.names and name not in (x, y, *self.declared)]
         return [f"{name} is a parameter; the imaginary unit is I" for name in parameters]
 
@@ -208,7 +208,7 @@ def _check_decimals(tokens: Tokens, variable: str) -> None:
 
 
 def _check_two_readings(tokens: Tokens, readings: re.Pattern[str], hint: str, unknown: str = "") -> None:
-    """Raises `ParseError` where a pattern occurs whose name, unless it is the unknown, may belong to the number before it."""
+    """Raises `ParseError` for a name, other than the unknown, that may belong to the number before it."""
     for found in readings.finditer(tokens.spaced) if {"e", "E"} & tokens.names.keys() else ():
         begin, behind = tokens.span(found)
         if found[1] != unknown:
@@ -239,7 +239,7 @@ def _primed(tokens: Tokens, declared: Collection[str]) -> str | None:
 
 
 def _operand(tokens: Tokens) -> str | None:
-    """The name behind the parentheses in which d/dx stands alone: y in (d^2/dx^2 - x) y."""
+    """The name after the parentheses around an operator: y in (d^2/dx^2 - x) y."""
     depth = 0
     for k in range(tokens.kinds.index("OPERATOR"), len(tokens.kinds)) if "OPERATOR" in tokens.kinds else ():
         depth += tokens.are(k, "LPAR") - tokens.are(k, "RPAR")

@@ -46,7 +46,7 @@ def pattern(text: str) -> re.Pattern[str]:
 
 
 class Tokens(list[Token]):
-    """Tokens in their order, with what rules, names and the parser ask about them; never changed once they are made.
+    """A sequence of tokens, never changed after creation, with the queries of rules, names and the parser.
 
     The parser's stand in `text`, and the last one is `$END`, and empty; `variable` is what their notation stands for where
     none is named.
@@ -67,7 +67,7 @@ class Tokens(list[Token]):
 
     @cached_property
     def names(self) -> dict[str, int]:
-        """The different plain names in order of appearance, each with the number of its first token."""
+        """The distinct plain names in order of appearance, each with the index of its first token."""
         found: dict[str, int] = {}
         for k, token in enumerate(self):
             if token.kind == "NAME":
@@ -81,13 +81,13 @@ class Tokens(list[Token]):
         return self.text[self[begin].start : self[end - 1].end] if end > begin else ""
 
     def error(self, kind: type[InputError], message: str, begin: int, end: int, **hints: str | None) -> InputError:
-        """An error at the tokens begin, ..., end - 1; `hints` are hint and shell."""
+        """An error that marks the tokens begin, ..., end - 1; `hints` are hint and shell."""
         start = self[begin].start
         return kind(message, text=self.text, position=start, length=max(1, self[end - 1].end - start), **hints)
 
     @cached_property
     def marks(self) -> frozenset[str]:
-        """Texts and kinds of the tokens; PROSE for a word that means nothing, "_" for an index, "." for 1."""
+        """Texts and kinds of the tokens; PROSE marks an unknown word, "_" an index, "." a number such as "1."."""
         found = {*self.pieces, *self.kinds}
         for kind, text, _, _ in self:
             if kind == "WORD" and len(text) > 2:
@@ -102,7 +102,7 @@ class Tokens(list[Token]):
 
     @cached_property
     def spaced(self) -> str:
-        """The tokens as one text for patterns: a space behind each of them, two where a gap follows."""
+        """The tokens as one text for patterns: each followed by a space, or by two where there is a gap."""
         return "".join(self._parts)
 
     @cached_property
@@ -115,12 +115,12 @@ class Tokens(list[Token]):
         return [0, *accumulate(map(len, self._parts))]
 
     def span(self, match: Match, group: int = 0) -> tuple[int, int]:
-        """The numbers of the first token of a match of the spaced text, and of the one behind it."""
+        """The index of the first token of a match in the spaced text, and of the token after it."""
         return bisect_left(self._offsets, match.start(group)), bisect_left(self._offsets, match.end(group))
 
     @cached_property
     def partners(self) -> dict[int, int]:
-        """The number of the bracket that closes, by that of the one that opens."""
+        """Maps the index of each opening bracket to that of the bracket that closes it."""
         found: dict[int, int] = {}
         opened: list[int] = []
         for k, token in enumerate(self):
@@ -132,7 +132,7 @@ class Tokens(list[Token]):
 
     @property
     def is_enclosed(self) -> bool:
-        """True if the first token is a bracket that the last one closes."""
+        """True if the first token is a bracket closed by the last one."""
         return len(self) > 1 and self.partners.get(0) == len(self) - 1
 
 

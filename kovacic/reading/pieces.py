@@ -90,7 +90,7 @@ class Paste:
 
     @property
     def beside(self) -> Tokens | None:
-        """What stands beside the one equation or expression: words, or another one."""
+        """The piece beside the one equation or expression: prose, or a second one."""
         scans = self.scans("equation")
         if len(scans) < 2:
             return None

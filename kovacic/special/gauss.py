@@ -71,7 +71,7 @@ if TYPE_CHECKING:
 #: Sets of exponent differences for which coverings are sought, and ramification points of f that may be among apparent ones.
 _MOST_CHOICES = 32
 _HIDDEN = 3
-#: Where it is asked whether solutions are real.
+#: Points at which solutions are tested for realness.
 _SAMPLE = (Fraction(2, 7), Fraction(7, 2), Fraction(-2, 7))
 
 
@@ -251,7 +251,7 @@ class _GaussForm:
 
     @property
     def aside(self) -> Expr | None:
-        """The same, but a positive x where f is -c x."""
+        """As `middle`, but the positive x with f = -1/2 where f is -c x."""
         is_turned = not self.f.num[0] and self.writer.is_negative(self.f.num.lc)
         return self._line_is(-HALF if is_turned else HALF)
 
@@ -307,7 +307,7 @@ class _GaussForm:
 
     @property
     def cost(self) -> tuple[bool | int | str, ...]:
-        """What is preferred: polynomials, differences that aren't integers at 0 (unless those at 1 are the same), short f.
+        """Order of preference: polynomials, differences at 0 that aren't integers (unless those at 1 are equal), short f.
 
         Solutions at 0 and at 1 are both real where f is between these: at many points, if possible.
         """

@@ -211,7 +211,7 @@ class GaugeTransform:
     b: RatFunc
 
     def gives(self, S: RatFunc) -> bool:
-        """Do the identities (1) of `kovacic.special.search` hold exactly, with a transformation that is invertible?"""
+        """True if the identities (1) of `kovacic.special.search` hold exactly and the transformation is invertible."""
         T = self.pullback.S
         D = S - T
         (a, da, d2a), (b, db, d2b) = map(self._derivatives, (self.a, self.b))

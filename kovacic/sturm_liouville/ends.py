@@ -88,7 +88,7 @@ def _atan(v: Any) -> Any:
     return _INTERVALS.mpf([least.a, _QUARTER_TURN.b])
 
 
-#: What functions and constants of mpmath are in intervals.
+#: Interval versions of mpmath's functions and constants.
 _FUNCTIONS = {
     **{name: getattr(_INTERVALS, name) for name in ("mpf", "exp", "log", "sqrt", "sin", "cos", "pi", "e")},
     "sinh": lambda v: (_INTERVALS.exp(v) - _INTERVALS.exp(-v)) / 2,
