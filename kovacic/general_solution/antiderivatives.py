@@ -13,21 +13,24 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass
+from functools import partial
 from math import lcm
 from typing import Any
 
 import sympy
 from sympy import atan, cos, exp, log, sin
 
-from kovacic.general_solution.integrands import integral_of_fraction, integral_of_product, prepared, radicands, sum_of
-from kovacic.general_solution.special_integrals import (
-    dilogarithm,
-    fresnel,
-    in_complex_exponentials,
-    incomplete_gamma,
+from kovacic.general_solution.integrands import (
+    Change,
+    integral_of_fraction,
+    integral_of_product,
+    prepared,
+    radicands,
+    sum_of,
 )
+from kovacic.general_solution.special_integrals import dilogarithm, in_complex_exponentials, incomplete_gamma
 from kovacic.general_solution.substitution import size
 from kovacic.general_solution.waves import beside_waves, by_coefficients, common_factor, wave_changes
 from kovacic.general_solution.zero import ball, samples
@@ -150,99 +153,74 @@ def _known(integrand: Expr, t: Expr) -> Expr | None:
     return found
 
 
-def in_powers(expression: Expr, t: Expr, u: Expr) -> Expr:
-    """For t = log(u), with powers of u for exponentials of r t + s; exp(-t^2) stays one."""
+def _in_another_variable(changes: Callable[[Expr, Expr], Iterable[Change]], term: Expr, x: Expr) -> Expr | None:
+    """The shortest of the integrals that are known in a new variable, back in x."""
+    found = []
+    for change in changes(term, x):
+        t, g = change.t, change.integrand
+        # in log(t), where t is exp(k x), exponentials would come back
+        leads_back = change.u.has(exp) and any(not (f.args[0] / t).has(t) for f in g.atoms(log))
+        if g.has(x) or leads_back:
+            continue
+        integral = integral_of_fraction(g, t)
+        if integral is None:
+            integral = _known(g, t)
+        if integral is not None:
+            found.append(change.back(integral))
+    return min(found, key=size, default=None)
 
-    def power(e: Expr) -> Expr:
-        rate = e.diff(t)
-        return exp(e) if rate.has(t) else u**rate * exp(e.subs(t, 0))
 
-    return expression.replace(exp, power).subs(t, log(u))
-
-
-def _in_an_argument(term: Expr, x: Expr) -> Expr | None:
-    """In u, beside whose slope the term is one of u: a function, or an argument of one; x = exp(u) for u = log(x)."""
+def _arguments(term: Expr, x: Expr) -> Iterator[Change]:
+    """To functions and arguments u of functions in a term, beside whose slope it is one of u; x = exp(u) for u = log(x)."""
     t = sympy.Dummy(real=True)
     own = term.atoms(*_BY_PARTS) | {f.args[0] for f in term.atoms(sympy.Function) if f.args[0].has(exp, sin, cos, log)}
     for u in sorted((u for u in own if u.has(x)), key=str):
         inner = (term / u.diff(x)).subs(u, t)
-        if u == log(x):
-            inner = prepared(inner.subs(x, exp(t)))
-        # where log(t) is left, exp(x) may come back
-        leads_back = u.has(exp) and any(not (f.args[0] / t).has(t) for f in inner.atoms(log))
-        if not inner.has(x) and not leads_back:
-            found = _known(inner, t)
-            if found is not None:
-                return in_powers(found, t, u.args[0]) if isinstance(u, log) else found.subs(t, u)
-    return None
+        yield Change(prepared(inner.subs(x, exp(t))) if u == log(x) else inner, t, u)
 
 
-def _in_exponentials(term: Expr, x: Expr) -> Expr | None:
-    """In u = exp(k x), for which x is written."""
+def _exponentials(term: Expr, x: Expr) -> Iterator[Change]:
+    """To u = exp(k x), of which all exponentials are powers."""
     term = sympy.expand(term)
     slopes = {e: e.args[0].diff(x) for e in term.atoms(exp) if e.has(x) and e.args[0].subs(x, 0) == 0}
     rates = {e: slope for e, slope in slopes.items() if not slope.has(x)}  # exp(sin(x)) isn't one of them
     k = common_factor([*rates.values()])
     if k is None:
-        return None
+        return
     # One u for all terms, or logarithms that cancel would stay; polynomials in it under roots and in logarithms.
     k = -k if k.could_extract_minus_sign() else k
     inner = {e for a in (*radicands(term), *(f.args[0] for f in term.atoms(log))) for e in a.atoms(exp)}
     powers = [rates[e] / k for e in inner if e in rates]
     if powers and all(power.is_negative for power in powers):
         k = -k
-    u = sympy.Dummy()
-    in_u = term.xreplace({e: u ** (rate / k) for e, rate in rates.items()}) / (k * u)
-    if in_u.has(x):
-        return None
-    integrand = prepared(in_u.xreplace({u: x}))
-    found = integral_of_fraction(integrand, x)
-    if found is None and not integrand.has(log(x)):  # in t = log(u) exponentials would come back
-        found = _known(integrand, x)
-    return None if found is None else found.subs(x, exp(k * x))
+    t = sympy.Dummy(positive=True)
+    in_t = term.xreplace({e: t ** (rate / k) for e, rate in rates.items()}) / (k * t)
+    yield Change(prepared(in_t), t, exp(k * x))
 
 
-def _in_a_root(term: Expr, x: Expr) -> Expr | None:
-    """In t = (a x + b)^(1/q), of which all roots of functions of x are powers."""
+def _roots(term: Expr, x: Expr) -> Iterator[Change]:
+    """To t = (a x + b)^(1/q), of which all roots of functions of x are powers."""
     powers = [power for power in term.atoms(sympy.Pow) if power.exp.is_Rational and not power.exp.is_Integer]
     bases = {power.base for power in powers if power.base.has(x)}
     if len(bases) != 1:
-        return None
+        return
     (line,) = bases
     slope = line.diff(x)
     if slope.has(x):
-        return None
+        return
     q = lcm(*(int(power.exp.q) for power in powers if power.base == line))
     t = sympy.Dummy(positive=True)
     inner = term.subs(x, (t**q - line.subs(x, 0)) / slope) * q * t ** (q - 1) / slope
-    found = None if inner.has(x) else _known(inner, t)
-    return None if found is None else found.subs(t, sympy.root(line, q))
+    yield Change(inner, t, sympy.root(line, q))
 
 
-def _has_waves(term: Expr, _: Expr) -> bool:
-    return bool(term.has(sin, cos))
-
-
-def _in_waves(term: Expr, x: Expr) -> Expr | None:
-    """In c, s or a tangent, with exp(i u) = cos(u) + i sin(u): the shortest result."""
+def _waves(term: Expr, x: Expr) -> Iterator[Change]:
+    """To c, s or a tangent, with exp(i u) = cos(u) + i sin(u)."""
     for e in term.atoms(exp):
         angle = sympy.expand(e.args[0] / sympy.I)
         if e.has(sympy.I) and not angle.has(sympy.I):
             term = term.xreplace({e: cos(angle) + sympy.I * sin(angle)})
-    found = []
-    for change in wave_changes(term, x):
-        integral = _rational_or_known(change.integrand, x)
-        if integral is not None:
-            found.append(change.back(integral, x))
-    return min(found, key=size, default=None)
-
-
-def _rational_or_known(integrand: Expr, u: Expr) -> Expr | None:
-    """By partial fractions, or, beside a root of a wave, by another rule."""
-    found = integral_of_fraction(sympy.cancel(integrand), u)
-    if found is not None:
-        return found
-    return _known(integrand, u)
+    yield from wave_changes(term, x)
 
 
 # ------------------------------------------------------------------------------------------------------------ by parts
@@ -349,15 +327,26 @@ def _only_wave_below(term: Expr) -> Expr | None:
 # --------------------------------------------------------------------------------------------------------------- rules
 
 
+def _has_waves(term: Expr, _: Expr) -> bool:
+    return bool(term.has(sin, cos))
+
+
 _RULES = (
     _Rule("int P exp(r x) cos(w x) dx: undetermined coefficients", lambda e, x: True, by_coefficients),
-    _Rule("int f(u) u' dx = int f(u) du", lambda e, x: bool(_functions(e)), _in_an_argument),
-    _Rule("int f(exp(k x)) dx = int f(u)/(k u) du", lambda e, x: bool(e.has(exp)), _in_exponentials),
-    _Rule("int R(sin(u), cos(u)) dx for linear u: rational in a wave or tangent", _has_waves, _in_waves),
-    _Rule("products of powers and exponentials of rational functions", lambda e, x: True, integral_of_product),
-    _Rule("int P sin(q) dx for quadratic q: Fresnel functions", _has_waves, fresnel),
+    _Rule("int f(u) u' dx = int f(u) du", lambda e, x: bool(_functions(e)), partial(_in_another_variable, _arguments)),
     _Rule(
-        "int R cos(u) dx for linear u: Si and Ci",
+        "int f(exp(k x)) dx = int f(u)/(k u) du",
+        lambda e, x: bool(e.has(exp)),
+        partial(_in_another_variable, _exponentials),
+    ),
+    _Rule(
+        "int R(sin(u), cos(u)) dx for linear u: rational in a wave or tangent",
+        _has_waves,
+        partial(_in_another_variable, _waves),
+    ),
+    _Rule("products of powers and exponentials of rational functions", lambda e, x: True, integral_of_product),
+    _Rule(
+        "int R cos(u) dx: Si and Ci for linear u, Fresnel functions for quadratic u",
         lambda e, x: _has_waves(e, x) and not e.has(exp, log, atan),
         beside_waves,
     ),
@@ -365,7 +354,7 @@ _RULES = (
     _Rule(
         "int f(x, u^(1/q)) dx for u = a x + b: in t = u^(1/q)",
         lambda e, x: all(radicands(f) for f in e.atoms(*_BY_PARTS)),
-        _in_a_root,
+        partial(_in_another_variable, _roots),
     ),
     _Rule("int P g dx = P G - int P' G dx", lambda e, x: True, _powers_by_parts),
     _Rule("int f(x) cos(u) dx: Ei, erf and gamma functions of complex arguments", _has_waves, in_complex_exponentials),

@@ -10,7 +10,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
-from functools import partial
+from functools import cached_property, partial
 from itertools import islice
 from types import MappingProxyType
 from typing import Any
@@ -46,6 +46,75 @@ _CORNERS = tuple(function for function in JUMPING if function not in (sympy.Heav
 _NOT_EVALUATED = (NotImplementedError, ZeroDivisionError, AttributeError, ValueError)
 
 
+@dataclass(frozen=True)
+class Claim:
+    """y satisfies a y'' + b y' + c y = f, with a = 0 for an equation of first order, and conditions: in the user's symbols."""
+
+    x: Expr
+    y: Expr
+    coefficients: tuple[Expr, Expr, Expr, Expr]
+    conditions: Sequence[Condition]
+    #: What messages call the equation.
+    equation: Any
+
+    @classmethod
+    def of(cls, question: Question, value: Expr) -> Claim:
+        """The answer `value` in the variable of the question."""
+        a, b, c, f = map(question.own, question.coefficients)
+        return cls(question.x, value, (a, b, c, f), question.conditions, question.equation)
+
+    @cached_property
+    def rates(self) -> list[Expr]:
+        """b/a, c/a and f/a; c/b and f/b for an equation of first order."""
+        leading, *others = self.coefficients if self.coefficients[0] != 0 else self.coefficients[1:]
+        return [part / leading for part in others]
+
+    def at(self, numbers: Mapping[Expr, Expr]) -> Claim:
+        """The same with numbers for letters, but for the conditions."""
+        y, a, b, c, f = (e.xreplace(numbers) for e in (self.y, *self.coefficients))
+        return replace(self, y=y, coefficients=(a, b, c, f))
+
+    def failed(self, what: str) -> VerificationFailed:
+        """The exception for an answer that is wrong."""
+        return VerificationFailed(f"an answer for {self.equation} {what}; please report the equation: {self.y}")
+
+    def check(
+        self,
+        start: Expr | None = None,
+        limits: Mapping[Expr, Approach] = MappingProxyType({}),
+        *,
+        natural: Expr | None = None,
+    ) -> list[str]:
+        """As `check_answer`, but for jumps at ordinary points."""
+        if not is_finite(self.y):
+            raise self.failed("has no value")
+        numbers = _numbers_for(self, natural)
+        beside = None if start is None else start.xreplace(numbers)
+        unchecked = self._test("the equation", lambda: _is_wrong_at(self.at(numbers), beside))
+        for condition in self.conditions:
+            place = limits.get(condition.points[0])
+            if place is None:
+                unchecked += self._test(condition.text, partial(_is_violated, self, condition, numbers))
+                continue
+            part = self.y.diff(self.x, condition.terms[0].order).xreplace(numbers)
+            if is_refuted(condition.value, part, self.x, place):
+                raise self.failed(f"doesn't satisfy {condition.text}")
+        return unchecked
+
+    def _test(self, what: str, is_wrong: Callable[[], bool]) -> list[str]:
+        """What is said where a test couldn't be made.  Raises `VerificationFailed` where the answer fails it."""
+        try:
+            fails = is_wrong()
+        except _NOT_EVALUATED as reason:
+            said = "a part of it can't be evaluated"
+            if isinstance(reason, NotImplementedError):  # the messages of other errors are no help
+                said = str(reason)
+            return [f"the answer wasn't put into {what}, numerically: {said}"]
+        if fails:
+            raise self.failed(f"doesn't satisfy {what}")
+        return []
+
+
 def check_answer(
     question: Question,
     value: Expr,
@@ -59,71 +128,35 @@ def check_answer(
     `value` is the answer in the variable of the question, `start` an ordinary point on the side that is meant, and `limits`
     says where conditions are on limits, and from which side.  The answer holds where the integer `natural` isn't negative.
     """
-    if not is_finite(value):
-        raise _failed(question, value, "has no value")
-    numbers = _numbers_for(question, value, natural)
-    here = replace(question, symbols={name: numbers.get(symbol, symbol) for name, symbol in question.symbols.items()})
-    beside = None if start is None else start.xreplace(numbers)
-    unchecked = _check(question, value, "the equation", lambda: _is_wrong_at(here, value.xreplace(numbers), beside))
-    for condition in question.conditions:
-        place = limits.get(condition.points[0])
-        if place is None:
-            is_violated = partial(_is_violated, question, value, condition, numbers)
-            unchecked += _check(question, value, condition.text, is_violated)
-            continue
-        part = value.diff(question.x, condition.terms[0].order).xreplace(numbers)
-        if is_refuted(condition.value, part, question.x, place):
-            raise _failed(question, value, f"doesn't satisfy {condition.text}")
-    if cuts_of(value, question.x) and _jumps(question, value):
+    claim = Claim.of(question, value)
+    unchecked = claim.check(start, limits, natural=natural)
+    parts = [value, *claim.rates] if cuts_of(value, question.x) else []
+    if question.function.args[0].is_positive:  # the whole line, where x = exp(t)
+        parts = [part.subs(question.x, sympy.exp(question.x)) for part in parts]
+    if parts and jumps(parts[0], question.x, parts[1:]):
         unchecked.append(
             "the formula jumps at an ordinary point of the equation: it is a solution between such points only"
         )
     return unchecked
 
 
-def _jumps(question: Question, value: Expr) -> bool:
-    """Does the answer jump at an ordinary point of the equation?"""
-    a, b, c, f = map(question.own, question.coefficients)
-    parts = [value, b / a, c / a, f / a]
-    if question.function.args[0].is_positive:  # the whole line, where x = exp(t)
-        parts = [part.subs(question.x, sympy.exp(question.x)) for part in parts]
-    return jumps(parts[0], question.x, parts[1:])
-
-
-def _check(question: Question, value: Expr, what: str, is_wrong: Callable[[], bool]) -> list[str]:
-    """What is said where a test couldn't be made.  Raises `VerificationFailed` where the answer fails it."""
-    try:
-        fails = is_wrong()
-    except _NOT_EVALUATED as reason:
-        said = "a part of it can't be evaluated"
-        if isinstance(reason, NotImplementedError):  # the messages of other errors are no help
-            said = str(reason)
-        return [f"the answer wasn't put into {what}, numerically: {said}"]
-    if fails:
-        raise _failed(question, value, f"doesn't satisfy {what}")
-    return []
-
-
-def _numbers_for(question: Question, value: Expr, natural: Expr | None) -> dict[Expr, Expr]:
+def _numbers_for(claim: Claim, natural: Expr | None) -> dict[Expr, Expr]:
     """Numbers for symbols that are integers or not positive; other symbols have values by their names.
 
     The answer has a value for them, if such are found: it is for generic ones, and a small integer needn't be generic.
     """
-    known = sympy.Tuple(value, *question.symbols.values()).free_symbols | {*_symbols_of(question.conditions)}
+    known = _symbols_of((claim.y, *claim.coefficients), claim.conditions)
     special = {s for s in known if s.is_integer or s.is_negative or s.is_nonpositive}
     tried = islice(samples(special), 1, 1 + 2 * _SAMPLES)  # from the second on, which is less special
     candidates = [numbers for numbers in tried if natural is None or not natural.xreplace(numbers).is_negative]
     for numbers in candidates:
-        if is_finite(value.xreplace(numbers)):
+        if is_finite(claim.y.xreplace(numbers)):
             return numbers
     return next(iter(candidates), {})
 
 
-def _symbols_of(conditions: Sequence[Condition]) -> Iterator[Expr]:
-    for condition in conditions:
-        yield from getattr(condition.value, "free_symbols", ())
-        for term in condition.terms:
-            yield from term.point.free_symbols | term.coefficient.free_symbols
+def _symbols_of(parts: Sequence[Expr], conditions: Sequence[Condition] = ()) -> set[Expr]:
+    return set().union(*(part.free_symbols for part in (*parts, *conditions)))
 
 
 def is_finite(value: Expr) -> bool:
@@ -133,18 +166,13 @@ def is_finite(value: Expr) -> bool:
     return value not in _INFINITE and all(map(is_finite, value.args))
 
 
-def _failed(question: Question, value: Expr, what: str) -> VerificationFailed:
-    return VerificationFailed(f"an answer for {question.equation} {what}; please report the equation: {value}")
-
-
-def _is_wrong_at(question: Question, value: Expr, start: Expr | None) -> bool:
+def _is_wrong_at(claim: Claim, start: Expr | None) -> bool:
     """Is the residual seen not to be zero at a point?  Raises one of `_NOT_EVALUATED` where it can't be computed."""
-    x = question.x
-    definite = [integral for integral in _outer_integrals(value) if not integral.has_free(x)]
-    value = value.xreplace(dict.fromkeys(definite, sympy.Integer(1)))  # they are factors of y1 and y2
-    h = question.given.h
-    if h is not None and h.has(*JUMPING, AppliedUndef):
-        pieces = _in_pieces(question, value)
+    x = claim.x
+    definite = [integral for integral in _outer_integrals(claim.y) if not integral.has_free(x)]
+    claim = claim.at(dict.fromkeys(definite, sympy.Integer(1)))  # they are factors of y1 and y2
+    if any(e.has(*JUMPING, AppliedUndef) for e in claim.coefficients):
+        pieces = _in_pieces(claim)
         with working_digits(DIGITS):
             if any(pieces.is_wrong_at(point) for point in pieces.points):
                 return True
@@ -155,8 +183,7 @@ def _is_wrong_at(question: Question, value: Expr, start: Expr | None) -> bool:
         if base is None:
             base = acb(fmpq(23, 71), fmpq(0))
     with working_digits(DIGITS):
-        a, b, c, f = map(question.own, question.coefficients)
-        return _is_large(Residual(x, (a, b, c, f)), value, base + arb(_STEP))
+        return _is_large(Residual(x, claim.coefficients), claim.y, base + arb(_STEP))
 
 
 def _outer_integrals(e: Expr) -> Iterator[Expr]:
@@ -170,56 +197,58 @@ def _outer_integrals(e: Expr) -> Iterator[Expr]:
 
 @dataclass(frozen=True)
 class _Pieces:
-    """y and the coefficients of a y'' + b y' + c y = f; the breaks, and a rational point on each piece between them."""
+    """A claim without letters, the breaks, and a rational point on each piece between them."""
 
-    x: Expr
-    y: Expr
-    coefficients: tuple[Expr, Expr, Expr, Expr]
+    claim: Claim
     breaks: Sequence[Expr]
     points: Sequence[Expr]
 
     def is_wrong_at(self, point: Expr) -> bool:
         """Is the residual not zero on the piece with this point?"""
-        parts = (_antiderivatives(self.y, self.x), *self.coefficients)
-        y, a, b, c, f = (on_piece(part, self.x, point) for part in parts)
-        return _is_large(Residual(self.x, (a, b, c, f)), y, acb(fmpq(int(point.p), int(point.q))))
+        x = self.claim.x
+        parts = (_antiderivatives(self.claim.y, x), *self.claim.coefficients)
+        y, a, b, c, f = (on_piece(part, x, point) for part in parts)
+        return _is_large(Residual(x, (a, b, c, f)), y, acb(fmpq(int(point.p), int(point.q))))
 
     def is_wrong_across(self, k: int) -> bool:
-        """Do y and y' jump at the k-th break by anything else than the impulses say?
+        """Do y, and y' for an equation of second order, jump at the k-th break by anything else than the impulses say?
 
         False at a singular point of the equation, where any jump is right, and where impulses are of higher order.
         """
-        a, b, c, f = self.coefficients
+        x = self.claim.x
+        *rates, f = self.claim.rates
         point = self.breaks[k]
-        if not have_values((b / a, c / a), self.x, point):
+        if not have_values(rates, x, point):
             return False
-        apart = taken_apart(in_steps(f / a, self.x), self.x)
-        if apart is None or any(impulse.order > 1 for impulse in apart.impulses):
+        apart = taken_apart(in_steps(f, x), x)
+        if apart is None or any(impulse.order >= len(rates) for impulse in apart.impulses):
             return False
         at = ball(point)
         here = [impulse for impulse in apart.impulses if impulse.a == point]
-        strengths = (sympy.Add(*(impulse.strength for impulse in here if impulse.order == order)) for order in (0, 1))
-        zero, first = (jet(strength, self.x, at)[0] for strength in strengths)
-        if here:
-            zero -= jet(b / a, self.x, at)[0] * first
-        y = _antiderivatives(self.y, self.x, point)
-        before, after = (jet(on_piece(y, self.x, side), self.x, at) for side in self.points[k : k + 2])
-        scale = abs(before[0]) + abs(before[1]) + abs(after[0]) + abs(after[1]) + 1
-        misses = (after[0] - before[0] - first, after[1] - before[1] - zero)
+        # that of y first: by the impulses of the highest order
+        wanted = [
+            jet(sympy.Add(*(impulse.strength for impulse in here if impulse.order == order)), x, at)[0]
+            for order in reversed(range(len(rates)))
+        ]
+        if here and len(rates) == 2:
+            wanted[1] -= jet(rates[0], x, at)[0] * wanted[0]
+        y = _antiderivatives(self.claim.y, x, point)
+        if any(e.has(*JUMPING) for e in y.atoms(sympy.Integral)):  # of which no value is known on either side
+            return False
+        before, after = (jet(on_piece(y, x, side), x, at)[: len(rates)] for side in self.points[k : k + 2])
+        scale = sum(map(abs, (*before, *after)), arb(1))
+        misses = (right - left - jump for left, right, jump in zip(before, after, wanted, strict=True))
         return any(bool(abs(miss) > _SMALL * scale) for miss in misses)
 
 
-def _in_pieces(question: Question, value: Expr) -> _Pieces:
+def _in_pieces(claim: Claim) -> _Pieces:
     """At values of the parameters, and with functions for those that are given by their names."""
-    x = question.x
-    whole = [value, *(question.own(part) for part in question.coefficients)]
-    symbols = set().union(*(e.free_symbols for e in whole)) - {x}
-    sample = next(islice(samples(symbols), 1, None))
-    given = set().union(*(e.atoms(AppliedUndef) for e in whole))
-    functions = sorted({f.func for f in given}, key=str)
-    y, a, b, c, f = (_concrete(e.xreplace(sample), functions) for e in whole)
-    breaks = break_points(sympy.Tuple(y, f), x)
-    return _Pieces(x, y, (a, b, c, f), breaks, between(breaks))
+    whole = (claim.y, *claim.coefficients)
+    claim = claim.at(next(islice(samples(_symbols_of(whole) - {claim.x}), 1, None)))
+    functions = sorted({f.func for e in whole for f in e.atoms(AppliedUndef)}, key=str)
+    y, a, b, c, f = (_concrete(e, functions) for e in (claim.y, *claim.coefficients))
+    breaks = break_points(sympy.Tuple(y, f), claim.x)
+    return _Pieces(replace(claim, y=y, coefficients=(a, b, c, f)), breaks, between(breaks))
 
 
 def _antiderivatives(value: Expr, x: Expr, start: Expr | None = None) -> Expr:
@@ -252,12 +281,12 @@ def _is_large(residual: Residual, y: Expr, point: Any) -> bool:
     return bool(miss > _SMALL * scale)
 
 
-def _is_violated(question: Question, value: Expr, condition: Condition, numbers: dict[Expr, Expr]) -> bool:
+def _is_violated(claim: Claim, condition: Condition, numbers: dict[Expr, Expr]) -> bool:
     """Is the difference of the two sides of a condition seen not to be zero?  Raises as `_is_wrong_at` does."""
-    h = in_steps(sympy.sympify(question.given.h or 0), question.x)
+    f = in_steps(claim.coefficients[-1], claim.x)
     # at an impulse y' is that just before it; elsewhere y and y' are those on either side
-    sides = (-1,) if h.has(sympy.DiracDelta) else (-1, 1)
-    return any(_is_violated_beside(question.x, value, condition, numbers, side) for side in sides)
+    sides = (-1,) if f.has(sympy.DiracDelta) else (-1, 1)
+    return any(_is_violated_beside(claim.x, claim.y, condition, numbers, side) for side in sides)
 
 
 def _is_violated_beside(x: Expr, value: Expr, condition: Condition, numbers: dict[Expr, Expr], side: int) -> bool:
@@ -265,7 +294,7 @@ def _is_violated_beside(x: Expr, value: Expr, condition: Condition, numbers: dic
     assert condition.value is not None
     sample: dict[Expr, Expr] = {}
     if value.has(*_CORNERS):  # at numbers, for the side depends on where the corners are
-        symbols = (value.free_symbols | {*_symbols_of([condition])}) - {x, *numbers}
+        symbols = _symbols_of((value, condition)) - {x, *numbers}
         sample = numbers | next(islice(samples(symbols), 1, None))
         value = value.xreplace(sample)
     total = -condition.value

@@ -10,33 +10,27 @@ and one of Riccati's is made linear in `riccati_equation`.
 from __future__ import annotations
 
 from collections.abc import Collection, Mapping, Sequence, Set
-from contextlib import suppress
 from dataclasses import dataclass, replace
 from functools import cached_property
-from itertools import islice
 from typing import Any, NamedTuple
 
 import sympy
-from flint import acb, arb, fmpq
-from sympy import DiracDelta
 from sympy.core.function import AppliedUndef
 from sympy.simplify.fu import TR2
 
-from kovacic.algebra.precision import working_digits
 from kovacic.closed_form.atoms import Atoms, display
-from kovacic.closed_form.check import DIGITS
 from kovacic.closed_form.product import product
 from kovacic.errors import InputError, VerificationFailed
 from kovacic.general_solution.antiderivatives import antiderivative
-from kovacic.general_solution.check import is_finite
+from kovacic.general_solution.check import Claim, is_finite
 from kovacic.general_solution.conditions import Condition, exact
 from kovacic.general_solution.continuity import jumps
 from kovacic.general_solution.integrands import NUMBERS, ratfunc
-from kovacic.general_solution.jumps import between, break_points, in_steps, on_piece
+from kovacic.general_solution.jumps import in_steps
 from kovacic.general_solution.steps import JUMPING, Apart, taken_apart
 from kovacic.general_solution.textbook import in_book_form, sums
 from kovacic.general_solution.values import value_at
-from kovacic.general_solution.zero import Residual, ball, is_zero, points, samples
+from kovacic.general_solution.zero import is_zero
 from kovacic.limits import Limits
 from kovacic.numbers.numerals import as_text
 from kovacic.reading.pieces import Paste
@@ -46,10 +40,6 @@ from kovacic.special.choice import shortest
 
 Expr = Any  # SymPy publishes no types
 _ZERO = sympy.Integer(0)
-#: How small a residual is, relative to the size of its terms.
-_SMALL = arb(10) ** (-DIGITS // 2)
-_NO_VALUE = "a part of it can't be evaluated"
-_NOT_EVALUATED = (NotImplementedError, ZeroDivisionError, AttributeError, ValueError)
 
 
 @dataclass(frozen=True)
@@ -307,71 +297,16 @@ def _constant_through(equation: FirstOrderEquation, h: Expr, particular: Expr, v
 
 
 def check_first_order(equation: FirstOrderEquation, w: Expr, conditions: Sequence[Condition]) -> list[str]:
-    """One sentence per check that could not be carried out.  Raises `VerificationFailed` where w is seen to be wrong."""
-    value = value_of(conditions)
-    w = _concrete(w)
-    equation = FirstOrderEquation(equation.function, *map(_concrete, equation.parts))
-    known = [w, equation.p, equation.q, equation.r, *(value or ())]
-    symbols = set().union(*(e.free_symbols for e in known)) - {equation.x}
-    sample = next(islice(samples(symbols), 1, None))
-    is_missed: bool | None = False
-    with working_digits(2 * DIGITS):
-        is_wrong = _is_wrong(equation, w, sample)
-        if value is not None:
-            is_missed = _is_missed(equation, w, sample, value)
-    if is_wrong or is_missed:
-        raise VerificationFailed(f"{w} isn't a solution of an equation of first order; please report {equation}")
-    unchecked = []
-    if is_wrong is None:
-        unchecked.append(f"the answer could not be verified numerically: {_NO_VALUE}")
-    if is_missed is None:
-        unchecked.append(f"{conditions[0].text} could not be verified numerically: {_NO_VALUE}")
-    return unchecked
+    """One sentence per check that could not be carried out.  Raises `VerificationFailed` where w is seen to be wrong.
 
-
-def _concrete(e: Expr) -> Expr:
-    """With waves in the place of functions that aren't given."""
-    return e.replace(lambda f: isinstance(f, AppliedUndef), lambda f: sympy.cos(f.args[0] + len(str(f.func))))
-
-
-def _is_missed(equation: FirstOrderEquation, w: Expr, sample: dict[Expr, Expr], wanted: GivenValue) -> bool | None:
-    """True if w(a) differs from the wanted value; None if it can't be evaluated.
-
-    Raises `InputError` where a is a singular point of the equation, so that no solution needs to have the value.
+    w' - (q + r w) w = p.  Raises `InputError` where w hasn't the value at a singular point, as no solution needs to have it.
     """
+    value = value_of(conditions)
+    p, q, r = equation.parts
+    claim = Claim(equation.x, w, (_ZERO, sympy.Integer(1), -q - r * w, p), conditions, equation.reading)
     try:
-        reached = value_at(w, equation.x, wanted.point)
-    except NotImplementedError:
-        return None
-    left = ball(reached.xreplace(sample))
-    right = ball(wanted.v.xreplace(sample))
-    if left is None or right is None or not left.is_finite():
-        return None
-    is_missed = bool(abs(left - right) > _SMALL)
-    if is_missed and not equation.is_regular_at(wanted.point):
-        raise InputError(f"there is no solution with this value at {wanted.point}, a singular point of the equation")
-    return is_missed
-
-
-def _is_wrong(equation: FirstOrderEquation, w: Expr, sample: dict[Expr, Expr]) -> bool | None:
-    """True if the residual is seen not to vanish at a point, or w to jump; None if nothing can be evaluated."""
-    x = equation.x
-    w, p, q, r = (e.xreplace(sample) for e in (w, *equation.parts))
-    breaks: list[Expr] = []
-    places = [(_ZERO, point) for point in islice(points(), 2)]
-    if (p + q).has(*JUMPING):  # a real point between each two of the breaks
-        breaks = break_points(p + q, x)
-        places = [(place, acb(fmpq(place.p, place.q))) for place in between(breaks)]
-    pieces = [on_piece(w, x, place) for place, _ in places]
-    found = []
-    for piece, (place, point) in zip(pieces, places, strict=True):
-        here = (1, -q - r * piece, p)
-        with suppress(*_NOT_EVALUATED):
-            residual = Residual(x, (_ZERO, *(on_piece(sympy.sympify(e), x, place) for e in here)))
-            miss, scale = residual.at(piece, point)
-            found.append(bool(miss > _SMALL * scale))
-    if not p.has(DiracDelta):
-        sides = zip(pieces, pieces[1:], breaks, strict=False)
-        jumps_there = (ball((left - right).subs(x, a)) for left, right, a in sides)
-        found += [bool(abs(jump) > _SMALL) for jump in jumps_there if jump is not None]
-    return any(found) if found else None
+        return claim.check()
+    except VerificationFailed:
+        if value is None or equation.is_regular_at(value.point):
+            raise
+    raise InputError(f"there is no solution with this value at {value.point}, a singular point of the equation")

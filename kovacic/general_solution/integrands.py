@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
+from dataclasses import dataclass
 from typing import Any
 
 import sympy
@@ -26,6 +27,27 @@ _PART_SECONDS = 2e-5
 _LONGEST = 200
 #: The numbers that are parameters in coefficients.
 NUMBERS = {sympy.Symbol(PI): sympy.pi, sympy.Symbol(EULER): sympy.E}
+
+
+@dataclass(frozen=True)
+class Change:
+    """int f(x) dx = int g(t) dt for t = u(x)."""
+
+    #: g(t) = f(x) dx/dt.
+    integrand: Expr
+    t: Expr
+    u: Expr
+
+    def back(self, found: Expr) -> Expr:
+        """A function of t in x; with powers of v for exponentials of r t + s where u = log(v), but exp(-t^2) stays one."""
+        if not isinstance(self.u, log):
+            return found.subs(self.t, self.u)
+
+        def power(e: Expr) -> Expr:
+            rate = e.diff(self.t)
+            return exp(e) if rate.has(self.t) else self.u.args[0] ** rate * exp(e.subs(self.t, 0))
+
+        return found.replace(exp, power).subs(self.t, self.u)
 
 
 def prepared(integrand: Expr) -> Expr:

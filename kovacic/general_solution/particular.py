@@ -17,8 +17,7 @@ where b delta^(n) is the sum of (-1)^k C(n, k) b^(k)(a) delta^(n-k).
 from __future__ import annotations
 
 from collections import defaultdict
-from collections.abc import Callable, Mapping, Sequence
-from contextlib import suppress
+from collections.abc import Callable, Mapping
 from functools import partial
 from math import comb
 from typing import Any
@@ -29,20 +28,17 @@ from sympy import DiracDelta, Heaviside
 from kovacic.algebra.factors import combination
 from kovacic.algebra.poly import Poly
 from kovacic.algebra.ratfunc import RatFunc
-from kovacic.closed_form.atoms import Atoms, display
-from kovacic.closed_form.product import product
+from kovacic.closed_form.atoms import Atoms
 from kovacic.closed_form.way_back import in_x
 from kovacic.equation import Equation
-from kovacic.errors import LimitExceeded
-from kovacic.general_solution.antiderivatives import in_powers
 from kovacic.general_solution.basis import Basis
 from kovacic.general_solution.check import is_finite
 from kovacic.general_solution.constants import tidy
-from kovacic.general_solution.integrands import NUMBERS, prepared, ratfunc
+from kovacic.general_solution.integrands import NUMBERS, Change, prepared, ratfunc
 from kovacic.general_solution.steps import Apart, HeavisideTerm, taken_apart
 from kovacic.general_solution.undetermined import undetermined
 from kovacic.general_solution.values import have_values, value_at, values_at
-from kovacic.general_solution.variation import at_once, with_integrals
+from kovacic.general_solution.variation import with_integrals
 from kovacic.reading.change_of_variable import slope_squared
 
 Expr = Any  # SymPy publishes no types
@@ -81,116 +77,67 @@ def right_hand_side(equation: Equation) -> Expr:
 
 def _solved(basis: Basis, right: Expr, start: Expr | None) -> Expr:
     """A solution for a right-hand side without jumps, by the cheapest way, and integrals from a point on where they stay."""
-    found = None
-    with suppress(LimitExceeded):
-        found = _at_once(basis, right)
-    if found is not None:
-        return found
-    terms = sympy.Add.make_args(prepared(right))
-    known = _known_terms(basis, terms)
-    if not known:
-        return with_integrals(basis, right, start)
-    total = sympy.Add(*known.values())
-    rest = sympy.Add(*(term for term in terms if term not in known))
-    if rest != 0:
-        total += with_integrals(basis, rest, start)
-    return total
-
-
-def _known_terms(basis: Basis, terms: Sequence[Expr]) -> dict[Expr, Expr]:
-    """The terms of a sum, unless there are too many, for which a solution is known at once; and these."""
+    found = _without_integrals(basis, right)
+    if found is None:
+        found = with_integrals(basis, right, start)
+    terms = sympy.Add.make_args(prepared(right)) if found.has(sympy.Integral) else ()
     if not 1 < len(terms) <= _LARGEST_SUM:
-        return {}
-    found = {term: _at_once(basis, term) for term in terms}
-    return {term: part for term, part in found.items() if part is not None}
+        return found
+    known = []
+    rest = []
+    for term in terms:
+        part = _without_integrals(basis, term)
+        if part is None:
+            part = with_integrals(basis, term, start)
+        if part.has(sympy.Integral):
+            rest.append(term)
+        else:
+            known.append(part)
+    if not known:
+        return found
+    if rest:
+        known.append(with_integrals(basis, sympy.Add(*rest), start))
+    return sympy.Add(*known)
 
 
-def _at_once(basis: Basis, right: Expr) -> Expr | None:
-    """A polynomial, a solution with undetermined coefficients, or one by integrals that are known; None without."""
-    equation = basis.equation
+def _without_integrals(basis: Basis, right: Expr) -> Expr | None:
+    """A polynomial, or a solution by undetermined coefficients: of an equation with constant coefficients, or of Euler's."""
     x = basis.x
-    polynomial = _polynomial_for(equation, ratfunc(right, x))
+    polynomial = _polynomial_solution(basis.equation, ratfunc(right, x))
     if polynomial is not None:
         return Atoms(x).poly(polynomial).xreplace(NUMBERS)
-    found = _by_coefficients(equation, right, x)
-    if found is not None:
-        return found
-    return at_once(basis, right)
+    b, c = map(sympy.factor, basis.rates)
+    if not (b.has(x) or c.has(x)):
+        return undetermined(b, c, right, x)
+    return _of_euler(b, c, right, x)
 
 
-def _polynomial_for(equation: Equation, right: RatFunc | None) -> Poly | None:
-    """A polynomial y with y'' + (b/a) y' + (c/a) y = right; None where there is none, or `right` isn't known as a fraction."""
-    field = equation.a.field
-    if right is None:
+def _of_euler(b: Expr, c: Expr, right: Expr, x: Expr) -> Expr | None:
+    """For b = beta/u, c = gamma/u^2 with u = x - p: u = e^t turns it into y_tt + (beta - 1) y_t + gamma y = e^(2t) right."""
+    double = sympy.Poly(sympy.denom(b) ** 2 if c == 0 else sympy.denom(c), x)
+    if double.degree() != 2:
         return None
-    if right.field == field:
-        return _polynomial_solution(equation, right * equation.a)
-    if not field.extends(right.field):
+    u = x + double.coeff_monomial(x) / (2 * double.LC())
+    beta, gamma = sympy.cancel(b * u), sympy.cancel(c * u**2)
+    if beta.has(x) or gamma.has(x):
         return None
-    over_field = RatFunc(right.num.over(field), right.den.over(field), reduced=True)
-    return _polynomial_solution(equation, over_field * equation.a)
-
-
-def _by_coefficients(equation: Equation, right: Expr, x: Expr) -> Expr:
-    """A solution of y'' + ... = right by undetermined coefficients; None where the equation or the right-hand side differ.
-
-    Either the coefficients are constants; or y = G u, G the gauge factor, has u'' = S u + right/G with a constant S, or with
-    S = s/(x - c)^2.
-    """
-    atoms = Atoms(x)
-    S = equation.S
-    b, c = equation.b / equation.a, equation.c / equation.a
-    if _is_constant(b) and _is_constant(c):
-        return undetermined(atoms.ratio(b).xreplace(NUMBERS), atoms.ratio(c).xreplace(NUMBERS), right, x)
-    gauge = display(product(equation.gauge), atoms).xreplace(NUMBERS)
-    if _is_constant(S):
-        found = undetermined(0, -atoms.ratio(S).xreplace(NUMBERS), right / gauge, x)
-        if found is not None:
-            return _times(gauge, found)
-    den = S.den if S else equation.gauge.den  # any c does for s = 0: that of the gauge factor
-    return _with_a_double_pole(equation, den, gauge, right, x)
-
-
-def _is_constant(r: RatFunc) -> bool:
-    return r.is_polynomial and r.num.degree <= 0
-
-
-def _times(gauge: Expr, u: Expr) -> Expr:
-    """G u, term by term."""
-    return sympy.Add(*(sympy.powsimp(gauge * term) for term in sympy.Add.make_args(u)))
-
-
-def _with_a_double_pole(equation: Equation, den: Poly, gauge: Expr, right: Expr, x: Expr) -> Expr | None:
-    """G u with u'' = s/(x - c)^2 u + right/G, which x = c + e^t turns into u_tt - u_t - s u = e^(2t) right/G.
-
-    None where S isn't of this kind: c is the only zero of `den` if it has one.
-    """
-    if den.degree == 0:
-        return None
-    atoms = Atoms(x)
-    S = equation.S
-    root = den[den.degree - 1] / (den.degree * den.lc)  # -c
-    line = S.field.poly([root, 1])
-    s = S * line**2
-    if not _is_constant(s):
-        return None
-    t = sympy.Dummy(real=True)
-    u = x + atoms.constant(root).xreplace(NUMBERS)
-    if any(f.args[0].subs(x, 1 - u + x).is_negative for f in right.atoms(sympy.log)):  # real on the left of c
+    if any(f.args[0].subs(x, 1 - u + x).is_negative for f in right.atoms(sympy.log)):  # real on the left of p
         u = -u
-    gauge = gauge.xreplace({atoms.primitive(line)[1]: u})
-    inner = (right / gauge).subs(x, (sympy.exp(t) - u) / u.diff(x) + x).replace(lambda e: e.is_Add, sympy.expand)
-    found = undetermined(-1, -atoms.ratio(s).xreplace(NUMBERS), sympy.exp(2 * t) * inner, t)
-    if found is None:
+    t = sympy.Dummy(real=True)
+    inner = right.subs(x, (sympy.exp(t) - u) / u.diff(x) + x).replace(lambda e: e.is_Add, sympy.expand)
+    found = undetermined(beta - 1, gamma, sympy.exp(2 * t) * inner, t)
+    return None if found is None else Change(inner, t, sympy.log(u)).back(found)
+
+
+def _polynomial_solution(equation: Equation, right: RatFunc | None) -> Poly | None:
+    """A polynomial y with y'' + (b/a) y' + (c/a) y = right, of a degree at most two above that of a right, or None."""
+    field = equation.a.field
+    if right is None or not (right.field == field or field.extends(right.field)):
         return None
-    return _times(gauge, in_powers(found, t, u))
-
-
-def _polynomial_solution(equation: Equation, right: RatFunc) -> Poly | None:
-    """A polynomial y with a y'' + b y' + c y = right, of a degree at most two above that of `right`, or None."""
-    denominators = equation.a.den * equation.b.den * equation.c.den * right.den
-    a, b, c, f = ((value * denominators).num for value in (equation.a, equation.b, equation.c, right))
-    x = f.field.poly([0, 1])
+    whole = RatFunc(right.num.over(field), right.den.over(field), reduced=True) * equation.a
+    denominators = equation.a.den * equation.b.den * equation.c.den * whole.den
+    a, b, c, f = ((value * denominators).num for value in (equation.a, equation.b, equation.c, whole))
+    x = field.poly([0, 1])
     lowest = min(p.degree for p in (a, b, c) if p)
     height = max(f.degree - lowest, 0) + 2
     powers: list[Any] = [x**k for k in range(height + 1)]

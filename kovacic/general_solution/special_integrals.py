@@ -9,7 +9,6 @@ from typing import Any
 
 import sympy
 from sympy import cos, exp, log, sin
-from sympy.simplify.fu import TR8
 
 from kovacic.general_solution.integrands import integral_of_product, sum_of
 
@@ -51,35 +50,9 @@ def incomplete_gamma(term: Expr, x: Expr) -> Expr | None:
     return found.xreplace({t: line})
 
 
-def fresnel(term: Expr, x: Expr) -> Expr | None:
-    """int P(x) sin(q(x)) dx, or of the cosine, for a polynomial P and a quadratic q = a t^2 + d, t = x + b/(2a).
-
-    Products of waves are sums of such terms.
-
-    >>> x = sympy.Symbol("x")
-    >>> print(fresnel(x**2 * cos(x**2), x))
-    x*sin(x**2)/2 - sqrt(2)*sqrt(pi)*fresnels(sqrt(2)*x/sqrt(pi))/4
-    """
-    if not any(_is_quadratic(wave.args[0], x) for wave in term.atoms(sin, cos)):
-        return None
-    return sum_of(_fresnel(single, x) for single in sympy.Add.make_args(sympy.expand(TR8(term))))
-
-
-def _is_quadratic(q: Expr, x: Expr) -> bool:
-    return bool(q.is_polynomial(x) and sympy.degree(q, x) == 2)
-
-
-def _fresnel(term: Expr, x: Expr) -> Expr | None:
-    """That of a polynomial times one wave; None for another term."""
-    waves = term.atoms(sin, cos)
-    if len(waves) != 1:
-        return None
-    (wave,) = waves
-    P = term / wave
-    (q,) = wave.args
-    if P.has(wave) or not P.is_polynomial(x) or not _is_quadratic(q, x):
-        return None
-    a, b, c = sympy.Poly(q, x).all_coeffs()
+def fresnel(P: Expr, wave: Expr, x: Expr) -> Expr:
+    """int P(x) sin(q(x)) dx, or of the cosine, for a polynomial P and a quadratic q = a t^2 + d, t = x + b/(2a)."""
+    a, b, c = sympy.Poly(wave.args[0], x).all_coeffs()
     t = sympy.Dummy()
     phase = c - b**2 / (4 * a)
     if wave.func is cos:  # the sine, an angle of pi/2 later

@@ -19,9 +19,8 @@ from kovacic.closed_form.check import DIGITS
 from kovacic.closed_form.form import one_exponential
 from kovacic.errors import LimitExceeded
 from kovacic.general_solution.antiderivatives import antiderivative
-from kovacic.general_solution.basis import Basis, rates, with_single_waves
+from kovacic.general_solution.basis import Basis, with_single_waves
 from kovacic.general_solution.continuity import jumps
-from kovacic.general_solution.integrands import prepared
 from kovacic.general_solution.steps import JUMPING
 from kovacic.general_solution.substitution import size
 from kovacic.general_solution.textbook import is_constant
@@ -47,37 +46,22 @@ class DefiniteIntegral(sympy.Integral):  # type: ignore[misc]
         return sympy.Integral(*self.args)._evalf(prec)
 
 
-def at_once(basis: Basis, right: Expr) -> Expr | None:
-    """A solution of y'' + ... = right by integrals that are known, substituted before it is returned; None without."""
-    right = prepared(right)
-    known = _known_integrals(basis, _integrands(basis, right))
-    if any(part is None or part.has(sympy.Integral) for part in known):
-        return None
-    return _checked(basis, known, right, rates(basis.equation, basis.x))
-
-
 def with_integrals(basis: Basis, right: Expr, start: Expr | None) -> Expr:
     """A solution of y'' + ... = right; integrals that aren't known stay, and begin at `start` unless it is None."""
     x = basis.x
-    coefficients = rates(basis.equation, x)  # while there is time
-    integrands = [powsimp(integrand) for integrand in _integrands(basis, right)]
+    integrands = [powsimp(y * right / basis.wronskian) for y in (basis.y2, basis.y1)]
     known = _known_integrals(basis, integrands)
     if None not in known and basis.equation.change is None:
-        whole = _checked(basis, known, right, coefficients)
+        whole = _checked(basis, known, right)
         if whole is not None:
-            return whole.replace(lambda e: e.func is sympy.Integral, lambda e: _open(e.function, x, start))
+            return starting_at(whole, x, start)
     for integrals in (known, [None, None]):
         pairs = zip(integrals, integrands, strict=True)
         opened = [_open(integrand, x, start) if found is None else found for found, integrand in pairs]
         solution = _from_integrals(basis, opened)
-        if _is_right(basis, solution, right, coefficients):
+        if _is_right(basis, solution, right):
             break
     return solution
-
-
-def _integrands(basis: Basis, right: Expr) -> list[Expr]:
-    """y2 f/(a W) and y1 f/(a W)."""
-    return [y * right / basis.wronskian for y in (basis.y2, basis.y1)]
 
 
 def _from_integrals(basis: Basis, integrals: Sequence[Expr]) -> Expr:
@@ -112,7 +96,7 @@ def _without_crossings(basis: Basis, e: Expr | None) -> Expr | None:
     return e.xreplace({f: -sympy.expint(1, -f.args[0]) for f in crossing})
 
 
-def _checked(basis: Basis, parts: Sequence[Any], right: Expr, coefficients: tuple[Expr, Expr]) -> Expr | None:
+def _checked(basis: Basis, parts: Sequence[Any], right: Expr) -> Expr | None:
     """y2 times the second integral minus y1 times the first, in the shortest form, if that is a solution."""
     whole = expand(_from_integrals(basis, parts))
     if any(power.exp.free_symbols - {basis.x} for power in whole.atoms(sympy.Pow)):  # x x^a
@@ -122,12 +106,12 @@ def _checked(basis: Basis, parts: Sequence[Any], right: Expr, coefficients: tupl
         forms += [with_single_waves(whole), *fractions_of_waves(whole, basis.x)]
     candidates = [_without_homogeneous(basis, part) for form in forms for part in (form, _gathered(form, basis.x))]
     found = one_exponential(min(candidates, key=size))
-    return found if _is_right(basis, found, right, coefficients) else None
+    return found if _is_right(basis, found, right) else None
 
 
-def _is_right(basis: Basis, y: Expr, right: Expr, coefficients: tuple[Expr, Expr]) -> bool:
+def _is_right(basis: Basis, y: Expr, right: Expr) -> bool:
     """Is it a solution, and without jumps at ordinary points?"""
-    if basis.equation.change is None and not is_solution(y, coefficients, right, basis.x):
+    if basis.equation.change is None and not is_solution(y, basis.rates, right, basis.x):
         return False
     parts = [basis.own(e) for e in (y, *basis.rates, right)]
     if any(member.has(log(basis.x)) for member in (basis.y1, basis.y2)):  # which are meant for x > 0
@@ -158,8 +142,8 @@ def _gathered(form: Expr, x: Expr) -> Expr:
     return sympy.Add(*found)
 
 
-def starting_at(y: Expr, x: Expr, start: Expr) -> Expr:
-    """With integrals from a point on in the place of antiderivatives."""
+def starting_at(y: Expr, x: Expr, start: Expr | None) -> Expr:
+    """With integrals from a point on in the place of antiderivatives, unless it is None."""
     return y.replace(
         lambda e: isinstance(e, sympy.Integral) and e.limits == (sympy.Tuple(x),), lambda e: _open(e.function, x, start)
     )

@@ -1,4 +1,4 @@
-"""Integrands with waves: changes of variable that make them rational, and sine and cosine integrals.
+"""Integrands with waves: changes of variable that make them rational; sine and cosine integrals, Fresnel functions.
 
 s = sin(theta) and c = cos(theta) for a linear theta = w x + phi.  A rational function R(s, c) is one of
 
@@ -8,8 +8,7 @@ s = sin(theta) and c = cos(theta) for a linear theta = w x + phi.  A rational fu
 from __future__ import annotations
 
 from collections import defaultdict
-from collections.abc import Sequence
-from dataclasses import dataclass
+from collections.abc import Iterator, Sequence
 from functools import reduce
 from typing import Any
 
@@ -17,7 +16,8 @@ import sympy
 from sympy import atan, cos, log, sin, tan
 from sympy.simplify.fu import TR2, TR8, TR2i
 
-from kovacic.general_solution.integrands import integral_of_product, sum_of
+from kovacic.general_solution.integrands import Change, integral_of_fraction, sum_of
+from kovacic.general_solution.special_integrals import fresnel
 from kovacic.general_solution.undetermined import undetermined
 
 Expr = Any  # SymPy publishes no types
@@ -26,20 +26,16 @@ Expr = Any  # SymPy publishes no types
 # ------------------------------------------------------------------------------------------------- changes of variable
 
 
-@dataclass(frozen=True)
-class WaveChange:
-    """To a function u of theta, for which x is written in `integrand`, R times dx/du."""
+class WaveChange(Change):
+    """To a sine, a cosine or a tangent u of a linear angle."""
 
-    integrand: Expr
-    u: Expr
-
-    def back(self, found: Expr, x: Expr) -> Expr:
-        """An integral that was found in u, in theta; logarithms are real for small angles where they can be."""
+    def back(self, found: Expr) -> Expr:
+        """An integral in the angle; logarithms are real for small angles where they can be."""
         early = sympy.Rational(99 if self.u.func is cos else 1, 100)
-        found = _joined_logarithms(found).replace(log, lambda q: log(-q if q.subs(x, early).is_negative else q))
+        found = _joined_logarithms(found).replace(log, lambda q: log(-q if q.subs(self.t, early).is_negative else q))
         if self.u.func is tan:
-            return TR2i(_at_tangent(found, self.u.args[0], x))
-        return TR2i(found.xreplace({x: self.u}))
+            return TR2i(_at_tangent(found, self.u.args[0], self.t))
+        return TR2i(found.xreplace({self.t: self.u}))
 
 
 def _joined_logarithms(found: Expr) -> Expr:
@@ -54,15 +50,13 @@ def _joined_logarithms(found: Expr) -> Expr:
     return sympy.Add(found, *joined.values())
 
 
-def _at_tangent(found: Expr, angle: Expr, x: Expr) -> Expr:
-    """For x = tan(angle), in sines and cosines, without jumps where the tangent has poles.
+def _at_tangent(found: Expr, angle: Expr, u: Expr) -> Expr:
+    """For u = tan(angle), in sines and cosines, without jumps where the tangent has poles.
 
-    A polynomial of the degree d under a logarithm is Q(sin, cos)/cos^d, and x^2 + 1 = 1/cos^2: with log(cos^2)/2 for log(cos),
+    A polynomial of the degree d under a logarithm is Q(sin, cos)/cos^d, and u^2 + 1 = 1/cos^2: with log(cos^2)/2 for log(cos),
     of the same slope, the logarithms of the cosine cancel unless the integrand has poles there.
     """
     s, c = sin(angle), cos(angle)
-    u = sympy.Dummy()
-    found = found.xreplace({x: u})
     in_cosine = sympy.Dummy()  # log(cos(angle)^2)
     known = {arc: _continuous_angle(arc.args[0], angle, u) for arc in found.atoms(atan)}
     for logarithm in found.atoms(log):
@@ -116,7 +110,7 @@ def wave_changes(term: Expr, x: Expr) -> list[WaveChange]:
     is_linear = not slope.has(x) and slope != 0
     if R.has(x) or not is_linear:
         return []
-    return _changes(R, s, c, theta, x)
+    return [*_changes(R, s, c, theta, slope)]
 
 
 def common_factor(multiples: Sequence[Expr]) -> Expr | None:
@@ -139,7 +133,7 @@ def fractions_of_waves(e: Expr, x: Expr) -> list[Expr]:
     masked = e.xreplace({f: letter for letter, f in kept.items()})
     waves = sorted(masked.atoms(sin, cos), key=str)
     theta = common_factor([wave.args[0] for wave in waves])
-    if theta is None or e.free_symbols != {x}:
+    if theta is None:
         return []
     s, c = sympy.Dummy(), sympy.Dummy()
     in_both = masked.xreplace({wave: _multiple_angle(wave, theta, s, c) for wave in waves})
@@ -196,69 +190,64 @@ def _multiple_angle(wave: Expr, theta: Expr, s: Expr, c: Expr) -> Expr:
     return sympy.sign(n) * s * sympy.chebyshevu(abs(n) - 1, c)
 
 
-def _changes(R: Expr, s: Expr, c: Expr, theta: Expr, x: Expr) -> list[WaveChange]:
-    """Those of the module's head that fit R; u is x."""
-    slope = theta.diff(x)
-    root = sympy.sqrt(1 - x**2)
-    square = 1 + x**2
+def _changes(R: Expr, s: Expr, c: Expr, theta: Expr, slope: Expr) -> Iterator[WaveChange]:
+    """Those of the module's head that fit R, in s = sin(theta) and c = cos(theta)."""
+    u = sympy.Dummy()
+    root = sympy.sqrt(1 - u**2)
+    square = 1 + u**2
 
-    def change(f: Expr, in_u: dict[Expr, Expr], u: Expr) -> WaveChange:
-        """For int f du with f in s and c, which are known in u."""
-        return WaveChange(f.subs(in_u) / slope, u)
+    def change(f: Expr, sine: Expr, cosine: Expr, wave: Expr) -> WaveChange:
+        """For int f du with the sine and the cosine in u."""
+        return WaveChange(sympy.cancel(f.subs({s: sine, c: cosine}) / slope), u, wave)
 
-    found = []
-    is_odd_in_s = sympy.cancel(R + R.xreplace({s: -s})) == 0
+    is_odd_in_s, is_odd_in_c = (sympy.cancel(R + R.xreplace({wave: -wave})) == 0 for wave in (s, c))
     if is_odd_in_s:
-        found.append(change(-R / s, {s: root, c: x}, cos(theta)))
-    is_odd_in_c = sympy.cancel(R + R.xreplace({c: -c})) == 0
+        yield change(-R / s, root, u, cos(theta))
     if is_odd_in_c:
-        found.append(change(R / c, {c: root, s: x}, sin(theta)))
-    if found:
-        return found
+        yield change(R / c, u, root, sin(theta))
+    if is_odd_in_s or is_odd_in_c:
+        return
     is_even = sympy.cancel(R - R.xreplace({s: -s, c: -c})) == 0
     if is_even:
-        return [change(R / square, {s: x / sympy.sqrt(square), c: 1 / sympy.sqrt(square)}, tan(theta))]
-    return [change(2 * R / square, {s: 2 * x / square, c: (1 - x**2) / square}, tan(theta / 2))]
+        yield change(R / square, u / sympy.sqrt(square), 1 / sympy.sqrt(square), tan(theta))
+    else:
+        yield change(2 * R / square, 2 * u / square, (1 - u**2) / square, tan(theta / 2))
 
 
-# ------------------------------------------------------------------------------------------- sine and cosine integrals
+# ------------------------------------------------------------------------------------------------ beside a single wave
 
 
 def beside_waves(term: Expr, x: Expr) -> Expr | None:
-    """int R cos(w x + b) dx for rational R, after partial fractions, by sine and cosine integrals.
+    """int R cos(u) dx for linear u and rational R by Si and Ci, for quadratic u and polynomials R by Fresnel functions.
+
+    Products of waves are sums of such terms.
 
     >>> x = sympy.Symbol("x")
     >>> beside_waves(sin(x) / x, x)
     Si(x)
+    >>> print(beside_waves(x**2 * cos(x**2), x))
+    x*sin(x**2)/2 - sqrt(2)*sqrt(pi)*fresnels(sqrt(2)*x/sqrt(pi))/4
     """
     singles = sympy.Add.make_args(sympy.expand(TR8(term)))
     return sum_of(_beside_at_most_one_wave(single, x) for single in singles)
 
 
 def _beside_at_most_one_wave(term: Expr, x: Expr) -> Expr | None:
-    """The integral of R, or of R times a wave, by partial fractions."""
-    waves = term.atoms(sin, cos)
-    if len(waves) > 1:
-        return None
-    wave = next(iter(waves), sympy.Integer(1))
+    waves = [wave for wave in term.atoms(sin, cos) if wave.has(x)]
+    wave = sympy.Mul(*waves)
     R = term / wave
-    if not R.is_rational_function(x) or R.has(sin, cos):
+    if len(waves) > 1 or not R.is_rational_function(x):
+        return None
+    if not waves:
+        return integral_of_fraction(R, x)
+    u = wave.args[0]
+    degree = sympy.degree(u, x) if u.is_polynomial(x) else 0
+    if degree == 2 and R.is_polynomial(x):
+        return fresnel(R, wave, x)
+    if degree != 1:
         return None
     fractions = sympy.Add.make_args(sympy.apart(R, x))
-    if not waves:
-        return sum_of(integral_of_product(fraction, x) for fraction in fractions)
-    return sum_of(_beside_one_wave(fraction, wave, x) for fraction in fractions)
-
-
-def _beside_one_wave(fraction: Expr, wave: Expr, x: Expr) -> Expr | None:
-    """The integral of a polynomial, or of a single pole, times a wave."""
-    slope = wave.args[0].diff(x)
-    if slope.has(x):
-        return None
-    found = by_coefficients(fraction * wave, x)
-    if found is not None:
-        return found
-    return _at_a_pole(fraction, wave, slope, x)
+    return sum_of(by_coefficients(fraction * wave, x) or _at_a_pole(fraction, wave, x) for fraction in fractions)
 
 
 def by_coefficients(term: Expr, x: Expr) -> Expr | None:
@@ -274,7 +263,7 @@ def by_coefficients(term: Expr, x: Expr) -> Expr | None:
     return sympy.expand(found.diff(x))
 
 
-def _at_a_pole(fraction: Expr, wave: Expr, slope: Expr, x: Expr) -> Expr | None:
+def _at_a_pole(fraction: Expr, wave: Expr, x: Expr) -> Expr | None:
     """int f g/(x - c)^k dx for a constant f and a wave g: by parts down to k = 1, which is Si and Ci."""
     base, exponent = fraction.as_independent(x, as_Add=False)[1].as_base_exp()
     is_pole_of_line = exponent.is_Integer and exponent < 0 and not base.diff(x).has(x)
@@ -290,12 +279,12 @@ def _at_a_pole(fraction: Expr, wave: Expr, slope: Expr, x: Expr) -> Expr | None:
         wave = wave.diff(x)
         k -= 1
     number, single = wave.as_independent(x, as_Add=False)
-    return total + factor * number * _over_a_line(single, c, slope, x)
+    return total + factor * number * _over_a_line(single, c, x)
 
 
-def _over_a_line(wave: Expr, c: Expr, slope: Expr, x: Expr) -> Expr:
-    """int sin(u + p)/(x - c) dx = cos(p) Si(u) + sin(p) Ci(u) with u = slope (x - c), and p + pi/2 for the cosine."""
-    u = slope * (x - c)
+def _over_a_line(wave: Expr, c: Expr, x: Expr) -> Expr:
+    """int sin(u + p)/(x - c) dx = cos(p) Si(u) + sin(p) Ci(u) with u = w (x - c), and p + pi/2 for the cosine."""
+    u = wave.args[0].diff(x) * (x - c)
     phase = sympy.expand(wave.args[0].subs(x, c))
     if wave.func is sin:
         return cos(phase) * sympy.Si(u) + sin(phase) * sympy.Ci(u)
