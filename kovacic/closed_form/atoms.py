@@ -107,7 +107,7 @@ class Atoms:
         return radical(self.constant(value))
 
     def is_negative(self, value: Poly) -> bool:
-        """Is a constant negative?  With parameters: is the first coefficient, so that -w^2 counts as negative?"""
+        """True if a constant is negative; with parameters, if its first coefficient is, so that -w^2 counts as negative."""
         if isinstance(value, FunctionPoly):
             return value.is_written_with_minus
         return bool(self.constant(value).is_negative)
@@ -289,7 +289,7 @@ def _positive_radicand(modulus: Poly) -> Fraction | None:
 
 
 def _is_the_smaller_root(field: AlgebraicField) -> bool:
-    """Is the root of a quadratic polynomial that is meant the one below the middle of both (or below the real axis)?"""
+    """True if the root meant, of a quadratic polynomial, is the one below the middle of both (or below the real axis)."""
     if field.approximation is None:
         return False
     real, imaginary = field.approximation

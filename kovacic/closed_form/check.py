@@ -1,4 +1,4 @@
-"""Are the solutions right?  Exactly, from the structure, in rational functions; and as shown, at a point, to 50 digits."""
+"""Checks of solutions: exactly, from the structure, in rational functions; and as printed, at a point, to 50 digits."""
 
 from __future__ import annotations
 
@@ -30,7 +30,7 @@ DIGITS = 50
 
 
 def is_exact_solution(form: ClosedStructure, S: RatFunc, gauge: RatFunc) -> bool:
-    """Do both solutions, divided by the gauge factor, satisfy y'' = S y?  Computed from the factors as they are written.
+    """True if both solutions, divided by the gauge factor, satisfy y'' = S y, computed from the factors as they are written.
 
     With omega = y'/y the condition is omega' + omega^2 = S; for omega = u +- w, w^2 rational and not 0, that is
     u' + u^2 + w^2 = S and w' + 2 u w = 0.  An integral is right if its derivative, computed from its parts, is the integrand.
@@ -91,7 +91,7 @@ def _is_complete(integral: CurveIntegral) -> bool:
 
 
 def _is_inverse_square(primitive: Primitive, bare: Product) -> bool:
-    """Is the derivative of the integral y^-2, up to a constant?"""
+    """True if the derivative of the integral is y^-2, up to a constant."""
     if isinstance(primitive, OpenPrimitive):
         return True  # the integral is left as it is
     if isinstance(primitive, CurveIntegral) and not _is_complete(primitive):
@@ -147,7 +147,7 @@ def independent(pairs: Sequence[tuple[Any, Any]], variable: Any) -> tuple[Any, A
 
 
 def is_numerical_solution(expression: Any, variable: Any, S: RatFunc, gauge: RatFunc) -> bool:
-    """Does the expression satisfy the equation to 50 digits at a point with negative real and imaginary part?
+    """True if the expression satisfies the equation to 50 digits at a point with negative real and imaginary part.
 
     Raises `LimitExceeded` where 4,800 digits don't tell.
     """

@@ -109,7 +109,7 @@ class CurveIntegral:
 
     @property
     def is_elementary(self) -> bool:
-        """Does (2) give the integral?  False says nothing for genus 1 and higher."""
+        """True if (2) gives the integral; False proves nothing for genus 1 and higher."""
         return self.g.degree <= 2 or (not self.residues and not self.rest)
 
     def radicand(self, residue: Residue) -> Poly:

@@ -47,7 +47,7 @@ class _SurdPair:
 
 
 def is_real_pair(form: Conjugate, atoms: Atoms) -> bool:
-    """Are the two solutions complex conjugates: real coefficients (for real parameters) and delta < 0?"""
+    """True if the two solutions are complex conjugates: real coefficients (for real parameters) and delta < 0."""
     field = form.delta.field
     if isinstance(field, AlgebraicField) and not (field.base == QQ and atoms.generator(field).is_real):
         return False

@@ -94,7 +94,7 @@ class Region:
 
     @property
     def is_real(self) -> bool:
-        """Is this an interval of the real axis?"""
+        """True for an interval of the real axis."""
         return self.low.imag == 0 == self.high.imag
 
     def points(self, x: Any) -> Any:
@@ -131,7 +131,7 @@ class Region:
 
 
 def _between(low: float, values: Any, high: float) -> bool:
-    """Do all of these that are numbers lie there?"""
+    """True if all of the numbers among these lie there."""
     least = np.fmin.reduce(values, axis=None)
     largest = np.fmax.reduce(values, axis=None)
     return not (least < low or largest > high)
@@ -184,7 +184,7 @@ def region_of(problem: NumericProblem | None, interval: tuple[object, object]) -
 
 
 def _singular_ends(problem: NumericProblem, low: ExactPoint, high: ExactPoint) -> tuple[bool, bool]:
-    """Is it singular at these corners?  Raises InputError where it may be at another point."""
+    """True for each of the two corners that is a singular point.  Raises InputError if another point may be one."""
     at_low = False
     at_high = False
     a = to_acb(low)
@@ -282,7 +282,7 @@ class RationalChart:
 
     @property
     def is_forced(self) -> bool:
-        """Is there a right-hand side?"""
+        """True if there is a right-hand side."""
         return self.problem.right is not None
 
     @cached_property
@@ -327,7 +327,7 @@ class AnalyticChart:
 
     @property
     def is_forced(self) -> bool:
-        """Is there a right-hand side?"""
+        """True if there is a right-hand side."""
         return bool(self.coefficients.f != 0)
 
     # None is known: a way through one is refused.
@@ -372,7 +372,7 @@ class AnalyticChart:
         return [s.state for s in evaluate_states(self.coefficients, points, **options)]
 
     def is_regular(self, centre: ExactPoint, e: int) -> bool:
-        """Are the coefficients known to be analytic in the disc with twice the scale 2^e?"""
+        """True if the coefficients are provably analytic in the disc with twice the scale 2^e."""
         with working_precision(64):
             return self._functions.sizes(centre, arb((1, e + 1))) is not None
 

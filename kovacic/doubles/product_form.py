@@ -67,7 +67,7 @@ class RootFactor:
 
     @property
     def is_natural(self) -> bool:
-        """Is the power a small integer that isn't negative?"""
+        """True if the power is a small nonnegative integer."""
         return self.whole is not None and self.whole >= 0
 
     def slope(self, t: Complex) -> Complex:

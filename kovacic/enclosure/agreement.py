@@ -1,4 +1,4 @@
-"""Does the monodromy agree with the differential Galois group?  A test of the engine by numbers, with proofs in balls.
+"""Comparison of the monodromy with the differential Galois group: a numerical test of the engine, with proofs in balls.
 
 What a verdict means:
 - False is a proof that the group G isn't the one that was claimed.
@@ -79,7 +79,7 @@ class Agreement:
 def agrees_with_group(
     answer: Answer, group: Group | None = None, *, digits: int = 15, limits: Limits | None = None
 ) -> Agreement:
-    """Does the monodromy of y'' = S y agree with a group?  `Solution.compare_with_monodromy` tells of it.
+    """Compare the monodromy of y'' = S y with a group; see `Solution.compare_with_monodromy`.
 
     >>> import kovacic
     >>> from kovacic.galois import Ground
@@ -99,7 +99,7 @@ def agrees_with_group(
 
 
 def is_fuchsian(problem: NumericProblem) -> bool:
-    """Are all singular points, with infinity, regular?"""
+    """True if all singular points, infinity among them, are regular."""
     num, den = problem.polynomials()
     is_infinity_regular = num.degree() < 0 or num.degree() - den.degree() <= -2
     return is_infinity_regular and all(multiplicity <= 2 for _, multiplicity in problem.poles(64))
@@ -240,12 +240,12 @@ class _Possible:
         )
 
     def torsion(self) -> bool:
-        """Is it possible that all the eigenvalues are roots of unity?"""
+        """True if all eigenvalues may be roots of unity."""
         orders = range(1, _HIGHEST_ORDER + 1)  # that are tried
         return all(any(_may_have_order(word, k) for k in orders) for word in self.words)
 
     def primitive(self) -> bool:
-        """Is one of the three finite groups possible?"""
+        """True if one of the three finite groups is possible."""
         longer = [*self.words, *self.commutators, *_products(self.words)]
         return any(all(_may_be_in(m, kind) for m in longer) for kind in _PRIMITIVE)
 
@@ -285,7 +285,7 @@ def _contradiction(possible: _Possible, group: Group, fuchsian: bool) -> str | N
 
 
 def _may_be_smaller(possible: _Possible, group: Group) -> bool:
-    """Is the closure of the monodromy perhaps a proper subgroup of this infinite group, in which it lies?"""
+    """True if the closure of the monodromy may be a proper subgroup of this infinite group, in which it lies."""
     if group.kind is GroupKind.MULTIPLICATIVE:
         return possible.torsion()
     if group.kind is GroupKind.ADDITIVE:
@@ -299,14 +299,14 @@ def _may_be_smaller(possible: _Possible, group: Group) -> bool:
 
 
 def _may_have_order(m: acb_mat, k: int) -> bool:
-    """Can the eigenvalues be k-th roots of unity?  With balls that isn't refuted for a large k."""
+    """True if the eigenvalues may be k-th roots of unity, which balls can't refute for a large k."""
     if k >= _LARGEST_POWER:
         return True
     return bool((m**k).trace().overlaps(_TWO))
 
 
 def _is_proper_order(words: list[acb_mat], n: int) -> bool:
-    """Do the n-th roots of unity that are eigenvalues provably have orders whose common multiple is less than n?"""
+    """True if the orders of the eigenvalues, n-th roots of unity, provably have a common multiple less than n."""
     if n > _LARGEST:
         return False
     for p in (int(p) for p, _ in fmpz(n).factor()):
@@ -334,7 +334,7 @@ def _may_be_identities(matrices: Iterable[acb_mat]) -> bool:
 
 
 def _may_be_in(m: acb_mat, kind: GroupKind) -> bool:
-    """Can the matrix be an element of this primitive group?  In a finite group +-1 are alone with their traces."""
+    """True if the matrix may be an element of this primitive group.  In a finite group only +-1 have their traces."""
     if m.trace().overlaps(_TWO):
         return _may_be_identity(m)
     if m.trace().overlaps(-_TWO):

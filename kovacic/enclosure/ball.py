@@ -239,7 +239,7 @@ class Ball:
         return bool((point - ExactPoint(re, im)).norm_squared() <= to_fmpq(_to_fraction(self.rad) ** 2))
 
     def overlaps(self, other: object) -> bool:
-        """Can the two exact values be equal?  False proves that they differ.
+        """True if the two exact values may be equal; False proves that they differ.
 
         Parameters
         ----------
@@ -403,7 +403,7 @@ class Ball:
         return None
 
     def equals(self, other: object) -> bool | None:
-        """Is the exact value that number?
+        """True if the exact value is that number.
 
         Parameters
         ----------

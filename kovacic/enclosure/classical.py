@@ -358,7 +358,7 @@ def _check_pieces(a: ExactPoint, b: ExactPoint, allowed: Callable[[acb], bool]) 
 
 
 def _off(z: acb) -> bool:
-    """Does the ball contain neither 0 nor negative numbers?"""
+    """True if the ball contains neither 0 nor negative numbers."""
     return bool(z.real > 0) or not z.imag.contains(0)
 
 

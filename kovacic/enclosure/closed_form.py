@@ -161,7 +161,7 @@ class CaseOneForm:
         return f"the closed form of case 1, with a polynomial of degree {self.first.P.degree}"
 
     def is_cheap(self, digits: int) -> bool:
-        """Does the first leg cost less than Taylor steps (measured): two exponentials, or a small integral of 1/y1^2?"""
+        """True if the first leg costs less than Taylor steps (measured): two exponentials, or a small integral of 1/y1^2."""
         if len(self.branches) == 2:
             return self.first.P.degree <= _CHEAP
         poles = sum(factor.degree * e * e for factor, e in self._square or () if e > 0)
@@ -188,7 +188,7 @@ class CaseOneForm:
 
     @property
     def is_elementary(self) -> bool:
-        """Are both solutions given without a quadrature?"""
+        """True if both solutions are given without a quadrature."""
         return len(self.branches) == 2 or self.rational_square is not None
 
     def leg(self, a: ExactPoint, b: ExactPoint) -> Matrix:

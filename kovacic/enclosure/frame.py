@@ -141,7 +141,7 @@ def distance_lower(system: System, centre: ExactPoint) -> arb | None:
 
 
 def is_apart(system: System, *points: ExactPoint) -> bool:
-    """Is it certain that no singular point lies in the convex hull of these?  In some direction each is beyond all of them."""
+    """True if no singular point lies in the convex hull of these: in some direction each is beyond all of them."""
     with working_precision(128):
         left = [root for root, _ in system.roots("den", 128)]
         for a, b in combinations(points, 2):

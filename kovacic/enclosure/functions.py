@@ -85,7 +85,7 @@ def _of_input(equation: Any, limits: Limits) -> Coefficients:
 
 
 def _nothing_cancels(part: Any, x: Any) -> bool:
-    """Is at most one term singular somewhere, a constant times a power of one function, as in cos(x) + 2*tan(x/5)^2?"""
+    """True if at most one term is singular anywhere, a constant times a power of one function, as in cos(x) + 2*tan(x/5)^2."""
     singular = []
     for term in sympy.Add.make_args(part):
         inverses = [p for p in term.atoms(sympy.Pow) if p.exp.is_negative and p.base.has(x)]

@@ -210,7 +210,7 @@ def _polynomial_coefficients(e: Any, x: Any) -> list[Any] | None:
 
 
 def _is_near(x: Any, zero: acb) -> bool:
-    """Is the quotient better taken from the series?"""
+    """True if the quotient is better taken from the series."""
     if isinstance(x, acb_series):
         return not abs(x[0] - zero) > _NEAR + 2 * abs(x[1])
     distance = abs(x - zero)
@@ -293,7 +293,7 @@ class CoefficientField:
         return centre.is_real() and are_real(self.all_values(to_acb(centre) + arb(0, arb((1, e - _SHARE)))))
 
     def is_regular(self, x: acb) -> bool:
-        """Are the coefficients known to be analytic on the ball?"""
+        """True if the coefficients are provably analytic on the ball."""
         return all(value.is_finite() for value in self.values(x, analytic=True))
 
     def sizes(self, centre: ExactPoint, radius: arb) -> list[arb] | None:

@@ -103,7 +103,7 @@ class LocalMonodromy:
             return m.det().contains(1) and (self.trace is None or m.trace().overlaps(ball_to_flint(self.trace)))
 
     def is_identity_to_the_power(self, order: int) -> bool:
-        """Can the matrix to this power be the identity?  False proves that it isn't.
+        """True if the matrix to this power may be the identity; False proves that it isn't.
 
         Parameters
         ----------

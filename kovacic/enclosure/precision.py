@@ -147,7 +147,7 @@ class _Run:
 
     @property
     def reached(self) -> bool:
-        """Are all values known to as many digits as were asked for?"""
+        """True if all values have the requested digits."""
         return self.finite and self.missing == 0
 
     def is_stalled(self, previous: _Run | None) -> bool:

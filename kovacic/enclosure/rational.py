@@ -76,7 +76,7 @@ class Oscillation:
     prec: int
 
     def reaches(self, x: ExactPoint) -> bool:
-        """Does the point lie on the half line?"""
+        """True if the point lies on the half line."""
         return x.is_real() and bool(self.sign * x.x >= self.edge)
 
     def fundamental(self, x: ExactPoint) -> Matrix:

@@ -90,7 +90,7 @@ class Singular:
         return min(roots, key=lambda root: float(abs(root - to_acb(self.near)).mid()))
 
     def is_at(self, x: ExactPoint) -> bool:
-        """Is x known to be this point?"""
+        """True if x is provably this point."""
         return self.exact and not self.inverted and x == self.near
 
     @property

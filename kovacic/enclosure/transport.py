@@ -245,7 +245,7 @@ class _Placed(NamedTuple):
 
 
 def _reaches_end(square: Any, e: int) -> bool:
-    """Does a disc of scale 2^e contain a way whose length has this square, with room to spare?"""
+    """True if a disc of scale 2^e contains, with room to spare, a way whose length has this square."""
     return bool(square <= power_of_two(2 * e + 2) * fmpq(9, 10))
 
 

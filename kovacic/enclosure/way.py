@@ -345,7 +345,7 @@ class Traveller:
         return found | {stop: self.resting() for stop in at_rest}
 
     def is_at(self, stop: ExactPoint) -> bool:
-        """Is the point known to be this one?"""
+        """True if the point is provably this one."""
         return self.here.is_at(stop) if isinstance(self.here, Singular) else self.here == stop
 
     def resting(self) -> State:

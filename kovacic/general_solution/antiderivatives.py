@@ -79,7 +79,7 @@ def _by_rules(integrand: Expr, x: Expr) -> Expr | None:
 
 
 def _holds_on_every_side(found: Expr, integrand: Expr, x: Expr) -> bool:
-    """Is its derivative the integrand at real points far apart, wherever that is real?"""
+    """True if its derivative is the integrand at real points far apart, wherever that is real."""
     slope = found.diff(x)
     others = next(samples(integrand.free_symbols - {x}))
     for point in _POINTS:

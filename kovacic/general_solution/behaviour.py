@@ -189,7 +189,7 @@ def _term_by_term(e: Expr, variable: Expr, towards: Expr) -> Any:
 
 
 def _is_known_to_sympy(f: Expr) -> bool:
-    """Does SymPy have a series of the function?  Of others it computes derivatives without an end."""
+    """True if SymPy has a series of the function; for others it computes derivatives forever."""
     if isinstance(f, BesselBase):
         return bool(f.args[0].is_Integer)
     return isinstance(f, _KNOWN)
@@ -210,7 +210,7 @@ def _classified(found: Expr | None) -> Expr | None:
 
 
 def _is_confirmed(found: Expr, e: Expr, x: Expr, place: Approach) -> bool:
-    """Do values nearer to the point agree better, for two of the first values of the letters?
+    """True if values nearer to the point agree better, for two of the first values of the letters.
 
     Not for all of them: what holds for generic letters needn't for small integers, as where 1/gamma(-m) is 0.
     """
@@ -226,7 +226,7 @@ def _letters(symbols: set[Expr]) -> Iterator[dict[Expr, Expr]]:
 
 
 def is_refuted(value: Expr | None, y: Expr, x: Expr, place: Approach) -> bool:
-    """Do values near the point show that y doesn't tend to the value, or for None isn't bounded?  False where they are lost."""
+    """True if values near the point show that y doesn't tend to the value (None: isn't bounded); False if they are lost."""
     e = y if value is None else y - value
     sizes = _sizes_near(e.xreplace(next(_letters(e.free_symbols - {x}))), x, place)
     return bool(sizes) and all(bool(near > far * 2) for far, near in pairwise(sizes))
@@ -247,7 +247,7 @@ def _sizes_near(e: Expr, x: Expr, place: Approach) -> list[Any]:
 
 
 def _is_nearer(found: Expr, far: Any, near: Any) -> bool:
-    """Is a value, or its distance from a finite limit, what it should be beside one further from the point?"""
+    """True if a value, or its distance from a finite limit, compares as it should with one further from the point."""
     if found == sympy.oo:
         return bool(near > far * arb("1.02"))
     if found == OSCILLATING:

@@ -160,14 +160,14 @@ def _symbols_of(parts: Sequence[Expr], conditions: Sequence[Condition] = ()) -> 
 
 
 def is_finite(value: Expr) -> bool:
-    """Does neither nan nor an infinity occur, but as a bound of an integral?"""
+    """True if neither nan nor an infinity occurs, except as a bound of an integral."""
     if isinstance(value, sympy.Integral):
         return is_finite(value.function)
     return value not in _INFINITE and all(map(is_finite, value.args))
 
 
 def _is_wrong_at(claim: Claim, start: Expr | None) -> bool:
-    """Is the residual seen not to be zero at a point?  Raises one of `_NOT_EVALUATED` where it can't be computed."""
+    """True if the residual is provably not zero at a point.  Raises one of `_NOT_EVALUATED` if it can't be computed."""
     x = claim.x
     definite = [integral for integral in _outer_integrals(claim.y) if not integral.has_free(x)]
     claim = claim.at(dict.fromkeys(definite, sympy.Integer(1)))  # they are factors of y1 and y2
@@ -204,7 +204,7 @@ class _Pieces:
     points: Sequence[Expr]
 
     def is_wrong_at(self, point: Expr) -> bool:
-        """Is the residual not zero on the piece with this point?"""
+        """True if the residual isn't zero on the piece with this point."""
         x = self.claim.x
         parts = (_antiderivatives(self.claim.y, x), *self.claim.coefficients)
         y, a, b, c, f = (on_piece(part, x, point) for part in parts)
@@ -282,7 +282,7 @@ def _is_large(residual: Residual, y: Expr, point: Any) -> bool:
 
 
 def _is_violated(claim: Claim, condition: Condition, numbers: dict[Expr, Expr]) -> bool:
-    """Is the difference of the two sides of a condition seen not to be zero?  Raises as `_is_wrong_at` does."""
+    """True if the two sides of a condition provably differ.  Raises as `_is_wrong_at` does."""
     f = in_steps(claim.coefficients[-1], claim.x)
     # at an impulse y' is that just before it; elsewhere y and y' are those on either side
     sides = (-1,) if f.has(sympy.DiracDelta) else (-1, 1)

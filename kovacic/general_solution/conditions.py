@@ -61,7 +61,7 @@ class Condition:
 
     @property
     def is_value(self) -> bool:
-        """Is it y(a) = v or y'(a) = v?"""
+        """True for y(a) = v and y'(a) = v."""
         return len(self.terms) == 1 and self.terms[0].coefficient == 1 and self.value is not None
 
     @property

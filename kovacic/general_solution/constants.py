@@ -187,7 +187,7 @@ def _of_rank_one(rows: Sequence[Row], names: Values) -> DeterminedConstants:
 
 
 def _are_gammas_without_common_poles(row: Row) -> bool:
-    """Are u and v multiples of 1/gamma(a) and 1/gamma(b), which never are zero together as a - b is no integer?"""
+    """True if u and v are multiples of 1/gamma(a) and 1/gamma(b), never zero together, since a - b isn't an integer."""
     arguments = []
     for entry in (row.u, row.v):
         factors = [factor for factor in sympy.Mul.make_args(entry) if not is_nowhere_zero(factor)]
@@ -286,7 +286,7 @@ def exception_of(zero: Expr, answer: Expr) -> str:
 
 
 def can_be(case: ParameterCase) -> bool:
-    """Are there factors that may be zero in all that is zero in a case?"""
+    """True if everything that is zero in a case has factors that may be zero."""
     return all(vanishing_factors(zero) != 1 for zero in case.zeros)
 
 
@@ -310,7 +310,7 @@ def tidy(value: Any) -> Any:
 
 
 def _is_left_alone(value: Expr) -> bool:
-    """Is it a rational number, long, with parts that aren't simplified, or a product of powers?"""
+    """True for a rational number, a long expression, one with parts that aren't simplified, or a product of powers."""
     if value.is_Rational or size(value) > _LONGEST:
         return True
     powers = value.atoms(sympy.Pow)
@@ -425,7 +425,7 @@ class _Limit:
         return limit_at(e, self.x, self.place)
 
     def is_allowed(self, limit: Expr) -> bool:
-        """May y behave like this?  A value excludes oscillations as well."""
+        """True if y may behave like this.  A value excludes oscillations as well."""
         return limit != sympy.oo and (limit != OSCILLATING or self.condition.value is None)
 
     def rows(self, y1: Expr, y2: Expr, y0: Expr) -> list[Row]:

@@ -1,4 +1,4 @@
-"""Does a formula jump at a point where the solutions don't?
+"""Jumps of formulas at points where the solutions don't jump.
 
 A formula that satisfies the equation wherever it is analytic is a solution on an interval if y and y' are continuous there.
 They are on a ball on which every part of the formula is finite, and no argument of a function with a branch cut meets this
@@ -71,7 +71,7 @@ def cut_of(e: Expr) -> Expr | None:
 
 
 def jumps(y: Expr, x: Expr, coefficients: Sequence[Expr]) -> bool:
-    """Is a jump of y or y' seen, for real x, where none of the coefficients b/a, c/a, f/a is singular?
+    """True if y or y' provably jumps, for real x, where none of the coefficients b/a, c/a, f/a is singular.
 
     Letters have values that fit their assumptions, and in functions those of either sign where it isn't known.
 
@@ -105,7 +105,7 @@ def cuts_of(y: Expr, x: Expr) -> list[Expr]:
 
 
 def _is_beside_cut(cut: Acb) -> bool:
-    """Does a ball stay off the axis from -oo to 0; or is it real, and without 0?"""
+    """True if a ball stays off the axis from -oo to 0, or is real and excludes 0."""
     if not cut.is_finite() or cut.contains(0):
         return False
     return bool(cut.imag == 0 or not cut.imag.contains(0) or cut.real > 0)
@@ -136,7 +136,7 @@ class _Course:
         return False
 
     def _is_singular_on(self, cut: Expr) -> bool:
-        """Is the equation singular wherever a rational argument changes its sign?  Elsewhere it stays beside or along the cut.
+        """True if the equation is singular wherever a rational argument changes sign; elsewhere it stays beside or along the cut.
 
         An analytic function that satisfies the equation on a part of an interval without singular points does so on the whole.
         """
@@ -171,11 +171,11 @@ class _Course:
         yield from self._suspects(middle, b, halvings - 1)
 
     def _is_ordinary(self, here: Any) -> bool:
-        """Are the coefficients analytic on a real ball?"""
+        """True if the coefficients are analytic on a real ball."""
         return self._is_analytic(acb(here), self.coefficients, cuts_of(sympy.Tuple(*self.coefficients), self.x))
 
     def _is_analytic(self, here: Acb, functions: Sequence[Expr], cuts: Sequence[Expr]) -> bool:
-        """Are all functions finite on a real ball, with no argument on a cut; or continuous along one?"""
+        """True if all functions are finite on a real ball, with no argument on a cut, or continuous along one."""
         try:
             if not all(_is_beside_cut(jet(cut, self.x, here)[0]) for cut in cuts):
                 return False
@@ -184,7 +184,7 @@ class _Course:
             return False
 
     def _differ(self, a: Any, b: Any, order: int) -> bool:
-        """Do the values of y, or of y', at the ends of ever shorter intervals stay apart?"""
+        """True if the values of y, or of y', at the ends of ever shorter intervals stay apart."""
         left, right = (self._value(p, order) for p in (a, b))
         first = abs(right - left)
         for _ in range(_COMPARISONS):

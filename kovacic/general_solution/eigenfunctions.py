@@ -91,7 +91,7 @@ def _positive(e: Expr) -> Expr:
 
 
 def _is_solution(found: EigenvalueFamily, B: Expr, c: Expr, x: Expr) -> bool:
-    """Are the functions solutions?"""
+    """True if the functions are solutions."""
     residues = (sympy.simplify(y.diff(x, 2) + B * y.diff(x) + c * y) for y in found.functions)
     return all(residue == 0 for residue in residues)
 

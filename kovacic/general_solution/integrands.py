@@ -65,7 +65,7 @@ def prepared(integrand: Expr) -> Expr:
 
 
 def _is_inverse_root(power: Expr) -> bool:
-    """Is it a sum to a power below -1 that isn't an integer?"""
+    """True for a sum to a power below -1 that isn't an integer."""
     e = power.exp
     is_fraction = e.is_Rational and not e.is_Integer
     return bool(power.base.is_Add and is_fraction and e < -1)

@@ -65,7 +65,7 @@ def in_steps(right: Expr, x: Expr) -> Expr:
 
 
 def _is_function_of_steps(e: Expr, x: Expr) -> bool:
-    """Is it a function of something with a step inside, analytic on the whole line on either side of the step?
+    """True for a function of something with a step inside that is analytic on the whole line on either side of the step.
 
     sqrt(|x|) isn't: sqrt(-x), which it is on one side, isn't real on the other.
     """
@@ -82,7 +82,7 @@ def _is_function(e: Expr) -> bool:
 
 
 def _keeps_analytic(e: Expr) -> bool:
-    """Is it analytic on the whole line where its arguments are?  A step is a constant on either side."""
+    """True if it is analytic on the whole line where its arguments are.  A step is a constant on either side."""
     if e.is_Pow and e.exp.is_Integer:
         return bool(e.exp.is_positive)
     return e.is_Symbol or e.is_Add or e.is_Mul or isinstance(e, Heaviside) or _is_function(e)
@@ -186,7 +186,7 @@ def _check_cases(e: Expr, x: Expr) -> None:
 
 
 def _is_simple(e: Expr, x: Expr) -> bool:
-    """Is it H(x - a) or delta^(n)(x - a)?"""
+    """True for H(x - a) and delta^(n)(x - a)."""
     if isinstance(e, DiracDelta):
         return True
     return isinstance(e, Heaviside) and e.args[0].diff(x) == 1

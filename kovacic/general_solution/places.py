@@ -207,7 +207,7 @@ def _points(question: Question) -> list[Expr]:
 
 
 def _is_entire(e: Expr, x: Expr) -> bool:
-    """Is it made of x and functions that are analytic everywhere, by sums, products and natural powers?"""
+    """True if it is made of x and functions that are analytic everywhere, by sums, products and natural powers."""
     if e == x or not e.has(x):
         return True
     if e.is_Pow and not isinstance(e, sympy.exp):

@@ -57,7 +57,7 @@ _MOST_POINTS = 200
 
 
 def is_singular(question: Question, point: Expr) -> bool:
-    """Is a finite point a pole of b/a, c/a or f/a, or one where the rest of the right-hand side has no value?"""
+    """True for a finite pole of b/a, c/a or f/a, and where the rest of the right-hand side has no value."""
     if any(_is_root(question, den, point) for den in _denominators(question.equation)):
         return True
     h = question.equation.h
@@ -74,7 +74,7 @@ def _denominators(equation: Equation) -> list[Poly]:
 
 
 def _is_root(question: Question, polynomial: Poly, point: Expr) -> bool:
-    """Is a polynomial in the variable of the equation zero, or without a value, at a point in the user's variable?"""
+    """True if a polynomial in the equation's variable is zero, or has no value, at a point in the user's variable."""
     equation = question.equation
     atoms = Atoms(sympy.Symbol(equation.variable))
     at = question.own(function_of_x(equation)).subs(user_variable(equation), point)
@@ -195,5 +195,5 @@ def _rates_in_x(equation: Equation, x: Expr) -> list[Expr]:
 
 
 def _is_analytic(rates: Sequence[Expr], x: Expr, point: Expr) -> bool:
-    """Have the coefficients limits at the point?"""
+    """True if the coefficients have limits at the point."""
     return all(finite_limit(rate, x, Approach(point)) is not None for rate in rates)

@@ -222,7 +222,7 @@ def apart(eq: Any, ics: Any) -> tuple[Any, Any]:
 
 
 def has_floats(eq: Any, values: Mapping[Any, Any]) -> bool:
-    """Are floats in an equation, or among given values?"""
+    """True if an equation, or given values, contain floats."""
     return any(_has_float(given) for given in (eq, *values, *values.values()))
 
 

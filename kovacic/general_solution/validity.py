@@ -52,7 +52,7 @@ class Validity:
         return "valid"
 
     def __bool__(self) -> bool:
-        """Is anything needed?"""
+        """True if anything is needed."""
         return bool(self.real or self.exceptions)
 
     def __str__(self) -> str:

@@ -92,7 +92,7 @@ def _just_before(e: Expr, jump: Expr, x: Expr, point: Expr, order: int) -> Expr:
 
 
 def _is_smooth_across(e: Expr, step: Expr, place: HeavisidePlace | None, x: Expr, order: int) -> bool:
-    """Has the function, or its slope, no jump where the step has one?"""
+    """True if neither the function nor its slope jumps where the step does."""
     if place is None:
         return False
     jump = e.xreplace({step: sympy.Integer(1)}) - e.xreplace({step: _ZERO})
@@ -103,7 +103,7 @@ def _is_smooth_across(e: Expr, step: Expr, place: HeavisidePlace | None, x: Expr
 
 
 def have_values(expressions: Sequence[Expr], x: Expr, point: Expr) -> bool:
-    """Have all of them a value at the point, or a limit?
+    """True if all of them have a value at the point, or a limit.
 
     >>> x = sympy.Symbol("x")
     >>> have_values([x, 1 / x], x, sympy.Integer(0))

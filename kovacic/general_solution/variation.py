@@ -110,7 +110,7 @@ def _checked(basis: Basis, parts: Sequence[Any], right: Expr) -> Expr | None:
 
 
 def _is_right(basis: Basis, y: Expr, right: Expr) -> bool:
-    """Is it a solution, and without jumps at ordinary points?"""
+    """True for a solution without jumps at ordinary points."""
     if basis.equation.change is None and not is_solution(y, basis.rates, right, basis.x):
         return False
     parts = [basis.own(e) for e in (y, *basis.rates, right)]
@@ -160,7 +160,7 @@ def _open(integrand: Expr, x: Expr, start: Expr | None) -> Expr:
 
 
 def is_solution(y: Expr, coefficients: tuple[Expr, Expr], right: Expr, x: Expr) -> bool:
-    """Does y satisfy y'' + (b/a) y' + (c/a) y = right at points in each quadrant and on the axis, to 50 digits?"""
+    """True if y satisfies y'' + (b/a) y' + (c/a) y = right at points in each quadrant and on the axis, to 50 digits."""
     given = y.atoms(AppliedUndef, *JUMPING) | right.atoms(AppliedUndef, *JUMPING)
     # An exponential function for each that is given by its name, or jumps: the formula holds for any function.
     functions = enumerate(sorted(given, key=str))

@@ -1,4 +1,4 @@
-"""Is a constant zero?  Always, never, or for particular values of its parameters.
+"""The zero test for constants: zero always, never, or for particular values of parameters.
 
 A constant is an expression in the user's own symbols, with what is assumed of them.  "Never" without parameters, and "not
 always" with them, is proven by a ball that doesn't contain zero, at values of the parameters that fit the assumptions.
@@ -78,17 +78,17 @@ def when_zero(value: Expr) -> Zero:
 
 
 def is_zero(value: Expr) -> bool:
-    """Is a constant zero for all values of its parameters?  Raises `NotImplementedError` where that can't be told."""
+    """True if a constant is zero for all values of its parameters.  Raises `NotImplementedError` if that can't be decided."""
     return when_zero(value) is Zero.ALWAYS
 
 
 def is_nowhere_zero(value: Expr) -> bool:
-    """Is every factor known not to be zero: by assumptions, or because the function has no zeros?"""
+    """True if no factor can be zero: by assumptions, or because the function has no zeros."""
     return all(_is_nonzero(factor) for factor in sympy.Mul.make_args(value))
 
 
 def _is_nonzero(factor: Expr) -> bool:
-    """Is a power known not to be zero?"""
+    """True if a power is provably not zero."""
     base, exponent = factor.as_base_exp()
     if isinstance(factor, sympy.exp) or base == sympy.E:
         return True
@@ -184,7 +184,7 @@ def ball(value: Expr, sample: dict[Expr, Expr] | None = None) -> Any:
 
 
 def differs_from_zero(value: Expr, sample: dict[Expr, Expr]) -> bool:
-    """Is a ball around the value seen not to contain zero?"""
+    """True if some ball around the value excludes zero."""
     for digits in (DIGITS, _PRECISE):
         with working_digits(digits):
             found = ball(value, sample)
@@ -196,7 +196,7 @@ def differs_from_zero(value: Expr, sample: dict[Expr, Expr]) -> bool:
 
 
 def agree(value: Expr, other: Expr) -> bool:
-    """Are two expressions for a constant, of which one was found at another point, the same to 50 digits?"""
+    """True if two expressions for a constant, found at different points, agree to 50 digits."""
     sample = next(samples((value - other).free_symbols))
     with working_digits(3 * DIGITS):
         difference = ball(value - other, sample)
@@ -204,7 +204,7 @@ def agree(value: Expr, other: Expr) -> bool:
 
 
 def is_identically_zero(value: Expr) -> bool:
-    """Is it seen to be zero: as a sum of monomials in exponentials, waves and logarithms, or as a number made of roots?"""
+    """True if it is provably zero: a sum of monomials in exponentials, waves and logarithms, or a number made of roots."""
     if size(value) > _LARGEST:
         return False
     value = _with_gammas_in_a_strip(value)

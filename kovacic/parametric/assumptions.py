@@ -84,7 +84,7 @@ class Bound:
         return distance > 0 or (distance == 0 and not self.strict)
 
     def excludes(self, value: Any) -> bool:
-        """Does a real ball provably lie on the wrong side?"""
+        """True if a real ball provably lies on the wrong side."""
         with working_precision(_PRECISION):
             end = _ball_of(self.end) if self.ball is None else self.ball
             return bool((value - end) * self.sign < 0)
@@ -117,7 +117,7 @@ class Known:
 
     @property
     def rational(self) -> bool | None:
-        """Is it known to be rational, True, or irrational, False?"""
+        """True if it is provably rational, False if irrational."""
         if self.classes or "rational" in self.words:
             return True
         return False if "irrational" in self.words else None
@@ -160,14 +160,14 @@ class Known:
         return not self.admits_number(Fraction(0))
 
     def admits_number(self, number: Fraction) -> bool:
-        """May it be this rational number?"""
+        """True if it may be this rational number."""
         if self.rational is False or number in self.excluded or (self.noninteger and number.denominator == 1):
             return False
         is_in_classes = all(numbers.contains(number) for numbers in self.classes)
         return is_in_classes and all(bound.admits(number) for bound in self.inequalities)
 
     def admits(self, value: Poly) -> bool:
-        """May it have this value?  An algebraic number of which any conjugate may be meant has no sign."""
+        """True if it may have this value.  An algebraic number of which any conjugate may be meant has no sign."""
         number = value.field.rational_value(value)
         if number is not None:
             return self.admits_number(number)
@@ -237,7 +237,7 @@ def words_of(symbol: Any) -> list[str]:
 
 
 def is_relation(word: str) -> bool:
-    """Is it a relation, as >=1/2, !=1 and <sqrt(2)?"""
+    """True for a relation, such as >=1/2, !=1 and <sqrt(2)."""
     return any(pattern.fullmatch(word) for pattern in (_BOUND, _UNEQUAL))
 
 
@@ -284,7 +284,7 @@ class Assumptions:
     values: tuple[tuple[str, Poly], ...] = ()
 
     def __bool__(self) -> bool:
-        """Is anything known?"""
+        """True if anything is known."""
         return bool(self.known)
 
     @property
@@ -341,7 +341,7 @@ class Assumptions:
         return found
 
     def meets_classes(self, form: FunctionPoly, numbers: Classes) -> bool | None:
-        """Is the value of a form one of the numbers: True (always), False (never) or None?"""
+        """Whether the value of a form is one of the numbers: True (always), False (never) or None."""
         value = self._value_of(form)
         if value is not None:
             number = value.field.rational_value(value)
@@ -356,7 +356,7 @@ class Assumptions:
         return None
 
     def _is_apart(self, form: FunctionPoly, numbers: Classes) -> bool:
-        """Is the form linear in one parameter, and no value of it known to bring the form into the classes?"""
+        """True if the form is linear in one parameter, and no admissible value is known to bring the form into the classes."""
         linear = linear_of(form)
         if linear is None or linear.parameter is None:
             return False
@@ -374,7 +374,7 @@ class Assumptions:
         return True
 
     def vanishes(self, function: FunctionPoly) -> bool | None:
-        """Does the function vanish: True (always), False (never) or None?"""
+        """Whether the function vanishes: True (always), False (never) or None."""
         value = self._value_of(function)
         if value is not None:
             return not value
@@ -383,7 +383,7 @@ class Assumptions:
         return None
 
     def _is_nowhere_zero(self, function: FunctionPoly) -> bool:
-        """Is one of these seen: by classes, by a root that isn't admitted, by factors, by irrationality, by a sign?"""
+        """True if this follows from classes, a root that isn't admitted, factors, irrationality or a sign."""
         values = self._class_of(function)
         if values is not None and not values.contains(Fraction(0)):
             return True
@@ -411,7 +411,7 @@ class Assumptions:
         return function.value_at([fixed.get(name, 0) for name in function.field.names], field)
 
     def is_positive(self, form: FunctionPoly, *, or_zero: bool = False) -> bool:
-        """Can a polynomial be proven to be positive, or not negative, everywhere?
+        """True if a polynomial is provably positive, or nonnegative, everywhere.
 
         With t = end + sign s, s >= 0, for one bound of each parameter t, no coefficient is negative.
         """
@@ -543,7 +543,7 @@ def _read_words(what: object) -> list[str]:
 
 
 def _is_positive_beyond(bounds: Sequence[Bound], form: FunctionPoly, *, or_zero: bool) -> bool:
-    """Is no coefficient negative in the s with t = end + sign s, and a monomial positive?"""
+    """True if no coefficient is negative in the s with t = end + sign s, and one monomial is positive."""
     field = form.field
     values = []
     for name, bound in zip(field.names, bounds, strict=True):

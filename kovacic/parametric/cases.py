@@ -291,7 +291,7 @@ def _is_redundant(
     after: list[ParameterRegion],
     generic: RegionVerdict | None,
 ) -> bool:
-    """Do the later regions say the same at each value of this one that is in none before?
+    """True if the later regions say the same at each value of this one that is in none before.
 
     One that says the same of all of its values is enough.  Without one, those that say another thing may have no value in
     common with this one, but for values that are in one before, and the generic verdict has to be the same.
@@ -328,7 +328,7 @@ def _is_alike(first: RegionVerdict, second: RegionVerdict) -> bool:
 
 
 def _proves_a_solution(region: ParameterRegion) -> bool:
-    """Does its statement hold only where there is a solution, also at values that an earlier region has?
+    """True if its statement holds only where there is a solution, at values of earlier regions, too.
 
     Those about Delta_d are decided at each point by the equation there.
     """
@@ -376,7 +376,7 @@ class _Block:
     cases: list[Case]
 
     def takes(self, first: Statement, cases: list[Case], is_same: Likeness) -> bool:
-        """Can another block be added: does it say the same, of no value of this one?  The functions differ by a number."""
+        """True if another block can be added: it says the same, of no value of this one.  The functions differ by a number."""
         last = self.firsts[-1]
         if not isinstance(first, Vanishes) or not isinstance(last, Vanishes) or len(cases) != len(self.cases):
             return False

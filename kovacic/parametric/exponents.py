@@ -76,7 +76,7 @@ class RankConditions:
 
 
 def has_kernel(images: Sequence[Poly]) -> bool:
-    """Are polynomials over Q linearly dependent?
+    """True if polynomials over Q are linearly dependent.
 
     A rank modulo a prime can only be smaller: where it is full there, it is full.  Where it isn't for several primes, they
     divide all minors of this size, which are 0 if the product of the primes exceeds that of the lengths of the rows [Hadamard].
@@ -554,7 +554,7 @@ class Places:
 
 
 def is_too_large(field: Field) -> bool:
-    """Is it that of a hypersurface of too high a degree, for which no exponents are looked for?"""
+    """True for a hypersurface of so high a degree that no exponents are looked for."""
     return field.ground != QQ and field.absolute_degree > _SURFACE
 
 

@@ -189,12 +189,12 @@ class Classes:
         return [residue + k * self.modulus for residue in self.residues for k in periods]
 
     def meet(self, other: Classes) -> bool:
-        """Is there a number in both, bounds aside?"""
+        """True if a number is in both, bounds aside."""
         step = common_divisor(self.modulus, other.modulus)
         return any((first - second) % step == 0 for first, second in product(self.residues, other.residues))
 
     def are_covered_by(self, other: Classes) -> bool:
-        """Does each of the numbers belong to the others, which have no bound?"""
+        """True if each of the numbers belongs to the others, which have no bound."""
         return all(map(other.contains, self.modulo(common_multiple(self.modulus, other.modulus))))
 
 

@@ -388,11 +388,11 @@ class Congruence(Statement):
         return self._has_one_of(rational_roots(point.at(self.equation)))
 
     def _has_one_of(self, numbers: Iterable[Fraction]) -> bool:
-        """Does one of the numbers lie in one of the classes?"""
+        """True if one of the numbers lies in one of the classes."""
         return any(map(self.numbers.contains, numbers))
 
     def holds_for(self, equation: Poly) -> bool | None:
-        """Is it true where this is the equation?  None where there are parameters in it."""
+        """True or False where this is the equation; None if it contains parameters."""
         numbers = equation if equation.field.ground == QQ else _without_parameters(equation)
         if numbers is None:
             return None

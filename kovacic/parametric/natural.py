@@ -96,7 +96,7 @@ class Determinant:
         return self.factors is not None and not all(self.factors)
 
     def holds(self, point: ParameterPoint) -> bool:
-        """Is d the degree at the point, and does P exist there?
+        """True if d is the degree at the point, and P exists there.
 
         Parameters
         ----------
@@ -335,7 +335,7 @@ def _determinants(statement: Natural, number: int) -> tuple[Determinant, ...]:
 
 @lru_cache(maxsize=256)
 def _has_solution(S: RatFunc, number: int) -> bool:
-    """Is there a solution with a P of this degree?  Several statements ask for the same."""
+    """True if there is a solution with a P of this degree; cached, for several statements need it."""
     found = has_solution(analyse(S, Budget()), number)
     if found is None:
         raise LimitExceeded(f"the exponents of y'' = ({S}) y need too large an extension", limit="degree")

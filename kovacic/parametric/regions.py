@@ -105,7 +105,7 @@ class RegionVerdict:
 
     @property
     def identity_component(self) -> Words:
-        """Is the identity component of the group abelian, as integrability by Morales and Ramis needs?  In words."""
+        """A phrase that says whether the group's identity component is abelian, as integrability needs by Morales and Ramis."""
         if not self.known:
             return ("not determined",)
         if self.structure is None:
@@ -273,7 +273,7 @@ class ParameterRegion:
 
     @property
     def plain(self) -> bool:
-        """Is there nothing to say beside the statement and the case?"""
+        """True if there is nothing to say but the statement and the case."""
         is_proven = self.complete is True and self.verdict.known
         return self.defined and is_proven and self.shown_degree is None
 

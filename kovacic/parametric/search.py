@@ -77,7 +77,7 @@ class Findings:
 
 
 def _are_eliminated(functions: Iterable[FunctionPoly]) -> bool:
-    """Does the vanishing of each leave rational functions of fewer parameters, so that everything on it is found?"""
+    """True if the vanishing of each leaves rational functions of fewer parameters, so that everything on it is found."""
     for function in functions:
         leaves_numbers = sum(map(bool, degrees(function))) == 1  # one parameter occurs
         if not leaves_numbers and not isinstance(hypersurface(function).field, FunctionField):
@@ -125,7 +125,7 @@ def search(problem: Problem) -> Findings:
 
 
 def _shows(m: int, structure: Structure, wanted: Degrees) -> bool:
-    """Does an invariant of degree m say that the group has this structure?"""
+    """True if an invariant of degree m implies that the group has this structure."""
     if structure not in wanted[m]:
         return False
     return structure is not Structure.REDUCIBLE or m <= _SHOWS_CASE_1
@@ -157,7 +157,7 @@ def _degrees_that_decide(problem: Problem) -> Degrees | None:
 
 
 def _has_logarithms(problem: Problem) -> bool:
-    """Is there a logarithm for all values?  It leaves only case 1 or none."""
+    """True if there is a logarithm for all values, which leaves only case 1 or none."""
     # A simple pole has one, and a double exponent.
     return any(place.order == 1 or (place.order == 2 and place.delta == 0) for place in problem.places)
 
@@ -221,7 +221,7 @@ def _degrees_that_are_possible(problem: Problem) -> Degrees:
 
 
 def _has_two_branch_points(problem: Problem) -> bool:
-    """Are there two places that can be branch points of case 2, which the square root of an invariant needs?
+    """True if two places can be branch points of case 2, which the square root of an invariant needs.
 
     There an exponent difference is a half-integer, or not known.
     """
@@ -267,7 +267,7 @@ def _add_reducible(problem: Problem, findings: Findings) -> None:
 
 
 def _is_settled(problem: Problem, factor: Poly, findings: Findings) -> bool:
-    """Is the degree a number, for which the candidates are all that is special?  They are added in any case."""
+    """True if the degree is a number, for which the candidates are the only special ones.  They are added in any case."""
     root = _number_root(factor)
     found = None if root is None else conditions_of_degree(problem, int(root))
     if found is None:
@@ -300,7 +300,7 @@ def all_half_integers(problem: Problem) -> Statement:
 
 
 def _is_excluded_by_symmetry(problem: Problem) -> bool:
-    """Does S(2c - x) = S(x) exclude a rational omega?
+    """True if S(2c - x) = S(x) excludes a rational omega.
 
     With omega(x), -omega(2c - x) solves the Riccati equation.  Let its polar part at one irregular fixed point, c or infinity,
     have the other sign, so that this is another solution, and the same sign at the other one.  The Wronskian of the two
@@ -342,7 +342,7 @@ def _equations_for_zeros(problem: Problem, m: int, findings: Findings) -> tuple[
 
 
 def _may_be_natural(factor: Poly) -> bool:
-    """Can an irreducible polynomial over Q(t) have a natural root for some values of the parameters?"""
+    """True if an irreducible polynomial over Q(t) may have a natural root for some values of the parameters."""
     if any(factor.field.rational_value(c) is None for c in factor):
         return True
     root = _number_root(factor)

@@ -421,7 +421,7 @@ def _local_factor(u: Poly | None, exponent: Any, main: Any, x: Any) -> Any:
 
 
 def has_radicals(field: Field) -> bool:
-    """Are all extensions square roots, or the parameter that is algebraic on a hypersurface?"""
+    """True if all extensions are square roots, or the parameter that is algebraic on a hypersurface."""
     while isinstance(field, AlgebraicField):
         if field.name == "point":
             return False

@@ -40,14 +40,14 @@ def user_variable(equation: Equation) -> Any:
 
 
 def is_of_a_line(equation: Equation) -> bool:
-    """Is t a function of k x + c, not a power, nor a function of one?"""
+    """True if t is a function of k x + c, not a power or a function of a power."""
     t = function_of_x(equation)
     x = user_variable(equation)
     return t == x or (t.func in SQUARES and not t.args[0].diff(x).has(x))
 
 
 def is_power(equation: Equation) -> bool:
-    """Is t = x^k?"""
+    """True if t = x^k."""
     t = function_of_x(equation)
     return bool(t.is_Pow and t.func not in SQUARES)
 

@@ -107,7 +107,7 @@ class RationalReader:
         raise NotRational("an equation, where S alone is expected", hint=_ALONE)
 
     def follows_without_sign(self, name: str) -> bool:
-        """May this name or call be the second factor of an implicit product whose first one ends in a name?"""
+        """True if this name or call may be the second factor of an implicit product whose first factor ends in a name."""
         return False
 
     def power(self, base: Value, exponent: Value, place: OperationPlace) -> Value:

@@ -54,7 +54,7 @@ class DerivativeOperator(LinearForm):
 
 
 def is_rational(value: Any) -> bool:
-    """Is it a value of `Arithmetic`, neither a SymPy expression nor a linear form?"""
+    """True for a value of `Arithmetic`, which is neither a SymPy expression nor a linear form."""
     return isinstance(value, _RATIONAL_VALUES)
 
 
@@ -310,7 +310,7 @@ def differentiations(
 
 
 def _is_zero(expression: Any) -> bool:
-    """Is a factor known to be 0?  Numbers are asked alone: of a long sum with symbols SymPy takes seconds to say nothing."""
+    """True if a factor is provably 0.  Only numbers are tested: SymPy spends seconds on a long sum with symbols, in vain."""
     if expression.is_Mul:
         return any(map(_is_zero, expression.args))
     return not expression.free_symbols and bool(expression.is_zero)

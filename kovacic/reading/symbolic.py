@@ -112,7 +112,7 @@ def functions_in(value: Any) -> set[Any]:
 
 
 def is_sympy_equation(value: Any) -> bool:
-    """Is it an `Eq` with an undefined function, or an expression with a derivative of one?"""
+    """True for an `Eq` with an undefined function, and for an expression with a derivative of one."""
     return bool(functions_in(value)) and bool(getattr(value, "is_Equality", False) or value.has(sympy.Derivative))
 
 

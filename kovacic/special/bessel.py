@@ -192,7 +192,7 @@ def written(writer: Writer, nu_squared: Poly, t: RatFunc, singular: Poly | None)
 
 
 def sign_of(n: Any, d: Any) -> int:
-    """Is Re f negative?  Then -f is taken, by the symmetry z -> -z, r -> -r."""
+    """True if Re f < 0; then -f is taken, by the symmetry z -> -z, r -> -r."""
     return int(d != 0 and bool(acb(n / d).real < 0))
 
 

@@ -222,7 +222,7 @@ class _Equation:
                 forms += self._own_forms()
 
     def _is_stable(self, pair: ClosedForm) -> bool:
-        """Do the balls of both solutions, computed with 30 digits, keep half of these?"""
+        """True if the balls of both solutions, computed with 30 digits, keep half of these."""
         den = self.S.den
         if not isinstance(den, RationalPoly):
             return True

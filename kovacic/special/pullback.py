@@ -104,12 +104,12 @@ def square_root(number: Any) -> Any:
 
 
 def is_integer(number: Any) -> bool:
-    """Is it known to be an integer?"""
+    """True if it is provably an integer."""
     return isinstance(number, fmpq) and number.q == 1
 
 
 def ends(a: Any) -> bool:
-    """Is a hypergeometric series with this upper parameter a polynomial?"""
+    """True if a hypergeometric series with this upper parameter is a polynomial."""
     return is_integer(a) and a <= 0
 
 
@@ -196,7 +196,7 @@ class Pullback:
         return slope * slope * self.equation.S(self.f) - schwarzian(self.f) / 2
 
     def gives(self, S: RatFunc) -> bool:
-        """Does the identity (1) hold exactly?"""
+        """True if the identity (1) holds exactly."""
         count_work(TRIAL)
         return self.f.derivative() != 0 and self.S == S
 

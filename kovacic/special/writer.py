@@ -258,7 +258,7 @@ class Writer:
         return self._shown[value]
 
     def is_integer(self, value: Number) -> bool:
-        """Is it known to be an integer?"""
+        """True if it is provably an integer."""
         known = None if value.roots else value.part.field.rational_value(value.part)
         if known is not None:
             return known.denominator == 1
@@ -269,7 +269,7 @@ class Writer:
         return bool(self.constant(value).free_symbols)
 
     def is_natural(self, value: Number) -> bool:
-        """Is it known to be an integer that isn't negative?"""
+        """True if it is provably a nonnegative integer."""
         if value not in self._natural:
             shown = self.constant(value)
             forms = [shown.xreplace(self.symbols)]
@@ -289,11 +289,11 @@ class Writer:
 
     @property
     def knows_integers(self) -> bool:
-        """Is a parameter known to be an integer?"""
+        """True if a parameter is provably an integer."""
         return any(symbol.is_integer for symbol in self.known.values())
 
     def is_degree(self, value: Number) -> bool:
-        """Is it known to be natural, and does it depend on a parameter?"""
+        """True if it is provably natural and depends on a parameter."""
         return self.knows_integers and bool(self.constant(value).free_symbols) and self.is_natural(value)
 
     def is_negative(self, value: Number | Poly) -> bool:
