@@ -136,7 +136,7 @@ class _Course:
         return False
 
     def _is_singular_on(self, cut: Expr) -> bool:
-        """True if the equation is singular wherever a rational argument changes sign; elsewhere it stays beside or along the cut.
+        """True if the equation is singular wherever a rational argument changes sign; elsewhere it stays off or along the cut.
 
         An analytic function that satisfies the equation on a part of an interval without singular points does so on the whole.
         """

@@ -392,7 +392,7 @@ class Congruence(Statement):
         return any(map(self.numbers.contains, numbers))
 
     def holds_for(self, equation: Poly) -> bool | None:
-        """True or False where this is the equation; None if it contains parameters."""
+        """True if the equation has one of the roots, False if not; None if it contains parameters."""
         numbers = equation if equation.field.ground == QQ else _without_parameters(equation)
         if numbers is None:
             return None
