@@ -1,12 +1,11 @@
-"""What `kovacic.conditions` returns: the regions of parameter space, their views, and the check against the engine."""
+"""What `kovacic.conditions` returns: the regions of parameter space, what holds at a point, and JSON."""
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
-from fractions import Fraction
 from functools import lru_cache, partial
-from itertools import chain, product
+from itertools import chain
 from typing import Any
 
 from kovacic.algebra.extension import AlgebraicField
@@ -18,13 +17,11 @@ from kovacic.decision import Status
 from kovacic.derived import verification
 from kovacic.engine.decide import decide
 from kovacic.equation import Equation, parameters_of
-from kovacic.errors import InputError, LimitExceeded, VerificationFailed, visible
+from kovacic.errors import InputError, LimitExceeded, VerificationFailed
 from kovacic.limits import DEFAULT_LIMITS, Budget, Limits, limited
-from kovacic.numbers.exact import exact_real, whole
-from kovacic.numbers.numerals import in_a_message, plain_text
+from kovacic.numbers.exact import whole
 from kovacic.parametric import prose
 from kovacic.parametric.assumptions import NOTHING_ASSUMED, Assumptions, read_assumptions
-from kovacic.parametric.cases import in_lines
 from kovacic.parametric.functions import NO_CONSTANT, ParameterPoint
 from kovacic.parametric.natural import Determinant
 from kovacic.parametric.partition import derived
@@ -48,25 +45,9 @@ from kovacic.reading.substitution import number_text
 from kovacic.reading.symbolic import read_expression
 from kovacic.writing.escaped import json_line
 from kovacic.writing.formula import Formulas, Math
-from kovacic.writing.maps import CellKind, draw_cells, new_axes
 
 #: A number for each parameter by name or symbol, or the point that they make up.
 Values = Mapping[Any, Any] | ParameterPoint
-#: Regions that are written unless all are asked for.
-_SCREEN = 24
-#: What can be known at a point, in colours that keep apart in print and for colour-blind readers [Okabe & Ito].
-_KINDS = (
-    CellKind("no Liouvillian solution", "#ffffff"),
-    CellKind("case 1", "#0072b2"),
-    CellKind("case 2", "#e69f00"),
-    CellKind("case 3", "#cc79a7"),
-    CellKind("not determined", "#dddddd"),
-    CellKind("S not defined", "#000000"),
-)
-#: The ends of ranges, and so many intervals, at most.
-_FARTHEST = 10**300
-_MOST_STEPS = 10_000
-_LABELS = tuple(kind.name for kind in _KINDS)
 
 
 @dataclass(frozen=True)
@@ -477,202 +458,10 @@ class ParametricAnswer:
         regions = [replace(region, origin=Later(partial(_origin_of, answer, region.statement))) for region in regions]
         return replace(answer, regions=tuple(regions))
 
-    def latex(self) -> str:
-        r"""The partition as a LaTeX `cases` environment; what isn't proven to be complete is said to hold for generic values.
-
-        Returns
-        -------
-        str
-            A formula without delimiters.
-
-        Examples
-        --------
-        >>> import kovacic
-        >>> bessel = kovacic.conditions("(4*n^2 - 1)/(4*x^2) - 1")
-        >>> print(bessel.latex().partition("cases} ")[2])
-        \text{case 1} & n - \frac{1}{2} \in \mathbb{Z} \\ \text{no Liouvillian solution} & \text{otherwise} \end{cases}
-        """
-        rows = [rf"\text{{{r.verdict}}} & {r.statement.latex()}" for r in in_lines(self.regions) if r.defined]
-        rows.append(rf"\text{{{self.generic}}} & \text{{{self._where_generic}}}")
-        return rf"y'' = {self.right.latex}" + r"\colon\quad \begin{cases} " + r" \\ ".join(rows) + r" \end{cases}"
-
     @property
     def right(self) -> Math:
         """S y."""
         return Formulas(self.variable, self.S.field).times(self.S, "y", "y")
-
-    @property
-    def _where_generic(self) -> str:
-        words = []
-        if self.regions:
-            words.append("otherwise")
-        if self.complete is not True:
-            words.append("for generic values")
-        return ", ".join(words) or "always"
-
-    def _repr_latex_(self) -> str:
-        return f"${self.latex()}$"
-
-    @limited
-    def plot(
-        self,
-        axes: Any = None,
-        *,
-        parameters: Sequence[str] | None = None,
-        ranges: Sequence[tuple[Any, Any]] | None = None,
-        steps: int = 48,
-        fixed: Mapping[str, Any] | None = None,
-    ) -> Any:
-        """A map of two parameters, or a strip for one, coloured by what the regions claim.
-
-        It needs matplotlib (the extra `plot`).  Nothing is ever shown on a screen: a new figure has the Agg backend.
-
-        Parameters
-        ----------
-        axes : matplotlib.axes.Axes
-            Where to draw; by default a new figure.
-        parameters : sequence of str
-            Which one or two; by default the first ones.
-        ranges : sequence of pairs
-            From and to, for each of them.
-        steps : int
-            Points in either direction: 48 by default.
-        fixed : mapping
-            The values of all other parameters.
-
-        Returns
-        -------
-        matplotlib.axes.Axes
-            Those that were drawn into.
-
-        Raises
-        ------
-        InputError
-            For more than two parameters, or an empty range.
-
-        Examples
-        --------
-        >>> import kovacic
-        >>> axes = kovacic.conditions("n/x^2 + k").plot(steps=8)                       # a map
-        >>> axes.get_xlabel(), axes.get_ylabel()
-        ('n', 'k')
-        >>> strip = kovacic.conditions("n/x^2 + k").plot(parameters=["n"], ranges=[(0, 2)], steps=8, fixed={"k": 1})
-        >>> strip.get_xlabel(), strip.get_ylabel()
-        ('n', '')
-        """
-        chosen = tuple(parameters or self.parameters[:2])
-        if len(chosen) not in (1, 2) or not {*chosen} <= {*self.parameters}:
-            raise InputError(
-                "a map needs one parameter or two", hint=f"the parameters are {', '.join(self.parameters)}"
-            )
-        if any(name in chosen for name in fixed or {}):
-            raise InputError(f"a parameter that is fixed doesn't vary: {', '.join(chosen)}")
-        # Exact rational points, so that lines such as n - 1/2 in Z are met.
-        columns, *rows = _grids(chosen, ranges, steps)
-
-        def colour(*point: Fraction) -> int:
-            values = dict(zip(chosen, point, strict=True))
-            verdict = self.predicted(self.point({**(fixed or {}), **values}))
-            return _LABELS.index(str(verdict or "S not defined"))
-
-        table = [[colour(first, *others) for first in columns] for others in product(*rows)]
-        if axes is None:
-            axes = new_axes(6.5, 5.5)
-        handles = draw_cells(axes, columns, rows[0] if rows else None, table, _KINDS)
-        axes.legend(handles=handles, loc="upper left", bbox_to_anchor=(1.0, 1.0), frameon=False)
-        axes.set(xlabel=chosen[0])
-        if rows:
-            axes.set(ylabel=chosen[1])
-        else:
-            axes.set(yticks=[])
-        axes.set_title(f"y'' = {self.right.text}", fontsize="medium")
-        return axes
-
-    def text(self, *, all: bool = False) -> str:
-        """The partition in lines: regions in a row with the same case are written together.
-
-        Parameters
-        ----------
-        all : bool
-            Write every region; by default at most a screen of them.
-
-        Returns
-        -------
-        str
-            `str` gives the same.
-
-        Examples
-        --------
-        >>> import kovacic
-        >>> bessel = kovacic.conditions("(4*n^2 - 1)/(4*x^2) - 1")
-        >>> print(bessel.text())
-        y'' = ((-4*x^2 + 4*n^2 - 1)/(4*x^2)) y, parameters n
-          n - 1/2 in Z: case 1
-          otherwise: no Liouvillian solution
-          (proven to be complete; Whittaker's equation in x: Martinet & Ramis)
-        >>> print(kovacic.conditions("n/x^2 + k").text(all=True).splitlines()[0])
-        y'' = ((k*x^2 + n)/x^2) y, parameters n, k
-        """
-        complete = f"complete {self.complete}"
-        if self.complete is True:
-            complete = "proven to be complete"
-        regions = in_lines(self.regions)
-        shown = regions if all or len(regions) <= _SCREEN + 1 else regions[:_SCREEN]
-        more = []
-        if len(shown) < len(regions):
-            more.append(f"  ... and {len(regions) - len(shown)} more regions: text(all=True), or --all")
-        lines = [
-            *self._heading(),
-            *(f"  {region}" for region in shown),
-            *more,
-            f"  {self._where_generic}: {self.generic}",
-            f"  ({complete}; {self.theory})",
-        ]
-        return visible("\n".join(lines))
-
-    def _heading(self) -> list[str]:
-        """The equation, its parameters and what is known of them, and what is to be said about the equation."""
-        first = f"y'' = {self.right.text}, parameters {', '.join(self.parameters)}"
-        assumed = self.assumptions.without(name for name, _ in self.letters)
-        if assumed:
-            first += f" ({assumed})"
-        lines = [first, *(f"  note: {notice}" for notice in self.notices)]
-        if self.equation is not None and self.equation.change is not None:
-            lines.append(f"  cases and groups over {self.equation.change.field}")
-        return lines
-
-    @limited
-    def explain(self) -> str:
-        """The partition, and for each region what it follows from: exponents, degrees, and solutions where they are known.
-
-        Returns
-        -------
-        str
-            Lines.
-
-        Examples
-        --------
-        >>> import kovacic
-        >>> bessel = kovacic.conditions("(4*n^2 - 1)/(4*x^2) - 1")
-        >>> print(bessel.explain().splitlines()[-1])
-          y = x^(1/2 - n)*exp(-I*x)*assoc_laguerre(n - 1/2, -2*n, 2*I*x) where n - 1/2 is a natural number
-        """
-        lines = [self.text(all=True)]
-        for region in self.regions:
-            known = [*region.solution()]  # in all of the region, and for the first natural numbers
-            for number in range(len(region.determinants)):
-                known += region.solution(number)
-            said = [*map(str, known)] or [region.why_no_solution] * (region.case == 1)
-            lines += ["", f"{region.statement.text()}: {region.said}", *(f"  {line}" for line in said)]
-        return visible("\n".join(lines))
-
-    def __str__(self) -> str:
-        return self.text()
-
-    def __repr__(self) -> str:
-        names = ", ".join(self.parameters)
-        regions = f"{len(self.regions)} region{'s' * (len(self.regions) != 1)}"
-        return f"<Conditions on {names} for y'' = {self.right.text}: {regions}>"
 
 
 @lru_cache(maxsize=16)
@@ -711,25 +500,3 @@ def _point(names: tuple[str, ...], values: list[Any], constant: ParameterPoint, 
         *numbers, root = with_root(numbers, field, constant.field, limits)
         return ParameterPoint(together, (*numbers, root), root.field)
     return ParameterPoint(together, (*numbers, *constant.values), field)
-
-
-def _grids(chosen: Sequence[str], ranges: Sequence[tuple[Any, Any]] | None, steps: int) -> list[list[Fraction]]:
-    given = [(-4, 4) for _ in chosen] if ranges is None else list(ranges)
-    if len(given) != len(chosen):
-        raise InputError(f"{len(given)} ranges for {len(chosen)} parameters", hint="ranges=[(0, 1), (-2, 2)]")
-    steps = whole(steps, "steps", least=1)
-    if steps > _MOST_STEPS:
-        raise InputError(f"steps = {in_a_message(steps)}: at most {_MOST_STEPS} are drawn")
-    return [_grid(low, high, steps) for low, high in given]
-
-
-def _grid(low: Any, high: Any, steps: int) -> list[Fraction]:
-    """So many intervals from one number to another, exactly."""
-    first = exact_real(low, "an end of a range")
-    last = exact_real(high, "an end of a range")
-    if max(abs(first), abs(last)) > _FARTHEST:
-        raise InputError("a range of a map is beyond the range of doubles, in which pictures are drawn")
-    if first >= last:
-        said = f"the range from {plain_text(first)[:60]} to {plain_text(last)[:60]} is empty"
-        raise InputError(said, hint="give the smaller number first")
-    return [first + (last - first) * k / steps for k in range(steps + 1)]

@@ -6,7 +6,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import fields
 from typing import Any
 
-from kovacic.limits import DEFAULT_LIMITS, Limits, limits_of
+from kovacic.limits import DEFAULT_LIMITS, Limits, limited, limits_of
 from kovacic.numbers.exact import whole
 from kovacic.parametric.api import DEFAULT_DEGREE, CheckReport, compare, find_conditions
 from kovacic.parametric.parametric_answer import ParametricAnswer, Values
@@ -100,6 +100,136 @@ class Conditions(ParametricAnswer):
         from kovacic.views.theorem import theorem
 
         return theorem(self, format=format)
+
+    def latex(self) -> str:
+        r"""The partition as a LaTeX `cases` environment; what isn't proven to be complete is said to hold for generic values.
+
+        Returns
+        -------
+        str
+            A formula without delimiters.
+
+        Examples
+        --------
+        >>> import kovacic
+        >>> bessel = kovacic.conditions("(4*n^2 - 1)/(4*x^2) - 1")
+        >>> print(bessel.latex().partition("cases} ")[2])
+        \text{case 1} & n - \frac{1}{2} \in \mathbb{Z} \\ \text{no Liouvillian solution} & \text{otherwise} \end{cases}
+        """
+        from kovacic.views.parameters import latex
+
+        return latex(self)
+
+    def _repr_latex_(self) -> str:
+        return f"${self.latex()}$"
+
+    @limited
+    def plot(
+        self,
+        axes: Any = None,
+        *,
+        parameters: Sequence[str] | None = None,
+        ranges: Sequence[tuple[Any, Any]] | None = None,
+        steps: int = 48,
+        fixed: Mapping[str, Any] | None = None,
+    ) -> Any:
+        """A map of two parameters, or a strip for one, coloured by what the regions claim.
+
+        It needs matplotlib (the extra `plot`).  Nothing is ever shown on a screen: a new figure has the Agg backend.
+
+        Parameters
+        ----------
+        axes : matplotlib.axes.Axes
+            Where to draw; by default a new figure.
+        parameters : sequence of str
+            Which one or two; by default the first ones.
+        ranges : sequence of pairs
+            From and to, for each of them.
+        steps : int
+            Points in either direction: 48 by default.
+        fixed : mapping
+            The values of all other parameters.
+
+        Returns
+        -------
+        matplotlib.axes.Axes
+            Those that were drawn into.
+
+        Raises
+        ------
+        InputError
+            For more than two parameters, or an empty range.
+
+        Examples
+        --------
+        >>> import kovacic
+        >>> axes = kovacic.conditions("n/x^2 + k").plot(steps=8)                       # a map
+        >>> axes.get_xlabel(), axes.get_ylabel()
+        ('n', 'k')
+        >>> strip = kovacic.conditions("n/x^2 + k").plot(parameters=["n"], ranges=[(0, 2)], steps=8, fixed={"k": 1})
+        >>> strip.get_xlabel(), strip.get_ylabel()
+        ('n', '')
+        """
+        from kovacic.views.parameters import plot
+
+        return plot(self, axes, parameters, ranges, steps, fixed)
+
+    def text(self, *, all: bool = False) -> str:
+        """The partition in lines: regions in a row with the same case are written together.
+
+        Parameters
+        ----------
+        all : bool
+            Write every region; by default at most a screen of them.
+
+        Returns
+        -------
+        str
+            `str` gives the same.
+
+        Examples
+        --------
+        >>> import kovacic
+        >>> bessel = kovacic.conditions("(4*n^2 - 1)/(4*x^2) - 1")
+        >>> print(bessel.text())
+        y'' = ((-4*x^2 + 4*n^2 - 1)/(4*x^2)) y, parameters n
+          n - 1/2 in Z: case 1
+          otherwise: no Liouvillian solution
+          (proven to be complete; Whittaker's equation in x: Martinet & Ramis)
+        >>> print(kovacic.conditions("n/x^2 + k").text(all=True).splitlines()[0])
+        y'' = ((k*x^2 + n)/x^2) y, parameters n, k
+        """
+        from kovacic.views.parameters import text
+
+        return text(self, all=all)
+
+    @limited
+    def explain(self) -> str:
+        """The partition, and for each region what it follows from: exponents, degrees, and solutions where they are known.
+
+        Returns
+        -------
+        str
+            Lines.
+
+        Examples
+        --------
+        >>> import kovacic
+        >>> bessel = kovacic.conditions("(4*n^2 - 1)/(4*x^2) - 1")
+        >>> print(bessel.explain().splitlines()[-1])
+          y = x^(1/2 - n)*exp(-I*x)*assoc_laguerre(n - 1/2, -2*n, 2*I*x) where n - 1/2 is a natural number
+        """
+        from kovacic.views.parameters import explain
+
+        return explain(self)
+
+    def __str__(self) -> str:
+        return self.text()
+
+    def __repr__(self) -> str:
+        names = ", ".join(self.parameters)
+        regions = f"{len(self.regions)} region{'s' * (len(self.regions) != 1)}"
+        return f"<Conditions on {names} for y'' = {self.right.text}: {regions}>"
 
 
 def conditions(
