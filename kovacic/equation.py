@@ -4,7 +4,8 @@ With y = v exp(-1/2 int b/a dx) the homogeneous equation becomes
 
     v'' = S v,        S = (b/a)'/2 + (b/a)^2/4 - c/a,                                                              (1)
 
-so the solutions y are those of the normal form times the gauge factor exp(int gamma dx) with gamma = -b/(2a).
+so the solutions y are those of the normal form times the gauge factor exp(int gamma dx) with gamma = -b/(2a), and
+S = gamma^2 - gamma' - c/a.
 
 Reference: J. Kovacic, J. Symb. Comp. 2 (1986), section 1.1.
 """
@@ -123,8 +124,8 @@ class Equation:
     @cached_property
     def S(self) -> RatFunc:
         """The coefficient of the normal form, equation (1)."""
-        quotient = self.b / self.a
-        return lowered(quotient.derivative() / 2 + quotient * quotient / 4 - self.c / self.a)
+        gamma = over(self.gauge, self.a.field)
+        return lowered(gamma * gamma - gamma.derivative() - self.c / self.a)
 
     @cached_property
     def gauge(self) -> RatFunc:

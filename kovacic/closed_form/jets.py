@@ -33,6 +33,8 @@ from kovacic.limits import check_duration, check_time
 BallValue = Any  # an acb or an acb_series
 #: Of a product or a quotient of power series, for each coefficient and bit: FLINT can't be stopped inside.
 _SERIES_SECONDS = 6e-8
+#: Coefficients and bits for which the time isn't foreseen: a millisecond.
+_SHORT_SERIES = 16_000
 
 _CONSTANTS = {
     sympy.pi: arb.pi,
@@ -185,7 +187,9 @@ def _coarse_value(root: Any) -> complex:
 
 def _check_series() -> None:
     """Raises `LimitExceeded` where there isn't the time for another operation with such a series."""
-    check_duration(_SERIES_SECONDS * ctx.cap * ctx.prec, f"a product of power series with {ctx.cap} terms")
+    size = ctx.cap * ctx.prec
+    if size > _SHORT_SERIES:
+        check_duration(_SERIES_SECONDS * size, f"a product of power series with {ctx.cap} terms")
 
 
 def _whole_power(value: BallValue, exponent: int) -> BallValue:
@@ -195,8 +199,10 @@ def _whole_power(value: BallValue, exponent: int) -> BallValue:
     if exponent < 0:
         power = _whole_power(value, -exponent)
         return _quotient(1, power)
-    power = acb_series([1])
-    for digit in f"{exponent:b}":
+    if exponent == 0:
+        return acb_series([1])
+    power = value
+    for digit in f"{exponent:b}"[1:]:
         power = power * power
         if digit == "1":
             power = power * value

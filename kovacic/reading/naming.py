@@ -89,11 +89,13 @@ class Vocabulary:
 
     def _unknown_of(self, tokens: Tokens) -> tuple[str, bool]:
         """The unknown function of an equation, and True if D stands for the derivative."""
-        has_other = any(piece.endswith("''") or piece in DERIVATIVES - {OPERATOR} for piece in tokens.pieces)
-        is_free = OPERATOR not in self.declared and not has_other
-        has_operator = is_free and OPERATOR in _single_letters(tokens, self.declared)
-        found = [self.unknown, _primed(tokens, self.declared), *differentiated(tokens), _operand(tokens)]
-        y = next(filter(None, found), None)
+        has_operator = (
+            OPERATOR not in self.declared
+            and OPERATOR in _single_letters(tokens, self.declared)
+            and not any(piece.endswith("''") or piece in DERIVATIVES - {OPERATOR} for piece in tokens.pieces)
+        )
+        y = self.unknown or _primed(tokens, self.declared)
+        y = y or next(iter(differentiated(tokens)), None) or _operand(tokens)
         if y is None:  # what the operator D is applied to
             usual = [name for name in tokens.names if name in _USUAL_UNKNOWNS]
             y = usual[-1] if has_operator and usual and UNKNOWN not in usual else UNKNOWN
@@ -106,8 +108,12 @@ class Vocabulary:
 
     def _with_products(self, tokens: Tokens, x: str, y: str) -> tuple[Tokens, list[str]]:
         """With x y for xy; notes say so.  Raises `ParseError` for all other names that aren't known."""
+        known = {x, y, *self.declared, *NUMBER_NAMES}
         unknown = [
-            k for k, kind in enumerate(tokens.kinds) if kind in _NAME_KINDS and not self._is_known(tokens, k, x, y)
+            k
+            for k, kind in enumerate(tokens.kinds)
+            if kind in _NAME_KINDS and tokens.pieces[k].rstrip(PRIMES) not in known
+            if not self._is_known(tokens, k, x, y)
         ]
         if not unknown:
             return tokens, []
@@ -128,9 +134,7 @@ class Vocabulary:
     def _is_known(self, tokens: Tokens, k: int, x: str, y: str) -> bool:
         name = tokens.pieces[k].rstrip(PRIMES)
         is_call = tokens.kinds[k] == "HEAD"
-        if name in (x, y, *self.declared, *NUMBER_NAMES) or is_function(name):
-            return True
-        if is_call and (name in DERIVATIVES or name in NUMBER_CALLS):
+        if is_function(name) or (is_call and (name in DERIVATIVES or name in NUMBER_CALLS)):
             return True
         indexed = _GLUED_INDEX.fullmatch(name)
         if indexed is not None and {*indexed[1]} <= {x, y} and "{" not in tokens.piece(k, k + 1):

@@ -162,9 +162,10 @@ class _Equation:
             return [PairForm(FormKind.SPECIAL, structure.length, partial(self._in_special_functions, pullback))]
         is_left = isinstance(structure, Triangular) and isinstance(structure.primitive, OpenPrimitive)
         kind = FormKind.INTEGRAL if is_left else FormKind.ELEMENTARY
-        forms = [PairForm(kind, structure.length, partial(self._written, structure))]
-        if isinstance(structure, Triangular) and not is_left and structure.length > SHORT:
-            left = replace(structure, primitive=OpenPrimitive(LONG.format(structure.length)))
+        length = structure.length
+        forms = [PairForm(kind, length, partial(self._written, structure))]
+        if isinstance(structure, Triangular) and not is_left and length > SHORT:
+            left = replace(structure, primitive=OpenPrimitive(LONG.format(length)))
             forms.append(PairForm(FormKind.INTEGRAL, left.length, partial(self._written, left)))
         return forms
 

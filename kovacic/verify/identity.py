@@ -15,7 +15,7 @@ from collections.abc import Sequence
 from fractions import Fraction
 
 from kovacic.algebra.poly import Poly
-from kovacic.algebra.ratfunc import RatFunc
+from kovacic.algebra.ratfunc import RatFunc, over_one_denominator
 from kovacic.decision import SemiInvariant
 from kovacic.limits import check_time
 from kovacic.verify.factors import factors_of, quotient
@@ -90,15 +90,11 @@ def is_normal_form(S: RatFunc, gauge: RatFunc, a: RatFunc, b: RatFunc, c: RatFun
     """True if y'' = S y is the normal form of a y'' + b y' + c y = 0, with this gauge rho.
 
     y = v exp(int rho dx), rho = -b/(2a), turns a y'' + b y' + c y = 0 into v'' = S v with S = (b/a)'/2 + (b/a)^2/4 - c/a
-    [Kovacic 1986, section 1.1].  With b/a = u/v and c/a = w/z that is an identity of polynomials,
+    [Kovacic 1986, section 1.1].  For polynomials a, b, c, which common factors don't change, that is
 
-        4 v^2 z num(S) = den(S) (z (2 (u' v - u v') + u^2) - 4 v^2 w),    2 v num(rho) = -u den(rho).
+        4 a^2 num(S) = den(S) (2 (b' a - b a') + b^2 - 4 a c),    2 a num(rho) = -b den(rho).
     """
-    u = b.num * a.den
-    v = b.den * a.num
-    w = c.num * a.den
-    z = c.den * a.num
-    square = v * v
-    wanted = z * (2 * (u.derivative() * v - u * v.derivative()) + u * u) - 4 * square * w
-    is_S = not (4 * square * z * S.num - S.den * wanted)
-    return is_S and not (2 * v * gauge.num + u * gauge.den)
+    A, B, C = over_one_denominator((a, b, c))
+    wanted = (B.derivative() * A - B * A.derivative()) * 2 + B * B - A * C * 4
+    is_S = A * A * 4 * S.num == S.den * wanted
+    return is_S and A * gauge.num * 2 == -B * gauge.den
