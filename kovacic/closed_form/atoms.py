@@ -256,7 +256,12 @@ class Atoms:
         if self.at is None:
             is_pure_square = base.degree == 2 and not base[1]
             return is_pure_square and bool(self.constant(base[0]).is_negative)
-        return not self.at.is_infinite and bool(self.own(self.poly(base).subs(self.x, self.at)).is_negative)
+        if self.at.is_infinite:
+            return False
+        if self.at.is_Rational and base.field == QQ:
+            value = QQ.rational_value(base(Fraction(int(self.at.p), int(self.at.q))))
+            return value is not None and value < 0
+        return bool(self.own(self.poly(base).subs(self.x, self.at)).is_negative)
 
     def root_sum(self, polynomial: Expr, body: Expr) -> Expr:
         """The sum of the body over the roots of a polynomial, both in the symbol `root`."""

@@ -434,7 +434,9 @@ def _gegenbauer(form: _GaussForm) -> WrittenPair:
 
 def _by_parity(form: _GaussForm) -> WrittenPair:
     """Both, with powers that are real between the two points, or at 0."""
-    return form.writer.pair(*_even_and_odd(form), form.bracket_of_parity, real_at=form.middle or 0)
+    import sympy
+
+    return form.writer.pair(*_even_and_odd(form), form.bracket_of_parity, real_at=form.middle or sympy.S.Zero)
 
 
 def _even_and_odd(form: _GaussForm) -> tuple[WrittenTerm, WrittenTerm]:

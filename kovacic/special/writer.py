@@ -185,7 +185,9 @@ class Writer:
         times P1 P2 it is the Wronskian.  A member has no value where one of the numbers `undefined` is an integer.
         With `real_at` the powers are real at that point.
         """
-        P, Q = (Mul(display(f.product, self.atoms), *f.others) for f, _ in (first, second))
+        is_real = real_at is not None and self.transform is None
+        atoms = Atoms(self.atoms.x, at=real_at) if is_real else self.atoms
+        P, Q = (Mul(display(f.product, atoms), *f.others) for f, _ in (first, second))
         excluded = tuple(_sine_of_letters(self.constant(number)) for number in undefined if self.has_letters(number))
         x = self.atoms.x
         if self.transform is not None:
@@ -194,7 +196,7 @@ class Writer:
                 return WrittenPair(y, z, None, excluded)
             others, rational = _by_rationality(C * D * self.atoms.factored(self.transform.factor / self.transform.m), x)
             return WrittenPair(y, z, lambda: others * sympy.factor(rational) * bracket(), excluded)
-        if real_at is not None:
+        if real_at is not None and (first[0].others or second[0].others):
             P, Q = (_real_at(factor, x, real_at) for factor in (P, Q))
         y, z = P * first[1], Q * second[1]
         if second[0].size < first[0].size:
@@ -298,6 +300,9 @@ class Writer:
 
     def is_negative(self, value: Number | Poly) -> bool:
         """Would it be written with a minus sign?"""
+        known = None if isinstance(value, Number) else value.field.rational_value(value)
+        if known is not None:
+            return known < 0
         return bool(self.constant(value).could_extract_minus_sign())
 
     def root(self, value: Poly, n: int) -> Expr:
