@@ -306,7 +306,7 @@ def _is_the_smaller_root(field: AlgebraicField) -> bool:
 
 def display(y: Product, atoms: Atoms, *, around_zero: bool = False) -> Expr:
     """A product, up to a constant factor."""
-    return Mul(*factors(y, atoms, around_zero=around_zero)[1])
+    return Mul(*_shown(y, merged(y), atoms, around_zero=around_zero)[1])
 
 
 def factors(
@@ -317,34 +317,33 @@ def factors(
     Roots are real at the point of `atoms`; without one, those of x^2 - a, a > 0, are real around 0 with `around_zero`.
     """
     found = merged(y, extra, like=like)
-    scale: Expr = Integer(1)
+    turned, shown = _shown(y, found, atoms, around_zero=around_zero)
+    scale: Expr = Mul(*(Integer(-1) ** index for index in turned))
     for factor in found:
         content = atoms.primitive(factor.base)[0]
         if content != 1:
             scale = scale * rational(content) ** atoms.constant(factor.exponent)
-    sign, powers = _powers(found, atoms, around_zero)
-    for residue in y.roots:
-        for a in atoms.real_roots(residue.factor):
-            powers.append((atoms.x - a) ** sympy.expand_mul(atoms.poly(residue.value, a)))
-    return scale * sign, [*powers, _exponential(y, atoms)]
+    return scale, shown
 
 
-def _powers(found: list[Factor], atoms: Atoms, around_zero: bool) -> tuple[Expr, list[Expr]]:
-    """(c, powers) with the product, up to contents, c * powers."""
-    scale: Expr = Integer(1)
-    powers: list[Expr] = []
+def _shown(y: Product, found: list[Factor], atoms: Atoms, *, around_zero: bool) -> tuple[list[Expr], list[Expr]]:
+    """The exponents of bases with the other sign, and the factors of a product, up to contents."""
+    turned: list[Expr] = []
+    shown: list[Expr] = []
+    is_wanted = around_zero or atoms.at is not None
     for group, exponent in grouped(found):
         index = atoms.constant(exponent)
         bases = []
         for base in group:
-            shown = atoms.primitive(base)[1]
-            is_wanted = around_zero or atoms.at is not None
-            if is_wanted and not index.is_Integer and atoms.is_turned(base):
-                shown = -shown
-                scale = scale * Integer(-1) ** index
-            bases.append(shown)
-        powers.append(Mul(*bases) ** index)
-    return scale, powers
+            is_turned = is_wanted and not index.is_Integer and atoms.is_turned(base)
+            turned += [index] * is_turned
+            primitive = atoms.primitive(base)[1]
+            bases.append(-primitive if is_turned else primitive)
+        shown.append(Mul(*bases) ** index)
+    for residue in y.roots:
+        for a in atoms.real_roots(residue.factor):
+            shown.append((atoms.x - a) ** sympy.expand_mul(atoms.poly(residue.value, a)))
+    return turned, [*shown, _exponential(y, atoms)]
 
 
 def _exponential(y: Product, atoms: Atoms) -> Expr:
