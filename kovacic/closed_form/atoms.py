@@ -341,8 +341,8 @@ def _shown(y: Product, found: list[Factor], atoms: Atoms, *, around_zero: bool) 
             bases.append(-primitive if is_turned else primitive)
         shown.append(Mul(*bases) ** index)
     for residue in y.roots:
-        for a in atoms.real_roots(residue.factor):
-            shown.append((atoms.x - a) ** sympy.expand_mul(atoms.poly(residue.value, a)))
+        roots = atoms.real_roots(residue.factor)
+        shown += [(atoms.x - a) ** sympy.expand_mul(atoms.poly(residue.value, a)) for a in roots]
     return turned, [*shown, _exponential(y, atoms)]
 
 
