@@ -39,7 +39,17 @@ from kovacic.algebra.precision import working_precision
 from kovacic.closed_form.atoms import Atoms
 from kovacic.enclosure.frame import foreseen_growth, upper_exponent
 from kovacic.enclosure.jets import AnalyticStep, CoefficientField
-from kovacic.enclosure.matrices import Matrix, MatrixProduct, State, apply, fundamental, identity, multiply, real_part
+from kovacic.enclosure.matrices import (
+    NOTHING,
+    Affine,
+    MapProduct,
+    Matrix,
+    State,
+    compose,
+    fundamental,
+    identity,
+    real_part,
+)
 from kovacic.enclosure.points import (
     Constant,
     ExactPoint,
@@ -53,7 +63,7 @@ from kovacic.enclosure.points import (
 )
 from kovacic.enclosure.problem import Coefficients, NumericProblem, cleared, root_of
 from kovacic.enclosure.start import middle, spread, spread_by
-from kovacic.enclosure.way import NOTHING, Forecast, Traveller, Way, WayStep
+from kovacic.enclosure.way import Forecast, Traveller, Way, WayStep
 from kovacic.errors import InputError, LimitExceeded
 from kovacic.limits import check_time, count_work
 
@@ -235,7 +245,6 @@ _FEWEST_PERIODS = 4
 _LOST = 64
 """Precisions rise by multiples of so many bits."""
 _WAVES = (sympy.sin, sympy.cos, sympy.tan, sympy.cot, sympy.sec, sympy.csc, sympy.exp)
-Affine = tuple[Matrix, State]  # v -> M v + p
 
 
 @dataclass(frozen=True, eq=False)
@@ -254,12 +263,10 @@ class PeriodicWay(AnalyticWay):
         with working_precision(64 + (b - a).height_bits()):
             return int((arb((b - a).x) / self._length()).mid().floor().unique_fmpz())
 
-    def carried(
-        self, a: ExactPoint, b: ExactPoint, product: MatrixProduct, particular: State
-    ) -> tuple[MatrixProduct, State]:
+    def carried(self, a: ExactPoint, b: ExactPoint, maps: MapProduct) -> MapProduct:
         n = self._periods(a, b)
         if abs(n) < _FEWEST_PERIODS:
-            return super().carried(a, b, product, particular)
+            return super().carried(a, b, maps)
         # Where P isn't diagonal, P^m is of the size m, and its square loses log2(m) bits and some more; n T loses those of n.
         squares = n.bit_length()
         lost = -(-squares * (squares + 12) // (2 * _LOST)) * _LOST
@@ -272,12 +279,10 @@ class PeriodicWay(AnalyticWay):
             power: Affine = (identity(), NOTHING)
             square = self._maps[key]
             for bit in reversed(bin(abs(n))[2:]):
-                power = _after(square, power) if bit == "1" else power
-                square = _after(square, square)
+                power = compose(square, power) if bit == "1" else power
+                square = compose(square, square)
             rest = way._map(a, Constant("less than a period later", lambda: to_acb(b) - step * abs(n)))
-            matrix, added = _after(rest, power)
-        y, dy = apply(matrix, particular)
-        return product.after(matrix), (y + added[0], dy + added[1])
+            return maps.after(*compose(rest, power))
 
     @cached_property
     def _maps(self) -> dict[Any, Affine]:
@@ -288,8 +293,7 @@ class PeriodicWay(AnalyticWay):
         stop = middle(number)
         M, particular = identity(), NOTHING
         if stop != a:
-            product, particular = super().carried(a, stop, MatrixProduct(), NOTHING)
-            M = product.matrix()
+            M, particular = super().carried(a, stop, MapProduct()).whole()
         first, second, own = (self.spread(number, v) for v in ((M[0], M[2]), (M[1], M[3]), particular))
         return fundamental(first, second), own
 
@@ -300,12 +304,6 @@ class PeriodicWay(AnalyticWay):
         if max(periods.values()) < _FEWEST_PERIODS + len(stops):  # discs on the way serve all of them
             return super().fan(traveller, stops)
         return {stop: traveller.moved(stop).state for stop in stops}
-
-
-def _after(second: Affine, first: Affine) -> Affine:
-    """The first map, then the second one."""
-    y, dy = apply(second[0], first[1])
-    return multiply(second[0], first[0]), (y + second[1][0], dy + second[1][1])
 
 
 def period_of(coefficients: Coefficients) -> Any:
@@ -341,9 +339,7 @@ class ConstantWay(AnalyticWay):
 
     terms: tuple[Term, ...] = ()
 
-    def carried(
-        self, a: ExactPoint, b: ExactPoint, product: MatrixProduct, particular: State
-    ) -> tuple[MatrixProduct, State]:
+    def carried(self, a: ExactPoint, b: ExactPoint, maps: MapProduct) -> MapProduct:
         check_time()
         count_work(self.prec)
         self.check(a, b)
@@ -374,12 +370,11 @@ class ConstantWay(AnalyticWay):
             E = (A * to_acb(b - a)).exp()
         ones = [column for column, (_, k) in enumerate(rates, 2) if k == 0]
         matrix: Matrix = (E[0, 0], E[0, 1], E[1, 0], E[1, 1])
-        added = [sum((E[row, column] for column in ones), acb(0)) * unit for row in (0, 1)]
+        first, second = (sum((E[row, column] for column in ones), acb(0)) * unit for row in (0, 1))
         if a.is_real() and b.is_real() and self.functions.is_real(a, 0):
             matrix = real_part(matrix)
-            added = [acb(value.real) for value in added]
-        y, dy = apply(matrix, particular)
-        return product.after(matrix), (y + added[0], dy + added[1])
+            first, second = acb(first.real), acb(second.real)
+        return maps.after(matrix, (first, second))
 
     def fan(self, traveller: Traveller, stops: Sequence[ExactPoint]) -> dict[ExactPoint, State]:
         return {stop: traveller.moved(stop).state for stop in stops}

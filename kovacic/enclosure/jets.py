@@ -51,10 +51,10 @@ from flint import acb, acb_poly, acb_series, arb, arb_poly, ctx, fmpq
 from kovacic.algebra.precision import series_length, working_precision
 from kovacic.closed_form.jets import BallEvaluator
 from kovacic.enclosure.frame import log2
-from kovacic.enclosure.matrices import Matrix, State, apply, fundamental, multiply
+from kovacic.enclosure.matrices import NOTHING, Matrix, State, apply, fundamental, multiply
 from kovacic.enclosure.points import ExactPoint, are_real, around_zero, to_acb
 from kovacic.enclosure.problem import Coefficients
-from kovacic.enclosure.way import NOTHING, Local
+from kovacic.enclosure.way import Local
 from kovacic.errors import LimitExceeded
 from kovacic.limits import check_time
 
@@ -227,7 +227,7 @@ _QUIET = 8
 _TERMS = 2
 _MOST_TERMS = 40
 """Terms for each bit, at most: of the coefficients in a disc, and of a solution."""
-_SPARE = 12
+_SPARE = 28
 _LEAST = 0.25
 """mu, at least."""
 _BOX = 4.0
@@ -320,11 +320,12 @@ class CoefficientField:
             bits = prec + growth + _SPARE
             # An error of dy/du counts for y beyond a small disc, over its size; but not where the coefficients are small.
             lost = max(0, min(-e, int(-log2(rate)))) if rate > 0 else 0
-            found = self._truncated(centre, h, bits + lost)
+            # The rests are multiplied by the sum of the |a_k|, which is as large as the growth, and by that of the error.
+            precision = bits + growth + _SPARE
+            found = self._truncated(centre, h, precision + lost)
             if found is None:
                 return None
             terms, rests = found
-        precision = bits + growth + _SPARE
         with working_precision(precision + longer):
             parts = self.series(centre, e, terms)
         if parts is None:

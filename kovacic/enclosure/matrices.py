@@ -1,4 +1,4 @@
-"""2x2 matrices of balls that act on states (y, y'), and products of many of them.
+"""2x2 matrices of balls that act on states (y, y'), and products of many affine maps: a right-hand side adds a state.
 
 With k factors one after the other ball arithmetic would lose up to k bits ("wrapping"); balanced products lose O(log k).
 """
@@ -9,6 +9,8 @@ from flint import acb
 
 State = tuple["acb", "acb"]  # (y, y')
 Matrix = tuple["acb", "acb", "acb", "acb"]  # (m11, m12, m21, m22)
+Affine = tuple[Matrix, State]  # v -> M v + p
+NOTHING: State = (acb(0), acb(0))
 
 
 def multiply(m: Matrix, n: Matrix) -> Matrix:
@@ -50,39 +52,49 @@ def apply(m: Matrix, v: State) -> State:
     return m[0] * v[0] + m[1] * v[1], m[2] * v[0] + m[3] * v[1]
 
 
-class MatrixProduct:
-    """M_k ... M_1: a binary counter of partial products, so that every prefix is O(log k) factors."""
+def compose(second: Affine, first: Affine) -> Affine:
+    """The first map, then the second one."""
+    y, dy = apply(second[0], first[1])
+    return multiply(second[0], first[0]), (y + second[1][0], dy + second[1][1])
 
-    def __init__(self, *parts: tuple[int, Matrix]) -> None:
+
+class MapProduct:
+    """A_k ... A_1 for maps A v = M v + p: a binary counter of partial products, so that every prefix is O(log k) factors."""
+
+    def __init__(self, *parts: tuple[int, Affine]) -> None:
         self._parts = parts  # sizes are falling powers of two, the earliest factors first
 
-    def after(self, matrix: Matrix) -> MatrixProduct:
-        """With one more factor on the left."""
+    def after(self, matrix: Matrix | None, added: State = NOTHING) -> MapProduct:
+        """With one more map v -> M v + added on the left; None for the identity."""
+        if matrix is None:
+            return self
+        last = matrix, added
         parts = self._parts
         size = 1
         while parts and parts[-1][0] == size:
-            matrix = multiply(matrix, parts[-1][1])
+            last = compose(last, parts[-1][1])
             size = 2 * size
             parts = parts[:-1]
-        return MatrixProduct(*parts, (size, matrix))
+        return MapProduct(*parts, (size, last))
 
     def apply(self, state: State) -> State:
-        """M_k ... M_1 v."""
-        for _, matrix in self._parts:
-            state = apply(matrix, state)
+        """A_k ... A_1 v."""
+        for _, (matrix, added) in self._parts:
+            y, dy = apply(matrix, state)
+            state = y + added[0], dy + added[1]
         return state
 
-    def matrix(self) -> Matrix:
-        """M_k ... M_1."""
-        total = self._parts[0][1] if self._parts else identity()
-        for _, matrix in self._parts[1:]:
-            total = multiply(matrix, total)
+    def whole(self) -> Affine:
+        """A_k ... A_1."""
+        total = self._parts[0][1] if self._parts else (identity(), NOTHING)
+        for _, part in self._parts[1:]:
+            total = compose(part, total)
         return total
 
 
 def product(matrices: list[Matrix]) -> Matrix:
     """M_k ... M_1 for the list [M_1, ..., M_k]."""
-    total = MatrixProduct()
+    total = MapProduct()
     for matrix in matrices:
         total = total.after(matrix)
-    return total.matrix()
+    return total.whole()[0]

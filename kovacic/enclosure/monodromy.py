@@ -224,7 +224,7 @@ def _connection(problem: NumericProblem, way: _Polygon, prec: int) -> Matrix:
         last, bound = junction(end, here, prec)
         there = basis(end, last, here, bound, prec)
         end = last
-    found = traveller.moved(end).product.matrix()
+    found = traveller.moved(end).maps.whole()[0]
     return found if there is None else multiply(inverse(there), found)
 
 

@@ -46,14 +46,24 @@ from kovacic.enclosure.closed_form import value
 from kovacic.enclosure.frame import System, foreseen_growth, frequency, largest_exponent, log2
 from kovacic.enclosure.frobenius import basis, junction
 from kovacic.enclosure.log_derivative import LogDerivative, log_derivative
-from kovacic.enclosure.matrices import Matrix, MatrixProduct, State, apply, fundamental, inverse, multiply, real_part
+from kovacic.enclosure.matrices import (
+    NOTHING,
+    MapProduct,
+    Matrix,
+    State,
+    apply,
+    fundamental,
+    inverse,
+    multiply,
+    real_part,
+)
 from kovacic.enclosure.points import ExactPoint, Number, around_zero, power_of_two, to_acb
 from kovacic.enclosure.problem import NumericProblem
 from kovacic.enclosure.singular import Singular
 from kovacic.enclosure.splitting import is_split
 from kovacic.enclosure.start import logarithmic_derivative, spread_by
 from kovacic.enclosure.transport import growth_of_disc, walk
-from kovacic.enclosure.way import MAX_DISCS, NOTHING, Forecast, Traveller, Way, WayStep
+from kovacic.enclosure.way import MAX_DISCS, Forecast, Traveller, Way, WayStep
 from kovacic.limits import check_time, count_work
 
 _WORTH = 4  # times as many radians as bits, on the whole way: with fewer, discs are as fast
@@ -348,12 +358,12 @@ class RationalWay(Way):
         while waiting:
             farthest = waiting[-1]
             self.check(here, farthest)
-            product = traveller.product if inward is None else traveller.product.after(inward)
+            maps = traveller.maps.after(inward)
             ahead = self.forecast(here, farthest)
             for number, leg in enumerate(walk(self.problem.system, here, farthest, self.prec), 1):
                 served = [*leg.disc.served(self.problem.system, here, waiting)]
                 if served:
-                    local = leg.local(product.apply(traveller.start))
+                    local = leg.local(maps.apply(traveller.start))
                     for stop in served:
                         if self.gauge is not None:
                             self.check(here, stop)
@@ -362,7 +372,7 @@ class RationalWay(Way):
                         found[stop] = state if outward is None else apply(outward, state)
                     waiting = [stop for stop in waiting if stop not in found]
                 if leg.disc.leave != farthest:  # the matrix of the last leg isn't needed
-                    product = product.after(leg.matrix)
+                    maps = maps.after(leg.matrix)
                     ahead.check(number)
         return found
 
@@ -373,9 +383,7 @@ class ClosedWay(RationalWay):
 
     closed: Closed | None = None
 
-    def carried(
-        self, a: ExactPoint, b: ExactPoint, product: MatrixProduct, particular: State
-    ) -> tuple[MatrixProduct, State]:
+    def carried(self, a: ExactPoint, b: ExactPoint, maps: MapProduct) -> MapProduct:
         assert self.closed is not None
         check_time()
         count_work(self.prec)
@@ -387,7 +395,7 @@ class ClosedWay(RationalWay):
         outward = self.out_of(a, b)
         if inward is not None and outward is not None:
             matrix = multiply(outward, multiply(matrix, inward))
-        return product.after(matrix), NOTHING
+        return maps.after(matrix)
 
     def fan(self, traveller: Traveller, stops: Sequence[ExactPoint]) -> dict[ExactPoint, State]:
         return {stop: traveller.moved(stop).state for stop in stops}

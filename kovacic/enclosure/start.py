@@ -23,12 +23,12 @@ from flint import acb, arb
 
 from kovacic.algebra.precision import working_precision
 from kovacic.enclosure.frame import System, foreseen_growth, frequency
-from kovacic.enclosure.matrices import MatrixProduct, State
+from kovacic.enclosure.matrices import MapProduct, State
 from kovacic.enclosure.points import Constant, ExactPoint, Number, are_real, around_zero, as_number, to_acb, to_ball
 from kovacic.enclosure.problem import NumericProblem
 from kovacic.enclosure.request import Start
 from kovacic.enclosure.singular import Singular
-from kovacic.enclosure.way import NOTHING, Way
+from kovacic.enclosure.way import Way
 from kovacic.errors import InputError, LimitExceeded
 from kovacic.numbers.numerals import plain_text
 
@@ -174,7 +174,7 @@ def logarithmic_derivative(way: Way, system: System, x0: ExactPoint, prec: int) 
         if step > _LARGEST_STEP:
             raise LimitExceeded("no starting point was found for the decaying solution", limit="unknown_degree")
     far = beyond + ExactPoint(step)
-    matrix = way.carried(far, x0, MatrixProduct(), NOTHING)[0].matrix()
+    matrix = way.carried(far, x0, MapProduct()).whole()[0]
     m = matrix[0]
     n = -matrix[1]
     dn = -matrix[3]

@@ -43,7 +43,7 @@ NO_CLOSED_FORM = (
     "and Gauss' equations over Q"
 )
 TAYLOR = "method='taylor' treats every equation"
-_WORTH = 3.0  # milliseconds that Taylor's method takes where a closed form is sought
+_WORTH = 4.5  # milliseconds that Taylor's method takes where a closed form is sought
 _SOUGHT = 0.5  # of them, for the search
 _DEGREE = 40  # of S, up to which an equation given as text is decided
 _UNKNOWN = 400  # degree of a polynomial that is sought for that, at most
@@ -141,7 +141,10 @@ def _foreseen(journey: Journey, problem: NumericProblem, ways: Ways, count: int,
         near = min((d for d in distances if d > 0), default=math.inf)  # not where a solution starts
         return (frequent(x) / growth).max(arb(1 / near) / _SHARE) / 2
 
-    discs = sum(1 + foreseen_growth(rate, a, b) for a, b in [*pairwise(corners), *ways])
+    discs = 0.0
+    for a, b in [*pairwise(corners), *ways]:
+        beside = 1.0 if a.is_real() and b.is_real() else prices.BESIDE
+        discs += beside * (1 + foreseen_growth(rate, a, b))
     return prices.BEGIN + count * prices.TARGET(digits) + discs * prices.DISC(digits)
 
 

@@ -26,11 +26,11 @@ from typing import Any, ClassVar, NamedTuple
 from flint import fmpq
 
 from kovacic.enclosure.frame import REACH, Frame, System, distance_lower, fitting, is_apart, largest_exponent, log2
-from kovacic.enclosure.matrices import Matrix, State, adjugate, apply, multiply, product
+from kovacic.enclosure.matrices import NOTHING, Matrix, State, adjugate, apply, multiply, product
 from kovacic.enclosure.points import ExactPoint, power_of_two
 from kovacic.enclosure.splitting import legs
 from kovacic.enclosure.taylor import TaylorSeries, expand, local_solution, transition
-from kovacic.enclosure.way import NOTHING, Local
+from kovacic.enclosure.way import Local
 from kovacic.errors import LimitExceeded
 from kovacic.limits import check_time, count_work
 

@@ -21,7 +21,7 @@ from flint import acb, acb_poly, arb, arb_poly
 
 from kovacic.algebra.precision import working_precision
 from kovacic.enclosure.frobenius import limit
-from kovacic.enclosure.matrices import Matrix, MatrixProduct, State, apply
+from kovacic.enclosure.matrices import MapProduct, Matrix, State, apply
 from kovacic.enclosure.points import ExactPoint, Number, around_zero, power_of_two, to_acb
 from kovacic.enclosure.singular import Singular
 from kovacic.errors import InputError, LimitExceeded
@@ -33,7 +33,6 @@ _WORTH = 0.2
 MAX_DISCS = 200_000
 _MOST_DISCS = 4000
 """Discs that a ray keeps: some kilobytes each at 15 digits."""
-NOTHING: State = (acb(0), acb(0))
 
 
 @dataclass(frozen=True)
@@ -118,11 +117,11 @@ class Forecast:
             raise LimitExceeded(f"the path needs more than {MAX_DISCS} steps", limit="unknown_degree")
         used = self.begun - watched_seconds(math.inf)
         if not self.is_known and number >= _TRIED and not used < _WORTH:
+            self.is_known = True
             self.refuse(used / number)
 
     def refuse(self, each: float = 0.0) -> None:
         """Raise LimitExceeded if the limits don't allow all discs, of so many seconds each."""
-        self.is_known = True
         growth = self.growth()
         least = growth / self.in_a_disc
         size = f"exp({growth:.2g})" if growth < math.inf else "more than exp(1e308)"
@@ -181,17 +180,15 @@ class Way(ABC):
             e += 1
         return here + (stop - here).scaled(power_of_two(e) / distance)
 
-    def carried(
-        self, a: ExactPoint, b: ExactPoint, product: MatrixProduct, particular: State
-    ) -> tuple[MatrixProduct, State]:
+    def carried(self, a: ExactPoint, b: ExactPoint, maps: MapProduct) -> MapProduct:
         """The maps to the user's state at b from those to the one at a."""
         self.check(a, b)
         ahead = self.forecast(a, b)
-        product, particular = _after(self.into(a), product, particular)
+        maps = maps.after(self.into(a))
         for number, step in enumerate(self.walk(a, b, alone=True), 1):
-            product, particular = _after(step.matrix, product, particular, step.added)
+            maps = maps.after(step.matrix, step.added)
             ahead.check(number)
-        return _after(self.out_of(a, b), product, particular)
+        return maps.after(self.out_of(a, b))
 
     def fan(self, traveller: Traveller, stops: Sequence[ExactPoint]) -> dict[ExactPoint, State]:
         """The states at the ends of straight lines from where the traveller is, which is none of them."""
@@ -206,16 +203,6 @@ class Way(ABC):
         raise InputError("the decaying solution needs rational coefficients", hint="give y0 and dy0")
 
 
-def _after(
-    matrix: Matrix | None, product: MatrixProduct, particular: State, added: State = NOTHING
-) -> tuple[MatrixProduct, State]:
-    """One more map v -> M v + added on the left."""
-    if matrix is None:
-        return product, particular
-    y, dy = apply(matrix, particular)
-    return product.after(matrix), (y + added[0], dy + added[1])
-
-
 def position(here: ExactPoint, x: ExactPoint) -> Any:
     """How far x is from here, for points of one ray."""
     step = x - here
@@ -227,27 +214,25 @@ class _Passed:
     """A disc that was passed, and the maps to the state where it was entered."""
 
     step: WayStep
-    product: MatrixProduct
-    particular: State
+    maps: MapProduct
 
-    def left(self) -> tuple[MatrixProduct, State]:
+    def left(self) -> MapProduct:
         """The maps to the state where it is left."""
-        return _after(self.step.matrix, self.product, self.particular, self.step.added)
+        return self.maps.after(self.step.matrix, self.step.added)
 
 
 @dataclass
 class Ray:
     """The discs from `here` towards `far`, made as far as somebody has asked.
 
-    The user's state at `here` is `product` times the start, plus `particular`.
+    `maps` lead from the start to the user's state at `here`.
     """
 
     way: Way
     here: ExactPoint
     far: ExactPoint
     start: State
-    product: MatrixProduct
-    particular: State = NOTHING
+    maps: MapProduct
 
     def __post_init__(self) -> None:
         self._begin()
@@ -274,8 +259,7 @@ class Ray:
         k = bisect_left(self._leave, place)
         if k not in self._locals:
             passed = self._passed[k]
-            y, dy = passed.product.apply(self.start)
-            self._locals[k] = passed.step.local((y + passed.particular[0], dy + passed.particular[1]))
+            self._locals[k] = passed.step.local(passed.maps.apply(self.start))
         state = self._locals[k].state(stop)
         outward = self.way.out_of(self.here, stop)
         return state if outward is None else apply(outward, state)
@@ -290,11 +274,8 @@ class Ray:
                 ahead.check(number)
             number += 1
             step = next(self._steps)
-            if self._passed:
-                self._passed.append(_Passed(step, *self._passed[-1].left()))
-            else:
-                maps = _after(self.way.into(self.here), self.product, self.particular)
-                self._passed.append(_Passed(step, *maps))
+            entered = self._passed[-1].left() if self._passed else self.maps.after(self.way.into(self.here))
+            self._passed.append(_Passed(step, entered))
             self._leave.append(position(self.here, step.leave))
             self._end = step.leave
             if len(self._passed) > _MOST_DISCS:  # the first half is forgotten
@@ -306,7 +287,7 @@ class Ray:
 
 @dataclass(frozen=True, eq=False)
 class Traveller:
-    """Where we are, and the user's (y, y') there: `product` times the start, plus `particular`; with the rays from here.
+    """Where we are, and the `maps` from the start to the user's (y, y') there; with the rays from here.
 
     The start is a state, or coordinates in the Frobenius basis at a singular point.
     """
@@ -314,15 +295,13 @@ class Traveller:
     way: Way
     here: ExactPoint | Singular
     start: State
-    product: MatrixProduct = field(default_factory=MatrixProduct)
-    particular: State = NOTHING
+    maps: MapProduct = field(default_factory=MapProduct)
     rays: dict[ExactPoint, Ray] = field(default_factory=dict)
 
     @property
     def state(self) -> State:
         """The user's (y, y') here."""
-        y, dy = self.product.apply(self.start)
-        return y + self.particular[0], dy + self.particular[1]
+        return self.maps.apply(self.start)
 
     def moved(self, stop: ExactPoint) -> Traveller:
         """Straight on to a point."""
@@ -331,11 +310,10 @@ class Traveller:
                 said = f"the path doesn't leave the singular point {self.here}"
                 raise InputError(said, hint="go on to another point")
             last, matrix = self.way.departure(self.here, stop, self.start)
-            return replace(self, here=last, product=self.product.after(matrix), rays={}).moved(stop)
+            return replace(self, here=last, maps=self.maps.after(matrix), rays={}).moved(stop)
         if stop == self.here:
             return self
-        product, particular = self.way.carried(self.here, stop, self.product, self.particular)
-        return replace(self, here=stop, product=product, particular=particular, rays={})
+        return replace(self, here=stop, maps=self.way.carried(self.here, stop, self.maps), rays={})
 
     def fan(self, stops: Sequence[ExactPoint]) -> dict[ExactPoint, State]:
         """The states at the ends of straight lines from here."""
@@ -363,6 +341,6 @@ class Traveller:
         for on_it in rays.values():
             far = self.way.horizon(here, on_it[-1])
             if far not in self.rays:
-                self.rays[far] = Ray(self.way, here, far, self.start, self.product, self.particular)
+                self.rays[far] = Ray(self.way, here, far, self.start, self.maps)
             found |= {stop: self.rays[far].state(stop) for stop in on_it}
         return found

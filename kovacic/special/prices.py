@@ -33,28 +33,30 @@ class Cost:
     most: int
 
 
-BEGIN = 0.8
+BEGIN = 0.4
 """The start of Taylor's method."""
-DISC = Price(0.35, 45, 1.0)
+DISC = Price(0.7, 62, 1.27)
 """A disc, as `kovacic.enclosure.states` foresees them: near singular points two or three stand for one."""
-TARGET = Price(0.055, 75)
+BESIDE = 4.5
+"""So many times that for a disc beside the real axis: complex coefficients, and centres with long numbers."""
+TARGET = Price(0.027, 113, 2.0)
 """A target in a disc that is there."""
 FIRST = 0.3
 """The start of a closed form, beside its targets."""
 UNIT = 0.015
 """A unit of the work that the search for a pull-back counts."""
 
-AIRY = Cost(Price(0.05, 200), 20_000)
-BESSEL = Cost(Price(0.15, 85), 10_000)
-WHITTAKER = Cost(Price(0.3, 63), 2_000)
-GAUSS = Cost(Price(0.25, 33), 300)
+AIRY = Cost(Price(0.05, 330), 20_000)
+BESSEL = Cost(Price(0.12, 100), 10_000)
+WHITTAKER = Cost(Price(0.17, 66), 2_000)
+GAUSS = Cost(Price(0.17, 44), 1_000)
 GAUSS_DIHEDRAL = Cost(Price(0.1, 85), 1_000_000_000)
 
-EXPONENTIALS = Price(0.065, 500)
+EXPONENTIALS = Price(0.056, 1000)
 """Two exponentials, with polynomials of degree 0."""
-INTEGRAL = Price(0.13, 200)
+INTEGRAL = Price(0.075, 200)
 """y1 and its integral."""
-COEFFICIENT = Price(0.003, 200)
+COEFFICIENT = Price(0.002, 200)
 """What each degree of the polynomial adds."""
 DEGREES = 10.0
 """Up to so many degrees for each millisecond that Taylor's method takes, a polynomial is sought to decide an equation."""

@@ -23,7 +23,7 @@ from kovacic import Ball, InputError, Limits
 from kovacic.enclosure import frobenius
 from kovacic.enclosure.frame import check_segment, distance_lower, foreseen_growth, frequency, shift
 from kovacic.enclosure.log_derivative import _principal_part
-from kovacic.enclosure.matrices import Matrix, MatrixProduct, State
+from kovacic.enclosure.matrices import MapProduct, Matrix, State
 from kovacic.enclosure.points import as_point
 from kovacic.enclosure.singular import Singular
 from kovacic.enclosure.transport import cover
@@ -300,7 +300,7 @@ class Straight(Way):
 @pytest.mark.long
 def test_a_ray_that_forgets_its_first_discs_begins_again() -> None:
     """y = 3 + 2x, over more discs than are kept."""
-    ray = Ray(Straight(), ExactPoint(0), ExactPoint(1 << 15), (acb(3), acb(2)), MatrixProduct())
+    ray = Ray(Straight(), ExactPoint(0), ExactPoint(1 << 15), (acb(3), acb(2)), MapProduct())
     for place in (1, 2500, 5000, 9000, 8999, 1, 9100, 20_000):
         assert ray.state(ExactPoint(place)) == (3 + 2 * place, 2)
 
