@@ -63,6 +63,8 @@ _MOST = 12
 _LONGEST = 60
 """Coefficients of a polynomial that is moved to the middle of a ball, at most."""
 _NEAR = arb(0.5)
+_NEAREST = 60
+"""Binary exponents of distances to the next singularity that are tried."""
 _QUOTIENTS = {
     sympy.tan: lambda u: sympy.sin(u) / sympy.cos(u),
     sympy.cot: lambda u: sympy.cos(u) / sympy.sin(u),
@@ -175,13 +177,16 @@ class CoefficientEvaluator(BallEvaluator):
             centre = x - zero
             scale = acb(0)
         reach = (abs(centre) + 2 * abs(scale)).upper()
-        if reach.is_zero():
-            reach = arb(_NEAR)
-        # A bound in a disc; not finite where the function isn't known to be analytic there.
-        box = zero + around_zero(2 * reach, real=False)
-        around = CoefficientEvaluator({**self.values, symbol: box}, variable=symbol, analytic=True)
-        size = abs(around(function)).upper()
-        if not size.is_finite():
+        # At the zero itself any reach will do for which the disc is free of other singularities.
+        reaches = [arb((1, -k)) for k in range(1, _NEAREST)] if reach.is_zero() else [reach]
+        for reach in reaches:
+            # A bound in a disc; not finite where the function isn't known to be analytic there.
+            box = zero + around_zero(2 * reach, real=False)
+            around = CoefficientEvaluator({**self.values, symbol: box}, variable=symbol, analytic=True)
+            size = abs(around(function)).upper()
+            if size.is_finite():
+                break
+        else:
             return self(function) / (x - zero) ** k
         terms = ctx.prec + 8
         with series_length(terms + k):

@@ -43,7 +43,7 @@ NO_CLOSED_FORM = (
     "and Gauss' equations over Q"
 )
 TAYLOR = "method='taylor' treats every equation"
-_WORTH = 4.5  # milliseconds that Taylor's method takes where a closed form is sought
+_WORTH = 4.0  # milliseconds that Taylor's method takes where a closed form is sought
 _SOUGHT = 0.5  # of them, for the search
 _DEGREE = 40  # of S, up to which an equation given as text is decided
 _UNKNOWN = 400  # degree of a polynomial that is sought for that, at most
@@ -108,10 +108,10 @@ def _chosen(
     price = _foreseen(journey, problem, ways, count, digits)
     most = (price - prices.FIRST) / count  # for a target
     from_zero = isinstance(journey.place, Singular)
-    # An equation that wasn't solved is decided only as far as Taylor's method takes that long, a constant S in no time.
+    # An equation that wasn't solved is decided only as far as Taylor's method takes that long.
     size = S.num.degree + S.den.degree
     is_solved = problem.decision is not None
-    if not from_zero and (is_solved or size == 0 or (size <= _DEGREE and price >= _WORTH)):
+    if not from_zero and (is_solved or (size <= _DEGREE and price >= _WORTH)):
         known = decided(problem, _UNKNOWN if is_solved else int(min(_SOUGHT * prices.DEGREES * price, _UNKNOWN)))
         closed = None if known is None else closed_form_of(known)
         if closed is not None and closed.is_cheap(digits) and closed.price(digits) <= most:
