@@ -7,9 +7,11 @@ from fractions import Fraction
 from typing import Any
 
 import mpmath
+import numpy as np
 import pytest
 import sympy
 from build import bounded_work, parametrize, sample
+from scipy.integrate import solve_ivp
 
 import kovacic
 
@@ -101,6 +103,26 @@ def test_there_and_back_from_an_end_without_power_series(equation: str, x0: Any,
     assert back.overlaps("2/3")
     assert slope.overlaps("1/3")
     assert min(y.digits, back.digits) > 12
+
+
+@parametrize(
+    ("c", "f", "x"),
+    [("exp(x)", "x", 11), ("exp(x)", "1", 12), ("x^8", "exp(-x)", 6), ("400", "x/(x^2 + 1)", 90)],
+    ordinary=2,
+)
+def test_a_right_hand_side_costs_no_digits(c: str, f: str, x: int) -> None:
+    """Over hundreds of periods the first precision suffices, with a right-hand side as without."""
+    for right in ("0", f):
+        y, dy = kovacic.evaluate(f"y'' + {c}*y = {right}", x, x0=0, derivative=True, method="taylor", **START)
+        assert y.route.runs == 1
+    function = sympy.lambdify("x", [sympy.sympify(text.replace("^", "**")) for text in (c, f)])
+
+    def slope(t: float, state: Any) -> Any:
+        frequency, force = function(t)
+        return [state[1], force - frequency * state[0]]
+
+    found = solve_ivp(slope, (0, x), [1.0, 1 / 3], method="DOP853", rtol=1e-12, atol=1e-14)
+    assert [float(y), float(dy)] == pytest.approx(list(found.y[:, -1]), abs=1e-6 * float(np.abs(found.y).max()))
 
 
 @parametrize(

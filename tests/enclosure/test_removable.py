@@ -21,6 +21,8 @@ CASES: list[tuple[str, float, float, Callable[[float], float], float]] = [
     ("log(x)/(x - 1) + 1/(x + 5)", 0.5, 2, lambda x: math.log(x) / (x - 1) + 1 / (x + 5), 1 + 1 / 6),
     ("a*sin(x)^2/(x^2 + x^2*a)", -1, 1, lambda x: 0.75 * (math.sin(x) / x) ** 2, 0.75),
     ("x*cot(x)", -1, 1, lambda x: x / math.tan(x), 1),
+    ("sin(x)/x*sqrt(x + 1/9)", 0, 1, lambda x: math.sin(x) / x * math.sqrt(x + 1 / 9), 1 / 3),
+    ("(1 - cos(x))/x^2/(x + 10^(-4))", 0, 0.1, lambda x: 2 * (math.sin(x / 2) / x) ** 2 / (x + 1e-4), 5e3),
 ]
 
 
