@@ -76,7 +76,7 @@ from kovacic.closed_form.primitive import (
     integrate,
     normalised_constant,
 )
-from kovacic.closed_form.product import Power, Product, gathered
+from kovacic.closed_form.product import Power, Product, gathered, grouped, merged
 from kovacic.closed_form.structure import OnCurve, Triangular
 from kovacic.numbers.exact import radical as sqrt
 
@@ -614,12 +614,15 @@ def _rational(y: Product, primitive: RationalPrimitive, first: Factors, atoms: A
     if exact:
         terms.append(_scaled(*factors(y, atoms, exact)))
     scale, parts = first
-    terms += [_scaled(scale, [*parts, term]) for term in logarithms(residues, atoms)]
+    terms += [_scaled(scale, [*parts, term]) for term in logarithms(residues, atoms, y)]
     return terms
 
 
-def logarithms(residues: Iterable[Residue], atoms: Atoms) -> list[Expr]:
-    """Logarithms; those of two linear factors with opposite residues as one, real between the roots if 0 lies there."""
+def logarithms(residues: Iterable[Residue], atoms: Atoms, y: Product | None = None) -> list[Expr]:
+    """Logarithms, to be multiplied with y; those of two linear factors with opposite residues as one.
+
+    It is real between the roots if 0 lies there, unless the roots in y aren't.
+    """
     pending = list(residues)
     terms = []
     while pending:
@@ -630,12 +633,30 @@ def logarithms(residues: Iterable[Residue], atoms: Atoms) -> list[Expr]:
             # rho log((x - a)/(x - b)), or of (x - a)/(b - x) where 0 lies between a and b
             top, bottom = (atoms.primitive(residue.factor)[1] for residue in (first, opposite[0]))
             at_zero = first.factor.field.rational_value(first.factor[0] * opposite[0].factor[0])
-            if at_zero is not None and at_zero < 0:
+            is_around_zero = at_zero is not None and at_zero < 0
+            if is_around_zero and (y is None or _are_real_before(_positive(first, opposite[0], atoms), y, atoms)):
                 bottom = -bottom
             terms.append(atoms.constant(first.value) * sympy.log(top / bottom, evaluate=False))
         else:
             terms.append(atoms.log_sum(first))
     return terms[::-1]
+
+
+def _positive(first: Residue, other: Residue, atoms: Atoms) -> Poly:
+    """The positive one of two poles of different signs."""
+    a, b = -first.factor[0], -other.factor[0]
+    return b if atoms.is_negative(a) else a
+
+
+def _are_real_before(end: Poly, y: Product, atoms: Atoms) -> bool:
+    """False if a root in y, as it is written, isn't real to the left of a number and near it."""
+    for group, exponent in grouped(merged(y)):
+        for base in () if atoms.constant(exponent).is_Integer else group:
+            # Where it is zero the base is negative to the left, unless it is written with the other sign.
+            is_positive = atoms.constant(base(end)).is_positive
+            if is_positive is not None and is_positive == atoms.is_turned(base):
+                return False
+    return True
 
 
 def _is_at_a_point(residue: Residue) -> bool:

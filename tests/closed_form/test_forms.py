@@ -349,3 +349,14 @@ def test_every_door_shows_the_same_form_of_some() -> None:
 def test_every_door_shows_the_same_form_of_many() -> None:
     for _, S in made_up(500):
         check_doors(S)
+
+
+@pytest.mark.parametrize(("a", "b"), [("3/2", 1), ("5/2", 3), ("1/2", 2), ("3/2", 4)])
+def test_logarithms_are_real_where_the_roots_before_them_are(a: str, b: int) -> None:
+    """(x - 1)^a (x + 1)^b is real for x > 1, and so is the logarithm beside it; both doors show that."""
+    omega = sympy.Rational(a) / (x - 1) + sympy.Integer(b) / (x + 1)
+    S = sympy.factor(omega.diff(x) + omega**2)
+    pair = kovacic.solve(S).solutions
+    assert pair[1].has(sympy.log)
+    assert all(y.subs(x, 3).is_real for y in pair)
+    assert kovacic.dsolve(f"y'' = ({S})*y").rhs.atoms(sympy.log) == pair[1].atoms(sympy.log)
