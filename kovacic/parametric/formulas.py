@@ -18,6 +18,7 @@ import re
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
+from itertools import combinations
 from math import prod
 from typing import Any, NamedTuple
 
@@ -354,10 +355,13 @@ def gathered(y: Any, x: Any) -> Any:
         base, e = factor.as_base_exp()
         if base == sympy.E:
             exponent += e
-        elif isinstance(factor, sympy.Add) or not base.has(x) or not base.is_rational_function(x):
+        elif isinstance(factor, sympy.Add) and not (has_roots(factor) and sympy.degree(factor, x) == 1):
+            others.append(factor)  # a polynomial P
+        elif not base.has(x) or not base.is_rational_function(x):
             others.append(factor)
         else:
             _add_factors(powers, base, e, x)
+    _join_conjugates(powers, x)
     for k, other in enumerate(others):
         key = _key(other, x) if isinstance(other, sympy.Add) and other.is_polynomial(x) else None
         if key in powers:  # a polynomial P with a factor of the weight
@@ -380,6 +384,27 @@ def _add_factors(powers: dict[Any, _ShownPower], base: Any, e: Any, x: Any) -> N
             is_turned = len(factors) == 1 and number.is_negative and k % 2 == 1
             known = powers.get(key, _ShownPower(-factor if is_turned else factor, sympy.Integer(0)))
             powers[key] = _ShownPower(known.base, known.exponent + sign * k * e)
+
+
+def _join_conjugates(powers: dict[Any, _ShownPower], x: Any) -> None:
+    """(x - i)^e (x + i)^f (x^2 + 1)^g with the exponents e + g and f + g; as one power of x^2 + 1 where these are equal."""
+    with_roots = [key for key in powers if has_roots(key) and sympy.degree(key, x) == 1]
+    for first, second in combinations(with_roots, 2):
+        whole = sympy.expand(first * second)
+        if has_roots(whole) or not {first, second} <= powers.keys():
+            continue
+        known = powers.pop(_key(whole, x), _ShownPower(whole, sympy.Integer(0)))
+        parts = [_ShownPower(powers[key].base, powers[key].exponent + known.exponent) for key in (first, second)]
+        if sympy.expand(parts[0].exponent - parts[1].exponent) == 0:
+            del powers[first], powers[second]
+            powers[_key(whole, x)] = _ShownPower(known.base, parts[0].exponent)
+        else:
+            powers |= dict(zip((first, second), parts, strict=True))
+
+
+def has_roots(expression: Any) -> bool:
+    """Does i, or a root of something else, occur?"""
+    return expression.has(sympy.I) or any(not power.exp.is_Integer for power in expression.atoms(sympy.Pow))
 
 
 def _key(factor: Any, x: Any) -> Any:

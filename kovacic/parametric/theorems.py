@@ -62,7 +62,7 @@ from kovacic.algebra.ratfunc import RatFunc
 from kovacic.decision import Structure
 from kovacic.engine.places import Kind, Place, Problem, analyse
 from kovacic.parametric import restriction, riemann
-from kovacic.parametric.formulas import shifted, shorter_sum
+from kovacic.parametric.formulas import has_roots, shifted, shorter_sum
 from kovacic.parametric.functions import irreducible_factors, over_parameters
 from kovacic.parametric.integers import integer_roots
 from kovacic.parametric.prose import ABELIAN, phrase
@@ -189,6 +189,8 @@ def jacobi_formula(problem: Problem, coordinate: Coordinate, variable: str) -> B
     z = base**n
     if c2 is None:
         argument = 1 - 2 * sympy.factor((z - c) / (c1 - c))
+        if has_roots(c) and not has_roots(sympy.expand(c + c1)):  # conjugate points
+            argument = sympy.factor(c + c1 - 2 * z) / sympy.expand(c1 - c)
         last = sympy.Integer(1)
     else:
         argument = 1 - 2 * sympy.factor((z - c) * (c1 - c2) / ((z - c2) * (c1 - c)))

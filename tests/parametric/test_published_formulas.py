@@ -273,3 +273,21 @@ def test_a_denominator_that_is_a_square_because_of_a_constant(S: str) -> None:
     assert report.inside
     assert "sqrt(2)^2" not in answer.text().splitlines()[0]
     assert "I^2" not in answer.text().splitlines()[0]
+
+
+@pytest.mark.parametrize(
+    ("S", "printed"),
+    [
+        ("(x^2+1)*y'' + 2*x*y' - n*(n+1)*y = 0", "y = jacobi(n, 0, 0, -I*x) where n is a natural number"),
+        ("(x^2-s)*y'' + 2*x*y' - n*(n+1)*y = 0", "y = jacobi(n, 0, 0, x/sqrt(s)) where n is a natural number"),
+        (
+            "(x^2+x+1)*y'' - n*(n+1)*y = 0",
+            "y = (x^2 + x + 1)*jacobi(n - 1, 1, 1, sqrt(3)*I*(-2*x - 1)/3) where n - 1 is a natural number",
+        ),
+    ],
+)
+def test_conjugate_points_stand_together(S: str, printed: str) -> None:
+    """The polynomials of Legendre at i x [DLMF 14.1], without (x - i)^(1/2) (x + i)^(1/2)/(x^2 + 1)^(1/2)."""
+    answer = kovacic.conditions(S, var="x", max_degree=0)
+    assert printed in [str(solution) for region in answer.regions for solution in region.solution()]
+    assert answer.check(20)
