@@ -146,11 +146,12 @@ def spectrum(
     except NotRational as unread:
         found = with_matching(question.physical(question.unsolved(unread)))
         if levels is None:
-            hint = "the lowest levels are computed as proven numbers"
+            values = f"with values of {', '.join(found.parameters)} " if found.parameters else ""
+            hint = f"{values}the lowest levels are computed as proven numbers"
             python, shell = f"{hint}: levels=5", f"{hint}: --levels 5"
-            if not found.matching:
+            if not (found.matching or found.complete):
                 raise NotRational(str(unread), hint=python, shell=shell) from None
-            found = found if found.parameters else replace(found, hint=python, shell=shell)
+            found = found if found.parameters or found.complete else replace(found, hint=python, shell=shell)
     return with_numbers(found, levels, digits, limits)
 
 

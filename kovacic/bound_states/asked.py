@@ -13,11 +13,11 @@ is a positive parameter there, and its value is put in at the end.
 from __future__ import annotations
 
 import re
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from contextlib import suppress
 from dataclasses import dataclass, field, fields, replace
 from itertools import count
-from typing import Any, TypeVar
+from typing import Any
 
 import sympy
 from sympy.functions.elementary.trigonometric import TrigonometricFunction
@@ -55,7 +55,6 @@ _STEPS = 10**6
 _INFINITE = {"oo": sympy.oo, "+oo": sympy.oo, "inf": sympy.oo, "-oo": -sympy.oo, "-inf": -sympy.oo}
 #: V(x) = ..., V = ...
 _LEFT_SIDE = re.compile(r"\s*[VU]\s*(?:\(\s*(\w+)\s*\))?\s*=(?!=)")
-LevelsOrAlgebraic = TypeVar("LevelsOrAlgebraic", Levels, Algebraic)
 
 
 @dataclass(frozen=True)
@@ -382,40 +381,41 @@ def _sign_of_root(name: str, assumed: dict[Any, Any]) -> str:
 
 
 def in_their_meanings(found: Spectrum, meanings: Mapping[str, Any]) -> Spectrum:
-    """The answer with the letters replaced by their meanings."""
+    """The answer with the letters replaced by their meanings, without conditions that say nothing then."""
     if not meanings:
         return found
     values = {sympy.Symbol(name): meaning for name, meaning in meanings.items()}
 
-    def put_in(expression: Any) -> Any:
-        return sympy.sympify(expression, strict=True).xreplace(values)
+    def put_in(part: Any) -> Any:
+        match part:
+            case str():
+                names = "|".join(map(re.escape, meanings))
+                return re.sub(rf"\b({names})\b", lambda name: caret(as_text(meanings[name[0]])), part)
+            case sympy.Poly():
+                return sympy.Poly(part.as_expr().xreplace(values), part.gen)
+            case tuple():
+                return tuple(map(put_in, part))
+            case Levels() | Algebraic():
+                return replace(part, **{field.name: put_in(getattr(part, field.name)) for field in fields(part)})
+        return part.xreplace(values) if isinstance(part, sympy.Basic) else part
 
-    def said(text: str) -> str:
-        for name, meaning in meanings.items():
-            shown = caret(as_text(meaning))
-            text = re.sub(rf"\b{name}\b", shown, text)
-        return text
+    def possible(parts: Iterable[Any]) -> Iterator[Any]:
+        for one in put_in(parts):
+            if sympy.false not in one.conditions:
+                yield replace(one, conditions=tuple(c for c in one.conditions if c != sympy.true))
 
-    def of(one: LevelsOrAlgebraic) -> LevelsOrAlgebraic:
-        """The levels without letters, and without conditions that say nothing."""
-        parts = {field.name: getattr(one, field.name) for field in fields(one)}
-        changed = {name: put_in(part) for name, part in parts.items() if isinstance(part, sympy.Expr)}
-        conditions = tuple(condition for condition in map(put_in, one.conditions) if condition != sympy.true)
-        return replace(one, **changed, conditions=conditions)
-
-    levels = tuple(one for one in map(of, found.levels) if sympy.false not in one.conditions)
-    algebraic = tuple(one.with_values(values) for one in map(of, found.algebraic) if sympy.false not in one.conditions)
+    levels, algebraic = (tuple(possible(parts)) for parts in (found.levels, found.algebraic))
     plain = [name for name in found.parameters if name not in meanings]
     inside = {name for meaning in meanings.values() for name in names_of(meaning)}
-    known = tuple((name, facts) for name, facts in found.assumptions.known if name not in meanings)
+    known = tuple(pair for pair in found.assumptions.known if pair[0] not in meanings)
     return replace(
         found,
         potential=put_in(found.potential),
         parameters=(*plain, *sorted(inside - {*plain})),
         assumptions=replace(found.assumptions, known=known),
-        ends=tuple(map(said, found.ends)),
-        excluded=tuple(relation for relation in map(put_in, found.excluded) if relation != sympy.false),
+        ends=put_in(found.ends),
+        excluded=tuple(relation for relation in put_in(found.excluded) if relation != sympy.false),
         levels=levels,
         algebraic=algebraic,
-        reason=NO_FORMULA if found.algebraic and not algebraic else said(found.reason),
+        reason=NO_FORMULA if found.algebraic and not algebraic else put_in(found.reason),
     )

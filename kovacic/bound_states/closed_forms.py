@@ -371,8 +371,10 @@ class _ClosedFormSearch:
         """
         question, signs = self.question, self.question.signs
         variable = question.parsed.variable
-        choices = region.solution(0)
-        if region.naturals:
+        choices: tuple[PolynomialSolution, ...] = ()
+        if all(isinstance(part, Vanishes) for part in region.statement.conjuncts):
+            choices = region.solution(0)
+        elif region.naturals:
             weights = (weight_by_signs(analyse(part.S, Budget()), variable) for part in region.naturals)
             choices = tuple(one for by_signs in weights if by_signs is not None for one in by_signs(None))
         square = sympy.Symbol(variable) ** 2 + 1  # P has no zero at an end, and its degree at infinity

@@ -10,7 +10,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from contextlib import suppress
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
 import sympy
@@ -58,6 +58,28 @@ class Original:
             raise Uncovered(f"no formula is known for potentials in {caret(str(t))}")
         theta = sympy.expand(t.args[0])
         return cls(x, t.func.__name__, theta.coeff(x, 1), theta.coeff(x, 0))
+
+    def about(self, domain: tuple[Any, Any], signs: Signs) -> Original:
+        """The same t with theta in its first period on the domain, and positive there if t is even.
+
+        So sin(theta/2), cos(theta/2) and sinh(theta/2) are positive, of which waves have powers, and atan(cot(theta)) is
+        pi/2 - theta.
+        """
+        if self.kind not in ("cos", "cosh", "tan"):
+            return self
+        twice = sum(self.theta_at(end, signs) for end in domain)
+        if not twice.is_number or twice is sympy.nan:
+            return self
+        if self.is_periodic and twice.is_finite:
+            period = _PERIODS[self.kind]
+            turns = sympy.ceiling(twice / (2 * period) - sympy.Rational(1, 2))
+            twice -= 2 * turns * period
+            shifted = replace(self, offset=self.offset - turns * period)
+        else:
+            shifted = self
+        if self.kind != "tan" and twice < 0:
+            return replace(shifted, rate=-shifted.rate, offset=-shifted.offset)
+        return shifted
 
     @property
     def is_circular(self) -> bool:

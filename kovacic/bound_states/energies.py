@@ -143,7 +143,15 @@ def shortest(*forms: Any) -> Any:
     for form in known:
         candidates += _written(form)
     texts = {form: str(form) for form in candidates}
-    return min(candidates, key=lambda form: (form.has(sympy.I), sympy.count_ops(form), len(texts[form]), texts[form]))
+    best = min(candidates, key=lambda form: (form.has(sympy.I), sympy.count_ops(form), len(texts[form]), texts[form]))
+    return best.replace(_is_square_of_negative_terms, lambda e: (-e.base) ** 2)
+
+
+def _is_square_of_negative_terms(e: Any) -> bool:
+    """True for (-a - b)^2, which is (a + b)^2."""
+    return bool(
+        e.is_Pow and e.exp == 2 and all(term.could_extract_minus_sign() for term in sympy.Add.make_args(e.base))
+    )
 
 
 def _written(form: Any) -> Iterator[Any]:
@@ -187,6 +195,10 @@ def tidied(conditions: Iterable[Any], signs: Signs, radicals: Mapping[Any, Any] 
     implied = set()
     for condition in _paired(left, signs):
         solved = _solved(condition, signs)
+        if solved.lhs == signs.n and not _is_lower_bound(solved):  # for n = 0
+            least = _squared(_solved(sympy.Gt(solved.rhs, 0), signs), squares)
+            if least is not None and signs.holds(least) is False:
+                return (sympy.false,)
         squared = _squared(solved, squares)
         if squared is None:
             found.append(solved.xreplace(meanings))

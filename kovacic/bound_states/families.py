@@ -272,12 +272,13 @@ def _jacobi_integral(a: Any, b: Any, shifts: tuple[Any, Any], n: Any, middle: An
     plain = 2 * common / (2 * n + a + b + 1)
     left = common / a
     right = common / b
+    half_sum, half_difference = shortest((a + b) / 2), shortest((a - b) / 2)
     mean = (b**2 - a**2) / ((2 * n + a + b) * (2 * n + a + b + 2))
     known = {
         (0, 0): plain,
         (-1, 0): left,
         (0, -1): right,
-        (-1, -1): (left + right) / 2,
+        (-1, -1): common * half_sum / (half_sum**2 - half_difference**2),  # common (1/a + 1/b)/2
         (1, -1): 2 * right - plain,
         (-1, 1): 2 * left - plain,
         (1, 0): plain * (1 - mean),
@@ -334,8 +335,10 @@ def laguerre_wave(frame: SingularFrame, origin: Spot, kappa: Any, delta: Any, si
     weight = sympy.gamma(n + delta + 1) / sympy.factorial(n)
     known = {0: 1, 1: 2 * n + delta + 1, -1: 1 / delta}
     j = 1 - origin.mu
-    if j not in known or scale.has(z) or signs.sign(kappa) == -1:
+    if j not in known or scale.has(z):
         return Wave(y)
+    if signs.sign(kappa) == -1:  # where z is negative
+        rate = -rate
     integral = rate ** (origin.mu - 2 - delta) * weight * known[j]
     return Wave(y, _tidy(frame, integral / sympy.sqrt(sympy.Abs(scale)) / whole.constant**2))
 

@@ -415,18 +415,20 @@ class Spectrum:
         for relation in self.excluded:
             where = "" if relation == sympy.true else f"where {_relation(relation)}: "
             lines.append(f"{where}a boundary condition is needed, there is no spectrum without one")
-        has_levels = bool(self.levels or self.algebraic)
-        if self.complete and not has_levels:
-            lines.append("no eigenvalues")
-        if self.closed_forms_complete and not self.algebraic:
-            lines.append("no eigenfunction has a closed form")
-        proven = "proven; " if self.complete or self.closed_forms_complete else ""
-        if self.complete and has_levels:
-            proven = "proven to be all eigenvalues; "
-        elif self.closed_forms_complete and self.algebraic:
-            proven = "proven to be all eigenfunctions with a closed form; "
-        lines.append(f"({proven}{self.reason})")
-        return lines
+        match self.complete, self.closed_forms_complete, bool(self.levels), bool(self.algebraic):
+            case (True, _, True, _) | (True, _, _, True):
+                proven = "proven to be all eigenvalues; "
+            case True, _, _, _:
+                lines.append("no eigenvalues")
+                proven = "proven; "
+            case _, True, _, True:
+                proven = "proven to be all eigenfunctions with a closed form; "
+            case _, True, _, _:
+                lines.append("no eigenfunction has a closed form")
+                proven = "proven; "
+            case _:
+                proven = ""
+        return [*lines, f"({proven}{self.reason})"]
 
     def __str__(self) -> str:
         return self.text()
@@ -541,22 +543,28 @@ def _is_true(relation: Any, values: Mapping[Any, Any]) -> bool:
     return bool(found)
 
 
+#: What JSON has of an object.
+_KEYS: dict[type, tuple[str, ...]] = {
+    BoundState: ("energy", "zeros", "norm"),
+    Levels: ("number", "energy", "wave", "conditions", "zeros", "norm"),
+    Algebraic: ("degree", "constraint", "polynomial", "wave", "conditions", "states"),
+}
+
+
 def _data(value: Any) -> Any:
-    """For JSON: formulas and relations as text, levels by their fields."""
-    if value is None or isinstance(value, int | str):
-        return value
-    if isinstance(value, tuple):
-        return [*map(_data, value)]
-    if isinstance(value, BoundState):
-        norm = {} if value.norm is None else {"norm": _text(value.norm)}
-        return {"energy": _text(value.energy), "zeros": value.zeros, **norm}
-    if isinstance(value, Levels):
-        names = ("number", "energy", "wave", "conditions", "zeros", "norm")
-    elif isinstance(value, Algebraic):
-        names = ("degree", "constraint", "polynomial", "wave", "conditions", "states")
-    else:
-        return _relation(value) if isinstance(value, Relational | BooleanAtom) else _text(value)
-    return {name: _data(getattr(value, name)) for name in names}
+    """For JSON: formulas and relations as text, levels by their fields, that of a state without a norm that is unknown."""
+    match value:
+        case None | int() | str():
+            return value
+        case tuple():
+            return [*map(_data, value)]
+        case Relational() | BooleanAtom():
+            return _relation(value)
+        case BoundState(norm=None):
+            return {"energy": _text(value.energy), "zeros": value.zeros}
+        case BoundState() | Levels() | Algebraic():
+            return {name: _data(getattr(value, name)) for name in _KEYS[type(value)]}
+    return _text(value)
 
 
 def _lines(levels: Levels, energy: str) -> list[str]:

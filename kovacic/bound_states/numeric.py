@@ -15,17 +15,19 @@ from flint import acb
 
 from kovacic.algebra.precision import working_precision
 from kovacic.algebra.rationals import QQ
-from kovacic.bound_states.levels import Spectrum
+from kovacic.bound_states.levels import Levels, Spectrum
 from kovacic.errors import InputError, LimitExceeded, VerificationFailed
 from kovacic.general_solution.zero import Residual
 from kovacic.limits import Budget, Limits
 from kovacic.numbers.exact import whole
 from kovacic.parametric.assumptions import Assumptions
 from kovacic.sturm_liouville.ends import is_regular
-from kovacic.sturm_liouville.families import matching_equations
+from kovacic.sturm_liouville.families import matching_equations, rate_beside_delta
 from kovacic.sturm_liouville.levels import Eigenvalues
 from kovacic.sturm_liouville.problem import STEPS, Robin, SturmProblem, Wish, ball, pieces_of, point_between
 from kovacic.sturm_liouville.solve import Eigenproblem
+
+_DELTA = "a delta function: exp(-k |x - p|) is the only solution that decays on both sides"
 
 
 def with_numbers(found: Spectrum, levels: int | None, digits: int, limits: Limits) -> Spectrum:
@@ -57,7 +59,10 @@ def with_numbers(found: Spectrum, levels: int | None, digits: int, limits: Limit
 
 
 def with_matching(found: Spectrum) -> Spectrum:
-    """The answer with equations for the levels where V is linear or constant on each of its pieces, and no level is known."""
+    """The answer with equations for the levels where V is linear or constant on each of its pieces, and no level is known.
+
+    Beside one delta function there is one level, or none.
+    """
     x, E = sympy.symbols([found.variable, found.energy])
     V = found.potential / found.kinetic
     is_known = found.complete or found.levels or found.algebraic or found.needs_boundary_condition
@@ -66,8 +71,19 @@ def with_matching(found: Spectrum) -> Spectrum:
         return found
     assumed = {sympy.Symbol(name): symbol for name, symbol in found.assumptions.symbols().items()}
     with suppress(InputError, NotImplementedError):
-        equations = matching_equations(_problem(found, assumed), E)
+        problem = _problem(found, assumed)
         plain = {symbol: name for name, symbol in assumed.items()}
+        rate = rate_beside_delta(problem)
+        if rate is not None:
+            piece = problem.pieces[1]
+            n = sympy.Symbol("n" if "n" not in found.parameters else "n_")
+            energy = sympy.expand((piece.Q - rate**2) / piece.W)
+            wave = sympy.exp(-rate * sympy.Abs(x - piece.low))
+            energy, wave, norm = (part.xreplace(plain) for part in (energy, wave, 1 / rate))
+            where = () if rate.is_positive else (sympy.Gt(2 * rate, 0).xreplace(plain),)
+            levels = () if rate.is_nonpositive else (Levels(n, energy, wave, (n < 1, *where), n, norm),)
+            return replace(found, levels=levels, complete=True, reason=_DELTA)
+        equations = matching_equations(problem, E)
         return replace(found, matching=tuple(equation.xreplace(plain) for equation in equations))
     return found
 

@@ -84,7 +84,7 @@ def draw_levels(
         if np.nanmax(place) <= highest + 3 * spread:
             top = max(top, float(np.nanmax(place)) + 0.3 * spread)
     axes.set(xlabel=variable, ylabel="energy", xlim=(first, last), ylim=(bottom, top), title=title)
-    axes.legend(loc="upper right", fontsize=9)
+    axes.legend(loc="best", fontsize=9)
     return figure
 
 

@@ -251,6 +251,18 @@ def matching_equations(problem: SturmProblem, E: Expr) -> tuple[Expr, ...]:
     return (_equation(Y * ends[1][1] - slope * ends[1][0], E),)
 
 
+def rate_beside_delta(problem: SturmProblem) -> Expr | None:
+    """The rate k of exp(-k |x - p|), the only function that decays on both sides of a delta function, if Q and W are constant.
+
+    -k - k is the strength of the delta function.  None for other problems.
+    """
+    first, last = problem.pieces[0], problem.pieces[-1]
+    is_line = all(end.is_infinite for end in problem.ends)
+    if not is_line or len(problem.pieces) != 2 or (first.Q, first.W) != (last.Q, last.W):
+        return None
+    return None if (first.Q + first.W).has(problem.x) else -last.delta / 2
+
+
 def _middle(lines: list[_LinearPiece], problem: SturmProblem) -> Expr | None:
     """The point about which the problem is even, or None."""
     x = problem.x
@@ -285,7 +297,4 @@ def _equation(function: Expr, E: Expr) -> Expr:
             return sympy.Eq(k * form(angle), right)
     constant, rest = expression.as_independent(E, as_Add=True)
     factor, rest = rest.as_independent(E, as_Add=False)
-    value = sympy.simplify(-constant / factor)
-    if value.is_positive and rest**2 - rest.subs(E, 0) ** 2 == -E:
-        return sympy.Eq(E, rest.subs(E, 0) ** 2 - value**2)
-    return sympy.Eq(rest, value)
+    return sympy.Eq(rest, sympy.simplify(-constant / factor))

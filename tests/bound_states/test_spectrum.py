@@ -348,7 +348,6 @@ IN_PIECES = [
     ("10*Heaviside(x)", (-1, 2), None),
     ("-7*Heaviside(2 - abs(x - 1)) - x/2", (-2, 4), "y'(-2) = 0, y'(4) = 0"),
     ("abs(x)", (-1, 1), "y'(-1) = 0, y(1) = 0"),
-    ("-2*DiracDelta(x)", LINE, None),
     ("-3*DiracDelta(x - 1) - 3*DiracDelta(x + 1)", LINE, None),
     ("-2*DiracDelta(x) - DiracDelta(2*x - 2)", LINE, None),
     ("abs(x) - DiracDelta(x)", LINE, None),
@@ -357,7 +356,7 @@ IN_PIECES = [
 ]
 
 
-@parametrize(("V", "domain", "boundary"), IN_PIECES, ordinary=4, long=10)
+@parametrize(("V", "domain", "boundary"), IN_PIECES, ordinary=3, long=10)
 def test_levels_in_pieces_solve_the_equations_of_matching(V: str, domain: Any, boundary: Any) -> None:
     """Each of the numeric levels is next to a sign change of one of the equations, those of even and odd zeros in turn."""
     found = kovacic.spectrum(V, domain=domain, boundary=boundary, levels=4, digits=10)
@@ -384,14 +383,26 @@ def test_a_square_well_in_letters() -> None:
 
 
 def test_a_delta_well_has_one_level() -> None:
-    """-psi'' - c delta(x) psi = E psi: psi = exp(-c |x|/2), E = -c^2/4, in any units; none where c < 0."""
+    """-psi'' - c delta(x) psi = E psi: psi = exp(-c |x|/2), E = -c^2/4, norm^2 = 2/c, in any units; none where c < 0."""
     found = kovacic.spectrum("-hbar^2/(2*m)*psi'' - g*DiracDelta(x)*psi = E*psi", assume={"g": "positive"})
-    assert [str(one) for one in found.matching] == ["Eq(E, -g**2*m/(2*hbar**2))"]
-    well = kovacic.spectrum("-2*DiracDelta(x - 5)", levels=2)
-    assert [level.zeros for level in well.numeric] == [0]
+    assert found.complete
+    assert [str(one.energy) for one in found.levels] == ["-g**2*m/(2*hbar**2)"]
+    well = kovacic.spectrum("1 - 2*DiracDelta(x - 5)", levels=2)
+    (state,) = well.states()
+    assert (state.energy, state.zeros) == (0, 0)
     assert well.numeric.complete
-    assert well.numeric[0].value.contains(-1)
-    assert not kovacic.spectrum("2*DiracDelta(x)", levels=1).numeric
+    assert [level.value.contains(0) for level in well.numeric] == [True]
+    assert well.levels[0].norm == sympy.integrate(sympy.exp(-2 * sympy.Abs(x)), (x, -sympy.oo, sympy.oo))
+    assert kovacic.spectrum("2*DiracDelta(x)", levels=1).text().count("no eigenvalues") >= 1
+    unknown = kovacic.spectrum("-c*DiracDelta(x)")
+    assert [str(condition) for condition in unknown.levels[0].where] == ["c > 0"]
+    assert len(unknown.states({"c": 3})) - len(unknown.states({"c": -3})) == 1
+
+
+def test_a_family_without_members_is_no_level() -> None:
+    """n < sqrt(4 A + 1)/2 - 1/2 for no n where A < 0."""
+    assert kovacic.spectrum("-A/cosh(x)^2", assume={"A": "negative"}).levels == ()
+    assert kovacic.spectrum("-A/cosh(x)^2", assume={"A": "positive"}).levels
 
 
 def test_a_level_where_the_search_begins() -> None:
@@ -1087,6 +1098,28 @@ def test_a_norm_has_a_value_for_each_level(V: str, numbers: tuple[int, ...]) -> 
         wave = levels.wave.subs(n, number).doit()
         integral = integral_of_square(wave, -40.0, 40.0)
         assert abs(integral / float(levels.norm.subs(n, number)) - 1) < 1e-9
+
+
+@parametrize(
+    ("V", "domain", "period"),
+    [
+        ("5/sin(x)^2 - 3*cot(x)", ("pi", "2*pi"), (3.1415926, 6.2831853)),
+        ("5/sin(x)^2 - 3*cot(x)", ("-pi", 0), (-3.1415926, 0)),
+        ("5/sin(x)^2 + 3/cos(x)^2", ("-pi/2", 0), (-1.5707963, 0)),
+        ("5/sin(x)^2 + 3/cos(x)^2", ("3*pi/2", "2*pi"), (4.712389, 6.2831853)),
+        ("5/sinh(x)^2 - 40/cosh(x)^2", ("-oo", 0), (-30, 0)),
+        ("2/x^2 + 3/x", ("-oo", 0), (-90, 0)),
+        ("6*tan(x)^2 + 2*tan(x)", ("pi/2", "3*pi/2"), (1.570797, 4.712388)),
+    ],
+    ordinary=2,
+    long=5,
+)
+def test_functions_are_real_in_every_period(V: str, domain: Any, period: tuple[float, float]) -> None:
+    """Powers of sin(x/2), which is negative in some of them, and of a distance on the left of 0; with the norm."""
+    (levels,) = kovacic.spectrum(V, domain=domain).levels
+    wave = levels.wave.subs(n, 0).doit()
+    assert abs(sympy.im(sympy.N(wave.subs(x, sum(period) * 0.47)))) < 1e-12
+    assert abs(integral_of_square(wave, *period) / complex(sympy.N(levels.norm.subs(n, 0))) - 1) < 1e-6
 
 
 def test_values_of_letters_in_the_kinetic_factor() -> None:
