@@ -172,7 +172,7 @@ def _flaw_of(names: Sequence[str], *, others: bool = False) -> InputError | None
 
 
 def _csv_items(lines: Iterator[Item], longest: int, var: str | None) -> Iterator[Item]:
-    """The rows of a CSV file.  Without a header the expressions are in the first column."""
+    """The rows of a CSV file.  Without a header the expressions are in the first column, and the others have numbers."""
     rows = _Rows(lines, longest)
     header: list[str] | None = None
     flaw: InputError | None = None  # of the header, for which no row can be read
@@ -186,17 +186,22 @@ def _csv_items(lines: Iterator[Item], longest: int, var: str | None) -> Iterator
         elif any(cells):
             # A line of words can be meant as a header, too.
             is_of_words = all(map(str.isidentifier, cells)) and any(len(cell) > 1 for cell in cells)
-            if is_first and (is_of_words or not set(_KEYS).isdisjoint(cells)):
+            parted = [cell.strip() for cell in shown.split(";")]
+            if is_first and len(parted) > 1 and not set(_KEYS).isdisjoint(parted):
+                flaw = InputError("semicolons between cells", hint="write commas there, and points in decimals")
+            elif is_first and (is_of_words or not set(_KEYS).isdisjoint(cells)):
                 header = cells
                 flaw = _flaw_of(header, others=True)
                 if flaw is not None:
                     hint = "name the column of the expressions S; if the file has no header, put S as its first line"
                     flaw = InputError(f"line {line.number} as a header: {flaw.message}", hint=hint)
-                    yield Item(line.number, shown, var, error=flaw)
-            elif flaw is not None:
+            if flaw is not None:
                 yield Item(line.number, shown, var, error=flaw)
             elif header is None:
-                yield Item(line.number, cells[0], var)
+                others = {str(k): cell for k, cell in enumerate(cells[1:], 2) if cell}
+                yield Item(line.number, cells[0], var, extra={"columns": others} if others else {})
+            elif header is cells:
+                pass  # no row
             else:
                 named = dict(zip(header, cells, strict=True))
                 known = {name: cell for name, cell in named.items() if name in _KEYS}

@@ -168,6 +168,17 @@ def test_a_header_that_names_no_expression_is_no_equation(header: str, message: 
 def test_further_columns_are_carried_along() -> None:
     (item,) = read(b"note,S,id,source\nhello,x,7,\n", "csv")
     assert (item.text, item.extra) == ("x", {"id": "7", "columns": {"note": "hello", "source": ""}})
+    first, second = read(b"x^2+3,7,,well\nx\n", "csv")
+    assert (first.text, first.extra) == ("x^2+3", {"columns": {"2": "7", "4": "well"}})
+    assert (second.text, second.extra) == ("x", {})
+
+
+@pytest.mark.parametrize("header", ["S;var", "id; S", "input;note;id", "expression;x"])
+def test_semicolons_between_cells_are_refused(header: str) -> None:
+    """For "x^2+1,5;x" would be x^2+1 beside other cells."""
+    found = read(f"{header}\nx^2+1,5;x\nx;x\n".encode(), "csv")
+    assert [item.number for item in found] == [1, 2, 3]
+    assert all("semicolons between cells" in str(item.error) for item in found)
 
 
 @pytest.mark.parametrize(
