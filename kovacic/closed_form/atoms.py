@@ -107,9 +107,10 @@ class Atoms:
         return radical(self.constant(value))
 
     def is_negative(self, value: Poly) -> bool:
-        """True if a constant is negative; with parameters, if its first coefficient is, so that -w^2 counts as negative."""
+        """True if a constant is negative; with parameters of unknown signs, if its first coefficient is, as that of -w^2."""
         if isinstance(value, FunctionPoly):
-            return value.is_written_with_minus
+            known = self.own(self.constant(value)).is_negative
+            return value.is_written_with_minus if known is None else bool(known)
         return bool(self.constant(value).is_negative)
 
     def generator(self, field: Field) -> Expr:

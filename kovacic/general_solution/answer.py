@@ -13,10 +13,11 @@ import sympy
 from kovacic.errors import InputError
 from kovacic.general_solution.basis import Basis
 from kovacic.general_solution.conditions import Condition
-from kovacic.general_solution.constants import Determined, condition_of
+from kovacic.general_solution.constants import Determined
 from kovacic.general_solution.first_order import FirstOrderEquation
 from kovacic.general_solution.question import Question
 from kovacic.general_solution.validity import Validity, needed_for
+from kovacic.general_solution.zero_set import ZeroSet
 from kovacic.parametric.assumptions import read_assumptions
 
 Expr = Any  # SymPy publishes no types
@@ -201,7 +202,7 @@ def _cases(zero: Expr) -> Iterator[Exceptional]:
                 value = sympy.expand(letter - zero / slope)
                 yield Exceptional(f"{letter} = {value}", values={letter: value})
                 return
-    yield Exceptional(condition_of(zero))
+    yield Exceptional(str(ZeroSet(zero)))
 
 
 def _integers(letter: Expr, *signs: str) -> Iterator[Exceptional]:

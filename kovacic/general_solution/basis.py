@@ -7,7 +7,7 @@ cancel the definition says it.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Iterator
+from collections.abc import Callable, Iterator
 from contextlib import suppress
 from dataclasses import dataclass, replace
 from fractions import Fraction
@@ -17,7 +17,7 @@ from typing import Any
 
 import sympy
 from flint import arb
-from sympy import cos, exp, expand, sin
+from sympy import cos, expand, sin
 from sympy.simplify.fu import TR8
 
 from kovacic.algebra.precision import working_digits
@@ -30,8 +30,8 @@ from kovacic.closed_form.way_back import in_x
 from kovacic.equation import Equation
 from kovacic.general_solution.integrands import NUMBERS, radicands
 from kovacic.general_solution.substitution import finite_value, size, slope
-from kovacic.general_solution.textbook import in_hyperbolic_functions
-from kovacic.general_solution.zero import by_parity, is_nowhere_zero, points
+from kovacic.general_solution.zero import points
+from kovacic.general_solution.zero_set import ZeroSet, without_implied
 from kovacic.limits import check_time
 from kovacic.reading.change_of_variable import function_of_x
 from kovacic.solution import Solution
@@ -48,9 +48,10 @@ _ANTIDERIVATIVES = (
 _TURNS = [sign * c for c in (sympy.Integer(1), sympy.pi / 2, 2 / sympy.pi) for sign in (1, -1)]
 #: Points at which the constant of a Wronskian is determined.
 _POINTS = [*map(sympy.Integer, (0, 1, -1, 2, 3, -2)), sympy.S.Half]
-#: The longest expression that is factored, in subexpressions, and the most symbols, functions and roots in it.
-_LONGEST_FACTORED = 300
-_MOST_ATOMS = 10
+#: That of the square of a number for which the quotient of two Wronskians is taken.
+_LARGEST_DENOMINATOR = 10**18
+#: The longest Wronskian whose powers are joined, in subexpressions.
+_LONGEST_JOINED = 300
 
 
 @dataclass(frozen=True)
@@ -77,6 +78,8 @@ class Basis:
         Those where it is negative, if they are known.
     before : Basis or None
         The pair of which these are combinations.
+    place : sympy.Expr or None
+        A point at which the members were written real; without one they are real beyond all singular points, as a rule.
     form : ClosedForm or None
         The Liouvillian solutions that the members are, where the equation is one in x.
     """
@@ -92,6 +95,7 @@ class Basis:
     natural: Expr | None = None
     otherwise: Basis | None = None
     before: Basis | None = None
+    place: Expr | None = None
     form: ClosedForm | None = None
 
     @cached_property
@@ -117,7 +121,7 @@ class Basis:
     def dependent(self) -> tuple[Expr, ...]:
         """Expressions in the letters: where one is zero, so is the constant of the Wronskian."""
         is_known = self.natural is None and not self.wronskian.has(*_UNKNOWN)  # that was chosen for independent members
-        return tuple(vanishing(self.own(self.constant))) if is_known else ()
+        return ZeroSet(self.own(self.constant)).factors if is_known else ()
 
     @cached_property
     def exceptions(self) -> tuple[Expr, ...]:
@@ -134,26 +138,28 @@ class Basis:
     @cached_property
     def rates(self) -> tuple[Expr, Expr]:
         """B and C of y'' + B y' + C y = 0 in x: t' b/a - t''/t' and t'^2 c/a, where the equation is one in t = t(x)."""
-        b, c = rates(self.equation, sympy.Symbol(self.equation.variable))
-        if self.equation.change is None:
+        equation = self.equation
+        atoms = Atoms(sympy.Symbol(equation.variable))
+        b, c = (atoms.ratio(part / equation.a).xreplace(NUMBERS) for part in (equation.b, equation.c))
+        if equation.change is None:
             return b, c
-        slope = function_of_x(self.equation).diff(self.x)
-        b = in_x(self.equation, b)
-        c = in_x(self.equation, c)
+        slope = function_of_x(equation).diff(self.x)
+        b, c = in_x(equation, b), in_x(equation, c)
         return b * slope - slope.diff(self.x) / slope, c * slope**2
 
     @property
     def _kernel(self) -> Expr:
         """w(x), without numbers as factors."""
-        w = kernel(self.equation).xreplace(NUMBERS)
+        w = kernel(self.equation, self.place, self.own).xreplace(NUMBERS)
         if self.equation.change is None:
             return w
         return in_x(self.equation, w) * function_of_x(self.equation).diff(self.x)
 
 
-def kernel(equation: Equation) -> Expr:
-    """w = exp(-int b/a), without numbers as factors, in the variable of the equation."""
-    return display(product(equation.gauge * 2), Atoms(sympy.Symbol(equation.variable)), around_zero=True)
+def kernel(equation: Equation, place: Expr | None = None, own: Callable[[Expr], Expr] = sympy.sympify) -> Expr:
+    """w = exp(-int b/a), without numbers as factors, in the variable of the equation; with a place it is real there."""
+    atoms = Atoms(sympy.Symbol(equation.variable), at=place, own=own)
+    return display(product(equation.gauge * 2), atoms, around_zero=True)
 
 
 def definition(y1: Expr, y2: Expr, x: Expr) -> Expr:
@@ -203,38 +209,24 @@ def multiple_of(w: Expr, y1: Expr, y2: Expr, x: Expr) -> Expr | None:
     >>> multiple_of(1 / x, x**k, x**-k, x)
     -2*k/x
     """
-    w = _with_roots_like(w, y1 * y2, x)
-    for c in chain(_rational_quotient(w, y1, y2, x), _quotients(w, y1, y2, x), _TURNS):
+    for c in chain(_roots_of_rationals(w, y1, y2, x), _quotients(w, y1, y2, x), _TURNS):
         if _is_wronskian(c * w, y1, y2, x):
             return _simplified(c) * w
     return None
 
 
-def _with_roots_like(w: Expr, members: Expr, x: Expr) -> Expr:
-    """With (1 - x)^e for (x - 1)^e where the members have this root, or not the other one: real about 0 then."""
-    integrands = [i.function.xreplace({i.variables[0]: x}) for i in members.atoms(sympy.Integral)]
-    roots = sympy.Tuple(members, *integrands).atoms(sympy.Pow)
-    bases = {expand(p.base) for p in roots if not p.exp.is_integer}
-    turned = {}
-    for p in w.atoms(sympy.Pow):
-        base, other = expand(p.base), expand(-p.base)
-        is_negative = bool(base.subs(x, 0).is_negative)
-        if not p.exp.is_integer and base.has(x) and base not in bases and (other in bases or is_negative):
-            turned[p] = other**p.exp
-    return w.xreplace(turned)
-
-
-def _rational_quotient(w: Expr, y1: Expr, y2: Expr, x: Expr) -> Iterator[Expr]:
-    """The rational number nearest to W/w, free of letters, with a denominator of at most nine digits."""
+def _roots_of_rationals(w: Expr, y1: Expr, y2: Expr, x: Expr) -> Iterator[Expr]:
+    """Both roots of the rational number of few digits that is nearest to (W/w)^2, free of letters."""
     if sympy.Tuple(w, y1, y2).free_symbols - {x}:
         return
     with working_digits(2 * DIGITS), suppress(NotImplementedError):
         (u, du, _), (v, dv, _), (at, _, _) = (jet(e, x, next(points())) for e in (y1, y2, w))
-        quotient = (u * dv - du * v) / at
-        if quotient.is_finite():
-            mantissa, exponent = quotient.real.mid().man_exp()
+        square = ((u * dv - du * v) / at) ** 2
+        if square.is_finite():
+            mantissa, exponent = square.real.mid().man_exp()
             nearest = Fraction(int(mantissa)) * Fraction(2) ** int(exponent)
-            yield rational(nearest.limit_denominator(10**9))
+            root = sympy.sqrt(rational(nearest.limit_denominator(_LARGEST_DENOMINATOR)))
+            yield from (root, -root)
 
 
 def _quotients(w: Expr, y1: Expr, y2: Expr, x: Expr) -> Iterator[Expr]:
@@ -250,8 +242,8 @@ def _quotients(w: Expr, y1: Expr, y2: Expr, x: Expr) -> Iterator[Expr]:
 
 
 def _limits(W: Expr, w: Expr, x: Expr) -> Iterator[Expr]:
-    """Values of W/w at the points, after powers have been combined."""
-    if size(W) <= _LONGEST_FACTORED:
+    """Values of W/w, with its powers joined, at the points."""
+    if size(W) <= _LONGEST_JOINED:
         joined = sympy.powsimp(expand(W / w))
         yield from filter(None, (finite_value(joined, x, point) for point in _POINTS))
 
@@ -269,63 +261,11 @@ def _is_wronskian(W: Expr, y1: Expr, y2: Expr, x: Expr) -> bool:
     return False
 
 
-def rates(equation: Equation, x: Expr) -> tuple[Expr, Expr]:
-    """b/a and c/a."""
-    b, c = (Atoms(x).ratio(part / equation.a).xreplace(NUMBERS) for part in (equation.b, equation.c))
-    return b, c
-
-
 def with_single_waves(e: Expr) -> Expr:
     """Products of waves as sums of waves."""
     if not e.has(sin, cos):
         return e
     return expand(TR8(e))
-
-
-def without_implied(exceptions: Iterable[Expr]) -> tuple[Expr, ...]:
-    """Without c + m != 0, and 1/gamma(c + m) != 0, for integers m beside sin(pi c) != 0."""
-    exceptions = tuple(dict.fromkeys(exceptions))
-    periodic = [e.args[0] / sympy.pi for e in exceptions if isinstance(e, sympy.sin)]
-    arguments = {e: (1 / e).args[0] if isinstance(1 / e, sympy.gamma) else e for e in exceptions}
-    numbers = {e: [sympy.expand(c - sign * u) for c in periodic for sign in (1, -1)] for e, u in arguments.items()}
-    return tuple(e for e in exceptions if not any(number.is_Integer for number in numbers[e]))
-
-
-def vanishing(nonzero: Expr) -> Iterator[Expr]:
-    """The factors with letters that may be zero, without powers and signs."""
-    for factor in sympy.Mul.make_args(sympy.factor(vanishing_factors(nonzero))):
-        base = factor
-        while base.is_Pow and base.exp.is_positive:
-            base = base.base
-        if base.is_Pow and base.exp.is_negative and not base.has(sympy.gamma):  # whose poles are zeros of the inverse
-            continue
-        factors = (part for case in by_parity(base) or [base] for part in sympy.Mul.make_args(case))
-        without_gammas = [part for part in factors if not isinstance(part, sympy.gamma)]  # which have no zeros
-        if base.free_symbols and not all(map(is_nowhere_zero, without_gammas)):
-            yield -base if base.could_extract_minus_sign() else base
-
-
-def vanishing_factors(zero: Expr) -> Expr:
-    """The factors that may be zero, each once; a long expression is taken with the factors that are seen."""
-    factored = zero
-    # what SymPy takes for variables when it factors
-    powers = {power for power in zero.atoms(sympy.Pow) if not power.exp.is_Integer}
-    atoms = {*zero.free_symbols, *zero.atoms(sympy.Function), *powers}
-    if size(zero) <= _LONGEST_FACTORED and len(atoms) <= _MOST_ATOMS:
-        whole, below = sympy.fraction(sympy.together(zero))
-        whole /= sympy.Mul(*(f for f in sympy.Mul.make_args(below) if isinstance(f, sympy.gamma)))  # 0 at its poles
-        waves = sympy.expand(TR8(sympy.expand(whole)))
-        factored = min(map(sympy.factor, (whole, waves)), key=size)
-    factors = [factor for factor in sympy.Mul.make_args(factored) if not _has_no_zero(factor)]
-    once = [factor.base if factor.is_Pow and factor.exp.is_positive else factor for factor in factors]
-    return sympy.Mul(*once)
-
-
-def _has_no_zero(factor: Expr) -> bool:
-    """True if that is seen of a factor, or where it is a difference of exponentials of its hyperbolic functions."""
-    if is_nowhere_zero(factor):
-        return True
-    return factor.has(exp) and all(map(is_nowhere_zero, sympy.Mul.make_args(in_hyperbolic_functions(factor))))
 
 
 def _simplified(c: Expr) -> Expr:

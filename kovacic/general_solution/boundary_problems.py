@@ -7,7 +7,6 @@ from dataclasses import dataclass
 from typing import Any
 
 import sympy
-from sympy.core.function import AppliedUndef
 
 from kovacic.errors import InputError
 from kovacic.general_solution.conditions import Condition, ConditionReader, as_mapping, periodicity
@@ -15,9 +14,8 @@ from kovacic.general_solution.question import apart
 from kovacic.limits import DEFAULT_LIMITS, Limits, limited
 from kovacic.numbers.exact import exact_text, whole
 from kovacic.reading.names import words_among
-from kovacic.reading.pieces import Paste
-from kovacic.reading.source import source_of
-from kovacic.reading.symbolic import expression_of, is_sympy_equation, read_expression
+from kovacic.reading.source import parts_of, source_of
+from kovacic.reading.symbolic import read_expression
 from kovacic.sturm_liouville.levels import Eigenvalues
 from kovacic.sturm_liouville.problem import Bounded, Robin, SturmProblem, Wish, ball, normal_form
 from kovacic.sturm_liouville.solve import Eigenproblem
@@ -125,7 +123,7 @@ def read_eigenproblem(
     named = {sympy.Symbol(name): value for name, value in values.items()}
     given = [reader.read(key, value).in_symbols(named) for key, value in as_mapping(conditions).items()]
     ends = _interval_ends(given, domain)
-    wrap, wishes = _wishes(given, ends)
+    wrap, wishes = wishes_of(given, ends)
     pieces, B, sign = normal_form(linear.x, linear.coefficients, ends)
     problem = SturmProblem(linear.x, pieces, wishes, wrap, B, sign)
     if wrap and any(end.is_infinite for end in problem.ends):
@@ -150,25 +148,22 @@ class _Linear:
 def _linear_in_parameter(
     equation: Any, var: str | None, parameter: str, values: Mapping[str, Expr], limits: Limits
 ) -> _Linear:
-    """a, b, c0, c1 from the derivatives of what is zero by y'', y', y, and of that by the parameter."""
-    expression, function = _expression(equation, var, words_among((parameter, *values)), limits)
-    x = function.args[0]
-    expression = expression.xreplace({s: values[s.name] for s in expression.free_symbols if s.name in values})
-    symbol = _parameter_among(expression.free_symbols - {x}, parameter)
-    y2, y1, y0 = letters = sympy.symbols("y2 y1 y0", cls=sympy.Dummy)
-    derivatives = (function.diff(x, 2), function.diff(x), function)
-    plain = expression.doit().xreplace(dict(zip(derivatives, letters, strict=True)))
-    a, b, c = (sympy.expand(plain.diff(letter)) for letter in letters)
+    """a, b, c0, c1 of an equation that is linear in the parameter.  Raises `InputError`."""
+    source = source_of(equation, var, limits, equation=True, names=words_among((parameter, *values)))
+    parts, _ = parts_of(source, limits)
+    known = {sympy.Symbol(name): value for name, value in values.items()}
+    a, b, c, rest = (sympy.sympify(part).xreplace(known) for part in parts)
+    x = sympy.Symbol(source.variable)
+    symbol = _parameter_among(sympy.Tuple(a, b, c).free_symbols - {x}, parameter)
     c1 = sympy.simplify(c.diff(symbol))
-    is_linear_in_y = sympy.expand(plain - a * y2 - b * y1 - c * y0) == 0 and not plain.has(AppliedUndef)
-    if a == 0 or not is_linear_in_y or any(part.has(symbol) for part in (a, b, c1)):
+    if rest != 0 or any(part.has(symbol) for part in (a, b, c1)):
         raise InputError(
             f"a y'' + b y' + (c0 + {parameter} c1) y = 0 is expected, linear in y and in {parameter}",
             hint=f"where {parameter}^2 stands, call that {parameter}",
         )
     if c1 == 0:
         raise InputError(f"the parameter {parameter} cancels out of the equation")
-    return _Linear(function, (a, b, sympy.expand(c - symbol * c1), c1))
+    return _Linear(sympy.Function(source.unknown)(x), (a, b, sympy.expand(c - symbol * c1), c1))
 
 
 def _parameter_among(symbols: Collection[Expr], parameter: str) -> Expr:
@@ -193,27 +188,12 @@ def _parameter_among(symbols: Collection[Expr], parameter: str) -> Expr:
     return next(iter(symbols))
 
 
-def _expression(equation: Any, var: str | None, names: Sequence[str], limits: Limits) -> tuple[Expr, Expr]:
-    """What is zero, and y(x)."""
-    if isinstance(equation, str | Paste):
-        source = source_of(equation, var, limits, equation=True, names=names)
-        x = sympy.Symbol(source.variable)
-        return expression_of(source, limits), sympy.Function(source.unknown)(x)
-    if not isinstance(equation, sympy.Basic):
-        raise InputError(f"an equation is a text or an expression of SymPy, not {type(equation).__name__}")
-    expression = equation.lhs - equation.rhs if is_sympy_equation(equation) else equation
-    functions = {f for f in expression.atoms(AppliedUndef) if len(f.args) == 1 and f.args[0].is_Symbol}
-    if len(functions) != 1:
-        raise InputError("an equation for one function y(x) is expected")
-    function = functions.pop()
-    x = function.args[0]
-    plain = {s: sympy.Symbol(s.name) for s in expression.free_symbols}
-    return expression.doit().xreplace(plain), function.func(plain[x])
-
-
 def _interval_ends(conditions: Sequence[Condition], domain: Sequence[Any] | None) -> tuple[Expr, Expr]:
     """The ends of the interval, from the points of the conditions and the given domain."""
     points = {point for condition in conditions for point in condition.points}
+    for condition in conditions:
+        if any(term.coefficient.free_symbols for term in condition.terms):
+            raise InputError(f"{condition.text}: numbers are expected in it")
     for point in points:
         if point.free_symbols:
             raise InputError(
@@ -248,8 +228,11 @@ def _position_of(end: Expr) -> float:
     return float(ball(end).mid())
 
 
-def _wishes(conditions: Sequence[Condition], ends: tuple[Expr, Expr]) -> tuple[int, tuple[Wish, Wish]]:
-    """Whether the conditions are periodic (1), antiperiodic (-1) or separated (0), and those at the two ends."""
+def wishes_of(conditions: Sequence[Condition], ends: tuple[Expr, Expr]) -> tuple[int, tuple[Wish, Wish]]:
+    """Whether the conditions are periodic (1), antiperiodic (-1) or separated (0), and those at the two ends.
+
+    Raises `InputError` for others.
+    """
     for condition in conditions:
         if condition.value not in (None, 0):
             raise InputError(
@@ -269,11 +252,5 @@ def _wishes(conditions: Sequence[Condition], ends: tuple[Expr, Expr]) -> tuple[i
         side = ends.index(condition.points[0])
         if wishes[side] is not None:
             raise InputError(f"two conditions at {condition.points[0]}", hint="one at each end is needed")
-        wishes[side] = _wish(condition)
+        wishes[side] = Bounded() if condition.value is None else Robin(*condition.by_order)
     return 0, (wishes[0], wishes[1])
-
-
-def _wish(condition: Condition) -> Wish:
-    if condition.value is None:
-        return Bounded()
-    return Robin.of(((term.order, term.coefficient) for term in condition.terms), condition.text)

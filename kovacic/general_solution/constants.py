@@ -26,14 +26,14 @@ from sympy import acos, atan, cos, cosh, exp, log, sin, sinh, tan, tanh
 from sympy.simplify.fu import TR8, TR2i
 
 from kovacic.errors import InputError
-from kovacic.general_solution.basis import Basis, vanishing_factors
+from kovacic.general_solution.basis import Basis
 from kovacic.general_solution.behaviour import OSCILLATING, Approach, UnknownLimit, limit_at
 from kovacic.general_solution.conditions import Condition
 from kovacic.general_solution.question import Question
 from kovacic.general_solution.substitution import finite_value, size
-from kovacic.general_solution.textbook import in_hyperbolic_functions
 from kovacic.general_solution.values import value_at
 from kovacic.general_solution.zero import Zero, is_nowhere_zero, when_zero
+from kovacic.general_solution.zero_set import ZeroSet
 from kovacic.limits import check_time
 
 Expr = Any  # SymPy publishes no types
@@ -79,6 +79,16 @@ class ParameterCase:
     outcome: Outcome
     values: tuple[Expr, Expr] = (sympy.Integer(0), sympy.Integer(0))
     needed: tuple[Expr, ...] = ()
+
+    @property
+    def is_possible(self) -> bool:
+        """True unless one of `zeros` is seen not to be zero for any values."""
+        return all(map(ZeroSet, self.zeros))
+
+    def where(self, answer: Expr = sympy.S.Zero) -> str:
+        """The case in words, beside the answer for all other values."""
+        sets = [*map(ZeroSet, self.zeros)]
+        return " and ".join(said for zeros in sets for said in (zeros.equation(answer), *zeros.guards))
 
 
 class Determined(NamedTuple):
@@ -261,33 +271,6 @@ def _where_minor_vanishes(rows: Sequence[Row], names: Values, minor: Expr) -> Pa
         needed = split.particular[0].zeros
         return ParameterCase((minor,), Outcome.SOLUTIONS, found.values, needed)
     return ParameterCase((minor,), split.generic.outcome, found.values)
-
-
-def condition_of(zero: Expr, answer: Expr = sympy.S.Zero) -> str:
-    """`zero = 0` in a short form: without factors that aren't zero, and with hyperbolic functions beside an answer in these."""
-    left = vanishing_factors(zero)
-    if isinstance(1 / left, sympy.gamma):
-        return f"{(1 / left).args[0]} is one of 0, -1, -2, ..."
-    if answer.has(sinh, cosh):
-        factors = sympy.Mul.make_args(in_hyperbolic_functions(left))
-        left = sympy.Mul(*(factor for factor in factors if not is_nowhere_zero(factor)))
-    if left.could_extract_minus_sign():
-        left = -left
-    return f"{left} = 0"
-
-
-def exception_of(zero: Expr, answer: Expr) -> str:
-    """The same for an exception; sin(sqrt(k))/sqrt(k) is 1 at k = 0, where its factor sin(sqrt(k)) vanishes."""
-    left = vanishing_factors(zero)
-    _, below = sympy.fraction(sympy.together(zero))
-    bases = [factor.as_base_exp()[0] for factor in sympy.Mul.make_args(below)]
-    guards = [f"{base} != 0" for base in bases if not base.is_number and left.subs(base, 0) == 0]
-    return " and ".join([condition_of(zero, answer), *guards])
-
-
-def can_be(case: ParameterCase) -> bool:
-    """True if everything that is zero in a case has factors that may be zero."""
-    return all(vanishing_factors(zero) != 1 for zero in case.zeros)
 
 
 def tidy(value: Any) -> Any:

@@ -25,21 +25,21 @@ import sympy
 from kovacic.decision import Status
 from kovacic.errors import InputError, LimitExceeded, warn_user
 from kovacic.general_solution.answer import FirstOrderAnswer, ProblemAnswer, SecondOrderAnswer, remember
-from kovacic.general_solution.basis import Basis, vanishing_factors
+from kovacic.general_solution.basis import Basis
 from kovacic.general_solution.check import check_answer
 from kovacic.general_solution.conditions import Condition, ConditionReader, as_mapping
-from kovacic.general_solution.constants import Outcome, ParameterCase, can_be, condition_of, constants_of, exception_of
+from kovacic.general_solution.constants import Outcome, ParameterCase, constants_of
 from kovacic.general_solution.eigenfunctions import eigenfunctions
 from kovacic.general_solution.first_order import FirstOrderEquation, read_first_order, solved_linear
 from kovacic.general_solution.homogeneous import find_basis, no_solution
 from kovacic.general_solution.particular import particular_solution
 from kovacic.general_solution.places import (
     ImpulsesInside,
+    basis_from,
+    common_place,
     limit_points,
-    on_one_interval,
-    real_basis_at,
+    real_at,
     real_particular,
-    real_particular_at,
     start_of,
 )
 from kovacic.general_solution.question import (
@@ -54,6 +54,7 @@ from kovacic.general_solution.riccati_equation import solved_riccati
 from kovacic.general_solution.systems import read_system, solved_system
 from kovacic.general_solution.textbook import in_book_form, without_homogeneous
 from kovacic.general_solution.written import combination, free_constants, with_floats, written
+from kovacic.general_solution.zero_set import ZeroSet
 from kovacic.limits import DEFAULT_LIMITS, Budget, Limits, limited
 from kovacic.numbers.numerals import as_text
 from kovacic.parametric.assumptions import read_assumptions
@@ -385,11 +386,12 @@ def _solved(question: Question, budget: Budget, *, special: bool) -> ProblemAnsw
 
 def _general(question: Question, basis: Basis) -> SecondOrderAnswer:
     """C1 y1 + C2 y2 + y0, checked."""
-    basis = on_one_interval(basis)
-    particular = real_particular(question, basis, particular_solution(basis, None))
+    basis = real_at(basis, common_place(basis))
+    particular = particular_solution(basis, None)
+    particular = real_particular(question, basis, particular, common_place(basis, particular))
     particular = without_homogeneous(particular, basis.y1, basis.y2, basis.x)
     constants = free_constants(question, basis, particular)
-    value = in_book_form(combination(question, basis, particular, constants), question.x, is_general=True)
+    value = in_book_form(combination(question, basis, particular, constants), question.x, constants)
     notices = _by_sign(question, basis, particular, constants)
     unchecked = check_answer(question, value, natural=basis.natural)
     rests_on = (question, basis, particular, constants, None)
@@ -401,15 +403,15 @@ def _determined(question: Question, basis: Basis) -> SecondOrderAnswer:
     """The same with the constants that the conditions determine.  Raises `InputError` where they contradict one another."""
     limits = limit_points(question)
     start = start_of(question, limits)
-    basis = real_basis_at(question, basis, start)
-    particular = real_particular_at(question, basis, particular_solution(basis, start), start)
+    basis = basis_from(question, basis, start)
+    particular = real_particular(question, basis, particular_solution(basis, start), start)
     names = free_constants(question, basis, particular)
     inside = ImpulsesInside.of(question)
     determined = constants_of(question, basis, particular, names, limits, inside.values)
     generic = determined.generic
     value = combination(question, basis, particular, generic.values)
-    value = in_book_form(value, question.x, is_general=value.has(*names))
-    cases = [case for case in determined.particular if can_be(case)]
+    value = in_book_form(value, question.x, names if value.has(*names) else ())
+    cases = [case for case in determined.particular if case.is_possible]
     exceptions = [_said(question, basis, particular, names, case, value) for case in cases]
     if generic.outcome is Outcome.NONE:
         raise _contradiction([point for point, place in limits.items() if not place.is_infinite], exceptions)
@@ -429,7 +431,7 @@ def _in_case(
     """y = C1 y1 + C2 y2 + y0 for these constants, of which `names` are free; a number beside a single free one goes into it."""
     value = combination(question, basis, particular, constants)
     free = [name for name in names if value.has(name)]
-    value = in_book_form(value, question.x, is_general=len(free) == len(names))
+    value = in_book_form(value, question.x, free if len(free) == len(names) else ())
     if len(free) == 1:
         (name,) = free
         number = sympy.factor_terms(value.diff(name)).as_coeff_Mul()[0]
@@ -467,13 +469,13 @@ def _said(
     answer: Expr,
 ) -> str:
     """The solutions for particular values of the parameters, of which the answer is the one for all others."""
-    where = " and ".join(exception_of(zero, answer) for zero in case.zeros)
-    if case.outcome is Outcome.NONE or any(vanishing_factors(zero) == 1 for zero in case.needed):
+    where = case.where(answer)
+    if case.outcome is Outcome.NONE or not all(map(ZeroSet, case.needed)):
         return f"{where}, where there is no solution"
     if case.outcome is Outcome.OPEN:
         return f"{where}: give such values for the solutions there"
     found = _in_case(question, basis, particular, names, case.values)
     if not case.needed:
         return f"{where}, where {found.lhs} = {found.rhs}"
-    needed = " and ".join(condition_of(zero, answer) for zero in case.needed)
+    needed = " and ".join(ZeroSet(zero).equation(answer) for zero in case.needed)
     return f"{where}, where there is a solution only if {needed}: {found.lhs} = {found.rhs}"

@@ -5,17 +5,16 @@ Two homogeneous conditions at two points, and an equation with lambda (or mu) in
 
 from __future__ import annotations
 
+from contextlib import suppress
 from typing import Any
 
 import sympy
 
-from kovacic.enclosure.functions import in_the_given_variable
-from kovacic.equation import Equation
 from kovacic.errors import InputError, LimitExceeded
-from kovacic.general_solution.conditions import periodicity
+from kovacic.general_solution.boundary_problems import wishes_of
 from kovacic.general_solution.question import Question
 from kovacic.sturm_liouville.families import EigenvalueFamily, family
-from kovacic.sturm_liouville.problem import Robin, SturmProblem, normal_form
+from kovacic.sturm_liouville.problem import SturmProblem, normal_form
 from kovacic.sturm_liouville.solve import Eigenproblem
 
 Expr = Any
@@ -29,7 +28,8 @@ def eigenfunctions(question: Question) -> tuple[Expr, list[str]] | None:
     if conditions is None or question.given.f != 0 or question.given.h is not None:
         return None
     x = question.x
-    B, c = _coefficients(question.given, x)
+    a, b, c, _ = question.coefficients
+    B, c = sympy.simplify(b / a), sympy.simplify(c / a)
     parameter = next((s for s in c.free_symbols if s.name in _PARAMETERS), None)
     if parameter is None:
         return None
@@ -55,16 +55,6 @@ def eigenfunctions(question: Question) -> tuple[Expr, list[str]] | None:
     return y, [f"{said}; for all other {parameter} {question.function} is 0"]
 
 
-def _coefficients(equation: Equation, x: Expr) -> tuple[Expr, Expr]:
-    """B and c in y'' + B y' + c y = 0, in the user's variable."""
-    if equation.change is not None:
-        b, c, _ = in_the_given_variable(equation).parts
-        return b, c
-    quotients = (equation.b / equation.a, equation.c / equation.a)
-    b, c = (sympy.factor(q.num.to_sympy(x) / q.den.to_sympy(x)) for q in quotients)
-    return b, c
-
-
 def _conditions(question: Question) -> tuple[tuple[Expr, Expr], Any] | None:
     """The two ends, and the conditions there, or 1 or -1 where they are periodic or antiperiodic; None for others."""
     given = question.conditions
@@ -76,13 +66,10 @@ def _conditions(question: Question) -> tuple[tuple[Expr, Expr], Any] | None:
     difference = _positive(high - low)
     if difference.is_negative or difference.is_positive is False:
         low, high = high, low
-    if all(len(set(condition.points)) == 1 for condition in given):
-        if given[0].points[0] == given[1].points[0]:
-            return None
-        first, second = sorted(given, key=lambda condition: condition.points[0] != low)
-        return (low, high), (Robin(*first.by_order), Robin(*second.by_order))
-    sign = periodicity(given, (low, high))
-    return ((low, high), sign) if sign else None
+    with suppress(InputError):  # other conditions
+        wrap, wishes = wishes_of(given, (low, high))
+        return (low, high), wrap or wishes
+    return None
 
 
 def _positive(e: Expr) -> Expr:

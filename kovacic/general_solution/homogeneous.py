@@ -18,11 +18,12 @@ from kovacic.closed_form.way_back import in_x, solution_in_x
 from kovacic.decision import Status
 from kovacic.equation import Equation, Parsed, parameters_of
 from kovacic.errors import LimitExceeded
-from kovacic.general_solution.basis import Basis, kernel, multiple_of, vanishing
+from kovacic.general_solution.basis import Basis
 from kovacic.general_solution.integrands import NUMBERS
 from kovacic.general_solution.places import limit_points
 from kovacic.general_solution.question import Question
 from kovacic.general_solution.textbook import of_chebyshev, with_waves
+from kovacic.general_solution.zero_set import ZeroSet
 from kovacic.limits import Budget
 from kovacic.parametric.api import conditions_of
 from kovacic.parametric.assumptions import NOTHING_ASSUMED, Assumptions
@@ -62,14 +63,13 @@ def find_basis(question: Question, budget: Budget, *, special: bool = False) -> 
         if question.conditions and isinstance(form.structure, Covariants):
             joined = _joined(solution, form.structure, budget)
         y1, y2 = joined or (form.y1, form.y2)
-        known = partial(multiple_of, kernel(question.equation), y1, y2, form.variable)
-        return replace(_basis(question, solution, WrittenPair(y1, y2, known, form.undefined)), form=form)
-    pair = _in_special_functions(question, solution, budget, special=special)
-    if not isinstance(pair, BySign):
-        return _basis(question, solution, pair)
-    basis = _basis(question, solution, pair.natural)
-    otherwise = None if pair.negative is None else _basis(question, solution, pair.negative)
-    return replace(basis, natural=question.own(pair.integer), otherwise=otherwise)
+        return replace(_basis(question, solution, WrittenPair(y1, y2, undefined=form.undefined)), form=form)
+    found = _in_special_functions(question, solution, budget, special=special)
+    if not isinstance(found, BySign):
+        return _basis(question, solution, found)
+    basis = _basis(question, solution, found.natural)
+    otherwise = None if found.negative is None else _basis(question, solution, found.negative)
+    return replace(basis, natural=question.own(found.integer), otherwise=otherwise)
 
 
 def _basis(question: Question, solution: Solution, pair: WrittenPair) -> Basis:
@@ -88,7 +88,7 @@ def _basis(question: Question, solution: Solution, pair: WrittenPair) -> Basis:
         y1, y2 = with_waves(y1, y2)
     if not question.conditions:  # which may be outside of the interval where f is a cosine
         y1, y2 = of_chebyshev(y1, y2)
-    return basis.of(*_real_for_negative_letters(question, y1, y2))
+    return basis.of(y1, y2)
 
 
 def _stated(equation: Equation, pair: WrittenPair) -> Expr | None:
@@ -102,24 +102,6 @@ def _stated(equation: Equation, pair: WrittenPair) -> Expr | None:
     if not all(number.is_number for number in numbers):
         return None
     return in_x(equation, W) * function_of_x(equation).diff(user_variable(equation)) * sympy.Mul(*numbers)
-
-
-def _real_for_negative_letters(question: Question, y1: Expr, y2: Expr) -> Pair:
-    """cosh(sqrt(-k) x), sinh(sqrt(-k) x) for cos(sqrt(k) x), sin(sqrt(k) x) where k is negative, and the other way about."""
-    negative = {sympy.Symbol(name) for name, symbol in question.parameters.items() if symbol.is_negative}
-    roots = {p.base for y in (y1, y2) for p in y.atoms(sympy.Pow) if p.exp == sympy.S.Half} & negative
-    if not roots:
-        return y1, y2
-    letters = {plain: sympy.Dummy(positive=True) for plain in roots}
-    real = sympy.Dummy(real=True)
-    there = {question.x: real} | {plain: -letter for plain, letter in letters.items()}
-    turned = [y.xreplace(there).as_independent(real, as_Add=False)[1] for y in (y1, y2)]
-    if any(y.has(sympy.I) for y in turned):  # the equation is real, and so are the parts of exp(i w x)
-        turned = [part for part in turned[0].as_real_imag() if part != 0]
-    if len(turned) != 2 or any(y.has(sympy.I, sympy.re, sympy.im) for y in turned):
-        return y1, y2
-    back = {real: question.x} | {letter: -plain for plain, letter in letters.items()}
-    return turned[0].xreplace(back), turned[1].xreplace(back)
 
 
 def decide(question: Question, budget: Budget) -> Solution:
@@ -173,7 +155,7 @@ def _without_exceptions(pair: WrittenPair | None, x: Expr) -> WrittenPair | None
     if pair is None or pair.undefined or pair.wronskian is None:
         return None
     constant = pair.wronskian.as_independent(x, as_Add=False)[0]
-    return None if any(True for _ in vanishing(constant)) else pair
+    return None if ZeroSet(constant) else pair
 
 
 def _without_second_kind(pair: WrittenPair) -> WrittenPair:

@@ -39,6 +39,10 @@ _ANALYTIC = (
     sympy.atan,
     sympy.asinh,
     sympy.erf,
+    sympy.erfi,
+    sympy.Si,
+    sympy.airyai,
+    sympy.airybi,
 )
 
 
@@ -69,8 +73,11 @@ def _is_function_of_steps(e: Expr, x: Expr) -> bool:
 
     sqrt(|x|) isn't: sqrt(-x), which it is on one side, isn't real on the other.
     """
-    if not _is_function(e) or not any(step.has(x) for step in e.atoms(Heaviside)):
-        return False
+    return _is_function(e) and any(step.has(x) for step in e.atoms(Heaviside)) and is_analytic(e, x)
+
+
+def is_analytic(e: Expr, x: Expr) -> bool:
+    """Is it seen to be analytic on the whole line, on either side of its steps?"""
     return all(_keeps_analytic(part) for part in sympy.preorder_traversal(e) if part.has(x))
 
 

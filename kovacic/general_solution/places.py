@@ -12,23 +12,22 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
-from functools import partial
 from typing import Any
 
 import sympy
 from sympy.functions.special.bessel import BesselBase
 
-from kovacic.closed_form.atoms import Atoms
 from kovacic.closed_form.check import are_independent, is_numerical_solution
 from kovacic.closed_form.form import pair_at
 from kovacic.errors import InputError
-from kovacic.general_solution.basis import Basis, rates
+from kovacic.general_solution.basis import Basis
 from kovacic.general_solution.behaviour import Approach
 from kovacic.general_solution.integrands import NUMBERS
+from kovacic.general_solution.jumps import is_analytic
+from kovacic.general_solution.particular import right_hand_side
 from kovacic.general_solution.poles import is_singular, poles_between, rational_poles
 from kovacic.general_solution.question import Question
 from kovacic.general_solution.steps import place_of
-from kovacic.general_solution.validity import needed_for
 from kovacic.general_solution.variation import is_solution, starting_at
 
 Expr = Any  # SymPy publishes no types
@@ -42,21 +41,8 @@ _OF_IMAGINARY = {
     sympy.besseli: sympy.besselj,
     sympy.besselk: sympy.bessely,
 }
-#: Points between and beyond the usual singular ones.
-_INSIDE = [sympy.Rational(p, 2) for p in (1, -1, 3, -3, 5, -5, 9, -9)]
-#: The functions that are analytic everywhere.
-_ENTIRE = (
-    sympy.exp,
-    sympy.sin,
-    sympy.cos,
-    sympy.sinh,
-    sympy.cosh,
-    sympy.erf,
-    sympy.erfi,
-    sympy.Si,
-    sympy.airyai,
-    sympy.airybi,
-)
+#: Points between and beyond the usual singular ones, and beyond all.
+_INSIDE = [*(sympy.Rational(p, 2) for p in (1, -1, 3, -3, 5, -5, 9, -9)), sympy.Integer(10**9), sympy.Integer(-(10**9))]
 
 
 def given_points(question: Question) -> list[Expr]:
@@ -188,10 +174,11 @@ def start_of(question: Question, limits: dict[Expr, Approach]) -> Expr:
 def check_between(question: Question, solutions: Sequence[Expr]) -> None:
     """Raises `InputError` where a singular point lies between points of conditions or jumps.
 
-    Solutions that are written with functions that are analytic everywhere may be continued.
+    Solutions that are written with functions that are analytic on the whole line may be continued.
     """
     points = [point for point in _points(question) if point.is_real and point not in _INFINITIES]
-    if len(points) < 2 or all(_is_entire(question.own(y), question.x) for y in solutions):
+    whole = sympy.Tuple(*map(question.own, solutions))
+    if len(points) < 2 or (all(is_analytic(y, question.x) for y in whole) and not whole.has(sympy.Heaviside)):
         return
     for pole in rational_poles(question):
         if len({sign for point in points if (sign := sympy.sign(point - pole)) in (1, -1)}) > 1:
@@ -206,103 +193,70 @@ def _points(question: Question) -> list[Expr]:
     return [*given_points(question), *jump_points(question)]
 
 
-def _is_entire(e: Expr, x: Expr) -> bool:
-    """True if it is made of x and functions that are analytic everywhere, by sums, products and natural powers."""
-    if e == x or not e.has(x):
-        return True
-    if e.is_Pow and not isinstance(e, sympy.exp):
-        return bool(e.exp.is_Integer and e.exp > 0) and _is_entire(e.base, x)
-    return (e.is_Add or e.is_Mul or isinstance(e, _ENTIRE)) and all(_is_entire(part, x) for part in e.args)
-
-
-def real_basis_at(question: Question, basis: Basis, start: Expr) -> Basis:
+def basis_from(question: Question, basis: Basis, start: Expr) -> Basis:
     """Solutions that are real at `start`, with integrals that begin there.
 
     Raises `InputError` where the points of the conditions lie on two sides of a singular point.
     """
     check_between(question, (basis.y1, basis.y2))
-    x = question.x
-    if question.equation.change is None:
-        basis = real_basis(basis, start)
-    return basis.of(starting_at(basis.y1, x, start), starting_at(basis.y2, x, start))
+    basis = real_at(basis, start)
+    return basis.of(*(starting_at(y, question.x, start) for y in (basis.y1, basis.y2)))
 
 
-def real_particular_at(question: Question, basis: Basis, particular: Expr, start: Expr) -> Expr:
-    """A particular solution that is real at `start`, if one is found; else the given one.
+def common_place(basis: Basis, particular: Expr = sympy.S.Zero) -> Expr:
+    """The first of some points at which the fewest arguments lie on cuts: where the parts of an answer are real together.
 
-    Raises `InputError` as `real_basis_at` does.
+    Of a part that isn't real there another form is looked for (`real_at`, `real_particular`).
+    """
+    x = basis.x
+    arguments = _arguments(sympy.Tuple(basis.y1, basis.y2, particular), x).values()
+    return min(_INSIDE, key=lambda point: sum(bool(basis.own(u.subs(x, point)).is_negative) for u in arguments))
+
+
+def real_at(basis: Basis, point: Expr) -> Basis:
+    """Two solutions that are real at the point, if such are found; else the given ones."""
+    x, solution = basis.x, basis.solution
+
+    def left(pair: Sequence[Expr]) -> int:
+        return len(negative_arguments(sympy.Tuple(*pair), x, point, basis.own))
+
+    given = (basis.y1, basis.y2)
+    if basis.equation.change is not None or not point.is_real or not left(given):
+        return basis
+    assert solution is not None
+    pairs = [given] if basis.form is None else [given, pair_at(basis.form, point, basis.own)]
+    turned = [tuple(all_turned(sympy.Tuple(*pair).xreplace(NUMBERS), x, point, basis.own)) for pair in pairs]
+    found = [
+        (y1, y2)
+        for y1, y2 in turned
+        if all(is_numerical_solution(y, x, solution.S, solution.gauge) for y in (y1, y2)) and are_independent(y1, y2, x)
+    ]
+    return replace(basis.of(*min(found, key=left)), place=point) if found else basis
+
+
+def real_particular(question: Question, basis: Basis, particular: Expr, place: Expr) -> Expr:
+    """A particular solution that is real at a place, if one is found; else the given one: log(1 - x) for log(x - 1).
+
+    Raises `InputError` as `basis_from` does.
     """
     check_between(question, (basis.y1, basis.y2, particular))
-    if question.equation.change is not None:
+    x, equation = question.x, question.equation
+    is_settled = equation.change is not None or not place.is_real or particular.has(sympy.Integral, sympy.Heaviside)
+    if is_settled or not negative_arguments(particular, x, place, question.own):
         return particular
-    x = question.x
-    is_settled = not start.is_real or particular.has(sympy.Integral, sympy.Heaviside)
-    if is_settled or not negative_arguments(particular, x, start, question.own):
-        return particular
-    equation = question.equation
-    right = (Atoms(x).sum(equation.f) + (equation.h or 0)) / Atoms(x).ratio(equation.a)
-    coefficients = rates(equation, x)
-    candidate = all_turned(particular, x, start, question.own)
-    return candidate if is_solution(candidate, coefficients, right, x) else particular
-
-
-def real_particular(question: Question, basis: Basis, particular: Expr) -> Expr:
-    """A particular solution that is real where y1 and y2 are: log(1 - x) for log(x - 1) beside log((1 + x)/(1 - x))."""
-    points = [sympy.Rational(k, 3) for k in (1, 4, -1, -4, 13, -13)]
-    pair = (basis.y1, basis.y2)
-    places = [p for p in points if not any(negative_arguments(y, question.x, p) for y in pair)]
-    if places and all(negative_arguments(particular, question.x, p) for p in places):
-        return real_particular_at(question, basis, particular, places[0])
-    return particular
+    turned = all_turned(particular, x, place, question.own)
+    return turned if is_solution(turned, basis.rates, right_hand_side(equation), x) else particular
 
 
 # ------------------------------------------------------------------------------------------- real on the other side
 
 
-def real_basis(basis: Basis, point: Expr) -> Basis:
-    """Two solutions that are real at the point, if such are found; else the given ones."""
-    x, solution = basis.x, basis.solution
-    assert solution is not None
-    if not point.is_real:
-        return basis
-    best, fewest = basis, len(negative_arguments(sympy.Tuple(basis.y1, basis.y2), x, point, basis.own))
-    writers: list[Callable[[], tuple[Expr, Expr]]] = [lambda: (basis.y1, basis.y2)]
-    if basis.form is not None:
-        writers.append(partial(pair_at, basis.form, point, basis.own))
-    for write in writers:
-        if not fewest:
-            break
-        y1, y2 = (all_turned(y.xreplace(NUMBERS), x, point, basis.own) for y in write())
-        left = len(negative_arguments(sympy.Tuple(y1, y2), x, point, basis.own))
-        are_solutions = all(is_numerical_solution(y, x, solution.S, solution.gauge) for y in (y1, y2))
-        if are_solutions and are_independent(y1, y2, x) and (left < fewest or best is basis):
-            best, fewest = basis.of(y1, y2), left
-    return best
-
-
-def on_one_interval(basis: Basis) -> Basis:
-    """A pair whose members are real together, if one of them is real where the other one isn't; else the given one."""
-
-    def needs(*members: Expr) -> tuple[Expr, ...]:
-        return needed_for(basis.own(sympy.Add(*members)), basis.x).real
-
-    if not any(_arguments(y, basis.x) or y.has(sympy.hyper) for y in (basis.y1, basis.y2)):
-        return basis  # real everywhere
-    if basis.equation.change is not None or sympy.false not in needs(basis.y1, basis.y2):
-        return basis
-    for point in _INSIDE:
-        if any(all(r.subs(basis.x, point) == sympy.true for r in needs(y)) for y in (basis.y1, basis.y2)):
-            found = real_basis(basis, point)
-            if sympy.false not in needs(found.y1, found.y2):
-                return found
-    return basis
-
-
 def _arguments(y: Expr, x: Expr) -> dict[Expr, Expr]:
-    """The logarithms, roots, cosine integrals, Bessel's and gamma functions in an expression, and their arguments."""
+    """The functions with cuts in an expression: these lie where the argument, or 1 - z of Gauss's function, is negative."""
     found = {e: e.args[-1] for e in y.atoms(sympy.log, sympy.Ci, BesselBase, sympy.lowergamma, sympy.uppergamma)}
+    found |= {e: 1 - e.argument for e in y.atoms(sympy.hyper) if len(e.ap) > len(e.bq)}
     for power in y.atoms(sympy.Pow):
-        if power.base.has(x) and not power.exp.is_Integer:
+        if power.base.free_symbols and not power.exp.is_Integer:
             found[power] = power.base
     return found
 

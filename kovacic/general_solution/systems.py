@@ -24,7 +24,7 @@ from kovacic.equation import eliminated
 from kovacic.errors import InputError, NotLinear
 from kovacic.general_solution.check import is_finite
 from kovacic.general_solution.conditions import Condition, ConditionReader, exact
-from kovacic.general_solution.constants import Outcome, Row, can_be, condition_of, determine
+from kovacic.general_solution.constants import Outcome, Row, determine
 from kovacic.general_solution.first_order import (
     FirstOrderEquation,
     check_first_order,
@@ -263,6 +263,6 @@ def _with_constants(
     if generic.outcome is Outcome.NONE:
         raise InputError("there is no solution with these values: the conditions contradict one another")
     values = dict(zip((c1, c2), generic.values, strict=True))
-    exceptions = [" and ".join(map(condition_of, case.zeros)) for case in others if can_be(case)]
-    notices = [f"this holds unless {zeros}: give such values for the solutions there" for zeros in exceptions]
+    cases = [case.where() for case in others if case.is_possible]
+    notices = [f"this holds unless {where}: give such values for the solutions there" for where in cases]
     return (pair[0].subs(values, simultaneous=True), pair[1].subs(values, simultaneous=True)), notices

@@ -20,7 +20,7 @@ A pair of solutions is changed before constants are given values:
 from __future__ import annotations
 
 from collections import defaultdict
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import suppress
 from itertools import combinations
 from math import lcm
@@ -44,12 +44,13 @@ _MOST_ATOMS = 6
 _LARGEST = 400
 
 
-def in_book_form(value: Expr, x: Expr, *, is_general: bool = False) -> Expr:
-    """The shortest form of an answer; in a general one the functions that the free constants belong to stay."""
+def in_book_form(value: Expr, x: Expr, free: Sequence[Expr] = ()) -> Expr:
+    """The shortest form of an answer; the functions that the constants `free` of a general one belong to stay."""
     is_small = _is_small(value)
-    for short in _RULES_FOR_COEFFICIENTS:
-        value = shortest([value, *short(value, x)])
-    for rule in _RULES_OF_GENERAL_SOLUTIONS if is_general else _RULES:
+    if value.free_symbols != {x}:
+        value = shortest([value, _with_short_coefficients(value, x)])
+    value = shortest([value, *_single_roots(value, x)])
+    for rule in _RULES_OF_GENERAL_SOLUTIONS if free else _RULES:
         if not is_small:
             break
         found = shortest([value, *rule(value, x)])
@@ -207,31 +208,25 @@ def _symmetric_product(polynomial: Expr, rate_of: Mapping[Expr, Expr]) -> tuple[
         common = [group for group in groups if group.free_symbols & base.free_symbols & {*rate_of}]
         groups = [group for group in groups if group not in common] + [sympy.Mul(base**k, *common)]
     parts = [_symmetric(group, rate_of) for group in groups]
-    if None in parts:
-        return sympy.S.Zero, None
-    known = [part for part in parts if part is not None]
-    return sympy.Add(*(m for m, _ in known)), sympy.Mul(constant * number, *(total for _, total in known))
+    known = [total for _, total in parts if total is not None]
+    total = sympy.Mul(constant * number, *known) if len(known) == len(parts) else None
+    return sympy.Add(*(m for m, _ in parts)), total
 
 
-def _symmetric(part: Expr, rate_of: Mapping[Expr, Expr]) -> tuple[Expr, Expr] | None:
+def _symmetric(part: Expr, rate_of: Mapping[Expr, Expr]) -> tuple[Expr, Expr | None]:
     """m, and the sum (1) without e^m, for a polynomial in the letters that stand for e^rate; None if it isn't symmetric."""
     terms = dict(sympy.Poly(part, *rate_of).terms())
     centre = [sympy.Rational(sum(column), len(terms)) for column in zip(*terms, strict=True)]
+    m = sympy.Add(*(middle * rate for middle, rate in zip(centre, rate_of.values(), strict=True)))
     total = sympy.Integer(0)
     for degrees, c in terms.items():
-        mirrored = tuple(2 * middle - degree for middle, degree in zip(centre, degrees, strict=True))
-        if mirrored not in terms:
-            return None
+        d = terms.get(tuple(2 * middle - degree for middle, degree in zip(centre, degrees, strict=True)))
         h = sympy.Add(*((k - middle) * rate for k, middle, rate in zip(degrees, centre, rate_of.values(), strict=True)))
-        if h == 0:
-            total += c
-        elif not h.could_extract_minus_sign():  # each pair once
-            d = terms[mirrored]
-            if 0 not in (c + d, c - d) and c.is_number and d.is_number:
-                return None
+        if d is None or (h != 0 and 0 not in (c + d, c - d) and c.is_number and d.is_number):
+            return m, None
+        if not h.could_extract_minus_sign():  # each pair once; in the middle c is d
             h = sympy.factor_terms(h)
-            total += (c + d) * cosh(h) + (c - d) * sinh(h)
-    m = sympy.Add(*(middle * rate for middle, rate in zip(centre, rate_of.values(), strict=True)))
+            total += c if h == 0 else (c + d) * cosh(h) + (c - d) * sinh(h)
     return m, sympy.factor_terms(total)
 
 
@@ -267,13 +262,8 @@ def _as_one_wave(total: Expr) -> Expr:
     return _factored(total if found.has(sympy.pi) else found)
 
 
-def _coefficients(value: Expr, x: Expr) -> Iterator[Expr]:
-    """With quotients of letters in factors, squares completed, as in (k - m w^2)^2 + c^2 w^2."""
-    if value.free_symbols != {x}:
-        yield _with_short_coefficients(value, x)
-
-
 def _with_short_coefficients(e: Expr, x: Expr) -> Expr:
+    """With quotients of letters in factors, squares completed, as in (k - m w^2)^2 + c^2 w^2."""
     if not e.has(x):
         return shortest([e, *_quotients(e)])
     if e.is_Mul:
@@ -284,7 +274,10 @@ def _with_short_coefficients(e: Expr, x: Expr) -> Expr:
         parts = [_with_short_coefficients(part, x).as_independent(x, as_Add=False) for part in e.args]
         functions = {sympy.Dummy(): function for _, function in parts}  # what contains x stays apart
         total = sympy.Add(*(c * name for (c, _), name in zip(parts, functions, strict=True)))
-        return shortest([form.xreplace(functions) for form in (total, _factored(total))])
+        bases = [{factor.as_base_exp()[0] for factor in sympy.Mul.make_args(c)} for c, _ in parts]
+        are_apart = not set.intersection(*bases) and not any(part.is_Number for part in set().union(*bases) - {1, -1})
+        forms = [total] if are_apart else [total, _factored(total)]
+        return shortest([form.xreplace(functions) for form in forms])
     if e.is_Pow or (e.is_Function and len(e.args) == 1):
         return e.func(*(_with_short_coefficients(part, x) for part in e.args))
     return e
@@ -380,8 +373,6 @@ def _factored(value: Expr) -> Expr:
 
 
 _Rule = Callable[[Expr, Expr], Iterator[Expr]]
-#: These don't multiply out, and so have no bound on the size.
-_RULES_FOR_COEFFICIENTS: tuple[_Rule, ...] = (_coefficients, _single_roots)
 _RULES: tuple[_Rule, ...] = (
     _absolute,
     _exchanged,

@@ -22,8 +22,8 @@ from sympy.logic.boolalg import BooleanAtom
 from sympy.simplify.fu import TR5, TR6, TR8
 from sympy.solvers.inequalities import reduce_rational_inequalities
 
-from kovacic.general_solution.basis import vanishing, without_implied
 from kovacic.general_solution.zero import is_nowhere_zero
+from kovacic.general_solution.zero_set import ZeroSet, inequality, without_implied
 
 Expr = Any  # SymPy publishes no types
 #: What a function needs, from an application of it.
@@ -59,42 +59,46 @@ class Validity:
         """`x > 0, c**2 - 4*k*m != 0`."""
         if sympy.false in self.real:
             return "no value"
-        signed = {u for e in self.exceptions for u in (e, -e)}
-        # 4*a*c - b^2 > 0 for >= 0 beside != 0; and then no factor of it is zero
-        factors = {
-            r: set(vanishing(r.lhs)) for r in self.real if isinstance(r, sympy.GreaterThan | sympy.StrictGreaterThan)
-        }
-        strict = {r: parts for r, parts in factors.items() if parts and parts <= signed}
-        implied = set().union(*strict.values())
-        real = [r.lhs > 0 if r in strict else r for r in self.real]
-        nonzero = []
-        for e in (e for e in self.exceptions if implied.isdisjoint((e, -e))):
-            gamma = 1 / e  # whose poles are the integers up to 0
-            if not isinstance(gamma, sympy.gamma):
-                nonzero.append(f"{e} != 0")
-            elif gamma.args[0].could_extract_minus_sign():
-                nonzero.append(f"{-gamma.args[0]} is none of 0, 1, 2, ...")
-            else:
-                nonzero.append(f"{gamma.args[0]} is none of 0, -1, -2, ...")
-        return ", ".join([*(f"{r.lhs} != 0" if isinstance(r, sympy.Ne) else str(r) for r in real), *nonzero])
+        real = (f"{r.lhs} != 0" if isinstance(r, sympy.Ne) else str(r) for r in self.real)
+        implied = _nonzero_beside(self.real)
+        return ", ".join([*real, *(inequality(e) for e in self.exceptions if e not in implied)])
 
 
 def needed_for(value: Expr, x: Expr, exceptions: Iterable[Expr] = ()) -> Validity:
-    """What a formula needs, part by part; `exceptions` are those of the pair of solutions in it."""
+    """What a formula needs, part by part; `exceptions` are those of the pair of solutions in it.
+
+    u >= 0 beside u != 0 is u > 0, as is that of a product beside those of its factors; and what follows from this isn't said.
+    """
     value, roots = _without_even_roots(value, x)
-    relations = dict.fromkeys(relation.xreplace(roots) for relation in needs_of(value))
-    of_letters = [r for r in relations if isinstance(r, sympy.Ne) and not r.has(x)]
-    on_x = [r for r in relations if r not in of_letters and not _holds_for_real_symbols(r)]
-    nonzero = [factor for relation in of_letters for factor in vanishing(relation.lhs)]
-    nonzero += [e for e in exceptions if not is_nowhere_zero(e)]
-    real = _in_one_interval(_without_weaker(on_x), x)
-    positive = {r.lhs for r in real if isinstance(r, sympy.StrictGreaterThan)}
-    factors = {factor for e in positive for factor in (e, *sympy.Mul.make_args(e))}
-    nonzero = [e for e in nonzero if factors.isdisjoint((e, -e))]
     # The bounds of an integral may be infinite.
     numbers = (node for node in sympy.preorder_traversal(value) if node.is_number)
     is_of_real_numbers = all(number.is_extended_real for number in numbers)
-    return Validity(real, without_implied(nonzero), is_of_real_numbers)
+    relations = [*dict.fromkeys(relation.xreplace(roots) for relation in needs_of(value))]
+    if sympy.false in relations:
+        return Validity((sympy.false,), without_implied(exceptions), is_of_real_numbers)
+    of_letters, others = sympy.sift(relations, lambda r: isinstance(r, sympy.Ne) and not r.has(x), binary=True)
+    nonzero = [factor for relation in of_letters for factor in ZeroSet(relation.lhs).factors]
+    nonzero += [e for e in exceptions if not is_nowhere_zero(e)]
+    others = [relation for relation in others if not _holds_for_real_symbols(relation)]
+    known = {r.lhs for r in others if not isinstance(r, sympy.Ne)}
+    on_x = [part for relation in others for part in _of_factors(relation, known) if not _holds_for_real_symbols(part)]
+    said = _nonzero_beside(on_x)
+    for k, relation in enumerate(on_x):
+        factors = ZeroSet(relation.lhs).factors
+        if isinstance(relation, sympy.GreaterThan) and factors and {*factors} <= {*nonzero}:
+            on_x[k] = relation.lhs > 0
+    positive = {r.lhs for r in on_x if isinstance(r, sympy.StrictGreaterThan)}
+    weaker = {sympy.Ne: _nonzero_beside(on_x), sympy.GreaterThan: positive, sympy.StrictGreaterThan: set()}
+    left = dict.fromkeys(_of_cosine(r) for r in on_x if r.lhs not in weaker[r.func])  # x >= 0 isn't implied by a x > 0
+    exceptions = without_implied(e for e in nonzero if e not in said)
+    return Validity(_in_one_interval(tuple(left), x), exceptions, is_of_real_numbers)
+
+
+def _nonzero_beside(relations: Iterable[Expr]) -> set[Expr]:
+    """What isn't zero where something is positive: that, and its factors, with both signs."""
+    positive = [relation.lhs for relation in relations if isinstance(relation, sympy.StrictGreaterThan)]
+    parts = [u for e in positive for u in (e, *sympy.Mul.make_args(e), *ZeroSet(e).factors)]
+    return {sign * u for u in parts for sign in (1, -1)}
 
 
 def _without_even_roots(value: Expr, x: Expr) -> tuple[Expr, dict[Expr, Expr]]:
@@ -137,19 +141,6 @@ def _holds_for_real_symbols(relation: Expr) -> bool:
         return bool(sympy.expand(roots[0].base - sympy.Add(*others) ** 2).is_positive)  # sqrt(g) > |f|
     except TypeError:  # what is complex has no sign, by its i or by what is assumed of letters
         return bool(relation.has(sympy.I))
-
-
-def _without_weaker(relations: list[Expr]) -> tuple[Expr, ...]:
-    """The relations without implied ones (e >= 0 and e != 0 by e > 0, u != 0 by u v > 0); `false` absorbs all others."""
-    if sympy.false in relations:
-        return (sympy.false,)
-    known = {r.lhs for r in relations if isinstance(r, sympy.GreaterThan | sympy.StrictGreaterThan)}
-    simpler = (_of_cosine(part) for relation in relations for part in _of_factors(relation, known))
-    left = dict.fromkeys(part for part in simpler if not _holds_for_real_symbols(part))
-    positive = {r.lhs for r in left if isinstance(r, sympy.StrictGreaterThan)}
-    nonzero = {u for e in positive for factor in (e, *sympy.Mul.make_args(e)) for u in (factor, -factor)}
-    implied = {sympy.Ne: nonzero, sympy.GreaterThan: positive}  # x >= 0 isn't implied by a x > 0
-    return tuple(relation for relation in left if relation.lhs not in implied.get(relation.func, ()))
 
 
 def _in_one_interval(relations: tuple[Expr, ...], x: Expr) -> tuple[Expr, ...]:

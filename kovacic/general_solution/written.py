@@ -18,13 +18,9 @@ _DIGITS = 15
 
 def free_constants(question: Question, basis: Basis, particular: Expr) -> tuple[Expr, Expr]:
     """C1 and C2, or the next of these names that nothing else has."""
-    used: list[Any] = [basis.y1, basis.y2, particular]
-    for condition in question.conditions:
-        used += [condition.value, *condition.points]
-        used += [term.coefficient for term in condition.terms]
-    # a value that is only bounded is None, and has no symbols
-    taken = {*question.symbols, *(symbol.name for e in used for symbol in getattr(e, "free_symbols", ()))}
-    excluded = [sympy.Symbol(name) for name in taken]
+    used = sympy.Tuple(basis.y1, basis.y2, particular).free_symbols
+    used = used.union(*(condition.free_symbols for condition in question.conditions))
+    excluded = [sympy.Symbol(name) for name in {*question.symbols, *(symbol.name for symbol in used)}]
     c1, c2 = islice(sympy.numbered_symbols("C", start=1, exclude=excluded), 2)
     return c1, c2
 

@@ -299,11 +299,13 @@ class Writer:
         return self.knows_integers and bool(self.constant(value).free_symbols) and self.is_natural(value)
 
     def is_negative(self, value: Number | Poly) -> bool:
-        """Would it be written with a minus sign?"""
-        known = None if isinstance(value, Number) else value.field.rational_value(value)
-        if known is not None:
-            return known < 0
-        return bool(self.constant(value).could_extract_minus_sign())
+        """True if it is known to be negative, or would be written with a minus sign where its sign isn't known."""
+        number = None if isinstance(value, Number) else value.field.rational_value(value)
+        if number is not None:
+            return number < 0
+        shown = self.constant(value)
+        known = shown.xreplace(self.symbols).is_negative
+        return bool(shown.could_extract_minus_sign() if known is None else known)
 
     def root(self, value: Poly, n: int) -> Expr:
         """A square (n = 2) or cubic (n = 3) root, in the field where it has one; a cubic one is real for real values."""

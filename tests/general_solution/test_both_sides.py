@@ -106,3 +106,30 @@ def test_values_hold_for_each_natural_number(n: int) -> None:
         at = sympy.Rational(point)
         assert abs(sympy.N(value.subs(x, at) - 2, 20)) < 1e-12
         assert abs(sympy.N(value.diff(x).subs(x, at) - 3, 20)) < 1e-12
+
+
+@pytest.mark.parametrize(
+    "equation",
+    [
+        "y'' + k*y = 0",
+        "y'' - k*y = 0",
+        "m*y'' + k*y = 0",
+        "x^2*y'' + x*y' + k*y = 0",
+        "y'' + k*x*y = 0",
+        "x*y'' + k*y = 0",
+        "x^2*y'' + x*y' + (k*x^2 - 1/9)*y = 0",
+    ],
+)
+def test_a_pair_is_real_for_negative_letters(equation: str) -> None:
+    """cosh or exponentials for waves, I and K for J and Y, and the real cubic root of k."""
+    known = {"k": "negative", "x": "positive"} | ({"m": "positive"} if "m" in equation else {})
+    answer = kovacic.answer_to(equation, assume=known, var="x")
+    assert sympy.false not in answer.validity.real
+    letters = {sympy.Symbol("k"): -2, sympy.Symbol("m"): 3}
+    own = answer.eq.lhs.args[0]
+    a, b, c, _ = (e.subs(letters) for e in answer.question.coefficients)
+    for y in answer.pair:
+        value = y.subs(letters).subs(own, x)
+        residual = (a * value.diff(x, 2) + b * value.diff(x) + c * value).subs(x, sympy.Rational(7, 10))
+        assert abs(sympy.N(residual, 20)) < 1e-15
+        assert abs(sympy.im(sympy.N(value.subs(x, sympy.Rational(7, 10)), 20))) < 1e-18

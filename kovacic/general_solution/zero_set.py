@@ -1,0 +1,123 @@
+"""`ZeroSet`: the values of letters for which an expression is zero, where an answer has an exception or a condition."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator
+from dataclasses import dataclass
+from functools import cached_property
+from typing import Any
+
+import sympy
+from sympy import cosh, exp, gamma, sinh
+from sympy.simplify.fu import TR8
+
+from kovacic.general_solution.substitution import size
+from kovacic.general_solution.textbook import in_hyperbolic_functions
+from kovacic.general_solution.zero import by_parity, is_nowhere_zero
+
+Expr = Any  # SymPy publishes no types
+#: The longest expression that is factored, in subexpressions, and the most symbols, functions and roots in it.
+_LONGEST = 300
+_MOST_ATOMS = 10
+
+
+@dataclass(frozen=True)
+class ZeroSet:
+    """The values of letters for which `expression` vanishes: it is empty, and false, without `factors`.
+
+    >>> k, n = sympy.symbols("k n")
+    >>> print(ZeroSet(k**2 * sympy.exp(k)), "|", ZeroSet(1 / sympy.gamma(-n)), "|", ZeroSet(sympy.sin(k) / k))
+    k = 0 | n is one of 0, 1, 2, ... | sin(k) = 0 and k != 0
+    """
+
+    expression: Expr
+
+    @cached_property
+    def factors(self) -> tuple[Expr, ...]:
+        """The factors with letters that may be zero, each once, without powers and signs."""
+        found = []
+        for factor in _bases(self.expression):
+            # the inverse of a gamma function is zero at its poles
+            is_below = factor.is_Pow and factor.exp.is_negative and not factor.has(gamma)
+            if factor.free_symbols and not is_below and not _has_no_zero(factor):
+                found.append(-factor if factor.could_extract_minus_sign() else factor)
+        return tuple(dict.fromkeys(found))
+
+    def __bool__(self) -> bool:
+        return bool(self.factors)
+
+    def __str__(self) -> str:
+        return " and ".join([self.equation(), *self.guards])
+
+    @property
+    def guards(self) -> list[str]:
+        """What keeps the expression defined: sin(k)/k is 1 at k = 0, where its factor sin(k) vanishes."""
+        below = sympy.Mul.make_args(sympy.fraction(sympy.together(self.expression))[1])
+        bases = [factor.as_base_exp()[0] for factor in below]
+        return [f"{b} != 0" for b in bases if not b.is_number and sympy.Mul(*self.factors).subs(b, 0) == 0]
+
+    def equation(self, answer: Expr = sympy.S.Zero) -> str:
+        """`k = 0`, with hyperbolic functions beside an answer in these."""
+        left = sympy.Mul(*self.factors)
+        poles = poles_of(left)
+        if poles is not None:
+            return f"{poles[0]} is one of {poles[1]}"
+        if answer.has(sinh, cosh):
+            factors = sympy.Mul.make_args(in_hyperbolic_functions(left))
+            left = sympy.Mul(*(factor for factor in factors if not is_nowhere_zero(factor)))
+        return f"{-left if left.could_extract_minus_sign() else left} = 0"
+
+
+def poles_of(e: Expr) -> tuple[Expr, str] | None:
+    """n and "0, 1, 2, ...", n and "0, -1, -2, ...", where 1/gamma(-n), 1/gamma(n) is zero; None for other expressions."""
+    if not isinstance(1 / e, gamma):
+        return None
+    u = (1 / e).args[0]
+    return (-u, "0, 1, 2, ...") if u.could_extract_minus_sign() else (u, "0, -1, -2, ...")
+
+
+def inequality(e: Expr) -> str:
+    """`k != 0`, or which integers a number is none of."""
+    poles = poles_of(e)
+    return f"{e} != 0" if poles is None else f"{poles[0]} is none of {poles[1]}"
+
+
+def without_implied(exceptions: Iterable[Expr]) -> tuple[Expr, ...]:
+    """Without c + m != 0, and 1/gamma(c + m) != 0, for integers m beside sin(pi c) != 0."""
+    exceptions = tuple(dict.fromkeys(exceptions))
+    periodic = [e.args[0] / sympy.pi for e in exceptions if isinstance(e, sympy.sin)]
+
+    def is_implied(e: Expr) -> bool:
+        number = (poles_of(e) or (e,))[0]
+        return any(sympy.expand(number - sign * c).is_Integer for c in periodic for sign in (1, -1))
+
+    return tuple(e for e in exceptions if not is_implied(e))
+
+
+def _bases(zero: Expr) -> Iterator[Expr]:
+    """The factors, without positive powers."""
+    for factor in sympy.Mul.make_args(_factored(zero)):
+        if factor.is_Pow and factor.exp.is_positive:
+            yield from _bases(factor.base)
+        else:
+            yield factor
+
+
+def _factored(zero: Expr) -> Expr:
+    """The shorter of two products, one with waves of sums for products of waves; a long expression as it is."""
+    powers = {power for power in zero.atoms(sympy.Pow) if not power.exp.is_Integer}
+    atoms = {*zero.free_symbols, *zero.atoms(sympy.Function), *powers}  # what SymPy takes for variables
+    if size(zero) > _LONGEST or len(atoms) > _MOST_ATOMS:
+        return zero
+    above, below = sympy.fraction(sympy.together(zero))
+    above /= sympy.Mul(*(f for f in sympy.Mul.make_args(below) if isinstance(f, gamma)))  # 0 at its poles
+    return min(map(sympy.factor, (above, sympy.expand(TR8(sympy.expand(above))))), key=size)
+
+
+def _has_no_zero(factor: Expr) -> bool:
+    """True if that is seen of it: for even and for odd integers, without gamma functions, or in hyperbolic functions."""
+    cases = sympy.Mul(*(by_parity(factor) or [factor]))
+    forms = (cases, in_hyperbolic_functions(factor)) if factor.has(exp) else (cases,)
+    return any(
+        all(isinstance(part, gamma) or is_nowhere_zero(part) for part in sympy.Mul.make_args(form)) for form in forms
+    )
