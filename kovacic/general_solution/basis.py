@@ -50,8 +50,6 @@ _TURNS = [sign * c for c in (sympy.Integer(1), sympy.pi / 2, 2 / sympy.pi) for s
 _POINTS = [*map(sympy.Integer, (0, 1, -1, 2, 3, -2)), sympy.S.Half]
 #: That of the square of a number for which the quotient of two Wronskians is taken.
 _LARGEST_DENOMINATOR = 10**18
-#: The longest Wronskian whose powers are joined, in subexpressions.
-_LONGEST_JOINED = 300
 
 
 @dataclass(frozen=True)
@@ -230,22 +228,14 @@ def _roots_of_rationals(w: Expr, y1: Expr, y2: Expr, x: Expr) -> Iterator[Expr]:
 
 
 def _quotients(w: Expr, y1: Expr, y2: Expr, x: Expr) -> Iterator[Expr]:
-    """W/w at the points where it is elementary; last, at the singular ones, where powers that w has cancel."""
+    """W/w at the points where it is elementary."""
     W = definition(y1, y2, x)
     values = ([finite_value(e, x, point) for e in (W, w)] for point in _POINTS)
-    found = (above / below for above, below in values if above is not None and below)
-    for quotient in chain(found, _limits(W, w, x)):
+    for quotient in (above / below for above, below in values if above is not None and below):
         check_time()
         c = with_single_waves(expand(quotient))
         if c != 0 and c.is_finite is not False and not c.has(sympy.Function, sympy.nan, sympy.zoo):
             yield c
-
-
-def _limits(W: Expr, w: Expr, x: Expr) -> Iterator[Expr]:
-    """Values of W/w, with its powers joined, at the points."""
-    if size(W) <= _LONGEST_JOINED:
-        joined = sympy.powsimp(expand(W / w))
-        yield from filter(None, (finite_value(joined, x, point) for point in _POINTS))
 
 
 def _is_wronskian(W: Expr, y1: Expr, y2: Expr, x: Expr) -> bool:

@@ -208,9 +208,12 @@ def common_place(basis: Basis, particular: Expr = sympy.S.Zero) -> Expr:
 
     Of a part that isn't real there another form is looked for (`real_at`, `real_particular`).
     """
-    x = basis.x
-    arguments = _arguments(sympy.Tuple(basis.y1, basis.y2, particular), x).values()
-    return min(_INSIDE, key=lambda point: sum(bool(basis.own(u.subs(x, point)).is_negative) for u in arguments))
+    arguments = _arguments(sympy.Tuple(basis.y1, basis.y2, particular), basis.x).values()
+
+    def on_cuts(point: Expr) -> int:
+        return sum(bool(basis.own(u.subs(basis.x, point)).is_negative) for u in arguments)
+
+    return next((point for point in _INSIDE if not on_cuts(point)), None) or min(_INSIDE, key=on_cuts)
 
 
 def real_at(basis: Basis, point: Expr) -> Basis:
