@@ -28,9 +28,10 @@ from kovacic.bound_states.numeric import check_first_levels, with_matching, with
 from kovacic.bound_states.question import FRIEDRICHS, SpectralProblem
 from kovacic.bound_states.signs import Uncovered
 from kovacic.bound_states.without_levels import NO_LEVELS, REASON, is_repulsive
+from kovacic.enclosure.request import Accuracy, digits_and_limits
 from kovacic.equation import ENERGY
 from kovacic.errors import InputError, LimitExceeded, NotRational
-from kovacic.limits import DEFAULT_LIMITS, Budget, Limits, check_duration, limited
+from kovacic.limits import Budget, Limits, check_duration, limited
 from kovacic.numbers.exact import whole
 from kovacic.numbers.numerals import as_text
 from kovacic.parametric.api import DEFAULT_DEGREE
@@ -63,9 +64,10 @@ def spectrum(
     boundary: str | None = None,
     max_degree: int = DEFAULT_DEGREE,
     levels: int | None = None,
-    digits: int = 15,
     parameters: Sequence[str] = (),
-    limits: Limits = DEFAULT_LIMITS,
+    accuracy: Accuracy | None = None,
+    digits: int | None = None,
+    limits: Limits | None = None,
 ) -> Spectrum:
     """The energies E for which -y'' + V y = E y has a square integrable solution, with the solutions.
 
@@ -94,12 +96,10 @@ def spectrum(
     levels : int, optional
         The number of lowest levels to be computed as proven numbers, `numeric` of the answer: for a potential without
         parameters, which may then be any elementary function, abs(x), cosh(x) - x^2.
-    digits : int
-        Proven digits of these.
     parameters : sequence of str
         Names of parameters that have more than one letter, as "EI" or "mass"; other such names are refused.
-    limits : Limits
-        Bounds on the input and on the work.
+    accuracy, digits, limits
+        The fields of `Accuracy`, but a method: digits are those of the lowest levels.
 
     Returns
     -------
@@ -136,6 +136,7 @@ def spectrum(
     References: H. Weyl, Math. Ann. 68 (1910) 220; F. Cooper, A. Khare & U. Sukhatme, Phys. Rep. 251 (1995) 267.
     """
     check_mapping(assume)
+    digits, limits = digits_and_limits("spectrum", accuracy=accuracy, digits=digits, limits=limits)
     degree = whole(max_degree, "max_degree")
     names = declared(parameters, assume)
     question = asked(

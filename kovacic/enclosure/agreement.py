@@ -36,6 +36,7 @@ from kovacic.algebra.precision import working_precision
 from kovacic.answer import Answer
 from kovacic.enclosure.monodromy import LocalMonodromy, monodromy
 from kovacic.enclosure.problem import NumericProblem, as_problem
+from kovacic.enclosure.request import Accuracy
 from kovacic.errors import InputError
 from kovacic.galois import Group, GroupKind
 from kovacic.limits import Limits
@@ -77,7 +78,12 @@ class Agreement:
 
 
 def agrees_with_group(
-    answer: Answer, group: Group | None = None, *, digits: int = 15, limits: Limits | None = None
+    answer: Answer,
+    group: Group | None = None,
+    *,
+    accuracy: Accuracy | None = None,
+    digits: int | None = None,
+    limits: Limits | None = None,
 ) -> Agreement:
     """Compare the monodromy of y'' = S y with a group; see `Solution.compare_with_monodromy`.
 
@@ -95,7 +101,7 @@ def agrees_with_group(
     fuchsian = is_fuchsian(as_problem(answer, constants=True))
     if not fuchsian and group.finite:
         return Agreement(False, "an irregular singular point makes the group infinite")
-    return compare(monodromy(answer, digits=digits, limits=limits), group, fuchsian)
+    return compare(monodromy(answer, accuracy=accuracy, digits=digits, limits=limits), group, fuchsian)
 
 
 def is_fuchsian(problem: NumericProblem) -> bool:

@@ -19,8 +19,8 @@ from typing import Any, Literal, Unpack, overload
 
 from kovacic.answer import Answer
 from kovacic.enclosure.ball import Ball
-from kovacic.enclosure.precision import AccuracyWarning, number_of_digits
-from kovacic.enclosure.request import Keywords, Request, Start, fields_of
+from kovacic.enclosure.precision import AccuracyWarning
+from kovacic.enclosure.request import Keywords, Request, Start, fields_of, number_of_digits
 from kovacic.enclosure.states import question_of
 from kovacic.errors import InputError, NotRational, warn_user
 from kovacic.limits import Limits, limited, limits_of

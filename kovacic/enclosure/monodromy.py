@@ -25,14 +25,15 @@ from kovacic.enclosure.evaluate import with_variable
 from kovacic.enclosure.frobenius import basis, junction
 from kovacic.enclosure.matrices import Matrix, inverse, multiply
 from kovacic.enclosure.points import ExactPoint, as_point, midpoint, power_of_two, to_acb
-from kovacic.enclosure.precision import number_of_digits, start_bits
+from kovacic.enclosure.precision import start_bits
 from kovacic.enclosure.problem import NumericProblem, as_problem
 from kovacic.enclosure.rational import way_for
+from kovacic.enclosure.request import Accuracy, digits_and_limits
 from kovacic.enclosure.singular import Singular
 from kovacic.enclosure.start import place_of
 from kovacic.enclosure.way import Traveller
 from kovacic.errors import InputError, LimitExceeded
-from kovacic.limits import Budget, Limits, check_time, limited, limits_of
+from kovacic.limits import Budget, Limits, check_time, limited
 
 BallMatrix = tuple[tuple[Ball, Ball], tuple[Ball, Ball]]
 _Polygon = tuple[
@@ -128,7 +129,8 @@ def connection_matrix(
     *,
     params: Mapping[str, object] | None = None,
     var: str | None = None,
-    digits: int = 15,
+    accuracy: Accuracy | None = None,
+    digits: int | None = None,
     limits: Limits | None = None,
 ) -> tuple[tuple[Ball, Ball], tuple[Ball, Ball]]:
     """Balls around the rows of the matrix that turns coordinates at the first point of `path` into those at the last one, of
@@ -146,10 +148,8 @@ def connection_matrix(
         Values of the parameters by name; where these are balls, the radii are what they allow.
     var : str
         The name of the variable, where the equation is text or a SymPy expression.
-    digits : int
-        The radii are at most 10^-digits relative to the largest entry; 15 by default.
-    limits : Limits
-        What the work may cost.
+    accuracy, digits, limits
+        The fields of `Accuracy`, but a method: the radii are at most 10^-digits relative to the largest entry.
 
     Raises
     ------
@@ -170,8 +170,7 @@ def connection_matrix(
 
     Reference: the path and the bases are as in ore_algebra's numerical_transition_matrix.
     """
-    limits = limits_of(limits)
-    digits = number_of_digits(digits, limits)
+    digits, limits = digits_and_limits("connection_matrix", accuracy=accuracy, digits=digits, limits=limits)
     problem = as_problem(with_variable(equation, var, limits, params), params, constants=True)
     way = _polygon(problem, path)
     budget = Budget(limits)
@@ -234,7 +233,8 @@ def monodromy(
     *,
     params: Mapping[str, object] | None = None,
     var: str | None = None,
-    digits: int = 15,
+    accuracy: Accuracy | None = None,
+    digits: int | None = None,
     limits: Limits | None = None,
 ) -> tuple[LocalMonodromy, ...]:
     """The local monodromy of y'' = S y at every finite singular point, for one base point above all of them.
@@ -250,10 +250,8 @@ def monodromy(
         Values of the parameters by name.
     var : str
         The name of the variable, where the equation is text or a SymPy expression.
-    digits : int
-        The accuracy of the matrices: 15 by default.
-    limits : Limits
-        What the work may cost.
+    accuracy, digits, limits
+        The accuracy of the matrices: the fields of `Accuracy`, but a method.
 
     Raises
     ------
@@ -266,8 +264,7 @@ def monodromy(
     >>> [f"{e.mid.real:.6f}" for e in point.exponents], f"{point.trace.mid.real:.6f}", point.is_identity_to_the_power(3)
     (['0.666667', '0.333333'], '-1.000000', True)
     """
-    limits = limits_of(limits)
-    digits = number_of_digits(digits, limits)
+    digits, limits = digits_and_limits("monodromy", accuracy=accuracy, digits=digits, limits=limits)
     given = as_problem(with_variable(equation, var, limits, params), params, constants=True)
     constants = given.embedded and replace(given.embedded, gauge=None)
     problem = NumericProblem(given.system, embedded=constants)

@@ -19,9 +19,8 @@ from kovacic.enclosure.frame import upper_exponent
 from kovacic.enclosure.journey import Journey
 from kovacic.enclosure.matrices import State
 from kovacic.enclosure.points import Number
-from kovacic.errors import InputError, LimitExceeded
+from kovacic.errors import LimitExceeded
 from kovacic.limits import Limits
-from kovacic.numbers.exact import whole
 from kovacic.numbers.numerals import in_a_message
 
 _LOG = logging.getLogger(__name__)
@@ -61,19 +60,6 @@ class PointValue:
 def start_bits(digits: float) -> int:
     """The working precision of the first run."""
     return int(digits * _BITS_PER_DIGIT) + 24
-
-
-def number_of_digits(given: object, limits: Limits) -> int:
-    """As Python's integer; raises InputError unless this is a number of digits within the limits."""
-    digits = whole(given, "digits", least=1)
-    if digits > limits.digits:
-        shown = in_a_message(digits)
-        raise InputError(
-            f"digits = {shown} is beyond the limit of {limits.digits}",
-            hint=f"limits=kovacic.Limits(digits={shown})",
-            shell=f"--limit digits={shown}",
-        )
-    return digits
 
 
 def raise_precision(

@@ -8,7 +8,9 @@ from difflib import get_close_matches
 from typing import Any, Literal, NamedTuple, TypedDict
 
 from kovacic.errors import InputError
-from kovacic.limits import Limits
+from kovacic.limits import Limits, limits_of
+from kovacic.numbers.exact import whole
+from kovacic.numbers.numerals import in_a_message
 
 Method = Literal["taylor", "closed form"]
 METHODS: tuple[Method, ...] = ("taylor", "closed form")
@@ -141,3 +143,24 @@ def _object(kind: type[Any], given: object) -> Any:
 def fields_of(given: Start | Accuracy) -> dict[str, Any]:
     """The fields that are given, as keywords."""
     return {name: value for name in given.__slots__ if (value := getattr(given, name)) is not None}
+
+
+def digits_and_limits(call: str, **keywords: Any) -> tuple[int, Limits]:
+    """The digits, 15 by default, and the limits among the keywords `accuracy`, `digits` and `limits` of a call without a
+    choice of methods."""
+    accuracy = Request.of(call, keywords, unused=("method",)).accuracy
+    limits = limits_of(accuracy.limits)
+    return number_of_digits(15 if accuracy.digits is None else accuracy.digits, limits), limits
+
+
+def number_of_digits(given: object, limits: Limits) -> int:
+    """As Python's integer; raises InputError unless this is a number of digits within the limits."""
+    digits = whole(given, "digits", least=1)
+    if digits > limits.digits:
+        shown = in_a_message(digits)
+        raise InputError(
+            f"digits = {shown} is beyond the limit of {limits.digits}",
+            hint=f"limits=kovacic.Limits(digits={shown})",
+            shell=f"--limit digits={shown}",
+        )
+    return digits

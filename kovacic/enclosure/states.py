@@ -26,10 +26,10 @@ from kovacic.enclosure.closed_form import closed_form_of, decided
 from kovacic.enclosure.frame import foreseen_growth, frequency
 from kovacic.enclosure.journey import Journey
 from kovacic.enclosure.points import ExactPoint, Number, as_number, as_point, to_ball
-from kovacic.enclosure.precision import PointValue, number_of_digits, raise_precision, start_bits
+from kovacic.enclosure.precision import PointValue, raise_precision, start_bits
 from kovacic.enclosure.problem import Coefficients, NumericProblem, as_problem, change_of
 from kovacic.enclosure.rational import way_for
-from kovacic.enclosure.request import METHODS, Method, Path, Request, Start
+from kovacic.enclosure.request import METHODS, Method, Path, Request, Start, number_of_digits
 from kovacic.enclosure.singular import Singular
 from kovacic.enclosure.start import middle, read_start
 from kovacic.enclosure.transport import growth_of_disc

@@ -8,6 +8,7 @@ from typing import Any
 
 import sympy
 
+from kovacic.enclosure.request import Accuracy, digits_and_limits
 from kovacic.errors import InputError
 from kovacic.general_solution.conditions import Condition, ConditionReader, as_mapping, periodicity
 from kovacic.general_solution.question import apart
@@ -33,10 +34,11 @@ def eigenvalues(
     parameter: str = PARAMETER,
     domain: Sequence[Any] | None = None,
     count: int = 5,
-    digits: int = 15,
     var: str | None = None,
     params: Mapping[Any, Any] | None = None,
-    limits: Limits = DEFAULT_LIMITS,
+    accuracy: Accuracy | None = None,
+    digits: int | None = None,
+    limits: Limits | None = None,
 ) -> Eigenvalues:
     """The lowest eigenvalues of a Sturm-Liouville problem, each in a proven ball, none left out.
 
@@ -59,15 +61,13 @@ def eigenvalues(
         The ends, if the conditions don't name both; the whole line without any.
     count : int
         The number of eigenvalues; fewer come back if there are no more.
-    digits : int
-        Proven digits of each, relative to its size, or to a thousandth of the mean distance of eigenvalues if that is
-        larger.
     var : str, optional
         The name of the variable.
     params : mapping, optional
         Values of the other parameters.
-    limits : Limits
-        Bounds on the input and on the work.
+    accuracy, digits, limits
+        The fields of `Accuracy`, but a method: digits are those of each, relative to its size, or to a thousandth of
+        the mean distance of eigenvalues if that is larger.
 
     Returns
     -------
@@ -95,10 +95,11 @@ def eigenvalues(
     References: A. Zettl, Sturm-Liouville Theory, AMS 2005; J. D. Pryce, Numerical Solution of Sturm-Liouville
     Problems, 1993.
     """
+    digits, limits = digits_and_limits("eigenvalues", accuracy=accuracy, digits=digits, limits=limits)
     problem = read_eigenproblem(
         equation, conditions, parameter=parameter, domain=domain, var=var, params=params, limits=limits
     )
-    for _ in problem.levels(whole(count, "count", least=1), whole(digits, "digits", least=1)):
+    for _ in problem.levels(whole(count, "count", least=1), digits):
         pass
     return problem.answer()
 

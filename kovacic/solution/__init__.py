@@ -27,7 +27,7 @@ if TYPE_CHECKING:
     from kovacic.enclosure.agreement import Agreement
     from kovacic.enclosure.evaluate import Prepared, evaluate
     from kovacic.enclosure.problem import NumericProblem
-    from kovacic.enclosure.request import Keywords
+    from kovacic.enclosure.request import Accuracy, Keywords
     from kovacic.galois import EquationGroup, Group
     from kovacic.parametric.restriction import GenericConditions
     from kovacic.special.search import SpecialFunctions
@@ -202,7 +202,12 @@ class Solution(Answer):
 
     @limited
     def compare_with_monodromy(
-        self, group: Group | None = None, *, digits: int = 15, limits: Limits | None = None
+        self,
+        group: Group | None = None,
+        *,
+        accuracy: Accuracy | None = None,
+        digits: int | None = None,
+        limits: Limits | None = None,
     ) -> Agreement:
         """Compare the monodromy, by analytic continuation, with the differential Galois group.
 
@@ -210,10 +215,8 @@ class Solution(Answer):
         ----------
         group : Group
             The claim; by default the group that the engine found.
-        digits : int
-            The accuracy of the matrices: 15 by default.
-        limits : Limits
-            Bounds on the work.
+        accuracy, digits, limits
+            The accuracy of the matrices, as for `kovacic.monodromy`.
 
         Returns
         -------
@@ -235,7 +238,7 @@ class Solution(Answer):
         """
         from kovacic.enclosure.agreement import agrees_with_group
 
-        return agrees_with_group(self, group, digits=digits, limits=limits)
+        return agrees_with_group(self, group, accuracy=accuracy, digits=digits, limits=limits)
 
     @property
     @limited
