@@ -88,8 +88,9 @@ def test_an_object_says_what_its_fields_say_as_keywords(door: str, start: dict[s
         call(initial=start)
     with pytest.raises(InputError, match=r"a kovacic\.Accuracy is expected, not 'int'"):
         call(accuracy=20, **start)
-    with pytest.raises(kovacic.LimitExceeded, match="time limit of 0 s"):
-        call(accuracy=kovacic.Accuracy(limits=Limits(seconds=0)), **start)
+    wrong: Any = 5
+    with pytest.raises(InputError, match=r"limits are a kovacic\.Limits"):
+        call(accuracy=kovacic.Accuracy(limits=wrong), **start)
     if door in ("tabulate", "lambdify"):
         with pytest.raises(TypeError, match="unexpected keyword argument 'digits'"):
             call(accuracy=kovacic.Accuracy(digits=30), **start)
