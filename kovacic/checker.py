@@ -1206,23 +1206,29 @@ class Exclusions:
         if any(place.is_ramified for place in self.places):
             return -1, False
         is_bound = False
-        totals = [acb(1)]
+        exact = {fmpq(1)}  # equal sums are one
+        totals = [acb(0)]
         t = self.modulus.complex_roots()[0][0]
         for place in self.places:
             if not place.k:
                 continue
-            halves = place.half_differences(t)
-            half = sum(halves, start=acb(0))
-            steps = [half] if place.logarithm else [half, -half]
-            if place.difference is None:
+            mean = fmpq(place.size * place.nu, 2)
+            if place.difference is not None:
+                half = place.size * place.difference / 2
+                ends = {mean + half} if place.logarithm else {mean + half, mean - half}
+                exact = {total - end for total in exact for end in ends}
+            else:
+                halves = place.half_differences(t)
+                half = sum(halves, start=acb(0))
+                steps = [half, -half]
                 is_bound |= self.modulus.degree() > 1 or len(halves) > 1
-            if place.difference is None and len(halves) > 1:
-                largest = sum((abs(h) for h in halves), start=arb(0)).upper()
-                steps = [acb(arb(0, largest), arb(0, largest))]
-            totals = [total - arb(place.size * place.nu) / 2 - step for total in totals for step in steps]
-            affordable(len(totals), "the number of sums of exponents")
+                if len(halves) > 1:
+                    largest = sum((abs(h) for h in halves), start=arb(0)).upper()
+                    steps = [acb(arb(0, largest), arb(0, largest))]
+                totals = [total - acb(mean) - step for total in totals for step in steps]
+            affordable(len(exact) * len(totals), "the number of sums of exponents")
         found = [-1]
-        for total in totals:
+        for total in (acb(first) + other for first in exact for other in totals):
             n = total.real.upper().floor().unique_fmpz()
             if total.imag.contains(0) and n >= total.real.lower():
                 found.append(n)
