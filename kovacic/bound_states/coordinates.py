@@ -156,7 +156,7 @@ class Original:
         period = _PERIODS[self.kind]
         lowest = sympy.floor(min(ends) / period) - 1
         number = int(sympy.ceiling((max(ends) - min(ends)) / period)) + 3
-        return [angle + period * (lowest + k) for angle in found for k in range(number)]
+        return [*dict.fromkeys(angle + period * (lowest + k) for angle in found for k in range(number))]
 
     def turning_points(self, domain: tuple[Any, Any], signs: Signs) -> list[Any]:
         """Where dt/dx vanishes inside the domain: where t is 1 or -1."""

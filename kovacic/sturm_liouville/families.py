@@ -171,13 +171,14 @@ def _wrapped(waves: _Waves, t: Expr, n: Expr, wrap: int) -> EigenvalueFamily | N
 
 @dataclass(frozen=True)
 class _LinearPiece:
-    """Y'' = (a x + b) Y between two points; Y' grows by delta Y at the first."""
+    """Y'' = (a x + b) Y between two points; Y' grows by delta Y at the first.  At a barrier a = 0, and b > 0 for each level."""
 
     low: Expr
     high: Expr
     a: Expr
     b: Expr
     delta: Expr = sympy.S.Zero
+    is_barrier: bool = False
 
     def airy(self, x: Expr, first: Any, second: Any) -> tuple[Expr, Expr, Expr]:
         """Two of Airy's functions at x, and dz/dx."""
@@ -197,6 +198,10 @@ class _LinearPiece:
         """(Y, Y') at the high end, from those at the low one."""
         Y, slope = start
         slope += self.delta * Y
+        if self.is_barrier:
+            k = sympy.sqrt(self.b)
+            cosine, sine = (f(k * (self.high - self.low)) for f in (sympy.cosh, sympy.sinh))
+            return Y * cosine + slope * sine / k, slope * cosine + k * Y * sine
         if self.a == 0:
             k = sympy.sqrt(-self.b)
             cosine, sine = (f(k * (self.high - self.low)) for f in (sympy.cos, sympy.sin))
@@ -220,11 +225,20 @@ def matching_equations(problem: SturmProblem, E: Expr) -> tuple[Expr, ...]:
     """
     x = problem.x
     lines = []
+    # A level is below the limits of Q/W, where there are some.
+    outer = [
+        piece.Q / piece.W
+        for piece, end in zip((problem.pieces[0], problem.pieces[-1]), problem.ends, strict=True)
+        if end.is_infinite
+    ]
     for piece in problem.pieces:
         q = sympy.expand(piece.Q - E * piece.W)
         if not q.is_polynomial(x) or sympy.degree(q, x) > 1:
             return ()
-        lines.append(_LinearPiece(piece.low, piece.high, q.coeff(x, 1), q.coeff(x, 0), piece.delta))
+        is_barrier = not q.has(x) and any(
+            (piece.Q / piece.W - limit).is_nonnegative for limit in outer if not limit.has(x)
+        )
+        lines.append(_LinearPiece(piece.low, piece.high, q.coeff(x, 1), q.coeff(x, 0), piece.delta, is_barrier))
     outwards = (-lines[0].a, lines[-1].a)
     falls = [end.is_infinite and not slope.is_nonnegative for end, slope in zip(problem.ends, outwards, strict=True)]
     first, last = (end.is_infinite for end in problem.ends)
@@ -280,19 +294,25 @@ def _middle(lines: list[_LinearPiece], problem: SturmProblem) -> Expr | None:
     return middle
 
 
+#: Waves and exponentials, with their quotients.
+_WAVES = ((sympy.cos, sympy.sin, sympy.tan, sympy.cot), (sympy.cosh, sympy.sinh, sympy.tanh, sympy.coth))
+
+
 def _equation(function: Expr, E: Expr) -> Expr:
     """function = 0 without constant factors; for two terms with waves k tan(k L) = ... or k cot(k L) = ..., what is shorter."""
     expression = function.as_independent(E, as_Add=False)[1]
-    angles = {wave.args[0] for wave in expression.atoms(sympy.cos, sympy.sin)}
-    if len(angles) == 1:
+    for first, second, quotient, inverse in _WAVES:
+        angles = {wave.args[0] for wave in expression.atoms(first, second)}
+        if len(angles) != 1:
+            continue
         (angle,) = angles
         cosine, sine = sympy.Dummy(), sympy.Dummy()
-        waves = sympy.expand(expression.xreplace({sympy.cos(angle): cosine, sympy.sin(angle): sine}))
+        waves = sympy.expand(expression.xreplace({first(angle): cosine, second(angle): sine}))
         c, s = waves.coeff(cosine), waves.coeff(sine)
         is_plain = c != 0 and s != 0 and (c / s).is_algebraic_expr(E)
         if is_plain and sympy.expand(waves - c * cosine - s * sine) == 0:
             k = angle.as_independent(E, as_Add=False)[1]
-            forms = [(sympy.tan, sympy.simplify(-c * k / s)), (sympy.cot, sympy.simplify(-s * k / c))]
+            forms = [(quotient, sympy.simplify(-c * k / s)), (inverse, sympy.simplify(-s * k / c))]
             form, right = min(forms, key=lambda form: sympy.count_ops(form[1]))
             return sympy.Eq(k * form(angle), right)
     constant, rest = expression.as_independent(E, as_Add=True)

@@ -748,6 +748,19 @@ def test_a_higher_degree_is_proposed_where_a_polynomial_may_have_one() -> None:
     assert family.hint.endswith("a polynomial of degree 3: max_degree=3")
 
 
+@parametrize(
+    ("V", "domain"),
+    [("5/(1 - cos(x))", (0, "2*pi")), ("5/(1 - sin(x))", ("pi/2", "5*pi/2")), ("5/(1 - cos(x))", ("-2*pi", 0))],
+    ordinary=1,
+)
+def test_a_shifted_potential_has_the_same_levels(V: str, domain: Any) -> None:
+    """The middle of the domain is where t turns, once: at pi, which is -pi + 2 pi as well."""
+    there = kovacic.spectrum("5/(1 + cos(x))", domain=("-pi", "pi"))
+    found = kovacic.spectrum(V, domain=domain)
+    assert found.complete
+    assert [state.energy for state in found.states(count=2)] == [state.energy for state in there.states(count=2)]
+
+
 @pytest.mark.long
 def test_equal_strengths_are_in_the_same_variable_as_one_function() -> None:
     """1/sin(x)^2 + 1/cos(x)^2 = 4/sin(2 x)^2, with the same levels (1 + sqrt(5) + 2 n)^2."""
