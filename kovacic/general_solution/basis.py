@@ -7,12 +7,13 @@ cancel the definition says it.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Mapping
 from contextlib import suppress
 from dataclasses import dataclass, replace
 from fractions import Fraction
 from functools import cached_property
 from itertools import chain, islice
+from types import MappingProxyType
 from typing import Any
 
 import sympy
@@ -28,15 +29,17 @@ from kovacic.closed_form.jets import jet
 from kovacic.closed_form.product import product
 from kovacic.closed_form.way_back import in_x
 from kovacic.equation import Equation
+from kovacic.general_solution.continuity import all_turned
 from kovacic.general_solution.integrands import NUMBERS, radicands
 from kovacic.general_solution.substitution import finite_value, size, slope
-from kovacic.general_solution.zero import points
+from kovacic.general_solution.zero import points, samples
 from kovacic.general_solution.zero_set import ZeroSet, without_implied
 from kovacic.limits import check_time
 from kovacic.reading.change_of_variable import function_of_x
 from kovacic.solution import Solution
 
 Expr = Any  # SymPy publishes no types
+_NONE: Mapping[Any, Any] = MappingProxyType({})
 #: Functions whose values at points aren't known in closed form.
 _UNKNOWN = (sympy.RootSum, sympy.Integral)
 #: Functions that occur as antiderivatives, beside others in a sum.
@@ -48,6 +51,8 @@ _ANTIDERIVATIVES = (
 _TURNS = [sign * c for c in (sympy.Integer(1), sympy.pi / 2, 2 / sympy.pi) for sign in (1, -1)]
 #: Points at which the constant of a Wronskian is determined.
 _POINTS = [*map(sympy.Integer, (0, 1, -1, 2, 3, -2)), sympy.S.Half]
+#: The longest Wronskian whose powers are joined, in subexpressions.
+_LONGEST_JOINED = 300
 #: That of the square of a number for which the quotient of two Wronskians is taken.
 _LARGEST_DENOMINATOR = 10**18
 
@@ -107,8 +112,20 @@ class Basis:
             return _simplified(constant) * sympy.powsimp(rest)
         W = multiple_of(self._kernel, self.y1, self.y2, self.x)
         if W is None and self.before is not None and self.before.stated is not None:
-            W = multiple_of(self.before.wronskian, self.y1, self.y2, self.x)
+            w = self.before.wronskian
+            if self.place is not None:
+                w = all_turned(w, self.x, self.place, self.own)
+            W = multiple_of(w, self.y1, self.y2, self.x, self._integers)
         return definition(self.y1, self.y2, self.x) if W is None else W
+
+    @property
+    def _integers(self) -> dict[Expr, Expr]:
+        """Values of the letters that stand for integers, for which the pair is meant."""
+        letters = {s: self.own(s) for s in sympy.Tuple(self.y1, self.y2).free_symbols - {self.x}}
+        tried = samples({s for s in letters.values() if s.is_integer})
+        fits = (found for found in tried if self.natural is None or not self.natural.xreplace(found).is_negative)
+        values = next(islice(fits, 1, None))
+        return {plain: values[s] for plain, s in letters.items() if s in values}
 
     @property
     def constant(self) -> Expr:
@@ -198,17 +215,18 @@ def _antiderivatives(e: Expr) -> Iterator[Expr]:
             yield from _antiderivatives(part)
 
 
-def multiple_of(w: Expr, y1: Expr, y2: Expr, x: Expr) -> Expr | None:
+def multiple_of(w: Expr, y1: Expr, y2: Expr, x: Expr, integers: Mapping[Expr, Expr] = _NONE) -> Expr | None:
     """c w for the constant c with y1 y2' - y1' y2 = c w on each branch of the roots; None where it isn't found.
 
-    c is the quotient at a point where it is elementary, or one that other branches of Bessel's functions have.
+    c is the quotient at a point where it is elementary, or one that other branches of Bessel's functions have.  It is checked
+    with `integers` for letters that stand for these.
 
     >>> x, k = sympy.symbols("x k")
     >>> multiple_of(1 / x, x**k, x**-k, x)
     -2*k/x
     """
     for c in chain(_roots_of_rationals(w, y1, y2, x), _quotients(w, y1, y2, x), _TURNS):
-        if _is_wronskian(c * w, y1, y2, x):
+        if _is_wronskian(c * w, y1, y2, x, integers):
             return _simplified(c) * w
     return None
 
@@ -228,18 +246,21 @@ def _roots_of_rationals(w: Expr, y1: Expr, y2: Expr, x: Expr) -> Iterator[Expr]:
 
 
 def _quotients(w: Expr, y1: Expr, y2: Expr, x: Expr) -> Iterator[Expr]:
-    """W/w at the points where it is elementary."""
+    """W/w at the points where it is elementary; last, at singular ones, where powers of W and w cancel."""
     W = definition(y1, y2, x)
     values = ([finite_value(e, x, point) for e in (W, w)] for point in _POINTS)
-    for quotient in (above / below for above, below in values if above is not None and below):
+    found = (above / below for above, below in values if above is not None and below)
+    joined = (sympy.powsimp(expand(W / w)) for _ in range(size(W) <= _LONGEST_JOINED))
+    for quotient in chain(found, (finite_value(e, x, point) for e in joined for point in _POINTS)):
         check_time()
-        c = with_single_waves(expand(quotient))
+        c = with_single_waves(expand(quotient or 0))
         if c != 0 and c.is_finite is not False and not c.has(sympy.Function, sympy.nan, sympy.zoo):
             yield c
 
 
-def _is_wronskian(W: Expr, y1: Expr, y2: Expr, x: Expr) -> bool:
+def _is_wronskian(W: Expr, y1: Expr, y2: Expr, x: Expr, letters: Mapping[Expr, Expr]) -> bool:
     """True if W is the Wronskian at a point; in each quadrant and on the axis if there are roots, with their branches."""
+    W, y1, y2 = (e.xreplace(letters) for e in (W, y1, y2))
     powers = sympy.Tuple(W, y1, y2).atoms(sympy.Pow)
     has_branches = any(p.base.has(x) and not p.exp.is_Integer for p in powers)
     with working_digits(2 * DIGITS), suppress(NotImplementedError):

@@ -18,6 +18,7 @@ from typing import Any
 import sympy
 from flint import acb, arb, fmpq, fmpz_poly
 from sympy.core.function import AppliedUndef
+from sympy.functions.special.bessel import BesselBase
 
 from kovacic.algebra.embedding import complex_zeros
 from kovacic.algebra.precision import working_precision
@@ -27,6 +28,8 @@ from kovacic.limits import check_time
 
 Expr = Any  # SymPy publishes no types
 Acb = Any  # flint's acb
+#: Puts in symbols that know what is assumed.
+Own = Callable[[Expr], Expr]
 #: Beyond the first pole of tan(x/2) on either side, off the usual special points.
 _GRID = tuple(fmpq(p, 100) for p in (-713, -437, -219, -83, 41, 127, 271, 483, 731))
 #: How far beyond a place where an argument may cross a cut the formula is followed.
@@ -51,6 +54,13 @@ _CUTS: dict[Any, Callable[[Expr], Expr | None]] = {
     sympy.polylog: lambda e: 1 - e.args[-1],
     # zero where the argument is: what has a sign isn't analytic there
     **dict.fromkeys((sympy.Abs, sympy.sign, sympy.Heaviside), lambda e: e.args[0] ** 2),
+}
+#: For Bessel's functions of i z those of z with the same span.
+_OF_IMAGINARY = {
+    sympy.besselj: sympy.besseli,
+    sympy.bessely: sympy.besselk,
+    sympy.besseli: sympy.besselj,
+    sympy.besselk: sympy.bessely,
 }
 #: What stands for entire functions here: integrals that are left, and the functions of which pairs of solutions are made.
 _OPAQUE = (
@@ -218,3 +228,32 @@ def _crossing(e: Expr, x: Expr) -> Any:
     if is_tangent:
         return fmpq(round((1.58 - c.real) / m.real * 100), 100)
     return fmpq(round(-c.imag / m.imag * 100), 100) if m.imag else None
+
+
+# ------------------------------------------------------------------------------------------- real on the other side
+
+
+def arguments_with_cuts(y: Expr) -> dict[Expr, Expr]:
+    """The functions and powers with cuts in an expression: these lie where the argument, or 1 - z in pFq, is negative."""
+    found = {e: cut_of(e) for e in y.atoms(sympy.log, sympy.Ci, sympy.lowergamma, sympy.uppergamma, sympy.Pow)}
+    found |= {e: e.args[-1] for e in y.atoms(BesselBase)}
+    found |= {e: 1 - e.argument for e in y.atoms(sympy.hyper) if len(e.ap) > len(e.bq)}
+    return {e: cut for e, cut in found.items() if cut is not None and cut.free_symbols}
+
+
+def all_turned(y: Expr, x: Expr, point: Expr, own: Own = sympy.sympify) -> Expr:
+    """With log(-u), (-u)^e for arguments u that are negative at the point; I_nu(z), K_nu(z) for J_nu(i z), Y_nu(i z)."""
+    turned = {e: (-u) ** e.exp for e, u in negative_arguments(y, x, point, own).items() if e.is_Pow}
+    roots = dict(turned)
+    for e in y.atoms(sympy.log, sympy.Ci, BesselBase):
+        *order, u = e.args
+        if e.func in _OF_IMAGINARY and own((u**2).subs(x, point)).is_negative:
+            turned[e] = _OF_IMAGINARY[e.func](*order, u.xreplace(roots))
+        elif own(u.subs(x, point)).is_negative:  # SymPy writes J(-z) as J(z) (-z)^nu/z^nu
+            turned[e] = e.func(*order, -u, evaluate=False)
+    return y.xreplace(turned)
+
+
+def negative_arguments(y: Expr, x: Expr, point: Expr, own: Own = sympy.sympify) -> dict[Expr, Expr]:
+    """Those whose arguments are negative at the point, in the user's symbols that `own` puts in."""
+    return {e: u for e, u in arguments_with_cuts(y).items() if own(u.subs(x, point)).is_negative}

@@ -34,6 +34,7 @@ from kovacic.equation import Equation
 from kovacic.general_solution.basis import Basis
 from kovacic.general_solution.check import is_finite
 from kovacic.general_solution.constants import tidy
+from kovacic.general_solution.continuity import cuts_of
 from kovacic.general_solution.integrands import NUMBERS, Change, prepared, ratfunc
 from kovacic.general_solution.steps import Apart, HeavisideTerm, taken_apart
 from kovacic.general_solution.undetermined import undetermined
@@ -121,7 +122,7 @@ def _of_euler(b: Expr, c: Expr, right: Expr, x: Expr) -> Expr | None:
     beta, gamma = sympy.cancel(b * u), sympy.cancel(c * u**2)
     if beta.has(x) or gamma.has(x):
         return None
-    if any(f.args[0].subs(x, 1 - u + x).is_negative for f in right.atoms(sympy.log)):  # real on the left of p
+    if any(cut.subs(x, 1 - u + x).is_negative for cut in cuts_of(right, x)):  # real on the left of p
         u = -u
     t = sympy.Dummy(real=True)
     inner = right.subs(x, (sympy.exp(t) - u) / u.diff(x) + x).replace(lambda e: e.is_Add, sympy.expand)

@@ -10,18 +10,18 @@ are written anew, with roots that are real there.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from typing import Any
 
 import sympy
-from sympy.functions.special.bessel import BesselBase
 
 from kovacic.closed_form.check import are_independent, is_numerical_solution
 from kovacic.closed_form.form import pair_at
 from kovacic.errors import InputError
 from kovacic.general_solution.basis import Basis
 from kovacic.general_solution.behaviour import Approach
+from kovacic.general_solution.continuity import all_turned, arguments_with_cuts, negative_arguments
 from kovacic.general_solution.integrands import NUMBERS
 from kovacic.general_solution.jumps import is_analytic
 from kovacic.general_solution.particular import right_hand_side
@@ -31,16 +31,7 @@ from kovacic.general_solution.steps import place_of
 from kovacic.general_solution.variation import is_solution, starting_at
 
 Expr = Any  # SymPy publishes no types
-#: Substitutes symbols that carry the assumptions.
-Own = Callable[[Expr], Expr]
 _INFINITIES = (sympy.oo, -sympy.oo)
-#: For Bessel's functions of i z those of z with the same span.
-_OF_IMAGINARY = {
-    sympy.besselj: sympy.besseli,
-    sympy.bessely: sympy.besselk,
-    sympy.besseli: sympy.besselj,
-    sympy.besselk: sympy.bessely,
-}
 #: Points between and beyond the usual singular ones, and beyond all.
 _INSIDE = [*(sympy.Rational(p, 2) for p in (1, -1, 3, -3, 5, -5, 9, -9)), sympy.Integer(10**9), sympy.Integer(-(10**9))]
 
@@ -206,14 +197,17 @@ def basis_from(question: Question, basis: Basis, start: Expr) -> Basis:
 def common_place(basis: Basis, particular: Expr = sympy.S.Zero) -> Expr:
     """The first of some points at which the fewest arguments lie on cuts: where the parts of an answer are real together.
 
-    Of a part that isn't real there another form is looked for (`real_at`, `real_particular`).
+    Those of the right-hand side come first: of a part that isn't real there another form is looked for (`real_at`,
+    `real_particular`).
     """
-    arguments = _arguments(sympy.Tuple(basis.y1, basis.y2, particular), basis.x).values()
+    parts = (right_hand_side(basis.equation), sympy.Tuple(basis.y1, basis.y2, particular))
+    given, found = (arguments_with_cuts(part).values() for part in parts)
 
-    def on_cuts(point: Expr) -> int:
-        return sum(bool(basis.own(u.subs(basis.x, point)).is_negative) for u in arguments)
+    def on_cuts(point: Expr) -> tuple[int, ...]:
+        here = ([basis.own(u.subs(basis.x, point)).is_negative for u in of_part] for of_part in (given, found))
+        return tuple(negative.count(True) for negative in here)
 
-    return next((point for point in _INSIDE if not on_cuts(point)), None) or min(_INSIDE, key=on_cuts)
+    return next((point for point in _INSIDE if on_cuts(point) == (0, 0)), None) or min(_INSIDE, key=on_cuts)
 
 
 def real_at(basis: Basis, point: Expr) -> Basis:
@@ -232,7 +226,8 @@ def real_at(basis: Basis, point: Expr) -> Basis:
     found = [
         (y1, y2)
         for y1, y2 in turned
-        if all(is_numerical_solution(y, x, solution.S, solution.gauge) for y in (y1, y2)) and are_independent(y1, y2, x)
+        if all(y in given or is_numerical_solution(y, x, solution.S, solution.gauge) for y in (y1, y2))
+        and are_independent(y1, y2, x)
     ]
     return replace(basis.of(*min(found, key=left)), place=point) if found else basis
 
@@ -252,31 +247,3 @@ def real_particular(question: Question, basis: Basis, particular: Expr, place: E
 
 
 # ------------------------------------------------------------------------------------------- real on the other side
-
-
-def _arguments(y: Expr, x: Expr) -> dict[Expr, Expr]:
-    """The functions with cuts in an expression: these lie where the argument, or 1 - z of Gauss's function, is negative."""
-    found = {e: e.args[-1] for e in y.atoms(sympy.log, sympy.Ci, BesselBase, sympy.lowergamma, sympy.uppergamma)}
-    found |= {e: 1 - e.argument for e in y.atoms(sympy.hyper) if len(e.ap) > len(e.bq)}
-    for power in y.atoms(sympy.Pow):
-        if power.base.free_symbols and not power.exp.is_Integer:
-            found[power] = power.base
-    return found
-
-
-def all_turned(y: Expr, x: Expr, point: Expr, own: Own = sympy.sympify) -> Expr:
-    """With log(-u), (-u)^e for arguments u that are negative at the point; I_nu(z), K_nu(z) for J_nu(i z), Y_nu(i z)."""
-    turned = {e: (-u) ** e.exp for e, u in negative_arguments(y, x, point, own).items() if e.is_Pow}
-    roots = dict(turned)
-    for e in y.atoms(sympy.log, sympy.Ci, BesselBase):
-        *order, u = e.args
-        if e.func in _OF_IMAGINARY and own((u**2).subs(x, point)).is_negative:
-            turned[e] = _OF_IMAGINARY[e.func](*order, u.xreplace(roots))
-        elif own(u.subs(x, point)).is_negative:  # SymPy writes J(-z) as J(z) (-z)^nu/z^nu
-            turned[e] = e.func(*order, -u, evaluate=False)
-    return y.xreplace(turned)
-
-
-def negative_arguments(y: Expr, x: Expr, point: Expr, own: Own = sympy.sympify) -> dict[Expr, Expr]:
-    """Those whose arguments are negative at the point, in the user's symbols that `own` puts in."""
-    return {e: u for e, u in _arguments(y, x).items() if own(u.subs(x, point)).is_negative}

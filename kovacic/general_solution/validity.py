@@ -82,6 +82,8 @@ def needed_for(value: Expr, x: Expr, exceptions: Iterable[Expr] = ()) -> Validit
     others = [relation for relation in others if not _holds_for_real_symbols(relation)]
     known = {r.lhs for r in others if not isinstance(r, sympy.Ne)}
     on_x = [part for relation in others for part in _of_factors(relation, known) if not _holds_for_real_symbols(part)]
+    if sympy.false in on_x:
+        return Validity((sympy.false,), without_implied(nonzero), is_of_real_numbers)
     said = _nonzero_beside(on_x)
     for k, relation in enumerate(on_x):
         factors = ZeroSet(relation.lhs).factors

@@ -133,3 +133,25 @@ def test_a_pair_is_real_for_negative_letters(equation: str) -> None:
         residual = (a * value.diff(x, 2) + b * value.diff(x) + c * value).subs(x, sympy.Rational(7, 10))
         assert abs(sympy.N(residual, 20)) < 1e-15
         assert abs(sympy.im(sympy.N(value.subs(x, sympy.Rational(7, 10)), 20))) < 1e-18
+
+
+def test_the_right_hand_side_says_on_which_side_an_answer_is_meant() -> None:
+    """Beside log(-x) and sqrt(-x) a pair with log(x), and a particular solution with i*sqrt(x), are real nowhere."""
+    for equation in ("x^2*y'' - x*y' + y = x*log(-x)", "x^2*y'' + x*y' - y = sqrt(-x)"):
+        answer = kovacic.answer_to(equation)
+        value = answer.eq.rhs.subs({"C1": 2, "C2": 3})
+        a, b, c, f = answer.question.coefficients
+        residual = (a * value.diff(x, 2) + b * value.diff(x) + c * value - f).subs(x, sympy.Rational(-7, 10))
+        assert abs(sympy.N(residual, 20)) < 1e-15
+        assert all(relation.subs(x, sympy.Rational(-7, 10)) == sympy.true for relation in answer.validity.real)
+
+
+def test_a_turned_pair_keeps_its_wronskian() -> None:
+    """(1 - x^2)^(m/2) beside P_n^m, which is real between -1 and 1; and its W has no special functions of x."""
+    answer = kovacic.answer_to(
+        "(1-x^2)*y'' - 2*x*y' + (n*(n+1) - m^2/(1-x^2))*y = 0", assume={"n": "natural", "m": "natural"}
+    )
+    assert str(answer.validity) == "1 - x**2 > 0"
+    assert not answer.basis.wronskian.has(sympy.hyper, sympy.assoc_legendre)
+    gauss = kovacic.answer_to("x*(1-x)*y'' + (c-3*x)*y' - y = 0")
+    assert gauss.basis.wronskian.subs("c", 5) == 4 * (1 - x) ** 2 / x**5
