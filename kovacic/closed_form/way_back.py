@@ -140,7 +140,7 @@ def _with_joined_powers(expression: Any, x: Any) -> Any:
 
     found = expression.replace(is_log_of_exponential, lambda e: e.args[0].exp)
     found = found.replace(is_exponential_and_one, _by_half_angle)
-    found = found.replace(is_product_with_x, lambda e: sympy.expand_power_base(e, force=True))
+    found = found.replace(is_product_with_x, lambda e: sympy.expand_power_base(e, force=True, deep=False))
     found = found.replace(is_power_of_exponential, lambda e: sympy.exp(e.base.exp * e.exp))
     return sympy.powsimp(found, combine="exp")
 

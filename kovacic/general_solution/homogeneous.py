@@ -18,7 +18,7 @@ from kovacic.closed_form.way_back import in_x, solution_in_x
 from kovacic.decision import Status
 from kovacic.equation import Equation, Parsed, parameters_of
 from kovacic.errors import LimitExceeded
-from kovacic.general_solution.basis import Basis
+from kovacic.general_solution.basis import Basis, kernel, multiple_of
 from kovacic.general_solution.integrands import NUMBERS
 from kovacic.general_solution.places import limit_points
 from kovacic.general_solution.question import Question
@@ -27,7 +27,7 @@ from kovacic.general_solution.zero_set import ZeroSet
 from kovacic.limits import Budget
 from kovacic.parametric.api import conditions_of
 from kovacic.parametric.assumptions import NOTHING_ASSUMED, Assumptions
-from kovacic.reading.change_of_variable import function_of_x, is_power, user_variable
+from kovacic.reading.change_of_variable import function_of_x, is_power, real_values, user_variable
 from kovacic.solution import Solution, solve
 from kovacic.special.choice import solutions
 from kovacic.special.mathieu import mathieu
@@ -92,16 +92,24 @@ def _basis(question: Question, solution: Solution, pair: WrittenPair) -> Basis:
 
 
 def _stated(equation: Equation, pair: WrittenPair) -> Expr | None:
-    """The Wronskian in the user's variable, of members without the numbers that `solution_in_x` drops."""
+    """The Wronskian in the user's variable, of members without the constants that `solution_in_x` drops."""
     W = pair.wronskian
     if W is None or equation.change is None or not sympy.Tuple(*pair).has(sympy.Symbol(equation.variable)):
         return W
     if any(is_turned(equation, y) for y in pair):  # by constants that are left out
         return None
-    numbers = [sympy.powsimp(solution_in_x(equation, y) / in_x(equation, y)) for y in pair]
-    if not all(number.is_number for number in numbers):
+    x = user_variable(equation)
+    slope = function_of_x(equation).diff(x)
+    y1, y2 = (solution_in_x(equation, y) for y in pair)
+    constants = sympy.Mul(
+        *(sympy.powsimp(member / in_x(equation, y)) for member, y in zip((y1, y2), pair, strict=True))
+    )
+    if constants.has(x):
         return None
-    return in_x(equation, W) * function_of_x(equation).diff(user_variable(equation)) * sympy.Mul(*numbers)
+    short = None if constants.is_number else multiple_of(in_x(equation, kernel(equation)) * slope, y1, y2, x)
+    if short is not None:
+        return short
+    return in_x(equation, W) * slope * constants
 
 
 def decide(question: Question, budget: Budget) -> Solution:
@@ -122,13 +130,14 @@ def _in_special_functions(
     """
     is_positive = bool(question.function.args[0].is_positive)
     is_positive = is_positive and all(point.is_positive for c in question.conditions for point in c.points)
-    how: dict[str, Any] = {"symbols": question.parameters, "joined": not is_positive}
+    places = real_values(question.equation)
+    how: dict[str, Any] = {"symbols": question.parameters, "joined": not is_positive, "places": places}
     found = special_functions(solution.S, solution.gauge, solution.variable, budget, **how)
     pair = found.pair
     has_integers = any(symbol.is_integer for symbol in question.parameters.values())
     if has_integers and question.conditions and not limit_points(question):
         of_any_letters = special_functions(
-            solution.S, solution.gauge, solution.variable, budget, joined=not is_positive
+            solution.S, solution.gauge, solution.variable, budget, joined=not is_positive, places=places
         )
         pair = _without_exceptions(of_any_letters.pair, sympy.Symbol(solution.variable)) or pair
     is_asked = not question.conditions or bool(limit_points(question))

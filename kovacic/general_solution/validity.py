@@ -17,12 +17,15 @@ from functools import partial
 from typing import Any
 
 import sympy
+from flint import arb
 from sympy import cos, sin
 from sympy.logic.boolalg import BooleanAtom
 from sympy.simplify.fu import TR5, TR6, TR8
 from sympy.solvers.inequalities import reduce_rational_inequalities
 
-from kovacic.general_solution.zero import is_nowhere_zero
+from kovacic.algebra.precision import working_digits
+from kovacic.closed_form.check import DIGITS
+from kovacic.general_solution.zero import ball, is_nowhere_zero
 from kovacic.general_solution.zero_set import ZeroSet, inequality, without_implied
 
 Expr = Any  # SymPy publishes no types
@@ -106,21 +109,27 @@ def _nonzero_beside(relations: Iterable[Expr]) -> set[Expr]:
 def _without_even_roots(value: Expr, x: Expr) -> tuple[Expr, dict[Expr, Expr]]:
     """With a real letter for a root of letters in which the formula is even, real for a negative radicand as well; the roots.
 
-    2F1(a + s, a - s; c; z) is a power series in s^2 with real coefficients.
+    Then it is a power series in s^2 with real coefficients, as 2F1(a + s, a - s; c; z) is, and solutions that are 1 and 0 at a
+    point, whose slopes are 0 and 1.
     """
     roots = {}
     for radicand in {p.base for p in value.atoms(sympy.Pow) if (2 * p.exp).is_odd and p.free_symbols and not p.has(x)}:
         s = sympy.Dummy(real=True)
         in_s = value.replace(lambda e: e.is_Pow and e.base == radicand, lambda e: s ** (2 * e.exp))  # noqa: B023
-        if _in_order(in_s) == _in_order(in_s.xreplace({s: -s})):
+        other = in_s.xreplace({s: -s})
+        if in_s == other or (in_s.has(sympy.hyper) and _are_equal(in_s, other)):
             value = in_s
             roots[s] = sympy.sqrt(radicand)
     return value, roots
 
 
-def _in_order(e: Expr) -> Expr:
-    """With the upper parameters of hypergeometric functions, which are symmetric in these, in order."""
-    return e.replace(sympy.hyper, lambda top, *rest: sympy.hyper(sorted(top, key=sympy.default_sort_key), *rest))
+def _are_equal(e: Expr, other: Expr) -> bool:
+    """To 50 digits, for small values of the letters."""
+    symbols = sorted(e.free_symbols | other.free_symbols, key=str)
+    sample = {symbol: sympy.Rational(k + 2, 2 * k + 5) for k, symbol in enumerate(symbols)}
+    with working_digits(2 * DIGITS):
+        first, second = ball(e, sample), ball(other, sample)
+        return None not in (first, second) and bool(abs(first - second) < arb(10) ** -DIGITS * abs(first))
 
 
 def _holds_for_real_symbols(relation: Expr) -> bool:
@@ -133,6 +142,10 @@ def _holds_for_real_symbols(relation: Expr) -> bool:
         e = relation.lhs
         if e.has(sympy.I):  # a complex number isn't compared; the sum with its conjugate, which is real, needs nothing
             return not isinstance(relation, sympy.Ne) or any(p.is_nonzero for p in sympy.expand(e).as_real_imag())
+        if e.has(sympy.tanh):  # 1 - tanh(x)^2 = 4 exp(2 x)/(exp(2 x) + 1)^2
+            e = sympy.factor(sympy.together(sympy.expand(e.rewrite(sympy.exp))))
+            if isinstance(relation.func(e, 0), BooleanAtom):
+                return bool(relation.func(e, 0))
         if len(e.free_symbols) == 1 and e.is_polynomial():
             p = sympy.Poly(e, *e.free_symbols)
             if (p.domain.is_ZZ or p.domain.is_QQ) and p.count_roots() == 0:

@@ -8,6 +8,7 @@ function serves where the equation has no change, too: there t = x.
 from __future__ import annotations
 
 from dataclasses import replace
+from fractions import Fraction
 from typing import Any
 
 import sympy
@@ -25,6 +26,20 @@ SQUARES: dict[Any, Any] = {
     sympy.sinh: lambda t: t**2 + 1,
     sympy.cosh: lambda t: t**2 - 1,
 }
+
+#: Values that t has for positive x, for functions that don't have all.
+_VALUES = {
+    sympy.exp: (Fraction(7, 2),),
+    sympy.cosh: (Fraction(7, 2),),
+    sympy.sin: (Fraction(2, 7), Fraction(-2, 7)),
+    sympy.cos: (Fraction(2, 7), Fraction(-2, 7)),
+    sympy.Pow: (Fraction(2, 7), Fraction(7, 2)),
+}
+
+
+def real_values(equation: Equation) -> tuple[Fraction, ...]:
+    """Some values of t for real x; none where every number is one."""
+    return _VALUES.get(function_of_x(equation).func, ())
 
 
 def function_of_x(equation: Equation) -> Any:

@@ -130,7 +130,7 @@ class Gauss(StandardEquation):
                 )
                 if writer.is_degree(signed.degree) and all(apart):
                     return _jacobi(signed)
-            even = next((signed for signed in signed_forms if signed.alpha == signed.beta), None)
+            even = next((form for form in signed_forms if form.alpha == form.beta and form.is_between), None)
             if even is not None and any(map(writer.has_letters, (even.alpha, even.degree))):
                 # Independent for all values of the letters.
                 return _by_parity(even)
@@ -305,19 +305,36 @@ class _GaussForm:
         """N with a = -N."""
         return (self.alpha + self.beta + self.gamma - 1) * HALF
 
+    def _values(self, polynomial: Poly) -> list[fmpq | Fraction | None]:
+        """Those at the places where solutions are to be real, None for those with letters."""
+        return [self.f.field.rational_value(polynomial(place)) for place in self.writer.places or _SAMPLE]
+
+    @property
+    def is_between(self) -> bool:
+        """Is f between 0 and 1 at a place, or unknown?"""
+        values = self._values(self.f.num * (self.f.den - self.f.num))  # f (1 - f), up to a square
+        return any(value is None or value > 0 for value in values)
+
+    @property
+    def is_beyond(self) -> bool:
+        """Is f above 1, on the cut of 2F1, at all of the places?"""
+        values = self._values(self.f.den * (self.f.den - self.f.num))  # 1 - f, up to a square
+        return all(value is not None and value < 0 for value in values)
+
     @property
     def cost(self) -> tuple[bool | int | str, ...]:
-        """Order of preference: polynomials, differences at 0 that aren't integers (unless those at 1 are equal), short f.
+        """Order of preference: off the cut, polynomials, no integer difference at 0 (unless it is that at 1), short f.
 
         Solutions at 0 and at 1 are both real where f is between these: at many points, if possible.
         """
         f = self.f
         natural = self.writer.is_integer(self.alpha)
-        inside = [f.field.rational_value(f.num(x) * (f.den - f.num)(x)) for x in _SAMPLE]  # f (1 - f) up to a square
+        inside = self._values(f.num * (f.den - f.num))  # f (1 - f), up to a square
         real = sum(value is not None and value > 0 for value in inside) if natural else 0
         terms = sum(bool(c) for c in (*f.num, *f.den))
         uneven = natural and self.alpha != self.beta
-        return not f.is_polynomial, uneven, natural, -real, terms, not self.writer.is_negative(f.num.lc), str(f)
+        is_cut = self.is_beyond or bool(natural and self.writer.places and not real)
+        return is_cut, not f.is_polynomial, uneven, natural, -real, terms, not self.writer.is_negative(f.num.lc), str(f)
 
 
 def _named(form: _GaussForm) -> tuple[Expr, Expr]:

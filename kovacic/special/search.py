@@ -359,12 +359,14 @@ def special_functions(
     *,
     symbols: Mapping[str, Any] | None = None,
     joined: bool = False,
+    places: Sequence[Fraction] = (),
 ) -> SpecialFunctions:
     """Solutions of the equation that was given, those of y'' = S y times the gauge factor exp(int gauge dx).
 
     `symbols` are SymPy's symbols for the parameters by name; the expressions are in these, and what is assumed about them is
     used: with n a natural number, Hermite's equation has `hermite(n, x)`.  With `joined`, solutions are analytic at ordinary
-    points where the argument of Bessel's functions is zero: series 0F1 instead of these.  The pull-back is verified exactly, in
+    points where the argument of Bessel's functions is zero: series 0F1 instead of these.  Solutions are real at one of the
+    `places`, those values of the variable that are meant, as far as it can be had.  The pull-back is verified exactly, in
     rational functions; what is shown is checked at a point, to 50 digits.  Liouvillian solutions aren't looked for, but where
     the group is reducible the two solutions may be dependent for some values of the parameters.
 
@@ -384,7 +386,7 @@ def special_functions(
         return replace(search, searched=searched)
     try:
         with budget.watched():
-            found = written_pair(source, S, gauge, variable, symbols or {}, joined=joined)
+            found = written_pair(source, S, gauge, variable, symbols or {}, joined=joined, places=places)
     except LimitExceeded as limit:
         return SpecialFunctions(None, searched, str(limit))
     if found is None:
@@ -419,6 +421,7 @@ def written_pair(
     symbols: Mapping[str, Any],
     *,
     joined: bool,
+    places: Sequence[Fraction] = (),
 ) -> WrittenPair | None:
     """y1 and y2, checked at a point; None where the assumptions on the symbols leave open which solutions are independent.
 
@@ -430,7 +433,7 @@ def written_pair(
 
     transform = source if isinstance(source, GaugeTransform) else None
     pullback = source.pullback if isinstance(source, GaugeTransform) else source
-    writer = Writer(gauge, sympy.Symbol(variable), symbols, transform)
+    writer = Writer(gauge, sympy.Symbol(variable), symbols, transform, places)
     found = pullback.equation.written(writer, pullback.f, S.den if joined else None)
     return None if found is None else _checked(found, writer, S, gauge)
 
@@ -457,7 +460,14 @@ class BySign:
 
 
 def by_sign(
-    S: RatFunc, gauge: RatFunc, variable: str, budget: Budget, *, symbols: Mapping[str, Any], joined: bool
+    S: RatFunc,
+    gauge: RatFunc,
+    variable: str,
+    budget: Budget,
+    *,
+    symbols: Mapping[str, Any],
+    joined: bool,
+    places: Sequence[Fraction] = (),
 ) -> BySign | None:
     """Solutions by the sign of an integer: where polynomials have names, or where it tells which solutions are independent.
 
@@ -479,7 +489,7 @@ def by_sign(
 
     from kovacic.special.writer import Writer
 
-    writer = Writer(gauge, sympy.Symbol(variable), symbols)
+    writer = Writer(gauge, sympy.Symbol(variable), symbols, places=places)
     try:
         with budget.watched():
             found = _helpful(pullback, writer, S.den if joined else None)

@@ -112,10 +112,19 @@ WrittenTerm = tuple[WrittenFactor, Expr]
 class Writer:
     """Writes in one variable; `symbols` are the user's own by name, with what is assumed about them.
 
-    With a gauge transformation a v + b v' is written for what would be v without.
+    With a gauge transformation a v + b v' is written for what would be v without.  `places` are values of the variable at which
+    solutions are to be real.
     """
 
-    def __init__(self, gauge: RatFunc, x: Any, symbols: Mapping[str, Any], transform: Combined | None = None) -> None:
+    def __init__(
+        self,
+        gauge: RatFunc,
+        x: Any,
+        symbols: Mapping[str, Any],
+        transform: Combined | None = None,
+        places: Sequence[Fraction] = (),
+    ) -> None:
+        self.places = places
         self.gauge = gauge
         self.transform = transform
         self.atoms = Atoms(x)
@@ -140,7 +149,7 @@ class Writer:
             for plain in (plain for plain in slopes if slopes[plain] == slope and self.symbols[plain].is_integer):
                 natural = sympy.Dummy("d", integer=True, nonnegative=True)
                 meaning = sympy.expand(plain + (natural - value) / slope).xreplace(self.symbols)
-                writer = Writer(self.gauge, self.atoms.x, {})
+                writer = Writer(self.gauge, self.atoms.x, {}, places=self.places)
                 writer.symbols = self.symbols
                 writer.known = {**self.symbols, plain: meaning}
                 return writer
@@ -183,8 +192,10 @@ class Writer:
 
         `bracket` gives (P2'/P2 - P1'/P1) F1 F2 + F1 F2' - F1' F2, which doesn't change with constant factors of P1 and P2:
         times P1 P2 it is the Wronskian.  A member has no value where one of the numbers `undefined` is an integer.
-        With `real_at` the powers are real at that point.
+        With `real_at` the powers are real at that point, or at the first of the places.
         """
+        if self.places:
+            real_at = sympy.Rational(self.places[0])
         is_real = real_at is not None and self.transform is None
         atoms = Atoms(self.atoms.x, at=real_at) if is_real else self.atoms
         P, Q = (Mul(display(f.product, atoms), *f.others) for f, _ in (first, second))

@@ -39,7 +39,9 @@ x^2*y''+a*x*y'+(b*x^n+c)*y=0
 FUNCTIONS = """
 y''+(a*exp(x)-b)*y=0 | y''-(exp(2*x)+a*exp(x)+b)*y=0 | y''+a*exp(x)*y'+b*exp(x)*y=0 | y''-a*y'+b*exp(2*a*x)*y=0
 y''+2*k*exp(x)*y'+k*exp(x)*(k*exp(x)+1)*y=0 | y''+a*tan(x)*y'+b*y=0 | y''+tan(x)*y'-a*(a-1)*cot(x)^2*y=0
-y''-n*(n-1)/cos(x)^2*y=0 | y''-(a^2+n*(n-1)/sin(x)^2)*y=0 | y''+a*tanh(x)*y'+b*y=0
+y''-n*(n-1)/cos(x)^2*y=0 | y''-(a^2+n*(n-1)/sin(x)^2)*y=0 | y''+a*tanh(x)*y'+b*y=0 | y''+a*coth(x)*y'+b*y=0
+y''+(a^2-2/cosh(x)^2)*y=0 | y''+(b-a*(a+1)/cosh(x)^2)*y=0 | y''+(b+a*(a+1)/cosh(x)^2)*y=0 | y''+2*coth(x)*y'-a*y=0
+y''+coth(x)*y'-n*(n+1)*y=0 | y''+cot(x)*y'+n*(n+1)*y=0 | y''-(a^2+2/sinh(x)^2)*y=0 | y''+2*n*cot(2*x)*y'+b*y=0
 """
 LETTERS = [*map(sympy.Rational, ("1/3", "2", "-3/2", "5/7", "3", "-1/4", "7/2", "1", "-2", "9/5"))]
 POINTS = [*map(sympy.Rational, ("1/7", "3/5", "-2/5", "13/10", "-7/4", "12/5", "4", "-5"))]
