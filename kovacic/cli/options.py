@@ -12,7 +12,7 @@ from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from contextlib import contextmanager, suppress
 from dataclasses import fields, replace
 from functools import partial, wraps
-from itertools import islice, repeat
+from itertools import chain, islice, repeat
 from typing import TYPE_CHECKING, Any, TypeVar
 
 import click
@@ -151,18 +151,22 @@ def _changed_limits(context: click.Context, _: click.Parameter, given: Sequence[
 
 def _assumptions(context: click.Context, _: click.Parameter, given: Sequence[str]) -> dict[str, str] | None:
     """The assumptions about parameters, joined to one text for each name; None without any."""
-    from kovacic.reading.substitution import relations
+    from kovacic.reading.substitution import relations, values_among
 
     found: dict[str, str] = {}
-    for setting in given:
-        chain = relations(setting)
-        if chain is None:
+    # A comma before a name and a sign separates: a>3, a<5.
+    for setting in chain.from_iterable(re.split(r",\s*(?=\w+\s*[<>=!])", text) for text in given):
+        told = relations(setting)
+        if told is None:
             match = re.fullmatch(r"\s*(\w+)\s*(=|>=|<=|!=|>|<)([^=<>].*)", setting)
             if match is None:
                 raise click.UsageError(f"--assume {setting}: write NAME=WHAT, such as n=integer, n=3, n>=0 or 0<n<20")
-            chain = match[1], f"{match[2].removeprefix('=')}{match[3].strip()}"
-        name, what = chain
-        found[name] = f"{found.get(name, '')} {what}".strip()
+            told = match[1], f"{match[2].removeprefix('=')}{match[3].strip()}"
+        name, what = told
+        joined = f"{found.get(name, '')} {what}".strip()
+        if name in found and values_among({name: joined})[0]:  # a value beside something else
+            raise click.UsageError(f"--assume {setting}: {name} is {found[name]} already")
+        found[name] = joined
     return found or None
 
 

@@ -199,7 +199,8 @@ class ConditionReader:
     def _no_condition(self, key: Any) -> InputError:
         y = self.unknown
         if isinstance(key, str):
-            return InputError(f"{key!r} isn't an initial value", hint=f"write {{'{y}(0)': 1, \"{y}'(0)\": 2}}")
+            python, shell = f"write {{'{y}(0)': 1, \"{y}'(0)\": 2}}", f"write {y}(0) = 1, {y}'(0) = 2"
+            return InputError(f"{key!r} isn't an initial value", hint=python, shell=shell)
         return InputError(f"{key} isn't an initial value", hint="write {y(0): 1, y(x).diff(x).subs(x, 0): 2}")
 
 

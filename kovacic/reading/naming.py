@@ -72,6 +72,9 @@ class Vocabulary:
         _check_two_readings(tokens, *_POWER_OF_TEN)
         choose = _equation_variable if is_equation else _variable_of_S
         x, why = (self.variable, None) if self.variable else choose(tokens, y, self.declared)
+        if is_equation and x == y:
+            said = f"{y} is the unknown function, and can't be the variable"
+            raise InputError(said, hint="name another variable: var='x'", shell="name another variable: --var x")
         if not is_equation and x in ("e", "E"):
             _check_decimals(tokens, x)
         split, products = self._with_products(tokens, x, y)

@@ -605,6 +605,10 @@ _BALL = "ball --mass 1 --radius 1 --sphere 3"
         ("solve x --latex --explain", "--explain has no effect with --latex"),
         ("solve a*x --ics y(0)=1 --assume a=positive", "--assume has no effect with --ics"),
         ("solve x --var x --var x", "--var is given 2 times"),
+        ("solve x^2+a --assume a=1 --assume a=2", "--assume a=2: a is 1 already"),
+        ("solve x^2+a --assume a=1,a>0", "--assume a>0: a is 1 already"),
+        ("solve x^2+a --assume a>0 --assume a=1", "--assume a=1: a is >0 already"),
+        ("solve y''=t*y --var y", "y is the unknown function, and can't be the variable"),
         ("dsolve y''=y --json --latex", "--json and --latex exclude each other"),
         ("explain x --cite --format html", "--format has no effect with --cite"),
         ("explain x --cite -o answer.html", "--output has no effect with --cite"),
@@ -629,6 +633,17 @@ def test_an_option_without_effect_is_refused(line: str, message: str, capsys: py
     shown = capsys.readouterr()
     assert message in shown.err
     assert shown.out == ""
+
+
+@pytest.mark.parametrize("joined", ["a>3, a<5", "a>3,<5", "3<a<5", "a>3,a<5,a!=4"])
+def test_assumptions_may_stand_in_one_option(joined: str, capsys: pytest.CaptureFixture[str]) -> None:
+    """a = 3 + 2 k has a solution where a is odd, so that all of these leave none, and a > 2 alone some."""
+    assert run(["solve", "x^2 + a", "--assume", joined]) == 0
+    assert "the answer holds (Whittaker" in capsys.readouterr().out
+    assert run(["solve", "x^2 + a", "--assume", "a>2, a<6"]) == 0
+    assert "the answer holds except where a is an odd integer" in capsys.readouterr().out
+    assert run(["solve", "x^2 + a + b", "--assume", "a=root(2, 3), b=1"]) == 0
+    assert "cbrt(2) + 1" in capsys.readouterr().out
 
 
 @pytest.mark.parametrize("command", [["batch", "-"], ["scan", "x+n", "n=1:3"]])
