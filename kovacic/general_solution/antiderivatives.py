@@ -23,7 +23,7 @@ import sympy
 from sympy import atan, cos, exp, log, sin
 
 from kovacic.general_solution.integrands import (
-    Change,
+    ChangeOfIntegrand,
     integral_of_fraction,
     integral_of_product,
     prepared,
@@ -153,7 +153,9 @@ def _known(integrand: Expr, t: Expr) -> Expr | None:
     return found
 
 
-def _in_another_variable(changes: Callable[[Expr, Expr], Iterable[Change]], term: Expr, x: Expr) -> Expr | None:
+def _in_another_variable(
+    changes: Callable[[Expr, Expr], Iterable[ChangeOfIntegrand]], term: Expr, x: Expr
+) -> Expr | None:
     """The shortest of the integrals that are known in a new variable, back in x."""
     found = []
     for change in changes(term, x):
@@ -170,16 +172,16 @@ def _in_another_variable(changes: Callable[[Expr, Expr], Iterable[Change]], term
     return min(found, key=size, default=None)
 
 
-def _arguments(term: Expr, x: Expr) -> Iterator[Change]:
+def _arguments(term: Expr, x: Expr) -> Iterator[ChangeOfIntegrand]:
     """To functions and arguments u of functions in a term, beside whose slope it is one of u; x = exp(u) for u = log(x)."""
     t = sympy.Dummy(real=True)
     own = term.atoms(*_BY_PARTS) | {f.args[0] for f in term.atoms(sympy.Function) if f.args[0].has(exp, sin, cos, log)}
     for u in sorted((u for u in own if u.has(x)), key=str):
         inner = (term / u.diff(x)).subs(u, t)
-        yield Change(prepared(inner.subs(x, exp(t))) if u == log(x) else inner, t, u)
+        yield ChangeOfIntegrand(prepared(inner.subs(x, exp(t))) if u == log(x) else inner, t, u)
 
 
-def _exponentials(term: Expr, x: Expr) -> Iterator[Change]:
+def _exponentials(term: Expr, x: Expr) -> Iterator[ChangeOfIntegrand]:
     """To u = exp(k x), of which all exponentials are powers."""
     term = sympy.expand(term)
     slopes = {e: e.args[0].diff(x) for e in term.atoms(exp) if e.has(x) and e.args[0].subs(x, 0) == 0}
@@ -195,10 +197,10 @@ def _exponentials(term: Expr, x: Expr) -> Iterator[Change]:
         k = -k
     t = sympy.Dummy(positive=True)
     in_t = term.xreplace({e: t ** (rate / k) for e, rate in rates.items()}) / (k * t)
-    yield Change(prepared(in_t), t, exp(k * x))
+    yield ChangeOfIntegrand(prepared(in_t), t, exp(k * x))
 
 
-def _roots(term: Expr, x: Expr) -> Iterator[Change]:
+def _roots(term: Expr, x: Expr) -> Iterator[ChangeOfIntegrand]:
     """To t = (a x + b)^(1/q), of which all roots of functions of x are powers."""
     powers = [power for power in term.atoms(sympy.Pow) if power.exp.is_Rational and not power.exp.is_Integer]
     bases = {power.base for power in powers if power.base.has(x)}
@@ -211,10 +213,10 @@ def _roots(term: Expr, x: Expr) -> Iterator[Change]:
     q = lcm(*(int(power.exp.q) for power in powers if power.base == line))
     t = sympy.Dummy(positive=True)
     inner = term.subs(x, (t**q - line.subs(x, 0)) / slope) * q * t ** (q - 1) / slope
-    yield Change(inner, t, sympy.root(line, q))
+    yield ChangeOfIntegrand(inner, t, sympy.root(line, q))
 
 
-def _waves(term: Expr, x: Expr) -> Iterator[Change]:
+def _waves(term: Expr, x: Expr) -> Iterator[ChangeOfIntegrand]:
     """To c, s or a tangent, with exp(i u) = cos(u) + i sin(u)."""
     for e in term.atoms(exp):
         angle = sympy.expand(e.args[0] / sympy.I)

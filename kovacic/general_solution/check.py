@@ -47,7 +47,7 @@ _NOT_EVALUATED = (NotImplementedError, ZeroDivisionError, AttributeError, ValueE
 
 
 @dataclass(frozen=True)
-class Claim:
+class SolutionClaim:
     """y satisfies a y'' + b y' + c y = f, with a = 0 for an equation of first order, and conditions: in the user's symbols."""
 
     x: Expr
@@ -58,7 +58,7 @@ class Claim:
     equation: Any
 
     @classmethod
-    def of(cls, question: Question, value: Expr) -> Claim:
+    def of(cls, question: Question, value: Expr) -> SolutionClaim:
         """The answer `value` in the variable of the question."""
         a, b, c, f = map(question.own, question.coefficients)
         return cls(question.x, value, (a, b, c, f), question.conditions, question.equation)
@@ -69,7 +69,7 @@ class Claim:
         leading, *others = self.coefficients if self.coefficients[0] != 0 else self.coefficients[1:]
         return [part / leading for part in others]
 
-    def at(self, numbers: Mapping[Expr, Expr]) -> Claim:
+    def at(self, numbers: Mapping[Expr, Expr]) -> SolutionClaim:
         """The same with numbers for letters, but for the conditions."""
         y, a, b, c, f = (e.xreplace(numbers) for e in (self.y, *self.coefficients))
         return replace(self, y=y, coefficients=(a, b, c, f))
@@ -128,7 +128,7 @@ def check_answer(
     `value` is the answer in the variable of the question, `start` an ordinary point on the side that is meant, and `limits`
     says where conditions are on limits, and from which side.  The answer holds where the integer `natural` isn't negative.
     """
-    claim = Claim.of(question, value)
+    claim = SolutionClaim.of(question, value)
     unchecked = claim.check(start, limits, natural=natural)
     parts = [value, *claim.rates] if cuts_of(value, question.x) else []
     if question.function.args[0].is_positive:  # the whole line, where x = exp(t)
@@ -140,7 +140,7 @@ def check_answer(
     return unchecked
 
 
-def _numbers_for(claim: Claim, natural: Expr | None) -> dict[Expr, Expr]:
+def _numbers_for(claim: SolutionClaim, natural: Expr | None) -> dict[Expr, Expr]:
     """Numbers for symbols that are integers or not positive; other symbols have values by their names.
 
     The answer has a value for them, if such are found: it is for generic ones, and a small integer needn't be generic.
@@ -166,7 +166,7 @@ def is_finite(value: Expr) -> bool:
     return value not in _INFINITE and all(map(is_finite, value.args))
 
 
-def _is_wrong_at(claim: Claim, start: Expr | None) -> bool:
+def _is_wrong_at(claim: SolutionClaim, start: Expr | None) -> bool:
     """True if the residual is provably not zero at a point.  Raises one of `_NOT_EVALUATED` if it can't be computed."""
     x = claim.x
     definite = [integral for integral in _outer_integrals(claim.y) if not integral.has_free(x)]
@@ -199,7 +199,7 @@ def _outer_integrals(e: Expr) -> Iterator[Expr]:
 class _Pieces:
     """A claim without letters, the breaks, and a rational point on each piece between them."""
 
-    claim: Claim
+    claim: SolutionClaim
     breaks: Sequence[Expr]
     points: Sequence[Expr]
 
@@ -241,7 +241,7 @@ class _Pieces:
         return any(bool(abs(miss) > _SMALL * scale) for miss in misses)
 
 
-def _in_pieces(claim: Claim) -> _Pieces:
+def _in_pieces(claim: SolutionClaim) -> _Pieces:
     """At values of the parameters, and with functions for those that are given by their names."""
     whole = (claim.y, *claim.coefficients)
     claim = claim.at(next(islice(samples(_symbols_of(whole) - {claim.x}), 1, None)))
@@ -281,7 +281,7 @@ def _is_large(residual: Residual, y: Expr, point: Any) -> bool:
     return bool(miss > _SMALL * scale)
 
 
-def _is_violated(claim: Claim, condition: Condition, numbers: dict[Expr, Expr]) -> bool:
+def _is_violated(claim: SolutionClaim, condition: Condition, numbers: dict[Expr, Expr]) -> bool:
     """True if the two sides of a condition provably differ.  Raises as `_is_wrong_at` does."""
     f = in_steps(claim.coefficients[-1], claim.x)
     # at an impulse y' is that just before it; elsewhere y and y' are those on either side

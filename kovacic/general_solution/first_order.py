@@ -22,7 +22,7 @@ from kovacic.closed_form.atoms import Atoms, display
 from kovacic.closed_form.product import product
 from kovacic.errors import InputError, VerificationFailed
 from kovacic.general_solution.antiderivatives import antiderivative
-from kovacic.general_solution.check import Claim, is_finite
+from kovacic.general_solution.check import SolutionClaim, is_finite
 from kovacic.general_solution.conditions import Condition, exact
 from kovacic.general_solution.continuity import jumps
 from kovacic.general_solution.integrands import NUMBERS, ratfunc
@@ -303,7 +303,7 @@ def check_first_order(equation: FirstOrderEquation, w: Expr, conditions: Sequenc
     """
     value = value_of(conditions)
     p, q, r = equation.parts
-    claim = Claim(equation.x, w, (_ZERO, sympy.Integer(1), -q - r * w, p), conditions, equation.reading)
+    claim = SolutionClaim(equation.x, w, (_ZERO, sympy.Integer(1), -q - r * w, p), conditions, equation.reading)
     try:
         return claim.check()
     except VerificationFailed:

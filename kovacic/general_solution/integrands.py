@@ -30,7 +30,7 @@ NUMBERS = {sympy.Symbol(PI): sympy.pi, sympy.Symbol(EULER): sympy.E}
 
 
 @dataclass(frozen=True)
-class Change:
+class ChangeOfIntegrand:
     """int f(x) dx = int g(t) dt for t = u(x)."""
 
     #: g(t) = f(x) dx/dt.

@@ -35,7 +35,7 @@ from kovacic.general_solution.basis import Basis
 from kovacic.general_solution.check import is_finite
 from kovacic.general_solution.constants import tidy
 from kovacic.general_solution.continuity import cuts_of
-from kovacic.general_solution.integrands import NUMBERS, Change, prepared, ratfunc
+from kovacic.general_solution.integrands import NUMBERS, ChangeOfIntegrand, prepared, ratfunc
 from kovacic.general_solution.steps import Apart, HeavisideTerm, taken_apart
 from kovacic.general_solution.undetermined import undetermined
 from kovacic.general_solution.values import have_values, value_at, values_at
@@ -127,7 +127,7 @@ def _of_euler(b: Expr, c: Expr, right: Expr, x: Expr) -> Expr | None:
     t = sympy.Dummy(real=True)
     inner = right.subs(x, (sympy.exp(t) - u) / u.diff(x) + x).replace(lambda e: e.is_Add, sympy.expand)
     found = undetermined(beta - 1, gamma, sympy.exp(2 * t) * inner, t)
-    return None if found is None else Change(inner, t, sympy.log(u)).back(found)
+    return None if found is None else ChangeOfIntegrand(inner, t, sympy.log(u)).back(found)
 
 
 def _polynomial_solution(equation: Equation, right: RatFunc | None) -> Poly | None:

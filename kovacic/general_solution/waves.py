@@ -16,7 +16,7 @@ import sympy
 from sympy import atan, cos, log, sin, tan
 from sympy.simplify.fu import TR2, TR8, TR2i
 
-from kovacic.general_solution.integrands import Change, integral_of_fraction, sum_of
+from kovacic.general_solution.integrands import ChangeOfIntegrand, integral_of_fraction, sum_of
 from kovacic.general_solution.special_integrals import fresnel
 from kovacic.general_solution.undetermined import undetermined
 
@@ -26,7 +26,7 @@ Expr = Any  # SymPy publishes no types
 # ------------------------------------------------------------------------------------------------- changes of variable
 
 
-class WaveChange(Change):
+class WaveChange(ChangeOfIntegrand):
     """To a sine, a cosine or a tangent u of a linear angle."""
 
     def back(self, found: Expr) -> Expr:
