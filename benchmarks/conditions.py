@@ -11,6 +11,7 @@ calls for answers.  Writes benchmarks/results/conditions.json.
 from __future__ import annotations
 
 import json
+import re
 import statistics
 import sys
 import time
@@ -53,7 +54,8 @@ def check(samples: int, seed: int) -> int:
     totals, wrong = [0, 0, 0], 0
     families = [json.loads(line) for line in (HERE / "parametric_families.jsonl").read_text().splitlines()]
     for family in families:
-        answer = kovacic.conditions(family["S"], var="x", limits=kovacic.Limits(seconds=10))
+        names = re.findall(r"[a-z]\w+", family["S"])  # of more than one letter
+        answer = kovacic.conditions(family["S"], var="x", parameters=names, limits=kovacic.Limits(seconds=10))
         report = answer.check(samples, seed=seed)
         counts = (report.inside, report.outside, report.open)
         totals = [a + b for a, b in zip(totals, counts, strict=True)]

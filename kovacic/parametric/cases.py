@@ -12,6 +12,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass, replace
+from functools import partial
 from itertools import chain, groupby, product
 
 from kovacic.algebra.extension import ExtensionPoly
@@ -21,7 +22,7 @@ from kovacic.algebra.ratfunc import RatFunc
 from kovacic.algebra.rationals import QQ
 from kovacic.equation import Equation
 from kovacic.limits import check_time
-from kovacic.parametric.functions import ParameterPoint, irreducible_factors, over_parameters
+from kovacic.parametric.functions import ParameterPoint, irreducible_factors, over_parameters, with_values
 from kovacic.parametric.integers import Congruence
 from kovacic.parametric.natural import Natural
 from kovacic.parametric.regions import ParameterRegion, RegionVerdict
@@ -132,16 +133,21 @@ def covered(charts: Iterable[ParameterPoint], statements: Sequence[Statement]) -
 
 
 def without_implied(statement: Statement) -> Statement:
-    """The statement without an equation that follows from the others: g2 = g3 = 0 implies g2^3 = 27 g3^2."""
+    """The statement without an equation that follows from the others: g2 = g3 = 0 implies g2^3 = 27 g3^2.
+
+    Those beside the value of a parameter are said with the value.
+    """
     if not isinstance(statement, Both):
         return statement
-    parts = [*statement.parts]
-    for part in statement.parts:
+    zeros = [zero.function for zero in vanishing(statement.parts)]
+    valued = partial(with_values, zeros=zeros)
+    parts = [part.rewritten(valued) if isinstance(part, Vanishes) else part for part in statement.parts]
+    for part in [*parts]:
         others = Both(tuple(other for other in vanishing(parts) if other is not part))
         follows = isinstance(part, Vanishes) and len(others.parts) > 1
         if follows and covered(within(others, everything(part)), [part]):
             parts.remove(part)
-    return Both(tuple(parts))
+    return Both(tuple(dict.fromkeys(part for part in parts if part != ALWAYS)))
 
 
 def vanishing(statements: Iterable[Statement]) -> list[Vanishes]:
@@ -368,54 +374,45 @@ def _together(last: Case, case: Case, is_same: Likeness) -> Case | None:
     return Case(statement or either(last.statement, case.statement), (*last.regions, *case.regions), case.without)
 
 
-@dataclass
-class _Block:
-    """Cases in a row that begin with one of the `firsts`, which exclude one another; `cases` are without this beginning."""
-
-    firsts: list[Statement]
-    cases: list[Case]
-
-    def takes(self, first: Statement, cases: list[Case], is_same: Likeness) -> bool:
-        """True if another block can be added: it says the same, of no value of this one.  The functions differ by a number."""
-        last = self.firsts[-1]
-        if not isinstance(first, Vanishes) or not isinstance(last, Vanishes) or len(cases) != len(self.cases):
-            return False
-        difference = first.function.field.rational_value(first.function - last.function)
-        if not difference:
-            return False
-        for case, other in zip(self.cases, cases, strict=True):
-            if case.statement != other.statement or case.without != other.without:
-                return False
-            own, new = case.regions[0], other.regions[0]
-            is_alike = replace(own, statement=ALWAYS, verdict=new.verdict) == replace(new, statement=ALWAYS)
-            if not is_alike or not is_same(own, new):
-                return False
-        return True
-
-    def add(self, first: Statement, cases: list[Case]) -> None:
-        self.firsts.append(first)
-        pairs = zip(self.cases, cases, strict=True)
-        self.cases = [replace(one, regions=(*one.regions, *other.regions)) for one, other in pairs]
-
-    def complete(self) -> Iterator[Case]:
-        beginning = either(*self.firsts)
-        for case in self.cases:
-            yield replace(case, statement=all_of((beginning, *case.statement.conjuncts)))
-
-
 def _mirrored(cases: Iterable[Case], is_same: Likeness) -> list[Case]:
     """The cases, those of l = 0 and of l = -1 in one where the same is said in them but for the solutions.
 
     Cases in a row that begin with the same vanishing function are a block.  Two blocks in a row that say the same are one:
     no value belongs to both, because their functions differ by a number.
     """
-    blocks: list[_Block] = []
+    blocks: list[tuple[list[Statement], list[Case]]] = []  # the beginnings, and the cases without them
     for first, group in groupby(cases, key=lambda case: next(iter(case.statement.conjuncts), ALWAYS)):
         inner = [replace(case, statement=Both(case.statement.conjuncts[1:])) for case in group]
         if any(case.statement.conjuncts for case in inner):
             inner = _mirrored(inner, is_same)
-        if blocks and blocks[-1].takes(first, inner, is_same):
-            blocks[-1].add(first, inner)
+        if blocks and _exclude_one_another(blocks[-1][0][-1], first) and _say_the_same(blocks[-1][1], inner, is_same):
+            firsts, known = blocks.pop()
+            pairs = zip(known, inner, strict=True)
+            inner = [replace(one, regions=(*one.regions, *other.regions)) for one, other in pairs]
+            blocks.append(([*firsts, first], inner))
         else:
-            blocks.append(_Block([first], inner))
-    return [case for block in blocks for case in block.complete()]
+            blocks.append(([first], inner))
+    return [
+        replace(case, statement=all_of((either(*firsts), *case.statement.conjuncts)))
+        for firsts, inner in blocks
+        for case in inner
+    ]
+
+
+def _exclude_one_another(first: Statement, second: Statement) -> bool:
+    """True for two vanishing functions that differ by a number."""
+    if not isinstance(first, Vanishes) or not isinstance(second, Vanishes):
+        return False
+    return bool(first.function.field.rational_value(first.function - second.function))
+
+
+def _say_the_same(cases: list[Case], others: list[Case], is_same: Likeness) -> bool:
+    """True for the same statements and verdicts, whatever the solutions are."""
+    if [(case.statement, case.without) for case in cases] != [(other.statement, other.without) for other in others]:
+        return False
+    for case, other in zip(cases, others, strict=True):
+        own, new = case.regions[0], other.regions[0]
+        is_alike = replace(own, statement=ALWAYS, verdict=new.verdict) == replace(new, statement=ALWAYS)
+        if not is_alike or not is_same(own, new):
+            return False
+    return True

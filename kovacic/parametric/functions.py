@@ -77,6 +77,27 @@ def powers_of(function: FunctionPoly, i: int) -> dict[int, FunctionPoly]:
     return {power: element(function.field, part) for power, part in by_power(function.num, 1 + i).items()}
 
 
+def on_zeros(function: FunctionPoly, zero: FunctionPoly) -> FunctionPoly:
+    """The function where another one vanishes, without the parameter that follows there if one does, over the same field."""
+    field = function.field
+    for i, power in enumerate(degrees(zero)):
+        parts = powers_of(zero, i)
+        if power != 1 or not parts[1].num.is_constant():
+            continue
+        values = [field.generator(name) for name in field.names]
+        values[i] = -parts.get(0, 0 * parts[1]) / parts[1]
+        return over_parameters(numerator(function).value_at(values, field))
+    return function
+
+
+def with_values(function: FunctionPoly, zeros: Iterable[FunctionPoly]) -> FunctionPoly:
+    """The function with the values that parameters have on the zeros of others: -4 b for a^2 - 4 b where a = 0."""
+    for zero in zeros:
+        if zero != function and sum(degrees(zero)) == 1:
+            function = on_zeros(function, zero)
+    return function
+
+
 def roots(polynomial: Poly) -> list[Poly]:
     """The roots in the field, a multiple one several times."""
     found = []

@@ -60,6 +60,7 @@ from kovacic.parametric.functions import (
     lifted,
     normal_form,
     numerator,
+    on_zeros,
     over_parameters,
     powers_of,
     values_at_integers,
@@ -124,19 +125,6 @@ def solve_for(name: str, equation: FunctionPoly) -> SolvedCondition | None:
             strata.append(Stratum(factor, on_zeros(rest, factor)))
     poles.sort(key=lambda pole: str(pole.root))
     return SolvedCondition(name, -RatFunc(rest, slope), tuple(poles), tuple(strata))
-
-
-def on_zeros(function: FunctionPoly, zero: FunctionPoly) -> FunctionPoly:
-    """The function where another one vanishes, without the parameter that follows there if one does, over the same field."""
-    field = function.field
-    for i, power in enumerate(degrees(zero)):
-        parts = powers_of(zero, i)
-        if power != 1 or not parts[1].num.is_constant():
-            continue
-        values = [field.generator(name) for name in field.names]
-        values[i] = -parts.get(0, 0 * parts[1]) / parts[1]
-        return over_parameters(numerator(function).value_at(values, field))
-    return function
 
 
 def possible(poles: Sequence[Free], numbers: Classes) -> tuple[Free, ...]:

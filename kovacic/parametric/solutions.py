@@ -473,6 +473,18 @@ class Progression:
         index = Fraction(number - self.start, self.step)
         return index.denominator == 1 and index >= 0
 
+    def without(self, values: Iterable[FunctionPoly]) -> tuple[Progression, list[FunctionPoly]]:
+        """The progression without those at its beginning, and the others that may belong to it."""
+        start = self.start
+        left = []
+        for value in values:
+            number = value.field.rational_value(value)
+            if number == start:
+                start += self.step
+            elif number is None or (number.denominator == 1 and self.contains(int(number))):
+                left.append(value)
+        return Progression(start, self.step), left
+
     def said(self, letter: str) -> list[str | Math]:
         """`even n >= 0`, `n <= -1`, or `n = 1, 4, 7, ...`."""
         if abs(self.step) > 2:

@@ -18,7 +18,7 @@ from kovacic.algebra.function_field import FunctionField, FunctionPoly
 from kovacic.parametric import prose
 from kovacic.parametric.assumptions import NOTHING_ASSUMED, Assumptions
 from kovacic.parametric.claims import AllOf, AnyOf, Claim, IsZero, Proposition
-from kovacic.parametric.functions import NO_CONSTANT, ParameterPoint, irreducible_factors
+from kovacic.parametric.functions import NO_CONSTANT, ParameterPoint, irreducible_factors, with_values
 
 
 @dataclass(frozen=True)
@@ -39,7 +39,14 @@ class Setting:
     def covers(self, *zeros: FunctionPoly) -> bool:
         """True if an earlier region contains the common zeros of the functions, or there are none."""
         is_excluded = any(self.assumptions.vanishes(zero) is False for zero in zeros)
-        return is_excluded or any(known <= {*zeros} for known in self.covered)
+        # As an earlier region says them, and as they are.
+        common = {*zeros}
+        for zero in zeros:
+            there = with_values(zero, zeros)
+            factors = irreducible_factors(there) if there else []
+            if len(factors) == 1:
+                common.update(factors)
+        return is_excluded or any(known <= common for known in self.covered)
 
 
 class Statement(Proposition):

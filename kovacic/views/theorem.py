@@ -318,11 +318,12 @@ class _TheoremWriter:
         start: list[str | Math] = []
         if are_several:
             start = [prose.equals(family.parameter, family.value, n), ", "]
-        without: list[str | Math] = []
-        for root in (prose.function(pole.root, n) for pole in family.poles):
-            without += [", ", Math.of(f"{n} != {root}")]
         for row in rows:
-            yield say("For ", *start, *row.numbers.said(n), *without, ":")
+            progression, roots = row.numbers.without(pole.root for pole in family.poles)
+            without: list[str | Math] = []
+            for root in roots:
+                without += [", ", Math.of(f"{n} != {prose.function(root, n)}")]
+            yield say("For ", *start, *progression.said(n), *without, ":")
             yield Formula(self._named_solution(row.solution))
 
     def _with_degree(self, solution: PolynomialSolution, case: Case) -> Iterator[Block]:

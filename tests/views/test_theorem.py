@@ -490,3 +490,18 @@ def test_the_polynomial_of_a_determinant_is_one_in_the_variable_of_the_normal_fo
     assert "with a polynomial P_d in t of degree d = " in text
     assert "with theta the logarithmic derivative of v/P_d." in text
     assert "with theta the logarithmic derivative of y/P_d." in kovacic.conditions("x^4+a*x^2+b*x+c", var="x").theorem()
+
+
+def test_a_progression_begins_where_the_parameter_has_a_value() -> None:
+    """a = n + 1 + c/n has no value at n = 0."""
+    theorem = kovacic.conditions("x^2*y''+(a*x+b)*y'+c*y=0").theorem()
+    assert "For n >= 1:" in theorem
+    assert "For n <= -1:" in theorem
+    assert "!= 0" not in theorem
+
+
+def test_values_of_parameters_are_put_into_other_equations() -> None:
+    """a^2 = 4 b and a = 0, which is the case before the others, so that these needn't exclude it."""
+    text = kovacic.conditions("y''+(a/x^2)*y'+b*y/x^4=0").text()
+    assert "b = 0, and a = 0: case 1" in text
+    assert "!=" not in text
