@@ -38,6 +38,8 @@ from kovacic.reading.pieces import Paste, taken_apart
 LIMITS = Limits(text_length=10_000, digits=1000, exponent=1000, bits=10_000)
 #: Infinity as it is written in texts.
 _INFINITY_NAMES = dict.fromkeys(("oo", "inf", "infty", "infinity", "Infinity"), sympy.oo)
+#: Letters that are functions where they have an argument, and neither a product nor an unknown function is meant.
+_SYMBOLS_OF_FUNCTIONS = {"delta": "DiracDelta", "δ": "DiracDelta"}
 _NUMBER_VALUES = {name: getattr(sympy, number).expand(func=True) for name, number in NUMBERS.items()}
 
 
@@ -311,6 +313,7 @@ class SymbolicReader(RationalReader):
             return self.arithmetic.of_several(head, arguments)
         if self.has_functions and len(arguments) == 1 and self._is_variable(arguments[0]) and not is_function(head):
             return sympy.Function(head)(self.x)
+        head = _SYMBOLS_OF_FUNCTIONS.get(head, head)
         if head not in FUNCTION_NAMES or len(arguments) != 1 or isinstance(arguments[0], tuple):
             hint = f"the functions are {', '.join(sorted(FUNCTION_NAMES))}, of one argument"
             raise InputError(f"{self.what} can't contain {site.text()}", hint=hint)

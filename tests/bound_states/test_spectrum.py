@@ -399,6 +399,15 @@ def test_a_delta_well_has_one_level() -> None:
     assert len(unknown.states({"c": 3})) - len(unknown.states({"c": -3})) == 1
 
 
+@parametrize(
+    "written", ["-3 δ(x)", "-3*delta(x)", r"-3\delta(x)", "-3*dirac(x)", "-psi'' - 3 δ(x) psi = E psi"], ordinary=3
+)
+def test_delta_functions_as_physicists_write_them(written: str) -> None:
+    """Where it has an argument; as a letter it is a parameter."""
+    assert kovacic.spectrum(written).levels == kovacic.spectrum("-3*DiracDelta(x)").levels
+    assert kovacic.spectrum("δ*x^2").parameters == ("δ",)
+
+
 def test_a_family_without_members_is_no_level() -> None:
     """n < sqrt(4 A + 1)/2 - 1/2 for no n where A < 0."""
     assert kovacic.spectrum("-A/cosh(x)^2", assume={"A": "negative"}).levels == ()
