@@ -146,6 +146,16 @@ def independent(pairs: Sequence[tuple[Any, Any]], variable: Any) -> tuple[Any, A
     return None
 
 
+def is_nonzero(expression: Any, variable: Any) -> bool:
+    """True if this is proven at the point of `is_numerical_solution`."""
+    from kovacic.closed_form.jets import jet
+
+    with working_digits(DIGITS), suppress(NotImplementedError):
+        value = jet(expression, variable, check_point())[0]
+        return bool(value.is_finite() and not value.contains(0))
+    return False
+
+
 def is_numerical_solution(expression: Any, variable: Any, S: RatFunc, gauge: RatFunc) -> bool:
     """True if the expression satisfies the equation to 50 digits at a point with negative real and imaginary part.
 

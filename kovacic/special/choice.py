@@ -27,7 +27,7 @@ from kovacic.algebra.embedding import complex_zeros
 from kovacic.algebra.precision import working_digits
 from kovacic.algebra.ratfunc import RatFunc
 from kovacic.algebra.rationals import RationalPoly
-from kovacic.closed_form.check import independent
+from kovacic.closed_form.check import independent, is_nonzero
 from kovacic.closed_form.form import EXACT, ClosedForm, written
 from kovacic.closed_form.jets import jet
 from kovacic.closed_form.primitive import FACTOR, LONG, SHORT, OpenPrimitive
@@ -45,6 +45,8 @@ from kovacic.special.search import find, find_transform, written_pair
 _SEARCH = 6000
 #: The working precision of the formula that is to be stable, in digits; half of them are to be left.
 _DIGITS = 30
+#: Characters that a term of a polynomial has at least, as + x**2.
+_TERM = 4
 #: Shorter pairs aren't asked: of the published ones none loses half of the digits, whatever its length.
 _ALWAYS_STABLE = 400
 
@@ -131,14 +133,22 @@ class _Equation:
     def structure(self) -> ClosedStructure:
         return build(self.S, self.decision, self.gauge)
 
+    @cached_property
+    def _is_long(self) -> bool:
+        """True if the polynomial of the certificate alone takes more characters than any short form is preferred to."""
+        semi = self.decision.semi_invariant
+        most = FACTOR * SHORT // (2 * _TERM)
+        return semi is not None and semi.P.degree > most and sum(map(bool, semi.P)) > most
+
     def chosen(self) -> ClosedForm:
         """The preferred pair, checked; or one that keeps its digits and isn't much longer; with a note if there is no such."""
-        # In case 3 Klein's form comes after the pull-back's own parameters.
-        forms = self._special_forms() if self.decision.case == 3 else []
+        # In case 3 Klein's form comes after the pull-back's own parameters, and so does a polynomial of many terms.
+        is_first = self.decision.case == 3 or self._is_long
+        forms = self._special_forms() if is_first else []
         if not forms or best(forms).length > SHORT:
             forms += self._own_forms()
         found = best(forms)
-        if self.decision.case != 3 and (found.kind != FormKind.ELEMENTARY or found.length > SHORT):
+        if not is_first and (found.kind != FormKind.ELEMENTARY or found.length > SHORT):
             forms += self._special_forms()
         chosen, pair = self._written_best(forms)
         if chosen.length <= _ALWAYS_STABLE or self._is_stable(pair):
@@ -191,13 +201,15 @@ class _Equation:
             return None
         pair = found.y1, found.y2
         pairs = [pair]
-        if self.decision.case == 1 and isinstance(self.structure, Triangular):
+        if self.decision.case == 1 and not self._is_long and isinstance(self.structure, Triangular):
             y1 = self._written(replace(self.structure, primitive=OpenPrimitive(""))).y1
             is_short = _length(y1) <= max(map(_length, pair))
             pairs = [*((y1, y2) for y2 in pair if is_short), pair]
         x = Symbol(self.variable)
         # In an irreducible equation what differs by its exponents is independent.
         chosen = pair if self.decision.case != 1 else independent(pairs, x)
+        if chosen is None and found.wronskian is not None and is_nonzero(found.wronskian, x):
+            chosen = pair
         made = partial(build, self.S, self.decision, self.gauge)
         return None if chosen is None else ClosedForm(*chosen, x, self.gauge, EXACT, (), found.undefined, build=made)
 

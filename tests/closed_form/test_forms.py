@@ -360,3 +360,19 @@ def test_logarithms_are_real_where_the_roots_before_them_are(a: str, b: int) -> 
     assert pair[1].has(sympy.log)
     assert all(y.subs(x, 3).is_real for y in pair)
     assert kovacic.dsolve(f"y'' = ({S})*y").rhs.atoms(sympy.log) == pair[1].atoms(sympy.log)
+
+
+@pytest.mark.parametrize(
+    "equation",
+    [
+        "y'' = (x^2 + 20001)*y",
+        "(1-x^2)*y'' - 2*x*y' + 2000*2001*y = 0",
+        "x*y'' + (1-x)*y' + 1500*y = 0",
+        "x^2*y'' + x*y' - (x^2 + (800+1/2)^2)*y = 0",
+    ],
+)
+def test_polynomials_of_large_degree_are_named(equation: str) -> None:
+    """Nothing of the size of the polynomial is made where a special function is preferred to it."""
+    pair = kovacic.solve(equation).solutions
+    assert sum(map(len, map(as_text, pair))) < 200
+    assert not any(y.has(sympy.Integral) for y in pair)
