@@ -178,8 +178,6 @@ _NUMERATOR = re.compile(rf"d\^?([2-9]?)({LETTER})?({LETTER})?")
 _DENOMINATOR = re.compile(rf"d({LETTER})\^?([2-9]?)")
 #: \partial_x, ∂ₓₓ.
 _INDEXED_OPERATOR = re.compile(r"d_([a-z])\1*")
-#: A token takes some 30 calls of functions, and a look at the clock is due after some thousands.
-_TOKENS_BETWEEN_LOOKS = 100
 #: Fractions and roots without braces within each other: 2^20 looks where each is looked at twice.
 _DEEPEST = 20
 _LONGEST_QUOTIENT = 36  # tokens of the quotient of a derivative
@@ -232,8 +230,7 @@ class _Translation:
 
     def tokens(self) -> Tokens:
         while self.k < len(self.scan):
-            if self.k % _TOKENS_BETWEEN_LOOKS == 0:
-                check_time()
+            check_time()
             if self.k in self.closers:
                 self.close()
             token = self.scan[self.k]
@@ -610,8 +607,6 @@ def _bars(scan: Sequence[Token]) -> dict[int, int]:
     return found
 
 
-#: Longer texts aren't tested for being plain.
-_LONGEST_PLAIN = 500
 #: This package's own notation alone: whole numbers, single letters with their primes, signs.  Not numbers of lists and
 #: equations, "2) y''", "(2) y''", "y'' = y (2)", nor what may begin a comment.
 _PLAIN = re.compile(
@@ -631,7 +626,7 @@ def plain_tokens(text: str) -> Tokens | None:
     >>> plain_tokens("y''(x) = -4 y").pieces, plain_tokens("y'' = sin x")
     (["y''", '(', 'x', ')', '=', '-', '4', 'y', ''], None)
     """
-    if len(text) > _LONGEST_PLAIN or _PLAIN.fullmatch(text) is None or text.isspace():
+    if _PLAIN.fullmatch(text) is None or text.isspace():
         return None
     found: list[Token] = []
     for match in _PLAIN_TOKEN.finditer(text):
