@@ -296,9 +296,9 @@ def _term(term: _FormulaTerm, names: Sequence[str]) -> str:
     sign = "-" if term.number < 0 else ""
     above = "*".join(top) or "1"
     if bottom:
-        # Behind a slash only a single name, number, power or sum in parentheses stands without further ones.
+        # Behind a slash only a single name, number, power, root or sum in parentheses stands without further ones.
         below = "*".join(bottom)
-        is_closed = len(bottom) == 1 and ("*" not in below or below.startswith(("(", "sqrt(")))
+        is_closed = "*" not in outside(below)
         return f"{sign}{above}/{below if is_closed else f'({below})'}"
     if sign or len(top) != 1:
         return sign + above
@@ -321,10 +321,17 @@ def _pieces(number: int, factors: tuple[Power, ...], root: Any, names: Sequence[
     return pieces
 
 
+def outside(text: str) -> str:
+    """What stands outside of all parentheses."""
+    count = 1
+    while count:
+        text, count = re.subn(r"[({][^(){}]*[)}]", "", text)
+    return text
+
+
 def in_sum(text: str) -> str:
     """A term behind a sign: a sum in parentheses, where it isn't within some."""
-    outside = re.sub(r"[({][^()]*[)}]", "", text)
-    is_sum = " + " in outside or " - " in outside
+    is_sum = " + " in outside(text) or " - " in outside(text)
     return f"({text})" if is_sum else text
 
 

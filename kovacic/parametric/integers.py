@@ -176,6 +176,14 @@ def integer_condition(
 def _spectrum(equation: FunctionPoly, numbers: Classes, letter: str, setting: Setting) -> IntegerCondition | None:
     """A parameter as a function of n, by the cheapest way to choose n; None where no parameter is linear."""
     known = all_solved(equation, setting.fixed)
+    if setting.constant.names:  # without the constant in denominators: sqrt(2), not 2/sqrt(2)
+        numbers_there = everywhere(equation.field, setting.constant)
+        values = [numbers_there.restricted(solved.value) for solved in known]
+        pairs = zip(known, values, strict=True)
+        known = [
+            replace(solved, value=RatFunc(lifted(value.num, equation.field), lifted(value.den, equation.field)))
+            for solved, value in pairs
+        ]
     energies = [solved for solved in known if solved.parameter == ENERGY]
     found: list[tuple[int, bool, IntegerCondition]] = []
     for k, solved in enumerate(energies or known):

@@ -47,7 +47,7 @@ def in_powers(source: Source, limits: Limits) -> Parsed | None:
     if found is None or found.equation is None or found.equation.change is None:
         return None
     equation = replace(found.equation, h=sympy.expand(-rest / a) if rest != 0 else found.equation.h)
-    said = f"in {equation.variable} = {found.equation.change.expression}: {equation}"
+    said = f"in {equation.variable} = {found.equation.change.expression.replace('**', '^')}: {equation}"
     return Parsed(equation.S, equation.variable, (said, *notices, *found.notices), equation, found.letters)
 
 

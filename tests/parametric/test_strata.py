@@ -168,3 +168,15 @@ def test_the_region_where_a_singular_point_goes_to_infinity_has_its_own_gauge() 
     region = kovacic.conditions("(1+L*x)*y''+b*y'+c*y=0", var="x").regions[0]
     (solution,) = region.solution()
     assert sympy.simplify(solution.y.subs(dict(zip(sympy.symbols("b c"), (3, 2), strict=True)))) == sympy.exp(-x)
+
+
+@pytest.mark.parametrize("root", ["sqrt(2)", "2^(1/3)", "1/sqrt(3)"])
+def test_a_quotient_with_a_constant_in_it_is_read_as_printed(root: str) -> None:
+    """b/sqrt(a/root) is an odd integer; 2*b^2/sqrt(2)*n^2 would be another function of n."""
+    answer = kovacic.conditions(f"{root}*y'' = (a*x^2 + {root}*b)*y", var="x")
+    printed = answer.regions[1].statement.text().partition(" for ")[0]
+    name, _, right = printed.partition(" = ")
+    assert name == "a"
+    for n in range(1, 5):
+        value = sympy.sympify(right.replace("^", "**")).subs({"n": n, "b": 2})
+        assert answer.case_at({"a": value, "b": 2}) == (1 if n % 2 else None)
