@@ -178,7 +178,7 @@ def kernel(equation: Equation, place: Expr | None = None, own: Callable[[Expr], 
 
 
 def definition(y1: Expr, y2: Expr, x: Expr) -> Expr:
-    """y1 y2' - y1' y2, without the logarithms and integrals that the members are linear in: these cancel.
+    """y1 y2' - y1' y2, without the logarithms and integrals that the members are linear in: any constant serves for these.
 
     >>> x = sympy.Symbol("x")
     >>> definition(x, x * sympy.log(x), x)
@@ -187,23 +187,14 @@ def definition(y1: Expr, y2: Expr, x: Expr) -> Expr:
     W = y1 * slope(y2, x) - slope(y1, x) * y2
     for f in sorted({f for y in (y1, y2) for f in _antiderivatives(y) if f.has(x)}, key=str):
         check_time()
-        letter = sympy.Dummy()
-        linear = W.xreplace({f: letter})
-        if _vanishes(linear.diff(letter), x):
-            W = linear.xreplace({letter: sympy.Integer(0)})
+        shorter = W.xreplace({f: sympy.S.Zero})
+        if _is_wronskian(shorter, y1, y2, x, _NONE):
+            W = shorter
     bases = radicands(W)
     # beside roots of numbers, with polynomials in several of these, SymPy takes minutes
     if bases and all(base.free_symbols for base in bases) and not W.has(*_UNKNOWN, sympy.Function):
         return sympy.factor(sympy.cancel(sympy.together(W)))
     return W
-
-
-def _vanishes(e: Expr, x: Expr) -> bool:
-    """True if it is zero to 50 digits at a point."""
-    with working_digits(2 * DIGITS), suppress(NotImplementedError):
-        value = jet(e, x, next(points()))[0]
-        return bool(abs(value) < arb(10) ** -DIGITS)
-    return False
 
 
 def _antiderivatives(e: Expr) -> Iterator[Expr]:

@@ -9,11 +9,8 @@ from typing import Any
 import sympy
 
 from kovacic.algebra.function_field import FunctionPoly
-from kovacic.algebra.rationals import QQ
-from kovacic.closed_form.atoms import Atoms
 from kovacic.closed_form.check import are_independent
 from kovacic.closed_form.real_pair import is_turned, pair_in_x
-from kovacic.closed_form.structure import Covariants
 from kovacic.closed_form.way_back import in_x, solution_in_x
 from kovacic.decision import Status
 from kovacic.equation import Equation, Parsed, parameters_of
@@ -59,11 +56,8 @@ def find_basis(question: Question, budget: Budget, *, special: bool = False) -> 
         # under the assumptions on letters
         special = any(question.own(condition) == 0 for condition in form.undefined)
     if solution.case is not None and not special:
-        joined = None
-        if question.conditions and isinstance(form.structure, Covariants):
-            joined = _joined(solution, form.structure, budget)
-        y1, y2 = joined or (form.y1, form.y2)
-        return replace(_basis(question, solution, WrittenPair(y1, y2, undefined=form.undefined)), form=form)
+        pair = WrittenPair(form.y1, form.y2, undefined=form.undefined)
+        return replace(_basis(question, solution, pair), form=form)
     found = _in_special_functions(question, solution, budget, special=special)
     if not isinstance(found, BySign):
         return _basis(question, solution, found)
@@ -175,22 +169,6 @@ def _without_second_kind(pair: WrittenPair) -> WrittenPair:
     nu = second[0].args[0]
     y2 = pair.y2.xreplace({f: sympy.besselj(-nu, f.args[1]) for f in second})
     return replace(pair, y2=y2, known_wronskian=lambda: -sympy.sin(sympy.pi * nu) * pair.wronskian)
-
-
-def _joined(solution: Solution, form: Covariants, budget: Budget) -> Pair | None:
-    """Other solutions in case 3, where J is 1 or infinite at real points that aren't singular: functions of J jump there."""
-    S = solution.S
-    places = form.J.den * (form.J.num - form.J.den)
-    while (common := places.gcd(S.den)).degree > 0:
-        places //= common
-    if places.degree == 0:
-        return None
-    # zeros over Q must be real ones
-    if places.field == QQ and not Atoms(sympy.Symbol("x")).poly(places).as_poly().count_roots():
-        return None
-    pair = special_functions(S, solution.gauge, solution.variable, budget)
-    is_known = pair and are_independent(pair.y1, pair.y2, sympy.Symbol(solution.variable))
-    return (pair.y1, pair.y2) if is_known else None
 
 
 def no_solution(solution: Solution, known: Assumptions = NOTHING_ASSUMED) -> str:
