@@ -184,10 +184,6 @@ def _of_rank_one(rows: Sequence[Row], names: Values) -> DeterminedConstants:
         c1 = tidy(row.r * row.u / norm) + row.v * names[0]
         c2 = tidy(row.r * row.v / norm) - row.u * names[0]
         return DeterminedConstants((c1, c2), [other.rest(c1, c2).subs(names[0], 0) for other in others])
-    if row.r == 0 and _are_gammas_without_common_poles(row):
-        return DeterminedConstants(
-            (row.v * names[0], -row.u * names[0]), [other.rest(row.v, -row.u) for other in others]
-        )
     c1, c2 = names
     if pivot.is_first:  # C1 = r/u - v/u C2 with a free C2
         c1 = tidy(row.r / row.u) - tidy(row.v / row.u) * c2
@@ -224,15 +220,14 @@ class _Pivot:
 
 
 def _norm(row: Row) -> Expr | None:
-    """u^2 + v^2, where that is known not to be zero while u and v may be, each alone; else None."""
+    """u^2 + v^2, or 1 for r = 0, where u and v may be zero, each alone, and never are together; else None."""
     if 0 in (row.u, row.v):
         return None
-    if Zero.NEVER in (when_zero(row.u), when_zero(row.v)):
-        return None
+    if row.r == 0 and _are_gammas_without_common_poles(row):
+        return _ONE
     norm = sympy.factor_terms(sympy.expand(TR8(sympy.expand(row.u**2 + row.v**2))))
-    if not is_nowhere_zero(norm):
-        return None
-    return norm
+    is_needed = Zero.NEVER not in (when_zero(row.u), when_zero(row.v))
+    return norm if is_needed and is_nowhere_zero(norm) else None
 
 
 def _pivot(rows: Sequence[Row]) -> _Pivot | None:

@@ -313,10 +313,10 @@ def _letter(name: str, meaning: Expr) -> Expr:
     """The symbol for a constant, with what is known of its sign; powers are principal ones, and taken for positive."""
     is_power = meaning.is_Pow or isinstance(meaning, sympy.exp)
     is_principal_power = is_power and not meaning.as_base_exp()[0].is_negative
-    if meaning.is_positive or is_principal_power:
-        return sympy.Symbol(name, positive=True)
-    if meaning.is_negative:
-        return sympy.Symbol(name, negative=True)
-    if meaning.is_real:
-        return sympy.Symbol(name, real=True)
-    return sympy.Symbol(name)
+    known = {
+        "positive": meaning.is_positive or is_principal_power,
+        "negative": meaning.is_negative,
+        "real": meaning.is_real,
+    }
+    first = [word for word, holds in known.items() if holds][:1]
+    return sympy.Symbol(name, **dict.fromkeys(first, True))

@@ -241,10 +241,7 @@ def needs_of(e: Expr) -> Iterator[Expr]:
 
 def _needs_of_integral(integral: Expr) -> Iterator[Expr]:
     """Those of the integrand at x, where it is integrated up to x.  An end without x may be a singular point of it."""
-    variable, *ends = integral.limits[0]
-    upper = variable
-    if ends:
-        upper = ends[-1]
+    variable, upper = integral.limits[0][0], integral.limits[0][-1]
     if upper.free_symbols:
         yield from needs_of(integral.function.subs(variable, upper))
 
@@ -341,20 +338,10 @@ def _of_associated_legendre(e: Expr) -> Expr:
 
 
 def _of_elliptic_integral(e: Expr) -> Expr:
-    """F(phi, m) and E(phi, m), and E(m) for phi = pi/2: the root of 1 - m sin(phi)^2 is real up to phi."""
-    m = e.args[-1]
-    if len(e.args) == 1:
-        return _below_one(m)
-    return _off_the_cut(1 - m * sympy.sin(e.args[0]) ** 2)
-
-
-def _of_third_elliptic_integral(e: Expr) -> Expr:
-    """Pi(n, phi, m), where 1 - n sin(phi)^2 has no zero, either."""
-    n, *others = e.args
-    if len(others) == 1:
-        return sympy.And(_below_one(n), _below_one(others[0]))
-    square = sympy.sin(others[0]) ** 2
-    return sympy.And(_off_the_cut(1 - n * square), _off_the_cut(1 - others[1] * square))
+    """F, E and Pi up to phi, or pi/2: there 1 - m sin(phi)^2, and 1 - n sin(phi)^2, have no zero."""
+    moduli = [e.args[-1]] + [e.args[0]] * isinstance(e, sympy.elliptic_pi)
+    square = sympy.sin(e.args[-2]) ** 2 if len(e.args) > len(moduli) else sympy.S.One
+    return sympy.And(*(_off_the_cut(1 - m * square) for m in moduli))
 
 
 def _of_hypergeometric(e: Expr) -> Expr:
@@ -381,9 +368,8 @@ _OF_FUNCTIONS: dict[Any, Need] = {
     **dict.fromkeys((sympy.coth, sympy.csch, sympy.Ei), _of_last(_nonzero)),
     # integrals
     **dict.fromkeys((sympy.Ci, sympy.expint, sympy.uppergamma, sympy.lowergamma), _of_last(_off_the_cut)),
-    **dict.fromkeys((sympy.polylog, sympy.elliptic_k), _of_last(_below_one)),
-    **dict.fromkeys((sympy.elliptic_e, sympy.elliptic_f), _of_elliptic_integral),
-    sympy.elliptic_pi: _of_third_elliptic_integral,
+    sympy.polylog: _of_last(_below_one),
+    **dict.fromkeys((sympy.elliptic_k, sympy.elliptic_e, sympy.elliptic_f, sympy.elliptic_pi), _of_elliptic_integral),
     # J_n(u) is (u/2)^n times an entire function; y_n(u) is rational in u beside waves for an integer n
     **dict.fromkeys((sympy.besselj, sympy.besseli, sympy.jn), _for_integers(_nothing, _positive)),
     **dict.fromkeys((sympy.bessely, sympy.besselk), _of_last(_positive)),
