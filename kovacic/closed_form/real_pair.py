@@ -156,10 +156,12 @@ def _conjugate_root(form: Conjugate, s: Expr, atoms: Atoms) -> Expr:
 
 
 def is_turned(equation: Equation, y: Expr) -> bool:
-    """True if sqrt(t^2 - 1) with a sine t is in the solution, which is written by exp(i w) then."""
-    t = sympy.Symbol(equation.variable)
-    is_wave = equation.change is not None and function_of_x(equation).func in (sympy.sin, sympy.cos)
-    return is_wave and any(power.base == t**2 - 1 for power in y.atoms(sympy.Pow))
+    """True if a solution is written by exp(i w): with t = exp(i w), or with sqrt(t^2 - 1) for a sine t."""
+    if equation.change is None:
+        return False
+    t, f = sympy.Symbol(equation.variable), function_of_x(equation)
+    is_sine = f.func in (sympy.sin, sympy.cos)
+    return bool(f.has(sympy.I)) or (is_sine and any(power.base == t**2 - 1 for power in y.atoms(sympy.Pow)))
 
 
 def pair_in_x(equation: Equation, y1: Expr, y2: Expr) -> tuple[Expr, Expr]:

@@ -56,7 +56,10 @@ def find_basis(question: Question, budget: Budget, *, special: bool = False) -> 
         # under the assumptions on letters
         special = any(question.own(condition) == 0 for condition in form.undefined)
     if solution.case is not None and not special:
-        pair = WrittenPair(form.y1, form.y2, undefined=form.undefined)
+        known = None
+        if question.equation.change is not None:  # in t, where the quotient has values at more points
+            known = partial(multiple_of, kernel(question.equation), form.y1, form.y2, form.variable)
+        pair = WrittenPair(form.y1, form.y2, known, form.undefined)
         return replace(_basis(question, solution, pair), form=form)
     found = _in_special_functions(question, solution, budget, special=special)
     if not isinstance(found, BySign):
