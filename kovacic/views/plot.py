@@ -256,7 +256,7 @@ def plot(
     axes.axhline(0, color="0.8", linewidth=0.8, zorder=0)
     variable, unknown = map(_typeset, _axis_names(equation))
     axes.set(xlim=(low, high), xlabel=variable, ylabel=unknown)
-    axes.set_title(title, pad=12)  # room for the denominators of formulas
+    axes.set_title(title, pad=18)  # room for the denominators of formulas
     _cut_axis(axes, lines, high - low)
     _, names = axes.get_legend_handles_labels()
     ncols = 2 if max(map(len, names)) <= _LONGEST_IN_COLUMNS else 1
