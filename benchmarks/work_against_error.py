@@ -286,7 +286,9 @@ def markdown(data: dict[str, Any]) -> str:
         "Processor times in milliseconds; the picture is `work_against_error.png`.  Ours are proven where it says so; the",
         "",
     ]
-    lines[-2] += " others give no bound."
+    lines[-2] += (
+        " others give no bound.  Under a load above 1 other programs share the caches, and all methods take longer."
+    )
     if data["given up"]:
         lines += [f"Given up: {'; '.join(data['given up'])}.", ""]
     lines += ["## One value, and a second one", ""]

@@ -94,6 +94,8 @@ def test_a_coefficient_that_is_singular_at_the_start_is_integrated() -> None:
         ("y'' + sqrt(2)*y = sqrt(x - 1)", 1, 3),
         ("y'' + sqrt(1 - x^2)*y = 0", -1, 1),
         ("(x + I)*y'' + y = sqrt(x - I)", "I", 2),
+        ("y'' + x^(1/3)*y = x^sqrt(2)", 0, 2),
+        ("y'' + (x - 1)^(4/3)*y' + y = cos(x)^(2/3)", 1, "3/2"),
     ],
     ordinary=2,
 )
