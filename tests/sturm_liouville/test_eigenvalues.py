@@ -1,5 +1,6 @@
 """`kovacic.eigenvalues`: proven enclosures of eigenvalues, against published digits and closed forms."""
 
+import cmath
 import pickle
 from fractions import Fraction
 
@@ -271,3 +272,27 @@ def test_missing_values_are_asked_for_in_the_words_of_each_door() -> None:
     with pytest.raises(kovacic.InputError) as asked:
         kovacic.spectrum("2/x^2 - Z/x", domain=(0, "oo"), assume={"Z": "positive"}, levels=2)
     assert (asked.value.hint, asked.value.shell) == ("assume={'Z': 2}, for instance", "--assume Z=2, for instance")
+
+
+@pytest.mark.parametrize(
+    ("strength", "conditions", "side"),
+    [
+        (3, "y(0) = y(1), y'(0) = y'(1)", 1),
+        (3, "y(0) = -y(1), y'(0) = -y'(1)", -1),
+        (-5, "y(0) = y(1), y'(0) = y'(1)", 1),
+    ],
+)
+def test_a_comb_of_delta_functions(strength: int, conditions: str, side: int) -> None:
+    """Kronig and Penney: cos(k) + c sin(k)/(2 k) = 1 and -1 at the edges of the bands, E = k^2."""
+    found = kovacic.eigenvalues(
+        f"y'' + (E - ({strength})*DiracDelta(x - 1/2))*y = 0", conditions, count=3, digits=8, parameter="E"
+    )
+    assert len(found) == 3
+    for level in found:
+        k = cmath.sqrt(float(level.value))
+        assert abs(cmath.cos(k) + strength * cmath.sin(k) / (2 * k) - side) < 1e-6
+
+
+def test_a_delta_function_as_a_weight_is_refused() -> None:
+    with pytest.raises(kovacic.InputError, match="as a weight"):
+        kovacic.eigenvalues("y'' + E*DiracDelta(x - 1/2)*y = 0", "y(0) = 0, y(1) = 0", parameter="E")
