@@ -27,6 +27,7 @@ from kovacic.sturm_liouville.levels import Eigenvalues
 from kovacic.sturm_liouville.problem import STEPS, Robin, SturmProblem, Wish, ball, pieces_of, point_between
 from kovacic.sturm_liouville.solve import Eigenproblem
 
+_MATCHED = "undecided: matching at each step gives this condition, and no formula is known for its solutions"
 _DELTA = "a delta function: exp(-k |x - p|) is the only solution that decays on both sides"
 
 
@@ -84,7 +85,8 @@ def with_matching(found: Spectrum) -> Spectrum:
             levels = () if rate.is_nonpositive else (Levels(n, energy, wave, (n < 1, *where), n, norm),)
             return replace(found, levels=levels, complete=True, reason=_DELTA)
         equations = matching_equations(problem, E)
-        return replace(found, matching=tuple(equation.xreplace(plain) for equation in equations))
+        reason = _MATCHED if equations and found.potential.has(*STEPS) else found.reason
+        return replace(found, matching=tuple(equation.xreplace(plain) for equation in equations), reason=reason)
     return found
 
 
