@@ -224,12 +224,9 @@ class _Pieces:
         if apart is None or any(impulse.order >= len(rates) for impulse in apart.impulses):
             return False
         at = ball(point)
-        here = [impulse for impulse in apart.impulses if impulse.a == point]
+        here = apart.strengths.get(point, {})
         # that of y first: by the impulses of the highest order
-        wanted = [
-            jet(sympy.Add(*(impulse.strength for impulse in here if impulse.order == order)), x, at)[0]
-            for order in reversed(range(len(rates)))
-        ]
+        wanted = [jet(here.get(order, sympy.S.Zero), x, at)[0] for order in reversed(range(len(rates)))]
         if here and len(rates) == 2:
             wanted[1] -= jet(rates[0], x, at)[0] * wanted[0]
         y = _antiderivatives(self.claim.y, x, point)

@@ -56,12 +56,9 @@ def in_steps(right: Expr, x: Expr) -> Expr:
     >>> in_steps(abs(x - 1), x)
     2*x*Heaviside(x - 1) - x - 2*Heaviside(x - 1) + 1
     """
-    found = right
-    for _ in sympy.preorder_traversal(right):  # from the innermost ones outwards: not more often than there are parts
-        changed = _innermost_rewritten(found, x)
-        if not changed:
-            break
-        found = found.xreplace(changed)
+    found = right.replace(  # from the innermost ones outwards
+        lambda e: isinstance(e, JUMPING) and e.has(x) and not _is_simple(e, x), lambda e: _rewritten(e, x)
+    )
     if not found.has(*JUMPING):
         return found
     outside = found.replace(lambda e: _is_function_of_steps(e, x), lambda e: _with_steps_outside(e, x))
@@ -105,19 +102,12 @@ def _with_steps_outside(e: Expr, x: Expr) -> Expr:
     return e
 
 
-def _innermost_rewritten(e: Expr, x: Expr) -> dict[Expr, Expr]:
-    """The innermost functions that jump, with what they are in terms of steps, where that is known and another expression."""
-    jumping = [part for part in e.atoms(*JUMPING) if part.has(x) and not _is_simple(part, x)]
-    changed = {}
-    for jump in jumping:
-        if jump.has(*(other for other in jumping if other != jump)):
-            continue
-        if isinstance(jump, sympy.Piecewise):
-            _check_cases(jump, x)
-        other = _at_points(jump, x)
-        if other != jump and all(_is_simple(step, x) for step in other.atoms(Heaviside) if step.has(x)):
-            changed[jump] = other
-    return changed
+def _rewritten(jump: Expr, x: Expr) -> Expr:
+    """A function that jumps in terms of H(x - a) and impulses alone; the same where that isn't known."""
+    if isinstance(jump, sympy.Piecewise):
+        _check_cases(jump, x)
+    found = _at_points(jump, x)
+    return found if all(_is_simple(e, x) for e in found.atoms(*JUMPING) if e.has(x)) else jump
 
 
 def _at_points(jump: Expr, x: Expr) -> Expr:

@@ -157,7 +157,7 @@ def _response(right: Apart, basis: Basis, start: Expr | None, solved: Callable[[
     Raises `NotImplementedError` for an impulse at a singular point.
     """
     total = [_step_response(step, basis, solved) for step in right.steps]
-    total += [_impulse_response(_strengths(right, a), basis, a) for a in dict.fromkeys(i.a for i in right.impulses)]
+    total += [_impulse_response(strengths, basis, a) for a, strengths in right.strengths.items()]
     if right.plain != 0:
         total.append(solved(right.plain, start))
     return sympy.Add(*total)
@@ -171,15 +171,6 @@ def _step_response(step: HeavisideTerm, basis: Basis, solved: Callable[[Expr, Ex
         return Heaviside(x - a) * solved(step.g, None)
     p = solved(step.g, a)
     return Heaviside(x - a) * _from_rest(p, basis, values_at(p, x, a), a)
-
-
-def _strengths(right: Apart, a: Expr) -> dict[int, Expr]:
-    """Those of the impulses at a point, by their orders."""
-    strengths = {impulse.order: sympy.Integer(0) for impulse in right.impulses}
-    for impulse in right.impulses:
-        if impulse.a == a:
-            strengths[impulse.order] += impulse.strength
-    return strengths
 
 
 def _from_rest(p: Expr, basis: Basis, values: tuple[Expr, Expr], a: Expr) -> Expr:

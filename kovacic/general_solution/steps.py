@@ -56,6 +56,15 @@ class Apart:
     steps: tuple[HeavisideTerm, ...]
     impulses: tuple[Impulse, ...]
 
+    @property
+    def strengths(self) -> dict[Expr, dict[int, Expr]]:
+        """Those of the impulses at each point, by their orders."""
+        found: dict[Expr, dict[int, Expr]] = {impulse.a: {} for impulse in self.impulses}
+        for impulse in self.impulses:
+            here = found[impulse.a]
+            here[impulse.order] = here.get(impulse.order, _NOTHING) + impulse.strength
+        return found
+
 
 @dataclass(frozen=True)
 class HeavisidePlace:

@@ -10,7 +10,6 @@ x'(t0) = a x + b y + f there; where b(t0) = 0 equation (1) is singular though th
 
 from __future__ import annotations
 
-from collections import defaultdict
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
@@ -80,10 +79,7 @@ class LinearSystem:
         if apart is None:
             return y
         # H u has the slope H u' + u(a) delta, where u(a) is zero or what an impulse in f brings.
-        strengths: dict[tuple[Expr, int], Expr] = defaultdict(lambda: sympy.Integer(0))
-        for impulse in apart.impulses:
-            strengths[impulse.a, impulse.order] += impulse.strength
-        if not all(map(is_zero, strengths.values())):
+        if not all(is_zero(strength) for here in apart.strengths.values() for strength in here.values()):
             return y
         return apart.plain + sympy.Add(*(sympy.Heaviside(self.t - step.a) * step.g for step in apart.steps))
 

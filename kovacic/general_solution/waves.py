@@ -9,6 +9,7 @@ from __future__ import annotations
 
 from collections import defaultdict
 from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
 from functools import reduce
 from typing import Any
 
@@ -97,20 +98,33 @@ def _single_waves(e: Expr) -> Expr:
     return sympy.expand(TR8(sympy.expand(e)))
 
 
+@dataclass(frozen=True)
+class _InOneAngle:
+    """R(s, c) for s = sin(theta) and c = cos(theta)."""
+
+    R: Expr
+    s: Expr
+    c: Expr
+    theta: Expr
+
+    @classmethod
+    def of(cls, e: Expr) -> _InOneAngle | None:
+        """An expression whose waves are those of multiples of an angle, the largest; None for another one."""
+        waves = sorted(e.atoms(sin, cos), key=str)
+        theta = common_factor([wave.args[0] for wave in waves])
+        if theta is None:
+            return None
+        s, c = sympy.Dummy(), sympy.Dummy()
+        return cls(e.xreplace({wave: _multiple_angle(wave, theta, s, c) for wave in waves}), s, c, theta)
+
+
 def wave_changes(term: Expr, x: Expr) -> list[WaveChange]:
     """The changes that make a term with waves rational, or a root of a wave stays; none where it has more than waves."""
-    waves = sorted(term.atoms(sin, cos), key=str)
-    theta = common_factor([wave.args[0] for wave in waves])
-    if theta is None:
+    found = _InOneAngle.of(term)
+    if found is None or found.R.has(x):
         return []
-    s = sympy.Dummy()
-    c = sympy.Dummy()
-    R = term.xreplace({wave: _multiple_angle(wave, theta, s, c) for wave in waves})
-    slope = theta.diff(x)
-    is_linear = not slope.has(x) and slope != 0
-    if R.has(x) or not is_linear:
-        return []
-    return [*_changes(R, s, c, theta, slope)]
+    slope = found.theta.diff(x)
+    return [] if slope.has(x) or slope == 0 else [*_changes(found, slope)]
 
 
 def common_factor(multiples: Sequence[Expr]) -> Expr | None:
@@ -131,19 +145,17 @@ def fractions_of_waves(e: Expr, x: Expr) -> list[Expr]:
         sympy.Dummy(): f for f in e.atoms(sympy.Function, sympy.Integral) if f.has(x) and not isinstance(f, sin | cos)
     }
     masked = e.xreplace({f: letter for letter, f in kept.items()})
-    waves = sorted(masked.atoms(sin, cos), key=str)
-    theta = common_factor([wave.args[0] for wave in waves])
-    if theta is None:
+    found = _InOneAngle.of(masked)
+    if found is None:
         return []
-    s, c = sympy.Dummy(), sympy.Dummy()
-    in_both = masked.xreplace({wave: _multiple_angle(wave, theta, s, c) for wave in waves})
+    s, c, theta = found.s, found.c, found.theta
     rational: dict[Expr, Expr] = defaultdict(lambda: sympy.S.Zero)
-    for term in sympy.Add.make_args(in_both):
+    for term in sympy.Add.make_args(found.R):
         others, factors = sympy.sift(
             sympy.Mul.make_args(term), lambda f: f.has(x, *kept) or not f.is_rational_function(s, c), binary=True
         )
         rational[sympy.Mul(*others)] += sympy.Mul(*factors)
-    is_halved = any(wave.args[0] == 2 * theta for wave in waves)
+    is_halved = any(wave.args[0] == 2 * theta for wave in masked.atoms(sin, cos))
     forms = [
         {other: _in_fractions(R, s, c, theta, k, doubled=doubled) for other, R in rational.items()}
         for k in (0, 1)
@@ -190,8 +202,9 @@ def _multiple_angle(wave: Expr, theta: Expr, s: Expr, c: Expr) -> Expr:
     return sympy.sign(n) * s * sympy.chebyshevu(abs(n) - 1, c)
 
 
-def _changes(R: Expr, s: Expr, c: Expr, theta: Expr, slope: Expr) -> Iterator[WaveChange]:
-    """Those of the module's head that fit R, in s = sin(theta) and c = cos(theta)."""
+def _changes(given: _InOneAngle, slope: Expr) -> Iterator[WaveChange]:
+    """Those of the module's head that fit R, for an angle with this slope."""
+    R, s, c, theta = given.R, given.s, given.c, given.theta
     u = sympy.Dummy()
     root = sympy.sqrt(1 - u**2)
     square = 1 + u**2
