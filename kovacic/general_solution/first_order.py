@@ -78,6 +78,11 @@ class FirstOrderEquation:
         return {str(symbol) for part in self.parts for symbol in part.free_symbols} - {str(self.x)}
 
     @property
+    def of_inverse(self) -> FirstOrderEquation:
+        """That of 1/w, z' = -r - q z - p z^2."""
+        return FirstOrderEquation(self.function, -self.r, -self.q, -self.p)
+
+    @property
     def is_linear(self) -> bool:
         return bool(self.r == 0)
 
@@ -94,6 +99,12 @@ class FirstOrderEquation:
     def is_regular_at(self, point: Expr) -> bool:
         """True if the coefficients are finite at the point, so that a value there determines one solution."""
         return all(is_finite(e.subs(self.x, point)) for e in self.parts)
+
+
+def is_unit(coefficient: Expr, x: Expr, point: Expr) -> bool:
+    """True if the value at the point is finite, and not always zero."""
+    value = coefficient.subs(x, point)
+    return is_finite(value) and not is_zero(value)
 
 
 class GivenValue(NamedTuple):
@@ -283,9 +294,14 @@ def _integrated(p: Expr, h: Expr, x: Expr, start: Expr | None) -> Expr:
 def _constant_through(equation: FirstOrderEquation, h: Expr, particular: Expr, value: GivenValue, free: Expr) -> Expr:
     """C with C h(a) + particular(a) = v; `free` where every C gives it, at a singular point a."""
     x = equation.x
-    if not equation.is_regular_at(value.point) and not is_finite(h.subs(x, value.point)):
+    is_infinite = not equation.is_regular_at(value.point) and not is_finite(h.subs(x, value.point))
+    if is_infinite and not is_finite(particular.subs(x, value.point)):
         raise InputError(f"at most one solution is finite at {value.point}, a singular point of the equation")
     rest = value.v - value_at(particular, x, value.point)
+    if is_infinite:
+        if not is_zero(rest):
+            raise InputError(f"at most one solution is finite at {value.point}, a singular point of the equation")
+        return _ZERO
     if not equation.is_regular_at(value.point) and is_zero(value_at(h, x, value.point)):
         if not is_zero(rest):
             raise InputError(f"there is no solution with this value at {value.point}, a singular point of the equation")

@@ -26,14 +26,14 @@ import sympy
 
 from kovacic.closed_form.atoms import Atoms, display
 from kovacic.closed_form.product import product
-from kovacic.errors import InputError
 from kovacic.general_solution.antiderivatives import antiderivative
-from kovacic.general_solution.check import is_finite
 from kovacic.general_solution.conditions import Condition
 from kovacic.general_solution.first_order import (
     FirstOrderEquation,
     GivenValue,
     check_first_order,
+    exceptions_of,
+    is_unit,
     solved_linear,
     value_of,
 )
@@ -41,7 +41,7 @@ from kovacic.general_solution.integrands import NUMBERS, ratfunc
 from kovacic.general_solution.substitution import size
 from kovacic.general_solution.textbook import in_book_form, over_one_denominator
 from kovacic.general_solution.values import value_at
-from kovacic.general_solution.zero import Zero, is_zero, when_zero
+from kovacic.general_solution.zero import is_zero
 from kovacic.special.choice import shortest
 
 Expr = Any  # SymPy publishes no types
@@ -85,39 +85,40 @@ def solved_riccati(
     Raises `NotImplementedError` for a value at a point where neither linear equation is known to be regular.
     """
     value = value_of(conditions)
-    is_inverted = _is_inverted(equation, value)
-    solved_for = equation
-    if is_inverted:  # the equation of 1/w
-        solved_for = FirstOrderEquation(equation.function, -equation.r, -equation.q, -equation.p)
-    try:
+    x = equation.x
+    constants: tuple[Expr, ...] = ()
+    if equation.p == 0 and (value is None or equation.is_regular_at(value.point)):
+        forms = _of_bernoulli(equation, conditions, value)
+        notices = exceptions_of(sympy.Tuple(*forms), x, equation.parts)
+    else:
+        is_inverted = _is_inverted(equation, value)
+        solved_for = equation.of_inverse if is_inverted else equation
         found = _solved_linear(equation, solved_for, value, linear_solution)
-    except InputError:  # a coefficient that isn't rational, nor in a new variable
-        if equation.p != 0:
-            raise
-        return _solved_bernoulli(equation, conditions, value)
-    forms = [*_forms(found, solved_for)]
-    if is_inverted:
-        forms = [1 / w for w in forms]
-    forms += [*over_one_denominator(forms[0], equation.x), sympy.signsimp(forms[0])]
+        constants = found.constants
+        notices = found.notices
+        forms = [*_forms(found, solved_for)]
+        if is_inverted:
+            forms = [1 / w for w in forms]
+    forms += [*over_one_denominator(forms[0], x), sympy.signsimp(forms[0])]
     forms += [-n / -d for n, d in map(sympy.fraction, forms)]
-    w = shortest(forms).xreplace(dict.fromkeys(found.constants, equation.constant()))
-    if not found.u.has(*found.constants):
-        w = in_book_form(w, equation.x)
+    w = shortest(forms).xreplace(dict.fromkeys(constants, equation.constant()))
+    if len(constants) < 2:
+        w = in_book_form(w, x)
     unchecked = check_first_order(equation, w, conditions)
-    return sympy.Eq(equation.function, w, evaluate=False), found.notices + unchecked
+    return sympy.Eq(equation.function, w, evaluate=False), notices + unchecked
 
 
-def _solved_bernoulli(
+def _of_bernoulli(
     equation: FirstOrderEquation, conditions: Sequence[Condition], value: GivenValue | None
-) -> tuple[Expr, list[str]]:
-    """The solution of w' = q w + r w^2 through a point: v = 1/w has v' = -r - q v, and w = 0 passes through 0."""
-    if value is not None and value.v == 0:
-        return sympy.Eq(equation.function, 0, evaluate=False), []
-    given = [replace(condition, value=1 / value.v) for condition in conditions] if value else []
-    inverse = FirstOrderEquation(equation.function, -equation.r, -equation.q, sympy.S.Zero)
-    found, notices = solved_linear(inverse, given)
-    w = shortest([1 / found.rhs, *over_one_denominator(1 / found.rhs, equation.x)])
-    return sympy.Eq(equation.function, w, evaluate=False), notices + check_first_order(equation, w, conditions)
+) -> list[Expr]:
+    """Forms of w for w' = q w + r w^2: v = 1/w has v' = -r - q v, and w = 0 through 0."""
+    if value is None:
+        return [1 / solved_linear(equation.of_inverse, ())[0].rhs]
+    if value.v == 0:
+        return [sympy.S.Zero]
+    given = [replace(condition, value=1 / value.v) for condition in conditions]
+    w = 1 / solved_linear(equation.of_inverse, given)[0].rhs
+    return [next(over_one_denominator(w, equation.x), w)]  # which doesn't divide by v
 
 
 def _solved_linear(
@@ -128,17 +129,16 @@ def _solved_linear(
 ) -> _LinearSolution:
     """For a value at an ordinary point the solution with values of u and u'; else all of them, or those through the value."""
     linear, u = linear_equation(solved_for)
-    if value is not None and _is_unit(solved_for.r, equation.x, value.point):
+    start: dict[Expr, Expr] = {}
+    if value is not None and is_unit(solved_for.r, equation.x, value.point):
         start = _start(equation, u, value, is_inverted=solved_for is not equation)
-        found, notices = linear_solution(linear, u, ics=start)
-        return _LinearSolution(found.rhs, (), notices)
-    found, notices = linear_solution(linear, u, ics={})
+    found, notices = linear_solution(linear, u, ics=start)
     # Letters of their own for C1 and C2, which may be symbols of r, or of the value, too.
-    symbols = sorted(found.rhs.free_symbols - linear.free_symbols, key=str)
-    letters = {symbol: sympy.Dummy() for symbol in symbols}
+    own = sympy.Tuple(linear, *start.values()).free_symbols
+    letters = {symbol: sympy.Dummy() for symbol in sorted(found.rhs.free_symbols - own, key=str)}
     solution = found.rhs.xreplace(letters)
     constants = tuple(letters.values())
-    if value is not None:
+    if value is not None and not start:
         solution = _through(solution, constants, equation, value)
     return _LinearSolution(solution, constants, notices)
 
@@ -149,13 +149,7 @@ def _is_inverted(equation: FirstOrderEquation, value: GivenValue | None) -> bool
     if value is None:
         is_constant = equation.p != 0 and not equation.p.has(x)
         return is_constant and equation.r.has(x)
-    return not _is_unit(equation.r, x, value.point) and _is_unit(equation.p, x, value.point)
-
-
-def _is_unit(coefficient: Expr, x: Expr, point: Expr) -> bool:
-    """True if the value at the point is finite and not zero."""
-    found = coefficient.subs(x, point)
-    return is_finite(found) and when_zero(found) is not Zero.ALWAYS
+    return not is_unit(equation.r, x, value.point) and is_unit(equation.p, x, value.point)
 
 
 def _start(equation: FirstOrderEquation, u: Expr, value: GivenValue, *, is_inverted: bool) -> dict[Expr, Expr]:
@@ -196,7 +190,7 @@ def _forms(found: _LinearSolution, equation: FirstOrderEquation) -> Iterator[Exp
     x = equation.x
     rate = _rate_of(found.u, found.constants, x)
     yield _sum([-term / equation.r for term in sympy.Add.make_args(rate)], x)
-    if not found.u.has(*found.constants):
+    if len(found.constants) < 2:
         return
     slope = ratfunc(equation.q + equation.r.diff(x) / equation.r, x)
     for u1 in map(found.u.diff, found.constants):
@@ -231,20 +225,13 @@ def _reduced(term: Expr, x: Expr) -> Expr:
 
 def _rate_of(u: Expr, constants: Sequence[Expr], x: Expr) -> Expr:
     """u'/u, where of the constants of u only their quotient matters."""
-    if u.has(*constants):
+    u = sympy.Mul(*(_single_wave(factor, x) for factor in sympy.Mul.make_args(u)))
+    if len(constants) == 2:
         c1, c2 = constants
-        u = _wave(u.diff(c1), u.diff(c2), c1) or u.subs(c2, 1)
+        u = u.subs(sympy.atan(c2 / c1), -c1).subs(c2, 1)
     if u.has(*_NEIGHBOURS) and size(u) <= _LONGEST:
         return sympy.powsimp(sympy.factor_terms(_slope(u, x)) / u)
-    return sympy.Add(*(_rate(_single_wave(factor, x), x) for factor in sympy.Mul.make_args(u)))
-
-
-def _wave(u1: Expr, u2: Expr, constant: Expr) -> Expr | None:
-    """G cos(z + C) for G cos(z) and G sin(z)."""
-    for wave in u1.atoms(sympy.cos):
-        if u1 / wave == u2 / sympy.sin(*wave.args):
-            return u1 / wave * sympy.cos(wave.args[0] + constant)
-    return None
+    return sympy.Add(*(_rate(factor, x) for factor in sympy.Mul.make_args(u)))
 
 
 def _single_wave(factor: Expr, x: Expr) -> Expr:
@@ -275,8 +262,7 @@ def _rate(factor: Expr, x: Expr) -> Expr:
 def _slope(y: Expr, x: Expr) -> Expr:
     """y', where z^nu J_nu has the slope z^nu J_(nu-1) z', and z^nu J_(-nu) has -z^nu J_(1-nu) z'; with Y, I, K likewise."""
     slope = y.diff(x)
-    functions = y.atoms(*_NEIGHBOURS)
-    for f in functions:
+    for f in sorted(y.atoms(*_NEIGHBOURS), key=str):
         nu, z = f.args
         step = 1 if nu.is_positive else -1
         other = _NEIGHBOURS[f.func](step, f.func(nu - step, z), 2 * nu / z * f)

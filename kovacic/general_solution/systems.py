@@ -21,13 +21,13 @@ from sympy.solvers.solveset import NonlinearError
 
 from kovacic.equation import eliminated
 from kovacic.errors import InputError, NotLinear
-from kovacic.general_solution.check import is_finite
 from kovacic.general_solution.conditions import Condition, ConditionReader, exact
 from kovacic.general_solution.constants import Outcome, Row, determine
 from kovacic.general_solution.first_order import (
     FirstOrderEquation,
     check_first_order,
     exceptions_of,
+    is_unit,
     solved_linear,
 )
 from kovacic.general_solution.jumps import in_steps
@@ -35,7 +35,7 @@ from kovacic.general_solution.steps import JUMPING, taken_apart
 from kovacic.general_solution.substitution import size
 from kovacic.general_solution.textbook import in_book_form, sums
 from kovacic.general_solution.values import value_at
-from kovacic.general_solution.zero import Zero, is_zero, when_zero
+from kovacic.general_solution.zero import is_zero
 from kovacic.special.choice import shortest
 
 Expr = Any  # SymPy publishes no types
@@ -147,7 +147,7 @@ def solved_system(system: LinearSystem, ics: Mapping[Any, Any], solver: Solver) 
     (_, b), _ = ordered.matrix
     if b == 0:
         pair, notices = _triangular(ordered)
-    elif start is not None and _is_unit(b, ordered.t, start[0]):
+    elif start is not None and is_unit(b, ordered.t, start[0]):
         pair, notices = _through(ordered, start, solver)
         conditions = []
     else:
@@ -184,16 +184,10 @@ def _is_swapped(system: LinearSystem, start: tuple[Expr, Expr, Expr] | None) -> 
     (_, b), (c, _) = system.matrix
     if b == 0 or c == 0:
         return bool(b != 0)  # the unknown whose equation stands alone comes first
-    if start is not None and _is_unit(b, system.t, start[0]) != _is_unit(c, system.t, start[0]):
-        return _is_unit(c, system.t, start[0])
+    if start is not None and is_unit(b, system.t, start[0]) != is_unit(c, system.t, start[0]):
+        return is_unit(c, system.t, start[0])
     is_rough, other_is_rough = (bool(r.has(AppliedUndef, *JUMPING)) for r in system.right)
     return is_rough > other_is_rough or (is_rough == other_is_rough and size(c) < size(b))
-
-
-def _is_unit(coefficient: Expr, t: Expr, point: Expr) -> bool:
-    """True if the value at the point is finite and not zero."""
-    value = coefficient.subs(t, point)
-    return is_finite(value) and when_zero(value) is Zero.NEVER
 
 
 def _triangular(system: LinearSystem) -> tuple[tuple[Expr, Expr], list[str]]:
