@@ -50,13 +50,18 @@ _POINTS = tuple(map(sympy.Rational, ("3/10", "6/5", "9/5", "3", "18/5", "5", "11
 def antiderivative(integrand: Expr, x: Expr) -> Expr | None:
     """int g dx, None where a term isn't of one of these kinds; an `Integral` that isn't elementary beside tangents.
 
+    Nothing that is assumed of symbols is used.
+
     >>> x = sympy.Symbol("x")
     >>> antiderivative(sympy.tan(x) ** 2 + log(x), x)
     x*log(x) - 2*x + tan(x)
     """
-    found = _by_rules(integrand, x)
+    own = {sympy.Symbol(symbol.name): symbol for symbol in integrand.free_symbols | {x}}
+    plain = {symbol: letter for letter, symbol in own.items()}
+    found = _by_rules(integrand.xreplace(plain), plain[x])
     if found is None:
         return None
+    found = found.xreplace(own)
     # sqrt(1 + tan(x)^2) is 1/cos(x) on one side of pi/2, and -1/cos(x) on the other one
     has_a_root_of_a_sum = any(base.has(x) and not base.is_Symbol for base in radicands(integrand))
     if has_a_root_of_a_sum and not _holds_on_every_side(found, integrand, x):

@@ -280,25 +280,13 @@ def _is_large(residual: Residual, y: Expr, point: Any) -> bool:
 
 def _is_violated(claim: SolutionClaim, condition: Condition, numbers: dict[Expr, Expr]) -> bool:
     """True if the two sides of a condition provably differ.  Raises as `_is_wrong_at` does."""
-    f = in_steps(claim.coefficients[-1], claim.x)
-    # at an impulse y' is that just before it; elsewhere y and y' are those on either side
-    sides = (-1,) if f.has(sympy.DiracDelta) else (-1, 1)
-    return any(_is_violated_beside(claim.x, claim.y, condition, numbers, side) for side in sides)
-
-
-def _is_violated_beside(x: Expr, value: Expr, condition: Condition, numbers: dict[Expr, Expr], side: int) -> bool:
-    """The same with |u| and the like as they are just before the points of the condition (-1), or just after them (1)."""
     assert condition.value is not None
-    sample: dict[Expr, Expr] = {}
-    if value.has(*_CORNERS):  # at numbers, for the side depends on where the corners are
-        symbols = _symbols_of((value, condition)) - {x, *numbers}
-        sample = numbers | next(islice(samples(symbols), 1, None))
-        value = value.xreplace(sample)
+    x = claim.x
+    y = in_steps(claim.y, x) if claim.y.has(*_CORNERS) else claim.y  # |x| is -x just before 0
     total = -condition.value
     for term in condition.terms:
-        point = term.point.xreplace(sample)
-        total += term.coefficient * value_at(_beside(value, x, point, side), x, point, term.order)
-    total = total.xreplace(sample or numbers)
+        total += term.coefficient * value_at(y, x, term.point, term.order)
+    total = total.xreplace(numbers)
     unknown = [e for e in total.atoms(sympy.Integral) if e.limits[0][1:]]  # numbers that aren't known
     letters = {e: sympy.Symbol(f"integral_{k}") for k, e in enumerate(sorted(unknown, key=str))}
     total = total.xreplace(letters)
@@ -306,17 +294,6 @@ def _is_violated_beside(x: Expr, value: Expr, condition: Condition, numbers: dic
     symbols = set().union(*(step.free_symbols for step in total.atoms(sympy.Heaviside)))
     tried = islice(samples(symbols), _SAMPLES if symbols else 1)
     return any(_is_not_zero(total.xreplace(steps)) for steps in tried)
-
-
-def _beside(value: Expr, x: Expr, point: Expr, side: int) -> Expr:
-    """What a formula is near a point, on a side of it; steps, which have a value just before the point, stay."""
-    steps = {step: sympy.Dummy() for step in value.atoms(sympy.Heaviside, sympy.DiracDelta)}
-    corners = value.xreplace(steps)
-    if not corners.has(*_CORNERS):
-        return value
-    distances = [abs(other - point) for other in break_points(corners, x) if other != point]
-    near = on_piece(corners, x, point + side * min(distances, default=sympy.Integer(1)) / 2)
-    return near.xreplace({letter: step for step, letter in steps.items()})
 
 
 def _is_not_zero(number: Expr) -> bool:

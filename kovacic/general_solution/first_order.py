@@ -30,6 +30,7 @@ from kovacic.general_solution.jumps import in_steps
 from kovacic.general_solution.steps import JUMPING, Apart, taken_apart
 from kovacic.general_solution.textbook import in_book_form, sums
 from kovacic.general_solution.values import value_at
+from kovacic.general_solution.variation import starting_at
 from kovacic.general_solution.zero import is_zero
 from kovacic.limits import Limits
 from kovacic.numbers.numerals import as_text
@@ -176,10 +177,10 @@ def _in_powers(whole: Expr, function: Expr) -> FirstOrderEquation | None:
 
 
 def _quotient(numerator: Expr, denominator: Expr) -> Expr:
-    """Term by term where functions that jump stand in it, which SymPy can't cancel."""
-    if numerator.has(*JUMPING):
-        return sympy.Add(*(term / denominator for term in sympy.Add.make_args(numerator)))
-    return sympy.cancel(numerator / denominator)
+    """In lowest terms, with letters for functions that jump, which SymPy can't cancel."""
+    letters = {jump: sympy.Dummy() for jump in numerator.atoms(*JUMPING)}
+    found = sympy.cancel(numerator.xreplace(letters) / denominator)
+    return found.xreplace({letter: jump for jump, letter in letters.items()})
 
 
 # ------------------------------------------------------------------------------------------------------------ solving
@@ -230,23 +231,12 @@ def _exponential_of_integral(q: Expr, x: Expr) -> Expr:
     """h with h'/h = q: a product of powers and an exponential where q is rational."""
     rate = ratfunc(q, x)
     if rate is not None:
-        return _in_own_symbols(display(product(rate), Atoms(x)).xreplace(NUMBERS), q)
+        own = {sympy.Symbol(symbol.name): symbol for symbol in q.free_symbols}
+        return display(product(rate), Atoms(x)).xreplace(NUMBERS | own)
     apart = _apart(q, x)
     if apart is None or apart.impulses:
         return sympy.exp(sympy.Integral(q, x))
     return sympy.exp(_of_parts(apart, sympy.Integer(1), x, None))
-
-
-def _integral(g: Expr, x: Expr) -> Expr | None:
-    """The integral in the symbols of g, which the rules know as plain ones; None if it isn't known."""
-    plain = {symbol: sympy.Symbol(symbol.name) for symbol in g.free_symbols | {x}}
-    found = antiderivative(g.xreplace(plain), plain[x])
-    return None if found is None else _in_own_symbols(found, g + x)
-
-
-def _in_own_symbols(found: Expr, given: Expr) -> Expr:
-    """With the symbols of `given` in the place of plain ones."""
-    return found.xreplace({sympy.Symbol(symbol.name): symbol for symbol in given.free_symbols})
 
 
 def _particular(equation: FirstOrderEquation, h: Expr, start: Expr | None) -> Expr:
@@ -282,13 +272,10 @@ def _integrated(p: Expr, h: Expr, x: Expr, start: Expr | None) -> Expr:
     if p == 0:
         return _ZERO
     integrand = sympy.powsimp(sympy.expand(p / h))
-    integral = _integral(integrand, x)
+    integral = antiderivative(integrand, x)
     if integral is not None and not jumps(h * integral, x, [h, p]):
         return sympy.powsimp(sympy.expand(h * integral))
-    if start is None:
-        return h * sympy.Integral(integrand, x)
-    letter = next(sympy.numbered_symbols("s", start=0, exclude=integrand.free_symbols))
-    return h * sympy.Integral(integrand.xreplace({x: letter}), (letter, start, x))
+    return starting_at(h * sympy.Integral(integrand, x), x, start)
 
 
 def _constant_through(equation: FirstOrderEquation, h: Expr, particular: Expr, value: GivenValue, free: Expr) -> Expr:
