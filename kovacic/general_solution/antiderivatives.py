@@ -71,14 +71,17 @@ def antiderivative(integrand: Expr, x: Expr) -> Expr | None:
 
 def _by_rules(integrand: Expr, x: Expr) -> Expr | None:
     """As a whole, or term by term; x may be a root or an exponential, which is positive."""
-    integrand = prepared(integrand)
+    given = integrand
+    integrand = prepared(given)
     functions = _functions(integrand)
     if not functions <= _SIMPLE | set(_BY_PARTS):
         return None
     if functions <= {exp}:
-        whole = integral_of_product(integrand, x)
-        if whole is not None:
-            return whole
+        for rule in (integral_of_product, partial(_in_another_variable, _exponentials)):
+            for whole in (integrand, given):  # 1/((x - 1)*sqrt(x)) is a product before it is expanded
+                found = rule(whole, x)
+                if found is not None:
+                    return found
     groups = _by_inverse_functions(integrand, x)
     return sum_of(_of_terms(inverse, terms, x) for inverse, terms in groups.items())
 

@@ -196,7 +196,10 @@ def solved_linear(
     value = value_of(conditions)
     x = equation.x
     h = equation.homogeneous
-    start = None if value is None else value.point
+    start = None
+    if value is not None:
+        start = value.point
+        h = _real_at(h, x, start)
     particular = _particular(equation, h, start)
     constant = equation.constant(taken)
     if value is not None:
@@ -207,6 +210,13 @@ def solved_linear(
         w = in_book_form(w, x)
     notices = exceptions_of(w, x, (equation.p, equation.q))
     return sympy.Eq(equation.function, w, evaluate=False), notices + check_first_order(equation, w, conditions)
+
+
+def _real_at(h: Expr, x: Expr, point: Expr) -> Expr:
+    """A multiple of a product, with sqrt(1 - x^2) for sqrt(x^2 - 1) where x^2 < 1."""
+    powers = [factor.as_base_exp() for factor in sympy.Mul.make_args(h)]
+    turned = {base: -base for base, e in powers if not e.is_integer and base.has(x) and base.subs(x, point).is_negative}
+    return sympy.Mul(*(turned.get(base, base) ** e for base, e in powers))
 
 
 def exceptions_of(w: Expr, x: Expr, coefficients: Sequence[Expr]) -> list[str]:
@@ -271,11 +281,10 @@ def _integrated(p: Expr, h: Expr, x: Expr, start: Expr | None) -> Expr:
     """h int p/h dx."""
     if p == 0:
         return _ZERO
-    integrand = sympy.powsimp(sympy.expand(p / h))
-    integral = antiderivative(integrand, x)
+    integral = antiderivative(sympy.powsimp(p / h), x)
     if integral is not None and not jumps(h * integral, x, [h, p]):
         return sympy.powsimp(sympy.expand(h * integral))
-    return starting_at(h * sympy.Integral(integrand, x), x, start)
+    return starting_at(h * sympy.Integral(sympy.powsimp(sympy.expand(p / h)), x), x, start)
 
 
 def _constant_through(equation: FirstOrderEquation, h: Expr, particular: Expr, value: GivenValue, free: Expr) -> Expr:

@@ -40,6 +40,8 @@ class ChangeOfIntegrand:
 
     def back(self, found: Expr) -> Expr:
         """A function of t in x; with powers of v for exponentials of r t + s where u = log(v), but exp(-t^2) stays one."""
+        if isinstance(self.u, exp):
+            found = found.subs(log(self.t), self.u.args[0])
         if not isinstance(self.u, log):
             return found.subs(self.t, self.u)
 
@@ -117,16 +119,16 @@ def _integral_by_rate(rate: RatFunc, term: Expr, x: Expr) -> Expr | None:
     found = integral(h, atoms)
     if found is None:
         return None
-    K = _constant_value(term / (scale * sympy.Mul(*shown)), x)
+    K = _constant_value(term, scale * sympy.Mul(*shown), x)
     if K is None:
         return None
     return sympy.expand(K * found)
 
 
-def _constant_value(ratio: Expr, x: Expr) -> Expr | None:
-    """The value of a ratio that doesn't depend on x, at the first point where it has one; None without such a point."""
-    for point in (2, 3, 5):
-        value = sympy.powsimp(ratio.subs(x, point))
+def _constant_value(term: Expr, other: Expr, x: Expr) -> Expr | None:
+    """The value of a ratio that doesn't depend on x, where it has one, and the term a real one if it can be; else None."""
+    for point in sorted((2, 3, 5, sympy.S.Half, -sympy.S.Half), key=lambda p: term.subs(x, p).is_real is False):
+        value = sympy.powsimp((term / other).subs(x, point))
         if value.free_symbols and size(value) <= _LONGEST:  # without terms that cancel
             value = sympy.cancel(value)
         if value != 0 and not value.has(sympy.nan, sympy.zoo):

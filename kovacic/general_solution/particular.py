@@ -84,21 +84,12 @@ def _solved(basis: Basis, right: Expr, start: Expr | None) -> Expr:
     terms = sympy.Add.make_args(prepared(right)) if found.has(sympy.Integral) else ()
     if not 1 < len(terms) <= _LARGEST_SUM:
         return found
-    known = []
-    rest = []
-    for term in terms:
-        part = _without_integrals(basis, term)
-        if part is None:
-            part = with_integrals(basis, term, start)
-        if part.has(sympy.Integral):
-            rest.append(term)
-        else:
-            known.append(part)
-    if not known:
-        return found
-    if rest:
-        known.append(with_integrals(basis, sympy.Add(*rest), start))
-    return sympy.Add(*known)
+    parts = {term: _solved(basis, term, start) for term in terms}
+    known = [part for part in parts.values() if not part.has(sympy.Integral)]
+    rest = sympy.Add(*(term for term, part in parts.items() if part.has(sympy.Integral)))
+    if known and rest != 0:
+        known.append(with_integrals(basis, rest, start))
+    return sympy.Add(*known) if known else found
 
 
 def _without_integrals(basis: Basis, right: Expr) -> Expr | None:

@@ -50,23 +50,33 @@ def incomplete_gamma(term: Expr, x: Expr) -> Expr | None:
     return found.xreplace({t: line})
 
 
-def fresnel(P: Expr, wave: Expr, x: Expr) -> Expr:
-    """int P(x) sin(q(x)) dx, or of the cosine, for a polynomial P and a quadratic q = a t^2 + d, t = x + b/(2a)."""
+def fresnel(R: Expr, wave: Expr, x: Expr) -> Expr | None:
+    """int R(x) sin(q(x)) dx, or of the cosine, for a quadratic q = a t^2 + d, t = x + b/(2a), and a sum R of powers of t."""
     a, b, c = sympy.Poly(wave.args[0], x).all_coeffs()
     t = sympy.Dummy()
     phase = c - b**2 / (4 * a)
     if wave.func is cos:  # the sine, an angle of pi/2 later
         phase += sympy.pi / 2
-    coefficients = sympy.Poly(P.subs(x, t - b / (2 * a)), t).all_coeffs()[::-1]
-    total = sympy.Add(*(k * _power_beside_sine(n, a, phase, t) for n, k in enumerate(coefficients)))
+    in_t = sympy.apart(R.subs(x, t - b / (2 * a)), t)
+    total = sympy.S.Zero
+    for term in sympy.Add.make_args(in_t):
+        k, power = term.as_independent(t, as_Add=False)
+        base, n = power.as_base_exp()
+        if base not in (t, 1):
+            return None
+        total += k * _power_beside_sine(int(n) if base == t else 0, a, phase, t)
     return sympy.expand(total).subs(t, x + b / (2 * a))
 
 
 def _power_beside_sine(n: int, a: Expr, d: Expr, t: Expr) -> Expr:
-    """int t^n sin(a t^2 + d) dt = -t^(n-1) cos(a t^2 + d)/(2 a) + (n - 1)/(2 a) int t^(n-2) sin(a t^2 + d + pi/2) dt."""
+    """int t^n sin(a t^2 + d) dt, by parts to n = 0, 1 or -1: Fresnel functions, an elementary one, Si and Ci."""
     if n == 0:
         z = t * sympy.sqrt(2 * a / sympy.pi)
         return sympy.sqrt(sympy.pi / (2 * a)) * (cos(d) * sympy.fresnels(z) + sin(d) * sympy.fresnelc(z))
+    if n == -1:
+        return (cos(d) * sympy.Si(a * t**2) + sin(d) * sympy.Ci(a * t**2)) / 2
+    if n < 0:
+        return (t ** (n + 1) * sin(a * t**2 + d) - 2 * a * _power_beside_sine(n + 2, a, d + sympy.pi / 2, t)) / (n + 1)
     by_parts = -(t ** (n - 1)) * cos(a * t**2 + d) / (2 * a)
     if n == 1:
         return by_parts

@@ -231,7 +231,7 @@ def _changes(given: _InOneAngle, slope: Expr) -> Iterator[WaveChange]:
 
 
 def beside_waves(term: Expr, x: Expr) -> Expr | None:
-    """int R cos(u) dx for linear u and rational R by Si and Ci, for quadratic u and polynomials R by Fresnel functions.
+    """int R cos(u) dx for linear u and rational R by Si and Ci, for quadratic u by Fresnel functions, too.
 
     Products of waves are sums of such terms.
 
@@ -255,7 +255,7 @@ def _beside_at_most_one_wave(term: Expr, x: Expr) -> Expr | None:
         return integral_of_fraction(R, x)
     u = wave.args[0]
     degree = sympy.degree(u, x) if u.is_polynomial(x) else 0
-    if degree == 2 and R.is_polynomial(x):
+    if degree == 2:
         return fresnel(R, wave, x)
     if degree != 1:
         return None

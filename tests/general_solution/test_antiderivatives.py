@@ -70,3 +70,24 @@ def test_an_exponential_of_a_wave_is_no_power_of_another() -> None:
     """exp(sin(x)) isn't u^cos(x) with u = exp(x)."""
     assert antiderivatives.antiderivative(exp(sin(x)) * cos(x), x) == exp(sin(x))
     assert antiderivatives.antiderivative(exp(sin(x)), x) is None
+
+
+@pytest.mark.parametrize("n", range(-5, 5))
+@pytest.mark.parametrize("wave", [sin(x**2), cos(3 * x**2 + 1), sin(x) ** 2 / sqrt(x)])
+def test_powers_beside_waves_of_squares_are_real(n: int, wave: Any) -> None:
+    """Fresnel functions, Si and Ci of real arguments; sin(x)/x^(3/2) has waves of t^2 in t = sqrt(x)."""
+    term = x**n * wave
+    found = antiderivatives.antiderivative(term, x)
+    assert not found.has(sympy.I, sympy.Integral)
+    for point in POINTS[1:]:
+        assert jet(found, x, point)[1].overlaps(jet(term, x, point)[0])
+
+
+@pytest.mark.parametrize(
+    "term", [1 / (sqrt(4 - x**2) * (x**2 - 4)), 1 / ((1 - x) ** sympy.Rational(3, 2) * sqrt(1 + x))]
+)
+def test_roots_that_are_real_on_an_interval_alone(term: Any) -> None:
+    """The constant beside a product is found where the term is real, not at 2 or 3."""
+    found = antiderivatives.antiderivative(term, x)
+    for point in (acb(fmpq(-3, 4)), acb(fmpq(0)), acb(fmpq(2, 3))):
+        assert jet(found, x, point)[1].overlaps(jet(term, x, point)[0])

@@ -11,7 +11,7 @@ import mpmath
 import pytest
 import sympy
 from build import parametrize, run
-from sympy import Heaviside, Rational, atan, cos, exp, log, pi, sin, sqrt, tan
+from sympy import Heaviside, Rational, asin, atan, cos, exp, log, pi, sin, sqrt, tan
 
 import kovacic
 
@@ -305,3 +305,40 @@ def test_a_system_with_an_impulse_is_written_as_one_wave() -> None:
     response = found.rhs.expand().coeff(Heaviside(t - a))
     assert sympy.count_ops(response) <= sympy.count_ops(-sin(a - t))
     assert sympy.simplify(response - sin(t - a)) == 0
+
+
+@pytest.mark.parametrize(
+    ("text", "wanted"),
+    [
+        ("(1 - x^2)*y' - x*y = 1, y(0) = 0", asin(x) / sqrt(1 - x**2)),
+        ("(4 - x^2)*y' + x*y = 1, y(1) = 0", x / 4 - sqrt(3) * sqrt(4 - x**2) / 12),
+        ("x*y' + y/2 = x, y(-1) = 0", 2 * x / 3 + 2 / (3 * sqrt(-x))),
+    ],
+)
+def test_a_solution_is_real_on_the_side_of_its_value(text: str, wanted: Any) -> None:
+    found = kovacic.dsolve(text).rhs
+    assert not found.has(sympy.I)
+    for point in (Rational(-2, 3), Rational(-1, 5)):
+        assert abs(number(found - wanted, point)) < 1e-18
+
+
+def test_hyperbolic_coefficients_have_no_logarithm_of_an_exponential() -> None:
+    found = kovacic.dsolve("y' + y*tanh(x) = exp(x), y(0) = 0").rhs
+    wanted = (x + exp(2 * x) / 2 - Rational(1, 2)) / (exp(x) + exp(-x))
+    assert not found.has(log, sqrt(2))
+    for point in (-2, Rational(1, 3), 3):
+        assert abs(number(found - wanted, point)) < 1e-15
+
+
+def test_the_only_finite_solution_at_a_singular_point() -> None:
+    assert kovacic.dsolve("x*y' + y = x, y(0) = 0").rhs == x / 2
+    with pytest.raises(kovacic.InputError, match="at most one solution is finite"):
+        kovacic.dsolve("x*y' + y = x, y(0) = 1")
+
+
+def test_bernoulli_through_any_value() -> None:
+    """The logistic equation: its formula doesn't divide by the value, and names no exception."""
+    r, K, P = sympy.symbols("r K P")
+    found = kovacic.dsolve("y' = r*y*(1 - y/K), y(0) = P").rhs
+    assert sympy.simplify(found - K * P / (P + (K - P) * exp(-r * x))) == 0
+    assert found.subs(P, 0) == 0
