@@ -342,7 +342,7 @@ class Assumptions:
 
     def meets_classes(self, form: FunctionPoly, numbers: Classes) -> bool | None:
         """Whether the value of a form is one of the numbers: True (always), False (never) or None."""
-        value = self._value_of(form)
+        value = self.value_of(form)
         if value is not None:
             number = value.field.rational_value(value)
             return number is not None and numbers.contains(number)
@@ -375,7 +375,7 @@ class Assumptions:
 
     def vanishes(self, function: FunctionPoly) -> bool | None:
         """Whether the function vanishes: True (always), False (never) or None."""
-        value = self._value_of(function)
+        value = self.value_of(function)
         if value is not None:
             return not value
         if self._is_nowhere_zero(function):
@@ -398,7 +398,7 @@ class Assumptions:
         above = numerator(function)
         return self.is_irrational(function) or self.is_positive(above) or self.is_positive(-1 * above)
 
-    def _value_of(self, function: FunctionPoly) -> Poly | None:
+    def value_of(self, function: FunctionPoly) -> Poly | None:
         """The value of a polynomial in the parameters that have a value; None for any other."""
         fixed = dict(self.values)
         below = element(function.field, function.den)

@@ -411,8 +411,11 @@ class Congruence(Statement):
     def decided(self, assumptions: Assumptions) -> bool | None:
         if self.form is not None:
             return assumptions.meets_classes(self.form, self.numbers)
-        if not assumptions:
+        if not assumptions and not assumptions.values:
             return None
+        at = assumptions.value_of(self.equation)
+        if at is not None:
+            return self.holds_for(at)
         factors = [factor for factor, _ in self.equation.field.factor(self.equation)]
         if any(f.degree == 1 and assumptions.meets_classes(over_parameters(-f[0]), self.numbers) for f in factors):
             return True

@@ -36,7 +36,7 @@ from kovacic.parametric.record import (
     verdict_from,
 )
 from kovacic.parametric.regions import Limited, ParameterRegion, RegionVerdict, Theory, settled
-from kovacic.parametric.restriction import Letters, setting_of, values_of_letters
+from kovacic.parametric.restriction import Letters, everywhere, setting_of, values_of_letters
 from kovacic.parametric.solutions import Later, Origin
 from kovacic.parametric.statements import Statement
 from kovacic.reading.constants import with_root
@@ -466,12 +466,11 @@ class ParametricAnswer:
 
 @lru_cache(maxsize=16)
 def _origins(answer: ParametricAnswer) -> dict[Statement, Origin | None]:
-    """The solutions of the regions, by their statements, found from S; none for an equation with an algebraic constant."""
-    if answer.constant.names:
-        return {}
-    found = derived(
-        answer.S, answer.variable, answer.equation, answer.assumptions, Budget(answer.limits), 0, answer.letters
-    )
+    """The solutions of the regions, by their statements, found from S."""
+    S = answer.S
+    if isinstance(S.field, FunctionField):  # an algebraic constant isn't a parameter there
+        S = everywhere(S.field, answer.constant).restricted(S)
+    found = derived(S, answer.variable, answer.equation, answer.assumptions, Budget(answer.limits), 0, answer.letters)
     return {region.statement: region.origin for region in found.regions}
 
 

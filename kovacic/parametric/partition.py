@@ -602,6 +602,10 @@ def derived(
         result = replace(result, regions=tuple(without_redundant(result.regions, generic)))
     regions = settled(result.regions, setting_of(variable, field.names, constant, letters, assumptions))
     given = equation or normal_form(lifted, variable)
+    # In solutions the constant is SymPy's number.
+    x = sympy.Symbol(variable)
+    numbers = zip(constant.names, (value.to_sympy(x) for value in constant.values), strict=True)
+    letters = (*letters, *numbers)
     return replace(result, regions=tuple([_finished(region, given, max_degree, budget, letters) for region in regions]))
 
 

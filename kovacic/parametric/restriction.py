@@ -308,7 +308,8 @@ def everywhere(field: FunctionField, constant: ParameterPoint) -> Hypersurface:
         return Hypersurface(field.names, tuple(map(field.generator, field.names)), field)
     *others, name = field.names
     base = FunctionField(tuple(others))
-    extension = AlgebraicField(base, base.poly([QQ.rational_value(c) or 0 for c in numbers.modulus]), name)
+    modulus = base.poly([QQ.rational_value(c) or 0 for c in numbers.modulus])
+    extension = AlgebraicField(base, modulus, name, numbers.approximation)
     values = [extension.embed(base.generator(other)) for other in others]
     return Hypersurface(field.names, (*values, extension.generator), extension)
 
@@ -377,7 +378,8 @@ def setting_of(
 ) -> Setting:
     """How statements about these parameters are printed: nothing is solved for the constant among them, nor for pi and e."""
     fixed = (*constant.names, *transcendental(names, letters))
-    return Setting((variable, *names), fixed, (), constant, assumptions)
+    values = tuple(zip(constant.names, constant.values, strict=True))
+    return Setting((variable, *names), fixed, (), constant, replace(assumptions, values=values))
 
 
 def nonzero(letters: Letters) -> list[str]:

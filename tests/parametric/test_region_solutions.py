@@ -206,3 +206,26 @@ def test_no_condition_is_printed_twice() -> None:
     # L + 1 = 0 needn't be said where Delta_0 = 0 for all values.
     deltas = answer.regions[-1].determinants[0]
     assert deltas.count("L = 2*a - 2") == 1
+
+
+@pytest.mark.parametrize(
+    "S",
+    [
+        "a/(x - sqrt(2))^2 + b",
+        "2^(1/3)*a/x^2 + b/x + 1/4",
+        "x*(1-x)*y'' + (1/2 - sqrt(2)*x)*y' + a*y = 0",
+        "I*a*x^2 + b",
+    ],
+)
+def test_a_constant_is_a_number_in_solutions_and_after_json(S: str) -> None:
+    """Not a symbol of this name: sqrt(2)^2 is 2.  No condition about the constant alone is printed."""
+    answer = kovacic.conditions(S, var="x", max_degree=0)
+    found = [solution for region in answer.regions for solution in region.solution()]
+    assert found
+    assert {symbol.name for solution in found for symbol in solution.y.free_symbols} <= {"x", *answer.parameters}
+    text = answer.text()
+    assert "!= 0" not in text
+    assert "is an odd integer, or" not in text
+    again = type(answer).from_json(answer.to_json())
+    assert again.text() == text
+    assert again.theorem() == answer.theorem()
