@@ -195,7 +195,7 @@ def tidied(conditions: Iterable[Any], signs: Signs, radicals: Mapping[Any, Any] 
     implied = set()
     for condition in _paired(left, signs):
         solved = _solved(condition, signs)
-        if solved.lhs == signs.n and not _is_lower_bound(solved):  # for n = 0
+        if isinstance(solved, sympy.StrictLessThan | sympy.LessThan) and solved.lhs == signs.n:  # for n = 0
             least = _squared(_solved(sympy.Gt(solved.rhs, 0), signs), squares)
             if least is not None and signs.holds(least) is False:
                 return (sympy.false,)
