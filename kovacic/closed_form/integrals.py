@@ -682,7 +682,7 @@ def _exponential(y: Product, primitive: ExponentialPrimitive, first: Factors, at
             scale = -scale * Integer(-1) ** rational(power)
             b, q = b * (-1) ** term.n, -q
         c, function = _gamma(b, term.n, q, power, atoms)
-        if function.has(sympy.lowergamma, sympy.uppergamma) and atoms.at is not None and atoms.is_negative(-b):
+        if function.has(sympy.lowergamma, sympy.uppergamma) and atoms.is_negative(-b):
             c, function = Integer(1), _entire_gamma(b, term.n, q, power, atoms)
         shift = exp(atoms.constant(term.e))
         terms.append(_scaled(scale * atoms.constant(term.coefficient) * c, [*parts, shift, function]))
