@@ -21,14 +21,14 @@ from sys import maxsize
 from typing import Any
 
 from flint import acb, arb, ctx, fmpq
-from sympy import Heaviside, Integral, Symbol
+from sympy import Heaviside, Integral, Pow, Rational, Symbol, sympify
 
 from kovacic.algebra.embedding import complex_zeros
 from kovacic.algebra.precision import working_digits
 from kovacic.algebra.ratfunc import RatFunc
 from kovacic.algebra.rationals import RationalPoly
 from kovacic.closed_form.check import independent, is_nonzero
-from kovacic.closed_form.form import EXACT, ClosedForm, written
+from kovacic.closed_form.form import EXACT, ClosedForm, pair_at, written
 from kovacic.closed_form.jets import jet
 from kovacic.closed_form.primitive import FACTOR, LONG, SHORT, OpenPrimitive
 from kovacic.closed_form.product import written_length
@@ -45,6 +45,8 @@ from kovacic.special.search import find, find_transform, written_pair
 _SEARCH = 6000
 #: The working precision of the formula that is to be stable, in digits; half of them are to be left.
 _DIGITS = 30
+#: Between and beside the usual singular points.
+_PLACES = [Rational(p, 2) for p in (1, -1, 3, -3, 5, -5, 9, -9)]
 #: Characters that a term of a polynomial has at least, as + x**2.
 _TERM = 4
 #: Shorter pairs aren't asked: of the published ones none loses half of the digits, whatever its length.
@@ -202,9 +204,9 @@ class _Equation:
         pair = found.y1, found.y2
         pairs = [pair]
         if self.decision.case == 1 and not self._is_long and isinstance(self.structure, Triangular):
-            y1 = self._written(replace(self.structure, primitive=OpenPrimitive(""))).y1
-            is_short = _length(y1) <= max(map(_length, pair))
-            pairs = [*((y1, y2) for y2 in pair if is_short), pair]
+            elementary = self._written(replace(self.structure, primitive=OpenPrimitive("")))
+            is_short = _length(elementary.y1) <= max(map(_length, pair))
+            pairs = [*((_real_beside(elementary, y2), y2) for y2 in pair if is_short), pair]
         x = Symbol(self.variable)
         # In an irreducible equation what differs by its exponents is independent.
         chosen = pair if self.decision.case != 1 else independent(pairs, x)
@@ -242,6 +244,14 @@ class _Equation:
         with working_digits(_DIGITS):
             point = _middle_of_the_domain(den)
             return all(jet(y, pair.variable, point)[0].rel_accuracy_bits() > ctx.prec // 2 for y in pair)
+
+
+def _real_beside(form: ClosedForm, y2: Any) -> Any:
+    """The y1 of a form, with roots that are real where those of another solution are, at one of the `_PLACES`."""
+    x = form.variable
+    bases = [power.base for power in y2.atoms(Pow) if power.base.has(x) and not power.exp.is_Integer]
+    place = next((p for p in _PLACES if all(base.subs(x, p).is_positive for base in bases)), None)
+    return form.y1 if place is None or not bases else pair_at(form, place, sympify)[0]
 
 
 def _length(y: Any) -> int:

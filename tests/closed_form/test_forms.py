@@ -376,3 +376,19 @@ def test_polynomials_of_large_degree_are_named(equation: str) -> None:
     pair = kovacic.solve(equation).solutions
     assert sum(map(len, map(as_text, pair))) < 200
     assert not any(y.has(sympy.Integral) for y in pair)
+
+
+@pytest.mark.parametrize(
+    "S",
+    [
+        "(493*x**2 - 1044*x + 756)/(144*x**2*(x - 2)**2)",
+        "(-2*x**2 - 4*x + 4)/(9*x**4 - 18*x**3 + 9*x**2)",
+        "(13*x**2 - 8*x - 32)/(144*x**4 - 288*x**3 + 144*x**2)",
+    ],
+)
+def test_an_elementary_solution_is_real_where_that_beside_it_is(S: str) -> None:
+    """Powers of x and of x - a, and a series in x/a: both members are real between 0 and a, at both doors."""
+    pair = kovacic.solve(S).solutions
+    assert all(sympy.im(y.subs(x, sympy.Rational(1, 3)).evalf()) == 0 for y in pair)
+    general = kovacic.dsolve(f"y'' = ({S})*y").rhs
+    assert sympy.expand(general.subs({"C1": 1, "C2": 0}) - pair[0]) == 0
