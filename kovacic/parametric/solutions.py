@@ -515,11 +515,15 @@ def families_of(claim: Claim) -> list[IntegerFamily]:
     return families if len(families) == len(parts) else []
 
 
-def rows_of(solutions: Iterable[PolynomialSolution], family: IntegerFamily) -> list[SolutionRow]:
-    """A row for each progression; none unless they make up all integers of the family."""
+def rows_of(solutions: Iterable[PolynomialSolution], family: IntegerFamily, letters: Letters = ()) -> list[SolutionRow]:
+    """A row for each progression; none unless they make up all integers of the family.
+
+    The letters stand for others in the solutions, and are replaced in the family.
+    """
     n = sympy.Symbol(family.letter)
     value = family.value.num.to_sympy(n) / family.value.den.to_sympy(n)
-    values = {sympy.Symbol(family.parameter): value}
+    meanings = {sympy.Symbol(name): meaning for name, meaning in letters}
+    values = {sympy.Symbol(family.parameter): value.xreplace(meanings)}
     rows: list[SolutionRow] = []
     for solution in solutions:
         if solution.conditions:

@@ -296,7 +296,8 @@ class _TheoremWriter:
             return
         solutions = [*region.solution()]
         families = families_of(region.statement.claim) if case.statement == region.statement else []
-        rows = [rows_of(solutions, family) for family in families]
+        letters = region.formulas.letters if isinstance(region.formulas, GivenSolutions) else ()
+        rows = [rows_of(solutions, family, letters) for family in families]
         if rows and all(rows):
             for family, found in zip(families, rows, strict=True):
                 yield from self._in_rows(family, found, are_several=len(rows) > 1)

@@ -154,9 +154,9 @@ def test_sextic_oscillator() -> None:
         ("g^2*x^4 + b*x + c", "g = +-b/(2*(d + 1)), d in N, and Delta_d = 0", {0: {"c"}}),
         ("g*x^4 + b*x + c", "g = b^2/(4*(d + 1)^2), d in N, and Delta_d = 0", {0: {"c"}}),
         (
-            "x^6 + a*x^3 + b*x^2 + c*x + e",
+            "x^6 + a*x^3 + b*x^2 + c*x + k",
             "b = +-(2*d + 3), d in N, and Delta_d = 0",
-            {0: {"(c, a^2 - 4*e)"}},
+            {0: {"(c, a^2 - 4*k)"}},
         ),
     ],
     ordinary=0,

@@ -505,3 +505,10 @@ def test_values_of_parameters_are_put_into_other_equations() -> None:
     text = kovacic.conditions("y''+(a/x^2)*y'+b*y/x^4=0").text()
     assert "b = 0, and a = 0: case 1" in text
     assert "!=" not in text
+
+
+def test_rows_in_the_integer_beside_a_constant() -> None:
+    """a = sqrt(2) b^2/n^2: the root of sqrt(2) a/2 is b/n."""
+    theorem = kovacic.conditions("y''=(a*x^2/sqrt(2)+b)*y").theorem()
+    assert "For n = 3, 7, 11, ...:\n\n    y = x*exp(b*x^2/(2*n))*assoc_laguerre(n/4 - 3/4, 1/2, -b*x^2/n)" in theorem
+    assert "epsilon" not in theorem
