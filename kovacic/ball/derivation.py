@@ -52,7 +52,7 @@ class Step:
     formulas: dict[str, sp.Expr]
 
 
-def _steps() -> Iterator[tuple[str, Step]]:
+def _paper_steps() -> Iterator[tuple[str, Step]]:
     """The steps of `paper.txt` with their keys in `PRINTED`, in the order in which one needs the next; (8) comes first.
 
     There "key | title" stands before the relations and the formulas, which begin with "="; a line that is indented twice
@@ -83,7 +83,7 @@ def _spelled(text: str) -> str:
 
 
 #: All steps; those without formulas follow from the roots x1, x2 of D, (12) and (13), or from others, (3).
-STEPS = tuple(_steps())
+STEPS = tuple(_paper_steps())
 #: For each of the paper's numbers (and "system", which has none) the formulas by name.  D is a name in "system" and (11).
 PRINTED: dict[str, dict[str, sp.Expr]] = {key: step.formulas for key, step in STEPS if step.formulas}
 

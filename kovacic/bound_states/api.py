@@ -40,7 +40,7 @@ from kovacic.reading.read import declared
 from kovacic.reading.symbolic import written_expression
 from kovacic.writing.formula import caret
 
-_CLASSES: tuple[tuple[Callable[[SingularFrame, SpectralProblem], Iterator[Levels]], str], ...] = (
+_LEVEL_FINDERS: tuple[tuple[Callable[[SingularFrame, SpectralProblem], Iterator[Levels]], str], ...] = (
     (constant_families, "a constant potential"),
     (hermite_families, "Hermite's polynomials"),
     (laguerre_families, "Whittaker's equation"),
@@ -143,7 +143,7 @@ def spectrum(
         V, domain=domain, energy=energy, var=var, assume=assume, boundary=boundary, names=names, limits=limits
     )
     try:
-        found = with_matching(question.physical(_spectrum(question, degree, limits)))
+        found = with_matching(question.physical(_schroedinger_spectrum(question, degree, limits)))
     except NotRational as unread:
         found = with_matching(question.physical(question.unsolved(unread)))
         if levels is None:
@@ -156,7 +156,7 @@ def spectrum(
     return with_numbers(found, levels, digits, limits)
 
 
-def _spectrum(given: Asked, max_degree: int, limits: Limits) -> Spectrum:
+def _schroedinger_spectrum(given: Asked, max_degree: int, limits: Limits) -> Spectrum:
     """The spectrum of -y'' + V y = E y; sentences about V speak of kinetic * V.  Raises `NotRational`."""
     lettered = given.with_named_roots()
     question = lettered.problem(limits)
@@ -169,7 +169,7 @@ def _spectrum(given: Asked, max_degree: int, limits: Limits) -> Spectrum:
             examined = _Examined(question)
             found = examined.spectrum(reason=f"undecided: {reason}")
         else:
-            found = _answered(examined, budget)
+            found = _all_levels(examined, budget)
         if not (found.complete or found.needs_boundary_condition):
             found = _with_closed_forms(found, examined, max_degree, limits)
         if not meanings:
@@ -255,7 +255,7 @@ def _excluded(question: SpectralProblem, ends: Sequence[End]) -> tuple[Any, ...]
     return tuple(excluded)
 
 
-def _answered(examined: _Examined, budget: Budget) -> Spectrum:
+def _all_levels(examined: _Examined, budget: Budget) -> Spectrum:
     """All levels in one formula, or the reason why there is none."""
     question = examined.question
     assert examined.real is not None
@@ -329,7 +329,7 @@ def _transformed(examined: _Examined, budget: Budget) -> Spectrum | None:
     simpler_V = sympy.cancel(sympy.together(V - 2 * sympy.diff(found.W, question.x)))
     try:
         other = _examined(question.with_potential(simpler_V))
-        simpler = _answered(other, budget)
+        simpler = _all_levels(other, budget)
     except (Uncovered, InputError):
         return None
     # E0 may be a level of the simpler potential, and isn't one of V then.
@@ -377,7 +377,7 @@ def _check_branch_point(question: SpectralProblem) -> None:
 def _families(question: SpectralProblem, budget: Budget) -> tuple[list[Levels], str]:
     """Those of the first coordinate and standard equation that fit, and its name."""
     for frame in frames(question, budget):
-        for families, name in _CLASSES:
+        for families, name in _LEVEL_FINDERS:
             with suppress(Uncovered):
                 return [*families(frame, question)], name
     raise Uncovered("no formula is known")

@@ -91,7 +91,7 @@ class Asked:
         names = (name for name in map("root_{}".format, count(1)) if name not in names_of(self.scaled))
         meanings = dict(zip(names, outermost, strict=False))
         plain = self.scaled.xreplace({root: sympy.Symbol(name) for name, root in meanings.items()})
-        known = {name: _between(value) for name, value in meanings.items()}
+        known = {name: _between_decimals(value) for name, value in meanings.items()}
         return replace(self, scaled=plain, roots=meanings, assumed={**self.assumed, **known})
 
     def problem(self, limits: Limits) -> SpectralProblem:
@@ -341,7 +341,7 @@ def read_end(value: Any) -> Any:
     return read_expression(text, what="an end of the domain")
 
 
-def _between(value: Any) -> str:
+def _between_decimals(value: Any) -> str:
     """That a letter lies between two decimals, as an assumption."""
     below = sympy.floor(value * _STEPS)
     return f">{sympy.Rational(below, _STEPS)} <{sympy.Rational(below + 1, _STEPS)}"

@@ -148,7 +148,7 @@ def closed_forms(
     question: SpectralProblem, ends: Sequence[End], real: RealPotential | None, max_degree: int, limits: Limits
 ) -> ClosedForms:
     """Those of a potential; without `ends`, where it can't be told how solutions behave there, only that there are none."""
-    conditions = _conditions(question, limits)
+    conditions = _solvable_conditions(question, limits)
     if conditions is None:
         return ClosedForms(None)
     window = _Window()
@@ -158,7 +158,7 @@ def closed_forms(
     return search.with_parameters() if question.parameters else search.of_numbers()
 
 
-def _conditions(question: SpectralProblem, limits: Limits) -> ParametricAnswer | None:
+def _solvable_conditions(question: SpectralProblem, limits: Limits) -> ParametricAnswer | None:
     """The E and parameters with a Liouvillian solution; None if the list isn't proven, or if there always is one.
 
     The equation is that in t, so that solutions are functions of t.  With several conjugate pairs of poles it may take minutes.

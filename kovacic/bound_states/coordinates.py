@@ -34,7 +34,7 @@ _ANGLES: dict[str, Callable[[Any], tuple[Any, ...]]] = {
 }
 _PERIODS = {"cos": 2 * sympy.pi, "sin": 2 * sympy.pi, "tan": sympy.pi}
 #: The values of t where dt/dtheta = 0.
-_TURNS = {"cosh": (1,), "cos": (1, -1), "sin": (1, -1)}
+_HALF_TURN_SIGNS = {"cosh": (1,), "cos": (1, -1), "sin": (1, -1)}
 #: Longer ends of a domain aren't suggested.
 _LONGEST = 30
 
@@ -160,7 +160,7 @@ class Original:
 
     def turning_points(self, domain: tuple[Any, Any], signs: Signs) -> list[Any]:
         """Where dt/dx vanishes inside the domain: where t is 1 or -1."""
-        values = _TURNS.get(self.kind, ())
+        values = _HALF_TURN_SIGNS.get(self.kind, ())
         if not values:
             return []
         first, last = (self.theta_at(end, signs) for end in domain)

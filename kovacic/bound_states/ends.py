@@ -186,7 +186,7 @@ def _finite(place: _Place, signs: Signs) -> End:
         square = sympy.factor(sympy.factor(4 * place.strength / (C * (2 - place.mu) ** 2)) + square)
     circle = _less_than_1(square, signs)
     known = signs.holds(circle)
-    powers = _powers(place.distance, square)
+    powers = _end_powers(place.distance, square)
     if known is False:
         return End(at, False, f"{where}: y ~ {powers}, the smaller one is square integrable")
     if signs.is_nonnegative(square) is False:
@@ -214,7 +214,7 @@ def _less_than_1(square: Any, signs: Signs) -> Any:
     return tidied([sympy.Lt(size, 1)], signs)[0]
 
 
-def _powers(distance: Any, square: Any) -> str:
+def _end_powers(distance: Any, square: Any) -> str:
     """How the two solutions behave at a distance from an end where the exponents are 1/2 +- nu."""
     shown = caret(as_text(distance))
     if square == sympy.Rational(1, 4):

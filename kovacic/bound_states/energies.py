@@ -291,29 +291,29 @@ def _solved(condition: Any, signs: Signs) -> Any:
         solved = _solved_for(unknown, rest, signs, is_strict=is_strict)
         if solved is not None:
             return solved
-    if _degree(rest, n) == 2:
+    if _degree_in_unknown(rest, n) == 2:
         return _solved_for_square(rest, signs, is_strict=is_strict)
-    return _beyond(shortest(rest), 0, 1, is_strict=is_strict)
+    return _unknown_beyond(shortest(rest), 0, 1, is_strict=is_strict)
 
 
 def _solved_for(unknown: Any, rest: Any, signs: Signs, *, is_strict: bool) -> Any:
     """rest > 0, or >= 0, for an unknown in which it is linear with a slope of a known sign; None for another one."""
-    if _degree(rest, unknown) != 1:
+    if _degree_in_unknown(rest, unknown) != 1:
         return None
     slope = rest.coeff(unknown, 1)
     sign = signs.sign(slope)
     if sign is None:
         return None
     bound = shortest(sympy.factor(-rest.coeff(unknown, 0) / slope))
-    return _beyond(unknown, bound, sign, is_strict=is_strict)
+    return _unknown_beyond(unknown, bound, sign, is_strict=is_strict)
 
 
-def _degree(expression: Any, unknown: Any) -> Any:
+def _degree_in_unknown(expression: Any, unknown: Any) -> Any:
     """The degree as a polynomial in the unknown, None for anything else."""
     return sympy.degree(expression, unknown) if expression.is_polynomial(unknown) else None
 
 
-def _beyond(unknown: Any, bound: Any, sign: int, *, is_strict: bool) -> Any:
+def _unknown_beyond(unknown: Any, bound: Any, sign: int, *, is_strict: bool) -> Any:
     """unknown > bound for the sign 1, unknown < bound for -1; or >= and <=."""
     return sympy.Rel(unknown, bound, (">" if sign == 1 else "<") + ("" if is_strict else "="))
 
@@ -326,7 +326,7 @@ def _solved_for_square(rest: Any, signs: Signs, *, is_strict: bool) -> Any:
     k = rest.coeff(n, 0)
     sign = signs.sign(c)
     if sign is None:
-        return _beyond(rest, 0, 1, is_strict=is_strict)
+        return _unknown_beyond(rest, 0, 1, is_strict=is_strict)
     square = (n + shortest(sympy.factor(b / (2 * c)))) ** 2
     bound = shortest(sympy.factor((b**2 / (4 * c) - k) / c))
-    return _beyond(square, bound, sign, is_strict=is_strict)
+    return _unknown_beyond(square, bound, sign, is_strict=is_strict)

@@ -169,7 +169,7 @@ def jacobi_wave(frame: SingularFrame, roots: list[Root], deltas: list[Any], sign
     whole = WaveProduct().times(as_product(frame, 1 - form.w), e1).times(as_product(frame, 1 + form.w), e2)
     polynomial = jacobi(form.n, shortest(first.delta), shortest(second.delta), _argument(frame, form.w))
     y = whole.shown() * polynomial
-    norm = None if form.scale.has(frame.z) else _norm(form)
+    norm = None if form.scale.has(frame.z) else _norm_between(form)
     if norm is None:
         return Wave(y)
     return Wave(y, _tidy(frame, norm / whole.constant**2))
@@ -287,7 +287,7 @@ def _jacobi_integral(a: Any, b: Any, shifts: tuple[Any, Any], n: Any, middle: An
     return known.get(shifts)
 
 
-def _norm(form: _JacobiForm) -> Any:
+def _norm_between(form: _JacobiForm) -> Any:
     """int y^2 dx between two of the points w = 1, -1, oo, or None if unknown."""
     first, second, third = form.points
     if first.spot.sides and second.spot.sides:

@@ -395,7 +395,7 @@ class Spectrum:
             shown = "the smaller solution at each end (Friedrichs)" if self.boundary == "friedrichs" else self.boundary
             lines.append(f"  boundary condition: {shown}")
         for levels in self.levels:
-            lines += _lines(levels, self.energy)
+            lines += _level_lines(levels, self.energy)
         for algebraic in self.algebraic:
             lines += _algebraic_lines(algebraic, self.energy)
         which = ("the even levels solve", "the odd levels solve") if len(self.matching) == 2 else ("the levels solve",)
@@ -567,7 +567,7 @@ def _data(value: Any) -> Any:
     return _text(value)
 
 
-def _lines(levels: Levels, energy: str) -> list[str]:
+def _level_lines(levels: Levels, energy: str) -> list[str]:
     """The energy with its conditions, the wave function, the zeros and the norm."""
     n = levels.number
     numbers = levels.members

@@ -49,7 +49,7 @@ def with_numbers(found: Spectrum, levels: int | None, digits: int, limits: Limit
     problem = None
     try:
         with Budget(limits).watched():
-            problem = Eigenproblem(_problem(found), found.energy)
+            problem = Eigenproblem(_sturm_problem(found), found.energy)
             for _ in problem.levels(count, wanted):
                 pass
             return replace(found, numeric=problem.answer())
@@ -72,7 +72,7 @@ def with_matching(found: Spectrum) -> Spectrum:
         return found
     assumed = {sympy.Symbol(name): symbol for name, symbol in found.assumptions.symbols().items()}
     with suppress(InputError, NotImplementedError):
-        problem = _problem(found, assumed)
+        problem = _sturm_problem(found, assumed)
         plain = {symbol: name for name, symbol in assumed.items()}
         rate = rate_beside_delta(problem)
         if rate is not None:
@@ -90,7 +90,7 @@ def with_matching(found: Spectrum) -> Spectrum:
     return found
 
 
-def _problem(found: Spectrum, assumed: Mapping[Any, Any] = MappingProxyType({})) -> SturmProblem:
+def _sturm_problem(found: Spectrum, assumed: Mapping[Any, Any] = MappingProxyType({})) -> SturmProblem:
     """With the conditions that were given, and y = 0 at other regular ends, which the Friedrichs condition is there.
 
     Its letters are the `assumed` symbols.
@@ -132,7 +132,7 @@ def check_first_levels(found: Spectrum, known: Assumptions) -> None:
                 continue
             (state,) = states
             difference = found.potential.xreplace(at) / found.kinetic - state.energy
-            if _is_false(state.wave, difference, x, [end.xreplace(at) for end in found.domain]):
+            if _is_wave_false(state.wave, difference, x, [end.xreplace(at) for end in found.domain]):
                 said = "".join(f", {name} = {value}" for name, value in values.items())
                 raise VerificationFailed(
                     f"a spectrum failed its own check at n = 0{said}: E = {state.energy}; please report it"
@@ -148,7 +148,7 @@ def _admissible(found: Spectrum, known: Assumptions) -> Iterator[dict[str, Fract
             yield chosen
 
 
-def _is_false(y: Any, difference: Any, x: Any, ends: Sequence[Any]) -> bool:
+def _is_wave_false(y: Any, difference: Any, x: Any, ends: Sequence[Any]) -> bool:
     """True if y'' = (V - E) y provably fails at a point between the ends."""
     if y.has(sympy.nan, sympy.zoo) or y.free_symbols - {x}:
         return False

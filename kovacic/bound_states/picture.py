@@ -19,7 +19,7 @@ _TAILS = (0.03, 0.3)
 #: A tail is long if the window for the first of these parts is so many times wider than that for the second: 1/x, not exp(-x).
 _LONG = 6
 #: The largest distance at which the end of the tails is looked for.
-_FAR = 4096.0
+_LARGEST_REACH = 4096.0
 #: Wave functions are this part of the mean distance of two levels high.
 _HEIGHT = 0.45
 
@@ -107,7 +107,7 @@ def _window(levels: Sequence[DrawnLevel], domain: tuple[float, float]) -> tuple[
         wide, narrow = (_visible(x, sizes, tail) for tail in _TAILS)
         step = (high - low) / 50
         is_inside = (wide[0] > low + step or low == first) and (wide[1] < high - step or high == last)
-        if is_inside or distance >= _FAR:
+        if is_inside or distance >= _LARGEST_REACH:
             is_long = wide[1] - wide[0] > _LONG * (narrow[1] - narrow[0])
             left, right = narrow if is_long else wide
             margin = 0.15 * (right - left)

@@ -185,10 +185,10 @@ def check_point() -> Any:
 
 
 def value_at(r: RatFunc, point: Any) -> Any:
-    return _value(r.num, point) / _value(r.den, point)
+    return _polynomial_value(r.num, point) / _polynomial_value(r.den, point)
 
 
-def _value(polynomial: Poly, point: Any) -> Any:
+def _polynomial_value(polynomial: Poly, point: Any) -> Any:
     if isinstance(polynomial, RationalPoly):
         return acb_poly(polynomial.rep)(point)
     from sympy import Dummy

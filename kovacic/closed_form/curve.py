@@ -57,7 +57,7 @@ from kovacic.limits import Budget
 class Unit:
     """The contribution factor * log((A + B tau s)/sqrt(norm))/tau to an integral; tau^2 = `tau_squared`, a constant of K.
 
-    p is a square root of the norm up to a constant; None where it isn't known to be a square.
+    p is a square root of the norm up to a constant; None if it isn't known to be a square.
     """
 
     A: Poly
@@ -254,7 +254,7 @@ def _decide(integral: CurveIntegral) -> tuple[Unit, ...] | str:
         return NOT_TORSION
     if group.kind is not GroupKind.DICYCLIC or group.function is None:
         return UNDECIDED
-    return _units(integral, group.function, kappa_squared)
+    return _logarithms_of_pieces(integral, group.function, kappa_squared)
 
 
 def _common_tau(integral: CurveIntegral, at_infinity: Poly) -> Poly | None:
@@ -275,7 +275,7 @@ def _common_tau(integral: CurveIntegral, at_infinity: Poly) -> Poly | None:
     return values[0]
 
 
-def _units(integral: CurveIntegral, f: CurveFunction, kappa_squared: Poly) -> tuple[Unit, ...] | str:
+def _logarithms_of_pieces(integral: CurveIntegral, f: CurveFunction, kappa_squared: Poly) -> tuple[Unit, ...] | str:
     """The logarithms of the pieces a + b y of f as those of a + b c kappa s: y = c kappa s, c a constant up to its sign."""
     g = integral.g
     c = f.h.field.sqrt((f.h.lc / kappa_squared[0]) / g.lc)

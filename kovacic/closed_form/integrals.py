@@ -329,13 +329,13 @@ def elliptic(integral: CurveIntegral, atoms: Atoms) -> list[tuple[Expr, Expr]] |
 
 
 def _in_square(r: RatFunc, g: Poly) -> tuple[RatFunc, Poly, RatFunc | None]:
-    """r, g, and t where these are in u = t^2, t = x - c; None where there is no such t."""
+    """r, g, and t where these are in u = t^2, t = x - c; None if there is no such t."""
     x = RatFunc(g.field.poly([0, 1]))
     centre = -g[g.degree - 1] / g.degree
     moved, curve = _moved(r, RatFunc(g), x + centre)
     if g.degree == 3 or curve[1] or moved(-x) != moved:
         return r, g, None
-    return RatFunc(_halved(moved.num), _halved(moved.den)), _halved(curve) * x.num, x - centre
+    return RatFunc(_of_square(moved.num), _of_square(moved.den)), _of_square(curve) * x.num, x - centre
 
 
 def _moved(r: RatFunc, g: RatFunc, back: RatFunc) -> tuple[RatFunc, Poly]:
@@ -513,7 +513,7 @@ def _roots(g: Poly) -> list[Poly]:
     return [-p[0] for p, _ in g.field.factor(g) if p.degree == 1]
 
 
-def _halved(p: Poly) -> Poly:
+def _of_square(p: Poly) -> Poly:
     """q with q(x^2) = p."""
     return p.field.poly([p[k] for k in range(0, p.degree + 1, 2)])
 
@@ -568,7 +568,7 @@ def triangular(form: Triangular, atoms: Atoms) -> tuple[Expr, Expr, tuple[str, .
 
 
 def integral(h: Product, atoms: Atoms) -> Expr | None:
-    """int h dx with its constant factor, None where it would be left.  The branches of roots may not agree."""
+    """int h dx with its constant factor, None if it would be left.  The branches of roots may not agree."""
     primitive = integrate(h)
     if isinstance(primitive, OpenPrimitive):
         return None
@@ -585,7 +585,7 @@ def _terms(
     """y times the integral."""
     if isinstance(primitive, RationalPrimitive):
         return _rational(y, primitive, first, atoms)
-    return _exponential(y, primitive, first, atoms)
+    return _with_exponential(y, primitive, first, atoms)
 
 
 def _sum(terms: list[Scaled]) -> Expr:
@@ -663,7 +663,7 @@ def _is_at_a_point(residue: Residue) -> bool:
     return residue.is_constant and residue.factor.degree == 1
 
 
-def _exponential(y: Product, primitive: ExponentialPrimitive, first: Factors, atoms: Atoms) -> list[Scaled]:
+def _with_exponential(y: Product, primitive: ExponentialPrimitive, first: Factors, atoms: Atoms) -> list[Scaled]:
     """first * (W k + the terms with Ei, error and gamma functions, and logarithms of t^(1/n) - z)."""
     scale, parts = first
     terms = []

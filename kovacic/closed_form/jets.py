@@ -51,7 +51,7 @@ _INVERSE = "asin acos atan asinh acosh atanh"
 _NAMES = {getattr(sympy, name): name for name in (_MEROMORPHIC + _INVERSE).split()}
 _CUT = {getattr(sympy, name) for name in _INVERSE.split()}
 #: Of power series flint has fewer functions: others are quotients,
-_QUOTIENTS: dict[str, Callable[[Any], Any]] = {
+_QUOTIENT_FUNCTIONS: dict[str, Callable[[Any], Any]] = {
     "cot": lambda s: _quotient(s.cos(), s.sin()),
     "sec": lambda s: _quotient(1, s.cos()),
     "csc": lambda s: _quotient(1, s.sin()),
@@ -149,8 +149,8 @@ class BallEvaluator:
                 return acb(real)
         if hasattr(value, name):
             return getattr(value, name)()
-        if name in _QUOTIENTS:
-            return _QUOTIENTS[name](value)
+        if name in _QUOTIENT_FUNCTIONS:
+            return _QUOTIENT_FUNCTIONS[name](value)
         if name in _SLOPES:
             return (_SLOPES[name](value) * value.derivative()).integral() + getattr(value[0], name)()
         return self.other(e)

@@ -148,7 +148,7 @@ def _at_poles(
 
 
 def _exponential_integral(found: Residue, E: RatFunc) -> GammaTerm | None:
-    """exp(e) Ei(E - e) with the residue, e the value of E at the pole; None where e or the residue isn't in K."""
+    """exp(e) Ei(E - e) with the residue, e the value of E at the pole; None if e or the residue isn't in K."""
     p = found.factor
     e = E.num * E.den.inverse_modulo(p) % p
     if e.degree > 0 or found.value.degree > 0:
@@ -212,7 +212,7 @@ def _squares(E: RatFunc) -> Iterator[tuple[RatFunc, Poly, Poly]]:
 def _with_rational_part(
     r: RatFunc, E: RatFunc, alpha: Fraction, candidates: list[RatFunc]
 ) -> tuple[RatFunc, list[Poly]] | None:
-    """(W, constants), r = W' + W (E' + alpha/x) + the sum of constants times candidates; None where there are none."""
+    """(W, constants), r = W' + W (E' + alpha/x) + the sum of constants times candidates, or None."""
     x = r.field.poly([0, 1])
     rate = _rate(E, alpha)
     functions = [f for f in (r, *candidates) if f]
@@ -305,11 +305,11 @@ def integrate(h: Product) -> Primitive:
     >>> print(done.W, [(str(term.coefficient), term.n, term.power) for term in done.terms])
     (-x**2 + 2)/(6*x**3 - 18*x) [('1/6', 2, 0)]
     """
-    found = _integrated(h)
+    found = _integral_or_reason(h)
     return OpenPrimitive(found) if isinstance(found, str) else found
 
 
-def _integrated(h: Product) -> Primitive | str:
+def _integral_or_reason(h: Product) -> Primitive | str:
     """The integral, or why it is left."""
     if h.roots:
         return f"the exponents at the roots of {h.roots[0].factor} are different algebraic numbers"

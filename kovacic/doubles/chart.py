@@ -291,9 +291,9 @@ class RationalChart:
         return self.problem.singular_points(128)
 
     def local(self, centre: ExactPoint, e: int, terms: int) -> list[list[arb]]:
-        """See `_series_of`."""
+        """See `_equation_series`."""
         if self.is_forced or self.problem.embedded is not None:
-            return _series_of(way_of(self.problem).functions, centre, e, terms)
+            return _equation_series(way_of(self.problem).functions, centre, e, terms)
         line = fmpq_poly([centre.x, power_of_two(e)])
         found = [[arb(v) for v in _expanded(part, line, terms)] for part in self.problem.equation]
         factors = [arb((1, k * e)) / found[0][0] for k in range(3)]
@@ -377,11 +377,11 @@ class AnalyticChart:
             return self._functions.sizes(centre, arb((1, e + 1))) is not None
 
     def local(self, centre: ExactPoint, e: int, terms: int) -> list[list[arb]]:
-        """See `_series_of`."""
-        return _series_of(self._functions, centre, e, terms)
+        """See `_equation_series`."""
+        return _equation_series(self._functions, centre, e, terms)
 
 
-def _series_of(functions: CoefficientField, centre: ExactPoint, e: int, terms: int) -> list[list[arb]]:
+def _equation_series(functions: CoefficientField, centre: ExactPoint, e: int, terms: int) -> list[list[arb]]:
     """a, H b, H^2 c and H^2 f over a(c), so many terms in u; not numbers where they aren't finite."""
     parts = functions.series(centre, e, terms)
     if parts is None:

@@ -171,9 +171,9 @@ def _arc(
     steps = np.maximum(density[1:], density[:-1]) * np.diff(part.x)
     reached = np.concatenate([[0.0], np.cumsum(steps)])
     count = max(2, int(np.ceil(reached[-1])) + 1)
-    _check(count)
+    _check_count(count)
     x = np.interp(np.linspace(0.0, reached[-1], count), reached, part.x)
-    arc = _sampled(np.unique(x), states)
+    arc = _with_samples(np.unique(x), states)
     doubtful = np.ones(len(arc.x) - 1, dtype=bool)
     usual = float(np.median(np.abs(arc.y)))
     for _ in range(_HALVINGS):
@@ -195,8 +195,8 @@ def _halved(
     left = left[inside]
     right = left + 1
     h, middles = h[inside], middles[inside]
-    _check(len(arc.x) + len(middles))
-    new = _sampled(middles, states)
+    _check_count(len(arc.x) + len(middles))
+    new = _with_samples(middles, states)
     cubic = (arc.y[left] + arc.y[right]) / 2 + h * (arc.dy[left] - arc.dy[right]) / 8
     allowed = _TOLERANCE * np.maximum(np.abs(new.y), usual) + new.radius
     missed = np.abs(cubic - new.y) > allowed
@@ -216,7 +216,7 @@ def _envelope(
     count = max(8, int(_ENVELOPE * (high - low) / float(width)))
     x = np.unique(np.append(np.linspace(low, high, count + 1), _beside_singular_points(chart, float(low), float(high))))
     here = coefficients(chart, [ExactPoint(Fraction(float(at))) for at in x])
-    samples = _sampled(x, states)
+    samples = _with_samples(x, states)
     q = here.frequency
     velocity = samples.dy + here.beta * samples.y
     real = np.hypot(samples.y.real, velocity.real / q)
@@ -228,7 +228,7 @@ def _periods(x: Floats, frequency: Floats) -> float:
     return float(np.trapezoid(frequency, x) / (2 * np.pi))
 
 
-def _sampled(x: Floats, states: Callable[[Sequence[ExactPoint]], Sequence[Any]]) -> Arc:
+def _with_samples(x: Floats, states: Callable[[Sequence[ExactPoint]], Sequence[Any]]) -> Arc:
     found = states([ExactPoint(Fraction(float(at))) for at in x])
     balls = [[finite_ball(value) for value in state] for state in found]
     try:
@@ -240,6 +240,6 @@ def _sampled(x: Floats, states: Callable[[Sequence[ExactPoint]], Sequence[Any]])
     return Arc(x, y, dy, radius)
 
 
-def _check(count: int) -> None:
+def _check_count(count: int) -> None:
     if count > _MOST:
         raise LimitExceeded(f"the curve needs more than {_MOST} samples", limit="samples")

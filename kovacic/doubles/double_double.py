@@ -106,7 +106,7 @@ class Pair:
 
 @dataclass(frozen=True, slots=True)
 class Complex:
-    """re + i im, of Pairs or arrays; im is None where it is 0."""
+    """re + i im, of Pairs or arrays; im is None if it is 0."""
 
     re: Any
     im: Any = None

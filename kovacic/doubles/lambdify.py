@@ -309,7 +309,7 @@ def measure(
 
 
 def _errors(found: list[complex], reference: list[acb], *, normed: bool) -> list[float | None]:
-    """In units in the last place, None where the solution may be 0; unless `normed`, up to the factor that fits the most."""
+    """In units in the last place, None if the solution may be 0; unless `normed`, up to the factor that fits the most."""
     pairs = list(zip(found, reference, strict=True))
     quotients = [(acb(v) / y).mid() for v, y in pairs if TINY < _size(v) < math.inf and not y.contains(0)]
     if not quotients:
@@ -397,7 +397,7 @@ def _zeros(function: Function) -> tuple[Any, Any]:
 
 
 def _units(value: complex, y: acb, factor: acb) -> float | None:
-    """The error of one value; None where the solution may be 0, or is beyond the range of normal doubles."""
+    """The error of one value; None if the solution may be 0, or is beyond the range of normal doubles."""
     if y.contains(0):
         return None
     exact = (y * factor).mid()

@@ -149,7 +149,7 @@ class ProductForm:
     careful : bool
         Double-doubles; else it is plain double arithmetic.
     measured : Measured or None
-        The error that `lambdify` found; None where it wasn't measured.
+        The error that `lambdify` found; None if it wasn't measured.
 
     Examples
     --------
@@ -462,7 +462,7 @@ interval where it grows and oscillates by less than exp(2000), with one of a hig
 
 
 def product_form(problem: NumericProblem, which: int, region: Region, base: ExactPoint) -> ProductForm | None:
-    """The solution number `which` as a product, at a working precision of some 200 bits; None where there is no such form.
+    """The solution number `which` as a product, at a working precision of some 200 bits; None if there is no such form.
 
     None means cases 2 and 3, and polynomials of degree above 60 where a table is better.
     """
@@ -493,10 +493,10 @@ def product_form(problem: NumericProblem, which: int, region: Region, base: Exac
         if not r.is_zero()
     )
     exponent = RationalFunction(tuple(Complex.of(v) for v in reversed(theta.primitive.coeffs())), polar)
-    return ProductForm(region, base, _factors(powers, to_acb(base), is_real), exponent, is_real)
+    return ProductForm(region, base, _root_factors(powers, to_acb(base), is_real), exponent, is_real)
 
 
-def _factors(powers: list[tuple[acb, acb]], base: acb, is_real: bool) -> tuple[RootFactor, ...]:
+def _root_factors(powers: list[tuple[acb, acb]], base: acb, is_real: bool) -> tuple[RootFactor, ...]:
     """The factors (x - zeta)^power; for a real function, those of the closed upper half-plane, with their conjugates."""
     found = []
     for zeta, power in powers:

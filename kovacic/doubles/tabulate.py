@@ -135,7 +135,7 @@ class TabulatedFunction:
     careful : bool
         Double-doubles; else it is plain double arithmetic.
     measured : Measured or None
-        The error that `lambdify` found; None where it wasn't measured.
+        The error that `lambdify` found; None if it wasn't measured.
 
     Examples
     --------
@@ -410,7 +410,7 @@ def _series(chart: PieceChart, cells: list[Cell], variant: Variant) -> list[Any]
         if chart.is_forced:
             source[:, : len(local[3]), 2, k] = halves(local[3])
     with np.errstate(all="ignore"):
-        z = _recurrence(numbers, source, variant)
+        z = _series_recurrence(numbers, source, variant)
         sizes = np.abs(z[0, : variant.tested])
         converges = (sizes[-4:].max(0) <= sizes.max(0) * 2.0**-variant.bits).all(0)
         is_bounded = (sizes[:, :2].sum(0) <= _GROWTH).all(0)
@@ -421,7 +421,7 @@ def _series(chart: PieceChart, cells: list[Cell], variant: Variant) -> list[Any]
     return found
 
 
-def _recurrence(equation: Any, source: Any, variant: Variant) -> Any:
+def _series_recurrence(equation: Any, source: Any, variant: Variant) -> Any:
     """The coefficients of the series, shaped as those of the source, from the first two of y1, y2 and y3: 1, 0; 0, 1; 0, 0."""
     a, b, c = (Pair(*equation[:, i]) for i in range(3))
     length = equation.shape[2]

@@ -42,7 +42,7 @@ from kovacic.galois import Group, GroupKind
 from kovacic.limits import Limits
 
 _LARGEST = 400  # the largest finite group that is enumerated
-_WORDS = 12  # the number of products that are compared with one another
+_MOST_PRODUCTS = 12  # the number of products that are compared with one another
 _BITS = 400
 _LARGEST_POWER = 1 << 60  # of a matrix of balls, which says nothing any more
 _TWO = acb(2)
@@ -122,7 +122,7 @@ def compare(local: tuple[LocalMonodromy, ...], group: Group, fuchsian: bool) -> 
             return Agreement(None, "there is no finite singular point, so the monodromy is trivial")
         # The generators and their products in pairs; with one generator, itself and its square.
         longer = [generators[0] ** 2] if len(generators) == 1 else _products(generators)
-        words = [*generators, *longer][: max(_WORDS, len(generators))]
+        words = [*generators, *longer][: max(_MOST_PRODUCTS, len(generators))]
         return _by_conditions(words, group, fuchsian)
 
 
@@ -181,7 +181,7 @@ class _Enumeration:
     def __init__(self, group: Group, angles: dict[Fraction, int]) -> None:
         self.group = group
         self.angles = angles
-        self.traces = {angle: _cosine(angle) for angle in angles}
+        self.traces = {angle: _trace_of_turn(angle) for angle in angles}
         self.order = sum(angles.values())
         self.elements = [acb_mat([[1, 0], [0, 1]])]
         self.found = Counter([Fraction(0)])
@@ -317,7 +317,7 @@ def _is_proper_order(words: list[acb_mat], n: int) -> bool:
         return False
     for p in (int(p) for p, _ in fmpz(n).factor()):
         # The n/p-th powers are p-th roots of unity, whose real parts are at most cos(2 pi/p) unless they are 1.
-        bound = _cosine(Fraction(1, p)).real
+        bound = _trace_of_turn(Fraction(1, p)).real
         if all((word ** (n // p)).trace().real > bound for word in words):
             return True
     return False
@@ -345,9 +345,9 @@ def _may_be_in(m: acb_mat, kind: GroupKind) -> bool:
         return _may_be_identity(m)
     if m.trace().overlaps(-_TWO):
         return _may_be_identity(m**2)
-    return any(bool(m.trace().overlaps(_cosine(Fraction(angle)))) for angle in _PRIMITIVE[kind])
+    return any(bool(m.trace().overlaps(_trace_of_turn(Fraction(angle)))) for angle in _PRIMITIVE[kind])
 
 
-def _cosine(angle: Fraction) -> acb:
+def _trace_of_turn(angle: Fraction) -> acb:
     """2 cos(2 pi angle)."""
     return acb(2 * arb.cos_pi_fmpq(fmpq(2 * angle.numerator, angle.denominator)))

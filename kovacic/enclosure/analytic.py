@@ -307,7 +307,7 @@ class PeriodicWay(AnalyticWay):
 
 
 def period_of(coefficients: Coefficients) -> Any:
-    """A period of functions of waves of commensurable frequencies; None where none is seen."""
+    """A period of functions of waves of commensurable frequencies; None if none is seen."""
     x = coefficients.variable
     if coefficients.a != 1:  # a polynomial
         return None
@@ -385,14 +385,14 @@ def constant_way(coefficients: Coefficients, problem: NumericProblem | None = No
     functions = CoefficientField(coefficients)
     x = coefficients.variable
     parts = (sympy.sympify(coefficients.a, strict=True), coefficients.b, coefficients.c)
-    terms = None if any(part.has(x) for part in parts) else _terms(coefficients.f, x)
+    terms = None if any(part.has(x) for part in parts) else _right_side_terms(coefficients.f, x)
     if terms is not None:
         return ConstantWay(functions, problem, terms=terms)
     period = period_of(coefficients)
     return AnalyticWay(functions, problem) if period is None else PeriodicWay(functions, problem, period=period)
 
 
-def _terms(f: Any, x: Any) -> tuple[Term, ...] | None:
+def _right_side_terms(f: Any, x: Any) -> tuple[Term, ...] | None:
     """The terms of a right-hand side; None for another one."""
     weights: dict[Any, dict[int, Any]] = {}
     for term in sympy.Add.make_args(sympy.expand(f.rewrite(sympy.exp))):

@@ -33,7 +33,7 @@ Dyadic = tuple[int, int]  # a dyadic rational (m, e), the number m 2^e; m is odd
 _DECIMAL_BITS = 10_000  # largest |exponent| that is written out in decimals
 _FRACTION_BITS = 10_000_000  # largest |exponent| that is written out as a fraction: 2^(10^12) would fill the memory
 _DECIMAL_EXPONENT = 18  # characters of an exponent that Python's decimals can have
-_SHOWN = 40  # digits in the representation, and of exact numbers
+_SHOWN_DIGITS = 40  # digits in the representation, and of exact numbers
 
 
 def dyadic(mantissa: int, exponent: int) -> Dyadic:
@@ -110,7 +110,7 @@ class Ball:
     """A number known up to a proven error: the exact value z satisfies |z - midpoint| <= radius.
 
     A ball whose radius isn't finite (nothing is known) doesn't exist: what would make one raises.  Balls are immutable and
-    hashable, with `+ - * / **` and comparisons that return True, False, or None where that isn't certain.  `str` has all digits
+    hashable, with `+ - * / **` and comparisons that return True, False, or None if that isn't certain.  `str` has all digits
     that are known and a radius that covers what was rounded; `format` takes what a Decimal takes.
 
     Attributes
@@ -440,9 +440,9 @@ class Ball:
 
     def __repr__(self) -> str:
         """The first digits, and the radius of the ball itself."""
-        if self.is_exact() or self.digits + 2 <= _SHOWN:
+        if self.is_exact() or self.digits + 2 <= _SHOWN_DIGITS:
             return f"<Ball {self}>"
-        re, im, _ = self._decimal_disc(_SHOWN)
+        re, im, _ = self._decimal_disc(_SHOWN_DIGITS)
         return f"<Ball {self._as_number(re, im)}... ± {_rounded_up(arb(self.rad))}>"
 
     def _repr_latex_(self) -> str:
@@ -457,7 +457,7 @@ class Ball:
 
     def _shown_digits(self, more: int) -> int:
         """So many more than are known, three at least; 40 of an exact number."""
-        return _SHOWN if self.is_exact() else int(max(3.0, self.digits + more))
+        return _SHOWN_DIGITS if self.is_exact() else int(max(3.0, self.digits + more))
 
     def _decimal_disc(self, digits: int) -> tuple[str, str, str]:
         """A disc around this one in decimals: its midpoint is that of the ball to so many digits, its radius covers that."""
@@ -483,7 +483,7 @@ def _rounded_up(radius: arb) -> str:
         return f"{Decimal(mantissa) + Decimal('0.1')}e{exponent}"
     near = Decimal(text)
     unit = Decimal((0, (1,), int(near.as_tuple().exponent)))
-    with localcontext(Context(prec=_SHOWN, Emax=MAX_EMAX, Emin=MIN_EMIN)):
+    with localcontext(Context(prec=_SHOWN_DIGITS, Emax=MAX_EMAX, Emin=MIN_EMIN)):
         return str(near + unit).lower()
 
 
@@ -525,7 +525,7 @@ def _reaches(a: Ball, b: Ball, sign: int) -> bool:
 
 
 def ball_from_flint(value: acb | arb, route: Route | None = None) -> Ball | None:
-    """The ball around a flint ball (a disc around the rectangle of an acb); None where nothing is known (not finite)."""
+    """The ball around a flint ball (a disc around the rectangle of an acb); None if nothing is known (not finite)."""
     if not value.is_finite():
         return None
     z = acb(value)

@@ -40,7 +40,7 @@ from kovacic.special.pullback import Pullback, StandardForm, is_integer
 from kovacic.special.search import find
 
 _BITS = 64  # in which the course of a leg is proven
-_PIECES = 400  # into which a leg is cut for that, at most
+_MOST_LEG_PIECES = 400  # into which a leg is cut for that, at most
 _TRIED = 1, 2, 4  # multiples of the working precision at which a matrix may become finite
 _MOST_FROM_ZERO = 2_000  # digits up to which the functions cost less than the series at a singular point (measured)
 _DEGREE = 24  # of S, up to which a pull-back is sought
@@ -53,7 +53,7 @@ class NotServed(Exception):
 
 @lru_cache(maxsize=64)
 def classical_of(S: RatFunc, work: int | None) -> Classical | None:
-    """The standard equation that S is pulled back from over Q; None where none is found in so many units of work (None: however
+    """The standard equation that S is pulled back from over Q; None if none is found in so many units of work (None: however
     long it takes), or its parameters are large."""
     if S.field != QQ or S.num.degree + S.den.degree > _DEGREE:
         return None
@@ -91,7 +91,7 @@ class Classical:
         """
         try:
             with working_precision(_BITS):
-                y1, y2, dy1, dy2 = _start(self, start, False).at(start)
+                y1, y2, dy1, dy2 = _solutions_at_start(self, start, False).at(start)
                 squares = [float(abs(y * dy).mid().log()) for y, dy in ((y1, dy2), (y2, dy1)) if abs(y * dy).mid() > 0]
         except NotServed:
             return 0.0
@@ -126,13 +126,13 @@ class Classical:
         return _settled(lambda: _frobenius(self, point, gauge, needed).at(x), ctx.prec)
 
     def _leg(self, a: ExactPoint, b: ExactPoint) -> Matrix:
-        start = _start(self, a, False)
+        start = _solutions_at_start(self, a, False)
         if not start.form.independent:
             raise NotServed
         zero = _ordinary_zero(start.form, a, b)
         if zero is None:
             return multiply(start.at(b), start.coordinates)
-        basis = _start(self, zero, True)
+        basis = _solutions_at_start(self, zero, True)
         there = basis.at(b)
         coordinates = basis.coordinates if a == zero else inverse(basis.at(a))
         return multiply(there, coordinates)
@@ -153,7 +153,7 @@ def _settled(compute: Callable[[], Matrix], bits: int) -> Matrix:
 
 
 @kept_at_precision(maxsize=64)
-def _start(classical: Classical, a: ExactPoint, is_zero: bool) -> Solutions:
+def _solutions_at_start(classical: Classical, a: ExactPoint, is_zero: bool) -> Solutions:
     """The solutions from a, perhaps an ordinary zero of f, on."""
     form = _form(classical, classical.coordinate(a))
     exponents = (fmpq(0), fmpq(1)) if is_zero else None
@@ -348,7 +348,7 @@ def _check_pieces(a: ExactPoint, b: ExactPoint, allowed: Callable[[acb], bool]) 
     start = to_acb(a)
     step = to_acb(b - a)
     waiting = [(0, 0)]  # k and depth: the piece from k/2^depth to (k + 1)/2^depth
-    for _ in range(_PIECES):
+    for _ in range(_MOST_LEG_PIECES):
         k, depth = waiting.pop()
         if not allowed(start + step * acb(arb((2 * k + 1, -depth - 1), (1, -depth - 1)))):
             waiting += [(2 * k + 1, depth + 1), (2 * k, depth + 1)]

@@ -144,7 +144,7 @@ class CaseOneForm:
 
     @property
     def square_size(self) -> int | None:
-        """The degrees together of numerator and denominator of that function; None where there is none."""
+        """The degrees together of numerator and denominator of that function, or None."""
         return None if self._square is None else sum(abs(e) * factor.degree for factor, e in self._square)
 
     @cached_property

@@ -35,7 +35,7 @@ from kovacic.enclosure.points import ExactPoint, midpoint, power_of_two, to_acb
 from kovacic.errors import InputError
 from kovacic.limits import check_time
 
-_SHARP = 40  # relative bits to which the distances of singular points are known
+_DISTANCE_BITS = 40  # relative bits to which the distances of singular points are known
 _SHORT = 10**9  # the largest denominator of a singular point that messages name exactly
 _EXACT = 400  # bits from which on it is worth while to decide exactly whether a point is singular
 Zeros = tuple[tuple[acb, int], ...]  # zeros with their multiplicities
@@ -127,7 +127,7 @@ def offsets(system: System, centre: ExactPoint) -> Zeros:
         with working_precision(max(128, prec)):
             here = to_acb(centre)
             found = tuple((root - here, k) for root, k in system.roots("den", prec))
-        if all(d.rel_accuracy_bits() >= _SHARP for d, _ in found):
+        if all(d.rel_accuracy_bits() >= _DISTANCE_BITS for d, _ in found):
             return found
         if prec > _EXACT and system.is_singular(centre):
             raise InputError(f"the point {centre} is a singular point of the equation")
@@ -227,12 +227,12 @@ def name_of(system: System, point: acb) -> str:
     return re if point.imag.contains(0) else f"{re} + {im}i"
 
 
-# Real and imaginary parts of the coefficients; None where all of the latter are zero
+# Real and imaginary parts of the coefficients; None if all of the latter are zero
 GaussianParts = tuple[list[int], list[int] | None]
 _BITS = 64
 _RINGS = 8
 REACH = 1 + power_of_two(-16)  # radius of the disc on which bounds hold, in scales
-_STEEPEST = 2400  # growth of the majorant, in logarithms, at most
+_MOST_GROWTH = 2400  # growth of the majorant, in logarithms, at most
 # Shares of a way at which a rate is looked at.
 _NEAR = [2.0**-k for k in (5, 6, 7, 8, 10, 12, 16, 24, 40)]
 _MARKS = sorted([0.0, 1.0, *(k / 16 for k in range(1, 16)), *_NEAR, *(1 - t for t in _NEAR)])
@@ -253,7 +253,7 @@ def shift(system: System, centre: ExactPoint, scale: ExactPoint) -> tuple[Gaussi
     whole = [(part * common).numer() for part in parts]
     content = math.gcd(*(int(part.content()) for part in whole))
     p_re, p_im, q_re, q_im = ([int(c) for c in (part // content).coeffs()] for part in whole)
-    return _paired(p_re, p_im), _paired(q_re, q_im)
+    return _gaussian_parts(p_re, p_im), _gaussian_parts(q_re, q_im)
 
 
 def _times(part: tuple[fmpq_poly, fmpq_poly], factor: ExactPoint) -> tuple[fmpq_poly, fmpq_poly]:
@@ -262,7 +262,7 @@ def _times(part: tuple[fmpq_poly, fmpq_poly], factor: ExactPoint) -> tuple[fmpq_
     return part[0] * factor.x - part[1] * factor.y, part[0] * factor.y + part[1] * factor.x
 
 
-def _paired(re: list[int], im: list[int]) -> GaussianParts:
+def _gaussian_parts(re: list[int], im: list[int]) -> GaussianParts:
     if not im:
         return re, None
     size = max(len(re), len(im))
@@ -313,7 +313,7 @@ class Frame:
 
 
 def make_frame(system: System, centre: ExactPoint, e: int) -> Frame | None:
-    """The frame of the equation at `centre` with scale 2^e; None where a singular point can't be excluded from the disc, or the
+    """The frame of the equation at `centre` with scale 2^e; None if a singular point can't be excluded from the disc, or the
     solutions grow too much there.  Raises InputError at a singular point."""
     with working_precision(_BITS):
         poles = [((abs(d) * arb((1, -e))).lower(), k) for d, k in offsets(system, centre)]
@@ -325,7 +325,7 @@ def make_frame(system: System, centre: ExactPoint, e: int) -> Frame | None:
 
 
 def _bound(p: GaussianParts, q_0: int, poles: list[tuple[arb, int]]) -> DefectBound | None:
-    """The bounds, for the sizes of the poles; None where they would be too large."""
+    """The bounds, for the sizes of the poles; None if they would be too large."""
     sizes = [arb(a * a + b * b).sqrt().upper() for a, b in zip(p[0], p[1] or [0] * len(p[0]), strict=True)]
     majorant = arb_poly(sizes) * (1 / arb(q_0))
 
@@ -336,7 +336,7 @@ def _bound(p: GaussianParts, q_0: int, poles: list[tuple[arb, int]]) -> DefectBo
         return least, (majorant(r) / least).upper()
 
     least, sigma = bounds(arb(REACH))
-    if not (least > 0 and sigma < _STEEPEST**2):
+    if not (least > 0 and sigma < _MOST_GROWTH**2):
         return None
     rings = min(_RINGS, 1 + int(float(sigma.sqrt().upper())))  # growth by exp(1) in each, or more
     delta = arb(REACH) / rings
@@ -398,12 +398,12 @@ def fitting(system: System, centre: ExactPoint, e: int, share: float, growth: fl
 def largest_exponent(system: System, point: ExactPoint) -> int | None:
     """No disc that contains the point has a frame with a larger exponent e: 4^e |S(point)| is below its majorant.
 
-    None where S vanishes there, may vanish, or isn't defined.
+    None if S vanishes there, may vanish, or isn't defined.
     """
     with working_precision(_BITS):
         here = to_acb(point)
         size = abs(system.polynomial("num")(here)).lower()
-        steepest = arb(_STEEPEST**2) * abs(system.polynomial("den")(here)).upper()
+        steepest = arb(_MOST_GROWTH**2) * abs(system.polynomial("den")(here)).upper()
         is_known = size > 0 and steepest > 0
         return math.ceil(log2(steepest / size) / 2) if is_known else None
 

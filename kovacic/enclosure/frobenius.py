@@ -58,7 +58,7 @@ _LOG = logging.getLogger(__name__)
 _STRIDE = 16  # terms between two looks at the tail
 _GROWTH = 0.2  # growth of the majorant in bits as a share of the working precision, at most
 # The difference of exponents up to which a logarithm that isn't there is noticed: N terms in exact numbers
-_SOUGHT = 400
+_MOST_SOUGHT_TERMS = 400
 LogPair = tuple[Any, Any]  # u + v log t
 
 
@@ -108,14 +108,14 @@ def radius(point: Singular, prec: int, distance: arb) -> tuple[int, Majorant]:
         r = arb((1, e))
         if sum((abs(v) * r**j for j, v in enumerate(op.A) if j), arb(0)) <= abs(op.A[0]):
             bound = Majorant.make(op, neighbours, r * 3 / 2)
-            factor, _ = bound.growth(max(_first(delta), prec // 2), delta, size, r)
+            factor, _ = bound.growth(max(_terms_before_bound(delta), prec // 2), delta, size, r)
             if factor > 0 and log2(factor) < max(60.0, _GROWTH * prec):
                 return e, bound
         e -= 1
     raise LimitExceeded("no disc around the singular point was found", limit="unknown_degree")
 
 
-def _first(delta: arb) -> int:
+def _terms_before_bound(delta: arb) -> int:
     """Terms before which the bound isn't used."""
     difference = float(delta.upper())
     if math.isinf(difference):
@@ -184,7 +184,7 @@ def _expansions(
         resonance = None
         if N is not None:  # whether there is a logarithm is decided where that costs little
             resonance = _Resonance(N)
-            if point.is_rational and N <= _SOUGHT:
+            if point.is_rational and N <= _MOST_SOUGHT_TERMS:
                 terms: list[LogPair] = [(fmpq(1), fmpq(0))]  # of the smaller exponent, in exact numbers
                 while len(terms) <= N:
                     terms.append(_next(op, lower + len(terms), terms, resonance))
@@ -274,7 +274,7 @@ class FrobeniusSeries:
     errors: tuple[arb, arb]
 
     def derivative_at_zero(self, k: int) -> acb | None:
-        """The limit of the derivative of order k = 0 or 1 for t to 0; None where it is infinite."""
+        """The limit of the derivative of order k = 0 or 1 for t to 0; None if it is infinite."""
         exponent = self.exponent
         if isinstance(exponent, fmpq) and exponent.q == 1 and 0 <= exponent <= k:
             n = k - int(exponent.p)
@@ -306,7 +306,7 @@ def _expand(op: Operator, beginning: _Beginning, length: arb, bound: Majorant, p
     resonance = beginning.resonance
     with working_precision(64):
         size = abs(acb(exponent)).upper()
-    first = max(_first(beginning.delta), len(op.A))
+    first = max(_terms_before_bound(beginning.delta), len(op.A))
     if resonance is not None:
         first = max(first, resonance.number + 1)
     kind = type(op.A[0])
@@ -324,7 +324,7 @@ def _expand(op: Operator, beginning: _Beginning, length: arb, bound: Majorant, p
         more = _STRIDE
         n = len(terms)
         with working_precision(64):
-            defect = _defect(op, lam, terms, length)
+            defect = _tail_defect(op, lam, terms, length)
             factor, kappa = bound.growth(n, beginning.delta, size, length)
             F = (factor * bound.inverse * defect * length**n / (kappa * n)).upper()  # equation (2)
         if arb((1, -prec - 20)) > F:
@@ -334,7 +334,7 @@ def _expand(op: Operator, beginning: _Beginning, length: arb, bound: Majorant, p
             raise LimitExceeded(f"a Frobenius expansion needs more than {cap} terms", limit="unknown_degree")
 
 
-def _defect(op: Operator, lam: Any, terms: list[LogPair], length: arb) -> arb:
+def _tail_defect(op: Operator, lam: Any, terms: list[LogPair], length: arb) -> arb:
     """A bound of sum |R_n| t^(n - N) for |t| <= length: what the terms give to the equations of the next ones."""
     n = len(terms)
     order = len(op.A) - 1

@@ -140,7 +140,7 @@ def in_the_given_variable(equation: Equation) -> Coefficients:
         b *= RatFunc(field.poly([1, 0, 1]))
     if t.func is sympy.exp and t.has(sympy.I):
         T = RatFunc(field.poly([0, 1]))
-        parts = _in_waves(t, b * T, rate), _in_waves(t, c, rate**2), _in_waves(t, f, rate**2)
+        parts = _wave_quotient(t, b * T, rate), _wave_quotient(t, c, rate**2), _wave_quotient(t, f, rate**2)
     else:
         parts = slope * _in(t, b), rate**2 * _in(t, c), rate**2 * _in(t, f)
     h = 0 if equation.h is None else equation.h  # over the coefficient of y'', in x
@@ -163,12 +163,12 @@ def _in(t: Any, function: RatFunc) -> Any:
         return _in_sines(t.args[0], function, atoms)
     u = sympy.Dummy("u")
     root = t.func(u).diff(u).xreplace({u: t.args[0]})
-    denominator, powers = _divided(function.den, _sigma(t, function.field))
+    denominator, powers = _without_factor(function.den, _sigma(t, function.field))
     rest = atoms.ratio(RatFunc(function.num, denominator, reduced=True)).xreplace({atoms.x: t})
     return rest * root ** (-2 * powers)
 
 
-def _in_waves(t: Any, function: RatFunc, factor: Any) -> Any:
+def _wave_quotient(t: Any, function: RatFunc, factor: Any) -> Any:
     """A constant times a rational function N/D of t = exp(i u), by cosines and sines of multiples of u.
 
     With h half the sum of the lowest and the highest exponent in D both t^-h N and t^-h D are sums of c_k exp(i (k - h) u).
@@ -196,7 +196,7 @@ def _in_waves(t: Any, function: RatFunc, factor: Any) -> Any:
     return waves(atoms.coefficients(function.num), w * factor) / waves(below, w)
 
 
-def _divided(poly: Poly, factor: Poly) -> tuple[Poly, int]:
+def _without_factor(poly: Poly, factor: Poly) -> tuple[Poly, int]:
     """The polynomial without this factor, and how often it is there."""
     count = 0
     while poly.degree >= factor.degree and not poly % factor:
@@ -208,7 +208,7 @@ def _divided(poly: Poly, factor: Poly) -> tuple[Poly, int]:
 def _in_sines(u: Any, function: RatFunc, atoms: Atoms) -> Any:
     """A rational function of tan(u) by sin(u) and cos(u): polynomials in tan(u) times powers of cos(u), 1 + tan(u)^2 the latter
     alone."""
-    denominator, count = _divided(function.den, function.field.poly([1, 0, 1]))
+    denominator, count = _without_factor(function.den, function.field.poly([1, 0, 1]))
     powers = 2 * count + denominator.degree - function.num.degree
 
     def homogeneous(poly: Poly) -> Any:

@@ -306,7 +306,7 @@ class CoefficientField:
         return _sizes(self.values(_box(centre, radius), analytic=True))
 
     def jets(self, centre: ExactPoint, e: int, prec: int, steepest: float) -> Jets | None:
-        """The series for solutions to about 2^-prec; None where the disc of twice this scale has a singularity, lambda is above
+        """The series for solutions to about 2^-prec; None if the disc of twice this scale has a singularity, lambda is above
         `steepest`, or a function grows so much that its series would be long or cancel."""
         square = centre.norm_squared()
         # Bits by which the centre is longer than what is to be seen around it.
@@ -352,7 +352,7 @@ class CoefficientField:
     def _truncated(self, centre: ExactPoint, h: arb, bits: int) -> tuple[int, list[arb]] | None:
         """So many terms of A, B, C and F are to be known that the rests are below 2^-bits, and bounds of these, times a(z).
 
-        None where there is a singularity within twice the disc, or functions are as large as exp(bits) beside the way.
+        None if there is a singularity within twice the disc, or functions are as large as exp(bits) beside the way.
         """
         longest = max(self._degrees, default=0) + 1
         polynomials = [part.is_polynomial(self.coefficients.variable) for part in self._parts]
@@ -401,7 +401,7 @@ def _box(centre: ExactPoint, radius: arb) -> acb:
 
 
 def _sizes(values: list[Any]) -> list[arb] | None:
-    """Bounds of the absolute values; None where one isn't finite."""
+    """Bounds of the absolute values; None if one isn't finite."""
     found = [abs(value).upper() for value in values]
     return found if all(size.is_finite() for size in found) else None
 

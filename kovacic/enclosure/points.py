@@ -165,7 +165,7 @@ def to_double(point: ExactPoint) -> complex:
 
 def midpoint(ball: acb) -> ExactPoint:
     """The midpoint of a finite ball."""
-    return ExactPoint(*(_exact(part.mid()) for part in (ball.real, ball.imag)))
+    return ExactPoint(*(_exact_point(part.mid()) for part in (ball.real, ball.imag)))
 
 
 def are_real(values: Iterable[Any]) -> bool:
@@ -183,7 +183,7 @@ def around_zero(radius: arb, *, real: bool) -> acb:
     return acb(error) if real else acb(error, error)
 
 
-def _exact(number: arb) -> Any:
+def _exact_point(number: arb) -> Any:
     mantissa, exponent = number.man_exp()
     return fmpq(mantissa) * power_of_two(int(exponent))
 

@@ -198,7 +198,7 @@ def _towards(system: System, end: ExactPoint, prec: int) -> Oscillation | None:
 
 @lru_cache(maxsize=64)
 def _oscillation(system: System, sign: int, prec: int) -> Oscillation | None:
-    """The solutions on one half line; None where singular points far away leave no sharp series, or it would be long."""
+    """The solutions on one half line; None if singular points far away leave no sharp series, or it would be long."""
     d = len(system.num) - len(system.den)
     half = fmpq(d, 2)
     length = math.ceil((prec / 4 + 10) * (d / 2 + 1))  # enough at twice the least phase at which the series is so sharp

@@ -59,7 +59,7 @@ _BLOCK = 1.5  # length of the integers of a block, by the bits that are still ne
 # Splitting pays above max(1500, factor * order^3) bits, beside the real axis above three times as many; the factor without
 # and with singular points
 _LOWEST = 1500
-_ENTIRE = 10
+_ENTIRE_TERMS = 10
 _SINGULAR = 35
 _COMPLEX = 3
 _LEAST = 2000  # bits below which a block isn't shortened any more
@@ -176,7 +176,7 @@ def _sum_series(
             if m > 40 * full + 4000:
                 raise LimitExceeded(f"a Taylor expansion needs more than {m} terms", limit="unknown_degree")
             needed = max(64, full + 33 + int(max(map(log2, heights))))
-            length_of_block = _length(steps, m, needed, before)
+            length_of_block = _block_length(steps, m, needed, before)
             block = steps.block(m, length_of_block)
             before = (m, needed)
             m += length_of_block
@@ -187,7 +187,7 @@ def _sum_series(
             sums = sums + change
 
 
-def _length(steps: Recurrence, m: int, needed: int, before: tuple[int, int] | None) -> int:
+def _block_length(steps: Recurrence, m: int, needed: int, before: tuple[int, int] | None) -> int:
     """The length of the next block: by the size of its integers, and no more than seem to be needed.
 
     `before` has m and `needed` as they were before the last block.
@@ -208,7 +208,7 @@ def is_split(system: System, prec: int, *ends: ExactPoint) -> bool:
     (`benchmarks/enclosure_long_series.py` measures both ways on both sides of the bound.)
     """
     order = max(2, len(system.num) + 1, len(system.den) - 1)
-    factor = _ENTIRE if len(system.den) == 1 else _SINGULAR
+    factor = _ENTIRE_TERMS if len(system.den) == 1 else _SINGULAR
     least = max(_LOWEST, factor * order**3)
     return prec > (least if all(end.is_real() for end in ends) else _COMPLEX * least)
 

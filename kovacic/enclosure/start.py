@@ -33,7 +33,7 @@ from kovacic.errors import InputError, LimitExceeded
 from kovacic.numbers.numerals import plain_text
 
 _LARGEST_STEP = 1 << 200  # to the right of the zeros and poles of S, in search of a start for the decaying solution
-_STARTS = "y0=... and dy0=..., or frobenius=(c1, c2), or which='regular'"
+_START_HINT = "y0=... and dy0=..., or frobenius=(c1, c2), or which='regular'"
 _SHELL_STARTS = "--y0 and --dy0, or --frobenius C1,C2, or --regular"
 
 
@@ -105,7 +105,7 @@ def read_start(problem: NumericProblem | None, given: Start) -> Origin:
     if which == "decaying" and (given.dy0 is not None or has_coordinates):
         raise InputError("the decaying solution is given by y0 alone")
     if which != "decaying" and [has_values, has_coordinates, which == "regular"].count(True) != 1:
-        raise InputError("one start is expected", hint=_STARTS, shell=_SHELL_STARTS)
+        raise InputError("one start is expected", hint=_START_HINT, shell=_SHELL_STARTS)
     if given.x0 is None:
         raise InputError("the point at which the solution starts is missing", hint="x0=0, for instance", shell="--x0 0")
     if which == "decaying":
@@ -113,7 +113,7 @@ def read_start(problem: NumericProblem | None, given: Start) -> Origin:
         return Origin(as_number(given.x0, "x0"), (y, ExactPoint(0)), decaying=True)
     if has_values:
         if given.y0 is None or given.dy0 is None:
-            raise InputError("both y0 and dy0 are needed", hint=_STARTS, shell=_SHELL_STARTS)
+            raise InputError("both y0 and dy0 are needed", hint=_START_HINT, shell=_SHELL_STARTS)
         return Origin(as_number(given.x0, "x0"), (as_number(given.y0, "y0"), as_number(given.dy0, "dy0")))
     assert problem is not None
     singular = place_of(problem, given.x0, "x0")

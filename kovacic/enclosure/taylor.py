@@ -44,7 +44,7 @@ from kovacic.errors import LimitExceeded
 from kovacic.limits import check_time
 
 _STARTS = (acb(1), acb(0)), (acb(0), acb(1))
-_CHECKED = 64  # the clock is read every so many terms
+_TERMS_BETWEEN_LOOKS = 64  # the clock is read every so many terms
 
 
 @dataclass(frozen=True)
@@ -152,7 +152,7 @@ def _real_recurrence(p: list[int], q: list[int], w: int, start: int, small: int)
     n = 0
     quiet = 0
     while quiet <= pad:
-        if n % _CHECKED == 0:
+        if n % _TERMS_BETWEEN_LOOKS == 0:
             _check_terms(n, w)
         k = (n + 1) * (n + 2)
         term = series.known(p_back, q_back) // (q_0 * k)
@@ -175,7 +175,7 @@ def _complex_recurrence(p: GaussianParts, q: GaussianParts, w: int, start: int, 
     n = 0
     quiet = 0
     while quiet <= pad:
-        if n % _CHECKED == 0:
+        if n % _TERMS_BETWEEN_LOOKS == 0:
             _check_terms(n, w)
         k = (n + 1) * (n + 2)
         re = real.known(p_re, q_re) - imag.known(p_im, q_im)

@@ -177,7 +177,7 @@ class StraightPiece:
         None if the junction `enter` lies off the path and no disc down to an eighth of the last one (`guess`) contains both.
         """
         remaining = (1 - t) ** 2 * (self.b - self.a).norm_squared()
-        e = _exponent(remaining)
+        e = _root_exponent(remaining)
         if not _reaches_end(remaining, e):  # a scale at which the last disc never comes would be taken again and again
             e += 1
         if guess is not None:
@@ -229,7 +229,7 @@ class StraightPiece:
     def _beside(self, t: Any, e: int) -> _Placed:
         """Ahead by short dyadic parameters, just below 2^e/|b - a| and twice as much."""
         square = power_of_two(2 * e) / (self.b - self.a).norm_squared()
-        k = _exponent(square)
+        k = _root_exponent(square)
         forward = (square / power_of_two(2 * k - 24)).floor().isqrt() * power_of_two(k - 12) * fmpq(15, 16)
         grain = power_of_two(k - 8)
         t_leave = t + (forward * fmpq(31, 16) / grain).floor() * grain
@@ -249,6 +249,6 @@ def _reaches_end(square: Any, e: int) -> bool:
     return bool(square <= power_of_two(2 * e + 2) * fmpq(9, 10))
 
 
-def _exponent(square: Any) -> int:
+def _root_exponent(square: Any) -> int:
     """An integer e with 2^e within a factor of 2 of the root of `square`."""
     return int(square.p.bit_length() - square.q.bit_length()) // 2

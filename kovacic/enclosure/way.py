@@ -165,7 +165,7 @@ class Way(ABC):
         """The state at a number in a ball from that at its midpoint."""
 
     def into(self, x: ExactPoint) -> Matrix | None:
-        """From the user's (y, y') at x to what is carried; None where this is the same."""
+        """From the user's (y, y') at x to what is carried; None if this is the same."""
         return None
 
     def out_of(self, a: ExactPoint, x: ExactPoint) -> Matrix | None:

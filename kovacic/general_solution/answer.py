@@ -47,7 +47,7 @@ class Exceptional:
 
     @cached_property
     def answer(self) -> ProblemAnswer | None:
-        """What holds there; None where it isn't found."""
+        """What holds there; None if it isn't found."""
         if self._ask is None or not (self.values or self.assume):
             return None
         with suppress(InputError, NotImplementedError):

@@ -48,7 +48,7 @@ _POINTS = tuple(map(sympy.Rational, ("3/10", "6/5", "9/5", "3", "18/5", "5", "11
 
 
 def antiderivative(integrand: Expr, x: Expr) -> Expr | None:
-    """int g dx, None where a term isn't of one of these kinds; an `Integral` that isn't elementary beside tangents.
+    """int g dx, None if a term isn't of one of these kinds; an `Integral` that isn't elementary beside tangents.
 
     Nothing that is assumed of symbols is used.
 
@@ -135,7 +135,7 @@ class _Rule:
     claim: str
     #: Is it for such a term of x?  A look at which functions there are.
     concerns: Callable[[Expr, Expr], bool]
-    #: int g dx; None where it isn't found in this way.
+    #: int g dx; None if it isn't found in this way.
     integral: Callable[[Expr, Expr], Expr | None]
 
 
@@ -273,7 +273,7 @@ def _slope(function: Expr, x: Expr) -> Expr:
 
 
 def _beside_logarithm(logarithm: Expr, g: Expr, x: Expr) -> Expr | None:
-    """int R log(u) dx, where a partial fraction of R has a dilogarithm; None where none has."""
+    """int R log(u) dx, where a partial fraction of R has a dilogarithm; None if none has."""
     fractions = sympy.Add.make_args(sympy.apart(g, x))
     known = {fraction: dilogarithm(logarithm.args[0], fraction, x) for fraction in fractions}
     if set(known.values()) == {None}:
@@ -326,7 +326,7 @@ def _leaves_an_integral(rest: Expr, s: Expr, x: Expr) -> bool:
 
 
 def _only_wave_below(term: Expr) -> Expr | None:
-    """The wave c of the only factor 1/c; None where there are others or none."""
+    """The wave c of the only factor 1/c; None if there are others or none."""
     below = [factor.base for factor in sympy.Mul.make_args(term) if factor.is_Pow and factor.exp == -1]
     waves = [base for base in below if base.func in (sin, cos)]
     if len(waves) != 1:

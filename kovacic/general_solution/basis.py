@@ -185,7 +185,7 @@ def definition(y1: Expr, y2: Expr, x: Expr) -> Expr:
     x
     """
     W = y1 * slope(y2, x) - slope(y1, x) * y2
-    for f in sorted({f for y in (y1, y2) for f in _antiderivatives(y) if f.has(x)}, key=str):
+    for f in sorted({f for y in (y1, y2) for f in _antiderivatives_in(y) if f.has(x)}, key=str):
         check_time()
         shorter = W.xreplace({f: sympy.S.Zero})
         if _is_wronskian(shorter, y1, y2, x, _NONE):
@@ -197,17 +197,17 @@ def definition(y1: Expr, y2: Expr, x: Expr) -> Expr:
     return W
 
 
-def _antiderivatives(e: Expr) -> Iterator[Expr]:
+def _antiderivatives_in(e: Expr) -> Iterator[Expr]:
     """Those of which a sum of products consists, not those inside of other functions."""
     if isinstance(e, _ANTIDERIVATIVES):
         yield e
     elif e.is_Add or e.is_Mul:
         for part in e.args:
-            yield from _antiderivatives(part)
+            yield from _antiderivatives_in(part)
 
 
 def multiple_of(w: Expr, y1: Expr, y2: Expr, x: Expr, integers: Mapping[Expr, Expr] = _NONE) -> Expr | None:
-    """c w for the constant c with y1 y2' - y1' y2 = c w on each branch of the roots; None where it isn't found.
+    """c w for the constant c with y1 y2' - y1' y2 = c w on each branch of the roots; None if it isn't found.
 
     c is the quotient at a point where it is elementary, or one that other branches of Bessel's functions have.  It is checked
     with `integers` for letters that stand for these.

@@ -120,7 +120,7 @@ def limit_at(expression: Expr, x: Expr, place: Approach) -> Expr:
 
 
 def finite_limit(expression: Expr, x: Expr, place: Approach) -> Expr | None:
-    """The limit if it is a number; None where there is none, or it isn't known."""
+    """The limit if it is a number, or None, or it isn't known."""
     try:
         found = limit_at(expression, x, place)
     except (UnknownLimit, NotImplementedError):
@@ -162,7 +162,7 @@ def _quotient_of_analytic_functions(e: Expr, x: Expr, point: Expr) -> Expr | Non
 
 
 def _by_sympy(e: Expr, variable: Expr, towards: Expr) -> Any:
-    """What SymPy says of functions that it knows; None where it gives up, in one of the many ways that it has."""
+    """What SymPy says of functions that it knows; None if it gives up, in one of the many ways that it has."""
     if size(e) > _LONGEST or any(f.has(variable) and not _is_known_to_sympy(f) for f in e.atoms(sympy.Function)):
         return None
     constant, rest = e.as_independent(variable, as_Add=False)
@@ -174,7 +174,7 @@ def _by_sympy(e: Expr, variable: Expr, towards: Expr) -> Any:
 
 
 def _term_by_term(e: Expr, variable: Expr, towards: Expr) -> Any:
-    """The limit of a sum from those of its terms; None where it isn't known, as where unbounded terms cancel."""
+    """The limit of a sum from those of its terms; None if it isn't known, as where unbounded terms cancel."""
     terms = sympy.Add.make_args(sympy.expand_mul(e))
     limits = [_by_sympy(term, variable, towards) for term in terms]
     if None in limits:
@@ -215,11 +215,13 @@ def _is_confirmed(found: Expr, e: Expr, x: Expr, place: Approach) -> bool:
     Not for all of them: what holds for generic letters needn't for small integers, as where 1/gamma(-m) is 0.
     """
     difference = e - found if found not in (sympy.oo, OSCILLATING) else e
-    confirming = (_approaches(found, difference.xreplace(s), x, place) for s in _letters(difference.free_symbols - {x}))
+    confirming = (
+        _approaches(found, difference.xreplace(s), x, place) for s in _letter_values(difference.free_symbols - {x})
+    )
     return len([*islice(filter(None, confirming), _ENOUGH)]) == _ENOUGH
 
 
-def _letters(symbols: set[Expr]) -> Iterator[dict[Expr, Expr]]:
+def _letter_values(symbols: set[Expr]) -> Iterator[dict[Expr, Expr]]:
     """Values that fit what is assumed, of both signs where that is open."""
     for k, sample in enumerate(islice(samples(symbols), 1, 1 + _SAMPLES)):
         yield opposite(sample) if k % 2 else sample
@@ -228,7 +230,7 @@ def _letters(symbols: set[Expr]) -> Iterator[dict[Expr, Expr]]:
 def is_refuted(value: Expr | None, y: Expr, x: Expr, place: Approach) -> bool:
     """True if values near the point show that y doesn't tend to the value (None: isn't bounded); False if they are lost."""
     e = y if value is None else y - value
-    sizes = _sizes_near(e.xreplace(next(_letters(e.free_symbols - {x}))), x, place)
+    sizes = _sizes_near(e.xreplace(next(_letter_values(e.free_symbols - {x}))), x, place)
     return bool(sizes) and all(bool(near > far * 2) for far, near in pairwise(sizes))
 
 
@@ -256,7 +258,7 @@ def _is_nearer(found: Expr, far: Any, near: Any) -> bool:
 
 
 def _size_near(e: Expr, x: Expr, place: Approach, t: Expr) -> Any:
-    """The largest of some values about this distance; None where they aren't known well."""
+    """The largest of some values about this distance; None if they aren't known well."""
     largest = None
     for factor in _AROUND:
         at = place.in_terms_of(t * factor)
@@ -290,7 +292,7 @@ def _with_leading_terms(e: Expr, variable: Expr, towards: Expr) -> Expr:
 
 
 def _leading(f: Expr, variable: Expr, towards: Expr) -> Expr | None:
-    """The leading term of a function, None where SymPy has to know it."""
+    """The leading term of a function, None if SymPy has to know it."""
     *parameters, z = f.args
     end = _by_sympy(z, variable, towards)
     if end == 0 and f.func in _AT_ZERO:

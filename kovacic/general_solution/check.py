@@ -33,9 +33,9 @@ from kovacic.general_solution.values import have_values, value_at
 from kovacic.general_solution.zero import Residual, ball, samples
 
 Expr = Any  # SymPy publishes no types
-_INFINITE = {sympy.nan, sympy.zoo, sympy.oo, -sympy.oo}
+_NOT_FINITE = {sympy.nan, sympy.zoo, sympy.oo, -sympy.oo}
 #: The distance from the point that is meant, at which the equation is tested.
-_STEP = fmpq(3, 7 * 101)
+_SAMPLE_STEP = fmpq(3, 7 * 101)
 #: How small a residual is, by the size of its terms.
 _SMALL = arb(10) ** (-DIGITS // 2)
 #: How many values of the integers are tried.
@@ -163,7 +163,7 @@ def is_finite(value: Expr) -> bool:
     """True if neither nan nor an infinity occurs, except as a bound of an integral."""
     if isinstance(value, sympy.Integral):
         return is_finite(value.function)
-    return value not in _INFINITE and all(map(is_finite, value.args))
+    return value not in _NOT_FINITE and all(map(is_finite, value.args))
 
 
 def _is_wrong_at(claim: SolutionClaim, start: Expr | None) -> bool:
@@ -183,7 +183,7 @@ def _is_wrong_at(claim: SolutionClaim, start: Expr | None) -> bool:
         if base is None:
             base = acb(fmpq(23, 71), fmpq(0))
     with working_digits(DIGITS):
-        return _is_large(Residual(x, claim.coefficients), claim.y, base + arb(_STEP))
+        return _is_large(Residual(x, claim.coefficients), claim.y, base + arb(_SAMPLE_STEP))
 
 
 def _outer_integrals(e: Expr) -> Iterator[Expr]:

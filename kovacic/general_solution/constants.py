@@ -150,7 +150,7 @@ class _Minor:
 
 
 def _best_minor(rows: Sequence[Row], wronskian: Expr | None) -> _Minor | None:
-    """One that is never zero if there is one, else one that isn't always zero; None where all are."""
+    """One that is never zero if there is one, else one that isn't always zero; None if all are."""
     if wronskian is not None:
         return _Minor(wronskian, (rows[0], rows[1]), Zero.NEVER)
     sometimes: list[_Minor] = []
@@ -231,7 +231,7 @@ def _norm(row: Row) -> Expr | None:
 
 
 def _pivot(rows: Sequence[Row]) -> _Pivot | None:
-    """A row whose u or v isn't zero, preferably never and without the other; None where all are zero."""
+    """A row whose u or v isn't zero, preferably never and without the other; None if all are zero."""
     found = []
     for row in rows:
         found.append(_Pivot(row, is_first=False, when=when_zero(row.v)))

@@ -31,7 +31,7 @@ Acb = Any  # flint's acb
 #: Puts in symbols that know what is assumed.
 Own = Callable[[Expr], Expr]
 #: Beyond the first pole of tan(x/2) on either side, off the usual special points.
-_GRID = tuple(fmpq(p, 100) for p in (-713, -437, -219, -83, 41, 127, 271, 483, 731))
+_GRID_POINTS = tuple(fmpq(p, 100) for p in (-713, -437, -219, -83, 41, 127, 271, 483, 731))
 #: How far beyond a place where an argument may cross a cut the formula is followed.
 _BEYOND = fmpq(37, 100)
 #: Bits, and how often an interval is halved before its ends are compared, and while they are.
@@ -161,10 +161,10 @@ class _Course:
 
     def _points(self) -> list[Any]:
         """The grid, and points on both sides of each real x at which a linear argument is real, or a tangent has a pole."""
-        points = {*_GRID}
+        points = {*_GRID_POINTS}
         for e in self.y.atoms(sympy.Function, sympy.Pow):
             place = _crossing(e, self.x)
-            if place is not None and not _GRID[0] < place < _GRID[-1]:
+            if place is not None and not _GRID_POINTS[0] < place < _GRID_POINTS[-1]:
                 points |= {place - _BEYOND, place + _BEYOND}
         return sorted(points)
 

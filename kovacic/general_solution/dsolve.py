@@ -251,7 +251,7 @@ def _single(given: Any, what: str) -> Any:
 def in_special_functions(found: Any, eq: Any, func: Any = None, **given: Any) -> Any:
     """What `dsolve` has `found`, in special functions: where that is more than a screen, and they take less than half of it.
 
-    None where they take more, or none are known.  Arguments as for `dsolve`.
+    None if they take more, or none are known.  Arguments as for `dsolve`.
     """
     length = len(as_text(found.rhs))
     if length <= SCREEN:

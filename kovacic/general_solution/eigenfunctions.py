@@ -23,7 +23,7 @@ _NUMBERS = ("n", "k", "m", "j", "n_")
 
 
 def eigenfunctions(question: Question) -> tuple[Expr, list[str]] | None:
-    """y, with a number n in it or lambda, and for which lambda it holds; None where that isn't the question."""
+    """y, with a number n in it or lambda, and for which lambda it holds; None if that isn't the question."""
     conditions = _conditions(question)
     if conditions is None or question.given.f != 0 or question.given.h is not None:
         return None
@@ -42,13 +42,13 @@ def eigenfunctions(question: Question) -> tuple[Expr, list[str]] | None:
     c0 = sympy.simplify(c - parameter * c1)
     taken = {s.name for s in sympy.Add(*others, c0).free_symbols}
     n = sympy.Symbol(next(name for name in _NUMBERS if name not in taken), integer=True)
-    sign = -1 if _positive(c1).is_negative else 1
+    sign = -1 if _with_positive_symbols(c1).is_negative else 1
     found = family(x, B, c0, sign * c1, sign * parameter, *conditions, n=n)
     if found is None or not _is_solution(found, B, c0 + sign * found.value * c1, x):
         return None
     constants = sympy.symbols("C1 C2")
     y = sympy.Add(*(constant * function for constant, function in zip(constants, found.functions, strict=False)))
-    said = _said(found, parameter, sign)
+    said = _said_of_eigenvalue(found, parameter, sign)
     if found.equation is not None and not taken - {x.name}:
         problem = _problem(x, (B, c0, c1), conditions)
         said = f"{said}: {parameter} = {_first_roots(problem)}, ..."
@@ -63,7 +63,7 @@ def _conditions(question: Question) -> tuple[tuple[Expr, Expr], Any] | None:
     if not is_homogeneous or len(points) != 2 or any(point.is_infinite for point in points):
         return None
     low, high = points
-    difference = _positive(high - low)
+    difference = _with_positive_symbols(high - low)
     if difference.is_negative or difference.is_positive is False:
         low, high = high, low
     with suppress(InputError):  # other conditions
@@ -72,7 +72,7 @@ def _conditions(question: Question) -> tuple[tuple[Expr, Expr], Any] | None:
     return None
 
 
-def _positive(e: Expr) -> Expr:
+def _with_positive_symbols(e: Expr) -> Expr:
     """With positive symbols."""
     return e.xreplace({s: sympy.Symbol(s.name, positive=True) for s in e.free_symbols})
 
@@ -83,7 +83,7 @@ def _is_solution(found: EigenvalueFamily, B: Expr, c: Expr, x: Expr) -> bool:
     return all(residue == 0 for residue in residues)
 
 
-def _said(found: EigenvalueFamily, parameter: Expr, sign: int) -> str:
+def _said_of_eigenvalue(found: EigenvalueFamily, parameter: Expr, sign: int) -> str:
     """For which values of the parameter, which is the eigenvalue times a sign."""
     if found.equation is None:
         numbers = ", ".join(str(found.first + k) for k in range(3))

@@ -144,7 +144,7 @@ def read_first_order(
         if source.tokens is not None and "OPERATOR" in source.tokens.kinds:  # (D + 2) y = 0
             (b, c, rest), _ = parts_of(source, limits, order=1)
             function = sympy.Function(source.unknown)(sympy.Symbol(source.variable))
-            return FirstOrderEquation(function, _quotient(-rest, b), _quotient(-c, b), _ZERO, guesses)
+            return FirstOrderEquation(function, _quotient_by_terms(-rest, b), _quotient_by_terms(-c, b), _ZERO, guesses)
         eq = expression_of(source, limits)
     if not isinstance(eq, sympy.Basic):
         return None
@@ -173,10 +173,10 @@ def _in_powers(whole: Expr, function: Expr) -> FirstOrderEquation | None:
     coefficients = [-terms.pop((power, 0), _ZERO) for power in range(3)]
     if terms or leading == 0:
         return None
-    return FirstOrderEquation(function, *(_quotient(part, leading) for part in coefficients))
+    return FirstOrderEquation(function, *(_quotient_by_terms(part, leading) for part in coefficients))
 
 
-def _quotient(numerator: Expr, denominator: Expr) -> Expr:
+def _quotient_by_terms(numerator: Expr, denominator: Expr) -> Expr:
     """In lowest terms, with letters for functions that jump, which SymPy can't cancel."""
     letters = {jump: sympy.Dummy() for jump in numerator.atoms(*JUMPING)}
     found = sympy.cancel(numerator.xreplace(letters) / denominator)

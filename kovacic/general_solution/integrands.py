@@ -74,7 +74,7 @@ def _is_inverse_root(power: Expr) -> bool:
 
 
 def sum_of(integrals: Iterable[Expr | None]) -> Expr | None:
-    """The sum; None where one isn't known, and then the next ones aren't asked for."""
+    """The sum; None if one isn't known, and then the next ones aren't asked for."""
     known = []
     for found in integrals:
         if found is None:
@@ -167,7 +167,7 @@ def _rate_of_power(base: Expr, e: Expr, x: Expr) -> Expr:
 
 
 def integral_of_fraction(g: Expr, x: Expr) -> Expr | None:
-    """By partial fractions; None where g isn't a rational function of x."""
+    """By partial fractions; None if g isn't a rational function of x."""
     r = ratfunc(g, x)
     if r is None:
         return None

@@ -153,7 +153,7 @@ def _alone(indicators: Sequence[Expr]) -> list[Expr]:
 
 
 def _indicator(condition: Expr, x: Expr) -> Expr | None:
-    """1 where a condition holds, and 0 where it doesn't, but for single points; None where that isn't known."""
+    """1 where a condition holds, and 0 where it doesn't, but for single points; None if that isn't known."""
     if condition in (True, False):
         return sympy.Integer(bool(condition))
     if not condition.has(x):
@@ -190,7 +190,7 @@ def _is_simple(e: Expr, x: Expr) -> bool:
 
 
 def above(u: Expr, x: Expr) -> Expr | None:
-    """1 where u > 0 and 0 where u < 0; None where the zeros of u aren't known.
+    """1 where u > 0 and 0 where u < 0; None if the zeros of u aren't known.
 
     >>> x = sympy.Symbol("x")
     >>> above(4 - x**2, x)

@@ -130,13 +130,13 @@ def _side(point: Expr, points: Sequence[Expr]) -> int:
         elif distance.is_negative:
             sides.add(-1)
     if len(sides) > 1:
-        raise _apart(point, [other for other in points if other != point])
+        raise _apart_error(point, [other for other in points if other != point])
     if not sides:
         return 1
     return sides.pop()
 
 
-def _apart(point: Expr, points: Sequence[Expr]) -> InputError:
+def _apart_error(point: Expr, points: Sequence[Expr]) -> InputError:
     said = f"a singular point of the equation lies between {', '.join(map(str, points))}"
     return InputError(f"{said}: {point}; on each side the solutions are others")
 
@@ -173,10 +173,10 @@ def check_between(question: Question, solutions: Sequence[Expr]) -> None:
         return
     for pole in rational_poles(question):
         if len({sign for point in points if (sign := sympy.sign(point - pole)) in (1, -1)}) > 1:
-            raise _apart(pole, points)
+            raise _apart_error(pole, points)
     if all(point.is_number for point in points):
         for pole in poles_between(question, sympy.Min(*points), sympy.Max(*points)):
-            raise _apart(pole, points)
+            raise _apart_error(pole, points)
 
 
 def _points(question: Question) -> list[Expr]:

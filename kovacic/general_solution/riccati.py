@@ -150,7 +150,7 @@ def _read_coefficients(p: Any, q: Any, r: Any, var: str | None, limits: Limits) 
 
 
 def _polynomial(solution: Solution, gauge: RatFunc, factor: RatFunc, atoms: Atoms) -> Any:
-    """The polynomial of omega = -r w - gauge in w, without a common factor; None where that for omega isn't known."""
+    """The polynomial of omega = -r w - gauge in w, without a common factor; None if that for omega isn't known."""
     if solution.riccati is None:
         return None
     field = solution.riccati.coefficients[0].field

@@ -92,7 +92,7 @@ def with_single_steps(e: Expr) -> Expr:
 
 
 def taken_apart(right: Expr, x: Expr) -> Apart | None:
-    """The parts of a right-hand side; None where a jump isn't at a constant, or products of jumps aren't known."""
+    """The parts of a right-hand side; None if a jump isn't at a constant, or products of jumps aren't known."""
     terms = sympy.Add.make_args(sympy.expand(right))
     if len(terms) > _MOST_TERMS:
         return None
@@ -124,7 +124,7 @@ def taken_apart(right: Expr, x: Expr) -> Apart | None:
 
 
 def _impulses_beside_steps(g: Expr, delta: Expr, steps: Sequence[Expr], x: Expr) -> list[Impulse] | None:
-    """g delta^(n) where all steps are 1, nothing where one is 0; None where that isn't known.
+    """g delta^(n) where all steps are 1, nothing where one is 0; None if that isn't known.
 
     g delta^(n) = sum of (-1)^k C(n, k) g^(k)(a) delta^(n - k), and delta^(n)(s u) = delta^(n)(u)/(|s| s^n).
     """

@@ -34,7 +34,7 @@ class _SingularError(Exception):
 
 
 def finite_value(expression: Expr, x: Expr, point: Expr) -> Expr | None:
-    """The value at a point; None where it isn't finite."""
+    """The value at a point; None if it isn't finite."""
     check_time()
     try:
         return _substituted(expression, x, point)
@@ -127,19 +127,19 @@ def expanded_size(expression: Expr) -> float:
     52.0
     """
     has_one_symbol = len(expression.free_symbols) == 1
-    return float(_size(expression, 1 if has_one_symbol else math.inf).parts)
+    return float(_expression_size(expression, 1 if has_one_symbol else math.inf).parts)
 
 
-def _size(expression: Expr, degree: float) -> _Size:
+def _expression_size(expression: Expr, degree: float) -> _Size:
     """`degree`: that of a symbol."""
     if expression.is_Symbol:
         return _Size(1, 1, degree)
     if expression.is_Number:
         return _Size(1, 1, 0)
-    inner = [_size(part, degree) for part in expression.args]
+    inner = [_expression_size(part, degree) for part in expression.args]
     if expression.is_Add:
         terms = sum(one.terms for one in inner)
-        return _Size(terms, _parts(inner), max(one.degree for one in inner))
+        return _Size(terms, _parts_size(inner), max(one.degree for one in inner))
     if expression.is_Mul:
         return reduce(mul, sorted(inner, key=lambda part: part.degree))
     if expression.is_Pow and expression.exp.is_Rational and expression.exp >= 1:
@@ -147,8 +147,8 @@ def _size(expression: Expr, degree: float) -> _Size:
         if expression.exp.is_Integer:
             return power
         return replace(power, degree=math.inf)  # u^(7/3) is expanded as u^2 u^(1/3)
-    return _Size(1, 1 + _parts(inner), math.inf)
+    return _Size(1, 1 + _parts_size(inner), math.inf)
 
 
-def _parts(sizes: Sequence[_Size]) -> float:
+def _parts_size(sizes: Sequence[_Size]) -> float:
     return sum(one.parts for one in sizes)

@@ -148,7 +148,7 @@ def solved_system(system: LinearSystem, ics: Mapping[Any, Any], solver: Solver) 
     if b == 0:
         pair, notices = _triangular(ordered)
     elif start is not None and is_unit(b, ordered.t, start[0]):
-        pair, notices = _through(ordered, start, solver)
+        pair, notices = _through_values(ordered, start, solver)
         conditions = []
     else:
         found, notices = solver(ordered.equation, ordered.functions[0], ics={})
@@ -197,7 +197,7 @@ def _triangular(system: LinearSystem) -> tuple[tuple[Expr, Expr], list[str]]:
     return (first.rhs, second.rhs), notices + others
 
 
-def _through(
+def _through_values(
     system: LinearSystem, start: tuple[Expr, Expr, Expr], solver: Solver
 ) -> tuple[tuple[Expr, Expr], list[str]]:
     """The solution with x(t0) and y(t0), where b(t0) isn't zero."""

@@ -50,7 +50,7 @@ def in_book_form(value: Expr, x: Expr, free: Sequence[Expr] = ()) -> Expr:
     if value.free_symbols != {x}:
         value = shortest([value, _with_short_coefficients(value, x)])
     value = shortest([value, *_single_roots(value, x)])
-    for rule in _RULES_OF_GENERAL_SOLUTIONS if free else _RULES:
+    for rule in _RULES_OF_GENERAL_SOLUTIONS if free else _SHAPE_RULES:
         if not is_small:
             break
         found = shortest([value, *rule(value, x)])
@@ -249,9 +249,9 @@ def _single_waves(value: Expr, x: Expr) -> Iterator[Expr]:
     if any(sum(isinstance(factor, sin | cos) for factor in term) > 1 for term in terms):
         found = sympy.powsimp(sympy.expand(TR8(expanded)))
         yield found
-        yield _factored(found)
+        yield _with_common_factors(found)
         steps = sorted(value.atoms(Heaviside), key=str)
-        yield sympy.collect(found, steps, _factored)
+        yield sympy.collect(found, steps, _with_common_factors)
         if steps:
             yield sympy.collect(expanded, steps, _as_one_wave)
 
@@ -259,13 +259,13 @@ def _single_waves(value: Expr, x: Expr) -> Iterator[Expr]:
 def _as_one_wave(total: Expr) -> Expr:
     """sin(x - a) for sin(x) cos(a) - cos(x) sin(a), but no sqrt(2) sin(x + pi/4) for sin(x) + cos(x)."""
     found = TR10i(total)
-    return _factored(total if found.has(sympy.pi) else found)
+    return _with_common_factors(total if found.has(sympy.pi) else found)
 
 
 def _with_short_coefficients(e: Expr, x: Expr) -> Expr:
     """With quotients of letters in factors, squares completed, as in (k - m w^2)^2 + c^2 w^2."""
     if not e.has(x):
-        return shortest([e, *_quotients(e)])
+        return shortest([e, *_quotients_in_factors(e)])
     if e.is_Mul:
         number, rest = e.as_independent(x)
         factors = (number, *sympy.Mul.make_args(rest))
@@ -276,14 +276,14 @@ def _with_short_coefficients(e: Expr, x: Expr) -> Expr:
         total = sympy.Add(*(c * name for (c, _), name in zip(parts, functions, strict=True)))
         bases = [{factor.as_base_exp()[0] for factor in sympy.Mul.make_args(c)} for c, _ in parts]
         are_apart = not set.intersection(*bases) and not any(part.is_Number for part in set().union(*bases) - {1, -1})
-        forms = [total] if are_apart else [total, _factored(total)]
+        forms = [total] if are_apart else [total, _with_common_factors(total)]
         return shortest([form.xreplace(functions) for form in forms])
     if e.is_Pow or (e.is_Function and len(e.args) == 1):
         return e.func(*(_with_short_coefficients(part, x) for part in e.args))
     return e
 
 
-def _quotients(e: Expr) -> Iterator[Expr]:
+def _quotients_in_factors(e: Expr) -> Iterator[Expr]:
     """A quotient of polynomials, or a multiple of one square root sqrt(u) = u/sqrt(u), in factors."""
     if not e.has(sympy.Add) or not e.free_symbols or e.has(sympy.Function):
         return
@@ -342,7 +342,7 @@ def sums(value: Expr, x: Expr) -> Iterator[Expr]:
         coefficients[function].append(coefficient)
     totals = {f: sympy.Add(*parts) for f, parts in coefficients.items()}
     by_function = sympy.Add(*(c * f if c.is_Rational else sympy.factor(sympy.cancel(c)) * f for f, c in totals.items()))
-    yield from (value, expanded, by_function, _factored(by_function))
+    yield from (value, expanded, by_function, _with_common_factors(by_function))
     if value.is_rational_function(x):
         yield sympy.cancel(value)
 
@@ -361,10 +361,10 @@ def _common_factors(value: Expr, x: Expr) -> Iterator[Expr]:
     back = {letter: e for e, letter in letters.items()}
     plain = value.xreplace(letters)
     for form in (plain, *over_one_denominator(plain, x)):
-        yield _factored(form).xreplace(back)
+        yield _with_common_factors(form).xreplace(back)
 
 
-def _factored(value: Expr) -> Expr:
+def _with_common_factors(value: Expr) -> Expr:
     """With common factors before the sum, but no fraction before unlike multiples: x/2 + exp(x)/3 stays."""
     found = sympy.factor_terms(value)
     number, rest = found.as_coeff_Mul()
@@ -372,8 +372,8 @@ def _factored(value: Expr) -> Expr:
     return value if is_unlike and number not in (1, -1) else found
 
 
-_Rule = Callable[[Expr, Expr], Iterator[Expr]]
-_RULES: tuple[_Rule, ...] = (
+_ShapeRule = Callable[[Expr, Expr], Iterator[Expr]]
+_SHAPE_RULES: tuple[_ShapeRule, ...] = (
     _absolute,
     _exchanged,
     _hyperbolic,

@@ -30,7 +30,7 @@ _LARGEST = 200
 _ONE = sympy.eye(2)
 
 
-def _complex(u: Expr, v: Expr) -> Complex:
+def _complex_sum(u: Expr, v: Expr) -> Complex:
     """u + i v."""
     return sympy.Matrix([[u, -v], [v, u]])
 
@@ -54,19 +54,19 @@ def undetermined(b: Expr, c: Expr, right: Expr, x: Expr) -> Expr | None:
         return None
     total = []
     for rate, P in polynomials.items():
-        Q = _solved(b, c, _complex(*rate), P)
+        Q = _solved(b, c, _complex_sum(*rate), P)
         if Q is None:
             return None
         A, B = (sympy.Add(*(coefficient[part, 0] * x**k for k, coefficient in Q.items())) for part in (0, 1))
-        total.append(sympy.powdenest(sympy.exp(rate.rho * x)) * _wave(A, B, rate.omega * x))
+        total.append(sympy.powdenest(sympy.exp(rate.rho * x)) * _wave_terms(A, B, rate.omega * x))
     return sympy.Add(*total)
 
 
-def _wave(A: Expr, B: Expr, angle: Expr) -> Expr:
+def _wave_terms(A: Expr, B: Expr, angle: Expr) -> Expr:
     """A cos(angle) - B sin(angle): a term each, or over one denominator where that has parameters and is shorter.
 
     >>> a, b, t = sympy.symbols("a b t")
-    >>> _wave(a / (a**2 + b**2), -b / (a**2 + b**2), t)
+    >>> _wave_terms(a / (a**2 + b**2), -b / (a**2 + b**2), t)
     (a*cos(t) + b*sin(t))/(a**2 + b**2)
     """
     expanded = sympy.expand_mul(A * cos(angle) - B * sin(angle))
@@ -105,9 +105,9 @@ def _polynomials(right: Expr, x: Expr) -> dict[Rate, dict[int, Complex]] | None:
                 degree += int(exponent)
             elif line is not None and is_wave and omega == 0:
                 phase, omega = line
-                turned = _complex(cos(phase), sin(phase))
+                turned = _complex_sum(cos(phase), sin(phase))
                 if factor.func is sin:  # the cosine of an angle that is pi/2 less
-                    turned *= _complex(0, -1)
+                    turned *= _complex_sum(0, -1)
                 coefficient *= turned
             elif line is not None and not base.has(x):
                 coefficient *= base**line.constant
@@ -122,7 +122,7 @@ def _polynomials(right: Expr, x: Expr) -> dict[Rate, dict[int, Complex]] | None:
 
 
 def _summands(right: Expr, x: Expr) -> Sequence[Expr] | None:
-    """Products with one wave at most; none of 0.  None where powers of functions of x aren't natural, or there are too many."""
+    """Products with one wave at most; none of 0.  None if powers of functions of x aren't natural, or there are too many."""
     exponents = [power.exp for power in right.atoms(sympy.Pow) if power.base.has(x)]
     if not all(exponent.is_Integer and exponent > 0 for exponent in exponents):
         return None  # before it is expanded
@@ -148,7 +148,7 @@ def _line(expression: Expr, x: Expr) -> _Line | None:
 
 
 def _solved(b: Expr, c: Expr, rate: Complex, P: dict[int, Complex]) -> dict[int, Complex] | None:
-    """Q of equation (1); None where u^2 + v^2 = 0 for a factor u + i v other than 0."""
+    """Q of equation (1); None if u^2 + v^2 = 0 for a factor u + i v other than 0."""
     factors = [(rate**2 + b * rate + c * _ONE).applyfunc(_constant), (2 * rate + b * _ONE).applyfunc(_constant), _ONE]
     m = next(k for k, factor in enumerate(factors) if not factor.is_zero_matrix)
     norm = _constant(factors[m].det())

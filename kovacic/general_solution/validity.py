@@ -271,7 +271,7 @@ def _of_power(e: Expr) -> Expr:
 # ----------------------------------------------------------------------------------------------------------- relations
 
 
-def _compared(relation: Any, u: Expr) -> Expr:
+def _comparison(relation: Any, u: Expr) -> Expr:
     """u > 0 or u >= 0, which SymPy refuses to write for what is known not to be real."""
     short = _of_the_same_sign(u)
     if short.is_extended_real is False:
@@ -279,8 +279,8 @@ def _compared(relation: Any, u: Expr) -> Expr:
     return relation(short, 0)
 
 
-_positive = partial(_compared, sympy.StrictGreaterThan)
-_not_negative = partial(_compared, sympy.GreaterThan)
+_positive = partial(_comparison, sympy.StrictGreaterThan)
+_not_negative = partial(_comparison, sympy.GreaterThan)
 
 
 def _of_the_same_sign(u: Expr) -> Expr:

@@ -66,7 +66,7 @@ def _at_tangent(found: Expr, angle: Expr, u: Expr) -> Expr:
             continue
         degrees = [sympy.degree(part, u) for part in parts]
         in_waves = [sympy.expand(sympy.expand(p.subs(u, s / c) * c**n)) for p, n in zip(parts, degrees, strict=True)]
-        n, m = (_single_waves(part).as_content_primitive()[1] for part in in_waves)
+        n, m = (_waves_of_one_angle(part).as_content_primitive()[1] for part in in_waves)
         known[logarithm] = log(n / m) - sympy.Rational(degrees[0] - degrees[1], 2) * in_cosine
     whole = sympy.expand(found.xreplace(known), deep=False).xreplace({in_cosine: 2 * log(c)})
     return whole.xreplace({u**2 + 1: c**-2}).xreplace({u: s / c})
@@ -90,10 +90,10 @@ def _continuous_angle(line: Expr, angle: Expr, u: Expr) -> Expr:
     along = (c * c + s * image, c * image - s * c)
     D = (1 + a) * along[0] + b * along[1]
     N = (1 + a) * along[1] - b * along[0]
-    return angle + atan(sympy.cancel(_single_waves(N) / _single_waves(D)))
+    return angle + atan(sympy.cancel(_waves_of_one_angle(N) / _waves_of_one_angle(D)))
 
 
-def _single_waves(e: Expr) -> Expr:
+def _waves_of_one_angle(e: Expr) -> Expr:
     """A sum of waves of multiples of one angle, for products of them."""
     return sympy.expand(TR8(sympy.expand(e)))
 
@@ -177,7 +177,7 @@ def _in_fractions(R: Expr, s: Expr, c: Expr, theta: Expr, k: int, *, doubled: bo
     terms = (*A, *(term * s for term in B))
     back = dict(zip((s, c), (sin(theta), cos(theta))[:: 1 - 2 * k], strict=True))
     polynomials, fractions = sympy.sift(terms, lambda term: term.is_polynomial(s, c), binary=True)
-    return _single_waves(sympy.Add(*polynomials).xreplace(back)) + sympy.Add(*fractions).xreplace(back)
+    return _waves_of_one_angle(sympy.Add(*polynomials).xreplace(back)) + sympy.Add(*fractions).xreplace(back)
 
 
 def _is_even(f: Expr, c: Expr) -> bool:

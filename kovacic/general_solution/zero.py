@@ -172,7 +172,7 @@ def sample_value(symbol: Expr, k: int) -> Expr:
 
 
 def ball(value: Expr, sample: dict[Expr, Expr] | None = None) -> Any:
-    """The value of a constant in a ball, None where that can't be computed; parameters have the values of the sample."""
+    """The value of a constant in a ball, None if that can't be computed; parameters have the values of the sample."""
     if sample:
         value = value.xreplace(sample)
     if value.has(*ARBITRARY):

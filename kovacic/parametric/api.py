@@ -210,7 +210,7 @@ class Sampler:
     random: Random
 
     def points(self, statements: Sequence[Statement]) -> Iterator[ParameterPoint | None]:
-        """Every other one where one of the statements holds; None where an attempt failed."""
+        """Every other one where one of the statements holds; None if an attempt failed."""
         chosen: Sequence[Statement | None] = statements or [None]
         for statement in cycle(chosen):
             yield self.point(statement)
@@ -225,7 +225,7 @@ class Sampler:
         return None
 
     def point(self, statement: Statement | None) -> ParameterPoint | None:
-        """An admitted one at which the statement holds, if there is one; None where an attempt failed."""
+        """An admitted one at which the statement holds, if there is one; None if an attempt failed."""
         point = self._point(statement)
         if point is not None and not self.assumptions.admits(zip(point.names, point.values, strict=True)):
             return None

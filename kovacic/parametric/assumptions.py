@@ -2,7 +2,7 @@
 
 A parameter can be known to lie in a class s + m Z ("integer", "odd", "even", "half-integer"), to be rational or irrational, not
 an integer, not zero, or a real number with rational bounds ("positive", "negative", ">=1/2").  A conclusion holds at all values
-with these properties; None where none follows.
+with these properties; None if none follows.
 
 One parameter's are read from words: "positive integer", "noninteger", ">=1/2", "!=1", "<sqrt(2)".
 """
@@ -136,7 +136,7 @@ class Known:
     def inequalities(self) -> tuple[Bound, ...]:
         """All of its bounds, which aren't kept here: balls can't be pickled."""
         relations = [INEQUALITIES.get(word, word) for word in self.words]
-        return tuple(_bound(word) for word in relations if _BOUND.fullmatch(word))
+        return tuple(_stated_bound(word) for word in relations if _BOUND.fullmatch(word))
 
     @property
     def bounds(self) -> tuple[Bound, ...]:
@@ -242,7 +242,7 @@ def is_relation(word: str) -> bool:
 
 
 @lru_cache(maxsize=256)
-def _bound(word: str) -> Bound:
+def _stated_bound(word: str) -> Bound:
     """What a relation says.  Raises `InputError` for an end that isn't a real number, or too large."""
     match = _BOUND.fullmatch(word)
     assert match is not None
@@ -422,7 +422,7 @@ class Assumptions:
         return any(_is_positive_beyond(bounds, form, or_zero=or_zero) for bounds in product(*choices.values()))
 
     def _class_of(self, form: FunctionPoly) -> Classes | None:
-        """A class that contains all values of a polynomial; None where it has no parameters, or a class isn't known."""
+        """A class that contains all values of a polynomial; None if it has no parameters, or a class isn't known."""
         known = {name: self.of(name).coset for name in parameters_of(form)}
         classes = {name: numbers for name, numbers in known.items() if numbers is not None}
         if not known or len(classes) < len(known):
@@ -454,7 +454,7 @@ class LinearCombination:
 
     @property
     def parameter(self) -> str | None:
-        """The name of the only one; None where there are several, or none."""
+        """The name of the only one; None if there are several, or none."""
         return next(iter(self.factors)) if len(self.factors) == 1 else None
 
     def values(self, known: Mapping[str, Classes]) -> Classes:
@@ -538,7 +538,7 @@ def _read_words(what: object) -> list[str]:
             hint=f"known are {', '.join((*_ABBREVIATIONS, *WORDS))}, >=1/2, !=1, a value",
         )
     for word in filter(_BOUND.fullmatch, words):
-        _bound(word)
+        _stated_bound(word)
     return words
 
 

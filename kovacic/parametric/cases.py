@@ -183,7 +183,7 @@ def equations_on(statement: Statement, equation: Equation) -> list[EquationThere
 
 
 def _generic_zero(functions: Sequence[FunctionPoly]) -> ParameterPoint | None:
-    """The generic point of the common zeros; None where these aren't one piece."""
+    """The generic point of the common zeros; None if these aren't one piece."""
     point = ParameterPoint.generic(functions[0].field)
     try:
         for function in functions:
@@ -202,7 +202,7 @@ def normal_form(S: RatFunc, variable: str) -> Equation:
 
 
 def equation_at(equation: Equation, point: ParameterPoint) -> Equation | None:
-    """y'' + p y' + q y = 0 with these values of the parameters; None where p or q isn't defined."""
+    """y'' + p y' + q y = 0 with these values of the parameters; None if p or q isn't defined."""
     try:
         p, q = (point.restricted(with_free_constant(part / equation.a).S) for part in (equation.b, equation.c))
     except ZeroDivisionError:
@@ -248,7 +248,7 @@ def solvable_cases(regions: Sequence[ParameterRegion]) -> list[Case]:
             meeting = ((other, within(region.statement, within(other, charts))) for other in unsolvable)
             without = [other for other, common in meeting if not covered(common, before)]
             found.append(Case(region.statement, (region,), tuple(without)))
-    return grouped(found, _is_same)
+    return grouped(found, _is_same_region)
 
 
 def in_lines(regions: Sequence[ParameterRegion]) -> list[ParameterRegion]:
@@ -313,7 +313,7 @@ def _is_redundant(
         return False
     known = [one.statement for one in before]
     for other in after:
-        says_the_same = other.defined and other.complete is True and _is_same(other, region)
+        says_the_same = other.defined and other.complete is True and _is_same_region(other, region)
         if says_the_same and covered(charts, [other.statement]):
             return True
         # Has the other one a solution at all of its values, where this one has none?
@@ -325,7 +325,7 @@ def _is_redundant(
     return is_generic
 
 
-def _is_same(first: ParameterRegion, second: ParameterRegion) -> bool:
+def _is_same_region(first: ParameterRegion, second: ParameterRegion) -> bool:
     return _is_alike(first.verdict, second.verdict)
 
 

@@ -62,7 +62,7 @@ def _product(first: Any, second: Any) -> Any:
 class RankConditions:
     """Where a rank drops: where one of the irreducible `polynomials` vanishes, or all of the `system`.
 
-    The system is empty where that happens nowhere else, and None where it wasn't computed.  `deficient`: the images are
+    The system is empty where that happens nowhere else, and None if it wasn't computed.  `deficient`: the images are
     linearly dependent for all values.
     """
 
@@ -411,7 +411,7 @@ class Exponents:
     def polynomial(self, d: int) -> PossiblePolynomial | None:
         """The only monic P of degree d that can solve the equation.
 
-        The coefficients follow from the highest one down; None where they don't.
+        The coefficients follow from the highest one down; None if they don't.
         """
         images = self.images(d)
         shift = max(image.degree - k for k, image in enumerate(images))
@@ -453,7 +453,7 @@ class Numbers:
 
 
 def degrees_of_solutions(problem: Problem) -> Numbers | None:
-    """The degrees of P in exp(int theta) P; None where the exponents differ at conjugate points."""
+    """The degrees of P in exp(int theta) P; None if the exponents differ at conjugate points."""
     roots: list[ExponentRoot] = []
     singular = _singular(problem)
     for place in singular:
@@ -466,7 +466,7 @@ def degrees_of_solutions(problem: Problem) -> Numbers | None:
 
 
 def zeros_of_forms(problem: Problem, m: int) -> Numbers | None:
-    """The numbers of zeros of rational forms of an even degree m; None where some place leaves none.
+    """The numbers of zeros of rational forms of an even degree m; None if some place leaves none.
 
     Exponents that differ at conjugate poles are left out.
     """
@@ -489,7 +489,7 @@ def zeros_of_forms(problem: Problem, m: int) -> Numbers | None:
 
 
 def choices_of_degree(problem: Problem, d: int) -> list[Exponents] | None:
-    """The choices that give P this degree; None where there are too many, or their roots need too large an extension."""
+    """The choices that give P this degree; None if there are too many, or their roots need too large an extension."""
     places = places_of(problem)
     if places is None:
         return None
@@ -588,7 +588,7 @@ def _singular(problem: Problem) -> list[Place]:
 
 
 def _with_rational_points(problem: Problem) -> Problem | None:
-    """The same problem over an extension over which its singular points are rational; None where that is too large."""
+    """The same problem over an extension over which its singular points are rational; None if that is too large."""
     base = problem.field
     while factor := next((place.factor for place in problem.finite_places if place.degree > 1), None):
         if factor.degree == 2:
@@ -648,7 +648,7 @@ def _local_parts(place: Place, S: RatFunc, root: Poly) -> list[LocalPart]:
 def form_images(problem: Problem, m: int) -> list[Poly] | None:
     """The images of 1, x, ..., x^N under the map whose kernel has the P of the rational forms of degree m.
 
-    Whether or not there are logarithms at special values.  None where there can be no such form.
+    Whether or not there are logarithms at special values.  None if there can be no such form.
     """
     bound = bounds(problem, m, logarithms=False)
     if bound is None:

@@ -65,14 +65,14 @@ def shifted(text: str, value: Poly) -> str:
 
 def shortest(function: FunctionPoly | RatFunc, letter: str) -> str:
     """The shortest among the usual forms."""
-    above, below, names = _cleared(function, letter)
-    return _shortest(_forms(above, below), names)
+    above, below, names = _as_quotient(function, letter)
+    return _shortest(_written_forms(above, below), names)
 
 
 def written(function: FunctionPoly | RatFunc, letter: str = "x") -> str:
     """The shortest of the usual forms, with its denominator in factors; `letter` is the name of the polynomial variable."""
-    above, below, names = _cleared(function, letter)
-    forms = [*_forms(above, below)]
+    above, below, names = _as_quotient(function, letter)
+    forms = [*_written_forms(above, below)]
     best = _shortest(forms, names)
     has_sum_below = re.search(r"/\([^()]* [+-] [^()]*\)", best) is not None
     if not has_sum_below:
@@ -102,7 +102,7 @@ def partial_fractions(S: RatFunc, variable: str) -> str:
             digits_of_it.append(digit)
         for j, digit in enumerate(reversed(digits_of_it), 1):
             if digit:
-                top, bottom, names = _cleared(RatFunc(digit, factor**j), variable)
+                top, bottom, names = _as_quotient(RatFunc(digit, factor**j), variable)
                 terms.append(_sum([_factored(top, bottom)], names))
     return _joined(terms)
 
@@ -117,7 +117,7 @@ def sides_of_equation(function: FunctionPoly) -> SidesOfEquation:
 
     It is solved where it is linear, or a power is a product of linear factors; two terms have two sides.
     """
-    above, _, names = _cleared(function, "x")
+    above, _, names = _as_quotient(function, "x")
     solved = _solved_for_a_parameter(above)
     if solved is None:
         solved = _power_in_linear_factors(above)
@@ -148,12 +148,12 @@ def _solved_for_a_parameter(above: Any) -> _SolvedFor | None:
     chosen = next(without_fractions, linear[0])
     coefficient = int(terms[chosen])
     left = above.context().from_dict({chosen: 1})
-    values = _forms(left * coefficient - above, above.context().constant(coefficient))
+    values = _written_forms(left * coefficient - above, above.context().constant(coefficient))
     return _SolvedFor(left, [*values])
 
 
 def _power_in_linear_factors(polynomial: Any) -> _SolvedFor | None:
-    """t^k = f, f a product of linear forms, where there are more than two terms; None where no power is alone."""
+    """t^k = f, f a product of linear forms, where there are more than two terms; None if no power is alone."""
     if len(polynomial) <= 2:
         return None
     for i, degree in enumerate(map(int, polynomial.degrees())):
@@ -175,7 +175,7 @@ def root_written(square: Poly, factor: str = "") -> str:
     """
     if not square:
         return "0"
-    above, below, names = _cleared(over_parameters(square), "x")
+    above, below, names = _as_quotient(over_parameters(square), "x")
     top = _without_squares(above)
     bottom = _without_squares(below)
     odd = top.odd
@@ -195,7 +195,7 @@ class _Quotient(NamedTuple):
     names: tuple[str, ...]
 
 
-def _cleared(function: FunctionPoly | RatFunc, letter: str) -> _Quotient:
+def _as_quotient(function: FunctionPoly | RatFunc, letter: str) -> _Quotient:
     """A function as such a quotient; the polynomial variable comes first."""
     quotient = function if isinstance(function, RatFunc) else RatFunc(function)
     above, below = map(over_parameters, quotient.cleared())
@@ -214,7 +214,7 @@ class _FormulaTerm:
     name: str = ""
 
 
-def _forms(above: Any, below: Any) -> Iterator[list[_FormulaTerm]]:
+def _written_forms(above: Any, below: Any) -> Iterator[list[_FormulaTerm]]:
     """Sums of terms that are equal to the quotient of two polynomials over Z; the last one is in factors, if it isn't 0."""
     whole = [_FormulaTerm(Fraction(1), ((above, 1),), ((below, 1),))]
     apart = []  # each of a few terms over a monomial
@@ -445,7 +445,7 @@ _UNCLEAR = re.compile(r"[*/^+-] ?[+-]|\^(?:\w+|\([^()]*\))\^")
 
 
 def unexpanded(source: Source) -> Math | None:
-    """The equation, or y'' = S y for S alone; None where there is no text, a long one, or one that isn't written like this.
+    """The equation, or y'' = S y for S alone; None if there is no text, a long one, or one that isn't written like this.
 
     Derivatives as calls, several arguments, 1e-3, 2*-x and x^2^3 aren't.
     """

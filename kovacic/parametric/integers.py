@@ -100,7 +100,7 @@ class SolvedCondition:
 def solve_for(name: str, equation: FunctionPoly) -> SolvedCondition | None:
     """All solutions of a polynomial equation in n over Q(t) by values of one parameter.
 
-    None where the parameter isn't linear in it, and where its coefficient vanishes at the n of an equation of higher degree.
+    None if the parameter isn't linear in it, and where its coefficient vanishes at the n of an equation of higher degree.
     """
     i = equation.field.names.index(name)
     if degrees(equation)[i] != 1:
@@ -174,7 +174,7 @@ def integer_condition(
 
 
 def _spectrum(equation: FunctionPoly, numbers: Classes, letter: str, setting: Setting) -> IntegerCondition | None:
-    """A parameter as a function of n, by the cheapest way to choose n; None where no parameter is linear."""
+    """A parameter as a function of n, by the cheapest way to choose n; None if no parameter is linear."""
     known = all_solved(equation, setting.fixed)
     if setting.constant.names:  # without the constant in denominators: sqrt(2), not 2/sqrt(2)
         numbers_there = everywhere(equation.field, setting.constant)
@@ -188,7 +188,7 @@ def _spectrum(equation: FunctionPoly, numbers: Classes, letter: str, setting: Se
     found: list[tuple[int, bool, IntegerCondition]] = []
     for k, solved in enumerate(energies or known):
         strata = tuple(one for one in solved.strata if not setting.covers(one.zero))
-        for family in _choices(equation, solved, numbers, letter):
+        for family in _integer_choices(equation, solved, numbers, letter):
             text = shortest(family.value, family.letter)
             said = prose.text_of(prose.numbers_of(family))
             cost = _LATER * k + _STRATUM * len(strata) + _WEIGHT * len(text) + _WORDS * len(said)
@@ -203,7 +203,9 @@ def _is_one_at_one(value: RatFunc) -> bool:
     return bool(value.den(one)) and value.num(one) == value.den(one)
 
 
-def _choices(equation: FunctionPoly, solved: SolvedCondition, numbers: Classes, letter: str) -> Iterator[IntegerFamily]:
+def _integer_choices(
+    equation: FunctionPoly, solved: SolvedCondition, numbers: Classes, letter: str
+) -> Iterator[IntegerFamily]:
     """f(N) with N = n; and with N = s n + r, n an integer."""
     N = equation.field.poly([0, 1])
     is_mirrored = equation(-N) == (-1) ** equation.degree * equation
@@ -237,7 +239,7 @@ def _roots(equation: FunctionPoly, numbers: Classes, constant: ParameterPoint) -
     field = equation.field
     with_constant = everywhere(field, constant).at(equation)  # over Q(t)(alpha), in which more elements are squares
     mean = -with_constant[equation.degree - 1] / (with_constant.lc * equation.degree)
-    squares = _squares(with_constant(mean.field.poly([0, 1]) + mean) / with_constant.lc)
+    squares = _squares_of_roots(with_constant(mean.field.poly([0, 1]) + mean) / with_constant.lc)
     if squares is None:
         return None
     if constant.names:
@@ -248,7 +250,7 @@ def _roots(equation: FunctionPoly, numbers: Classes, constant: ParameterPoint) -
     return SumOfRoots(over_parameters(middle - whole), tuple(squares), numbers)
 
 
-def _squares(shifted: Poly) -> list[Poly] | None:
+def _squares_of_roots(shifted: Poly) -> list[Poly] | None:
     """Those of which the roots of a monic even polynomial are sums, with all signs, of square roots."""
     k = shifted.degree
     if any(shifted[i] for i in range(1, k, 2)):
@@ -519,7 +521,7 @@ def integer_roots(equation: FunctionPoly, residues: Iterable[Fraction | int], mo
 
 
 def _without_parameters(polynomial: Poly) -> Poly | None:
-    """The same over Q; None where a coefficient has parameters."""
+    """The same over Q; None if a coefficient has parameters."""
     values: list[Fraction] = []
     for coefficient in polynomial:
         value = polynomial.field.rational_value(coefficient)

@@ -71,7 +71,7 @@ class Determinant:
 
     `exponents` vanishes where d is the degree.  `factors` are the irreducible factors of Delta_d: none where it is 1, and P
     exists nowhere, or only where all of the polynomials in `system` vanish, since there are more equations than unknowns.
-    `factors` is None where it has no formula in the parameters: the exponents need too large an extension of their field.
+    `factors` is None if it has no formula in the parameters: the exponents need too large an extension of their field.
     """
 
     exponents: FunctionPoly
@@ -128,7 +128,7 @@ class Determinant:
 class Natural(Statement):
     """For a natural number that the exponents allow, an invariant of degree m with so many zeros exists.
 
-    The number is a root of one of the `factors`, None where there are too many sums of exponents to list them.  m = 1 is a
+    The number is a root of one of the `factors`, None if there are too many sums of exponents to list them.  m = 1 is a
     solution with a rational omega, whose zeros are those of P.  `structure` is that of the group where the invariant exists
     and no structure before it has been found.
     """

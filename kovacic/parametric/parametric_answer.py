@@ -82,7 +82,7 @@ class ParametricAnswer:
     constant : ParameterPoint
         The value of the algebraic constant in S.
     equation : Equation or None
-        The equation of which y'' = S y is the normal form, maybe in a function of the user's variable, its `change`; None where
+        The equation of which y'' = S y is the normal form, maybe in a function of the user's variable, its `change`; None if
         S itself was given.  Solutions of the regions solve that equation, and S speaks of the normal form.
     letters : tuple
         Parameters of S that stand for others, sqrt(a) and exp(a): their names, and the SymPy expressions.
@@ -266,7 +266,7 @@ class ParametricAnswer:
         return replace(answer, verified=verified)
 
     def predicted(self, values: Values) -> RegionVerdict | None:
-        """What the regions claim at a point; None where S isn't defined.
+        """What the regions claim at a point; None if S isn't defined.
 
         Parameters
         ----------

@@ -107,7 +107,7 @@ def carried_back(W: RatFunc, variable: str, solution: PolynomialSolution) -> Pol
 
 
 def transformation(problem: Problem) -> Transformation | None:
-    """One that lowers the apparent singularities; None where none is found."""
+    """One that lowers the apparent singularities; None if none is found."""
     before = _apparent(problem)
     energies = _energies(problem.S) if before else []
     if not energies:
@@ -169,7 +169,7 @@ def _rational_logarithmic_derivatives(problem: Problem, energies: list[int]) -> 
 
 
 def _logarithmic_derivative(problem: Problem, surface: ParameterPoint) -> RatFunc | None:
-    """The rational one of a solution on a surface, with all parameters in its field; None where there is none."""
+    """The rational one of a solution on a surface, with all parameters in its field, or None."""
     riccati = decide(surface.restricted(problem.S), problem.budget).riccati
     if riccati is None or riccati.degree > 1:
         return None
@@ -554,7 +554,7 @@ def _with_powers(powers: Mapping[str, int], solution: PolynomialSolution) -> Pol
 
 
 def in_powers(S: RatFunc) -> InPowers | None:
-    """None where each parameter occurs in powers without a common divisor."""
+    """None if each parameter occurs in powers without a common divisor."""
     field = S.field
     assert isinstance(field, FunctionField)
     parts = [over_parameters(part) for part in S.cleared()]
@@ -592,7 +592,7 @@ def derived(
         with bounded_work(_STRATA):
             found = partition(lifted, settings)
         if found.complete is not True:
-            found = _in_powers(lifted, settings, found)
+            found = _partition_by_powers(lifted, settings, found)
     field = lifted.field.ground
     assert isinstance(field, FunctionField)
     regions = _distinct(found.regions, constant, budget)
@@ -609,7 +609,7 @@ def derived(
     return replace(result, regions=tuple([_finished(region, given, max_degree, budget, letters) for region in regions]))
 
 
-def _in_powers(S: RatFunc, settings: Settings, direct: Partition) -> Partition:
+def _partition_by_powers(S: RatFunc, settings: Settings, direct: Partition) -> Partition:
     """The partition by powers of the parameters, where it is complete; else the direct one."""
     try:
         powers = in_powers(S)

@@ -110,7 +110,7 @@ def congruent(form: Math, residues: str, modulus: Fraction) -> Math:
 
 
 #: Classes of integers that have a name, by the modulus and the residues.
-_KINDS = {
+_PROSE_OF_KIND = {
     INTEGERS: "an integer",
     Classes.of([0], 2): "an even integer",
     Classes.of([1], 2): "an odd integer",
@@ -133,7 +133,7 @@ def classes(residues: Sequence[Fraction], modulus: Fraction) -> str:
 
 def kind(numbers: Classes, letter: str = "") -> Words:
     """What an integer of these is, maybe with its name: "an odd integer n", "an integer not divisible by 3"."""
-    noun = _KINDS.get(numbers)
+    noun = _PROSE_OF_KIND.get(numbers)
     name: Words = (" ", Math.of(letter)) if letter else ()
     if noun is not None:
         return (noun, *name)
@@ -148,7 +148,7 @@ def kind(numbers: Classes, letter: str = "") -> Words:
 
 def is_named(numbers: Classes) -> bool:
     """True where `kind` has a word for the numbers."""
-    return numbers in _KINDS
+    return numbers in _PROSE_OF_KIND
 
 
 # ------------------------------------------------------------------------------- claims
@@ -328,14 +328,14 @@ def _alternatives(claim: AnyOf, letter: str) -> Words:
             said.append((_unsolved(part),))
         elif isinstance(part, AllOf):
             there, where = part.parts
-            strata += [(", or ", *_degree(there, letter), " where ", *sentence(where))]
+            strata += [(", or ", *_natural_numbers(there, letter), " where ", *sentence(where))]
     for name, families in by_name.items():
         values = _one_of(name, [family.value for family in families], letter)
         said.append((*values, *_in_parentheses(poles_of(families))))
     return (*_joined(said, " or "), *_joined(strata, ""))
 
 
-def _degree(claim: Claim, letter: str) -> Words:
+def _natural_numbers(claim: Claim, letter: str) -> Words:
     """The natural numbers that the exponents allow."""
     return _alternatives(claim, letter) if isinstance(claim, AnyOf) else sentence(claim)
 
@@ -376,7 +376,7 @@ def _one_of(name: str, functions: Sequence[RatFunc], letter: str) -> Words:
 
 
 def _sum_in_pairs(functions: Sequence[RatFunc]) -> FunctionPoly | None:
-    """A number, not 0, of which each function has another one that makes it up; None where there isn't one, or two pairs."""
+    """A number, not 0, of which each function has another one that makes it up, or None, or two pairs."""
     if len(functions) < 4:
         return None
     for other in functions[1:]:
@@ -413,7 +413,7 @@ def _degree_by_sum(claim: DegreeBySum) -> Words:
 
 def _degree_exists(claim: DegreeExists) -> Words:
     d = claim.letter
-    said = (*_degree(claim.degree, d), ", ", Math.of(f"{d} in N"), ", and ", Math.of(f"Delta_{d} = 0"))
+    said = (*_natural_numbers(claim.degree, d), ", ", Math.of(f"{d} in N"), ", and ", Math.of(f"Delta_{d} = 0"))
     return said if claim.m == 1 else (*said, f" for an invariant of degree {claim.m}")
 
 

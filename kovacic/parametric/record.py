@@ -56,8 +56,8 @@ def statement_data(statement: Statement) -> dict[str, Any]:
 
 def _congruence_data(statement: Congruence) -> dict[str, Any]:
     form = statement.form
-    residues = [*map(_number, statement.residues)]
-    modulus = _number(statement.modulus)
+    residues = [*map(_json_number, statement.residues)]
+    modulus = _json_number(statement.modulus)
     if form is None:
         equation = {"unknown": statement.letter, "equation": statement.equation.to_str(statement.letter)}
         return {"kind": "integer root", **equation, "residues": residues, "modulus": modulus}
@@ -84,7 +84,7 @@ def _natural_data(statement: Natural) -> dict[str, Any]:
     }
 
 
-def _number(value: Fraction) -> int | str:
+def _json_number(value: Fraction) -> int | str:
     return for_json(int(value)) if value.denominator == 1 else as_text(value)
 
 

@@ -159,7 +159,7 @@ class ParameterRegion:
     limits : Limits
         For these.
     origin : callable or None
-        What `solution` asks; None where no formula is known.
+        What `solution` asks; None if no formula is known.
 
     Examples
     --------

@@ -333,11 +333,11 @@ def spelled(parsed: Parsed) -> tuple[Parsed, Letters]:
     larger = FunctionField(tuple(_spelling(meanings[name]) if name in meanings else name for name in field.names))
     equation = parsed.equation
     if equation is not None:
-        a, b, c, f = (_over(part, larger) for part in (equation.a, equation.b, equation.c, equation.f))
+        a, b, c, f = (_in_other_names(part, larger) for part in (equation.a, equation.b, equation.c, equation.f))
         equation = replace(equation, a=a, b=b, c=c, f=f)
     said = tuple(f"{name} is " for name in meanings)
     notices = tuple(notice for notice in parsed.notices if not notice.startswith(said))
-    return replace(parsed, S=_over(parsed.S, larger), equation=equation, notices=notices, letters=()), letters
+    return replace(parsed, S=_in_other_names(parsed.S, larger), equation=equation, notices=notices, letters=()), letters
 
 
 def _spelling(meaning: Any) -> str:
@@ -347,7 +347,7 @@ def _spelling(meaning: Any) -> str:
     return f"({text})" if is_power else text
 
 
-def _over(function: RatFunc, field: FunctionField) -> RatFunc:
+def _in_other_names(function: RatFunc, field: FunctionField) -> RatFunc:
     """The same function with other names for the parameters."""
     return RatFunc(_renamed(function.num, field), _renamed(function.den, field), reduced=True)
 

@@ -93,7 +93,7 @@ def kimura(differences: Sequence[Fraction | None]) -> Structure | None:
         return Structure.IMPRIMITIVE
     if len(known) < 3 or any(d.denominator > LARGEST for d in known):
         return None
-    return _table().get(_key(known))
+    return _table().get(_difference_key(known))
 
 
 @lru_cache(maxsize=1)
@@ -106,7 +106,9 @@ def _table() -> dict[tuple[int, ...], Structure]:
                 continue
             values = [r + q for r, q in zip(row.differences, integers, strict=True)]
             for signs in product((1, -1), repeat=3):
-                table[_key([sign * value for sign, value in zip(signs, values, strict=True)])] = row.structure
+                table[_difference_key([sign * value for sign, value in zip(signs, values, strict=True)])] = (
+                    row.structure
+                )
     return table
 
 
@@ -115,7 +117,7 @@ def _sixtieths(difference: Fraction) -> int:
     return int(60 * difference) % 120
 
 
-def _key(differences: Sequence[Fraction]) -> tuple[int, ...]:
+def _difference_key(differences: Sequence[Fraction]) -> tuple[int, ...]:
     return tuple(sorted(map(_sixtieths, differences)))
 
 
@@ -147,7 +149,7 @@ class Schwarz(Statement, Claim):
         if rows:
             values = [_F(k, 60) for k in random.choice(rows)]
         random.shuffle(values)
-        differences = map(_root, dict.fromkeys(roots(self.cubic)))
+        differences = map(_rational_root, dict.fromkeys(roots(self.cubic)))
         known = [difference for difference in differences if difference is not None]
         if len(known) != 3:
             return []
@@ -160,7 +162,7 @@ class Schwarz(Statement, Claim):
 
     def narrowed(self, assumptions: Assumptions) -> Statement:
         """At each value of an integer parameter for which its exponent difference has a denominator of the table."""
-        for difference in map(_root, roots(self.cubic)):
+        for difference in map(_rational_root, roots(self.cubic)):
             if difference is None:
                 continue
             known = values_at_integers(difference, LARGEST)
@@ -262,7 +264,7 @@ def _listed(names: Iterable[str]) -> str:
 class Differences:
     """The exponent differences whose squares are the roots of a cubic: what they are called, and those without parameters."""
 
-    #: Sums of square roots; None where one isn't.
+    #: Sums of square roots; None if one isn't.
     names: tuple[str, ...] | None
     #: Those of the names that aren't rational numbers.
     free: tuple[str, ...]
@@ -511,14 +513,14 @@ def _one_function(cubic: FunctionPoly) -> _OneFunction | None:
     if not free or len(squares) < 3:
         return None
     first = free[0]
-    root = _root(first)
+    root = _rational_root(first)
     lines: list[_DifferenceLine | None] = []
     for square in squares:
         if _is_number(square):
             constant = rational_square_root(square)
             lines.append(None if constant is None else _DifferenceLine(_F(0), constant))
             continue
-        line = _line(square, first, root)
+        line = _difference_line(square, first, root)
         if line is None:
             return None
         lines.append(line)
@@ -529,7 +531,7 @@ def _is_number(value: Poly) -> bool:
     return value.field.rational_value(value) is not None
 
 
-def _root(square: Poly) -> FunctionPoly | None:
+def _rational_root(square: Poly) -> FunctionPoly | None:
     """The square root, where it is a rational function of the parameters."""
     root = square.field.sqrt(square)
     if root is None:
@@ -537,14 +539,14 @@ def _root(square: Poly) -> FunctionPoly | None:
     return over_parameters(root)
 
 
-def _line(square: Poly, first: FunctionPoly, root: FunctionPoly | None) -> _DifferenceLine | None:
+def _difference_line(square: Poly, first: FunctionPoly, root: FunctionPoly | None) -> _DifferenceLine | None:
     """sqrt(square), up to its sign, as a line in w, w^2 = first; the shift is 0 where w isn't rational (`root` is None)."""
     if root is None:
         ratio = rational_square_root(square / first)
         if ratio is None:
             return None
         return _DifferenceLine(ratio, _F(0))
-    own = _root(square)
+    own = _rational_root(square)
     if own is None:
         return None
     form, scale, shift = normal_form(own)

@@ -135,7 +135,7 @@ def _degrees_that_decide(problem: Problem) -> Degrees | None:
     """Degrees m such that every Liouvillian equation with these exponents has a rational form of one of them, and its group.
 
     2 and q for the reducible ones, q the common denominator of the exponents: if y1 = prod (x - c)^(e_c) P is the only
-    solution with a rational omega, y1^q is rational; 4 for the imprimitive ones; 12 for the primitive ones.  None where an
+    solution with a rational omega, y1^q is rational; 4 for the imprimitive ones; 12 for the primitive ones.  None if an
     exponent difference isn't a rational number.
     """
     places = [place for place in problem.places if place.kind in (Kind.REGULAR, Kind.UNRAMIFIED)]
@@ -166,7 +166,7 @@ def _where_a_logarithm_vanishes(problem: Problem) -> list[FunctionPoly] | None:
     """Hypersurfaces outside of which there is a logarithm, and so only case 1 or none: each is examined as a whole.
 
     Where an exponent difference is a positive integer, that is where the obstruction to a solution without one vanishes.
-    None where the obstructions vanish everywhere, or their zeros can't be examined.
+    None if the obstructions vanish everywhere, or their zeros can't be examined.
     """
     for place in problem.places:
         obstruction = _obstruction(place)
@@ -236,7 +236,7 @@ def _has_two_branch_points(problem: Problem) -> bool:
 def degree_equation(problem: Problem) -> Poly | None:
     """The polynomial over Q(t) whose roots are the degrees that P can have in a solution exp(int theta) P.
 
-    None where a solution has no rational omega, or the exponents at conjugate points differ.
+    None if a solution has no rational omega, or the exponents at conjugate points differ.
     """
     if _is_ramified(problem):
         return None
@@ -319,7 +319,7 @@ def _is_excluded_by_symmetry(problem: Problem) -> bool:
 
 
 def _equations_for_zeros(problem: Problem, m: int, findings: Findings) -> tuple[FunctionPoly, ...] | None:
-    """Equations for the number of zeros of invariants of degree m; None where there are too many combinations of exponents.
+    """Equations for the number of zeros of invariants of degree m; None if there are too many combinations of exponents.
 
     The constant number is left out where the candidates that are added for it are all that is special.
     """

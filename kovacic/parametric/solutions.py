@@ -120,7 +120,7 @@ class PolynomialSolution:
     jacobi: tuple[Any, ...] = ()
 
     def at(self, values: Mapping[Any, Any]) -> Any:
-        """y at values of the parameters, by symbol; None where it isn't one of the solutions there, or vanishes identically."""
+        """y at values of the parameters, by symbol; None if it isn't one of the solutions there, or vanishes identically."""
         degree = sympy.Integer(self.degree) if isinstance(self.degree, int) else self.degree.xreplace(values)
         is_natural = degree.is_Integer and degree >= 0
         if not is_natural or any(condition.xreplace(values) != 0 for condition in self.conditions):
@@ -164,7 +164,7 @@ Origin = Callable[[int | None], tuple[PolynomialSolution, ...]]
 
 @dataclass(frozen=True)
 class Later:
-    """An origin that is found when it is asked for, None where there is none."""
+    """An origin that is found when it is asked for, None if there is none."""
 
     find: Callable[[], Origin | None]
 
@@ -179,7 +179,7 @@ BySigns = Callable[[Sequence[Any]], PolynomialSolution]
 
 @dataclass(frozen=True)
 class Signed:
-    """Solutions for each choice of so many signs; `formula()` is None where there are none in radicals."""
+    """Solutions for each choice of so many signs; `formula()` is None if there are none in radicals."""
 
     formula: Callable[[], BySigns | None]
     signs: int
@@ -209,7 +209,7 @@ class Carried:
         return tuple(map(self.change, self.origin(number)))
 
     def general(self, signs: Sequence[Any]) -> PolynomialSolution | None:
-        """All of them in one, with symbols for the signs; None where there is no such formula."""
+        """All of them in one, with symbols for the signs; None if there is no such formula."""
         found = general(self.origin, signs)
         return None if found is None else self.change(found)
 
@@ -239,7 +239,7 @@ class GivenSolutions:
             yield self.spelled(_given(solution, *piece))
 
     def general(self, signs: Sequence[Any]) -> PolynomialSolution | None:
-        """All of them in one, with symbols for the signs; None where there is no such formula."""
+        """All of them in one, with symbols for the signs; None if there is no such formula."""
         found = general(self.origin, signs)
         if found is None or len(self.pieces) > 1:
             return None
@@ -286,7 +286,7 @@ def translated(y: Any, equation: Equation) -> Any:
 
 
 def general(origin: Origin | None, signs: Sequence[Any]) -> PolynomialSolution | None:
-    """The formula with symbols for the signs; None where there isn't one."""
+    """The formula with symbols for the signs, or None."""
     together = getattr(origin, "general", None)
     return None if together is None else together(signs)
 
@@ -294,7 +294,7 @@ def general(origin: Origin | None, signs: Sequence[Any]) -> PolynomialSolution |
 def weight_by_signs(problem: Problem, variable: str) -> Signed | None:
     """exp(int theta), by which P of the `degree` is a solution, for all choices of the exponents, which signs choose.
 
-    None where the exponents need too large an extension, or other roots than square roots.
+    None if the exponents need too large an extension, or other roots than square roots.
     """
     places = places_of(problem)
     if places is None or not places.parts or not has_radicals(places.field):
@@ -323,7 +323,7 @@ def weight_by_signs(problem: Problem, variable: str) -> Signed | None:
 def solution_of_degree(exponents: Exponents, d: int, variable: str, given: FunctionPoly) -> PolynomialSolution | None:
     """exp(int theta) P for one choice of exponents, where `given` vanishes and P exists.
 
-    None where P doesn't follow from its degree, where it exists for no values, and where a root isn't a radical.
+    None if P doesn't follow from its degree, where it exists for no values, and where a root isn't a radical.
     """
     if not has_radicals(exponents.field):
         return None

@@ -178,7 +178,7 @@ def structures(problem: Problem, n: int, origin: Origin) -> Iterator[ParameterRe
 
 
 def jacobi_formula(problem: Problem, coordinate: Coordinate, variable: str) -> BySigns | None:
-    """Equation (1) for signs f, g, h; None where three singular points are conjugate."""
+    """Equation (1) for signs f, g, h; None if three singular points are conjugate."""
     n = coordinate.n
     base = written_expression(coordinate.base)
     weight = written_expression(coordinate.weight)
@@ -221,7 +221,7 @@ class _SingularPoint(NamedTuple):
 
 
 def _three_points(problem: Problem, x: Any) -> list[_SingularPoint] | None:
-    """The singular points, an ordinary infinity among them if there are two; None where they aren't three, or are conjugate."""
+    """The singular points, an ordinary infinity among them if there are two; None if they aren't three, or are conjugate."""
     points: list[_SingularPoint] = []
     for place in problem.places:
         if place.kind is not Kind.ORDINARY and place.degree <= 2:

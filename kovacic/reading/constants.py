@@ -73,7 +73,7 @@ class Constants:
         return constant.over(field)
 
     def radical(self, radicand: Poly, n: int, label: str) -> Poly | None:
-        """The principal n-th root of a number; None where it depends on parameters and isn't in the field.
+        """The principal n-th root of a number; None if it depends on parameters and isn't in the field.
 
         Raises `Enlarged` where a number's root isn't in the field, and `LimitExceeded` where the field with it would be
         too large.
@@ -120,7 +120,7 @@ class Constants:
         return self._root(equation, principal_root(value, n), label, radical)
 
     def algebraic(self, node: Any) -> Poly | None:
-        """An algebraic number that SymPy has in any other form, through its minimal polynomial; None where it finds none."""
+        """An algebraic number that SymPy has in any other form, through its minimal polynomial; None if it finds none."""
         import sympy
 
         if node is sympy.I:

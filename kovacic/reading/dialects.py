@@ -281,7 +281,7 @@ class _Translation:
         return "".join(texts).replace("**", "^").translate(SUPERSCRIPT_DIGITS)
 
     def operand_end(self, k: int, depth: int = 0) -> int | None:
-        """The number of the token behind the one operand that begins with number k; None where there is none."""
+        """The number of the token behind the one operand that begins with number k, or None."""
         text = self.texts[k]
         if depth > _DEEPEST:
             return None
@@ -299,7 +299,7 @@ class _Translation:
         return (self.kinds[k] == "WORD" and self.argument_end(end)) or end
 
     def argument_end(self, k: int) -> int | None:
-        """The number of the token behind (x) or {(x)}, an argument that is one letter; None where that isn't next."""
+        """The number of the token behind (x) or {(x)}, an argument that is one letter; None if that isn't next."""
         last = self.partner.get(k)
         if last is None:
             return None
@@ -609,7 +609,7 @@ def _bars(scan: Sequence[Token]) -> dict[int, int]:
 
 #: This package's own notation alone: whole numbers, single letters with their primes, signs.  Not numbers of lists and
 #: equations, "2) y''", "(2) y''", "y'' = y (2)", nor what may begin a comment.
-_PLAIN = re.compile(
+_PLAIN_TEXT = re.compile(
     r"""
     (?! \ * (?: [^ (]{1,2}\ *\) | \(\ *\w+\ *\)\  ) | .* (?: \(\ *[0-9]+\ *\)\ *$ | // | -- ) )
     (?: [0-9]+(?![0-9.eE]) | [A-CF-Za-ce-z](?:'+(?!'))?(?![\w'.]) | \*{1,2}(?!\*) | [(/](?!\*) | =(?!=) | [-+^)\ ] )+
@@ -626,7 +626,7 @@ def plain_tokens(text: str) -> Tokens | None:
     >>> plain_tokens("y''(x) = -4 y").pieces, plain_tokens("y'' = sin x")
     (["y''", '(', 'x', ')', '=', '-', '4', 'y', ''], None)
     """
-    if _PLAIN.fullmatch(text) is None or text.isspace():
+    if _PLAIN_TEXT.fullmatch(text) is None or text.isspace():
         return None
     found: list[Token] = []
     for match in _PLAIN_TOKEN.finditer(text):

@@ -107,7 +107,7 @@ class EquationReader(RationalReader):
         return Equation(a, b, c, -r, h, self.variable, self.unknown)
 
     def _rational_part(self, rest: Any) -> tuple[Any, Any]:
-        """The rational terms of a SymPy expression, and minus the sum of its other ones, h; None where there are none."""
+        """The rational terms of a SymPy expression, and minus the sum of its other ones, h, or None."""
         from kovacic.reading.symbolic import walked
 
         values = {term: walked(term, self) for term in rest.as_ordered_terms()}

@@ -62,7 +62,7 @@ def _over_leading(source: Source, limits: Limits) -> Parsed | None:
 
 
 def _in_letters(source: Source, limits: Limits) -> Parsed | None:
-    """With letters for constants that aren't rational in symbols; None where that doesn't help.
+    """With letters for constants that aren't rational in symbols; None if that doesn't help.
 
     Then with letters for those that are added to multiples of x in exponents and waves, too.
     """
@@ -82,7 +82,7 @@ def _in_letters(source: Source, limits: Limits) -> Parsed | None:
 
 
 def multiplied_out(given: Any, source: Source, limits: Limits) -> Expr | None:
-    """An equation without the unknown function in denominators, y = 0 left out; None where that doesn't make it linear.
+    """An equation without the unknown function in denominators, y = 0 left out; None if that doesn't make it linear.
 
     >>> x, y = sympy.Symbol("x"), sympy.Function("y")(sympy.Symbol("x"))
     >>> multiplied_out(y.diff(x, 2) / y - x, Source(print, "x", "y"), Limits())

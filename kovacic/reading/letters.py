@@ -44,7 +44,7 @@ class Lettered(NamedTuple):
 
 
 def with_letters(parts: Sequence[Expr], coefficients: int, x: Expr) -> Lettered | None:
-    """Expressions in which constants have become letters; None where the first ones, the `coefficients`, have none.
+    """Expressions in which constants have become letters; None if the first ones, the `coefficients`, have none.
 
     >>> x, a, b = sympy.symbols("x a b")
     >>> found = with_letters((1 + sympy.sqrt(a), a * x, sympy.exp(2 * b)), 3, x)

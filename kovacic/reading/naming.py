@@ -306,7 +306,7 @@ def _single_letters(tokens: Tokens, declared: Collection[str]) -> list[str]:
 
 
 def argument_of(tokens: Tokens, unknown: str) -> str | None:
-    """The name in y''(x), or in D(y, x) and Derivative(y, (x, 2)); None where the unknown function stands alone."""
+    """The name in y''(x), or in D(y, x) and Derivative(y, (x, 2)); None if the unknown function stands alone."""
     found = pattern(rf"{re.escape(unknown)}'* (?:\( ({_NAME}) \)|, (?:\( )?({_NAME}))").search(tokens.spaced)
     return found and (found[1] or found[2])
 

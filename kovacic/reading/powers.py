@@ -29,7 +29,7 @@ Expr = Any  # SymPy publishes no types
 
 
 def in_powers(source: Source, limits: Limits) -> Parsed | None:
-    """The equation (1) for an input with such coefficients; None where they aren't functions of one power.
+    """The equation (1) for an input with such coefficients; None if they aren't functions of one power.
 
     The right-hand side is kept as the equation's h.
     """

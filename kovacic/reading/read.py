@@ -47,7 +47,7 @@ def read_input(
     variable = _variable_name(var)
     if isinstance(S, str | Paste) or _is_sympy(S):
         source = source_of(S, variable, limits, unknown=unknown, equation=equation, names=names)
-        parsed = _with_note(_read(S, source, limits, exponentials=exponentials))
+        parsed = _with_note(_parsed(S, source, limits, exponentials=exponentials))
         lost = tuple(note for note in source.notes if note not in parsed.notices)
         if not lost and not source.guesses:
             return parsed
@@ -81,7 +81,7 @@ def declared(parameters: Collection[str], assume: Any = None) -> tuple[str, ...]
     return (*parameters, *map(str, assume if isinstance(assume, Mapping) else ()))
 
 
-def _read(given: Any, source: Source, limits: Limits, *, exponentials: bool) -> Parsed:
+def _parsed(given: Any, source: Source, limits: Limits, *, exponentials: bool) -> Parsed:
     """What a source means, made of the text or expression that was given.
 
     With `exponentials`, coefficients that aren't rational are tried as functions of exp(k x), and constants as letters.
@@ -94,7 +94,9 @@ def _read(given: Any, source: Source, limits: Limits, *, exponentials: bool) -> 
         found = multiplied_out(given, source, limits)
         if found is None:
             raise
-        return _read(found, source_of(found, source.variable, limits, equation=True), limits, exponentials=exponentials)
+        return _parsed(
+            found, source_of(found, source.variable, limits, equation=True), limits, exponentials=exponentials
+        )
     except NotRational as error:
         if not exponentials:
             raise

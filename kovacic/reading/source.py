@@ -105,7 +105,7 @@ def _only_equation(paste: Paste) -> Tokens:
 
 
 def _sympy_source(given: Any, variable: str | None, unknown: Any, equation: bool) -> Source:
-    """S, an `Eq`, or an expression that is zero; `unknown` is y(x), or None where it is the only function."""
+    """S, an `Eq`, or an expression that is zero; `unknown` is y(x), or None if it is the only function."""
     import sympy
 
     from kovacic.reading.symbolic import function_of, is_sympy_equation, names_of, walked

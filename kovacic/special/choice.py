@@ -197,7 +197,7 @@ class _Equation:
         return [PairForm(FormKind.SPECIAL, 4 * written_length(parts), partial(self._in_special_functions, source))]
 
     def _in_special_functions(self, source: Pullback | GaugeTransform) -> ClosedForm | None:
-        """With y1 as it is where that is elementary and short; None where the two aren't known to be independent."""
+        """With y1 as it is where that is elementary and short; None if the two aren't known to be independent."""
         found = written_pair(source, self.S, self.gauge, self.variable, {}, joined=True)
         if found is None:
             return None

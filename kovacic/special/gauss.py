@@ -135,7 +135,7 @@ class Gauss(StandardEquation):
                 # Independent for all values of the letters.
                 return _by_parity(even)
         if any(writer.is_integer(form.degree) for form in first.signs):
-            return _reducible(writer, forms)
+            return _reducible_pair(writer, forms)
         if not writer.is_integer(first.alpha):
             return _at_one_point(first)
         return _at_two_points(first.regular, first.swapped.regular)
@@ -175,7 +175,7 @@ def klein_pullback(found: Covariants) -> Pullback:
 
 def _shifted(points: list[Point], apparent: list[Point], budget: Budget) -> Iterator[Pullback]:
     """For exponent differences that are the same up to signs and integers: those between 0 and 1, and those of S."""
-    choices = islice(product(*map(_reduced, points)), _MOST_CHOICES)
+    choices = islice(product(*map(_reduced_differences, points)), _MOST_CHOICES)
     hidden = min(sum(point.degree for point in apparent), _HIDDEN)
     for chosen in dict.fromkeys([*choices, tuple(points)]):
         for covering in coverings(list(chosen), [], budget, hidden):
@@ -188,7 +188,7 @@ def _shifted(points: list[Point], apparent: list[Point], budget: Budget) -> Iter
                     yield Pullback(replace(found, **{name: (root - 1) ** 2}), covering.f)
 
 
-def _reduced(point: Point) -> list[Point]:
+def _reduced_differences(point: Point) -> list[Point]:
     """With the differences from 0 to 1 that are the same up to sign and integers, the smaller one first."""
     delta = rational_square_root(point.square)
     if delta is None:
@@ -382,8 +382,8 @@ def _at_two_points(form: _GaussForm, other: _GaussForm) -> WrittenPair:
     return writer.pair(first.term, second.term, bracket, (form.alpha,), real_at=form.middle)
 
 
-def _reducible(writer: Writer, forms: list[_GaussForm]) -> WrittenPair | None:
-    """Where the assumptions make the equation reducible; None where it isn't known which pair is independent."""
+def _reducible_pair(writer: Writer, forms: list[_GaussForm]) -> WrittenPair | None:
+    """Where the assumptions make the equation reducible; None if it isn't known which pair is independent."""
     free = next((form for form in forms if not writer.is_integer(form.alpha)), None)
     if free is not None:
         return _at_one_point(free)

@@ -332,7 +332,7 @@ def coverings(points: list[Point], apparent: list[Point], budget: Budget, hidden
     """
     if len(points) > _PLACES:
         return
-    for zeros, poles, f in _functions(_Distribution(points, apparent, budget, hidden)):
+    for zeros, poles, f in _pullback_functions(_Distribution(points, apparent, budget, hidden)):
         ones = _difference_at_ones(f, zeros.degree, [*points, *apparent])
         if ones is not None:
             yield Covering(f, zeros.square, ones, poles.square)
@@ -387,11 +387,11 @@ class _Distribution:
         return found if len(found) <= _WITH_APPARENT else self.points
 
 
-def _functions(search: _Distribution) -> Iterator[tuple[Fibre, Fibre, RatFunc]]:
+def _pullback_functions(search: _Distribution) -> Iterator[tuple[Fibre, Fibre, RatFunc]]:
     """The functions f, each once, with their zeros and poles.  Raises `LimitExceeded` for too many of them."""
     tried = set()
     for zeros, poles, rest in _distributed(search):
-        for f in _scaled(zeros.polynomial, poles.polynomial, rest):
+        for f in _scaled_to_one(zeros.polynomial, poles.polynomial, rest):
             if f in tried:
                 continue
             tried.add(f)
@@ -475,7 +475,7 @@ def _ratio(point: Point, other: Point) -> Fraction | None:
 # ------------------------------------------------------------------------------------------ fibres to f
 
 
-def _scaled(zeros: Poly, poles: Poly, rest: list[Point]) -> Iterator[RatFunc]:
+def _scaled_to_one(zeros: Poly, poles: Poly, rest: list[Point]) -> Iterator[RatFunc]:
     """The multiples of zeros/poles that are 1 at the points of the rest, or have 1 for a critical value."""
     f = RatFunc(zeros, poles)
     factors = [point.factor for point in rest[:1] if not point.at_infinity]

@@ -24,7 +24,7 @@ from kovacic.special.writer import WrittenPair
 
 
 def mathieu(S: RatFunc, gauge: RatFunc, equation: Equation) -> WrittenPair | None:
-    """An even and an odd solution, functions of x; None where f isn't such a wave.
+    """An even and an odd solution, functions of x; None if f isn't such a wave.
 
     >>> import kovacic
     >>> print(kovacic.dsolve("y'' + (a - 2*q*cos(2*x))*y = 0"))

@@ -152,7 +152,7 @@ class StandardEquation(ABC):
     def written(self, writer: Writer, f: RatFunc, singular: Poly | None) -> WrittenPair | None:
         """Two independent solutions pulled back by f, with their Wronskian.
 
-        None where the assumptions leave open which are independent.
+        None if the assumptions leave open which are independent.
 
         With `singular`, solutions are analytic wherever this denominator of S isn't zero, even where f is.
         """

@@ -85,7 +85,7 @@ _Order = tuple[Place, int]
 
 
 def _transformation(problem: Problem, target: Problem) -> tuple[Poly, RatFunc, RatFunc] | None:
-    """m, a and b; None where there are none."""
+    """m, a and b, or None."""
     own, other = ({(p.at_infinity, p.factor): p for p in given.places} for given in (problem, target))
     options = []
     for key in dict.fromkeys([*own, *other]):
@@ -184,7 +184,7 @@ def _solved(S: RatFunc, T: RatFunc, orders: Sequence[_Order]) -> tuple[Poly, Rat
     double_slope = _sum([D], [-c for c in _derived(db, rate)])  # 2 a'
     parts = _derived(double_slope, rate), [4 * T * c for c in db], [2 * T.derivative()]
     a = [c / (2 * D) for c in _sum(*parts)]
-    B = _polynomial_solution(_sum([2 * c for c in _derived(a, rate)], [-c for c in double_slope]), degree)
+    B = _bounded_polynomial_solution(_sum([2 * c for c in _derived(a, rate)], [-c for c in double_slope]), degree)
     if B is None:
         return None
     derivatives = [RatFunc(B)]
@@ -193,7 +193,7 @@ def _solved(S: RatFunc, T: RatFunc, orders: Sequence[_Order]) -> tuple[Poly, Rat
     return m, R * sum((c * d for c, d in zip(a, derivatives, strict=True)), D * 0), R * B
 
 
-def _polynomial_solution(operator: _Operator, degree: int) -> Poly | None:
+def _bounded_polynomial_solution(operator: _Operator, degree: int) -> Poly | None:
     """A polynomial of this degree at most, not 0, that the operator takes to 0."""
     x = operator[0].field.poly([0, 1])
     cleared = over_one_denominator(operator)
@@ -245,7 +245,7 @@ class SpecialFunctions:
     Attributes
     ----------
     pullback : Pullback or None
-        The verified pull-back of a standard equation that the solutions come from; None where nothing was found.
+        The verified pull-back of a standard equation that the solutions come from; None if nothing was found.
     searched : tuple of str
         The classes that were gone through.
     stopped : str or None
@@ -398,7 +398,7 @@ def special_functions(
 
 
 def find_transform(S: RatFunc, budget: Budget) -> GaugeTransform | None:
-    """y = a v + b v' for a pull-back of one of the `EQUATIONS`, checked exactly; None where a limit is reached, too.
+    """y = a v + b v' for a pull-back of one of the `EQUATIONS`, checked exactly; None if a limit is reached, too.
 
     >>> from kovacic.algebra.rationals import QQ
     >>> x = RatFunc(QQ.poly([0, 1]))
@@ -423,7 +423,7 @@ def written_pair(
     joined: bool,
     places: Sequence[Fraction] = (),
 ) -> WrittenPair | None:
-    """y1 and y2, checked at a point; None where the assumptions on the symbols leave open which solutions are independent.
+    """y1 and y2, checked at a point; None if the assumptions on the symbols leave open which solutions are independent.
 
     Raises `VerificationFailed` if the check fails, which is a defect of this package; `LimitExceeded` within `Budget.watched`.
     """
@@ -435,10 +435,10 @@ def written_pair(
     pullback = source.pullback if isinstance(source, GaugeTransform) else source
     writer = Writer(gauge, sympy.Symbol(variable), symbols, transform, places)
     found = pullback.equation.written(writer, pullback.f, S.den if joined else None)
-    return None if found is None else _checked(found, writer, S, gauge)
+    return None if found is None else _checked_pair(found, writer, S, gauge)
 
 
-def _checked(pair: WrittenPair, writer: Writer, S: RatFunc, gauge: RatFunc) -> WrittenPair:
+def _checked_pair(pair: WrittenPair, writer: Writer, S: RatFunc, gauge: RatFunc) -> WrittenPair:
     """The pair in the user's symbols; raises `VerificationFailed` where one isn't a solution, to 50 digits at a point."""
     from kovacic.closed_form.check import is_numerical_solution
 
@@ -452,7 +452,7 @@ def _checked(pair: WrittenPair, writer: Writer, S: RatFunc, gauge: RatFunc) -> W
 
 @dataclass(frozen=True)
 class BySign:
-    """Solutions where an integer that depends on parameters isn't negative, and where it is; None where none are known."""
+    """Solutions where an integer that depends on parameters isn't negative, and where it is; None if none are known."""
 
     integer: Any
     natural: WrittenPair
@@ -471,7 +471,7 @@ def by_sign(
 ) -> BySign | None:
     """Solutions by the sign of an integer: where polynomials have names, or where it tells which solutions are independent.
 
-    Arguments as for `special_functions`; None where the sign of no integer helps.
+    Arguments as for `special_functions`; None if the sign of no integer helps.
 
     >>> import kovacic, sympy
     >>> n, l = sympy.symbols("n l", integer=True, positive=True)
@@ -496,8 +496,8 @@ def by_sign(
             best = max(found, key=lambda found: found.negative is not None, default=None)
             if best is None:
                 return None
-            natural = _checked(best.natural, writer, S, gauge)
-            negative = None if best.negative is None else _checked(best.negative, writer, S, gauge)
+            natural = _checked_pair(best.natural, writer, S, gauge)
+            negative = None if best.negative is None else _checked_pair(best.negative, writer, S, gauge)
     except LimitExceeded:
         return None
     return BySign(best.integer.xreplace(_own_symbols(writer)), natural, negative)

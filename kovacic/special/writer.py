@@ -47,7 +47,7 @@ class WrittenPair:
     y1, y2 : sympy.Expr
         The solutions.
     known_wronskian : callable or None
-        Gives y1 y2' - y1' y2, which few ask for; None where it isn't known in closed form.
+        Gives y1 y2' - y1' y2, which few ask for; None if it isn't known in closed form.
     undefined : tuple of sympy.Expr
         Where one of these is zero a member has no value.
     """
@@ -59,7 +59,7 @@ class WrittenPair:
 
     @cached_property
     def wronskian(self) -> Expr | None:
-        """y1 y2' - y1' y2, or None where it isn't known in closed form."""
+        """y1 y2' - y1' y2, or None if it isn't known in closed form."""
         return None if self.known_wronskian is None else self.known_wronskian()
 
     def __reduce__(self) -> tuple[Any, ...]:

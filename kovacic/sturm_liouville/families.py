@@ -80,7 +80,7 @@ def family(
     *,
     n: Expr,
 ) -> EigenvalueFamily | None:
-    """The eigenvalues of y'' + B y' + (c0 + parameter c1) y = 0, or None where this isn't such a problem.
+    """The eigenvalues of y'' + B y' + (c0 + parameter c1) y = 0, or None if this isn't such a problem.
 
     `conditions` are those at the two ends, or 1 or -1 for periodic and antiperiodic ones; letters are taken to be positive.
     """
@@ -259,10 +259,10 @@ def matching_equations(problem: SturmProblem, E: Expr) -> tuple[Expr, ...]:
         Y, slope = line.carried((Y, slope))
     if middle is not None:  # an even Y' changes its sign there, by the delta function
         half = sum((line.delta for line in lines if line.low == middle), sympy.S.Zero) / 2
-        found = _equation(slope + half * Y, E), _equation(Y, E)
+        found = _zero_equation(slope + half * Y, E), _zero_equation(Y, E)
         return tuple(equation for equation in found if equation != sympy.false)
     slope += lines[-1].delta * Y if last else 0
-    return (_equation(Y * ends[1][1] - slope * ends[1][0], E),)
+    return (_zero_equation(Y * ends[1][1] - slope * ends[1][0], E),)
 
 
 def rate_beside_delta(problem: SturmProblem) -> Expr | None:
@@ -298,7 +298,7 @@ def _middle(lines: list[_LinearPiece], problem: SturmProblem) -> Expr | None:
 _WAVES = ((sympy.cos, sympy.sin, sympy.tan, sympy.cot), (sympy.cosh, sympy.sinh, sympy.tanh, sympy.coth))
 
 
-def _equation(function: Expr, E: Expr) -> Expr:
+def _zero_equation(function: Expr, E: Expr) -> Expr:
     """function = 0 without constant factors; for two terms with waves k tan(k L) = ... or k cot(k L) = ..., what is shorter."""
     expression = function.as_independent(E, as_Add=False)[1]
     for first, second, quotient, inverse in _WAVES:

@@ -38,10 +38,10 @@ _REPLACEMENTS: list[tuple[re.Pattern[str], Any]] = [
     (re.compile(r"\*"), " "),
 ]
 #: Those with a command in LaTeX, and the last two without one.
-_FUNCTIONS = tuple(
+_PRINTED_FUNCTIONS = tuple(
     "sin cos tan cot sec csc sinh cosh tanh coth exp log ln arcsin arccos arctan sech csch".split()  # noqa: SIM905
 )
-_INNERMOST = re.compile(rf"(\b(?:sqrt|cbrt|root|{'|'.join(_FUNCTIONS)})|\^)?\(([^()]*)\)")
+_INNERMOST = re.compile(rf"(\b(?:sqrt|cbrt|root|{'|'.join(_PRINTED_FUNCTIONS)})|\^)?\(([^()]*)\)")
 # It begins where a word does: else each digit of a long number would be tried as a beginning.
 # Only one factor is below the line: 1/2*t is (1/2) t.
 _QUOTIENT = re.compile(r"(?<![^\s/,-])([^\s/,-][^\s/,]*)/((?:\*\*|[^\s/,*])+)")
@@ -271,8 +271,8 @@ class _LatexWriter:
         if match[1] == "^":
             exponent = f"^{{{self.complete(match[2])}}}"
             return self.ready(exponent, exponent)
-        if match[1] in _FUNCTIONS:
-            name = rf"\operatorname{{{match[1]}}}" if match[1] in _FUNCTIONS[-2:] else rf"\{match[1]}"
+        if match[1] in _PRINTED_FUNCTIONS:
+            name = rf"\operatorname{{{match[1]}}}" if match[1] in _PRINTED_FUNCTIONS[-2:] else rf"\{match[1]}"
             call = rf"{name}\left({self.complete(match[2])}\right)"
             return self.ready(call, call)
         if match[1]:
