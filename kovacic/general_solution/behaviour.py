@@ -120,7 +120,7 @@ def limit_at(expression: Expr, x: Expr, place: Approach) -> Expr:
 
 
 def finite_limit(expression: Expr, x: Expr, place: Approach) -> Expr | None:
-    """The limit if it is a number, or None, or it isn't known."""
+    """The limit if it is a number; None if there is none, or it isn't known."""
     try:
         found = limit_at(expression, x, place)
     except (UnknownLimit, NotImplementedError):

@@ -376,7 +376,7 @@ def _one_of(name: str, functions: Sequence[RatFunc], letter: str) -> Words:
 
 
 def _sum_in_pairs(functions: Sequence[RatFunc]) -> FunctionPoly | None:
-    """A number, not 0, of which each function has another one that makes it up, or None, or two pairs."""
+    """A number, not 0, of which each function has another one that makes it up; None without one, or with two pairs."""
     if len(functions) < 4:
         return None
     for other in functions[1:]:
