@@ -64,7 +64,10 @@ def _substituted(e: Expr, x: Expr, point: Expr) -> Expr:
     sums = e.atoms(sympy.RootSum)
     terms = {r: sympy.Lambda(r.fun.variables, _substituted(r.fun.expr, x, point)) for r in sums}
     e = e.xreplace({r: sympy.RootSum(r.poly, term, auto=False) for r, term in terms.items()})
-    value = e.subs(x, point)
+    try:
+        value = e.subs(x, point)
+    except TypeError:  # SymPy has compared a part that isn't a number
+        raise _SingularError from None
     if value.has(sympy.hyper, sympy.Integral, *_ODD):
         value = _at_zero(value)
     if not _OPEN.isdisjoint(value.atoms()):

@@ -73,8 +73,9 @@ def needed_for(value: Expr, x: Expr, exceptions: Iterable[Expr] = ()) -> Validit
     u >= 0 beside u != 0 is u > 0, as is that of a product beside those of its factors; and what follows from this isn't said.
     """
     value, roots = _without_even_roots(value, x)
-    # The bounds of an integral may be infinite.
-    numbers = (node for node in sympy.preorder_traversal(value) if node.is_number)
+    # The bounds of an integral may be infinite; of a sum over roots SymPy can't tell.
+    plain = value.xreplace({total: sympy.Dummy() for total in value.atoms(sympy.RootSum)})
+    numbers = (node for node in sympy.preorder_traversal(plain) if node.is_number)
     is_of_real_numbers = all(number.is_extended_real for number in numbers)
     relations = [*dict.fromkeys(relation.xreplace(roots) for relation in needs_of(value))]
     if sympy.false in relations:

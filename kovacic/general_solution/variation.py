@@ -58,7 +58,7 @@ def with_integrals(basis: Basis, right: Expr, start: Expr | None) -> Expr:
     for integrals in (known, [None, None]):
         pairs = zip(integrals, integrands, strict=True)
         opened = [_open(integrand, x, start) if found is None else found for found, integrand in pairs]
-        solution = _from_integrals(basis, opened)
+        solution = starting_at(_from_integrals(basis, opened), x, start)
         if _is_right(basis, solution, right):
             break
     return solution

@@ -173,9 +173,11 @@ def test_integrals_that_stay_need_what_is_integrated(equation: str, ics: str | N
     assert str(kovacic.validity(kovacic.dsolve(equation, ics=ics))) == needed
 
 
-def test_a_sum_over_roots_names_no_other_symbol() -> None:
+@pytest.mark.parametrize("polynomial", ["x^5+x+1", "x^4+1"])
+@pytest.mark.parametrize("values", [None, "y(0)=0, y'(0)=0"])
+def test_a_sum_over_roots_names_no_other_symbol(polynomial: str, values: str | None) -> None:
     """Of the needs of its terms those at the real roots are said: they stood there in the name that is summed over."""
-    found = kovacic.validity(kovacic.dsolve("y'' = 1/(x^5+x+1)"))
+    found = kovacic.validity(kovacic.dsolve(f"y'' = 1/({polynomial})", ics=values))
     assert all(relation.free_symbols == {x} for relation in found.real)
 
 
