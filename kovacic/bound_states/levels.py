@@ -535,7 +535,10 @@ def _states_of(levels: Levels, at: Mapping[Any, Any], count: int) -> Iterator[Bo
 
 def _is_true(relation: Any, values: Mapping[Any, Any]) -> bool:
     """A relation at values; raises `InputError` where that can't be decided, as for values that aren't real."""
-    found = relation.subs(values)
+    try:
+        found = relation.subs(values)
+    except TypeError:  # a side is infinite, or a root of a negative number
+        return False
     if found not in (sympy.true, sympy.false):
         found = sympy.simplify(found)
     if found not in (sympy.true, sympy.false):

@@ -829,6 +829,14 @@ def test_energies_are_written_without_the_imaginary_unit() -> None:
     assert sympy.simplify(levels.energy - printed) == 0
 
 
+def test_the_conditions_of_one_family_may_have_no_value_where_those_of_another_hold() -> None:
+    """-Z/(l - n) > 0 for l = n = 0, where l >= -1/2 holds."""
+    coulomb = kovacic.spectrum("l*(l+1)/x^2 - Z/x", domain=HALF)
+    fixed = kovacic.spectrum("-1/x", domain=HALF)
+    assert [s.energy for s in coulomb.states({"l": 0, "Z": 1})] == [s.energy for s in fixed.states()]
+    assert coulomb.states({"l": 0, "Z": 0}) == ()
+
+
 @pytest.mark.long
 def test_the_sign_of_a_quotient_is_that_of_its_denominator() -> None:
     """The Coulomb potential without a condition on l: l + n + 1 > 0, not 1/(l + n + 1) > 0."""
