@@ -737,6 +737,7 @@ def test_printed_solutions_are_proven_and_false_ones_refuted(text: str) -> None:
     [
         ("2/x^2", ["x**2", "zeta(x)"], "solutions[1] (zeta)"),
         ("2/x^2", ["RootSum(_a**2 - 2, Lambda(_a, _a**2*x**2))", "1/x"], "solutions[0] (RootSum)"),
+        ("2/x^2", ["x**2", "Integral(-1/x**2, (x, 1, x))"], "solutions[1] (a definite integral)"),
         ("2/x^2", ["x**2", "sqrt(x**2)/x**2"], ""),
         ("2/x^2", ["(CRootOf(x**3 - 2, 0)**3 - 1)*x**2", "CRootOf(x**5 - x + 1, 0)/x"], ""),
         ("2/x^2", ["x**2", "(1 + 0*asin(1/x))/x"], ""),
