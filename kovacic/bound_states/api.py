@@ -306,7 +306,7 @@ def _why_no_formula(examined: _Examined) -> str:
 
 
 def _with_closed_forms(found: Spectrum, examined: _Examined, max_degree: int, limits: Limits) -> Spectrum:
-    """The same with the levels that have a closed form, and what is proven of these."""
+    """The spectrum with the levels that have a closed form, and what is proven about them."""
     question = examined.question
     forms = closed_forms(question, examined.ends, examined.real, max_degree, limits)
     reason = found.reason

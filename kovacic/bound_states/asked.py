@@ -342,7 +342,7 @@ def read_end(value: Any) -> Any:
 
 
 def _between_decimals(value: Any) -> str:
-    """That a letter lies between two decimals, as an assumption."""
+    """The assumption that a letter lies between two decimals."""
     below = sympy.floor(value * _STEPS)
     return f">{sympy.Rational(below, _STEPS)} <{sympy.Rational(below + 1, _STEPS)}"
 

@@ -60,7 +60,7 @@ class Original:
         return cls(x, t.func.__name__, theta.coeff(x, 1), theta.coeff(x, 0))
 
     def about(self, domain: tuple[Any, Any], signs: Signs) -> Original:
-        """The same t with theta in its first period on the domain, and positive there if t is even.
+        """The function t with theta in its first period on the domain, and positive there if t is even.
 
         So sin(theta/2), cos(theta/2) and sinh(theta/2) are positive, of which waves have powers, and atan(cot(theta)) is
         pi/2 - theta.

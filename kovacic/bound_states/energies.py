@@ -80,7 +80,7 @@ def exact_root(square: Any) -> Any:
 
 
 def conjugate(value: Any) -> Any:
-    """That of an expression in real symbols: what stands under the roots is real."""
+    """The complex conjugate of an expression in real symbols with real radicands."""
     return value.xreplace({sympy.I: -sympy.I})
 
 
@@ -168,7 +168,7 @@ def _written(form: Any) -> Iterator[Any]:
 
 
 def _real_part(form: Any) -> Any:
-    """The same without I where the imaginary part vanishes: that of an energy whose two roots are conjugate; else None."""
+    """The form without I if the imaginary part vanishes, as for an energy with two conjugate roots; else None."""
     if not all(symbol.is_real for symbol in form.free_symbols):
         return None
     real, imaginary = form.as_real_imag()

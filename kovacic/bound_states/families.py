@@ -449,7 +449,7 @@ def _levels(
 
 
 def _are_real(roots: list[Root], *, positive: bool = False) -> list[Any]:
-    """That what stands under the square roots isn't negative; or that it is positive."""
+    """Conditions that the radicands are nonnegative, or positive."""
     relation = sympy.Gt if positive else sympy.Ge
     squares = [root.square for root in roots if root.radicals]
     return [relation(square, 0) for square in squares if not square.has(sympy.I)]

@@ -41,7 +41,7 @@ class Spot:
     sides: tuple[int, ...] = ()
 
     def exponent(self, delta: Any) -> Any:
-        """That of y for a signed exponent difference, by (1)."""
+        """The exponent of y for a signed exponent difference, by (1)."""
         return (1 + delta) / 2 - self.mu / 4
 
 
@@ -119,7 +119,7 @@ def _frame(question: SpectralProblem, original: Original, t: Any, base: Any, m: 
 
 
 def _value(function: Any, t: Any, point: Any) -> Any:
-    """That of a rational function at a number or at oo, the sphere's: a pole is oo, whatever the sign."""
+    """The value of a rational function on the sphere, at a number or oo: at a pole it is oo, whatever the sign."""
     u = sympy.Dummy("u")
     local = sympy.cancel(sympy.together(function.xreplace({t: 1 / u if point == sympy.oo else point + u})))
     num, den = (sympy.simplify(part.xreplace({u: sympy.S.Zero})) for part in sympy.fraction(local))

@@ -77,7 +77,7 @@ class SpectralProblem:
         return constants_among(self.V, self.signs.symbols)
 
     def with_friedrichs_condition(self) -> SpectralProblem:
-        """The same with the boundary condition that wasn't given, and a note that says so."""
+        """The problem with the boundary condition that wasn't given, and a note that says so."""
         note = (
             "a boundary condition is needed: Friedrichs' boundary condition is taken, the smaller solution at the end"
         )

@@ -30,7 +30,7 @@ Expr = Any  # SymPy publishes no types
 
 
 def discriminant(p: Poly) -> Fraction | None:
-    """That of a monic quadratic polynomial if it is rational; None for any other."""
+    """The discriminant of a monic quadratic polynomial if it is rational; None for any other."""
     if p.degree != 2:
         return None
     return p.field.rational_value(p[1] * p[1] - 4 * p[0])
@@ -232,7 +232,7 @@ class Atoms:
         return self.root_sum(self.poly(p, a), self.poly(value, a) * log(self.x - a))
 
     def _log_sum_of_quadratic(self, p: Poly, value: Poly) -> Expr:
-        """The same for x^2 + b x + c: m log(p) - k w atan((2 x + b)/w), w^2 = 4 c - b^2.
+        """The sum of logarithms for x^2 + b x + c: m log(p) - k w atan((2 x + b)/w), w^2 = 4 c - b^2.
 
         For negative 4 c - b^2 it is -k u log((2 x + b - u)/(2 x + b + u)) with u^2 = b^2 - 4 c, up to its sign.
         """

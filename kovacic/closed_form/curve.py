@@ -104,7 +104,7 @@ class CurveIntegral:
 
     @property
     def kernel_derivative(self) -> RatFunc:
-        """That of 1/s, over it."""
+        """The logarithmic derivative of 1/s."""
         return RatFunc(self.g.derivative(), self.g) * Fraction(-1, 2)
 
     @property

@@ -388,7 +388,7 @@ class _Cubic:
     negative: bool = False
 
     def over(self, field: Field) -> _Cubic:
-        """The same over a larger field."""
+        """The cubic over a larger field."""
         r, curve, t, inner = _over(field, self.r, RatFunc(self.g), self.t, self.inner)
         return replace(self, r=r, g=curve.num, t=t, inner=inner)
 

@@ -198,7 +198,7 @@ def _check_series() -> None:
 
 
 def _whole_power(value: BallValue, exponent: int) -> BallValue:
-    """That of a series by squarings, so that the clock is looked at between them."""
+    """A power of a series by squarings, with a look at the clock between them."""
     if not isinstance(value, acb_series):
         return value**exponent
     if exponent < 0:

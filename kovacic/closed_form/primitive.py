@@ -45,7 +45,7 @@ class GammaTerm:
 
     @property
     def derivative(self) -> RatFunc:
-        """That of the term, over t^alpha exp(E)."""
+        """The derivative of the term, over t^alpha exp(E)."""
         return self.q.derivative() * self.q**self.power * self.coefficient
 
 

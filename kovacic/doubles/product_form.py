@@ -357,7 +357,7 @@ class ProductDerivative:
 
 
 def _with_low_part(v: Any) -> Any:
-    """The same numbers as double-doubles."""
+    """The numbers as double-doubles."""
     return v if isinstance(v, Pair) else Pair(v, 0.0 * v)
 
 
@@ -407,7 +407,7 @@ class _Product:
             growth.append(power * self._logarithm(d, e, f.turn))
 
     def _logarithm(self, d: Complex, e: Any, turn: Complex) -> Complex:
-        """That of 2^e d, continuous along a line."""
+        """The logarithm of 2^e d, continuous along a line."""
         if d.im is None:
             logarithm = Complex(log(d.re))
         else:

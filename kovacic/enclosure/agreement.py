@@ -215,7 +215,7 @@ class _Enumeration:
         return _Element.UNIPOTENT
 
     def verdict(self) -> Agreement:
-        """That on all elements: no product of generators is a new one."""
+        """The verdict on all elements: no product of generators is a new one."""
         count = len(self.elements)
         if self.found != Counter(self.angles):
             return Agreement(False, f"the monodromy group has {count} elements, with other traces than {self.group}")

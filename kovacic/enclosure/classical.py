@@ -102,7 +102,7 @@ class Classical:
         return digits <= max(self.pullback.equation.cost.most, _MOST_FROM_ZERO if from_zero else 0)
 
     def coordinate(self, point: ExactPoint) -> int:
-        """That of the standard equation which serves best there."""
+        """The number of the standard coordinate that serves best at the point."""
         n, d = (value_at(poly, point) for poly in self.fraction)
         return self.pullback.equation.coordinate(n, d)
 

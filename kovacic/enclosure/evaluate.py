@@ -184,7 +184,7 @@ class Prepared:
         return f"<Prepared {start}, {self.digits} digits>"
 
     def _values(self, x: object, *, derivative: bool) -> Any:
-        """The same; a warning names the line that called the caller."""
+        """Values at the points; a warning names the line that called the caller."""
         shape = getattr(x, "shape", None)
         if shape is None:
             is_many = isinstance(x, Iterable) and not isinstance(x, str | bytes | Mapping | Set)

@@ -376,7 +376,7 @@ class _Ring:
         return z[0] * self.cosh + z[1] * self.rise, z[0] * self.sigma * self.rise + z[1] * self.cosh
 
     def forced(self, z: tuple[arb, arb]) -> tuple[arb, arb]:
-        """The same for z'' = sigma z + 1."""
+        """(z, z') at the outer end for z'' = sigma z + 1, from those at the inner end."""
         value, slope = self.carried(z)
         return value + self.push, slope + self.rise
 

@@ -84,7 +84,7 @@ class Divided(sympy.Function):  # type: ignore[misc]
 
 
 def without_removable(e: Any, x: Any) -> Any:
-    """The same function, where removable singularities at the zeros of its polynomial factors are none of its writing."""
+    """The function without removable singularities at the zeros of its polynomial factors."""
     if not e.has(x) or e.is_rational_function(x):
         return e
     plain = e
@@ -396,7 +396,7 @@ class CoefficientField:
 
 
 def _box(centre: ExactPoint, radius: arb) -> acb:
-    """That contains a disc."""
+    """A box that contains a disc."""
     return to_acb(centre) + around_zero(radius, real=False)
 
 

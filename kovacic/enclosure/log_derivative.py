@@ -102,7 +102,7 @@ class LogDerivative:
 
     @classmethod
     def of(cls, theta: RatFunc, embed: Callable[[Poly], acb_poly], poles: list[tuple[acb, int]]) -> LogDerivative:
-        """The same with another embedding of the constants; the poles with their multiplicities."""
+        """From theta and an embedding of its constants; the poles come with their multiplicities."""
         quotient, rest = divmod(theta.num, theta.den)
         num = embed(rest)
         den = embed(theta.den)

@@ -190,7 +190,7 @@ def connection_matrix(
 
 
 def _polygon(problem: NumericProblem, path: Sequence[object]) -> _Polygon:
-    """That through these vertices; two singular points alone get one between them."""
+    """The polygon through these vertices; a vertex is inserted between two singular points alone."""
     if len(path) < 2:
         raise InputError("a path needs at least two vertices")
     first, last = (_end(problem, value) for value in (path[0], path[-1]))

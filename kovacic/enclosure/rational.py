@@ -379,7 +379,7 @@ class RationalWay(Way):
 
 @dataclass(frozen=True, eq=False)
 class ClosedWay(RationalWay):
-    """The same by a closed form of the solutions of its normal form, in one step to each target."""
+    """A way by a closed form of the solutions of the normal form, in one step to each target."""
 
     closed: Closed | None = None
 

@@ -115,7 +115,7 @@ class Request(NamedTuple):
 
     @classmethod
     def of(cls, call: str, keywords: Mapping[str, Any], *, unused: Sequence[str] = ()) -> Request:
-        """That of the keywords of `call`, in which a field replaces that of its object, unless it is None.
+        """The request of the keywords of `call`, in which a field that isn't None replaces that of its object.
 
         Raises `TypeError` for other keywords, as Python does, with the nearest name, and for the fields that are `unused`.
         """

@@ -34,7 +34,7 @@ class Operator:
     C: list[Any]
 
     def in_balls(self) -> Operator:
-        """The same in balls, real where all are."""
+        """The operator in balls, real if all of them are."""
         is_complex = any(isinstance(v, acb) for v in (*self.A, *self.B, *self.C))
         kind = acb if is_complex else arb
         return Operator(*([kind(v) for v in part] for part in (self.A, self.B, self.C)))

@@ -146,7 +146,7 @@ class Way(ABC):
 
     @abstractmethod
     def at(self, prec: int) -> Way:
-        """The same at about so many bits."""
+        """The way at about this many bits."""
 
     @abstractmethod
     def check(self, a: ExactPoint, b: ExactPoint) -> None:

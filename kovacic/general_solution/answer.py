@@ -178,7 +178,7 @@ class SecondOrderAnswer(ProblemAnswer):
 
 @dataclass(frozen=True, repr=False)
 class FirstOrderAnswer(ProblemAnswer):
-    """That of an equation of first order, linear or Riccati's, which is here with its conditions."""
+    """The answer to an equation of first order, linear or Riccati's, which is stored with its conditions."""
 
     equation: FirstOrderEquation
     conditions: Sequence[Condition]
@@ -220,7 +220,7 @@ def remember(answer: ProblemAnswer) -> None:
 
 
 def given_answer(eq: Expr) -> ProblemAnswer | None:
-    """That of which `dsolve` returned this equation, if it is one of the last."""
+    """The answer from which `dsolve` returned this equation, if it is one of the last."""
     return _GIVEN.get(eq)
 
 

@@ -70,7 +70,7 @@ class SolutionClaim:
         return [part / leading for part in others]
 
     def at(self, numbers: Mapping[Expr, Expr]) -> SolutionClaim:
-        """The same with numbers for letters, but for the conditions."""
+        """The claim with numbers for letters, except in the conditions."""
         y, a, b, c, f = (e.xreplace(numbers) for e in (self.y, *self.coefficients))
         return replace(self, y=y, coefficients=(a, b, c, f))
 

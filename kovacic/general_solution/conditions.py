@@ -54,7 +54,7 @@ class Condition:
         return set().union(*(part.free_symbols for part in parts), getattr(self.value, "free_symbols", ()))
 
     def in_symbols(self, others: Mapping[Expr, Expr]) -> Condition:
-        """The same condition with other symbols."""
+        """The condition in other symbols."""
         terms = (Term(t.point.xreplace(others), t.order, t.coefficient.xreplace(others)) for t in self.terms)
         value = None if self.value is None else self.value.xreplace(others)
         return Condition(tuple(terms), value, self.text)

@@ -400,7 +400,7 @@ def _general(question: Question, basis: Basis) -> SecondOrderAnswer:
 
 
 def _determined(question: Question, basis: Basis) -> SecondOrderAnswer:
-    """The same with the constants that the conditions determine.  Raises `InputError` where they contradict one another."""
+    """The answer with the constants that the conditions determine.  Raises `InputError` if they contradict one another."""
     limits = limit_points(question)
     start = start_of(question, limits)
     basis = basis_from(question, basis, start)

@@ -54,7 +54,7 @@ class FirstOrderEquation:
     guesses: tuple[str, ...] = ()
 
     def in_symbols(self, others: Mapping[Expr, Expr]) -> FirstOrderEquation:
-        """The same equation with other symbols."""
+        """The equation in other symbols."""
         p, q, r = (e.xreplace(others) for e in self.parts)
         return FirstOrderEquation(self.function.xreplace(others), p, q, r, self.guesses)
 
@@ -80,7 +80,7 @@ class FirstOrderEquation:
 
     @property
     def of_inverse(self) -> FirstOrderEquation:
-        """That of 1/w, z' = -r - q z - p z^2."""
+        """The equation of z = 1/w, z' = -r - q z - p z^2."""
         return FirstOrderEquation(self.function, -self.r, -self.q, -self.p)
 
     @property

@@ -158,7 +158,7 @@ def _rate(g: Expr, x: Expr) -> Expr:
 
 
 def _rate_of_power(base: Expr, e: Expr, x: Expr) -> Expr:
-    """That of base^e, where not both depend on x."""
+    """The logarithmic derivative of base^e, unless both depend on x."""
     if not base.has(x):
         return e.diff(x) * log(base)
     if base.is_Add and base.has(exp) and e.is_Rational:  # as in exp(-x)/(x + 1), which SymPy expands

@@ -50,7 +50,7 @@ _ANALYTIC = (
 
 
 def in_steps(right: Expr, x: Expr) -> Expr:
-    """The same with Heaviside(x - a) and DiracDelta(x - a, n) alone, where that is possible; what isn't possible stays.
+    """The right-hand side in terms of Heaviside(x - a) and DiracDelta(x - a, n) alone, as far as possible.
 
     >>> x = sympy.Symbol("x")
     >>> in_steps(abs(x - 1), x)

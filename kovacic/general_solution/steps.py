@@ -75,7 +75,7 @@ class HeavisidePlace:
 
 
 def place_of(jump: Expr, x: Expr) -> HeavisidePlace | None:
-    """That of a step or an impulse of s (x - a) with constants s and a, s real; None for another."""
+    """The place of a step or an impulse of s (x - a) with constants s and a, s real; None for others."""
     inner = jump.args[0]
     slope = inner.diff(x)
     if slope.has(x) or not slope.is_real or slope.is_zero is not False:

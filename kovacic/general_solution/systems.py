@@ -57,7 +57,7 @@ class LinearSystem:
 
     @property
     def swapped(self) -> LinearSystem:
-        """The same system with y before x."""
+        """The system with y before x."""
         (a, b), (c, d) = self.matrix
         return LinearSystem(self.functions[::-1], ((d, c), (b, a)), self.right[::-1])
 

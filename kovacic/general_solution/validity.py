@@ -313,7 +313,7 @@ def _off_the_cut(u: Expr) -> Expr:
 
 
 def _of_last(need: Need) -> Need:
-    """That of the last argument."""
+    """The need of the last argument."""
     return lambda e: need(e.args[-1])
 
 

@@ -90,7 +90,7 @@ class Bound:
             return bool((value - end) * self.sign < 0)
 
     def among(self, numbers: Classes) -> Bound:
-        """The same bound for numbers of a single class, by the nearest of them."""
+        """The bound for numbers of a single class, by the nearest of them."""
         (start,) = numbers.residues
         steps = (self.end - start) / numbers.modulus
         nearest = start + (ceil(steps) if self.sign > 0 else floor(steps)) * numbers.modulus
@@ -300,7 +300,7 @@ class Assumptions:
         return numbers is not None and numbers.are_covered_by(INTEGERS)
 
     def also(self, name: str, words: tuple[str, ...]) -> Assumptions:
-        """The same with more words about one parameter."""
+        """The assumptions with more words about one parameter."""
         together = dict.fromkeys((*self.of(name).words, *words))
         others = tuple((other, known) for other, known in self.known if other != name)
         return replace(self, known=(*others, (name, Known(tuple(together)))))

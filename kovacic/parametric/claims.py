@@ -86,7 +86,7 @@ class AnyOf(Claim):
 
 @dataclass(frozen=True)
 class ThatIs(Claim):
-    """The same said in two ways."""
+    """A statement in two equivalent forms."""
 
     first: Claim
     second: Claim

@@ -155,7 +155,7 @@ class _Matrix:
 
     @classmethod
     def of(cls, images: Sequence[Poly], field: FunctionField, surface: _Surface | None) -> _Matrix:
-        """That of the images, each row once."""
+        """The matrix of the images, each row once."""
         # By powers of x, without denominators.
         smaller = without_constant_pivots([by_power(over_parameters(image).num, 0) for image in images])
         different: dict[tuple[str, ...], list[Any]] = {}
@@ -394,7 +394,7 @@ class Exponents:
 
     @property
     def degree(self) -> Poly:
-        """That of P."""
+        """The degree of P."""
         return 1 - sum((part.exponent for part in self.parts), self.field.poly([]))
 
     def images(self, d: int) -> list[Poly]:
@@ -588,7 +588,7 @@ def _singular(problem: Problem) -> list[Place]:
 
 
 def _with_rational_points(problem: Problem) -> Problem | None:
-    """The same problem over an extension over which its singular points are rational; None if that is too large."""
+    """The problem over an extension over which its singular points are rational; None if that is too large."""
     base = problem.field
     while factor := next((place.factor for place in problem.finite_places if place.degree > 1), None):
         if factor.degree == 2:

@@ -113,7 +113,7 @@ class SidesOfEquation(NamedTuple):
 
 
 def sides_of_equation(function: FunctionPoly) -> SidesOfEquation:
-    """That a function vanishes.
+    """The equation that a function vanishes.
 
     It is solved where it is linear, or a power is a product of linear factors; two terms have two sides.
     """

@@ -21,14 +21,14 @@ _MOST_INTEGERS = 1000
 
 
 def over_parameters(value: Poly) -> FunctionPoly:
-    """The same polynomial; raises `TypeError` where its field isn't a Q(t)."""
+    """The polynomial as one over a field Q(t).  Raises `TypeError` if its field isn't one."""
     if not isinstance(value, FunctionPoly):
         raise TypeError("a function over Q(t) is expected")
     return value
 
 
 def in_field(function: FunctionPoly, field: FunctionField) -> FunctionPoly:
-    """The same function over a field that has its parameters among others."""
+    """The function over a field that contains its parameters."""
     return over_parameters(function.value_at([field.generator(name) for name in function.field.names], field))
 
 
@@ -128,7 +128,7 @@ def without_parameter(i: int, names: Sequence[str]) -> tuple[Field, list[Poly]]:
 
 
 def constant_term(function: Poly) -> Fraction:
-    """That of the Laurent series at 0 of a function of the parameters."""
+    """The constant term of the Laurent series at 0 of a function of the parameters."""
     return to_fraction(function.rational_coefficients()[0]) if function else Fraction(0)
 
 

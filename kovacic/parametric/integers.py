@@ -161,7 +161,7 @@ def integer_condition(
     letter: str,
     setting: Setting,
 ) -> IntegerCondition:
-    """That a polynomial in N over Q(t) has one of the numbers for a root, as a spectrum or by square roots, or both."""
+    """The statement that one of the numbers is a root of a polynomial in N over Q(t): a spectrum, square roots, or both."""
     spectrum = _spectrum(equation, numbers, letter, setting)
     roots = _roots(equation, numbers, setting.constant)
     if roots is None:
@@ -284,7 +284,7 @@ def _three_squares(shifted: Poly) -> list[Poly] | None:
 
 
 def natural_root(equations: Sequence[FunctionPoly], letter: str, setting: Setting) -> AnyOf:
-    """That a natural number d solves one of the equations, each solved for a parameter if it can be.
+    """The statement that a natural number d solves one of the equations, each solved for a parameter if possible.
 
     The alternatives on strata are last.
     """
@@ -478,7 +478,7 @@ class Congruence(Statement):
         return AllOf((said, *guards)) if guards else said
 
     def _one_class(self, form: FunctionPoly) -> Claim:
-        """That a form is congruent to one number."""
+        """The claim that a form is congruent to one number."""
         (residue,) = self.residues
         modulus = self.modulus
         below = modulus.denominator
@@ -521,7 +521,7 @@ def integer_roots(equation: FunctionPoly, residues: Iterable[Fraction | int], mo
 
 
 def _without_parameters(polynomial: Poly) -> Poly | None:
-    """The same over Q; None if a coefficient has parameters."""
+    """The polynomial over Q; None if a coefficient has parameters."""
     values: list[Fraction] = []
     for coefficient in polynomial:
         value = polynomial.field.rational_value(coefficient)

@@ -289,7 +289,7 @@ class Natural(Statement):
         return DegreeExists(self.letter, degree, self.m, self.exists)
 
     def _by_exponents(self) -> Claim | None:
-        """The same numbers as sums of exponents: `d + 1 = +-sqrt(b)/2 +- c`, or `d = 6 + j*a + k*b` with integers j and k."""
+        """The degrees as sums of exponents: `d + 1 = +-sqrt(b)/2 +- c`, or `d = 6 + j*a + k*b` with integers j and k."""
         problem = analyse(self.S, Budget())
         numbers = degrees_of_solutions(problem) if self.m == 1 else zeros_of_forms(problem, self.m)
         if numbers is None:

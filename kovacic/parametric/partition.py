@@ -212,7 +212,7 @@ class Settings:
         return replace(self, covered=self.covered | {function})
 
     def on(self, surface: Hypersurface) -> Settings:
-        """The same for the values on a hypersurface."""
+        """The settings on a hypersurface."""
         values = map(surface.at, self.covered)
         factors = [irreducible_factors(value) for value in values if isinstance(value, FunctionPoly) and value]
         return replace(self, covered=frozenset(chain.from_iterable(factors)))

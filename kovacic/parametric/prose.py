@@ -155,7 +155,7 @@ def is_named(numbers: Classes) -> bool:
 
 
 def equation(zero: FunctionPoly) -> Math:
-    """That a function vanishes, solved where that is simple."""
+    """The equation that a function vanishes, solved for a parameter if that is simple."""
     sides = sides_of_equation(zero)
     return Math.of(f"{sides.left} = {sides.right}")
 
@@ -341,7 +341,7 @@ def _natural_numbers(claim: Claim, letter: str) -> Words:
 
 
 def _one_of(name: str, functions: Sequence[RatFunc], letter: str) -> Words:
-    """That a parameter is one of the functions; c + f and c - f, c free of the integer, are one formula `c +- f`.
+    """The phrase that a parameter is one of the functions; c + f and c - f, c free of the integer, are one formula `c +- f`.
 
     Where they come in pairs whose sum is a number c, that it or c minus it is one: n or -n - 1 in Lame's equation.
     """

@@ -288,7 +288,7 @@ def with_free_constant(S: RatFunc) -> WithFreeConstant:
 
 
 def over_all(statement: Statement, field: FunctionField) -> Statement:
-    """The same statement with functions of all parameters, those on hypersurfaces among them."""
+    """The statement with functions of all parameters, those on hypersurfaces among them."""
     return statement.rewritten(lambda function: function if function.field == field else in_field(function, field))
 
 
@@ -348,7 +348,7 @@ def _spelling(meaning: Any) -> str:
 
 
 def _in_other_names(function: RatFunc, field: FunctionField) -> RatFunc:
-    """The same function with other names for the parameters."""
+    """The function with other names for the parameters."""
     return RatFunc(_renamed(function.num, field), _renamed(function.den, field), reduced=True)
 
 

@@ -175,7 +175,7 @@ class Schwarz(Statement, Claim):
         return self
 
     def _on(self, surface: Hypersurface) -> Statement:
-        """The same for fewer parameters, said in all of them."""
+        """The statement for fewer parameters, expressed in all of them."""
         cubic = surface.at(self.cubic)
         if not isinstance(cubic, FunctionPoly):  # no parameter is left
             is_there = kimura([*map(rational_square_root, roots(cubic))]) in self.structures
@@ -275,7 +275,7 @@ class Differences:
 
     @property
     def two_half_integers(self) -> str:
-        """That two of them, of which no constant one is a half-integer, are half-integers."""
+        """ "Two of them are half-integers", given that no constant one is."""
         twice = [name for name in self.free if self.free.count(name) > 1]
         if twice or len(self.free) == 1:
             return f"`{(twice or self.free)[0]}` is a half-integer"
@@ -285,7 +285,7 @@ class Differences:
 
     @property
     def rational(self) -> str:
-        """That they are rational, those that aren't numbers anyway."""
+        """ "They are rational", said of those that aren't numbers."""
         if self.names is None:
             return "the exponent differences are rational"
         free = [*dict.fromkeys(self.free)]
@@ -440,7 +440,7 @@ def _is_possible(structure: Structure, constants: Sequence[Fraction | None]) -> 
 
 
 def _in_table(cubic: FunctionPoly, structure: Structure, constants: Sequence[Fraction | None]) -> Statement:
-    """That the exponent differences are in the rows of the structure."""
+    """The statement that the exponent differences are in the rows of the structure."""
     if structure is not Structure.IMPRIMITIVE:
         return Schwarz(cubic, (structure,))
     if any(d is not None and d.denominator == 2 for d in constants):
@@ -451,7 +451,7 @@ def _in_table(cubic: FunctionPoly, structure: Structure, constants: Sequence[Fra
 
 
 def _half_integers(cubic: FunctionPoly, times: int) -> Statement:
-    """That one that depends on the parameters, and is so many of the exponent differences, is a half-integer.
+    """The statement that a parameter-dependent one, which is this many of the exponent differences, is a half-integer.
 
     Its square is N^2/4 with an odd N.
     """
@@ -465,7 +465,7 @@ def _half_integers(cubic: FunctionPoly, times: int) -> Statement:
 
 
 def has_denominator(square: Poly, denominator: int) -> Statement:
-    """That an exponent difference with this square is a rational number with this denominator."""
+    """The statement that an exponent difference with this square is rational with this denominator."""
     equation = square.field.poly([-square * denominator**2, 0, 1])
     coprime = [r for r in range(denominator) if gcd(r, denominator) == 1]
     return integer_roots(over_parameters(equation), coprime, denominator)

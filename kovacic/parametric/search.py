@@ -284,7 +284,7 @@ def _number_root(factor: Poly) -> Fraction | None:
 
 
 def all_half_integers(problem: Problem) -> Statement:
-    """That there are four singular points, regular ones, and each exponent difference is half an odd integer.
+    """The statement that there are four regular singular points, and each exponent difference is half an odd integer.
 
     Then there is an invariant of degree 4 for every accessory parameter: the equation is that of the potential
     sum l_i (l_i + 1) p(z - w_i) in x = p(z), l_i the integers nearest to the differences, of which two solutions have an

@@ -95,7 +95,7 @@ class laguerre(sympy.Function):  # type: ignore[misc]  # noqa: N801
 
 
 def derivative(y: Any, x: Any) -> Any:
-    """That of a solution, with polynomials whose degrees are natural where that of the solution is."""
+    """The derivative of a solution, with polynomials whose degrees are natural where that of the solution is."""
     return y.replace(sympy.assoc_laguerre, laguerre).diff(x).replace(laguerre, sympy.assoc_laguerre)
 
 

@@ -100,7 +100,7 @@ class Statement(Proposition):
         return []
 
     def avoiding(self, setting: Setting) -> Statement:
-        """The same statement, printed where this is known."""
+        """The statement as it is printed in this setting."""
         return self
 
     def __str__(self) -> str:
@@ -218,7 +218,7 @@ def both(*statements: Statement) -> Both:
 
 
 def all_of(statements: Sequence[Statement]) -> Statement:
-    """That all of them hold, each said once: the only one itself, if there is one."""
+    """The statement that all of them hold, without repetitions; a single one is returned as it is."""
     different = dict.fromkeys(one for one in statements if one != ALWAYS)
     if NEVER in different:
         return NEVER

@@ -164,7 +164,7 @@ class _Equation:
         return replace(pair, notes=(*pair.notes, UNSTABLE))
 
     def _own_forms(self) -> list[PairForm]:
-        """That of the structure, and y1 times an integral that is left beside a long one that is written out."""
+        """The forms of the structure itself, and y1 times an unevaluated integral beside a long evaluated one."""
         structure = self.structure
         check_time()
         if isinstance(structure, Covariants):

@@ -166,7 +166,7 @@ class Gauss(StandardEquation):
 
 
 def klein_pullback(found: Covariants) -> Pullback:
-    """That of the equation with the exponent differences nu, 1/3, 1/2 at 0, 1, infinity by the absolute invariant."""
+    """The pull-back of the equation with the exponent differences nu, 1/3, 1/2 at 0, 1, infinity by the absolute invariant."""
     field = found.J.field
     nu = Fraction(1, 5 if found.structure is Structure.ICOSAHEDRAL else 4)
     squares = [field.poly([difference**2]) for difference in (nu, Fraction(1, 3), HALF)]
@@ -223,13 +223,13 @@ class _GaussForm:
 
     @property
     def signs(self) -> Iterator[_GaussForm]:
-        """The same with all signs of the differences."""
+        """The forms with all signs of the differences."""
         for s, t, u in product((1, -1), repeat=3):
             yield _GaussForm(self.writer, self.f, s * self.alpha, t * self.beta, u * self.gamma)
 
     @property
     def turned(self) -> _GaussForm:
-        """The same with -alpha."""
+        """The form with -alpha."""
         return replace(self, alpha=-self.alpha)
 
     @cached_property
@@ -268,7 +268,7 @@ class _GaussForm:
         return self.factor, _named(self)[1]
 
     def bracket(self, other: _GaussForm, W: Expr) -> Expr:
-        """That of u and the solution of another form in f, or in 1 - f, whose Wronskian in z = f is W."""
+        """The bracket of u and the solution of another form in f, or in 1 - f, whose Wronskian in z = f is W."""
         writer = self.writer
         alpha, beta = (other.alpha, other.beta) if other.f == self.f else (other.beta, other.alpha)
         at_zero, at_one = (
@@ -279,7 +279,7 @@ class _GaussForm:
         return W * multiple * z**at_zero * w**at_one * z.diff(writer.atoms.x)
 
     def bracket_of_parity(self, W: Expr = 1) -> Expr:
-        """That of solutions with the Wronskian W in t = 1 - 2 f at t = 0, and the factors of the even and the odd one."""
+        """The bracket of solutions with the Wronskian W in t = 1 - 2 f at t = 0, and the factors of the even and odd ones."""
         writer = self.writer
         t = writer.argument(1 - 2 * self.f)
         square = writer.argument(4 * self.f * (1 - self.f))  # 1 - t^2
@@ -287,7 +287,7 @@ class _GaussForm:
 
     @property
     def swapped(self) -> _GaussForm:
-        """The same with 0 and 1 exchanged."""
+        """The form with 0 and 1 exchanged."""
         return _GaussForm(self.writer, 1 - self.f, self.beta, self.alpha, self.gamma)
 
     @property

@@ -205,7 +205,7 @@ class _WhittakerForm:
 
     @property
     def turned(self) -> _WhittakerForm:
-        """The same with -z and -kappa."""
+        """The form with -z and -kappa."""
         return replace(self, q=-self.q, kappa=-self.kappa)
 
     @property
@@ -221,7 +221,7 @@ class _WhittakerForm:
         return self.factor(mu + HALF), self.writer.hypergeometric((mu - self.kappa + HALF,), (2 * mu + 1,), self.z)
 
     def bracket(self, mu: Number, multiple: Expr = 1) -> Expr:
-        """That of a multiple of M_mu and M_-mu, whose Wronskian in z is -2 mu."""
+        """The bracket of a multiple of M_mu and M_-mu, whose Wronskian in z is -2 mu."""
         import sympy
 
         return -2 * self.writer.constant(mu) * multiple * sympy.exp(self.z) * self.writer.rate(self.f)

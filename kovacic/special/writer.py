@@ -157,7 +157,7 @@ class Writer:
 
     @property
     def exponential_rate(self) -> RatFunc:
-        """That of the exponential of a rational function in the gauge factor."""
+        """The logarithmic derivative of the gauge factor's exponential of a rational function."""
         return product(self.gauge).exponential.derivative()
 
     def factor(
@@ -363,7 +363,7 @@ class Writer:
         return sympy.cos(sympy.pi * N / 2) * odd + sympy.sin(sympy.pi * N / 2) * even
 
     def wronskian_by_parity(self, N: Expr, even: Expr, odd: Expr) -> Expr:
-        """That of cos(pi N/2) even E + sin(pi N/2) odd O with `by_parity`, if E and O have 1, 0 and 0, 1 in the middle."""
+        """The Wronskian of cos(pi N/2) even E + sin(pi N/2) odd O with `by_parity`; E and O have 1, 0 and 0, 1 in the middle."""
         return even * sympy.cos(sympy.pi * N / 2) ** 2 - odd * sympy.sin(sympy.pi * N / 2) ** 2
 
 
