@@ -363,7 +363,7 @@ class Writer:
         return sympy.cos(sympy.pi * N / 2) * odd + sympy.sin(sympy.pi * N / 2) * even
 
     def wronskian_by_parity(self, N: Expr, even: Expr, odd: Expr) -> Expr:
-        """The Wronskian of cos(pi N/2) even E + sin(pi N/2) odd O with `by_parity`; E and O have 1, 0 and 0, 1 in the middle."""
+        """The Wronskian of cos(pi N/2) even E + sin(pi N/2) odd O with `by_parity`; E, O have 1, 0 and 0, 1 in the middle."""
         return even * sympy.cos(sympy.pi * N / 2) ** 2 - odd * sympy.sin(sympy.pi * N / 2) ** 2
 
 
