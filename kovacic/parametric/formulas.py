@@ -329,6 +329,11 @@ def outside(text: str) -> str:
     return text
 
 
+def alone(text: str) -> str:
+    """A side of an equation: (a^(1/3)), a parameter, without its parentheses."""
+    return text[1:-1] if text.startswith("(") and not outside(text) else text
+
+
 def in_sum(text: str) -> str:
     """A term behind a sign: a sum in parentheses, where it isn't within some."""
     is_sum = " + " in outside(text) or " - " in outside(text)

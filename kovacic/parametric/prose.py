@@ -27,7 +27,15 @@ from kovacic.parametric.claims import (
     SumOfRoots,
     ThatIs,
 )
-from kovacic.parametric.formulas import SidesOfEquation, in_product, in_sum, root_written, sides_of_equation, written
+from kovacic.parametric.formulas import (
+    SidesOfEquation,
+    alone,
+    in_product,
+    in_sum,
+    root_written,
+    sides_of_equation,
+    written,
+)
 from kovacic.parametric.functions import (
     INTEGERS,
     Classes,
@@ -95,7 +103,7 @@ def function(value: Poly | RatFunc, letter: str = "x") -> str:
 
 
 def equals(name: str, value: Poly | RatFunc, letter: str) -> Math:
-    return Math.of(f"{name} = {function(value, letter)}")
+    return Math.of(f"{alone(name)} = {function(value, letter)}")
 
 
 def congruent(form: Math, residues: str, modulus: Fraction) -> Math:
@@ -157,7 +165,7 @@ def is_named(numbers: Classes) -> bool:
 def equation(zero: FunctionPoly) -> Math:
     """The equation that a function vanishes, solved for a parameter if that is simple."""
     sides = sides_of_equation(zero)
-    return Math.of(f"{sides.left} = {sides.right}")
+    return Math.of(f"{alone(sides.left)} = {sides.right}")
 
 
 def alternatives_of(formulas: Sequence[Math]) -> Words:
@@ -166,7 +174,7 @@ def alternatives_of(formulas: Sequence[Math]) -> Words:
 
 def unequal(zero: FunctionPoly) -> Math:
     left, right = sides_of_equation(zero)
-    return Math.of(f"{left} != {right}")
+    return Math.of(f"{alone(left)} != {right}")
 
 
 def _in_classes(claim: InClasses) -> Words:

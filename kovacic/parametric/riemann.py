@@ -177,7 +177,7 @@ class Schwarz(Statement, Claim):
     def _on(self, surface: Hypersurface) -> Statement:
         """The statement for fewer parameters, expressed in all of them."""
         cubic = surface.at(self.cubic)
-        if not isinstance(cubic, FunctionPoly):  # no parameter is left
+        if not isinstance(cubic, FunctionPoly) or not _has_parameters(cubic):
             is_there = kimura([*map(rational_square_root, roots(cubic))]) in self.structures
             return ALWAYS if is_there else NEVER
         single = _one_function(cubic)

@@ -143,6 +143,14 @@ def test_an_integer_parameter_has_few_values_where_a_quotient_is_a_fraction_of_t
     assert not any("-" in str(region.statement).split(",")[0] for region in answer.regions if region.case == 3)
 
 
+def test_a_row_without_parameters_is_decided() -> None:
+    """At L = 0 and an integer k the third difference, sqrt(4/k^2 - 3)/2, is no rational number but for k = +-1."""
+    S = "L*(1+2*k)/(2*k*x) + (1/k^2-1)/(4*x^2) - 3/(16*(x-1)^2) - L/(2*k*(x-1))"
+    answer = kovacic.conditions(S, var="x", assume={"k": "integer"}, max_degree=0)
+    assert "Schwarz" not in answer.text()
+    assert answer.check(20)
+
+
 def schwarz_parts(statement: Statement) -> Iterator[Schwarz]:
     if isinstance(statement, Schwarz):
         yield statement
