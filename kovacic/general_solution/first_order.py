@@ -252,6 +252,8 @@ def _exponential_of_integral(q: Expr, x: Expr) -> Expr:
 def _particular(equation: FirstOrderEquation, h: Expr, start: Expr | None) -> Expr:
     """h int p/h dx."""
     apart = _apart(equation.p, equation.x)
+    if apart is None and not equation.p.has(sympy.DiracDelta):  # |sin(x)|
+        apart = Apart(equation.p, (), ())
     if apart is None or any(impulse.order for impulse in apart.impulses):
         raise NotImplementedError(
             "undecided: the right-hand side jumps at points that aren't constant, or too strongly"

@@ -41,6 +41,7 @@ from kovacic.general_solution.integrands import NUMBERS, ratfunc
 from kovacic.general_solution.substitution import size
 from kovacic.general_solution.textbook import in_book_form, over_one_denominator
 from kovacic.general_solution.values import value_at
+from kovacic.general_solution.waves import rational_in_waves
 from kovacic.general_solution.zero import is_zero
 from kovacic.special.choice import shortest
 
@@ -99,7 +100,7 @@ def solved_riccati(
         forms = [*_forms(found, solved_for)]
         if is_inverted:
             forms = [1 / w for w in forms]
-    forms += [*over_one_denominator(forms[0], x), sympy.signsimp(forms[0])]
+    forms += [*over_one_denominator(forms[0], x), sympy.signsimp(forms[0]), *rational_in_waves(forms[0])]
     forms += [-n / -d for n, d in map(sympy.fraction, forms)]
     w = shortest(forms).xreplace(dict.fromkeys(constants, equation.constant()))
     if len(constants) < 2:

@@ -135,6 +135,21 @@ def common_factor(multiples: Sequence[Expr]) -> Expr | None:
     return multiples[0] * reduce(sympy.gcd, ratios)  # gcd_list stops at 1, though 1/2 may follow
 
 
+def rational_in_waves(e: Expr) -> list[Expr]:
+    """A + B s with A and B rational in c, and A + B c in s; none where it isn't rational in the waves of one angle.
+
+    >>> x = sympy.Symbol("x")
+    >>> rational_in_waves(sin(2 * x) / sin(x))[0]
+    2*cos(x)
+    """
+    found = _InOneAngle.of(e)
+    if found is None or not found.R.is_rational_function(found.s, found.c):
+        return []
+    s, c = found.s, found.c
+    parts = ((u, *_of_square(found.R, u, v)) for u, v in ((s, c), (c, s)))
+    return [(A + B * u).xreplace({s: sin(found.theta), c: cos(found.theta)}) for u, A, B in parts]
+
+
 def fractions_of_waves(e: Expr, x: Expr) -> list[Expr]:
     """With partial fractions in the cosine, and in the sine, in place of what is rational in both.
 
@@ -277,28 +292,24 @@ def by_coefficients(term: Expr, x: Expr) -> Expr | None:
 
 
 def _at_a_pole(fraction: Expr, wave: Expr, x: Expr) -> Expr | None:
-    """int f g/(x - c)^k dx for a constant f and a wave g: by parts down to k = 1, which is Si and Ci."""
+    """int f g/(x - c)^k dx for a constant f and a wave g: by parts down to k = 1, which is Si and Ci.
+
+    int sin(u + p)/(x - c) dx = cos(p) Si(u) + sin(p) Ci(u) with u = w (x - c), and p + pi/2 for the cosine.
+    """
     base, exponent = fraction.as_independent(x, as_Add=False)[1].as_base_exp()
     is_pole_of_line = exponent.is_Integer and exponent < 0 and not base.diff(x).has(x)
     if not is_pole_of_line:
         return None
     c = sympy.expand(x - base / base.diff(x))
     k = -int(exponent)
-    factor = sympy.cancel(fraction * (x - c) ** k)
-    total = sympy.Integer(0)
-    while k > 1:
-        total -= factor * wave / ((k - 1) * (x - c) ** (k - 1))
-        factor = factor / (k - 1)
-        wave = wave.diff(x)
-        k -= 1
-    number, single = wave.as_independent(x, as_Add=False)
-    return total + factor * number * _over_a_line(single, c, x)
-
-
-def _over_a_line(wave: Expr, c: Expr, x: Expr) -> Expr:
-    """int sin(u + p)/(x - c) dx = cos(p) Si(u) + sin(p) Ci(u) with u = w (x - c), and p + pi/2 for the cosine."""
+    f = sympy.cancel(fraction * (x - c) ** k)
+    if k > 1:
+        lower = f / ((k - 1) * (x - c) ** (k - 1))
+        number, slope = wave.diff(x).as_independent(x, as_Add=False)
+        rest = _at_a_pole(number * lower, slope, x)
+        return None if rest is None else rest - lower * wave
     u = wave.args[0].diff(x) * (x - c)
     phase = sympy.expand(wave.args[0].subs(x, c))
-    if wave.func is sin:
-        return cos(phase) * sympy.Si(u) + sin(phase) * sympy.Ci(u)
-    return -sin(phase) * sympy.Si(u) + cos(phase) * sympy.Ci(u)
+    if wave.func is cos:
+        phase += sympy.pi / 2
+    return f * (cos(phase) * sympy.Si(u) + sin(phase) * sympy.Ci(u))

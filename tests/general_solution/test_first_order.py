@@ -342,3 +342,13 @@ def test_bernoulli_through_any_value() -> None:
     found = kovacic.dsolve("y' = r*y*(1 - y/K), y(0) = P").rhs
     assert sympy.simplify(found - K * P / (P + (K - P) * exp(-r * x))) == 0
     assert found.subs(P, 0) == 0
+
+
+def test_a_right_hand_side_with_endlessly_many_corners_stays_in_the_integral() -> None:
+    found = kovacic.dsolve("y' + y = abs(sin(x)), y(0) = 1").rhs
+    s = sympy.Symbol("s")
+    assert found.subs(x, 0).doit() == 1
+    assert sympy.simplify(found.diff(x) + found - sympy.Abs(sin(x))) == 0
+    assert sympy.Integral(exp(s) * sympy.Abs(sin(s)), (s, 0, x)) in {
+        sympy.Integral(*e.args) for e in found.atoms(sympy.Integral)
+    }

@@ -254,3 +254,18 @@ def test_bernoulli_equations_with_functions_in_their_coefficients(h: Any, r: Any
     assert abs(sympy.N(residual.subs(x, Rational(7, 3)), 20)) < 1e-12
     if value is not None:
         assert abs(sympy.N(found.subs(x, 2) - value, 20)) < 1e-12
+
+
+@pytest.mark.parametrize(
+    ("text", "point"), [("w' = sin(x)*w^2 - 2*sin(x)/cos(x)^2", 0), ("w' = cos(x)*w^2 - 2*cos(x)/sin(x)^2", "pi/2")]
+)
+def test_quotients_of_waves_are_reduced(text: str, point: Any) -> None:
+    """sin(2 x)/sin(x) would be 0/0 at a regular point: there, the general solution has a value for each constant."""
+    x = sympy.Symbol("x")
+    found = kovacic.dsolve(text).rhs
+    value = found.subs(x, sympy.sympify(point))
+    assert value.is_finite is not False
+    assert value.diff(sympy.Symbol("C1")) != 0
+    p, r = (sympy.sympify(part.replace("^", "**")) for part in text.partition("= ")[2].replace("*w^2", "").split(" - "))
+    residual = found.diff(x) - p * found**2 + r
+    assert abs(sympy.N(residual.subs({x: sympy.Rational(3, 7), sympy.Symbol("C1"): 3}), 20)) < 1e-15
