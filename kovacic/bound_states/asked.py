@@ -249,11 +249,9 @@ def _read(V: Any, var: str | None, energy: str, names: Sequence[str], limits: Li
             return _schroedinger(V, var, energy, limits)
         named = var
         if var is None:
-            with suppress(
-                InputError
-            ):  # with the position, below; names only, since l(l + 1) is a product or a function
-                letters = (token.text for token in scanned(V) if is_letter(token.text))
-                named, _ = _variable_of([name for name in dict.fromkeys(letters) if name not in NUMBER_NAMES])
+            # Errors come below, with their position; names only, since l(l + 1) is a product or a function.
+            with suppress(InputError):
+                named, _ = _variable_of([name for name in _letters(V) if name not in NUMBER_NAMES])
         source = source_of(V, named, SYMBOLIC, names=(*names, energy))
         if source.unknown:
             raise InputError(

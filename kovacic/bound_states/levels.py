@@ -282,7 +282,8 @@ class Spectrum:
         count = whole(count, "count")
         at = self._symbols_at(values or {})
         if any(_is_true(relation, at) for relation in self.excluded):
-            hint = "no boundary condition is distinguished" if self.boundary else 'boundary="friedrichs"'
+            # Friedrichs' condition is taken where there is one: solutions oscillate.
+            hint = "no boundary condition is distinguished"
             raise InputError("both solutions are square integrable at an end", hint=hint)
         found: dict[Any, BoundState] = {}
         for levels in self.levels:

@@ -931,8 +931,9 @@ def test_a_norm_has_each_number_once(row: Solvable) -> None:
         assert not any((a - b).is_Integer for k, a in enumerate(gammas) for b in gammas[:k])
 
 
-def test_where_no_condition_is_distinguished_none_is_proposed() -> None:
-    found = kovacic.spectrum("-1/x^2", domain=HALF, boundary="friedrichs")
+@pytest.mark.parametrize("boundary", ["friedrichs", None])
+def test_where_no_condition_is_distinguished_none_is_proposed(boundary: str | None) -> None:
+    found = kovacic.spectrum("-1/x^2", domain=HALF, boundary=boundary)
     with pytest.raises(kovacic.InputError) as refused:
         found.states()
     assert "friedrichs" not in str(refused.value)
