@@ -55,6 +55,8 @@ _CUTS: dict[Any, Callable[[Expr], Expr | None]] = {
     # zero where the argument is: what has a sign isn't analytic there
     **dict.fromkeys((sympy.Abs, sympy.sign, sympy.Heaviside), lambda e: e.args[0] ** 2),
 }
+#: Parts of solutions that are real on one side of a singular point.
+_TURNED = (sympy.log, sympy.Ci, sympy.lowergamma, sympy.uppergamma, sympy.Pow, BesselBase, sympy.hyper)
 #: For Bessel's functions of i z those of z with the same span.
 _OF_IMAGINARY = {
     sympy.besselj: sympy.besseli,
@@ -235,9 +237,12 @@ def _crossing(e: Expr, x: Expr) -> Any:
 
 def arguments_with_cuts(y: Expr) -> dict[Expr, Expr]:
     """The functions and powers with cuts in an expression: these lie where the argument, or 1 - z in pFq, is negative."""
-    found = {e: cut_of(e) for e in y.atoms(sympy.log, sympy.Ci, sympy.lowergamma, sympy.uppergamma, sympy.Pow)}
-    found |= {e: e.args[-1] for e in y.atoms(BesselBase)}
-    found |= {e: 1 - e.argument for e in y.atoms(sympy.hyper) if len(e.ap) > len(e.bq)}
+    found = {}
+    for e in y.atoms(*_TURNED):
+        if isinstance(e, sympy.hyper):
+            found[e] = 1 - e.argument if len(e.ap) > len(e.bq) else None
+        else:
+            found[e] = e.args[-1] if isinstance(e, BesselBase) else cut_of(e)
     return {e: cut for e, cut in found.items() if cut is not None and cut.free_symbols}
 
 

@@ -32,7 +32,7 @@ from kovacic.general_solution.constants import Outcome, ParameterCase, constants
 from kovacic.general_solution.eigenfunctions import eigenfunctions
 from kovacic.general_solution.first_order import FirstOrderEquation, read_first_order, solved_linear
 from kovacic.general_solution.homogeneous import find_basis, no_solution
-from kovacic.general_solution.particular import particular_solution
+from kovacic.general_solution.particular import particular_solution, right_hand_side
 from kovacic.general_solution.places import (
     ImpulsesInside,
     basis_from,
@@ -386,9 +386,11 @@ def _solved(question: Question, budget: Budget, *, special: bool) -> ProblemAnsw
 
 def _general(question: Question, basis: Basis) -> SecondOrderAnswer:
     """C1 y1 + C2 y2 + y0, checked."""
-    basis = real_at(basis, common_place(basis))
+    right = right_hand_side(question.equation)
+    basis = real_at(basis, common_place(basis, right))
     particular = particular_solution(basis, None)
-    particular = real_particular(question, basis, particular, common_place(basis, particular))
+    if particular != 0:
+        particular = real_particular(question, basis, particular, common_place(basis, right, particular))
     particular = without_homogeneous(particular, basis.y1, basis.y2, basis.x)
     constants = free_constants(question, basis, particular)
     value = in_book_form(combination(question, basis, particular, constants), question.x, constants)

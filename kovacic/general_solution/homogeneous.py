@@ -32,7 +32,6 @@ from kovacic.special.search import BySign, by_sign, special_functions
 from kovacic.special.writer import WrittenPair
 
 Expr = Any  # SymPy publishes no types
-Pair = tuple[Expr, Expr]
 #: How many sets of values of parameters are said.
 _MOST_REGIONS = 6
 

@@ -194,13 +194,13 @@ def basis_from(question: Question, basis: Basis, start: Expr) -> Basis:
     return basis.of(*(starting_at(y, question.x, start) for y in (basis.y1, basis.y2)))
 
 
-def common_place(basis: Basis, particular: Expr = sympy.S.Zero) -> Expr:
+def common_place(basis: Basis, right: Expr, particular: Expr = sympy.S.Zero) -> Expr:
     """The first of some points at which the fewest arguments lie on cuts: where the parts of an answer are real together.
 
     Those of the right-hand side come first: of a part that isn't real there another form is looked for (`real_at`,
     `real_particular`).
     """
-    parts = (right_hand_side(basis.equation), sympy.Tuple(basis.y1, basis.y2, particular))
+    parts = (right, sympy.Tuple(basis.y1, basis.y2, particular))
     given, found = (arguments_with_cuts(part).values() for part in parts)
 
     def on_cuts(point: Expr) -> tuple[int, ...]:

@@ -10,7 +10,7 @@ for what the equations for constants give;
 
     f + g H(x - a) = F(a + |x - a|),   F = f + g,   if f is F reflected in a;                                          (2)
 
-sin u cos v as a sum of waves, which is sin(x - a) beside a step at a; tan u for sin u/cos u; 1/sqrt(u) for sqrt(u)/u.
+sin u cos v as a sum of waves, which is sin(x - a) beside a step at a; tan u for sin u/cos u.
 A pair of solutions is changed before constants are given values:
 
     e^(P + Q sqrt(u)), e^(P - Q sqrt(u))  span  e^P cos(Q sqrt(-u)), e^P sin(Q sqrt(-u));                               (3)
@@ -47,9 +47,11 @@ _LARGEST = 400
 def in_book_form(value: Expr, x: Expr, free: Sequence[Expr] = ()) -> Expr:
     """The shortest form of an answer; the functions that the constants `free` of a general one belong to stay."""
     is_small = _is_small(value)
-    if value.free_symbols != {x}:
+    is_rational = value.free_symbols <= {x, *free} and not any(p.is_number for p in value.atoms(sympy.Pow))
+    if is_rational:  # numbers as factors stand with each term
+        value = sympy.Add(*(sympy.Mul(*term.as_coeff_Mul()) for term in sympy.Add.make_args(value)))
+    else:
         value = shortest([value, _with_short_coefficients(value, x)])
-    value = shortest([value, *_single_roots(value, x)])
     for rule in _RULES_OF_GENERAL_SOLUTIONS if free else _SHAPE_RULES:
         if not is_small:
             break
@@ -114,7 +116,7 @@ def of_chebyshev(y1: Expr, y2: Expr) -> tuple[Expr, Expr]:
 
 def without_homogeneous(particular: Expr, y1: Expr, y2: Expr, x: Expr) -> Expr:
     """The shortest of the particular solutions that differ from this one by a multiple of a term of its own."""
-    if not _is_small(particular):
+    if not particular.has(sympy.Add, sin, cos) or not _is_small(particular):
         return particular
     forms = [particular, *_single_waves(particular, x), *_common_factors(particular, x)]
     pieces = _before_and_after(particular, x)
@@ -315,23 +317,6 @@ def _tangents(value: Expr, x: Expr) -> Iterator[Expr]:
         yield back(TR2i(waves))
 
 
-def _single_roots(value: Expr, x: Expr) -> Iterator[Expr]:
-    """1/sqrt(u) for sqrt(u)/u, also where -u is written in the denominator."""
-    if {sympy.S.Half, sympy.S.NegativeOne} <= {power.exp for power in value.atoms(sympy.Pow)}:
-        yield value.replace(lambda e: e.is_Mul, _with_single_roots)
-
-
-def _with_single_roots(product: Expr) -> Expr:
-    for root in [factor for factor in product.args if factor.is_Pow and factor.exp == sympy.S.Half]:
-        u = root.base
-        for other in [factor for factor in product.args if factor.is_Pow and factor.exp == -1]:
-            number = sympy.cancel(other.base / u)
-            found = product / other * (1 / number) / u
-            if number.is_Rational and number != 1 and found != product:  # 1/(-a) stays -1/a
-                return _with_single_roots(found)
-    return product
-
-
 def sums(value: Expr, x: Expr) -> Iterator[Expr]:
     """With powers joined, multiplied out, with one coefficient for each function of x, and rational ones in lowest terms."""
     value = sympy.powsimp(value)
@@ -377,7 +362,6 @@ _SHAPE_RULES: tuple[_ShapeRule, ...] = (
     _absolute,
     _exchanged,
     _hyperbolic,
-    _single_roots,
     _single_waves,
     _common_factors,
     sums,
