@@ -111,7 +111,15 @@ def _below_the_line(e: Expr, x: Expr) -> list[Expr]:
 
 
 def _zeros(e: Expr, x: Expr, first: Expr, last: Expr) -> Iterator[Expr]:
-    """Those between two numbers that SymPy finds, the first ones where there are many; of complex values the real part's."""
+    """Those between two numbers that SymPy finds, the first ones where there are many; of complex values the real part's.
+
+    None of an expression with several functions, other than exponentials.
+    """
+    functions = {f for f in e.atoms(sympy.Function) if f.has(x)}
+    if len(functions) > 1 and {f.func for f in functions} != {
+        sympy.exp
+    }:  # of sin(3 x) and cos(5 x) it thinks for minutes
+        return
     t = sympy.Dummy(real=True)
     e = e.xreplace({x: t})
     if e.has(sympy.I):
@@ -120,7 +128,7 @@ def _zeros(e: Expr, x: Expr, first: Expr, last: Expr) -> Iterator[Expr]:
     while first < last and found < _MOST_POINTS:
         check_time()
         end = sympy.Min(first + width, last)
-        with suppress(NotImplementedError, ValueError):
+        with suppress(NotImplementedError, ValueError, TypeError):
             zeros = sympy.solveset(e, t, sympy.Interval(first, end))
             if isinstance(zeros, sympy.FiniteSet):
                 yield from zeros

@@ -49,9 +49,10 @@ def in_book_form(value: Expr, x: Expr, free: Sequence[Expr] = ()) -> Expr:
     is_small = _is_small(value)
     is_rational = value.free_symbols <= {x, *free} and not any(p.is_number for p in value.atoms(sympy.Pow))
     if is_rational:  # numbers as factors stand with each term
-        value = sympy.Add(*(sympy.Mul(*term.as_coeff_Mul()) for term in sympy.Add.make_args(value)))
+        short = sympy.Add(*(sympy.Mul(*term.as_coeff_Mul()) for term in sympy.Add.make_args(value)))
     else:
-        value = shortest([value, _with_short_coefficients(value, x)])
+        short = _with_short_coefficients(value, x)
+    value = shortest([value, short])
     for rule in _RULES_OF_GENERAL_SOLUTIONS if free else _SHAPE_RULES:
         if not is_small:
             break
