@@ -222,13 +222,22 @@ def test_values_are_those_of_an_integration(a2: str, a1: str, a0: str, f: str, i
         ("x*y'' + y' + x*y = 0", "y(-1)=1, y(0)=bounded, y(1)=2"),
         ("(exp(x) - 1)*y'' + y = 0", "y(-1)=1, y(1)=0"),
         ("(exp(x) - 2)*y'' + y = 0", "y(-1)=1, y(1)=0"),
+        ("y'' = 1/(exp(2*x) - 3*exp(x) + 2)", "y(-1)=0, y(1/2)=1"),
+        ("y'' = tan(3*x)", "y(0)=0, y(1)=1"),
+        ("y'' + y = 1/(2*cos(x)^2 + 3*cos(x) - 2)", "y(0)=0, y(3)=1"),
     ],
-    ordinary=3,
+    ordinary=4,
     always=[("(exp(x) - 2)*y'' + y = 0", "y(-1)=1, y(1)=0")],
 )
 def test_two_sides_of_a_singular_point(text: str, values: str) -> None:
     with pytest.raises(kovacic.InputError, match="a singular point of the equation lies between"):
         dsolve(text, ics=values)
+
+
+@pytest.mark.parametrize("below", ["x^(7/3) - sqrt(x) - 1", "sin(3*x) + cos(5*x) + 5"])
+def test_zeros_that_sympy_does_not_know_are_passed_over(below: str) -> None:
+    """Of the first it raises an error, and it thinks of the second for minutes."""
+    assert dsolve(f"y'' = 1/({below})", ics="y(1/2)=0, y(1)=1").rhs.has(sympy.Integral)
 
 
 #: Equations with a pole of the coefficients, or of a right-hand side that isn't rational, at a point.
