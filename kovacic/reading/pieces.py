@@ -297,6 +297,9 @@ class _Apart:
         name, scan = _without_assignment(scan)
         is_identity = scan.has(("diff", "PRIMES")) and _IDENTITY.fullmatch(scan.spaced)
         if is_identity or (name and scan and scan[0].text in MAKERS):
+            match [token.text for token in scan]:
+                case ["Differential", "(", variable, ")"] if is_letter(variable):  # Julia's D = Differential(t)
+                    self.variable = variable
             self.add("declaration", scan)
         elif self.command(scan):
             return

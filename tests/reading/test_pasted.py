@@ -488,6 +488,22 @@ def test_indexed_partial_signs_are_derivatives(sign: str) -> None:
         assert kovacic.solve(text).equation == kovacic.solve(plain).equation
 
 
+@pytest.mark.parametrize("variable", ["t", "s", "x"])
+@pytest.mark.parametrize("right", ["0", "sin(3{})"])
+def test_julias_derivative_names_the_variable(variable: str, right: str) -> None:
+    declared = f"@variables {variable} y({variable})\nD = Differential({variable})\n"
+    question = read_question(
+        f"{declared}D(D(y)) + 2D(y) + 5y ~ {right.format(variable)}", None, None, None, kovacic.Limits()
+    )
+    expected = read_question(
+        f"y''({variable}) + 2y' + 5y = {right.format(variable)}", None, None, None, kovacic.Limits()
+    )
+    assert (question.x, question.given) == (expected.x, expected.given)
+    for end in range(len(declared)):  # of what is still being typed
+        with suppress(kovacic.InputError):
+            taken_apart(declared[:end])
+
+
 def test_values_of_a_function_with_a_greek_name_in_latex() -> None:
     text = r"\ddot{\theta} + \frac{g}{L}\theta = 0,\quad \theta(0)=\theta_0,\ \dot\theta(0)=0"
     question = read_question(text, None, None, None, kovacic.Limits())
