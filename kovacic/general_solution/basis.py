@@ -276,4 +276,4 @@ def _simplified(c: Expr) -> Expr:
         return sympy.factor_terms(c)
     if c.free_symbols and c.is_rational_function():
         return sympy.factor(sympy.cancel(c))
-    return sympy.radsimp(c)
+    return sympy.radsimp(c, symbolic=False)

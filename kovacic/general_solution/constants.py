@@ -277,7 +277,7 @@ def tidy(value: Any) -> Any:
     functions = {f.func for f in value.atoms(sympy.Function)}
     if not functions:
         shorten = sympy.cancel if value.free_symbols or value.has(sympy.E) else sympy.expand
-        return sympy.radsimp(shorten(value))
+        return sympy.radsimp(shorten(value), symbolic=False)
     if not functions <= _ELEMENTARY:
         expanded = sympy.expand(value)
         return min((value, expanded, sympy.expand(TR8(expanded))), key=size)

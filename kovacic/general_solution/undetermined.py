@@ -167,7 +167,7 @@ def _constant(value: Expr) -> Expr:
     value = sympy.sympify(value, strict=True)
     if value.is_Rational:
         return value
-    value = sympy.radsimp(sympy.cancel(sympy.expand(value)))
+    value = sympy.radsimp(sympy.cancel(sympy.expand(value)), symbolic=False)
     if value.is_number and value.equals(0):
         return sympy.Integer(0)
     return value

@@ -292,3 +292,19 @@ def test_bounds_that_are_assumed_are_not_said() -> None:
     x = sympy.Symbol("x", positive=True)
     formula = sympy.log(4 - x**2) + sympy.log(5 - x**2) + sympy.log(6 - x**2)
     assert str(kovacic.validity(sympy.Eq(sympy.Function("y")(x), formula))) == "x < 2"
+
+
+@parametrize(
+    ("equation", "needed"),
+    [
+        ("y''+a*y=x, y(0)=0, y'(0)=0", "a != 0"),
+        ("y''+a*y=abs(x), y(0)=0, y'(0)=0", "a != 0"),
+        ("y''-(a+b)*y=0, y(0)=0, y'(0)=1", "a + b != 0"),
+        ("y''-(a^2-6/cosh(x)^2)*y=0, y(0)=1, y'(0)=0", ""),
+        ("(x^2-1)*y''+a*y=0", "1 - x**2 > 0"),
+    ],
+    ordinary=3,
+)
+def test_what_is_even_in_a_root_needs_no_sign_below_it(equation: str, needed: str) -> None:
+    """sin(sqrt(a) x)/a^(3/2) is real for a negative a as well: SymPy's sqrt(a^3)/a^3 in place of a^(-3/2) isn't even."""
+    assert str(kovacic.validity(kovacic.dsolve(equation))) == needed
