@@ -18,6 +18,7 @@ from __future__ import annotations
 
 from collections import defaultdict
 from collections.abc import Callable, Mapping
+from contextlib import suppress
 from functools import partial
 from math import comb
 from typing import Any
@@ -31,6 +32,7 @@ from kovacic.algebra.ratfunc import RatFunc
 from kovacic.closed_form.atoms import Atoms
 from kovacic.closed_form.way_back import in_x
 from kovacic.equation import Equation
+from kovacic.errors import LimitExceeded
 from kovacic.general_solution.basis import Basis
 from kovacic.general_solution.check import is_finite
 from kovacic.general_solution.constants import tidy
@@ -78,7 +80,9 @@ def right_hand_side(equation: Equation) -> Expr:
 
 def _solved(basis: Basis, right: Expr, start: Expr | None) -> Expr:
     """A solution for a right-hand side without jumps, by the cheapest way, and integrals from a point on where they stay."""
-    found = _without_integrals(basis, right)
+    found = None
+    with suppress(LimitExceeded):
+        found = _without_integrals(basis, right)
     if found is None:
         found = with_integrals(basis, right, start)
     terms = sympy.Add.make_args(prepared(right)) if found.has(sympy.Integral) else ()
