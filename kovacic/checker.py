@@ -477,6 +477,8 @@ def hypergeometric(tower: Tower, *arguments: Any) -> Any:
     name = "F".join(str(len(part)) for part in lists) or "pFq"
     *parameters, z = *chain(*lists), *arguments[len(lists) :]
     one = tower.number(1)
+    if name == "1F1" and (parameters[1] - parameters[0] - one).num == 0:
+        return tower.called("1F1+", [parameters[0], z])
     if name in NEIGHBOURS:
         lower, upper = ([value - one for value in parameters], [value + one for value in parameters])
         *above, below = lower
@@ -529,6 +531,8 @@ FAMILIES: dict[str, tuple[Any, ...]] = {
     "bessely": bessel("y", "-", ""),
     "besseli": bessel("i", "+", ""),
     "besselk": bessel("k", "-", "-"),
+    # 1F1(s; s + 1; u) = s u^(-s) int u^(s - 1) exp(u) du
+    "1F1+": ("s u", ("s*(exp(u) - F)/u", lambda s, u: u.hypgeom_1f1(s, s + 1))),
     # Kummer's and Gauss' equations, with F' = (a b/c) F with all parameters larger by 1
     "1F1": (
         "a c u",

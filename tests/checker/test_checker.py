@@ -759,6 +759,7 @@ def test_what_is_not_proven_of_the_solutions_is_named(text: str, solutions: list
 @pytest.mark.parametrize(
     ("S", "y1", "y2"),
     [
+        ("x^4 - 4*x", "x*exp(-x**3/3)", "x**3*exp(-x**3/3)*hyper((2/3,), (5/3,), 2*x**3/3) - exp(x**3/3)"),
         ("x", "airyai(x)", "airybi(x)"),
         ("x^2 + x", "exp(x/2)*airyai(x)", "airybiprime(x)"),
         ("-1 + 7/(36*x^2)", "sqrt(x)*besselj(2/3, x)", "sqrt(x)*bessely(2/3, x)"),
@@ -787,7 +788,7 @@ FORMULAS = [
     "log(x + 2) + atan(x) + atanh(x/7) + asin(x/9) + acos(x/8) + asinh(x)",
     "Ei(x) + erf(x) + erfi(x/2) + erfc(x) + lowergamma(1/3, x**2)",
     "elliptic_f(asin(x/3), 2/5) + elliptic_e(asin(x/3), 1/7)",
-    "hyper((1/3, 2/5), (7/4,), x/5) + hyper((1/3,), (7/4,), x) + CRootOf(x**3 - 2, 0)*x",
+    "hyper((1/3, 2/5), (7/4,), x/5) + hyper((1/3,), (7/4,), x) + hyper((1/3,), (4/3,), x) + CRootOf(x**3 - 2, 0)*x",
     "besselj(1/3, x) + bessely(2, x) + besseli(1/3, x) + besselk(2/5, x)",
     "airyai(x) + airyaiprime(x) + airybi(x) + airybiprime(x) + Integral(x, x)",
     "RootSum(_a**3 - 2*_a + 3, Lambda(_a, (_a**2 + 1)*log(-_a + x)))",
