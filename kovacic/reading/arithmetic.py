@@ -28,8 +28,7 @@ _TOTAL_FACTOR = 100
 # Above this size, flint's numbers are faster than Python's.
 _SMALL_BITS = 2048
 
-# Python reads and prints integers of at most 4300 digits, flint longer ones too; and the bits of those that are printed.
-_LONG_DIGITS = 2000
+# Bits of the integers that are printed: Python prints at most 4300 digits.
 PRINTED_BITS = 14_000
 
 
@@ -64,7 +63,7 @@ class Arithmetic:
     def integer(self, digits: str) -> int:
         if len(digits) > self.limits.digits:
             raise LimitExceeded(f"{len(digits)} digits, above the limit of {self.limits.digits}", limit="digits")
-        return int(digits) if len(digits) <= _LONG_DIGITS else int(fmpz(digits))
+        return int(fmpz(digits))  # Python reads integers of at most 4300 digits
 
     def signed_integer(self, text: str) -> int:
         return -self.integer(text[1:]) if text[0] == "-" else self.integer(text.lstrip("+"))
