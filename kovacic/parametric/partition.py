@@ -472,6 +472,9 @@ def _rest(
     complete = inner.complete
     if field.ground == QQ:
         return _at_a_value(statement, S, verdict, complete, settings)
+    free = _without_parameters(S)
+    if free is not None:
+        return _at_a_value(statement, free, verdict, complete, settings)
     if complete is not True:
         verdict = replace(verdict, known=False)
         if isinstance(field, AlgebraicField):  # no parameter can be eliminated
@@ -482,6 +485,16 @@ def _rest(
     if verdict.known and verdict.case == 1 and not surface.curve:
         origin = partial(solutions_there, S, settings.variable)
     return ParameterRegion(statement, verdict, complete, origin=origin)
+
+
+def _without_parameters(S: RatFunc) -> RatFunc | None:
+    """S over Q, where no parameter is left in it: 0 for k (1 + g/x) at k = 0."""
+    parts = [S.num, S.den]
+    coefficients = [[S.field.rational_value(c) for c in part] for part in parts]
+    if any(None in numbers for numbers in coefficients):
+        return None
+    num, den = (QQ.poly([number or 0 for number in numbers]) for numbers in coefficients)
+    return RatFunc(num, den)
 
 
 def _without_formulas(verdict: RegionVerdict) -> RegionVerdict:
