@@ -7,20 +7,25 @@ ended goes on after its last one.
 Each call is made twice, at some 5 to 30 digits and at 25 more, on another journey.  DOP853 along the same path, at a
 tolerance of 1e-12, has to agree to 1e-7 of the size of the solution (where it doesn't, mpmath's `odefun` with 30 digits
 decides); and the sharper ball has to meet the wider one: the ratio is its distance from the midpoint over the radius.
-One call in twenty is compared with `odefun` in any case.  Starts at regular singular points are compared with Frobenius'
-series, summed by mpmath with 60 digits.
+One call in a hundred is compared with `odefun` in any case.  Starts at regular singular points are compared with Frobenius'
+series, summed by mpmath with 60 digits.  Half of the calls have coefficients and right-hand sides made of the functions that
+the package knows.  One in twenty is a matrix: of `connection_matrix`, and of `monodromy` with what
+`compare_with_monodromy` says, against DOP853 along the polygon; one in a hundred is the ball's motion, against Newton's and
+Euler's equations.
 """
 
 from __future__ import annotations
 
 import json
 import random
+import sys
 import time
 import warnings
 from collections import Counter
 from collections.abc import Callable
 from dataclasses import dataclass
 from fractions import Fraction
+from itertools import pairwise
 from pathlib import Path
 from typing import Any
 
@@ -32,10 +37,15 @@ import sympy
 from scipy.integrate import solve_ivp
 
 import kovacic
+from kovacic.ball import RollingBall
+from kovacic.ball.motion import State, solve_motion
+
+sys.path.insert(0, str(Path(__file__).resolve().parent.parent / "tests" / "shared"))
+import newton_euler
 
 x = sympy.Symbol("x")
 _SIZE = 1e-7
-_EVERY = 20
+_EVERY = 100
 _NEAR, _CIRCLE = 0.01, 0.125
 """Nearer to a removable singularity a coefficient is the mean of its values on a circle of that radius."""
 
@@ -211,6 +221,28 @@ def removable(rng: random.Random) -> tuple[str, str, str]:
     return rng.choice(first), c, rng.choice(["0", "0", "sin(x)/x", "(cos(x) - 1)/x"])
 
 
+READERS = (
+    "exp sin cos tan cot sec csc sinh cosh tanh coth sech csch erf erfc erfi asin acos atan asinh acosh atanh log sqrt"
+)
+ARGUMENTS = ["x/9", "x/5 + 1/3", "x + 2", "x/(x + 3)", "1/(x + 2)", "x^2/9", "2*x", "sqrt(x)", "log(x + 1)", "sin(x)"]
+
+
+def function(rng: random.Random) -> str:
+    """One of the reader's functions at an argument for which it is real and moderate on the way."""
+    while True:
+        text = f"{rng.choice(READERS.split())}({rng.choice(ARGUMENTS)})"
+        value = sympy.lambdify(x, sympy.sympify(text.replace("^", "**")), "mpmath")
+        values = [mpmath.mpmathify(value(mpmath.mpf(k) / 4)) for k in range(1, 17)]
+        if all(mpmath.im(v) == 0 and abs(v) < 40 for v in values):
+            return text
+
+
+def of_the_reader(rng: random.Random) -> tuple[str, str, str]:
+    b = rng.choice(["0", "0", f"{number(rng)}*{function(rng)}"])
+    c = " + ".join(f"{number(rng)}*{function(rng)}" for _ in range(rng.randint(1, 2)))
+    return b, c, rng.choice(["0", "0", function(rng), f"x*{function(rng)}"])
+
+
 KINDS = {"rational": rational, "irregular": irregular, "algebraic constants": algebraic, "right-hand sides": forced}
 KINDS |= {"sines and exponentials": waves, "any functions": functions}
 KINDS |= {"removable singularities": removable}
@@ -237,7 +269,10 @@ def call(rng: random.Random) -> Call | FromSingular:
     kind = rng.choice([*KINDS, FromSingular.kind])
     if kind == FromSingular.kind:
         return from_singular(rng)
-    b, c, f = KINDS[kind](rng)
+    of_kind = KINDS[kind]
+    if rng.random() < 0.6:
+        kind, of_kind = "functions of the reader", of_the_reader
+    b, c, f = of_kind(rng)
     params = {}
     if rng.random() < 0.15:
         c, params = f"{c} + a*x", {"a": rng.choice(["sqrt(2)", "1/3", "pi"])}
@@ -315,8 +350,70 @@ def distance(ball: Any, other: Any) -> float:
         return 0.0 if error <= 0 else float(error / mpmath.mpf(ball.radius or 1e-300))
 
 
+def carried(S: str, corners: list[complex]) -> Any:
+    """The matrix from (y, y') at the first corner to that at the last one, by DOP853."""
+    value = sympy.lambdify(x, sympy.sympify(S.replace("^", "**")), "numpy")
+    matrix = np.eye(2, dtype=complex)
+    for begin, end in pairwise(corners):
+        step = end - begin
+
+        def slope(t: float, s: Any, begin: complex = begin, step: complex = step) -> Any:
+            return step * np.array([s[2], s[3], value(begin + step * t) * s[0], value(begin + step * t) * s[1]])
+
+        found = solve_ivp(slope, (0, 1), matrix.reshape(-1), method="DOP853", rtol=1e-12, atol=1e-13)
+        matrix = found.y[:, -1].reshape(2, 2)
+    return matrix
+
+
+def check_matrix(rng: random.Random, row: dict[str, Any]) -> dict[str, Any]:
+    """A connection matrix, or the local monodromy of an equation and whether its group agrees with it."""
+    S = f"({polynomial(rng, 2)})/({denominator(rng)})"
+    pairs = []
+    try:
+        if rng.random() < 0.5:
+            ends = [Fraction(rng.randint(5, 38), 10) for _ in range(2)]
+            middle = complex(rng.randint(1, 8) / 2, rng.choice((-1, 1)) * rng.randint(1, 8) / 2)
+            path = [ends[0], middle, ends[1]]
+            row |= {"kind": "connection matrices", "call": f"{S}, {path}"}
+            pairs.append((kovacic.connection_matrix(S, path), [complex(corner) for corner in path]))
+        else:
+            row |= {"kind": "monodromy", "call": S}
+            pairs += [(point.matrix, [complex(corner) for corner in point.loop]) for point in kovacic.monodromy(S)]
+            row["disproved"] = kovacic.solve(S).compare_with_monodromy().verdict is False
+    except kovacic.KovacicError as reason:
+        return {**row, "refused": f"{type(reason).__name__}: {reason}"}
+    off = []
+    for balls, corners in pairs:
+        own, size = carried(S, corners), max(abs(complex(ball)) for line in balls for ball in line)
+        off += [abs(complex(balls[i][j]) - own[i, j]) / size for i in (0, 1) for j in (0, 1)]
+    row["ratio"] = 0.0
+    return row | {"wrong": max(off, default=0.0) > 10 * _SIZE or row.get("disproved", False)}
+
+
+def check_motion(rng: random.Random, row: dict[str, Any]) -> dict[str, Any]:
+    """A rolling ball on a sphere, outside or inside, in the potential cos(u) or cos(u)^2."""
+    R1, potential = rng.choice((3, 5, -4)), rng.choice(("cos(u)", "cos(u)^2"))
+    start = State(u=rng.uniform(0.3, 2.8), du=rng.uniform(-1, 1), dv=rng.uniform(-1, 1), n=rng.uniform(-3, 3))
+    times = np.sort([rng.uniform(0, 20) for _ in range(5)])
+    row |= {"kind": "the ball's motion", "call": f"R1 = {R1}, {potential}, {start}", "ratio": 0.0}
+    body = RollingBall(m=1, R=1, a="1/5", A1="1/4", A3="1/3").on_sphere(R1)
+    slope = (lambda u: 1.0) if potential == "cos(u)" else (lambda u: 2 * u)
+    force = newton_euler.central(slope, 1.0, 0.2, float(R1))
+    own = newton_euler.integrate(
+        newton_euler.Body(1.0, 1.0, 0.2, 0.25, 1 / 3, float(R1), force),
+        (start.u, start.du, start.dv, start.n, 0, 0, 1, 0),
+        np.concatenate([[0.0], times]),
+    )
+    motion = solve_motion(body, start, potential=potential)
+    off = [np.abs(getattr(motion, name)(times) - own[name][1:]).max() for name in ("u", "n", "contact_on_ball")]
+    return row | {"wrong": bool(max(off) > 10 * _SIZE)}
+
+
 def check(seed: int) -> dict[str, Any]:
     rng = random.Random(seed)
+    share = rng.random()
+    if share < 0.06:
+        return (check_motion if share < 0.01 else check_matrix)(rng, {"seed": seed})
     asked, digits, wide = call(rng), rng.choice([5, 8, 15, 30]), rng.random() < 0.1
     at: Any = asked.place
     if "I" not in asked.place and rng.random() < 0.1:
