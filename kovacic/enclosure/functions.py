@@ -212,8 +212,14 @@ def _in_sines(u: Any, function: RatFunc, atoms: Atoms) -> Any:
     powers = 2 * count + denominator.degree - function.num.degree
 
     def homogeneous(poly: Poly) -> Any:
-        terms = enumerate(atoms.coefficients(poly))
-        return sympy.Add(*(c * sympy.sin(u) ** k * sympy.cos(u) ** (poly.degree - k) for k, c in terms))
+        """sum c_k sin(u)^k cos(u)^(n - k) by waves: powers of both cancel, and balls don't see it."""
+        n = poly.degree
+        e = sympy.Dummy("exp(iu)")
+        sine, cosine = (e**2 - 1) / (2 * sympy.I), (e**2 + 1) / 2  # times e
+        terms = (c * sine**k * cosine ** (n - k) for k, c in enumerate(atoms.coefficients(poly)) if c != 0)
+        found = sympy.Poly(sympy.Add(*terms), e).all_coeffs()[::-1]  # of e^(m + n)
+        waves = ((c, sympy.expand((k - n) * u)) for k, c in enumerate(found) if c != 0)
+        return sympy.expand(sympy.Add(*(c * (sympy.cos(w) + sympy.I * sympy.sin(w)) for c, w in waves)))
 
     return homogeneous(function.num) / homogeneous(denominator) * sympy.cos(u) ** powers
 
