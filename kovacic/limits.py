@@ -146,7 +146,10 @@ class Budget:
 
     def check(self) -> None:
         if CLOCK.now() > self._deadline:
-            raise LimitExceeded(f"the time limit of {self.seconds:g} s is used up", limit="seconds")
+            raise self._used_up()
+
+    def _used_up(self) -> LimitExceeded:
+        return LimitExceeded(f"the time limit of {self.seconds:g} s is used up", limit="seconds")
 
     @property
     def seconds_left(self) -> float:
@@ -243,8 +246,8 @@ def limited(call: Callable[_P, _R]) -> Callable[_P, _R]:
 def check_time() -> None:
     """Raise `LimitExceeded` if the watched budget has expired."""
     budget = _WATCHED.get()
-    if budget is not None and CLOCK.now() > budget._deadline:  # asked so often that a call counts
-        budget.check()
+    if budget is not None and CLOCK.now() > budget._deadline:  # called so often that another call would be felt
+        raise budget._used_up()
 
 
 def watched_seconds(most: float) -> float:
