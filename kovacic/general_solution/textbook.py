@@ -47,10 +47,11 @@ _LARGEST = 400
 def in_book_form(value: Expr, x: Expr, free: Sequence[Expr] = ()) -> Expr:
     """The shortest form of an answer; the functions that the constants `free` of a general one belong to stay."""
     is_small = _is_small(value)
-    is_rational = value.free_symbols <= {x, *free} and not any(p.is_number for p in value.atoms(sympy.Pow))
-    if is_rational:  # numbers as factors stand with each term
+    short = value
+    if free and value.free_symbols <= {x, *free} and not any(p.is_number for p in value.atoms(sympy.Pow)):
+        # numbers as factors stand with each term
         short = sympy.Add(*(sympy.Mul(*term.as_coeff_Mul()) for term in sympy.Add.make_args(value)))
-    else:
+    elif value.free_symbols != {x}:
         short = _with_short_coefficients(value, x)
     value = shortest([value, short])
     for rule in _RULES_OF_GENERAL_SOLUTIONS if free else _SHAPE_RULES:
