@@ -39,17 +39,7 @@ from kovacic.algebra.precision import working_precision
 from kovacic.closed_form.atoms import Atoms
 from kovacic.enclosure.frame import foreseen_growth, upper_exponent
 from kovacic.enclosure.jets import AnalyticStep, CoefficientField
-from kovacic.enclosure.matrices import (
-    NOTHING,
-    Affine,
-    MapProduct,
-    Matrix,
-    State,
-    compose,
-    fundamental,
-    identity,
-    real_part,
-)
+from kovacic.enclosure.matrices import NOTHING, Affine, MapProduct, Matrix, State, compose, fundamental, real_part
 from kovacic.enclosure.points import (
     Constant,
     ExactPoint,
@@ -276,7 +266,7 @@ class PeriodicWay(AnalyticWay):
             key = a, n > 0, lost
             if key not in self._maps:
                 self._maps[key] = way._map(a, Constant("a period later", lambda: to_acb(a) + step))
-            power: Affine = (identity(), NOTHING)
+            power = MapProduct().whole()
             square = self._maps[key]
             for bit in reversed(bin(abs(n))[2:]):
                 power = compose(square, power) if bit == "1" else power
@@ -291,9 +281,8 @@ class PeriodicWay(AnalyticWay):
     def _map(self, a: ExactPoint, number: Constant) -> Affine:
         """From the state at a to that at a number in a ball."""
         stop = middle(number)
-        M, particular = identity(), NOTHING
-        if stop != a:
-            M, particular = super().carried(a, stop, MapProduct()).whole()
+        maps = MapProduct() if stop == a else super().carried(a, stop, MapProduct())
+        M, particular = maps.whole()
         first, second, own = (self.spread(number, v) for v in ((M[0], M[2]), (M[1], M[3]), particular))
         return fundamental(first, second), own
 

@@ -84,11 +84,14 @@ class Classical:
         """That of a target."""
         return self.pullback.equation.cost.target(digits)
 
-    def lost_digits(self, start: ExactPoint) -> float:
-        """About: by Y(b) Y(a)^-1 for b beside a, where both solutions are of the size g and their Wronskian isn't.
+    def lost_digits(self, start: ExactPoint | Singular) -> float:
+        """About: by Y(b) Y(a)^-1 for b beside a, where both solutions are of the size g and their Wronskian isn't; none from a
+        singular point on.
 
         The determinant loses the digits of g^2, and the product of the matrices as many.
         """
+        if isinstance(start, Singular):
+            return 0.0
         try:
             with working_precision(_BITS):
                 y1, y2, dy1, dy2 = _solutions_at_start(self, start, False).at(start)

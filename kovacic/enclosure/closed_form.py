@@ -29,7 +29,6 @@ from kovacic.algebra.partial_fractions import decompose
 from kovacic.algebra.poly import Poly
 from kovacic.algebra.precision import working_precision
 from kovacic.algebra.ratfunc import RatFunc
-from kovacic.decision import Decision
 from kovacic.enclosure.frame import check_segment
 from kovacic.enclosure.log_derivative import LogDerivative, conjugates, embed, log_derivative, sharp_roots
 from kovacic.enclosure.matrices import Matrix, State, fundamental, inverse, multiply
@@ -245,31 +244,19 @@ def decided(problem: NumericProblem, degree: int) -> NumericProblem | None:
     return replace(problem, decision=decision)
 
 
-def certified(problem: NumericProblem) -> Decision:
-    """The decision of a Liouvillian solution with its certificate; raises InputError where there is none."""
-    if problem.decision is None or problem.decision.semi_invariant is None:
-        raise InputError(
-            "the method 'closed form' needs a Liouvillian solution with its certificate",
-            hint="pass kovacic.solve(S) with status LIOUVILLIAN, or use method='taylor'",
-        )
-    return problem.decision
-
-
 @lru_cache(maxsize=32)
 def closed_form_of(problem: NumericProblem) -> CaseOneForm | None:
-    """The closed form of a solution of case 1, None in the other cases; raises InputError without a certificate."""
-    decision = certified(problem)
+    """The closed form of a solution of case 1, None in the other cases of an equation that has a Liouvillian solution."""
+    decision = problem.decision
+    assert decision is not None
+    assert decision.semi_invariant is not None
     if decision.case != 1:
         return None
-    assert decision.semi_invariant is not None
     return CaseOneForm(problem, Exponential(decision.semi_invariant.theta, decision.semi_invariant.P))
 
 
 def exponentials(problem: NumericProblem) -> list[Exponential]:
-    """The solutions of case 1 with a rational logarithmic derivative, with the gauge in it; empty in the other cases.
-
-    Raises InputError where there is no certificate.
-    """
+    """The solutions of case 1 with a rational logarithmic derivative, with the gauge in it; empty in the other cases."""
     closed = closed_form_of(problem)
     if closed is None:
         return []
@@ -289,7 +276,8 @@ def omegas(problem: NumericProblem, x0: ExactPoint) -> list[acb]:
     found = exponentials(problem)
     if found:
         return [branch.omega(z) for branch in found]
-    riccati = certified(problem).riccati
+    assert problem.decision is not None
+    riccati = problem.decision.riccati
     assert riccati is not None
     c = conjugates(riccati.coefficients[0].field)[0]
     roots = sorted(sharp_roots(acb_poly([value(r, c, z) for r in riccati.coefficients])), key=cmp_to_key(_order))

@@ -183,17 +183,18 @@ def _wave_quotient(t: Any, function: RatFunc, factor: Any) -> Any:
     lowest = next(k for k, c in enumerate(below) if c != 0)
     half = sympy.Rational(lowest + len(below) - 1, 2)
 
-    def waves(coefficients: Any, w: Any) -> Any:
-        angles = ((c, (k - half) * u) for k, c in enumerate(coefficients))
-        return sympy.expand(
-            sympy.Add(*(w * c * (sympy.cos(angle) + sympy.I * sympy.sin(angle)) for c, angle in angles))
-        )
-
     first, last = (
         sympy.conjugate(c).xreplace({sympy.conjugate(s): s for s in c.free_symbols}) for c in (below[lowest], below[-1])
     )
     w = first + last or sympy.I * (first - last)
-    return waves(atoms.coefficients(function.num), w * factor) / waves(below, w)
+    above = [w * factor * c for c in atoms.coefficients(function.num)]
+    return _waves(above, half, u) / _waves([w * c for c in below], half, u)
+
+
+def _waves(coefficients: Sequence[Any], shift: Any, u: Any) -> Any:
+    """sum c_k exp(i (k - shift) u), by cosines and sines."""
+    angles = ((c, sympy.expand((k - shift) * u)) for k, c in enumerate(coefficients))
+    return sympy.expand(sympy.Add(*(c * (sympy.cos(angle) + sympy.I * sympy.sin(angle)) for c, angle in angles)))
 
 
 def _without_factor(poly: Poly, factor: Poly) -> tuple[Poly, int]:
@@ -217,9 +218,7 @@ def _in_sines(u: Any, function: RatFunc, atoms: Atoms) -> Any:
         e = sympy.Dummy("exp(iu)")
         sine, cosine = (e**2 - 1) / (2 * sympy.I), (e**2 + 1) / 2  # times e
         terms = (c * sine**k * cosine ** (n - k) for k, c in enumerate(atoms.coefficients(poly)) if c != 0)
-        found = sympy.Poly(sympy.Add(*terms), e).all_coeffs()[::-1]  # of e^(m + n)
-        waves = ((c, sympy.expand((k - n) * u)) for k, c in enumerate(found) if c != 0)
-        return sympy.expand(sympy.Add(*(c * (sympy.cos(w) + sympy.I * sympy.sin(w)) for c, w in waves)))
+        return _waves(sympy.Poly(sympy.Add(*terms), e).all_coeffs()[::-1], n, u)
 
     return homogeneous(function.num) / homogeneous(denominator) * sympy.cos(u) ** powers
 

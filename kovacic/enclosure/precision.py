@@ -82,7 +82,7 @@ def raise_precision(
             if previous is None:
                 raise
             return previous.explained(str(limit))
-        if run.reached:
+        if run.finite and run.missing == 0:
             return run.values
         if closed is not None and previous is not None and run.lacking > previous.lacking:
             raise NotServed("a higher precision gives fewer digits: FLINT sums another series")
@@ -130,11 +130,6 @@ class _Run:
             *(route.runs, route.bits, lacking.count(0), len(lacking), route.digits),
         )
         return cls(values, len(lacking) - lacking.count(0), max(lacking, default=0), route, finite)
-
-    @property
-    def reached(self) -> bool:
-        """True if all values have the requested digits."""
-        return self.finite and self.missing == 0
 
     def is_stalled(self, previous: _Run | None) -> bool:
         """Where a higher precision hasn't halved the balls, their size comes from the initial values."""

@@ -36,7 +36,7 @@ import math
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from functools import cached_property, lru_cache
-from typing import Any, ClassVar
+from typing import Any
 
 from flint import acb, acb_poly, arb, arb_poly, fmpq, fmpq_poly, fmpq_series
 
@@ -46,24 +46,14 @@ from kovacic.enclosure.closed_form import value
 from kovacic.enclosure.frame import System, foreseen_growth, frequency, largest_exponent, log2
 from kovacic.enclosure.frobenius import basis, junction
 from kovacic.enclosure.log_derivative import LogDerivative, log_derivative
-from kovacic.enclosure.matrices import (
-    NOTHING,
-    MapProduct,
-    Matrix,
-    State,
-    apply,
-    fundamental,
-    inverse,
-    multiply,
-    real_part,
-)
+from kovacic.enclosure.matrices import MapProduct, Matrix, State, apply, fundamental, inverse, multiply, real_part
 from kovacic.enclosure.points import ExactPoint, Number, around_zero, power_of_two, to_acb
 from kovacic.enclosure.problem import NumericProblem
 from kovacic.enclosure.singular import Singular
 from kovacic.enclosure.splitting import is_split
 from kovacic.enclosure.start import logarithmic_derivative, spread_by
 from kovacic.enclosure.transport import growth_of_disc, walk
-from kovacic.enclosure.way import MAX_DISCS, Forecast, Traveller, Way, WayStep
+from kovacic.enclosure.way import MAX_DISCS, Forecast, Homogeneous, Traveller, Way, WayStep
 from kovacic.limits import check_time, count_work
 
 _WORTH = 4  # times as many radians as bits, on the whole way: with fewer, discs are as fast
@@ -124,13 +114,12 @@ def _half_power(x: arb, d: int) -> arb:
 
 
 @dataclass(frozen=True)
-class Swing:
+class Swing(Homogeneous):
     """The step from one point of the half line to another: a `WayStep`."""
 
     oscillation: Oscillation
     enter: ExactPoint
     leave: ExactPoint
-    added: ClassVar[State] = NOTHING  # there is no right-hand side
 
     @property
     def matrix(self) -> Matrix:

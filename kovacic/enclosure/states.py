@@ -21,7 +21,7 @@ from flint import acb, arb
 
 from kovacic.algebra.precision import working_precision
 from kovacic.algebra.ratfunc import RatFunc
-from kovacic.enclosure.classical import Classical, Closed, NotServed, classical_of
+from kovacic.enclosure.classical import Closed, NotServed, classical_of
 from kovacic.enclosure.closed_form import closed_form_of, decided
 from kovacic.enclosure.frame import foreseen_growth, frequency
 from kovacic.enclosure.journey import Journey
@@ -92,12 +92,7 @@ def _asked_for(journey: Journey, digits: int) -> ClosedRoute:
     classical = None if problem.S is None else classical_of(problem.S, None)
     if classical is None:
         raise InputError(NO_CLOSED_FORM, hint=TAYLOR)
-    return classical, start_bits(digits + _lost_digits(classical, journey))
-
-
-def _lost_digits(classical: Classical, journey: Journey) -> float:
-    """About so many; none from a singular point on."""
-    return 0.0 if isinstance(journey.place, Singular) else classical.lost_digits(journey.place)
+    return classical, start_bits(digits + classical.lost_digits(journey.place))
 
 
 def _chosen(
@@ -121,7 +116,7 @@ def _chosen(
     classical = classical_of(S, int(_SOUGHT * min(price, _MOST_SEARCH) / prices.UNIT))
     if classical is None or not classical.is_cheap(digits, from_zero=from_zero):
         return None
-    more = digits + _lost_digits(classical, journey)
+    more = digits + classical.lost_digits(journey.place)
     return (classical, start_bits(more)) if from_zero or classical.price(more) <= most else None
 
 

@@ -21,16 +21,16 @@ import math
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
-from typing import Any, ClassVar, NamedTuple
+from typing import Any, NamedTuple
 
 from flint import fmpq
 
 from kovacic.enclosure.frame import REACH, Frame, System, distance_lower, fitting, is_apart, largest_exponent, log2
-from kovacic.enclosure.matrices import NOTHING, Matrix, State, adjugate, apply, multiply, product
+from kovacic.enclosure.matrices import Matrix, State, adjugate, apply, multiply, product
 from kovacic.enclosure.points import ExactPoint, power_of_two
 from kovacic.enclosure.splitting import legs
 from kovacic.enclosure.taylor import TaylorSeries, expand, local_solution, transition
-from kovacic.enclosure.way import Local
+from kovacic.enclosure.way import Homogeneous, Local
 from kovacic.errors import LimitExceeded
 from kovacic.limits import check_time, count_work
 
@@ -75,13 +75,12 @@ class Disc:
 
 
 @dataclass(frozen=True)
-class Leg:
+class Leg(Homogeneous):
     """One disc of a way: its expansion, or the matrix that came from splitting."""
 
     disc: Disc
     expansion: TaylorSeries | None
     split: Matrix | None = None
-    added: ClassVar[State] = NOTHING  # there is no right-hand side
 
     @cached_property
     def to_centre(self) -> Matrix | None:

@@ -15,13 +15,13 @@ from bisect import bisect_left
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, field, replace
 from functools import cached_property
-from typing import Any, Protocol
+from typing import Any, ClassVar, Protocol
 
 from flint import acb, acb_poly, arb, arb_poly
 
 from kovacic.algebra.precision import working_precision
 from kovacic.enclosure.frobenius import limit
-from kovacic.enclosure.matrices import MapProduct, Matrix, State, apply
+from kovacic.enclosure.matrices import NOTHING, MapProduct, Matrix, State, apply
 from kovacic.enclosure.points import ExactPoint, Number, around_zero, power_of_two, to_acb
 from kovacic.enclosure.singular import Singular
 from kovacic.errors import InputError, LimitExceeded
@@ -95,6 +95,12 @@ class WayStep(Protocol):
 
     def local(self, state: State) -> Followed:
         """The solution in the disc, from its state where the disc is entered."""
+
+
+class Homogeneous:
+    """A step of an equation without a right-hand side."""
+
+    added: ClassVar[State] = NOTHING
 
 
 @dataclass
