@@ -12,6 +12,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
+from itertools import pairwise
 from typing import Any
 
 import sympy
@@ -198,16 +199,25 @@ def common_place(basis: Basis, right: Expr, particular: Expr = sympy.S.Zero) -> 
     """The first of some points at which the fewest arguments lie on cuts: where the parts of an answer are real together.
 
     Those of the right-hand side come first: of a part that isn't real there another form is looked for (`real_at`,
-    `real_particular`).
+    `real_particular`).  After the usual points come those between zeros of arguments, as for sqrt(x - 3) and sqrt(4 - x).
     """
     parts = (right, sympy.Tuple(basis.y1, basis.y2, particular))
     given, found = (arguments_with_cuts(part).values() for part in parts)
+    lines = (u.as_poly(basis.x) for u in (*given, *found))
+    zeros = sorted(
+        {
+            -p.coeff_monomial(1) / p.LC()
+            for p in lines
+            if p is not None and p.degree() == 1 and p.domain in (sympy.ZZ, sympy.QQ)
+        }
+    )
+    points = [*_INSIDE, *((a + b) / 2 for a, b in pairwise(zeros))]
 
     def on_cuts(point: Expr) -> tuple[int, ...]:
         here = ([basis.own(u.subs(basis.x, point)).is_negative for u in of_part] for of_part in (given, found))
         return tuple(negative.count(True) for negative in here)
 
-    return next((point for point in _INSIDE if on_cuts(point) == (0, 0)), None) or min(_INSIDE, key=on_cuts)
+    return next((point for point in points if on_cuts(point) == (0, 0)), None) or min(points, key=on_cuts)
 
 
 def real_at(basis: Basis, point: Expr) -> Basis:

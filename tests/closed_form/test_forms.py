@@ -392,3 +392,12 @@ def test_an_elementary_solution_is_real_where_that_beside_it_is(S: str) -> None:
     assert all(sympy.im(y.subs(x, sympy.Rational(1, 3)).evalf()) == 0 for y in pair)
     general = kovacic.dsolve(f"y'' = ({S})*y").rhs
     assert sympy.expand(general.subs({"C1": 1, "C2": 0}) - pair[0]) == 0
+
+
+def test_solutions_that_are_real_between_two_points_stay_so() -> None:
+    """Between 3 and 4, where none of the usual points for a look lies."""
+    S = "(-32*x**2 + 219*x - 396)/(144*(x - 3)**2*(x - 4)**2)"
+    pair = kovacic.solve(S).solutions
+    general = kovacic.dsolve(f"y'' = ({S})*y").rhs
+    assert all(y.subs(x, sympy.Rational(7, 2)).evalf().is_real for y in pair)
+    assert sympy.expand(general.subs({"C1": 1, "C2": 0}) - pair[0]) == 0
