@@ -226,7 +226,8 @@ def _changes(given: _InOneAngle, slope: Expr) -> Iterator[WaveChange]:
 
     def change(f: Expr, sine: Expr, cosine: Expr, wave: Expr) -> WaveChange:
         """For int f du with the sine and the cosine in u."""
-        return WaveChange(sympy.cancel(f.subs({s: sine, c: cosine}) / slope), u, wave)
+        # with a root as a factor, as the rules for roots of polynomials know it
+        return WaveChange(sympy.together(sympy.cancel(f.subs({s: sine, c: cosine}) / slope)), u, wave)
 
     is_odd_in_s, is_odd_in_c = (sympy.cancel(R + R.xreplace({wave: -wave})) == 0 for wave in (s, c))
     if is_odd_in_s:
