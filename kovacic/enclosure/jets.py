@@ -255,11 +255,6 @@ class Jets:
     bits: int
     precision: int
 
-    @property
-    def scale(self) -> arb:
-        """H."""
-        return arb((1, self.e))
-
     def local(self, poly: Any, error: arb) -> Local:
         """A solution in the disc, off by at most that, and its derivative."""
         return Local(self.centre, self.e, poly, error, error, fmpq(1), self.precision)
@@ -438,7 +433,8 @@ class AnalyticStep:
     def _to_centre(self) -> Matrix:
         """From (y, dy/dx) where it is entered to (y, dy/du) at the centre: the determinant of the inverse is w/H."""
         m = self._from_centre(self.enter)
-        factor = acb(self.jets.scale) if self._area is None else 1 / self._area.state(self.enter)[1]
+        H = acb(arb((1, self.jets.e)))
+        factor = H if self._area is None else 1 / self._area.state(self.enter)[1]
         return m[3] * factor, -m[1] * factor, -m[2] * factor, m[0] * factor
 
     def _particular(self, x: ExactPoint) -> State:
