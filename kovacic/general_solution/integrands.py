@@ -168,12 +168,13 @@ def _rate_of_power(base: Expr, e: Expr, x: Expr) -> Expr:
 
 def integral_of_fraction(g: Expr, x: Expr) -> Expr | None:
     """By partial fractions; None if g isn't a rational function of x."""
-    r = ratfunc(g, x)
+    K, rest = g.as_independent(x, as_Add=False)  # roots of numbers in a factor stay as they are
+    r = ratfunc(rest, x)
     if r is None:
         return None
     atoms = Atoms(x)
     parts = decompose(r)
-    return (atoms.sum(parts.exact) + sympy.Add(*logarithms(parts.residues, atoms))).xreplace(NUMBERS)
+    return K * (atoms.sum(parts.exact) + sympy.Add(*logarithms(parts.residues, atoms))).xreplace(NUMBERS)
 
 
 def ratfunc(expression: Expr, x: Expr) -> RatFunc | None:

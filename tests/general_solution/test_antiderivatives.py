@@ -12,6 +12,7 @@ from build import parametrize
 from flint import acb, fmpq
 from sympy import atan, cos, exp, log, sin, sqrt
 
+import kovacic
 from kovacic.closed_form.jets import jet
 from kovacic.general_solution import antiderivatives
 from kovacic.general_solution.integrands import prepared
@@ -91,3 +92,10 @@ def test_roots_that_are_real_on_an_interval_alone(term: Any) -> None:
     found = antiderivatives.antiderivative(term, x)
     for point in (acb(fmpq(-3, 4)), acb(fmpq(0)), acb(fmpq(2, 3))):
         assert jet(found, x, point)[1].overlaps(jet(term, x, point)[0])
+
+
+@pytest.mark.parametrize("c", ["I", "1+2*I", "sqrt(2)", "-1-sqrt(3)"])
+def test_roots_of_numbers_before_an_integral_stay_roots(c: str) -> None:
+    """1/sqrt(-i) stood before it as a power of `CRootOf(_Dummy**4 + 1, 2)`."""
+    found = kovacic.dsolve(f"y'' + ({c})*y = log(x)").rhs
+    assert not found.has(sympy.CRootOf, sympy.Dummy, sympy.Integral)
