@@ -43,6 +43,7 @@ from flint import acb, fmpq, fmpq_poly
 from kovacic.algebra.extension import AlgebraicField
 from kovacic.algebra.poly import Poly
 from kovacic.algebra.ratfunc import RatFunc
+from kovacic.algebra.rationals import QQ
 from kovacic.closed_form.structure import Covariants
 from kovacic.decision import Structure
 from kovacic.engine.places import Kind, Problem, analyse, rational_square_root
@@ -73,6 +74,8 @@ _MOST_CHOICES = 32
 _HIDDEN = 3
 #: Points at which solutions are tested for realness.
 _SAMPLE = (Fraction(2, 7), Fraction(7, 2), Fraction(-2, 7))
+#: Where it is looked for points at which 2F1(f) is real.
+_POINTS = [Fraction(sign * k, 2) for k in range(1, 20) for sign in (1, -1)]
 
 
 @dataclass(frozen=True)
@@ -263,6 +266,18 @@ class _GaussForm:
         return self.writer.constant((value - num[0]) / num[1])
 
     @property
+    def inside(self) -> Expr | None:
+        """`aside`, or a rational x at which 2F1(f) is real, with 0 < f < 1 if one is found; None over other fields than Q."""
+        import sympy
+
+        if self.aside is not None or self.f.field != QQ:
+            return self.aside
+        values = {x: QQ.rational_value(self.f.num(x) / self.f.den(x)) or 0 for x in _POINTS if self.f.den(x)}
+        between = [x for x, value in values.items() if 0 < value < 1]
+        below = [x for x, value in values.items() if value < 0]
+        return next((sympy.Rational(x) for x in (*between, *below)), None)
+
+    @property
     def term(self) -> WrittenTerm:
         """u, or a multiple."""
         return self.factor, _named(self)[1]
@@ -363,7 +378,7 @@ def _at_one_point(form: _GaussForm) -> WrittenPair:
     """u and the solution with -alpha: their leading terms are z^((1 - alpha)/2) and z^((1 + alpha)/2)."""
     first, second = form.shorter, form.turned.shorter
     bracket = partial(first.bracket, second, form.writer.constant(form.alpha))
-    return form.writer.pair(first.term, second.term, bracket, (form.alpha,), real_at=form.aside)
+    return form.writer.pair(first.term, second.term, bracket, (form.alpha,), real_at=form.inside)
 
 
 def _at_two_points(form: _GaussForm, other: _GaussForm) -> WrittenPair:

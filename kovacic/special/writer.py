@@ -196,13 +196,12 @@ class Writer:
         """
         if self.places:
             real_at = sympy.Rational(self.places[0])
-        is_real = real_at is not None and self.transform is None
-        atoms = Atoms(self.atoms.x, at=real_at) if is_real else self.atoms
+        atoms = self.atoms if real_at is None else Atoms(self.atoms.x, at=real_at)
         P, Q = (Mul(display(f.product, atoms), *f.others) for f, _ in (first, second))
         excluded = tuple(_sine_of_letters(self.constant(number)) for number in undefined if self.has_letters(number))
         x = self.atoms.x
         if self.transform is not None:
-            (y, C), (z, D) = (self._combined(self.transform, *term) for term in (first, second))
+            (y, C), (z, D) = (self._combined(self.transform, *term, atoms) for term in (first, second))
             if bracket is None or C is None or D is None:
                 return WrittenPair(y, z, None, excluded)
             others, rational = _by_rationality(C * D * self.atoms.factored(self.transform.factor / self.transform.m), x)
@@ -214,7 +213,9 @@ class Writer:
             return WrittenPair(z, y, None if bracket is None else lambda: -P * Q * bracket(), excluded)
         return WrittenPair(y, z, None if bracket is None else lambda: P * Q * bracket(), excluded)
 
-    def _combined(self, transform: Combined, before: WrittenFactor, function: Expr) -> tuple[Expr, Expr | None]:
+    def _combined(
+        self, transform: Combined, before: WrittenFactor, function: Expr, atoms: Atoms
+    ) -> tuple[Expr, Expr | None]:
         """P sqrt(m) ((a + b P'/P) F + b F') over a constant c for v = P F, F' = s F + t F1, F1 another function; P sqrt(m)/c.
 
         Over Q the powers are joined, and c, a number, isn't known.
@@ -234,8 +235,8 @@ class Writer:
                 coefficients = sympy.Poly(part, x).all_coeffs()
                 p = QQ.poly([Fraction(int(c.p), int(c.q)) for c in reversed(coefficients)])
                 total = total + RatFunc(p.derivative(), p) * sign
-            return Mul(display(product(total), self.atoms), *before.others, bracket), None
-        powers = Mul(display(product(total), self.atoms), *before.others)
+            return Mul(display(product(total), atoms), *before.others, bracket), None
+        powers = Mul(display(product(total), atoms), *before.others)
         others, rational = _by_rationality(powers, x)
         c, common = sympy.factor(of_other / d * rational).as_independent(x, as_Add=False)
         return Mul(others, common, bracket), powers / c

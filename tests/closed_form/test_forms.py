@@ -10,7 +10,7 @@ from random import Random
 
 import pytest
 import sympy
-from build import run
+from build import function, run
 from transform import gauge
 
 import kovacic
@@ -401,3 +401,13 @@ def test_solutions_that_are_real_between_two_points_stay_so() -> None:
     general = kovacic.dsolve(f"y'' = ({S})*y").rhs
     assert all(y.subs(x, sympy.Rational(7, 2)).evalf().is_real for y in pair)
     assert sympy.expand(general.subs({"C1": 1, "C2": 0}) - pair[0]) == 0
+
+
+def test_gauss_functions_are_written_where_they_are_real() -> None:
+    """2F1(f) is real for f < 1: (1 - f)^e stands before it, not (f - 1)^e, for functions f of a higher degree, too."""
+    for z in ("x^2+4*x/3", "x^2+2*x/3", "x^2+4*x"):
+        f = function(z)
+        S = pulled_back((Fraction(1, 2), Fraction(1, 3), Fraction(1, 7)), f)
+        y1, y2 = kovacic.solve(str(S)).special.solutions
+        general = sympy.Eq(sympy.Function("y")(sympy.Symbol("x")), sympy.Symbol("C1") * y1 + sympy.Symbol("C2") * y2)
+        assert sympy.false not in kovacic.validity(general).real
