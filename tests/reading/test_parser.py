@@ -830,3 +830,20 @@ def test_a_rule_is_asked_wherever_its_pattern_occurs(text: str) -> None:
     for rule in (*notations.NOTATIONS, *notations.LATEX, *notations.AROUND, *pieces.SURROUNDINGS):
         if rule.pattern.search(scan.spaced):
             assert scan.has(rule.marks), (rule, text)
+
+
+@pytest.mark.parametrize("text", ["√x²", "√x³ + 1", "∛x²", "√x^2", "√x(x+1)"])
+def test_a_power_behind_a_bare_root_is_refused(text: str) -> None:
+    """It may belong to the root or to what is under it; √(x)² is clear."""
+    with pytest.raises(kovacic.InputError):
+        kovacic.solve(text)
+
+
+def test_parentheses_tell_what_a_root_is_of() -> None:
+    assert kovacic.solve("√(x)²").S == kovacic.solve("x").S
+
+
+@pytest.mark.parametrize("argument", ["x,2", "2", "x^2"])
+def test_a_function_that_is_given_by_its_name_is_one_of_the_variable(argument: str) -> None:
+    with pytest.raises(kovacic.InputError):
+        kovacic.dsolve(f"y'' + y = g({argument})", "y(x)")
