@@ -183,7 +183,7 @@ def _question(initial: Start, path: Path) -> tuple[dict[str, Any], int]:
     which = initial.which
     start = fields_of(initial) if path is None else {**fields_of(initial), "path": path}
     number = 0
-    if which in _PRINTED:
+    if isinstance(which, str) and which in _PRINTED:
         if len(start) > 1:
             raise InputError(f"which={which!r} is a solution without initial values")
         return {}, 0

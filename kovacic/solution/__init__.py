@@ -135,13 +135,22 @@ class Solution(Answer):
         def at(self, x, **keywords):
             """Balls that contain values of a solution: `kovacic.evaluate` of this equation, with the same keywords.
 
+            Parameters
+            ----------
+            x : number, or a sequence of numbers
+                Where the solution is evaluated.
+
+            Examples
+            --------
             >>> import kovacic
             >>> answer = kovacic.solve("x^2 + 3")      # y = x exp(x^2/2) has y(0) = 0, y'(0) = 1
             >>> print(f"{answer.at(1, x0=0, y0=0, dy0=1):.12f}")
             1.648721270700
             """
             from kovacic.enclosure.evaluate import evaluate
+            from kovacic.enclosure.request import Request
 
+            Request.of("at", {name: value for name, value in keywords.items() if name != "derivative"})
             return evaluate(self, x, **keywords)
 
     def prepared(self, **keywords: Unpack[Keywords]) -> Prepared:
@@ -166,8 +175,19 @@ class Solution(Answer):
     ) -> ProductForm | TabulatedFunction:
         """A solution as a vectorised NumPy function in double precision, its error measured.
 
-        `kovacic.doubles.lambdify.lambdify` describes each keyword, the result, exceptions and warnings.
+        `kovacic.doubles.lambdify.lambdify` describes the result, exceptions, warnings and the other keywords.
 
+        Parameters
+        ----------
+        interval : pair of numbers
+            The ends of an interval without singular points, or opposite corners of a rectangle.
+        careful : bool, optional
+            Whether products are computed with compensation for rounding.
+        check : bool
+            Whether the error is measured.
+
+        Examples
+        --------
         >>> import kovacic
         >>> f = kovacic.solve("x^2 + 3").lambdify(interval=(0, 2))      # x exp(x^2/2)
         >>> print(f"{f(1.0):.12f}", f.measured.worst < 8)
@@ -188,8 +208,21 @@ class Solution(Answer):
         points: int = 400,
         **keywords: Unpack[Keywords],
     ) -> Figure:
-        """A matplotlib figure of proven values over [start, stop]; `kovacic.views.plot.plot` describes each keyword.
+        """A matplotlib figure of proven values over [start, stop]; `kovacic.views.plot.plot` describes the other keywords.
 
+        Parameters
+        ----------
+        start, stop : number
+            The ends of the interval.
+        title : str, optional
+            The title, the equation by default.
+        output : path, optional
+            A file for the picture; its suffix is the format.
+        points : int
+            The number of values.
+
+        Examples
+        --------
         >>> import kovacic
         >>> figure = kovacic.solve("x").plot(-5, 1, x0=0, y0=1, dy0=0, title="Airy", points=20)
         >>> figure.axes[0].get_title()
