@@ -160,7 +160,7 @@ class _Equation:
             other, other_pair = self._written_best(others)
             if self._is_stable(other_pair):
                 return other_pair
-            others.remove(other)
+            others = [form for form in others if form is not other]  # the last one is out already
         return replace(pair, notes=(*pair.notes, UNSTABLE))
 
     def _own_forms(self) -> list[PairForm]:

@@ -426,8 +426,9 @@ def _jacobi(form: _GaussForm) -> WrittenPair:
     # For b = -a SymPy would write an associated Legendre function of the order -a, which needn't be an integer.
     multiple, polynomial = _named(form)
     if form.alpha != -form.beta:
-        polynomial = sympy.jacobi(N, a, b, t)
-        multiple = sympy.gamma(N + a + 1) / (sympy.gamma(N + 1) * sympy.gamma(a + 1))
+        whole = sympy.jacobi(N, a, b, t)
+        polynomial = whole.as_independent(writer.atoms.x, as_Add=False)[1]  # P_N(-z) is (-1)^N times another one
+        multiple = sympy.gamma(N + a + 1) / (sympy.gamma(N + 1) * sympy.gamma(a + 1)) * polynomial / whole
     first = form.factor, polynomial
     if writer.is_integer(form.alpha):  # at infinity the polynomial has the exponent -N, and this one N + 1 + a + b
         return writer.pair(first, _GaussForm(writer, 1 / f, -form.gamma, form.beta, form.alpha).shorter.term)

@@ -411,3 +411,12 @@ def test_gauss_functions_are_written_where_they_are_real() -> None:
         y1, y2 = kovacic.solve(str(S)).special.solutions
         general = sympy.Eq(sympy.Function("y")(sympy.Symbol("x")), sympy.Symbol("C1") * y1 + sympy.Symbol("C2") * y2)
         assert sympy.false not in kovacic.validity(general).real
+
+
+def test_where_no_form_keeps_its_digits_the_chosen_one_is_said_to_lose_them() -> None:
+    """Both forms of a Hermite equation with shifted poles do; the search for another one ended in an error."""
+    num = "-38114*x^6 - 457300*x^5 - 2282758*x^4 - 6068306*x^3 - 9060385*x^2 - 7204012*x - 2383107"
+    den = "1156*x^10 + 23120*x^9 + 208012*x^8 + 1108672*x^7 + 3876545*x^6 + 9291532*x^5 + 15460540*x^4"
+    form = kovacic.solve(f"({num})/({den} + 17634464*x^3 + 13195504*x^2 + 5849280*x + 1166400)").closed_form
+    assert form is not None
+    assert any("digits" in note for note in form.notes)
