@@ -30,11 +30,12 @@ from kovacic.general_solution.poles import is_singular, poles_between, rational_
 from kovacic.general_solution.question import Question
 from kovacic.general_solution.steps import place_of
 from kovacic.general_solution.variation import is_solution, starting_at
+from kovacic.special.gauss import PLACES
 
 Expr = Any  # SymPy publishes no types
 _INFINITIES = (sympy.oo, -sympy.oo)
 #: Points between and beyond the usual singular ones, and beyond all.
-_INSIDE = [*(sympy.Rational(p, 2) for p in (1, -1, 3, -3, 5, -5, 9, -9)), sympy.Integer(10**9), sympy.Integer(-(10**9))]
+_INSIDE = [*map(sympy.Rational, PLACES), sympy.Integer(10**9), sympy.Integer(-(10**9))]
 
 
 def given_points(question: Question) -> list[Expr]:

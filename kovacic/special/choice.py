@@ -37,7 +37,7 @@ from kovacic.decision import Decision
 from kovacic.errors import LimitExceeded, VerificationFailed
 from kovacic.limits import Budget, bounded_work, check_time
 from kovacic.numbers.numerals import as_text
-from kovacic.special.gauss import klein_pullback
+from kovacic.special.gauss import PLACES, klein_pullback
 from kovacic.special.pullback import GaugeTransform, Pullback
 from kovacic.special.search import find, find_transform, written_pair
 
@@ -45,8 +45,6 @@ from kovacic.special.search import find, find_transform, written_pair
 _SEARCH = 6000
 #: The working precision of the formula that is to be stable, in digits; half of them are to be left.
 _DIGITS = 30
-#: Between and beside the usual singular points.
-_PLACES = [Rational(p, 2) for p in (1, -1, 3, -3, 5, -5, 9, -9)]
 #: Characters that a term of a polynomial has at least, as + x**2.
 _TERM = 4
 #: Shorter pairs aren't asked: of the published ones none loses half of the digits, whatever its length.
@@ -247,10 +245,10 @@ class _Equation:
 
 
 def _real_beside(form: ClosedForm, y2: Any) -> Any:
-    """The y1 of a form, with roots that are real where those of another solution are, at one of the `_PLACES`."""
+    """The y1 of a form, with roots that are real where those of another solution are, at one of the `PLACES`."""
     x = form.variable
     bases = [power.base for power in y2.atoms(Pow) if power.base.has(x) and not power.exp.is_Integer]
-    place = next((p for p in _PLACES if all(base.subs(x, p).is_positive for base in bases)), None)
+    place = next((p for p in map(Rational, PLACES) if all(base.subs(x, p).is_positive for base in bases)), None)
     return form.y1 if place is None or not bases else pair_at(form, place, sympify)[0]
 
 

@@ -74,8 +74,8 @@ _MOST_CHOICES = 32
 _HIDDEN = 3
 #: Points at which solutions are tested for realness.
 _SAMPLE = (Fraction(2, 7), Fraction(7, 2), Fraction(-2, 7))
-#: Where it is looked for points at which 2F1(f) is real.
-_POINTS = [Fraction(sign * k, 2) for k in range(1, 20) for sign in (1, -1)]
+#: Where a pair is to be real, in this order: between and beyond the usual singular points.
+PLACES = tuple(Fraction(p, 2) for p in (1, -1, 3, -3, 5, -5, 9, -9))
 
 
 @dataclass(frozen=True)
@@ -267,12 +267,12 @@ class _GaussForm:
 
     @property
     def inside(self) -> Expr | None:
-        """`aside`, or a rational x at which 2F1(f) is real, with 0 < f < 1 if one is found; None over other fields than Q."""
+        """`aside`, or one of the `PLACES` at which 2F1(f) is real, with 0 < f < 1 if it can be; over Q alone."""
         import sympy
 
         if self.aside is not None or self.f.field != QQ:
             return self.aside
-        values = {x: QQ.rational_value(self.f.num(x) / self.f.den(x)) or 0 for x in _POINTS if self.f.den(x)}
+        values = {x: QQ.rational_value(self.f.num(x) / self.f.den(x)) or 0 for x in PLACES if self.f.den(x)}
         between = [x for x, value in values.items() if 0 < value < 1]
         below = [x for x, value in values.items() if value < 0]
         return next((sympy.Rational(x) for x in (*between, *below)), None)
