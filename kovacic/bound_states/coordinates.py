@@ -174,7 +174,7 @@ class Original:
         return (theta - self.offset) / self.rate
 
     def monotonic_range(self, domain: tuple[Any, Any], signs: Signs) -> tuple[Any, Any] | None:
-        """The range of t on the domain, if t is known to be monotonic there."""
+        """The range of t on the domain; None unless t is proven to be monotonic there."""
         with suppress(Uncovered):
             if not self.turning_points(domain, signs):
                 return self.range_of(domain, signs)

@@ -57,7 +57,7 @@ from kovacic.limits import Budget
 class Unit:
     """The contribution factor * log((A + B tau s)/sqrt(norm))/tau to an integral; tau^2 = `tau_squared`, a constant of K.
 
-    p is a square root of the norm up to a constant; None if it isn't known to be a square.
+    p is a square root of the norm up to a constant; None unless the norm is found to be a square.
     """
 
     A: Poly

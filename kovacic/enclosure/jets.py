@@ -180,7 +180,7 @@ class CoefficientEvaluator(BallEvaluator):
         # At the zero itself any reach will do for which the disc is free of other singularities.
         reaches = [arb((1, -k)) for k in range(1, _NEAREST)] if reach.is_zero() else [reach]
         for reach in reaches:
-            # A bound in a disc; not finite where the function isn't known to be analytic there.
+            # A bound in a disc; infinite unless the function is proven to be analytic there.
             box = zero + around_zero(2 * reach, real=False)
             around = CoefficientEvaluator({**self.values, symbol: box}, variable=symbol, analytic=True)
             size = abs(around(function)).upper()

@@ -105,7 +105,7 @@ class Keywords(TypedDict, total=False):
 
 
 class Request(NamedTuple):
-    """What the keywords describe: the solution, its accuracy, the path, the values of parameters, the variable."""
+    """A request read from keywords: solution, accuracy, path, values of parameters, variable."""
 
     start: Start
     accuracy: Accuracy

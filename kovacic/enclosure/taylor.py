@@ -44,7 +44,7 @@ from kovacic.errors import LimitExceeded
 from kovacic.limits import check_time
 
 _STARTS = (acb(1), acb(0)), (acb(0), acb(1))
-_TERMS_BETWEEN_LOOKS = 64  # the clock is read every so many terms
+_TERMS_BETWEEN_LOOKS = 64  # from one look at the clock to the next
 
 
 @dataclass(frozen=True)

@@ -47,7 +47,7 @@ class Exceptional:
 
     @cached_property
     def answer(self) -> ProblemAnswer | None:
-        """What holds there; None if it isn't found."""
+        """The answer for these values; None if none is found."""
         if self._ask is None or not (self.values or self.assume):
             return None
         with suppress(InputError, NotImplementedError):

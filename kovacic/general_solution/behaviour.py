@@ -162,7 +162,7 @@ def _quotient_of_analytic_functions(e: Expr, x: Expr, point: Expr) -> Expr | Non
 
 
 def _by_sympy(e: Expr, variable: Expr, towards: Expr) -> Any:
-    """What SymPy says of functions that it knows; None if it gives up, in one of the many ways that it has."""
+    """SymPy's limit of an expression in functions that it knows; None if it gives up, by whichever exception."""
     if size(e) > _LONGEST or any(f.has(variable) and not _is_known_to_sympy(f) for f in e.atoms(sympy.Function)):
         return None
     constant, rest = e.as_independent(variable, as_Add=False)

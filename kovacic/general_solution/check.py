@@ -102,7 +102,7 @@ class SolutionClaim:
         return unchecked
 
     def _test(self, what: str, is_wrong: Callable[[], bool]) -> list[str]:
-        """What is said where a test couldn't be made.  Raises `VerificationFailed` where the answer fails it."""
+        """The notices for a test that can't be carried out.  Raises `VerificationFailed` if the answer fails it."""
         try:
             fails = is_wrong()
         except _NOT_EVALUATED as reason:

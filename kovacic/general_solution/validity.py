@@ -68,10 +68,7 @@ class Validity:
 
 
 def needed_for(value: Expr, x: Expr, exceptions: Iterable[Expr] = ()) -> Validity:
-    """What a formula needs, part by part; `exceptions` are those of the pair of solutions in it.
-
-    u >= 0 beside u != 0 is u > 0, as is that of a product beside those of its factors; and what follows from this isn't said.
-    """
+    """What a formula needs, part by part; `exceptions` are those of the pair of solutions in it."""
     value, roots = _without_even_roots(value, x)
     # The bounds of an integral may be infinite; of a sum over roots SymPy can't tell.
     plain = value.xreplace({total: sympy.Dummy() for total in value.atoms(sympy.RootSum)})
@@ -89,15 +86,20 @@ def needed_for(value: Expr, x: Expr, exceptions: Iterable[Expr] = ()) -> Validit
     if sympy.false in on_x:
         return Validity((sympy.false,), without_implied(nonzero), is_of_real_numbers)
     said = _nonzero_beside(on_x)
-    for k, relation in enumerate(on_x):
-        factors = ZeroSet(relation.lhs).factors
-        if isinstance(relation, sympy.GreaterThan) and factors and {*factors} <= {*nonzero}:
-            on_x[k] = relation.lhs > 0
-    positive = {r.lhs for r in on_x if isinstance(r, sympy.StrictGreaterThan)}
-    weaker = {sympy.Ne: _nonzero_beside(on_x), sympy.GreaterThan: positive, sympy.StrictGreaterThan: set()}
-    left = dict.fromkeys(_of_cosine(r) for r in on_x if r.lhs not in weaker[r.func])  # x >= 0 isn't implied by a x > 0
     exceptions = without_implied(e for e in nonzero if e not in said)
-    return Validity(_in_one_interval(tuple(left), x), exceptions, is_of_real_numbers)
+    return Validity(_in_one_interval(_joined(on_x, {*nonzero}), x), exceptions, is_of_real_numbers)
+
+
+def _joined(relations: Iterable[Expr], nonzero: set[Expr]) -> tuple[Expr, ...]:
+    """u >= 0 beside u != 0 as u > 0, also by factors, and without what follows: x != 0 from a x > 0, but not x >= 0."""
+    strict = []
+    for relation in relations:
+        factors = ZeroSet(relation.lhs).factors
+        is_nonzero = bool(factors) and {*factors} <= nonzero
+        strict.append(relation.lhs > 0 if isinstance(relation, sympy.GreaterThan) and is_nonzero else relation)
+    positive = {r.lhs for r in strict if isinstance(r, sympy.StrictGreaterThan)}
+    weaker = {sympy.Ne: _nonzero_beside(strict), sympy.GreaterThan: positive, sympy.StrictGreaterThan: set()}
+    return tuple(dict.fromkeys(_of_cosine(r) for r in strict if r.lhs not in weaker[r.func]))
 
 
 def _nonzero_beside(relations: Iterable[Expr]) -> set[Expr]:
