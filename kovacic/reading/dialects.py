@@ -174,7 +174,8 @@ class _Latex:
         return error_at(self.text, message, [token], hint)
 
 
-_NUMERATOR = re.compile(rf"d\^?([2-9]?)({LETTER})?({LETTER})?")
+#: d^2 y, d^2 P_l, d y(x) without brackets.
+_NUMERATOR = re.compile(rf"d\^?([2-9]?)({LETTER}(?:_(?:[0-9]+|[A-Za-z]))?)?({LETTER})?")
 _DENOMINATOR = re.compile(rf"d({LETTER})\^?([2-9]?)")
 #: \partial_x, ∂ₓₓ.
 _INDEXED_OPERATOR = re.compile(r"d_([a-z])\1*")
@@ -538,11 +539,10 @@ class _Translation:
             index = self.compact(k, self.partner[k])
             k = self.partner[k] + 1
         end = self.operand_end(k)
-        # A power of √x might belong to the root or to what is under it.
-        has_power = self.texts[k + 1] in (*_POWERS, "(") or self.kinds[k + 1] == "SUPERSCRIPT"
-        is_clear = token.text == "\\sqrt" or self.texts[k] == "(" or not has_power
-        if end is None or not is_clear or (index and not index.isdigit()):
+        if end is None or (index and not index.isdigit()):
             return False
+        if token.text != "\\sqrt" and self.texts[k] != "(":
+            self.check_radicand(token, k, end)
         if index:
             exponent = [("LPAR", "("), ("NUMBER", "1"), ("SLASH", "/"), ("NUMBER", index), ("RPAR", ")")]
             self.later(end, ("CIRCUMFLEX", "^"), *exponent)
@@ -551,6 +551,19 @@ class _Translation:
         self.k = k
         self.grouped(k, end)
         return True
+
+    def check_radicand(self, token: Token, k: int, end: int) -> None:
+        """Raises `ParseError` for √x², √xy and √2x: how much is under the root?"""
+        has_power = self.texts[end] in (*_POWERS, "(") or self.kinds[end] == "SUPERSCRIPT"
+        is_glued = self.kinds[end] == "WORD" and self.scan[end].start == self.scan[end - 1].end
+        is_factor = is_glued and not is_function(self.texts[end]) and self.kinds[end + 1] != "PRIMES"
+        is_product = self.kinds[k] == "WORD" and not _is_name(self.texts[k])
+        if not (has_power or is_factor or is_product):
+            return
+        first = self.texts[k][0] if is_product else self.text[self.scan[k].start : self.scan[end - 1].end]
+        hint = f"put all that is under the root into parentheses: {token.text}({first}), {token.text}({first}...)"
+        last = self.scan[end - is_product]
+        raise error_at(self.text, "a root without parentheses can be read in two ways", [token, last], hint)
 
     def bar(self, token: Token) -> bool:
         if self.k in self.bars:

@@ -95,7 +95,7 @@ class EquationReader(RationalReader):
         if order != _ORDER:
             what = f"is of order {order}" if order else f"contains no derivative of {self.unknown}"
             said = f"an equation of second order is expected, and this one {what}"
-            hint = f"for example {self.unknown}'' = (x^2 + 3) {self.unknown}"
+            hint = f"for example {self.unknown}'' = (x^2 + 3) {self.unknown}; S alone is written without an equals sign"
             position = None if text is None else 0
             raise NotLinear(said, hint=hint, text=text, position=position, length=len(text or ""))
         h = None

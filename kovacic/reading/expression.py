@@ -17,7 +17,17 @@ from kovacic.reading.arithmetic import VARIABLE, Arithmetic, NotAnInteger, Value
 from kovacic.reading.constants import Constants, Enlarged
 from kovacic.reading.dialects import tokenize
 from kovacic.reading.lexer import PRIMES
-from kovacic.reading.names import FUNCTION_NAMES, NUMBER_NAMES, STEPS, TRANSCENDENTAL_HINT, is_function, is_letter
+from kovacic.reading.names import (
+    FUNCTION_NAMES,
+    INSTEAD,
+    NUMBER_NAMES,
+    POWER_CALLS,
+    STEPS,
+    TRANSCENDENTAL_HINT,
+    is_function,
+    is_letter,
+    unglued,
+)
 from kovacic.reading.parser import Site, evaluate, shortened, shown
 
 _SHOWN_DECIMALS = 3
@@ -129,6 +139,8 @@ class RationalReader:
                 return value  # type: ignore[no-any-return]
             case "Rational", [_, _]:
                 return self.arithmetic.divide(*arguments)
+            case _, [base, exponent] if name in POWER_CALLS:
+                return self.power(base, exponent, site)
         if head in self.names:
             hint = f"for a product write {head}*({site.inside()})"
             raise NotRational(f"{head} is followed by a parenthesis like a function", hint=hint)
@@ -186,11 +198,14 @@ def usage(name: str) -> str:
         return "roots are those of numbers: sqrt(2), cbrt(2), root(2, 5)"
     if name in FUNCTION_NAMES:
         return f"{name} has one argument; S is rational in x, or in exp(k*x), sin(k*x), ..."
-    if name in ("log2", "log10", "lg"):
-        return "write log(x)/log(b) for the logarithm to the base b"
+    if name in INSTEAD:
+        return f"write {INSTEAD[name]}"
     if name in STEPS:
         return f"for a product write {name}*(...), for a step heaviside(...), for an impulse dirac(...)"
     if is_letter(name):
         return f"for a product write {name}*(...)"
+    product = unglued(name)
+    if product.endswith("(...)"):
+        return f"write {product} for the product"
     known = ", ".join(sorted(FUNCTION_NAMES))
     return f"for a product write {name}*(...); the functions are {known}, of one argument"

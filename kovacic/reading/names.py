@@ -27,12 +27,20 @@ _FUNCTION_LIST = """
 FUNCTION_NAMES = {name: name for name in _FUNCTION_LIST.split()}
 RECIPROCALS = {"sech": "cosh", "csch": "sinh"}
 FUNCTION_NAMES |= {"ln": "log", "arcsin": "asin", "arccos": "acos", "arctan": "atan", "heaviside": "Heaviside"}
+FUNCTION_NAMES |= {f"ar{name}": f"a{name}" for name in ("sinh", "cosh", "tanh")}
+FUNCTION_NAMES |= {f"arc{name}": f"a{name}" for name in ("sinh", "cosh", "tanh", "cot")}
 FUNCTION_NAMES |= {"dirac": "DiracDelta", "abs": "Abs", "Abs": "Abs", "sgn": "sign", "sign": "sign"}
 FUNCTION_NAMES["Gamma"] = "gamma"  # gamma(...) may be a product
 
 #: The functions of several arguments, by the names of SymPy's.
 SEVERAL_ARGUMENTS = {name: name for name in ("Max", "Min", "SingularityFunction", "Piecewise")}
 SEVERAL_ARGUMENTS |= {"max": "Max", "min": "Min"}
+#: What to write for functions that have other names here, some of which may be products: tg is tan, or t g.
+INSTEAD = {"tg": "tan(...)", "ctg": "cot(...)", "cotg": "cot(...)", "arctg": "atan(...)", "arcctg": "acot(...)"}
+INSTEAD |= {"sen": "sin(...)", "cosec": "csc(...)", "sh": "sinh(...)", "ch": "cosh(...)", "th": "tanh(...)"}
+INSTEAD |= dict.fromkeys(("log2", "log10", "lg", "log_2", "log_10"), "log(x)/log(b) for the logarithm to the base b")
+#: Powers as calls: of C, SymPy and Mathematica, of spreadsheets.
+POWER_CALLS = frozenset({"pow", "Pow", "Power", "POWER"})
 #: Calls that other systems write about numbers.
 NUMBER_CALLS = frozenset({"Rational", "Integer", "S"})
 #: The functions whose parentheses may be left out.

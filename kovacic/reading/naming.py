@@ -18,7 +18,16 @@ from typing import NamedTuple
 from kovacic.equation import DEFAULT_VARIABLE, ENERGY, EULER, UNKNOWN
 from kovacic.errors import InputError, ParseError
 from kovacic.reading.lexer import DERIVATIVES, PRIMES, Token
-from kovacic.reading.names import FUNCTION_NAMES, LETTER, NUMBER_CALLS, NUMBER_NAMES, is_function, is_letter, unglued
+from kovacic.reading.names import (
+    FUNCTION_NAMES,
+    INSTEAD,
+    LETTER,
+    NUMBER_CALLS,
+    NUMBER_NAMES,
+    is_function,
+    is_letter,
+    unglued,
+)
 from kovacic.reading.notations import Tokens, pattern
 
 #: Names that stand for the variable where they are the only one; others might be parameters of an equation in x.
@@ -39,7 +48,10 @@ _EXPONENT = pattern(rf"e \^ (?:- )?[\d.]+~({_NAME})(?! \()"), "write e^({0}*{1})
 _POWER_OF_TEN = pattern(rf"[\d.]+~[eE]~[-+]~\d+~({_NAME})'*"), "write {0}*{1} for the decimal"
 _GLUED_INDEX = re.compile(rf"{LETTER}_\d+([^\W\d_]+)")
 _PRIMED = pattern(rf"({_NAME})'+")
-_DIFFERENTIATED = pattern(rf"({_NAME})'+|(?:{'|'.join(DERIVATIVES)}) \((?= ({_NAME}) [(,)])")
+#: y'', diff(y, x), diff(y(x), x), and diff((y(x)), x) for d/dx(y(x)).
+_DIFFERENTIATED = pattern(
+    rf"({_NAME})'+|(?:{'|'.join(DERIVATIVES)}) \((?:(?= ({_NAME}) [(,)])| \((?= ({_NAME}) \( {_NAME} \) \)))"
+)
 _NAME_KINDS = ("NAME", "PRIMED", "HEAD")
 
 
@@ -153,7 +165,9 @@ class Vocabulary:
         meant = f"write {unglued(name)}"
         said = f"{name} is one name, and not a known one"
         bare = name.rstrip(digits)
-        if {*name} == {"E", "I"}:
+        if name in INSTEAD:
+            meant = f"write {INSTEAD[name]}"
+        elif {*name} == {"E", "I"}:
             meant = "write one letter for a stiffness, such as B"
         elif bare in (x, y):
             number = name[len(bare) :]
@@ -257,7 +271,7 @@ def _operand(tokens: Tokens) -> str | None:
 
 def differentiated(tokens: Tokens) -> list[str]:
     """The names that have primes, or are y in diff(y, x), diff(y(x), x) and diff(y)."""
-    names = (found[1] or found[2] for found in _DIFFERENTIATED.finditer(tokens.spaced))
+    names = (found[1] or found[2] or found[3] for found in _DIFFERENTIATED.finditer(tokens.spaced))
     return [name for name in names if not is_function(name) and name not in DERIVATIVES]
 
 

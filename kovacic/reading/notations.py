@@ -23,7 +23,9 @@ CLOSING = frozenset(")]}")
 
 #: Commands of other systems that make names, and those that solve an equation.
 MAKERS = frozenset("symbols Symbol Function function var symfun Differential".split())  # noqa: SIM905
-SOLVERS = frozenset("DSolve NDSolve DSolveValue NDSolveValue dsolve desolve ode2 rhs kovacicsols".split())  # noqa: SIM905
+SOLVERS = frozenset(
+    "DSolve NDSolve DSolveValue NDSolveValue dsolve desolve ode2 contrib_ode rhs kovacicsols".split()  # noqa: SIM905
+)
 _KNOWN_WORDS = {*FUNCTION_NAMES, *GREEK, *DERIVATIVES, *SOLVERS, "Eq", "Equality", "hbar", "ell", "eps", "lam"}
 _KNOWN_WORDS |= {"sqrt", "cbrt", "root", "Piecewise", "SingularityFunction", "max", "min", "Max", "Min"}
 #: What patterns are written with: one space glues tokens together or not, ~ glues them, and · is a gap between them.
@@ -236,6 +238,7 @@ _OF_X = r"(LETTER) \( (LETTER) \)"
 _SLOPE = rf"(?:diff|Derivative) \( {_OF_X} , \2 \)"
 _BEHIND_NAME = r"(?:(?<=\w\x20)|(?<=\w\x20\x20))"
 NOTATIONS = (
+    rule("Julia", "Differential", r"Differential \( (LETTER) \)(?= \()", r"d / d\1"),
     rule("the name of a package", ".", rf"(?:{_PACKAGES}) \."),
     rule("a quoted name", "PRIMES", rf"(?<!=\x20)(?<!=\x20\x20)(?:{'|'.join(MAKERS)}) \( ['\"] (\w+) ['\"] \)", r"\1"),
     rule("Maple", "@@", r"OPEN D @@ (?P<n>\d) CLOSE OPEN (?P<y>LETTER) CLOSE", _primed_by_order),

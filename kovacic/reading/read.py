@@ -10,7 +10,7 @@ from typing import Any
 from kovacic.algebra.poly import Poly
 from kovacic.algebra.ratfunc import RatFunc
 from kovacic.algebra.rationals import QQ
-from kovacic.equation import DEFAULT_VARIABLE, PI, Equation, Parsed
+from kovacic.equation import DEFAULT_VARIABLE, PI, UNKNOWN, Equation, Parsed, parameters_of
 from kovacic.errors import InputError, LimitExceeded, NotLinear, NotRational
 from kovacic.limits import DEFAULT_LIMITS, Limits
 from kovacic.numbers.exact import exact_real, exact_text, is_rational
@@ -48,10 +48,14 @@ def read_input(
     if isinstance(S, str | Paste) or _is_sympy(S):
         source = source_of(S, variable, limits, unknown=unknown, equation=equation, names=names)
         parsed = _with_note(_parsed(S, source, limits, exponentials=exponentials))
+        if parsed.equation is None:
+            _check_unknown(parsed.variable, *parameters_of(parsed.S.field))
         lost = tuple(note for note in source.notes if note not in parsed.notices)
         if not lost and not source.guesses:
             return parsed
         return replace(parsed, notices=(*lost, *parsed.notices), guesses=source.guesses)
+    if not isinstance(S, Equation):
+        _check_unknown(variable)
     if is_rational(S):
         return Parsed(RatFunc(QQ.poly([exact_real(S, "S")])), variable or DEFAULT_VARIABLE)
     if isinstance(S, RatFunc):
@@ -67,6 +71,13 @@ def read_input(
         f"{type(S).__name__!r} isn't a form of S that can be read",
         hint='give a string "x^2 + 3", a SymPy expression, or the pair of coefficient sequences ([3, 0, 1], [1])',
     )
+
+
+def _check_unknown(*names: str | None) -> None:
+    """Raises `InputError` where S of y'' = S y has y as a variable or a parameter."""
+    if UNKNOWN in names:
+        hint = "give it another name, or write the equation: u'' = S(y) u"
+        raise InputError("y is the unknown function of y'' = S y, and no name in S", hint=hint)
 
 
 def declared(parameters: Collection[str], assume: Any = None) -> tuple[str, ...]:

@@ -98,7 +98,7 @@ def _only_equation(paste: Paste) -> Tokens:
         )
         if paste.is_equation:
             message = "this stands beside the equation"
-            hint = "leave it out; values follow the equation as y(0) = 1, and systems of equations aren't read here"
+            hint = "leave it out, or put into the equation what its letters stand for; values follow the equation as y(0) = 1"
         raise paste.error(message, paste.beside, hint)
     (tokens,) = paste.equations
     return tokens

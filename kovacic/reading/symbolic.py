@@ -30,7 +30,7 @@ from kovacic.reading.dialects import tokenize
 from kovacic.reading.expression import OperationPlace, RationalReader
 from kovacic.reading.lexer import DERIVATIVES, PRIMES, check_length
 from kovacic.reading.linear import LinearArithmetic, Symbols, differentiations
-from kovacic.reading.names import FUNCTION_NAMES, NUMBER_NAMES, NUMBERS, SEVERAL_ARGUMENTS, is_function
+from kovacic.reading.names import FUNCTION_NAMES, NUMBER_NAMES, NUMBERS, POWER_CALLS, SEVERAL_ARGUMENTS, is_function
 from kovacic.reading.naming import Vocabulary, argument_of, differentiated
 from kovacic.reading.parser import Site, evaluate, shown
 from kovacic.reading.pieces import Paste, taken_apart
@@ -307,8 +307,10 @@ class SymbolicReader(RationalReader):
             return self.arithmetic.expression(arguments[0]).diff(self.x, order)
         if name in self.unknowns and len(arguments) == 1 and (self.x is None or self._is_variable(arguments[0])):
             return self.unknowns[name](self.arithmetic.expression(arguments[0]), len(head) - len(name))
-        if head == "root" and len(arguments) == 2:
-            return self.power(arguments[0], self.arithmetic.divide(Monomial(1, 0), arguments[1]), site)
+        if head in (*POWER_CALLS, "root") and len(arguments) == 2:
+            base, n = arguments
+            exponent = self.arithmetic.divide(Monomial(1, 0), n) if head == "root" else n
+            return self.power(base, exponent, site)
         if head in SEVERAL_ARGUMENTS:
             return self.arithmetic.of_several(head, arguments)
         if self.has_functions and len(arguments) == 1 and self._is_variable(arguments[0]) and not is_function(head):
