@@ -42,6 +42,8 @@ class ClosedForm:
         What was left as an integral, and why; what is to be known about the formulas.
     undefined : tuple of sympy.Expr
         Where one of these is zero, for values of letters, a special function has no value, or both solutions are the same.
+    place : sympy.Expr or None
+        A point at which the roots and logarithms were turned to be real; None where nothing had to be.
 
     Examples
     --------
@@ -59,6 +61,7 @@ class ClosedForm:
     checked: str
     notes: tuple[str, ...] = ()
     undefined: tuple[Any, ...] = ()
+    place: Any = None
     build: Callable[[], ClosedStructure] = field(kw_only=True, repr=False, compare=False)
 
     @cached_property

@@ -52,6 +52,8 @@ RATIOS = {
     Structure.OCTAHEDRAL: Fraction(144, 7),
     Structure.ICOSAHEDRAL: Fraction(400, 11),
 }
+#: Where a pair is to be real, in this order: between and beyond the usual singular points.
+PLACES = tuple(Fraction(p, 2) for p in (1, -1, 3, -3, 5, -5, 9, -9))
 
 
 @dataclass(frozen=True)

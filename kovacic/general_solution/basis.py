@@ -24,12 +24,12 @@ from sympy.simplify.fu import TR8
 from kovacic.algebra.precision import working_digits
 from kovacic.closed_form.atoms import Atoms, display, rational
 from kovacic.closed_form.check import DIGITS
+from kovacic.closed_form.cuts import all_turned
 from kovacic.closed_form.form import ClosedForm
 from kovacic.closed_form.jets import jet
 from kovacic.closed_form.product import product
 from kovacic.closed_form.way_back import in_x
 from kovacic.equation import Equation
-from kovacic.general_solution.continuity import all_turned
 from kovacic.general_solution.integrands import NUMBERS, radicands
 from kovacic.general_solution.substitution import finite_value, size, slope
 from kovacic.general_solution.zero import points, samples

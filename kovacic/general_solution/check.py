@@ -21,11 +21,12 @@ from sympy.core.function import AppliedUndef
 
 from kovacic.algebra.precision import working_digits
 from kovacic.closed_form.check import DIGITS
+from kovacic.closed_form.cuts import cuts_of
 from kovacic.closed_form.jets import jet
 from kovacic.errors import VerificationFailed
 from kovacic.general_solution.behaviour import Approach, is_refuted
 from kovacic.general_solution.conditions import Condition
-from kovacic.general_solution.continuity import cuts_of, jumps
+from kovacic.general_solution.continuity import jumps
 from kovacic.general_solution.jumps import between, break_points, in_steps, on_piece
 from kovacic.general_solution.question import Question
 from kovacic.general_solution.steps import JUMPING, taken_apart

@@ -9,7 +9,7 @@ Bessel functions and others of which pairs of solutions are made count as contin
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from itertools import islice, pairwise
@@ -18,18 +18,16 @@ from typing import Any
 import sympy
 from flint import acb, arb, fmpq, fmpz_poly
 from sympy.core.function import AppliedUndef
-from sympy.functions.special.bessel import BesselBase
 
 from kovacic.algebra.embedding import complex_zeros
 from kovacic.algebra.precision import working_precision
+from kovacic.closed_form.cuts import cut_of, cuts_of
 from kovacic.closed_form.jets import jet
 from kovacic.general_solution.zero import opposite, samples
 from kovacic.limits import check_time
 
 Expr = Any  # SymPy publishes no types
 Acb = Any  # flint's acb
-#: Puts in symbols that know what is assumed.
-Own = Callable[[Expr], Expr]
 #: Beyond the first pole of tan(x/2) on either side, off the usual special points.
 _GRID_POINTS = tuple(fmpq(p, 100) for p in (-713, -437, -219, -83, 41, 127, 271, 483, 731))
 #: How far beyond a place where an argument may cross a cut the formula is followed.
@@ -43,27 +41,6 @@ _MOST_SUSPECTS = 8
 _NOT_EVALUATED = (NotImplementedError, ZeroDivisionError, AttributeError, ValueError, TypeError)
 
 
-#: Functions with branch cuts, and what lies on the negative axis where they have theirs; None for none.
-_CUTS: dict[Any, Callable[[Expr], Expr | None]] = {
-    **dict.fromkeys(
-        (sympy.log, sympy.Ei, sympy.Ci, sympy.expint, sympy.uppergamma, sympy.lowergamma), lambda e: e.args[-1]
-    ),
-    **dict.fromkeys((sympy.atan, sympy.asinh), lambda e: 1 + e.args[-1] ** 2),
-    sympy.acot: lambda e: 1 + e.args[-1] ** -2,
-    **dict.fromkeys((sympy.asin, sympy.acos, sympy.atanh, sympy.acosh), lambda e: 1 - e.args[-1] ** 2),
-    sympy.polylog: lambda e: 1 - e.args[-1],
-    # zero where the argument is: what has a sign isn't analytic there
-    **dict.fromkeys((sympy.Abs, sympy.sign, sympy.Heaviside), lambda e: e.args[0] ** 2),
-}
-#: Parts of solutions that are real on one side of a singular point.
-_TURNED = (sympy.log, sympy.Ci, sympy.lowergamma, sympy.uppergamma, sympy.Pow, BesselBase, sympy.hyper)
-#: For Bessel's functions of i z those of z with the same span.
-_OF_IMAGINARY = {
-    sympy.besselj: sympy.besseli,
-    sympy.bessely: sympy.besselk,
-    sympy.besseli: sympy.besselj,
-    sympy.besselk: sympy.bessely,
-}
 #: What stands for entire functions here: integrals that are left, and the functions of which pairs of solutions are made.
 _OPAQUE = (
     *(sympy.Integral, sympy.hyper, sympy.besselj, sympy.bessely, sympy.besseli, sympy.besselk, sympy.jn, sympy.yn),
@@ -72,14 +49,6 @@ _OPAQUE = (
     *(sympy.elliptic_e, sympy.elliptic_f, sympy.elliptic_pi, sympy.mathieuc, sympy.mathieus, sympy.mathieucprime),
     *(sympy.mathieusprime, AppliedUndef),
 )
-
-
-def cut_of(e: Expr) -> Expr | None:
-    """An expression that meets the axis from -oo to 0 where a function or a power has its branch cut; None without one."""
-    if e.is_Pow and not isinstance(e, sympy.exp):
-        return None if e.exp.is_integer else e.base
-    rule = _CUTS.get(e.func)
-    return None if rule is None else rule(e)
 
 
 def jumps(y: Expr, x: Expr, coefficients: Sequence[Expr]) -> bool:
@@ -108,12 +77,6 @@ def jumps(y: Expr, x: Expr, coefficients: Sequence[Expr]) -> bool:
             if _Course(x, here.xreplace(sums), [e.xreplace(numbers) for e in coefficients]).jumps_somewhere():
                 return True
     return False
-
-
-def cuts_of(y: Expr, x: Expr) -> list[Expr]:
-    """The expressions `cut_of` of the parts with x, each once."""
-    cuts = (cut_of(e) for e in y.atoms(sympy.Function, sympy.Pow) if e.has(x))
-    return [*dict.fromkeys(cut for cut in cuts if cut is not None)]
 
 
 def _is_beside_cut(cut: Acb) -> bool:
@@ -230,35 +193,3 @@ def _crossing(e: Expr, x: Expr) -> Any:
     if is_tangent:
         return fmpq(round((1.58 - c.real) / m.real * 100), 100)
     return fmpq(round(-c.imag / m.imag * 100), 100) if m.imag else None
-
-
-# ------------------------------------------------------------------------------------------- real on the other side
-
-
-def arguments_with_cuts(y: Expr) -> dict[Expr, Expr]:
-    """The functions and powers with cuts in an expression: these lie where the argument, or 1 - z in pFq, is negative."""
-    found = {}
-    for e in y.atoms(*_TURNED):
-        if isinstance(e, sympy.hyper):
-            found[e] = 1 - e.argument if len(e.ap) > len(e.bq) else None
-        else:
-            found[e] = e.args[-1] if isinstance(e, BesselBase) else cut_of(e)
-    return {e: cut for e, cut in found.items() if cut is not None and cut.free_symbols}
-
-
-def all_turned(y: Expr, x: Expr, point: Expr, own: Own = sympy.sympify) -> Expr:
-    """With log(-u), (-u)^e for arguments u that are negative at the point; I_nu(z), K_nu(z) for J_nu(i z), Y_nu(i z)."""
-    turned = {e: (-u) ** e.exp for e, u in negative_arguments(y, x, point, own).items() if e.is_Pow}
-    roots = dict(turned)
-    for e in y.atoms(sympy.log, sympy.Ci, BesselBase):
-        *order, u = e.args
-        if e.func in _OF_IMAGINARY and own((u**2).subs(x, point)).is_negative:
-            turned[e] = _OF_IMAGINARY[e.func](*order, u.xreplace(roots))
-        elif own(u.subs(x, point)).is_negative:  # SymPy writes J(-z) as J(z) (-z)^nu/z^nu
-            turned[e] = e.func(*order, -u, evaluate=False)
-    return y.xreplace(turned)
-
-
-def negative_arguments(y: Expr, x: Expr, point: Expr, own: Own = sympy.sympify) -> dict[Expr, Expr]:
-    """Those whose arguments are negative at the point, in the user's symbols that `own` puts in."""
-    return {e: u for e, u in arguments_with_cuts(y).items() if own(u.subs(x, point)).is_negative}

@@ -22,6 +22,7 @@ from typing import Any
 
 import sympy
 
+from kovacic.closed_form.cuts import common_place
 from kovacic.decision import Status
 from kovacic.errors import InputError, LimitExceeded, warn_user
 from kovacic.general_solution.answer import FirstOrderAnswer, ProblemAnswer, SecondOrderAnswer, remember
@@ -36,7 +37,6 @@ from kovacic.general_solution.particular import particular_solution, right_hand_
 from kovacic.general_solution.places import (
     ImpulsesInside,
     basis_from,
-    common_place,
     limit_points,
     real_at,
     real_particular,
@@ -387,10 +387,13 @@ def _solved(question: Question, budget: Budget, *, special: bool) -> ProblemAnsw
 def _general(question: Question, basis: Basis) -> SecondOrderAnswer:
     """C1 y1 + C2 y2 + y0, checked."""
     right = right_hand_side(question.equation)
-    basis = real_at(basis, common_place(basis, right))
+    place = partial(common_place, basis.x, right, own=basis.own)
+    if basis.place is None or right != 0:
+        basis = real_at(basis, place(sympy.Tuple(basis.y1, basis.y2)))
     particular = particular_solution(basis, None)
     if particular != 0:
-        particular = real_particular(question, basis, particular, common_place(basis, right, particular))
+        whole = sympy.Tuple(basis.y1, basis.y2, particular)
+        particular = real_particular(question, basis, particular, place(whole))
     particular = without_homogeneous(particular, basis.y1, basis.y2, basis.x)
     constants = free_constants(question, basis, particular)
     value = in_book_form(combination(question, basis, particular, constants), question.x, constants)

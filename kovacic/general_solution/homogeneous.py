@@ -51,15 +51,18 @@ def find_basis(question: Question, budget: Budget, *, special: bool = False) -> 
     """
     solution = decide(question, budget)
     if solution.case is not None and not special:
-        form = solutions(solution.S, solution.decision, solution.gauge, solution.variable, budget)
+        is_changed = question.equation.change is not None
+        form = solutions(
+            solution.S, solution.decision, solution.gauge, solution.variable, budget, is_changed=is_changed
+        )
         # under the assumptions on letters
         special = any(question.own(condition) == 0 for condition in form.undefined)
     if solution.case is not None and not special:
         known = None
-        if question.equation.change is not None:  # in t, where the quotient has values at more points
+        if is_changed:  # in t, where the quotient has values at more points
             known = partial(multiple_of, kernel(question.equation), form.y1, form.y2, form.variable)
         pair = WrittenPair(form.y1, form.y2, known, form.undefined)
-        return replace(_basis(question, solution, pair), form=form)
+        return replace(_basis(question, solution, pair), form=form, place=form.place)
     found = _in_special_functions(question, solution, budget, special=special)
     if not isinstance(found, BySign):
         return _basis(question, solution, found)

@@ -2,27 +2,23 @@
 
 Singular points are the poles of b/a and c/a, and those of f/a: a solution isn't determined on one side by its values on
 the other.  At a singular point and at infinity, a condition is one on a limit, from the side on which the others are.
-
-Solutions that are real where x - a is positive may not be where it is negative: log(u) = log(-u) + i pi and
-u^e = exp(i pi e) (-u)^e for u < 0.  Often log(-u) and (-u)^e in their places give a solution as well; elementary solutions
-are written anew, with roots that are real there.
 """
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
-from itertools import pairwise
+from functools import partial
 from typing import Any
 
 import sympy
 
-from kovacic.closed_form.check import are_independent, is_numerical_solution
-from kovacic.closed_form.form import pair_at
+from kovacic.closed_form import cuts
+from kovacic.closed_form.cuts import all_turned, negative_arguments
+from kovacic.closed_form.form import ClosedForm, pair_at
 from kovacic.errors import InputError
 from kovacic.general_solution.basis import Basis
 from kovacic.general_solution.behaviour import Approach
-from kovacic.general_solution.continuity import all_turned, arguments_with_cuts, negative_arguments
 from kovacic.general_solution.integrands import NUMBERS
 from kovacic.general_solution.jumps import is_analytic
 from kovacic.general_solution.particular import right_hand_side
@@ -30,12 +26,9 @@ from kovacic.general_solution.poles import is_singular, poles_between, rational_
 from kovacic.general_solution.question import Question
 from kovacic.general_solution.steps import place_of
 from kovacic.general_solution.variation import is_solution, starting_at
-from kovacic.special.gauss import PLACES
 
 Expr = Any  # SymPy publishes no types
 _INFINITIES = (sympy.oo, -sympy.oo)
-#: Points between and beyond the usual singular ones, and beyond all.
-_INSIDE = [*map(sympy.Rational, PLACES), sympy.Integer(10**9), sympy.Integer(-(10**9))]
 
 
 def given_points(question: Question) -> list[Expr]:
@@ -196,51 +189,21 @@ def basis_from(question: Question, basis: Basis, start: Expr) -> Basis:
     return basis.of(*(starting_at(y, question.x, start) for y in (basis.y1, basis.y2)))
 
 
-def common_place(basis: Basis, right: Expr, particular: Expr = sympy.S.Zero) -> Expr:
-    """The first of some points at which the fewest arguments lie on cuts: where the parts of an answer are real together.
-
-    Those of the right-hand side come first: of a part that isn't real there another form is looked for (`real_at`,
-    `real_particular`).  After the usual points come those between zeros of arguments, as for sqrt(x - 3) and sqrt(4 - x).
-    """
-    parts = (right, sympy.Tuple(basis.y1, basis.y2, particular))
-    given, found = (arguments_with_cuts(part).values() for part in parts)
-    lines = (u.as_poly(basis.x) for u in (*given, *found))
-    zeros = sorted(
-        {
-            -p.coeff_monomial(1) / p.LC()
-            for p in lines
-            if p is not None and p.degree() == 1 and p.domain in (sympy.ZZ, sympy.QQ)
-        }
-    )
-    points = [*_INSIDE, *((a + b) / 2 for a, b in pairwise(zeros))]
-
-    def on_cuts(point: Expr) -> tuple[int, ...]:
-        here = ([basis.own(u.subs(basis.x, point)).is_negative for u in of_part] for of_part in (given, found))
-        return tuple(negative.count(True) for negative in here)
-
-    return next((point for point in points if on_cuts(point) == (0, 0)), None) or min(points, key=on_cuts)
-
-
 def real_at(basis: Basis, point: Expr) -> Basis:
     """Two solutions that are real at the point, if such are found; else the given ones."""
-    x, solution = basis.x, basis.solution
-
-    def left(pair: Sequence[Expr]) -> int:
-        return len(negative_arguments(sympy.Tuple(*pair), x, point, basis.own))
-
-    given = (basis.y1, basis.y2)
-    if basis.equation.change is not None or not point.is_real or not left(given):
+    if basis.equation.change is not None:
         return basis
+    solution, form = basis.solution, basis.form
     assert solution is not None
-    pairs = [given] if basis.form is None else [given, pair_at(basis.form, point, basis.own)]
-    turned = [tuple(all_turned(sympy.Tuple(*pair).xreplace(NUMBERS), x, point, basis.own)) for pair in pairs]
-    found = [
-        (y1, y2)
-        for y1, y2 in turned
-        if all(y in given or is_numerical_solution(y, x, solution.S, solution.gauge) for y in (y1, y2))
-        and are_independent(y1, y2, x)
-    ]
-    return replace(basis.of(*min(found, key=left)), place=point) if found else basis
+    anew = None if form is None else partial(_with_numbers, form, point, basis.own)
+    pair = (basis.y1, basis.y2)
+    pair = cuts.real_at(pair, basis.x, solution.S, solution.gauge, point, anew=anew, own=basis.own)
+    return basis if pair == (basis.y1, basis.y2) else replace(basis.of(*pair), place=point)
+
+
+def _with_numbers(form: ClosedForm, point: Expr, own: Callable[[Expr], Expr]) -> tuple[Expr, Expr]:
+    y1, y2 = pair_at(form, point, own)
+    return y1.xreplace(NUMBERS), y2.xreplace(NUMBERS)
 
 
 def real_particular(question: Question, basis: Basis, particular: Expr, place: Expr) -> Expr:

@@ -21,13 +21,14 @@ from sys import maxsize
 from typing import Any
 
 from flint import acb, arb, ctx, fmpq
-from sympy import Heaviside, Integral, Pow, Rational, Symbol, sympify
+from sympy import Heaviside, Integral, Symbol, Tuple, sympify
 
 from kovacic.algebra.embedding import complex_zeros
 from kovacic.algebra.precision import working_digits
 from kovacic.algebra.ratfunc import RatFunc
 from kovacic.algebra.rationals import RationalPoly
 from kovacic.closed_form.check import independent, is_nonzero
+from kovacic.closed_form.cuts import common_place, real_at
 from kovacic.closed_form.form import EXACT, ClosedForm, pair_at, written
 from kovacic.closed_form.jets import jet
 from kovacic.closed_form.primitive import FACTOR, LONG, SHORT, OpenPrimitive
@@ -37,7 +38,7 @@ from kovacic.decision import Decision
 from kovacic.errors import LimitExceeded, VerificationFailed
 from kovacic.limits import Budget, bounded_work, check_time
 from kovacic.numbers.numerals import as_text
-from kovacic.special.gauss import PLACES, klein_pullback
+from kovacic.special.gauss import klein_pullback
 from kovacic.special.pullback import GaugeTransform, Pullback
 from kovacic.special.search import find, find_transform, written_pair
 
@@ -97,13 +98,19 @@ def shortest(forms: Sequence[Any]) -> Any:
 
 
 def solutions(
-    S: RatFunc, decision: Decision, gauge: RatFunc, variable: str = "x", budget: Budget | None = None
+    S: RatFunc,
+    decision: Decision,
+    gauge: RatFunc,
+    variable: str = "x",
+    budget: Budget | None = None,
+    *,
+    is_changed: bool = False,
 ) -> ClosedForm:
     """Two independent solutions of the equation that was given, in the chosen form, checked.
 
     `gauge` is the logarithmic derivative of the factor between them and those of y'' = S y, -b/(2a) for the equation
     a z'' + b z' + c z = 0, and 0 for the normal form.  Where S is real and has real solutions of a known form, these are
-    returned.
+    returned: real at the `common_place`, unless the variable `is_changed`, a function of the user's.
 
     Raises `ValueError` if the equation has no Liouvillian solution or is undecided, and `VerificationFailed` if a solution
     doesn't pass its check, which is a defect of this package; `LimitExceeded` within `Budget.watched`.
@@ -116,7 +123,16 @@ def solutions(
     """
     if decision.case is None:
         raise ValueError(decision.undecided or "there is no Liouvillian solution")
-    return _Equation(S, decision, gauge, variable, budget or Budget()).chosen()
+    chosen = _Equation(S, decision, gauge, variable, budget or Budget()).chosen()
+    return chosen if is_changed else _real(chosen, S)
+
+
+def _real(form: ClosedForm, S: RatFunc) -> ClosedForm:
+    """The form, or one that is real at the place at which the fewest of its arguments have to be turned."""
+    pair, x = (form.y1, form.y2), form.variable
+    place = common_place(x, Tuple(*pair))
+    y1, y2 = real_at(pair, x, S, form.gauge, place, anew=partial(pair_at, form, place, sympify))
+    return form if (y1, y2) == pair else replace(form, y1=y1, y2=y2, place=place)
 
 
 @dataclass(frozen=True)
@@ -204,7 +220,7 @@ class _Equation:
         if self.decision.case == 1 and not self._is_long and isinstance(self.structure, Triangular):
             elementary = self._written(replace(self.structure, primitive=OpenPrimitive("")))
             is_short = _length(elementary.y1) <= max(map(_length, pair))
-            pairs = [*((_real_beside(elementary, y2), y2) for y2 in pair if is_short), pair]
+            pairs = [*((elementary.y1, y2) for y2 in pair if is_short), pair]
         x = Symbol(self.variable)
         # In an irreducible equation what differs by its exponents is independent.
         chosen = pair if self.decision.case != 1 else independent(pairs, x)
@@ -242,14 +258,6 @@ class _Equation:
         with working_digits(_DIGITS):
             point = _middle_of_the_domain(den)
             return all(jet(y, pair.variable, point)[0].rel_accuracy_bits() > ctx.prec // 2 for y in pair)
-
-
-def _real_beside(form: ClosedForm, y2: Any) -> Any:
-    """The y1 of a form, with roots that are real where those of another solution are, at one of the `PLACES`."""
-    x = form.variable
-    bases = [power.base for power in y2.atoms(Pow) if power.base.has(x) and not power.exp.is_Integer]
-    place = next((p for p in map(Rational, PLACES) if all(base.subs(x, p).is_positive for base in bases)), None)
-    return form.y1 if place is None or not bases else pair_at(form, place, sympify)[0]
 
 
 def _length(y: Any) -> int:

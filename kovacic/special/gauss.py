@@ -44,7 +44,7 @@ from kovacic.algebra.extension import AlgebraicField
 from kovacic.algebra.poly import Poly
 from kovacic.algebra.ratfunc import RatFunc
 from kovacic.algebra.rationals import QQ
-from kovacic.closed_form.structure import Covariants
+from kovacic.closed_form.structure import PLACES, Covariants
 from kovacic.decision import Structure
 from kovacic.engine.places import Kind, Problem, analyse, rational_square_root
 from kovacic.limits import Budget
@@ -74,8 +74,6 @@ _MOST_CHOICES = 32
 _HIDDEN = 3
 #: Points at which solutions are tested for realness.
 _SAMPLE = (Fraction(2, 7), Fraction(7, 2), Fraction(-2, 7))
-#: Where a pair is to be real, in this order: between and beyond the usual singular points.
-PLACES = tuple(Fraction(p, 2) for p in (1, -1, 3, -3, 5, -5, 9, -9))
 
 
 @dataclass(frozen=True)

@@ -1,0 +1,142 @@
+"""Branch cuts: where the parts of a solution have them, and solutions that are real on the side of them that is meant.
+
+Solutions that are real where x - a is positive may not be where it is negative: log(u) = log(-u) + i pi and
+u^e = exp(i pi e) (-u)^e for u < 0.  Often log(-u) and (-u)^e in their places give a solution as well; elementary solutions
+are written anew, with roots that are real there.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from itertools import pairwise
+from typing import Any
+
+import sympy
+from sympy.functions.special.bessel import BesselBase
+
+from kovacic.algebra.ratfunc import RatFunc
+from kovacic.closed_form.check import are_independent, is_numerical_solution
+from kovacic.closed_form.structure import PLACES
+
+Expr = Any  # SymPy publishes no types
+#: Puts in symbols that know what is assumed.
+Own = Callable[[Expr], Expr]
+#: Where a pair is to be real: after the usual points, beyond all singular ones.
+_POINTS = (*map(sympy.Rational, PLACES), sympy.Integer(10**9), sympy.Integer(-(10**9)))
+#: Functions with branch cuts, and what lies on the negative axis where they have theirs; None for none.
+_CUTS: dict[Any, Callable[[Expr], Expr | None]] = {
+    **dict.fromkeys(
+        (sympy.log, sympy.Ei, sympy.Ci, sympy.expint, sympy.uppergamma, sympy.lowergamma), lambda e: e.args[-1]
+    ),
+    **dict.fromkeys((sympy.atan, sympy.asinh), lambda e: 1 + e.args[-1] ** 2),
+    sympy.acot: lambda e: 1 + e.args[-1] ** -2,
+    **dict.fromkeys((sympy.asin, sympy.acos, sympy.atanh, sympy.acosh), lambda e: 1 - e.args[-1] ** 2),
+    sympy.polylog: lambda e: 1 - e.args[-1],
+    # zero where the argument is: what has a sign isn't analytic there
+    **dict.fromkeys((sympy.Abs, sympy.sign, sympy.Heaviside), lambda e: e.args[0] ** 2),
+}
+#: Parts of solutions that are real on one side of a singular point.
+_TURNED = (sympy.log, sympy.Ci, sympy.lowergamma, sympy.uppergamma, sympy.Pow, BesselBase, sympy.hyper)
+#: For Bessel's functions of i z those of z with the same span.
+_OF_IMAGINARY = {
+    sympy.besselj: sympy.besseli,
+    sympy.bessely: sympy.besselk,
+    sympy.besseli: sympy.besselj,
+    sympy.besselk: sympy.bessely,
+}
+
+
+def cut_of(e: Expr) -> Expr | None:
+    """An expression that meets the axis from -oo to 0 where a function or a power has its branch cut; None without one."""
+    if e.is_Pow and not isinstance(e, sympy.exp):
+        return None if e.exp.is_integer else e.base
+    rule = _CUTS.get(e.func)
+    return None if rule is None else rule(e)
+
+
+def cuts_of(y: Expr, x: Expr) -> list[Expr]:
+    """The expressions `cut_of` of the parts with x, each once."""
+    cuts = (cut_of(e) for e in y.atoms(sympy.Function, sympy.Pow) if e.has(x))
+    return [*dict.fromkeys(cut for cut in cuts if cut is not None)]
+
+
+def arguments_with_cuts(y: Expr) -> dict[Expr, Expr]:
+    """The functions and powers with cuts in an expression: these lie where the argument, or 1 - z in pFq, is negative."""
+    found = {}
+    for e in y.atoms(*_TURNED):
+        if isinstance(e, sympy.hyper):
+            found[e] = 1 - e.argument if len(e.ap) > len(e.bq) else None
+        else:
+            found[e] = e.args[-1] if isinstance(e, BesselBase) else cut_of(e)
+    return {e: cut for e, cut in found.items() if cut is not None and cut.free_symbols}
+
+
+def all_turned(y: Expr, x: Expr, point: Expr, own: Own = sympy.sympify) -> Expr:
+    """With log(-u), (-u)^e for arguments u that are negative at the point; I_nu(z), K_nu(z) for J_nu(i z), Y_nu(i z)."""
+    turned = {e: (-u) ** e.exp for e, u in negative_arguments(y, x, point, own).items() if e.is_Pow}
+    roots = dict(turned)
+    for e in y.atoms(sympy.log, sympy.Ci, BesselBase):
+        *order, u = e.args
+        if e.func in _OF_IMAGINARY and own((u**2).subs(x, point)).is_negative:
+            turned[e] = _OF_IMAGINARY[e.func](*order, u.xreplace(roots))
+        elif own(u.subs(x, point)).is_negative:  # SymPy writes J(-z) as J(z) (-z)^nu/z^nu
+            turned[e] = e.func(*order, -u, evaluate=False)
+    return y.xreplace(turned)
+
+
+def negative_arguments(y: Expr, x: Expr, point: Expr, own: Own = sympy.sympify) -> dict[Expr, Expr]:
+    """Those whose arguments are negative at the point, in the user's symbols that `own` puts in."""
+    return {e: u for e, u in arguments_with_cuts(y).items() if own(u.subs(x, point)).is_negative}
+
+
+def common_place(x: Expr, *parts: Expr, own: Own = sympy.sympify) -> Expr:
+    """The first of some points at which the fewest arguments lie on cuts, those of the first part before all: the others can be
+    turned there.
+
+    After the usual points come those between zeros of arguments, as for sqrt(x - 3) and sqrt(4 - x).
+    """
+    arguments = [list(arguments_with_cuts(part).values()) for part in parts]
+    lines = (u.as_poly(x) for of_part in arguments for u in of_part)
+    zeros = sorted(
+        {
+            -p.coeff_monomial(1) / p.LC()
+            for p in lines
+            if p is not None and p.degree() == 1 and p.domain in (sympy.ZZ, sympy.QQ)
+        }
+    )
+    points = [*_POINTS, *((a + b) / 2 for a, b in pairwise(zeros))]
+
+    def on_cuts(point: Expr) -> list[int]:
+        return [sum(bool(own(u.subs(x, point)).is_negative) for u in of_part) for of_part in arguments]
+
+    return next((point for point in points if not any(on_cuts(point))), None) or min(points, key=on_cuts)
+
+
+def real_at(
+    pair: tuple[Expr, Expr],
+    x: Expr,
+    S: RatFunc,
+    gauge: RatFunc,
+    place: Expr,
+    *,
+    anew: Callable[[], tuple[Expr, Expr]] | None = None,
+    own: Own = sympy.sympify,
+) -> tuple[Expr, Expr]:
+    """Two solutions with fewer arguments on cuts at the place, if such are found; else the given ones.
+
+    `anew` writes solutions whose roots are real there.
+    """
+
+    def left(found: Sequence[Expr]) -> int:
+        return len(negative_arguments(sympy.Tuple(*found), x, place, own))
+
+    if not place.is_real or not left(pair):
+        return pair
+    pairs = [pair] if anew is None else [pair, anew()]
+    turned = [tuple(all_turned(sympy.Tuple(*found), x, place, own)) for found in pairs]
+    found = [
+        (y1, y2)
+        for y1, y2 in turned
+        if all(y in pair or is_numerical_solution(y, x, S, gauge) for y in (y1, y2)) and are_independent(y1, y2, x)
+    ]
+    return min(found, key=left, default=pair)
