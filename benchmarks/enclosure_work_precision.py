@@ -21,7 +21,7 @@ import flint
 import frame
 
 import kovacic
-from kovacic.enclosure import classical, closed_form, frobenius, journey, transport
+from kovacic.enclosure import classical, closed_form, frobenius, journey, transport, way
 from kovacic.enclosure.monodromy import connection_matrix, monodromy
 from kovacic.enclosure.states import evaluate_states
 
@@ -225,8 +225,8 @@ def the_ball() -> list[dict[str, Any]]:
 
 COUNTED = {
     "Taylor expansions": (transport, "expand"),
-    "matrices of one": (transport, "transition"),
-    "solutions in one": (transport, "local_solution"),
+    "matrices of one": (way, "transition"),
+    "solutions in one": (way.DiscStep, "local"),
     "Frobenius series": (frobenius, "_expand"),
     "closed-form legs": (closed_form.CaseOneForm, "leg"),
     "legs by FLINT's functions": (classical.Classical, "leg"),

@@ -38,7 +38,7 @@ from kovacic.algebra.extension import AlgebraicField
 from kovacic.algebra.precision import working_precision
 from kovacic.closed_form.atoms import Atoms
 from kovacic.enclosure.frame import foreseen_growth, upper_exponent
-from kovacic.enclosure.jets import AnalyticStep, CoefficientField
+from kovacic.enclosure.jets import CoefficientField, step_of
 from kovacic.enclosure.matrices import NOTHING, Affine, MapProduct, Matrix, State, compose, fundamental, real_part
 from kovacic.enclosure.points import (
     Constant,
@@ -203,7 +203,7 @@ class AnalyticWay(Way):
                 _check_size(a, b, t, e, max(_START, 2 * self.prec))
             enter = a + length.scaled(t)
             t += 2 * half
-            yield AnalyticStep(jets, enter, b if t == 1 else a + length.scaled(t))
+            yield step_of(jets, enter, b if t == 1 else a + length.scaled(t))
 
 
 def exponent(square: Any) -> int:

@@ -42,7 +42,7 @@ from __future__ import annotations
 import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
-from functools import cached_property, lru_cache
+from functools import lru_cache
 from typing import Any
 
 import sympy
@@ -51,10 +51,9 @@ from flint import acb, acb_poly, acb_series, arb, arb_poly, ctx, fmpq
 from kovacic.algebra.precision import series_length, working_precision
 from kovacic.closed_form.jets import BallEvaluator
 from kovacic.enclosure.frame import log2
-from kovacic.enclosure.matrices import NOTHING, Matrix, State, apply, fundamental, multiply
 from kovacic.enclosure.points import ExactPoint, are_real, around_zero, to_acb
 from kovacic.enclosure.problem import Coefficients
-from kovacic.enclosure.way import Local
+from kovacic.enclosure.way import DiscStep, Local
 from kovacic.errors import LimitExceeded
 from kovacic.limits import check_time
 
@@ -243,8 +242,8 @@ _SHARE = 6
 
 @dataclass(frozen=True)
 class Jets:
-    """A~ - 1, B~, C~, F~ in the disc around `centre`, bounds of the rests, mu and lambda; to so many `bits`, at this
-    `precision`."""
+    """A~ - 1, B~, C~, F~ in the disc around `centre`, bounds of the rests, mu and lambda, for solutions to so many `bits`, at
+    this `precision`."""
 
     centre: ExactPoint
     e: int
@@ -254,10 +253,6 @@ class Jets:
     rate: arb
     bits: int
     precision: int
-
-    def local(self, poly: Any, error: arb) -> Local:
-        """A solution in the disc, off by at most that, and its derivative."""
-        return Local(self.centre, self.e, poly, error, error, fmpq(1), self.precision)
 
 
 class CoefficientField:
@@ -406,97 +401,50 @@ def _rate(beta: arb, gamma: arb) -> arb:
     return ((beta + (beta * beta + 4 * gamma).sqrt()) / 2).upper()
 
 
-class AnalyticStep:
-    """A disc of a way, entered and left at these points: the solutions with the states (1, 0), (0, 1) in u at the centre, and
-    one of the equation with its right-hand side, which is zero there."""
-
-    def __init__(self, jets: Jets, enter: ExactPoint, leave: ExactPoint) -> None:
-        self.jets = jets
-        self.enter = enter
-        self.leave = leave
-        homogeneous = jets.parts[3].degree() < 0 and jets.rests[3].is_zero()
-        with working_precision(jets.precision):
-            self._columns = [_solved(jets, start, right=False) for start in ((1, 0), (0, 1))]
-            self._own = None if homogeneous else _solved(jets, (0, 0), right=True)
-            # The Wronskian w = exp(-int B/A) is the slope of the solution of A y'' + B y' = 0 that begins with 0, 1.
-            A, B, C, F = jets.parts
-            without_c = replace(jets, parts=(A, B, C * 0, F), rests=(*jets.rests[:2], arb(0), arb(0)))
-            is_constant = B.degree() < 0 and jets.rests[1].is_zero()
-            self._area = None if is_constant else _solved(without_c, (0, 1), right=False)
-
-    def _from_centre(self, x: ExactPoint) -> Matrix:
-        """From (y, dy/du) at the centre to (y, dy/dx) at x, without the right-hand side."""
-        first, second = self._columns
-        return fundamental(first.state(x), second.state(x))
-
-    @cached_property
-    def _to_centre(self) -> Matrix:
-        """From (y, dy/dx) where it is entered to (y, dy/du) at the centre: the determinant of the inverse is w/H."""
-        m = self._from_centre(self.enter)
-        H = acb(arb((1, self.jets.e)))
-        factor = H if self._area is None else 1 / self._area.state(self.enter)[1]
-        return m[3] * factor, -m[1] * factor, -m[2] * factor, m[0] * factor
-
-    def _particular(self, x: ExactPoint) -> State:
-        return NOTHING if self._own is None else self._own.state(x)
-
-    @cached_property
-    def matrix(self) -> Matrix:
-        """From (y, y') where it is entered to where it is left, without the right-hand side."""
-        return multiply(self._from_centre(self.leave), self._to_centre)
-
-    @cached_property
-    def added(self) -> State:
-        """The contribution of the right-hand side: the particular solution that vanishes where the disc is entered."""
-        y, dy = apply(self.matrix, self._particular(self.enter))
-        p, dp = self._particular(self.leave)
-        return p - y, dp - dy
-
-    def local(self, state: State) -> Local:
-        """The solution in the disc with this state where it is entered."""
-        p, dp = self._particular(self.enter)
-        total: Any = arb_poly([])
-        error = arb(0)
-        with working_precision(self.jets.precision):
-            at_centre = apply(self._to_centre, (state[0] - p, state[1] - dp))
-            for factor, column in zip(at_centre, self._columns, strict=True):
-                if not factor.is_zero():
-                    weight = factor.real if factor.imag.is_zero() else factor
-                    total = total + column.poly * weight
-                    error += abs(factor).upper() * column.error
-            if self._own is not None:
-                total = total + self._own.poly
-                error += self._own.error
-            return self.jets.local(total, error.upper())
-
-
-def _solved(jets: Jets, start: tuple[int, int], *, right: bool) -> Local:
-    """The solution with this start at the centre, with or without the right-hand side."""
+def step_of(jets: Jets, enter: ExactPoint, leave: ExactPoint) -> DiscStep:
+    """The disc of a way that is entered and left at these points."""
     A, B, C, F = jets.parts
-    is_real = all(isinstance(part, arb_poly) for part in jets.parts)
-    kind, number = (arb_poly, arb) if is_real else (acb_poly, acb)
-    right_side = kind(F) if right else kind([])
-    recurrence = _Recurrence(kind(A), kind(B), kind(C), right_side, kind, jets.bits)
-    values = recurrence.run((number(start[0]), number(start[1])))
+    is_homogeneous = F.degree() < 0 and jets.rests[3].is_zero()
+    has_area = not (B.degree() < 0 and jets.rests[1].is_zero())
+    # The Wronskian exp(-int B/A) is the slope of the solution of A y'' + B y' = 0 that begins with 0, 1.
+    without_c = replace(jets, parts=(A, B, C * 0, F), rests=(*jets.rests[:2], arb(0), arb(0)))
+    return DiscStep(
+        enter,
+        leave,
+        (_solved(jets, 0), _solved(jets, 1)),
+        own=None if is_homogeneous else _solved(jets, None),
+        area=_solved(without_c, 1) if has_area else None,
+    )
+
+
+def _solved(jets: Jets, start: int | None) -> Local:
+    """The solution with the state (1, 0) or (0, 1) at the centre, or with the right-hand side and (0, 0)."""
+    A, B, C, F = jets.parts
+    is_real = isinstance(F, arb_poly)
+    number = arb if is_real else acb
+    right = F if start is None else F * 0
+    with working_precision(jets.precision):
+        first = [number(start == k) for k in (0, 1)]
+        values = _Recurrence((A, B, C), right, first, jets.bits).values
+        scale = arb((1, jets.e if start == 1 else 0))  # the slope 1 in x
+        poly = type(F)(values) * scale
     with working_precision(_ROUGH):
-        rho = _defect(jets, values, right)
-        error = (rho * jets.rate.exp()).upper()
-    return jets.local(kind(values), error)
+        error = (_defect(jets, values, right) * jets.rate.exp() * scale).upper()
+    return Local(jets.centre, jets.e, poly, error, error, fmpq(1), jets.precision)
 
 
-def _defect(jets: Jets, values: list[Any], right: bool) -> arb:
+def _defect(jets: Jets, values: list[Any], right: Any) -> arb:
     """A bound rho of the defect for |u| <= 1."""
     n = len(values)
-    A, B, C, F = ([abs(value).upper() for value in part.coeffs()] for part in jets.parts)
     y = [abs(value).upper() for value in values]
     dy = [value * k for k, value in enumerate(y)][1:]
     ddy = [value * k for k, value in enumerate(dy)][1:]
-    product = sum((arb_poly(p) * arb_poly(q) for p, q in ((A, ddy), (B, dy), (C, y))), arb_poly([])).coeffs()
-    rho = sum(product[n - 2 :], arb(0))
-    rho += sum((rest * sum(part, arb(0)) for rest, part in zip(jets.rests, (ddy, dy, y), strict=False)), arb(0))
-    if right:
-        rho += sum(F[n - 2 :], arb(0)) + jets.rests[3]
-    return (rho / jets.least).upper()
+    rho = arb(0) if right.degree() < 0 else jets.rests[3]
+    total = arb_poly([abs(value).upper() for value in right.coeffs()])
+    for part, rest, series in zip(jets.parts, jets.rests, (ddy, dy, y), strict=False):
+        total += arb_poly([abs(value).upper() for value in part.coeffs()]) * arb_poly(series)
+        rho += rest * sum(series, arb(0))
+    return ((rho + sum(total.coeffs()[n - 2 :], arb(0))) / jets.least).upper()
 
 
 class _Recurrence:
@@ -506,24 +454,18 @@ class _Recurrence:
     s_k = sum_j (A_(k-j) e_j + B_(k-j) d_j + C_(k-j) a_j) - F_k is -e_k.
     """
 
-    def __init__(self, A: Any, B: Any, C: Any, F: Any, kind: Any, bits: int) -> None:
-        self.kind = kind
-        self.A = A.coeffs()
-        self.B = B.coeffs()
-        self.C = C.coeffs()
-        self.sums = [-value for value in F.coeffs()]
-        self.least = max(len(self.A), len(self.B), len(self.C), len(self.sums))
+    def __init__(self, parts: Sequence[Any], right: Any, first: list[Any], bits: int) -> None:
+        self.kind = type(right)
+        self.values = first
+        self.slopes = first[1:]
+        self.bends: list[Any] = []
+        series = self.bends, self.slopes, self.values
+        self.terms = [(part.coeffs(), known) for part, known in zip(parts, series, strict=True) if part.degree() >= 0]
+        self.sums = [-value for value in right.coeffs()]
+        self.least = max(_QUIET + 2, len(self.sums), *(len(part) for part, _ in self.terms), 0)
         self.small = arb((1, -bits))
         self.most = _MOST_TERMS * bits + 400
-        self.values: list[Any] = []
-        self.slopes: list[Any] = []
-        self.bends: list[Any] = []
         self.ended = False
-
-    def run(self, start: tuple[Any, Any]) -> list[Any]:
-        """The terms from these two on, until some are small."""
-        self.values = [*start]
-        self.slopes = [start[1]]
         known = 0
         size = _FIRST
         while not self.ended:
@@ -531,7 +473,6 @@ class _Recurrence:
             self._continue(known, known + size)
             known += size
             size = known
-        return self.values
 
     def _continue(self, low: int, high: int) -> None:
         """The steps k = low, ..., high - 1, where what comes from j < low is in the sums."""
@@ -543,9 +484,10 @@ class _Recurrence:
             self._give(low, middle, high)
             self._continue(middle, high)
             return
+        self._extend(high)
         for k in range(low, high):
-            total = self.sums[k] if k < len(self.sums) else self.kind([0])[0]
-            for part, series in ((self.A, self.bends), (self.B, self.slopes), (self.C, self.values)):
+            total = self.sums[k]
+            for part, series in self.terms:
                 for j in range(max(low, k + 1 - len(part)), min(k + 1, len(series))):
                     total += part[k - j] * series[j]
             self.bends.append(-total)
@@ -556,17 +498,21 @@ class _Recurrence:
         if count > self.most:
             raise LimitExceeded(f"a Taylor expansion needs more than {self.most} terms", limit="unknown_degree")
         last = self.slopes[-_QUIET:]  # where these are small, the others are, too
-        self.ended = count > max(self.least, _QUIET + 2) and all(abs(value) < self.small for value in last)
+        self.ended = count > self.least and all(abs(value) < self.small for value in last)
 
     def _give(self, low: int, middle: int, high: int) -> None:
         """To the sums k = middle, ..., high - 1 what comes from j = low, ..., middle - 1."""
         if self.ended or low == middle:
             return
         count = high - low
-        product = self.kind(self.A[:count]) * self.kind(self.bends[low:middle])
-        product += self.kind(self.B[:count]) * self.kind(self.slopes[low:middle])
-        product += self.kind(self.C[:count]) * self.kind(self.values[low:middle])
+        product = self.kind([])
+        for part, series in self.terms:
+            product += self.kind(part[:count]) * self.kind(series[low:middle])
         given = product.coeffs()[middle - low : count]
-        self.sums += [self.kind([0])[0]] * (middle + len(given) - len(self.sums))
+        self._extend(middle + len(given))
         for k, value in enumerate(given, start=middle):
             self.sums[k] += value
+
+    def _extend(self, length: int) -> None:
+        """At least so many sums."""
+        self.sums += [self.values[0] * 0] * (length - len(self.sums))

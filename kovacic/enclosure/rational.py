@@ -286,7 +286,8 @@ class RationalWay(Way):
         enter, leave = self._in_discs(a, b)
         if enter != a:
             yield swing(system, a, enter, self.prec)
-        yield from walk(system, enter, leave, self.prec, growth=growth_of_disc(self.prec, alone=alone), split=split)
+        growth = growth_of_disc(self.prec, alone=alone)
+        yield from (step for _, step in walk(system, enter, leave, self.prec, growth=growth, split=split))
         if leave != b:
             yield swing(system, leave, b, self.prec)
 
@@ -349,10 +350,10 @@ class RationalWay(Way):
             self.check(here, farthest)
             maps = traveller.maps.after(inward)
             ahead = self.forecast(here, farthest)
-            for number, leg in enumerate(walk(self.problem.system, here, farthest, self.prec), 1):
-                served = [*leg.disc.served(self.problem.system, here, waiting)]
+            for number, (disc, step) in enumerate(walk(self.problem.system, here, farthest, self.prec), 1):
+                served = [*disc.served(self.problem.system, here, waiting)]
                 if served:
-                    local = leg.local(maps.apply(traveller.start))
+                    local = step.local(maps.apply(traveller.start))
                     for stop in served:
                         if self.gauge is not None:
                             self.check(here, stop)
@@ -360,8 +361,8 @@ class RationalWay(Way):
                         state = local.state(stop)
                         found[stop] = state if outward is None else apply(outward, state)
                     waiting = [stop for stop in waiting if stop not in found]
-                if leg.disc.leave != farthest:  # the matrix of the last leg isn't needed
-                    maps = maps.after(leg.matrix)
+                if disc.leave != farthest:  # the matrix of the last step isn't needed
+                    maps = maps.after(step.matrix)
                     ahead.check(number)
         return found
 

@@ -51,7 +51,8 @@ from kovacic.algebra.precision import working_precision
 from kovacic.enclosure.frame import Frame, GaussianParts, System, log2, make_frame, norm, shift
 from kovacic.enclosure.matrices import Matrix
 from kovacic.enclosure.points import ExactPoint, around_zero, to_acb
-from kovacic.enclosure.taylor import error_radii, expand, transition
+from kovacic.enclosure.taylor import error_radii, expand
+from kovacic.enclosure.way import transition
 from kovacic.errors import LimitExceeded
 from kovacic.limits import check_time
 

@@ -29,7 +29,6 @@ Theory", Computing 52 (1994) 315-336, for bounds by the defect (the comparison u
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from operator import mul
 from typing import Any
 
@@ -37,31 +36,34 @@ from flint import acb, acb_poly, arb, arb_poly, fmpz, fmpz_poly
 
 from kovacic.algebra.precision import working_precision
 from kovacic.enclosure.frame import REACH, Frame, GaussianParts, log2, norm
-from kovacic.enclosure.matrices import Matrix, State, fundamental
-from kovacic.enclosure.points import ExactPoint
-from kovacic.enclosure.way import Local
+from kovacic.enclosure.way import Columns, Local
 from kovacic.errors import LimitExceeded
 from kovacic.limits import check_time
 
-_STARTS = (acb(1), acb(0)), (acb(0), acb(1))
 _TERMS_BETWEEN_LOOKS = 64  # from one look at the clock to the next
 
 
-@dataclass(frozen=True)
-class TaylorSeries:
-    """Two polynomial approximations Y/2^w (columns of the identity at u = 0) and their defects.
+def expand(frame: Frame, prec: int) -> Columns:
+    """The solutions with the states (1, 0) and (0, 1) at the centre, off by about 2^-prec in the disc (how much, they know)."""
+    w, columns = approximations(frame, prec)
+    with working_precision(w + 10):
+        units = arb((1, -w)), arb((1, frame.e - w))  # the second one has the slope 1 in x
+        first, second = (
+            _local(frame, polynomial(parts, unit), defect * unit, w + 10)
+            for (parts, defect), unit in zip(columns, units, strict=True)
+        )
+        return first, second
 
-    `defect[k]` bounds sum |r_n| 2^w, the coefficient sum of q Y'' - p Y for column k.
-    """
 
-    frame: Frame
-    w: int
-    columns: tuple[tuple[fmpz_poly, fmpz_poly | None], tuple[fmpz_poly, fmpz_poly | None]]
-    defect: tuple[int, int]
+def _local(frame: Frame, poly: Any, defect: arb, precision: int) -> Local:
+    """The solution that a polynomial stands for, by the coefficient sum of its defect."""
+    error, slope_error = error_radii(defect, frame)
+    return Local(frame.centre, frame.e, poly, error, slope_error, REACH, precision)
 
 
-def expand(frame: Frame, prec: int) -> TaylorSeries:
-    """Both columns so that the error in the disc should be about 2^-prec (what it is, `transition` says)."""
+def approximations(frame: Frame, prec: int) -> tuple[int, list[tuple[GaussianParts, int]]]:
+    """w, and the coefficients times 2^w of both columns of the identity at u = 0, each with a bound of sum |r_n| 2^w, the
+    coefficient sum of q Y'' - p Y."""
     p = frame.p
     q = frame.q
     bound = frame.bound
@@ -73,13 +75,10 @@ def expand(frame: Frame, prec: int) -> TaylorSeries:
     p = _cut(p, excess)
     q = _cut(q, excess)
     columns = []
-    defects = []
     for start in (0, 1):
-        re, im = _recurrence(p, q, w, start, 1 << quiet)
-        imaginary = None if im is None else fmpz_poly(im)
-        columns.append((fmpz_poly(re), imaginary))
-        defects.append(_proven_defect(p, q, (re, im), excess, 1 << quiet))
-    return TaylorSeries(frame, w, (columns[0], columns[1]), (defects[0], defects[1]))
+        terms = recurrence(p, q, w, start, 1 << quiet)
+        columns.append((terms, _proven_defect(p, q, terms, excess, 1 << quiet) + 1))
+    return w, columns
 
 
 def _cut(parts: GaussianParts, excess: int) -> GaussianParts:
@@ -92,36 +91,26 @@ def _cut(parts: GaussianParts, excess: int) -> GaussianParts:
     return [v >> excess for v in re], im
 
 
+def polynomial(parts: GaussianParts, unit: arb) -> Any:
+    """With these coefficients times a unit, of numbers that are real if the imaginary parts are None."""
+    re, im = (None if part is None else arb_poly(fmpz_poly(part)) * unit for part in parts)
+    return re if im is None else acb_poly(re) + acb_poly(im) * acb(0, 1)
+
+
 def _numbers(values: list[int], w: int) -> list[Any]:
     """Python integers below some 700 bits, FLINT's above (measured: the cheaper kind)."""
-    if w < 700:
-        return values
-    return [fmpz(v) for v in values]
-
-
-def _recurrence(p: GaussianParts, q: GaussianParts, w: int, start: int, small: int) -> GaussianParts:
-    """The coefficients, real and imaginary parts (None: real), up to a run of terms below `small`.
-
-    With b_n = n (n - 1) a_n,
-
-        q_0 b_(n+2) = sum_j p_j a_(n-j) - sum_(j>=1) q_j b_(n+2-j);
-
-    the lists of a and b begin with as many zeros, `pad`, as the sums reach back.
-    """
-    if p[1] is None and q[1] is None:
-        return _real_recurrence(p[0], q[0], w, start, small), None
-    return _complex_recurrence(p, q, w, start, small)
+    return values if w < 700 else [fmpz(v) for v in values]
 
 
 class _Series:
-    """Real numbers a_n and b_n, behind `pad` zeros."""
+    """Real numbers a_n and b_n = n (n - 1) a_n, behind as many zeros as the sums reach back."""
 
-    __slots__ = ("a", "b", "pad")
+    __slots__ = ("a", "b")
 
-    def __init__(self, pad: int, zero: Any) -> None:
-        self.pad = pad
-        self.a = [zero] * (pad + 2)
-        self.b = [zero] * (pad + 2)
+    def __init__(self, pad: int, first: Any, second: Any) -> None:
+        zeros = [first * 0] * pad
+        self.a = [*zeros, first, second]
+        self.b = [*zeros, *zeros[:2]]
 
     def known(self, p_back: list[Any], q_back: list[Any]) -> Any:
         """sum_j p_j a_(n-j) - sum_(j>=1) q_j b_(n+2-j), where a_(n+1) is the last one; p_0 and q_1 are the last ones."""
@@ -136,57 +125,37 @@ class _Series:
         self.a.append(term)
         self.b.append(term * k)
 
-    @property
-    def terms(self) -> list[Any]:
-        """a_0, a_1, ..."""
-        return self.a[self.pad :]
 
+def recurrence(p: GaussianParts, q: GaussianParts, w: int, start: int, small: int) -> GaussianParts:
+    """The coefficients of q Y'' = p Y, real and imaginary parts (None: real), up to a run of terms below `small`.
 
-def _real_recurrence(p: list[int], q: list[int], w: int, start: int, small: int) -> list[Any]:
-    p_back = _numbers(p[::-1], w)
-    q_back = _numbers(q[:0:-1], w)
-    one, zero, q_0 = _numbers([1 << w, 0, q[0]], w)
-    pad = max(len(p_back), len(q_back)) + 2
-    series = _Series(pad, zero)
-    series.a[pad + start] = one
-    n = 0
-    quiet = 0
-    while quiet <= pad:
-        if n % _TERMS_BETWEEN_LOOKS == 0:
-            _check_terms(n, w)
-        k = (n + 1) * (n + 2)
-        term = series.known(p_back, q_back) // (q_0 * k)
-        series.add(term, k)
-        quiet = quiet + 1 if -small < term < small else 0
-        n += 1
-    return series.terms
+    With b_n = n (n - 1) a_n,
 
-
-def _complex_recurrence(p: GaussianParts, q: GaussianParts, w: int, start: int, small: int) -> GaussianParts:
-    dp = len(p[0])
-    dq = len(q[0]) - 1
-    p_re, p_im = (_numbers((part or [0] * dp)[::-1], w) for part in p)
-    q_re, q_im = (_numbers((part or [0] * (dq + 1))[:0:-1], w) for part in q)
+        q_0 b_(n+2) = sum_j p_j a_(n-j) - sum_(j>=1) q_j b_(n+2-j).
+    """
+    p_re, p_im = (_numbers((part or [])[::-1], w) for part in p)
+    q_re, q_im = (_numbers((part or [])[:0:-1], w) for part in q)
     one, zero, q_0 = _numbers([1 << w, 0, q[0][0]], w)
-    pad = max(dp, dq) + 2
-    real = _Series(pad, zero)
-    imag = _Series(pad, zero)
-    real.a[pad + start] = one
+    pad = max(map(len, (p_re, p_im, q_re, q_im))) + 2
+    real = _Series(pad, *((zero, one) if start else (one, zero)))
+    imag = None if p[1] is q[1] is None else _Series(pad, zero, zero)
     n = 0
     quiet = 0
     while quiet <= pad:
         if n % _TERMS_BETWEEN_LOOKS == 0:
             _check_terms(n, w)
         k = (n + 1) * (n + 2)
-        re = real.known(p_re, q_re) - imag.known(p_im, q_im)
-        im = imag.known(p_re, q_re) + real.known(p_im, q_im)
-        re = re // (q_0 * k)
-        im = im // (q_0 * k)
+        re = real.known(p_re, q_re)
+        im = zero
+        if imag is not None:
+            re -= imag.known(p_im, q_im)
+            im = (imag.known(p_re, q_re) + real.known(p_im, q_im)) // (q_0 * k)
+            imag.add(im, k)
+        re //= q_0 * k
         real.add(re, k)
-        imag.add(im, k)
         quiet = quiet + 1 if -small < re < small and -small < im < small else 0
         n += 1
-    return real.terms, imag.terms
+    return real.a[pad:], None if imag is None else imag.a[pad:]
 
 
 def _check_terms(n: int, w: int) -> None:
@@ -210,33 +179,6 @@ def _proven_defect(p: GaussianParts, q: GaussianParts, column: GaussianParts, ex
     if excess:
         total += 2 * int(norm(column)) * (len(p[0]) + len(q[0]) * n * n)
     return int(total) << excess
-
-
-def transition(expansion: TaylorSeries, target: ExactPoint) -> Matrix:
-    """Enclosure of the transition matrix from the centre to a point of the disc."""
-    first, second = (local_solution(expansion, start).state(target) for start in _STARTS)
-    return fundamental(first, second)
-
-
-def local_solution(expansion: TaylorSeries, state: State) -> Local:
-    """The solution in the disc from its state at the centre."""
-    frame = expansion.frame
-    precision = expansion.w + 10
-    with working_precision(precision):
-        unit = arb((1, -expansion.w))
-        h = arb((1, frame.e))
-        real = all(v.imag.is_zero() for v in state) and all(im is None for _, im in expansion.columns)
-        kind = arb_poly if real else acb_poly
-        total = kind([])
-        radii = [arb(0), arb(0)]
-        for (re, im), factor, defect in zip(expansion.columns, (state[0], state[1] * h), expansion.defect, strict=True):
-            if not factor.is_zero():
-                poly = kind(re) if im is None else acb_poly(re) + acb(0, 1) * acb_poly(im)
-                weight = factor.real if real else factor
-                total += poly * (weight * unit)
-                errors = error_radii(arb((defect + 1, -expansion.w)), frame)
-                radii = [r + abs(factor).upper() * error for r, error in zip(radii, errors, strict=True)]
-        return Local(frame.centre, frame.e, total, radii[0].upper(), radii[1].upper(), REACH, precision)
 
 
 def error_radii(defect: arb, frame: Frame) -> tuple[arb, arb]:

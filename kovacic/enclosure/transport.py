@@ -20,17 +20,16 @@ import logging
 import math
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
-from functools import cached_property
 from typing import Any, NamedTuple
 
 from flint import fmpq
 
 from kovacic.enclosure.frame import REACH, Frame, System, distance_lower, fitting, is_apart, largest_exponent, log2
-from kovacic.enclosure.matrices import Matrix, State, adjugate, apply, multiply, product
+from kovacic.enclosure.matrices import Matrix, State, adjugate, multiply, product
 from kovacic.enclosure.points import ExactPoint, power_of_two
 from kovacic.enclosure.splitting import legs
-from kovacic.enclosure.taylor import TaylorSeries, expand, local_solution, transition
-from kovacic.enclosure.way import Homogeneous, Local
+from kovacic.enclosure.taylor import expand
+from kovacic.enclosure.way import DiscStep, Homogeneous, Local, WayStep
 from kovacic.errors import LimitExceeded
 from kovacic.limits import check_time, count_work
 
@@ -75,46 +74,22 @@ class Disc:
 
 
 @dataclass(frozen=True)
-class Leg(Homogeneous):
-    """One disc of a way: its expansion, or the matrix that came from splitting."""
+class Split(Homogeneous):
+    """A disc of which only the matrix is known, from binary splitting."""
 
-    disc: Disc
-    expansion: TaylorSeries | None
-    split: Matrix | None = None
-
-    @cached_property
-    def to_centre(self) -> Matrix | None:
-        """The matrix from where the disc is entered to its centre; None if that's the same."""
-        assert self.expansion is not None
-        enter = self.disc.enter
-        return None if enter == self.disc.frame.centre else adjugate(transition(self.expansion, enter))
-
-    @cached_property
-    def matrix(self) -> Matrix:
-        """The matrix of the disc."""
-        if self.expansion is None:
-            assert self.split is not None
-            return self.split
-        matrix = transition(self.expansion, self.disc.leave)
-        return matrix if self.to_centre is None else multiply(matrix, self.to_centre)
-
-    @property
-    def leave(self) -> ExactPoint:
-        """Where the disc is left."""
-        return self.disc.leave
+    leave: ExactPoint
+    matrix: Matrix
 
     def local(self, state: State) -> Local:
-        """The solution in the disc, from its state where the disc is entered."""
-        assert self.expansion is not None
-        if self.to_centre is not None:
-            state = apply(self.to_centre, state)
-        return local_solution(self.expansion, state)
+        """Raises `NotImplementedError`: by splitting no targets are served but the end."""
+        raise NotImplementedError
 
 
 def walk(
     system: System, a: ExactPoint, b: ExactPoint, prec: int, *, growth: float | None = None, split: bool = False
-) -> Iterator[Leg]:
-    """The discs of the straight way from a to b, in which solutions may grow by so many bits; `split`: by binary splitting."""
+) -> Iterator[tuple[Disc, WayStep]]:
+    """The discs of the straight way from a to b, in which solutions may grow by so many bits, and the steps in them; `split`:
+    by binary splitting."""
     how = ", by binary splitting" if split else ""
     _LOG.debug("from %s to %s, %d bits%s", a, b, prec, how)
     for number, disc in enumerate(cover(system, a, b, prec, growth), 1):
@@ -122,9 +97,9 @@ def walk(
         count_work(prec)
         if split:
             start, stop = map(product, legs(system, disc.frame, disc.enter, disc.leave, prec))
-            yield Leg(disc, None, multiply(stop, adjugate(start)))
+            yield disc, Split(disc.leave, multiply(stop, adjugate(start)))
         else:
-            yield Leg(disc, expand(disc.frame, prec))
+            yield disc, DiscStep(disc.enter, disc.leave, expand(disc.frame, prec))
 
 
 def growth_of_disc(prec: int, *, alone: bool) -> float:

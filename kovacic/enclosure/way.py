@@ -21,7 +21,7 @@ from flint import acb, acb_poly, arb, arb_poly
 
 from kovacic.algebra.precision import working_precision
 from kovacic.enclosure.frobenius import limit
-from kovacic.enclosure.matrices import NOTHING, MapProduct, Matrix, State, apply
+from kovacic.enclosure.matrices import NOTHING, MapProduct, Matrix, State, adjugate, apply, fundamental, multiply
 from kovacic.enclosure.points import ExactPoint, Number, around_zero, power_of_two, to_acb
 from kovacic.enclosure.singular import Singular
 from kovacic.errors import InputError, LimitExceeded
@@ -101,6 +101,69 @@ class Homogeneous:
     """A step of an equation without a right-hand side."""
 
     added: ClassVar[State] = NOTHING
+
+
+Columns = tuple[Local, Local]
+"""The solutions with the states (1, 0) and (0, 1) at the centre of a disc."""
+
+
+def transition(columns: Columns, x: ExactPoint) -> Matrix:
+    """From the state at the centre to that at x."""
+    first, second = columns
+    return fundamental(first.state(x), second.state(x))
+
+
+@dataclass(frozen=True, eq=False)
+class DiscStep:
+    """A disc of a way by its solutions: `own` is one of the equation with its right-hand side, zero at the centre, and the
+    derivative of `area` is the Wronskian over that at the centre; without it that is constant."""
+
+    enter: ExactPoint
+    leave: ExactPoint
+    columns: Columns
+    own: Local | None = None
+    area: Local | None = None
+
+    @cached_property
+    def _to_centre(self) -> Matrix:
+        """From (y, y') where it is entered to that at the centre."""
+        m = adjugate(transition(self.columns, self.enter))
+        if self.area is None:
+            return m
+        w = self.area.state(self.enter)[1]
+        return m[0] / w, m[1] / w, m[2] / w, m[3] / w
+
+    @cached_property
+    def matrix(self) -> Matrix:
+        """From (y, y') where it is entered to where it is left, without the right-hand side."""
+        return multiply(transition(self.columns, self.leave), self._to_centre)
+
+    def _particular(self, x: ExactPoint) -> State:
+        return NOTHING if self.own is None else self.own.state(x)
+
+    @cached_property
+    def added(self) -> State:
+        """The contribution of the right-hand side: the particular solution that vanishes where the disc is entered."""
+        if self.own is None:
+            return NOTHING
+        y, dy = apply(self.matrix, self._particular(self.enter))
+        p, dp = self._particular(self.leave)
+        return p - y, dp - dy
+
+    def local(self, state: State) -> Local:
+        """The solution in the disc with this state where it is entered."""
+        p, dp = self._particular(self.enter)
+        parts = [] if self.own is None else [(acb(1), self.own)]
+        total: Any = arb_poly([])
+        errors = [arb(0), arb(0)]
+        with working_precision(self.columns[0].precision):
+            at_centre = apply(self._to_centre, (state[0] - p, state[1] - dp))
+            for factor, part in [*zip(at_centre, self.columns, strict=True), *parts]:
+                if not factor.is_zero():
+                    total = total + part.poly * (factor.real if factor.imag.is_zero() else factor)
+                    size = abs(factor).upper()
+                    errors = [errors[0] + size * part.error, errors[1] + size * part.slope_error]
+            return replace(self.columns[0], poly=total, error=errors[0].upper(), slope_error=errors[1].upper())
 
 
 @dataclass

@@ -21,7 +21,8 @@ from kovacic.enclosure.frame import Frame
 from kovacic.enclosure.matrices import Matrix, product
 from kovacic.enclosure.problem import NumericProblem
 from kovacic.enclosure.splitting import Recurrence, bit_burst, is_split, split_legs
-from kovacic.enclosure.taylor import expand, transition
+from kovacic.enclosure.taylor import expand
+from kovacic.enclosure.way import transition
 
 AIRY = System.make((0, 1), (1,))
 LEGENDRE = System.make((-13, 0, 4), (9, 0, -18, 0, 9))  # nu = 1/3: S = -(4/9 (1 - x^2) + 1)/(1 - x^2)^2
