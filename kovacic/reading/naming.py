@@ -345,7 +345,7 @@ def _evidence(tokens: Tokens) -> dict[str, Counter[str]]:
                 "place": True,
                 "function": is_exponent or any(around),
                 "power": after in ("CIRCUMFLEX", "SUPERSCRIPT"),
-                "denominator": before == "SLASH",
+                "denominator": before == "SLASH" or tokens.are(k - 2, "SLASH", "LPAR"),
                 "sum": bool(around) and not {before, after}.isdisjoint(("PLUS", "MINUS")),
             }
             found.setdefault(tokens.pieces[k], Counter()).update(what for what, is_so in stands.items() if is_so)
