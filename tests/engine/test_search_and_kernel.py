@@ -11,65 +11,18 @@ import strategies
 import transform
 from build import QQ, Budget, RatFunc, analyse, function
 from forged import inspector
-from hypothesis import assume, example, given, settings
+from hypothesis import example, given, settings
 from hypothesis import strategies as st
 
 import kovacic
 from kovacic import checker
 from kovacic.engine.invariants import least_valuation
-from kovacic.engine.local import DegreeBound, degree_bound, irregular_difference_squared
+from kovacic.engine.local import DegreeBound, degree_bound
 from kovacic.verify import evidence
 from kovacic.verify.local import has_no_series
-from kovacic.verify.zeros import residue_over_leading_root, zero_counts
+from kovacic.verify.zeros import zero_counts
 
 X = RatFunc(QQ.poly([0, 1]))
-
-
-def exponent_difference_squared(N: Any, q: Any, p: Any, nu: int) -> Any:
-    """(2 r)^2 for the residue r of sqrt(N/(p^(2 nu) q)), by the kernel."""
-    return 4 * N * q * residue_over_leading_root(N, q, p, nu) ** 2 % p
-
-
-@settings(max_examples=12)
-@given(st.data())
-def test_exponents_at_irregular_places_are_those_of_the_square_root(data: st.DataObject) -> None:
-    """The residue of sqrt(S) at a rational point, term by term: S = (sum a_i t^(i-nu))^2 + O(t^(-nu))."""
-    nu, c = data.draw(st.integers(1, 7)), data.draw(strategies.integers(4))
-    a = [data.draw(strategies.fractions(5)) for _ in range(nu)]
-    assume(a[0])
-    t = X - c
-    root = sum((t ** (i - nu) * value for i, value in enumerate(a)), X * 0)
-    S = root * root + t ** (-nu) * data.draw(strategies.integers(3))
-    p = QQ.poly([-c, 1])
-    q, order = S.den.remove(p)
-    assert order == 2 * nu
-    assert exponent_difference_squared(S.num, q, p, nu) == 4 * a[-1] * a[-1]
-
-
-@settings(max_examples=15)
-@given(strategies.irreducibles(3), st.integers(1, 4), strategies.polynomials(0, 6), strategies.polynomials(0, 2))
-def test_exponents_at_conjugate_places_by_taylors_formula(p: Any, nu: int, M: Any, q: Any) -> None:
-    """sqrt(S) = M/p^nu is rational, so that r is its residue; S = M^2 q/(p^(2 nu) q)."""
-    assume(p.gcd(M * q).degree == 0)
-    assert exponent_difference_squared(M * M * q, q, p, nu) == 4 * _residue(M, p, nu) ** 2 % p
-
-
-@settings(max_examples=20)
-@given(strategies.irreducibles(3), st.integers(2, 4), strategies.polynomials(0, 8), strategies.polynomials(0, 2))
-def test_the_search_and_the_kernel_find_the_same_exponents_at_irregular_places(p: Any, nu: int, N: Any, q: Any) -> None:
-    assume(p.gcd(N * q).degree == 0)
-    problem = analyse(RatFunc(N, p ** (2 * nu) * q), Budget())
-    place = next(place for place in problem.finite_places if place.factor == p)
-    assert irregular_difference_squared(place) == exponent_difference_squared(N, q, p, nu)
-
-
-@settings(max_examples=10)
-@given(strategies.irreducibles(3), st.integers(5, 9), strategies.polynomials(0, 26))
-def test_exponents_of_the_search_with_long_numerators(p: Any, nu: int, M: Any) -> None:
-    """sqrt(S) = M/p^nu: its residue at the class of x, and the difference of the exponents is twice that."""
-    assume(p.gcd(M).degree == 0)
-    place = analyse(RatFunc(M * M, p ** (2 * nu)), Budget()).places[0]
-    assert irregular_difference_squared(place) == 4 * _residue(M, p, nu) ** 2 % p
 
 
 @pytest.mark.long
@@ -115,24 +68,6 @@ def _sum_of_residues(f: RatFunc, p: Any) -> Fraction:
         return Fraction(0)
     part = f.num * rest.inverse_modulo(p**order) % p**order
     return (part[order * p.degree - 1] / (p**order).lc).constant()
-
-
-def _residue(M: Any, p: Any, nu: int) -> Any:
-    """The residue of M/p^nu at the class of x: the coefficient of t^(nu-1) in M(x+t) (t/p(x+t))^nu, by Taylor's formula."""
-    terms, current = [], p
-    for k in range(1, nu + 1):
-        current = current.derivative() / k
-        terms.append(current % p)
-    inverse = [terms[0].inverse_modulo(p)]
-    for k in range(1, nu):
-        inverse.append(-sum((terms[j] * inverse[k - j] for j in range(1, k + 1)), M * 0) * inverse[0] % p)
-    series, current = [], M
-    for k in range(nu):
-        series.append(current % p)
-        current = current.derivative() / (k + 1)
-    for _ in range(nu):
-        series = [sum((series[i] * inverse[k - i] for i in range(k + 1)), M * 0) % p for k in range(nu)]
-    return series[nu - 1]
 
 
 @settings(max_examples=15)

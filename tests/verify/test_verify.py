@@ -14,7 +14,7 @@ import pytest
 import strategies
 import textbook
 import transform
-from build import QQ, AlgebraicField, Budget, Ground, Poly, RatFunc, verify
+from build import QQ, AlgebraicField, Budget, Ground, Poly, RatFunc, analyse, verify
 from flint import nmod_poly
 from forged import (
     GroupClaim,
@@ -28,11 +28,12 @@ from forged import (
     inspector,
     primes_with_a_root,
 )
-from hypothesis import given, settings
+from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 
 import kovacic
 from kovacic import InputError, LimitExceeded, Limits, Structure, VerificationFailed
+from kovacic.engine.local import irregular_difference_squared
 from kovacic.verify.factors import inverse, is_a_field, is_irreducible, quotient
 from kovacic.verify.identity import form_numerators, is_normal_form
 from kovacic.verify.primes import homomorphisms, roots_modulo
@@ -43,7 +44,7 @@ from kovacic.verify.series import (
     square_root,
 )
 from kovacic.verify.torsion import order_holds
-from kovacic.verify.zeros import largest_natural_sum, zero_counts
+from kovacic.verify.zeros import largest_natural_sum, residue_over_leading_root, zero_counts
 
 X = RatFunc(QQ.poly([0, 1]))
 PRIMES = [101, 10007, (1 << 61) - 1]
@@ -109,6 +110,74 @@ def test_the_degree_bound_with_conjugate_irregular_poles(p: str, b: str, d: int)
     answer = kovacic.solve(f"1/({p})^4 + ({b})/({p})^3 + {d}")
     assert answer.case is None
     assert answer.verified
+
+
+# ------------------------------------------------------------------------------------------- exponents
+
+
+def exponent_difference_squared(N: Any, q: Any, p: Any, nu: int) -> Any:
+    """(2 r)^2 for the residue r of sqrt(N/(p^(2 nu) q)), by the kernel."""
+    return 4 * N * q * residue_over_leading_root(N, q, p, nu) ** 2 % p
+
+
+@settings(max_examples=12)
+@given(st.data())
+def test_exponents_at_irregular_places_are_those_of_the_square_root(data: st.DataObject) -> None:
+    """The residue of sqrt(S) at a rational point, term by term: S = (sum a_i t^(i-nu))^2 + O(t^(-nu))."""
+    nu, c = data.draw(st.integers(1, 7)), data.draw(strategies.integers(4))
+    a = [data.draw(strategies.fractions(5)) for _ in range(nu)]
+    assume(a[0])
+    t = X - c
+    root = sum((t ** (i - nu) * value for i, value in enumerate(a)), X * 0)
+    S = root * root + t ** (-nu) * data.draw(strategies.integers(3))
+    p = QQ.poly([-c, 1])
+    q, order = S.den.remove(p)
+    assert order == 2 * nu
+    assert exponent_difference_squared(S.num, q, p, nu) == 4 * a[-1] * a[-1]
+
+
+@settings(max_examples=15)
+@given(strategies.irreducibles(3), st.integers(1, 4), strategies.polynomials(0, 6), strategies.polynomials(0, 2))
+def test_exponents_at_conjugate_places_by_taylors_formula(p: Any, nu: int, M: Any, q: Any) -> None:
+    """sqrt(S) = M/p^nu is rational, so that r is its residue; S = M^2 q/(p^(2 nu) q)."""
+    assume(p.gcd(M * q).degree == 0)
+    assert exponent_difference_squared(M * M * q, q, p, nu) == 4 * _residue(M, p, nu) ** 2 % p
+
+
+@settings(max_examples=20)
+@given(strategies.irreducibles(3), st.integers(2, 4), strategies.polynomials(0, 8), strategies.polynomials(0, 2))
+def test_the_search_and_the_kernel_find_the_same_exponents_at_irregular_places(p: Any, nu: int, N: Any, q: Any) -> None:
+    assume(p.gcd(N * q).degree == 0)
+    problem = analyse(RatFunc(N, p ** (2 * nu) * q), Budget())
+    place = next(place for place in problem.finite_places if place.factor == p)
+    assert irregular_difference_squared(place) == exponent_difference_squared(N, q, p, nu)
+
+
+@settings(max_examples=10)
+@given(strategies.irreducibles(3), st.integers(5, 9), strategies.polynomials(0, 26))
+def test_exponents_of_the_search_with_long_numerators(p: Any, nu: int, M: Any) -> None:
+    """sqrt(S) = M/p^nu: its residue at the class of x, and the difference of the exponents is twice that."""
+    assume(p.gcd(M).degree == 0)
+    place = analyse(RatFunc(M * M, p ** (2 * nu)), Budget()).places[0]
+    assert irregular_difference_squared(place) == 4 * _residue(M, p, nu) ** 2 % p
+
+
+def _residue(M: Any, p: Any, nu: int) -> Any:
+    """The residue of M/p^nu at the class of x: the coefficient of t^(nu-1) in M(x+t) (t/p(x+t))^nu, by Taylor's formula."""
+    terms, current = [], p
+    for k in range(1, nu + 1):
+        current = current.derivative() / k
+        terms.append(current % p)
+    inverse = [terms[0].inverse_modulo(p)]
+    for k in range(1, nu):
+        inverse.append(-sum((terms[j] * inverse[k - j] for j in range(1, k + 1)), M * 0) * inverse[0] % p)
+    series, current = [], M
+    for k in range(nu):
+        series.append(current % p)
+        current = current.derivative() / (k + 1)
+    for _ in range(nu):
+        series = [sum((series[i] * inverse[k - i] for i in range(k + 1)), M * 0) % p for k in range(nu)]
+    return series[nu - 1]
 
 
 # ------------------------------------------------------------------------------------------- groups
