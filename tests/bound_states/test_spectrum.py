@@ -419,7 +419,7 @@ def test_a_level_where_the_search_begins() -> None:
     assert kovacic.spectrum("-2/cosh(x)^2", levels=1, digits=8).numeric[0].value.contains(-1)
 
 
-@pytest.mark.parametrize("V", ["-10/cosh(x)^2 + 4/cosh(x)^4", "-15/cosh(x)^2 + 8/cosh(x)^4", "6*tanh(x)^2 - tanh(x)^4"])
+@parametrize("V", ["6*tanh(x)^2 - tanh(x)^4", "-10/cosh(x)^2 + 4/cosh(x)^4", "-15/cosh(x)^2 + 8/cosh(x)^4"], ordinary=1)
 def test_no_level_of_manning_has_a_closed_form(V: str) -> None:
     """A confluent Heun equation, Liouvillian at most at E = V(oo) - (d + 1)^2 or its parts: those above min V are decided."""
     found = kovacic.spectrum(V)
@@ -428,13 +428,14 @@ def test_no_level_of_manning_has_a_closed_form(V: str) -> None:
     assert "no eigenfunction has a closed form" in found.text()
 
 
-@pytest.mark.parametrize(
+@parametrize(
     ("V", "assume", "complete"),
     [
         ("-A/cosh(x)^2 + 4/cosh(x)^4", {}, False),
-        ("-A/cosh(x)^2 - B^2/cosh(x)^4", {"B": "positive"}, False),
         ("x^4 + a*x", {}, True),
+        ("-A/cosh(x)^2 - B^2/cosh(x)^4", {"B": "positive"}, False),
     ],
+    ordinary=2,
 )
 def test_letters_for_which_no_polynomial_of_any_degree_gives_a_level(V: str, assume: Any, complete: bool) -> None:
     """Manning's solutions exp(-(d + 1) x) P(exp(2 x)) grow at one end at least; exp(x^3/3) P(x) decays at one."""
@@ -982,14 +983,14 @@ def test_equations_as_physicists_write_them(equation: str, domain: Any, assume: 
     assert abs(sympy.N((levels.energy - wanted).subs(values), 20)) < 1e-15
 
 
-def test_a_shift_beside_a_kinetic_factor() -> None:
+@parametrize("factor", ["exp(-a*x)*exp(a*b)", "exp(-a*(x - b))"], ordinary=1)
+def test_a_shift_beside_a_kinetic_factor(factor: str) -> None:
     """exp(a*b) is positive, where it is a factor too: no condition is needed."""
-    morse = "-hbar^2/(2*m)*psi'' + D*(1 - exp(-a*(x - b)))^2*psi = E*psi"
-    for equation in (morse, morse.replace("exp(-a*(x - b))", "exp(-a*x)*exp(a*b)")):
-        (levels,) = kovacic.spectrum(equation, assume={"D": "positive", "a": "positive"}).levels
-        assert levels.where == ()
-        at = {"hbar": 1, "m": 1, "D": 8, "a": 1, "b": 5, "n": 1}
-        assert levels.energy.subs(at) == 4 * sympy.Rational(3, 2) - sympy.Rational(9, 8)
+    morse = f"-hbar^2/(2*m)*psi'' + D*(1 - {factor})^2*psi = E*psi"
+    (levels,) = kovacic.spectrum(morse, assume={"D": "positive", "a": "positive"}).levels
+    assert levels.where == ()
+    at = {"hbar": 1, "m": 1, "D": 8, "a": 1, "b": 5, "n": 1}
+    assert levels.energy.subs(at) == 4 * sympy.Rational(3, 2) - sympy.Rational(9, 8)
 
 
 def test_the_kinetic_factor_of_closed_forms() -> None:
@@ -1007,7 +1008,7 @@ def test_other_equations_are_refused(equation: str) -> None:
         kovacic.spectrum(equation)
 
 
-@pytest.mark.parametrize(("V", "numbers"), [("-6/cosh(x)^2", (0, 1)), ("-1/8/cosh(x)^2", (0,)), ("x^2", None)])
+@parametrize(("V", "numbers"), [("-6/cosh(x)^2", (0, 1)), ("x^2", None), ("-1/8/cosh(x)^2", (0,))], ordinary=2)
 def test_the_numbers_of_finitely_many_levels_are_listed(V: str, numbers: Any) -> None:
     found = kovacic.spectrum(V)
     assert found.levels[0].members == numbers
@@ -1134,12 +1135,12 @@ def test_a_norm_has_a_value_for_each_level(V: str, numbers: tuple[int, ...]) -> 
 @parametrize(
     ("V", "domain", "period"),
     [
+        ("2/x^2 + 3/x", ("-oo", 0), (-90, 0)),
         ("5/sin(x)^2 - 3*cot(x)", ("pi", "2*pi"), (3.1415926, 6.2831853)),
         ("5/sin(x)^2 - 3*cot(x)", ("-pi", 0), (-3.1415926, 0)),
-        ("5/sin(x)^2 + 3/cos(x)^2", ("-pi/2", 0), (-1.5707963, 0)),
         ("5/sin(x)^2 + 3/cos(x)^2", ("3*pi/2", "2*pi"), (4.712389, 6.2831853)),
+        ("5/sin(x)^2 + 3/cos(x)^2", ("-pi/2", 0), (-1.5707963, 0)),
         ("5/sinh(x)^2 - 40/cosh(x)^2", ("-oo", 0), (-30, 0)),
-        ("2/x^2 + 3/x", ("-oo", 0), (-90, 0)),
         ("6*tan(x)^2 + 2*tan(x)", ("pi/2", "3*pi/2"), (1.570797, 4.712388)),
     ],
     ordinary=2,
@@ -1172,13 +1173,11 @@ def test_a_charge_is_not_taken_for_a_number_in_silence(V: str, is_charge: bool) 
     assert any("e is Euler's number" in notice for notice in found.notices) == is_charge
 
 
-@pytest.mark.parametrize(
-    ("M", "energies"), [(1, {"3"}), (2, {"5 - 2*sqrt(2)", "5 + 2*sqrt(2)"}), (3, {"3", "7", "15"})]
-)
-def test_a_root_of_a_number_beside_a_letter(M: int, energies: set[str]) -> None:
+def test_a_root_of_a_number_beside_a_letter() -> None:
     """Razavy's potential with the levels that it has where the letter is a number."""
     found = kovacic.spectrum("(sqrt(2)*cosh(2*x) - M)^2")
-    assert {state.energy for state in found.states({"M": M})} == {*map(read_expression, energies)}
+    for M, energies in (1, {"3"}), (2, {"5 - 2*sqrt(2)", "5 + 2*sqrt(2)"}), (3, {"3", "7", "15"}):
+        assert {state.energy for state in found.states({"M": M})} == {*map(read_expression, energies)}
 
 
 @pytest.mark.parametrize(
