@@ -31,6 +31,9 @@ class Structure(Enum):
     OCTAHEDRAL = "octahedral"
     ICOSAHEDRAL = "icosahedral"
 
+    # That of an object, where Enum's would be called in each lookup.
+    __hash__ = object.__hash__
+
     @property
     def case(self) -> int:
         """Kovacic's case."""
@@ -48,6 +51,8 @@ class Rule(Enum):
     IRREGULAR = "an irregular singular point makes the group infinite"
     EXPONENTS = "the exponent differences aren't those of a group of this kind"
     NOT_A_SQUARE = "the exponents at a place aren't rational over the field of its poles"
+
+    __hash__ = object.__hash__
 
 
 @dataclass(frozen=True)

@@ -124,13 +124,15 @@ class Equation:
     @cached_property
     def S(self) -> RatFunc:
         """The coefficient of the normal form, equation (1)."""
-        gamma = over(self.gauge, self.a.field)
-        return lowered(gamma * gamma - gamma.derivative() - self.c / self.a)
+        r, s = self.gauge.num, self.gauge.den
+        a, c = self.a, self.c
+        riccati = r * r - r.derivative() * s + r * s.derivative()  # s^2 (gamma^2 - gamma')
+        return lowered(RatFunc(riccati * (c.den * a.num) - s * s * (c.num * a.den), s * s * (c.den * a.num)))
 
     @cached_property
     def gauge(self) -> RatFunc:
         """The logarithmic derivative -b/(2a) of the gauge factor."""
-        return lowered(-self.b / (2 * self.a))
+        return lowered(RatFunc(-self.b.num * self.a.den, 2 * self.b.den * self.a.num))
 
     @property
     def is_homogeneous(self) -> bool:

@@ -237,8 +237,11 @@ def limited(call: Callable[_P, _R]) -> Callable[_P, _R]:
         if given is None and arguments:
             own = getattr(arguments[0], "limits", None)
             given = own if isinstance(own, Limits) else None
-        with Budget(limits_of(given)).watched():
+        token = _WATCHED.set(Budget(limits_of(given)))
+        try:
             return call(*arguments, **keywords)
+        finally:
+            _WATCHED.reset(token)
 
     return within
 

@@ -185,7 +185,7 @@ class RationalPoly(Poly):
     def __pow__(self, exponent: int) -> RationalPoly:
         if exponent < 0:
             raise ValueError("a polynomial has no negative powers")
-        if (degree := self.degree * exponent) > _LONGEST_FACTORED_HERE:
+        if (degree := self.rep.degree() * exponent) > _LONGEST_FACTORED_HERE:
             check_duration(_POWER_SECONDS * degree * exponent * self.height_bits(), f"a power of degree {degree}")
         return RationalPoly(self.rep**exponent)
 

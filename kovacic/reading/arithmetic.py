@@ -229,6 +229,8 @@ class Arithmetic:
 
     def _check(self, degree: int, bits: int) -> None:
         limits = self.limits
+        if degree <= limits.degree and (degree + 1) * bits <= limits.bits:
+            return
         if degree > limits.degree:
             raise LimitExceeded(f"a degree of up to {degree}, above the limit of {limits.degree}", limit="degree")
         if bits > limits.bits:
@@ -237,7 +239,6 @@ class Arithmetic:
         if (degree + 1) * bits > most:
             size = f"up to {degree + 1} coefficients of up to {bits} bits"
             raise LimitExceeded(f"{size}, above the limit of {most} bits for all together", limit="bits")
-        check_time()
 
     def _check_terms(self, *factors: tuple[Poly, int]) -> None:
         """Refuses products of powers P^n, as pairs (P, n), with too many terms in x and the parameters.
@@ -246,6 +247,7 @@ class Arithmetic:
         """
         if all(isinstance(factor, RationalPoly) for factor, _ in factors):
             return  # the degree is checked
+        check_time()
         sparse = 1
         degrees: list[int] = []
         for factor, n in factors:

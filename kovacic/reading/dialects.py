@@ -28,7 +28,7 @@ from kovacic.reading.lexer import (
     unexpected,
 )
 from kovacic.reading.names import BARE, FUNCTION_NAMES, GREEK, LETTER, SPECIAL_LETTERS, STEPS, is_function, unglued
-from kovacic.reading.notations import CLOSING, LATEX, NOTATIONS, OPENING, Tokens, primes_of, rewritten
+from kovacic.reading.notations import CLOSING, LATEX, NOTATIONS, OPENING, Sentence, Tokens, primes_of, rewritten
 
 _SIGN_KINDS = {
     "+": "PLUS",
@@ -191,7 +191,7 @@ def _is_name(text: str) -> bool:
     return (len(bare) == 1 and bare.isalpha()) or bare in GREEK or bare in SPECIAL_LETTERS
 
 
-def translated(text: str, scan: Tokens, *, condition: bool = False) -> Tokens:
+def translated(text: str, scan: Tokens, *, condition: bool = False) -> Sentence:
     """The tokens of an expression or equation, in which `NOTATIONS` are rewritten but for those that LaTeX hides.
 
     Those of a `condition` have the unknown function at points.  Raises `ParseError` for what has no meaning in any notation.
@@ -229,7 +229,7 @@ class _Translation:
         self.partner = scan.partners
         self.bars = _bars(scan) if scan.has("|") else {}
 
-    def tokens(self) -> Tokens:
+    def tokens(self) -> Sentence:
         while self.k < len(self.scan):
             check_time()
             if self.k in self.closers:
@@ -251,7 +251,7 @@ class _Translation:
             token.kind == "PRIMES" and DOTS in token.text for token in self.scan
         )
         variable = "t" if has_dots else None
-        return Tokens([*self.found, Token("$END", "", end, end)], self.text, variable)
+        return Sentence.of([*self.found, Token("$END", "", end, end)], self.text, variable)
 
     def write(self, kind: str, piece: str, token: Token | None = None) -> None:
         """A token where the `token` stands, or behind what was written before."""
@@ -633,7 +633,7 @@ _PLAIN_TOKEN = re.compile(r"[0-9]+|[A-Za-z]'*|\*\*|[^ ]")
 _PLAIN_KINDS = {**_SIGN_KINDS, **dict.fromkeys(ascii_letters, "NAME"), **dict.fromkeys(digits, "NUMBER")}
 
 
-def plain_tokens(text: str) -> Tokens | None:
+def plain_tokens(text: str) -> Sentence | None:
     """The result of `translated` for a text in this package's own notation; None for other texts.
 
     >>> plain_tokens("y''(x) = -4 y").pieces, plain_tokens("y'' = sin x")
@@ -641,16 +641,14 @@ def plain_tokens(text: str) -> Tokens | None:
     """
     if _PLAIN_TEXT.fullmatch(text) is None or text.isspace():
         return None
-    found: list[Token] = []
-    for match in _PLAIN_TOKEN.finditer(text):
-        piece = match[0]
-        kind = _PLAIN_KINDS.get(piece) or ("NUMBER" if piece.isdecimal() else "PRIMED")
-        if piece == "(" and found and found[-1].kind in ("NAME", "PRIMED"):
-            found[-1] = found[-1]._replace(kind="HEAD")
-        found.append(Token(kind, _WRITTEN_AS.get(kind, piece), *match.span()))
-    return Tokens([*found, Token("$END", "", len(text), len(text))], text)
+    pieces = _PLAIN_TOKEN.findall(text)
+    kinds = [_PLAIN_KINDS.get(piece) or ("NUMBER" if piece.isdecimal() else "PRIMED") for piece in pieces]
+    for k, piece in enumerate(pieces):
+        if piece == "(" and k and kinds[k - 1] in ("NAME", "PRIMED"):
+            kinds[k - 1] = "HEAD"
+    return Sentence([*kinds, "$END"], [*pieces, ""], text)
 
 
-def tokenize(text: str) -> Tokens:
+def tokenize(text: str) -> Sentence:
     """The tokens of an expression.  Raises `ParseError` for what has no meaning."""
     return plain_tokens(text) or translated(text, rewritten(Tokens(scanned(text)), NOTATIONS))

@@ -28,7 +28,7 @@ from kovacic.reading.names import (
     is_letter,
     unglued,
 )
-from kovacic.reading.notations import Tokens, pattern
+from kovacic.reading.notations import Sentence, pattern
 
 #: Names that stand for the variable where they are the only one; others might be parameters of an equation in x.
 USUAL_VARIABLES = frozenset("xtzsruXTZθφτξρζ") | {"theta", "phi", "tau", "xi", "rho", "zeta"}
@@ -61,7 +61,7 @@ class Named(NamedTuple):
     `guesses` are those of the notes that say what was guessed.
     """
 
-    tokens: Tokens
+    tokens: Sentence
     variable: str
     unknown: str
     notes: tuple[str, ...]
@@ -76,7 +76,7 @@ class Vocabulary:
     unknown: str | None = None
     declared: frozenset[str] = frozenset()
 
-    def of(self, tokens: Tokens, *, is_equation: bool) -> Named:
+    def of(self, tokens: Sentence, *, is_equation: bool) -> Named:
         """The names of an equation, or of S alone.  Raises `InputError` for unknown and for ambiguous names."""
         y, has_operator = self._unknown_of(tokens) if is_equation else ("", False)
         if is_equation:
@@ -98,11 +98,11 @@ class Vocabulary:
         guesses += self._imaginary_unit(split, x, y)
         named = _with_factors(split, x, y) if "HEAD" in split.kinds else split
         if has_operator:
-            new = [t._replace(kind="OPERATOR", text=x) if t[:2] == ("NAME", OPERATOR) else t for t in named]
-            named = Tokens(new, tokens.text, tokens.variable)
+            new = [t._replace(kind="OPERATOR", text=x) if t[:2] == ("NAME", OPERATOR) else t for t in named.rows]
+            named = Sentence.of(new, tokens.text, tokens.variable)
         return Named(named, x, y, (*notes, *guesses), tuple(guesses))
 
-    def _unknown_of(self, tokens: Tokens) -> tuple[str, bool]:
+    def _unknown_of(self, tokens: Sentence) -> tuple[str, bool]:
         """The unknown function of an equation, and True if D stands for the derivative."""
         has_operator = (
             OPERATOR not in self.declared
@@ -116,12 +116,12 @@ class Vocabulary:
             y = usual[-1] if has_operator and usual and UNKNOWN not in usual else UNKNOWN
         return y, has_operator
 
-    def _imaginary_unit(self, tokens: Tokens, x: str, y: str) -> list[str]:
+    def _imaginary_unit(self, tokens: Sentence, x: str, y: str) -> list[str]:
         """Notes that i or j, undeclared, is taken as a parameter."""
         parameters = [name for name in "ij" if name in tokens.names and name not in (x, y, *self.declared)]
         return [f"{name} is a parameter; the imaginary unit is I" for name in parameters]
 
-    def _with_products(self, tokens: Tokens, x: str, y: str) -> tuple[Tokens, list[str]]:
+    def _with_products(self, tokens: Sentence, x: str, y: str) -> tuple[Sentence, list[str]]:
         """With x y for xy; notes say so.  Raises `ParseError` for all other names that aren't known."""
         known = {x, y, *self.declared, *NUMBER_NAMES}
         unknown = [
@@ -132,7 +132,7 @@ class Vocabulary:
         ]
         if not unknown:
             return tokens, []
-        rows = list(tokens)
+        rows = list(tokens.rows)
         notes: dict[str, None] = {}
         for k in reversed(unknown):
             kind, piece, start, end = rows[k]
@@ -144,9 +144,9 @@ class Vocabulary:
                 raise tokens.error(ParseError, f"{name} in an exponent can be read in two ways", k, k + 1, hint=hint)
             notes[f"{name} was read as {name[0]}*{name[1]}"] = None
             rows[k : k + 1] = [Token("NAME", name[0], start, start + 1), Token(kind, piece[1:], start + 1, end)]
-        return Tokens(rows, tokens.text, tokens.variable), list(reversed(notes))
+        return Sentence.of(rows, tokens.text, tokens.variable), list(reversed(notes))
 
-    def _is_known(self, tokens: Tokens, k: int, x: str, y: str) -> bool:
+    def _is_known(self, tokens: Sentence, k: int, x: str, y: str) -> bool:
         name = tokens.pieces[k].rstrip(PRIMES)
         is_call = tokens.kinds[k] == "HEAD"
         if is_function(name) or (is_call and (name in DERIVATIVES or name in NUMBER_CALLS)):
@@ -160,7 +160,7 @@ class Vocabulary:
                 return False  # x2 alone may be a product, or a power; x1 and x2 are two points
         return is_letter(name) or is_call
 
-    def _unknown_name(self, tokens: Tokens, k: int, x: str, y: str) -> InputError:
+    def _unknown_name(self, tokens: Sentence, k: int, x: str, y: str) -> InputError:
         name = tokens.pieces[k].rstrip(PRIMES)
         meant = f"write {unglued(name)}"
         said = f"{name} is one name, and not a known one"
@@ -183,14 +183,14 @@ class Vocabulary:
         return tokens.error(ParseError, said, k, k + 1, hint=hint, shell=f"{meant}, or declare it: --names {name}")
 
 
-def _guesses(tokens: Tokens) -> list[str]:
+def _guesses(tokens: Sentence) -> list[str]:
     """What may have been meant in another way: x^1/2 is x/2."""
-    found = _ROOT.search(tokens.spaced) if "SLASH" in tokens.kinds else None
+    found = _ROOT.search(tokens.line)
     said = "^1/{0} was read as (...)^1 divided by {0}; a root is written ^(1/{0})"
     return [*([said.format(found[1])] if found else []), *_divided_functions(tokens)]
 
 
-def _divided_functions(tokens: Tokens) -> Iterator[str]:
+def _divided_functions(tokens: Sentence) -> Iterator[str]:
     """Notes on sin x/2, which is (sin x)/2 and may be meant as sin(x/2): no parentheses, and no blank before the slash."""
     opened: list[int] = []
     for k, kind in enumerate(tokens.kinds if "HEAD" in tokens.kinds else ()):
@@ -198,24 +198,24 @@ def _divided_functions(tokens: Tokens) -> Iterator[str]:
             opened.append(k)
         elif kind == "RPAR" and opened:
             first = opened.pop() - 1
-            is_bare = tokens[k].start == tokens[k].end and tokens.kinds[first] == "HEAD"
-            if is_bare and tokens.are(k + 1, "SLASH") and tokens[k - 1].end == tokens[k + 1].start:
+            is_bare = tokens.rows[k].start == tokens.rows[k].end and tokens.kinds[first] == "HEAD"
+            if is_bare and tokens.are(k + 1, "SLASH") and tokens.rows[k - 1].end == tokens.rows[k + 1].start:
                 function, below = tokens.piece(first, k), tokens.pieces[k + 2]
                 yield f"{function}/{below} was read as ({function})/{below}"
 
 
-def _check_stiffness(tokens: Tokens, declared: Collection[str]) -> None:
+def _check_stiffness(tokens: Sentence, declared: Collection[str]) -> None:
     """Raises `ParseError` for E I, which may be a stiffness, or the energy times the imaginary unit."""
     has_both = {"E", "I"} <= tokens.names.keys() and "I" not in declared
-    found = _STIFFNESS.search(tokens.spaced) if has_both else None
+    found = _STIFFNESS.search(tokens.rows.spaced) if has_both else None
     if found is None:
         return
     hint = "take one letter for a stiffness, such as B; or declare I as a parameter: "
     said = "E I may be a stiffness, or an energy times the imaginary unit"
-    raise tokens.error(ParseError, said, *tokens.span(found), hint=f"{hint}parameters=['I']", shell=f"{hint}--names I")
+    raise tokens.error(ParseError, said, *tokens.rows.span(found), hint=f"{hint}parameters=['I']", shell=f"{hint}--names I")
 
 
-def _check_decimals(tokens: Tokens, variable: str) -> None:
+def _check_decimals(tokens: Sentence, variable: str) -> None:
     """Raises `ParseError` for 2e-3 with the variable e: it is 0.002, or 2*e - 3."""
     for k, text in enumerate(tokens.pieces):
         if tokens.kinds[k] != "NUMBER" or variable not in text:
@@ -228,30 +228,30 @@ def _check_decimals(tokens: Tokens, variable: str) -> None:
         raise tokens.error(ParseError, message, k, k + 1, hint=hint)
 
 
-def _check_two_readings(tokens: Tokens, readings: re.Pattern[str], hint: str, unknown: str = "") -> None:
+def _check_two_readings(tokens: Sentence, readings: re.Pattern[str], hint: str, unknown: str = "") -> None:
     """Raises `ParseError` for a name, other than the unknown, that may belong to the number before it."""
-    for found in readings.finditer(tokens.spaced) if {"e", "E"} & tokens.names.keys() else ():
-        begin, behind = tokens.span(found)
+    for found in readings.finditer(tokens.rows.spaced) if {"e", "E"} & tokens.names.keys() else ():
+        begin, behind = tokens.rows.span(found)
         if found[1] != unknown:
             said = hint.format(tokens.piece(begin, behind - 1).rpartition("^")[2].strip(), tokens.pieces[behind - 1])
             whole = tokens.piece(begin, behind)
             raise tokens.error(ParseError, f"{whole} can be read in two ways", begin, behind, hint=said)
 
 
-def _with_factors(tokens: Tokens, x: str, y: str) -> Tokens:
+def _with_factors(tokens: Sentence, x: str, y: str) -> Sentence:
     """With factors for heads that are no functions: n(n+1) is a product where n occurs without parentheses, too."""
     alone = {*tokens.names, x} - {y, *FUNCTION_NAMES, *DERIVATIVES}
-    rows = list(tokens)
-    for k, (kind, name, _, _) in enumerate(tokens[:-3]):
+    rows = list(tokens.rows)
+    for k, (kind, name, _, _) in enumerate(tokens.rows[:-3]):
         is_applied = tokens.are(k + 2, "NAME", "RPAR") or tokens.are(k + 2, "NUMBER", "RPAR")
         if kind == "HEAD" and name in alone and not is_applied:
             rows[k] = rows[k]._replace(kind="NAME")
-    return Tokens(rows, tokens.text, tokens.variable)
+    return Sentence.of(rows, tokens.text, tokens.variable)
 
 
-def _primed(tokens: Tokens, declared: Collection[str]) -> str | None:
+def _primed(tokens: Sentence, declared: Collection[str]) -> str | None:
     """The first name that has primes; x'' for mx''."""
-    found = _PRIMED.search(tokens.spaced)
+    found = _PRIMED.search(tokens.line)
     if found is None:
         return None
     name = found[1]
@@ -259,7 +259,7 @@ def _primed(tokens: Tokens, declared: Collection[str]) -> str | None:
     return name[1] if is_glued else name
 
 
-def _operand(tokens: Tokens) -> str | None:
+def _operand(tokens: Sentence) -> str | None:
     """The name after the parentheses around an operator: y in (d^2/dx^2 - x) y."""
     depth = 0
     for k in range(tokens.kinds.index("OPERATOR"), len(tokens.kinds)) if "OPERATOR" in tokens.kinds else ():
@@ -269,13 +269,13 @@ def _operand(tokens: Tokens) -> str | None:
     return None
 
 
-def differentiated(tokens: Tokens) -> list[str]:
+def differentiated(tokens: Sentence) -> list[str]:
     """The names that have primes, or are y in diff(y, x), diff(y(x), x) and diff(y)."""
-    names = (found[1] or found[2] or found[3] for found in _DIFFERENTIATED.finditer(tokens.spaced))
+    names = (found[1] or found[2] or found[3] for found in _DIFFERENTIATED.finditer(tokens.line))
     return [name for name in names if not is_function(name) and name not in DERIVATIVES]
 
 
-def _equation_variable(tokens: Tokens, y: str, declared: Collection[str]) -> tuple[str, str | None]:
+def _equation_variable(tokens: Sentence, y: str, declared: Collection[str]) -> tuple[str, str | None]:
     """The variable of an equation, and a note where it was guessed.
 
     It is the argument of the unknown function, or what is differentiated by, or time where the notation says so; else x or t
@@ -310,7 +310,7 @@ def _equation_variable(tokens: Tokens, y: str, declared: Collection[str]) -> tup
     return default, f"{default} is the variable, {', '.join(names[:6])} {which}"
 
 
-def _single_letters(tokens: Tokens, declared: Collection[str]) -> list[str]:
+def _single_letters(tokens: Sentence, declared: Collection[str]) -> list[str]:
     """The plain names, those of two glued letters apart."""
     found: dict[str, None] = {}
     for name in tokens.names:
@@ -319,9 +319,9 @@ def _single_letters(tokens: Tokens, declared: Collection[str]) -> list[str]:
     return [name for name in found if not is_function(name)]
 
 
-def argument_of(tokens: Tokens, unknown: str) -> str | None:
+def argument_of(tokens: Sentence, unknown: str) -> str | None:
     """The name in y''(x), or in D(y, x) and Derivative(y, (x, 2)); None if the unknown function stands alone."""
-    found = pattern(rf"{re.escape(unknown)}'* (?:\( ({_NAME}) \)|, (?:\( )?({_NAME}))").search(tokens.spaced)
+    found = pattern(rf"{re.escape(unknown)}'* (?:\( ({_NAME}) \)|, (?:\( )?({_NAME}))").search(tokens.line)
     return found and (found[1] or found[2])
 
 
@@ -329,7 +329,7 @@ def argument_of(tokens: Tokens, unknown: str) -> str | None:
 _EVIDENCE = ("function", "power", "denominator", "sum")
 
 
-def _evidence(tokens: Tokens) -> dict[str, Counter[str]]:
+def _evidence(tokens: Sentence) -> dict[str, Counter[str]]:
     """How often each name stands where only a variable does, by the kinds of `_EVIDENCE`, and at a "place" at all."""
     found: dict[str, Counter[str]] = {}
     around: list[bool] = []  # of the open parentheses: those of a function or an exponent?
@@ -367,7 +367,7 @@ def _varies(name: str, evidence: dict[str, Counter[str]], names: Collection[str]
     return name == "z" or found["place"] > 1 or any(found[what] for what in _EVIDENCE)
 
 
-def _variable_of_S(tokens: Tokens, _: str, declared: Collection[str]) -> tuple[str, str | None]:
+def _variable_of_S(tokens: Sentence, _: str, declared: Collection[str]) -> tuple[str, str | None]:
     """The only name that isn't one of a number, the energy or a function, or x.  Asks where it can't be told."""
     no_variables = {*NUMBER_NAMES, ENERGY, UNKNOWN, *declared}
     letters = [name for name in _single_letters(tokens, declared) if is_letter(name)]

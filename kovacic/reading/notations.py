@@ -48,50 +48,14 @@ def pattern(text: str) -> re.Pattern[str]:
 
 
 class Tokens(list[Token]):
-    """A sequence of tokens, never changed after creation, with the queries of rules, names and the parser.
-
-    The parser's stand in `text`, and the last one is `$END`, and empty; `variable` is what their notation stands for where
-    none is named.
-    """
-
-    def __init__(self, tokens: Iterable[Token] = (), text: str = "", variable: str | None = None) -> None:
-        super().__init__(tokens)
-        self.text = text
-        self.variable = variable
-
-    @cached_property
-    def kinds(self) -> list[str]:
-        return [token.kind for token in self]
-
-    @cached_property
-    def pieces(self) -> list[str]:
-        return [token.text for token in self]
-
-    @cached_property
-    def names(self) -> dict[str, int]:
-        """The distinct plain names in order of appearance, each with the index of its first token."""
-        found: dict[str, int] = {}
-        for k, token in enumerate(self):
-            if token.kind == "NAME":
-                found.setdefault(token.text, k)
-        return found
-
-    def are(self, k: int, *kinds: str) -> bool:
-        return self.kinds[k : k + len(kinds)] == [*kinds]
-
-    def piece(self, begin: int, end: int) -> str:
-        return self.text[self[begin].start : self[end - 1].end] if end > begin else ""
-
-    def error(self, kind: type[InputError], message: str, begin: int, end: int, **hints: str | None) -> InputError:
-        """An error that marks the tokens begin, ..., end - 1; `hints` are hint and shell."""
-        start = self[begin].start
-        return kind(message, text=self.text, position=start, length=max(1, self[end - 1].end - start), **hints)
+    """A sequence of tokens, never changed after creation, with the queries of rules."""
 
     @cached_property
     def marks(self) -> frozenset[str]:
         """Texts and kinds of the tokens; PROSE marks an unknown word, "_" an index, "." a number such as "1."."""
-        found = {*self.pieces, *self.kinds}
+        found = set()
         for kind, text, _, _ in self:
+            found |= {kind, text}
             if kind == "WORD" and len(text) > 2:
                 found.add("PROSE" if text.isalpha() and text not in _KNOWN_WORDS else "_" if "_" in text else text)
             elif kind == "NUMBER" and text[-1] == ".":
@@ -136,6 +100,63 @@ class Tokens(list[Token]):
     def is_enclosed(self) -> bool:
         """True if the first token is a bracket closed by the last one."""
         return len(self) > 1 and self.partners.get(0) == len(self) - 1
+
+
+class Sentence:
+    """The tokens of an expression or equation in `text`, for names and the parser; the last one is `$END`, and empty.
+
+    Token k is `pieces[k]`, of the kind `kinds[k]`.  The `rows`, which have the places as well, are looked for in the text, in
+    which the pieces stand one after the other, by whom asks for them, unless they are given.  `variable` is what the notation
+    stands for where none is named.
+    """
+
+    def __init__(self, kinds: list[str], pieces: list[str], text: str, variable: str | None = None) -> None:
+        self.kinds = kinds
+        self.pieces = pieces
+        self.text = text
+        self.variable = variable
+
+    @classmethod
+    def of(cls, rows: Iterable[Token], text: str, variable: str | None = None) -> Sentence:
+        rows = Tokens(rows)
+        sentence = cls([token.kind for token in rows], [token.text for token in rows], text, variable)
+        sentence.rows = rows
+        return sentence
+
+    @cached_property
+    def rows(self) -> Tokens:
+        found = Tokens()
+        end = 0
+        for kind, piece in zip(self.kinds, self.pieces, strict=True):
+            start = self.text.index(piece, end) if piece else len(self.text)
+            end = start + len(piece)
+            found.append(Token(kind, piece, start, end))
+        return found
+
+    @cached_property
+    def names(self) -> dict[str, int]:
+        """The distinct plain names in order of appearance, each with the index of its first token."""
+        found: dict[str, int] = {}
+        for k, kind in enumerate(self.kinds):
+            if kind == "NAME":
+                found.setdefault(self.pieces[k], k)
+        return found
+
+    @cached_property
+    def line(self) -> str:
+        """The tokens as one text for patterns in which gaps don't count."""
+        return " ".join(self.pieces)
+
+    def are(self, k: int, *kinds: str) -> bool:
+        return self.kinds[k : k + len(kinds)] == [*kinds]
+
+    def piece(self, begin: int, end: int) -> str:
+        return self.text[self.rows[begin].start : self.rows[end - 1].end] if end > begin else ""
+
+    def error(self, kind: type[InputError], message: str, begin: int, end: int, **hints: str | None) -> InputError:
+        """An error that marks the tokens begin, ..., end - 1; `hints` are hint and shell."""
+        start = self.rows[begin].start
+        return kind(message, text=self.text, position=start, length=max(1, self.rows[end - 1].end - start), **hints)
 
 
 class Rewrite(NamedTuple):

@@ -20,7 +20,7 @@ from typing import Any, NamedTuple
 
 from kovacic.errors import InputError, LimitExceeded, NotRational, ParseError
 from kovacic.reading.lexer import DERIVATIVES, PRIMES, SUPERSCRIPT_DIGITS, unexpected
-from kovacic.reading.notations import Tokens
+from kovacic.reading.notations import Sentence
 
 # Strengths; no operation reaches beyond a parenthesis that is open.
 _OPEN, _SUM, _PRODUCT, _SIGN, _IMPLICIT, _POWER = range(6)
@@ -44,7 +44,7 @@ _GROUPED = 3
 class Site:
     """Where the operation stands that is being carried out: tokens `begin`, ..., `end - 1`, the last operand from `right`."""
 
-    tokens: Tokens
+    tokens: Sentence
     begin: int = 0
     right: int = 0
     end: int = 0
@@ -60,7 +60,7 @@ class Site:
     def located(self, error: Exception) -> Exception:
         """An error of the operation with its place in the text."""
         if isinstance(error, LimitExceeded):
-            where = f"{self.text()} at position {self.tokens[self.begin].start}"
+            where = f"{self.text()} at position {self.tokens.rows[self.begin].start}"
             said = f"{error} while {where} was read" if error.limit == "seconds" else f"{where} would have {error}"
             return LimitExceeded(said, limit=error.limit)
         if isinstance(error, ZeroDivisionError):
@@ -74,7 +74,7 @@ class Site:
         return error
 
 
-def evaluate(tokens: Tokens, reader: Any) -> Any:
+def evaluate(tokens: Sentence, reader: Any) -> Any:
     """The value of a text to a reader: a `RationalReader`, or what extends it.
 
     Raises `ParseError` where it isn't an expression or equation, and what the reader raises, with the place in the text.
@@ -125,12 +125,13 @@ class _Parser:
     Each of these methods takes the number of its token, and answers whether an operand is expected next.
     """
 
-    def __init__(self, tokens: Tokens, reader: Any) -> None:
+    def __init__(self, tokens: Sentence, reader: Any) -> None:
         self.tokens = tokens
         self.kinds = tokens.kinds
         self.pieces = tokens.pieces
         self.reader = reader
         self.arithmetic = reader.arithmetic
+        self.atoms = {kind: getattr(reader, method) for kind, method in _ATOMS.items()}
         self.site = Site(tokens)
         self.operands: list[_Operand] = []
         #: The strengths and tokens of the operators whose right operand is still being read, and of the open groups.
@@ -162,8 +163,7 @@ class _Parser:
     def atom(self, k: int) -> bool:
         """A number, a name, or a name with primes."""
         self.at(k, k, k + 1)
-        read = getattr(self.reader, _ATOMS[self.kinds[k]])
-        self.operands.append(_Operand(read(self.pieces[k]), k))
+        self.operands.append(_Operand(self.atoms[self.kinds[k]](self.pieces[k]), k))
         return False
 
     def sign(self, k: int) -> bool:
@@ -269,7 +269,7 @@ class _Parser:
         self.complete(k)
         group = self.groups[-1]
         if not group.is_pair:
-            raise unexpected(self.tokens.text, self.tokens[k])
+            raise unexpected(self.tokens.text, self.tokens.rows[k])
         group.signs.append(self.pieces[k])
         group.arguments.append(self.operands.pop())
         return True
@@ -342,10 +342,11 @@ class _Parser:
             left.split = left.split or right.begin
         else:
             is_product = self.kinds[k] == "STAR"
-            # (1/2m) y'': the quotient is the factor of a derivative.
-            is_factor = self.kinds[end] == "RPAR" and self.is_derivative(end + 1)
-            if right.split and not is_product and not is_factor:
-                raise _ambiguous(self.tokens, self.site, k, right.split)
+            if right.split and not is_product:
+                # (1/2m) y'': the quotient is the factor of a derivative.
+                is_factor = self.kinds[end] == "RPAR" and self.is_derivative(end + 1)
+                if not is_factor:
+                    raise _ambiguous(self.tokens, self.site, k, right.split)
             operation = self.arithmetic.multiply if is_product else self.arithmetic.divide
             left.value = operation(left.value, right.value)
             left.split = 0
@@ -378,7 +379,7 @@ _INFIX = {
 }
 
 
-def _check_neighbours(tokens: Tokens, reader: Any, begin: int, right: int) -> None:
+def _check_neighbours(tokens: Sentence, reader: Any, begin: int, right: int) -> None:
     """Refuses a product without a sign whose second factor, from token `right`, can't be told from the first one."""
     left = right - 1
     is_applied = tokens.pieces[begin] in DERIVATIVES and tokens.kinds[right] == "LPAR"  # D(y)(x)
@@ -395,7 +396,7 @@ def _check_neighbours(tokens: Tokens, reader: Any, begin: int, right: int) -> No
     raise tokens.error(ParseError, message, left, right + 1, hint="write a product with *")
 
 
-def _ambiguous(tokens: Tokens, site: Site, slash: int, split: int) -> InputError:
+def _ambiguous(tokens: Sentence, site: Site, slash: int, split: int) -> InputError:
     """What to say of a/b c, where c begins with token `split`."""
     spans = ((site.begin, slash), (site.right, site.end), (site.right, split), (split, site.end))
     above, below, first, rest = (shortened(tokens.piece(*span)) for span in spans)
@@ -408,7 +409,7 @@ def _ambiguous(tokens: Tokens, site: Site, slash: int, split: int) -> InputError
 _Fault = tuple[str, int, int, str | None]
 
 
-def _syntax_error(tokens: Tokens, k: int, opened: Sequence[int]) -> InputError:
+def _syntax_error(tokens: Sentence, k: int, opened: Sequence[int]) -> InputError:
     """What is wrong with token k, which can't follow what was read; `opened` are the open parentheses."""
     kind, piece = tokens.kinds[k], tokens.pieces[k]
     before = tokens.kinds[k - 1] if k else ""
@@ -437,7 +438,7 @@ def _syntax_error(tokens: Tokens, k: int, opened: Sequence[int]) -> InputError:
     return tokens.error(ParseError, message, begin, last + 1, hint=hint)
 
 
-def _incomplete(tokens: Tokens, end: int, opened: Sequence[int]) -> _Fault:
+def _incomplete(tokens: Sentence, end: int, opened: Sequence[int]) -> _Fault:
     """Of the end of the text."""
     last = end - 1
     if end and tokens.kinds[last] in (*_BINARY_KINDS, "EQUAL", "COMMA"):
@@ -448,10 +449,10 @@ def _incomplete(tokens: Tokens, end: int, opened: Sequence[int]) -> _Fault:
     return "this parenthesis is never closed", opened[-1], opened[-1], hint
 
 
-def _comma(tokens: Tokens, k: int) -> _Fault:
+def _comma(tokens: Sentence, k: int) -> _Fault:
     """Of a comma outside calls, which may be that of a decimal, or separate values."""
     begin, hint = k, "decimals are written with a point, and one expression is one S"
-    if tokens.are(k - 1, "NUMBER", "COMMA", "NUMBER") and tokens[k - 1].end + 1 == tokens[k + 1].start:
+    if tokens.are(k - 1, "NUMBER", "COMMA", "NUMBER") and tokens.rows[k - 1].end + 1 == tokens.rows[k + 1].start:
         begin, whole, digits = k - 1, tokens.pieces[k - 1], tokens.pieces[k + 1]
         grouped = f"; digits aren't grouped: {whole}{digits}" if len(digits) == _GROUPED else ""
         hint = f"decimals are written with a point: {whole}.{digits}{grouped}"

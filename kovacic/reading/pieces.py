@@ -32,6 +32,7 @@ from kovacic.reading.notations import (
     NOTATIONS,
     OPENING,
     SOLVERS,
+    Sentence,
     Tokens,
     pattern,
     rewritten,
@@ -97,7 +98,7 @@ class Paste:
         return next((scan for scan in scans if self.is_equation and not _is_equation(scan)), scans[1])
 
     @cached_property
-    def equations(self) -> list[Tokens]:
+    def equations(self) -> list[Sentence]:
         return [translated(self.text, scan) for scan in self.scans("equation")]
 
     @cached_property
@@ -558,13 +559,13 @@ def _placed_values(text: str, scan: Tokens) -> Iterator[PlacedValue]:
             hint = "write y(0) = 1, y'(0) = 0"
             if calls:
                 k = calls[0]
-                hint = f"write {text[scan[0].start : tokens[k - 1].end]}, {text[tokens[k].start : scan[-1].end]}"
+                hint = f"write {text[scan[0].start : tokens.rows[k - 1].end]}, {text[tokens.rows[k].start : scan[-1].end]}"
             raise error_at(text, "a comma is missing between two values", scan, hint)
     for place in places:
         yield PlacedValue(place, value)
 
 
-def _is_last_call(tokens: Tokens, k: int) -> bool:
+def _is_last_call(tokens: Sentence, k: int) -> bool:
     """True if the call that begins with token k ends with the text."""
     depth = 0
     for j, kind in enumerate(tokens.kinds[k + 1 : -1], k + 1):

@@ -19,7 +19,7 @@ from kovacic.reading.dialects import plain_tokens
 from kovacic.reading.expression import RationalReader
 from kovacic.reading.lexer import PRIMES, check_length
 from kovacic.reading.naming import Vocabulary, chosen_variable
-from kovacic.reading.notations import Tokens
+from kovacic.reading.notations import Sentence
 from kovacic.reading.parser import evaluate
 from kovacic.reading.pieces import Paste, taken_apart
 
@@ -32,7 +32,7 @@ class Source(NamedTuple):
     unknown: str = ""
     text: str | None = None
     notes: tuple[str, ...] = ()
-    tokens: Tokens | None = None
+    tokens: Sentence | None = None
     declared: frozenset[str] = frozenset()
     #: The unknown function was named: others, g(x), are given ones.
     has_functions: bool = False
@@ -85,7 +85,7 @@ def source_of(
     )
 
 
-def _only_equation(paste: Paste) -> Tokens:
+def _only_equation(paste: Paste) -> Sentence:
     """The tokens of the one equation that is in a text."""
     scans = paste.scans("equation")
     if not scans:

@@ -77,7 +77,7 @@ class Solution(Answer):
     @classmethod
     def _of(cls, answer: Answer) -> Solution:
         """The answer with its methods."""
-        return cls(**{field.name: getattr(answer, field.name) for field in fields(answer)})
+        return cls(**{name: getattr(answer, name) for name in cls.__match_args__})
 
     @property
     def group(self) -> Group | None:

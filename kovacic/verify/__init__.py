@@ -32,6 +32,7 @@ from kovacic.verify.identity import form_numerators, is_power, is_rational
 
 #: The structures in the order of the proof, with the degree of omega.
 _OMEGA_DEGREE = dict(zip(Structure, (1, 2, 4, 6, 12), strict=True))
+_EXCLUDED = {structure: f"the Galois group isn't {structure.value} (case {structure.case})" for structure in Structure}
 
 
 @dataclass(frozen=True)
@@ -109,9 +110,9 @@ def verify(
         return Verification((Check("the polynomials of the constants are irreducible", False),))
     inspector = Inspector(S, budget or Budget())
     checks = (*_claimed_solution(inspector, decision), *_claimed_exclusions(inspector, decision))
-    claim = None
-    if all(check.passed for check in checks):
-        claim = group() if callable(group) else group
+    if group is None or not all(check.passed for check in checks):
+        return Verification(checks)
+    claim = group() if callable(group) else group
     if claim is None:
         return Verification(checks)
     from kovacic.verify.group import group_holds  # which a decision alone doesn't need
@@ -129,7 +130,7 @@ def verify(
 def _claimed_exclusions(inspector: Inspector, decision: Decision) -> list[Check]:
     """Every structure before that of the answer is excluded, each once, in this order; all are where there is no solution."""
     claimed = [exclusion.structure for exclusion in decision.exclusions]
-    required = [*Structure]
+    required = [*_EXCLUDED]
     if decision.status is not Status.NONE_EXISTS:
         # The structures before the one found; for an undecided equation, as many as it claims.
         found = decision.status is Status.LIOUVILLIAN and decision.structure
@@ -138,9 +139,8 @@ def _claimed_exclusions(inspector: Inspector, decision: Decision) -> list[Check]
     if claimed != required:
         checks.append(Check("the structures before the answer's are excluded, each once", False))
     for exclusion in decision.exclusions:
-        structure = exclusion.structure
-        passed = inspector.excludes(structure, exclusion.evidence)
-        checks.append(Check(f"the Galois group isn't {structure.value} (case {structure.case})", passed))
+        passed = inspector.excludes(exclusion.structure, exclusion.evidence)
+        checks.append(Check(_EXCLUDED[exclusion.structure], passed))
     return checks
 
 

@@ -190,16 +190,18 @@ class Inspector:
         A necessary condition that fails does, or the absence of the invariant; but a reducible group has one only where
         omega isn't unique, so that for it the absence of a unique omega is needed as well.
         """
-        if not all(self.holds(item, structure) for item in evidence):
-            return False
-        rules = {item.rule for item in evidence if isinstance(item, NecessaryCondition)}
-        if rules - {Rule.NOT_A_SQUARE}:
-            return True
-        # NOT_A_SQUARE, like NoRationalOmega, says no more than that there is no unique omega
-        no_unique_omega = bool(rules) or any(isinstance(item, NoRationalOmega) for item in evidence)
-        m = INVARIANT_DEGREE[structure]
-        no_invariant = any(isinstance(item, NoInvariant) and item.invariant_degree == m for item in evidence)
-        return no_invariant and (no_unique_omega or structure is not Structure.REDUCIBLE)
+        fails = no_invariant = False
+        no_unique_omega = structure is not Structure.REDUCIBLE
+        for item in evidence:
+            if not self.holds(item, structure):
+                return False
+            if isinstance(item, NoInvariant):
+                no_invariant |= item.invariant_degree == INVARIANT_DEGREE[structure]
+            elif isinstance(item, NoRationalOmega) or item.rule is Rule.NOT_A_SQUARE:
+                no_unique_omega = True  # and no more
+            else:
+                fails = True
+        return fails or (no_invariant and no_unique_omega)
 
     def holds(self, item: Evidence, structure: Structure) -> bool:
         """True if one item of evidence is right, and concerns this structure."""

@@ -130,7 +130,7 @@ class Shapes:
     def number(self, text: str) -> str:
         return text
 
-    name = derivative = number
+    name = derivative = operator = number
 
     def signed_integer(self, text: str) -> int:
         return int(text)
@@ -283,9 +283,9 @@ def test_tokens_are_the_text_without_its_spaces(expression: Expression) -> None:
     tokens = tokenize(text)
     plain = str.maketrans({"″": "''", "−": "-", "·": "*", "×": "*"})
     assert "".join(tokens.pieces) == "".join(text.split()).translate(plain)
-    written = [text[token.start : token.end].translate(plain) for token in tokens]
+    written = [text[token.start : token.end].translate(plain) for token in tokens.rows]
     assert written == tokens.pieces
-    starts = [token.start for token in tokens]
+    starts = [token.start for token in tokens.rows]
     assert starts == sorted(starts)
     assert tokens.kinds[-1] == "$END"
     assert starts[-1] == len(text)
