@@ -14,13 +14,13 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass
-from functools import cached_property
 from typing import Any
 
 from kovacic.algebra.extension import ExtensionPoly
 from kovacic.algebra.poly import Field, Poly, joined_terms
 from kovacic.algebra.ratfunc import RatFunc
 from kovacic.algebra.rationals import QQ, RationalPoly
+from kovacic.compatibility import cached_property
 from kovacic.numbers.numerals import as_text
 
 DEFAULT_VARIABLE = "x"

@@ -29,7 +29,6 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field
 from enum import Enum
 from fractions import Fraction
-from functools import cached_property
 from typing import Any
 
 from flint import nmod_poly
@@ -40,6 +39,7 @@ from kovacic.algebra.modular import series_solution, simple_roots, translate
 from kovacic.algebra.poly import Field, Poly
 from kovacic.algebra.ratfunc import RatFunc
 from kovacic.algebra.rationals import QQ
+from kovacic.compatibility import cached_property
 from kovacic.decision import NecessaryCondition, Rule, Structure
 from kovacic.limits import Budget
 

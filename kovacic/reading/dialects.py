@@ -630,6 +630,7 @@ _PLAIN_TEXT = re.compile(
     re.VERBOSE | re.ASCII,
 )
 _PLAIN_TOKEN = re.compile(r"[0-9]+|[A-Za-z]'*|\*\*|[^ ]")
+_PLAIN_CALL = re.compile(r"[A-Za-z'] *\(")
 _PLAIN_KINDS = {**_SIGN_KINDS, **dict.fromkeys(ascii_letters, "NAME"), **dict.fromkeys(digits, "NUMBER")}
 
 
@@ -643,7 +644,7 @@ def plain_tokens(text: str) -> Sentence | None:
         return None
     pieces = _PLAIN_TOKEN.findall(text)
     kinds = [_PLAIN_KINDS.get(piece) or ("NUMBER" if piece.isdecimal() else "PRIMED") for piece in pieces]
-    for k, piece in enumerate(pieces):
+    for k, piece in enumerate(pieces if _PLAIN_CALL.search(text) else ()):
         if piece == "(" and k and kinds[k - 1] in ("NAME", "PRIMED"):
             kinds[k - 1] = "HEAD"
     return Sentence([*kinds, "$END"], [*pieces, ""], text)

@@ -212,7 +212,9 @@ def _check_stiffness(tokens: Sentence, declared: Collection[str]) -> None:
         return
     hint = "take one letter for a stiffness, such as B; or declare I as a parameter: "
     said = "E I may be a stiffness, or an energy times the imaginary unit"
-    raise tokens.error(ParseError, said, *tokens.rows.span(found), hint=f"{hint}parameters=['I']", shell=f"{hint}--names I")
+    raise tokens.error(
+        ParseError, said, *tokens.rows.span(found), hint=f"{hint}parameters=['I']", shell=f"{hint}--names I"
+    )
 
 
 def _check_decimals(tokens: Sentence, variable: str) -> None:

@@ -9,10 +9,11 @@ from __future__ import annotations
 import re
 from bisect import bisect_left
 from collections.abc import Callable, Collection, Iterable, Sequence
-from functools import cached_property, lru_cache
+from functools import lru_cache
 from itertools import accumulate, pairwise
 from typing import NamedTuple
 
+from kovacic.compatibility import cached_property
 from kovacic.errors import InputError
 from kovacic.reading.lexer import DERIVATIVES, DOTS, PRIMES, Token, scanned
 from kovacic.reading.names import BARE, FUNCTION_NAMES, GREEK, LETTER

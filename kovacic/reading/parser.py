@@ -162,7 +162,9 @@ class _Parser:
 
     def atom(self, k: int) -> bool:
         """A number, a name, or a name with primes."""
-        self.at(k, k, k + 1)
+        site = self.site
+        site.begin = site.right = k
+        site.end = k + 1
         self.operands.append(_Operand(self.atoms[self.kinds[k]](self.pieces[k]), k))
         return False
 

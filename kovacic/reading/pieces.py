@@ -559,7 +559,9 @@ def _placed_values(text: str, scan: Tokens) -> Iterator[PlacedValue]:
             hint = "write y(0) = 1, y'(0) = 0"
             if calls:
                 k = calls[0]
-                hint = f"write {text[scan[0].start : tokens.rows[k - 1].end]}, {text[tokens.rows[k].start : scan[-1].end]}"
+                hint = (
+                    f"write {text[scan[0].start : tokens.rows[k - 1].end]}, {text[tokens.rows[k].start : scan[-1].end]}"
+                )
             raise error_at(text, "a comma is missing between two values", scan, hint)
     for place in places:
         yield PlacedValue(place, value)

@@ -5,7 +5,7 @@ This is the top: the methods call the rooms in which the views are computed, and
 
 from __future__ import annotations
 
-from dataclasses import fields, replace
+from dataclasses import replace
 from typing import TYPE_CHECKING, Any, Unpack
 
 from kovacic import derived
