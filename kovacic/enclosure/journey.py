@@ -109,7 +109,7 @@ class Journey:
                 found |= one.fan(nearer)
                 waiting = waiting[len(nearer) :]
                 for point in detour.corners(side):
-                    one = one.moved(point)
+                    one = one.turned(point)
             found |= one.fan(waiting)
         return found
 

@@ -356,7 +356,7 @@ class Ray:
 
 @dataclass(frozen=True, eq=False)
 class Traveller:
-    """Where we are, and the `maps` from the start to the user's (y, y') there; with the rays from here.
+    """Where we are, and the `maps` from the start to the user's (y, y') there; with the rays from here, and who went on.
 
     The start is a state, or coordinates in the Frobenius basis at a singular point.
     """
@@ -366,6 +366,7 @@ class Traveller:
     start: State
     maps: MapProduct = field(default_factory=MapProduct)
     rays: dict[ExactPoint, Ray] = field(default_factory=dict)
+    onward: dict[ExactPoint, Traveller] = field(default_factory=dict)
 
     @property
     def state(self) -> State:
@@ -379,10 +380,16 @@ class Traveller:
                 said = f"the path doesn't leave the singular point {self.here}"
                 raise InputError(said, hint="go on to another point")
             last, matrix = self.way.departure(self.here, stop, self.start)
-            return replace(self, here=last, maps=self.maps.after(matrix), rays={}).moved(stop)
+            return replace(self, here=last, maps=self.maps.after(matrix), rays={}, onward={}).moved(stop)
         if stop == self.here:
             return self
-        return replace(self, here=stop, maps=self.way.carried(self.here, stop, self.maps), rays={})
+        return replace(self, here=stop, maps=self.way.carried(self.here, stop, self.maps), rays={}, onward={})
+
+    def turned(self, corner: ExactPoint) -> Traveller:
+        """As `moved`, to a corner that later targets are reached by as well: the traveller is kept there."""
+        if corner not in self.onward:
+            self.onward[corner] = self.moved(corner)
+        return self.onward[corner]
 
     def fan(self, stops: Sequence[ExactPoint]) -> dict[ExactPoint, State]:
         """The states at the ends of straight lines from here."""

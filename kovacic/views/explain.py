@@ -59,6 +59,19 @@ _BY_INVARIANT = {
 }
 #: Longer solutions stand in their own part only.
 _SHORT_SOLUTION = 200
+#: Characters; a longer polynomial of omega is given by its recurrence.
+_LONG_OMEGA = 5000
+#: e_k = E_k/f, by equation (1) of `engine.riccati` divided by f.
+_OMEGA_BY_RECURRENCE = (
+    Math(
+        "phi = theta + P'/P,  e_0 = 1,  e_1 = phi",
+        r"\varphi = \theta + \frac{P'}{P}, \quad e_0 = 1, \quad e_1 = \varphi",
+    ),
+    Math(
+        "e_(k+1) = (e_k' + phi e_k - (m-k+1) S e_(k-1))/(k+1)",
+        r"e_{k+1} = \frac{e_k' + \varphi e_k - (m-k+1) S e_{k-1}}{k+1}",
+    ),
+)
 _PICTURE = "A picture"
 #: Longer equations aren't in the title.
 _LONGEST_TITLE = 60
@@ -235,7 +248,20 @@ class ExplanationWriter:
             yield say(
                 f"omega is a root {self.formulas.unknown} of the irreducible polynomial of degree {riccati.degree}"
             )
-            yield Formula(omega)
+            form = self.answer.semi_invariant
+            assert form is not None
+            if len(omega.text) <= _LONG_OMEGA or form.degree != riccati.degree:
+                yield Formula(omega)
+            else:
+                w, m = self.formulas.unknown, riccati.degree
+                yield Formula(
+                    Math(
+                        f"sum_(k=0)^{m} (-1)^k e_k {w}^({m}-k) = 0",
+                        rf"\sum_{{k=0}}^{{{m}}} (-1)^k e_k {w}^{{{m}-k}} = 0",
+                    )
+                )
+                yield say("with ", Math(f"m = {m}", f"m = {m}"), " and")
+                yield from map(Formula, _OMEGA_BY_RECURRENCE)
         if self.answer.constants is not None:
             text = self.answer.constants.to_str(self.formulas.symbol)
             yield say(f"where {self.formulas.symbol} is a root of ", Math(caret(text), latex_text(text)), ".")

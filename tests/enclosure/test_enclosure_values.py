@@ -21,6 +21,7 @@ from hypothesis import strategies as st
 
 import kovacic
 from kovacic import AccuracyWarning, Ball, InputError, LimitExceeded, Limits, connection_matrix, evaluate
+from kovacic.limits import bounded_work
 
 AIRY = ([0, 1], [1])
 
@@ -596,3 +597,11 @@ def test_singular_points_without_targets_between_them_are_passed_together(height
     assert together.digits > 14
     (with_targets, *_) = kovacic.evaluate(equation, [3, "3/2"], path=side, **start)
     assert together.overlaps(with_targets)
+
+
+def test_a_detour_is_made_once() -> None:
+    """Around -1, 0 and 1: a second point beyond them takes none of the discs again."""
+    equation = "(x^3 - x)*y'' + y = 0"
+    kovacic.evaluate(equation, "5/2", x0=-2, y0=1, dy0=0, path="above")
+    with bounded_work(0):
+        kovacic.evaluate(equation, "51/20", x0=-2, y0=1, dy0=0, path="above")

@@ -17,6 +17,7 @@ from clocks import controlled
 from sympy import Rational
 
 import kovacic
+from kovacic.algebra.ratfunc import RatFunc
 
 EQUATIONS = [
     "x^2*y'' + x*y' + (x^2 - 1/4)*y = 0",
@@ -182,6 +183,23 @@ def test_long_formulas_on_a_page_are_many_short_ones(text: str) -> None:
     assert "<merror" not in page
     shown = re.findall(r"<math.*?</math>", page, re.DOTALL)
     assert max(len(re.sub(r"<[^>]*>|&#x[0-9A-F]*;|\s", "", formula)) for formula in shown) <= 180
+
+
+def test_a_long_polynomial_of_omega_is_given_by_its_recurrence() -> None:
+    """e_0 = 1, e_1 = phi and (k+1) e_(k+1) = e_k' + phi e_k - (m-k+1) S e_(k-1) give its coefficients, up to signs."""
+    answer = kovacic.solve(LONG[2])
+    text = answer.explain(solutions=False)
+    assert "sum_(k=0)^12 (-1)^k e_k w^(12-k) = 0" in text
+    assert "e_(k+1) = (e_k' + phi e_k - (m-k+1) S e_(k-1))/(k+1)" in text
+    form, riccati = answer.semi_invariant, answer.riccati
+    assert form is not None
+    assert riccati is not None
+    phi = form.theta + form.P.derivative() / RatFunc(form.P)
+    e = [phi * 0 + 1, phi]
+    for k in range(1, 12):
+        e.append((e[k].derivative() + phi * e[k] - answer.S * e[k - 1] * (13 - k)) / (k + 1))
+    assert [e_k * (-1) ** k for k, e_k in enumerate(e)][:0:-1] == list(riccati.coefficients[:12])
+    assert kovacic.solve("-3/(16*x^2) + 1/x").explain(solutions=False).count("e_k") == 0
 
 
 def test_the_bibliography_has_volume_pages_and_doi() -> None:
