@@ -2,25 +2,24 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from contextlib import suppress
 from dataclasses import dataclass, replace
 from typing import Any
 
 import sympy
 
-from kovacic.bound_states.asked import Asked, asked, in_their_meanings
+from kovacic.bound_states.asked import Asked, asked
 from kovacic.bound_states.closed_forms import closed_forms, step
 from kovacic.bound_states.coordinates import RealPotential, check_poles, on_real_circle
 from kovacic.bound_states.ends import End, end_of, potential_in_t
 from kovacic.bound_states.energies import tidied
 from kovacic.bound_states.families import (
-    Transcendental,
-    constant_families,
-    hermite_families,
-    jacobi_families,
-    laguerre_families,
-    no_families,
+    StandardForm,
+    bessel,
+    oscillator,
+    three_regular_points,
+    whittaker,
 )
 from kovacic.bound_states.frame import SingularFrame, frames
 from kovacic.bound_states.levels import Algebraic, BoundState, Levels, Spectrum
@@ -33,21 +32,18 @@ from kovacic.equation import ENERGY
 from kovacic.errors import InputError, LimitExceeded, NotRational
 from kovacic.limits import Budget, Limits, check_duration, limited
 from kovacic.numbers.exact import whole
-from kovacic.numbers.numerals import as_text
 from kovacic.parametric.api import DEFAULT_DEGREE
 from kovacic.parametric.assumptions import check_mapping
+from kovacic.parametric.restriction import own_parameters
 from kovacic.reading.read import declared
 from kovacic.reading.symbolic import written_expression
-from kovacic.writing.formula import caret
 
-_LEVEL_FINDERS: tuple[tuple[Callable[[SingularFrame, SpectralProblem], Iterator[Levels]], str], ...] = (
-    (constant_families, "a constant potential"),
-    (hermite_families, "Hermite's polynomials"),
-    (laguerre_families, "Whittaker's equation"),
-    (jacobi_families, "three regular singular points"),
-    (no_families, "Bessel's equation"),
+_STANDARD_FORMS: tuple[tuple[Callable[[SingularFrame, SpectralProblem], StandardForm | None], str], ...] = (
+    (oscillator, "Hermite's polynomials"),
+    (whittaker, "Whittaker's equation"),
+    (three_regular_points, "three regular singular points"),
+    (bessel, "Bessel's equation"),
 )
-_PROOF = {"a constant potential": "solutions are waves and exponentials"}
 _POLYNOMIAL = "each solution that is square integrable at both ends has a polynomial in it"
 #: Seconds that SymPy takes to expand a potential at the ends of its domain, over its terms to the power 3/2.
 _END_SECONDS = 4e-4
@@ -153,14 +149,14 @@ def spectrum(
             if not (found.matching or found.complete):
                 raise NotRational(str(unread), hint=python, shell=shell) from None
             found = found if found.parameters or found.complete else replace(found, hint=python, shell=shell)
+    with Budget(limits).watched(), suppress(LimitExceeded):  # as far as time allows
+        check_first_levels(found)
     return with_numbers(found, levels, digits, limits)
 
 
 def _schroedinger_spectrum(given: Asked, max_degree: int, limits: Limits) -> Spectrum:
     """The spectrum of -y'' + V y = E y; sentences about V speak of kinetic * V.  Raises `NotRational`."""
-    lettered = given.with_named_roots()
-    question = lettered.problem(limits)
-    meanings = {**dict(question.parsed.letters), **lettered.roots}
+    question = given.with_named_roots().problem(limits)
     budget = Budget(limits)
     with budget.watched():
         try:
@@ -172,10 +168,7 @@ def _schroedinger_spectrum(given: Asked, max_degree: int, limits: Limits) -> Spe
             found = _all_levels(examined, budget)
         if not (found.complete or found.needs_boundary_condition):
             found = _with_closed_forms(found, examined, max_degree, limits)
-        if not meanings:
-            with suppress(LimitExceeded):  # as far as time allows
-                check_first_levels(found, question.known)
-    return in_their_meanings(found, meanings)
+    return found
 
 
 @dataclass(frozen=True)
@@ -193,18 +186,18 @@ class _Examined:
     def spectrum(self, **found: Any) -> Spectrum:
         """The answer, with what was `found`."""
         question = self.question
-        plain = question.plain
+        plain, meanings = question.plain, question.meanings
         boundary = question.boundary.text or (FRIEDRICHS if question.friedrichs else None)
         return Spectrum(
-            question.V,
+            plain(question.V),
             question.variable,
             tuple(map(plain, question.domain)),
             question.energy,
-            question.parameters,
-            question.known,
+            own_parameters(question.parameters, tuple(meanings.items())),
+            question.known.without(meanings),
             boundary=boundary,
             ends=tuple(end.sentence for end in self.ends),
-            excluded=tuple(map(plain, self.excluded)),
+            excluded=tuple(relation for relation in map(plain, self.excluded) if relation != sympy.false),
             notices=question.notices,
             conditions=question.boundary.wishes,
             **found,
@@ -225,10 +218,7 @@ def _examined(question: SpectralProblem) -> _Examined:
     check_poles(real, question.domain, question.signs)
     ends = []
     for is_right, at in enumerate(question.domain):
-        if real.original.is_periodic and at.is_infinite:
-            ends.append(End(at, False, f"{question.variable} -> {at}: V is periodic, at most one solution decays"))
-        else:
-            ends.append(end_of(real, question.domain, question.signs, is_right=bool(is_right)))
+        ends.append(end_of(question, real, is_right=bool(is_right)))
         wish = question.boundary.wishes[is_right]
         if wish is not None and not ends[-1].is_regular:
             raise InputError(
@@ -278,8 +268,6 @@ def _all_levels(examined: _Examined, budget: Budget) -> Spectrum:
                 "no formula is known for potentials in exp(i x) that aren't rational in one sine, cosine or tangent"
             )
         families, name = _families(question, budget)
-    except Transcendental as equation:
-        return examined.spectrum(reason=f"undecided: the levels are the solutions of {equation}")
     except Uncovered as uncovered:
         is_settled = not examined.excluded and not question.boundary.is_mixed
         if is_settled and is_repulsive(examined.real, examined.ends, question.signs):
@@ -287,8 +275,7 @@ def _all_levels(examined: _Examined, budget: Budget) -> Spectrum:
         why = _why_no_formula(examined) or (f"undecided: {uncovered}" if is_circular else "")
         return _transformed(examined, budget) or examined.spectrum(reason=why)
     levels = [one for one in families if sympy.false not in one.conditions and one.members != ()]
-    reason = f"{name}: {_PROOF.get(name, _POLYNOMIAL)}"
-    return examined.spectrum(levels=tuple(levels), complete=True, reason=reason)
+    return examined.spectrum(levels=tuple(levels), complete=True, reason=f"{name}: {_POLYNOMIAL}")
 
 
 def _why_no_formula(examined: _Examined) -> str:
@@ -297,7 +284,7 @@ def _why_no_formula(examined: _Examined) -> str:
     wall = next((end.at for end in examined.ends if end.is_ordinary), None)
     if wall is None:
         return ""
-    where = f"{question.variable} = {caret(str(question.plain(wall)))}"
+    where = f"{question.variable} = {question.shown(wall)}"
     meets = "fulfils the condition" if any(question.boundary.wishes) else "vanishes"
     return (
         f"undecided: the levels are the energies for which a solution {meets} at {where}, an ordinary point; a formula "
@@ -348,7 +335,7 @@ def _transformed(examined: _Examined, budget: Budget) -> Spectrum | None:
         levels.append(replace(one, wave=wave, zeros=one.zeros + int(found.is_level), norm=norm))
     lowest = question.plain(found.wave)
     states = () if question.parameters else (BoundState(0, E0, lowest, 0),)
-    shown = caret(as_text(question.plain(sympy.factor(question.kinetic * simpler_V))))
+    shown = question.shown(sympy.factor(question.kinetic * simpler_V))
     return examined.spectrum(
         levels=tuple(levels),
         algebraic=(Algebraic(0, sympy.Integer(0), E - E0, lowest, (), states),) if found.is_level else (),
@@ -377,7 +364,8 @@ def _check_branch_point(question: SpectralProblem) -> None:
 def _families(question: SpectralProblem, budget: Budget) -> tuple[list[Levels], str]:
     """Those of the first coordinate and standard equation that fit, and its name."""
     for frame in frames(question, budget):
-        for families, name in _LEVEL_FINDERS:
+        for standard_form, name in _STANDARD_FORMS:
             with suppress(Uncovered):
-                return [*families(frame, question)], name
+                form = standard_form(frame, question)
+                return [] if form is None else [*form.levels(question)], name
     raise Uncovered("no formula is known")

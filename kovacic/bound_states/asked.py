@@ -13,16 +13,16 @@ is a positive parameter there, and its value is put in at the end.
 from __future__ import annotations
 
 import re
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from contextlib import suppress
-from dataclasses import dataclass, field, fields, replace
+from dataclasses import dataclass, field, replace
 from itertools import count
 from typing import Any
 
 import sympy
 from sympy.functions.elementary.trigonometric import TrigonometricFunction
 
-from kovacic.bound_states.levels import NO_FORMULA, Algebraic, Levels, Spectrum, scaled
+from kovacic.bound_states.levels import Spectrum, scaled
 from kovacic.bound_states.question import FRIEDRICHS, Boundary, SpectralProblem, constants_among, read_boundary
 from kovacic.bound_states.signs import Signs
 from kovacic.equation import DEFAULT_VARIABLE, parameters_of
@@ -105,7 +105,8 @@ class Asked:
         in_S = parameters_of(parsed.S.field)
         names = (*in_S, *sorted(elsewhere - meanings - {self.variable, *in_S}))
         known = read_assumptions(_assumed_of_letters(self.assumed, parsed.letters) or None, self.given, names)
-        for constant in constants_among(potential, names):
+        constants = constants_among(potential, names)
+        for constant in constants:
             known = known.also(constant, ("irrational", "positive"))
         signs = Signs(known, names)
         first, last = (signs.real(end) for end in self.ends)
@@ -123,6 +124,7 @@ class Asked:
             boundary=self.boundary,
             notices=self.notices,
             kinetic=signs.real(self.kinetic),
+            meanings={**dict(parsed.letters), **self.roots, **constants},
         )
 
     def _in_one_piece(self) -> Any:
@@ -376,44 +378,3 @@ def _sign_of_root(name: str, assumed: dict[Any, Any]) -> str:
             shell=f"--assume {name}=positive, or write {name} = b^2 where more is known",
         )
     return _SIGNS[word]
-
-
-def in_their_meanings(found: Spectrum, meanings: Mapping[str, Any]) -> Spectrum:
-    """The answer with the letters replaced by their meanings, without conditions that say nothing then."""
-    if not meanings:
-        return found
-    values = {sympy.Symbol(name): meaning for name, meaning in meanings.items()}
-
-    def put_in(part: Any) -> Any:
-        match part:
-            case str():
-                names = "|".join(map(re.escape, meanings))
-                return re.sub(rf"\b({names})\b", lambda name: caret(as_text(meanings[name[0]])), part)
-            case sympy.Poly():
-                return sympy.Poly(part.as_expr().xreplace(values), part.gen)
-            case tuple():
-                return tuple(map(put_in, part))
-            case Levels() | Algebraic():
-                return replace(part, **{field.name: put_in(getattr(part, field.name)) for field in fields(part)})
-        return part.xreplace(values) if isinstance(part, sympy.Basic) else part
-
-    def possible(parts: Iterable[Any]) -> Iterator[Any]:
-        for one in put_in(parts):
-            if sympy.false not in one.conditions:
-                yield replace(one, conditions=tuple(c for c in one.conditions if c != sympy.true))
-
-    levels, algebraic = (tuple(possible(parts)) for parts in (found.levels, found.algebraic))
-    plain = [name for name in found.parameters if name not in meanings]
-    inside = {name for meaning in meanings.values() for name in names_of(meaning)}
-    known = tuple(pair for pair in found.assumptions.known if pair[0] not in meanings)
-    return replace(
-        found,
-        potential=put_in(found.potential),
-        parameters=(*plain, *sorted(inside - {*plain})),
-        assumptions=replace(found.assumptions, known=known),
-        ends=put_in(found.ends),
-        excluded=tuple(relation for relation in put_in(found.excluded) if relation != sympy.false),
-        levels=levels,
-        algebraic=algebraic,
-        reason=NO_FORMULA if found.algebraic and not algebraic else put_in(found.reason),
-    )

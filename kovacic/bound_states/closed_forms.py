@@ -426,14 +426,16 @@ class _ClosedFormSearch:
             power.base if power.is_Pow else power for power in sympy.Mul.make_args(solution.y) if power.is_polynomial(t)
         )
         inside = (base for base in bases if all(base.subs(t, end.point) != 0 for end in self.ends))
+        limits = question.original.monotonic_range(question.domain, question.signs)
+        known = map(question.plain, tidied(conditions, question.signs))
         level = Algebraic(
             int(solution.degree),
-            constraint,
-            sympy.factor(polynomial),
-            solution.y if parsed.equation is None else translated(solution.y, parsed.equation),
-            tuple(map(question.plain, tidied(conditions, question.signs))),
-            P=sympy.Poly(sympy.Mul(*inside), t),
-            range=question.original.monotonic_range(question.domain, question.signs),
+            question.plain(constraint),
+            question.plain(sympy.factor(polynomial)),
+            question.plain(solution.y if parsed.equation is None else translated(solution.y, parsed.equation)),
+            tuple(condition for condition in known if condition != sympy.true),
+            P=sympy.Poly(question.plain(sympy.Mul(*inside)), t),
+            range=None if limits is None else tuple(map(question.plain, limits)),
         )
         if question.parameters:
             return level

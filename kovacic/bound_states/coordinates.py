@@ -191,12 +191,11 @@ class Original:
 
 @dataclass(frozen=True)
 class RealPotential:
-    """V as a function of a real t, the meaning of t, and the k of -k y'' + k V y = E y, in which V is shown."""
+    """V as a function of a real t, and the meaning of t."""
 
     V: Any
     original: Original
     t: Any
-    kinetic: Any = sympy.S.One
 
 
 def on_real_circle(real: RealPotential) -> RealPotential:
@@ -213,7 +212,7 @@ def on_real_circle(real: RealPotential) -> RealPotential:
     num, den = sympy.fraction(sympy.together(V))
     scale = sympy.Poly(den, t).LC()
     V = sympy.expand(sympy.expand(num / scale)) / sympy.expand(sympy.expand(den / scale))
-    return RealPotential(V, Original(original.x, "tan", rate / 2, offset / 2), t, real.kinetic)
+    return RealPotential(V, Original(original.x, "tan", rate / 2, offset / 2), t)
 
 
 def is_between(value: Any, first: Any, last: Any, signs: Signs) -> bool:

@@ -20,7 +20,7 @@ from kovacic.bound_states.signs import Signs, Uncovered
 
 @dataclass(frozen=True)
 class Root:
-    """sqrt(square), up to its sign: an unknown where it depends on E, else a `value`.
+    """sqrt(square), up to its sign: an unknown where it depends on E, else a `value`; `positive` if 0 isn't admitted.
 
     What is no function without radicals is a symbol there, or p + i q with two of them, and `radicals` says what they are.
     """
@@ -29,6 +29,7 @@ class Root:
     value: Any
     unknown: bool = False
     radicals: tuple[tuple[Any, Any], ...] = ()
+    positive: bool = False
 
     @property
     def signed(self) -> list[Any]:
@@ -36,7 +37,7 @@ class Root:
         return [self.value] if self.unknown or self.value == 0 else [self.value, -self.value]
 
     @classmethod
-    def of(cls, square: Any, E: Any) -> Root:
+    def of(cls, square: Any, E: Any, *, positive: bool = False) -> Root:
         if square.has(E):
             return cls(square, sympy.Dummy("rho", real=True), unknown=True)
         root = exact_root(square)
@@ -44,7 +45,7 @@ class Root:
             return cls(square, root)
         if not square.has(sympy.I):
             symbol = sympy.Dummy("r", positive=True)
-            return cls(square, symbol, radicals=((symbol, sympy.sqrt(sympy.factor(square))),))
+            return cls(square, symbol, radicals=((symbol, sympy.sqrt(sympy.factor(square))),), positive=positive)
         # sqrt(re + i im) = p + i q with p = sqrt((size + re)/2) and q = im/(2 p)
         expanded = sympy.expand(square)
         re, im = sympy.factor(sympy.re(expanded)), sympy.factor(sympy.im(expanded))

@@ -30,7 +30,7 @@ on; constant factors are dropped, and the norm, a product of Gamma functions, is
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, field
 from itertools import combinations, product
 from typing import Any, NamedTuple
@@ -42,11 +42,7 @@ from kovacic.bound_states.frame import SingularFrame, Spot, linear_factors
 from kovacic.bound_states.levels import Levels
 from kovacic.bound_states.question import SpectralProblem
 from kovacic.bound_states.signs import Signs, Uncovered, above
-from kovacic.numbers.numerals import as_text
 from kovacic.parametric.solutions import jacobi
-from kovacic.sturm_liouville.families import family
-from kovacic.sturm_liouville.problem import Robin
-from kovacic.writing.formula import caret
 
 
 @dataclass
@@ -322,8 +318,9 @@ def _integral_between(first: _Point, second: _Point, n: Any) -> Any:
     return _jacobi_integral(a, b, (1 - first.spot.mu, 1 - second.spot.mu), n, middle)
 
 
-def laguerre_wave(frame: SingularFrame, origin: Spot, kappa: Any, delta: Any, signs: Signs) -> Wave:
-    """The solution by Laguerre's polynomials."""
+def laguerre_wave(frame: SingularFrame, origin: Spot, values: list[Any], signs: Signs) -> Wave:
+    """The solution by Laguerre's polynomials, for kappa and delta."""
+    kappa, delta = values
     n = signs.n
     z = frame.z
     whole = WaveProduct().times(as_product(frame, frame.coordinate), origin.exponent(delta))
@@ -369,53 +366,100 @@ def _shortened(norm: Any) -> Any:
     return written
 
 
-def jacobi_families(frame: SingularFrame, question: SpectralProblem) -> Iterator[Levels]:
+@dataclass(frozen=True)
+class StandardForm:
+    """A standard equation: its `roots`, and what follows from them with signs, as functions of a list of them.
+
+    `degree` is that of the polynomial in a solution, `demands` the conditions for it to be square integrable, beside those
+    for the roots to be real, `wave` the solution and `zeros` their number, where the degree is n.
+    """
+
+    roots: list[Root]
+    degree: Callable[[list[Any]], Any]
+    demands: Callable[[list[Any]], list[Any]]
+    wave: Callable[[list[Any]], Wave]
+    zeros: Callable[[list[Any]], Any]
+
+    def levels(self, question: SpectralProblem) -> Iterator[Levels]:
+        """The families of levels, for each choice of signs."""
+        signs, plain = question.signs, question.plain
+        radicals = dict(radical for root in self.roots for radical in root.radicals)
+        for signed in _choices(self.roots):
+            for found in solved(sympy.expand(self.degree(signed) - signs.n), self.roots, question.E):
+                values = [root.xreplace(found.values) for root in signed]
+                conditions = [*_are_real(self.roots), *self.demands(values)]
+                if possible(conditions, signs):
+                    wave = self.wave(values)
+                    known = tidied(conditions, signs, radicals)
+                    found_levels = Levels(signs.n, found.energy, wave.y, known, self.zeros(values), wave.norm)
+                    yield found_levels.mapped(lambda part: plain(part.xreplace(radicals)))
+
+
+def three_regular_points(frame: SingularFrame, question: SpectralProblem) -> StandardForm:
     """Equation (1)."""
-    if len(frame.spots) != 3 or any(spot.square is None for spot in frame.spots):
+    spots, signs = frame.spots, question.signs
+    if len(spots) != 3 or any(spot.square is None for spot in spots):
         raise Uncovered("the equation hasn't three singular points, all of them regular")
     _check_ends(frame)
-    roots = [Root.of(spot.square, question.E) for spot in frame.spots]
-    for signed in _choices(roots):
-        equation = sympy.expand(-1 - sympy.Add(*signed) - 2 * question.signs.n)
-        for found in solved(equation, roots, question.E):
-            deltas = [delta.xreplace(found.values) for delta in signed]
-            conditions = _are_real(roots)
-            for spot, delta in zip(frame.spots, deltas, strict=True):
-                conditions += _demands(question, frame, spot, delta)
-            if possible(conditions, question.signs):
-                wave = jacobi_wave(frame, roots, deltas, question.signs)
-                zeros = _zeros(frame, deltas, question.signs)
-                yield _levels(question, found.energy, wave, conditions, zeros, roots)
+    roots = [Root.of(spot.square, question.E) for spot in spots]
+    return StandardForm(
+        roots,
+        degree=lambda deltas: (-1 - sympy.Add(*deltas)) / 2,
+        demands=lambda deltas: [d for at in zip(spots, deltas, strict=True) for d in _demands(question, frame, *at)],
+        wave=lambda deltas: jacobi_wave(frame, roots, deltas, signs),
+        zeros=lambda deltas: _zeros(frame, spots, deltas, signs),
+    )
 
 
-def laguerre_families(frame: SingularFrame, question: SpectralProblem) -> Iterator[Levels]:
+def whittaker(frame: SingularFrame, question: SpectralProblem) -> StandardForm:
     """Equation (2), from S_z = q + r/z + b/z^2."""
     z, signs = frame.z, question.signs
     square = sympy.cancel(frame.S * z**2)
-    if not _is_polynomial_of_degree(2, square, z):
+    if not _is_polynomial_of_degree(2, square, z) or not frame.S.has(z):
         raise Uncovered("the equation isn't Whittaker's")
     _check_ends(frame)
     q, r, b = sympy.Poly(square, z).all_coeffs()
-    at_origin = [spot for spot in frame.spots if spot.point == 0]
-    origin = at_origin[0] if at_origin else Spot(sympy.Integer(0), 1 + 4 * b, 0)
-    at_infinity = [spot for spot in frame.spots if spot.point == sympy.oo]
-    root_of_q = Root.of(sympy.factor(q), question.E)
-    root_at_0 = Root.of(sympy.factor(1 + 4 * b), question.E)
-    roots = [root_of_q, root_at_0]
-    for kappa, delta in product(root_of_q.signed, root_at_0.signed):
-        equation = -r / (2 * kappa) - (1 + delta) / 2 - signs.n
-        for found in solved(equation, roots, question.E):
-            rate = kappa.xreplace(found.values)
-            difference = delta.xreplace(found.values)
-            decay = [
-                above(_direction(frame, side) * rate, 0, strict=True) for s in at_infinity for side in frame.ends_at(s)
-            ]
-            conditions = [*_are_real([root_of_q], positive=True), *_are_real([root_at_0]), *decay]
-            conditions += _demands(question, frame, origin, difference)
-            if possible(conditions, signs):
-                wave = laguerre_wave(frame, origin, rate, difference, signs)
-                zeros = _zeros(frame, [difference], signs, [origin])
-                yield _levels(question, found.energy, wave, conditions, zeros, roots)
+    ordinary = Spot(sympy.Integer(0), 1 + 4 * b, 0)
+    origin = next((spot for spot in frame.spots if spot.point == 0), ordinary)
+    outwards = [
+        _direction(frame, side) for spot in frame.spots if spot.point == sympy.oo for side in frame.ends_at(spot)
+    ]
+
+    def demands(values: list[Any]) -> list[Any]:
+        kappa, delta = values
+        decay = [above(direction * kappa, 0, strict=True) for direction in outwards]
+        return [*decay, *_demands(question, frame, origin, delta)]
+
+    return StandardForm(
+        [Root.of(sympy.factor(q), question.E, positive=True), Root.of(sympy.factor(1 + 4 * b), question.E)],
+        degree=lambda values: -r / (2 * values[0]) - (1 + values[1]) / 2,
+        demands=demands,
+        wave=lambda values: laguerre_wave(frame, origin, values, signs),
+        zeros=lambda values: _zeros(frame, [origin], values[1:], signs),
+    )
+
+
+def oscillator(frame: SingularFrame, question: SpectralProblem) -> StandardForm:
+    """Equation (3): S = alpha x^2 + beta x + gamma on the whole line."""
+    is_quadratic = frame.S.is_polynomial(frame.z) and sympy.degree(frame.S, frame.z) == 2
+    if not (is_quadratic and frame.is_in_x and frame.domain == (-sympy.oo, sympy.oo)):
+        raise Uncovered("the equation isn't that of the oscillator on the whole line")
+    alpha, beta, gamma = sympy.Poly(frame.S, frame.z).all_coeffs()
+    n = question.signs.n
+    shifted = question.x + sympy.factor(beta / (2 * alpha))
+
+    def wave(values: list[Any]) -> Wave:
+        (kappa,) = values
+        y = sympy.exp(-kappa * shifted**2 / 2) * sympy.hermite(n, sympy.sqrt(kappa) * shifted)
+        return Wave(y, 2**n * sympy.factorial(n) * sympy.sqrt(sympy.pi / kappa))
+
+    return StandardForm(
+        [Root.of(sympy.factor(alpha), question.E, positive=True)],
+        degree=lambda values: (beta**2 / (4 * alpha) - gamma) / (2 * values[0]) - sympy.Rational(1, 2),
+        demands=lambda values: [above(values[0], 0, strict=True)],
+        wave=wave,
+        zeros=lambda values: n,
+    )
 
 
 def _demands(question: SpectralProblem, frame: SingularFrame, spot: Spot, delta: Any) -> list[Any]:
@@ -423,36 +467,10 @@ def _demands(question: SpectralProblem, frame: SingularFrame, spot: Spot, delta:
     return [question.demand(side, spot.mu, delta) for side in frame.ends_at(spot)]
 
 
-def _levels(
-    question: SpectralProblem,
-    energy: Any,
-    wave: Wave,
-    conditions: Sequence[Any],
-    zeros: Any,
-    roots: Sequence[Root] = (),
-) -> Levels:
-    """In the user's symbols, with the square roots for which symbols stand."""
-    radicals = dict(radical for root in roots for radical in root.radicals)
-
-    def written(expression: Any) -> Any:
-        return question.plain(sympy.sympify(expression, strict=True).xreplace(radicals))
-
-    tidy = [written(condition) for condition in tidied(conditions, question.signs, radicals)]
-    return Levels(
-        question.plain(question.signs.n),
-        written(energy),
-        written(wave.y),
-        tuple(condition for condition in tidy if condition != sympy.true),
-        written(zeros),
-        None if wave.norm is None else written(wave.norm),
-    )
-
-
-def _are_real(roots: list[Root], *, positive: bool = False) -> list[Any]:
+def _are_real(roots: list[Root]) -> list[Any]:
     """Conditions that the radicands are nonnegative, or positive."""
-    relation = sympy.Gt if positive else sympy.Ge
-    squares = [root.square for root in roots if root.radicals]
-    return [relation(square, 0) for square in squares if not square.has(sympy.I)]
+    radicands = [root for root in roots if root.radicals and not root.square.has(sympy.I)]
+    return [(sympy.Gt if root.positive else sympy.Ge)(root.square, 0) for root in radicands]
 
 
 def _choices(roots: list[Root]) -> Iterator[list[Any]]:
@@ -494,9 +512,9 @@ def _check_ends(frame: SingularFrame) -> None:
             raise Uncovered(f"V isn't regular at {frame.original.x} = {frame.fold}, inside the domain")
 
 
-def _zeros(frame: SingularFrame, deltas: list[Any], signs: Signs, spots: Sequence[Spot] = ()) -> Any:
+def _zeros(frame: SingularFrame, spots: Sequence[Spot], deltas: list[Any], signs: Signs) -> Any:
     """The number of zeros inside the domain: n; twice as many about the middle, and one there for an odd solution."""
-    for spot, delta in zip(spots or frame.spots, deltas, strict=True):
+    for spot, delta in zip(spots, deltas, strict=True):
         if len(frame.ends_at(spot)) < len(spot.sides):
             return 2 * signs.n + int(bool(delta.is_positive))
     return signs.n
@@ -519,7 +537,7 @@ def _direction(frame: SingularFrame, side: int) -> int:
     return outwards if frame.domain[side].is_infinite else -outwards  # z = 1/(x - end)
 
 
-def no_families(frame: SingularFrame, question: SpectralProblem) -> Iterator[Levels]:
+def bessel(frame: SingularFrame, question: SpectralProblem) -> None:
     """S_z = r/z + b/z^2 between 0 and oo: no solution is square integrable at both ends.
 
     Where z^(-e) y is entire and y decays like exp(-2 sqrt(r z)), which holds for |arg z| < 3 pi [Martinet & Ramis], it is
@@ -531,61 +549,3 @@ def no_families(frame: SingularFrame, question: SpectralProblem) -> Iterator[Lev
     is_bessel = _is_polynomial_of_degree(1, square, z) and points == {0, sympy.oo} and frame.fold is None
     if not is_bessel or sympy.diff(square, z).has(question.E):
         raise Uncovered("the equation isn't Bessel's")
-    yield from ()
-
-
-class Transcendental(Exception):
-    """The equation for the energies, which has no solution in closed form, as a text."""
-
-
-def constant_families(frame: SingularFrame, question: SpectralProblem) -> Iterator[Levels]:
-    """A constant V: waves between two walls; beside an infinite end one solution decays, for E < V.
-
-    It has no zero, and fulfils alpha y + beta y' = 0 for one E at most.  Raises `Transcendental` where the numbers of the waves
-    have no formula.
-    """
-    if frame.S.has(frame.z) or not frame.is_in_x:
-        raise Uncovered("V isn't constant")
-    first, last = frame.domain
-    x, n = question.x, question.signs.n
-    V = sympy.expand(frame.S + question.E)
-    dirichlet = Robin(sympy.S.One, sympy.S.Zero)
-    left, right = (wish or dirichlet for wish in question.boundary.wishes)
-    if first.is_infinite or last.is_infinite:
-        wish, inwards = (left, 1) if last.is_infinite else (right, -1)
-        is_line = first.is_infinite and last.is_infinite
-        rate = sympy.S.Zero if is_line or wish.is_zero else inwards * wish.alpha / wish.beta
-        if rate.is_positive:  # y = exp(-rate distance)
-            distance = inwards * (x - (first if inwards == 1 else last))
-            wave = sympy.exp(-rate * distance)
-            yield _levels(question, V - rate**2, Wave(wave, 1 / (2 * rate)), [sympy.Lt(n, 1)], n)
-        return
-    number = sympy.Dummy("number", integer=True, positive=True)
-    found = family(x, sympy.S.Zero, -V, sympy.S.One, question.E, (first, last), (left, right), n=number)
-    if found is None:
-        raise Uncovered("no formula is known for these conditions")
-    if found.equation is not None:
-        raise Transcendental(f"{caret(as_text(found.equation.lhs))} = {caret(as_text(found.equation.rhs))}")
-    shifted = {number: n + found.first}
-    (wave,) = found.functions
-    norm = (last - first) / 2 if left.is_zero or right.is_zero else None
-    energy = V + sympy.factor(found.value.xreplace(shifted) - V)
-    yield _levels(question, energy, Wave(wave.xreplace(shifted), norm), [sympy.Gt(last - first, 0)], n)
-
-
-def hermite_families(frame: SingularFrame, question: SpectralProblem) -> Iterator[Levels]:
-    """The oscillator on the whole line: S = alpha x^2 + beta x + gamma."""
-    is_quadratic = frame.S.is_polynomial(frame.z) and sympy.degree(frame.S, frame.z) == 2
-    if not (is_quadratic and frame.is_in_x and frame.domain == (-sympy.oo, sympy.oo)):
-        raise Uncovered("the equation isn't that of the oscillator on the whole line")
-    alpha, beta, gamma = sympy.Poly(frame.S, frame.z).all_coeffs()
-    root = Root.of(sympy.factor(alpha), question.E)
-    n = question.signs.n
-    shifted = question.x + sympy.factor(beta / (2 * alpha))
-    for kappa in (root.value, -root.value):
-        for found in solved(gamma - beta**2 / (4 * alpha) + kappa * (2 * n + 1), [root], question.E):
-            conditions = [*_are_real([root], positive=True), above(kappa, 0, strict=True)]
-            if possible(conditions, question.signs):
-                wave = sympy.exp(-kappa * shifted**2 / 2) * sympy.hermite(n, sympy.sqrt(kappa) * shifted)
-                norm = 2**n * sympy.factorial(n) * sympy.sqrt(sympy.pi / kappa)
-                yield _levels(question, found.energy, Wave(wave, norm), conditions, n, [root])

@@ -110,6 +110,13 @@ class Levels:
     zeros: Any
     norm: Any = None
 
+    def mapped(self, change: Callable[[Any], Any]) -> Levels:
+        """With all expressions changed, without conditions that hold then."""
+        parts = (sympy.sympify(part) for part in (self.number, self.energy, self.wave, self.zeros))
+        number, energy, wave, zeros = map(change, parts)
+        conditions = tuple(condition for condition in map(change, self.conditions) if condition != sympy.true)
+        return Levels(number, energy, wave, conditions, zeros, None if self.norm is None else change(self.norm))
+
     @property
     def above(self) -> tuple[Any, ...]:
         """The conditions with n in them: none where there are infinitely many levels."""
@@ -214,7 +221,8 @@ class Spectrum:
         The argument that may lead to a better answer, in Python and on the command line; empty if there is none.
     matching : tuple of sympy.Eq
         Where V is constant or linear on each of its pieces, and no formula is known: the equation for the energies, by matching
-        the solutions on both sides, or those for even and for odd functions.
+        the solutions on both sides, or those for even and for odd functions.  Below the continuous spectrum the levels are its
+        roots; a root where a wave number sqrt(E - V) vanishes may be none, and both sides may be infinite at a level.
     kinetic : sympy.Expr
         k where the equation is -k y'' + V y = E y, hbar^2/(2 m) for instance; 1 by default.
     conditions : tuple
@@ -252,7 +260,7 @@ class Spectrum:
     def is_decided(self) -> bool:
         """True if levels are known, or a complete list of some kind, or that a boundary condition is missing."""
         is_proven = self.complete or self.closed_forms_complete
-        has_levels = bool(self.levels or self.algebraic)
+        has_levels = bool(self.levels or self.algebraic or self.matching)
         return is_proven or has_levels or self.needs_boundary_condition
 
     def states(self, values: Mapping[Any, Any] | None = None, count: int = 10) -> tuple[BoundState, ...]:

@@ -16,18 +16,20 @@ from flint import acb
 from kovacic.algebra.precision import working_precision
 from kovacic.algebra.rationals import QQ
 from kovacic.bound_states.levels import Levels, Spectrum
+from kovacic.bound_states.question import number_beside
+from kovacic.bound_states.signs import Signs
 from kovacic.errors import InputError, LimitExceeded, VerificationFailed
 from kovacic.general_solution.zero import Residual
 from kovacic.limits import Budget, Limits
 from kovacic.numbers.exact import whole
-from kovacic.parametric.assumptions import Assumptions
 from kovacic.sturm_liouville.ends import is_regular
-from kovacic.sturm_liouville.families import matching_equations, rate_beside_delta
+from kovacic.sturm_liouville.families import decay, family, matching_equations
 from kovacic.sturm_liouville.levels import Eigenvalues
 from kovacic.sturm_liouville.problem import STEPS, Robin, SturmProblem, Wish, ball, pieces_of, point_between
 from kovacic.sturm_liouville.solve import Eigenproblem
 
-_MATCHED = "undecided: matching at each step gives this condition, and no formula is known for its solutions"
+_IMPLICIT = "implicit: the levels are roots of this equation; a root at which a wave number vanishes may be none"
+_CONSTANT = "a constant potential: solutions are waves and exponentials"
 _DELTA = "a delta function: exp(-k |x - p|) is the only solution that decays on both sides"
 
 
@@ -60,34 +62,60 @@ def with_numbers(found: Spectrum, levels: int | None, digits: int, limits: Limit
 
 
 def with_matching(found: Spectrum) -> Spectrum:
-    """The answer with equations for the levels where V is linear or constant on each of its pieces, and no level is known.
+    """The answer for a V that is constant or linear on each of its pieces, where nothing else is known about its levels.
 
-    Beside one delta function there is one level, or none.
+    A formula for a constant V, also beside a delta function; else an equation by matching the solutions on both sides.
     """
     x, E = sympy.symbols([found.variable, found.energy])
     V = found.potential / found.kinetic
     is_known = found.complete or found.levels or found.algebraic or found.needs_boundary_condition
-    is_linear = V.is_polynomial(x) and sympy.degree(V, x) == 1
+    is_linear = V.is_polynomial(x) and sympy.degree(V, x) <= 1
     if is_known or not (is_linear or V.has(*STEPS)):
         return found
-    assumed = {sympy.Symbol(name): symbol for name, symbol in found.assumptions.symbols().items()}
+    real = Signs(found.assumptions, found.parameters).symbols
+    assumed = {sympy.Symbol(name): symbol for name, symbol in real.items()}
+    plain = {symbol: name for name, symbol in assumed.items()}
     with suppress(InputError, NotImplementedError):
         problem = _sturm_problem(found, assumed)
-        plain = {symbol: name for name, symbol in assumed.items()}
-        rate = rate_beside_delta(problem)
-        if rate is not None:
-            piece = problem.pieces[1]
-            n = sympy.Symbol("n" if "n" not in found.parameters else "n_")
-            energy = sympy.expand((piece.Q - rate**2) / piece.W)
-            wave = sympy.exp(-rate * sympy.Abs(x - piece.low))
-            energy, wave, norm = (part.xreplace(plain) for part in (energy, wave, 1 / rate))
-            where = () if rate.is_positive else (sympy.Gt(2 * rate, 0).xreplace(plain),)
-            levels = () if rate.is_nonpositive else (Levels(n, energy, wave, (n < 1, *where), n, norm),)
-            return replace(found, levels=levels, complete=True, reason=_DELTA)
-        equations = matching_equations(problem, E)
-        reason = _MATCHED if equations and found.potential.has(*STEPS) else found.reason
-        return replace(found, matching=tuple(equation.xreplace(plain) for equation in equations), reason=reason)
+        n = number_beside(*found.parameters, found.variable)
+        one = _waves(problem, E, n) or _decaying(problem, E, n)
+        if one is not None:
+            levels = () if sympy.false in one.conditions else (one.mapped(lambda part: part.xreplace(plain)),)
+            reason = _DELTA if V.has(sympy.DiracDelta) else _CONSTANT
+            return replace(found, levels=levels, complete=True, reason=reason)
+        equations = tuple(equation.xreplace(plain) for equation in matching_equations(problem, E))
+        reason = _IMPLICIT if equations and not found.closed_forms_complete else found.reason
+        return replace(found, matching=equations, reason=reason)
     return found
+
+
+def _waves(problem: SturmProblem, E: Any, n: Any) -> Levels | None:
+    """Of a constant V between two ends; None for others, and where the wave numbers have no formula."""
+    piece, (first, last) = problem.pieces[0], problem.ends
+    left, right = problem.conditions
+    is_constant = len(problem.pieces) == 1 and not piece.Q.has(problem.x)
+    if not (is_constant and isinstance(left, Robin) and isinstance(right, Robin)):
+        return None
+    number = sympy.Dummy("n", integer=True, positive=True)
+    waves = family(problem.x, sympy.S.Zero, -piece.Q, sympy.S.One, E, (first, last), (left, right), n=number)
+    if waves is None or waves.equation is not None:
+        return None
+    mu, wave = (part.xreplace({number: n + waves.first}) for part in (waves.value, waves.functions[0]))  # E W
+    norm = (last - first) / 2 if left.is_zero or right.is_zero else None
+    energy = piece.Q / piece.W + sympy.factor((mu - piece.Q) / piece.W)
+    return Levels(n, energy, wave, (sympy.Gt(last, first),), n, norm)
+
+
+def _decaying(problem: SturmProblem, E: Any, n: Any) -> Levels | None:
+    """The one level of a constant V next to a wall or a delta function, or none; None for other problems."""
+    found = decay(problem)
+    if found is None:
+        return None
+    rate, distance = found
+    energy = sympy.expand((problem.pieces[-1].Q - rate**2) / problem.pieces[-1].W)
+    sides = sum(end.is_infinite for end in problem.ends)
+    conditions = (sympy.Lt(n, 1), sympy.Gt(2 * rate, 0))
+    return Levels(n, energy, sympy.exp(-rate * distance), conditions, n, sides / (2 * rate))
 
 
 def _sturm_problem(found: Spectrum, assumed: Mapping[Any, Any] = MappingProxyType({})) -> SturmProblem:
@@ -118,11 +146,11 @@ _CHOICES = 400
 _PRECISION = 192
 
 
-def check_first_levels(found: Spectrum, known: Assumptions) -> None:
+def check_first_levels(found: Spectrum) -> None:
     """Raises `VerificationFailed` if y'' = (V - E_0) y provably doesn't hold for the first level of a family."""
     x = sympy.Symbol(found.variable)
     for levels in found.levels:
-        for values in _admissible(found, known):
+        for values in _admissible(found):
             at = {sympy.Symbol(name): sympy.Rational(value) for name, value in values.items()}
             try:
                 states = replace(found, levels=(levels,), algebraic=()).states(values, count=1)
@@ -131,7 +159,7 @@ def check_first_levels(found: Spectrum, known: Assumptions) -> None:
             if not states:
                 continue
             (state,) = states
-            difference = found.potential.xreplace(at) / found.kinetic - state.energy
+            difference = ((found.potential - state.energy) / found.kinetic).xreplace(at)
             if _is_wave_false(state.wave, difference, x, [end.xreplace(at) for end in found.domain]):
                 said = "".join(f", {name} = {value}" for name, value in values.items())
                 raise VerificationFailed(
@@ -140,11 +168,11 @@ def check_first_levels(found: Spectrum, known: Assumptions) -> None:
             break
 
 
-def _admissible(found: Spectrum, known: Assumptions) -> Iterator[dict[str, Fraction]]:
+def _admissible(found: Spectrum) -> Iterator[dict[str, Fraction]]:
     """Values of the parameters that the assumptions admit."""
     for values in islice(product(_VALUES, repeat=len(found.parameters)), _CHOICES):
         chosen = dict(zip(found.parameters, values, strict=True))
-        if known.admits((name, QQ.poly([value])) for name, value in chosen.items()):
+        if found.assumptions.admits((name, QQ.poly([value])) for name, value in chosen.items()):
             yield chosen
 
 

@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
-from dataclasses import dataclass, replace
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import dataclass, field, replace
 from typing import Any
 
 import sympy
@@ -17,6 +17,7 @@ from kovacic.numbers.numerals import as_text
 from kovacic.parametric.assumptions import Assumptions
 from kovacic.reading.read import read_input
 from kovacic.sturm_liouville.problem import Robin
+from kovacic.writing.formula import caret
 
 FRIEDRICHS = "friedrichs"
 #: Names for the number of a level: the first one that the user hasn't taken.
@@ -38,7 +39,10 @@ class Boundary:
 
 @dataclass(frozen=True)
 class SpectralProblem:
-    """The problem: V - E as it was read, and the domain, in real symbols."""
+    """The problem: V - E as it was read, and the domain, in real symbols.
+
+    `meanings` are those of letters for roots, powers and exponentials of the user's parameters, and for pi and e.
+    """
 
     V: Any
     parsed: Parsed
@@ -51,6 +55,7 @@ class SpectralProblem:
     notices: tuple[str, ...] = ()
     kinetic: Any = sympy.S.One
     boundary: Boundary = Boundary()
+    meanings: Mapping[str, Any] = field(default_factory=dict)
 
     @property
     def x(self) -> Any:
@@ -67,14 +72,9 @@ class SpectralProblem:
 
     @property
     def parameters(self) -> tuple[str, ...]:
-        """The names of the user's."""
-        constants = self.constants
-        return tuple(name for name in self.signs.symbols if name != self.energy and name not in constants)
-
-    @property
-    def constants(self) -> dict[str, Any]:
-        """pi and e among the parameters, by the names for which they stand."""
-        return constants_among(self.V, self.signs.symbols)
+        """The names of what the levels depend on: parameters, and letters for anything but pi and e."""
+        constants = {name for name, meaning in self.meanings.items() if meaning in (sympy.pi, sympy.E)}
+        return tuple(name for name in self.signs.symbols if name not in (self.energy, *constants))
 
     def with_friedrichs_condition(self) -> SpectralProblem:
         """The problem with the boundary condition that wasn't given, and a note that says so."""
@@ -106,18 +106,19 @@ class SpectralProblem:
 
     def with_potential(self, V: Any) -> SpectralProblem:
         """The problem for another potential, in real symbols."""
-        plain = self.plain(V)
+        plain = V.xreplace({symbol: sympy.Symbol(symbol.name) for symbol in V.free_symbols})
         text = f"({as_text(plain)}) - {self.energy}"
         return replace(self, V=plain, parsed=read_input(text, var=self.variable, exponentials=True))
 
     def plain(self, expression: Any) -> Any:
-        """In plain symbols of the same names, as users write them; n for the number of a level."""
-        taken = {*self.signs.symbols, self.variable}
-        number = next(name for name in _NUMBERS if name not in taken)
+        """In the user's terms: plain symbols of the same names, what letters stand for, n for the number of a level."""
         symbols = [s for s in expression.free_symbols if not isinstance(s, sympy.Dummy)]
-        constants = self.constants
-        plain = {symbol: constants.get(symbol.name, sympy.Symbol(symbol.name)) for symbol in symbols}
-        return expression.xreplace({**plain, self.signs.n: sympy.Symbol(number)})
+        plain = {symbol: self.meanings.get(symbol.name, sympy.Symbol(symbol.name)) for symbol in symbols}
+        return expression.xreplace({**plain, self.signs.n: number_beside(*self.signs.symbols, self.variable)})
+
+    def shown(self, expression: Any) -> str:
+        """As text, in the user's terms."""
+        return caret(as_text(self.plain(expression)))
 
 
 def read_boundary(boundary: str | None, ends: Sequence[Any], variable: str) -> Boundary:
@@ -138,6 +139,11 @@ def read_boundary(boundary: str | None, ends: Sequence[Any], variable: str) -> B
             )
         wishes[places[0]] = Robin.of(((term.order, term.coefficient) for term in condition.terms), condition.text)
     return Boundary((wishes[0], wishes[1]), boundary)
+
+
+def number_beside(*taken: str) -> Any:
+    """The symbol for the number of a level where these names are taken."""
+    return sympy.Symbol(next(name for name in _NUMBERS if name not in taken))
 
 
 def constants_among(expression: Any, names: Iterable[str]) -> dict[str, Any]:

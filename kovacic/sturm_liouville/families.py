@@ -265,16 +265,24 @@ def matching_equations(problem: SturmProblem, E: Expr) -> tuple[Expr, ...]:
     return (_zero_equation(Y * ends[1][1] - slope * ends[1][0], E),)
 
 
-def rate_beside_delta(problem: SturmProblem) -> Expr | None:
-    """The rate k of exp(-k |x - p|), the only function that decays on both sides of a delta function, if Q and W are constant.
+def decay(problem: SturmProblem) -> tuple[Expr, Expr] | None:
+    """The rate k and the distance d of exp(-k d), the only function that may decay, if Q and W are constant.
 
-    -k - k is the strength of the delta function.  None for other problems.
+    Next to a delta function Y' changes by -k - k, its strength; next to a wall Y'/Y = +-k.  None for other problems.
     """
-    first, last = problem.pieces[0], problem.pieces[-1]
-    is_line = all(end.is_infinite for end in problem.ends)
-    if not is_line or len(problem.pieces) != 2 or (first.Q, first.W) != (last.Q, last.W):
+    x, first, last = problem.x, problem.pieces[0], problem.pieces[-1]
+    is_constant = not (first.Q + first.W).has(x) and (first.Q, first.W) == (last.Q, last.W)
+    walls = [side for side, end in enumerate(problem.ends) if end.is_finite]
+    if not is_constant or len(problem.pieces) + len(walls) > 2 or len(walls) == 2:
         return None
-    return None if (first.Q + first.W).has(problem.x) else -last.delta / 2
+    if not walls:
+        return -last.delta / 2, sympy.Abs(x - last.low)
+    inwards = 1 - 2 * walls[0]
+    wish = problem.conditions[walls[0]]
+    if not isinstance(wish, Robin):
+        return None
+    rate = sympy.S.Zero if wish.is_zero else inwards * wish.alpha / wish.beta
+    return rate, inwards * (x - problem.ends[walls[0]])
 
 
 def _middle(lines: list[_LinearPiece], problem: SturmProblem) -> Expr | None:

@@ -292,7 +292,7 @@ def test_conditions_at_an_end(V: str, domain: Any, boundary: str, energies: Any,
 @pytest.mark.long
 def test_numeric_levels_obey_the_conditions() -> None:
     box = kovacic.spectrum("0", domain=(0, 1), boundary="y(0) = y'(0)", levels=1, digits=8)
-    assert "the solutions of sin(sqrt(E)) = -sqrt(E)*cos(sqrt(E))" in box.reason
+    assert "the levels solve sqrt(E)*tan(sqrt(E)) = -E\n" in box.text()
     assert abs(float(box.numeric[0].value) - 4.11585837) < 1e-7
     linear = kovacic.spectrum("x", domain=HALF, boundary="y'(0) = 0", levels=1, digits=8)
     assert abs(float(linear.numeric[0].value) - 1.018792971647) < 1e-7  # the first zero of Ai'
@@ -378,6 +378,8 @@ def test_a_square_well_in_letters() -> None:
     assert "the even levels solve sqrt(E + V0)*tan(a*sqrt(E + V0)) = sqrt(-E)\n" in found.text()
     assert "the odd levels solve sqrt(E + V0)*cot(a*sqrt(E + V0)) = -sqrt(-E)\n" in found.text()
     assert found.to_dict()["matching"][0] == "sqrt(E + V0)*tan(a*sqrt(E + V0)) = sqrt(-E)"
+    assert found.is_decided
+    assert found.reason.startswith("implicit: the levels are roots of this equation")
     with pytest.raises(kovacic.NotRational, match="in pieces"):
         kovacic.spectrum("Piecewise((-V0, abs(x) < a), (0, True))")  # a may be negative
 
