@@ -296,9 +296,7 @@ def _with_closed_forms(found: Spectrum, examined: _Examined, max_degree: int, li
     """The spectrum with the levels that have a closed form, and what is proven about them."""
     question = examined.question
     forms = closed_forms(question, examined.ends, examined.real, max_degree, limits)
-    reason = found.reason
-    if forms.complete or not reason:
-        reason = forms.reason(question.energy, max_degree)
+    reason = forms.reason if forms.complete else found.reason or forms.reason
     found = replace(found, algebraic=forms.levels, closed_forms_complete=forms.complete, reason=reason)
     if forms.complete or forms.higher is None or not examined.ends:
         return found

@@ -35,6 +35,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 from functools import partial, reduce
+from itertools import chain
 from typing import Any, NamedTuple
 
 import sympy
@@ -52,7 +53,6 @@ from kovacic.closed_form.product import product
 from kovacic.engine.places import analyse
 from kovacic.errors import InputError, LimitExceeded
 from kovacic.limits import Budget, Limits
-from kovacic.numbers.numerals import as_text
 from kovacic.parametric.api import conditions_of
 from kovacic.parametric.natural import Natural
 from kovacic.parametric.parametric_answer import ParametricAnswer
@@ -62,7 +62,6 @@ from kovacic.parametric.solutions import PolynomialSolution, jacobi, translated,
 from kovacic.parametric.statements import Statement, Vanishes
 from kovacic.reading.read import read_input
 from kovacic.sturm_liouville.problem import point_between
-from kovacic.writing.formula import caret
 
 #: Functions in an antiderivative whose limits at the ends are found at once.
 _WITH_LIMITS = (sympy.exp, sympy.log, sympy.atan, sympy.erf)
@@ -106,42 +105,14 @@ _NUMBERED = "a level with k zeros is number k (Sturm)"
 class ClosedForms:
     """The levels with a closed form; `complete`: it is proven that these are all.
 
-    `excluded` are polynomials in E at whose zeros there is a closed form but no level; `higher` is a possible degree of P
-    that wasn't tried.  `conditions` is None if it is unknown when closed forms exist.  `barred`: with parameters, no solution
-    with a polynomial of any degree is square integrable at both ends.
+    `reason` is the proven statement about them with its reason, or why it is undecided; `higher` a possible degree of P that
+    wasn't tried.
     """
 
-    conditions: ParametricAnswer | None
+    reason: str
     levels: tuple[Algebraic, ...] = ()
     complete: bool = False
-    excluded: tuple[Any, ...] = ()
     higher: int | None = None
-    barred: bool = False
-
-    def reason(self, energy: str, max_degree: int) -> str:
-        """The proven statement about the levels with its reason, or the reason why it is undecided."""
-        if self.conditions is None:
-            return NO_FORMULA
-        theory = self.conditions.theory
-        others = ""
-        if self.excluded:
-            zeros = " or ".join(f"{caret(as_text(polynomial))} = 0" for polynomial in self.excluded)
-            others = f"at {zeros} the solution that is square integrable at one end isn't at the other; "
-        if self.complete and self.levels:
-            return f"{_NUMBERED}; {others}{theory}"
-        if self.barred and self.conditions.regions:
-            return f"{_BARRED}: {theory}" if self.complete else f"{NO_FORMULA}; {_BARRED}"
-        if self.complete:
-            energies = "the energy of a level" if self.conditions.regions else f"any {energy}"
-            if self.excluded:
-                energies = f"any other real {energy}"
-            return f"{others}the equation has no Liouvillian solution for {energies}: {theory}"
-        if not self.levels:
-            return f"{NO_FORMULA}; degrees up to {max_degree} were tried"
-        found = f"the levels with a polynomial of degree d <= {max_degree}"
-        if all(region.case == 1 for region in self.conditions.regions):
-            return f"{found}; each level with a closed form has a polynomial of some degree d: {theory}"
-        return f"{found}; whether others are Liouvillian isn't known"
 
 
 def closed_forms(
@@ -150,10 +121,11 @@ def closed_forms(
     """Those of a potential; without `ends`, where it can't be told how solutions behave there, only that there are none."""
     conditions = _solvable_conditions(question, limits)
     if conditions is None:
-        return ClosedForms(None)
-    window = _Window()
-    if not question.parameters:
-        window = _Window.of(question, ends, real)
+        return ClosedForms(NO_FORMULA)
+    if not conditions.regions:
+        why = f"the equation has no Liouvillian solution for any {question.energy}: {conditions.theory}"
+        return ClosedForms(why, complete=True)
+    window = _Window() if question.parameters else _Window.of(question, ends, real)
     search = _ClosedFormSearch(question, ends, conditions, window, max_degree)
     return search.with_parameters() if question.parameters else search.of_numbers()
 
@@ -261,26 +233,54 @@ class _ClosedFormSearch:
             for number, polynomial in pairs:
                 if not self.window.has_zero_of(polynomial, self.E):
                     continue
-                solutions = []
-                for one in region.solution(number):
-                    rests = (sympy.rem(sympy.numer(sympy.together(f)), polynomial, self.E) for f in one.conditions)
-                    solutions += [] if any(rests) else [one]
-                fits = [self._fits(one, polynomial) for one in solutions if self._are_examined]
-                here = [one for one, fit in zip(solutions, fits, strict=False) if fit == [True, True]]
-                if sympy.degree(polynomial, self.E) == 1:
-                    here = [replace(one, y=one.y.subs(self.E, -polynomial.subs(self.E, 0))) for one in here]
+                fits = [(one, self._fits(one, polynomial)) for one in self._solutions_where(polynomial, region, number)]
+                here = [one for one, fit in fits if fit == [True, True]]
+                is_linear = sympy.degree(polynomial, self.E) == 1
+                value = -polynomial.subs(self.E, 0)
+                if is_linear:
+                    here = [replace(one, y=one.y.subs(self.E, value)) for one in here]
                 levels += (self._level(one, polynomial, sympy.Integer(0), []) for one in here)
-                if here:
-                    continue
-                # A solution that is the only square integrable one at one end, and isn't square integrable at the other.
-                first, last = (end.circle is False for end in self.ends) if self.ends else (False, False)
-                if (first and [True, False] in fits) or (last and [False, True] in fits):
+                if any(self._is_excluded(fit) for _, fit in fits):
                     excluded.append(polynomial)
-                    continue
-                linear = sympy.degree(polynomial, self.E) == 1
-                value = {self.question.energy: -polynomial.subs(self.E, 0)}
-                complete = complete and linear and self.conditions.case_at(value) is None
-        return ClosedForms(self.conditions, tuple(levels), complete, tuple(excluded), higher)
+                elif not here:
+                    is_none = is_linear and self.conditions.case_at({self.question.energy: value}) is None
+                    complete = complete and is_none
+        theory = self.conditions.theory
+        zeros = " or ".join(f"{self.question.shown(polynomial)} = 0" for polynomial in excluded)
+        others = zeros and f"at {zeros} the solution that is square integrable at one end isn't at the other; "
+        if not complete:
+            reason = self._incomplete(levels)
+        elif levels:
+            reason = f"{_NUMBERED}; {others}{theory}"
+        else:
+            energies = f"any other real {self.question.energy}" if excluded else "the energy of a level"
+            reason = f"{others}the equation has no Liouvillian solution for {energies}: {theory}"
+        return ClosedForms(reason, tuple(levels), complete, higher)
+
+    def _solutions_where(
+        self, polynomial: Any, region: ParameterRegion, number: int | None
+    ) -> list[PolynomialSolution]:
+        """The region's solutions at all zeros of a polynomial in E, if the ends are examined."""
+        found = region.solution(number) if self._are_examined else ()
+        return [
+            one
+            for one in found
+            if not any(sympy.rem(sympy.numer(sympy.together(f)), polynomial, self.E) for f in one.conditions)
+        ]
+
+    def _is_excluded(self, fit: Sequence[bool | None]) -> bool:
+        """True if a solution is the only square integrable one at one end, and isn't square integrable at the other."""
+        first, last = (end.circle is False for end in self.ends)
+        return (first and fit == [True, False]) or (last and fit == [False, True])
+
+    def _incomplete(self, levels: Sequence[Algebraic]) -> str:
+        """What is known where there may be other levels."""
+        if not levels:
+            return f"{NO_FORMULA}; degrees up to {self.max_degree} were tried"
+        others = "whether others are Liouvillian isn't known"
+        if all(region.case == 1 for region in self.conditions.regions):
+            others = f"each level with a closed form has a polynomial of some degree d: {self.conditions.theory}"
+        return f"the levels with a polynomial of degree d <= {self.max_degree}; {others}"
 
     def _listed(self, statement: Statement) -> tuple[list[tuple[int | None, Any]], bool, bool]:
         """The E for which the statement may hold: degrees (None if there is none to choose) with irreducible polynomials in E.
@@ -340,29 +340,32 @@ class _ClosedFormSearch:
         """The levels with a polynomial of degree 0, 1, ..., `max_degree`."""
         levels: dict[Algebraic, None] = {}
         higher = None
-        is_barred = is_settled = True
+        is_settled = is_barred = self._are_examined
+        exceptions: dict[str, None] = {}
         for region in self.conditions.regions if self._are_examined else ():
-            if region.case == 1:
-                is_closed, decays = self._ways_out(region)
-                is_barred, is_settled = is_barred and is_closed, is_settled and decays
-                if is_closed:
-                    continue
-            else:
-                is_settled = False
             parts = region.statement.conjuncts
+            functions = [_zero_where(part) for part in parts if isinstance(part, Vanishes)]
+            is_closed, decays = self._ways_out(region) if region.case == 1 else (False, False)
+            is_settled = is_settled and decays
+            if is_closed:
+                continue
+            fixed = [function for function in functions if not function.has(self.E)]
+            is_barred = is_barred and (bool(fixed) or region.case != 1)
+            exceptions.update((f"{self.question.shown(function)} = 0", None) for function in fixed)
             numbers, have_all = self._numbers(parts)
             if not have_all and region.case == 1:
                 higher = self.max_degree + 1
             if None in map(_zero_where, parts):
                 continue
-            functions = [_zero_where(part).subs(self.constants) for part in parts if isinstance(part, Vanishes)]
-            for number in numbers:
-                for solution in region.solution(number):
-                    levels.update(dict.fromkeys(self._under_conditions(solution, functions)))
-        complete = not self.conditions.regions or (is_settled and self._are_examined)
-        return ClosedForms(
-            self.conditions, tuple(levels), complete, higher=higher, barred=is_barred and self._are_examined
-        )
+            zeros = [function.subs(self.constants) for function in functions]
+            for solution in chain.from_iterable(map(region.solution, numbers)):
+                levels.update(dict.fromkeys(self._under_conditions(solution, zeros)))
+        reason = self._incomplete([*levels])
+        if is_barred and not levels:
+            unless = f", unless {' or '.join(exceptions)}" if exceptions else ""
+            reason = f"{_BARRED}{unless}"
+            reason = f"{reason}: {self.conditions.theory}" if is_settled else f"{NO_FORMULA}; {reason}"
+        return ClosedForms(reason, tuple(levels), is_settled, higher)
 
     def _ways_out(self, region: ParameterRegion) -> tuple[bool, bool]:
         """True if exponents exclude, for each degree, solutions with a polynomial at both ends; and True if they exclude all.

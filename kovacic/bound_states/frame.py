@@ -158,28 +158,22 @@ def _spots(problem: Problem, powers: Mapping[Any, Any], places: tuple[Any, ...],
     """The singular points, those of the change of variable, and the `places` of the ends, or of the middle and an end."""
     x = sympy.Dummy("x")
     squares: dict[Any, Any] = {}
-    ordinary = []
     for place in problem.places:
         if place.degree > 2:
             raise Uncovered(f"the roots of {place.factor} aren't used")
-        for c in roots_of(place, x):
+        for c in roots_of(place, x) if place.kind is not Kind.ORDINARY else ():
             point = sympy.oo if c is None else signs.real(c)
             squares[point] = None
-            if place.kind is Kind.ORDINARY:
-                squares[point] = sympy.Integer(1)
-                ordinary.append(point)
-            elif place.kind is Kind.REGULAR:
+            if place.kind is Kind.REGULAR:
                 square = signs.real(riemann.difference_squared(place).to_sympy(x))
                 squares[point] = sympy.expand(square.xreplace({x: point}))
-    for point in powers:
-        if not any(_is_same(point, other) for other in squares):
+    powers = {**powers, sympy.oo: sympy.Integer(4) - sum(powers.values(), sympy.Integer(0))}
+    for point, mu in powers.items():
+        if (mu or point in places) and not any(_is_same(point, other) for other in squares):
             squares[point] = sympy.Integer(1)
-    rest = sympy.Integer(4) - sum(powers.values(), sympy.Integer(0))
     for point, square in squares.items():
-        mu = rest if point == sympy.oo else powers.get(point, sympy.Integer(0))
         sides = tuple(side for side, place in enumerate(places) if _is_same(point, place))
-        if point not in ordinary or mu or sides:
-            yield Spot(point, square, mu, sides)
+        yield Spot(point, square, powers.get(point, sympy.Integer(0)), sides)
 
 
 def _is_same(first: Any, second: Any) -> bool:
