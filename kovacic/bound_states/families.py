@@ -284,30 +284,18 @@ def _jacobi_integral(a: Any, b: Any, shifts: tuple[Any, Any], n: Any, middle: An
 
 
 def _norm_between(form: _JacobiForm) -> Any:
-    """int y^2 dx between two of the points w = 1, -1, oo, or None if unknown."""
-    first, second, third = form.points
-    if first.spot.sides and second.spot.sides:
-        integral = _integral_between(first, second, form.n)
-        return None if integral is None else integral / sympy.sqrt(sympy.Abs(form.scale))
-    if first.spot.sides and third.spot.sides:
-        return _norm_to_infinity(form, first, second)
-    if second.spot.sides and third.spot.sides:  # w -> -w
-        return _norm_to_infinity(form, second, first)
-    return None
+    """int y^2 dx between two of the points w = 1, -1, oo, or None if unknown.
 
-
-def _norm_to_infinity(form: _JacobiForm, end: _Point, other: _Point) -> Any:
-    """Between w = 1, the end, and oo, or None if unknown.
-
-    w = (3 - v)/(1 + v) runs from there for v from 1 to -1, and P_n^(a, b)(w) = (2/(1 + v))^n P_n^(a, c)(v).
+    For oo: w = (3 - v)/(1 + v) runs from 1 to it for v from 1 to -1, and P_n^(a, b)(w) = (2/(1 + v))^n P_n^(a, c)(v).
     """
-    n = form.n
-    integral = _integral_between(end, form.points[2], n)
-    if integral is None:
-        return None
-    scale = sympy.Abs(form.scale) * 2 ** (end.spot.mu + 2 * other.spot.mu - 4)
-    powers = 2 * end.spot.exponent(end.delta) + 4 * other.spot.exponent(other.delta) + 2 * n
-    return 2**powers * integral / sympy.sqrt(scale)
+    n, (first, second, third) = form.n, form.points
+    end, other = (first, second) if first.spot.sides else (second, first)  # w -> -w
+    integral = _integral_between(end, third if third.spot.sides else other, n)
+    scale, powers = sympy.Abs(form.scale), sympy.S.Zero
+    if third.spot.sides:
+        scale *= 2 ** (end.spot.mu + 2 * other.spot.mu - 4)
+        powers = 2 * end.spot.exponent(end.delta) + 4 * other.spot.exponent(other.delta) + 2 * n
+    return None if integral is None else 2**powers * integral / sympy.sqrt(scale)
 
 
 def _integral_between(first: _Point, second: _Point, n: Any) -> Any:

@@ -44,14 +44,11 @@ def zeros_inside(P: Any, E: Any, value: Any, bounds: Any) -> int | None:
         number = BallEvaluator({E: BallEvaluator({})(value)})
         coefficients = [number(c) for c in reversed(P.all_coeffs())]
         found = acb_poly(coefficients).roots() if len(coefficients) > 1 else []
-        room = [arb(1) for root in found]
-        for bound, sign in zip(bounds, (1, -1), strict=True):
-            if bound.is_finite:
-                end = number(bound).real
-                room = [part * sign * (root.real - end) for part, root in zip(room, found, strict=True)]
-        # A zero that isn't real, or is outside, has no part in it: it is beyond one of the bounds, not of both.
-        real = [part for part, root in zip(room, found, strict=True) if root.imag.contains(0)]
-        return None if any(part.contains(0) for part in real) else sum(bool(part > 0) for part in real)
+        low, high = (number(end).real if end.is_finite else arb(float(end)) for end in bounds)
+        real = [root.real for root in found if root.imag.contains(0)]
+        inside = sum(low < root < high for root in real)
+        outside = sum(bool(root < low) or bool(root > high) for root in real)
+        return inside if inside + outside == len(real) else None
 
 
 def real_roots(polynomial: Any, E: Any) -> list[Any]:
