@@ -39,7 +39,7 @@ class Limits:
     constants : int
         Input: the degree of the field of algebraic constants over Q; 24.
     parameters : int
-        Input: the number of symbols beside the variable; 8.
+        Input: the number of symbols other than the variable; 8.
     unknown_degree : int
         Work: the degree bound of a polynomial to be found; 20,000.
     seconds : float or None

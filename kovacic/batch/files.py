@@ -174,41 +174,53 @@ def _flaw_of(names: Sequence[str], *, others: bool = False) -> InputError | None
 def _csv_items(lines: Iterator[Item], longest: int, var: str | None) -> Iterator[Item]:
     """The rows of a CSV file.  Without a header the expressions are in the first column, and the others have numbers."""
     rows = _Rows(lines, longest)
-    header: list[str] | None = None
-    flaw: InputError | None = None  # of the header, for which no row can be read
-    is_first = True
-    while (row := rows.next(len(header or ()))) is not None:
-        (line, cells) = row
-        shown = ",".join(cells) or line.text.strip()
+    table: _Table | None = None
+    while (row := rows.next(0 if table is None else len(table.header))) is not None:
+        line, cells = row
+        text = ",".join(cells) or line.text.strip()
+        is_first = table is None
         if line.error is not None:
-            yield Item(line.number, shown, var, error=line.error)
-            is_first = False
+            table = table or _Table()
+            yield Item(line.number, text, var, error=line.error)
         elif any(cells):
-            # A line of words can be meant as a header, too.
-            is_of_words = all(map(str.isidentifier, cells)) and any(len(cell) > 1 for cell in cells)
-            parted = [cell.strip() for cell in shown.split(";")]
-            if is_first and len(parted) > 1 and not set(_KEYS).isdisjoint(parted):
-                flaw = InputError("semicolons between cells", hint="write commas there, and points in decimals")
-            elif is_first and (is_of_words or not set(_KEYS).isdisjoint(cells)):
-                header = cells
-                flaw = _flaw_of(header, others=True)
-                if flaw is not None:
-                    hint = "name the column of the expressions S; if the file has no header, put S as its first line"
-                    flaw = InputError(f"line {line.number} as a header: {flaw.message}", hint=hint)
-            if flaw is not None:
-                yield Item(line.number, shown, var, error=flaw)
-            elif header is None:
-                others = {str(k): cell for k, cell in enumerate(cells[1:], 2) if cell}
-                yield Item(line.number, cells[0], var, extra={"columns": others} if others else {})
-            elif header is cells:
-                pass  # no row
-            else:
-                named = dict(zip(header, cells, strict=True))
-                known = {name: cell for name, cell in named.items() if name in _KEYS}
-                item = _item_of(line.number, known, shown, var)
-                others = {name: cell for name, cell in named.items() if name not in _KEYS}
-                yield replace(item, extra={**item.extra, "columns": others}) if others else item
-            is_first = False
+            table = table or _Table.begun(cells, text, line.number)
+            if table.flaw is not None:
+                yield Item(line.number, text, var, error=table.flaw)
+            elif not (is_first and table.header):
+                yield table.item(line.number, cells, text, var)
+
+
+@dataclass(frozen=True)
+class _Table:
+    """The names of the columns, empty without a header; no row can be read after a header with a `flaw`."""
+
+    header: tuple[str, ...] = ()
+    flaw: InputError | None = None
+
+    @classmethod
+    def begun(cls, cells: list[str], text: str, number: int) -> _Table:
+        """The table whose first row has these cells: a header, if a key or nothing but words are among them."""
+        if any(cell.strip() in _KEYS for cell in text.split(";")) and ";" in text:
+            return cls((), InputError("semicolons between cells", hint="write commas there, and points in decimals"))
+        is_of_words = all(map(str.isidentifier, cells)) and max(map(len, cells)) > 1
+        if not is_of_words and set(_KEYS).isdisjoint(cells):
+            return cls()
+        flaw = _flaw_of(cells, others=True)
+        if flaw is not None:
+            hint = "name the column of the expressions S; if the file has no header, put S as its first line"
+            flaw = InputError(f"line {number} as a header: {flaw.message}", hint=hint)
+        return cls(tuple(cells), flaw)
+
+    def item(self, number: int, cells: list[str], text: str, var: str | None) -> Item:
+        """The item of a row; columns that mean nothing are carried along."""
+        if not self.header:
+            item = Item(number, cells[0], var)
+            others = {str(k): cell for k, cell in enumerate(cells[1:], 2) if cell}
+        else:
+            named = dict(zip(self.header, cells, strict=True))
+            others = {name: named.pop(name) for name in self.header if name not in _KEYS}
+            item = _item_of(number, named, text, var)
+        return replace(item, extra={**item.extra, "columns": others}) if others else item
 
 
 class _Rows:

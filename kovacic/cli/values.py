@@ -184,9 +184,7 @@ def conditions(equation: str, form: str, everything: bool, explained: bool, samp
 @click.option(
     "--plot", "picture", metavar="FILE", help="Draw the potential with its lowest levels to a file (png, pdf, svg)."
 )
-@click.option(
-    "--levels", type=click.IntRange(min=1), metavar="N", help="The N lowest levels as proven numbers besides."
-)
+@click.option("--levels", type=click.IntRange(min=1), metavar="N", help="Also the N lowest levels as proven numbers.")
 @click.option("--digits", default=15, show_default=True, type=click.IntRange(min=1), help="Proven digits of these.")
 @options.formats(json="One line of JSON.", latex="A LaTeX formula.")
 @options.LIMIT

@@ -1,4 +1,4 @@
-"""Kovacic's own steps 1 to 3, for reading beside the paper: the sets of exponents, the families, theta, and P.
+"""Kovacic's own steps 1 to 3, to be read along with the paper: the sets of exponents, the families, theta, and P.
 
 The engine doesn't search in this way, for there are up to (m+1)^(n+1) families for n poles; `explain` does, within limits,
 so that every line of the paper can be compared.  With r = S, and m = 1, 2, 4, 6 or 12 for the degree of omega:

@@ -109,7 +109,7 @@ class Arithmetic:
         polynomials: list[Poly] = []
         fractions: list[RatFunc] = []
         for term in terms:
-            # A sum that has become too long for Python's numbers is left as it is.
+            # A sum too long for Python's numbers stays unevaluated.
             if isinstance(term, Monomial) and _bits(known := coefficients.get(term.power, 0)) <= _SMALL_BITS:
                 coefficients[term.power] = known + term.coefficient
                 continue

@@ -191,7 +191,7 @@ class Constants:
         return lowered(over(function, field))
 
     def notices(self, letters: Collection[str] = ()) -> list[str]:
-        """What the user should know about the field; `letters` stand for numbers."""
+        """Notes for the user about the field; `letters` stand for numbers."""
         found = []
         if self.parameters:
             taken = "is taken as a parameter" if len(self.parameters) == 1 else "are taken as parameters"

@@ -553,7 +553,7 @@ class _Translation:
         return True
 
     def check_radicand(self, token: Token, k: int, end: int) -> None:
-        """Raises `ParseError` for √x², √xy and √2x: how much is under the root?"""
+        """Raise `ParseError` for √x², √xy and √2x, whose radicand is ambiguous."""
         has_power = self.texts[end] in (*_POWERS, "(") or self.kinds[end] == "SUPERSCRIPT"
         is_glued = self.kinds[end] == "WORD" and self.scan[end].start == self.scan[end - 1].end
         is_factor = is_glued and not is_function(self.texts[end]) and self.kinds[end + 1] != "PRIMES"
@@ -561,7 +561,7 @@ class _Translation:
         if not (has_power or is_factor or is_product):
             return
         first = self.texts[k][0] if is_product else self.text[self.scan[k].start : self.scan[end - 1].end]
-        hint = f"put all that is under the root into parentheses: {token.text}({first}), {token.text}({first}...)"
+        hint = f"enclose the radicand in parentheses: {token.text}({first}), {token.text}({first}...)"
         last = self.scan[end - is_product]
         raise error_at(self.text, "a root without parentheses can be read in two ways", [token, last], hint)
 

@@ -1,4 +1,4 @@
-"""What texts and SymPy's expressions mean that denote an equation a y'' + b y' + c y = f.
+"""Reader of texts and SymPy expressions that denote an equation a y'' + b y' + c y = f.
 
 >>> from kovacic.reading.read import read_input
 >>> print(read_input("x^2 y'' + x y' + (x^2 - 1/4) y = 0").equation)
@@ -39,7 +39,7 @@ _LARGEST_ORDER = 100
 
 
 class EquationReader(RationalReader):
-    """What texts and SymPy expressions mean in which the unknown function and its derivatives occur linearly."""
+    """Reads texts and SymPy expressions that are linear in the unknown function and its derivatives."""
 
     arithmetic: LinearArithmetic
 
@@ -127,7 +127,7 @@ class EquationReader(RationalReader):
 
         plain = node.xreplace({symbol: Symbol(symbol.name) for symbol in node.free_symbols})
         if node.func.__name__ == self.unknown:
-            said = f"{plain} beside {self.unknown}({self.variable}): the argument is another one, as with delays"
+            said = f"{plain} and {self.unknown}({self.variable}) have different arguments, as in a delay equation"
             raise NotLinear(said)
         if any(f.func.__name__ == self.unknown for f in functions_in(plain)):
             raise NotLinear(f"{self.unknown}({self.variable}) within {plain}: the equation isn't linear")
@@ -232,7 +232,7 @@ class EquationReader(RationalReader):
             return _derivative_of_unknown(len(head) - len(y))
         is_value = is_rational(argument) and self.arithmetic.number(argument) is not None
         hint = f"values follow the equation after commas: {y}'' + {y} = 0, {y}(0) = 1" if is_value else None
-        said = f"{site.text()} beside {y}({self.variable}): the argument is another one, as with delays"
+        said = f"{site.text()} and {y}({self.variable}) have different arguments, as in a delay equation"
         raise NotLinear(said, hint=hint)
 
     def _is_variable(self, value: Any) -> bool:

@@ -43,7 +43,7 @@ def in_exponentials(source: Source, limits: Limits) -> Parsed | None:
     """The equation (1) for an input with such coefficients; None for any other input.
 
     What isn't rational in exp(k x) on the right-hand side is kept as the equation's h, and with numbers that aren't algebraic
-    all of it.  Raises `NotRational` where x occurs beside exp(k x), and for rates whose quotient isn't rational.
+    all of it.  Raises `NotRational` where both x and exp(k x) occur, and for rates whose quotient isn't rational.
     """
     x = sympy.Symbol(source.variable)
     parts, notices = parts_of(source, limits)
@@ -63,7 +63,9 @@ def in_exponentials(source: Source, limits: Limits) -> Parsed | None:
     k = common.k
     a, b, c = (part.xreplace(common.powers) for part in rewritten[:3])
     if any(part.has(x) for part in (a, b, c)):
-        raise NotRational(f"{x} beside exp({k * x}): that isn't rational in one exponential function", hint=_HINT)
+        raise NotRational(
+            f"{x} and exp({k * x}) both occur: that isn't rational in one exponential function", hint=_HINT
+        )
     right, h = _right_side(parts[3], x, common.powers)
     left = (k**2 * T**2 * a, k**2 * T * a + k * T * b, c)
     read = read_in(T, (*left, -right), source, limits, taken=k.free_symbols)

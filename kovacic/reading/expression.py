@@ -1,4 +1,4 @@
-"""What texts and SymPy's expressions mean that denote rational functions.
+"""Reader of texts and SymPy expressions that denote rational functions.
 
 The rational function grows while the text is read, and no part of it is ever executed.  `arithmetic` checks sizes before each
 operation.
@@ -56,7 +56,7 @@ def parse_with(text: str, names: Mapping[str, Value], arithmetic: Arithmetic) ->
 
 
 class RationalReader:
-    """What texts and SymPy expressions mean that denote rational functions.
+    """Reads texts and SymPy expressions that denote rational functions.
 
     `names` gives the values of the names that may occur: the variable, and whatever constants the caller's coefficient
     field has.  `constants` supplies algebraic numbers and parameters.  `arithmetic` has the operations on the values.  Each
@@ -73,7 +73,7 @@ class RationalReader:
         self.declared: Collection[str] = ()
 
     def notices(self) -> list[str]:
-        """What the user should know about how the text was read."""
+        """Notes for the user on how the text was read."""
         more = len(self.decimals) - _SHOWN_DECIMALS
         rest = [f"{more} more decimals were taken exactly"] if more > 0 else []
         return self.decimals[:_SHOWN_DECIMALS] + rest
@@ -104,7 +104,7 @@ class RationalReader:
             )
         if name == UNKNOWN:
             hint = f"y is the unknown function: give S alone, from y'' = S({self.variable}) y"
-            raise NotRational(f"the symbol y beside the variable {self.variable}", hint=hint)
+            raise NotRational(f"the symbol y in a function of {self.variable}", hint=hint)
         return self.constants.parameter(name)
 
     def derivative(self, text: str) -> Value:

@@ -1,4 +1,4 @@
-"""What is tried where coefficients aren't rational in x: another variable, letters for constants, a common denominator."""
+"""Readings of coefficients that aren't rational in x: by another variable, letters for constants, a common denominator."""
 
 from __future__ import annotations
 
@@ -38,7 +38,7 @@ def in_other_functions(source: Source, limits: Limits, error: NotRational) -> Pa
 def _first_reading(
     readers: Sequence[_Reader], source: Source, limits: Limits
 ) -> tuple[Parsed | None, NotRational | None]:
-    """What the first reader finds that finds anything; else the first reason that was given."""
+    """The result of the first reader that succeeds; if none does, the first error is raised."""
     reason = None
     for reader in readers:
         try:

@@ -3,7 +3,7 @@
 A letter stands for a maximal part without x of one of these kinds, and what a letter stands for may contain others: inner ones
 come first.  What depends on others algebraically is written by them where that is known:
 
-    roots of one base        by the root with the common index; a symbol beside its root by the root: a = t^2
+    roots of one base        by the root with the common index; a symbol and its root by the root: a = t^2
     powers a^p, a^(2 p)      by the one with the greatest common divisor of the exponents, and so are exponentials; those of
                              numbers by those of primes
     waves of one argument    by sine and cosine, with sin^2 = 1 - cos^2; of multiples of it by the addition theorems
@@ -32,7 +32,7 @@ Meanings = dict[Expr, Expr]  # of letters
 #: The most letters of an equation, and characters of their names.
 _MOST_LETTERS = 20
 _LONGEST_NAME = 30
-#: The largest number whose factors are asked for.
+#: The largest number that is factored.
 _LARGEST_FACTORED = 10**12
 
 
@@ -226,7 +226,7 @@ def _by_others(kernel: Expr, kernels: Sequence[Expr]) -> Expr:
 
 
 def _by_waves(kernel: Expr, waves: Sequence[Expr], kind: Any) -> Expr:
-    """A wave by those of a part of its argument, or by sine and cosine beside other waves of its argument."""
+    """A wave by those of a part of its argument, or by sine and cosine where other waves have the same argument."""
     sine, cosine, _ = _WAVE_KINDS[kind]
     (argument,) = kernel.args
     if any(argument != wave.args[0] and (argument / wave.args[0]).is_Integer for wave in waves):

@@ -22,7 +22,7 @@ from kovacic.reading.arithmetic import PRINTED_BITS, Arithmetic, Monomial
 from kovacic.reading.names import FUNCTION_NAMES, RECIPROCALS, SEVERAL_ARGUMENTS
 from kovacic.reading.parser import Comparison
 
-#: The largest power that SymPy is asked for.
+#: The largest exponent of a power that SymPy computes.
 _LARGEST_SYMBOLIC_EXPONENT = 1000
 #: The highest power of an operator with D.
 _HIGHEST_POWER = 10
@@ -132,7 +132,7 @@ class LinearArithmetic(Arithmetic):
         """The sum, some terms of which have no unknown function."""
         kinds = {type(term) for term in terms if isinstance(term, LinearForm)}
         if len(kinds) > 1:
-            raise NotLinear("an operator beside what it is applied to", hint=f"write (D^2 + 1) {self.unknown} = 0")
+            raise NotLinear("a sum of an operator and a function", hint=f"write (D^2 + 1) {self.unknown} = 0")
         (kind,) = kinds
         parts: dict[int, list[Any]] = {}
         for term in terms:
@@ -196,7 +196,7 @@ class LinearArithmetic(Arithmetic):
         return sympy.And(*(sympy.Rel(left, right, _RELATION_SIGNS.get(sign, sign)) for left, right, sign in relations))
 
     def _coefficient_of(self, factor: Any) -> Any:
-        """What has no unknown function, as a factor of it."""
+        """A value free of the unknown function, as a coefficient of it."""
         if is_rational(factor):
             return self.closed(factor)
         return self.coefficient(factor)  # type: ignore[misc]
@@ -286,7 +286,7 @@ class LinearArithmetic(Arithmetic):
 def differentiations(
     by: Sequence[Any], is_variable: Callable[[Any], bool], arithmetic: LinearArithmetic, variable: Any
 ) -> int:
-    """How often x; x, x; x, 2; or (x, 2) say that something is differentiated; once if nothing is said."""
+    """The order of a derivative by x; x, x; x, 2; or (x, 2), the arguments after the function; 1 without any."""
 
     def order_of(value: Any) -> int:
         number = arithmetic.number(value) if is_rational(value) else None
@@ -317,7 +317,7 @@ def _is_zero(expression: Any) -> bool:
 
 
 class Symbols:
-    """What `Constants` is to readers of rational functions: here parameters and algebraic numbers are SymPy expressions."""
+    """Stands in for `Constants` where parameters and algebraic numbers are SymPy expressions."""
 
     parameters = ()
 

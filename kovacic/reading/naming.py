@@ -1,4 +1,4 @@
-"""What every name in a text is: the variable, the unknown function, a parameter, a function, a number, a product of letters.
+"""The meaning of every name in a text: the variable, the unknown function, a parameter, a function, a number, a product.
 
 The world of names is closed.  A name is one letter (Latin, Greek, or the name of a Greek letter) with an index or digits, a
 function, a number such as pi, one of a few letters of physics, or it has been declared.  Two letters that are glued together
@@ -70,7 +70,7 @@ class Named(NamedTuple):
 
 @dataclass(frozen=True)
 class Vocabulary:
-    """What the user has said of names: `variable` and `unknown` where they are given, and the `declared` parameters."""
+    """Declarations of the user: the `variable` and the `unknown`, if given, and the `declared` parameters."""
 
     variable: str | None = None
     unknown: str | None = None
@@ -184,7 +184,7 @@ class Vocabulary:
 
 
 def _guesses(tokens: Sentence) -> list[str]:
-    """What may have been meant in another way: x^1/2 is x/2."""
+    """Notes on what may have been meant in another way: x^1/2 is x/2."""
     found = _ROOT.search(tokens.line)
     said = "^1/{0} was read as (...)^1 divided by {0}; a root is written ^(1/{0})"
     return [*([said.format(found[1])] if found else []), *_divided_functions(tokens)]
@@ -327,35 +327,34 @@ def argument_of(tokens: Sentence, unknown: str) -> str | None:
     return found and (found[1] or found[2])
 
 
-#: Where only a variable stands: in a function or an exponent, before a power, in a denominator or a sum in parentheses.
-_EVIDENCE = ("function", "power", "denominator", "sum")
-
-
 def _evidence(tokens: Sentence) -> dict[str, Counter[str]]:
-    """How often each name stands where only a variable does, by the kinds of `_EVIDENCE`, and at a "place" at all."""
+    """Where each name stands: in a "function" or an exponent, as a "power", in a denominator or a "sum", or as a "factor".
+
+    Only a variable stands elsewhere than as a factor; of several kinds the first one counts.
+    """
     found: dict[str, Counter[str]] = {}
     around: list[bool] = []  # of the open parentheses: those of a function or an exponent?
     for k, kind in enumerate(tokens.kinds[:-1]):
         before, after = tokens.kinds[k - 1], tokens.kinds[k + 1]
-        is_exponent = before == "CIRCUMFLEX" or tokens.are(k - 2, "CIRCUMFLEX", "MINUS")
         if kind == "LPAR":
             around.append(before == "CIRCUMFLEX" or (before == "HEAD" and is_function(tokens.pieces[k - 1])))
         elif kind == "RPAR" and around:
             around.pop()
         elif kind == "NAME":
-            stands = {
-                "place": True,
-                "function": is_exponent or any(around),
-                "power": after in ("CIRCUMFLEX", "SUPERSCRIPT"),
-                "denominator": before == "SLASH" or tokens.are(k - 2, "SLASH", "LPAR"),
-                "sum": bool(around) and not {before, after}.isdisjoint(("PLUS", "MINUS")),
-            }
-            found.setdefault(tokens.pieces[k], Counter()).update(what for what, is_so in stands.items() if is_so)
+            is_below = before == "SLASH" or tokens.are(k - 2, "SLASH", "LPAR")
+            stands = "factor"
+            if any(around) or before == "CIRCUMFLEX" or tokens.are(k - 2, "CIRCUMFLEX", "MINUS"):
+                stands = "function"
+            elif after in ("CIRCUMFLEX", "SUPERSCRIPT"):
+                stands = "power"
+            elif is_below or (around and not {before, after}.isdisjoint(("PLUS", "MINUS"))):
+                stands = "sum"
+            found.setdefault(tokens.pieces[k], Counter())[stands] += 1
     return found
 
 
 def _varies(name: str, evidence: dict[str, Counter[str]], names: Collection[str]) -> bool:
-    """True where a usual name of a variable occurs as only a variable does.
+    """True where a usual name of a variable occurs as only a variable does: more than once, or not as a factor.
 
     T, tau, rho, zeta, ... are often constants: they have to occur in a function, or as a power and otherwise.
     """
@@ -365,8 +364,8 @@ def _varies(name: str, evidence: dict[str, Counter[str]], names: Collection[str]
         return False
     found = evidence.get(name, Counter())
     if name in _OFTEN_CONSTANT:
-        return found["function"] > 0 or found["place"] > found["power"] > 0
-    return name == "z" or found["place"] > 1 or any(found[what] for what in _EVIDENCE)
+        return found["function"] > 0 or found.total() > found["power"] > 0
+    return name == "z" or found.total() > min(found["factor"], 1)
 
 
 def _variable_of_S(tokens: Sentence, _: str, declared: Collection[str]) -> tuple[str, str | None]:

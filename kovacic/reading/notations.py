@@ -220,7 +220,7 @@ def _by_time(match: Match) -> str:
 
 
 def _by_index(match: Match) -> str:
-    """diff(u, x, 2) for u_xx, and diff(u, t) for u_t beside it, where no derivative is written otherwise."""
+    """diff(u, x, 2) for u_xx, and diff(u, x) for u_x in the same text, if no derivative is written otherwise."""
     second = _occurs(r"(?<!\S)([a-zA-Z])_([xytzsr])\2(?!\S)", match.string)
     is_other = second is None or match["y"] != second[1] or match["y"] == "d"  # an operator, as in \\partial_{xx} u
     if is_other or _occurs(r"\w +['˙]|(?<!\S)(?:diff|D|Derivative)(?!\S)", match.string):

@@ -33,8 +33,6 @@ _BINARY_KINDS = (*_BINARY, "CIRCUMFLEX")
 _NO_OPERANDS = (*_BINARY_KINDS, "RPAR", "COMMA", "EQUAL")
 #: SymPy's functions are recursive.
 _DEEPEST_CALL = 100
-#: So many parentheses and more are left to the reader to count.
-_COUNTED = 20
 #: So many digits form a group in 1,000.
 _GROUPED = 3
 #: Raised signs and digits, as they stand in a line.
@@ -42,7 +40,7 @@ _GROUPED = 3
 
 @dataclass(slots=True)
 class Site:
-    """Where the operation stands that is being carried out: tokens `begin`, ..., `end - 1`, the last operand from `right`."""
+    """The place of the operation that is being carried out: tokens `begin`, ..., `end - 1`, the last operand from `right`."""
 
     tokens: Sentence
     begin: int = 0
@@ -107,7 +105,7 @@ class _Operand:
 
 @dataclass(slots=True)
 class _Group:
-    """What a parenthesis encloses, and the operands in it before a comma; or the whole text, and what is left of its =.
+    """The contents of a parenthesis, and the operands in it before a comma; or the whole text, and the left side of its =.
 
     `opened` is the token of the parenthesis, or of the name before it, -1 for the whole text; `signs` those of a comparison.
     """
@@ -399,7 +397,7 @@ def _check_neighbours(tokens: Sentence, reader: Any, begin: int, right: int) -> 
 
 
 def _ambiguous(tokens: Sentence, site: Site, slash: int, split: int) -> InputError:
-    """What to say of a/b c, where c begins with token `split`."""
+    """The error for a/b c, where c begins with token `split`."""
     spans = ((site.begin, slash), (site.right, site.end), (site.right, split), (split, site.end))
     above, below, first, rest = (shortened(tokens.piece(*span)) for span in spans)
     hint = f"write {above}/({below}) or ({above}/{first})*{rest}"
@@ -412,7 +410,7 @@ _Fault = tuple[str, int, int, str | None]
 
 
 def _syntax_error(tokens: Sentence, k: int, opened: Sequence[int]) -> InputError:
-    """What is wrong with token k, which can't follow what was read; `opened` are the open parentheses."""
+    """The error for token k, which can't follow the tokens before it; `opened` are the open parentheses."""
     kind, piece = tokens.kinds[k], tokens.pieces[k]
     before = tokens.kinds[k - 1] if k else ""
     fault: _Fault = f"{piece!r} doesn't belong here", k, k, None
@@ -447,7 +445,7 @@ def _incomplete(tokens: Sentence, end: int, opened: Sequence[int]) -> _Fault:
         return f"the expression ends after {tokens.pieces[last]!r}", last, last, "something is missing after it"
     if not opened:
         return "the expression isn't complete", end, end, None
-    hint = f"add {')' * len(opened)!r} where it ends" if len(opened) < _COUNTED else "count the parentheses"
+    hint = f"add {shortened(')' * len(opened))!r} where it ends"
     return "this parenthesis is never closed", opened[-1], opened[-1], hint
 
 

@@ -39,7 +39,7 @@ from kovacic.reading.notations import (
     rule,
 )
 
-#: Words between an equation and what is said of it.
+#: Words between an equation and its conditions.
 _BETWEEN = frozenset("and with where subject such given for if at when".split())  # noqa: SIM905
 _FILLERS = frozenset("to that the conditions condition initial boundary by values value".split())  # noqa: SIM905
 #: Statements that say what names are, and solve nothing.
@@ -91,7 +91,7 @@ class Paste:
 
     @property
     def beside(self) -> Tokens | None:
-        """The piece beside the one equation or expression: prose, or a second one."""
+        """A piece besides the one equation or expression: prose, or a second one."""
         scans = self.scans("equation")
         if len(scans) < 2:
             return None
@@ -137,7 +137,7 @@ def _plain_tokens(text: str) -> Tokens:
 
 
 def _statements(scan: Tokens) -> Iterator[Tokens]:
-    """What stands between commas, semicolons, words and ends of lines that separate."""
+    """The statements that commas, semicolons, words and ends of lines separate."""
     if scan and not scan.has(_SEPARATORS):
         yield scan
         return
@@ -188,7 +188,7 @@ _SEPARATORS: dict[str, Callable[[Tokens, int, list[Token], bool], bool]] = {
 }
 
 
-#: What is said of each role.
+#: The note on a piece of each role.
 _NOTES = {
     "number": "{} was taken for a number in a list",
     "label": "{} was taken for the number of the equation",

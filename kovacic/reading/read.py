@@ -93,7 +93,7 @@ def declared(parameters: Collection[str], assume: Any = None) -> tuple[str, ...]
 
 
 def _parsed(given: Any, source: Source, limits: Limits, *, exponentials: bool) -> Parsed:
-    """What a source means, made of the text or expression that was given.
+    """The meaning of a source, made of the text or expression that was given.
 
     With `exponentials`, coefficients that aren't rational are tried as functions of exp(k x), and constants as letters.
     """
@@ -117,7 +117,7 @@ def _parsed(given: Any, source: Source, limits: Limits, *, exponentials: bool) -
 
 
 def _with_note(parsed: Parsed) -> Parsed:
-    """Where a function is given by its name on the right-hand side, what of the equation is meant."""
+    """With a note if the right-hand side has a function given by its name only."""
     if parsed.equation is None or parsed.equation.h is None:
         return parsed
     from kovacic.reading.symbolic import functions_in

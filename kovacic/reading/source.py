@@ -25,7 +25,7 @@ from kovacic.reading.pieces import Paste, taken_apart
 
 
 class Source(NamedTuple):
-    """What was given: `walk(reader)` is its value; `unknown` is the function of an equation, empty for S alone."""
+    """The input, not yet read: `walk(reader)` is its value; `unknown` is the function of an equation, empty for S alone."""
 
     walk: Callable[[Any], Any]
     variable: str
@@ -93,12 +93,12 @@ def _only_equation(paste: Paste) -> Sentence:
         raise ParseError("there is no expression: the text is empty", text=paste.text, position=0, hint=hint)
     if paste.beside is not None:
         message, hint = (
-            "this stands beside the expression",
+            "the text has this besides the expression",
             "decimals are written with a point; one expression is one S",
         )
         if paste.is_equation:
-            message = "this stands beside the equation"
-            hint = "leave it out, or put into the equation what its letters stand for; values follow the equation as y(0) = 1"
+            message = "the text has this besides the equation"
+            hint = "leave it out, or substitute the values of letters in the equation; initial values follow it as y(0) = 1"
         raise paste.error(message, paste.beside, hint)
     (tokens,) = paste.equations
     return tokens
@@ -152,7 +152,7 @@ def read_with_numbers(source: Source, limits: Limits) -> Parsed:
 
 
 def read_source(source: Source, limits: Limits) -> Parsed:
-    """What it means: a rational function, or an equation.
+    """The meaning of a source: a rational function, or an equation.
 
     Raises `NotRational` and `NotLinear` where it is neither, `ParseError` for what is no expression, with the position in a
     text, and `LimitExceeded` before anything would become larger than the limits allow.

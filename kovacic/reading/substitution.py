@@ -103,12 +103,12 @@ def value_text(value: Any, *excluded: str, limits: Limits = DEFAULT_LIMITS) -> s
     return text
 
 
-#: An input in which values have taken the place of parameters, as it is read, and what is known of the others.
+#: An input in which values have taken the place of parameters, the result of reading it, and the other assumptions.
 Substituted = tuple[Any, Parsed, Mapping[Any, Any] | None]
 
 
 def with_values(S: Any, parsed: Parsed, assume: Mapping[Any, Any] | None, limits: Limits) -> Substituted:
-    """The input with the values that are among the assumptions, {"n": 3}, as it is read then, and the other assumptions.
+    """The input with the values that are among the assumptions, {"n": 3}, the result of reading it, and the other assumptions.
 
     Raises `InputError` for values that aren't numbers, or of what isn't a parameter.
 

@@ -36,7 +36,7 @@ from kovacic.reading.parser import Site, evaluate, shown
 from kovacic.reading.pieces import Paste, taken_apart
 
 LIMITS = Limits(text_length=10_000, digits=1000, exponent=1000, bits=10_000)
-#: Infinity as it is written in texts.
+#: Spellings of infinity.
 _INFINITY_NAMES = dict.fromkeys(("oo", "inf", "infty", "infinity", "Infinity"), sympy.oo)
 #: Letters that are functions where they have an argument, and neither a product nor an unknown function is meant.
 _SYMBOLS_OF_FUNCTIONS = {"delta": "DiracDelta", "δ": "DiracDelta"}
@@ -235,7 +235,7 @@ def read_equations(
 
 
 class SymbolicReader(RationalReader):
-    """What a text means as a SymPy expression, or as an equation in `unknowns`, functions of x."""
+    """Reads a text as a SymPy expression, or as an equation in `unknowns`, functions of x."""
 
     arithmetic: LinearArithmetic
 

@@ -125,7 +125,7 @@ def _in_time(part: Callable[[], Iterator[Block]]) -> Iterator[Block]:
 
 
 def _picture(answer: Answer) -> str:
-    """Solutions between and beside the singular points on the axis; empty without values, NumPy or matplotlib."""
+    """A picture of solutions near the singular points on the axis; empty without values, NumPy or matplotlib."""
     from kovacic.enclosure.problem import as_problem
 
     try:
@@ -140,7 +140,7 @@ def _picture(answer: Answer) -> str:
         return ""
     figure.savefig(drawing := StringIO(), format="svg", metadata={"Date": None})
     svg = drawing.getvalue()[drawing.getvalue().index("<svg") :]
-    caption = "Solutions between and beside the singular points on the real axis."
+    caption = "Solutions near the singular points on the real axis."
     heading = FORMATS["html"].heading(_PICTURE, 2)
     return f"\n{heading}\n\n<figure>{svg}<figcaption>{caption}</figcaption></figure>\n"
 

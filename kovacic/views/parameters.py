@@ -14,7 +14,7 @@ from kovacic.parametric.cases import in_lines
 from kovacic.parametric.parametric_answer import ParametricAnswer
 from kovacic.writing.maps import CellKind, draw_cells, new_axes
 
-#: Regions that are written unless all are asked for.
+#: The number of regions that are written by default.
 _SCREEN = 24
 #: What can be known at a point, in colours that keep apart in print and for colour-blind readers [Okabe & Ito].
 _KINDS = (
@@ -25,14 +25,14 @@ _KINDS = (
     CellKind("not determined", "#dddddd"),
     CellKind("S not defined", "#000000"),
 )
-#: The ends of ranges, and so many intervals, at most.
+#: The largest ends of ranges, and the largest number of intervals.
 _FARTHEST = 10**300
 _MOST_STEPS = 10_000
 _LABELS = tuple(kind.name for kind in _KINDS)
 
 
 def text(answer: ParametricAnswer, *, all: bool) -> str:
-    """The partition in lines, of which a screen is written unless all are asked for."""
+    """The partition in lines; by default as many as fit a screen."""
     complete = f"complete {answer.complete}"
     if answer.complete is True:
         complete = "proven to be complete"

@@ -152,7 +152,7 @@ def _interval_of(start: object, stop: object) -> tuple[Fraction, Fraction]:
 
 
 def _regular_intervals(chart: PieceChart, a: Fraction, b: Fraction) -> list[tuple[Fraction, Fraction]]:
-    """The parts of [a, b] between singular points, shorter by a share beside each of these."""
+    """The parts of [a, b] between singular points, shortened near each of these."""
     cuts = sorted({z.re for z in chart.singular if z.is_real() and a <= z.re <= b})
     wild = {float(point.re) for point in chart.irregular}
 

@@ -186,7 +186,7 @@ def _mathml(math: Math, display: str = "inline") -> str:
 
 
 def mathml(latex: str, display: str = "inline") -> str:
-    """What a formula in LaTeX is in MathML."""
+    """The MathML of a formula in LaTeX."""
     from latex2mathml.converter import convert
 
     written = convert(latex, display=display)

@@ -94,7 +94,7 @@ def test_roots_that_are_real_on_an_interval_alone(term: Any) -> None:
         assert jet(found, x, point)[1].overlaps(jet(term, x, point)[0])
 
 
-@pytest.mark.parametrize("c", ["I", "1+2*I", "sqrt(2)", "-1-sqrt(3)"])
+@parametrize("c", ["I", "1+2*I", "sqrt(2)", "-1-sqrt(3)"], ordinary=2)
 def test_roots_of_numbers_before_an_integral_stay_roots(c: str) -> None:
     """1/sqrt(-i) stood before it as a power of `CRootOf(_Dummy**4 + 1, 2)`."""
     found = kovacic.dsolve(f"y'' + ({c})*y = log(x)").rhs

@@ -11,7 +11,7 @@ from typing import Any
 
 import pytest
 import sympy
-from build import parametrize
+from build import parametrize, size
 from scipy.integrate import solve_ivp
 from sympy import E, Rational, Symbol, cbrt, cos, exp, log, oo, pi, sec, sin, sqrt, tan
 
@@ -76,7 +76,7 @@ def is_multiple(found: Any, expected: Any, point: Any) -> bool:
     """Is found a constant times expected: the determinant with the slopes vanishes at a point?"""
     total = found * expected.diff(x) - found.diff(x) * expected
     values = (total.subs(v).subs({C1: 2, C2: 3}).subs(x, point.subs(v)) for v in numbers(total, 3))
-    return found != 0 and all(abs(sympy.N(value, 30)) < 1e-20 for value in values)
+    return found != 0 and all(size(value, 30) < 1e-20 for value in values)
 
 
 @parametrize(("s", "left", "right"), SCALES, ids=str, ordinary=0, long=1)

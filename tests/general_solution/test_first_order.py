@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+from itertools import product
 from pathlib import Path
 from typing import Any
 
@@ -204,18 +205,19 @@ def test_values_at_two_points() -> None:
         kovacic.dsolve(equations, ics={u(0): 1, u(pi): 3})
 
 
-@pytest.mark.parametrize(
-    ("first", "second"),
-    [
-        ("v + {}", "-u"),
-        ("v", "-u + {}"),
-        ("u + v + {}", "t*Heaviside(t - 2) - u"),
-        ("-u + {}", "u - 2*v"),
-        ("{} - v", "u - v"),
-    ],
-)
-@pytest.mark.parametrize("jump", ["Heaviside(t - 1)", "Piecewise((1, t < 1), (0, True))", "abs(t - 1)"])
-def test_the_unknowns_of_a_system_are_continuous_at_jumps(first: str, second: str, jump: str) -> None:
+JUMPING = [
+    ("v + {}", "-u"),
+    ("v", "-u + {}"),
+    ("u + v + {}", "t*Heaviside(t - 2) - u"),
+    ("-u + {}", "u - 2*v"),
+    ("{} - v", "u - v"),
+]
+JUMPS = ["Heaviside(t - 1)", "Piecewise((1, t < 1), (0, True))", "abs(t - 1)"]
+
+
+@parametrize(("system", "jump"), product(JUMPING, JUMPS), ordinary=7)  # each system and each jump
+def test_the_unknowns_of_a_system_are_continuous_at_jumps(system: tuple[str, str], jump: str) -> None:
+    first, second = system
     found = kovacic.dsolve(f"u' = {first.format(jump)}, v' = {second.format(jump)}, u(0) = 1, v(0) = 0")
     solution = {e.lhs: e.rhs for e in found}
     near = Rational(1, 10**9)

@@ -6,7 +6,7 @@ from typing import Any
 
 import pytest
 import sympy
-from build import parametrize
+from build import parametrize, size
 from sympy import cos, exp, sin
 
 import kovacic
@@ -25,7 +25,7 @@ def test_the_formula_holds_for_functions_that_are_put_in(equation: Any, func: An
     residual = equation.subs(D0, found)
     for function in (x**2, exp(3 * x), sin(5 * x)):
         value = residual.subs(g(x), function).doit().subs({x: 0.75, k: 2, "C1": 3, "C2": 4})
-        assert abs(sympy.N(value, 20)) < 1e-12
+        assert size(value) < 1e-12
 
 
 def test_integrals_have_the_function_under_them() -> None:

@@ -31,7 +31,7 @@ def residual(equation: Any, found: Any) -> Any:
     """Of the equation at a point, with values for the constants."""
     values = {x: sympy.Rational(3, 7), C1: 2, C2: 5}
     left = equation.lhs.subs(y(x), found.rhs).doit()
-    return left.subs(values).evalf(20)
+    return left.subs(values).evalf(20, maxn=40)
 
 
 def state() -> Any:

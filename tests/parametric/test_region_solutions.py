@@ -50,7 +50,7 @@ def test_every_solution_with_a_natural_degree_solves_the_equation(S: str, values
             continue
         natural += 1
         y = sympy.expand_func(solution.y.subs(at)).doit()
-        value = (y.diff(x, 2) - known * y).subs(x, R(13, 7)).evalf(30)
+        value = (y.diff(x, 2) - known * y).subs(x, R(13, 7)).evalf(30, maxn=60)
         assert abs(value) < sympy.Float("1e-20") * abs(y.subs(x, R(13, 7)).evalf(30))
     assert natural
 
@@ -86,7 +86,7 @@ def test_solutions_with_a_determinant_solve_the_equation_where_it_vanishes(
         equations = [(sympy.sympify(a) - sympy.sympify(b)).subs(given) for a, b in sides]
         for point in sympy.solve(equations, dict=True)[:2]:
             y, known = (f.subs(given).subs(point) for f in (solution.y, sympy.sympify(S.replace("^", "**"))))
-            value = (y.diff(x, 2) - known * y).subs(x, R(13, 7)).evalf(30)
+            value = (y.diff(x, 2) - known * y).subs(x, R(13, 7)).evalf(30, maxn=60)
             assert abs(value) < sympy.Float("1e-20") * abs(y.subs(x, R(13, 7)).evalf(30))
             checked += 1
     assert checked

@@ -11,7 +11,7 @@ import mpmath
 import numpy as np
 import pytest
 import sympy
-from build import parametrize, read_input, run, sample
+from build import parametrize, read_input, run, sample, size
 
 import kovacic
 
@@ -22,7 +22,7 @@ y = sympy.Function("y")
 
 def residual(solution: Any, S: Any, point: Any) -> Any:
     """How far y'' is from S y at a point, relatively, with 40 digits."""
-    value = (solution.diff(x, 2) - S * solution).subs(x, point).evalf(40)
+    value = (solution.diff(x, 2) - S * solution).subs(x, point).evalf(40, maxn=80)
     return abs(value) / abs(solution.subs(x, point).evalf(40))
 
 
@@ -190,7 +190,7 @@ def test_rates_are_parameters_and_radicals() -> None:
 @pytest.mark.parametrize(
     ("S", "message"),
     [
-        ("x*exp(x)", "x beside exp\\(x\\): that isn't rational in one exponential"),
+        ("x*exp(x)", "x and exp\\(x\\) both occur: that isn't rational in one exponential"),
         ("exp(x) + exp(sqrt(2)*x)", "no rational quotient"),
         ("exp(x)*cos(x)", "no rational quotient"),
         ("exp(x^2)", "multiple of x"),
@@ -479,7 +479,7 @@ def test_solutions_join_where_the_new_variable_has_a_branch_point(equation: str,
     found = kovacic.dsolve(equation, ics={"y(1)": 2, "y'(1)": 3}).rhs
     expected = 2 + 3 * (second(x) - second(1)) / second(x).diff(x).subs(x, 1)
     for point in (-2, -1, Fraction(1, 3), 3, 5):
-        assert abs(sympy.N((found - expected).subs(x, sympy.Rational(point)), 20)) < 1e-15
+        assert size((found - expected).subs(x, sympy.Rational(point))) < 1e-15
 
 
 @parametrize(
@@ -506,7 +506,7 @@ def test_a_right_hand_side_that_is_another_function(right: str) -> None:
     values = {integral: sympy.Rational(k + 2, 5) for k, integral in enumerate(integrals)}
     point = {x: sympy.Rational(3, 2), "C1": 1, "C2": 2}
     steps = {f: f.subs(point) for f in residual.atoms(sympy.Heaviside, sympy.DiracDelta)}
-    assert abs(sympy.N(residual.xreplace(values).doit().xreplace(steps).subs(point), 20)) < 1e-12
+    assert size(residual.xreplace(values).doit().xreplace(steps).subs(point)) < 1e-12
     assert kovacic.solve(equation).case is None
     if "Heaviside" in right:
         with pytest.raises(kovacic.InputError, match="isn't known in balls"):
@@ -543,7 +543,7 @@ def test_solutions_with_numbers_on_the_right_that_are_not_algebraic(right: str) 
     values = {"C1": 2, "C2": 3, "a": sympy.Rational(1, 4)}
     left = found.diff(x, 2) - found.diff(x) + sympy.exp(2 * x) * found
     residual = left - sympy.sympify(right.replace("e*", "E*"))
-    assert abs(sympy.N(residual.subs(values).subs(x, sympy.Rational(3, 4)), 20)) < 1e-15
+    assert size(residual.subs(values).subs(x, sympy.Rational(3, 4))) < 1e-15
 
 
 SHAPES = [

@@ -849,7 +849,7 @@ def test_parentheses_tell_what_a_root_is_of() -> None:
         ("y'' + y = arctg(x)", "atan(...)"),
         ("y'' + y = log_10 x", "log(x)/log(b)"),
         ("S = x^2 + 3", "S alone"),
-        ("y'' + k^2 y = 0, k = 2", "put into the equation"),
+        ("y'' + k^2 y = 0, k = 2", "substitute the values"),
     ],
 )
 def test_the_hint_has_what_was_meant(text: str, meant: str) -> None:

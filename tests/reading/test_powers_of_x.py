@@ -6,7 +6,7 @@ from typing import Any
 
 import pytest
 import sympy
-from build import parametrize
+from build import parametrize, size
 from sympy import Rational
 
 import kovacic
@@ -62,7 +62,7 @@ def test_bessel_functions_of_powers(alpha: Any, beta: Any, gamma: Any, nu: Any) 
 def test_other_solutions(left: Any, solution: Any) -> None:
     found = kovacic.dsolve(left).rhs
     if solution == 0:
-        assert abs(left.subs(D0, found).doit().subs({x: 1.7, "C1": 2, "C2": 3}).evalf(15)) < 1e-10
+        assert size(left.subs(D0, found).doit().subs({x: 1.7, "C1": 2, "C2": 3}), 15) < 1e-10
     else:
         assert is_solution(solution, found)
 
@@ -72,7 +72,7 @@ def test_values_and_right_hand_sides() -> None:
     solution = kovacic.dsolve(D2 + x**p * D0, ics={y(1): 2, D1.subs(x, 1): 3}).rhs.subs(VALUES)
     assert abs(solution.subs(x, 1).evalf(20) - 2) < 1e-15
     assert abs(solution.diff(x).subs(x, 1).evalf(20) - 3) < 1e-15
-    assert abs((solution.diff(x, 2) + x ** VALUES[p] * solution).subs(x, 2.5).evalf(20)) < 1e-12
+    assert size((solution.diff(x, 2) + x ** VALUES[p] * solution).subs(x, 2.5)) < 1e-12
     assert kovacic.dsolve(D2 + sympy.sqrt(x) * D0 - x).rhs.has(sympy.Integral)
     with pytest.raises(kovacic.InputError, match="singular point"):
         kovacic.dsolve(D2 + sympy.sqrt(x) * D0, ics={y(-1): 0, y(1): 1})

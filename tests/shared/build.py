@@ -15,6 +15,7 @@ from collections.abc import Iterable, Sequence
 from typing import Any
 
 import pytest
+import sympy
 from flint import acb
 
 from kovacic import Equation
@@ -125,6 +126,11 @@ def parametrize(
         else:
             marked.append(_marked(member, pytest.mark.long if index in in_ci else pytest.mark.slow, one_name))
     return pytest.mark.parametrize(names, marked, **options)
+
+
+def size(number: Any, digits: int = 20) -> Any:
+    """The absolute value of a number of SymPy's; of zero what rounding leaves, where SymPy would go on to 100 digits."""
+    return abs(sympy.N(number, digits, maxn=2 * digits))
 
 
 def _spread(indices: Sequence[int], count: int) -> set[int]:

@@ -251,7 +251,7 @@ def test_printed_solutions_solve_the_equation(name: str, S: str, values: dict[st
             natural += 1
             given[letter] = d
             y = sympy.expand_func(parsed(text, given)).doit()
-            value = (y.diff(x, 2) - right * y).subs(x, R(13, 7)).evalf(30)
+            value = (y.diff(x, 2) - right * y).subs(x, R(13, 7)).evalf(30, maxn=60)
             assert abs(value) < sympy.Float("1e-20") * abs(y.subs(x, R(13, 7)).evalf(30)), (text, given)
     families = [family for region in conditions(name).regions for family in families_of(region.statement.claim)]
     for text, numbers in printed_rows(conditions(name)):
@@ -261,7 +261,7 @@ def test_printed_solutions_solve_the_equation(name: str, S: str, values: dict[st
             if any(sympy.nsimplify(value - values[parameter]) == 0 for parameter, value in solved.items()):
                 natural += 1
                 y = sympy.expand_func(parsed(text, given)).doit()
-                value = (y.diff(x, 2) - right * y).subs(x, R(13, 7)).evalf(30)
+                value = (y.diff(x, 2) - right * y).subs(x, R(13, 7)).evalf(30, maxn=60)
                 assert abs(value) < sympy.Float("1e-20") * abs(y.subs(x, R(13, 7)).evalf(30)), (text, given)
     assert natural
 
