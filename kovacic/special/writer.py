@@ -218,7 +218,7 @@ class Writer:
     ) -> tuple[Expr, Expr | None]:
         """P sqrt(m) ((a + b P'/P) F + b F') over a constant c for v = P F, F' = s F + t F1, F1 another function; P sqrt(m)/c.
 
-        Over Q the powers are joined, and c, a number, isn't known.
+        Over Q the powers are joined, unless there are roots of numbers among them, and c, a number, isn't known.
         """
         x = self.atoms.x
         b = self.atoms.ratio(transform.b)
@@ -230,10 +230,11 @@ class Writer:
         n, d = sympy.fraction(sympy.together(_in_lowest_terms(of_F / of_other)))
         total = before.product.logarithmic_derivative + half_rate(transform.m)
         bracket = n * function + d * root * other
-        if total.field == QQ:
-            for part, sign in zip(sympy.factor(of_other / d).as_numer_denom(), (1, -1), strict=True):
-                coefficients = sympy.Poly(part, x).all_coeffs()
-                p = QQ.poly([Fraction(int(c.p), int(c.q)) for c in reversed(coefficients)])
+        shared = sympy.factor(of_other / d).as_independent(x, as_Add=False)[1]
+        parts = [sympy.Poly(part, x) for part in shared.as_numer_denom()]
+        if total.field == QQ and all(c.is_Rational for part in parts for c in part.all_coeffs()):
+            for part, sign in zip(parts, (1, -1), strict=True):
+                p = QQ.poly([Fraction(int(c.p), int(c.q)) for c in reversed(part.all_coeffs())])
                 total = total + RatFunc(p.derivative(), p) * sign
             return Mul(display(product(total), atoms), *before.others, bracket), None
         powers = Mul(display(product(total), atoms), *before.others)
