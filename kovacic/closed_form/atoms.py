@@ -259,9 +259,8 @@ class Atoms:
             return is_pure_square and bool(self.constant(base[0]).is_negative)
         if self.at.is_infinite:
             return False
-        if self.at.is_Rational and base.field == QQ:
-            value = QQ.rational_value(base(Fraction(int(self.at.p), int(self.at.q))))
-            return value is not None and value < 0
+        if self.at.is_Rational:
+            return self.is_negative(base(Fraction(int(self.at.p), int(self.at.q))))
         return bool(self.own(self.poly(base).subs(self.x, self.at)).is_negative)
 
     def root_sum(self, polynomial: Expr, body: Expr) -> Expr:

@@ -241,7 +241,7 @@ def _append_rest(
 ) -> None:
     """c int dx/sqrt(g) = c log(x - (x1 + x2)/2 + sqrt(g)), or an inverse sine."""
     g = integral.g
-    inverse = None if exponents and g.lc == 1 else _inverse_sine(g, atoms)
+    inverse = None if exponents and g.lc == 1 else _inverse_sine(g, atoms, exponents=exponents)
     c = atoms.constant(integral.rest)
     if inverse is not None:
         terms.others.append(c * inverse)
@@ -255,13 +255,20 @@ def _append_rest(
     terms.logarithms.append((c, atoms.poly(g.derivative() * Fraction(1, 2)) + root))
 
 
-def _inverse_sine(g: Poly, atoms: Atoms) -> Expr | None:
-    """int dx/sqrt(g) for g = k^2 - (x - h)^2 or g = (x - h)^2 + k^2 with a number k > 0; None for others."""
+def _inverse_sine(g: Poly, atoms: Atoms, *, exponents: bool) -> Expr | None:
+    """int dx/sqrt(g) for g = k^2 - (x - h)^2 or g = (x - h)^2 + k^2 with k > 0 or a letter k; None for others.
+
+    1/sqrt(k^2 - x^2) is the slope of asin(x/|k|); for exponents, of which both signs are taken, k serves as well.
+    """
     h = g[1] * g.lc * Fraction(-1, 2)
     d = g[0] - g[1] * g[1] * g.lc * Fraction(1, 4)
-    if not atoms.own(atoms.constant(d)).is_positive:
-        return None
-    z = (atoms.x - atoms.constant(h)) / atoms.sqrt(d)
+    square = atoms.constant(d)
+    k = atoms.sqrt(d)
+    if not atoms.own(square).is_positive:
+        if k.has(sympy.I) or not k.is_rational_function(*square.free_symbols):
+            return None
+        k = k if exponents else sympy.sqrt(square)
+    z = (atoms.x - atoms.constant(h)) / k
     if g.lc == -1:
         return asin(z)
     return asinh(z)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import replace
+from fractions import Fraction
 from functools import partial
 from typing import Any
 
@@ -17,7 +18,7 @@ from kovacic.equation import Equation, Parsed, parameters_of
 from kovacic.errors import LimitExceeded
 from kovacic.general_solution.basis import Basis, kernel, multiple_of
 from kovacic.general_solution.integrands import NUMBERS
-from kovacic.general_solution.places import limit_points
+from kovacic.general_solution.places import limit_points, start_of
 from kovacic.general_solution.question import Question
 from kovacic.general_solution.textbook import of_chebyshev, with_waves
 from kovacic.general_solution.zero_set import ZeroSet
@@ -86,7 +87,7 @@ def _basis(question: Question, solution: Solution, pair: WrittenPair) -> Basis:
     if isinstance(constant, FunctionPoly) and not question.assumptions.is_positive(constant):
         y1, y2 = with_waves(y1, y2)
     if not question.conditions:  # which may be outside of the interval where f is a cosine
-        y1, y2 = of_chebyshev(y1, y2)
+        y1, y2 = of_chebyshev(y1, y2, question.x)
     return basis.of(y1, y2)
 
 
@@ -129,7 +130,7 @@ def _in_special_functions(
     """
     is_positive = bool(question.function.args[0].is_positive)
     is_positive = is_positive and all(point.is_positive for c in question.conditions for point in c.points)
-    places = real_values(question.equation)
+    places = _real_places(question)
     how: dict[str, Any] = {"symbols": question.parameters, "joined": not is_positive, "places": places}
     found = special_functions(solution.S, solution.gauge, solution.variable, budget, **how)
     pair = found.pair
@@ -156,6 +157,16 @@ def _in_special_functions(
     if special and not are_independent(pair.y1, pair.y2, sympy.Symbol(solution.variable)):
         raise NotImplementedError(f"{no_solution(solution, question.assumptions)}; {found}")
     return pair
+
+
+def _real_places(question: Question) -> tuple[Fraction, ...]:
+    """Values of the equation's variable at which solutions are to be real: that at which the conditions are, if it is rational."""
+    equation = question.equation
+    if question.conditions and equation.change is None:
+        start = start_of(question, limit_points(question))
+        if start.is_Rational:
+            return (Fraction(int(start.p), int(start.q)),)
+    return real_values(equation)
 
 
 def _without_exceptions(pair: WrittenPair | None, x: Expr) -> WrittenPair | None:

@@ -14,7 +14,7 @@ sin u cos v as a sum of waves, which is sin(x - a) beside a step at a; tan u for
 A pair of solutions is changed before constants are given values:
 
     e^(P + Q sqrt(u)), e^(P - Q sqrt(u))  span  e^P cos(Q sqrt(-u)), e^P sin(Q sqrt(-u));                               (3)
-    (f + sqrt(f^2 - 1))^(+-n)             span  cos(n acos f), sin(n acos f).                                           (4)
+    (f + sqrt(f^2 - c^2))^(+-n)           span  cos(n acos(f/c)), sin(n acos(f/c)).                                           (4)
 """
 
 from __future__ import annotations
@@ -103,15 +103,18 @@ def _exponent(y: Expr) -> tuple[Expr, Expr]:
     return sympy.Mul(*others), sympy.Add(*(factor.args[0] for factor in exponents))
 
 
-def of_chebyshev(y1: Expr, y2: Expr) -> tuple[Expr, Expr]:
-    """The pair (4) for (f + sqrt(f^2 - 1))^n and its inverse; else these two."""
+def of_chebyshev(y1: Expr, y2: Expr, x: Expr) -> tuple[Expr, Expr]:
+    """The pair (4) for (f + sqrt(f^2 - c^2))^n and its inverse, in acos(f/c) for a number or letter c; else these two."""
     if not y1.is_Pow or sympy.powsimp(y1 * y2) != 1 or not y1.base.is_Add:
         return y1, y2
     n = y1.exp
     for f, rest in (y1.base.as_two_terms(), y1.base.as_two_terms()[::-1]):
+        square = sympy.expand(f**2 - rest**2)
+        c = sympy.powdenest(sympy.sqrt(square), force=True)
         # sqrt(x^2 + 1) + x is one for f = x i alone
-        if not radicands(f) and sympy.expand(rest**2 - f**2) == -1 and not n.is_number:
-            angle = n * sympy.acos(f)
+        is_real = square.is_positive or (not radicands(c) and not c.has(sympy.I))
+        if not radicands(f) and is_real and not square.has(x) and not n.is_number:
+            angle = n * sympy.acos(f / c)
             return cos(angle), sin(angle)
     return y1, y2
 

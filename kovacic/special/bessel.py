@@ -173,7 +173,7 @@ def written(writer: Writer, nu_squared: Poly, t: RatFunc, singular: Poly | None)
         )
         # t^((1 + nu)/2) and t^((1 - nu)/2) are the leading terms at t = 0.
         return writer.pair(first, second, lambda: -writer.constant(nu) * writer.rate(t), (nu,))
-    modified = writer.is_negative(t.num.lc)
+    modified = writer.is_negative(writer.scale(t))
     four_t = t * -4 if modified else t * 4
     z = writer.root_of(four_t)
     degree = next((m - HALF for m in (nu, -nu) if writer.is_degree(m - HALF)), None)

@@ -135,6 +135,10 @@ class Gauss(StandardEquation):
             if even is not None and any(map(writer.has_letters, (even.alpha, even.degree))):
                 # Independent for all values of the letters.
                 return _by_parity(even)
+            for form in forms:  # P_nu and Q_nu beyond 1
+                if form.is_between and writer.has_letters(form.beta) and form.has_integers:
+                    decaying = form.swapped if writer.is_negative(form.beta) else form.swapped.turned
+                    return _at_two_points(form.regular, decaying)
         if any(writer.is_integer(form.degree) for form in first.signs):
             return _reducible_pair(writer, forms)
         if not writer.is_integer(first.alpha):
@@ -227,6 +231,11 @@ class _GaussForm:
         """The forms with all signs of the differences."""
         for s, t, u in product((1, -1), repeat=3):
             yield _GaussForm(self.writer, self.f, s * self.alpha, t * self.beta, u * self.gamma)
+
+    @property
+    def has_integers(self) -> bool:
+        """True if the exponent differences at the zeros and poles of f are integers."""
+        return self.writer.is_integer(self.alpha) and self.writer.is_integer(self.gamma)
 
     @property
     def turned(self) -> _GaussForm:

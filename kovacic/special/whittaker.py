@@ -197,7 +197,7 @@ class _WhittakerForm:
         given = writer.exponential_rate
         slope = f.derivative() * q.part
         vanishes = bool(given) and given in (slope, -slope)
-        turned = given == -slope if vanishes else writer.is_negative(f.num.lc)
+        turned = given == -slope if vanishes else writer.is_negative(writer.scale(f))
         if turned:
             q = -q
         mu = writer.square_root(equation.M + Fraction(1, 4))
@@ -207,6 +207,12 @@ class _WhittakerForm:
     def turned(self) -> _WhittakerForm:
         """The form with -z and -kappa."""
         return replace(self, q=-self.q, kappa=-self.kappa)
+
+    @property
+    def positive(self) -> _WhittakerForm:
+        """The form, or that with -z, whose z is positive at the first place: W is real there."""
+        is_turned = self.writer.is_negative(self.q) != self.writer.is_negative(self.writer.scale(self.f))
+        return self.turned if is_turned else self
 
     @property
     def z(self) -> Expr:
@@ -250,10 +256,12 @@ def _kummer_or_tricomi(form: _WhittakerForm) -> WrittenPair:
     reducible = any(writer.is_integer(form.kappa + m - HALF) for m in (mu, -mu))
     if natural is None or reducible:
         return writer.pair(form.turned.tricomi, form.tricomi, lambda: -form.slope)  # exp(z/2), exp(-z/2) at infinity
-    m, kappa = map(writer.constant, (natural, form.kappa))
+    own = form.positive
+    m, kappa = map(writer.constant, (natural, own.kappa))
     W = -sympy.gamma(1 + 2 * m) / sympy.gamma(m - kappa + sympy.S.Half)
-    power = form.z ** sympy.expand(-m - kappa - sympy.S.Half)
-    return writer.pair(form.kummer(natural), form.tricomi, lambda: W * sympy.exp(form.z) * power * form.slope)
+    power = own.z ** sympy.expand(-m - kappa - sympy.S.Half)
+    before = sympy.exp((form.z + own.z) / 2)  # 1F1(a; b; z) = exp(z) 1F1(b - a; b; -z)
+    return writer.pair(form.kummer(natural), own.tricomi, lambda: W * before * power * own.slope)
 
 
 def _hermite(form: _WhittakerForm) -> WrittenPair | None:

@@ -128,6 +128,7 @@ class Writer:
         self.gauge = gauge
         self.transform = transform
         self.atoms = Atoms(x)
+        self.real = Atoms(x, at=sympy.Rational(places[0])) if places else self.atoms
         self.symbols = {sympy.Symbol(name): symbol for name, symbol in symbols.items()}
         self.known = self.symbols
         self._squares: list[Poly] = []
@@ -195,8 +196,8 @@ class Writer:
         With `real_at` the powers are real at that point, or at the first of the places.
         """
         if self.places:
-            real_at = sympy.Rational(self.places[0])
-        atoms = self.atoms if real_at is None else Atoms(self.atoms.x, at=real_at)
+            real_at = self.real.at
+        atoms = self.real if self.places or real_at is None else Atoms(self.atoms.x, at=real_at)
         P, Q = (Mul(display(f.product, atoms), *f.others) for f, _ in (first, second))
         excluded = tuple(_sine_of_letters(self.constant(number)) for number in undefined if self.has_letters(number))
         x = self.atoms.x
@@ -342,11 +343,18 @@ class Writer:
         """A constant times a rational function."""
         return self.constant(number) * self.argument(f) if number.roots else self.argument(f * number.part)
 
+    def scale(self, f: RatFunc) -> Poly:
+        """The constant beside the powers of f's monic factors, of those times -1 that are negative at the first place."""
+        return -f.num.lc if self._turns(f) % 2 else f.num.lc
+
+    def _turns(self, f: RatFunc) -> int:
+        return sum(k for p, k in multiplicities(f) if k % 2 and self.places and self.real.is_turned(p))
+
     def root_of(self, f: RatFunc) -> Expr:
-        """A square root of a rational function, by factors."""
+        """A square root of a rational function, by factors, up to its sign."""
         powers = [Power(p, p.field.poly([Fraction(k, 2)])) for p, k in multiplicities(f)]
-        scale, shown = factors(Product(tuple(powers), (), f * 0), self.atoms, around_zero=False)
-        return self.root(f.num.lc, 2) * Mul(scale, *shown)
+        scale, shown = factors(Product(tuple(powers), (), f * 0), self.real, around_zero=False)
+        return self.root(self.scale(f), 2) * Mul(scale / sympy.I ** self._turns(f), *shown)
 
     def hypergeometric(self, top: Sequence[Number], bottom: Sequence[Number], z: Expr) -> Expr:
         above, below = (tuple(self.constant(value) for value in values) for values in (top, bottom))
