@@ -43,6 +43,12 @@ class RootSum(sympy.RootSum):  # type: ignore[misc]
         return self.poly.as_expr(), self.poly.gen, self.fun
 
 
+def is_seen_negative(value: Expr) -> bool:
+    """True if it is negative, with positive numbers for letters of unknown signs, as -a^2."""
+    unknown = {s: sympy.Dummy(positive=True) for s in value.free_symbols if s.is_positive is None}
+    return bool(value.xreplace(unknown).is_negative)
+
+
 def rational(value: Fraction | int) -> Expr:
     """A SymPy rational number."""
     return Rational(value.numerator, value.denominator)
@@ -256,12 +262,13 @@ class Atoms:
         """True for a monic polynomial that is negative where its roots are to be real: those of -base are written."""
         if self.at is None:
             is_pure_square = base.degree == 2 and not base[1]
-            return is_pure_square and bool(self.constant(base[0]).is_negative)
+            return is_pure_square and is_seen_negative(self.own(self.constant(base[0])))
         if self.at.is_infinite:
             return False
-        if self.at.is_Rational:
-            return self.is_negative(base(Fraction(int(self.at.p), int(self.at.q))))
-        return bool(self.own(self.poly(base).subs(self.x, self.at)).is_negative)
+        if self.at.is_Rational and base.field == QQ:
+            value = QQ.rational_value(base(Fraction(int(self.at.p), int(self.at.q))))
+            return value is not None and value < 0
+        return is_seen_negative(self.own(self.poly(base).subs(self.x, self.at)))
 
     def root_sum(self, polynomial: Expr, body: Expr) -> Expr:
         """The sum of the body over the roots of a polynomial, both in the symbol `root`."""

@@ -15,6 +15,7 @@ import sympy
 from sympy.functions.special.bessel import BesselBase
 
 from kovacic.algebra.ratfunc import RatFunc
+from kovacic.closed_form.atoms import is_seen_negative
 from kovacic.closed_form.check import are_independent, is_numerical_solution
 from kovacic.closed_form.structure import PLACES
 
@@ -79,14 +80,19 @@ def all_turned(y: Expr, x: Expr, point: Expr, own: Own = sympy.sympify) -> Expr:
         *order, u = e.args
         if e.func in _OF_IMAGINARY and own((u**2).subs(x, point)).is_negative:
             turned[e] = _OF_IMAGINARY[e.func](*order, u.xreplace(roots))
-        elif own(u.subs(x, point)).is_negative:  # SymPy writes J(-z) as J(z) (-z)^nu/z^nu
+        elif _is_negative(u, x, point, own):  # SymPy writes J(-z) as J(z) (-z)^nu/z^nu
             turned[e] = e.func(*order, -u, evaluate=False)
     return y.xreplace(turned)
 
 
 def negative_arguments(y: Expr, x: Expr, point: Expr, own: Own = sympy.sympify) -> dict[Expr, Expr]:
     """Those whose arguments are negative at the point, in the user's symbols that `own` puts in."""
-    return {e: u for e, u in arguments_with_cuts(y).items() if own(u.subs(x, point)).is_negative}
+    return {e: u for e, u in arguments_with_cuts(y).items() if _is_negative(u, x, point, own)}
+
+
+def _is_negative(u: Expr, x: Expr, point: Expr, own: Own) -> bool:
+    value = own(u.subs(x, point))
+    return is_seen_negative(value) if u.has(x) else bool(value.is_negative)
 
 
 def common_place(x: Expr, *parts: Expr, own: Own = sympy.sympify) -> Expr:

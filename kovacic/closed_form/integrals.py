@@ -689,8 +689,6 @@ def _with_exponential(y: Product, primitive: ExponentialPrimitive, first: Factor
             scale = -scale * Integer(-1) ** rational(power)
             b, q = b * (-1) ** term.n, -q
         c, function = _gamma(b, term.n, q, power, atoms)
-        if function.has(sympy.lowergamma, sympy.uppergamma) and atoms.is_negative(-b):
-            c, function = Integer(1), _entire_gamma(b, term.n, q, power, atoms)
         shift = exp(atoms.constant(term.e))
         terms.append(_scaled(scale * atoms.constant(term.coefficient) * c, [*parts, shift, function]))
     at_poles = [_sum_at_poles(residue, primitive, atoms) for residue in primitive.poles]
@@ -712,14 +710,11 @@ def _sum_at_poles(residue: Residue, primitive: ExponentialPrimitive, atoms: Atom
     return atoms.root_sum(atoms.poly(residue.factor, a**n), body)
 
 
-def _entire_gamma(factor: Poly, n: int, t: Expr, power: Fraction, atoms: Atoms) -> Expr:
-    """int t^power exp(beta t^n) dt = t^(power + 1)/(n s) 1F1(s; s + 1; beta t^n), which is real for a positive t."""
-    s = rational((power + 1) / n)
-    return t ** rational(power + 1) * hypergeometric((s,), (s + 1,), atoms.constant(factor) * t**n) / (n * s)
-
-
 def _gamma(factor: Poly, n: int, t: Expr, power: Fraction, atoms: Atoms) -> Scaled:
-    """int t^power exp(beta t^n) dt: equation (1) of `kovacic.closed_form.primitive`."""
+    """int t^power exp(beta t^n) dt: equation (1) of `kovacic.closed_form.primitive`.
+
+    In general it is t^(power + 1)/(n s) 1F1(s; s + 1; beta t^n), s = (power + 1)/n, which has no cuts but those of the power.
+    """
     beta = atoms.constant(factor)
     s = (power + 1) / n
     if s == 0:
@@ -730,8 +725,6 @@ def _gamma(factor: Poly, n: int, t: Expr, power: Fraction, atoms: Atoms) -> Scal
         function = erfi if is_positive else erf
         return 1 / (root * n), sqrt(pi) * function(root * t ** sympy.Rational(n, 2))
     order = rational(s)
-    z = -beta * t**n
     if n == 1 and beta.is_negative:
-        return -((-beta) ** -order), sympy.uppergamma(order, z)
-    # z^(-s) gamma(s, z) is entire; with Gamma(s, z) the powers of z and of t would differ in some sectors.
-    return sympy.Rational(1, n), t ** rational(power + 1) * z**-order * sympy.lowergamma(order, z)
+        return -((-beta) ** -order), sympy.uppergamma(order, -beta * t)
+    return 1 / (n * order), t ** rational(power + 1) * hypergeometric((order,), (order + 1,), beta * t**n)

@@ -30,7 +30,12 @@ from kovacic.general_solution.integrands import (
     radicands,
     sum_of,
 )
-from kovacic.general_solution.special_integrals import dilogarithm, in_complex_exponentials, incomplete_gamma
+from kovacic.general_solution.special_integrals import (
+    dilogarithm,
+    in_complex_exponentials,
+    incomplete_gamma,
+    power_beside_wave,
+)
 from kovacic.general_solution.substitution import size
 from kovacic.general_solution.waves import beside_waves, by_coefficients, common_factor, wave_changes
 from kovacic.general_solution.zero import ball, samples
@@ -254,8 +259,9 @@ def _by_parts(inverse: Expr, g: Expr, x: Expr) -> Expr | None:
     if len(powers) == 1:
         ((function, m),) = powers
         k = sympy.expand(G).coeff(function)
-        if k != 0 and not k.has(x):
-            rest = _by_parts(inverse, sympy.expand(g - k * function.diff(x)), x)
+        left = sympy.expand(g - k * _slope(function, x))
+        if k != 0 and not k.has(x) and size(left) <= size(g):
+            rest = _by_parts(inverse, left, x)
             return None if rest is None else k * function ** (m + 1) / (m + 1) + rest
     if not _functions(G) <= _SIMPLE:
         return None
@@ -265,10 +271,14 @@ def _by_parts(inverse: Expr, g: Expr, x: Expr) -> Expr | None:
 
 
 def _slope(function: Expr, x: Expr) -> Expr:
-    """1/sqrt(x^2 + 1) for log(x + sqrt(x^2 + 1))."""
+    """1/sqrt(x^2 + 1) for log(x + sqrt(x^2 + 1)), and 1/sqrt(a^2 - x^2) for asin(x/sqrt(a^2))."""
     slope = sympy.cancel(function.diff(x))
     if slope.is_rational_function(x):
         return slope
+    square = sympy.cancel(1 / slope**2)
+    real = {letter: sympy.Dummy(real=True, nonzero=True) for letter in slope.free_symbols}
+    if len(real) > 1 and square.is_polynomial(x) and slope.subs(x, 0).xreplace(real).is_positive:
+        return 1 / sympy.sqrt(sympy.expand(square))
     return sympy.powsimp(sympy.radsimp(slope))
 
 
@@ -367,6 +377,7 @@ _RULES = (
         partial(_in_another_variable, _roots),
     ),
     _Rule("int P g dx = P G - int P' G dx", lambda e, x: True, _powers_by_parts),
+    _Rule("int x^s cos(c x^m) dx: 1F2", _has_waves, power_beside_wave),
     _Rule("int f(x) cos(u) dx: Ei, erf and gamma functions of complex arguments", _has_waves, in_complex_exponentials),
     _Rule("int x^s exp(c x^m) dx: incomplete gamma functions", lambda e, x: True, incomplete_gamma),
 )

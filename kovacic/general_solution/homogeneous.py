@@ -160,7 +160,7 @@ def _in_special_functions(
 
 
 def _real_places(question: Question) -> tuple[Fraction, ...]:
-    """Values of the equation's variable at which solutions are to be real: that at which the conditions are, if it is rational."""
+    """Values of the variable at which solutions are to be real: that at which the conditions are, if it is rational."""
     equation = question.equation
     if question.conditions and equation.change is None:
         start = start_of(question, limit_points(question))

@@ -10,6 +10,7 @@ from typing import Any
 import sympy
 from sympy import cos, exp, log, sin
 
+from kovacic.closed_form.atoms import hypergeometric, is_seen_negative
 from kovacic.general_solution.integrands import integral_of_product, sum_of
 
 Expr = Any  # SymPy publishes no types
@@ -18,9 +19,10 @@ _MOST_EXPONENTIALS = 4
 
 
 def incomplete_gamma(term: Expr, x: Expr) -> Expr | None:
-    """int K x^s exp(c x^m) dx = -(K/m) x^(s+1) z^-e Gamma(e, z), z = -c x^m, e = (s + 1)/m; s and m may be symbols.
+    """int K x^s exp(c x^m) dx = K x^(s+1)/(m e) 1F1(e; e + 1; c x^m), e = (s + 1)/m; s and m may be symbols.
 
-    x^(s+1) z^-e is a constant wherever both powers are continuous.  Without an exponential it is K x^(s+1)/(s+1).
+    For a positive z = -c x^m it is -(K/m) x^(s+1) z^-e Gamma(e, z), where x^(s+1) z^-e is a constant.
+    Without an exponential it is K x^(s+1)/(s+1).
 
     >>> x, s = sympy.symbols("x s")
     >>> print(incomplete_gamma(x**s * exp(-x), x), incomplete_gamma((x + 2) ** s * exp(-x), x))
@@ -44,10 +46,45 @@ def incomplete_gamma(term: Expr, x: Expr) -> Expr | None:
     base, m = power.as_base_exp()
     if base != t or m.has(t) or m == 0:
         return None
-    z = -c * t**m
     e = (s + 1) / m
-    found = -K / (m * slope) * exp(d) * sympy.powsimp(t ** (s + 1) * z**-e) * sympy.uppergamma(e, z)
-    return found.xreplace({t: line})
+    if is_seen_negative(c) or e.is_Integer:  # for an integer e it is elementary, or has Ei
+        z = -c * t**m
+        found = -sympy.powsimp(t ** (s + 1) * z**-e) * sympy.uppergamma(e, z) / m
+    else:
+        found = t ** (s + 1) / (s + 1) * hypergeometric((e,), (e + 1,), c * t**m)
+    return (K / slope * exp(d) * found).xreplace({t: line})
+
+
+def power_beside_wave(term: Expr, x: Expr) -> Expr | None:
+    """int K x^s cos(c x^m + d) dx, or of the sine: with 1F2, odd or even in the angle; s and m may be symbols.
+
+    With e = (s + 1)/m and z = -(c x^m/2)^2,
+
+        int x^s cos(c x^m) dx = x^(s+1)/(s+1) 1F2(e/2; 1/2, e/2 + 1; z),
+        int x^s sin(c x^m) dx = c x^(s+m+1)/(s+m+1) 1F2((e + 1)/2; 3/2, (e + 3)/2; z).
+
+    >>> x, s = sympy.symbols("x s")
+    >>> print(power_beside_wave(x**s * cos(x), x))
+    x**(s + 1)*hyper((s/2 + 1/2,), (1/2, s/2 + 3/2), -x**2/4)/(s + 1)
+    """
+    K, rest = term.as_independent(x, as_Add=False)
+    s, wave = rest.as_independent(sin, cos, as_Add=False)
+    if wave.func not in (sin, cos):
+        return None
+    base, s = s.as_base_exp() if s != 1 else (x, sympy.S.Zero)
+    d, angle = sympy.expand(wave.args[0]).as_independent(x, as_Add=True)
+    c, power = angle.as_independent(x, as_Add=False)
+    variable, m = power.as_base_exp()
+    if base != x or variable != x or m.has(x) or s.has(x):
+        return None
+    if wave.func is cos:  # sin(u + d) = sin(u) cos(d) + cos(u) sin(d)
+        d += sympy.pi / 2
+    e = (s + 1) / m
+    z = -((c * x**m) ** 2) / 4
+    half = sympy.S.Half
+    of_cos = x ** (s + 1) / (s + 1) * hypergeometric((e / 2,), (half, e / 2 + 1), z)
+    of_sin = c * x ** (s + m + 1) / (s + m + 1) * hypergeometric(((e + 1) / 2,), (3 * half, (e + 3) / 2), z)
+    return K * (cos(d) * of_sin + sin(d) * of_cos)
 
 
 def fresnel(R: Expr, wave: Expr, x: Expr) -> Expr | None:

@@ -14,7 +14,7 @@ sin u cos v as a sum of waves, which is sin(x - a) beside a step at a; tan u for
 A pair of solutions is changed before constants are given values:
 
     e^(P + Q sqrt(u)), e^(P - Q sqrt(u))  span  e^P cos(Q sqrt(-u)), e^P sin(Q sqrt(-u));                               (3)
-    (f + sqrt(f^2 - c^2))^(+-n)           span  cos(n acos(f/c)), sin(n acos(f/c)).                                           (4)
+    (f + sqrt(f^2 - c^2))^(+-n)           span  cos(n acos(f/c)), sin(n acos(f/c)).                                          (4)
 """
 
 from __future__ import annotations
@@ -208,7 +208,9 @@ def _symmetric_product(polynomial: Expr, rate_of: Mapping[Expr, Expr]) -> tuple[
 
     None for the rest if a factor isn't symmetric.
     """
-    constant, polynomial = polynomial.as_independent(*rate_of, as_Add=False)  # SymPy can't sort powers a^n of letters
+    constant, polynomial = polynomial.as_independent(*rate_of, as_Add=False)
+    if any(power.exp.free_symbols for power in polynomial.atoms(sympy.Pow)):  # SymPy can't sort factors with a^n
+        return sympy.S.Zero, None
     number, factors = sympy.factor_list(polynomial, *rate_of)
     groups: list[Expr] = []
     for base, k in factors:

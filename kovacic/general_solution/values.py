@@ -9,7 +9,7 @@ import sympy
 
 from kovacic.general_solution.behaviour import Approach, finite_limit
 from kovacic.general_solution.steps import HeavisidePlace, place_of
-from kovacic.general_solution.substitution import finite_value
+from kovacic.general_solution.substitution import finite_value, slope
 from kovacic.general_solution.zero import agree, is_zero
 from kovacic.limits import check_time
 
@@ -40,7 +40,9 @@ def value_at(expression: Expr, x: Expr, point: Expr, order: int = 0) -> Expr:
     steps = [jump for jump in e.atoms(sympy.Heaviside, sympy.DiracDelta) if jump.has(x)]
     e = e.xreplace({jump: _just_before(e, jump, x, point, order) for jump in steps})
     if order:
-        e = e.diff(x).xreplace(dict(_contiguous(e, x, point)))
+        is_series_at_zero = any(f.argument.subs(x, point) == 0 for f in e.atoms(sympy.hyper))
+        derivative = e.diff(x) if is_series_at_zero else slope(e, x)
+        e = derivative.xreplace(dict(_contiguous(e, x, point)))
     value = finite_value(e, x, point)
     if value is not None:
         return value
@@ -55,23 +57,17 @@ def value_at(expression: Expr, x: Expr, point: Expr, order: int = 0) -> Expr:
 def _contiguous(e: Expr, x: Expr, point: Expr) -> Iterator[tuple[Expr, Expr]]:
     """Functions that derivatives have in those of the expression itself, and of the next degree, which exist for n = 0, too.
 
-    1F1(s + 1; s + 2; z) = (s + 1)/z (e^z - 1F1(s; s + 1; z)), H_n' = 2 x H_n - H_(n+1), and for L_n^(a)'
-    ((n + 1) L_(n+1)^(a) - (n + 1 + a - x) L_n^(a))/x [DLMF 13.3, 18.9].
+    H_n' = 2 x H_n - H_(n+1), and for L_n^(a)' ((n + 1) L_(n+1)^(a) - (n + 1 + a - x) L_n^(a))/x [DLMF 18.9].
     """
-    for f in e.atoms(sympy.hyper, sympy.hermite, sympy.laguerre, sympy.assoc_laguerre):
+    for f in e.atoms(sympy.hermite, sympy.laguerre, sympy.assoc_laguerre):
         *_, z = f.args
         if isinstance(f, sympy.hermite):
             n = f.args[0]
             yield sympy.hermite(n - 1, z), (2 * z * f - sympy.hermite(n + 1, z)) / (2 * n)
-        elif z.subs(x, point) == 0:
-            continue
-        elif not isinstance(f, sympy.hyper):
+        elif z.subs(x, point) != 0:
             n, a = (*f.args[:-1], sympy.Integer(0))[:2]
             more = sympy.assoc_laguerre(n + 1, a, z)
             yield sympy.assoc_laguerre(n - 1, a + 1, z), ((n + 1 + a - z) * f - (n + 1) * more) / z
-        elif len(f.ap) == 1 and f.bq == (f.ap[0] + 1,):
-            s = f.ap[0]
-            yield sympy.hyper((s + 1,), (s + 2,), z), (s + 1) / z * (sympy.exp(z) - f)
 
 
 def _just_before(e: Expr, jump: Expr, x: Expr, point: Expr, order: int) -> Expr:

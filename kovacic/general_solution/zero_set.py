@@ -83,8 +83,13 @@ def inequality(e: Expr) -> str:
 
 
 def without_implied(exceptions: Iterable[Expr]) -> tuple[Expr, ...]:
-    """Without c + m != 0, and 1/gamma(c + m) != 0, for integers m beside sin(pi c) != 0."""
+    """Without c + m != 0, and 1/gamma(c + m) != 0, for integers m beside sin(pi c) != 0; 1/gamma(c) for c/gamma(c + 1)."""
     exceptions = tuple(dict.fromkeys(exceptions))
+    for inverse in [e for e in exceptions if isinstance(1 / e, gamma)]:
+        c = sympy.expand((1 / inverse).args[0] - 1)
+        single = next((e for e in exceptions if sympy.cancel(e / c).is_number), None)
+        if single is not None:
+            exceptions = tuple(1 / gamma(c) if e == inverse else e for e in exceptions if e != single)
     periodic = [e.args[0] / sympy.pi for e in exceptions if isinstance(e, sympy.sin)]
 
     def is_implied(e: Expr) -> bool:

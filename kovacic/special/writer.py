@@ -199,7 +199,10 @@ class Writer:
             real_at = self.real.at
         atoms = self.real if self.places or real_at is None else Atoms(self.atoms.x, at=real_at)
         P, Q = (Mul(display(f.product, atoms), *f.others) for f, _ in (first, second))
-        excluded = tuple(_sine_of_letters(self.constant(number)) for number in undefined if self.has_letters(number))
+        is_elementary = any(F.atoms(sympy.Function) <= F.atoms(exp) for _, F in (first, second))
+        # Beside an elementary member the other one shows its own poles.
+        numbers = [number for number in undefined if not is_elementary and self.has_letters(number)]
+        excluded = tuple(_sine_of_letters(self.constant(number)) for number in numbers)
         x = self.atoms.x
         if self.transform is not None:
             (y, C), (z, D) = (self._combined(self.transform, *term, atoms) for term in (first, second))

@@ -34,7 +34,12 @@ POWERS = """
 y''-a*x^n*y=0 | y''+a*x^n*y'=0 | y''-a*(a*x^(2*n)+n*x^(n-1))*y=0 | y''-a*x^(n-2)*(a*x^n+n+1)*y=0
 y''+a*x^n*y'+b*x^(n-1)*y=0 | y''+2*a*x^n*y'+a*(a*x^(2*n)+n*x^(n-1))*y=0 | x*y''+n*y'+b*x^(1-2*n)*y=0
 x*y''+(1-3*n)*y'-a^2*n^2*x^(2*n-1)*y=0 | x^2*y''+(a*x^n+b)*y=0 | x^2*y''+(a^2*x^(2*n)+b^2)*y=0
-x^2*y''+a*x*y'+(b*x^n+c)*y=0
+x^2*y''+a*x*y'+(b*x^n+c)*y=0 | y''=x^n*exp(x) | y''=x^n*exp(a*x) | y''=x^n*exp(x^2) | y''=x^n*cos(x) | y''=x^n*sin(a*x)
+y''+y=x^n | y''+a*y=x^n | y''-a^2*y=x^n | y''+2*y'+y=x^n | y''-y=x^(1/3) | y''+a*x^2*y'=0 | y''=exp(-a*x^3) | y''=x^n*sin(x^2+1)
+"""
+ROOTS = """
+(x^2-a^2)*y''+x*y'-n^2*y=0 | (x^2-3)*y''+x*y'-n^2*y=0 | (1-a^2*x^2)*y''-a^2*x*y'+n^2*y=0 | (a^2-x^2)*y''-x*y'=0
+(a^2+x^2)*y''+x*y'=0 | y''=1/sqrt(a^2-x^2) | y''=sqrt(a^2-x^2) | y''=1/sqrt(a^2+x^2) | y''=sqrt(x^2-a^2)
 """
 FUNCTIONS = """
 y''+(a*exp(x)-b)*y=0 | y''-(exp(2*x)+a*exp(x)+b)*y=0 | y''+a*exp(x)*y'+b*exp(x)*y=0 | y''-a*y'+b*exp(2*a*x)*y=0
@@ -68,7 +73,7 @@ def _number(e: Any, place: dict[Any, Any]) -> Any:
     return mpmath.mpmathify(sympy.lambdify([], plain, [AIRY, "mpmath"])())
 
 
-@parametrize("text", _equations(POLYNOMIALS, POWERS, FUNCTIONS), ordinary=8)
+@parametrize("text", _equations(POLYNOMIALS, POWERS, ROOTS, FUNCTIONS), ordinary=8)
 def test_what_is_printed_is_real_and_a_solution_where_it_says_so(text: str) -> None:
     answer = kovacic.answer_to(text)
     y, x = answer.eq.rhs, answer.eq.lhs.args[0]
@@ -104,6 +109,12 @@ y''+(b+a*(a+1)/cosh(x)^2)*y=0, y(0)=0, y'(0)=1 | y''-(a^2-2/cosh(x)^2)*y=0, y(0)
 y''-2/cos(x)^2*y=1, y(0)=0, y'(0)=0 | y''-2*tan(x)*y'=1, y(0)=0, y'(0)=0 | y''=1/(x^3+1), y(0)=0, y'(0)=0
 x*y''-(2*x+1)*y'+(x+1)*y=x^2, y(-1)=0, y'(-1)=1 | x*y''+2*y'-x*y=exp(x), y(-1)=0, y'(-1)=0 | y''-2/x^2*y=log(x), y(1)=0, y'(1)=0
 y''+y/(4*x^2)=1/x, y(-1)=0, y'(-1)=1 | x^4*y''-y=0, y(-1)=1, y'(-1)=0 | 4*x*y''+2*y'+y=0, y(-1)=1, y'(-1)=0
+x*y''+a*y=0, y(-1)=1, y'(-1)=0 | x^3*y''+a*y=0, y(-1)=1, y'(-1)=0 | x^2*y''+(a*x+b)*y=0, y(-1)=1, y'(-1)=0
+x*y''+(1-x)*y'+n*y=0, y(-1)=1, y'(-1)=0 | x*y''+(1+x)*y'+n*y=0, y(1)=1, y'(1)=0 | x^2*y''-(x^2+a*x)*y=0, y(-1)=1, y'(-1)=0
+(1-x^2)*y''-2*x*y'+n*(n+1)*y=0, y(2)=1, y'(2)=0 | (1-x^2)*y''-2*x*y'+n*(n+1)*y=0, y(-2)=1, y'(-2)=0
+(1-x^2)*y''-4*x*y'+n*(n+3)*y=0, y(2)=1, y'(2)=0 | x*(1-x)*y''+(c-(a+b+1)*x)*y'-a*b*y=0, y(2)=1, y'(2)=0
+(x^2-a^2)*y''+x*y'-n^2*y=0, y(0)=1, y'(0)=0 | (a^2-x^2)*y''-x*y'=1, y(0)=0, y'(0)=0 | y''=1/sqrt(a^2-x^2), y(0)=0, y'(0)=0
+y''+a*x^2*y'=0, y(0)=0, y'(0)=1 | y''+a*x^n*y'=0, y(1)=0, y'(1)=1 | y''=x^n*exp(x), y(1)=0, y'(1)=0
 """
 
 
