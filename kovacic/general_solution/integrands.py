@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 from dataclasses import dataclass
+from itertools import chain, filterfalse
 from typing import Any
 
 import sympy
@@ -127,7 +128,12 @@ def _integral_by_rate(rate: RatFunc, term: Expr, x: Expr) -> Expr | None:
 
 def _constant_value(term: Expr, other: Expr, x: Expr) -> Expr | None:
     """The value of a ratio that doesn't depend on x, where it has one, and the term a real one if it can be; else None."""
-    for point in sorted((2, 3, 5, sympy.S.Half, -sympy.S.Half), key=lambda p: term.subs(x, p).is_real is False):
+    points = (2, 3, 5, sympy.S.Half, -sympy.S.Half)
+
+    def is_complex(point: Expr) -> bool:
+        return term.subs(x, point).is_real is False
+
+    for point in chain(filterfalse(is_complex, points), filter(is_complex, points)):
         value = sympy.powsimp((term / other).subs(x, point))
         if value.free_symbols and size(value) <= _LONGEST:  # without terms that cancel
             value = sympy.cancel(value)

@@ -340,7 +340,11 @@ def sums(value: Expr, x: Expr) -> Iterator[Expr]:
 
 
 def over_one_denominator(value: Expr, x: Expr) -> Iterator[Expr]:
-    """A quotient in lowest terms, unless it is too large to be multiplied out."""
+    """A quotient in lowest terms, unless it is a sum of products, or too large to be multiplied out."""
+    products = value.atoms(sympy.Mul, sympy.Pow)
+    has_factors = any(part.is_Add for e in products for part in e.args)
+    if not has_factors and not value.has(exp) and all(e.is_Mul or e.exp.is_positive for e in products):
+        return
     atoms = {*value.free_symbols, *value.atoms(sympy.Function, sympy.NumberSymbol)}
     is_slow = len(atoms) > _MOST_ATOMS and value.has(sympy.I)  # in ten variables over Z[i]
     if value.has(sympy.Add) and not is_slow and _is_small(value):

@@ -6,8 +6,8 @@ lambda = rho + i omega, y = Q exp(lambda x) is a solution for the right-hand sid
     Q'' + (2 lambda + b) Q' + (lambda^2 + b lambda + c) Q = P,                                                      (1)
 
 which gives the coefficients of Q from the highest one down, divided by the first of the three factors that isn't 0: in
-resonance Q has a degree one or two higher, and no part that solves the homogeneous equation.  u + i v is the matrix
-((u, -v), (v, u)); these multiply as complex numbers do, with letters for u and v.
+resonance Q has a degree one or two higher, and no part that solves the homogeneous equation.  u + i v is the pair (u, v),
+with letters for u and v as well.
 """
 
 from __future__ import annotations
@@ -24,15 +24,15 @@ from sympy.simplify.fu import TR8
 from kovacic.general_solution.substitution import size
 
 Expr = Any  # SymPy publishes no types
-Complex = Any  # a matrix
+Complex = tuple[Expr, Expr]
 #: The largest degree of a polynomial, and number of terms, that is solved for.
 _LARGEST = 200
-_ONE = sympy.eye(2)
+_ZERO, _ONE = (sympy.S.Zero, sympy.S.Zero), (sympy.S.One, sympy.S.Zero)
 
 
-def _complex_sum(u: Expr, v: Expr) -> Complex:
-    """u + i v."""
-    return sympy.Matrix([[u, -v], [v, u]])
+def _product(first: Complex, second: Complex) -> Complex:
+    (a, b), (u, v) = first, second
+    return a * u - b * v, a * v + b * u
 
 
 class Rate(NamedTuple):
@@ -54,10 +54,10 @@ def undetermined(b: Expr, c: Expr, right: Expr, x: Expr) -> Expr | None:
         return None
     total = []
     for rate, P in polynomials.items():
-        Q = _solved(b, c, _complex_sum(*rate), P)
+        Q = _solved(b, c, rate, P)
         if Q is None:
             return None
-        A, B = (sympy.Add(*(coefficient[part, 0] * x**k for k, coefficient in Q.items())) for part in (0, 1))
+        A, B = (sympy.Add(*(coefficient[part] * x**k for k, coefficient in Q.items())) for part in (0, 1))
         total.append(sympy.powdenest(sympy.exp(rate.rho * x)) * _wave_terms(A, B, rate.omega * x))
     return sympy.Add(*total)
 
@@ -70,6 +70,8 @@ def _wave_terms(A: Expr, B: Expr, angle: Expr) -> Expr:
     (a*cos(t) + b*sin(t))/(a**2 + b**2)
     """
     expanded = sympy.expand_mul(A * cos(angle) - B * sin(angle))
+    if A.is_polynomial() and B.is_polynomial():
+        return expanded
     denominators = [sympy.denom(sympy.together(part)) for part in (A, B)]
     common = sympy.lcm(*denominators)
     if not common.free_symbols or not common.is_polynomial():
@@ -94,7 +96,7 @@ def _polynomials(right: Expr, x: Expr) -> dict[Rate, dict[int, Complex]] | None:
     result: dict[Rate, dict[int, Complex]] = {}
     for summand in summands:
         constant, rest = summand.as_independent(x, as_Add=False)
-        coefficient = constant * _ONE
+        coefficient: Complex = (constant, sympy.S.Zero)
         degree = 0
         rho = omega = sympy.Integer(0)
         for factor in sympy.Mul.make_args(rest):
@@ -105,19 +107,18 @@ def _polynomials(right: Expr, x: Expr) -> dict[Rate, dict[int, Complex]] | None:
                 degree += int(exponent)
             elif line is not None and is_wave and omega == 0:
                 phase, omega = line
-                turned = _complex_sum(cos(phase), sin(phase))
-                if factor.func is sin:  # the cosine of an angle that is pi/2 less
-                    turned *= _complex_sum(0, -1)
-                coefficient *= turned
+                # the sine is the cosine of an angle that is pi/2 less
+                turned = (cos(phase), sin(phase)) if factor.func is cos else (sin(phase), -cos(phase))
+                coefficient = _product(coefficient, turned)
             elif line is not None and not base.has(x):
-                coefficient *= base**line.constant
+                coefficient = _product(coefficient, (base**line.constant, sympy.S.Zero))
                 rho += line.slope * sympy.log(base)
             else:
                 return None
         if omega.could_extract_minus_sign():  # a number and its conjugate have the same real part
-            omega, coefficient = -omega, coefficient.T
-        P = result.setdefault(Rate(rho, omega), defaultdict(lambda: 0 * _ONE))
-        P[degree] += coefficient
+            omega, coefficient = -omega, (coefficient[0], -coefficient[1])
+        P = result.setdefault(Rate(rho, omega), defaultdict(lambda: _ZERO))
+        P[degree] = (P[degree][0] + coefficient[0], P[degree][1] + coefficient[1])
     return result
 
 
@@ -147,18 +148,22 @@ def _line(expression: Expr, x: Expr) -> _Line | None:
     return None if slope.has(x) else _Line(rest, slope)
 
 
-def _solved(b: Expr, c: Expr, rate: Complex, P: dict[int, Complex]) -> dict[int, Complex] | None:
+def _solved(b: Expr, c: Expr, rate: Rate, P: dict[int, Complex]) -> dict[int, Complex] | None:
     """Q of equation (1); None if u^2 + v^2 = 0 for a factor u + i v other than 0."""
-    factors = [(rate**2 + b * rate + c * _ONE).applyfunc(_constant), (2 * rate + b * _ONE).applyfunc(_constant), _ONE]
-    m = next(k for k, factor in enumerate(factors) if not factor.is_zero_matrix)
-    norm = _constant(factors[m].det())
+    rho, omega = rate
+    squared = rho**2 - omega**2 + b * rho + c, (2 * rho + b) * omega
+    factors = [(_constant(u), _constant(v)) for u, v in (squared, (2 * rho + b, 2 * omega), _ONE)]
+    m = next(k for k, factor in enumerate(factors) if factor != _ZERO)
+    u, v = factors[m]
+    norm = _constant(u**2 + v**2)
     if norm == 0:
         return None
-    Q: dict[int, Complex] = defaultdict(lambda: 0 * _ONE)
+    Q: dict[int, Complex] = defaultdict(lambda: _ZERO)
     for n in range(max(P), -1, -1):
-        known = (perm(n + j, j) * factors[j] * Q[n + j] for j in range(m + 1, 3))
-        rest = sum(known, -P[n])
-        Q[n + m] = (-factors[m].adjugate() * rest / (norm * perm(n + m, m))).applyfunc(_constant)
+        products = [(perm(n + j, j), _product(factors[j], Q[n + j])) for j in range(m + 1, 3)]
+        rest = [P[n][part] - sympy.Add(*(k * product[part] for k, product in products)) for part in (0, 1)]
+        p, q = _product((u, -v), (rest[0], rest[1]))
+        Q[n + m] = _constant(p / (norm * perm(n + m, m))), _constant(q / (norm * perm(n + m, m)))
     return Q
 
 
