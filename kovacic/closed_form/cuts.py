@@ -102,6 +102,13 @@ def common_place(x: Expr, *parts: Expr, own: Own = sympy.sympify) -> Expr:
     After the usual points come those between zeros of arguments, as for sqrt(x - 3) and sqrt(4 - x).
     """
     arguments = [list(arguments_with_cuts(part).values()) for part in parts]
+
+    def on_cuts(point: Expr) -> list[int]:
+        return [sum(bool(own(u.subs(x, point)).is_negative) for u in of_part) for of_part in arguments]
+
+    usual = next((point for point in _POINTS if not any(on_cuts(point))), None)
+    if usual is not None:
+        return usual
     lines = (u.as_poly(x) for of_part in arguments for u in of_part)
     zeros = sorted(
         {
@@ -110,12 +117,7 @@ def common_place(x: Expr, *parts: Expr, own: Own = sympy.sympify) -> Expr:
             if p is not None and p.degree() == 1 and p.domain in (sympy.ZZ, sympy.QQ)
         }
     )
-    points = [*_POINTS, *((a + b) / 2 for a, b in pairwise(zeros))]
-
-    def on_cuts(point: Expr) -> list[int]:
-        return [sum(bool(own(u.subs(x, point)).is_negative) for u in of_part) for of_part in arguments]
-
-    return next((point for point in points if not any(on_cuts(point))), None) or min(points, key=on_cuts)
+    return min([*_POINTS, *((a + b) / 2 for a, b in pairwise(zeros))], key=on_cuts)
 
 
 def real_at(

@@ -69,7 +69,10 @@ def _with_equal_roots(value: Expr) -> Expr:
     for base in radicands(value):
         if not base.is_Symbol and expanded_size(base) <= _LARGEST:
             forms[sympy.expand(base)].append(base)
-    shortest_forms = {base: min(equal, key=sympy.count_ops) for equal in forms.values() for base in equal}
+    several = [equal for equal in forms.values() if len(equal) > 1]
+    shortest_forms = {base: min(equal, key=sympy.count_ops) for equal in several for base in equal}
+    if not several:
+        return value
     return value.replace(lambda e: e.is_Pow and e.base in shortest_forms, lambda e: shortest_forms[e.base] ** e.exp)
 
 
@@ -273,6 +276,8 @@ def _as_one_wave(total: Expr) -> Expr:
 
 def _with_short_coefficients(e: Expr, x: Expr) -> Expr:
     """With quotients of letters in factors, squares completed, as in (k - m w^2)^2 + c^2 w^2."""
+    if e.is_Atom:
+        return e
     if not e.has(x):
         return shortest([e, *_quotients_in_factors(e)])
     if e.is_Mul:
@@ -317,9 +322,10 @@ def _with_square(total: Expr) -> Expr:
 
 def _tangents(value: Expr, x: Expr) -> Iterator[Expr]:
     """tan u for sin u/cos u, tanh u for sinh u/cosh u."""
-    if any(isinstance(power.base, cos) for power in value.atoms(sympy.Pow)):
+    bases = {power.base.func for power in value.atoms(sympy.Pow)}
+    if cos in bases:
         yield TR2i(value)
-    if any(isinstance(power.base, cosh) for power in value.atoms(sympy.Pow)):
+    if cosh in bases:
         waves, back = hyper_as_trig(TR2i(value))
         yield back(TR2i(waves))
 

@@ -299,7 +299,7 @@ class Writer:
 
     def _is_natural(self, value: Expr) -> bool:
         """Of an expression in the user's symbols: a positive integer n is n' + 1 with a natural n'."""
-        if not value.is_integer:
+        if (value.free_symbols and not self.knows_integers) or not value.is_integer:
             return False
         for symbol in value.free_symbols - self._lower.keys():
             if symbol.is_integer and symbol.is_positive:
