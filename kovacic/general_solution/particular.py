@@ -67,6 +67,8 @@ def particular_solution(basis: Basis, start: Expr | None) -> Expr:
 
 def right_hand_side(equation: Equation) -> Expr:
     """F of y'' + B y' + C y = F, in the user's variable."""
+    if equation.is_homogeneous:
+        return sympy.Integer(0)
     t = sympy.Symbol(equation.variable)
     a = Atoms(t).ratio(equation.a).xreplace(NUMBERS)
     f = Atoms(t).sum(equation.f).xreplace(NUMBERS)
