@@ -316,7 +316,7 @@ def _pieces(number: int, factors: tuple[Power, ...], root: Any, names: Sequence[
             text = f"({text})" if k > 1 and "*" in text else in_product(text)
             pieces.append(text if k == 1 else f"{text}^{k}")
     if root != 1:
-        text = _polynomial(root, names)
+        text = alone(_polynomial(root, names))
         pieces.append("I" if text == "-1" else f"sqrt({text})")
     return pieces
 

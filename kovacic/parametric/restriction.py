@@ -15,6 +15,7 @@ letter for each; in all that is printed, in values and in solutions they are the
 
 from __future__ import annotations
 
+import re
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from fractions import Fraction
@@ -51,7 +52,7 @@ from kovacic.parametric.functions import (
     union,
 )
 from kovacic.parametric.statements import Setting, Statement
-from kovacic.writing.formula import caret
+from kovacic.writing.formula import caret, with_single_powers
 
 
 def undefined(problem: Problem) -> list[FunctionPoly]:
@@ -336,8 +337,12 @@ def spelled(parsed: Parsed) -> tuple[Parsed, Letters]:
         a, b, c, f = (_in_other_names(part, larger) for part in (equation.a, equation.b, equation.c, equation.f))
         equation = replace(equation, a=a, b=b, c=c, f=f)
     said = tuple(f"{name} is " for name in meanings)
-    notices = tuple(notice for notice in parsed.notices if not notice.startswith(said))
-    return replace(parsed, S=_in_other_names(parsed.S, larger), equation=equation, notices=notices, letters=()), letters
+    notices = [notice for notice in parsed.notices if not notice.startswith(said)]
+    for name, meaning in meanings.items():
+        own, spelling = re.compile(rf"\b{name}\b"), _spelling(meaning)
+        notices = [with_single_powers(own.sub(spelling, notice)) for notice in notices]
+    S = _in_other_names(parsed.S, larger)
+    return replace(parsed, S=S, equation=equation, notices=tuple(notices), letters=()), letters
 
 
 def _spelling(meaning: Any) -> str:

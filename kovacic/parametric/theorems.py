@@ -232,13 +232,13 @@ def _three_points(problem: Problem, x: Any) -> list[_SingularPoint] | None:
 
 
 def _points_of(place: Place, x: Any) -> list[_SingularPoint]:
-    """One point, or the two roots of a quadratic factor."""
+    """One point, or the two roots of a quadratic factor, at which the square q x + r of the difference is conjugate, too."""
     square = riemann.difference_squared(place)
     points = roots_of(place, x)
     if len(points) == 1:
         return [_SingularPoint(points[0], root(square))]
-    squares = (sympy.simplify(square.to_sympy(x).subs(x, c)) for c in points)
-    return [_SingularPoint(c, _square_root(value)) for c, value in zip(points, squares, strict=True)]
+    slope, constant = square[1].to_sympy(x), square[0].to_sympy(x)
+    return [_SingularPoint(c, _square_root(sympy.expand(slope * c) + constant)) for c in points]
 
 
 def roots_of(place: Place, x: Any) -> list[Any]:

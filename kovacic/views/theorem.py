@@ -129,7 +129,7 @@ class _TheoremWriter:
             yield Formula(given or normal_form)
             yield say(claim)
             return
-        expanded = Math(str(equation), latex_text(equation.text(caret=False)))
+        expanded = Math.of(str(equation))
         yield Formula(given or expanded)
         start: list[str | Math] = []
         if given and equation.change:
@@ -240,8 +240,8 @@ class _TheoremWriter:
         S = self.answer.S
         right = Formulas(self.answer.variable, S.field).times(S, y, y)
         if isinstance(S.field, FunctionField) and S:
-            text = partial_fractions(S, self.answer.variable)
-            right = Math(f"({text}) {y}", rf"\left({latex_text(text)}\right) {y}")
+            fractions = Math.of(partial_fractions(S, self.answer.variable))
+            right = Math(f"({fractions.text}) {y}", rf"\left({fractions.latex}\right) {y}")
         return Math(f"{y}''", f"{y}''").equals(right)
 
     # What is claimed

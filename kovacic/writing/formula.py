@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import re
 from dataclasses import dataclass
+from fractions import Fraction
 from functools import cached_property
 from itertools import chain, count
 from typing import Any, NamedTuple
@@ -73,6 +74,7 @@ class Math:
     @classmethod
     def of(cls, text: str) -> Math:
         """A formula of functions and names, by its text."""
+        text = with_single_powers(text)
         return cls(text, latex_text(text))
 
     def equals(self, value: Math) -> Math:
@@ -128,8 +130,7 @@ class Formulas:
         function = RatFunc(function) if isinstance(function, Poly) else function
         if _is_long(function):
             return Math(_degrees(function), rf"\text{{{_degrees(function)}}}")
-        text = self._renamed(function).to_str(self.variable)
-        return Math(caret(text), latex_text(text))
+        return Math.of(caret(self._renamed(function).to_str(self.variable)))
 
     def factor(self, function: RatFunc | Poly) -> Math:
         """The first factor of a product: sums are in parentheses, in text quotients too."""
@@ -202,6 +203,43 @@ def of_sympy(expression: Any, first: Any = None) -> Math:
 def rational_functions(generator: str) -> Math:
     """The field C(f) for an expression f in Python syntax."""
     return Math(f"C({caret(generator)})", rf"\mathbb{{C}}({latex_text(generator)})")
+
+
+#: A power of an exponential, of a root, and of a power in parentheses, with ^.
+_POWER_OF_POWER = re.compile(r"(exp|sqrt)\(([^()]*)\)\^(\d+)|\((\w+)\^(?:\(([^()]*)\)|(\w+))\)\^(\d+)")
+#: A rational multiple of a monomial: 3*a*b/2.
+_MULTIPLE = re.compile(r"(-?)(?:(\d+)\*)?([^-+/\s]+)(?:/(\d+))?")
+
+
+def with_single_powers(text: str) -> str:
+    """Powers of powers as one: exp(a/2)^3 is exp(3*a/2), (2^(a/2))^2 is 2^a, sqrt(a)^4 is a^2.
+
+    >>> print(with_single_powers("exp(a/2)^2*x^2 + b*(a^(1/3))^2 - sqrt(a + b)^2/exp(-a*b/4)^3"))
+    exp(a)*x^2 + b*a^(2/3) - (a + b)/exp(-3*a*b/4)
+    """
+
+    def single(match: re.Match[str]) -> str:
+        function, inside, k, base, exponent, name, n = match.groups()
+        if function == "sqrt":
+            half = "" if k == "2" else f"^{int(k) // 2}"
+            product = inside if inside.isalnum() else f"({inside})"
+            return match[0] if int(k) % 2 else product + half
+        multiple = _MULTIPLE.fullmatch(inside or exponent or name)
+        if multiple is None:
+            return match[0]
+        sign, factor, monomial, below = multiple.groups()
+        rate = Fraction(int(factor or 1) * int(k or n), int(below or 1))
+        if monomial.isdigit():
+            rate, monomial = rate * int(monomial), ""
+        above = "*".join(filter(None, [str(rate.numerator) * (rate.numerator > 1 or not monomial), monomial]))
+        raised = f"{sign}{above}" + f"/{rate.denominator}" * (rate.denominator > 1)
+        if function:
+            return f"exp({raised})"
+        if raised == "1":
+            return base
+        return f"{base}^{raised if raised.isalnum() else f'({raised})'}"
+
+    return _POWER_OF_POWER.sub(single, text)
 
 
 def caret(text: str) -> str:

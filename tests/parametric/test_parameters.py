@@ -228,10 +228,11 @@ LETTERED = {
     "exp(a)*x+1": (("a",), None, None),
     "x^2+b+exp(a)": (("a", "b"), None, None),
     "x^2+sqrt(a+b)*x+1": (("a", "b"), {"a": 0, "b": 0}, {"a": 1, "b": 0}),
+    "a*exp(-x)+exp(a)*b": (("a", "b"), None, None),
 }
 
 
-@parametrize("S", LETTERED, ordinary=8)
+@parametrize("S", LETTERED, ordinary=9)
 def test_letters_are_the_users(S: str) -> None:
     names, solvable, unsolvable = LETTERED[S]
     answer = kovacic.conditions(S, var="x")
@@ -239,6 +240,7 @@ def test_letters_are_the_users(S: str) -> None:
     for text in (str(answer), answer.theorem(), answer.explain(), answer.latex()):
         assert not re.search(r"sqrt_|exp_|c_2|a_1", text)
         assert "exp(a/2) = 0" not in text
+        assert not re.search(r"(exp\(a/2\)|sqrt\(a\)|\^\(?a/2\)+)\^2", text)
     if solvable is not None:
         assert answer.case_at(solvable) is not None
     if unsolvable is not None:
