@@ -9,10 +9,9 @@ highest one.  In the same way the valuations at all places leave a system for th
 
 At which values of the parameters does the rank of a matrix over Q[t] drop?
 
-Where the generic rank is r, it drops exactly at the common zeros of the r-minors.  Random combinations of the minors (by the
-theorem of Cauchy and Binet, determinants of U M V) vanish there too, so that their common factors contain every such value;
-which of these values really are special is for the engine to say.  First the constant entries are used as pivots, which
-changes a rank by the same number at all values.
+Where the generic rank is r, it drops exactly at the common zeros of the r-minors.  A hypersurface of such values is among the
+zeros of each minor that isn't 0; one at whose random point the rank is r isn't one.  Which of these values really are special
+is for the engine to say.  First the constant entries are used as pivots, which changes a rank by the same number at all values.
 """
 
 from __future__ import annotations
@@ -45,8 +44,7 @@ from kovacic.errors import LimitExceeded
 from kovacic.limits import bounded_work, check_time, count_work
 from kovacic.parametric.functions import element, in_field, irreducible_factors, lifted, over_parameters
 
-#: Determinants whose common factors are taken, and minors up to which all of them are computed.
-_DETERMINANTS = 3
+#: Minors up to which all of them are computed.
 _MINORS = 60
 #: Products of terms for the determinants of one matrix: those of some seconds.
 _WORK = 10**7
@@ -146,16 +144,20 @@ def _conditions(images: Sequence[Poly], field: FunctionField, surface: _Surface 
 
 @dataclass(frozen=True)
 class _Matrix:
-    """Rows over Z[t] without constant pivots, their generic rank, and whether the images they are from are `deficient`."""
+    """Rows over Z[t] without constant pivots, at a `point` modulo a prime, and whether the images are `deficient`.
+
+    The rank there is a lower bound, and the generic rank but for a probability of about 2**-60.
+    """
 
     field: FunctionField
     rows: list[list[Any]]
+    point: _Point
     rank: int
     deficient: bool
 
     @classmethod
     def of(cls, images: Sequence[Poly], field: FunctionField, surface: _Surface | None) -> _Matrix:
-        """The matrix of the images, each row once."""
+        """The matrix of the images, each row once, the shortest first."""
         # By powers of x, without denominators.
         smaller = without_constant_pivots([by_power(over_parameters(image).num, 0) for image in images])
         different: dict[tuple[str, ...], list[Any]] = {}
@@ -163,13 +165,10 @@ class _Matrix:
             sign = 1 if int(next(filter(None, row)).leading_coefficient()) > 0 else -1
             normalised = [sign * entry for entry in _primitive(dict(enumerate(row))).values()]
             different.setdefault(tuple(map(str, normalised)), normalised)
-        rows = [*different.values()]
-        rank = 0
-        if rows:  # at a random point: a lower bound, and the generic rank but for a probability of about 2**-60
-            p, point = _random_point(field, surface)
-            residues = [int(entry(0, *point)) % p for entry in chain.from_iterable(rows)]
-            rank = int(nmod_mat(len(rows), len(rows[0]), residues, p).rank())
-        return cls(field, rows, rank, deficient=smaller.eliminated + rank < len(images))
+        rows = sorted(different.values(), key=lambda row: sum(map(len, row)))
+        point = _random_point(field, surface and surface.equation)
+        rank = point.values(rows).rank() if rows else 0
+        return cls(field, rows, point, rank, deficient=smaller.eliminated + rank < len(images))
 
     @property
     def is_square(self) -> bool:
@@ -185,18 +184,26 @@ class _Matrix:
         return found
 
     def common_factors(self) -> RankConditions:
-        """The irreducible factors that all minors of the size of the rank have in common."""
-        zero = self.field.context.constant(0)
-        common = zero
-        random = Random(20240229)
-        determinants = 1 if self.is_square else _DETERMINANTS
-        for _ in range(determinants):
-            check_time()
-            determinant = _determinant(_mixed(self.rows, self.rank, random, zero))
-            if determinant.is_constant() and not determinant.is_zero():
-                return RankConditions(deficient=self.deficient)
-            common = common.gcd(determinant)
-        return RankConditions(tuple(irreducible_factors(element(self.field, common))), deficient=self.deficient)
+        """The irreducible factors that all minors of the size of the rank have in common.
+
+        Those of one or two minors, at whose zeros the rank is smaller.
+        """
+        if self.is_square:
+            common = _determinant([[*row] for row in self.rows])
+            return RankConditions(tuple(irreducible_factors(element(self.field, common))), deficient=self.deficient)
+        common = self._minor(self.rows)
+        if not common.is_constant():
+            common = common.gcd(self._minor(self.rows[::-1]))
+        factors = irreducible_factors(element(self.field, common))
+        points = (_random_point(self.field, factor.num) for factor in factors)
+        dropping = [one for one, point in zip(factors, points, strict=True) if point.values(self.rows).rank() < self.rank]
+        return RankConditions(tuple(dropping), deficient=self.deficient)
+
+    def _minor(self, rows: list[list[Any]]) -> Any:
+        """The minor of the first rows and columns that are independent at the point."""
+        chosen = [rows[i] for i in _pivots(self.point.values(rows).transpose())]
+        columns = _pivots(self.point.values(chosen))
+        return _determinant([[row[k] for k in columns] for row in chosen])
 
     def common_zeros(self, minors: list[Any]) -> RankConditions:
         """Common factors, and the system of what is left of the minors, without powers."""
@@ -229,23 +236,43 @@ class _Surface:
         return cls(larger, over_parameters(modulus(larger.generator(field.name))).num)
 
 
-def _random_point(field: FunctionField, surface: _Surface | None) -> tuple[int, list[int]]:
-    """A prime, and values of the parameters modulo the prime, on the surface if there is one."""
+class _Point(NamedTuple):
+    """Values of the parameters modulo a prime."""
+
+    prime: int
+    parameters: list[int]
+
+    def values(self, rows: list[list[Any]]) -> Any:
+        """The matrix with these rows, there."""
+        entries = [int(entry(0, *self.parameters)) % self.prime for entry in chain.from_iterable(rows)]
+        return nmod_mat(len(rows), len(rows[0]), entries, self.prime)
+
+
+def _random_point(field: FunctionField, equation: Any = None) -> _Point:
+    """A point at which a polynomial in the parameters vanishes, if there is one."""
     random = Random(1)
     for p in primes():  # a surface such as a^2 + 1 = 0 has points for every other one
         check_time()
         point = [random.randrange(p) for _ in field.names]
-        if surface is None:
-            return p, point
-        *others, _ = point
-        parts = by_power(surface.equation, len(point))
-        coefficients = [0] * (max(parts) + 1)  # of the equation for the algebraic parameter, the last one
+        if equation is None:
+            return _Point(p, point)
+        last = max(k for k, degree in enumerate(equation.degrees()) if degree)
+        parts = by_power(equation, last)
+        coefficients = [0] * (max(parts) + 1)  # of the equation for the last parameter that occurs
         for k, part in parts.items():
-            coefficients[k] = int(part(0, *others, 1)) % p
+            coefficients[k] = int(part(0, *point)) % p
         found = nmod_poly(coefficients, p).roots()
         if found:
-            return p, [*others, int(found[0][0])]
+            point[last - 1] = int(found[0][0])
+            return _Point(p, point)
     raise AssertionError("the sequence of primes is infinite")
+
+
+def _pivots(matrix: Any) -> list[int]:
+    """The first columns that are independent."""
+    reduced, rank = matrix.rref()
+    columns = range(matrix.ncols())
+    return [next(k for k in columns if reduced[i, k]) for i in range(rank)]
 
 
 class WithoutPivots(NamedTuple):
@@ -331,17 +358,6 @@ def _primitive(row: dict[int, Any]) -> dict[int, Any]:
     if content <= 1:
         return row
     return {j: entry // content for j, entry in row.items()}
-
-
-def _mixed(rows: list[list[Any]], rank: int, random: Random, zero: Any) -> list[list[Any]]:
-    """U M V with random small integer matrices, of size rank."""
-    for _ in range(2):
-        if len(rows) > rank:
-            weights = [[random.randint(-3, 3) for _ in rows] for _ in range(rank)]
-            columns = [*zip(*rows, strict=True)]
-            rows = [[sum(map(mul, line, column), zero) for column in columns] for line in weights]
-        rows = [list(column) for column in zip(*rows, strict=True)]
-    return rows
 
 
 def _determinant(rows: list[list[Any]]) -> Any:
