@@ -13,6 +13,7 @@ from dataclasses import dataclass
 from fractions import Fraction
 from functools import reduce
 from itertools import chain, product
+from typing import NamedTuple
 
 from kovacic.algebra.extension import AlgebraicField, ExtensionPoly, norm
 from kovacic.algebra.function_field import FunctionPoly
@@ -181,10 +182,10 @@ def rational(constant: Poly) -> Fraction | None:
 
 
 def rational_roots(polynomial: Poly) -> list[Fraction]:
-    """The rational roots of a polynomial over Q or Q(alpha)."""
+    """The rational roots of a polynomial over Q or an extension of it."""
     common = polynomial
-    if isinstance(polynomial, ExtensionPoly):
-        common = reduce(lambda a, b: a.gcd(b), polynomial.parts)
+    while isinstance(common, ExtensionPoly):
+        common = reduce(lambda a, b: a.gcd(b), common.parts)
     if common.degree < 1:
         return []
     found: list[Fraction] = []
@@ -208,11 +209,27 @@ def signed_sums(squares: Sequence[Poly], constant: Poly | Fraction, field: Field
 # ------------------------------------------------------------------------------- natural numbers that exponents allow
 
 
+class Adjoined(NamedTuple):
+    """One more parameter, a square root of a function of the others."""
+
+    name: str
+    square: FunctionPoly
+
+    def at(self, point: ParameterPoint) -> ParameterPoint:
+        """The point with one of its two values."""
+        value = point.at(self.square)
+        root = point.field.sqrt(value)
+        if root is None:
+            root = AlgebraicField(point.field, point.field.poly([-value, 0, 1])).generator
+        values = [known.over(root.field) for known in point.values]
+        return ParameterPoint((*point.names, self.name), (*values, root), root.field)
+
+
 @dataclass(frozen=True)
 class DegreeBySum(ForInteger):
     """d = constant + the sum of j times the root for integers j, from -bound to bound; `has_zero`: they can all be 0.
 
-    Without `names` for the integers, each of them is 1 or -1.
+    Without `names` for the integers, each of them is 1 or -1.  The squares contain maybe a root of the parameters.
     """
 
     constant: Fraction
@@ -220,8 +237,11 @@ class DegreeBySum(ForInteger):
     names: tuple[str, ...] = ()
     bounds: tuple[int, ...] = ()
     has_zero: bool = False
+    adjoined: Adjoined | None = None
 
     def numbers_at(self, point: ParameterPoint) -> Iterator[Fraction]:
+        if self.adjoined is not None:
+            point = self.adjoined.at(point)
         squares = [point.at(over_parameters(square)) for square in self.squares]
         choices: Iterable[tuple[int, ...]] = [(1,) * len(squares)]
         if self.names:

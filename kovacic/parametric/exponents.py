@@ -17,7 +17,7 @@ is for the engine to say.  First the constant entries are used as pivots, which 
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 from functools import reduce
@@ -29,7 +29,7 @@ from typing import Any, NamedTuple
 
 from flint import fmpz_mat, nmod_mat, nmod_poly
 
-from kovacic.algebra.extension import AlgebraicField, adjoined_square_root
+from kovacic.algebra.extension import AlgebraicField, adjoined_square_root, norm
 from kovacic.algebra.function_field import FunctionField, FunctionPoly
 from kovacic.algebra.lifting import primes
 from kovacic.algebra.poly import Field, Poly
@@ -42,6 +42,7 @@ from kovacic.engine.places import Kind, Place, Problem, analyse
 from kovacic.engine.riccati import Form, singular_part
 from kovacic.errors import LimitExceeded
 from kovacic.limits import bounded_work, check_time, count_work
+from kovacic.parametric.claims import signed_sums
 from kovacic.parametric.functions import element, in_field, irreducible_factors, lifted, over_parameters
 
 #: Minors up to which all of them are computed.
@@ -460,37 +461,48 @@ class ExponentRoot(NamedTuple):
 class Numbers:
     """What the exponents allow as a degree of P, or as the number of zeros of a form: constant + sum of k times a root.
 
-    With `only_signs` each k is 1 or -1.
+    The roots are over the `field`, maybe an extension of the `base`.  With `only_signs` each k is 1 or -1.
     """
 
     constant: Fraction
     roots: tuple[ExponentRoot, ...]
+    field: Field
+    base: Field
     only_signs: bool = False
+
+    def equation(self, multiples: Iterable[int]) -> Poly:
+        """The polynomial over the base, or a multiple, of which constant + the sum of +- k times a root are roots, for these k."""
+        squares = [k * k * root.square for k, root in zip(multiples, self.roots, strict=True) if k]
+        total = signed_sums(squares, self.constant, self.field)
+        while total.field != self.base:  # conjugate points, all of them in the sum: its equation needs no extension
+            first, *others = total.parts
+            total = norm(total) if any(others) else first
+        return total
 
 
 def degrees_of_solutions(problem: Problem) -> Numbers | None:
-    """The degrees of P in exp(int theta) P; None if the exponents differ at conjugate points."""
+    """The degrees of P in exp(int theta) P; None where conjugate points with different exponents need too large an extension."""
+    apart = with_points_apart(problem)
+    if apart is None:
+        return None
     roots: list[ExponentRoot] = []
-    singular = _singular(problem)
+    singular = _singular(apart)
     for place in singular:
-        square = place.delta_squared if place.kind is Kind.REGULAR else irregular_difference_squared(place)
-        if square is None or square.degree > 0:
-            return None
+        square = _difference_squared(place)
+        assert square is not None  # of points that aren't apart the same
         roots += [ExponentRoot(square / 4, 1)] * place.degree
     weights = sum(place.weight * place.degree for place in singular)
-    return Numbers(1 - Fraction(weights) / 2, tuple(roots), only_signs=True)
+    return Numbers(1 - Fraction(weights) / 2, tuple(roots), apart.field, problem.field, only_signs=True)
 
 
 def zeros_of_forms(problem: Problem, m: int) -> Numbers | None:
-    """The numbers of zeros of rational forms of an even degree m; None if some place leaves none.
-
-    Exponents that differ at conjugate poles are left out.
-    """
+    """The numbers of zeros of rational forms of an even degree m; None if some place leaves none, and as for solutions."""
     roots: list[ExponentRoot] = []
     room = m
-    for place in problem.places:
-        if place.kind is Kind.REGULAR and place.delta_squared is None:
-            continue
+    apart = with_points_apart(problem)
+    if apart is None:
+        return None
+    for place in apart.places:
         square = place.delta_squared if place.kind is Kind.REGULAR else None
         if square is not None and square.field.rational_value(square) is None:
             largest = m // 2 * place.degree
@@ -501,7 +513,13 @@ def zeros_of_forms(problem: Problem, m: int) -> Numbers | None:
         if valuation is None:
             return None
         room -= valuation * place.degree
-    return Numbers(Fraction(room), tuple(roots))
+    return Numbers(Fraction(room), tuple(roots), apart.field, problem.field)
+
+
+def _difference_squared(place: Place) -> Poly | None:
+    """The square of the exponent difference at a singular place; None where it isn't the same at conjugate points."""
+    square = place.delta_squared if place.kind is Kind.REGULAR else irregular_difference_squared(place)
+    return None if square is None or square.degree > 0 else square
 
 
 def choices_of_degree(problem: Problem, d: int) -> list[Exponents] | None:
@@ -616,6 +634,13 @@ def _with_rational_points(problem: Problem) -> Problem | None:
         S = RatFunc(problem.S.num.over(extension), problem.S.den.over(extension), reduced=True)
         problem = analyse(S, problem.budget)
     return problem
+
+
+def with_points_apart(problem: Problem) -> Problem | None:
+    """The problem itself, or one with rational points where exponents differ at conjugate ones; None as for these."""
+    conjugate = [place for place in _singular(problem) if place.degree > 1 and place.kind is not Kind.RAMIFIED]
+    are_same = all(_difference_squared(place) is not None for place in conjugate)
+    return problem if are_same else _with_rational_points(problem)
 
 
 def _degree_over(field: Field, base: Field) -> int:

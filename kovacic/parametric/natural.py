@@ -19,6 +19,7 @@ from itertools import chain
 from random import Random
 from typing import NamedTuple
 
+from kovacic.algebra.extension import AlgebraicField
 from kovacic.algebra.function_field import FunctionField, FunctionPoly
 from kovacic.algebra.ratfunc import RatFunc
 from kovacic.algebra.rationals import QQ
@@ -29,7 +30,7 @@ from kovacic.errors import LimitExceeded
 from kovacic.limits import Budget
 from kovacic.parametric import prose
 from kovacic.parametric.assumptions import Assumptions
-from kovacic.parametric.claims import Claim, DegreeBySum, DegreeExists, EquationFor, rational_roots
+from kovacic.parametric.claims import Adjoined, Claim, DegreeBySum, DegreeExists, EquationFor, rational_roots
 from kovacic.parametric.exponents import (
     RankConditions,
     choices_of_degree,
@@ -49,6 +50,7 @@ from kovacic.parametric.functions import (
     ParameterPoint,
     degrees,
     irreducible_factors,
+    lifted,
     over_parameters,
     union,
 )
@@ -295,15 +297,25 @@ class Natural(Statement):
         if numbers is None:
             return None
         squares = tuple(root.square for root in numbers.roots)
+        adjoined = None
+        if numbers.field != problem.field:
+            extension = numbers.field
+            assert isinstance(extension, AlgebraicField)
+            if extension.base != problem.field or extension.dimension > 2:
+                return None
+            name = "I" if extension.name == "sqrt(-1)" else extension.name
+            larger = FunctionField((*self.field.names, name))
+            squares = tuple(lifted(square, larger) for square in squares)
+            adjoined = Adjoined(name, over_parameters(-extension.modulus[0]))
         if numbers.only_signs:
-            return DegreeBySum(self.letter, numbers.constant, squares)
+            return DegreeBySum(self.letter, numbers.constant, squares, adjoined=adjoined)
         distance = over_parameters(problem.field.poly([-numbers.constant, 1]))
         has_zero = self.factors is None or distance in self.factors
         letters: list[str] = []
         for _ in squares:
             letters.append(free_letter([self.letter, *parameters_of(problem.field), *letters], "jkmnl"))
         bounds = tuple(root.largest for root in numbers.roots)
-        return DegreeBySum(self.letter, numbers.constant, squares, tuple(letters), bounds, has_zero)
+        return DegreeBySum(self.letter, numbers.constant, squares, tuple(letters), bounds, has_zero, adjoined)
 
 
 class _GivenBy(NamedTuple):

@@ -24,12 +24,12 @@ from kovacic.decision import Structure
 from kovacic.engine.places import Kind, Place, Problem
 from kovacic.limits import check_time
 from kovacic.parametric import riemann
-from kovacic.parametric.claims import signed_sums
 from kovacic.parametric.exponents import (
     RankConditions,
     conditions_of_degree,
     degrees_of_solutions,
     form_conditions,
+    with_points_apart,
     zeros_of_forms,
 )
 from kovacic.parametric.functions import degrees, irreducible_factors, over_parameters
@@ -110,8 +110,8 @@ def search(problem: Problem) -> Findings:
         factors = _equations_for_zeros(problem, m, findings)
         if factors == ():
             continue
-        if any(place.kind is Kind.REGULAR and place.delta_squared is None for place in problem.places):
-            findings.unproven.append(f"case {structures[0].case}")
+        if with_points_apart(problem) is None:
+            findings.unproven.append(f"case {structures[0].case} where the exponents at conjugate points differ")
         else:
             equations[m] = factors
     # A reducible group has an invariant of degree m, which doesn't show that it is one.
@@ -236,14 +236,10 @@ def _has_two_branch_points(problem: Problem) -> bool:
 def degree_equation(problem: Problem) -> Poly | None:
     """The polynomial over Q(t) whose roots are the degrees that P can have in a solution exp(int theta) P.
 
-    None if a solution has no rational omega, or the exponents at conjugate points differ.
+    None if a solution has no rational omega, or the exponents differ at conjugate points of high degree.
     """
-    if _is_ramified(problem):
-        return None
-    numbers = degrees_of_solutions(problem)
-    if numbers is None:
-        return None
-    return signed_sums([root.square for root in numbers.roots], numbers.constant, problem.field)
+    numbers = None if _is_ramified(problem) else degrees_of_solutions(problem)
+    return None if numbers is None else numbers.equation([1] * len(numbers.roots))
 
 
 def _is_ramified(problem: Problem) -> bool:
@@ -335,8 +331,7 @@ def _equations_for_zeros(problem: Problem, m: int, findings: Findings) -> tuple[
         factors.append(over_parameters(problem.field.poly([-numbers.constant, 1])))
     for multiples in product(*multiples_of_roots):
         if any(multiples):
-            chosen = [k * k * root.square for k, root in zip(multiples, numbers.roots, strict=True) if k]
-            sums = signed_sums(chosen, numbers.constant, problem.field)
+            sums = numbers.equation(multiples)
             factors += [over_parameters(factor) for factor, _ in problem.field.factor(sums) if _may_be_natural(factor)]
     return tuple(dict.fromkeys(factors))
 
