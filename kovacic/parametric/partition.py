@@ -48,7 +48,7 @@ from kovacic.galois import group_of
 from kovacic.limits import Budget, bounded_work, count_work
 from kovacic.numbers.numerals import as_text
 from kovacic.parametric import prose, restriction
-from kovacic.parametric.assumptions import Assumptions
+from kovacic.parametric.assumptions import NOTHING_ASSUMED, Assumptions
 from kovacic.parametric.cases import equations_on, normal_form, without_empty, without_implied, without_redundant
 from kovacic.parametric.functions import (
     ParameterPoint,
@@ -66,6 +66,7 @@ from kovacic.parametric.regions import Limited, ParameterRegion, RegionVerdict, 
 from kovacic.parametric.restriction import (
     Hypersurface,
     Letters,
+    has_number,
     hypersurface,
     in_lowest_powers,
     setting_of,
@@ -200,12 +201,20 @@ class Partition:
 
 @dataclass(frozen=True)
 class Settings:
-    """The limits, and how far to go: `only_theorems` leaves everything else undecided."""
+    """The limits, and how far to go: `only_theorems` leaves everything else undecided.
+
+    The zeros of a function that lie in those of one that is `covered`, or that the assumptions exclude, aren't examined.
+    """
 
     budget: Budget
     variable: str = "x"
     only_theorems: bool = False
     covered: frozenset[FunctionPoly] = frozenset()
+    assumptions: Assumptions = NOTHING_ASSUMED
+
+    def covers(self, function: FunctionPoly) -> bool:
+        """True if what holds where it vanishes is known, or it vanishes nowhere."""
+        return function in self.covered or self.assumptions.vanishes(function) is False
 
     def also(self, function: FunctionPoly) -> Settings:
         """Behind the regions of the zeros of a function: what lies in these zeros needn't be examined again."""
@@ -228,11 +237,23 @@ def partition(S: RatFunc, settings: Settings) -> Partition:
         return Partition(verdict, verdict.known or str(decision.undecided), Theory("the engine"))
     if not isinstance(constants, FunctionField):
         # Functions on a hypersurface; see the head of this module for case 1.
+        if not _is_reducible(verdict) and not settings.assumptions.values and has_number(constants):
+            return _beside_a_number(S, settings)
         return Partition(verdict, _is_reducible(verdict) or "for generic values only", Theory("the engine"))
     try:
         return _by_theory(S, verdict, settings)
     except LimitExceeded as limit:
         return Partition(verdict, Limited.by(limit), Theory("nothing but the generic answer"))
+
+
+def _beside_a_number(S: RatFunc, settings: Settings) -> Partition:
+    """The partition for S over Q(t)(alpha), alpha a number, by that over Q(t, alpha)."""
+    lifted, _, number = with_free_constant(S)
+    known = replace(settings.assumptions, values=tuple(zip(number.names, number.values, strict=True)))
+    found = partition(lifted, replace(settings, covered=frozenset(), assumptions=known))
+    reduced = partial(in_lowest_powers, constant=number)
+    regions = tuple(replace(region, statement=region.statement.rewritten(reduced)) for region in found.regions)
+    return _under(known, replace(found, regions=regions), S, settings.budget)
 
 
 def _is_reducible(verdict: RegionVerdict) -> bool:
@@ -336,7 +357,7 @@ def _add_special(
         if isinstance(region.statement, Vanishes):
             settings = settings.also(region.statement.function)
     for function in dict.fromkeys(candidates):
-        if function in settings.covered:
+        if settings.covers(function):
             continue
         settings.budget.check()
         found = _pieces(problem.S, function, settings)
@@ -386,7 +407,7 @@ def _degenerate(S: RatFunc, functions: Iterable[FunctionPoly], settings: Setting
     """Regions for the values at which the generic theory doesn't apply; what the limits don't allow is unknown."""
     regions: list[ParameterRegion] = []
     for function in functions:
-        if function in settings.covered:
+        if settings.covers(function):
             continue
         try:
             regions += _pieces(S, function, settings)
@@ -600,7 +621,7 @@ def derived(
     """The partition of parameter space for S; `max_degree` None: by theorems only, else Delta_d is shown up to this d."""
     lifted, _, constant = with_free_constant(S)
     assumptions = replace(known, values=tuple(zip(constant.names, constant.values, strict=True)))
-    settings = Settings(budget, variable, only_theorems=max_degree is None)
+    settings = Settings(budget, variable, only_theorems=max_degree is None, assumptions=assumptions)
     with budget.watched():
         with bounded_work(_STRATA):
             found = partition(lifted, settings)

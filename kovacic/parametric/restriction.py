@@ -28,7 +28,7 @@ import sympy
 from kovacic.algebra.extension import AlgebraicField, ExtensionPoly, norm
 from kovacic.algebra.factors import product
 from kovacic.algebra.function_field import FunctionField, FunctionPoly
-from kovacic.algebra.poly import Poly
+from kovacic.algebra.poly import Field, Poly
 from kovacic.algebra.ratfunc import RatFunc
 from kovacic.algebra.rationals import QQ
 from kovacic.answer import Answer
@@ -211,10 +211,26 @@ def hypersurface(function: FunctionPoly, eliminated: int | None = None) -> Hyper
         uncovered = tuple(irreducible_factors(leading[i]))
         missed = uncovered if len(leading) > 2 else ()
         return Hypersurface(names, tuple(values), smaller, uncovered, missed)
+    others = [j for j in leading if j != i]
+    total = {sum(map(int, exponents)) for exponents in function.num.to_dict()}
+    if len(others) == 1 and len(total) == 1:  # a form in two parameters: their quotient is a number
+        (j,) = others
+        unit, letter = smaller.generator(names[j]), _free_name(names)
+        modulus = smaller.poly([c / (coefficients[-1] * unit ** (powers[i] - k)) for k, c in enumerate(coefficients)])
+        extension = AlgebraicField(smaller, modulus, letter)
+        values = [value.over(extension) for value in values]
+        values[i] = extension.generator * unit
+        first, second = (function.field.generator(names[k]) for k in (i, j))
+        return Hypersurface(names, tuple(values), extension, (unit,), (second,), Curve(letter, first / second))
     modulus = smaller.poly([c / coefficients[-1] for c in coefficients])
     extension = AlgebraicField(smaller, modulus, names[i])
     values[i] = extension.generator
     return Hypersurface(names, tuple(value.over(extension) for value in values), extension)
+
+
+def _free_name(names: Sequence[str]) -> str:
+    """The first of T, T1, T2, ... that isn't one of the names."""
+    return next(name for name in chain(["T"], map("T{}".format, count(1))) if name not in names)
 
 
 def _with_two_terms(function: FunctionPoly) -> Hypersurface | None:
@@ -234,7 +250,7 @@ def _with_two_terms(function: FunctionPoly) -> Hypersurface | None:
     alpha = A**r * (-B) ** s
     beta = A ** ((1 + r * p) // q) * (-B) ** ((s * p - 1) // q)
     names = function.field.names
-    letter = next(name for name in chain(["T"], map("T{}".format, count(1))) if name not in names)
+    letter = _free_name(names)
     field = FunctionField((*(name for name in names if name not in (u, v)), letter))
     T = field.generator(letter)
     values: dict[str, Poly] = {name: field.generator(name) for name in field.names}
@@ -266,6 +282,13 @@ class WithFreeConstant(NamedTuple):
     S: RatFunc
     shown: RatFunc
     constant: ParameterPoint
+
+
+def has_number(field: Field) -> bool:
+    """True for a field Q(t)(alpha) with an algebraic number alpha."""
+    if not isinstance(field, AlgebraicField) or not isinstance(field.base, FunctionField):
+        return False
+    return all(field.base.rational_value(coefficient) is not None for coefficient in field.modulus)
 
 
 def with_free_constant(S: RatFunc) -> WithFreeConstant:
