@@ -197,7 +197,9 @@ class _Matrix:
             common = common.gcd(self._minor(self.rows[::-1]))
         factors = irreducible_factors(element(self.field, common))
         points = (_random_point(self.field, factor.num) for factor in factors)
-        dropping = [one for one, point in zip(factors, points, strict=True) if point.values(self.rows).rank() < self.rank]
+        dropping = [
+            one for one, point in zip(factors, points, strict=True) if point.values(self.rows).rank() < self.rank
+        ]
         return RankConditions(tuple(dropping), deficient=self.deficient)
 
     def _minor(self, rows: list[list[Any]]) -> Any:
@@ -471,7 +473,7 @@ class Numbers:
     only_signs: bool = False
 
     def equation(self, multiples: Iterable[int]) -> Poly:
-        """The polynomial over the base, or a multiple, of which constant + the sum of +- k times a root are roots, for these k."""
+        """The polynomial over the base, or a multiple, whose roots are constant + sums of +- k times a root for these k."""
         squares = [k * k * root.square for k, root in zip(multiples, self.roots, strict=True) if k]
         total = signed_sums(squares, self.constant, self.field)
         while total.field != self.base:  # conjugate points, all of them in the sum: its equation needs no extension
@@ -481,7 +483,7 @@ class Numbers:
 
 
 def degrees_of_solutions(problem: Problem) -> Numbers | None:
-    """The degrees of P in exp(int theta) P; None where conjugate points with different exponents need too large an extension."""
+    """The degrees of P in exp(int theta) P; None where different exponents at conjugate points need too large an extension."""
     apart = with_points_apart(problem)
     if apart is None:
         return None

@@ -15,9 +15,11 @@ v'' = (V - 2 W' - E) v, and v -> v' + W v takes them back, times E0 - E.  W is r
 solutions where the other one has, with the same case and group.  At a pole with the exponents -m and m + 1, the same for all E,
 and W = -m/(x - c) + ..., V - 2 W' has the coefficient m (m - 1) where V has m (m + 1).
 
-Last, each region is said once, under assumptions, with solutions of the given equation.  Where a parameter t occurs in S in
-powers of t^k only, there are conditions for T = t^k, too, and what they say of t: on a hypersurface such as 4 w^2 + 1 = 0 no
-parameter is eliminated; on 4 W + 1 = 0 one is.
+On a hypersurface such as 4 w^2 + 1 = 0 no parameter is eliminated, but one is a number there.  S over Q(t)(w) is a slice of
+S over Q(t, w) with a free w, whose partition holds on the slice; so it is where a form in two parameters vanishes, on
+a^2 + b^2 = 0 with w = a/b.
+
+Last, each region is said once, under assumptions, with solutions of the given equation.
 
 References: G. Darboux, C. R. Acad. Sci. 94 (1882) 1456; D. Gomez-Ullate, Y. Grandati & R. Milson, J. Phys. A 47 (2014) 015203.
 """
@@ -25,13 +27,12 @@ References: G. Darboux, C. R. Acad. Sci. 94 (1882) 1456; D. Gomez-Ullate, Y. Gra
 from __future__ import annotations
 
 import re
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from contextlib import suppress
 from dataclasses import dataclass, replace
 from fractions import Fraction
 from functools import partial
 from itertools import chain
-from math import gcd
 
 import sympy
 
@@ -46,7 +47,6 @@ from kovacic.equation import Equation
 from kovacic.errors import LimitExceeded
 from kovacic.galois import group_of
 from kovacic.limits import Budget, bounded_work, count_work
-from kovacic.numbers.numerals import as_text
 from kovacic.parametric import prose, restriction
 from kovacic.parametric.assumptions import NOTHING_ASSUMED, Assumptions
 from kovacic.parametric.cases import equations_on, normal_form, without_empty, without_implied, without_redundant
@@ -54,7 +54,6 @@ from kovacic.parametric.functions import (
     ParameterPoint,
     degrees,
     denominators,
-    element,
     in_field,
     irreducible_factors,
     over_parameters,
@@ -84,7 +83,7 @@ from kovacic.parametric.solutions import (
 )
 from kovacic.parametric.statements import ALWAYS, NEVER, Statement, Vanishes, both
 from kovacic.parametric.theorems import kimura, martinet_ramis
-from kovacic.writing.formula import Math, caret
+from kovacic.writing.formula import Math
 
 #: Degrees of P up to which an E0 is looked for.
 _DEGREE = 4
@@ -556,55 +555,6 @@ def _special(regions: Iterable[ParameterRegion], surface: Hypersurface) -> list[
     return special
 
 
-@dataclass(frozen=True)
-class InPowers:
-    """S with T for t^k, T by the name of t, and the k of each parameter."""
-
-    S: RatFunc
-    powers: tuple[int, ...]
-
-    def back(self, region: ParameterRegion) -> ParameterRegion:
-        """What a region of T says of t."""
-        field = self.S.field
-        assert isinstance(field, FunctionField)
-        names = dict(zip(field.names, self.powers, strict=True))
-        origin = region.origin and Carried(region.origin, partial(_with_powers, names))
-
-        def raised(function: FunctionPoly) -> FunctionPoly:  # of some of the parameters
-            own = function.field
-            values = [own.generator(name) ** names.get(name, 1) for name in own.names]
-            return over_parameters(function.value_at(values, own))
-
-        return replace(region, statement=region.statement.rewritten(raised), origin=origin)
-
-
-def _with_powers(powers: Mapping[str, int], solution: PolynomialSolution) -> PolynomialSolution:
-    """A solution with t^k for T."""
-    raised = solution.with_values({sympy.Symbol(name): sympy.Symbol(name) ** k for name, k in powers.items()})
-    if not raised.conditions and raised.where:
-        return raised
-    where = ", ".join(f"{caret(as_text(sympy.factor(condition)))} = 0" for condition in raised.conditions)
-    return replace(raised, where=where)
-
-
-def in_powers(S: RatFunc) -> InPowers | None:
-    """None if each parameter occurs in powers without a common divisor."""
-    field = S.field
-    assert isinstance(field, FunctionField)
-    parts = [over_parameters(part) for part in S.cleared()]
-    occurring = [[n for part in parts for n in powers_of(part, i)] for i in range(len(field.names))]
-    powers = tuple(gcd(*found) or 1 for found in occurring)  # the largest k for which t occurs in powers of t^k only
-    if max(powers) == 1:
-        return None
-    lowered: list[FunctionPoly] = []
-    for part in parts:
-        terms = {}
-        for (first, *exponents), coefficient in part.num.to_dict().items():  # t^(k n) -> T^n
-            terms[(first, *(n // k for n, k in zip(exponents, powers, strict=True)))] = coefficient
-        lowered.append(element(part.field, part.field.context.from_dict(terms)))
-    return InPowers(RatFunc(*lowered), powers)
-
-
 #: Strata of parameter space up to which they are examined: Heun's general equation, in six parameters, has some hundreds.
 _STRATA = 4000
 
@@ -622,11 +572,8 @@ def derived(
     lifted, _, constant = with_free_constant(S)
     assumptions = replace(known, values=tuple(zip(constant.names, constant.values, strict=True)))
     settings = Settings(budget, variable, only_theorems=max_degree is None, assumptions=assumptions)
-    with budget.watched():
-        with bounded_work(_STRATA):
-            found = partition(lifted, settings)
-        if found.complete is not True:
-            found = _partition_by_powers(lifted, settings, found)
+    with budget.watched(), bounded_work(_STRATA):
+        found = partition(lifted, settings)
     field = lifted.field.ground
     assert isinstance(field, FunctionField)
     regions = _distinct(found.regions, constant, budget)
@@ -641,21 +588,6 @@ def derived(
     numbers = zip(constant.names, (value.to_sympy(x) for value in constant.values), strict=True)
     letters = (*letters, *numbers)
     return replace(result, regions=tuple([_finished(region, given, max_degree, budget, letters) for region in regions]))
-
-
-def _partition_by_powers(S: RatFunc, settings: Settings, direct: Partition) -> Partition:
-    """The partition by powers of the parameters, where it is complete; else the direct one."""
-    try:
-        powers = in_powers(S)
-        if powers is None:
-            return direct
-        with bounded_work(_STRATA):
-            found = partition(powers.S, settings)
-    except LimitExceeded as limit:
-        return replace(direct, complete=Limited.by(limit))
-    if found.complete is True:
-        return replace(found, regions=tuple(map(powers.back, found.regions)))
-    return replace(direct, complete=found.complete) if isinstance(found.complete, Limited) else direct
 
 
 def _distinct(regions: Iterable[ParameterRegion], constant: ParameterPoint, budget: Budget) -> list[ParameterRegion]:

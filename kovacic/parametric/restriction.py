@@ -188,12 +188,13 @@ def hypersurface(function: FunctionPoly, eliminated: int | None = None) -> Hyper
     """Values of the parameters at which an irreducible polynomial vanishes.
 
     A parameter that occurs linearly is eliminated: the given one, or one with a constant coefficient if there is one; else one
-    becomes algebraic over the others: a number, if there are none.  A linear one with the coefficient A in A t + B misses the
-    zeros of A; these are zeros of the polynomial only if there are two others, since A and B are coprime.
+    becomes algebraic over the others: a number, if there are none, or if it is the quotient of two.  A linear one with the
+    coefficient A in A t + B misses the zeros of A; these are zeros of the polynomial only if there are two others, since A and
+    B are coprime.
     """
-    curve = None if eliminated is not None else _with_two_terms(function)
-    if curve is not None:
-        return curve
+    rational = None if eliminated is not None else _with_two_terms(function)
+    if rational is not None:
+        return rational
     names = function.field.names
     powers = degrees(function)
     leading = {i: functions.powers_of(function, i)[k] for i, k in enumerate(powers) if k}
@@ -208,24 +209,25 @@ def hypersurface(function: FunctionPoly, eliminated: int | None = None) -> Hyper
     coefficients = functions.coefficients_in(function, i, values, smaller)
     if powers[i] == 1:
         values[i] = -coefficients[0] / coefficients[1]
-        uncovered = tuple(irreducible_factors(leading[i]))
-        missed = uncovered if len(leading) > 2 else ()
-        return Hypersurface(names, tuple(values), smaller, uncovered, missed)
+        zeros = tuple(irreducible_factors(leading[i]))
+        return Hypersurface(names, tuple(values), smaller, zeros, zeros if len(leading) > 2 else ())
+    letter = names[i]
+    unit: Poly = smaller.poly([1])
+    uncovered: tuple[FunctionPoly, ...] = ()
+    missed: tuple[FunctionPoly, ...] = ()
+    curve: Curve | None = None
     others = [j for j in leading if j != i]
-    total = {sum(map(int, exponents)) for exponents in function.num.to_dict()}
-    if len(others) == 1 and len(total) == 1:  # a form in two parameters: their quotient is a number
-        (j,) = others
-        unit, letter = smaller.generator(names[j]), _free_name(names)
-        modulus = smaller.poly([c / (coefficients[-1] * unit ** (powers[i] - k)) for k, c in enumerate(coefficients)])
-        extension = AlgebraicField(smaller, modulus, letter)
-        values = [value.over(extension) for value in values]
-        values[i] = extension.generator * unit
-        first, second = (function.field.generator(names[k]) for k in (i, j))
-        return Hypersurface(names, tuple(values), extension, (unit,), (second,), Curve(letter, first / second))
-    modulus = smaller.poly([c / coefficients[-1] for c in coefficients])
-    extension = AlgebraicField(smaller, modulus, names[i])
-    values[i] = extension.generator
-    return Hypersurface(names, tuple(value.over(extension) for value in values), extension)
+    degrees_of_terms = {sum(map(int, exponents)) for exponents in function.num.to_dict()}
+    if len(others) == len(degrees_of_terms) == 1:  # a form in two parameters, whose quotient is a number
+        assert isinstance(smaller, FunctionField)
+        letter = _free_name(names)
+        unit = smaller.generator(names[others[0]])
+        first, second = (function.field.generator(names[k]) for k in (i, *others))
+        uncovered, missed, curve = (over_parameters(unit),), (second,), Curve(letter, over_parameters(first / second))
+    modulus = smaller.poly([c / (coefficients[-1] * unit ** (powers[i] - k)) for k, c in enumerate(coefficients)])
+    extension = AlgebraicField(smaller, modulus, letter)
+    values[i] = extension.generator * unit
+    return Hypersurface(names, tuple(value.over(extension) for value in values), extension, uncovered, missed, curve)
 
 
 def _free_name(names: Sequence[str]) -> str:

@@ -415,8 +415,15 @@ def test_an_integer_is_not_called_like_a_parameter() -> None:
         ("(n^2-2)*x^4 + m*x", "n^2 = 2", [("sqrt(2)", 1), ("sqrt(2)", 0), (1, 1), (1, 2)]),
         ("(n^2-2)*x^3 + m", "n^2 = 2", [("sqrt(2)", 1), ("-sqrt(2)", 0), (1, 1), (1, 0)]),
         ("(n^2-m^3-1)*x^4 + n*x + m", "m^3 = (n - 1)*(n + 1)", [(1, 0), (3, 2), (8, 4)]),
+        # One of two conjugate poles becomes simple.
+        (
+            "(a*x+b)/(x^2+1)^2 + c/(x*(x^2+1))",
+            "a^2 + b^2 = 0",
+            [("4*I", -4, "-2*I"), ("-4*I", -4, "2*I"), ("4*I", -4, 1), ("I", 1, 0), (0, 0, 0), (0, -3, 0), (2, 1, -2)],
+        ),
+        ("a*x^6 + (w^2+1)*x^3 + b/x^2", "w^2 + 1 = 0", [(1, "I", 6), (1, "-I", 2), (0, "I", 0), (1, 2, 6)]),
     ],
-    ordinary=4,
+    ordinary=5,
 )
 def test_hypersurfaces_from_which_no_parameter_is_eliminated(
     S: str, curve: str, points: list[tuple[object, ...]]
@@ -424,6 +431,7 @@ def test_hypersurfaces_from_which_no_parameter_is_eliminated(
     answer = kovacic.conditions(S, var="x", max_degree=2)
     regions = [region for region in answer.regions if curve in str(region.statement)]
     assert regions
+    assert answer.complete is True or "m^3" in curve
     for region in regions:
         assert region.complete is True or "special values" in str(region.complete)
     for values in points:
