@@ -34,7 +34,7 @@ from kovacic.parametric.functions import over_parameters
 from kovacic.reading.lexer import PRIMES, SUPERSCRIPT_DIGITS
 from kovacic.reading.names import is_function
 from kovacic.reading.source import Source
-from kovacic.writing.formula import Math, caret
+from kovacic.writing.formula import Math, caret, latex_text
 
 #: Terms up to which a quotient is written as a sum.
 _TERMS = 4
@@ -484,6 +484,6 @@ def unexpanded(source: Source) -> Math | None:
         text, count = _IN_PARENTHESES.subn(r"\1", text)
     if _UNCLEAR.search(text):
         return None
-    if source.unknown:
-        return Math.of(text)
-    return Math.of(f"y'' = ({text}) y" if is_sum else f"y'' = {text} y")
+    if not source.unknown:
+        text = f"y'' = ({text}) y" if is_sum else f"y'' = {text} y"
+    return Math(text, latex_text(text))

@@ -176,6 +176,8 @@ def integer_condition(
 def _spectrum(equation: FunctionPoly, numbers: Classes, letter: str, setting: Setting) -> IntegerCondition | None:
     """A parameter as a function of n, by the cheapest way to choose n; None if no parameter is linear."""
     known = all_solved(equation, setting.fixed)
+    vanishes = setting.assumptions.vanishes
+    known = [replace(one, poles=tuple(pole for pole in one.poles if vanishes(pole.zero) is not False)) for one in known]
     if setting.constant.names:  # without the constant in denominators: sqrt(2), not 2/sqrt(2)
         numbers_there = everywhere(equation.field, setting.constant)
         values = [numbers_there.restricted(solved.value) for solved in known]

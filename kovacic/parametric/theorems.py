@@ -238,7 +238,7 @@ def _points_of(place: Place, x: Any) -> list[_SingularPoint]:
     if len(points) == 1:
         return [_SingularPoint(points[0], root(square))]
     slope, constant = square[1].to_sympy(x), square[0].to_sympy(x)
-    return [_SingularPoint(c, _square_root(sympy.expand(slope * c) + constant)) for c in points]
+    return [_SingularPoint(c, _square_root(sympy.together(sympy.expand(slope * c) + constant))) for c in points]
 
 
 def roots_of(place: Place, x: Any) -> list[Any]:
