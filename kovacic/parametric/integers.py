@@ -241,7 +241,7 @@ def _roots(equation: FunctionPoly, numbers: Classes, constant: ParameterPoint) -
     field = equation.field
     with_constant = everywhere(field, constant).at(equation)  # over Q(t)(alpha), in which more elements are squares
     mean = -with_constant[equation.degree - 1] / (with_constant.lc * equation.degree)
-    squares = _squares_of_roots(with_constant(mean.field.poly([0, 1]) + mean) / with_constant.lc)
+    squares = squares_of_roots(with_constant(mean.field.poly([0, 1]) + mean) / with_constant.lc)
     if squares is None:
         return None
     if constant.names:
@@ -252,7 +252,7 @@ def _roots(equation: FunctionPoly, numbers: Classes, constant: ParameterPoint) -
     return SumOfRoots(over_parameters(middle - whole), tuple(squares), numbers)
 
 
-def _squares_of_roots(shifted: Poly) -> list[Poly] | None:
+def squares_of_roots(shifted: Poly) -> list[Poly] | None:
     """Those of which the roots of a monic even polynomial are sums, with all signs, of square roots."""
     k = shifted.degree
     if any(shifted[i] for i in range(1, k, 2)):
@@ -303,14 +303,13 @@ def natural_root(equations: Sequence[FunctionPoly], letter: str, setting: Settin
 
 def _that_can_be_natural(equation: FunctionPoly) -> list[FunctionPoly]:
     """The irreducible factors that have a natural root for some values of the parameters."""
-    found = []
-    for factor in irreducible_factors(equation):
-        is_number = factor.degree == 1 and not any(degrees(factor))
-        root = factor.field.rational_value(-factor[0] / factor[1]) if is_number else None
-        is_possible = any(degrees(factor)) if root is None else NATURALS.contains(root)
-        if factor.degree > 0 and is_possible:
-            found.append(factor)
-    return found
+    return [factor for factor in irreducible_factors(equation) if factor.degree > 0 and may_be_natural(factor)]
+
+
+def may_be_natural(factor: Poly) -> bool:
+    """True if an irreducible polynomial over Q(t) may have a natural root for some values of the parameters."""
+    numbers = without_parameters(factor)
+    return numbers is None or any(map(NATURALS.contains, rational_roots(numbers)))
 
 
 #: What integers are called, the first that isn't a parameter.
@@ -393,7 +392,7 @@ class Congruence(Statement):
 
     def holds_for(self, equation: Poly) -> bool | None:
         """True if the equation has one of the roots, False if not; None if it contains parameters."""
-        numbers = equation if equation.field.ground == QQ else _without_parameters(equation)
+        numbers = equation if equation.field.ground == QQ else without_parameters(equation)
         if numbers is None:
             return None
         return self._has_one_of(rational_roots(numbers))
@@ -424,7 +423,7 @@ class Congruence(Statement):
         if any(f.degree == 1 and assumptions.meets_classes(over_parameters(-f[0]), self.numbers) for f in factors):
             return True
         # f(0) is irrational, and f(n) - f(0) rational.
-        are_irrational = all(assumptions.is_irrational(f[0]) and _without_parameters(f - f[0]) for f in factors)
+        are_irrational = all(assumptions.is_irrational(f[0]) and without_parameters(f - f[0]) for f in factors)
         return False if are_irrational else None
 
     def narrowed(self, assumptions: Assumptions) -> Statement:
@@ -514,7 +513,7 @@ def integer_roots(equation: FunctionPoly, residues: Iterable[Fraction | int], mo
         if is_symmetric and factor(field.poly([0, -1])).monic() in seen:
             continue
         seen.append(factor)
-        numbers = _without_parameters(factor)
+        numbers = without_parameters(factor)
         if numbers is None:
             statements.append(Congruence.make(over_parameters(factor), classes, modulus))
         elif any(root % modulus in classes for root in rational_roots(numbers)):
@@ -522,7 +521,7 @@ def integer_roots(equation: FunctionPoly, residues: Iterable[Fraction | int], mo
     return either(*statements)
 
 
-def _without_parameters(polynomial: Poly) -> Poly | None:
+def without_parameters(polynomial: Poly) -> Poly | None:
     """The polynomial over Q; None if a coefficient has parameters."""
     values: list[Fraction] = []
     for coefficient in polynomial:

@@ -60,6 +60,7 @@ from kovacic.parametric.functions import (
     powers_of,
     union,
 )
+from kovacic.parametric.integers import without_parameters
 from kovacic.parametric.natural import Natural
 from kovacic.parametric.regions import Limited, ParameterRegion, RegionVerdict, Theorem, Theory, settled, verdict_of
 from kovacic.parametric.restriction import (
@@ -492,9 +493,9 @@ def _rest(
     complete = inner.complete
     if field.ground == QQ:
         return _at_a_value(statement, S, verdict, complete, settings)
-    free = _without_parameters(S)
-    if free is not None:
-        return _at_a_value(statement, free, verdict, complete, settings)
+    num, den = map(without_parameters, (S.num, S.den))
+    if num is not None and den is not None:  # no parameter is left: 0 for k (1 + g/x) at k = 0
+        return _at_a_value(statement, RatFunc(num, den), verdict, complete, settings)
     if complete is not True:
         verdict = replace(verdict, known=False)
         if isinstance(field, AlgebraicField):  # no parameter can be eliminated
@@ -505,16 +506,6 @@ def _rest(
     if verdict.known and verdict.case == 1 and not surface.curve:
         origin = partial(solutions_there, S, settings.variable)
     return ParameterRegion(statement, verdict, complete, origin=origin)
-
-
-def _without_parameters(S: RatFunc) -> RatFunc | None:
-    """S over Q, where no parameter is left in it: 0 for k (1 + g/x) at k = 0."""
-    parts = [S.num, S.den]
-    coefficients = [[S.field.rational_value(c) for c in part] for part in parts]
-    if any(None in numbers for numbers in coefficients):
-        return None
-    num, den = (QQ.poly([number or 0 for number in numbers]) for numbers in coefficients)
-    return RatFunc(num, den)
 
 
 def _without_formulas(verdict: RegionVerdict) -> RegionVerdict:

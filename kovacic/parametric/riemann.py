@@ -34,7 +34,7 @@ from kovacic.engine.places import Kind, Place, Problem, rational_square_root
 from kovacic.parametric import prose
 from kovacic.parametric.assumptions import Assumptions
 from kovacic.parametric.claims import Claim
-from kovacic.parametric.formulas import root_written, shown
+from kovacic.parametric.formulas import in_sum, root_written, shown
 from kovacic.parametric.functions import (
     ParameterPoint,
     common_multiple,
@@ -43,7 +43,7 @@ from kovacic.parametric.functions import (
     roots,
     values_at_integers,
 )
-from kovacic.parametric.integers import Congruence, integer_roots
+from kovacic.parametric.integers import Congruence, integer_roots, squares_of_roots, without_parameters
 from kovacic.parametric.prose import Words
 from kovacic.parametric.regions import RegionVerdict
 from kovacic.parametric.restriction import Hypersurface, hypersurface, over_all
@@ -177,7 +177,7 @@ class Schwarz(Statement, Claim):
     def _on(self, surface: Hypersurface) -> Statement:
         """The statement for fewer parameters, expressed in all of them."""
         cubic = surface.at(self.cubic)
-        if not isinstance(cubic, FunctionPoly) or not _has_parameters(cubic):
+        if not isinstance(cubic, FunctionPoly) or without_parameters(cubic) is not None:
             is_there = kimura([*map(rational_square_root, roots(cubic))]) in self.structures
             return ALWAYS if is_there else NEVER
         single = _one_function(cubic)
@@ -317,7 +317,7 @@ def differences(cubic: FunctionPoly) -> Differences:
     squares: list[Poly] = []
     for factor, k in cubic.field.factor(cubic):
         constant = None
-        if _has_parameters(factor):
+        if without_parameters(factor) is None:
             squares += [factor] * k
         else:
             constant = rational_square_root(-factor[0]) if factor.degree == 1 else None
@@ -332,18 +332,11 @@ def differences(cubic: FunctionPoly) -> Differences:
 
 def _square_roots_of_roots(factor: Poly) -> list[str] | None:
     """Those of Z - a: sqrt(a); of Z^2 + b Z + r^2: sqrt((-b + 2 r)/4) +- sqrt((-b - 2 r)/4); None for any other."""
-    if factor.degree == 1:
-        return [root_written(-factor[0])]
-    if factor.degree > 2:
+    squares = squares_of_roots(factor(factor.field.poly([0, 0, 1]))) if factor.degree < 3 else None
+    if squares is None:
         return None
-    r = factor.field.sqrt(factor[0])
-    if r is None:
-        return None
-    first = root_written((-factor[1] + 2 * r) / 4)
-    second = root_written((-factor[1] - 2 * r) / 4)
-    if " + " in second or " - " in second:
-        second = f"({second})"
-    return [f"{first} + {second}", f"{first} - {second}"]
+    first, *others = map(root_written, squares)
+    return [f"{first} {sign} {in_sum(second)}" for second in others for sign in "+-"] or [first]
 
 
 def is_fuchsian(problem: Problem) -> bool:
@@ -458,7 +451,7 @@ def _half_integers(cubic: FunctionPoly, times: int) -> Statement:
     field = cubic.field
     found = []
     for factor, multiplicity in field.factor(cubic):
-        if multiplicity >= times and _has_parameters(factor):
+        if multiplicity >= times and without_parameters(factor) is None:
             equation = over_parameters(factor(field.poly([0, 0, _F(1, 4)])))
             found.append(integer_roots(equation, [1], 2))
     return either(*found)
@@ -469,10 +462,6 @@ def has_denominator(square: Poly, denominator: int) -> Statement:
     equation = square.field.poly([-square * denominator**2, 0, 1])
     coprime = [r for r in range(denominator) if gcd(r, denominator) == 1]
     return integer_roots(over_parameters(equation), coprime, denominator)
-
-
-def _has_parameters(factor: Poly) -> bool:
-    return any(factor.field.rational_value(c) is None for c in factor)
 
 
 class _DifferenceLine(NamedTuple):

@@ -33,6 +33,7 @@ from kovacic.parametric.exponents import (
     zeros_of_forms,
 )
 from kovacic.parametric.functions import degrees, irreducible_factors, over_parameters
+from kovacic.parametric.integers import may_be_natural
 from kovacic.parametric.natural import Natural
 from kovacic.parametric.regions import Theory
 from kovacic.parametric.restriction import hypersurface
@@ -256,7 +257,7 @@ def _add_reducible(problem: Problem, findings: Findings) -> None:
         return
     factors: list[FunctionPoly] = []
     for factor, _ in problem.field.factor(equation):
-        if _may_be_natural(factor) and not _is_settled(problem, factor, findings):
+        if may_be_natural(factor) and not _is_settled(problem, factor, findings):
             factors.append(over_parameters(factor))
     if factors:
         findings.natural.append(Natural(problem.S, 1, tuple(factors), Structure.REDUCIBLE))
@@ -332,13 +333,5 @@ def _equations_for_zeros(problem: Problem, m: int, findings: Findings) -> tuple[
     for multiples in product(*multiples_of_roots):
         if any(multiples):
             sums = numbers.equation(multiples)
-            factors += [over_parameters(factor) for factor, _ in problem.field.factor(sums) if _may_be_natural(factor)]
+            factors += [over_parameters(factor) for factor, _ in problem.field.factor(sums) if may_be_natural(factor)]
     return tuple(dict.fromkeys(factors))
-
-
-def _may_be_natural(factor: Poly) -> bool:
-    """True if an irreducible polynomial over Q(t) may have a natural root for some values of the parameters."""
-    if any(factor.field.rational_value(c) is None for c in factor):
-        return True
-    root = _number_root(factor)
-    return root is not None and root.denominator == 1 and root >= 0

@@ -62,6 +62,7 @@ from kovacic.algebra.ratfunc import RatFunc
 from kovacic.decision import Structure
 from kovacic.engine.places import Kind, Place, Problem, analyse
 from kovacic.parametric import restriction, riemann
+from kovacic.parametric.claims import signed_sums
 from kovacic.parametric.formulas import has_roots, shifted, shorter_sum
 from kovacic.parametric.functions import irreducible_factors, over_parameters
 from kovacic.parametric.integers import integer_roots
@@ -328,12 +329,9 @@ def martinet_ramis(problem: Problem, variable: str) -> Theorem | None:
         where = ("abelian exactly where both exponential factors occur",)
         verdict = RegionVerdict(Structure.REDUCIBLE, family=family, abelian=where)
     # N = +-beta +- Delta is n modulo 2n; for q = 0, N = 2 Delta.
-    z = form.b.field.poly([0, 0, 1])  # N^2
     delta_squared = 1 + 4 * form.b
-    equation = z - 4 * delta_squared
-    if form.q:
-        beta_squared = form.r * form.r / form.q
-        equation = (z - beta_squared - delta_squared) ** 2 - 4 * beta_squared * delta_squared
+    squares = [form.r * form.r / form.q, delta_squared] if form.q else [4 * delta_squared]
+    equation = signed_sums(squares, Fraction(0), form.b.field)
     n = form.coordinate.n
     region = ParameterRegion(integer_roots(over_parameters(equation), [n], 2 * n), verdict, origin=origin)
     return Theorem(name, [*restriction.undefined(problem), *irreducible_factors(form.q or form.r)], [region])
