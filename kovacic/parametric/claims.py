@@ -198,12 +198,15 @@ def rational_roots(polynomial: Poly) -> list[Fraction]:
 
 def signed_sums(squares: Sequence[Poly], constant: Poly | Fraction, field: Field) -> Poly:
     """The squarefree polynomial over the field whose roots are the constant plus sums of +- the square roots."""
-    total = field.poly([0, 1]) - constant
-    for square in squares:
-        root = AlgebraicField(field, field.poly([-square, 0, 1])).generator  # formally, if there is one in the field
-        total = norm(total(root.field.poly([0, 1]) + root))
-        total = total // total.gcd(total.derivative())
-    return total
+    return reduce(with_signed_root, squares, field.poly([0, 1]) - constant)
+
+
+def with_signed_root(total: Poly, square: Poly) -> Poly:
+    """The squarefree polynomial whose roots are those of another one, plus and minus the square root."""
+    field = total.field
+    root = AlgebraicField(field, field.poly([-square, 0, 1])).generator  # formally, if there is one in the field
+    total = norm(total(root.field.poly([0, 1]) + root))
+    return total // total.gcd(total.derivative())
 
 
 # ------------------------------------------------------------------------------- natural numbers that exponents allow

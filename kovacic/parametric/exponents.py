@@ -42,7 +42,7 @@ from kovacic.engine.places import Kind, Place, Problem, analyse
 from kovacic.engine.riccati import Form, singular_part
 from kovacic.errors import LimitExceeded
 from kovacic.limits import bounded_work, check_time, count_work
-from kovacic.parametric.claims import signed_sums
+from kovacic.parametric.claims import with_signed_root
 from kovacic.parametric.functions import element, in_field, irreducible_factors, lifted, over_parameters
 
 #: Minors up to which all of them are computed.
@@ -475,11 +475,24 @@ class Numbers:
     def equation(self, multiples: Iterable[int]) -> Poly:
         """The polynomial over the base, or a multiple, whose roots are constant + sums of +- k times a root for these k."""
         squares = [k * k * root.square for k, root in zip(multiples, self.roots, strict=True) if k]
-        total = signed_sums(squares, self.constant, self.field)
-        while total.field != self.base:  # conjugate points, all of them in the sum: its equation needs no extension
-            first, *others = total.parts
-            total = norm(total) if any(others) else first
-        return total
+        total = self.base.poly([0, 1]) - self.constant
+        if self.field != self.base:
+            conjugate = [square for square in squares if any(square.parts[1:])]
+            squares = [square.parts[0] for square in squares if square not in conjugate]
+            total = self._of_conjugates(conjugate) if conjugate else total
+        return reduce(with_signed_root, squares, total)
+
+    def _of_conjugates(self, squares: list[Poly]) -> Poly:
+        """The same for one or two squares over a quadratic extension.
+
+        N = +-sqrt(A) +- sqrt(B) are the roots of N^4 - 2 (A + B) N^2 + (A - B)^2.
+        """
+        N = self.field.poly([0, 1]) - self.constant
+        total = N * N - squares[0]
+        if len(squares) > 1:
+            total = N**4 - N * N * (2 * (squares[0] + squares[1])) + (squares[0] - squares[1]) ** 2
+        first, second = total.parts
+        return norm(total) if second else first
 
 
 def degrees_of_solutions(problem: Problem) -> Numbers | None:
@@ -639,10 +652,11 @@ def _with_rational_points(problem: Problem) -> Problem | None:
 
 
 def with_points_apart(problem: Problem) -> Problem | None:
-    """The problem itself, or one with rational points where exponents differ at conjugate ones; None as for these."""
+    """The problem itself, or one with rational points where exponents differ at conjugate ones: None unless these are two."""
     conjugate = [place for place in _singular(problem) if place.degree > 1 and place.kind is not Kind.RAMIFIED]
-    are_same = all(_difference_squared(place) is not None for place in conjugate)
-    return problem if are_same else _with_rational_points(problem)
+    if all(_difference_squared(place) is not None for place in conjugate):
+        return problem
+    return _with_rational_points(problem) if [place.degree for place in conjugate] == [2] else None
 
 
 def _degree_over(field: Field, base: Field) -> int:

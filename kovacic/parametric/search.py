@@ -237,7 +237,7 @@ def _has_two_branch_points(problem: Problem) -> bool:
 def degree_equation(problem: Problem) -> Poly | None:
     """The polynomial over Q(t) whose roots are the degrees that P can have in a solution exp(int theta) P.
 
-    None if a solution has no rational omega, or the exponents differ at conjugate points of high degree.
+    None if a solution has no rational omega, or the exponents differ at more than two conjugate points.
     """
     numbers = None if _is_ramified(problem) else degrees_of_solutions(problem)
     return None if numbers is None else numbers.equation([1] * len(numbers.roots))
