@@ -88,7 +88,13 @@ class BoundState:
     norm: Any = None
 
     def __str__(self) -> str:
-        return f"E_{self.number} = {_text(self.energy)}, y = {_text(self.wave)}"
+        return f"E_{self.number} {self.value}, y = {_text(self.wave)}"
+
+    @property
+    def value(self) -> str:
+        """ "= 2*sqrt(2)", or a decimal after "~" for the root of a polynomial that isn't solved."""
+        is_root = self.energy.has(sympy.CRootOf)
+        return f"~ {_text(sympy.N(self.energy, 12))}" if is_root else f"= {_text(self.energy)}"
 
 
 @dataclass(frozen=True)
@@ -131,6 +137,14 @@ class Levels:
             return None
         found = [n for n in range(_MOST) if all(c.subs(self.number, n) == sympy.true for c in self.conditions)]
         return None if _MOST - 1 in found else tuple(found)
+
+    @property
+    def numbers(self) -> str:
+        """The numbers as a list, "0, 1", that ends with "..." where it goes on, as far as the conditions hold."""
+        known = self.members
+        if known is None or known != tuple(range(len(known))):
+            return "0, 1, 2, ..."
+        return ", ".join(map(str, known)) if len(known) <= _LISTED else f"0, 1, ..., {known[-1]}"
 
 
 @dataclass(frozen=True)
@@ -456,12 +470,13 @@ class Spectrum:
         """
         rows = []
         for levels in self.levels:
-            n = as_latex(levels.number)
-            rows.append(rf"{self.energy}_{{{n}}} &= {as_latex(levels.energy)},\quad {n} = 0, 1, 2, \ldots")
+            n, numbers = as_latex(levels.number), levels.numbers
+            shown = numbers.replace("...", r"\ldots")
+            rows.append(rf"{self.energy}_{{{n}}} &= {as_latex(levels.energy)},\quad {n} = {shown}")
             rows.append(rf"y_{{{n}}} &= {as_latex(levels.wave)}")
-            if levels.conditions:
-                conditions = r",\; ".join(as_latex(c) for c in levels.conditions)
-                rows.append(rf"&{conditions}")
+            conditions = levels.conditions if numbers.endswith("...") else levels.where
+            if conditions:
+                rows.append("&" + r",\; ".join(map(as_latex, conditions)))
         for algebraic in self.algebraic:
             rows.append(rf"d = {algebraic.degree}\colon\quad & {as_latex(algebraic.polynomial)} = 0")
             if algebraic.constraint != 0:
@@ -579,14 +594,9 @@ def _data(value: Any) -> Any:
 def _level_lines(levels: Levels, energy: str) -> list[str]:
     """The energy with its conditions, the wave function, the zeros and the norm."""
     n = levels.number
-    numbers = levels.members
-    if numbers is not None and numbers == tuple(range(len(numbers))):
-        shown = ", ".join(map(str, numbers)) if len(numbers) <= _LISTED else f"0, 1, ..., {numbers[-1]}"
-        first = f"{energy}_{n} = {_text(levels.energy)}, {n} = {shown}"
-    else:
-        first = f"{energy}_{n} = {_text(levels.energy)}, {n} = 0, 1, 2, ..."
-        if levels.above:
-            first += f" with {_joined(levels.above)}"
+    first = f"{energy}_{n} = {_text(levels.energy)}, {n} = {levels.numbers}"
+    if levels.above and levels.numbers.endswith("..."):
+        first += f" with {_joined(levels.above)}"
     if levels.where:
         first += f", where {_joined(levels.where)}"
     last = f"{_text(levels.zeros)} zeros"
@@ -611,7 +621,7 @@ def _algebraic_lines(algebraic: Algebraic, energy: str) -> list[str]:
     for state in algebraic.states:
         zeros = "1 zero" if state.zeros == 1 else f"{state.zeros} zeros"
         norm = "" if state.norm is None else f", norm^2 = {_text(state.norm)}"
-        lines.append(f"      {energy} = {_text(state.energy)}: {zeros}{norm}")
+        lines.append(f"      {energy} {state.value}: {zeros}{norm}")
     return lines
 
 

@@ -434,6 +434,7 @@ def test_no_level_of_manning_has_a_closed_form(V: str) -> None:
     ("V", "assume", "complete"),
     [
         ("-A/cosh(x)^2 + 4/cosh(x)^4", {}, False),
+        ("-A/cosh(x)^2 + B/cosh(x)^4", {}, False),
         ("x^4 + a*x", {}, True),
         ("-A/cosh(x)^2 - B^2/cosh(x)^4", {"B": "positive"}, False),
     ],
@@ -444,6 +445,7 @@ def test_letters_for_which_no_polynomial_of_any_degree_gives_a_level(V: str, ass
     found = kovacic.spectrum(V, assume=assume)
     assert found.closed_forms_complete == complete
     assert "doesn't at the other, whatever its degree" in found.reason
+    assert ("unless B = 0" in found.reason) == ("+ B/" in V)
     assert not found.hint
     assert not found.algebraic
 
@@ -756,6 +758,9 @@ def test_a_higher_degree_is_proposed_where_a_polynomial_may_have_one() -> None:
     assert [(state.number, state.energy) for state in found.states()] == [(0, -8), (2, 0), (4, 8)]
     assert found.closed_forms_complete
     assert not found.hint
+    cubic = kovacic.spectrum("x^6 + 4*x^4 - 7*x^2").text()
+    assert "E ~ -0.136280786891: 0 zeros" in cubic
+    assert "RootOf" not in cubic
     family = kovacic.spectrum("x^6 - (4*k + 3)*x^2")
     assert family.hint.endswith("a polynomial of degree 3: max_degree=3")
 
@@ -1016,6 +1021,7 @@ def test_the_numbers_of_finitely_many_levels_are_listed(V: str, numbers: Any) ->
     assert found.levels[0].members == numbers
     if numbers:
         assert f"n = {', '.join(map(str, numbers))}\n" in found.text()
+        assert rf"n = {', '.join(map(str, numbers))} \\" in found.latex()
 
 
 @parametrize(
