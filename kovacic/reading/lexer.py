@@ -84,7 +84,8 @@ def scanned(text: str) -> list[Token]:
             word = "".join(text[k] for k in places)
             if is_raised and any(character not in _SUPERSCRIPTS for character in word):  # e²ˣ
                 plain = unicodedata.normalize("NFKC", word).replace("−", "-")
-                pieces += [f"^({plain})", *[""] * (len(word) - 1)]
+                pieces += [f"^({plain}", *[""] * (len(word) - 1)]
+                pieces[-1] += ")"  # so that the last token ends where the word does
             else:
                 pieces += list(word) if is_raised else [_ordinary(text, k) for k in places]
         plain = "".join(pieces)

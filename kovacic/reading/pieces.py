@@ -40,7 +40,7 @@ from kovacic.reading.notations import (
 )
 
 #: Words between an equation and its conditions.
-_BETWEEN = frozenset("and with where subject such given for if at when".split())  # noqa: SIM905
+_BETWEEN = frozenset("and with where subject such given for if at when satisfying".split())  # noqa: SIM905
 _FILLERS = frozenset("to that the conditions condition initial boundary by values value".split())  # noqa: SIM905
 #: Statements that say what names are, and solve nothing.
 _DECLARATIONS = frozenset("from import syms with restart clear clc depends assume var init_printing".split())  # noqa: SIM905
@@ -48,7 +48,7 @@ _UNFINISHED = frozenset("+ - * / ^ ** = == , := .".split())  # noqa: SIM905
 _ASSIGNS = ("=", "==", ":=")
 #: With what Eq(left, right) begins.
 _WHOLE = frozenset({"Eq", "Equality"})
-_WORD_KINDS = ("WORD", "COMMAND", "NEWLINE", "TEXT")
+_BEGINNINGS = ("WORD", "COMMAND", "NEWLINE", "TEXT", "NUMBER")
 _DISPLAYS = ("\\displaystyle", "\\boxed")
 _INEQUALITIES = frozenset({*"<>≤≥≠", "<=", ">="})
 _NAMED_POINTS = frozenset({"oo", "inf", "infty", "infinity", "Infinity", "pi", "\\pi"})
@@ -183,7 +183,7 @@ _SEPARATORS: dict[str, Callable[[Tokens, int, list[Token], bool], bool]] = {
     "\n": _line_separates,
     **dict.fromkeys(
         _BETWEEN,
-        lambda scan, k, _, is_complete: is_complete and (k + 1 == len(scan) or scan[k + 1].kind in _WORD_KINDS),
+        lambda scan, k, _, is_complete: is_complete and (k + 1 == len(scan) or scan[k + 1].kind in _BEGINNINGS),
     ),
 }
 
@@ -241,10 +241,12 @@ class _Apart:
         statements = list(_statements(_plain_tokens(self.text)))
         for scan in statements:
             self.statement(self.without_surroundings(scan), is_alone=len(statements) == 1)
-        if not self.equations():
-            for scan in [*self.named.values()][-1:]:
-                if not self.list_of(scan):
-                    self.add("equation", scan)
+        is_solved = any(piece.role == "command" for piece in self.found) and bool(self.equations())
+        for scan in [*self.named.values()]:
+            if is_solved:  # MATLAB's dsolve(ode) where the values have names
+                self.notes.append(f"not used: {self.written(scan)}")
+            elif not self.list_of(scan):
+                self.add("equation", scan)
         return Paste(self.text, self.sorted_roles(), self.variable, tuple(self.notes))
 
     def add(self, role: str, scan: Tokens) -> None:
@@ -310,7 +312,7 @@ class _Apart:
             return
         elif not is_alone and len(scan) == 1 and is_letter(scan[0].text) and "=" in self.text:
             self.add("declaration", scan)  # x, t = var("x t")
-        elif not is_alone and _has_equals(scan, _INEQUALITIES) and not scan.has(("else",)):
+        elif not is_alone and _has_equals(scan, _INEQUALITIES) and not (_has_equals(scan) or scan.has(("else",))):
             self.notes.append(f"not used: {self.written(scan)}")
             self.add("remark", scan)
         else:
@@ -387,6 +389,8 @@ class _Apart:
                 return True
             case ["[" | "{", *_] if not _has_equals(part, depth=1):  # the unknown functions of a system
                 inside = _separated(part[1:-1])  # or a range {t, 0, 30}
+                if inside[0] and inside[0][0].kind == "NUMBER":
+                    return self.values_of_sage(inside)
                 return all((inner[:1] and inner[0].kind == "NUMBER") or self.argument(inner, names) for inner in inside)
             case [name, "=", _, *_] if is_word(name):
                 return False

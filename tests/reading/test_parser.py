@@ -849,6 +849,7 @@ def test_parentheses_tell_what_a_root_is_of() -> None:
         ("y'' + y = arctg(x)", "atan(...)"),
         ("y'' + y = log_10 x", "log(x)/log(b)"),
         ("S = x^2 + 3", "S alone"),
+        ("y'' + y = e³ˣ, y(0) = 1", "y'' + y = e³ˣ"),
         ("y'' + k^2 y = 0, k = 2", "substitute the values"),
     ],
 )

@@ -634,6 +634,8 @@ def test_a_lowered_digit_behind_a_number_is_no_digit_of_it(number: str) -> None:
         ("mass*y'' + k*y = 0", "mass", "m"),
         ("y'' + y = 0, y(0)=1 y'(0)=0", "y(0)=1 y'(0)=0", "y(0)=1, y'(0)=0"),
         ("y'' + y = 0, k=2", ", k=2", ""),
+        ("f := x^2; ode := y'' = f*y", "f := x^2; ", ""),
+        ("eq1: y'' + y = 0; eq2: z'' + z = 0", "; eq2: z'' + z = 0", ""),
         ("solve y'' + x*y = 0", "solve", ""),
     ],
 )
