@@ -35,9 +35,9 @@ def without_signals(end: str, channel: Channel) -> None:
     _serve(ends[end], channel)
 
 
-def late(channel: Channel) -> None:
+def late(seconds: float, channel: Channel) -> None:
     """Sleeps at the fatal item."""
-    _answer_all(partial(time.sleep, 600), channel)
+    _answer_all(partial(time.sleep, seconds), channel)
 
 
 def leaves(channel: Channel) -> None:
