@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import random
 from fractions import Fraction
+from itertools import product
 from typing import Any
 
 import mpmath
@@ -230,17 +231,17 @@ def test_quotients_of_waves_without_singular_points_are_on_the_way(text: str, st
     assert abs(float(back) - 1) < 1e-9
 
 
-@pytest.mark.parametrize(
-    ("equation", "exact"),
-    [
-        ("y'' = (cos(x)^2 - sin(x))*y", lambda x: mpmath.exp(mpmath.sin(x))),
-        ("y'' + (2 + cos(x))*y = (1 + cos(x))*sin(x)", mpmath.sin),
-        ("y'' + (w^2 + sin(w*x/2))*y = sin(w*x/2)*cos(w*x)", lambda x: mpmath.cos(mpmath.sqrt(3) * x)),
-        ("y'' + exp(I*x)*y = exp(2*I*x) - exp(I*x)", lambda x: mpmath.exp(1j * x)),
-    ],
-)
-@pytest.mark.parametrize("x", [-70, "1234567.5", 10**15])
-def test_many_periods_are_one_step(equation: str, exact: Any, x: Any) -> None:
+PERIODIC = [
+    ("y'' = (cos(x)^2 - sin(x))*y", lambda x: mpmath.exp(mpmath.sin(x))),
+    ("y'' + (2 + cos(x))*y = (1 + cos(x))*sin(x)", mpmath.sin),
+    ("y'' + (w^2 + sin(w*x/2))*y = sin(w*x/2)*cos(w*x)", lambda x: mpmath.cos(mpmath.sqrt(3) * x)),
+    ("y'' + exp(I*x)*y = exp(2*I*x) - exp(I*x)", lambda x: mpmath.exp(1j * x)),
+]
+
+
+@parametrize(("problem", "x"), product(PERIODIC, [-70, "1234567.5", 10**15]), ordinary=5)  # each equation, each place
+def test_many_periods_are_one_step(problem: tuple[str, Any], x: Any) -> None:
+    equation, exact = problem
     with mpmath.workdps(90):
         start = exact(mpmath.mpf(0)), mpmath.diff(exact, 0)
         y0, dy0 = (mpmath.nint(value.real) + 1j * mpmath.nint(value.imag) for value in start)

@@ -819,7 +819,7 @@ _SIGNS = r"( ) [ ] { } ' '' ^ / * (* *) // # % -- @@ $ ` . : , ? > = == \begin \
 _TOKENS = [*_WORDS.split(), *_SIGNS.split(), "π", " ", "  ", "\n"]
 
 
-@settings(max_examples=3000)
+@settings(max_examples=2000)
 @given(st.lists(st.sampled_from(_TOKENS), max_size=12).map("".join) | st.lists(st.sampled_from(_TOKENS)).map(" ".join))
 def test_a_rule_is_asked_wherever_its_pattern_occurs(text: str) -> None:
     """Rules are chosen by the tokens of a text: no pattern occurs without one of the marks that its rule states."""
