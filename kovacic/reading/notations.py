@@ -165,10 +165,15 @@ class Rewrite(NamedTuple):
 
     notation: str
     marks: frozenset[str]
-    pattern: re.Pattern[str]
+    text: str
     result: str | Callable[[Match], str] = ""
     #: What the words of the first group become, which stay where they are.
     kind: str = ""
+
+    @property
+    def pattern(self) -> re.Pattern[str]:
+        """Compiled for the first text that has one of the marks."""
+        return pattern(self.text)
 
     def applied(self, scan: Tokens) -> Tokens:
         found = Tokens()
@@ -250,7 +255,7 @@ _SYNONYMS = {
 
 
 def rule(notation: str, marks: str, text: str, result: str | Callable[[Match], str] = "", kind: str = "") -> Rewrite:
-    return Rewrite(notation, frozenset(marks.split(" ")), pattern(text), result, kind)
+    return Rewrite(notation, frozenset(marks.split(" ")), text, result, kind)
 
 
 #: MATLAB's D2y and the like.
