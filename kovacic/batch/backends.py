@@ -15,14 +15,12 @@ from concurrent.futures import FIRST_COMPLETED, CancelledError, Future, wait
 from contextlib import contextmanager
 from itertools import islice
 
-from kovacic.batch.pool import Pool
+from kovacic.batch.pool import MOST_LOSSES, Pool
 from kovacic.batch.records import Item, Job, Record
 from kovacic.errors import InputError, KovacicError, needs
 
 # Items that travel together.  At 5 ms each they keep a worker busy for half a second, and a lost worker loses little.
 CHUNK = 100
-# Processes of Ray's that a chunk may lose; Dask's own number is 3.
-_LOSSES = 4
 
 #: Sends a chunk, and the number of chunks that the engine has room for.
 _Engine = tuple[Callable[[Job, list[Item]], Future[list[Record]]], int]
@@ -115,7 +113,7 @@ def _ray(address: str | None) -> Iterator[_Engine]:
         raise InputError("Ray isn't installed", hint="pip install ray") from None
     if address is not None or not ray.is_initialized():
         ray.init(address=address, ignore_reinit_error=True)
-    work = ray.remote(run_chunk).options(max_retries=_LOSSES)
+    work = ray.remote(run_chunk).options(max_retries=MOST_LOSSES)  # Dask's own number is 3
     yield lambda job, chunk: work.remote(job, chunk).future(), max(1, int(ray.cluster_resources().get("CPU", 1)))
 
 

@@ -36,8 +36,8 @@ GRACE_SECONDS = 0.25
 # Seconds for the start of a process, which takes less than one on an idle machine.
 _START_SECONDS = 120.0
 
-# A signal may come from somebody else: starts in a row, or processes of one item, that may end by one.
-_MOST_LOSSES = 4
+# A signal may come from somebody else: starts in a row, or processes of one item or chunk, that may end by one.
+MOST_LOSSES = 4
 
 # In order of the input, items that are read beyond the first one that has no answer.
 ORDERED_WINDOW = 10_000
@@ -306,7 +306,7 @@ class Pool(AbstractContextManager["Pool"]):
         status, words = child.process.last_words()  # a negative status is a signal
         if not child.ready:
             self._failed_starts += 1
-        if self._failed_starts >= _MOST_LOSSES:
+        if self._failed_starts >= MOST_LOSSES:
             raise KovacicError(f"worker processes can't be started: {_cause(status, words)}\n{words}")
         item = child.items.popleft() if child.items else None
         self._replace(child, source)
@@ -320,7 +320,7 @@ class Pool(AbstractContextManager["Pool"]):
             yield stopped(item, f"the time limit of {self.job.timeout:g} s is used up (process ended)", seconds)
             return
         self._losses[item.number] += 1
-        attempts = _MOST_LOSSES if status < 0 else 1  # an exception repeats itself
+        attempts = MOST_LOSSES if status < 0 else 1  # an exception repeats itself
         if self._losses[item.number] >= attempts:
             yield refused(item, ProcessLost(_cause(status, words)), seconds)
         else:

@@ -558,12 +558,10 @@ class _Translation:
         is_glued = self.kinds[end] == "WORD" and self.scan[end].start == self.scan[end - 1].end
         is_factor = is_glued and not is_function(self.texts[end]) and self.kinds[end + 1] != "PRIMES"
         is_product = self.kinds[k] == "WORD" and not _is_name(self.texts[k])
-        if not (has_power or is_factor or is_product):
-            return
-        first = self.texts[k][0] if is_product else self.text[self.scan[k].start : self.scan[end - 1].end]
-        hint = f"enclose the radicand in parentheses: {token.text}({first}), {token.text}({first}...)"
-        last = self.scan[end - is_product]
-        raise error_at(self.text, "a root without parentheses can be read in two ways", [token, last], hint)
+        if has_power or is_factor or is_product:
+            said = "a root without parentheses can be read in two ways"
+            hint = f"enclose the radicand in parentheses: {token.text}(...)"
+            raise error_at(self.text, said, [token, self.scan[end - is_product]], hint)
 
     def bar(self, token: Token) -> bool:
         if self.k in self.bars:
