@@ -25,7 +25,6 @@ from kovacic.enclosure.closed_form import Exponential, exponentials, finite_base
 from kovacic.enclosure.frame import name_of
 from kovacic.enclosure.functions import coefficients_of_any
 from kovacic.enclosure.jets import CoefficientField
-from kovacic.enclosure.log_derivative import LogDerivative, embed
 from kovacic.enclosure.matrices import State
 from kovacic.enclosure.points import ExactPoint, as_point, in_balls, midpoint, power_of_two, to_acb
 from kovacic.enclosure.precision import start_bits
@@ -89,8 +88,13 @@ class Region:
     singular: tuple[bool, bool] = (False, False)
 
     def __str__(self) -> str:
-        low, high = (self.low.real, self.high.real) if self.is_real else (self.low, self.high)
+        low, high = self.corners
         return f"[{low:g}, {high:g}]"
+
+    @property
+    def corners(self) -> tuple[complex, complex]:
+        """Both corners, doubles on the real axis."""
+        return self.interval if self.is_real else (self.low, self.high)
 
     @property
     def is_real(self) -> bool:
@@ -109,19 +113,18 @@ class Region:
             raise InputError(
                 "complex arguments need a rectangle of the complex plane", hint="give two opposite corners as interval"
             )
-        kind = float if self.is_real else complex
-        points = points.astype(kind, copy=False)
+        low, high = self.corners
+        points = points.astype(type(low), copy=False)
         if np.ma.is_masked(points):
-            middle: Any = (self.low + self.high) / 2
-            points = np.ma.array(points.filled(middle.real if self.is_real else middle), mask=points.mask)
+            points = np.ma.array(points.filled((low + high) / 2), mask=points.mask)
         # By the extremes, but for NaN, which has the value NaN.
-        inside = not points.size or _between(self.low.real, points.real, self.high.real)
-        if not self.is_real and points.size:
-            inside = inside and _between(self.low.imag, points.imag, self.high.imag)
-        ends = zip((self.low, self.high), self.singular, strict=True)
-        if not inside or any(singular and np.any(points == end) for end, singular in ends):
-            shown = (self.low.real, self.high.real) if self.is_real else (self.low, self.high)
-            raise InputError(f"a point lies outside of the interval {shown} of this function, or on a singular point")
+        planes = [(low.real, points.real, high.real), (low.imag, points.imag, high.imag)][: 1 if self.is_real else 2]
+        inside = not points.size or all(_between(*plane) for plane in planes)
+        at_singular = any(singular and np.any(points == end) for end, singular in zip((low, high), self.singular, strict=True))
+        if at_singular or not inside:
+            raise InputError(
+                f"a point lies outside of the interval {(low, high)} of this function, or on a singular point"
+            )
         return points
 
     @property
@@ -260,39 +263,41 @@ class RationalChart:
         goal = start_bits(digits) - 24
         prec = 2 * start_bits(digits) + branch.P.degree
         found = dict[ExactPoint, State]()
-        while True:
+        while len(found) < len({*points}):
             with working_precision(prec):
-                c = branch.constant()
                 z = to_acb(self.given["x0"])
-                theta = LogDerivative.make(branch.theta, c)
-                P = embed(branch.P, c)
-                slope = P.derivative()
-                factor = 1 / P(z)
                 for point in (point for point in points if point not in found):
                     check_time()
                     count_work(prec)
-                    x = to_acb(point)
-                    growth = theta.growth(z, x) * factor
-                    y = growth * P(x)
-                    if y.rel_accuracy_bits() > goal or prec > _SLOPE_BITS + 4 * branch.P.degree:
-                        found[point] = y, theta.value(x) * y + growth * slope(x)
-            if all(point in found for point in points):
-                return [found[point] for point in points]
+                    (y0, _), (y, dy) = branch.states(z, to_acb(point))
+                    if (y / y0).rel_accuracy_bits() > goal or prec > _SLOPE_BITS + 4 * branch.P.degree:
+                        found[point] = y / y0, dy / y0
             prec *= 2
+        return [found[point] for point in points]
 
     @property
     def is_forced(self) -> bool:
         """True if there is a right-hand side."""
         return self.problem.right is not None
 
+    @property
+    def _is_exact(self) -> bool:
+        """True for polynomials over Q and no right-hand side."""
+        return not self.is_forced and self.problem.embedded is None
+
     @cached_property
     def singular(self) -> list[ExactPoint]:
         """The midpoints of their enclosures."""
         return self.problem.singular_points(128)
 
+    def alike(self, cell: tuple[Any, int]) -> Any:
+        """What the equation on a piece depends on: its size alone where the coefficients are constant."""
+        is_constant = self._is_exact and all(part.degree() < 1 for part in self.problem.equation)
+        return cell[1] if is_constant else cell
+
     def local(self, centre: ExactPoint, e: int, terms: int) -> list[list[arb]]:
         """See `_equation_series`."""
-        if self.is_forced or self.problem.embedded is not None:
+        if not self._is_exact:
             return _equation_series(way_of(self.problem).functions, centre, e, terms)
         line = fmpq_poly([centre.x, power_of_two(e)])
         found = [[arb(v) for v in _expanded(part, line, terms)] for part in self.problem.equation]
@@ -375,6 +380,10 @@ class AnalyticChart:
         """True if the coefficients are provably analytic in the disc with twice the scale 2^e."""
         with working_precision(64):
             return self._functions.sizes(centre, arb((1, e + 1))) is not None
+
+    def alike(self, cell: tuple[Any, int]) -> Any:
+        """The piece itself: no other has the same equation."""
+        return cell
 
     def local(self, centre: ExactPoint, e: int, terms: int) -> list[list[arb]]:
         """See `_equation_series`."""

@@ -369,8 +369,9 @@ def _pieces(chart: PieceChart, region: Region, variant: Variant, limits: Limits 
         inside = [cell for cell in untried if low <= cell[0] <= high]  # values are inside only
         found: dict[Cell, Any] = {}
         for first in range(0, len(inside), _TOGETHER):
-            some = inside[first : first + _TOGETHER]
-            found |= zip(some, _series(chart, some, variant), strict=True)
+            some = {chart.alike(cell): cell for cell in inside[first : first + _TOGETHER]}
+            series = dict(zip(some, _series(chart, [*some.values()], variant), strict=True))
+            found |= {cell: series[chart.alike(cell)] for cell in inside[first : first + _TOGETHER]}
         done |= {cell: item for cell, item in found.items() if item is not None}
         untried = [half for cell in untried if cell not in done for half in _halves(cell, low, high)]
     cells = sorted(done)

@@ -23,7 +23,7 @@ References: M. van der Put and M. F. Singer, "Galois Theory of Linear Differenti
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Iterable
+from collections.abc import Callable, Iterable
 from dataclasses import dataclass
 from enum import IntEnum
 from fractions import Fraction
@@ -250,6 +250,10 @@ class _Possible:
         orders = range(1, _HIGHEST_ORDER + 1)  # that are tried
         return all(any(_may_have_order(word, k) for k in orders) for word in self.words)
 
+    def unipotent(self, n: int) -> bool:
+        """True if all n-th powers may be 1."""
+        return n >= _LARGEST_POWER or _may_be_identities(word**n for word in self.words)
+
     def primitive(self) -> bool:
         """True if one of the three finite groups is possible."""
         longer = [*self.words, *self.commutators, *_products(self.words)]
@@ -292,35 +296,27 @@ def _contradiction(possible: _Possible, group: Group, fuchsian: bool) -> str | N
 
 def _may_be_smaller(possible: _Possible, group: Group) -> bool:
     """True if the closure of the monodromy may be a proper subgroup of this infinite group, in which it lies."""
-    if group.kind is GroupKind.MULTIPLICATIVE:
-        return possible.torsion()
-    if group.kind is GroupKind.ADDITIVE:
-        n = group.n or 1
-        return possible.commuting and (n >= _LARGEST_POWER or _may_be_identities(word**n for word in possible.words))
-    if group.kind is GroupKind.BOREL:
-        return possible.commuting or possible.torsion()
-    if group.kind is GroupKind.INFINITE_DIHEDRAL:
-        return possible.reducible or possible.torsion()
-    return True  # of the others nothing is tried
+    n = group.n or 1
+    tried: dict[GroupKind, Callable[[], bool]] = {
+        GroupKind.MULTIPLICATIVE: possible.torsion,
+        GroupKind.ADDITIVE: lambda: possible.commuting and possible.unipotent(n),
+        GroupKind.BOREL: lambda: possible.commuting or possible.torsion(),
+        GroupKind.INFINITE_DIHEDRAL: lambda: possible.reducible or possible.torsion(),
+    }
+    return tried.get(group.kind, lambda: True)()  # of the others nothing is tried
 
 
 def _may_have_order(m: acb_mat, k: int) -> bool:
     """True if the eigenvalues may be k-th roots of unity, which balls can't refute for a large k."""
-    if k >= _LARGEST_POWER:
-        return True
-    return bool((m**k).trace().overlaps(_TWO))
+    return k >= _LARGEST_POWER or bool((m**k).trace().overlaps(_TWO))
 
 
 def _is_proper_order(words: list[acb_mat], n: int) -> bool:
     """True if the orders of the eigenvalues, n-th roots of unity, provably have a common multiple less than n."""
-    if n > _LARGEST:
-        return False
-    for p in (int(p) for p, _ in fmpz(n).factor()):
-        # The n/p-th powers are p-th roots of unity, whose real parts are at most cos(2 pi/p) unless they are 1.
-        bound = _trace_of_turn(Fraction(1, p)).real
-        if all((word ** (n // p)).trace().real > bound for word in words):
-            return True
-    return False
+    # The n/p-th powers are p-th roots of unity, whose real parts are at most cos(2 pi/p) unless they are 1.
+    primes = [int(p) for p, _ in fmpz(n).factor()] if n <= _LARGEST else []
+    bounds = [(n // p, _trace_of_turn(Fraction(1, p)).real) for p in primes]
+    return any(all((word**k).trace().real > bound for word in words) for k, bound in bounds)
 
 
 def _products(words: list[acb_mat]) -> list[acb_mat]:

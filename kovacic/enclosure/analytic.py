@@ -28,7 +28,6 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property, lru_cache
-from math import gcd, lcm
 from typing import Any
 
 import sympy
@@ -292,25 +291,21 @@ class PeriodicWay(AnalyticWay):
         periods = {stop: abs(self._periods(here, stop)) for stop in stops}
         if max(periods.values()) < _FEWEST_PERIODS + len(stops):  # discs on the way serve all of them
             return super().fan(traveller, stops)
-        return {stop: traveller.moved(stop).state for stop in stops}
+        return traveller.to_each(stops)
 
 
 def period_of(coefficients: Coefficients) -> Any:
     """A period of functions of waves of commensurable frequencies; None if none is seen."""
     x = coefficients.variable
-    if coefficients.a != 1:  # a polynomial
-        return None
-    waves = {e for part in coefficients.parts for e in part.atoms(*_WAVES) if e.has(x)}
-    waves = {e for e in waves if not e.args[0].diff(x).has(x)}
+    waves = sorted({e for part in coefficients.parts for e in part.atoms(*_WAVES) if e.has(x)}, key=str)
     known = {e: sympy.Dummy() for e in waves}
-    if not waves or any(part.xreplace(known).has(x) for part in coefficients.parts):
+    if not waves or any(part.xreplace(known).has(x) for part in (sympy.sympify(coefficients.a), *coefficients.parts)):
         return None
-    rates = [e.args[0].diff(x) / (sympy.I if e.func is sympy.exp else 1) for e in sorted(waves, key=str)]
+    rates = [e.args[0].diff(x) / (sympy.I if e.func is sympy.exp else 1) for e in waves]
     shares = [sympy.simplify(rate / rates[0]) for rate in rates]
-    if not all(share.is_Rational for share in shares):
+    if rates[0].has(x) or not all(share.is_Rational for share in shares):
         return None
-    under = lcm(*(int(share.q) for share in shares))
-    period = 2 * sympy.pi * under / (rates[0] * gcd(*(int(share * under) for share in shares)))
+    period = 2 * sympy.pi / (rates[0] * sympy.gcd(shares))
     value = in_balls(period, coefficients.at(to_ball(ExactPoint(0))))
     return period if value.is_finite() and value.imag.is_zero() and not value.contains(0) else None
 
@@ -366,7 +361,7 @@ class ConstantWay(AnalyticWay):
         return maps.after(matrix, (first, second))
 
     def fan(self, traveller: Traveller, stops: Sequence[ExactPoint]) -> dict[ExactPoint, State]:
-        return {stop: traveller.moved(stop).state for stop in stops}
+        return traveller.to_each(stops)
 
 
 def constant_way(coefficients: Coefficients, problem: NumericProblem | None = None) -> AnalyticWay:

@@ -1,17 +1,10 @@
 """Case 1 in balls: logarithmic derivatives of solutions, and transition matrices without integrating the equation.
 
 The guarantee of the matrices is that of the Taylor route, with which nothing is shared: they contain the exact transition
-matrices along the leg, which is carried by the certificate of the decision (E = exp int_a^x theta, followed continuously, see
-`kovacic.enclosure.log_derivative`):
-- two rational or conjugate omega = theta + P'/P: y = E P for either.
-- a unique omega: y1 = E P, y2 = y1 int dx/y1^2.  P has simple zeros at ordinary points, where the integrand has double
-  poles; they are split off exactly [Hermite's reduction]: with A P' = -1 mod P,
-
-      1/y1^2 = (A/(P E^2))' + B/E^2,    B = (1 + A P' - A' P + 2 theta A P)/P^2,    y2 = A/E + y1 int_a^x B/E^2 dx,   (1)
-
-  and B has no poles but the singular points of S.  Where E^2 is rational the integral is one of partial fractions.
-So the zeros of P need not be known, and no leg goes around them.  Other closed forms cost more than Taylor steps (quadratures,
-hypergeometric functions): there is no such route.
+matrices along the leg, which is carried by the certificate of the decision: two rational or conjugate omega = theta + P'/P,
+and y = E P for either, E = exp int_a^x theta, followed continuously (see `kovacic.enclosure.log_derivative`).  Where y1^2 is a
+rational function of small degree, and so is int y1^-2, y2 = y1 int y1^-2 is such a solution, too.  The zeros of P need not be
+known.  Other closed forms cost more than Taylor steps (quadratures, hypergeometric functions): there is no such route.
 
 `omega` numbers the solutions whose logarithmic derivative is algebraic: in case 1 the conjugates of omega, or the two rational
 ones; in cases 2 and 3 the roots of the polynomial of omega at the point, by real part and then imaginary part.
@@ -19,6 +12,7 @@ ones; in cases 2 and 3 the roots of the polynomial of omega at the point, by rea
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass, replace
 from functools import cached_property, cmp_to_key, lru_cache
 
@@ -30,9 +24,9 @@ from kovacic.algebra.poly import Poly
 from kovacic.algebra.precision import working_precision
 from kovacic.algebra.ratfunc import RatFunc
 from kovacic.enclosure.frame import check_segment
-from kovacic.enclosure.log_derivative import LogDerivative, conjugates, embed, log_derivative, sharp_roots
+from kovacic.enclosure.log_derivative import conjugates, embed, log_derivative, sharp_roots
 from kovacic.enclosure.matrices import Matrix, State, fundamental, inverse, multiply
-from kovacic.enclosure.points import ExactPoint, kept_at_precision, to_acb
+from kovacic.enclosure.points import ExactPoint, to_acb
 from kovacic.enclosure.problem import NumericProblem
 from kovacic.engine.decide import decide_reducible
 from kovacic.errors import InputError, VerificationFailed
@@ -42,7 +36,6 @@ from kovacic.special import prices
 from kovacic.verify import verify
 
 _CHEAP = 400  # degree of P up to which the values of two exponentials cost less than the Taylor steps
-_LARGEST_SQUARE = 1_000  # degree up to which y1^2 is written out; it may be x^1000000
 _HIGHEST = 40_000  # bits up to which a logarithmic derivative is computed: the polynomial may cancel as many
 _SMALL = 60  # degree up to which a second rational omega is sought by integration
 
@@ -72,14 +65,11 @@ class Exponential:
         P = embed(self.P, c)
         return value(self.theta, c, z) + P.derivative()(z) / P(z)
 
-    def embedded(self, a: acb, b: acb) -> tuple[LogDerivative, acb_poly, acb]:
-        """theta, P, and E at b over E at a."""
-        theta = log_derivative(self.theta, self.embedding)
-        return theta, embed(self.P, self.constant()), theta.growth(a, b)
-
     def states(self, a: acb, b: acb) -> list[State]:
         """y and y' at a and b, where E is 1 at a."""
-        theta, P, E = self.embedded(a, b)
+        theta = log_derivative(self.theta, self.embedding)
+        P = embed(self.P, self.constant())
+        E = theta.growth(a, b)
         return [(g * P(x), g * (theta.value(x) * P(x) + P.derivative()(x))) for x, g in ((a, acb(1)), (b, E))]
 
 
@@ -97,7 +87,7 @@ class CaseOneForm:
 
     @cached_property
     def branches(self) -> tuple[Exponential, ...]:
-        """The solutions with conjugate omegas, or with the two rational ones that the certificate has."""
+        """The solutions with conjugate omegas, or with two rational ones: those that the certificate has, or the companion."""
         theta = self.first.theta
         P = self.first.P
         count = len(self.first.constants())
@@ -109,118 +99,50 @@ class CaseOneForm:
             zeros = square.P.exact_quotient(P)
             if zeros is not None and square.logarithmic_derivative != 2 * (theta + RatFunc(P.derivative(), P)):
                 return self.first, Exponential(square.theta - theta, zeros)
-        return (self.first,)
+        second = self._companion()
+        return (self.first,) if second is None else (self.first, second)
 
-    @cached_property
-    def reduction(self) -> tuple[Poly, RatFunc]:
-        """A and B of equation (1)."""
-        theta = self.first.theta
-        P = self.first.P
-        slope = P.derivative()
-        A = -(slope.inverse_modulo(P)) if P.degree > 0 else P.field.poly([])
-        # theta.den (1 + A P' - A' P) + 2 theta.num A P, divided by P^2
-        top = theta.den * (A * slope - A.derivative() * P + 1) + 2 * theta.num * A * P
-        quotient = top.exact_quotient(P * P)
-        if quotient is None:
-            raise AssertionError("the zeros of the solution are ordinary points")
-        return A, RatFunc(quotient, theta.den)
-
-    @cached_property
-    def _square(self) -> list[tuple[Poly, int]] | None:
-        """The factors, with exponents, of a rational function with logarithmic derivative 2 theta; None if there is none."""
-        parts = decompose(self.first.theta * 2)
-        if parts.exact:
-            return None
-        found = []
-        for residue in parts.residues:
-            if not residue.is_constant:
-                return None
-            exponent = residue.value.field.rational_value(residue.value)
-            if exponent is None or exponent.denominator != 1:
-                return None
-            found.append((residue.factor, int(exponent)))
-        return found
-
-    @property
-    def square_size(self) -> int | None:
-        """The degrees together of numerator and denominator of that function, or None."""
-        return None if self._square is None else sum(abs(e) * factor.degree for factor, e in self._square)
-
-    @cached_property
-    def rational_square(self) -> RatFunc | None:
-        """The function itself; None if there is none, or one too large to write out."""
-        if self._square is None or (self.square_size or 0) > _LARGEST_SQUARE:
-            return None
-        total = RatFunc(self.first.P.field.poly([1]))
-        for factor, e in self._square:
-            total = total * RatFunc(factor) ** e
-        return total
-
-    def __str__(self) -> str:
-        return f"the closed form of case 1, with a polynomial of degree {self.first.P.degree}"
-
-    def is_cheap(self, digits: int) -> bool:
-        """True if the first leg costs less than Taylor steps (measured): two exponentials, or a small integral of 1/y1^2."""
-        if len(self.branches) == 2:
-            return self.first.P.degree <= _CHEAP
-        poles = sum(factor.degree * e * e for factor, e in self._square or () if e > 0)
-        return self.is_elementary and self.first.P.degree**2 + poles / 4 <= 4_000 + 70 * digits
-
-    def price(self, digits: int) -> float:
-        """That of a target."""
-        one = prices.EXPONENTIALS if len(self.branches) == 2 else prices.INTEGRAL
-        return one(digits) + self.first.P.degree * prices.COEFFICIENT(digits)
-
-    @cached_property
-    def companion(self) -> Exponential | None:
+    def _companion(self) -> Exponential | None:
         """y2 = y1 int y1^-2 where y1^2 is rational, of small degree, and the integral is rational too."""
         theta = self.first.theta
         P = self.first.P
-        if self.square_size is None or self.square_size // 2 + P.degree > _SMALL:
+        parts = decompose(theta * 2)  # of the logarithmic derivative of (y1/P)^2
+        residues = [(part.factor, part.value.field.rational_value(part.value)) for part in parts.residues if part.is_constant]
+        is_rational = not parts.exact and len(residues) == len(parts.residues)
+        if not (is_rational and all(e is not None and e.denominator == 1 for _, e in residues)):
             return None
-        assert self.rational_square is not None
-        inverse = decompose(1 / (self.rational_square * RatFunc(P) ** 2))
+        exponents = [(factor, int(e)) for factor, e in residues if e is not None]
+        if sum(abs(e) * factor.degree for factor, e in exponents) // 2 + P.degree > _SMALL:
+            return None
+        square = math.prod((RatFunc(factor) ** e for factor, e in exponents), start=RatFunc(P) ** 2)
+        inverse = decompose(1 / square)
         if inverse.residues:
             return None
         factor = inverse.exact * P
         return Exponential(theta - RatFunc(factor.den.derivative(), factor.den), factor.num)
 
+    def __str__(self) -> str:
+        return f"the closed form of case 1, with a polynomial of degree {self.first.P.degree}"
+
+    def is_cheap(self, _digits: int) -> bool:
+        """True if the first leg costs less than Taylor steps (measured)."""
+        return self.is_elementary and self.first.P.degree <= _CHEAP
+
+    def price(self, digits: int) -> float:
+        """That of a target."""
+        return prices.EXPONENTIALS(digits) + self.first.P.degree * prices.COEFFICIENT(digits)
+
     @property
     def is_elementary(self) -> bool:
         """True if both solutions are given without a quadrature."""
-        return len(self.branches) == 2 or self.rational_square is not None
+        return len(self.branches) == 2
 
     def leg(self, a: ExactPoint, b: ExactPoint) -> Matrix:
         """The transition matrix that carries (y, y') from a to b along the straight segment, for elementary solutions."""
         check_segment(self.problem.system, a, b)
-        ends = to_acb(a), to_acb(b)
-        if len(self.branches) == 2:
-            first, second = (y.states(*ends) for y in self.branches)
-        else:
-            first, second = self._pair(*ends)
+        first, second = (y.states(to_acb(a), to_acb(b)) for y in self.branches)
         start, end = (fundamental(y, z) for y, z in zip(first, second, strict=True))
         return multiply(end, inverse(start))
-
-    def _pair(self, a: acb, b: acb) -> tuple[list[State], list[State]]:
-        """y1 and y2 of equation (1) at a and b, where E^2 is rational."""
-        theta, P, E = self.first.embedded(a, b)
-        exact_A, exact_B = self.reduction
-        assert self.rational_square is not None
-        A = embed(exact_A, None)
-        first = self.first.states(a, b)
-        second = []
-        area = _integrand(self).exponent(a, b) * value(self.rational_square, None, a)
-        for x, growth, I, (y, dy) in zip((a, b), (acb(1), E), (acb(0), area), first, strict=True):  # noqa: E741
-            slope = A.derivative()(x) - theta.value(x) * A(x) + value(exact_B, None, x) * P(x)
-            second.append((A(x) / growth + y * I, slope / growth + dy * I))
-        return first, second
-
-
-@kept_at_precision(maxsize=32)
-def _integrand(closed: CaseOneForm) -> LogDerivative:
-    """The rational function B/E^2 of equation (1), at the precision in force."""
-    assert closed.rational_square is not None
-    return LogDerivative.make(closed.reduction[1] / closed.rational_square, None)
 
 
 @lru_cache(maxsize=64)
@@ -260,11 +182,8 @@ def exponentials(problem: NumericProblem) -> list[Exponential]:
     closed = closed_form_of(problem)
     if closed is None:
         return []
-    found = list(closed.branches)
-    if len(found) == 1 and closed.companion is not None:
-        found.append(closed.companion)
-    gauge = problem.gauge
-    return found if gauge is None else [Exponential(y.theta + gauge, y.P, y.embedding) for y in found]
+    gauge = 0 if problem.gauge is None else problem.gauge
+    return [Exponential(y.theta + gauge, y.P, y.embedding) for y in closed.branches]
 
 
 def omegas(problem: NumericProblem, x0: ExactPoint) -> list[acb]:

@@ -194,19 +194,14 @@ class Prepared:
 
         import numpy as np
 
-        points = list(np.asarray(x, dtype=object).flat) if shape else [x]
+        points: Any = np.asarray(x, dtype=object)
         mask: Any = np.ma.getmaskarray(np.ma.asanyarray(x))
-        holes = [
-            bool(hidden) or point != point for point, hidden in zip(points, mask.flat, strict=True)
-        ]  # NaN is no number
-        known = iter(self._at([point for point, hole in zip(points, holes, strict=True) if not hole], derivative))
-        values = np.full(len(points), math.nan, dtype=object)
-        for i, hole in enumerate(holes):
-            if not hole:
-                values[i] = next(known)
-        if np.ma.isMaskedArray(x):
-            return np.ma.array(values.reshape(shape), mask=mask)
-        return values.reshape(shape) if shape else values[0]
+        wanted = [k for k, point in enumerate(points.flat) if point == point and not mask.flat[k]]  # NaN is no number
+        values = np.full(points.size, math.nan, dtype=object)
+        for k, value in zip(wanted, self._at([points.flat[k] for k in wanted], derivative), strict=True):
+            values[k] = value
+        values = values.reshape(shape)
+        return np.ma.array(values, mask=mask) if np.ma.isMaskedArray(x) else values[()]
 
     def _at(self, points: list[Any], derivative: bool) -> list[Any]:
         """The values, or pairs with the derivatives; a warning where accuracy was lost."""

@@ -266,22 +266,20 @@ class CoefficientField:
         ]
         # Of polynomials; 0 for zero.
         self._degrees = [
-            max(0, int(sympy.Poly(part, x).degree())) if part != 0 else 0
-            for part in self._parts
-            if part.is_polynomial(x)
+            max(0, int(sympy.Poly(part, x).degree() if part else 0)) for part in self._parts if part.is_polynomial(x)
         ]
 
     def all_values(self, x: Any, *, analytic: bool = False) -> list[Any]:
         """a, b, c and f at a ball or a series; not finite where one of them isn't analytic, with `analytic`."""
-        evaluated = CoefficientEvaluator(
-            self.coefficients.at(x), variable=self.coefficients.variable, analytic=analytic
-        )
-        return [evaluated(part) for part in self._parts]
+        return [*map(self._evaluator(x, analytic=analytic), self._parts)]
+
+    def _evaluator(self, x: Any, *, analytic: bool = False) -> CoefficientEvaluator:
+        return CoefficientEvaluator(self.coefficients.at(x), variable=self.coefficients.variable, analytic=analytic)
 
     def values(self, x: acb, *, analytic: bool = False) -> list[Any]:
         """b, c and f over a at a ball."""
         a, *others = self.all_values(x, analytic=analytic)
-        return others if self.coefficients.a == 1 else [part / a for part in others]
+        return [part / a for part in others]
 
     def is_real(self, centre: ExactPoint, e: int) -> bool:
         """True if the coefficients, analytic in the disc with the scale 2^e, are proven to be real on its real diameter."""
@@ -326,9 +324,8 @@ class CoefficientField:
         if parts is None:
             return None
         with working_precision(_ROUGH):
-            a = to_acb(centre) if self.coefficients.a == 1 else self.all_values(to_acb(centre))[0]
-            scale = arb(1) if self.coefficients.a == 1 else 1 / abs(a).lower()
-            rests = [(rest * scale).upper() for rest in rests]
+            a = self._evaluator(to_acb(centre))(self._parts[0])
+            rests = [(rest / abs(a).lower()).upper() for rest in rests]
             sizes = [
                 sum((abs(value) for value in part.coeffs()), rest) for part, rest in zip(parts, rests, strict=True)
             ]
@@ -374,7 +371,7 @@ class CoefficientField:
                 rows = [value.coeffs() if isinstance(value, acb_series) else [value] for value in values]
         except (ZeroDivisionError, ValueError):
             return None
-        scale = acb(1) if self.coefficients.a == 1 else 1 / rows[0][0]
+        scale = 1 / rows[0][0]
         factors = (scale, scale * H, scale * H**2, scale * H**2)
         rows = [[value * factor for value in row] for row, factor in zip(rows, factors, strict=True)]
         rows[0][0] = acb(0)

@@ -53,7 +53,7 @@ from kovacic.enclosure.singular import Singular
 from kovacic.enclosure.splitting import is_split
 from kovacic.enclosure.start import logarithmic_derivative, spread_by
 from kovacic.enclosure.transport import growth_of_disc, walk
-from kovacic.enclosure.way import MAX_DISCS, Forecast, Homogeneous, Traveller, Way, WayStep
+from kovacic.enclosure.way import MAX_DISCS, Forecast, Homogeneous, Traveller, Way, WayStep, position
 from kovacic.limits import check_time, count_work
 
 _WORTH = 4  # times as many radians as bits, on the whole way: with fewer, discs are as fast
@@ -388,7 +388,7 @@ class ClosedWay(RationalWay):
         return maps.after(matrix)
 
     def fan(self, traveller: Traveller, stops: Sequence[ExactPoint]) -> dict[ExactPoint, State]:
-        return {stop: traveller.moved(stop).state for stop in stops}
+        return traveller.to_each(stops)
 
     def departure(self, point: Singular, stop: ExactPoint, start: State) -> tuple[ExactPoint, Matrix]:
         assert isinstance(self.closed, Classical)
@@ -407,17 +407,18 @@ def way_for(problem: NumericProblem) -> Way:
     return way_of(problem)
 
 
+def side_of(here: ExactPoint, stop: ExactPoint) -> bool | None:
+    """True to the right on the real axis, False to the left; None if one of the points lies beside it."""
+    return bool(stop.x >= here.x) if here.is_real() and stop.is_real() else None
+
+
 def sides(here: ExactPoint | Singular, stops: Sequence[ExactPoint]) -> list[list[ExactPoint]]:
     """The stops by straight ways that are shared: those on the same side on the real axis, in the order of visit (from
     infinity the farthest first), and each of the others alone."""
+    is_inverted = isinstance(here, Singular) and here.inverted
     origin = here.near if isinstance(here, Singular) else here
-    from_infinity = isinstance(here, Singular) and here.inverted
-    alone = [[stop] for stop in stops if not (origin.is_real() and stop.is_real())]
-    on_axis = sorted((stop for stop in stops if origin.is_real() and stop.is_real()), key=lambda stop: stop.x)
-    right = [stop for stop in on_axis if stop.x >= origin.x]
-    left = [stop for stop in on_axis if stop.x < origin.x]
-    if from_infinity:
-        right.reverse()
-    else:
-        left.reverse()
-    return [group for group in (right, left, *alone) if group]
+    groups: dict[Any, list[ExactPoint]] = {}
+    for stop in sorted(stops, key=lambda stop: position(origin, stop), reverse=is_inverted):
+        side = side_of(origin, stop)
+        groups.setdefault(stop if side is None else side, []).append(stop)
+    return list(groups.values())

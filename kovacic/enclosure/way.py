@@ -406,6 +406,10 @@ class Traveller:
         """The state here, at a singular point the limits of y and y'."""
         return limit(self.here, self.start) if isinstance(self.here, Singular) else self.state
 
+    def to_each(self, stops: Sequence[ExactPoint]) -> dict[ExactPoint, State]:
+        """Straight on to one after the other, from here."""
+        return {stop: self.moved(stop).state for stop in stops}
+
     def along_rays(self, stops: Sequence[ExactPoint]) -> dict[ExactPoint, State]:
         """In discs that are kept for the next call."""
         here = self.here

@@ -54,8 +54,6 @@ GAUSS_DIHEDRAL = Cost(Price(0.1, 85), 1_000_000_000)
 
 EXPONENTIALS = Price(0.056, 1000)
 """Two exponentials, with polynomials of degree 0."""
-INTEGRAL = Price(0.075, 200)
-"""y1 and its integral."""
 COEFFICIENT = Price(0.002, 200)
 """What each degree of the polynomial adds."""
 DEGREES = 10.0

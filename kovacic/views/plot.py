@@ -300,6 +300,8 @@ def _title(equation: object, given: object, params: Mapping[str, object] | None)
             text = str(equation.equation)
             latex = latex_text(equation.equation.text(caret=False))
     # After a change of variable the equation isn't the given one: then the user's text stands above the picture.
+    if isinstance(text, str) and not latex and "\\" not in text:
+        latex = latex_text(text)
     if not isinstance(text, str) or len(text) > _TITLE_LENGTH:
         return ""
     values = [f"{name} = {plain_text(value)}" for name, value in (params or {}).items()]
@@ -386,10 +388,13 @@ def _solution_curves(
 ) -> list[tuple[_Label, SampledCurve]]:
     """y1 and y2 of the answer, as the solutions with their values and slopes at x0; empty if these aren't known.
 
-    A solution that decays from x0 on needs initial values with the digits that the other one gains on the way.
+    The equation is real: where a value is complex, real or imaginary parts are drawn, on either side of a singular point those
+    that are independent there.  A solution that decays from x0 on needs initial values with the digits that the other one gains
+    on the way.
     """
     import sympy
 
+    unknown = _axis_names(answer)[1]
     x = sympy.Symbol(_axis_names(answer)[0])
     pair = _evaluable_pair(answer, x, request.params or {})
     if not pair:
@@ -397,37 +402,35 @@ def _solution_curves(
     a, b = _interval_of(start, stop)
     chart = chart_of(answer, {}, request.params)
     intervals = _regular_intervals(chart, a, b)
-    x0 = request.start.x0
-    at = _middle_of_the_longest(intervals) if x0 is None else as_point(x0, "x0").re
     digits = 30 + _digits_gained(chart, intervals)
-    place = sympy.Rational(at.numerator, at.denominator)
-    data = [[sympy.N(f.subs(x, place), digits) for f in (y, y.diff(x))] for y in pair]
-    if not all(value.is_number and value.is_finite for values in data for value in values):
-        return []
-
-    def sampled(values: Sequence[Any]) -> SampledCurve:
-        initial = Start(at, str(values[0]), str(values[1]))
-        return _sampled(answer, start, stop, points, request._replace(start=initial))
-
-    solutions = [(_typeset(f"{_axis_names(answer)[1]}_{k}"), values) for k, values in enumerate(data, start=1)]
-    if len(_independent(solutions)) < 2:  # for these values of parameters
-        return []
-    if len(intervals) == 1 and not all(value.is_real for values in data for value in values):
-        # The equation is real: real and imaginary parts solve it on an interval without a singular point.
-        parts = []
-        for name, values in solutions:
-            parts += [
-                (f"Re {name}", [sympy.re(value) for value in values]),
-                (f"Im {name}", [sympy.im(value) for value in values]),
-            ]
-        return [(_Label(name), sampled(values)) for name, values in _independent(parts)]
-    found = []
-    for (name, values), y in zip(solutions, pair, strict=True):
-        curve = sampled(values)
+    found: list[list[tuple[str, SampledCurve]]] = [[], []]
+    for low, high in intervals:
+        at = _middle_of_the_longest([(low, high)])
+        if request.start.x0 is not None and low <= as_point(request.start.x0, "x0").re <= high:
+            at = as_point(request.start.x0, "x0").re
+        place = sympy.Rational(at.numerator, at.denominator)
+        data = [[sympy.N(f.subs(x, place), digits) for f in (y, y.diff(x))] for y in pair]
+        if not all(value.is_number and value.is_finite for values in data for value in values):
+            return []
+        named = [(_typeset(f"{unknown}_{k}"), values) for k, values in enumerate(data, start=1)]
+        if len(_independent(named)) < 2:  # for these values of parameters
+            return []
+        if not all(value.is_real for values in data for value in values):
+            parts = (("Re", sympy.re), ("Im", sympy.im))
+            named = [(f"{part} {name}", [*map(of, values)]) for name, values in named for part, of in parts]
+        for curves, (name, values) in zip(found, _independent(named), strict=True):
+            initial = Start(at, str(values[0]), str(values[1]))
+            curves.append((name, _sampled(answer, low, high, points, request._replace(start=initial))))
+    labelled = []
+    for curves, y in zip(found, pair, strict=True):
+        names = list(dict.fromkeys(name for name, _ in curves))
+        curve = replace(curves[0][1], runs=tuple(run for _, part in curves for run in part.runs))
         text = of_sympy(y)
-        is_shown = len(text.text) <= _LONGEST_LABEL and _agrees(y, x, curve)
-        found.append((_Label(name, text.latex if is_shown else ""), curve))
-    return found
+        is_shown = len(text.text) <= _LONGEST_LABEL and not names[0].startswith(("Re", "Im")) and _agrees(y, x, curve)
+        if len(names) > 1:
+            names = [f"{name} ({_typeset(latex_text(f'x = {part.initial.x0}'))})" for name, part in curves]
+        labelled.append((_Label(", ".join(names), text.latex if is_shown else ""), curve))
+    return labelled
 
 
 def _evaluable_pair(answer: Answer, x: Any, params: Mapping[str, object]) -> list[Any]:

@@ -1,7 +1,11 @@
 """A second opinion on transition matrices, by closed forms: what only tests use.
 
 A leg from a to b is carried by
-- case 1, y1 = E P, y2 = A/E + y1 int B/E^2 by a quadrature (`kovacic.enclosure.closed_form`, equation (1));
+- case 1, y1 = E P with E = exp(int theta), and y2 = y1 int dx/y1^2 by a quadrature.  P has simple zeros at ordinary points,
+  where the integrand has double poles, which are split off exactly [Hermite's reduction]: with A P' = -1 mod P,
+
+      1/y1^2 = (A/(P E^2))' + B/E^2,   B = (1 + A P' - A' P + 2 theta A P)/P^2,   y2 = A/E + y1 int_a^x B/E^2 dx;         (1)
+
 - case 2, f = y+ y- = E P, w^2 = 4 S f^2 - 2 f f'' + f'^2 (a constant), y+-'/y+- = (f' +- w)/(2 f), in which a zero of f is
   removed by the conjugate:
 
@@ -130,10 +134,22 @@ def values(poly: acb_poly, x: acb) -> acb:
     return value
 
 
+def reduction(theta: RatFunc, P: Poly) -> tuple[Poly, RatFunc]:
+    """A and B of equation (1)."""
+    slope = P.derivative()
+    A = -(slope.inverse_modulo(P)) if P.degree > 0 else P.field.poly([])
+    # theta.den (1 + A P' - A' P) + 2 theta.num A P, divided by P^2
+    top = theta.den * (A * slope - A.derivative() * P + 1) + 2 * theta.num * A * P
+    quotient = top.exact_quotient(P * P)
+    assert quotient is not None, "the zeros of the solution are ordinary points"
+    return A, RatFunc(quotient, theta.den)
+
+
 def quadrature_leg(closed: CaseOneForm, a: acb, b: acb) -> Matrix:
     """Case 1, whatever E is."""
-    theta, B = LogDerivative.make(closed.first.theta, None), Quotient.make(closed.reduction[1], None)
-    P, A = embed(closed.first.P, None), embed(closed.reduction[0], None)
+    exact_A, exact_B = reduction(closed.first.theta, closed.first.P)
+    theta, B = LogDerivative.make(closed.first.theta, None), Quotient.make(exact_B, None)
+    P, A = embed(closed.first.P, None), embed(exact_A, None)
 
     def integrand(z: acb, analytic: bool) -> acb:
         return B(z) * (-2 * theta.exponent(a, z, analytic=analytic)).exp()
