@@ -120,7 +120,9 @@ class Region:
         # By the extremes, but for NaN, which has the value NaN.
         planes = [(low.real, points.real, high.real), (low.imag, points.imag, high.imag)][: 1 if self.is_real else 2]
         inside = not points.size or all(_between(*plane) for plane in planes)
-        at_singular = any(singular and np.any(points == end) for end, singular in zip((low, high), self.singular, strict=True))
+        at_singular = any(
+            singular and np.any(points == end) for end, singular in zip((low, high), self.singular, strict=True)
+        )
         if at_singular or not inside:
             raise InputError(
                 f"a point lies outside of the interval {(low, high)} of this function, or on a singular point"

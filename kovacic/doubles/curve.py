@@ -94,9 +94,8 @@ class CurveCoefficients(NamedTuple):
 def coefficients(chart: PieceChart, points: Sequence[ExactPoint]) -> CurveCoefficients:
     """By y'' + b y' + c y = f/a at each point, divided by a: S = b'/2 + b^2/4 - c."""
     rows = []
-    for k, point in enumerate(points):
-        if k % 32 == 0:
-            check_time()
+    for point in points:
+        check_time()
         a, b, c, *_ = ([float(v.mid()) for v in part] + [0.0, 0.0] for part in chart.local(point, 0, 2))
         slope_of_b = b[1] - b[0] * a[1]
         rows.append((b[0] / 2, slope_of_b / 2 + b[0] ** 2 / 4 - c[0]))

@@ -118,6 +118,10 @@ class Complex:
             return cls(Pair.of(value.real))
         return cls(Pair.of(value.real), Pair.of(value.imag))
 
+    def ball(self) -> acb:
+        """The number, of Pairs of floats, exactly."""
+        return acb(*(arb(part.hi) + arb(part.lo) for part in (self.re, self.im or Pair(0.0))))
+
     def __add__(self, other: Complex) -> Complex:
         re = self.re + other.re
         if other.im is None:

@@ -163,19 +163,13 @@ def lambdify(
     function = job.function(careful=bool(careful))
     if not check:
         return function
-    found = job.measured(function)
-    if careful is None and isinstance(found, Measured) and not found.keeps_the_promise:
+    found, complaint = job.measured(function)
+    if careful is None and found is not None and complaint:
         function = job.function(careful=True, plain=function)
-        found = job.measured(function)
-    if isinstance(found, Measured) and found.keeps_the_promise:
-        return replace(function, measured=found)
-    if isinstance(found, Measured) and found.points:
-        text = f"measured error of this function in units in the last place: {found}"
-    else:
-        reason = found if isinstance(found, str) else "all samples are beyond the range of doubles"
-        text = f"the error of this function couldn't be measured: {reason}"
-    warn_user(text, AccuracyWarning)
-    return replace(function, measured=found) if isinstance(found, Measured) else function
+        found, complaint = job.measured(function)
+    if complaint:
+        warn_user(complaint, AccuracyWarning)
+    return replace(function, measured=found)
 
 
 def _question(initial: Start, path: Path) -> tuple[dict[str, Any], int]:
@@ -261,14 +255,20 @@ class _Job:
             raise InputError("complex arguments need a solution of case 1", hint="evaluate treats every complex point")
         return table_of(self.chart, self.region, careful, self.limits)
 
-    def measured(self, function: Function) -> Measured | str:
-        """The error of the function, or why it isn't known."""
+    def measured(self, function: Function) -> tuple[Measured | None, str]:
+        """The error of the function, and what a user is to be told of it: nothing if it is as small as promised."""
+        unknown = "the error of this function couldn't be measured"
         try:
             with bounded_work(_MOST_WORK):
                 start = self.chart.given if self.base is None else None
-                return measure(function, self.chart, start=start, limits=self.limits)
+                found = measure(function, self.chart, start=start, limits=self.limits)
         except LimitExceeded as limit:
-            return str(limit)
+            return None, f"{unknown}: {limit}"
+        if found.keeps_the_promise:
+            return found, ""
+        if not found.points:
+            return found, f"{unknown}: all samples are beyond the range of doubles"
+        return found, f"measured error of this function in units in the last place: {found}"
 
 
 def measure(

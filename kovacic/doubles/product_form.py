@@ -18,12 +18,16 @@ and values whose factors leave the range of doubles, although they don't.  Nothi
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
+from functools import cached_property
 from typing import Any, NamedTuple
 
 import numpy as np
 from flint import acb
 
+from kovacic.algebra.precision import working_precision
+from kovacic.algebra.ratfunc import RatFunc
 from kovacic.doubles.chart import Measured, Region, facts, in_blocks
 from kovacic.doubles.double_double import (
     LOG_2,
@@ -36,12 +40,14 @@ from kovacic.doubles.double_double import (
     log,
     split,
 )
-from kovacic.enclosure.closed_form import exponentials
+from kovacic.enclosure.closed_form import Exponential, exponentials
 from kovacic.enclosure.frame import foreseen_growth, frequency
 from kovacic.enclosure.log_derivative import LogDerivative, embed, zeros
 from kovacic.enclosure.points import ExactPoint, as_point, to_acb
 from kovacic.enclosure.problem import NumericProblem
+from kovacic.errors import LimitExceeded
 
+_PREC = 240
 _MULTIPLIED_OUT = 8
 """Powers up to here are multiplied out, if they are integers."""
 
@@ -70,19 +76,6 @@ class RootFactor:
         """True if the power is a small nonnegative integer."""
         return self.whole is not None and self.whole >= 0
 
-    def slope(self, t: Complex) -> Complex:
-        """The derivative of its logarithm by t."""
-        found = self.power * (t - self.zeta).reciprocal()
-        return Complex(found.re * Pair(2.0)) if self.paired else found
-
-    def zeros(self, t: Complex) -> Any:
-        """Where t is exactly its zero, for a natural power."""
-        d = t - self.zeta
-        if self.power.im is not None or self.power.re.hi <= 0:
-            return np.zeros(np.shape(double(d.re)), dtype=bool)
-        found = double(d.re) == 0
-        return found if d.im is None else found & (double(d.im) == 0)
-
 
 @dataclass(frozen=True)
 class RationalFunction:
@@ -100,15 +93,6 @@ class RationalFunction:
                 c *= inverse
             terms.append(c)
         return sum_of(terms)
-
-    @property
-    def derivative(self) -> RationalFunction:
-        """By x."""
-        degree = len(self.polynomial) - 1
-        powers = [Complex(Pair(float(degree - k))) for k in range(degree)]
-        polynomial = tuple(c * power for c, power in zip(self.polynomial[:-1], powers, strict=True))
-        polar = tuple((a, c * Complex(Pair(float(-k))), k + 1) for a, c, k in self.polar)
-        return RationalFunction(polynomial, polar)
 
 
 def sum_of(terms: list[Complex]) -> Complex | None:
@@ -150,6 +134,10 @@ class ProductForm:
         Double-doubles; else it is plain double arithmetic.
     measured : Measured or None
         The error that `lambdify` found; None if it wasn't measured.
+    branch : Exponential
+        The certificate that it was made from.
+    constant : Complex or None
+        A factor; None for 1.
 
     Examples
     --------
@@ -167,8 +155,10 @@ class ProductForm:
     factors: tuple[RootFactor, ...]
     exponent: RationalFunction
     is_real: bool
+    branch: Exponential
     careful: bool = True
     measured: Measured | None = None
+    constant: Complex | None = None
 
     def __repr__(self) -> str:
         return f"<ProductForm on {self.region}, {self._kind}>"
@@ -186,10 +176,26 @@ class ProductForm:
         """The ends of the interval, doubles; of a rectangle those of its real parts."""
         return self.region.interval
 
-    @property
-    def derivative(self) -> ProductDerivative:
-        """y', for the same arguments; its error isn't measured."""
-        return ProductDerivative(self, self.careful)
+    @cached_property
+    def derivative(self) -> ProductForm:
+        """y', for the same arguments; its error isn't measured.
+
+        With theta = A/D, y = exp(int theta) P has the derivative exp(int (theta - D'/D)) N, N = A P + D P'.
+        """
+        theta = self.branch.theta
+        P = self.branch.P
+        D = theta.den
+        slope = replace(self.branch, theta=theta - RatFunc(D.derivative(), D), P=theta.num * P + D * P.derivative())
+        with working_precision(_PREC):
+            found = form_of(slope, self.region, self.base)
+            if found is None:
+                raise LimitExceeded("the zeros of the derivative weren't found", limit="digits")
+            c = self.branch.constant()
+            lead, first, last = (embed(poly, c).coeffs() or [acb(0)] for poly in (slope.P, P, D))
+            factor = lead[-1] / (first[-1] * last[-1]) * (_phase(found.factors) - _phase(self.factors)).exp()
+            constant = Complex.of(acb(factor.real) if self.is_real else factor)
+        whole = constant if self.constant is None else constant * self.constant
+        return replace(found, careful=self.careful, constant=whole)
 
     def __call__(self, x: Any) -> Any:
         """y(x), of the shape of x; inf or 0 where the value is beyond the doubles.
@@ -278,82 +284,13 @@ class ProductForm:
         if careful:
             zero = 0.0 * x.real
             total = Complex(Pair(zero, zero)) + (total or Complex(Pair(0.0)))
-        if product.value is not None:
-            return _Parts(product.value, product.binary, total)
-        one = np.ones(x.shape) if careful or total is None else 1.0
-        return _Parts(Complex(one), product.binary, total)
+        value = product.value or Complex(np.ones(x.shape))
+        return _Parts(value if self.constant is None else value * self.constant, product.binary, total)
 
     def _as_complex(self, x: Any, careful: bool) -> Complex:
         """The points x, their parts double-doubles if careful."""
         point = Complex(x) if self.region.is_real else Complex(x.real, x.imag)
         return point.each(_with_low_part) if careful else point
-
-
-@dataclass(frozen=True)
-class ProductDerivative:
-    """y' of a product form: y times its logarithmic derivative.
-
-    Where y is exactly 0, so are all terms of the product's derivative but that of the vanishing factor.
-
-    Attributes
-    ----------
-    form : ProductForm
-        y.
-    careful : bool
-        Double-doubles; else it is plain double arithmetic.
-    """
-
-    form: ProductForm
-    careful: bool = True
-
-    def __repr__(self) -> str:
-        return f"<ProductDerivative on {self.region}, {self.form._kind}>"
-
-    @property
-    def region(self) -> Region:
-        """Where it is defined."""
-        return self.form.region
-
-    @property
-    def interval(self) -> tuple[float, float]:
-        """The ends of the interval, doubles."""
-        return self.form.interval
-
-    def __call__(self, x: Any) -> Any:
-        """y'(x), of the shape of x.  Raises as a call of y does.
-
-        Parameters
-        ----------
-        x : number or array
-            Within the region.
-
-        Examples
-        --------
-        >>> import kovacic
-        >>> f = kovacic.solve("x^2 + 3").lambdify(interval=(0, 2))      # x exp(x^2/2)
-        >>> print(f"{f.derivative(1.0) / f(1.0):.12f}")
-        2.000000000000
-        """
-        return in_blocks(self._values, self.region.points(x))
-
-    def _values(self, x: Any) -> Any:
-        form = replace(self.form, careful=self.careful)
-        point = form._as_complex(x, self.careful)
-        terms = [form.exponent.derivative(point), *(factor.slope(point) for factor in form.factors)]
-        logarithmic = sum_of([term for term in terms if term is not None]) or Complex(0.0 * x.real)
-        slope = double(logarithmic.re)
-        if not form.is_real and logarithmic.im is not None:
-            slope = slope + 1j * double(logarithmic.im)
-        total = form._values(x) * slope
-        for factor in form.factors:
-            hit = factor.zeros(point)
-            if hit.any():
-                rest: Any = 0.0  # at a simple zero: the product of the other factors
-                if factor.whole == 1:
-                    others = tuple(f for f in self.form.factors if f is not factor)
-                    rest = replace(form, factors=others)._values(x[hit])
-                total[hit] = rest
-        return total
 
 
 def _with_low_part(v: Any) -> Any:
@@ -470,16 +407,19 @@ def product_form(problem: NumericProblem, which: int, region: Region, base: Exac
     if not branches:
         return None
     branch = branches[which]
-    c = branch.constant()
     degree = branch.P.degree
     is_short = False
     if degree > _FEW_ZEROS and region.is_real:
         ends = (as_point(end.real, "an end") for end in (region.low, region.high))
         is_short = foreseen_growth(frequency(problem.system), *ends) < _SHORT
-    if is_short or degree > _MAX_ZEROS:
-        return None
+    return None if is_short or degree > _MAX_ZEROS else form_of(branch, region, base)
+
+
+def form_of(branch: Exponential, region: Region, base: ExactPoint) -> ProductForm | None:
+    """The product of a solution, at the working precision in force; None if not all zeros of its polynomial are found."""
+    c = branch.constant()
     roots = zeros(branch.P, c)
-    if sum(k for _, k in roots) < degree:
+    if sum(k for _, k in roots) < branch.P.degree:
         return None  # not all were found
     theta = LogDerivative.make(branch.theta, c)
     powers = [(pole.zeta, pole.coefficients[0]) for pole in theta.poles] + [(z, acb(k)) for z, k in roots]
@@ -493,7 +433,13 @@ def product_form(problem: NumericProblem, which: int, region: Region, base: Exac
         if not r.is_zero()
     )
     exponent = RationalFunction(tuple(Complex.of(v) for v in reversed(theta.primitive.coeffs())), polar)
-    return ProductForm(region, base, _root_factors(powers, to_acb(base), is_real), exponent, is_real)
+    return ProductForm(region, base, _root_factors(powers, to_acb(base), is_real), exponent, is_real, branch)
+
+
+def _phase(factors: Sequence[RootFactor]) -> acb:
+    """The logarithm of the product of the turns to their powers."""
+    turned = (f for f in factors if not (f.paired or f.is_natural))
+    return sum((f.power.ball() * f.turn.ball().log() for f in turned), acb(0))
 
 
 def _root_factors(powers: list[tuple[acb, acb]], base: acb, is_real: bool) -> tuple[RootFactor, ...]:

@@ -286,8 +286,7 @@ class PeriodicWay(AnalyticWay):
         return fundamental(first, second), own
 
     def fan(self, traveller: Traveller, stops: Sequence[ExactPoint]) -> dict[ExactPoint, State]:
-        here = traveller.here
-        assert isinstance(here, ExactPoint)
+        here = traveller.point
         periods = {stop: abs(self._periods(here, stop)) for stop in stops}
         if max(periods.values()) < _FEWEST_PERIODS + len(stops):  # discs on the way serve all of them
             return super().fan(traveller, stops)

@@ -18,7 +18,6 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
-from contextlib import AbstractContextManager, nullcontext
 from dataclasses import dataclass
 from functools import cached_property, lru_cache
 from typing import Any
@@ -27,7 +26,7 @@ from flint import acb, acb_poly, arb, ctx, fmpq, fmpq_poly
 
 from kovacic.algebra.precision import working_precision
 from kovacic.algebra.ratfunc import RatFunc
-from kovacic.algebra.rationals import QQ, RationalPoly
+from kovacic.algebra.rationals import QQ
 from kovacic.enclosure.closed_form import CaseOneForm
 from kovacic.enclosure.frame import System, check_segment
 from kovacic.enclosure.log_derivative import log_derivative
@@ -44,6 +43,7 @@ _MOST_LEG_PIECES = 400  # into which a leg is cut for that, at most
 _TRIED = 1, 2, 4  # multiples of the working precision at which a matrix may become finite
 _MOST_FROM_ZERO = 2_000  # digits up to which the functions cost less than the series at a singular point (measured)
 _DEGREE = 24  # of S, up to which a pull-back is sought
+UNBOUNDED = 1 << 62  # units of work
 _LARGEST = 1_000  # parameters of special functions up to which a call of FLINT, which can't be stopped, is short
 
 
@@ -52,14 +52,13 @@ class NotServed(Exception):
 
 
 @lru_cache(maxsize=64)
-def classical_of(S: RatFunc, work: int | None) -> Classical | None:
-    """The standard equation that S is pulled back from over Q; None if none is found in so many units of work (None: however
-    long it takes), or its parameters are large."""
+def classical_of(S: RatFunc, work: int = UNBOUNDED) -> Classical | None:
+    """The standard equation that S is pulled back from over Q; None if none is found in so many units of work, or its
+    parameters are large."""
     if S.field != QQ or S.num.degree + S.den.degree > _DEGREE:
         return None
     budget = Budget(Limits(constants=1))
-    bound: AbstractContextManager[object] = nullcontext() if work is None else bounded_work(work)
-    with bound:
+    with bounded_work(work):
         search = find(S, budget, extended=False)
     if search.stopped and budget.seconds_left <= 0:  # an exception isn't kept
         raise LimitExceeded(search.stopped, limit="seconds")
@@ -112,10 +111,8 @@ class Classical:
     @property
     def fraction(self) -> tuple[fmpq_poly, fmpq_poly]:
         """n and d."""
-        f = self.pullback.f
-        assert isinstance(f.num, RationalPoly)
-        assert isinstance(f.den, RationalPoly)
-        return f.num.rep, f.den.rep
+        system = System.of(self.pullback.f)
+        return fmpq_poly(list(system.num)), fmpq_poly(list(system.den))
 
     def leg(self, a: ExactPoint, b: ExactPoint) -> Matrix:
         """The transition matrix that carries (y, y') from a to b along the straight segment; raises NotServed."""
@@ -273,9 +270,6 @@ class Solutions:
         rates = [acb(value_at(derivative, x) / value_at(poly, x)) for poly, derivative, _ in self.factors]
         found = []
         for i, (E, dE) in enumerate(form.values(acb(n / d), needed)):
-            if not self.factors:
-                found.append((E, slope * dE))
-                continue
             exponents = [powers[i] for _, _, powers in self.factors]
             rate = sum((e * value for e, value in zip(exponents, rates, strict=True)), acb(0))
             power = sum((e * log for e, log in zip(exponents, logs, strict=True)), acb(0)).exp()

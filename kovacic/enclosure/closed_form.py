@@ -23,6 +23,7 @@ from kovacic.algebra.partial_fractions import decompose
 from kovacic.algebra.poly import Poly
 from kovacic.algebra.precision import working_precision
 from kovacic.algebra.ratfunc import RatFunc
+from kovacic.decision import SemiInvariant
 from kovacic.enclosure.frame import check_segment
 from kovacic.enclosure.log_derivative import conjugates, embed, log_derivative, sharp_roots
 from kovacic.enclosure.matrices import Matrix, State, fundamental, inverse, multiply
@@ -83,6 +84,7 @@ class CaseOneForm:
     """The certificate of case 1 that the legs are computed from, and what follows from it exactly, computed once."""
 
     problem: NumericProblem
+    square: SemiInvariant | None  # the product of both, or y1^2
     first: Exponential
 
     @cached_property
@@ -93,8 +95,7 @@ class CaseOneForm:
         count = len(self.first.constants())
         if count > 1:
             return tuple(Exponential(theta, P, k) for k in range(count))
-        assert self.problem.decision is not None
-        square = self.problem.decision.invariant  # the product of both, or y1^2
+        square = self.square
         if square is not None and theta.field == square.theta.field:
             zeros = square.P.exact_quotient(P)
             if zeros is not None and square.logarithmic_derivative != 2 * (theta + RatFunc(P.derivative(), P)):
@@ -107,7 +108,9 @@ class CaseOneForm:
         theta = self.first.theta
         P = self.first.P
         parts = decompose(theta * 2)  # of the logarithmic derivative of (y1/P)^2
-        residues = [(part.factor, part.value.field.rational_value(part.value)) for part in parts.residues if part.is_constant]
+        residues = [
+            (part.factor, part.value.field.rational_value(part.value)) for part in parts.residues if part.is_constant
+        ]
         is_rational = not parts.exact and len(residues) == len(parts.residues)
         if not (is_rational and all(e is not None and e.denominator == 1 for _, e in residues)):
             return None
@@ -170,11 +173,11 @@ def decided(problem: NumericProblem, degree: int) -> NumericProblem | None:
 def closed_form_of(problem: NumericProblem) -> CaseOneForm | None:
     """The closed form of a solution of case 1, None in the other cases of an equation that has a Liouvillian solution."""
     decision = problem.decision
-    assert decision is not None
-    assert decision.semi_invariant is not None
-    if decision.case != 1:
+    if decision is None or decision.semi_invariant is None or decision.case != 1:
         return None
-    return CaseOneForm(problem, Exponential(decision.semi_invariant.theta, decision.semi_invariant.P))
+    return CaseOneForm(
+        problem, decision.invariant, Exponential(decision.semi_invariant.theta, decision.semi_invariant.P)
+    )
 
 
 def exponentials(problem: NumericProblem) -> list[Exponential]:

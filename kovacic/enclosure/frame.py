@@ -82,11 +82,11 @@ class System:
 
     def polynomial(self, which: Which) -> acb_poly:
         """Numerator or denominator, at the working precision in force."""
-        return acb_poly(list(self.num if which == "num" else self.den))
+        return acb_poly(list(getattr(self, which)))
 
     def along(self, which: Which, a: ExactPoint, step: ExactPoint) -> tuple[fmpq_poly, fmpq_poly]:
         """Real and imaginary part of numerator or denominator at a + t step, as polynomials in t over Q, by Horner's rule."""
-        coefficients = self.num if which == "num" else self.den
+        coefficients: tuple[int, ...] = getattr(self, which)
         bits = max((c.bit_length() for c in coefficients), default=0)
         foresee_move(len(coefficients), bits, max(a.height_bits(), step.height_bits()))
         x = fmpq_poly([a.x, step.x])
@@ -102,7 +102,7 @@ class System:
 
     def roots(self, which: Which, prec: int) -> Zeros:
         """Enclosures of the zeros of numerator or denominator at about `prec` bits, with multiplicities."""
-        return _isolated(self.num if which == "num" else self.den, max(64, 1 << (prec - 1).bit_length()))
+        return _isolated(getattr(self, which), max(64, 1 << (prec - 1).bit_length()))
 
     def is_singular(self, point: ExactPoint) -> bool:
         """True if the point is a zero of the denominator, decided exactly."""

@@ -159,9 +159,8 @@ def basis(
             raise LimitExceeded(f"{last} can't be told from the singular point {point}", limit="digits")
         log = end.log() + (t / end).log()  # continued along the segment
         states = [(acb(0), acb(0)), (acb(0), acb(0))]
-        for k, solution in enumerate(_expansions(point, last, bound, prec, needed)):
-            if solution is not None:
-                states[k] = solution.at(t, log)
+        for k, solution in _expansions(point, last, bound, prec, needed).items():
+            states[k] = solution.at(t, log)
         first, second = states
         # slopes: dy/dx = theta y / t, and -t theta y for t = 1/x
         factor = -t if point.inverted else 1 / t
@@ -170,8 +169,8 @@ def basis(
 
 def _expansions(
     point: Singular, last: ExactPoint, bound: Majorant, prec: int, needed: Sequence[bool]
-) -> list[FrobeniusSeries | None]:
-    """Both solutions in the disc up to `last`; None for one that isn't needed."""
+) -> dict[int, FrobeniusSeries]:
+    """The solutions in the disc up to `last` that are needed, by their numbers."""
     lower, upper = point.exponents()
     length = abs(point.offset(last)).upper()
     op = point.operator()
@@ -190,11 +189,8 @@ def _expansions(
                     terms.append(_next(op, lower + len(terms), terms, resonance))
                 resonance = _Resonance(N, bool(terms[N][1] != 0))
         dominant = _Beginning(lower, delta, resonance)
-    found: list[FrobeniusSeries | None] = [None, None]
-    for k, beginning in enumerate((dominant, _Beginning(upper, arb(0)))):
-        if needed[k]:
-            found[k] = _expand(balls, beginning, length, bound, prec)
-    return found
+    beginnings = dominant, _Beginning(upper, arb(0))
+    return {k: _expand(balls, beginnings[k], length, bound, prec) for k in (0, 1) if needed[k]}
 
 
 @dataclass(frozen=True)
@@ -225,13 +221,11 @@ def limit(point: Singular, start: State) -> State:
     needed = [not coordinate.is_zero() for coordinate in start]
     total = (acb(0), acb(0))
     found = _expansions(point, last, bound, max(64, ctx.prec), needed)
-    for coordinate, solution in zip(start, found, strict=True):
-        if solution is None:
-            continue
-        powers = [solution.derivative_at_zero(k) for k in (0, 1)]
+    for k, solution in found.items():
+        powers = [solution.derivative_at_zero(order) for order in (0, 1)]
         if powers[0] is None or powers[1] is None:
             raise InputError(f"y or y' is infinite at the singular point {point}", hint="choose a point beside it")
-        total = total[0] + coordinate * powers[0], total[1] + coordinate * powers[1]
+        total = total[0] + start[k] * powers[0], total[1] + start[k] * powers[1]
     return total
 
 
@@ -318,8 +312,7 @@ def _expand(op: Operator, beginning: _Beginning, length: arb, bound: Majorant, p
     more = first
     while True:
         for _ in range(more):
-            if len(terms) % _STRIDE == 0:
-                check_time()
+            check_time()
             terms.append(_next(op, lam + len(terms), terms, resonance))
         more = _STRIDE
         n = len(terms)

@@ -148,11 +148,9 @@ class _Detour:
 
 def _detours(here: ExactPoint | Singular, last: ExactPoint, singular: Sequence[ExactPoint]) -> Iterator[_Detour]:
     """Those on the way to `last`, in order; from infinity beyond all singular points."""
-    if isinstance(here, Singular) and here.inverted:
+    if isinstance(here, Singular):
         far = 2 * max(abs(p.x) for p in (last, *singular)) + 1
-        here = ExactPoint(far) if last.x > 0 else ExactPoint(-far)
-    elif isinstance(here, Singular):
-        here = here.near
+        here = ExactPoint(far if last.x > 0 else -far) if here.inverted else here.near
     if not (here.is_real() and last.is_real()):
         raise InputError(
             "a side of the real axis needs a start and points on it",

@@ -64,10 +64,8 @@ class MapProduct:
     def __init__(self, *parts: tuple[int, Affine]) -> None:
         self._parts = parts  # sizes are falling powers of two, the earliest factors first
 
-    def after(self, matrix: Matrix | None, added: State = NOTHING) -> MapProduct:
-        """With one more map v -> M v + added on the left; None for the identity."""
-        if matrix is None:
-            return self
+    def after(self, matrix: Matrix, added: State = NOTHING) -> MapProduct:
+        """With one more map v -> M v + added on the left."""
         last = matrix, added
         parts = self._parts
         size = 1

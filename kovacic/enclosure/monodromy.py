@@ -218,8 +218,7 @@ def _connection(problem: NumericProblem, way: _Polygon, prec: int) -> Matrix:
         traveller = traveller.moved(vertex)
     there = None
     if isinstance(end, Singular):
-        here = traveller.here
-        assert isinstance(here, ExactPoint)
+        here = traveller.point
         last, bound = junction(end, here, prec)
         there = basis(end, last, here, bound, prec)
         end = last

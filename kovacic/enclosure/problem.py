@@ -352,23 +352,23 @@ def read_problem(equation: object, params: Mapping[str, object] | None = None) -
     names = set(parameters_of((given.a + given.b + given.c).field))
     if given.h is not None:
         names |= {symbol.name for symbol in given.h.free_symbols} - {given.variable}
-    numbers: dict[str, Number] = {}
-    if params is not None or names:
-        letters = getattr(found, "letters", ())
-        constants = {name: meaning for name, meaning in letters if meaning.is_number}
-        numbers = values_of_parameters(tuple(sorted(names)), params or {}, constants)
+    letters = getattr(found, "letters", ())
+    constants = {name: meaning for name, meaning in letters if meaning.is_number and name in names}
+    numbers = values_of_parameters(tuple(sorted(names)), params or {}, constants)
     values = {name: n.re for name, n in numbers.items() if isinstance(n, ExactPoint) and n.is_real()}
     fields = (S.field, given.gauge.field, given.f.field)
-    if len(values) < len(numbers) or any(isinstance(field, AlgebraicField) for field in fields):
-        embedded = Embedded(S, given.gauge or None, numbers)
-        embedded.check()
-        return NumericProblem(System((), (1,)), right=None if given.is_homogeneous else given, embedded=embedded)
+    is_exact = len(values) == len(numbers) and not any(isinstance(field, AlgebraicField) for field in fields)
     decision = found.decision if isinstance(found, Answer) else None
-    if values:  # the decision is that for generic values
+    if is_exact and values:  # the decision is that for generic values
         given, decision = _specialised(given, values), None
         S = given.S
     right = None if given.is_homogeneous else given
-    return NumericProblem(System.of(S), S, decision, given.gauge or None, right)
+    gauge = given.gauge or None
+    if is_exact:
+        return NumericProblem(System.of(S), S, decision, gauge, right)
+    embedded = Embedded(S, gauge, numbers)
+    embedded.check()
+    return NumericProblem(System((), (1,)), right=right, embedded=embedded)
 
 
 def _specialised(given: Equation, values: Mapping[str, Fraction]) -> Equation:

@@ -46,7 +46,17 @@ from kovacic.enclosure.closed_form import value
 from kovacic.enclosure.frame import System, foreseen_growth, frequency, largest_exponent, log2
 from kovacic.enclosure.frobenius import basis, junction
 from kovacic.enclosure.log_derivative import LogDerivative, log_derivative
-from kovacic.enclosure.matrices import MapProduct, Matrix, State, apply, fundamental, inverse, multiply, real_part
+from kovacic.enclosure.matrices import (
+    MapProduct,
+    Matrix,
+    State,
+    apply,
+    fundamental,
+    identity,
+    inverse,
+    multiply,
+    real_part,
+)
 from kovacic.enclosure.points import ExactPoint, Number, around_zero, power_of_two, to_acb
 from kovacic.enclosure.problem import NumericProblem
 from kovacic.enclosure.singular import Singular
@@ -296,12 +306,12 @@ class RationalWay(Way):
         system = self.problem.system
         return swing_from(system, b, a, self.prec), swing_from(system, a, b, self.prec)
 
-    def into(self, x: ExactPoint) -> Matrix | None:
-        return None if self.gauge is None else (acb(1), acb(0), -self.gauge.value(to_acb(x)), acb(1))
+    def into(self, x: ExactPoint) -> Matrix:
+        return identity() if self.gauge is None else (acb(1), acb(0), -self.gauge.value(to_acb(x)), acb(1))
 
-    def out_of(self, a: ExactPoint, x: ExactPoint) -> Matrix | None:
+    def out_of(self, a: ExactPoint, x: ExactPoint) -> Matrix:
         if self.gauge is None:
-            return None
+            return identity()
         E = self.gauge.growth(to_acb(a), to_acb(x))
         if a.is_real() and x.is_real():
             E = acb(E.real)
@@ -357,9 +367,7 @@ class RationalWay(Way):
                     for stop in served:
                         if self.gauge is not None:
                             self.check(here, stop)
-                        outward = self.out_of(here, stop)
-                        state = local.state(stop)
-                        found[stop] = state if outward is None else apply(outward, state)
+                        found[stop] = apply(self.out_of(here, stop), local.state(stop))
                     waiting = [stop for stop in waiting if stop not in found]
                 if disc.leave != farthest:  # the matrix of the last step isn't needed
                     maps = maps.after(step.matrix)
@@ -381,11 +389,7 @@ class ClosedWay(RationalWay):
         matrix = self.closed.leg(a, b)
         if a.is_real() and b.is_real():
             matrix = real_part(matrix)
-        inward = self.into(a)
-        outward = self.out_of(a, b)
-        if inward is not None and outward is not None:
-            matrix = multiply(outward, multiply(matrix, inward))
-        return maps.after(matrix)
+        return maps.after(multiply(self.out_of(a, b), multiply(matrix, self.into(a))))
 
     def fan(self, traveller: Traveller, stops: Sequence[ExactPoint]) -> dict[ExactPoint, State]:
         return traveller.to_each(stops)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from difflib import get_close_matches
 from typing import Any, Literal, NamedTuple, TypedDict
@@ -127,10 +127,13 @@ class Request(NamedTuple):
                 near = get_close_matches(name, known, n=1)
                 hint = f". Did you mean {near[0]!r}?" if near else ""
                 raise TypeError(f"{call}() got an unexpected keyword argument {name!r}{hint}")
-        given = {name: value for name, value in keywords.items() if value is not None}
-        start = replace(start, **{name: given[name] for name in Start.__slots__ if name in given})
-        accuracy = replace(accuracy, **{name: given[name] for name in Accuracy.__slots__ if name in given})
-        return cls(start, accuracy, **{name: given[name] for name in ("path", "params", "var") if name in given})
+
+        def given(names: Iterable[str]) -> dict[str, Any]:
+            return {name: keywords[name] for name in names if keywords.get(name) is not None}
+
+        start = replace(start, **given(Start.__slots__))
+        accuracy = replace(accuracy, **given(Accuracy.__slots__))
+        return cls(start, accuracy, **given(("path", "params", "var")))
 
 
 def _object(kind: type[Any], given: object) -> Any:

@@ -68,8 +68,8 @@ def spread(values: Sequence[acb], length: arb, state: State, *, real: bool) -> S
     [equation (1) of `kovacic.enclosure.analytic`].
     """
     b, c, f = values
-    steepness = (abs(b) + abs(c).sqrt()).upper()
-    s = (1 / steepness).mid() if steepness > 0 else arb(1)
+    steepness = (abs(b) + abs(c).upper().sqrt()).upper()  # for which s b and s^2 c are about 1 at most
+    s = (1 / steepness.max(arb((1, -64)))).mid()
     K = (1 / s).max(abs(b) + s * abs(c))
     largest = abs(state[0]).max(s * abs(state[1])) + s * abs(f) / K
     change = (K * length).expm1() * largest
@@ -102,19 +102,19 @@ def read_start(problem: NumericProblem | None, given: Start) -> Origin:
             reason = "whose constants aren't rational" if problem.embedded is not None else ""
         if reason:
             raise InputError(f"an equation {reason} needs y0 and dy0 at a regular point")
-    if which == "decaying" and (given.dy0 is not None or has_coordinates):
+    is_decaying = which == "decaying"
+    if is_decaying and (given.dy0 is not None or has_coordinates):
         raise InputError("the decaying solution is given by y0 alone")
-    if which != "decaying" and [has_values, has_coordinates, which == "regular"].count(True) != 1:
+    if not is_decaying and [has_values, has_coordinates, which == "regular"].count(True) != 1:
         raise InputError("one start is expected", hint=_START_HINT, shell=_SHELL_STARTS)
     if given.x0 is None:
         raise InputError("the point at which the solution starts is missing", hint="x0=0, for instance", shell="--x0 0")
-    if which == "decaying":
-        y = ExactPoint(1) if given.y0 is None else as_number(given.y0, "y0")
-        return Origin(as_number(given.x0, "x0"), (y, ExactPoint(0)), decaying=True)
-    if has_values:
-        if given.y0 is None or given.dy0 is None:
+    y0, dy0 = (1 if given.y0 is None else given.y0, 0) if is_decaying else (given.y0, given.dy0)
+    if is_decaying or has_values:
+        if y0 is None or dy0 is None:
             raise InputError("both y0 and dy0 are needed", hint=_START_HINT, shell=_SHELL_STARTS)
-        return Origin(as_number(given.x0, "x0"), (as_number(given.y0, "y0"), as_number(given.dy0, "dy0")))
+        data = as_number(y0, "y0"), as_number(dy0, "dy0")
+        return Origin(as_number(given.x0, "x0"), data, decaying=is_decaying)
     assert problem is not None
     singular = place_of(problem, given.x0, "x0")
     return Origin(singular, _frobenius_coordinates(singular, given.frobenius))

@@ -21,7 +21,17 @@ from flint import acb, acb_poly, arb, arb_poly
 
 from kovacic.algebra.precision import working_precision
 from kovacic.enclosure.frobenius import limit
-from kovacic.enclosure.matrices import NOTHING, MapProduct, Matrix, State, adjugate, apply, fundamental, multiply
+from kovacic.enclosure.matrices import (
+    NOTHING,
+    MapProduct,
+    Matrix,
+    State,
+    adjugate,
+    apply,
+    fundamental,
+    identity,
+    multiply,
+)
 from kovacic.enclosure.points import ExactPoint, Number, around_zero, power_of_two, to_acb
 from kovacic.enclosure.singular import Singular
 from kovacic.errors import InputError, LimitExceeded
@@ -233,13 +243,13 @@ class Way(ABC):
     def spread(self, number: Number, state: State) -> State:
         """The state at a number in a ball from that at its midpoint."""
 
-    def into(self, x: ExactPoint) -> Matrix | None:
-        """From the user's (y, y') at x to what is carried; None if this is the same."""
-        return None
+    def into(self, x: ExactPoint) -> Matrix:
+        """From the user's (y, y') at x to what is carried."""
+        return identity()
 
-    def out_of(self, a: ExactPoint, x: ExactPoint) -> Matrix | None:
+    def out_of(self, a: ExactPoint, x: ExactPoint) -> Matrix:
         """Back to the user's (y, y') at x, at the end of the straight line from a."""
-        return None
+        return identity()
 
     def horizon(self, here: ExactPoint, stop: ExactPoint) -> ExactPoint:
         """The end of the ray that serves this target and nearer ones: at the next power of two."""
@@ -329,9 +339,7 @@ class Ray:
         if k not in self._locals:
             passed = self._passed[k]
             self._locals[k] = passed.step.local(passed.maps.apply(self.start))
-        state = self._locals[k].state(stop)
-        outward = self.way.out_of(self.here, stop)
-        return state if outward is None else apply(outward, state)
+        return apply(self.way.out_of(self.here, stop), self._locals[k].state(stop))
 
     def _advance(self, stop: ExactPoint, place: Any) -> None:
         """To the disc that contains the stop."""
@@ -373,6 +381,12 @@ class Traveller:
         """The user's (y, y') here."""
         return self.maps.apply(self.start)
 
+    @property
+    def point(self) -> ExactPoint:
+        """The regular point where we are."""
+        assert isinstance(self.here, ExactPoint)
+        return self.here
+
     def moved(self, stop: ExactPoint) -> Traveller:
         """Straight on to a point."""
         if isinstance(self.here, Singular):
@@ -412,8 +426,7 @@ class Traveller:
 
     def along_rays(self, stops: Sequence[ExactPoint]) -> dict[ExactPoint, State]:
         """In discs that are kept for the next call."""
-        here = self.here
-        assert isinstance(here, ExactPoint)
+        here = self.point
         rays: dict[ExactPoint, list[ExactPoint]] = {}  # the points in one direction together, the nearest first
         for stop in sorted({*stops}, key=lambda stop: position(here, stop)):
             rays.setdefault((stop - here).scaled(1 / position(here, stop)), []).append(stop)

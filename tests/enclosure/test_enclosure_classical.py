@@ -196,7 +196,7 @@ def test_logarithms_are_left_to_the_series() -> None:
 def test_where_both_functions_are_the_same_polynomial_the_leg_is_not_served(equation: str) -> None:
     rational = as_problem(equation).S
     assert rational is not None
-    found = classical_of(rational, None)
+    found = classical_of(rational)
     assert found is not None
     with ctx.workprec(200), pytest.raises(NotServed):
         found.leg(ExactPoint(Fraction(1, 2)), ExactPoint(Fraction(1, 3)))
@@ -252,15 +252,15 @@ def test_known_functions_and_shared_expansions_agree_at_many_points() -> None:
 def test_other_equations_and_large_parameters_are_left_to_taylor_steps(S: str) -> None:
     rational = as_problem(S).S
     assert rational is not None
-    assert classical_of(rational, None) is None
+    assert classical_of(rational) is None
 
 
 def test_a_search_that_ran_out_of_time_isnt_remembered() -> None:
     rational = as_problem("x + 17/19").S
     assert rational is not None
     with Budget(Limits(seconds=1e-9)).watched(), pytest.raises(LimitExceeded):
-        classical_of(rational, None)
-    assert classical_of(rational, None) is not None
+        classical_of(rational)
+    assert classical_of(rational) is not None
 
 
 @parametrize(
