@@ -230,6 +230,7 @@ class Settings:
 def partition(S: RatFunc, settings: Settings) -> Partition:
     """The partition for S over Q(t), or the single verdict for S over Q or Q(alpha)."""
     count_work(1)
+    S = _without_common_factors(S, settings.assumptions)
     constants = S.field
     decision = decide(S, settings.budget, certify=False)
     verdict = verdict_of(decision)
@@ -244,6 +245,17 @@ def partition(S: RatFunc, settings: Settings) -> Partition:
         return _by_theory(S, verdict, settings)
     except LimitExceeded as limit:
         return Partition(verdict, Limited.by(limit), Theory("nothing but the generic answer"))
+
+
+def _without_common_factors(S: RatFunc, assumptions: Assumptions) -> RatFunc:
+    """S over Q(t, alpha) without those that numerator and denominator have where alpha is the number that is assumed."""
+    if not assumptions.values or not isinstance(S.field, FunctionField) or len(S.field.names) < 2:
+        return S
+    ((name, value),) = assumptions.values
+    if name != S.field.names[-1]:
+        return S
+    number = ParameterPoint((name,), (value,), value.field)
+    return with_free_constant(restriction.everywhere(S.field, number).restricted(S)).S
 
 
 def _beside_a_number(S: RatFunc, settings: Settings) -> Partition:

@@ -40,6 +40,8 @@ LISTS = [
     "x*y''+(c-x)*y'-a*c*y=0",
     "l*(l+1)/x^2 - Z/x - E",
     "a^2*(1-exp(-x))^2 - a*b*exp(-x)",
+    "(a*x+b)/(x^2-2)^2 + c/x",
+    "(a*x+b)/(x^2+k)^2 + x^2",
 ]
 #: Equations whose singular points move into one another, or to infinity, at values of the parameters.
 FORMULAS = {
@@ -52,7 +54,7 @@ FORMULAS = {
 }
 
 
-@parametrize("S", LISTS, ordinary=5, long=9)
+@parametrize("S", LISTS, ordinary=5, long=11)
 def test_lists_are_true_as_printed(S: str) -> None:
     answer = kovacic.conditions(S, var="x", max_degree=0)
     assert answer.complete is True
