@@ -151,7 +151,7 @@ def rational_in_waves(e: Expr) -> list[Expr]:
 
 
 def fractions_of_waves(e: Expr, x: Expr) -> list[Expr]:
-    """With partial fractions in the cosine, and in the sine, in place of what is rational in both.
+    """With partial fractions in the cosine, and in the sine, in place of what is rational in both; none for polynomials.
 
     Of sin(x)^2/cos(x) - 1/(2 cos(x)) the second form is 1/(2 cos(x)) - cos(x), which has a multiple of cos(x) to be left out.
     """
@@ -161,7 +161,7 @@ def fractions_of_waves(e: Expr, x: Expr) -> list[Expr]:
     }
     masked = e.xreplace({f: letter for letter, f in kept.items()})
     found = _InOneAngle.of(masked)
-    if found is None:
+    if found is None or found.R.is_polynomial(found.s, found.c):
         return []
     s, c, theta = found.s, found.c, found.theta
     rational: dict[Expr, Expr] = defaultdict(lambda: sympy.S.Zero)
