@@ -188,9 +188,9 @@ def hypersurface(function: FunctionPoly, eliminated: int | None = None) -> Hyper
     """Values of the parameters at which an irreducible polynomial vanishes.
 
     A parameter that occurs linearly is eliminated: the given one, or one with a constant coefficient if there is one; else one
-    becomes algebraic over the others: a number, if there are none, or if it is the quotient of two.  A linear one with the
-    coefficient A in A t + B misses the zeros of A; these are zeros of the polynomial only if there are two others, since A and
-    B are coprime.
+    becomes algebraic over the others: a number, if there are none, or such a number times a power of another one.  A linear one
+    with the coefficient A in A t + B misses the zeros of A; these are zeros of the polynomial only if there are two others,
+    since A and B are coprime.
     """
     rational = None if eliminated is not None else _with_two_terms(function)
     if rational is not None:
@@ -217,13 +217,17 @@ def hypersurface(function: FunctionPoly, eliminated: int | None = None) -> Hyper
     missed: tuple[FunctionPoly, ...] = ()
     curve: Curve | None = None
     others = [j for j in leading if j != i]
-    degrees_of_terms = {sum(map(int, exponents)) for exponents in function.num.to_dict()}
-    if len(others) == len(degrees_of_terms) == 1:  # a form in two parameters, whose quotient is a number
-        assert isinstance(smaller, FunctionField)
-        letter = _free_name(names)
-        unit = smaller.generator(names[others[0]])
-        first, second = (function.field.generator(names[k]) for k in (i, *others))
-        uncovered, missed, curve = (over_parameters(unit),), (second,), Curve(letter, over_parameters(first / second))
+    if len(others) == 1:
+        (j,) = others
+        weight = powers[j] // powers[i]
+        degrees_of_terms = {weight * int(term[1 + i]) + int(term[1 + j]) for term in function.num.to_dict()}
+        if len(degrees_of_terms) == 1:  # a form in t_i and t_j^weight, whose quotient is a number
+            assert isinstance(smaller, FunctionField)
+            letter = _free_name(names)
+            first, second = (function.field.generator(names[k]) for k in (i, j))
+            uncovered, missed = (smaller.generator(names[j]),), (second,)
+            unit = uncovered[0] ** weight
+            curve = Curve(letter, over_parameters(first / second**weight))
     modulus = smaller.poly([c / (coefficients[-1] * unit ** (powers[i] - k)) for k, c in enumerate(coefficients)])
     extension = AlgebraicField(smaller, modulus, letter)
     values[i] = extension.generator * unit
