@@ -82,6 +82,8 @@ def _basis(question: Question, solution: Solution, pair: WrittenPair) -> Basis:
     basis = Basis(
         y1, y2, question.x, equation, question.own, partial(_stated, equation, pair), pair.undefined, solution
     )
+    if equation.change is None:
+        basis = replace(basis, place=pair.place)
     S = equation.S
     constant = S.num[0] if S.is_polynomial and S.num.degree == 0 else None
     if isinstance(constant, FunctionPoly) and not question.assumptions.is_positive(constant):

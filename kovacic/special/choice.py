@@ -129,6 +129,8 @@ def solutions(
 
 def _real(form: ClosedForm, S: RatFunc) -> ClosedForm:
     """The form, or one that is real at the place at which the fewest of its arguments have to be turned."""
+    if form.place is not None:
+        return form
     pair, x = (form.y1, form.y2), form.variable
     place = common_place(x, Tuple(*pair))
     y1, y2 = real_at(pair, x, S, form.gauge, place, anew=partial(pair_at, form, place, sympify))
@@ -227,7 +229,10 @@ class _Equation:
         if chosen is None and found.wronskian is not None and is_nonzero(found.wronskian, x):
             chosen = pair
         made = partial(build, self.S, self.decision, self.gauge)
-        return None if chosen is None else ClosedForm(*chosen, x, self.gauge, EXACT, (), found.undefined, build=made)
+        if chosen is None:
+            return None
+        place = found.place if chosen == pair else None
+        return ClosedForm(*chosen, x, self.gauge, EXACT, (), found.undefined, place, build=made)
 
     def _written_best(self, forms: list[PairForm]) -> tuple[PairForm, ClosedForm]:
         """The preferred one, written: its true length, and whether an integral is left, may be other than was thought.

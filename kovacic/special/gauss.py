@@ -35,15 +35,16 @@ from collections.abc import Iterator
 from dataclasses import dataclass, replace
 from fractions import Fraction
 from functools import cached_property, partial
-from itertools import islice, product
+from itertools import chain, islice, product
 from typing import TYPE_CHECKING, Any, ClassVar
 
 from flint import acb, fmpq, fmpq_poly
 
+from kovacic.algebra.embedding import complex_zeros
 from kovacic.algebra.extension import AlgebraicField
 from kovacic.algebra.poly import Poly
 from kovacic.algebra.ratfunc import RatFunc
-from kovacic.algebra.rationals import QQ
+from kovacic.algebra.rationals import QQ, RationalPoly
 from kovacic.closed_form.structure import PLACES, Covariants
 from kovacic.decision import Structure
 from kovacic.engine.places import Kind, Problem, analyse, rational_square_root
@@ -72,6 +73,8 @@ if TYPE_CHECKING:
 #: Sets of exponent differences for which coverings are sought, and ramification points of f that may be among apparent ones.
 _MOST_CHOICES = 32
 _HIDDEN = 3
+#: Of places between 0 and 1, in this order.
+_DENOMINATORS = (1, 2, 10, 100, 10**4, 10**8)
 #: Points at which solutions are tested for realness.
 _SAMPLE = (Fraction(2, 7), Fraction(7, 2), Fraction(-2, 7))
 
@@ -272,17 +275,34 @@ class _GaussForm:
             return None
         return self.writer.constant((value - num[0]) / num[1])
 
+    @cached_property
+    def between(self) -> Expr | None:
+        """A rational x with 0 < f < 1: one of the `PLACES`, or near one with f = 1/2; None without, and over other fields."""
+        import sympy
+
+        middle = 2 * self.f.num - self.f.den
+        if not isinstance(middle, RationalPoly):
+            return None
+        halves = [zero.real for zero, _ in complex_zeros(middle.rep.numer()) if zero.imag == 0]
+        near = (Fraction(float(zero)).limit_denominator(most) for zero in halves for most in _DENOMINATORS)
+        inside = (x for x in chain(PLACES, near) if 0 < (self._at(x) or 0) < 1)
+        found = next(inside, None)
+        return None if found is None else sympy.Rational(found)
+
+    def _at(self, x: Fraction) -> fmpq | Fraction | None:
+        """f at a place, None at a pole."""
+        den = self.f.den(x)
+        return self.f.field.rational_value(self.f.num(x) / den) if den else None
+
     @property
     def inside(self) -> Expr | None:
-        """`aside`, or one of the `PLACES` at which 2F1(f) is real, with 0 < f < 1 if it can be; over Q alone."""
+        """`aside`, or a place at which 2F1(f) is real, with 0 < f < 1 if it can be; over Q alone."""
         import sympy
 
         if self.aside is not None or self.f.field != QQ:
             return self.aside
-        values = {x: QQ.rational_value(self.f.num(x) / self.f.den(x)) or 0 for x in PLACES if self.f.den(x)}
-        between = [x for x, value in values.items() if 0 < value < 1]
-        below = [x for x, value in values.items() if value < 0]
-        return next((sympy.Rational(x) for x in (*between, *below)), None)
+        below = (sympy.Rational(x) for x in PLACES if (self._at(x) or 0) < 0)
+        return self.between or next(below, None)
 
     @property
     def term(self) -> WrittenTerm:
@@ -355,7 +375,8 @@ class _GaussForm:
         real = sum(value is not None and value > 0 for value in inside) if natural else 0
         terms = sum(bool(c) for c in (*f.num, *f.den))
         uneven = natural and self.alpha != self.beta
-        is_cut = self.is_beyond or bool(natural and self.writer.places and not real)
+        is_apart = not real if self.writer.places else f.field == QQ and self.between is None
+        is_cut = self.is_beyond or bool(natural and is_apart)
         return is_cut, not f.is_polynomial, uneven, natural, -real, terms, not self.writer.is_negative(f.num.lc), str(f)
 
 
@@ -401,7 +422,7 @@ def _at_two_points(form: _GaussForm, other: _GaussForm) -> WrittenPair:
         W = -sympy.gamma(1 - alpha) * sympy.gamma(1 - beta) / (sympy.gamma(a) * sympy.gamma(b))
         return first.bracket(second, W)
 
-    return writer.pair(first.term, second.term, bracket, (form.alpha,), real_at=form.middle)
+    return writer.pair(first.term, second.term, bracket, (form.alpha,), real_at=form.middle or form.between)
 
 
 def _reducible_pair(writer: Writer, forms: list[_GaussForm]) -> WrittenPair | None:

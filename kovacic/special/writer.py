@@ -50,12 +50,15 @@ class WrittenPair:
         Gives y1 y2' - y1' y2, which few ask for; None if it isn't known in closed form.
     undefined : tuple of sympy.Expr
         Where one of these is zero a member has no value.
+    place : sympy.Expr or None
+        A number at which both are real, where the maker has looked for one.
     """
 
     y1: Expr
     y2: Expr
     known_wronskian: Callable[[], Expr | None] | None = field(default=None, compare=False, repr=False)
     undefined: tuple[Expr, ...] = ()
+    place: Expr | None = None
 
     @cached_property
     def wronskian(self) -> Expr | None:
@@ -64,7 +67,7 @@ class WrittenPair:
 
     def __reduce__(self) -> tuple[Any, ...]:
         known = None if self.wronskian is None else partial(Mul, self.wronskian)
-        return WrittenPair, (self.y1, self.y2, known, self.undefined)
+        return WrittenPair, (self.y1, self.y2, known, self.undefined, self.place)
 
     def __iter__(self) -> Iterator[Expr]:
         return iter((self.y1, self.y2))
@@ -86,7 +89,8 @@ class WrittenPair:
         def wronskian() -> Expr | None:
             return None if self.wronskian is None else function(self.wronskian)
 
-        return WrittenPair(function(self.y1), function(self.y2), wronskian, tuple(map(function, self.undefined)))
+        undefined = tuple(map(function, self.undefined))
+        return WrittenPair(function(self.y1), function(self.y2), wronskian, undefined, self.place)
 
 
 class Combined(Protocol):
@@ -199,6 +203,7 @@ class Writer:
             real_at = self.real.at
         atoms = self.real if self.places or real_at is None else Atoms(self.atoms.x, at=real_at)
         P, Q = (Mul(display(f.product, atoms), *f.others) for f, _ in (first, second))
+        place = real_at if real_at is not None and real_at.is_number else None
         is_elementary = any(F.atoms(sympy.Function) <= F.atoms(exp) for _, F in (first, second))
         # Beside an elementary member the other one shows its own poles.
         numbers = [number for number in undefined if not is_elementary and self.has_letters(number)]
@@ -207,15 +212,15 @@ class Writer:
         if self.transform is not None:
             (y, C), (z, D) = (self._combined(self.transform, *term, atoms) for term in (first, second))
             if bracket is None or C is None or D is None:
-                return WrittenPair(y, z, None, excluded)
+                return WrittenPair(y, z, None, excluded, place)
             others, rational = _by_rationality(C * D * self.atoms.factored(self.transform.factor / self.transform.m), x)
-            return WrittenPair(y, z, lambda: others * sympy.factor(rational) * bracket(), excluded)
+            return WrittenPair(y, z, lambda: others * sympy.factor(rational) * bracket(), excluded, place)
         if real_at is not None and (first[0].others or second[0].others):
             P, Q = (_real_at(factor, x, real_at) for factor in (P, Q))
         y, z = P * first[1], Q * second[1]
         if second[0].size < first[0].size:
-            return WrittenPair(z, y, None if bracket is None else lambda: -P * Q * bracket(), excluded)
-        return WrittenPair(y, z, None if bracket is None else lambda: P * Q * bracket(), excluded)
+            return WrittenPair(z, y, None if bracket is None else lambda: -P * Q * bracket(), excluded, place)
+        return WrittenPair(y, z, None if bracket is None else lambda: P * Q * bracket(), excluded, place)
 
     def _combined(
         self, transform: Combined, before: WrittenFactor, function: Expr, atoms: Atoms

@@ -415,6 +415,26 @@ def test_gauss_functions_are_written_where_they_are_real() -> None:
         assert sympy.false not in kovacic.validity(general).real
 
 
+@pytest.mark.parametrize(
+    ("differences", "z", "place"),
+    [
+        ((0, 0, Fraction(3, 2)), "-2*x^2-3", "1/3"),
+        ((2, 1 - THIRD, 1 + THIRD), "x-x^2-3", "2"),
+        ((0, 0, THIRD), "2*x^2+x-1", "-6/5"),
+    ],
+)
+def test_gauss_functions_with_logarithms_are_real_somewhere(
+    differences: tuple[Fraction | int, ...], z: str, place: str
+) -> None:
+    """2F1(f) and 2F1(1 - f) where f is between 0 and 1, of f, 1/f, f/(f - 1), ... the one that is so for a real x."""
+    S = pulled_back(differences, function(z))
+    pair = kovacic.solve(str(S)).special.solutions
+    assert all(y.subs(x, sympy.Rational(place)).evalf().is_real for y in pair)
+    general = kovacic.dsolve(f"y'' = ({S})*y").rhs
+    parts = [general.subs(dict(zip(sympy.symbols("C1 C2"), c, strict=True))) for c in ((1, 0), (0, 1))]
+    assert all(sympy.expand(part - y) == 0 for part, y in zip(parts, pair, strict=True))
+
+
 def test_where_no_form_keeps_its_digits_the_chosen_one_is_said_to_lose_them() -> None:
     """Both forms of a Hermite equation with shifted poles do; the search for another one ended in an error."""
     num = "-38114*x^6 - 457300*x^5 - 2282758*x^4 - 6068306*x^3 - 9060385*x^2 - 7204012*x - 2383107"
