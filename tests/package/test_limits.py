@@ -456,7 +456,7 @@ def test_a_batch_writes_its_record_within_the_time_of_the_equation(text: str, gr
     for looks in (found_after // 2, found_after + 3):
         with controlled(step=1 / looks) as clock:
             record = solve_item(item, job, job.engine_limits)
-        assert "the time limit of 1 s is used up" in record.data["proof"]["undecided"]
+        assert "the time limit" in record.data["proof"]["undecided"]
     assert clock.looks <= looks + 20
 
 
