@@ -6,6 +6,7 @@ from collections import Counter
 from collections.abc import Callable
 from fractions import Fraction
 from functools import cached_property
+from itertools import product
 from typing import Any, cast
 
 import sympy
@@ -70,6 +71,16 @@ def hypergeometric(top: tuple[Expr, ...], bottom: tuple[Expr, ...], z: Expr) -> 
     if not below and len(above) < 2:  # 0F0 and 1F0 [DLMF 15.4.6]
         return sympy.factor(1 - z) ** -above[0] if above else exp(z)
     return sympy.Function.__new__(sympy.hyper, above, below, z, evaluate=False)
+
+
+def antiderivative_parameters(F: Expr) -> list[tuple[Expr, Expr]]:
+    """The e above and e + 1 below, with which z^e pFq(z) is an antiderivative of the function without them.
+
+    >>> F = sympy.hyper((sympy.Symbol("s"),), (sympy.Symbol("s") + 1,), sympy.Symbol("z"))
+    >>> antiderivative_parameters(F)
+    [(s, s + 1)]
+    """
+    return [(e, b) for e, b in product(F.ap, F.bq) if sympy.cancel(b - e) == 1]
 
 
 class Atoms:

@@ -54,7 +54,7 @@ def particular_solution(basis: Basis, start: Expr | None) -> Expr:
     right = right_hand_side(basis.equation)
     if right == 0:
         return sympy.Integer(0)
-    solved = partial(with_integrals if basis.equation.change is not None else _solved, basis)
+    solved = partial(_solved if basis.equation.change is None else _solved_in_t, basis)
     if not right.has(DiracDelta, Heaviside):
         return solved(right, start)
     apart = taken_apart(right, basis.x)
@@ -96,6 +96,18 @@ def _solved(basis: Basis, right: Expr, start: Expr | None) -> Expr:
     if known and rest != 0:
         known.append(with_integrals(basis, rest, start))
     return sympy.Add(*known) if known else found
+
+
+def _solved_in_t(basis: Basis, right: Expr, start: Expr | None) -> Expr:
+    """A polynomial in the variable of the equation, where the whole right-hand side is rational in it; or with integrals."""
+    equation = basis.equation
+    if not equation.h:
+        with suppress(LimitExceeded):
+            polynomial = _polynomial_solution(equation, equation.f / equation.a)
+            if polynomial is not None:
+                t = Atoms(sympy.Symbol(equation.variable))
+                return sympy.sympify(in_x(equation, t.poly(polynomial).xreplace(NUMBERS)))
+    return with_integrals(basis, right, start)
 
 
 def _without_integrals(basis: Basis, right: Expr) -> Expr | None:

@@ -9,13 +9,12 @@ import math
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from functools import reduce
-from itertools import product
 from operator import mul
 from typing import Any
 
 import sympy
 
-from kovacic.closed_form.atoms import hypergeometric
+from kovacic.closed_form.atoms import antiderivative_parameters, hypergeometric
 from kovacic.limits import check_time
 
 Expr = Any  # SymPy publishes no types
@@ -59,10 +58,9 @@ def slope(expression: Expr, x: Expr) -> Expr:
         return expression * (inner * expression.exp / expression.base)
     if isinstance(expression, sympy.hyper):
         z = expression.argument
-        for e, b in product(expression.ap, expression.bq):
-            if sympy.cancel(b - e) == 1:  # an antiderivative: z F' + e F is e times the function without e and b
-                rest = hypergeometric((*expression.ap, b), (*expression.bq, e), z)
-                return e * (rest - expression) * z.diff(x) / z
+        for e, b in antiderivative_parameters(expression):  # z F' + e F is e times the function without e and b
+            rest = hypergeometric((*expression.ap, b), (*expression.bq, e), z)
+            return e * (rest - expression) * z.diff(x) / z
     return expression.diff(x)
 
 

@@ -53,7 +53,8 @@ def in_book_form(value: Expr, x: Expr, free: Sequence[Expr] = ()) -> Expr:
         short = sympy.Add(*(sympy.Mul(*term.as_coeff_Mul()) for term in sympy.Add.make_args(value)))
     elif value.free_symbols != {x}:
         short = _with_short_coefficients(value, x)
-    value = shortest([value, short])
+    exponents = {e: exp(sympy.expand(e.args[0])) for e in value.atoms(exp) if e.args[0].is_Add}
+    value = shortest([value, short, value.xreplace(exponents)])
     for rule in _RULES_OF_GENERAL_SOLUTIONS if free else _SHAPE_RULES:
         if not is_small:
             break

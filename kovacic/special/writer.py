@@ -20,7 +20,7 @@ from sympy.polys.polytools import parallel_poly_from_expr
 from kovacic.algebra.poly import Poly
 from kovacic.algebra.ratfunc import RatFunc
 from kovacic.algebra.rationals import QQ
-from kovacic.closed_form.atoms import Atoms, Expr, display, factors, hypergeometric
+from kovacic.closed_form.atoms import Atoms, Expr, antiderivative_parameters, display, factors, hypergeometric
 from kovacic.closed_form.product import Power, Product, product
 from kovacic.numbers.exact import radical
 from kovacic.special.maps import HALF, Number, half_rate, multiplicities, root
@@ -204,9 +204,9 @@ class Writer:
         atoms = self.real if self.places or real_at is None else Atoms(self.atoms.x, at=real_at)
         P, Q = (Mul(display(f.product, atoms), *f.others) for f, _ in (first, second))
         place = real_at if real_at is not None and real_at.is_number else None
-        is_elementary = any(F.atoms(sympy.Function) <= F.atoms(exp) for _, F in (first, second))
-        # Beside an elementary member the other one shows its own poles.
-        numbers = [number for number in undefined if not is_elementary and self.has_letters(number)]
+        # An antiderivative shows its poles itself, and with the elementary member it has a Wronskian without series.
+        is_antiderivative = any(isinstance(F, sympy.hyper) and antiderivative_parameters(F) for _, F in (first, second))
+        numbers = [number for number in undefined if not is_antiderivative and self.has_letters(number)]
         excluded = tuple(_sine_of_letters(self.constant(number)) for number in numbers)
         x = self.atoms.x
         if self.transform is not None:

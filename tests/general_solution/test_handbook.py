@@ -29,6 +29,7 @@ x^2*y''-(a^2*x^2+n*(n+1))*y=0 | x^2*y''-(a*x^2+b*x+c)*y=0 | x^2*y''+a*x*y'+b*y=0
 (1-x^2)*y''-x*y'+n^2*y=0 | (1-x^2)*y''-2*x*y'+n*(n+1)*y=0 | (x^2-1)*y''+a*y=0 | (x^2+a^2)*y''+b^2*y'=0
 (1-x^2)*y''+(b-a-(a+b+2)*x)*y'+n*(n+a+b+1)*y=0 | (a*x^2+b)*y''+a*x*y'+c*y=0 | (x^2+a)*y''+2*b*x*y'+2*(b-1)*y=0
 x*(x-1)*y''+((a+b+1)*x-c)*y'+a*b*y=0 | x^4*y''+a*y=0 | x^4*y''-(a+b)*x^2*y'+((a+b)*x+a*b)*y=0 | x^6*y''-x^5*y'+a*y=0
+x*y''-(x+n)*y'+n*y=0 | x*y''+(n+1-x)*y'=0 | x*y''-(x+n)*y'=0
 """
 POWERS = """
 y''-a*x^n*y=0 | y''+a*x^n*y'=0 | y''-a*(a*x^(2*n)+n*x^(n-1))*y=0 | y''-a*x^(n-2)*(a*x^n+n+1)*y=0
@@ -48,6 +49,8 @@ y''-n*(n-1)/cos(x)^2*y=0 | y''-(a^2+n*(n-1)/sin(x)^2)*y=0 | y''+a*tanh(x)*y'+b*y
 y''-2*tan(x)*y'=0 | y''-2*tan(x)*y'+3*y=0 | y''-(a^2-2/cosh(x)^2)*y=0 | y''+(a^2-2/cos(x)^2)*y=0 | y''+(a^2-2/cosh(x)^2)*y=0
 y''+(b-a*(a+1)/cosh(x)^2)*y=0 | y''+(b+a*(a+1)/cosh(x)^2)*y=0 | y''+2*coth(x)*y'-a*y=0
 y''+coth(x)*y'-n*(n+1)*y=0 | y''+cot(x)*y'+n*(n+1)*y=0 | y''-(a^2+2/sinh(x)^2)*y=0 | y''+2*n*cot(2*x)*y'+b*y=0
+y''+2*coth(x)*y'-a*y=1 | y''+2*coth(x)*y'-a*y=cosh(x) | y''+cot(x)*y'+a*y=cos(x) | y''+tanh(x)*y'+a*y=sinh(x)
+y''+a*exp(x)*y=exp(x) | y''-2*y/cos(x)^2=1/cos(x)^2 | y''+a*y/cosh(x)^2=1/cosh(x)^2
 """
 LETTERS = [*map(sympy.Rational, ("1/3", "2", "-3/2", "5/7", "3", "-1/4", "7/2", "1", "-2", "9/5", "0", "-1"))]
 POINTS = [*map(sympy.Rational, ("1/7", "3/5", "-2/5", "13/10", "-7/4", "12/5", "4", "-5"))]
