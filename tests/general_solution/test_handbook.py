@@ -81,8 +81,8 @@ def test_what_is_printed_is_real_and_a_solution_where_it_says_so(text: str) -> N
     answer = kovacic.answer_to(text)
     y, x = answer.eq.rhs, answer.eq.lhs.args[0]
     constants = dict(zip(answer.names, (sympy.Integer(2), sympy.Rational(-3, 7)), strict=True))
-    a, b, c, _ = (e.xreplace({answer.question.x: x}) for e in answer.question.coefficients)
-    letters = sorted(sympy.Tuple(y, a, b, c).free_symbols - {x, *constants}, key=str)
+    coefficients = [e.xreplace({answer.question.x: x}) for e in answer.question.coefficients]
+    letters = sorted(sympy.Tuple(y, *coefficients).free_symbols - {x, *constants}, key=str)
     random = Random(text)
     drawn = ({x: random.choice(POINTS), **{s: random.choice(LETTERS) for s in letters}} for _ in range(DRAWN))
     places = [place for place in drawn if _holds(answer.validity, place)][:ENOUGH]
@@ -93,8 +93,8 @@ def test_what_is_printed_is_real_and_a_solution_where_it_says_so(text: str) -> N
         for place in places:
             y0, y1, y2 = (_number(e, place) for e in derivatives)
             assert abs(mpmath.im(y0)) <= 1e-12 * abs(y0) + 1e-25, (place, y0, answer.validity)
-            A, B, C = (_number(e, place) for e in (a, b, c))
-            terms = [A * y2, B * y1, C * y0]
+            a, b, c, f = (_number(e, place) for e in coefficients)
+            terms = [a * y2, b * y1, c * y0, -f]
             assert abs(sum(terms)) <= 1e-20 * sum(map(abs, terms)) + 1e-40, (place, answer.validity)
             u, du, v, dv = (_number(e, place) for e in pair)
             assert abs(u * dv - du * v) > 1e-70 * (abs(u * dv) + abs(du * v)), (place, answer.validity)
