@@ -15,7 +15,7 @@ from kovacic.bound_states.coordinates import RealPotential, check_poles, on_real
 from kovacic.bound_states.ends import End, end_of, potential_in_t
 from kovacic.bound_states.energies import tidied
 from kovacic.bound_states.families import (
-    StandardForm,
+    ExponentForm,
     bessel,
     oscillator,
     three_regular_points,
@@ -38,7 +38,7 @@ from kovacic.parametric.restriction import own_parameters
 from kovacic.reading.read import declared
 from kovacic.reading.symbolic import written_expression
 
-_STANDARD_FORMS: tuple[tuple[Callable[[SingularFrame, SpectralProblem], StandardForm | None], str], ...] = (
+_STANDARD_FORMS: tuple[tuple[Callable[[SingularFrame, SpectralProblem], ExponentForm | None], str], ...] = (
     (oscillator, "Hermite's polynomials"),
     (whittaker, "Whittaker's equation"),
     (three_regular_points, "three regular singular points"),

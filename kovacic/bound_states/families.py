@@ -121,7 +121,7 @@ def _ordered(frame: SingularFrame, roots: list[Root]) -> list[int]:
     return [*others, last]
 
 
-class _Point(NamedTuple):
+class _RegularPoint(NamedTuple):
     """One of the points w = 1, -1, oo, with delta and its sign."""
 
     spot: Spot
@@ -137,7 +137,7 @@ class _JacobiForm:
 
     frame: SingularFrame
     w: Any
-    points: tuple[_Point, _Point, _Point]
+    points: tuple[_RegularPoint, _RegularPoint, _RegularPoint]
     scale: Any
     n: Any
 
@@ -179,7 +179,7 @@ def _jacobi_form(frame: SingularFrame, roots: list[Root], deltas: list[Any], sig
     if any(sympy.cancel(w_of_z + sympy.I * form) == 0 for form in (z, 1 / z)):  # w = -i z, or -i/z
         order[0], order[1] = order[1], order[0]
         w_of_z = moebius(z, *(frame.spots[k].point for k in order))
-    first, second, third = (_Point(frame.spots[k], deltas[k]) for k in order)
+    first, second, third = (_RegularPoint(frame.spots[k], deltas[k]) for k in order)
     w = sympy.factor(w_of_z.xreplace({z: frame.coordinate}))
     slope = sympy.diff(w_of_z, z) ** 2 * frame.slope
     scale = sympy.simplify(slope / ((1 - w_of_z) ** first.spot.mu * (1 + w_of_z) ** second.spot.mu))
@@ -298,7 +298,7 @@ def _norm_between(form: _JacobiForm) -> Any:
     return None if integral is None else 2**powers * integral / sympy.sqrt(scale)
 
 
-def _integral_between(first: _Point, second: _Point, n: Any) -> Any:
+def _integral_between(first: _RegularPoint, second: _RegularPoint, n: Any) -> Any:
     """The integral of `_jacobi_integral` for the deltas and the mu of two points."""
     a = first.delta
     b = second.delta
@@ -355,7 +355,7 @@ def _shortened(norm: Any) -> Any:
 
 
 @dataclass(frozen=True)
-class StandardForm:
+class ExponentForm:
     """A standard equation: its `roots`, and what follows from them with signs, as functions of a list of them.
 
     `degree` is that of the polynomial in a solution, `demands` the conditions for it to be square integrable, beside those
@@ -383,14 +383,14 @@ class StandardForm:
                     yield found_levels.mapped(lambda part: plain(part.xreplace(radicals)))
 
 
-def three_regular_points(frame: SingularFrame, question: SpectralProblem) -> StandardForm:
+def three_regular_points(frame: SingularFrame, question: SpectralProblem) -> ExponentForm:
     """Equation (1)."""
     spots, signs = frame.spots, question.signs
     if len(spots) != 3 or any(spot.square is None for spot in spots):
         raise Uncovered("the equation hasn't three singular points, all of them regular")
     _check_ends(frame)
     roots = [Root.of(spot.square, question.E) for spot in spots]
-    return StandardForm(
+    return ExponentForm(
         roots,
         degree=lambda deltas: (-1 - sympy.Add(*deltas)) / 2,
         demands=lambda deltas: [d for at in zip(spots, deltas, strict=True) for d in _demands(question, frame, *at)],
@@ -399,7 +399,7 @@ def three_regular_points(frame: SingularFrame, question: SpectralProblem) -> Sta
     )
 
 
-def whittaker(frame: SingularFrame, question: SpectralProblem) -> StandardForm:
+def whittaker(frame: SingularFrame, question: SpectralProblem) -> ExponentForm:
     """Equation (2), from S_z = q + r/z + b/z^2."""
     z, signs = frame.z, question.signs
     square = sympy.cancel(frame.S * z**2)
@@ -418,7 +418,7 @@ def whittaker(frame: SingularFrame, question: SpectralProblem) -> StandardForm:
         decay = [above(direction * kappa, 0, strict=True) for direction in outwards]
         return [*decay, *_demands(question, frame, origin, delta)]
 
-    return StandardForm(
+    return ExponentForm(
         [Root.of(sympy.factor(q), question.E, positive=True), Root.of(sympy.factor(1 + 4 * b), question.E)],
         degree=lambda values: -r / (2 * values[0]) - (1 + values[1]) / 2,
         demands=demands,
@@ -427,7 +427,7 @@ def whittaker(frame: SingularFrame, question: SpectralProblem) -> StandardForm:
     )
 
 
-def oscillator(frame: SingularFrame, question: SpectralProblem) -> StandardForm:
+def oscillator(frame: SingularFrame, question: SpectralProblem) -> ExponentForm:
     """Equation (3): S = alpha x^2 + beta x + gamma on the whole line."""
     is_quadratic = frame.S.is_polynomial(frame.z) and sympy.degree(frame.S, frame.z) == 2
     if not (is_quadratic and frame.is_in_x and frame.domain == (-sympy.oo, sympy.oo)):
@@ -441,7 +441,7 @@ def oscillator(frame: SingularFrame, question: SpectralProblem) -> StandardForm:
         y = sympy.exp(-kappa * shifted**2 / 2) * sympy.hermite(n, sympy.sqrt(kappa) * shifted)
         return Wave(y, 2**n * sympy.factorial(n) * sympy.sqrt(sympy.pi / kappa))
 
-    return StandardForm(
+    return ExponentForm(
         [Root.of(sympy.factor(alpha), question.E, positive=True)],
         degree=lambda values: (beta**2 / (4 * alpha) - gamma) / (2 * values[0]) - sympy.Rational(1, 2),
         demands=lambda values: [above(values[0], 0, strict=True)],

@@ -462,9 +462,9 @@ def _rows_of_limit(limit: _Limit, solutions: _Solutions) -> tuple[list[Row], set
         back = {dummy: symbol for symbol, dummy in positive.items()}
         return [Row(*(part.xreplace(back) for part in (row.u, row.v, row.r))) for row in rows], {*positive}
     said = f"undecided: the solutions' behaviour at {limit.place.point}: {reason}"
-    unknown = sorted(str(s) for s in symbols - {limit.x} if s.is_positive is None and s.is_negative is None)
-    if unknown:
-        said += f"; assumptions may decide it, as {', '.join(f'{name}=positive' for name in unknown)}"
+    open_signs = sorted(str(s) for s in symbols - {limit.x} if s.is_positive is None and s.is_negative is None)
+    if open_signs:
+        said += f"; assumptions may decide it, as {', '.join(f'{name}=positive' for name in open_signs)}"
     raise NotImplementedError(said)
 
 

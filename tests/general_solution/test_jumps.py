@@ -188,7 +188,7 @@ def test_cases_with_a_gap_are_refused(cases: sympy.Expr, has_a_gap: bool) -> Non
         assert kovacic.dsolve(equation).lhs == y(x)
 
 
-STEPS = [
+AT_A_LETTER = [
     Heaviside(x - A),
     DiracDelta(x - A),
     sympy.exp(-x) * Heaviside(x - A),
@@ -203,7 +203,7 @@ STEPS = [
 ]
 
 
-@parametrize(("f", "left"), product(STEPS, [(0, 1), (3, 2)]), ordinary=3)
+@parametrize(("f", "left"), product(AT_A_LETTER, [(0, 1), (3, 2)]), ordinary=3)
 def test_a_step_at_a_parameter_beside_the_given_values(f: Any, left: tuple[Any, Any]) -> None:
     """At every value of a, before the given point, behind it and there, the answer with a is the one for that value."""
     b, c = map(sympy.sympify, left)
