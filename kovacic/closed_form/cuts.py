@@ -8,15 +8,18 @@ are written anew, with roots that are real there.
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
+from contextlib import suppress
 from itertools import pairwise
 from typing import Any
 
 import sympy
+from flint import acb, fmpq
 from sympy.functions.special.bessel import BesselBase
 
 from kovacic.algebra.ratfunc import RatFunc
 from kovacic.closed_form.atoms import is_seen_negative
 from kovacic.closed_form.check import are_independent, is_numerical_solution
+from kovacic.closed_form.jets import jet
 from kovacic.closed_form.structure import PLACES
 
 Expr = Any  # SymPy publishes no types
@@ -91,8 +94,20 @@ def negative_arguments(y: Expr, x: Expr, point: Expr, own: Own = sympy.sympify) 
 
 
 def _is_negative(u: Expr, x: Expr, point: Expr, own: Own) -> bool:
-    value = own(u.subs(x, point))
-    return is_seen_negative(value) if u.has(x) else bool(value.is_negative)
+    """As `_is_below_zero`, or with positive numbers for letters of unknown signs."""
+    if _is_below_zero(u, x, point, own):
+        return True
+    return u.has(x) and u.free_symbols != {x} and is_seen_negative(own(u.subs(x, point)))
+
+
+def _is_below_zero(u: Expr, x: Expr, point: Expr, own: Own) -> bool:
+    """By the ball of a number, or by SymPy where that has no sign."""
+    if u.free_symbols == {x} and point.is_Rational:
+        with suppress(NotImplementedError):
+            value = jet(u, x, acb(fmpq(int(point.p), int(point.q))))[0]
+            if value.is_finite() and not value.contains(0) and (value.imag == 0 or not value.imag.contains(0)):
+                return bool(value.imag == 0 and value.real < 0)
+    return bool(own(u.subs(x, point)).is_negative)
 
 
 def common_place(x: Expr, *parts: Expr, own: Own = sympy.sympify) -> Expr:
@@ -104,7 +119,7 @@ def common_place(x: Expr, *parts: Expr, own: Own = sympy.sympify) -> Expr:
     arguments = [list(arguments_with_cuts(part).values()) for part in parts]
 
     def on_cuts(point: Expr) -> list[int]:
-        return [sum(bool(own(u.subs(x, point)).is_negative) for u in of_part) for of_part in arguments]
+        return [sum(_is_below_zero(u, x, point, own) for u in of_part) for of_part in arguments]
 
     usual = next((point for point in _POINTS if not any(on_cuts(point))), None)
     if usual is not None:
