@@ -115,8 +115,7 @@ class Levels:
 
     def mapped(self, change: Callable[[Any], Any]) -> Levels:
         """With all expressions changed, without conditions that hold then."""
-        parts = (sympy.sympify(part) for part in (self.number, self.energy, self.wave, self.zeros))
-        number, energy, wave, zeros = map(change, parts)
+        number, energy, wave, zeros = map(change, (self.number, self.energy, self.wave, self.zeros))
         conditions = tuple(condition for condition in map(change, self.conditions) if condition != sympy.true)
         return Levels(number, energy, wave, conditions, zeros, None if self.norm is None else change(self.norm))
 

@@ -298,7 +298,9 @@ def period_of(coefficients: Coefficients) -> Any:
     x = coefficients.variable
     waves = sorted({e for part in coefficients.parts for e in part.atoms(*_WAVES) if e.has(x)}, key=str)
     known = {e: sympy.Dummy() for e in waves}
-    if not waves or any(part.xreplace(known).has(x) for part in (sympy.sympify(coefficients.a), *coefficients.parts)):
+    if not waves or any(
+        part.xreplace(known).has(x) for part in (sympy.sympify(coefficients.a, strict=True), *coefficients.parts)
+    ):
         return None
     rates = [e.args[0].diff(x) / (sympy.I if e.func is sympy.exp else 1) for e in waves]
     shares = [sympy.simplify(rate / rates[0]) for rate in rates]

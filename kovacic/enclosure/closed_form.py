@@ -61,13 +61,35 @@ class Exponential:
         return self.constants()[self.embedding]
 
     def omega(self, z: acb) -> acb:
-        """y'/y at z."""
+        """y'/y.
+
+        Parameters
+        ----------
+        z : acb
+            A point of the plane, not a zero of P.
+
+        Returns
+        -------
+        acb
+            The value at z.
+        """
         c = self.constant()
         P = embed(self.P, c)
         return value(self.theta, c, z) + P.derivative()(z) / P(z)
 
     def states(self, a: acb, b: acb) -> list[State]:
-        """y and y' at a and b, where E is 1 at a."""
+        """y and y', where the exponential is 1 at a.
+
+        Parameters
+        ----------
+        a, b : acb
+            The ends of a straight line without a singular point.
+
+        Returns
+        -------
+        list of State
+            The two values at a, and those at b.
+        """
         theta = log_derivative(self.theta, self.embedding)
         P = embed(self.P, self.constant())
         E = theta.growth(a, b)

@@ -57,7 +57,9 @@ def find_basis(question: Question, budget: Budget, *, special: bool = False) -> 
             solution.S, solution.decision, solution.gauge, solution.variable, budget, is_changed=is_changed
         )
         # under the assumptions on letters
-        special = any(question.own(condition) == 0 for condition in form.undefined)
+        below = [question.own(b) for f in sympy.Tuple(*form).atoms(sympy.hyper) for b in f.bq]
+        has_poles = any(b.is_integer and not b.is_positive for b in below)
+        special = has_poles or any(question.own(condition) == 0 for condition in form.undefined)
     if solution.case is not None and not special:
         known = None
         if is_changed:  # in t, where the quotient has values at more points

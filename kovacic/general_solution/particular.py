@@ -106,7 +106,7 @@ def _solved_in_t(basis: Basis, right: Expr, start: Expr | None) -> Expr:
             polynomial = _polynomial_solution(equation, equation.f / equation.a)
             if polynomial is not None:
                 t = Atoms(sympy.Symbol(equation.variable))
-                return sympy.sympify(in_x(equation, t.poly(polynomial).xreplace(NUMBERS)))
+                return in_x(equation, t.poly(polynomial).xreplace(NUMBERS))
     return with_integrals(basis, right, start)
 
 

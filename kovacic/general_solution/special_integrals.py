@@ -80,6 +80,8 @@ def power_beside_wave(term: Expr, x: Expr) -> Expr | None:
     if wave.func is cos:  # sin(u + d) = sin(u) cos(d) + cos(u) sin(d)
         d += sympy.pi / 2
     e = (s + 1) / m
+    if any(value.is_Integer and not value.is_positive for value in (e / 2, (e + 1) / 2)):  # a logarithm
+        return None
     z = -((c * x**m) ** 2) / 4
     half = sympy.S.Half
     of_cos = x ** (s + 1) / (s + 1) * hypergeometric((e / 2,), (half, e / 2 + 1), z)

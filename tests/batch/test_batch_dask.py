@@ -142,7 +142,7 @@ def test_a_scheduler_that_ends_is_named(tmp_path: Path) -> None:
         with started([sys.executable, "-m", "kovacic", *run], **pipes) as process:
             assert '"line": 1,' in process.stdout.readline()
             cluster.scheduler.kill()
-            _, errors = process.communicate(timeout=90)
+            _, errors = process.communicate(timeout=240)
     finally:
         cluster.stop()
     assert process.returncode == 4

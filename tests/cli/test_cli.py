@@ -285,7 +285,7 @@ def test_bad_input_does_not_stop_the_others(capsys: pytest.CaptureFixture[str]) 
         (["solve", "x^2-100001", "--limit", "unknown_degree=100"], 3),
         (["solve", "x^2-100001", "--limit", "seconds=0.000001"], 3),
         (["solve", "-x^2"], 0),
-        (["solve", "--var", "y", "y^2"], 0),
+        (["solve", "--var", "y", "y^2"], 2),  # y is the unknown function
         (["solve", "x^2-7", "--limit", "degree=5", "--limit", "bits=50"], 0),
         (["solve", "--", "-x"], 0),
         (["solve", "x^2", "--ics", "y(1)=1"], 0),

@@ -350,7 +350,7 @@ def test_threads_get_the_balls_that_each_would_get_alone_and_leave_the_precision
 @pytest.mark.parametrize("method", ["taylor", "closed form", None])
 @parametrize(
     "equation",
-    ["-1", "-2", "-1/(4*x^2)", "1 + 2/x^2", "9/(2*x^4 + 16*x^3 + 72*x^2 + 160*x + 200)", "y'' + y' + y = 0"],
+    ["-1", "-2", "1 + 2/x^2", "9/(2*x^4 + 16*x^3 + 72*x^2 + 160*x + 200)", "y'' + y' + y = 0"],
     ordinary=2,
 )
 def test_a_real_problem_has_a_real_ball(equation: str, method: Any) -> None:
