@@ -27,6 +27,7 @@ INTERNAL = {
     "Congruence",
     "Decision",
     "ExactPoint",
+    "Exponential",
     "FunctionPoly",
     "GivenSolutions",
     "NumericProblem",
