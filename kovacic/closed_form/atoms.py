@@ -50,6 +50,26 @@ def is_seen_negative(value: Expr) -> bool:
     return bool(value.xreplace(unknown).is_negative)
 
 
+def sign_of_root(value: Expr) -> int | None:
+    """The sign of the real part of A + B sqrt(r): that of B if A^2 < B^2 r, else that of A; None if it isn't known.
+
+    >>> p, q = sympy.symbols("p q", positive=True)
+    >>> sign_of_root((p - sympy.sqrt(p**2 + q)) / 2), sign_of_root(p + sympy.sqrt(p**2 - q))
+    (-1, 1)
+    """
+    above, below = sympy.fraction(sympy.together(value))
+    roots = [part for part in above.atoms(sympy.Pow) if part.exp == sympy.S.Half and not part.base.is_number]
+    if len(roots) == 1:
+        linear = sympy.Poly(above, roots[0])
+        A, B = linear.nth(0), linear.nth(1)
+        norm = sympy.expand(A**2 - B**2 * roots[0].base)
+        if linear.degree() > 1 or not norm.is_nonzero:
+            return None
+        above = B if norm.is_negative else A
+    signs = [1 if part.is_positive else -1 if part.is_negative else 0 for part in map(sympy.factor, (above, below))]
+    return signs[0] * signs[1] or None
+
+
 def rational(value: Fraction | int) -> Expr:
     """A SymPy rational number."""
     return Rational(value.numerator, value.denominator)

@@ -22,6 +22,7 @@ from sympy import Rational, cos, exp, factorial, gamma, log, pi, rf, sin, sqrt
 from sympy.functions.special.bessel import BesselBase
 
 from kovacic.algebra.precision import working_digits
+from kovacic.closed_form.atoms import sign_of_root
 from kovacic.closed_form.jets import ANTIDERIVATIVES, jet
 from kovacic.general_solution.substitution import finite_value, size
 from kovacic.general_solution.zero import is_zero, opposite, samples
@@ -166,11 +167,27 @@ def _by_sympy(e: Expr, variable: Expr, towards: Expr) -> Any:
     if size(e) > _LONGEST or any(f.has(variable) and not _is_known_to_sympy(f) for f in e.atoms(sympy.Function)):
         return None
     constant, rest = e.as_independent(variable, as_Add=False)
+    rates = _rates_with_signs(rest, variable)
     try:
-        found = sympy.limit(rest, variable, towards)
+        found = sympy.limit(rest.xreplace(rates), variable, towards)
     except (NotImplementedError, ValueError, TypeError, AttributeError, RecursionError, sympy.PoleError):
         return None
     return found if found.has(sympy.AccumBounds) else constant * found
+
+
+def _rates_with_signs(e: Expr, variable: Expr) -> dict[Expr, Expr]:
+    """Powers of e and of the variable with a rate of decay or growth whose sign SymPy doesn't see, and with one that it does.
+
+    These are the two roots of a quadratic equation, as in exp(x (v - sqrt(v^2 + 4 k))/2).
+    """
+    found = {}
+    for power in e.atoms(exp, sympy.Pow):
+        base, exponent = power.as_base_exp()
+        rate, rest = sympy.factor(exponent).as_independent(variable, as_Add=False)
+        sign = sign_of_root(rate) if rate.is_positive is None and rate.has(sympy.Pow) else None
+        if sign is not None and not base.has_free(*rate.free_symbols):
+            found[power] = base ** (sign * sympy.Dummy(positive=True) * rest)
+    return found
 
 
 def _term_by_term(e: Expr, variable: Expr, towards: Expr) -> Any:

@@ -14,7 +14,7 @@ from typing import Any
 
 import sympy
 
-from kovacic.closed_form.atoms import antiderivative_parameters, hypergeometric
+from kovacic.closed_form.atoms import antiderivative_parameters, hypergeometric, sign_of_root
 from kovacic.limits import check_time
 
 Expr = Any  # SymPy publishes no types
@@ -76,7 +76,9 @@ def _substituted(e: Expr, x: Expr, point: Expr) -> Expr:
         raise _SingularError from None
     if value.has(sympy.hyper, sympy.Integral, *_ODD):
         value = _at_zero(value)
-    if not _OPEN.isdisjoint(value.atoms()):
+    signs = {power: sign_of_root(power.exp) for power in value.atoms(sympy.Pow) if power.base == 0}
+    value = value.xreplace({power: _ZERO for power, sign in signs.items() if sign == 1})
+    if -1 in signs.values() or not _OPEN.isdisjoint(value.atoms()):
         raise _SingularError
     return value
 

@@ -137,7 +137,8 @@ class Vocabulary:
         for k in reversed(unknown):
             kind, piece, start, end = rows[k]
             name = piece.rstrip(PRIMES)
-            if not (len(name) == 2 and name.isalpha() and {*name} & {x, y} and not is_letter(name)):
+            is_product = len(name) == 2 and name.isalpha() and {*name} & {x, y} and not is_letter(name)
+            if not is_product or (name[0] == y and name[1] not in (x, y)):  # Ta: a product begins with its coefficient
                 raise self._unknown_name(tokens, unknown[0], x, y)
             if tokens.are(k - 1, "CIRCUMFLEX") or tokens.are(k - 2, "CIRCUMFLEX", "MINUS"):
                 hint = f"write ({name[0]}*{name[1]}) for the product"

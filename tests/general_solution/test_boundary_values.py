@@ -72,6 +72,10 @@ def numbers(expression: Any, count: int) -> Iterator[dict[Any, Any]]:
         yield {symbol: value for symbol, value in values.items() if symbol in expression.free_symbols}
 
 
+#: Letters with which a quadratic equation has roots of both signs.
+POSITIVE = {"k": "positive", "v": "positive"}
+
+
 def is_multiple(found: Any, expected: Any, point: Any) -> bool:
     """Is found a constant times expected: the determinant with the slopes vanishes at a point?"""
     total = found * expected.diff(x) - found.diff(x) * expected
@@ -323,6 +327,11 @@ def test_limits(left: Any, ics: dict[Any, Any], expected: Any) -> None:
         ("r^2*y'' + r*y' - m^2*y = 0", "y(0)=bounded", {"m": "natural"}, "C1*r**m"),
         ("r^2*y'' + r*y' - m^2*y = 0, y(0) = bounded", None, {"m": "positive"}, "C1*r**m"),
         ("(1-x^2)*y'' - 2*x*y' + n*(n+1)*y = 0", "y(1)=1", {"n": "natural"}, "legendre(n, x)"),
+        # The signs of both roots of a quadratic equation.
+        ("y'' - 2*v*y' - k*y = 0", "y(0)=1, y(oo)=0", POSITIVE, "exp(v*x - x*sqrt(k + v**2))"),
+        ("y'' - 2*v*y' - k*y = 0", "y(0)=1, y(-oo)=0", POSITIVE, "exp(v*x + x*sqrt(k + v**2))"),
+        ("x^2*y'' + (2*v+1)*x*y' - k*y = 0", "y(1)=1, y(oo)=0", POSITIVE, "x**(-v - sqrt(k + v**2))"),
+        ("x^2*y'' + (2*v+1)*x*y' - k*y = 0", "y(1)=1, y(0)=0", POSITIVE, "x**(-v + sqrt(k + v**2))"),
     ],
     ordinary=2,
     long=10,

@@ -704,6 +704,12 @@ def test_dsolve_warns_of_what_was_guessed(text: str, said: str) -> None:
         kovacic.dsolve(text)
 
 
+@pytest.mark.parametrize("text", ["T'' - m^2*(T - Ta) = 0, T(0) = Tb", "V'' + Vs = 0", "u' = k*(us - u)"])
+def test_an_unknown_with_an_index_is_not_a_product(text: str) -> None:
+    with pytest.raises(kovacic.ParseError, match=r"(?s)is one name, and not a known one.*declare it"):
+        kovacic.dsolve(text)
+
+
 @pytest.mark.parametrize(
     "door",
     [
