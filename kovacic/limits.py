@@ -146,10 +146,11 @@ class Budget:
 
     def check(self) -> None:
         if CLOCK.now() > self._deadline:
-            raise self._used_up()
+            raise self.exceeded()
 
-    def _used_up(self) -> LimitExceeded:
-        return LimitExceeded(f"the time limit of {self.seconds:g} s is used up", limit="seconds")
+    def exceeded(self, reason: str = "") -> LimitExceeded:
+        """The error of every time limit; the reason is what would take longer than the rest of the time."""
+        return LimitExceeded(f"the time limit of {self.seconds:g} s is exceeded{reason and f': {reason}'}", limit="seconds")
 
     @property
     def seconds_left(self) -> float:
@@ -250,7 +251,7 @@ def check_time() -> None:
     """Raise `LimitExceeded` if the watched budget has expired."""
     budget = _WATCHED.get()
     if budget is not None and CLOCK.now() > budget._deadline:  # called so often that another call would be felt
-        raise budget._used_up()
+        raise budget.exceeded()
 
 
 def watched_seconds(most: float) -> float:
@@ -276,4 +277,4 @@ def check_duration(seconds: float, what: str) -> None:
         return
     budget.check()
     if seconds > budget.seconds_left:
-        raise LimitExceeded(f"{what} takes about {seconds:.2g} s: more than the time limit allows", limit="seconds")
+        raise budget.exceeded(f"{what} takes about {seconds:.2g} s")

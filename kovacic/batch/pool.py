@@ -298,7 +298,7 @@ class Pool(AbstractContextManager["Pool"]):
                 raise KovacicError(f"a worker process hasn't started within {_START_SECONDS:g} s")
             item = child.items.popleft()
             self._replace(child, source)
-            reason = f"the time limit of {self.job.timeout:g} s is used up (process killed)"
+            reason = f"the time limit of {self.job.timeout:g} s is exceeded (process killed)"
             yield stopped(item, reason, time.monotonic() - child.busy_since)
 
     def _died(self, child: Child, source: ItemSource) -> Iterator[Record]:
@@ -314,10 +314,10 @@ class Pool(AbstractContextManager["Pool"]):
             return
         seconds = time.monotonic() - child.busy_since
         if self.job.memory is not None and _OUT_OF_MEMORY.search(words):
-            yield stopped(item, f"the memory limit of {self.job.memory} MiB is used up (process ended)", seconds)
+            yield stopped(item, f"the memory limit of {self.job.memory} MiB is exceeded (process ended)", seconds)
             return
         if self.job.timeout is not None and _signal_name(status) == "SIGALRM":
-            yield stopped(item, f"the time limit of {self.job.timeout:g} s is used up (process ended)", seconds)
+            yield stopped(item, f"the time limit of {self.job.timeout:g} s is exceeded (process ended)", seconds)
             return
         self._losses[item.number] += 1
         attempts = MOST_LOSSES if status < 0 else 1  # an exception repeats itself

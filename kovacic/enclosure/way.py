@@ -35,7 +35,7 @@ from kovacic.enclosure.matrices import (
 from kovacic.enclosure.points import ExactPoint, Number, around_zero, power_of_two, to_acb
 from kovacic.enclosure.singular import Singular
 from kovacic.errors import InputError, LimitExceeded
-from kovacic.limits import watched_seconds
+from kovacic.limits import check_duration, watched_seconds
 
 _TRIED = 32
 _WORTH = 0.2
@@ -191,7 +191,7 @@ class Forecast:
     is_known: bool = False
 
     def check(self, number: int) -> None:
-        """After so many discs: raise LimitExceeded if the time doesn't suffice for the others, as soon as that is clear."""
+        """Raise `LimitExceeded` if, after this number of discs, the remaining time clearly can't suffice for the others."""
         if number > MAX_DISCS:
             raise LimitExceeded(f"the path needs more than {MAX_DISCS} steps", limit="unknown_degree")
         used = self.begun - watched_seconds(math.inf)
@@ -200,16 +200,15 @@ class Forecast:
             self.refuse(used / number)
 
     def refuse(self, each: float = 0.0) -> None:
-        """Raise LimitExceeded if the limits don't allow all discs, of so many seconds each."""
+        """Raise `LimitExceeded` if the limits don't allow all discs, at `each` seconds a disc."""
         growth = self.growth()
         least = growth / self.in_a_disc
         size = f"exp({growth:.2g})" if growth < math.inf else "more than exp(1e308)"
-        way = f"on the way from {self.a} to {self.b}"
-        reason = f"the solutions grow or oscillate by {size} {way}, which takes {least:.2g} steps"
+        way = f"the way from {self.a} to {self.b}"
         if least > MAX_DISCS:
-            raise LimitExceeded(f"{reason} or more, above the limit of {MAX_DISCS}", limit="unknown_degree")
-        if each * (least - _TRIED) > watched_seconds(math.inf):
-            raise LimitExceeded(f"{reason} of {each:.2g} s each: more than the time limit allows", limit="seconds")
+            said = f"the solutions grow or oscillate by {size} on {way}, which takes {least:.2g} steps or more"
+            raise LimitExceeded(f"{said}, above the limit of {MAX_DISCS}", limit="unknown_degree")
+        check_duration(each * (least - _TRIED), way)
 
 
 class Way(ABC):

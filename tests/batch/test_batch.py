@@ -318,7 +318,7 @@ def test_lines_of_lost_processes_and_failed_checks(monkeypatch: pytest.MonkeyPat
     validator = jsonschema.Draft202012Validator(schema)
     item = Item(3, "x", extra={"id": "a"})
     validator.validate(refused(item, ProcessLost("the worker process ended with signal SIGKILL"), 0.5).data)
-    validator.validate(stopped(item, "the memory limit of 30 MiB is used up", 0.5).data)
+    validator.validate(stopped(item, "the memory limit of 30 MiB is exceeded", 0.5).data)
     validator.validate(solve_item(item, Job(), Limits(degree=1, text_length=0)).data)
 
     def failing(*arguments: object, **options: object) -> None:

@@ -96,7 +96,7 @@ def test_the_verdict_does_not_wait_for_the_solutions(
     """Where the closed forms are beyond the limits, the verdict has been printed, and stays."""
 
     def late(*_: object, **options: object) -> None:
-        raise kovacic.LimitExceeded("the time limit is used up", limit="seconds")
+        raise kovacic.LimitExceeded("the time limit is exceeded", limit="seconds")
 
     monkeypatch.setattr("kovacic.special.choice.solutions", late)
     run(["solve", "x^2 + 3"])

@@ -167,7 +167,7 @@ def test_an_explanation_says_what_it_leaves_out(format: str) -> None:
 def test_an_explanation_without_time_has_the_rest() -> None:
     with controlled(step=1):
         timeless = answer("x^2 - 1", Limits(seconds=0)).explain(solutions=False)
-    assert "isn't written out: the time limit of 0 s is used up" in timeless
+    assert "isn't written out: the time limit of 0 s is exceeded" in timeless
     assert "References" in timeless
 
 
@@ -236,7 +236,7 @@ def test_every_place_looks_at_the_clock() -> None:
         assert len(engine) == 2
         clock.move(2)
         for place in (*engine, *points(S, budget)[:2]):
-            with pytest.raises(LimitExceeded, match="the time limit"):
+            with pytest.raises(LimitExceeded, match="the time limit of 1 s is exceeded"):
                 _ = place.logarithm
 
 
@@ -363,7 +363,7 @@ def test_a_limited_call_takes_its_limits_from_the_keyword_or_the_object() -> Non
         assert Thing().left() == 7
         assert Thing().left(limits=Limits(seconds=3)) == 3
         assert alone() == 600
-        with pytest.raises(LimitExceeded, match="the time limit of 2 s"):
+        with pytest.raises(LimitExceeded, match="the time limit of 2 s is exceeded"):
             limited(lambda *, limits: (clock.move(3), check_time()))(limits=Limits(seconds=2))
 
 
@@ -456,7 +456,7 @@ def test_a_batch_writes_its_record_within_the_time_of_the_equation(text: str, gr
     for looks in (found_after // 2, found_after + 3):
         with controlled(step=1 / looks) as clock:
             record = solve_item(item, job, job.engine_limits)
-        assert "the time limit" in record.data["proof"]["undecided"]
+        assert "the time limit of 1 s is exceeded" in record.data["proof"]["undecided"]
     assert clock.looks <= looks + 20
 
 

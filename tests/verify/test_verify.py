@@ -691,12 +691,12 @@ def test_the_check_keeps_to_the_time_limit() -> None:
 
 def test_an_answer_whose_check_is_not_finished_is_undecided(monkeypatch: pytest.MonkeyPatch) -> None:
     def exhausted(*_: Any, **__: Any) -> None:
-        raise LimitExceeded("the time limit of 1 s is used up", limit="seconds")
+        raise LimitExceeded("the time limit of 1 s is exceeded", limit="seconds")
 
     monkeypatch.setattr("kovacic.api.verify", exhausted)
     answer = kovacic.solve("x^2 + 3")
     assert answer.status is kovacic.Status.UNDECIDED
-    assert answer.reason == "while the answer was verified: the time limit of 1 s is used up"
+    assert answer.reason == "while the answer was verified: the time limit of 1 s is exceeded"
     assert (answer.omega, answer.group, answer.proof, answer.verified) == (None, None, (), False)
 
 
