@@ -182,6 +182,7 @@ _INDEXED_OPERATOR = re.compile(r"d_([a-z])\1*")
 #: Fractions and roots without braces within each other: 2^20 looks where each is looked at twice.
 _DEEPEST = 20
 _LONGEST_QUOTIENT = 36  # tokens of the quotient of a derivative
+_LONGEST_NUMERATOR = 12
 #: What the argument of a function without parentheses ends with, as in cos omega t.
 _VARIABLES = frozenset("xtzsr") | {"theta", "phi", "tau", "xi", "rho"}
 
@@ -247,9 +248,7 @@ class _Translation:
             self.k = k
             self.close()
         end = max(self.scan[-1].end if self.scan else 0, len(self.text))
-        has_dots = self.scan.has(("PRIMES",)) and any(
-            token.kind == "PRIMES" and DOTS in token.text for token in self.scan
-        )
+        has_dots = any(token.kind == "PRIMES" and DOTS in token.text for token in self.scan)
         variable = "t" if has_dots else None
         return Sentence.of([*self.found, Token("$END", "", end, end)], self.text, variable)
 
@@ -341,31 +340,27 @@ class _Translation:
         """y or None, x, the order, and the number of the token behind d^2y/dx^2 or d^2/dx^2; None for anything else."""
         text = self.texts[k]
         if _INDEXED_OPERATOR.fullmatch(text) and self.text.startswith(("∂", "\\partial"), self.scan[k].start):
-            power, behind = "1", k + 1
-            if self.texts[behind] in _POWERS or self.kinds[behind] == "SUPERSCRIPT":
-                power, behind = self.exponent(behind)
-            return (None, text[2], int(power) * len(text[2:]), behind) if power.isdigit() else None
-        if text in OPENING and 0 < self.partner.get(k, k) - k < _LONGEST_QUOTIENT:
+            power, end = self.exponent(k + 1)
+            power = power or "1"
+            return (None, text[2], int(power) * len(text[2:]), end) if power.isdigit() else None
+        closing = self.partner.get(k, k)
+        if 0 < closing - k < _LONGEST_QUOTIENT:
             inner = self.quotient(k + 1)
-            if inner is not None and inner[3] == self.partner.get(k):
-                return (*inner[:3], inner[3] + 1)
+            if inner is not None and inner[3] == closing:
+                return (*inner[:3], closing + 1)
         if text in FRACTIONS:
-            begin, slash = k + 1, self.operand_end(k + 1)
-            end = None if slash is None else self.operand_end(slash)
-        elif text.startswith("d") or text == "(":  # the denominator is dx^2, (dx)^2 or (dx^2)
-            begin, slash = k, next((j for j in range(k, min(k + 12, len(self.scan))) if self.texts[j] == "/"), None)
-            end = slash and (slash + 3 if self.texts[slash + 1] == "d" else self.partner.get(slash + 1, slash + 1) + 1)
-            if end and self.texts[end] in _POWERS:
-                end = self.operand_end(end + 1) or end
-            elif end:
-                end += self.kinds[end] == "SUPERSCRIPT"
+            begin, middle = k + 1, self.operand_end(k + 1)
+            end = middle and self.operand_end(middle)
+        elif (text.startswith("d") or closing > k) and "/" in self.texts[k : k + _LONGEST_NUMERATOR]:
+            begin, middle = k, self.texts.index("/", k)
+            first = middle + 1  # of dx^2, (dx)^2 or (dx^2)
+            end = self.power_end(first + 2 if self.texts[first] == "d" else self.partner.get(first, first) + 1)
         else:
             return None
-        is_around = text == "(" and slash is not None and self.partner.get(k, slash) > slash  # (d/dx + 1)
-        if slash is None or end is None or end - k > _LONGEST_QUOTIENT or is_around:
+        if not end or end - k > _LONGEST_QUOTIENT or closing > middle:  # (d/dx + 1)
             return None
-        numerator = _NUMERATOR.fullmatch(self.compact(begin, slash))
-        denominator = _DENOMINATOR.fullmatch(self.compact(slash, end).removeprefix("/"))
+        numerator = _NUMERATOR.fullmatch(self.compact(begin, middle))
+        denominator = _DENOMINATOR.fullmatch(self.compact(middle, end).removeprefix("/"))
         if not numerator or not denominator or numerator[1] != denominator[2]:
             return None
         return numerator[2], denominator[1], int(numerator[1] or 1), end
@@ -415,14 +410,13 @@ class _Translation:
         power: list[tuple[str, str]] = []
         if name not in BARE and not self.latex:
             return False
-        if self.texts[k] in _POWERS or self.kinds[k] == "SUPERSCRIPT":
-            exponent, k = self.exponent(k)
-            if exponent == "-1":
-                name = self.inverse(token)
-            elif exponent.isalnum():
-                power = [("CIRCUMFLEX", "^"), ("NUMBER" if exponent.isdigit() else "NAME", exponent)]
-            else:
-                return False
+        exponent, k = self.exponent(k)
+        if exponent == "-1":
+            name = self.inverse(token)
+        elif exponent.isalnum():
+            power = [("CIRCUMFLEX", "^"), ("NUMBER" if exponent.isdigit() else "NAME", exponent)]
+        elif exponent:
+            return False
         behind = self.factors_end(k)
         if behind is None:
             return False
@@ -434,12 +428,17 @@ class _Translation:
         return True
 
     def exponent(self, k: int) -> tuple[str, int]:
-        """The exponent that begins with its sign at number k, and the number of the token behind it."""
-        end = k + 1
-        if self.texts[k] in _POWERS:
-            first = k + 1 + (self.texts[k + 1] == "-")
-            end = self.partner.get(first, first) + 1
+        """The exponent that begins with its sign at number k, empty if there is none, and the number of the token behind it."""
+        end = self.power_end(k)
         return self.compact(k, end).removeprefix("^"), end
+
+    def power_end(self, k: int) -> int:
+        """The number of the token behind ^2, ^{-2}, ^n or ², beginning at number k; k if there is no exponent."""
+        if self.texts[k] not in _POWERS:
+            return k + (self.kinds[k] == "SUPERSCRIPT")
+        first = k + 1 + (self.texts[k + 1] == "-")
+        # A letter alone: in sin^n (x) the parentheses are the argument of the sine.
+        return first + 1 if self.kinds[first] == "WORD" else self.operand_end(first) or k
 
     def inverse(self, token: Token) -> str:
         r"""asin for \sin^{-1}: what it means in books, and no reciprocal."""
@@ -459,9 +458,7 @@ class _Translation:
         if end == k:
             return None
         is_call = self.texts[k] in ("(", "[") and self.partner.get(k) == end - 1
-        if self.texts[end] in _POWERS and not is_call:
-            return self.operand_end(end + 1) or end
-        return end + (self.kinds[end] == "SUPERSCRIPT" and not is_call)
+        return end if is_call else self.power_end(end)
 
     def letters_end(self, k: int) -> int:
         """The number of the token behind the letters up to one that usually is a variable; else behind the first one."""
@@ -554,7 +551,7 @@ class _Translation:
 
     def check_radicand(self, token: Token, k: int, end: int) -> None:
         """Raise `ParseError` for √x², √xy and √2x, whose radicand is ambiguous."""
-        has_power = self.texts[end] in (*_POWERS, "(") or self.kinds[end] == "SUPERSCRIPT"
+        has_power = self.texts[end] == "(" or self.power_end(end) > end
         is_glued = self.kinds[end] == "WORD" and self.scan[end].start == self.scan[end - 1].end
         is_factor = is_glued and not is_function(self.texts[end]) and self.kinds[end + 1] != "PRIMES"
         is_product = self.kinds[k] == "WORD" and not _is_name(self.texts[k])

@@ -93,8 +93,9 @@ class Vocabulary:
         if is_equation or x != "e":
             _check_two_readings(split, *_EXPONENT, unknown=y)
         is_usual = is_equation and x in (DEFAULT_VARIABLE, "t")
-        notes = [why] if why and is_usual else []
-        guesses = [*_guesses(tokens), *([why] if why and not is_usual else []), *products]
+        reasons = [why] if why else []
+        notes, guessed = (reasons, []) if is_usual else ([], reasons)
+        guesses = [*_guesses(tokens), *guessed, *products]
         guesses += self._imaginary_unit(split, x, y)
         named = _with_factors(split, x, y) if "HEAD" in split.kinds else split
         if has_operator:
@@ -193,16 +194,12 @@ def _guesses(tokens: Sentence) -> list[str]:
 
 def _divided_functions(tokens: Sentence) -> Iterator[str]:
     """Notes on sin x/2, which is (sin x)/2 and may be meant as sin(x/2): no parentheses, and no blank before the slash."""
-    opened: list[int] = []
-    for k, kind in enumerate(tokens.kinds if "HEAD" in tokens.kinds else ()):
-        if kind == "LPAR":
-            opened.append(k)
-        elif kind == "RPAR" and opened:
-            first = opened.pop() - 1
-            is_bare = tokens.rows[k].start == tokens.rows[k].end and tokens.kinds[first] == "HEAD"
-            if is_bare and tokens.are(k + 1, "SLASH") and tokens.rows[k - 1].end == tokens.rows[k + 1].start:
-                function, below = tokens.piece(first, k), tokens.pieces[k + 2]
-                yield f"{function}/{below} was read as ({function})/{below}"
+    for opening, k in tokens.rows.partners.items() if "HEAD" in tokens.kinds else ():
+        head = opening - 1
+        is_bare = tokens.rows[k].start == tokens.rows[k].end and tokens.kinds[head] == "HEAD"
+        if is_bare and tokens.are(k + 1, "SLASH") and tokens.rows[k - 1].end == tokens.rows[k + 1].start:
+            function, below = tokens.piece(head, k), tokens.pieces[k + 2]
+            yield f"{function}/{below} was read as ({function})/{below}"
 
 
 def _check_stiffness(tokens: Sentence, declared: Collection[str]) -> None:

@@ -558,7 +558,9 @@ def _placed_values(text: str, scan: Tokens) -> Iterator[PlacedValue]:
         hint = 'write "y(0)=1, y\'(0)=0", each with its value'
         raise error_at(text, f"{text[scan[0].start : scan[-1].end]!r} isn't an initial value", scan, hint)
     for tokens in sides[1:-1]:  # 1 y'(0), between two equals signs
-        calls = [k for k, kind in enumerate(tokens.kinds) if kind == "HEAD" and _is_last_call(tokens, k)]
+        last = len(tokens.kinds) - 2  # before $END
+        closing = tokens.rows.partners
+        calls = [k for k, kind in enumerate(tokens.kinds) if kind == "HEAD" and closing.get(k + 1, last) == last]
         if 0 not in calls:
             hint = "write y(0) = 1, y'(0) = 0"
             if calls:
@@ -569,13 +571,3 @@ def _placed_values(text: str, scan: Tokens) -> Iterator[PlacedValue]:
             raise error_at(text, "a comma is missing between two values", scan, hint)
     for place in places:
         yield PlacedValue(place, value)
-
-
-def _is_last_call(tokens: Sentence, k: int) -> bool:
-    """True if the call that begins with token k ends with the text."""
-    depth = 0
-    for j, kind in enumerate(tokens.kinds[k + 1 : -1], k + 1):
-        depth += (kind == "LPAR") - (kind == "RPAR")
-        if depth == 0:
-            return j == len(tokens.kinds) - 2
-    return True
