@@ -182,7 +182,6 @@ _INDEXED_OPERATOR = re.compile(r"d_([a-z])\1*")
 #: Fractions and roots without braces within each other: 2^20 looks where each is looked at twice.
 _DEEPEST = 20
 _LONGEST_QUOTIENT = 36  # tokens of the quotient of a derivative
-_LONGEST_NUMERATOR = 12
 #: What the argument of a function without parentheses ends with, as in cos omega t.
 _VARIABLES = frozenset("xtzsr") | {"theta", "phi", "tau", "xi", "rho"}
 
@@ -351,7 +350,7 @@ class _Translation:
         if text in FRACTIONS:
             begin, middle = k + 1, self.operand_end(k + 1)
             end = middle and self.operand_end(middle)
-        elif (text.startswith("d") or closing > k) and "/" in self.texts[k : k + _LONGEST_NUMERATOR]:
+        elif (text.startswith("d") or closing > k) and "/" in self.texts[k : k + _LONGEST_QUOTIENT]:
             begin, middle = k, self.texts.index("/", k)
             first = middle + 1  # of dx^2, (dx)^2 or (dx^2)
             end = self.power_end(first + 2 if self.texts[first] == "d" else self.partner.get(first, first) + 1)
@@ -462,7 +461,7 @@ class _Translation:
 
     def letters_end(self, k: int) -> int:
         """The number of the token behind the letters up to one that usually is a variable; else behind the first one."""
-        for last in range(k, min(k + _LONGEST_QUOTIENT, len(self.scan))):
+        for last in range(k, len(self.scan)):
             if self.texts[last] in _VARIABLES:
                 return last + 1
             if not _is_name(self.texts[last]) or self.kinds[last + 1] == "PRIMES":

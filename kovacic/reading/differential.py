@@ -35,7 +35,6 @@ from kovacic.reading.names import FUNCTION_NAMES, NUMBERS, SEVERAL_ARGUMENTS, TR
 from kovacic.reading.parser import Site, evaluate
 
 _ORDER = 2
-_LARGEST_ORDER = 100
 
 
 class EquationReader(RationalReader):
@@ -203,7 +202,7 @@ class EquationReader(RationalReader):
         if head in DERIVATIVES:
             function, *by = arguments
             order = differentiations(by, self._is_variable, self.arithmetic, self.variable)
-            if isinstance(function, tuple) or order > _LARGEST_ORDER:
+            if isinstance(function, tuple):
                 raise NotLinear("this isn't a derivative that can be read")
             return self._derived(function, order)
         if head in self.names:

@@ -24,8 +24,8 @@ from kovacic.reading.parser import Comparison
 
 #: The largest exponent of a power that SymPy computes.
 _LARGEST_SYMBOLIC_EXPONENT = 1000
-#: The highest power of an operator with D.
-_HIGHEST_POWER = 10
+#: The highest order of a derivative or operator: ((D^10)^10) y takes half a second, and a power of it would take minutes.
+_HIGHEST_ORDER = 100
 
 LINEAR_HINT = "the equation is a y'' + b y' + c y = f, where a, b, c and f depend on the variable alone"
 
@@ -170,9 +170,9 @@ class LinearArithmetic(Arithmetic):
         """The sum of c_k D^k, applied to a form, or to another operator: D c = c' + c D."""
         terms = []
         for k in range(max(operator.parts) + 1):
+            form = self.derivative(form) if k else form
             if k in operator.parts:
                 terms.append(self._multiple(form, operator.parts[k]))
-            form = self.derivative(form)
         return self.sum(terms)
 
     def of_several(self, head: str, arguments: Sequence[Any]) -> Any:
@@ -219,7 +219,7 @@ class LinearArithmetic(Arithmetic):
             return super().power(base, n)
         if not isinstance(base, LinearForm):
             return self.symbolic_power(base, self.constant(n))
-        if isinstance(base, DerivativeOperator) and 0 < n <= _HIGHEST_POWER:
+        if isinstance(base, DerivativeOperator) and n > 0:
             power = base
             for _ in range(n - 1):
                 power = self._applied(base, power)
@@ -267,6 +267,7 @@ class LinearArithmetic(Arithmetic):
     def derivative(self, value: Any) -> Any:
         if isinstance(value, LinearForm):
             # (c y^(k))' = c' y^(k) + c y^(k+1)
+            check_order(max(value.parts) + 1)
             kind = type(value)
             slopes = [kind({k: self.derivative(c)}) for k, c in value.parts.items()]
             higher = [kind({k + 1: c}) for k, c in value.parts.items() if k != REST]
@@ -281,6 +282,12 @@ class LinearArithmetic(Arithmetic):
         if not is_rational(value):
             raise NotRational(f"this isn't a rational function of {self.variable}")
         return super().rational(value)
+
+
+def check_order(order: int) -> None:
+    """Raise `NotLinear` for a derivative or an operator of a higher order than any that is read."""
+    if order > _HIGHEST_ORDER:
+        raise NotLinear(f"a derivative of order {order}, above the limit of {_HIGHEST_ORDER}", hint=LINEAR_HINT)
 
 
 def differentiations(
@@ -306,6 +313,7 @@ def differentiations(
             hint = "the unknown function has one variable; a partial differential equation isn't read"
             raise NotLinear(f"a derivative with respect to something else than {variable}", hint=hint)
         follows_variable = not is_pair and is_variable(argument)
+    check_order(order)
     return order
 
 
