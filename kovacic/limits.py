@@ -150,7 +150,9 @@ class Budget:
 
     def exceeded(self, reason: str = "") -> LimitExceeded:
         """The error of every time limit; the reason is what would take longer than the rest of the time."""
-        return LimitExceeded(f"the time limit of {self.seconds:g} s is exceeded{reason and f': {reason}'}", limit="seconds")
+        return LimitExceeded(
+            f"the time limit of {self.seconds:g} s is exceeded{reason and f': {reason}'}", limit="seconds"
+        )
 
     @property
     def seconds_left(self) -> float:
