@@ -339,9 +339,9 @@ class _Translation:
         """y or None, x, the order, and the number of the token behind d^2y/dx^2 or d^2/dx^2; None for anything else."""
         text = self.texts[k]
         if _INDEXED_OPERATOR.fullmatch(text) and self.text.startswith(("∂", "\\partial"), self.scan[k].start):
-            power, end = self.exponent(k + 1)
+            power, behind = self.exponent(k + 1)
             power = power or "1"
-            return (None, text[2], int(power) * len(text[2:]), end) if power.isdigit() else None
+            return (None, text[2], int(power) * len(text[2:]), behind) if power.isdigit() else None
         closing = self.partner.get(k, k)
         if 0 < closing - k < _LONGEST_QUOTIENT:
             inner = self.quotient(k + 1)
@@ -356,7 +356,7 @@ class _Translation:
             end = self.power_end(first + 2 if self.texts[first] == "d" else self.partner.get(first, first) + 1)
         else:
             return None
-        if not end or end - k > _LONGEST_QUOTIENT or closing > middle:  # (d/dx + 1)
+        if middle is None or end is None or end - k > _LONGEST_QUOTIENT or closing > middle:  # (d/dx + 1)
             return None
         numerator = _NUMERATOR.fullmatch(self.compact(begin, middle))
         denominator = _DENOMINATOR.fullmatch(self.compact(middle, end).removeprefix("/"))
