@@ -45,7 +45,6 @@ class Verdict:
     reason: str | None = None
 
 
-@limited
 def find_answer(
     S: Any = None,
     *,
@@ -58,7 +57,7 @@ def find_answer(
     parameters: Sequence[str] = (),
     limits: Limits = DEFAULT_LIMITS,
 ) -> Answer:
-    """The answer of `kovacic.solve` as data; arguments and exceptions are the same."""
+    """The answer of `kovacic.solve`, which watches the time, as data; arguments and exceptions are the same."""
     start = time.perf_counter()
     coefficients = {"a": a, "b": b, "c": c, "f": f}
     S, parsed, assume = _read_question(S, coefficients, var, assume, parameters, limits)

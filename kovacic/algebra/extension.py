@@ -217,16 +217,34 @@ class ExtensionPoly(Poly):
     def _add(self, other: ExtensionPoly) -> ExtensionPoly:
         return ExtensionPoly(self.field, tuple(a + b for a, b in zip(self.parts, other.parts, strict=True)))
 
+    def __mul__(self, other: Poly | Scalar) -> ExtensionPoly:
+        if self._has_below(other):
+            return ExtensionPoly(self.field, tuple([part * other for part in self.parts]))
+        return super().__mul__(other)
+
+    __rmul__ = __mul__
+
+    def __truediv__(self, other: Poly | Scalar) -> ExtensionPoly:
+        if self._has_below(other):
+            return ExtensionPoly(self.field, tuple([part / other for part in self.parts]))
+        return super().__truediv__(other)
+
+    def _has_below(self, other: object) -> bool:
+        """True for numbers and for polynomials over a field below: they act on the coordinates."""
+        if isinstance(other, Poly):
+            return other.field is not self.field and self.field.extends(other.field)
+        return isinstance(other, (int, Fraction))
+
     def _mul(self, other: ExtensionPoly) -> ExtensionPoly:
         check_time()
-        n = self.field.dimension
         modulus = self.field.modulus
+        n = modulus.degree
         products: list[Poly] = [self.field.base.poly([])] * (2 * n - 1)
+        right = [(j, b) for j, b in enumerate(other.parts) if b]
         for i, a in enumerate(self.parts):
             if a:
-                for j, b in enumerate(other.parts):
-                    if b:
-                        products[i + j] = products[i + j] + a * b
+                for j, b in right:
+                    products[i + j] = products[i + j] + a * b
         for top in range(2 * n - 2, n - 1, -1):
             if products[top]:
                 for i in range(n):

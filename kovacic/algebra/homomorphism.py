@@ -18,7 +18,7 @@ class BadPrimeError(Exception):
     """The prime divides a denominator, or loses structure that the caller relies on: take another one."""
 
 
-class Homomorphism(ABC):
+class Homomorphism:
     """A ring homomorphism from the p-integral elements of a field to F_p, extended to polynomials."""
 
     __slots__ = ()

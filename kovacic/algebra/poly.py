@@ -10,7 +10,7 @@ A field adds: factoring, homomorphisms to prime fields (`bundles`), and the way 
 
 from __future__ import annotations
 
-from abc import ABC, abstractmethod
+from abc import abstractmethod
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from fractions import Fraction
 from math import gcd, lcm
@@ -31,7 +31,7 @@ class Immutable:
         raise AttributeError("polynomials and rational functions are immutable")
 
 
-class Poly(Immutable, ABC):
+class Poly(Immutable):
     """A polynomial over `self.field`, immutable and hashable; arithmetic with `+ - * ** // % divmod` and scalars.
 
     The degree of the zero polynomial is -1.  A polynomial over a field combines with one over an extension of that field;
@@ -283,7 +283,7 @@ class Poly(Immutable, ABC):
         return f"<{type(self).__name__} {self.to_str()}>"
 
 
-class Field(ABC):
+class Field:
     """An exact field K of characteristic 0 with polynomial arithmetic, factoring, and homomorphisms to prime fields."""
 
     __slots__ = ()

@@ -75,6 +75,7 @@ class RationalPoly(Poly):
     __slots__ = ("rep",)
 
     rep: Any  # fmpq_poly, never changed after construction
+    field: RationalField  # `QQ`, an attribute of the class
 
     def __init__(self, rep: Any) -> None:
         _set_rep(self, rep)
@@ -84,10 +85,6 @@ class RationalPoly(Poly):
 
     def key(self) -> tuple[Any, ...]:
         return tuple(int(c) for c in self.rep.numer().coeffs()), int(self.rep.denom())
-
-    @property
-    def field(self) -> RationalField:
-        return QQ
 
     @property
     def degree(self) -> int:
@@ -131,7 +128,9 @@ class RationalPoly(Poly):
             return RationalPoly(self.rep * other.rep)
         if type(other) is int:
             return RationalPoly(self.rep * other)
-        return RationalPoly(self.rep * to_fmpq(other)) if type(other) is Fraction else super().__mul__(other)
+        if type(other) is Fraction:
+            return RationalPoly(self.rep * to_fmpq(other))
+        return other * self if isinstance(other, Poly) else NotImplemented
 
     __rmul__ = __mul__
 
@@ -170,17 +169,21 @@ class RationalPoly(Poly):
             foresee_move(self.degree * point.degree, self.height_bits(), point.height_bits())
         return RationalPoly(fmpq_poly([self.rep(point.rep[0])]) if constant else self.rep(point.rep))
 
+    def __divmod__(self, other: Poly | Scalar) -> tuple[RationalPoly, RationalPoly]:
+        return self._divmod(other) if type(other) is RationalPoly else super().__divmod__(other)
+
     def _divmod(self, other: RationalPoly) -> tuple[RationalPoly, RationalPoly]:
         quotient, remainder = _long_division(self.rep, other.rep)
         return RationalPoly(quotient), RationalPoly(remainder)
 
     def exact_quotient(self, divisor: Poly) -> RationalPoly | None:
-        if type(divisor) is not RationalPoly or min(self.degree, divisor.degree) <= _LOOK_DEGREE:
+        if type(divisor) is not RationalPoly:
             return super().exact_quotient(divisor)
-        quotient = _exact_quotient(self.rep.numer(), divisor.rep.numer())
-        if quotient is None:
-            return None
-        return RationalPoly(quotient * fmpq(divisor.rep.denom(), self.rep.denom()))
+        if self.rep.degree() > _LOOK_DEGREE and divisor.rep.degree() > _LOOK_DEGREE:
+            quotient = _exact_quotient(self.rep.numer(), divisor.rep.numer())
+            return None if quotient is None else RationalPoly(quotient * fmpq(divisor.rep.denom(), self.rep.denom()))
+        quotient, remainder = _long_division(self.rep, divisor.rep)
+        return None if remainder else RationalPoly(quotient)
 
     def __pow__(self, exponent: int) -> RationalPoly:
         if exponent < 0:
@@ -290,9 +293,13 @@ class RationalHomomorphism(Homomorphism):
         return image * pow(residue, -1, self.p)
 
 
-@dataclass(frozen=True, slots=True)
 class RationalField(Field):
-    """The field Q of rational numbers."""
+    """The field Q of rational numbers; there is one, `QQ`, so that fields are compared at no cost."""
+
+    __slots__ = ()
+
+    def __reduce__(self) -> str:
+        return "QQ"
 
     def poly(self, coefficients: Iterable[Scalar | Poly]) -> RationalPoly:
         return RationalPoly(fmpq_poly([c if type(c) is int else _flint_scalar(c) for c in coefficients]))
@@ -339,6 +346,9 @@ class RationalField(Field):
 
     def __str__(self) -> str:
         return "Q"
+
+    def __repr__(self) -> str:
+        return "RationalField()"
 
 
 def foresee_move(degree: int, bits: int, point_bits: int) -> None:
@@ -459,3 +469,4 @@ def _flint_scalar(value: Scalar | Poly) -> Any:
 
 
 QQ = RationalField()
+RationalPoly.field = QQ

@@ -38,18 +38,17 @@ def decide(S: RatFunc, budget: Budget, *, certify: bool = True) -> Decision:
     """
     exclusions: list[Exclusion] = []
     try:
-        with budget.watched():
-            problem = analyse(S, budget)
-            impossible = excluded_by_local_data(problem)
-            for structure, decider in _DECIDERS.items():
-                if structure in impossible:
-                    exclusions.append(Exclusion(structure, (impossible[structure],)))
-                    continue
-                budget.check()
-                outcome = decider(problem)
-                if isinstance(outcome, Found):
-                    return _certified(problem, outcome, tuple(exclusions), certify)
-                exclusions += outcome
+        problem = analyse(S, budget)
+        impossible = excluded_by_local_data(problem)
+        for structure, decider in _DECIDERS.items():
+            if structure in impossible:
+                exclusions.append(Exclusion(structure, (impossible[structure],)))
+                continue
+            budget.check()
+            outcome = decider(problem)
+            if isinstance(outcome, Found):
+                return _certified(problem, outcome, tuple(exclusions), certify)
+            exclusions += outcome
     except LimitExceeded as limit:
         return Decision(None, tuple(exclusions), undecided=str(limit))
     return Decision(None, tuple(exclusions))
@@ -58,12 +57,11 @@ def decide(S: RatFunc, budget: Budget, *, certify: bool = True) -> Decision:
 def decide_reducible(S: RatFunc, budget: Budget) -> Decision | None:
     """The decision with its certificate where the group is reducible (case 1); None elsewhere, or without budget."""
     try:
-        with budget.watched():
-            problem = analyse(S, budget)
-            if Structure.REDUCIBLE in excluded_by_local_data(problem):
-                return None
-            outcome = reducible.decide(problem)
-            return _certified(problem, outcome, (), True) if isinstance(outcome, Found) else None
+        problem = analyse(S, budget)
+        if Structure.REDUCIBLE in excluded_by_local_data(problem):
+            return None
+        outcome = reducible.decide(problem)
+        return _certified(problem, outcome, (), True) if isinstance(outcome, Found) else None
     except LimitExceeded:
         return None
 

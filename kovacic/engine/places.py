@@ -29,6 +29,7 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field
 from enum import Enum
 from fractions import Fraction
+from math import isqrt
 from typing import Any
 
 from flint import nmod_poly
@@ -38,7 +39,6 @@ from kovacic.algebra.homomorphism import BadPrimeError, Homomorphism
 from kovacic.algebra.modular import series_solution, simple_roots, translate
 from kovacic.algebra.poly import Field, Poly
 from kovacic.algebra.ratfunc import RatFunc
-from kovacic.algebra.rationals import QQ
 from kovacic.compatibility import cached_property
 from kovacic.decision import NecessaryCondition, Rule, Structure
 from kovacic.limits import Budget
@@ -229,8 +229,13 @@ def at_infinity(S: RatFunc) -> tuple[Poly, Poly, int]:
 def rational_square_root(constant: Poly) -> Fraction | None:
     """The non-negative rational square root of a constant of the field, or None."""
     value = constant.field.rational_value(constant)
-    root = None if value is None else QQ.sqrt(QQ.poly([value]))
-    return None if root is None else QQ.rational_value(root)
+    if value is None:
+        return None
+    above, below = value.as_integer_ratio()
+    if above < 0:
+        return None
+    root = isqrt(above), isqrt(below)
+    return Fraction(*root) if root[0] ** 2 == above and root[1] ** 2 == below else None
 
 
 @dataclass(frozen=True)

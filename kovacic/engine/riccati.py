@@ -25,7 +25,6 @@ from kovacic.algebra.poly import Poly
 from kovacic.algebra.ratfunc import RatFunc
 from kovacic.decision import Exclusion, SemiInvariant, Structure
 from kovacic.engine.places import Place, Problem
-from kovacic.limits import check_time
 
 
 def numerators(D: Any, T: Any, R: Any, P: Any, m: int, last: int) -> list[Any]:
@@ -33,7 +32,6 @@ def numerators(D: Any, T: Any, R: Any, P: Any, m: int, last: int) -> list[Any]:
     sequence = [P, D * P.derivative() + R * P]
     slope = D.derivative()
     for k in range(1, last):
-        check_time()
         R = R - slope
         following = D * sequence[k].derivative() + R * sequence[k] - (m - k + 1) * (T * sequence[k - 1])
         sequence.append(following / (k + 1))

@@ -61,7 +61,7 @@ class Arithmetic:
         self.limits = limits
 
     def integer(self, digits: str) -> int:
-        if len(digits) > self.limits.digits:
+        if digits[self.limits.digits :]:
             raise LimitExceeded(f"{len(digits)} digits, above the limit of {self.limits.digits}", limit="digits")
         return int(fmpz(digits))  # Python reads integers of at most 4300 digits
 
@@ -69,8 +69,9 @@ class Arithmetic:
         return -self.integer(text[1:]) if text[0] == "-" else self.integer(text.lstrip("+"))
 
     def constant(self, value: int | Fraction) -> Value:
-        bits = _bits(value)
-        self._check(0, bits)
+        bits = value.bit_length() if type(value) is int else _bits(value)
+        if bits > self.limits.bits:
+            self._check(0, bits)
         return Monomial(value, 0) if bits <= _SMALL_BITS and type(value) is int else _scaled_power(value, 0)
 
     def decimal(self, text: str) -> Poly:

@@ -185,10 +185,9 @@ class Constants:
 
     def embedded(self, function: RatFunc) -> RatFunc:
         """The rational function over the whole field, or over Q if it lies there."""
-        field = self.field
-        if field == function.field == QQ:
+        if self.numbers is QQ and not self.parameters:
             return function
-        return lowered(over(function, field))
+        return lowered(over(function, self.field))
 
     def notices(self, letters: Collection[str] = ()) -> list[str]:
         """Notes for the user about the field; `letters` stand for numbers."""

@@ -625,7 +625,16 @@ _PLAIN_TEXT = re.compile(
 )
 _PLAIN_TOKEN = re.compile(r"[0-9]+|[A-Za-z]'*|\*\*|[^ ]")
 _PLAIN_CALL = re.compile(r"[A-Za-z'] *\(")
-_PLAIN_KINDS = {**_SIGN_KINDS, **dict.fromkeys(ascii_letters, "NAME"), **dict.fromkeys(digits, "NUMBER")}
+
+
+class _PlainKinds(dict[str, str]):
+    """The kind of every piece of a plain text: signs, letters and digits are in the table, longer pieces are not."""
+
+    def __missing__(self, piece: str) -> str:
+        return "NUMBER" if piece.isdecimal() else "PRIMED"
+
+
+_PLAIN_KINDS = _PlainKinds({**_SIGN_KINDS, **dict.fromkeys(ascii_letters, "NAME"), **dict.fromkeys(digits, "NUMBER")})
 
 
 def plain_tokens(text: str) -> Sentence | None:
@@ -637,7 +646,7 @@ def plain_tokens(text: str) -> Sentence | None:
     if _PLAIN_TEXT.fullmatch(text) is None or text.isspace():
         return None
     pieces = _PLAIN_TOKEN.findall(text)
-    kinds = [_PLAIN_KINDS.get(piece) or ("NUMBER" if piece.isdecimal() else "PRIMED") for piece in pieces]
+    kinds = [_PLAIN_KINDS[piece] for piece in pieces]
     for k, piece in enumerate(pieces if _PLAIN_CALL.search(text) else ()):
         if piece == "(" and k and kinds[k - 1] in ("NAME", "PRIMED"):
             kinds[k - 1] = "HEAD"

@@ -52,7 +52,7 @@ _PRIMED = pattern(rf"({_NAME})'+")
 _DIFFERENTIATED = pattern(
     rf"({_NAME})'+|(?:{'|'.join(DERIVATIVES)}) \((?:(?= ({_NAME}) [(,)])| \((?= ({_NAME}) \( {_NAME} \) \)))"
 )
-_NAME_KINDS = ("NAME", "PRIMED", "HEAD")
+_NAME_KINDS = frozenset({"NAME", "PRIMED", "HEAD"})
 
 
 class Named(NamedTuple):
@@ -119,17 +119,17 @@ class Vocabulary:
 
     def _imaginary_unit(self, tokens: Sentence, x: str, y: str) -> list[str]:
         """Notes that i or j, undeclared, is taken as a parameter."""
-        parameters = [name for name in "ij" if name in tokens.names and name not in (x, y, *self.declared)]
-        return [f"{name} is a parameter; the imaginary unit is I" for name in parameters]
+        taken = (x, y, *self.declared)
+        said = "{} is a parameter; the imaginary unit is I"
+        return [said.format(name) for name in "ij" if name in tokens.names and name not in taken]
 
     def _with_products(self, tokens: Sentence, x: str, y: str) -> tuple[Sentence, list[str]]:
         """With x y for xy; notes say so.  Raises `ParseError` for all other names that aren't known."""
-        known = {x, y, *self.declared, *NUMBER_NAMES}
+        pieces = tokens.pieces
         unknown = [
             k
             for k, kind in enumerate(tokens.kinds)
-            if kind in _NAME_KINDS and tokens.pieces[k].rstrip(PRIMES) not in known
-            if not self._is_known(tokens, k, x, y)
+            if kind in _NAME_KINDS and pieces[k] != x and not self._is_known(tokens, k, x, y)
         ]
         if not unknown:
             return tokens, []
@@ -151,6 +151,8 @@ class Vocabulary:
     def _is_known(self, tokens: Sentence, k: int, x: str, y: str) -> bool:
         name = tokens.pieces[k].rstrip(PRIMES)
         is_call = tokens.kinds[k] == "HEAD"
+        if name in (x, y) or name in self.declared or name in NUMBER_NAMES:
+            return True
         if is_function(name) or (is_call and (name in DERIVATIVES or name in NUMBER_CALLS)):
             return True
         indexed = _GLUED_INDEX.fullmatch(name)
@@ -189,12 +191,13 @@ def _guesses(tokens: Sentence) -> list[str]:
     """Notes on what may have been meant in another way: x^1/2 is x/2."""
     found = _ROOT.search(tokens.line)
     said = "^1/{0} was read as (...)^1 divided by {0}; a root is written ^(1/{0})"
-    return [*([said.format(found[1])] if found else []), *_divided_functions(tokens)]
+    guesses = [said.format(found[1])] if found else []
+    return [*guesses, *_divided_functions(tokens)] if "HEAD" in tokens.kinds else guesses
 
 
 def _divided_functions(tokens: Sentence) -> Iterator[str]:
     """Notes on sin x/2, which is (sin x)/2 and may be meant as sin(x/2): no parentheses, and no blank before the slash."""
-    for opening, k in tokens.rows.partners.items() if "HEAD" in tokens.kinds else ():
+    for opening, k in tokens.rows.partners.items():
         head = opening - 1
         is_bare = tokens.rows[k].start == tokens.rows[k].end and tokens.kinds[head] == "HEAD"
         if is_bare and tokens.are(k + 1, "SLASH") and tokens.rows[k - 1].end == tokens.rows[k + 1].start:
@@ -230,7 +233,7 @@ def _check_decimals(tokens: Sentence, variable: str) -> None:
 
 def _check_two_readings(tokens: Sentence, readings: re.Pattern[str], hint: str, unknown: str = "") -> None:
     """Raises `ParseError` for a name, other than the unknown, that may belong to the number before it."""
-    for found in readings.finditer(tokens.rows.spaced) if {"e", "E"} & tokens.names.keys() else ():
+    for found in readings.finditer(tokens.rows.spaced) if "e" in tokens.names or "E" in tokens.names else ():
         begin, behind = tokens.rows.span(found)
         if found[1] != unknown:
             said = hint.format(tokens.piece(begin, behind - 1).rpartition("^")[2].strip(), tokens.pieces[behind - 1])
@@ -368,6 +371,8 @@ def _varies(name: str, evidence: dict[str, Counter[str]], names: Collection[str]
 
 def _variable_of_S(tokens: Sentence, _: str, declared: Collection[str]) -> tuple[str, str | None]:
     """The only name that isn't one of a number, the energy or a function, or x.  Asks where it can't be told."""
+    if DEFAULT_VARIABLE in tokens.names and DEFAULT_VARIABLE not in declared:
+        return DEFAULT_VARIABLE, None
     no_variables = {*NUMBER_NAMES, ENERGY, UNKNOWN, *declared}
     letters = [name for name in _single_letters(tokens, declared) if is_letter(name)]
     names = [name for name in letters if name not in no_variables] or [name for name in letters if name == EULER]

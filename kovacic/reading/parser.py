@@ -26,8 +26,7 @@ from kovacic.reading.notations import Sentence
 _OPEN, _SUM, _PRODUCT, _SIGN, _IMPLICIT, _POWER = range(6)
 _UNARY_KINDS = ("PLUS", "MINUS")
 _BINARY = {"PLUS": _SUM, "MINUS": _SUM, "STAR": _PRODUCT, "SLASH": _PRODUCT}
-#: The methods of a reader that say what these mean.
-_ATOMS = {"NUMBER": "number", "NAME": "name", "PRIMED": "derivative", "OPERATOR": "operator"}
+_ATOMS = ("NUMBER", "NAME", "PRIMED", "OPERATOR")
 _OPERANDS = frozenset({*_ATOMS, "HEAD", "LPAR"})
 _BINARY_KINDS = (*_BINARY, "CIRCUMFLEX")
 _NO_OPERANDS = (*_BINARY_KINDS, "RPAR", "COMMA", "EQUAL")
@@ -35,40 +34,41 @@ _NO_OPERANDS = (*_BINARY_KINDS, "RPAR", "COMMA", "EQUAL")
 _DEEPEST_CALL = 100
 #: So many digits form a group in 1,000.
 _GROUPED = 3
-#: Raised signs and digits, as they stand in a line.
 
 
 @dataclass(slots=True)
 class Site:
-    """The place of the operation that is being carried out: tokens `begin`, ..., `end - 1`, the last operand from `right`."""
+    """The place of the operation that is being carried out; `span` is (begin, right, end).
+
+    It has the tokens `begin`, ..., `end - 1`, and its last operand those from `right`.
+    """
 
     tokens: Sentence
-    begin: int = 0
-    right: int = 0
-    end: int = 0
+    span: tuple[int, int, int] = (0, 0, 0)
 
     def text(self) -> str:
         """The text of the operation with its operands, shortened."""
-        return shortened(self.tokens.piece(self.begin, self.end))
+        begin, _, end = self.span
+        return shortened(self.tokens.piece(begin, end))
 
     def inside(self) -> str:
         """The text between the parentheses of a call, shortened."""
-        return shortened(self.tokens.piece(self.begin + 2, self.end - 1))
+        begin, _, end = self.span
+        return shortened(self.tokens.piece(begin + 2, end - 1))
 
     def located(self, error: Exception) -> Exception:
         """An error of the operation with its place in the text."""
+        begin, right, end = self.span
         if isinstance(error, LimitExceeded):
-            where = f"{self.text()} at position {self.tokens.rows[self.begin].start}"
+            where = f"{self.text()} at position {self.tokens.rows[begin].start}"
             said = f"{error} while {where} was read" if error.limit == "seconds" else f"{where} would have {error}"
             return LimitExceeded(said, limit=error.limit)
         if isinstance(error, ZeroDivisionError):
             power = "power" in str(error)
-            begin, hint = (self.begin, "0^0 isn't defined") if power else (self.right, "this is zero")
-            return self.tokens.error(NotRational, str(error), begin, self.end, hint=hint)
+            first, hint = (begin, "0^0 isn't defined") if power else (right, "this is zero")
+            return self.tokens.error(NotRational, str(error), first, end, hint=hint)
         if isinstance(error, InputError) and error.text is None:
-            return self.tokens.error(
-                type(error), error.message, self.begin, self.end, hint=error.hint, shell=error.shell
-            )
+            return self.tokens.error(type(error), error.message, begin, end, hint=error.hint, shell=error.shell)
         return error
 
 
@@ -129,7 +129,12 @@ class _Parser:
         self.pieces = tokens.pieces
         self.reader = reader
         self.arithmetic = reader.arithmetic
-        self.atoms = {kind: getattr(reader, method) for kind, method in _ATOMS.items()}
+        self.atoms = {
+            "NUMBER": reader.number,
+            "NAME": reader.name,
+            "PRIMED": reader.derivative,
+            "OPERATOR": reader.operator,
+        }
         self.site = Site(tokens)
         self.operands: list[_Operand] = []
         #: The strengths and tokens of the operators whose right operand is still being read, and of the open groups.
@@ -149,20 +154,12 @@ class _Parser:
         if not self.groups[0].arguments:
             return right.value
         left = self.groups[0].arguments[0]
-        self.at(left.begin, right.begin, len(self.kinds) - 1)
+        self.site.span = left.begin, right.begin, len(self.kinds) - 1
         return self.reader.equation(left.value, right.value)
-
-    def at(self, begin: int, right: int, end: int) -> None:
-        site = self.site
-        site.begin = begin
-        site.right = right
-        site.end = end
 
     def atom(self, k: int) -> bool:
         """A number, a name, or a name with primes."""
-        site = self.site
-        site.begin = site.right = k
-        site.end = k + 1
+        self.site.span = k, k, k + 1
         self.operands.append(_Operand(self.atoms[self.kinds[k]](self.pieces[k]), k))
         return False
 
@@ -172,7 +169,7 @@ class _Parser:
         return True
 
     def head(self, k: int) -> bool:
-        self.at(k, k, k + 1)
+        self.site.span = k, k, k + 1
         self.open(_Group(k, is_call=True))
         self.argument_lists += 1
         if self.argument_lists > _DEEPEST_CALL:
@@ -194,20 +191,18 @@ class _Parser:
         return True
 
     def power(self, k: int) -> bool:
-        self.check_no_superscript_before(k)
+        if self.kinds[k - 1] == "SUPERSCRIPT":  # x²^3
+            self.complete(k)  # what is wrong before it is found first
+            raise self.syntax_error(k)
         self.pending.append((_POWER, k))
         return True
 
-    def check_no_superscript_before(self, k: int) -> None:
-        """Refuses x²^3.  What is wrong before it is found first."""
+    def superscript(self, k: int) -> bool:
         if self.kinds[k - 1] == "SUPERSCRIPT":
             self.complete(k)
             raise self.syntax_error(k)
-
-    def superscript(self, k: int) -> bool:
-        self.check_no_superscript_before(k)
         base = self.operands[-1]
-        self.at(base.begin, k, k + 1)
+        self.site.span = base.begin, k, k + 1
         exponent = self.arithmetic.signed_integer(self.pieces[k].translate(SUPERSCRIPT_DIGITS))
         base.value = self.reader.power(base.value, self.arithmetic.constant(exponent), self.site)
         return False
@@ -243,7 +238,7 @@ class _Parser:
         if group.signs:
             values[1:] = [Comparison(tuple(group.signs), tuple(values[1:]))]
         if group.is_call:
-            self.at(group.opened, k, k + 1)
+            self.site.span = group.opened, k, k + 1
             enclosed.value = self.reader.call(self.pieces[group.opened], values, self.site)
         elif group.is_pair:
             enclosed.value = tuple(values)
@@ -309,7 +304,7 @@ class _Parser:
                 self.combine(level, k, end)
                 continue
             operand = self.operands[-1]
-            self.at(k, operand.begin, end)
+            self.site.span = k, operand.begin, end
             operand.begin = k
             if self.kinds[k] == "MINUS":
                 operand.value = self.arithmetic.negate(operand.value)
@@ -321,7 +316,7 @@ class _Parser:
             signs.append(self.kinds[self.pending.pop()[1]])
         first = len(self.operands) - len(signs) - 1
         terms = self.operands[first:]
-        self.at(terms[0].begin, terms[-1].begin, end)
+        self.site.span = terms[0].begin, terms[-1].begin, end
         for term, sign in zip(terms[:0:-1], signs, strict=True):
             if sign == "MINUS":
                 term.value = self.arithmetic.negate(term.value)
@@ -333,7 +328,7 @@ class _Parser:
         """A power, a product or a quotient of the last two operands takes their place."""
         right = self.operands.pop()
         left = self.operands[-1]
-        self.at(left.begin, right.begin, end)
+        self.site.span = left.begin, right.begin, end
         if level == _POWER:
             left.value = self.reader.power(left.value, right.value, self.site)
         elif level == _IMPLICIT:
@@ -398,11 +393,12 @@ def _check_neighbours(tokens: Sentence, reader: Any, begin: int, right: int) -> 
 
 def _ambiguous(tokens: Sentence, site: Site, slash: int, split: int) -> InputError:
     """The error for a/b c, where c begins with token `split`."""
-    spans = ((site.begin, slash), (site.right, site.end), (site.right, split), (split, site.end))
+    begin, right, end = site.span
+    spans = ((begin, slash), (right, end), (right, split), (split, end))
     above, below, first, rest = (shortened(tokens.piece(*span)) for span in spans)
     hint = f"write {above}/({below}) or ({above}/{first})*{rest}"
     message = "a product without a sign after / can be read in two ways"
-    return tokens.error(ParseError, message, site.begin, site.end, hint=hint)
+    return tokens.error(ParseError, message, begin, end, hint=hint)
 
 
 #: What is wrong, from one token up to another one, and what to do about it.

@@ -159,10 +159,12 @@ def _is_sympy(value: Any) -> bool:
 
 
 def _variable_name(var: Any) -> str | None:
+    if var is None:
+        return None
     name = var.name if _is_sympy(var) and getattr(var, "is_Symbol", False) else var
-    if not (name is None or isinstance(name, str)):
+    if not isinstance(name, str):
         raise InputError(f"{var!r} can't be a variable", hint="give its name, or a SymPy symbol")
-    if name is not None and not name.isidentifier():
+    if not name.isidentifier():
         raise InputError(f"{name!r} can't be the name of a variable", hint="take a letter or a word: x, t, x1")
     return name
 

@@ -77,7 +77,9 @@ class Solution(Answer):
     @classmethod
     def _of(cls, answer: Answer) -> Solution:
         """The answer with its methods."""
-        return cls(**{name: getattr(answer, name) for name in cls.__match_args__})
+        solution = cls.__new__(cls)
+        solution.__dict__.update(answer.__dict__)
+        return solution
 
     @property
     def group(self) -> Group | None:

@@ -17,7 +17,6 @@ from fractions import Fraction
 from kovacic.algebra.poly import Poly
 from kovacic.algebra.ratfunc import RatFunc, over_one_denominator
 from kovacic.decision import SemiInvariant
-from kovacic.limits import check_time
 from kovacic.verify.factors import factors_of, quotient
 
 
@@ -31,7 +30,6 @@ def form_numerators(S: RatFunc, F: SemiInvariant, D: Poly) -> list[Poly] | None:
         return None
     A = [F.P, D * F.P.derivative() + R * F.P]
     for k in range(1, F.degree + 1):
-        check_time()
         R = R - D.derivative()
         following = D * A[k].derivative() + R * A[k] - T * A[k - 1] * (F.degree - k + 1)
         A.append(following / (k + 1))

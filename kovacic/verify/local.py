@@ -9,7 +9,6 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from fractions import Fraction
-from functools import cached_property
 from math import isqrt
 from typing import Any
 
@@ -17,6 +16,7 @@ from flint import nmod_poly
 
 from kovacic.algebra.poly import Poly
 from kovacic.algebra.ratfunc import RatFunc
+from kovacic.compatibility import cached_property
 from kovacic.limits import Budget, check_time
 from kovacic.verify.factors import factors_of, product, quotient
 from kovacic.verify.primes import BadPrimeError, Homomorphism, homomorphisms, roots_modulo, translated

@@ -9,7 +9,7 @@ square), and for this any prime will do.  So nothing here depends on the choices
 
 from __future__ import annotations
 
-from abc import ABC, abstractmethod
+from abc import abstractmethod
 from collections.abc import Iterator
 from dataclasses import dataclass
 from functools import lru_cache
@@ -34,7 +34,7 @@ class BadPrimeError(Exception):
     """The prime divides a denominator, or loses structure that the claim needs: another one may do."""
 
 
-class Homomorphism(ABC):
+class Homomorphism:
     """To F_p, of the elements of a field that are integral at p."""
 
     p: int

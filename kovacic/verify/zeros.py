@@ -30,7 +30,6 @@ import math
 from collections.abc import Iterator
 from dataclasses import dataclass
 from fractions import Fraction
-from functools import cached_property
 from itertools import chain, islice
 
 from flint import fmpz
@@ -38,6 +37,7 @@ from flint import fmpz
 from kovacic.algebra.extension import AlgebraicField
 from kovacic.algebra.poly import Poly
 from kovacic.algebra.rationals import QQ, to_fraction
+from kovacic.compatibility import cached_property
 from kovacic.errors import VerificationFailed
 from kovacic.verify.factors import inverse
 from kovacic.verify.local import Point
