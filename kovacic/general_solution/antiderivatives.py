@@ -110,10 +110,9 @@ def _of_terms(inverse: Expr, terms: list[Expr], x: Expr) -> Expr | None:
     """One after the other; or, where one isn't known, their sum by parts."""
     check_time()
     found = sum_of(_of_term(term, x) for term in terms)
-    if found is not None:
-        return found
-    beside = sympy.Add(*(term / inverse for term in terms))
-    return _by_parts(inverse, beside, x)
+    if found is None:
+        found = _by_parts(inverse, sympy.Add(*(term / inverse for term in terms)), x)
+    return found
 
 
 def _functions(expression: Expr) -> set[Any]:
@@ -310,38 +309,19 @@ def _powers_by_parts(term: Expr, x: Expr) -> Expr | None:
 
 def _beside_tangents(term: Expr, x: Expr) -> Expr | None:
     """int q + (a + b s)/c dx for a wave c with simple zeros: at these s = 1 or -1, and residues must be constant [Risch]."""
-    c = _only_wave_below(term)
-    if c is None:
+    below = [f.base for f in sympy.Mul.make_args(term) if f.is_Pow and f.exp == -1 and f.base.func in (sin, cos)]
+    if len(below) != 1:
         return None
-    other = cos if c.func is sin else sin
-    s = other(c.args[0])
-    above = term * c
-    if not above.is_polynomial(s, c):
+    (c,) = below
+    s = (cos if c.func is sin else sin)(c.args[0])
+    if not (term * c).is_polynomial(s, c):
         return None
-    (_, q), rest = sympy.reduced(above, [s**2 + c**2 - 1, c], s, c)
-    if not _leaves_an_integral(rest, s, x):
+    (_, q), rest = sympy.reduced(term * c, [s**2 + c**2 - 1, c], s, c)
+    residues = [rest.xreplace({s: sympy.Integer(sign)}) for sign in (1, -1)]
+    if rest.has(log, atan) or not all(residue.has(x) and not residue.has(sin, cos) for residue in residues):
         return None
     found = _by_rules(q, x)
-    if found is None:
-        return None
-    return found + sympy.Integral(rest / c, x)
-
-
-def _leaves_an_integral(rest: Expr, s: Expr, x: Expr) -> bool:
-    """Aren't the residues of a + b s at the zeros of c constant?  Then it has no elementary integral."""
-    if rest.has(log, atan):
-        return False
-    residues = [rest.xreplace({s: sympy.Integer(sign)}) for sign in (1, -1)]
-    return all(residue.has(x) and not residue.has(sin, cos) for residue in residues)
-
-
-def _only_wave_below(term: Expr) -> Expr | None:
-    """The wave c of the only factor 1/c; None if there are others or none."""
-    below = [factor.base for factor in sympy.Mul.make_args(term) if factor.is_Pow and factor.exp == -1]
-    waves = [base for base in below if base.func in (sin, cos)]
-    if len(waves) != 1:
-        return None
-    return waves[0]
+    return None if found is None else found + sympy.Integral(rest / c, x)
 
 
 # --------------------------------------------------------------------------------------------------------------- rules

@@ -110,7 +110,10 @@ class Basis:
             if rest.is_rational_function(self.x):
                 rest = min(rest, sympy.cancel(rest), key=size)
             return _simplified(constant) * sympy.powsimp(rest)
-        W = multiple_of(self._kernel, self.y1, self.y2, self.x)
+        w = kernel(self.equation, self.place, self.own).xreplace(NUMBERS)
+        if self.equation.change is not None:
+            w = in_x(self.equation, w) * function_of_x(self.equation).diff(self.x)
+        W = multiple_of(w, self.y1, self.y2, self.x)
         if W is None and self.before is not None and self.before.stated is not None:
             w = self.before.wronskian
             if self.place is not None:
@@ -161,14 +164,6 @@ class Basis:
         slope = function_of_x(equation).diff(self.x)
         b, c = in_x(equation, b), in_x(equation, c)
         return b * slope - slope.diff(self.x) / slope, c * slope**2
-
-    @property
-    def _kernel(self) -> Expr:
-        """w(x), without numbers as factors."""
-        w = kernel(self.equation, self.place, self.own).xreplace(NUMBERS)
-        if self.equation.change is None:
-            return w
-        return in_x(self.equation, w) * function_of_x(self.equation).diff(self.x)
 
 
 def kernel(equation: Equation, place: Expr | None = None, own: Callable[[Expr], Expr] = sympy.sympify) -> Expr:

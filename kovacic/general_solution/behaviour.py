@@ -164,7 +164,9 @@ def _quotient_of_analytic_functions(e: Expr, x: Expr, point: Expr) -> Expr | Non
 
 def _by_sympy(e: Expr, variable: Expr, towards: Expr) -> Any:
     """SymPy's limit of an expression in functions that it knows; None if it gives up, by whichever exception."""
-    if size(e) > _LONGEST or any(f.has(variable) and not _is_known_to_sympy(f) for f in e.atoms(sympy.Function)):
+    # of a function without a series SymPy computes derivatives forever; a Bessel function of an integer order has one
+    others = [f for f in e.atoms(sympy.Function) if f.has(variable) and not isinstance(f, _KNOWN)]
+    if size(e) > _LONGEST or not all(isinstance(f, BesselBase) and f.args[0].is_Integer for f in others):
         return None
     constant, rest = e.as_independent(variable, as_Add=False)
     rates = _rates_with_signs(rest, variable)
@@ -205,13 +207,6 @@ def _term_by_term(e: Expr, variable: Expr, towards: Expr) -> Any:
     return None if sympy.expand(sympy.Add(_ONE, *ratios)) == 0 else sympy.oo
 
 
-def _is_known_to_sympy(f: Expr) -> bool:
-    """True if SymPy has a series of the function; for others it computes derivatives forever."""
-    if isinstance(f, BesselBase):
-        return bool(f.args[0].is_Integer)
-    return isinstance(f, _KNOWN)
-
-
 def _classified(found: Expr | None) -> Expr | None:
     """A finite number, `oo` or `OSCILLATING`; None for anything else that SymPy may return."""
     if found is None or found.has(sympy.Limit, sympy.nan, sympy.Order):
@@ -232,10 +227,13 @@ def _is_confirmed(found: Expr, e: Expr, x: Expr, place: Approach) -> bool:
     Not for all of them: what holds for generic letters needn't for small integers, as where 1/gamma(-m) is 0.
     """
     difference = e - found if found not in (sympy.oo, OSCILLATING) else e
-    confirming = (
-        _approaches(found, difference.xreplace(s), x, place) for s in _letter_values(difference.free_symbols - {x})
-    )
-    return len([*islice(filter(None, confirming), _ENOUGH)]) == _ENOUGH
+    confirming = 0
+    for sample in _letter_values(difference.free_symbols - {x}):
+        sizes = _sizes_near(difference.xreplace(sample), x, place)
+        confirming += bool(sizes) and all(_is_nearer(found, far, near) for far, near in pairwise(sizes))
+        if confirming == _ENOUGH:
+            return True
+    return False
 
 
 def _letter_values(symbols: set[Expr]) -> Iterator[dict[Expr, Expr]]:
@@ -249,11 +247,6 @@ def is_refuted(value: Expr | None, y: Expr, x: Expr, place: Approach) -> bool:
     e = y if value is None else y - value
     sizes = _sizes_near(e.xreplace(next(_letter_values(e.free_symbols - {x}))), x, place)
     return bool(sizes) and all(bool(near > far * 2) for far, near in pairwise(sizes))
-
-
-def _approaches(found: Expr, e: Expr, x: Expr, place: Approach) -> bool:
-    sizes = _sizes_near(e, x, place)
-    return bool(sizes) and all(_is_nearer(found, far, near) for far, near in pairwise(sizes))
 
 
 def _sizes_near(e: Expr, x: Expr, place: Approach) -> list[Any]:

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Collection, Mapping, Sequence
-from dataclasses import dataclass
 from typing import Any
 
 import sympy
@@ -117,16 +116,17 @@ def read_eigenproblem(
     """The problem of `eigenvalues`, whose levels can then be computed one by one.  Raises `InputError`."""
     values = {str(name): read_expression(exact_text(value, str(name))) for name, value in (params or {}).items()}
     equation, conditions = apart(equation, conditions)
-    linear = _linear_in_parameter(equation, var, parameter, values, limits)
+    function, coefficients = _linear_in_parameter(equation, var, parameter, values, limits)
+    x = function.args[0]
     if not isinstance(conditions, Mapping | str | None):
         raise InputError("conditions are a text or a mapping", hint='"y(0)=0, y(1)=0"')
-    reader = ConditionReader(linear.function, linear.function.func.__name__)
+    reader = ConditionReader(function, function.func.__name__)
     named = {sympy.Symbol(name): value for name, value in values.items()}
     given = [reader.read(key, value).in_symbols(named) for key, value in as_mapping(conditions).items()]
     ends = _interval_ends(given, domain)
     wrap, wishes = wishes_of(given, ends)
-    pieces, B, sign = normal_form(linear.x, linear.coefficients, ends)
-    problem = SturmProblem(linear.x, pieces, wishes, wrap, B, sign)
+    pieces, B, sign = normal_form(x, coefficients, ends)
+    problem = SturmProblem(x, pieces, wishes, wrap, B, sign)
     if wrap and any(end.is_infinite for end in problem.ends):
         raise InputError("periodic conditions need a finite interval")
     if wrap and problem.B != 0 and sympy.simplify(sympy.integrate(problem.B, (problem.x, *problem.ends))) != 0:
@@ -134,22 +134,10 @@ def read_eigenproblem(
     return Eigenproblem(problem, parameter)
 
 
-@dataclass(frozen=True)
-class _Linear:
-    """a y'' + b y' + (c0 + parameter c1) y = 0: the function y(x), and a, b, c0, c1."""
-
-    function: Expr
-    coefficients: tuple[Expr, Expr, Expr, Expr]
-
-    @property
-    def x(self) -> Expr:
-        return self.function.args[0]
-
-
 def _linear_in_parameter(
     equation: Any, var: str | None, parameter: str, values: Mapping[str, Expr], limits: Limits
-) -> _Linear:
-    """a, b, c0, c1 of an equation that is linear in the parameter.  Raises `InputError`."""
+) -> tuple[Expr, tuple[Expr, Expr, Expr, Expr]]:
+    """y(x) and a, b, c0, c1 of an equation that is linear in the parameter.  Raises `InputError`."""
     source = source_of(equation, var, limits, equation=True, names=words_among((parameter, *values)))
     parts, _ = parts_of(source, limits)
     known = {sympy.Symbol(name): value for name, value in values.items()}
@@ -164,7 +152,7 @@ def _linear_in_parameter(
         )
     if c1 == 0:
         raise InputError(f"the parameter {parameter} cancels out of the equation")
-    return _Linear(sympy.Function(source.unknown)(x), (a, b, sympy.expand(c - symbol * c1), c1))
+    return sympy.Function(source.unknown)(x), (a, b, sympy.expand(c - symbol * c1), c1)
 
 
 def _parameter_among(symbols: Collection[Expr], parameter: str) -> Expr:

@@ -240,11 +240,14 @@ class _Pieces:
 
 
 def _in_pieces(claim: SolutionClaim) -> _Pieces:
-    """At values of the parameters, and with functions for those that are given by their names."""
+    """At values of the parameters, and with exponential functions for those that are given by their names."""
     whole = (claim.y, *claim.coefficients)
     claim = claim.at(next(islice(samples(_symbols_of(whole) - {claim.x}), 1, None)))
     functions = sorted({f.func for e in whole for f in e.atoms(AppliedUndef)}, key=str)
-    y, a, b, c, f = (_concrete(e, functions) for e in (claim.y, *claim.coefficients))
+    parts = [claim.y, *claim.coefficients]
+    for k, function in enumerate(functions):
+        parts = [e.replace(function, lambda u, k=k: sympy.exp(sympy.Rational(k + 1, 3) * u)) for e in parts]
+    y, a, b, c, f = (e.replace(sympy.Derivative, lambda *args: sympy.Derivative(*args).doit()) for e in parts)
     breaks = break_points(sympy.Tuple(y, f), claim.x)
     return _Pieces(replace(claim, y=y, coefficients=(a, b, c, f)), breaks, between(breaks))
 
@@ -262,15 +265,6 @@ def _antiderivatives(value: Expr, x: Expr, start: Expr | None = None) -> Expr:
     return value.replace(
         lambda e: isinstance(e, sympy.Integral) and len(e.limits[0]) == 3 and e.limits[0][-1] == x, other
     )
-
-
-def _concrete(e: Expr, functions: Sequence[Any]) -> Expr:
-    """With an exponential function for each function that is given by its name."""
-    if not functions:
-        return e
-    for k, function in enumerate(functions):
-        e = e.replace(function, lambda u, k=k: sympy.exp(sympy.Rational(k + 1, 3) * u))
-    return e.replace(sympy.Derivative, lambda *args: sympy.Derivative(*args).doit())
 
 
 def _is_large(residual: Residual, y: Expr, point: Any) -> bool:
@@ -294,13 +288,11 @@ def _is_violated(claim: SolutionClaim, condition: Condition, numbers: dict[Expr,
     # parameters on which a step depends, with values on either side of it as a rule
     symbols = set().union(*(step.free_symbols for step in total.atoms(sympy.Heaviside)))
     tried = islice(samples(symbols), _SAMPLES if symbols else 1)
-    return any(_is_not_zero(total.xreplace(steps)) for steps in tried)
-
-
-def _is_not_zero(number: Expr) -> bool:
-    """Seen by its value, that of a parameter being one that isn't special.  Raises as `_is_wrong_at` does."""
     with working_digits(2 * DIGITS):
-        found = jet(number, sympy.Dummy(), acb(0))[0]
-        if not found.is_finite():
-            raise NotImplementedError("a value isn't finite")
-        return bool(abs(found) > _SMALL)
+        for steps in tried:
+            found = jet(total.xreplace(steps), sympy.Dummy(), acb(0))[0]
+            if not found.is_finite():
+                raise NotImplementedError("a value isn't finite")
+            if abs(found) > _SMALL:
+                return True
+    return False

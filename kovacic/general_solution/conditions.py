@@ -134,24 +134,13 @@ class ConditionReader:
 
     def _side(self, side: Any, *, is_key: bool) -> Expr:
         """One side, with symbols in the place of y(a) and y'(a)."""
-        if isinstance(side, str):
-            return self._text(side, is_key=is_key)
-        if is_key and not isinstance(side, sympy.Basic):
+        if isinstance(side, str):  # `y(0)`, `y'(0) - h*y(0)`, or a constant
+            value = read_expression(side, what="the initial value", values={self.unknown: self._symbol})
+        elif is_key and not isinstance(side, sympy.Basic):
             raise self._no_condition(side)
-        return self._checked(self._expression(side), side)
-
-    def _text(self, text: str, *, is_key: bool) -> Expr:
-        """`y(0)`, `y'(0) - h*y(0)`, or a constant."""
-        value = read_expression(text, what="the initial value", values={self.unknown: self._at})
-        if is_key and not self._terms:
-            raise self._no_condition(text)
-        return self._checked(value, text)
-
-    def _at(self, point: Expr, order: int) -> Expr:
-        """What stands for y(a) or y'(a) in an expression."""
-        if order > 1:
-            raise self._no_condition(self.unknown + "'" * order + f"({point})")
-        return self._symbol(self._place(point), order)
+        else:
+            value = self._expression(side)
+        return self._checked(value, side)
 
     def _expression(self, given: Any) -> Expr:
         """With symbols for y(a), y(x).diff(x).subs(x, a) in either form that SymPy gives it."""
@@ -162,23 +151,21 @@ class ConditionReader:
             value = value.xreplace({e: self._derivative(e, e.expr.args[0])})
         for e in sorted(value.atoms(AppliedUndef), key=str):
             if e.func == self.function.func and len(e.args) == 1:
-                value = value.xreplace({e: self._symbol(self._place(e.args[0]), 0)})
+                value = value.xreplace({e: self._symbol(e.args[0], 0)})
         return value
 
     def _derivative(self, derivative: Expr, point: Expr) -> Expr:
         orders = [int(count) for _, count in getattr(derivative, "variable_count", ())]
         if orders != [1] or derivative.expr.func != self.function.func:
             raise self._no_condition(derivative)
-        return self._symbol(self._place(point), 1)
-
-    def _place(self, point: Expr) -> Expr:
-        if point in (sympy.oo, -sympy.oo):
-            return point
-        return self._checked(point, point)
-
-    # ------------------------------------------------------------------------------------------------ both
+        return self._symbol(point, 1)
 
     def _symbol(self, point: Expr, order: int) -> Expr:
+        """What stands for y(a) or y'(a) in an expression."""
+        if order > 1:
+            raise self._no_condition(self.unknown + "'" * order + f"({point})")
+        if point not in (sympy.oo, -sympy.oo):
+            self._checked(point, point)
         known = next((symbol for symbol, term in self._terms.items() if term == (point, order)), None)
         if known is None:
             known = sympy.Symbol(f"value_{len(self._terms)}_")

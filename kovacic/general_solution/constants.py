@@ -46,8 +46,7 @@ _ONE = sympy.Integer(1)
 _SIGNS: dict[tuple[int, ...], int] = {(0, 1): 1, (1, 0): -1}
 
 
-@dataclass(frozen=True)
-class Row:
+class Row(NamedTuple):
     """u C1 + v C2 = r."""
 
     u: Expr
@@ -172,11 +171,16 @@ def _best_minor(rows: Sequence[Row], wronskian: Expr | None) -> _Minor | None:
 
 
 def _of_rank_one(rows: Sequence[Row], names: Values) -> DeterminedConstants:
-    """One equation for both constants; all rows must be multiples of it."""
-    pivot = _pivot(rows)
-    if pivot is None:
+    """One equation for both constants; all rows must be multiples of it.
+
+    It is solved for a constant whose coefficient isn't zero, preferably never, and alone in the row.
+    """
+    entries = [(row[k], k, row) for row in rows for k in (1, 0)]
+    whens = {entry: when_zero(entry) for entry, _, _ in entries}
+    nonzero = [found for found in entries if whens[found[0]] is not Zero.ALWAYS]
+    if not nonzero:
         return DeterminedConstants(names, [row.r for row in rows])
-    row = pivot.row
+    pivot, k, row = min(nonzero, key=lambda found: (whens[found[0]] is not Zero.NEVER, 0 not in found[2][:2]))
     others = [other for other in rows if other is not row]
     norm = _norm(row)
     if norm is not None:
@@ -184,12 +188,10 @@ def _of_rank_one(rows: Sequence[Row], names: Values) -> DeterminedConstants:
         c1 = tidy(row.r * row.u / norm) + row.v * names[0]
         c2 = tidy(row.r * row.v / norm) - row.u * names[0]
         return DeterminedConstants((c1, c2), [other.rest(c1, c2).subs(names[0], 0) for other in others])
-    c1, c2 = names
-    if pivot.is_first:  # C1 = r/u - v/u C2 with a free C2
-        c1 = tidy(row.r / row.u) - tidy(row.v / row.u) * c2
-        return DeterminedConstants((c1, c2), [other.u * row.r - other.r * row.u for other in others], row.u)
-    c2 = tidy(row.r / row.v) - tidy(row.u / row.v) * c1  # with a free C1
-    return DeterminedConstants((c1, c2), [other.v * row.r - other.r * row.v for other in others], row.v)
+    # C1 = r/u - v/u C2 with a free C2 for k = 0, C2 = r/v - u/v C1 with a free C1 for k = 1
+    solved = tidy(row.r / pivot) - tidy(row[1 - k] / pivot) * names[1 - k]
+    values = (names[0], solved) if k else (solved, names[1])
+    return DeterminedConstants(values, [other[k] * row.r - other.r * pivot for other in others], pivot)
 
 
 def _are_gammas_without_common_poles(row: Row) -> bool:
@@ -204,21 +206,6 @@ def _are_gammas_without_common_poles(row: Row) -> bool:
     return bool(difference.is_number and difference.is_integer is False)
 
 
-@dataclass(frozen=True)
-class _Pivot:
-    """A row, and whether it is its u (or else its v) that isn't zero."""
-
-    row: Row
-    is_first: bool
-    when: Zero
-
-    @property
-    def rank(self) -> tuple[bool, bool]:
-        """Better ones are smaller: never zero, and alone in the row."""
-        is_alone = 0 in (self.row.u, self.row.v)
-        return self.when is not Zero.NEVER, not is_alone
-
-
 def _norm(row: Row) -> Expr | None:
     """u^2 + v^2, or 1 for r = 0, where u and v may be zero, each alone, and never are together; else None."""
     if 0 in (row.u, row.v):
@@ -228,16 +215,6 @@ def _norm(row: Row) -> Expr | None:
     norm = sympy.factor_terms(sympy.expand(TR8(sympy.expand(row.u**2 + row.v**2))))
     is_needed = Zero.NEVER not in (when_zero(row.u), when_zero(row.v))
     return norm if is_needed and is_nowhere_zero(norm) else None
-
-
-def _pivot(rows: Sequence[Row]) -> _Pivot | None:
-    """A row whose u or v isn't zero, preferably never and without the other; None if all are zero."""
-    found = []
-    for row in rows:
-        found.append(_Pivot(row, is_first=False, when=when_zero(row.v)))
-        found.append(_Pivot(row, is_first=True, when=when_zero(row.u)))
-    nonzero = [pivot for pivot in found if pivot.when is not Zero.ALWAYS]
-    return min(nonzero, key=lambda pivot: pivot.rank, default=None)
 
 
 def _split(found: DeterminedConstants) -> Determined:
@@ -302,14 +279,6 @@ def _is_left_alone(value: Expr) -> bool:
 # ------------------------------------------------------------------------------------------- from conditions to rows
 
 
-class _Solutions(NamedTuple):
-    """Those of which y = C1 y1 + C2 y2 + y0 consists, in the user's symbols."""
-
-    y1: Expr
-    y2: Expr
-    y0: Expr
-
-
 def constants_of(
     question: Question,
     basis: Basis,
@@ -324,7 +293,7 @@ def constants_of(
 
     Raises `NotImplementedError` where too little is known about the solutions.
     """
-    solutions = _Solutions(question.own(basis.y1), question.own(basis.y2), question.own(particular))
+    solutions = [question.own(y) for y in (basis.y1, basis.y2, particular)]
     rows: list[Row] = []
     exceptional: set[Expr] = set()
     for condition in question.conditions:
@@ -440,13 +409,13 @@ class _Limit:
             ratio = self.of(y0 / y)
             if ratio not in (0, sympy.oo, OSCILLATING):
                 shifted = self.rows(y1, y2, sympy.expand(y0 - ratio * y))  # with C + r in the place of C
-                return [Row(row.u, row.v, row.r - (row.u, row.v)[k] * ratio) for row in shifted]
+                return [row._replace(r=row.r - row[k] * ratio) for row in shifted]
         if any(self.of(y) == OSCILLATING for y in (y1, y2)) and self.of(y0) == OSCILLATING:
             raise UnknownLimit("the particular solution oscillates as others do")
         return [Row(_ZERO, _ZERO, _ONE)]  # no solution
 
 
-def _rows_of_limit(limit: _Limit, solutions: _Solutions) -> tuple[list[Row], set[Expr]]:
+def _rows_of_limit(limit: _Limit, solutions: Sequence[Expr]) -> tuple[list[Row], set[Expr]]:
     """The rows, and symbols that were taken for positive where it is only known that they aren't negative."""
     forms = [y.diff(limit.x, limit.order) for y in solutions]
     symbols = set().union(*(y.free_symbols for y in forms))
@@ -460,7 +429,7 @@ def _rows_of_limit(limit: _Limit, solutions: _Solutions) -> tuple[list[Row], set
             reason = unknown
             continue
         back = {dummy: symbol for symbol, dummy in positive.items()}
-        return [Row(*(part.xreplace(back) for part in (row.u, row.v, row.r))) for row in rows], {*positive}
+        return [Row(*(part.xreplace(back) for part in row)) for row in rows], {*positive}
     said = f"undecided: the solutions' behaviour at {limit.place.point}: {reason}"
     open_signs = sorted(str(s) for s in symbols - {limit.x} if s.is_positive is None and s.is_negative is None)
     if open_signs:

@@ -191,12 +191,22 @@ def dsolve(
     >>> print(dsolve("y'' - y = 0", ics="y(0)=1, y(oo)=0"))
     Eq(y(x), exp(-x))
     """
-    _check_method(hint, xi, eta)
+    if hint not in _HINTS:
+        others = "sympy.dsolve has other methods, and this one after kovacic.register()"
+        raise InputError(f"there is no method {hint!r} here, only {', '.join(_HINTS)}", hint=others)
+    if xi is not None or eta is not None:
+        raise InputError("xi and eta belong to Lie's method, which isn't used here", hint="call sympy.dsolve")
     if isinstance(eq, str):
         eq, func, ics = _several(eq, func, ics, parameters)
     is_list = isinstance(eq, list | tuple)
     if is_list and len(eq) > 1:
-        found, notices = _system(eq, func, ics, limits)
+        budget = Budget(limits)
+        with budget.watched():
+            try:
+                answered = partial(_answered, limits=limits)
+                found, notices = solved_system(read_system(eq, func), as_mapping(ics), answered)
+            except LimitExceeded as limit:
+                raise NotImplementedError(f"undecided: {limit}") from None
     else:
         one, function = _single(eq, "equation"), _single(func, "function")
         answer = answer_to(one, function, ics=ics, var=var, parameters=parameters, assume=assume, limits=limits)
@@ -216,25 +226,6 @@ def _several(text: str, func: Any, ics: Any, parameters: Sequence[str]) -> tuple
     for guess in reading.guesses:
         warn_user(guess)
     return list(reading.equations), func or list(reading.functions), ics or dict(reading.conditions)
-
-
-def _system(equations: Sequence[Any], functions: Any, ics: Any, limits: Limits) -> tuple[list[Expr], list[str]]:
-    """The answers for the unknowns of a system, and what is to be said beside."""
-    budget = Budget(limits)
-    with budget.watched():
-        try:
-            return solved_system(read_system(equations, functions), as_mapping(ics), partial(_answered, limits=limits))
-        except LimitExceeded as limit:
-            raise NotImplementedError(f"undecided: {limit}") from None
-
-
-def _check_method(hint: str, xi: Any, eta: Any) -> None:
-    """Refuses what asks for another method than that of this package."""
-    if hint not in _HINTS:
-        others = "sympy.dsolve has other methods, and this one after kovacic.register()"
-        raise InputError(f"there is no method {hint!r} here, only {', '.join(_HINTS)}", hint=others)
-    if xi is not None or eta is not None:
-        raise InputError("xi and eta belong to Lie's method, which isn't used here", hint="call sympy.dsolve")
 
 
 def _single(given: Any, what: str) -> Any:
@@ -430,20 +421,6 @@ def _determined(question: Question, basis: Basis) -> SecondOrderAnswer:
     return SecondOrderAnswer(eq, notices, *rests_on, unchecked=tuple(unchecked), ask=answer_to)
 
 
-def _in_case(
-    question: Question, basis: Basis, particular: Expr, names: tuple[Expr, Expr], constants: tuple[Expr, Expr]
-) -> Expr:
-    """y = C1 y1 + C2 y2 + y0 for these constants, of which `names` are free; a number beside a single free one goes into it."""
-    value = combination(question, basis, particular, constants)
-    free = [name for name in names if value.has(name)]
-    value = in_book_form(value, question.x, free if len(free) == len(names) else ())
-    if len(free) == 1:
-        (name,) = free
-        number = sympy.factor_terms(value.diff(name)).as_coeff_Mul()[0]
-        value = value.subs(name, name / number)
-    return written(question, value)
-
-
 def _contradiction(singular: Sequence[Expr], exceptions: Sequence[str]) -> InputError:
     """No solution: the singular points among those of the conditions, and the particular cases in which there is one."""
     said = "there is no solution with these values: the conditions contradict one another"
@@ -479,7 +456,13 @@ def _said(
         return f"{where}, where there is no solution"
     if case.outcome is Outcome.OPEN:
         return f"{where}: give such values for the solutions there"
-    found = _in_case(question, basis, particular, names, case.values)
+    value = combination(question, basis, particular, case.values)
+    free = [name for name in names if value.has(name)]
+    value = in_book_form(value, question.x, free if len(free) == len(names) else ())
+    if len(free) == 1:  # a number beside it goes into it
+        number = sympy.factor_terms(value.diff(free[0])).as_coeff_Mul()[0]
+        value = value.subs(free[0], free[0] / number)
+    found = written(question, value)
     if not case.needed:
         return f"{where}, where {found.lhs} = {found.rhs}"
     needed = " and ".join(ZeroSet(zero).equation(answer) for zero in case.needed)

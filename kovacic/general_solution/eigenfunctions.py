@@ -44,14 +44,20 @@ def eigenfunctions(question: Question) -> tuple[Expr, list[str]] | None:
     n = sympy.Symbol(next(name for name in _NUMBERS if name not in taken), integer=True)
     sign = -1 if _with_positive_symbols(c1).is_negative else 1
     found = family(x, B, c0, sign * c1, sign * parameter, *conditions, n=n)
-    if found is None or not _is_solution(found, B, c0 + sign * found.value * c1, x):
+    if found is None:
+        return None
+    residues = (y.diff(x, 2) + B * y.diff(x) + (c0 + sign * found.value * c1) * y for y in found.functions)
+    if any(sympy.simplify(residue) != 0 for residue in residues):
         return None
     constants = sympy.symbols("C1 C2")
     y = sympy.Add(*(constant * function for constant, function in zip(constants, found.functions, strict=False)))
     said = _said_of_eigenvalue(found, parameter, sign)
     if found.equation is not None and not taken - {x.name}:
-        problem = _problem(x, (B, c0, c1), conditions)
-        said = f"{said}: {parameter} = {_first_roots(problem)}, ..."
+        pieces, B, sturm_sign = normal_form(x, (sympy.S.One, B, c0, c1), ends)
+        problem = Eigenproblem(SturmProblem(x, pieces, wishes, 0, B, sturm_sign), "lambda")
+        with suppress(InputError, LimitExceeded):
+            roots = ", ".join(str(level.value) for level in problem.levels(3, digits=15))
+            said = f"{said}: {parameter} = {roots}, ..."
     return y, [f"{said}; for all other {parameter} {question.function} is 0"]
 
 
@@ -77,12 +83,6 @@ def _with_positive_symbols(e: Expr) -> Expr:
     return e.xreplace({s: sympy.Symbol(s.name, positive=True) for s in e.free_symbols})
 
 
-def _is_solution(found: EigenvalueFamily, B: Expr, c: Expr, x: Expr) -> bool:
-    """True if the functions are solutions."""
-    residues = (sympy.simplify(y.diff(x, 2) + B * y.diff(x) + c * y) for y in found.functions)
-    return all(residue == 0 for residue in residues)
-
-
 def _said_of_eigenvalue(found: EigenvalueFamily, parameter: Expr, sign: int) -> str:
     """For which values of the parameter, which is the eigenvalue times a sign."""
     if found.equation is None:
@@ -96,18 +96,3 @@ def _said_of_eigenvalue(found: EigenvalueFamily, parameter: Expr, sign: int) -> 
     if found.zero.free_symbols:
         return f"{said} (that is one only if {found.zero} = 0)"
     return said
-
-
-def _problem(x: Expr, coefficients: tuple[Expr, Expr, Expr], conditions: Any) -> Eigenproblem:
-    B, c0, c1 = coefficients
-    ends, wishes = conditions
-    pieces, B, sign = normal_form(x, (sympy.S.One, B, c0, c1), ends)
-    return Eigenproblem(SturmProblem(x, pieces, wishes, 0, B, sign), "lambda")
-
-
-def _first_roots(problem: Eigenproblem) -> str:
-    """The first eigenvalues as proven numbers."""
-    try:
-        return ", ".join(str(level.value) for level in problem.levels(3, digits=15))
-    except (InputError, LimitExceeded):
-        return "?"

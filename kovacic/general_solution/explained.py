@@ -6,7 +6,6 @@ They are read from what `dsolve` found: the pair, its Wronskian, a particular so
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
-from functools import partial
 from typing import Any
 
 import sympy
@@ -132,7 +131,10 @@ def _steps(answer: SecondOrderAnswer) -> Iterator[Block]:
     question = answer.question
     solution = answer.basis.solution
     assert solution is not None
-    own = partial(_in_question, answer)
+
+    def own(e: Expr) -> Expr:
+        return question.own(e).xreplace({answer.basis.x: question.x})
+
     F = own(right_hand_side(question.equation))
     y = question.equation.unknown
     yield Heading("The equation")
@@ -187,10 +189,6 @@ def _constants(answer: SecondOrderAnswer, determined: Determined) -> Iterator[Fo
     for name, value in zip(answer.names, determined.generic.values, strict=True):
         if value != name:
             yield _named(str(name), value)
-
-
-def _in_question(answer: SecondOrderAnswer, e: Expr) -> Expr:
-    return answer.question.own(e).xreplace({answer.basis.x: answer.question.x})
 
 
 def _steps_of_first_order(answer: FirstOrderAnswer) -> Iterator[Block]:

@@ -89,8 +89,15 @@ class FirstOrderEquation:
 
     @cached_property
     def homogeneous(self) -> Expr:
-        """h with h'/h = q."""
-        return _exponential_of_integral(self.q, self.x)
+        """h with h'/h = q: a product of powers and an exponential where q is rational."""
+        rate = ratfunc(self.q, self.x)
+        if rate is not None:
+            own = {sympy.Symbol(symbol.name): symbol for symbol in self.q.free_symbols}
+            return display(product(rate), Atoms(self.x)).xreplace(NUMBERS | own)
+        apart = _apart(self.q, self.x)
+        if apart is None or apart.impulses:
+            return sympy.exp(sympy.Integral(self.q, self.x))
+        return sympy.exp(_of_parts(apart, sympy.Integer(1), self.x, None))
 
     def constant(self, taken: Set[Expr] = frozenset()) -> Expr:
         """C1, or the next of these names that is neither in the equation nor taken."""
@@ -237,18 +244,6 @@ def _constant_denominators(e: Expr, x: Expr) -> list[Expr]:
     return [base for base in sorted(bases, key=str) if base.is_zero is not False]
 
 
-def _exponential_of_integral(q: Expr, x: Expr) -> Expr:
-    """h with h'/h = q: a product of powers and an exponential where q is rational."""
-    rate = ratfunc(q, x)
-    if rate is not None:
-        own = {sympy.Symbol(symbol.name): symbol for symbol in q.free_symbols}
-        return display(product(rate), Atoms(x)).xreplace(NUMBERS | own)
-    apart = _apart(q, x)
-    if apart is None or apart.impulses:
-        return sympy.exp(sympy.Integral(q, x))
-    return sympy.exp(_of_parts(apart, sympy.Integer(1), x, None))
-
-
 def _particular(equation: FirstOrderEquation, h: Expr, start: Expr | None) -> Expr:
     """h int p/h dx."""
     apart = _apart(equation.p, equation.x)
@@ -293,13 +288,12 @@ def _constant_through(equation: FirstOrderEquation, h: Expr, particular: Expr, v
     """C with C h(a) + particular(a) = v; `free` where every C gives it, at a singular point a."""
     x = equation.x
     is_infinite = not equation.is_regular_at(value.point) and not is_finite(h.subs(x, value.point))
-    if is_infinite and not is_finite(particular.subs(x, value.point)):
-        raise InputError(f"at most one solution is finite at {value.point}, a singular point of the equation")
-    rest = value.v - value_at(particular, x, value.point)
     if is_infinite:
-        if not is_zero(rest):
+        there = particular.subs(x, value.point)
+        if not is_finite(there) or not is_zero(value.v - value_at(particular, x, value.point)):
             raise InputError(f"at most one solution is finite at {value.point}, a singular point of the equation")
         return _ZERO
+    rest = value.v - value_at(particular, x, value.point)
     if not equation.is_regular_at(value.point) and is_zero(value_at(h, x, value.point)):
         if not is_zero(rest):
             raise InputError(f"there is no solution with this value at {value.point}, a singular point of the equation")

@@ -60,18 +60,12 @@ def prepared(integrand: Expr) -> Expr:
         integrand = integrand.replace(tan, lambda a: sin(a) / cos(a)).replace(cot, lambda a: cos(a) / sin(a))
         integrand = integrand.replace(sec, lambda a: 1 / cos(a)).replace(csc, lambda a: 1 / sin(a))
     # SymPy would multiply (x + 1)^(-3/2) out, in the denominator.
-    kept = {power: sympy.Dummy() for power in integrand.atoms(sympy.Pow) if _is_inverse_root(power)}
+    sums = [power for power in integrand.atoms(sympy.Pow) if power.base.is_Add and power.exp.is_Rational]
+    kept = {power: sympy.Dummy() for power in sums if power.exp < -1 and not power.exp.is_Integer}
     back = {letter: power for power, letter in kept.items()}
     rest = integrand.xreplace(kept)
     check_duration(_PART_SECONDS * expanded_size(rest), "expanding an integrand")
     return sympy.expand(rest, power_exp=False).xreplace(back)
-
-
-def _is_inverse_root(power: Expr) -> bool:
-    """True for a sum to a power below -1 that isn't an integer."""
-    e = power.exp
-    is_fraction = e.is_Rational and not e.is_Integer
-    return bool(power.base.is_Add and is_fraction and e < -1)
 
 
 def sum_of(integrals: Iterable[Expr | None]) -> Expr | None:
@@ -159,17 +153,13 @@ def _rate(g: Expr, x: Expr) -> Expr:
         others += quotient * exp(sympy.cancel(exponent - exponents[0]))
     own = exponents[0].diff(x)
     for base, e in first.items():
-        own += _rate_of_power(base, e, x)
+        if not base.has(x):
+            own += e.diff(x) * log(base)
+        elif base.is_Add and base.has(exp) and e.is_Rational:  # as in exp(-x)/(x + 1), which SymPy expands
+            own += e * _rate(base, x)
+        else:
+            own += e * base.diff(x) / base
     return own + others.diff(x) / others
-
-
-def _rate_of_power(base: Expr, e: Expr, x: Expr) -> Expr:
-    """The logarithmic derivative of base^e, unless both depend on x."""
-    if not base.has(x):
-        return e.diff(x) * log(base)
-    if base.is_Add and base.has(exp) and e.is_Rational:  # as in exp(-x)/(x + 1), which SymPy expands
-        return e * _rate(base, x)
-    return e * base.diff(x) / base
 
 
 def integral_of_fraction(g: Expr, x: Expr) -> Expr | None:

@@ -61,21 +61,20 @@ def in_steps(right: Expr, x: Expr) -> Expr:
     )
     if not found.has(*JUMPING):
         return found
-    outside = found.replace(lambda e: _is_function_of_steps(e, x), lambda e: _with_steps_outside(e, x))
+    # sqrt(|x|) isn't analytic: sqrt(-x), which it is on one side, isn't real on the other
+    outside = found.replace(lambda e: _is_function(e) and is_analytic(e, x), lambda e: _with_steps_outside(e, x))
     return with_single_steps(sympy.expand(outside))
 
 
-def _is_function_of_steps(e: Expr, x: Expr) -> bool:
-    """True for a function of something with a step inside that is analytic on the whole line on either side of the step.
-
-    sqrt(|x|) isn't: sqrt(-x), which it is on one side, isn't real on the other.
-    """
-    return _is_function(e) and any(step.has(x) for step in e.atoms(Heaviside)) and is_analytic(e, x)
-
-
 def is_analytic(e: Expr, x: Expr) -> bool:
-    """Is it seen to be analytic on the whole line, on either side of its steps?"""
-    return all(_keeps_analytic(part) for part in sympy.preorder_traversal(e) if part.has(x))
+    """True if it is seen to be analytic on the whole line, on either side of its steps."""
+
+    def keeps_analytic(part: Expr) -> bool:
+        if part.is_Pow and part.exp.is_Integer:
+            return bool(part.exp.is_positive)
+        return part.is_Symbol or part.is_Add or part.is_Mul or isinstance(part, Heaviside) or _is_function(part)
+
+    return all(keeps_analytic(part) for part in sympy.preorder_traversal(e) if part.has(x))
 
 
 def _is_function(e: Expr) -> bool:
@@ -83,13 +82,6 @@ def _is_function(e: Expr) -> bool:
     if e.is_Pow:
         return bool(e.base.is_positive and e.base.is_number)
     return isinstance(e, _ANALYTIC)
-
-
-def _keeps_analytic(e: Expr) -> bool:
-    """True if it is analytic on the whole line where its arguments are.  A step is a constant on either side."""
-    if e.is_Pow and e.exp.is_Integer:
-        return bool(e.exp.is_positive)
-    return e.is_Symbol or e.is_Add or e.is_Mul or isinstance(e, Heaviside) or _is_function(e)
 
 
 def _with_steps_outside(e: Expr, x: Expr) -> Expr:
@@ -103,9 +95,16 @@ def _with_steps_outside(e: Expr, x: Expr) -> Expr:
 
 
 def _rewritten(jump: Expr, x: Expr) -> Expr:
-    """A function that jumps in terms of H(x - a) and impulses alone; the same where that isn't known."""
-    if isinstance(jump, sympy.Piecewise):
-        _check_cases(jump, x)
+    """A function that jumps in terms of H(x - a) and impulses alone; the same where that isn't known.
+
+    Raises `InputError` where no case of one that is given by cases holds.
+    """
+    indicators = [_indicator(condition, x) for _, condition in jump.args] if isinstance(jump, sympy.Piecewise) else []
+    if indicators and None not in indicators:  # with parameters that is tried at one value of each
+        missing = _alone(indicators)[-1].subs(next(samples(jump.free_symbols - {x})))
+        has_gap = any(on_piece(missing, x, point) != 0 for point in between(break_points(missing, x)))
+        if has_gap or any(value is sympy.nan for value, _ in jump.args):
+            raise InputError(f"{jump} has no value where no case holds", hint="add a last case, such as (0, True)")
     found = _at_points(jump, x)
     return found if all(_is_simple(e, x) for e in found.atoms(*JUMPING) if e.has(x)) else jump
 
@@ -168,18 +167,6 @@ def _indicator(condition: Expr, x: Expr) -> Expr | None:
     if isinstance(condition, sympy.core.relational.Relational):
         return Heaviside(condition.gts - condition.lts)
     return None
-
-
-def _check_cases(e: Expr, x: Expr) -> None:
-    """Raises `InputError` where no case holds.  With parameters that is tried at one value of each."""
-    indicators = [_indicator(condition, x) for _, condition in e.args]
-    if None in indicators:
-        return
-    values = next(samples(e.free_symbols - {x}))
-    missing = _alone(indicators)[-1].subs(values)
-    has_gap = any(on_piece(missing, x, point) != 0 for point in between(break_points(missing, x)))
-    if has_gap or any(value is sympy.nan for value, _ in e.args):
-        raise InputError(f"{e} has no value where no case holds", hint="add a last case, such as (0, True)")
 
 
 def _is_simple(e: Expr, x: Expr) -> bool:

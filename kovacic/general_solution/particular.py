@@ -38,7 +38,7 @@ from kovacic.general_solution.basis import Basis
 from kovacic.general_solution.check import is_finite
 from kovacic.general_solution.constants import tidy
 from kovacic.general_solution.integrands import NUMBERS, ChangeOfIntegrand, prepared, ratfunc
-from kovacic.general_solution.steps import Apart, HeavisideTerm, taken_apart
+from kovacic.general_solution.steps import HeavisideTerm, taken_apart
 from kovacic.general_solution.undetermined import undetermined
 from kovacic.general_solution.values import have_values, value_at, values_at
 from kovacic.general_solution.variation import with_integrals
@@ -50,7 +50,10 @@ _LARGEST_SUM = 30
 
 
 def particular_solution(basis: Basis, start: Expr | None) -> Expr:
-    """A polynomial, by undetermined coefficients, or by variation of parameters, whose integrals begin at `start`."""
+    """A polynomial, by undetermined coefficients, or by variation of parameters, whose integrals begin at `start`.
+
+    Raises `NotImplementedError` for an impulse at a singular point.
+    """
     right = right_hand_side(basis.equation)
     if right == 0:
         return sympy.Integer(0)
@@ -58,11 +61,15 @@ def particular_solution(basis: Basis, start: Expr | None) -> Expr:
     if not right.has(DiracDelta, Heaviside):
         return solved(right, start)
     apart = taken_apart(right, basis.x)
-    if apart is not None:
-        return _response(apart, basis, start, solved)
-    if right.has(DiracDelta):
+    if apart is None and right.has(DiracDelta):
         raise NotImplementedError("undecided: an impulse times a jump at the same point, or at one that isn't known")
-    return solved(right, start)
+    if apart is None:
+        return solved(right, start)
+    total = [_step_response(step, basis, solved) for step in apart.steps]
+    total += [_impulse_response(strengths, basis, a) for a, strengths in apart.strengths.items()]
+    if apart.plain != 0:
+        total.append(solved(apart.plain, start))
+    return sympy.Add(*total)
 
 
 def right_hand_side(equation: Equation) -> Expr:
@@ -157,19 +164,6 @@ def _polynomial_solution(equation: Equation, right: RatFunc | None) -> Poly | No
     if found is None:
         return None
     return sum((p * k for p, k in zip(powers, found, strict=True)), f * 0)
-
-
-def _response(right: Apart, basis: Basis, start: Expr | None, solved: Callable[[Expr, Expr | None], Expr]) -> Expr:
-    """A solution for a right-hand side with jumps and impulses.
-
-    `solved` gives one without them, with integrals from a point on.
-    Raises `NotImplementedError` for an impulse at a singular point.
-    """
-    total = [_step_response(step, basis, solved) for step in right.steps]
-    total += [_impulse_response(strengths, basis, a) for a, strengths in right.strengths.items()]
-    if right.plain != 0:
-        total.append(solved(right.plain, start))
-    return sympy.Add(*total)
 
 
 def _step_response(step: HeavisideTerm, basis: Basis, solved: Callable[[Expr, Expr | None], Expr]) -> Expr:

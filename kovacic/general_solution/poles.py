@@ -34,9 +34,18 @@ _MOST_POINTS = 200
 
 def is_singular(question: Question, point: Expr) -> bool:
     """True for a finite pole of b/a, c/a or f/a, and where the rest of the right-hand side has no value."""
-    if any(_is_root(question, den, point) for den in _denominators(question.equation)):
-        return True
-    h = question.equation.h
+    equation = question.equation
+    atoms = Atoms(sympy.Symbol(equation.variable))
+    at = question.own(function_of_x(equation)).subs(user_variable(equation), point)
+    for den in _denominators(equation):
+        if at.is_Rational and den.field == QQ:
+            is_root = not den(Fraction(int(at.p), int(at.q)))
+        else:
+            value = question.own(atoms.poly(den)).subs(atoms.x, at)
+            is_root = value.is_finite is False or is_zero(value)
+        if is_root:
+            return True
+    h = equation.h
     if h is None:
         return False
     smooth = h.xreplace(dict.fromkeys(h.atoms(sympy.Heaviside, sympy.DiracDelta), sympy.Integer(0)))
@@ -47,17 +56,6 @@ def _denominators(equation: Equation) -> list[Poly]:
     """Those of b/a, c/a and f/a that aren't constant."""
     quotients = [part / equation.a for part in (equation.b, equation.c, equation.f)]
     return [quotient.den for quotient in quotients if quotient.den.degree > 0]
-
-
-def _is_root(question: Question, polynomial: Poly, point: Expr) -> bool:
-    """True if a polynomial in the equation's variable is zero, or has no value, at a point in the user's variable."""
-    equation = question.equation
-    atoms = Atoms(sympy.Symbol(equation.variable))
-    at = question.own(function_of_x(equation)).subs(user_variable(equation), point)
-    if at.is_Rational and polynomial.field == QQ:
-        return not polynomial(Fraction(int(at.p), int(at.q)))
-    value = question.own(atoms.poly(polynomial)).subs(atoms.x, at)
-    return value.is_finite is False or is_zero(value)
 
 
 def poles_between(question: Question, first: Expr, last: Expr) -> Iterator[Expr]:
@@ -87,18 +85,13 @@ def rational_poles(question: Question) -> Iterator[Expr]:
         return
     for den in _denominators(equation):
         for factor, _ in den.field.factor(den):
-            yield from _real_roots(question.own(Atoms(question.x).poly(factor)), question.x)
-
-
-def _real_roots(polynomial: Expr, x: Expr) -> list[Expr]:
-    """Those of a polynomial whose coefficients are real numbers with square roots and the like; none of others."""
-    if polynomial.free_symbols != {x}:
-        return []
-    try:
-        roots = sympy.real_roots(sympy.Poly(polynomial, x, extension=True))
-    except (NotImplementedError, sympy.PolynomialError):  # with an i, or with roots of polynomials without a formula
-        return []
-    return [*dict.fromkeys(roots)]
+            polynomial = question.own(Atoms(question.x).poly(factor))
+            if polynomial.free_symbols != {question.x}:
+                continue
+            with suppress(
+                NotImplementedError, sympy.PolynomialError
+            ):  # an i, or roots of polynomials without a formula
+                yield from dict.fromkeys(sympy.real_roots(sympy.Poly(polynomial, question.x, extension=True)))
 
 
 def _below_the_line(e: Expr, x: Expr) -> list[Expr]:

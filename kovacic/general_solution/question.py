@@ -82,18 +82,13 @@ class Question:
 
     def own(self, expression: Expr) -> Expr:
         """The expression in the user's symbols for the parameters, with what letters stand for."""
-        # A replacement of symbols by themselves would build the whole expression anew.
-        if self._own:
-            expression = expression.xreplace(self._own)
-        if self.meanings:
-            expression = expression.xreplace(self.meanings)
-        return expression
+        return expression.xreplace(self._own) if self._own else expression
 
     @cached_property
     def _own(self) -> dict[Expr, Expr]:
-        """The user's symbols, and letters with what is known of their signs, for plain ones."""
-        pairs = {sympy.Symbol(name): symbol for name, symbol in self.parameters.items()}
-        return {plain: symbol for plain, symbol in pairs.items() if plain != symbol}
+        """The user's symbols for plain ones, and what letters stand for."""
+        pairs = {sympy.Symbol(name): self.meanings.get(symbol, symbol) for name, symbol in self.parameters.items()}
+        return {plain: symbol for plain, symbol in pairs.items() if plain != symbol} | dict(self.meanings)
 
 
 def read_question(
@@ -116,40 +111,34 @@ def read_question(
     if isinstance(eq, sympy.Basic):
         renamed = {s: sympy.Symbol(f"{s.name}_", **s.assumptions0) for s in eq.free_symbols if s.name in (PI, EULER)}
         eq = exact(eq)
-    if renamed:
-        eq = _in_symbols(eq, renamed)
-        func = _in_symbols(func, renamed)
-        values = {_in_symbols(key, renamed): _in_symbols(value, renamed) for key, value in values.items()}
+    eq, func = _in_symbols(eq, renamed), _in_symbols(func, renamed)
+    values = {_in_symbols(key, renamed): _in_symbols(value, renamed) for key, value in values.items()}
     read = _read_equation(eq, func, var, limits, declared(parameters, about_letters(assume, var)))
     if read.equation.variable in (PI, EULER):
         raise InputError(f"{read.equation.variable} is a number", hint="take another name for the variable")
     reader = ConditionReader(read.function, read.equation.unknown)
     conditions = tuple(reader.read(key, value) for key, value in values.items())
     symbols = {symbol.name: symbol for symbol in getattr(eq, "free_symbols", ())}
-    function = read.function
-    if assume:
-        known, assume = positive_variable(assume, function.args[0])
-        function = function.xreplace(known)
-        renamed = renamed | known
-    known = _with_assumptions(assume or {}, read.equation, conditions, symbols)
-    if known:
-        renamed = renamed | known
-        symbols |= {symbol.name: symbol for symbol in known.values()}
-        conditions = tuple(condition.in_symbols(known) for condition in conditions)
+    positive, assume = positive_variable(assume or {}, read.function.args[0])
+    known = _with_assumptions(assume, read.equation, conditions, symbols)
+    symbols |= {symbol.name: symbol for symbol in known.values()}
+    conditions = tuple(condition.in_symbols(known) for condition in conditions)
     meanings = _meanings(read.letters, symbols)
     symbols |= {letter.name: letter for letter in meanings}
+    names = parameters_of(read.equation.S.field)
+    about = {key: said for key, said in assume.items() if str(key) in names}
     equation = read.equation
     if equation.h is not None and equation.h.has(*JUMPING):
         equation = replace(equation, h=in_steps(equation.h, sympy.Symbol(read.function.args[0].name)))
     return Question(
         equation=equation,
         given=read.equation,
-        function=function,
+        function=read.function.xreplace(positive),
         conditions=conditions,
         symbols=symbols,
         meanings=meanings,
-        renamed=renamed,
-        assumptions=_about_S(assume or {}, symbols, parameters_of(read.equation.S.field)),
+        renamed=renamed | positive | known,
+        assumptions=read_assumptions(about, sympy.Tuple(*symbols.values()), names),
         has_floats=floats,
         guesses=read.guesses,
     )
@@ -171,12 +160,6 @@ def positive_variable(assume: Mapping[Any, Any], x: Expr) -> tuple[dict[Expr, Ex
     return {x: sympy.Symbol(x.name, positive=True)} if said else {}, others
 
 
-def _about_S(assume: Mapping[Any, Any], symbols: Mapping[str, Expr], names: Sequence[str]) -> Assumptions:
-    """What is known of the parameters of S."""
-    about = {key: said for key, said in assume.items() if str(key) in names}
-    return read_assumptions(about, sympy.Tuple(*symbols.values()), tuple(names))
-
-
 def _with_assumptions(
     assume: Mapping[Any, Any], equation: Equation, conditions: Sequence[Condition], symbols: Mapping[str, Expr]
 ) -> dict[Expr, Expr]:
@@ -184,9 +167,7 @@ def _with_assumptions(
     own = {symbol.name: symbol for condition in conditions for symbol in condition.free_symbols}
     own |= {name: sympy.Symbol(name) for name in parameters_of(equation.S.field)} | dict(symbols)
     own.pop(equation.variable, None)
-    known = dict(own)
-    if assume:
-        known |= read_assumptions(assume, sympy.Tuple(*symbols.values()), tuple(own)).symbols()
+    known = own | read_assumptions(assume, sympy.Tuple(*symbols.values()), tuple(own)).symbols()
     return {own[name]: symbol for name, symbol in _with_meaning(known, equation).items() if symbol != own[name]}
 
 
@@ -223,13 +204,8 @@ def apart(eq: Any, ics: Any) -> tuple[Any, Any]:
 
 def has_floats(eq: Any, values: Mapping[Any, Any]) -> bool:
     """True if an equation, or given values, contain floats."""
-    return any(_has_float(given) for given in (eq, *values, *values.values()))
-
-
-def _has_float(given: Any) -> bool:
-    if isinstance(given, sympy.Basic):
-        return bool(given.atoms(sympy.Float))
-    return isinstance(given, float)
+    parts = (eq, *values, *values.values())
+    return any(bool(e.atoms(sympy.Float)) if isinstance(e, sympy.Basic) else isinstance(e, float) for e in parts)
 
 
 @dataclass(frozen=True)

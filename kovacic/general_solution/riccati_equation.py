@@ -128,19 +128,31 @@ def _solved_linear(
     value: GivenValue | None,
     linear_solution: Callable[..., tuple[Expr, list[str]]],
 ) -> _LinearSolution:
-    """For a value at an ordinary point the solution with values of u and u'; else all of them, or those through the value."""
+    """For a value at an ordinary point the solution with values of u and u'; else all of them, or those through the value.
+
+    Raises `NotImplementedError` where u1, u2, -u1'/r or -u2'/r has no value there that is found.
+    """
+    x = equation.x
     linear, u = linear_equation(solved_for)
     start: dict[Expr, Expr] = {}
-    if value is not None and is_unit(solved_for.r, equation.x, value.point):
-        start = _start(equation, u, value, is_inverted=solved_for is not equation)
+    if value is not None and is_unit(solved_for.r, x, value.point):
+        here = {x: value.point}
+        u_there, slope_there = sympy.S.One, -(equation.r * value.v).subs(here)
+        if solved_for is not equation:
+            u_there, slope_there = value.v, equation.p.subs(here)
+        start = {u.subs(here): u_there, u.diff().subs(here): slope_there}
     found, notices = linear_solution(linear, u, ics=start)
     # Letters of their own for C1 and C2, which may be symbols of r, or of the value, too.
     own = sympy.Tuple(linear, *start.values()).free_symbols
     letters = {symbol: sympy.Dummy() for symbol in sorted(found.rhs.free_symbols - own, key=str)}
     solution = found.rhs.xreplace(letters)
     constants = tuple(letters.values())
-    if value is not None and not start:
-        solution = _through(solution, constants, equation, value)
+    if value is not None and not start:  # those of C1 u1 + C2 u2 for which -u'/r is v u at a: one, or all
+        basis = [solution.diff(constant) for constant in constants]
+        slopes = [value_at(-y.diff(x) / equation.r, x, value.point) for y in basis]
+        misses = [s - value.v * value_at(y, x, value.point) for s, y in zip(slopes, basis, strict=True)]
+        if not all(map(is_zero, misses)):
+            solution = misses[1] * basis[0] - misses[0] * basis[1]
     return _LinearSolution(solution, constants, notices)
 
 
@@ -151,36 +163,6 @@ def _is_inverted(equation: FirstOrderEquation, value: GivenValue | None) -> bool
         is_constant = equation.p != 0 and not equation.p.has(x)
         return is_constant and equation.r.has(x)
     return not is_unit(equation.r, x, value.point) and is_unit(equation.p, x, value.point)
-
-
-def _start(equation: FirstOrderEquation, u: Expr, value: GivenValue, *, is_inverted: bool) -> dict[Expr, Expr]:
-    """The values of u and u' for w(a) = v."""
-    here = {equation.x: value.point}
-    u_there = sympy.Integer(1)
-    slope_there = -(equation.r * value.v).subs(here)
-    if is_inverted:
-        u_there = value.v
-        slope_there = equation.p.subs(here)
-    return {u.subs(here): u_there, u.diff().subs(here): slope_there}
-
-
-def _through(u: Expr, constants: Sequence[Expr], equation: FirstOrderEquation, value: GivenValue) -> Expr:
-    """The solutions among C1 u1 + C2 u2 for which -u'/(r u) is v at a: one, or all.
-
-    Raises `NotImplementedError` where u1, u2, -u1'/r or -u2'/r has no value there that is found.
-    """
-    basis = [u.diff(constant) for constant in constants]
-    misses = [_miss(y, equation, value) for y in basis]
-    if all(is_zero(miss) for miss in misses):
-        return u
-    first, second = misses
-    return second * basis[0] - first * basis[1]
-
-
-def _miss(y: Expr, equation: FirstOrderEquation, value: GivenValue) -> Expr:
-    """-y'/r - v y at a."""
-    x = equation.x
-    return value_at(-y.diff(x) / equation.r, x, value.point) - value.v * value_at(y, x, value.point)
 
 
 # -------------------------------------------------------------------------------------------------------------- forms

@@ -8,7 +8,7 @@ from typing import Any
 import sympy
 
 from kovacic.general_solution.behaviour import Approach, finite_limit
-from kovacic.general_solution.steps import HeavisidePlace, place_of
+from kovacic.general_solution.steps import place_of
 from kovacic.general_solution.substitution import finite_value, slope
 from kovacic.general_solution.zero import agree, is_zero
 from kovacic.limits import check_time
@@ -82,20 +82,14 @@ def _just_before(e: Expr, jump: Expr, x: Expr, point: Expr, order: int) -> Expr:
     if u == 0:
         return at_the_jump
     step = sympy.Heaviside(u)
-    if not isinstance(step, sympy.Heaviside) or _is_smooth_across(e, jump, place, x, order):
+    if not isinstance(step, sympy.Heaviside):
         return step
+    if place is not None:  # neither the function nor its slope may jump where the step does
+        across = (e.xreplace({jump: sympy.Integer(1)}) - e.xreplace({jump: _ZERO})).diff(x, order)
+        value = finite_value(across, x, place.a)
+        if value is not None and is_zero(value):
+            return step
     return sympy.Heaviside(u, at_the_jump)
-
-
-def _is_smooth_across(e: Expr, step: Expr, place: HeavisidePlace | None, x: Expr, order: int) -> bool:
-    """True if neither the function nor its slope jumps where the step does."""
-    if place is None:
-        return False
-    jump = e.xreplace({step: sympy.Integer(1)}) - e.xreplace({step: _ZERO})
-    if order:
-        jump = jump.diff(x)
-    value = finite_value(jump, x, place.a)
-    return value is not None and is_zero(value)
 
 
 def have_values(expressions: Sequence[Expr], x: Expr, point: Expr) -> bool:
