@@ -14,7 +14,7 @@ from typing import Any, Protocol, TypeVar
 from kovacic.algebra.extension import AlgebraicField
 from kovacic.algebra.poly import Poly
 from kovacic.algebra.ratfunc import RatFunc
-from kovacic.decision import Decision, Exclusion, RiccatiPolynomial, SemiInvariant, Status
+from kovacic.decision import Decision, Exclusion, RiccatiPolynomial, SemiInvariant, Status, TerminatingSeries
 from kovacic.equation import Change, Equation
 from kovacic.limits import DEFAULT_LIMITS, Limits
 
@@ -82,6 +82,11 @@ class Answer:
         return self.decision.semi_invariant
 
     @property
+    def series(self) -> TerminatingSeries | None:
+        """The solution exp(int theta) P by the recurrence for P, in place of the polynomial of omega, where P is too long."""
+        return self.decision.series
+
+    @property
     def riccati(self) -> RiccatiPolynomial | None:
         """The monic polynomial of omega = y'/y, minimal over C(x); its `coefficients` run from W^0 to W^n."""
         return self.decision.riccati
@@ -95,7 +100,8 @@ class Answer:
     @property
     def constants(self) -> Poly | None:
         """The minimal polynomial of the constant c in omega's coefficients; None if they lie in the field of S."""
-        extension = None if self.decision.riccati is None else self.decision.riccati.P.field
+        riccati, series = self.decision.riccati, self.decision.series
+        extension = riccati.P.field if riccati is not None else series.theta.field if series is not None else None
         return extension.modulus if isinstance(extension, AlgebraicField) and extension != self.S.field else None
 
     @property

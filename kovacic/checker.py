@@ -17,6 +17,7 @@ What "checked" means, for an S over K(x), K = Q or a number field, given by an i
 - y'' = S y from a, b, c, and gauge: S = (b/a)'/2 + (b/a)^2/4 - c/a and gauge = -b/(2a), where an equation was given.
 - case, omega, of a "yes": the product of W - omega over the conjugates of omega = y'/y belongs to a form in the solutions, over
   K(c)(x), c a root of an irreducible polynomial; and no smaller degree is possible, by the exclusions.
+  Where the solution is exp(int theta) P with a P too long to be listed, by the recurrence for its coefficients.
 - case, of a "no": the group is neither reducible nor imprimitive nor finite and primitive, each excluded by a local condition
   at places of S, or by the absence of a rational form in the solutions (a rank modulo a prime can only be smaller than over
   K) and, if reducible, of a single rational omega (its expansion, modulo a prime, isn't that of a rational function with few
@@ -1078,6 +1079,8 @@ class Exclusions:
             elif kind == "no_invariant":
                 self.no_form(STRUCTURES[structure].form, item)
                 forms += 1
+            elif kind == "no_terminating_series":
+                raise NotImplementedError("that no series ends isn't proven here")
             else:
                 demand(kind == "no_rational_omega" and structure == "reducible", "the kind of the evidence is known")
                 self.no_omega(item)
@@ -1775,7 +1778,7 @@ class Answer:
         demand_keys({key: value for key, value in data.items() if key in REQUIRED.split()}, "the answer", REQUIRED)
         self.data = data
         self.proof = data["proof"]
-        demand_keys(self.proof, "the proof", "structure semi_invariant invariant excluded undecided")
+        demand_keys(self.proof, "the proof", "structure semi_invariant invariant excluded undecided", "series")
         demand_names(data["variable"])
         self.structure: str | None = self.proof["structure"]
         self.field = None if data.get("field") is None else NumberField.read(data["field"])
@@ -1791,7 +1794,10 @@ class Answer:
         checked.append("case")
         f = None
         F = None
-        if self.structure is not None:
+        if "series" in self.proof:
+            self.series(self.proof["series"])
+            checked.append("omega")
+        elif self.structure is not None:
             f = self.omega(STRUCTURES[self.structure].omega)
             F = self.rational_form(STRUCTURES[self.structure].form)
             checked.append("omega")
@@ -1855,7 +1861,10 @@ class Answer:
         demand(data.get("letters", {}) == {}, "an S without parameters has no letters for numbers")
         if structure is None:
             beside = [data["riccati"], data["constants"], self.proof["invariant"], self.proof["semi_invariant"]]
-            demand(beside == [None] * 4, "there is no solution beside a proof that there is none")
+            demand(
+                beside == [None] * 4 and "series" not in self.proof,
+                "there is no solution beside a proof that there is none",
+            )
 
     def equation(self) -> list[str]:
         """y = v exp(int gauge dx) turns a y'' + b y' + c y = 0 into v'' = S v, gauge = -b/(2a) [Kovacic 1986, section 1.1]."""
@@ -1950,6 +1959,41 @@ class Answer:
         has_c = any(g.degrees()[0] > 0 for value in a for g in (value.num, value.den))
         demand(self.data["constants"] is None or has_c, "c occurs in omega")
         return f
+
+    def series(self, data: Any) -> None:
+        """exp(int theta) P solves y'' = S y for a P with the powers degree, degree - step, ..., lowest of t = x - centre.
+
+        P'' + 2 theta P' + (theta' + theta^2 - S) P, times a denominator, takes t^k to U(k) t^(k+j) + V(k) t^(k+j-step) with
+        quadratic U and V.  It is 0 for P = sum p_k t^k with U(k) p_k = -V(k + step) p_(k+step), which begins at a root of U,
+        ends at one of V, and needs no division by 0.
+        """
+        demand_keys(data, "the series", "theta centre step degree lowest")
+        beside = [self.data["riccati"], self.proof["invariant"], self.proof["semi_invariant"]]
+        demand(self.structure == "reducible" and beside == [None] * 3, "a series stands in place of omega")
+        self.adjoin_constant()
+        tower = self.tower
+        theta, centre = (tower.read(data[name]) for name in ("theta", "centre"))
+        demand(centre.den == 1 and degree(centre.num) < 1, "the centre is a constant")
+        demand(self.data["constants"] is None or theta.num.degrees()[0] > 0, "c occurs in theta")
+        step, highest, lowest = (whole(data[name]) for name in ("step", "degree", "lowest"))
+        demand(step > 0 and 0 <= lowest <= highest and (highest - lowest) % step == 0, "these are powers in steps")
+        zeroth = theta.derivative() + theta * theta - self.S
+        second = theta.den * (zeroth.den // zeroth.den.gcd(theta.den))
+        parts = (zeroth.num * (second // zeroth.den), 2 * theta.num * (second // theta.den), second)
+        moved = [by_power(tower.normal(f.compose(C, T, X2 + centre.num)), 2) for f in parts]
+        powers = sorted({power - i for i, f in enumerate(moved) for power, value in f.items() if value != 0})
+        demand(len(powers) == 2 and powers[1] - powers[0] == step, "the recurrence has two terms")
+        V, U = ([f.get(power + i, 0 * C) for i, f in enumerate(moved)] for power in powers)
+        for (c, b, a), k in ((U, highest), (V, lowest)):
+            demand(tower.normal(a * (k * (k - 1)) + b * k + c) == 0, "P begins and ends at roots of the recurrence")
+        c, b, a = U
+        # The roots of U add up to 1 - b/a.
+        other = None if a == 0 else Function(tower, a - b, a).rational
+        divisors = range(lowest, highest, step)
+        demand(
+            other is None or other.q != 1 or int(other.p) - highest not in divisors,
+            "the recurrence divides by 0 nowhere",
+        )
 
     def adjoin_constant(self) -> None:
         """The constant c of omega, with its polynomial, which is irreducible, so that K(c) is a field."""

@@ -91,7 +91,18 @@ class NoRationalOmega:
     place: str = ""
 
 
-Evidence = NecessaryCondition | NoInvariant | NoRationalOmega
+@dataclass(frozen=True)
+class NoTerminatingSeries:
+    """There is no rational omega = theta + P'/P: of all theta that the exponents allow, none has a P.
+
+    Those with a natural number for the degree of P are `count`, and for each of them the recurrence for the coefficients of
+    P about a pole or the centre of all poles has two terms and meets an obstruction, or doesn't end.
+    """
+
+    count: int
+
+
+Evidence = NecessaryCondition | NoInvariant | NoRationalOmega | NoTerminatingSeries
 
 
 @dataclass(frozen=True)
@@ -144,6 +155,37 @@ class SemiInvariant:
 
 
 @dataclass(frozen=True)
+class TerminatingSeries:
+    """A solution y = exp(int theta) P whose P has too many terms to be written out, and is known by its recurrence.
+
+    P = t^degree + ... + c t^lowest in steps of `step`, t = x - centre: the equation for P, P'' + 2 theta P' +
+    (theta' + theta^2 - S) P = 0, is a relation between the coefficients of two powers of t, and determines it.
+
+    Attributes
+    ----------
+    theta : RatFunc
+        Its poles are at those of S, and at infinity.
+    centre : Poly
+        A constant.
+    step, degree, lowest : int
+        The powers of t in P are degree, degree - step, ..., lowest.
+
+    Examples
+    --------
+    >>> import kovacic
+    >>> series = kovacic.solve("x^2 + 2000000001").series
+    >>> print(series.theta, series.centre, series.step, series.degree, series.lowest)
+    x 0 2 1000000000 0
+    """
+
+    theta: RatFunc
+    centre: Poly
+    step: int
+    degree: int
+    lowest: int
+
+
+@dataclass(frozen=True)
 class RiccatiPolynomial:
     """The monic polynomial of omega = y'/y, minimal over C(x): `sum_k (-1)^k A_k/(P D^k) W^(m-k)`, with A_0 = P.
 
@@ -184,8 +226,8 @@ class Decision:
     """The engine's outcome: the structure that the group has, or None, and everything that was excluded before it.
 
     `semi_invariant` and `riccati` belong to omega; `invariant` is the rational form that showed the structure (None if
-    omega was found without one).  `undecided` is a sentence when a limit was reached, and then nothing but the exclusions
-    is claimed.
+    omega was found without one); where P would be too long, a `series` takes their place.  `undecided` is a sentence when a
+    limit was reached, and then nothing but the exclusions is claimed.
     """
 
     structure: Structure | None
@@ -194,6 +236,7 @@ class Decision:
     semi_invariant: SemiInvariant | None = None
     riccati: RiccatiPolynomial | None = None
     undecided: str | None = None
+    series: TerminatingSeries | None = None
 
     @property
     def status(self) -> Status:

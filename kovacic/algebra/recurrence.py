@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import dataclass
 from math import lcm
 from operator import mul
 from typing import Any
@@ -86,6 +87,117 @@ class FieldSeries:
         return self._zero if pivot else -total
 
 
+@dataclass(frozen=True)
+class TwoTerms:
+    """An operator that takes t^k to upper(k) t^(k+s) + lower(k) t^(k+s-step): its polynomial solutions are hypergeometric.
+
+    The coefficients of a solution satisfy upper(k) p_k = -lower(k + step) p_(k+step), so that one that begins with
+    t^degree is there exactly if upper vanishes at the degree and the chain of powers degree, degree - step, ... comes to
+    a root of lower, where it ends, before it meets another root of upper.
+    """
+
+    step: int
+    upper: Poly
+    lower: Poly
+
+    @classmethod
+    def of(cls, second: Poly, first: Poly, zeroth: Poly) -> TwoTerms | None:
+        """`second P'' + first P' + zeroth P` as such an operator; None if x^k is taken to another number of powers."""
+        parts = [second, first, zeroth]
+        rows = []
+        for j, (a, b, c) in enumerate(_rows(parts, _shift(*parts))):
+            if a or b or c:
+                rows.append((j, first.field.poly([c, b - a, a])))
+        if len(rows) != 2:
+            return None
+        (start, upper), (end, lower) = rows
+        return cls(end - start, upper, lower)
+
+    def lowest(self, degree: int) -> int | None:
+        """The last power of the solution t^degree + ...; None if there is none."""
+        if self.upper(degree):
+            return None
+        ends = self._met(self.lower, degree)
+        if not ends or max(self._met(self.upper, degree - self.step), default=-1) >= max(ends):
+            return None
+        return max(ends)
+
+    def _met(self, factor: Poly, first: int) -> list[int]:
+        """The roots of upper or lower among first, first - step, ..., 0."""
+        return [k for k in _natural_roots(factor) if k <= first and (first - k) % self.step == 0]
+
+    def solutions(self, degree: int, lowest: int) -> list[Hypergeometric]:
+        """The solution t^degree + ... + c t^lowest, and the one that begins at the other root f of lower, if there is one
+        without a logarithm.
+
+        With n = (degree - lowest)/step and the other root e of upper, at k = lowest + step i the quotient of p_(k+step) and
+        p_k, -upper(k)/lower(k + step), is a multiple of (i - n)(i + (lowest - e)/step)/((i + 1)(i + 1 + (lowest - f)/step)).
+        Where a parameter below is an integer <= 0 the sum is taken from the top, where it is the reciprocal.
+        """
+        found = self._from(self.lower, lowest, self.upper, degree)
+        if found.is_singular:
+            downwards = TwoTerms(-self.step, self.lower, self.upper)
+            reverse = downwards._from(self.upper, degree, self.lower, lowest)
+            found = found if reverse.is_singular else reverse
+        other = None if self.lower.degree < 2 else -self.lower[1] / self.lower[2] - lowest
+        if other is None:
+            return [found]
+        second = self._from(self.lower, other, self.upper, degree)
+        return [found] if not other - lowest or second.is_singular else [found, second]
+
+    def _from(self, first: Poly, start: Poly | int, last: Poly, end: int) -> Hypergeometric:
+        """The series whose first power is a root of `first`, and whose terms vanish beyond roots of `last`, as `end` may be."""
+        zero = first * 0
+        above = [zero + end, *_other_roots(last, zero + end)]
+        below = _other_roots(first, zero + start)
+        top = [(start - root) / self.step for root in above]
+        bottom = [(start - root) / self.step + 1 for root in below]
+        factor = -last.lc * self.step**last.degree / (first.lc * self.step**first.degree)
+        return Hypergeometric(zero + start, self.step, (*top,), (*bottom,), factor)
+
+
+@dataclass(frozen=True)
+class Hypergeometric:
+    """t^start pFq(top; bottom; factor t^step), with constants of the field for the numbers."""
+
+    start: Poly
+    step: int
+    top: tuple[Poly, ...]
+    bottom: tuple[Poly, ...]
+    factor: Poly
+
+    @property
+    def is_singular(self) -> bool:
+        """True if a parameter below is 0, -1, -2, ..."""
+        return any(_natural_roots(value.field.poly([value, 1])) for value in self.bottom)
+
+
+def _natural_roots(factor: Poly) -> list[int]:
+    """The roots 0, 1, 2, ... of a polynomial of degree 2 at most."""
+    field = factor.field
+    roots = [-factor[0] / factor[1]] if factor.degree == 1 else []
+    if factor.degree == 2:
+        root = field.sqrt(factor[1] ** 2 - 4 * factor[0] * factor[2])
+        roots = [] if root is None else [(sign * root - factor[1]) / (2 * factor[2]) for sign in (1, -1)]
+    values = [field.rational_value(root) for root in roots]
+    return [int(value) for value in values if value is not None and value >= 0 and value.denominator == 1]
+
+
+def _other_roots(factor: Poly, root: Poly) -> list[Poly]:
+    """The root of a quadratic factor beside this one; none of a linear one."""
+    return [-factor[1] / factor[2] - root] if factor.degree == 2 else []
+
+
+def _rows(parts: Sequence[Any], shift: int) -> list[tuple[Any, ...]]:
+    """The (a_j, b_j, c_j) of L_j(k) = a_j k (k-1) + b_j k + c_j: the operator takes x^k to sum_j L_j(k) x^(k+shift-j)."""
+    return [tuple(f[shift + 2 - i - j] for i, f in enumerate(parts)) for j in range(shift + 3)]
+
+
+def _shift(second: Any, first: Any, zeroth: Any) -> int:
+    """The most by which the operator raises a power."""
+    return int(max(second.degree - 2, first.degree - 1, zeroth.degree))
+
+
 def _operator_value(coefficients: tuple[Any, ...], k: int) -> Any:
     """L(k) = a k (k-1) + b k + c."""
     a, b, c = coefficients
@@ -99,14 +211,12 @@ def polynomial_solution(second: Poly, first: Poly, zeroth: Poly, degree: int) ->
     more than one other k; if that is a smaller natural number, a multiple of the solution that begins there may have to
     be added.
     """
-    # The (a_j, b_j, c_j) of L_j(k) = a_j k (k-1) + b_j k + c_j, integers over Q: the operator takes x^k to
-    # sum_j L_j(k) x^(k+shift-j).
     parts = list[Any]([second, first, zeroth])
-    shift = max(second.degree - 2, first.degree - 1, zeroth.degree)
-    if first.field == QQ:
+    shift = _shift(*parts)
+    if first.field == QQ:  # in integers
         scale = lcm(*(f.content()[1] for f in parts))
         parts = [(f * scale).rep.numer() for f in parts]
-    operator = [tuple(f[shift + 2 - i - j] for i, f in enumerate(parts)) for j in range(shift + 3)]
+    operator = _rows(parts, shift)
     if _operator_value(operator[0], degree):
         return None
     main = _descend(first.field, operator, degree)
@@ -154,7 +264,7 @@ def _remainder(second: Poly, first: Poly, zeroth: Poly, P: Poly) -> Poly:
 
     By products, which stay fast where the operator is long; of P they need no more than the low powers.
     """
-    shift = max(second.degree - 2, first.degree - 1, zeroth.degree)
+    shift = _shift(second, first, zeroth)
     x = P.field.poly([0, 1])
     low = P if P.degree < shift + 2 else P % x ** (shift + 2)
     slope = low.derivative()

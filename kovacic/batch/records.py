@@ -194,7 +194,8 @@ def label_of(data: Mapping[str, Any]) -> str:
         return UNDECIDED
     label, case, degree = _STRUCTURE_LABELS[data["proof"]["structure"]]
     status = "none" if case is None else "liouvillian"
-    found = data["riccati"]["degree"] if data["riccati"] else 0
+    by_series = int(data["proof"].get("series") is not None)
+    found = data["riccati"]["degree"] if data["riccati"] else by_series
     if (data["status"], data["case"], found) != (status, case, degree) or not data["verified"]:
         raise ValueError("the answer contradicts itself")
     return label

@@ -187,6 +187,8 @@ def build(S: RatFunc, decision: Decision, gauge: RatFunc) -> ClosedStructure:
     """The closed forms that belong to a decision with Liouvillian solutions."""
     semi = decision.semi_invariant
     structure = decision.structure
+    if decision.series is not None:
+        raise ValueError("P is known by its recurrence alone")
     if semi is None or structure is None:
         raise ValueError("there is no Liouvillian solution")
     if structure is Structure.REDUCIBLE:

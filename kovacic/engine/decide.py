@@ -68,8 +68,8 @@ def decide_reducible(S: RatFunc, budget: Budget) -> Decision | None:
 
 def _certified(problem: Problem, found: Found, exclusions: tuple[Exclusion, ...], certify: bool) -> Decision:
     invariant = None if found.invariant is None else found.invariant.semi_invariant(problem)
-    if not certify:
-        return Decision(found.structure, exclusions, invariant=invariant)
+    if not certify or found.form is None:
+        return Decision(found.structure, exclusions, invariant=invariant, series=found.series)
     form = found.form()
     *numerators, remainder = form.numerators(problem)
     if remainder:

@@ -33,11 +33,20 @@ from typing import Any
 
 from sympy import Add, Integer, Symbol, expand, symbols, sympify
 
-from kovacic.algebra.extension import AlgebraicField
 from kovacic.algebra.factors import combination
-from kovacic.algebra.function_field import FunctionPoly
 from kovacic.algebra.poly import Field, Poly
-from kovacic.engine.places import Kind, Place, Problem
+from kovacic.engine.families import (
+    Choice,
+    Number,
+    Roots,
+    SingularPoint,
+    first_case_choices,
+    is_natural,
+    natural,
+    points_of_place,
+    theta_numerator,
+)
+from kovacic.engine.places import Kind, Problem
 from kovacic.engine.riccati import numerators
 from kovacic.equation import parameters_of
 from kovacic.limits import check_time
@@ -47,36 +56,14 @@ _MOST_FAMILIES = 4096
 _FEW_FAMILIES = 8
 #: The highest order of a pole: longer singular parts fill a screen each.
 _HIGHEST_POLE_ORDER = 40
-#: The degree over Q of the coefficients of r, and the one from which on no further roots are adjoined.
+#: The degree over Q of the coefficients of r.
 _HIGHEST_DEGREE = 6
-_MOST_ROOTS = 256
 #: Multiplications of coefficients for all trials together: a few seconds.
 _MOST_TRIAL_WORK = 1_000_000
 #: Coefficients of P whose conditions are written out.
 _MOST_UNKNOWNS = 3
-#: alpha or e at infinity where it is an ordinary point: 0 and 1, 0, 2 and 4; for m = 4, 6, 12 all integers up to 12.
-_AT_ORDINARY_INFINITY: dict[int, Sequence[int]] = {1: (0, 1), 2: (0, 2, 4)}
 #: d = scale * (value at infinity - sum of the values at the poles), and theta has the residues scale * value.
 SCALE = {1: Fraction(1), 2: Fraction(1, 2), 4: Fraction(1, 3), 6: Fraction(1, 2), 12: Fraction(1)}
-
-Number = int | Fraction | Poly
-
-
-@dataclass(frozen=True)
-class SingularPoint:
-    """A pole c (`at`), infinity (`at` is None), or `count` conjugate poles that are taken together (None, too)."""
-
-    place: Place
-    at: Poly | None = None
-    count: int = 1
-
-
-@dataclass(frozen=True)
-class Choice:
-    """alpha_c or e_c, and +-[sqrt r]_c as pairs (power of x - c, or of x at infinity; coefficient)."""
-
-    value: Number
-    singular: tuple[tuple[int, Poly], ...] = ()
 
 
 @dataclass(frozen=True)
@@ -116,23 +103,6 @@ class Search:
         return self.families is not None and all(point.count == 1 for point in self.points)
 
 
-class Roots:
-    """The field of all numbers that occur, to which square roots are adjoined on demand."""
-
-    def __init__(self, field: Field) -> None:
-        self.field = field
-
-    def root(self, square: Poly) -> Poly | None:
-        """A square root, adjoined if need be; None if the field would become too large."""
-        found = self.field.sqrt(square.over(self.field))
-        if found is None and self.field.absolute_degree < _MOST_ROOTS:
-            outer, inner = square.square_part() if isinstance(square, FunctionPoly) else (1, square)
-            radicand = -inner.over(self.field)
-            self.field = AlgebraicField(self.field, self.field.poly([radicand, 0, 1]), f"sqrt({inner})")
-            found = self.field.generator * outer
-        return found
-
-
 def search(problem: Problem, variable: str, m: int) -> Search | None:
     """Steps 1 to 3 for omega of degree m; of many families they try those up to the first that succeeds.
 
@@ -144,7 +114,7 @@ def search(problem: Problem, variable: str, m: int) -> Search | None:
         return None
     roots = Roots(problem.field)
     *poles, infinity = problem.places
-    points = (SingularPoint(infinity), *chain.from_iterable(_points_of_place(place, roots) for place in poles))
+    points = (SingularPoint(infinity), *chain.from_iterable(points_of_place(place, roots) for place in poles))
     chosen_at = []
     for point in points:
         check_time()
@@ -193,39 +163,9 @@ def _may_succeed(family: Family, m: int) -> bool:
     return is_natural(family.d) and (m != 2 or any(choice.value % 2 for choice in family.choices))
 
 
-def is_natural(d: Number) -> bool:
-    """True for 0, 1, 2, ..."""
-    value = _as_rational(d)
-    return value is not None and value >= 0 and value.denominator == 1
-
-
-def natural(d: Number) -> int:
-    """The number 0, 1, 2, ... as an integer."""
-    value = _as_rational(d)
-    assert value is not None
-    assert value.denominator == 1
-    return value.numerator
-
-
-def _as_rational(number: Number) -> Fraction | None:
-    return number.field.rational_value(number) if isinstance(number, Poly) else Fraction(number)
-
-
 def in_sympy(value: Any, x: Any) -> Any:
     """A number, or a polynomial in x, as a SymPy expression."""
     return expand(value.to_sympy(x)) if isinstance(value, Poly) else sympify(value, strict=True)
-
-
-def _points_of_place(place: Place, roots: Roots) -> list[SingularPoint]:
-    """The roots of the factor one by one where they are simple enough, or all of them as one."""
-    p = place.factor
-    if place.degree == 1:
-        return [SingularPoint(place, -p[0])]
-    if place.degree == 2 and place.order <= 2:
-        half = roots.root(p[1] * p[1] / 4 - p[0])
-        if half is not None:
-            return [SingularPoint(place, sign * half - p[1] / 2) for sign in (-1, 1)]
-    return [SingularPoint(place, None, place.degree)]
 
 
 def _naturals(choices: Sequence[Sequence[Choice]], points: Sequence[SingularPoint], m: int) -> int | None:
@@ -249,10 +189,10 @@ def _naturals(choices: Sequence[Sequence[Choice]], points: Sequence[SingularPoin
 def _exponent_choices(point: SingularPoint, m: int, roots: Roots) -> tuple[Choice, ...] | None:
     """The choices of step 1 at a point; None if the exponents aren't square roots of constants."""
     place = point.place
-    if place.kind is Kind.ORDINARY or (place.at_infinity and place.order == 1):
-        return tuple(map(Choice, _AT_ORDINARY_INFINITY.get(m, range(13))))
     if m == 1:
-        return _first_case_choices(place, roots)
+        return first_case_choices(place, roots)
+    if place.kind is Kind.ORDINARY or (place.at_infinity and place.order == 1):
+        return tuple(map(Choice, (0, 2, 4) if m == 2 else range(13)))
     if place.order > 2:  # E_c has one element for m = 2; higher degrees don't occur
         value = 4 - place.order if place.at_infinity else place.order
         return (Choice(value),) if m == 2 else None
@@ -263,58 +203,6 @@ def _exponent_choices(point: SingularPoint, m: int, roots: Roots) -> tuple[Choic
     step = Fraction(2 * centre, m) * (place.delta or 0)
     values = {centre + k * step for k in range(-m // 2, m // 2 + 1)}
     return tuple(Choice(int(value)) for value in sorted(values) if value.denominator == 1)
-
-
-def _first_case_choices(place: Place, roots: Roots) -> tuple[Choice, ...] | None:
-    """Step 1 for m = 1 at a singular point: (c1) to (c3), (inf2), (inf3)."""
-    if place.order > 2:
-        return _irregular(place, roots) if place.degree == 1 and place.order % 2 == 0 else None
-    if place.order == 1:
-        return (Choice(1),)
-    # alpha = 1/2 + Delta/2 and 1/2 - Delta/2, once where they are equal.
-    delta = None if place.delta_squared is None else roots.root(place.delta_squared)
-    if delta is None:
-        return None
-    signs = (1, -1) if delta else (1,)
-    return tuple(Choice((1 + sign * delta) / 2) for sign in signs)
-
-
-def _irregular(place: Place, roots: Roots) -> tuple[Choice, ...] | None:
-    """(c3) and (inf3) of section 3.1: r = s t^(-2 nu) w^2, w = 1 + ..., so [sqrt r] begins with a = sqrt s, and
-    b/a = 2 a w_k for the first term w_k that isn't in [sqrt r].
-    """
-    count = place.order // 2  # of the terms up to w_k
-    sign = -1 if place.at_infinity else 1
-    nu = count - 2 if place.at_infinity else count
-    leading, w = _series_square_root(place, count)
-    a = roots.root(leading)
-    if a is None:
-        return None
-    singular = [(sign * (k - nu), a * w[k]) for k in range(count - 1) if w[k]]
-    last = 2 * a * w[-1]
-    choices = []
-    for s in (1, -1):
-        terms = tuple((power, s * coefficient) for power, coefficient in singular)
-        choices.append(Choice((s * last + sign * nu) / 2, terms))
-    return tuple(choices)
-
-
-def _series_square_root(place: Place, count: int) -> tuple[Poly, list[Poly]]:
-    """The coefficient s, and w_1, ..., w_count of w = 1 + w_1 t + ..., with r = s t^(-2 nu) w^2 at the place."""
-    field = place.num.field
-    shift = field.poly([0, 2]) - place.factor
-    top = place.num(shift)
-    bottom = place.den(shift)
-    zero = field.poly([])
-    u: list[Poly] = []  # the series of r
-    for k in range(count):
-        known = sum((bottom[place.order + i] * u[k - i] for i in range(1, k + 1)), zero)
-        u.append((top[k] - known) / bottom[place.order])
-    w = [field.poly([1])]
-    for k in range(1, count):
-        known = sum((w[i] * w[k - i] for i in range(1, k)), zero)
-        w.append((u[k] / u[0] - known) / 2)
-    return u[0], w
 
 
 def _tried(families: Sequence[Family], trial: _Trial) -> tuple[Family, ...]:
@@ -343,11 +231,7 @@ class _Trial:
         self.x = x
         self.D = problem.D.over(field)
         self.T = problem.T.over(field)
-        # x - c, or the polynomial of conjugate poles that are taken together
-        self.factors = [
-            point.place.factor.over(field) if point.at is None else field.poly([0, 1]) - point.at
-            for point in points[1:]
-        ]
+        self.points = points
 
     def work(self, family: Family) -> int:
         """About how many multiplications of coefficients the trial takes."""
@@ -360,7 +244,7 @@ class _Trial:
         m = self.m
         X = self.field.poly([0, 1])
         d = natural(family.d)
-        R = self._theta_numerator(family)
+        R = theta_numerator(self.D, self.points, family.choices, SCALE[m])
         # D^(m+1) L_(m+1) for P = 1, x, x^2, ...
         images = [numerators(self.D, self.T, R, X**k, m, m + 1)[-1] * factorial(m + 1) for k in range(d + 1)]
         theta = self._theta(family)
@@ -376,25 +260,13 @@ class _Trial:
         unknowns, conditions = _vanishing_conditions(images, parameters_of(self.field))
         return replace(family, theta=theta, conditions=conditions, unknowns=unknowns)
 
-    def _theta_numerator(self, family: Family) -> Poly:
-        """D theta."""
-        D = self.D
-        R = self.field.poly([])
-        at_infinity, *at_poles = family.choices
-        for choice, f in zip(at_poles, self.factors, strict=True):
-            R += D // f * f.derivative() * (SCALE[self.m] * choice.value)
-            for power, c in choice.singular:
-                R += D // f**-power * c
-        for power, c in at_infinity.singular:
-            R += D * self.field.poly([0, 1]) ** power * c
-        return R
-
     def _theta(self, family: Family) -> Any:
         """theta, as a sum over the poles, as in the paper."""
         x = self.x
         terms = []
         at_infinity, *at_poles = family.choices
-        for choice, f in zip(at_poles, self.factors, strict=True):
+        for choice, point in zip(at_poles, self.points[1:], strict=True):
+            f = point.factor(self.field)
             base = in_sympy(f, x)
             terms.append(in_sympy(SCALE[self.m] * choice.value, x) * (in_sympy(f.derivative(), x) / base))
             terms += [in_sympy(c, x) * base**power for power, c in choice.singular]

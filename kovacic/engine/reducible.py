@@ -6,6 +6,7 @@
    of degree 2 have dimension 3, and the least of them in degree is the square of a solution.
 2. Otherwise omega is unique if it exists, so it is rational over K.  One place at which the local solutions differ leaves at
    most two expansions; see `kovacic.engine.local`.  Its P is then found exactly from its recurrence.
+3. Where the degree of P may exceed the limit, a recurrence of two terms may decide: see `kovacic.engine.terminating`.
 """
 
 from __future__ import annotations
@@ -21,7 +22,7 @@ from kovacic.algebra.lifting import Lifter
 from kovacic.algebra.poly import Field, Poly
 from kovacic.algebra.rationals import QQ
 from kovacic.algebra.recurrence import polynomial_solution
-from kovacic.decision import Evidence, Exclusion, NoInvariant, NoRationalOmega, Structure
+from kovacic.decision import Evidence, Exclusion, NoInvariant, NoRationalOmega, NoTerminatingSeries, Structure
 from kovacic.engine.invariants import invariants
 from kovacic.engine.local import (
     DegreeBound,
@@ -35,6 +36,7 @@ from kovacic.engine.local import (
 )
 from kovacic.engine.places import Kind, Place, Problem
 from kovacic.engine.riccati import Form, Found, Outcome, normalised, singular_factor
+from kovacic.engine.terminating import terminating_series
 from kovacic.errors import LimitExceeded
 from kovacic.limits import count_work
 
@@ -46,6 +48,27 @@ _EXACT_DEGREE = 400
 
 def decide(problem: Problem) -> Outcome:
     """Find omega in C(x), or prove that there is none."""
+    try:
+        return _decide_within_limits(problem)
+    except LimitExceeded as limit:
+        if limit.limit != "unknown_degree":
+            raise
+        series = terminating_series(problem)
+        if series is None:
+            raise
+    if isinstance(series, NoTerminatingSeries):
+        return (Exclusion(Structure.REDUCIBLE, (series,)),)
+    R = (series.theta * problem.D).num
+    if series.degree > problem.budget.limits.unknown_degree:
+        return Found(Structure.REDUCIBLE, series=series)
+    P = _polynomial_part(problem, R, series.degree)
+    if P is None:
+        raise AssertionError("the recurrence ends")
+    return Found(Structure.REDUCIBLE, lambda: Form(1, R, P))
+
+
+def _decide_within_limits(problem: Problem) -> Outcome:
+    """By the invariants of degree 2 and the expansions of omega, with polynomials of degrees within the limit."""
     try:
         quadratic = invariants(problem, 2)
     except LimitExceeded:

@@ -23,7 +23,7 @@ from typing import Any
 from kovacic.algebra.factors import product
 from kovacic.algebra.poly import Poly
 from kovacic.algebra.ratfunc import RatFunc
-from kovacic.decision import Exclusion, SemiInvariant, Structure
+from kovacic.decision import Exclusion, SemiInvariant, Structure, TerminatingSeries
 from kovacic.engine.places import Place, Problem
 
 
@@ -65,12 +65,14 @@ class Found:
     """The group has this structure.
 
     `form()` is the semi-invariant whose linear factors are the solutions with the omega that Kovacic's algorithm looks for;
-    it is computed on demand.  `invariant` is the rational invariant that showed the structure, None if there was none.
+    it is computed on demand.  `invariant` is the rational invariant that showed the structure, None if there was none.  Where
+    the form would be too long it is a `series`.
     """
 
     structure: Structure
-    form: Callable[[], Form]
+    form: Callable[[], Form] | None = None
     invariant: Form | None = None
+    series: TerminatingSeries | None = None
 
 
 Outcome = Found | tuple[Exclusion, ...]

@@ -30,12 +30,12 @@ from kovacic.limits import DEFAULT_LIMITS, Budget, Limits
 
 def group_of(S: RatFunc, decision: Decision, limits: Limits = DEFAULT_LIMITS) -> Group | None:
     """The differential Galois group of y'' = S y; None if the equation is undecided, or a limit keeps a reducible group from
-    being determined.
+    being determined, as where P is known by its recurrence alone.
 
     The decision must be certified (with its semi-invariant).  Whatever is claimed is proven: where a limit of the work
     keeps the order of an imprimitive group from being determined, the kind of the group says so.
     """
-    if decision.undecided is not None:
+    if decision.undecided is not None or decision.series is not None:
         return None
     if decision.structure is None:
         return Group(GroupKind.SL2, Ground.NO_LIOUVILLIAN)

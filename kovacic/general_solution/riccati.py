@@ -16,7 +16,7 @@ from kovacic.closed_form.atoms import Atoms
 from kovacic.equation import Equation
 from kovacic.errors import InputError
 from kovacic.general_solution.first_order import read_first_order
-from kovacic.limits import DEFAULT_LIMITS, Limits, check_time, limited
+from kovacic.limits import DEFAULT_LIMITS, Budget, Limits, check_time, limited
 from kovacic.numbers.numerals import as_latex, plain_text
 from kovacic.reading.read import read_coefficients
 from kovacic.solution import Solution, solve
@@ -112,6 +112,8 @@ def solve_riccati(
     if solution.case is None:
         are_all = None if group is None else False
         return RiccatiSolutions((), None, None, are_all, solution)
+    if solution.series is not None:
+        Budget(limits).check_degree(solution.series.degree, "a rational solution")
     all_algebraic = None if group is None else group.finite
     atoms = Atoms(sympy.Symbol(solution.variable))
     if solution.case != 1:

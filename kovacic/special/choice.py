@@ -27,6 +27,7 @@ from kovacic.algebra.embedding import complex_zeros
 from kovacic.algebra.precision import working_digits
 from kovacic.algebra.ratfunc import RatFunc
 from kovacic.algebra.rationals import RationalPoly
+from kovacic.closed_form.atoms import Atoms
 from kovacic.closed_form.check import independent, is_nonzero
 from kovacic.closed_form.cuts import common_place, real_at
 from kovacic.closed_form.form import EXACT, ClosedForm, pair_at, written
@@ -34,7 +35,8 @@ from kovacic.closed_form.jets import jet
 from kovacic.closed_form.primitive import FACTOR, LONG, SHORT, OpenPrimitive
 from kovacic.closed_form.product import written_length
 from kovacic.closed_form.structure import ClosedStructure, Covariants, Triangular, build
-from kovacic.decision import Decision
+from kovacic.closed_form.terminating import hypergeometric_pair
+from kovacic.decision import Decision, TerminatingSeries
 from kovacic.errors import LimitExceeded, VerificationFailed
 from kovacic.limits import Budget, bounded_work, check_time
 from kovacic.numbers.numerals import as_text
@@ -124,7 +126,7 @@ def solutions(
     if decision.case is None:
         raise ValueError(decision.undecided or "there is no Liouvillian solution")
     chosen = _Equation(S, decision, gauge, variable, budget or Budget()).chosen()
-    return chosen if is_changed else _real(chosen, S)
+    return chosen if is_changed or decision.series is not None else _real(chosen, S)
 
 
 def _real(form: ClosedForm, S: RatFunc) -> ClosedForm:
@@ -160,6 +162,8 @@ class _Equation:
 
     def chosen(self) -> ClosedForm:
         """The preferred pair, checked; or one that keeps its digits and isn't much longer; with a note if there is no such."""
+        if self.decision.series is not None:
+            return self._with_a_long_polynomial(self.decision.series)
         # In case 3 Klein's form comes after the pull-back's own parameters, and so does a polynomial of many terms.
         is_first = self.decision.case == 3 or self._is_long
         forms = self._special_forms() if is_first else []
@@ -178,6 +182,21 @@ class _Equation:
                 return other_pair
             others = [form for form in others if form is not other]  # the last one is out already
         return replace(pair, notes=(*pair.notes, UNSTABLE))
+
+    def _with_a_long_polynomial(self, series: TerminatingSeries) -> ClosedForm:
+        """exp(int theta) P and a second solution; two special functions, if they are found, where theta isn't over K."""
+        make = partial(build, self.S, self.decision, self.gauge)
+        if series.theta.field != self.S.field:
+            source = self._source()
+            found = None
+            with suppress(LimitExceeded):
+                found = source and written_pair(source, self.S, self.gauge, self.variable, {}, joined=True)
+            if found and found.wronskian is not None and is_nonzero(found.wronskian, Symbol(self.variable)):
+                x = Symbol(self.variable)
+                return ClosedForm(found.y1, found.y2, x, self.gauge, EXACT, place=found.place, build=make)
+        atoms = Atoms(Symbol(self.variable))
+        pair = hypergeometric_pair(series, self.S, self.gauge, atoms)
+        return ClosedForm(*pair, atoms.x, self.gauge, EXACT, (*atoms.notes,), build=make)
 
     def _own_forms(self) -> list[PairForm]:
         """The forms of the structure itself, and y1 times an unevaluated integral beside a long evaluated one."""
@@ -200,13 +219,17 @@ class _Equation:
     def _written(self, structure: ClosedStructure) -> ClosedForm:
         return written(structure, self.S, self.gauge, self.variable)
 
-    def _special_forms(self) -> list[PairForm]:
+    def _source(self) -> Pullback | GaugeTransform | None:
         """A pull-back of a standard equation with its actual parameters, if it is found soon."""
-        source: Pullback | GaugeTransform | None = None
         with suppress(LimitExceeded), bounded_work(_SEARCH):
-            source = find(self.S, self.budget, extended=False).pullback
-        if source is None:
-            source = find_transform(self.S, self.budget)
+            found = find(self.S, self.budget, extended=False).pullback
+            if found is not None:
+                return found
+        return find_transform(self.S, self.budget)
+
+    def _special_forms(self) -> list[PairForm]:
+        """The solutions of that standard equation."""
+        source = self._source()
         if source is None:
             return []
         parts: list[object] = [source.f] if isinstance(source, Pullback) else [source.pullback.f, source.a, source.b]

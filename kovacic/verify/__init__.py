@@ -29,6 +29,7 @@ from kovacic.limits import Budget
 from kovacic.verify.evidence import INVARIANT_DEGREE, Inspector
 from kovacic.verify.factors import is_a_field
 from kovacic.verify.identity import form_numerators, is_power, is_rational
+from kovacic.verify.terminating import solves
 
 #: The structures in the order of the proof, with the degree of omega.
 _OMEGA_DEGREE = dict(zip(Structure, (1, 2, 4, 6, 12), strict=True))
@@ -148,10 +149,17 @@ def _claimed_solution(inspector: Inspector, decision: Decision) -> list[Check]:
     """The polynomial of omega and the forms; there are none beside "no" and "undecided"."""
     riccati = decision.riccati
     form = decision.semi_invariant
+    series = decision.series
     structure = decision.structure
     if decision.status is not Status.LIOUVILLIAN or structure is None:
-        nothing = (structure, decision.invariant, form, riccati)
-        return [] if nothing == (None,) * 4 else [Check("no solution is claimed", False)]
+        nothing = (structure, decision.invariant, form, riccati, series)
+        return [] if nothing == (None,) * 5 else [Check("no solution is claimed", False)]
+    if series is not None:
+        is_alone = structure is Structure.REDUCIBLE and (decision.invariant, form, riccati) == (None,) * 3
+        field = series.theta.field
+        is_over = field == inspector.S.field or (is_a_field(field) and field.extends(inspector.S.field))
+        right = is_alone and is_over and solves(inspector.S, series)
+        return [Check("exp(int theta) P solves y'' = S y, by the recurrence for P, which ends", right)]
     if riccati is None or form is None:
         return [Check("the polynomial of omega is there", False)]
     irreducible = []

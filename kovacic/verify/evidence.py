@@ -22,7 +22,15 @@ from typing import Any
 from kovacic.algebra.poly import Poly
 from kovacic.algebra.ratfunc import RatFunc
 from kovacic.compatibility import cached_property
-from kovacic.decision import Evidence, NecessaryCondition, NoInvariant, NoRationalOmega, Rule, Structure
+from kovacic.decision import (
+    Evidence,
+    NecessaryCondition,
+    NoInvariant,
+    NoRationalOmega,
+    NoTerminatingSeries,
+    Rule,
+    Structure,
+)
 from kovacic.limits import Budget
 from kovacic.verify.local import Point, points
 from kovacic.verify.omega import chart, no_expansion_is_rational
@@ -36,6 +44,7 @@ from kovacic.verify.primes import (
     translated,
 )
 from kovacic.verify.series import nullity, product_of_powers, solutions_at_ordinary_point
+from kovacic.verify.terminating import none_solves
 from kovacic.verify.zeros import ZeroCounts, is_proven_irrational, zero_counts
 
 #: Equations beyond the number of unknowns.
@@ -197,6 +206,8 @@ class Inspector:
                 return False
             if isinstance(item, NoInvariant):
                 no_invariant |= item.invariant_degree == INVARIANT_DEGREE[structure]
+            elif isinstance(item, NoTerminatingSeries):
+                fails = True
             elif isinstance(item, NoRationalOmega) or item.rule is Rule.NOT_A_SQUARE:
                 no_unique_omega = True  # and no more
             else:
@@ -210,6 +221,8 @@ class Inspector:
             return condition_fails(item, structure, self.points)
         if isinstance(item, NoInvariant):
             return self._no_invariant(item)
+        if isinstance(item, NoTerminatingSeries):
+            return structure is Structure.REDUCIBLE and none_solves(self.S, self.points, item.count)
         return self._no_rational_omega(item)
 
     def _no_invariant(self, item: NoInvariant) -> bool:

@@ -49,7 +49,7 @@ def group_holds(inspector: Inspector, decision: Decision, claim: GroupClaim) -> 
         return False
     f = decision.semi_invariant
     riccati = decision.riccati
-    if decision.undecided is not None:
+    if decision.undecided is not None or decision.series is not None:
         return False
     if f is None or riccati is None:  # there is no solution
         return (claim.family, claim.n) == ("SL2", None)

@@ -61,7 +61,7 @@ def _for_the_decision(decision: Decision) -> list[str]:
     excludes_invariants = any(isinstance(item, NoInvariant) for item in evidence)
     excludes_omega = any(isinstance(item, NoRationalOmega) for item in evidence)
     has_invariant = decision.invariant is not None
-    has_omega = decision.structure is Structure.REDUCIBLE
+    has_omega = decision.structure is Structure.REDUCIBLE and decision.series is None
     used = []
     if has_invariant or excludes_invariants:
         used += ["UW96", "HW97"]

@@ -12,7 +12,7 @@ from io import StringIO
 from kovacic import derived
 from kovacic.algebra.ratfunc import RatFunc
 from kovacic.answer import Answer
-from kovacic.decision import Exclusion, NecessaryCondition, SemiInvariant, Status, Structure
+from kovacic.decision import Exclusion, NoInvariant, NoRationalOmega, SemiInvariant, Status, Structure
 from kovacic.engine.places import Problem
 from kovacic.engine.riccati import residue
 from kovacic.errors import KovacicError, LimitExceeded
@@ -24,6 +24,7 @@ from kovacic.views.sentences import (
     formulas_of,
     normal_form,
     omega_math,
+    powers_in,
     reason,
     solutions_of,
     verdict_of,
@@ -86,7 +87,7 @@ def explain(answer: Answer, *, format: str = "text", solutions: bool = True) -> 
     if format != "html":
         return chosen.render(blocks)
     # The equation and the answer, a table of contents, and the rest.
-    picture = _picture(answer)
+    picture = "" if answer.series else _picture(answer)  # values of these solutions differ by thousands of digits
     starts = [k for k, block in enumerate(blocks) if isinstance(block, Heading)]
     titles = [block.text for block in blocks[starts[2] :] if isinstance(block, Heading)]
     if picture:
@@ -109,7 +110,9 @@ def document(answer: Answer, *, solutions: bool = True) -> list[Block]:
         steps.search,
         writer.cases,
     ]
-    if answer.status is Status.LIOUVILLIAN:
+    if answer.series is not None:
+        parts.append(writer.series)
+    elif answer.status is Status.LIOUVILLIAN:
         parts += [writer.certificate, writer.omega]
     if solutions and answer.status is not Status.UNDECIDED:
         parts.append(writer.closed_form)
@@ -206,6 +209,10 @@ class ExplanationWriter:
             yield say(f"{known}: {decision.undecided}.")
         elif decision.structure is None:
             yield say("Nothing is left but SL2(C): the equation has no Liouvillian solution, and this is a proof.")
+        elif decision.series is not None:
+            yield say(
+                "A theta of the paper's families has a P; the recurrence for its coefficients has two terms, and ends."
+            )
         elif decision.invariant is not None:
             yield say(f"There is {_BY_INVARIANT[decision.structure]}. So it is {_CASES[decision.structure]}:")
             yield Formula(self.formulas.named("F", "F", rational_form(decision.invariant, self.steps.problem)))
@@ -221,7 +228,7 @@ class ExplanationWriter:
             if k:
                 sentence.append("; ")
             sentence += reason(evidence, self.formulas)
-            if not isinstance(evidence, NecessaryCondition) and evidence.prime is not None:
+            if isinstance(evidence, NoInvariant | NoRationalOmega) and evidence.prime is not None:
                 sentence.append(f", for polynomials of degree at most {evidence.degree}")
         return say(*sentence, ".")
 
@@ -236,6 +243,17 @@ class ExplanationWriter:
         yield say(DEGREE[case], f" = {form.P.degree}, and with ", theta, " and ", P, ":")
         yield Formula(self.formulas.named("theta", r"\theta", form.theta))
         yield Formula(self.formulas.named("P", "P", form.P))
+
+    def series(self) -> Iterator[Block]:
+        """theta, and the P that isn't listed."""
+        series = self.answer.series
+        assert series is not None
+        yield Heading("theta and P of the answer")
+        yield say(
+            DEGREE[1], " is the degree of ", Math("P", "P"), ", which is of ", *powers_in(series, self.formulas), "."
+        )
+        yield Formula(self.formulas.named("theta", r"\theta", series.theta))
+        yield from self._constants()
 
     def omega(self) -> Iterator[Block]:
         riccati = self.answer.riccati
@@ -262,6 +280,9 @@ class ExplanationWriter:
                 )
                 yield say("with ", Math(f"m = {m}", f"m = {m}"), " and")
                 yield from map(Formula, _OMEGA_BY_RECURRENCE)
+        yield from self._constants()
+
+    def _constants(self) -> Iterator[Block]:
         if self.answer.constants is not None:
             text = self.answer.constants.to_str(self.formulas.symbol)
             yield say(f"where {self.formulas.symbol} is a root of ", Math(caret(text), latex_text(text)), ".")

@@ -8,7 +8,8 @@
 Coefficients run from low to high, in Python/SymPy syntax in the variable and the symbol of the constants; the last one is
 "1".  Those of degree 6 and 12 are null unless requested: they follow from the semi-invariant by the recurrence of
 `kovacic.verify.identity`, and would be most of the answer.
-`proof` has the data for a check beside the polynomial: the semi-invariant of omega as prod D^... exp(int theta) P, the
+`proof` has the data for a check beside the polynomial: the semi-invariant of omega as prod D^... exp(int theta) P, or, where
+P is too long, both being null, `series`, theta with the powers that P has about a point; the
 rational invariant that was found, the evidence against everything excluded, and the reason of an undecided equation.
 `group`, on request, has the name, the order, and the family of the group with its parameter n; on a curve of positive genus
 also the function, in pieces, that shows whether it is finite, or the orders modulo primes that show an infinite one.
@@ -35,11 +36,13 @@ from kovacic.decision import (
     NecessaryCondition,
     NoInvariant,
     NoRationalOmega,
+    NoTerminatingSeries,
     RiccatiPolynomial,
     Rule,
     SemiInvariant,
     Status,
     Structure,
+    TerminatingSeries,
 )
 from kovacic.equation import EULER, PI, Equation, Parsed, parameters_of
 from kovacic.errors import InputError, LimitExceeded, VerificationFailed
@@ -151,6 +154,7 @@ def _proof(decision: Decision, names: Formulas) -> dict[str, Any]:
     semi_invariant = None
     if decision.semi_invariant is not None and decision.riccati is not None:
         semi_invariant = {**_form_dict(decision.semi_invariant, names), "D": names.python(decision.riccati.D)}
+    series = {} if decision.series is None else {"series": _series_dict(decision.series, names)}
     return {
         "structure": structure,
         "semi_invariant": semi_invariant,
@@ -164,7 +168,13 @@ def _proof(decision: Decision, names: Formulas) -> dict[str, Any]:
             for exclusion in decision.exclusions
         ],
         "undecided": decision.undecided,
+        **series,
     }
+
+
+def _series_dict(series: TerminatingSeries, names: Formulas) -> dict[str, Any]:
+    powers = {name: for_json(getattr(series, name)) for name in ("step", "degree", "lowest")}
+    return {"theta": names.python(series.theta), "centre": names.python(series.centre), **powers}
 
 
 def _solutions_as_text(answer: Answer) -> list[str] | None:
@@ -255,7 +265,8 @@ def _decision(data: Mapping[str, Any], S: RatFunc, variable: str) -> Decision:
     proof = data["proof"]
     has_omega = data["riccati"] is not None
     has_form = proof["semi_invariant"] is not None
-    if has_omega != has_form or (data["constants"] is not None and not has_omega):
+    is_over_constants = has_omega or "series" in proof
+    if has_omega != has_form or (data["constants"] is not None and not is_over_constants):
         raise ValueError("omega needs its polynomial and the semi-invariant")
     over_S = _AnswerReader.over(S.field, variable)
     over_constants = over_S.extended(data["constants"])
@@ -272,6 +283,7 @@ def _decision(data: Mapping[str, Any], S: RatFunc, variable: str) -> Decision:
         D = over_constants.poly(proof["semi_invariant"]["D"])
         riccati = _riccati(S, form, D, data["riccati"], over_constants)
     undecided = _typed(proof, "undecided", str, type(None))
+    series = _unless_none(proof.get("series"), over_constants.series)
     decision = Decision(
         structure=structure,
         exclusions=exclusions,
@@ -279,6 +291,7 @@ def _decision(data: Mapping[str, Any], S: RatFunc, variable: str) -> Decision:
         semi_invariant=form,
         riccati=riccati,
         undecided=undecided,
+        series=series,
     )
     if Status(data["status"]) is not decision.status or data["case"] != decision.case:
         raise ValueError("status or case contradict the proof")
@@ -291,7 +304,21 @@ def _unless_none(value: Any, read: Callable[[Any], Any]) -> Any:
 
 
 #: Keys that are compared by value, keys that are ignored or checked elsewhere, and keys that may be absent.
-_BY_VALUE = {"S", "theta", "P", "D", "coefficients", "minimal_polynomial", "a", "b", "c", "f", "gauge", "near"}
+_BY_VALUE = {
+    "S",
+    "theta",
+    "centre",
+    "P",
+    "D",
+    "coefficients",
+    "minimal_polynomial",
+    "a",
+    "b",
+    "c",
+    "f",
+    "gauge",
+    "near",
+}
 _ELSEWHERE = {"verified", "notices", "seconds", "solutions", "group"}
 _MAY_BE_ABSENT = {"field", "letters", "generic_conditions", "equation", "gauge", "change", "near"}
 #: The facts about a group, and the evidence for them, which is computed anew.
@@ -470,6 +497,10 @@ class _AnswerReader(WrittenReader):
     def semi_invariant(self, data: Mapping[str, Any]) -> SemiInvariant:
         return SemiInvariant(_typed(data, "degree", int), self.ratfunc(data["theta"]), self.poly(data["P"]))
 
+    def series(self, data: Mapping[str, Any]) -> TerminatingSeries:
+        step, degree, lowest = (int(_typed(data, name, int, str)) for name in ("step", "degree", "lowest"))
+        return TerminatingSeries(self.ratfunc(data["theta"]), self.poly(data["centre"]), step, degree, lowest)
+
 
 def _riccati(
     S: RatFunc, form: SemiInvariant, D: Poly, data: Mapping[str, Any], reader: _AnswerReader
@@ -504,6 +535,8 @@ def _evidence_dict(evidence: Evidence, names: Formulas) -> dict[str, Any]:
         return {"kind": "necessary_condition", "rule": rule.name.lower(), "places": places, "statement": rule.value}
     if isinstance(evidence, NoInvariant):
         return {"kind": "no_invariant", **vars(evidence)}
+    if isinstance(evidence, NoTerminatingSeries):
+        return {"kind": "no_terminating_series", **vars(evidence)}
     return {"kind": "no_rational_omega", **vars(evidence), "place": names.place_name(evidence.place)}
 
 
@@ -511,6 +544,8 @@ def _read_evidence(data: Mapping[str, Any], names: Formulas) -> Evidence:
     if data["kind"] == "necessary_condition":
         places = tuple(names.internal_place(name) for name in data["places"])
         return NecessaryCondition(Rule[data["rule"].upper()], places)
+    if data["kind"] == "no_terminating_series":
+        return NoTerminatingSeries(_typed(data, "count", int))
     prime = _typed(data, "prime", int, type(None))
     degree = _typed(data, "degree", int)
     if data["kind"] == "no_invariant":

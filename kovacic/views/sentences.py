@@ -9,9 +9,16 @@ from kovacic import derived
 from kovacic.algebra.poly import Poly
 from kovacic.algebra.rationals import RationalPoly
 from kovacic.answer import Answer
-from kovacic.decision import Evidence, NecessaryCondition, NoInvariant, RiccatiPolynomial
+from kovacic.decision import (
+    Evidence,
+    NecessaryCondition,
+    NoInvariant,
+    NoTerminatingSeries,
+    RiccatiPolynomial,
+    TerminatingSeries,
+)
 from kovacic.equation import Parsed
-from kovacic.numbers.numerals import as_text
+from kovacic.numbers.numerals import as_text, in_a_message
 from kovacic.writing.formula import Formulas, Math, caret, latex_text, of_sympy
 
 #: Verdicts.
@@ -64,17 +71,29 @@ def omega_math(riccati: RiccatiPolynomial, formulas: Formulas) -> Math:
     return Math("\n".join(texts) + " = 0", rf"\begin{{array}}{{l}} \displaystyle {lines} = 0 \end{{array}}")
 
 
+def powers_in(series: TerminatingSeries, formulas: Formulas) -> Iterator[str | Math]:
+    """The powers that P has, where it is known by its recurrence."""
+    t = formulas.math(series.theta.field.poly([0, 1]) - series.centre)
+    highest, lowest, step = map(in_a_message, (series.degree, series.lowest, series.step))
+    yield f"degree {highest}, with powers of "
+    yield t
+    yield f" down to {lowest} in steps of {step}"
+
+
 def omega_lines(answer: Answer) -> list[str]:
     """omega, or its polynomial, and its constants, as text."""
     riccati = answer.riccati
-    assert riccati is not None
+    series = answer.series
     formulas = formulas_of(answer)
-    omega = omega_math(riccati, formulas)
+    omega = Math("", "") if riccati is None else omega_math(riccati, formulas)
     constants = answer.constants
     roots = None if constants is None else _simple_roots(constants)
-    if roots is not None and riccati.degree == 1 and omega.text == formulas.symbol:
+    if roots is not None and omega.text == formulas.symbol:
         return [f"omega = {roots}"]
-    if riccati.degree == 1:
+    if series is not None:
+        powers = "".join(part.text if isinstance(part, Math) else part for part in powers_in(series, formulas))
+        lines = [f"omega = theta + P'/P with theta = {formulas.math(series.theta).text} and P of {powers}"]
+    elif riccati is None or riccati.degree == 1:
         lines = [f"omega = {omega.text}"]
     else:
         lines = [f"omega is a root {formulas.unknown} of", *(f"    {line}" for line in omega.text.splitlines())]
@@ -114,6 +133,8 @@ def reason(evidence: Evidence, formulas: Formulas) -> Iterator[str | Math]:
             yield f"the exponents leave no room for an invariant of degree {m}"
         else:
             yield f"no rational invariant of degree {m}, by a linear system of nullity 0 modulo {evidence.prime}"
+    elif isinstance(evidence, NoTerminatingSeries):
+        yield "the recurrence for P, of two terms, doesn't end for any theta that the exponents allow"
     elif evidence.prime is None:
         yield "the exponents leave no room for a rational omega"
     else:
@@ -142,6 +163,8 @@ def verdict_of(answer: Answer) -> tuple[str, str]:
         return SOLVABLE, answer.reason
     if answer.riccati is not None:
         return SOLVABLE, f"case {answer.case}, omega = y'/y is {of_degree(answer.riccati.degree)}"
+    if answer.series is not None:
+        return SOLVABLE, f"case {answer.case}, omega = y'/y is rational"
     if answer.reason is not None:
         return UNDECIDED, answer.reason
     return UNSOLVABLE, "the Galois group is SL2(C)"

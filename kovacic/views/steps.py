@@ -13,7 +13,8 @@ from sympy import Add, Symbol
 
 from kovacic.answer import Answer
 from kovacic.decision import Status
-from kovacic.engine.paper import Family, Search, SingularPoint, in_sympy, is_natural, natural, search
+from kovacic.engine.families import SingularPoint, is_natural, natural
+from kovacic.engine.paper import Family, Search, in_sympy, search
 from kovacic.engine.places import Kind, Place, Problem, analyse
 from kovacic.equation import parameters_of
 from kovacic.limits import Budget, check_time

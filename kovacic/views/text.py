@@ -74,7 +74,7 @@ def render(
     yield f"  {style(said, _ROLES[said])}: {visible(more)}"
     if solutions is not None:
         yield from _indented(solutions)
-    if answer.riccati is not None:
+    if answer.riccati is not None or answer.series is not None:
         yield from _indented(omega_lines(answer))
     if answer.omega is not None and solutions is None:
         of_what = ", a solution of the normal form" if is_gauged else ""
@@ -104,6 +104,8 @@ def _how_verified(answer: Answer) -> str:
         return "every exclusion was recomputed by independent code"
     if answer.status is Status.UNDECIDED:
         return "what was excluded before the limit was recomputed by independent code"
+    if answer.series is not None:
+        return "the recurrence for P, and where it ends, were recomputed by independent code"
     if answer.proof:
         return "omega' + omega^2 = S holds exactly, and what was excluded was recomputed by independent code"
     return "omega' + omega^2 = S holds exactly"

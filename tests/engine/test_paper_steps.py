@@ -12,7 +12,8 @@ from build import QQ, Budget, analyse, parametrize, size
 from hypothesis import given, settings
 
 import kovacic
-from kovacic.engine.paper import Roots, Search, in_sympy, is_natural, search
+from kovacic.engine.families import Roots, is_natural
+from kovacic.engine.paper import Search, in_sympy, search
 
 
 def succeeds(found: Search) -> bool:

@@ -1,0 +1,94 @@
+"""Case 1 beyond the limit of the degree: a P that is known by a recurrence of two terms.
+
+Kovacic's families give every theta that omega = theta + P'/P can have, with the degree of P.  About a suitable point the
+equation D P'' + 2 R P' + Z P = 0, R = D theta, is often a relation between two coefficients of P alone, as that of Hermite's,
+Laguerre's and Jacobi's polynomials, and what becomes of these with a power of x for x.  Whether it ends in a polynomial is
+told by the roots of its two factors, whatever the degree; see `kovacic.algebra.recurrence`.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from itertools import chain, product
+from math import prod
+
+from kovacic.algebra.extension import AlgebraicField
+from kovacic.algebra.poly import Poly
+from kovacic.algebra.ratfunc import RatFunc, over_one_denominator
+from kovacic.algebra.recurrence import TwoTerms
+from kovacic.decision import NoTerminatingSeries, TerminatingSeries
+from kovacic.engine.families import Roots, first_case_choices, is_natural, natural, points_of_place, theta_numerator
+from kovacic.engine.places import Problem
+
+#: Families of exponents that are tried.
+_MOST_FAMILIES = 256
+
+
+def terminating_series(problem: Problem) -> TerminatingSeries | NoTerminatingSeries | None:
+    """A solution exp(int theta) P with a P of least degree, or that there is none; None where that isn't told in this way.
+
+    A solution is told only if every theta with a smaller degree of P is excluded; that there is none, only for poles and
+    exponents in the field of S.
+    """
+    roots = Roots(problem.field, "c")
+    *poles, infinity = problem.places
+    points = [*points_of_place(infinity, roots), *chain.from_iterable(points_of_place(place, roots) for place in poles)]
+    choices = []
+    for point in points:
+        chosen = first_case_choices(point.place, roots)
+        if chosen is None:
+            return None
+        choices.append(chosen)
+    field = roots.field
+    is_single = isinstance(field, AlgebraicField) and field.base == problem.field
+    if prod(map(len, choices)) > _MOST_FAMILIES or not (field == problem.field or is_single):
+        return None
+    D = problem.D.over(field)
+    families = []
+    for family in product(*choices):
+        at_infinity, *at_poles = family
+        d = field.poly([]) + at_infinity.value
+        for choice, point in zip(at_poles, points[1:], strict=True):
+            d -= point.count * choice.value
+        if is_natural(d):
+            families.append((natural(d), _in_least_field(RatFunc(theta_numerator(D, points, family), D))))
+    for degree, theta in sorted(families, key=lambda pair: pair[0]):
+        problem.budget.check()
+        for centre in _centres(problem, theta):
+            recurrence = recurrence_about(centre, problem.S, theta)
+            if recurrence is not None:
+                break
+        else:
+            return None
+        lowest = recurrence.lowest(degree)
+        if lowest is not None:
+            return TerminatingSeries(theta, centre, recurrence.step, degree, lowest)
+    is_complete = field == problem.field and all(point.count == 1 for point in points)
+    return NoTerminatingSeries(len(families)) if is_complete else None
+
+
+def recurrence_about(centre: Poly, S: RatFunc, theta: RatFunc) -> TwoTerms | None:
+    """That of P'' + 2 theta P' + (theta' + theta^2 - S) P = 0 in powers of x - centre; None for more terms than two."""
+    x = theta.field.poly([0, 1])
+    one = RatFunc(x**0)
+    parts = over_one_denominator([one, 2 * theta, theta.derivative() + theta * theta - one * S])
+    return TwoTerms.of(*(part(x + centre) for part in parts))
+
+
+def _in_least_field(theta: RatFunc) -> RatFunc:
+    """The same function over K where it lies over K(c), but doesn't contain c."""
+    parts = [part for f in (theta.num, theta.den) for part in f.parts[1:]]
+    return theta if any(parts) else RatFunc(theta.num.parts[0], theta.den.parts[0])
+
+
+def _centres(problem: Problem, theta: RatFunc) -> Iterator[Poly]:
+    """Points about which a recurrence can have two terms: poles in K, the centre of all, or of theta's zeros, other poles."""
+    D = problem.D
+    poles = [place.factor for place in problem.finite_places]
+    yield from (-p[0] for p in poles if p.degree == 1)
+    whole = D if poles else theta.num
+    if whole.degree > 0:
+        yield -whole[whole.degree - 1] / (whole.degree * whole.lc)
+    for p in poles:
+        if p.degree > 1 and theta.field != D.field:
+            yield from (-q[0] for q, _ in theta.field.factor(p.over(theta.field)) if q.degree == 1)
