@@ -58,7 +58,7 @@ class Limits:
     Traceback (most recent call last):
     ...
     kovacic.errors.LimitExceeded: x^9 at position 0 would have a degree of up to 9, above the limit of 5
-    >>> print(kovacic.solve("x^2 + 201", limits=Limits(unknown_degree=5)).reason)
+    >>> print(kovacic.solve("x^4 + x^2 + 202*x + 1/4", limits=Limits(unknown_degree=5)).reason)
     the polynomial part of a solution may have degree 100, above the limit of 5
     """
 

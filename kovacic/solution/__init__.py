@@ -508,7 +508,7 @@ def solve(
     (x**2 + 1)/x
     >>> kovacic.solve("x").status
     <Status.NONE_EXISTS: 'none'>
-    >>> print(kovacic.solve("x^2 + 201", limits=kovacic.Limits(unknown_degree=5)).reason)
+    >>> print(kovacic.solve("x^4 + x^2 + 202*x + 1/4", limits=kovacic.Limits(unknown_degree=5)).reason)
     the polynomial part of a solution may have degree 100, above the limit of 5
 
     Equations, as text and by coefficients:

@@ -21,6 +21,7 @@ from kovacic.decision import (
     NecessaryCondition,
     NoInvariant,
     NoRationalOmega,
+    NoTerminatingSeries,
     RiccatiPolynomial,
     Rule,
     SemiInvariant,
@@ -41,6 +42,7 @@ __all__ = [
     "NecessaryCondition",
     "NoInvariant",
     "NoRationalOmega",
+    "NoTerminatingSeries",
     "RiccatiPolynomial",
     "Rule",
     "SemiInvariant",
@@ -77,7 +79,8 @@ def forged_evidence(S: RatFunc, structure: Structure) -> Iterator[tuple[Evidence
         omegas += [NoRationalOmega(counts.largest, p, name) for p, name in roots if p != primes[0]]
     rules = [NecessaryCondition(rule, named) for rule in Rule for named in (names, *((name,) for name in names))]
     yield ()
-    for item in (*forms, *omegas, *rules):
+    series = map(NoTerminatingSeries, range(5))
+    for item in (*forms, *omegas, *rules, *series):
         yield (item,)
     for form in forms:
         for omega in (*omegas, *(rule for rule in rules if rule.rule is Rule.NOT_A_SQUARE)):

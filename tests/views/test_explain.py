@@ -67,7 +67,7 @@ def test_a_no_names_what_excludes_every_case() -> None:
 
 
 def test_an_undecided_answer_says_why() -> None:
-    answer = kovacic.solve("x^2 + 41", limits=kovacic.Limits(unknown_degree=5))
+    answer = kovacic.solve("x^4 + x^2 + 42*x + 1/4", limits=kovacic.Limits(unknown_degree=5))
     assert "Undecided: " in answer.explain()
     assert "undecided" in answer._repr_html_()
     assert "undecided" in answer._repr_latex_()

@@ -58,9 +58,11 @@ def test_lines_of_solve(validator: jsonschema.Draft202012Validator, capsys: pyte
     lines = [
         *printed(capsys, "solve", "--json", *EQUATIONS),
         *printed(capsys, "solve", "--json", "--full", *EQUATIONS[:4]),
-        *printed(capsys, "solve", "--json", "x^2-100001", "--limit", "unknown_degree=9", status=3),
+        *printed(capsys, "solve", "--json", "x^2-100001", "--limit", "unknown_degree=9"),
+        *printed(capsys, "solve", "--json", "x^6+105*x^2", "--limit", "unknown_degree=9"),
+        *printed(capsys, "solve", "--json", "x^4 + x^2 + 42*x + 1/4", "--limit", "unknown_degree=9", status=3),
     ]
-    assert len(lines) == len(EQUATIONS) + 5
+    assert len(lines) == len(EQUATIONS) + 7
     for line in lines:
         validator.validate(line)
 

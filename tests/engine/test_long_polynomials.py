@@ -1,0 +1,129 @@
+"""Case 1 where P is too long to be listed and known by a recurrence of two terms: decided at any degree."""
+
+import json
+from dataclasses import replace
+from fractions import Fraction
+
+import pytest
+import sympy
+from build import QQ
+
+import kovacic
+from kovacic.checker import verdict
+from kovacic.decision import NoTerminatingSeries
+from kovacic.verify import verify
+
+N = 10**9
+x = sympy.Symbol("x")
+LOW = kovacic.Limits(unknown_degree=3)
+
+
+@pytest.mark.parametrize(
+    ("equation", "theta", "powers"),
+    [
+        ("x^2 + 2000000001", "x", (2, N, 0)),  # Hermite
+        ("x^2 + 2000000003", "x", (2, N + 1, 1)),
+        ("4*(x - 3)^2 + 4000000002", "2*x - 6", (2, N, 0)),
+        ("a^2*x^2 + 2000000001*a", "a*x", (2, N, 0)),
+        ("-x^2 - 2000000001*I", "-I*x", (2, N, 0)),
+        ("x^6 + 2000000003*x^2", "x**3", (4, N, 0)),
+        ("y'' = (1/4 - 1000000000/x - 1/(4*x^2))*y", None, None),  # d = 10^9 - 1/2 isn't natural
+        ("x*y'' + (1 - x)*y' + 1000000000*y = 0", "(-x + 1)/(2*x)", (1, N, 0)),  # Laguerre
+        ("(1 - x^2)*y'' - 2*x*y' + 1000000001000000000*y = 0", "x/(x**2 - 1)", (1, N, 0)),  # Legendre
+        ("(1 + x^2)*y'' + 2*x*y' - 1000000001000000000*y = 0", "x/(x**2 + 1)", (2, N, 0)),
+        ("10000100000/x^2 - 1", "(c*x - 100000)/x", (1, 10**5, 0)),  # Bessel, of order 10^5 + 1/2
+        ("39999999999/(4*x^2) - 1", None, None),  # and 10^5
+        ("x^2 + 2000000000", None, None),
+        ("x^6 + 2000000007*x^2", None, None),  # d = 10^9 + 2 isn't 0 or 1 modulo 4
+        ("x^2 + 6000000014/3 - 5/(36*x^2)", None, None),  # d = 10^9 + 1 is odd
+    ],
+)
+def test_decided_at_any_degree(equation: str, theta: str | None, powers: tuple[int, int, int] | None) -> None:
+    answer = kovacic.solve(equation)
+    series = answer.series
+    assert answer.status == ("none" if theta is None else "liouvillian")
+    assert answer.verified
+    if series is not None:
+        assert (str(series.theta), (series.step, series.degree, series.lowest)) == (theta, powers)
+        assert max(len(str(y)) for y in answer.solutions) < 250
+        assert kovacic.Solution.from_json(answer.to_json(full=True)) == answer
+    assert (series is None) == (theta is None)
+
+
+@pytest.mark.parametrize(
+    "S",
+    [
+        *(f"4*(x - 1)^2 + {2 * k}" for k in (17, 18, 27)),
+        *(f"x^6 + {3 + 2 * n}*x^2" for n in range(8, 12)),
+        *(f"x^2 + {Fraction(2, 3) + n}  - 5/(36*x^2)" for n in (16, 18, 20, 22)),
+        *(f"1/4 - {k + Fraction(1, 3)}/x - 5/(36*x^2)" for k in (9, Fraction(13, 2))),
+        *(f"1/4 - {k + Fraction(1, 2)}/x + 20/x^2" for k in (9, Fraction(13, 2))),
+        *(f"{n * (n + 1)}/x^2 - 4" for n in (9, 10, Fraction(19, 3))),
+        *(f"(-1 - {n * (n + 1)}*(1 - x^2))/(1 - x^2)^2" for n in (9, Fraction(19, 2))),
+        "(1 - 9^2)/(4*(1 - x^2)) - 20/(1 - x^2)^2",
+    ],
+)  # fmt: skip
+def test_the_same_as_with_the_polynomial_written_out(S: str) -> None:
+    full = kovacic.solve(S)
+    low = kovacic.solve(S, limits=LOW)
+    assert (low.status, low.case, low.verified) == (full.status, full.case, True)
+    if low.series is None or low.series.theta.field != QQ or full.omega.field != QQ:
+        return
+    # Both omegas are rational; one that is unique is the same.
+    y = low.solutions[0]
+    for point in (sympy.Rational(1, 7), sympy.Rational(2, 5)):
+        value = complex((y.diff(x) / y).subs(x, point).evalf(30))
+        S_there = complex(sympy.sympify(S.replace("^", "**")).subs(x, point))
+        slope = complex((y.diff(x) / y).diff(x).subs(x, point).evalf(30))
+        assert abs(slope + value**2 - S_there) < 1e-12 * (1 + abs(S_there))
+        if full.group.kind.value in ("additive", "borel"):
+            assert abs(value - complex(full.omega._sympy_().subs(x, point))) < 1e-12 * (1 + abs(value))
+
+
+@pytest.mark.parametrize(
+    "equation", ["x^2 + 2000000001", "10000100000/x^2 - 1", "(1 - x^2)*y'' - 2*x*y' + 1000000001000000000*y = 0"]
+)
+def test_a_forged_series(equation: str) -> None:
+    """Every change of a certificate is noticed by the kernel and by the checker."""
+    answer = kovacic.solve(equation)
+    line = json.loads(answer.to_json())
+    assert verdict(json.dumps(line)).startswith("checked")
+    series = line["proof"]["series"]
+    step = series["step"]
+    forgeries = [
+        ("step", step + 1),
+        *(("degree", series["degree"] + k) for k in (step, -step, 1)),
+        *(("lowest", series["lowest"] + k) for k in (step, 1)),
+        ("theta", f"-({series['theta']})"),
+        ("theta", f"{series['theta']} + 1"),
+        ("centre", "1/7"),
+    ]
+    for key, value in forgeries:
+        forged = line | {"proof": line["proof"] | {"series": series | {key: value}}}
+        assert verdict(json.dumps(forged)).startswith("refuted"), (key, value)
+        with pytest.raises((kovacic.VerificationFailed, kovacic.InputError)):
+            kovacic.Solution.from_json(json.dumps(forged))
+
+
+@pytest.mark.parametrize(
+    "S", ["x^6 + 2000000003*x^2", "x^6 + 19*x^2", "x^2 + 3", "2/x^2", "6/x^2 + 1", "(x^2 - 3)/x^2"]
+)
+def test_no_series_is_claimed_to_be_missing(S: str) -> None:
+    """Where there is a solution, no number of families that are ruled out is believed."""
+    answer = kovacic.solve(S)
+    no = kovacic.solve("x^6 + 2000000007*x^2").decision
+    (exclusion, *others) = no.exclusions
+    for count in range(6):
+        claimed = replace(exclusion, evidence=(NoTerminatingSeries(count),))
+        assert not verify(answer.S, replace(no, exclusions=(claimed, *others)))
+
+
+def test_what_the_other_doors_say() -> None:
+    answer = kovacic.solve("x^2 + 2000000001")
+    assert (answer.group, answer.equation_group, answer.omega) == (None, None, None)
+    assert "steps of 2" in answer.explain()
+    assert "{}_{1}F_{1}" in answer._repr_latex_()
+    found = kovacic.dsolve("y'' = (x^2 + 2000000001)*y")
+    assert found.rhs.has(sympy.hyper)
+    with pytest.raises(kovacic.LimitExceeded, match="a rational solution may have degree 1000000000"):
+        kovacic.solve_riccati("w' = x^2 + 2000000001 - w^2")
