@@ -893,7 +893,7 @@ def test_published_answers_in_a_number_field_are_checked(entry: Published) -> No
         assert said.startswith(("checked: ", *TOO_LARGE)), said
 
 
-@parametrize("text", IN_FIELDS.values(), ids=IN_FIELDS, ordinary=3, long=6)
+@parametrize("text", IN_FIELDS.values(), ids=IN_FIELDS, ordinary=1, long=6)
 def test_no_solvable_equation_over_a_number_field_has_a_proof_of_none(text: str) -> None:
     if kovacic.solve(text).case is not None:
         refuse(text)
