@@ -409,16 +409,10 @@ def _solution_curves(
         if request.start.x0 is not None and low <= as_point(request.start.x0, "x0").re <= high:
             at = as_point(request.start.x0, "x0").re
         place = sympy.Rational(at.numerator, at.denominator)
-        data = [[sympy.N(f.subs(x, place), digits) for f in (y, y.diff(x))] for y in pair]
-        if not all(value.is_number and value.is_finite for values in data for value in values):
+        functions = _real_functions(unknown, [sympy.N(f.subs(x, place), digits) for y in pair for f in (y, y.diff(x))])
+        if not functions:
             return []
-        named = [(_typeset(f"{unknown}_{k}"), values) for k, values in enumerate(data, start=1)]
-        if len(_independent(named)) < 2:  # for these values of parameters
-            return []
-        if not all(value.is_real for values in data for value in values):
-            parts = (("Re", sympy.re), ("Im", sympy.im))
-            named = [(f"{part} {name}", [*map(of, values)]) for name, values in named for part, of in parts]
-        for curves, (name, values) in zip(found, _independent(named), strict=True):
+        for curves, (name, values) in zip(found, functions, strict=True):
             initial = Start(at, str(values[0]), str(values[1]))
             curves.append((name, _sampled(answer, low, high, points, request._replace(start=initial))))
     labelled = []
@@ -448,6 +442,23 @@ def _evaluable_pair(answer: Answer, x: Any, params: Mapping[str, object]) -> lis
         if is_long or y.has(sympy.Integral) or not y.free_symbols <= {x}:
             return []
     return pair
+
+
+def _real_functions(unknown: str, values: Sequence[Any]) -> list[tuple[str, Sequence[Any]]]:
+    """Two independent functions with their values and slopes: y1 and y2, whose data are given, or parts of them.
+
+    Empty where the data aren't numbers, or dependent, as for some values of parameters.
+    """
+    import sympy
+
+    if not all(value.is_number and value.is_finite for value in values):
+        return []
+    named = [(_typeset(f"{unknown}_1"), values[:2]), (_typeset(f"{unknown}_2"), values[2:])]
+    found = _independent(named)
+    if len(found) == 2 and not all(value.is_real for value in values):
+        parts = (("Re", sympy.re), ("Im", sympy.im))
+        found = _independent([(f"{part} {name}", [*map(of, data)]) for name, data in named for part, of in parts])
+    return found if len(found) == 2 else []
 
 
 def _independent(solutions: Sequence[tuple[str, Sequence[Any]]]) -> list[tuple[str, Sequence[Any]]]:
