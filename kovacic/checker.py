@@ -101,7 +101,7 @@ def the_list(value: Any, what: str) -> list[Any]:
 
 
 def is_whole(value: Any) -> bool:
-    """Is this an integer, and no truth value?"""
+    """True for an integer that isn't a truth value."""
     return type(value) is int
 
 
@@ -617,7 +617,7 @@ class Reader:
         return self.tower.number(fmpq(fmpz(token))) if token.isdecimal() else self.named(token)
 
     def listed(self) -> tuple[list[Any], bool]:
-        """What stands between commas up to ")"; is it a tuple, with a comma at least?"""
+        """The expressions up to ")", and True if there is a comma: they form a tuple."""
         values = []
         has_commas = False
         while self.tokens[-1] != ")":
@@ -668,7 +668,7 @@ def over_k(f: Any) -> dict[int, Any]:
 
 
 def is_monic(f: Any) -> bool:
-    """Is 1 the coefficient of the highest power of x?"""
+    """True if the leading coefficient is 1."""
     return bool(by_power(f, 2)[degree(f)] == 1)
 
 
@@ -848,14 +848,14 @@ class Place(Point):
 
     @property
     def can_branch(self) -> bool:
-        """Can the square root of a rational form branch here?  The local group must exchange two lines."""
+        """True if the square root of a rational form can branch here.  The local group must exchange two lines."""
         if self.is_irregular:
             return self.is_ramified
         return self.difference is not None and self.difference.q == 2
 
     @property
     def tells_solutions_apart(self) -> bool:
-        """Have at most two solutions (up to constants) an omega in the Laurent series here?"""
+        """True if at most two solutions, up to constants, have an omega in the Laurent series here."""
         return self.k > 0 and (self.difference is None or self.difference.q > 1 or self.logarithm)
 
     def local(self, g: int, q: int) -> tuple[Any, Any]:
@@ -867,7 +867,7 @@ class Place(Point):
 
     @cached_property
     def logarithm(self) -> bool:
-        """Is there a logarithm, provably?  Always at a simple pole, and for Delta = 0; for Delta = n > 0 if the series with the
+        """True if there is provably a logarithm: at a simple pole, for Delta = 0, and for Delta = n > 0 if the series with the
         smaller exponent can't be continued at its n-th term, modulo a prime."""
         if self.k == 1 or self.difference == 0:
             return True
@@ -883,7 +883,7 @@ class Place(Point):
         return not frobenius(*self.local(g, q), (1 - n) * pow(2, -1, q) % q, n + 1, q)[1]
 
     def is_not_a_square(self) -> bool:
-        """Is `leading` no square in K(r)?  Proven by a prime modulo which it isn't one."""
+        """True if `leading` is no square in K(r).  Proven by a prime modulo which it isn't one."""
         return any(fmpz(int(reduced(self.leading, q)(g))).jacobi(q) == -1 for q, g in islice(self.roots(), 40))
 
     def least_valuation(self, m: int) -> Any:
@@ -1207,7 +1207,7 @@ class Exclusions:
 
     @cached_property
     def zeros(self) -> tuple[int, bool]:
-        """The most zeros at ordinary points that a solution with an omega in K(x) can have, -1 for none; are they fewer?
+        """The most zeros at ordinary points of a solution with an omega in K(x), -1 for none; True if that is only a bound.
 
         By Fuchs' relation: the exponents nu/2 + h or nu/2 - h at the singular points and the zeros add up to 1.  A rational h
         is the same at all conjugates of a point.
@@ -1315,7 +1315,7 @@ def logarithmic_poles(slope: Function, modulus: Any) -> list[tuple[Point, int, l
 
 
 def inverse_has_an_integral(poles: list[tuple[Point, int, list[Any]]]) -> bool:
-    """Is 1/F the derivative of a rational function?  It has no residues.
+    """True if 1/F is the derivative of a rational function.  It has no residues.
 
     1/F = g/z^v, and z F'/F = v + h_1 z + ..., so that z g' = -(h_1 z + ...) g, and the residue is g_(v-1).
     """
@@ -1616,7 +1616,7 @@ class CurveFunction:
         return [(point, k // 2) for point, k in roots]
 
     def is_no_power(self, exponent: int) -> bool:
-        """Isn't f/G, divided by the norms, an l-th power, up to a constant?
+        """True if f/G, divided by the norms, is no l-th power up to a constant.
 
         Else its values at all points over F_q, q = 1 modulo l, lie in one class modulo l-th powers.
         """

@@ -16,7 +16,7 @@ Function = Callable[[Any], Any]
 _POINTS = 1201
 #: A wave function is drawn as far as it exceeds this part of its greatest modulus, or the second one if its tail is long.
 _TAILS = (0.03, 0.3)
-#: A tail is long if the window for the first of these parts is so many times wider than that for the second: 1/x, not exp(-x).
+#: A tail is long if the window for the first of these parts is wider than that for the second by this factor: 1/x is.
 _LONG = 6
 #: The largest distance at which the end of the tails is looked for.
 _LARGEST_REACH = 4096.0

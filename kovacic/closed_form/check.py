@@ -85,7 +85,7 @@ def _mean_and_square(form: Conjugate | OnCurve) -> tuple[RatFunc, RatFunc]:
 
 
 def _is_complete(integral: CurveIntegral) -> bool:
-    """If units stand for the residues and the rest: is the sum of their derivatives theirs?"""
+    """True unless units stand for the residues and the rest with derivatives that don't add up to them."""
     g = integral.g
     return not integral.units or sum((u.integrand(g) for u in integral.units), RatFunc(g * 0)) == integral.without_exact
 

@@ -27,7 +27,7 @@ Expr = Any  # SymPy publishes no types
 Own = Callable[[Expr], Expr]
 #: Where a pair is to be real: after the usual points, beyond all singular ones.
 _POINTS = (*map(sympy.Rational, PLACES), sympy.Integer(10**9), sympy.Integer(-(10**9)))
-#: Functions with branch cuts, and what lies on the negative axis where they have theirs; None for none.
+#: Functions with branch cuts, and what lies on the negative axis where they have theirs, or None if nothing does.
 _CUTS: dict[Any, Callable[[Expr], Expr | None]] = {
     **dict.fromkeys(
         (sympy.log, sympy.Ei, sympy.Ci, sympy.expint, sympy.uppergamma, sympy.lowergamma), lambda e: e.args[-1]

@@ -43,7 +43,7 @@ class ClosedForm:
     undefined : tuple of sympy.Expr
         Where one of these is zero, for values of letters, a special function has no value, or both solutions are the same.
     place : sympy.Expr or None
-        A point at which the roots and logarithms were turned to be real; None where nothing had to be.
+        A point at which the roots and logarithms were turned to be real, or None if no turn was needed.
 
     Examples
     --------

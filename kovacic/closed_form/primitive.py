@@ -245,7 +245,7 @@ def _denominator(functions: list[RatFunc], E: RatFunc, alpha: Fraction) -> Poly:
     return den
 
 
-#: A pair of solutions is short if it takes at most so many characters, or so many times those of the shortest form.
+#: A pair of solutions is short if it takes at most this number of characters, or this multiple of the shortest form.
 SHORT = 1000
 FACTOR = 4
 #: Why an integral is left.

@@ -143,7 +143,7 @@ def _between(low: float, values: Any, high: float) -> bool:
 
 
 def in_blocks(function: Callable[[Any], Any], points: Any, block: int = BLOCK) -> Any:
-    """The function of the points, so many at a time: what is formed on the way stays in the processor's cache."""
+    """The function at the points, in chunks whose intermediate arrays stay in the processor's cache."""
     if np.ma.isMaskedArray(points):
         return np.ma.array(in_blocks(function, points.data, block), mask=points.mask)
     flat = points.reshape(-1)
@@ -253,7 +253,7 @@ class RationalChart:
         return replace(self, given={"x0": base, "y0": 1, "dy0": ball_from_flint(slope)})
 
     def states(self, points: Sequence[ExactPoint], digits: int, limits: Limits | None, **options: Any) -> list[State]:
-        """y and dy/dx, to so many digits where they can be had."""
+        """y and dy/dx, to the given digits where that is possible."""
         if self.branch is not None:
             return self._closed(self.branch, points, digits)
         options |= {"digits": digits, "limits": limits, **self.given}
@@ -373,7 +373,7 @@ class AnalyticChart:
         return replace(self, given={"x0": base, "y0": 1, "dy0": ball_from_flint(slope)})
 
     def states(self, points: Sequence[ExactPoint], digits: int, limits: Limits | None, **options: Any) -> list[State]:
-        """y and dy/dx, to so many digits where they can be had, along the real axis."""
+        """y and dy/dx along the real axis, to the given digits where that is possible."""
         options |= {"digits": digits, "limits": limits, **self.given}
         options["path"] = self.given.get("path")
         return [s.state for s in evaluate_states(self.coefficients, points, **options)]
@@ -393,7 +393,7 @@ class AnalyticChart:
 
 
 def _equation_series(functions: CoefficientField, centre: ExactPoint, e: int, terms: int) -> list[list[arb]]:
-    """a, H b, H^2 c and H^2 f over a(c), so many terms in u; not numbers where they aren't finite."""
+    """a, H b, H^2 c and H^2 f over a(c), the first `terms` terms in u; NaN where they aren't finite."""
     parts = functions.series(centre, e, terms)
     if parts is None:
         return [[arb(1)], [], [arb("nan")], []]

@@ -110,7 +110,7 @@ def arcs(
     points: int,
     states: Callable[[Sequence[ExactPoint]], Sequence[Any]],
 ) -> list[Arc | Envelope]:
-    """The curve over an interval without singular points, of a picture of this width with at least so many samples across it.
+    """The curve over an interval without singular points, of a picture of this width with this many samples or more.
 
     `states` gives y and y' in balls.  Raises `LimitExceeded` where more than 400,000 samples would be needed.
     """

@@ -14,7 +14,7 @@ finite groups, and with A, B running through generators of H and their products,
 
 so a ball that excludes one of these excludes the groups on its left.  All three together prove that the group is SL2(C).
 A finite group is enumerated: under the claim the traces are those of G, two elements are equal when the trace of their
-quotient is 2, and so many balls that exclude the others decide equality; then H must have as many elements of each
+quotient is 2, and that number of balls that exclude the others decides equality; then H must have as many elements of each
 trace as G.
 
 References: M. van der Put and M. F. Singer, "Galois Theory of Linear Differential Equations" (2003), ch. 5; Kovacic (1986).

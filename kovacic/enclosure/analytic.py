@@ -232,7 +232,7 @@ def _check_size(a: ExactPoint, b: ExactPoint, t: Any, e: int, start: int) -> Non
 _FEWEST_PERIODS = 4
 """Periods from which on they are taken in one step."""
 _LOST = 64
-"""Precisions rise by multiples of so many bits."""
+"""Precisions rise by multiples of this number of bits."""
 _WAVES = (sympy.sin, sympy.cos, sympy.tan, sympy.cot, sympy.sec, sympy.csc, sympy.exp)
 
 

@@ -460,7 +460,7 @@ class Ball:
         return _SHOWN_DIGITS if self.is_exact() else int(max(3.0, self.digits + more))
 
     def _decimal_disc(self, digits: int) -> tuple[str, str, str]:
-        """A disc around this one in decimals: its midpoint is that of the ball to so many digits, its radius covers that."""
+        """A disc around this one in decimals: its midpoint to this number of digits, and a radius that covers the error."""
         with working_precision(int(digits * 3.33) + 100):
             re, im = (arb(part).str(digits, radius=False) for part in (self.re, self.im))
             radius = arb(self.rad) + abs(arb(re) - arb(self.re)) + abs(arb(im) - arb(self.im))

@@ -53,7 +53,7 @@ class NotServed(Exception):
 
 @lru_cache(maxsize=64)
 def classical_of(S: RatFunc, work: int = UNBOUNDED) -> Classical | None:
-    """The standard equation that S is pulled back from over Q; None if none is found in so many units of work, or its
+    """The standard equation that S is pulled back from over Q; None if none is found with this effort, or if its
     parameters are large."""
     if S.field != QQ or S.num.degree + S.den.degree > _DEGREE:
         return None
@@ -143,7 +143,7 @@ Closed = CaseOneForm | Classical
 
 
 def _settled(compute: Callable[[], Matrix], bits: int) -> Matrix:
-    """A finite matrix, computed with so many bits, or a few times as many: two solutions may be nearly dependent."""
+    """A finite matrix, computed with these bits or a few times as many: two solutions may be nearly dependent."""
     for more in _TRIED:
         with working_precision(more * bits):
             matrix = compute()

@@ -119,7 +119,9 @@ def _terms_before_bound(delta: arb) -> int:
     """Terms before which the bound isn't used."""
     difference = float(delta.upper())
     if math.isinf(difference):
-        raise LimitExceeded("the exponents differ by more than 1e308: so many terms", limit="unknown_degree")
+        raise LimitExceeded(
+            "the exponents differ by more than 1e308, and the series needs as many terms", limit="unknown_degree"
+        )
     return int(2 * difference) + 8
 
 

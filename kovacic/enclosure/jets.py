@@ -227,7 +227,7 @@ _RADII = (2, 3, 4, 6, 8, 12, 16)
 _LEAF = 6
 _FIRST = 24
 _QUIET = 8
-"""Terms of the recurrence that are computed one by one, those of the first block, and so many small ones at its end."""
+"""Terms of the recurrence that are computed one by one, those of the first block, and the number of small ones at its end."""
 _TERMS = 2
 _MOST_TERMS = 40
 """Terms for each bit, at most: of the coefficients in a disc, and of a solution."""
@@ -235,9 +235,9 @@ _SPARE = 28
 _LEAST = 0.25
 """mu, at least."""
 _BOX = 4.0
-"""Bounds by boxes are so many times too large."""
+"""Bounds by boxes are too large by this factor."""
 _SHARE = 6
-"""A disc's coefficients are seen to be real on an interval that is smaller by so many powers of two."""
+"""A disc's coefficients are seen to be real on an interval that is smaller by this power of two."""
 
 
 @dataclass(frozen=True)
@@ -511,5 +511,5 @@ class _Recurrence:
             self.sums[k] += value
 
     def _extend(self, length: int) -> None:
-        """At least so many sums."""
+        """Extend the sums to at least this length."""
         self.sums += [self.values[0] * 0] * (length - len(self.sums))

@@ -50,7 +50,7 @@ class Journey:
         return self.way.is_exact and not any(getattr(number, "fixed", False) for number in numbers)
 
     def states(self, targets: Sequence[Number], closed: Closed | None, prec: int) -> list[State]:
-        """The states at the targets, at about so many bits: exact points are travelled, the midpoints of balls."""
+        """The states at the targets, to about `prec` bits: exact points are travelled, the midpoints of balls."""
         key = closed, prec
         if key not in self._begun:
             if len(self._begun) >= _KEPT:

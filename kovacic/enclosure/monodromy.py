@@ -211,7 +211,7 @@ def _end(problem: NumericProblem, value: object) -> ExactPoint | Singular:
 
 
 def _connection(problem: NumericProblem, way: _Polygon, prec: int) -> Matrix:
-    """The matrix at about so many bits."""
+    """The matrix to about `prec` bits."""
     first, middle, end = way
     traveller = Traveller(way_for(problem).at(prec), first, (acb(1), acb(1)))
     for vertex in middle:

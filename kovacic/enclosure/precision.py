@@ -26,7 +26,7 @@ from kovacic.numbers.numerals import in_a_message
 _LOG = logging.getLogger(__name__)
 _BITS_PER_DIGIT = 3.3219280948873626  # log2(10)
 _STEP = 64
-"""Precisions by which Taylor's method goes on are multiples of so many bits above the first one."""
+"""Taylor's method raises its precision by multiples of this number of bits."""
 
 
 class AccuracyWarning(UserWarning):

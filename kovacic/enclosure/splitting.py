@@ -129,7 +129,7 @@ class Recurrence:
         return Run(fmpz_mat(C), fmpz_mat(R), D)
 
     def block(self, m: int, steps: int) -> Run:
-        """The run of so many steps that starts at m, as a balanced tree."""
+        """The run of `steps` steps that starts at m, as a balanced tree."""
         if steps == 1:
             return self.step(m)
         check_time()

@@ -55,7 +55,7 @@ Ways = tuple[tuple[ExactPoint, ExactPoint], ...]
 
 
 ClosedRoute = tuple[Closed, int]
-"""A closed form, for which so many bits are the first precision: enough where both solutions grow to the start."""
+"""A closed form and its first precision in bits: enough where both solutions grow to the start."""
 
 
 def route_of(journey: Journey, targets: Sequence[Number], method: Method | None, digits: int) -> ClosedRoute | None:
@@ -121,7 +121,7 @@ def _chosen(
 
 
 def _foreseen(journey: Journey, problem: NumericProblem, ways: Ways, count: int, digits: int) -> float:
-    """What Taylor's method takes on these ways to so many targets, about, in milliseconds."""
+    """Estimated milliseconds of Taylor's method on these ways to this number of targets."""
     place = journey.place
     corners = [place.near if isinstance(place, Singular) else place, *map(middle, journey.vertices)]
     with working_precision(_BITS):

@@ -88,8 +88,8 @@ class Split(Homogeneous):
 def walk(
     system: System, a: ExactPoint, b: ExactPoint, prec: int, *, growth: float | None = None, split: bool = False
 ) -> Iterator[tuple[Disc, WayStep]]:
-    """The discs of the straight way from a to b, in which solutions may grow by so many bits, and the steps in them; `split`:
-    by binary splitting."""
+    """The discs of the straight way from a to b, with the steps in them, for solutions that grow by up to the given bits;
+    `split`: by binary splitting."""
     how = ", by binary splitting" if split else ""
     _LOG.debug("from %s to %s, %d bits%s", a, b, prec, how)
     for number, disc in enumerate(cover(system, a, b, prec, growth), 1):

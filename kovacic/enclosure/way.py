@@ -49,7 +49,7 @@ _MOST_DISCS = 4000
 class Local:
     """A solution in a disc, x = centre + 2^e u: `poly` in u, off by at most `error`, and its derivative by `slope_error`.
 
-    |u| is at most `reach` there; values need so many bits of `precision`.
+    |u| is at most `reach` there; values need `precision` bits.
     """
 
     centre: ExactPoint

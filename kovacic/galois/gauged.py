@@ -199,7 +199,7 @@ def _order_on_curve(group: Group, f: SemiInvariant, rho: RatFunc, N: int) -> int
         factors = [part.factor for part in decompose(rational).residues if (part.rational or 0) % 2]
         coincide = _is_square_on_curve(*_up_to_squares(function, [*factors, f.P] if is_in_K else factors), function.h)
     order = 4 * n * M // (2 if coincide else 1)  # of H
-    # (zeta, chi) in the diagonal part satisfy zeta^n chi^(M/2) = 1 if they coincide: is (-1, -1) one of them?
+    # (zeta, chi) in the diagonal part satisfy zeta^n chi^(M/2) = 1 if they coincide; (-1, -1) does if n + M/2 is even.
     has_minus_one = not coincide or (n + M // 2) % 2 == 0
     return order // 2 if has_minus_one else order
 

@@ -47,7 +47,7 @@ _STAGES = (
 )
 _AROUND = (Rational(1), Rational(8, 7), Rational(17, 13))
 _DIGITS = 60
-#: So many values of the letters are tried, and so many have to agree.
+#: How many values of the letters are tried, and how many have to agree.
 _SAMPLES = 6
 _ENOUGH = 2
 

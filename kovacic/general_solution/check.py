@@ -212,7 +212,7 @@ class _Pieces:
         return _is_large(Residual(x, (a, b, c, f)), y, acb(fmpq(int(point.p), int(point.q))))
 
     def is_wrong_across(self, k: int) -> bool:
-        """Do y, and y' for an equation of second order, jump at the k-th break by anything else than the impulses say?
+        """True if y, or y' for an equation of second order, jumps at the k-th break otherwise than the impulses demand.
 
         False at a singular point of the equation, where any jump is right, and where impulses are of higher order.
         """

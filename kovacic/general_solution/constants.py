@@ -37,7 +37,7 @@ from kovacic.general_solution.zero_set import ZeroSet
 from kovacic.limits import check_time
 
 Expr = Any  # SymPy publishes no types
-#: Functions whose values are simplified, in constants of so many subexpressions.
+#: Functions whose values are simplified, in constants of up to `_LONGEST` subexpressions.
 _ELEMENTARY = {exp, log, sin, cos, tan, sinh, cosh, tanh, atan, acos}
 _LONGEST = 200
 _ZERO = sympy.Integer(0)

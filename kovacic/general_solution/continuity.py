@@ -72,7 +72,7 @@ def jumps(y: Expr, x: Expr, coefficients: Sequence[Expr]) -> bool:
         second = first | opposite({s: value for s, value in first.items() if s in inside})
         for numbers in [first, *([second] if second != first else [])]:
             here = y.xreplace(numbers)
-            # The terms of each `RootSum`: those of roots to so many digits lie on the same sides of cuts.
+            # The terms of each `RootSum`: with roots to 30 digits they lie on the same sides of cuts.
             sums = {e: sympy.Add(*map(e.fun, e.poly.nroots(30))) for e in here.atoms(sympy.RootSum)}
             if _Course(x, here.xreplace(sums), [e.xreplace(numbers) for e in coefficients]).jumps_somewhere():
                 return True

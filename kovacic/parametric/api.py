@@ -100,7 +100,7 @@ def check_each_region(found: ParametricAnswer) -> None:
 
 
 def compare(found: ParametricAnswer, samples: int, seed: int) -> CheckReport:
-    """What is printed against engine and kernel at so many points, fewer if the time is over."""
+    """Compares what is printed with engine and kernel at this number of points, or fewer if time runs out."""
     sampler = Sampler(found.constant, found.names, found.assumptions, Random(seed))
     points = islice(sampler.points([region.statement for region in found.regions]), 20 * samples)
     counts = Counter[str](inside=0, outside=0, open=0)
@@ -351,7 +351,7 @@ def conditions_of(
 def under_assumptions(
     parsed: Parsed, decision: Decision, known: Assumptions, limits: Limits, *, certify: bool
 ) -> tuple[Decision, str, bool]:
-    """The decision where the assumptions hold, a sentence that says for which of these values, and is that proven?
+    """The decision where the assumptions hold, a sentence that says for which of these values, and True if that is proven.
 
     Where the assumptions imply another case, that is the decision if no certificate is asked for.  Else there is none, because
     omega depends on the value of a parameter, so that no single omega is the answer; its reason says the case, which is proven.

@@ -65,7 +65,7 @@ def within(statement: Statement, charts: list[ParameterPoint]) -> list[Parameter
 
 
 def _where_possible(statement: Statement, chart: ParameterPoint) -> list[ParameterPoint]:
-    """The same for a statement that isn't made of others."""
+    """The points where a statement that isn't made of others holds."""
     if isinstance(statement, Vanishes):
         return _where_zero(chart.at(statement.function), chart)
     if isinstance(statement, Congruence):
@@ -316,7 +316,7 @@ def _is_redundant(
         says_the_same = other.defined and other.complete is True and _is_same_region(other, region)
         if says_the_same and covered(charts, [other.statement]):
             return True
-        # Has the other one a solution at all of its values, where this one has none?
+        # The other one has a solution at all of its values, where this one has none.
         is_apart = region.case is None and _proves_a_solution(other)
         if says_the_same or is_apart:
             continue
@@ -343,7 +343,7 @@ def _proves_a_solution(region: ParameterRegion) -> bool:
 
 # ------------------------------------------------------------------------------- what is said in one sentence
 
-#: Is the same said in two regions, of other values?
+#: True if two regions, with other values, are described in the same way.
 Likeness = Callable[[ParameterRegion, ParameterRegion], bool]
 
 

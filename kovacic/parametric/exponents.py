@@ -104,7 +104,7 @@ def has_kernel(images: Sequence[Poly]) -> bool:
 
 
 def rank_conditions(images: Sequence[Poly], field: Field) -> RankConditions:
-    """Where do polynomials span less than generically, over Q(t) or, on a hypersurface in parameter space, over its field?
+    """Where polynomials span less than generically: over Q(t) or, on a hypersurface in parameter space, over its field.
 
     On a hypersurface the algebraic parameter is one more parameter, and the conditions are said modulo its equation.
     """
@@ -483,7 +483,7 @@ class Numbers:
         return reduce(with_signed_root, squares, total)
 
     def _of_conjugates(self, squares: list[Poly]) -> Poly:
-        """The same for one or two squares over a quadratic extension.
+        """The product for one or two squares over a quadratic extension.
 
         N = +-sqrt(A) +- sqrt(B) are the roots of N^4 - 2 (A + B) N^2 + (A - B)^2.
         """
@@ -553,7 +553,7 @@ def conditions_of_degree(problem: Problem, d: int) -> list[RankConditions] | Non
 
 
 def has_solution(problem: Problem, d: int) -> bool | None:
-    """Over a field of numbers: is there a solution with a P of this degree?  None as in `choices_of_degree`."""
+    """True if, over a field of numbers, a solution has a P of this degree.  None as in `choices_of_degree`."""
     chosen = choices_of_degree(problem, d)
     if chosen is None:
         return None
@@ -725,6 +725,6 @@ def form_conditions(problem: Problem, m: int) -> RankConditions:
 
 
 def has_form(problem: Problem, m: int) -> bool:
-    """Over a field of numbers: is there a rational form of degree m in the solutions?"""
+    """True if, over a field of numbers, the solutions have a rational form of degree m."""
     images = form_images(problem, m)
     return images is not None and has_kernel(_coordinates(images, problem.field, problem.field.ground))

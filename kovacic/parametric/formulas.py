@@ -415,7 +415,7 @@ def _join_conjugates(powers: dict[Any, _ShownPower], x: Any) -> None:
 
 
 def has_roots(expression: Any) -> bool:
-    """Does i, or a root of something else, occur?"""
+    """True if i, or a root of something else, occurs."""
     return expression.has(sympy.I) or any(not power.exp.is_Integer for power in expression.atoms(sympy.Pow))
 
 

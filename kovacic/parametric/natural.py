@@ -128,7 +128,7 @@ class Determinant:
 
 @dataclass(frozen=True)
 class Natural(Statement):
-    """For a natural number that the exponents allow, an invariant of degree m with so many zeros exists.
+    """For a natural number that the exponents allow, an invariant of degree m with that number of zeros exists.
 
     The number is a root of one of the `factors`, None if there are too many sums of exponents to list them.  m = 1 is a
     solution with a rational omega, whose zeros are those of P.  `structure` is that of the group where the invariant exists

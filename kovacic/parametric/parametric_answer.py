@@ -121,7 +121,7 @@ class ParametricAnswer:
 
     @property
     def within_limits(self) -> bool:
-        """Was everything examined, without reaching a limit of time?"""
+        """True if everything was examined before any time limit."""
         return not isinstance(self.complete, Limited)
 
     def region_at(self, values: Values) -> ParameterRegion | None:

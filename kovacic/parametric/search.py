@@ -214,7 +214,7 @@ def _degrees_that_are_possible(problem: Problem) -> Degrees:
         return found
     if _has_two_branch_points(problem):
         found[4] = [Structure.IMPRIMITIVE]
-    # Can each exponent difference be one of Schwarz's table?
+    # Each exponent difference may be one of Schwarz's table.
     are_possible = all(place.delta is None or place.delta.denominator <= riemann.LARGEST for place in problem.places)
     if riemann.is_fuchsian(problem) and are_possible:
         found[12] = [Structure.TETRAHEDRAL]

@@ -179,7 +179,7 @@ BySigns = Callable[[Sequence[Any]], PolynomialSolution]
 
 @dataclass(frozen=True)
 class Signed:
-    """Solutions for each choice of so many signs; `formula()` is None if there are none in radicals."""
+    """Solutions for each choice of signs; `formula()` is None if there are none in radicals."""
 
     formula: Callable[[], BySigns | None]
     signs: int
@@ -550,7 +550,7 @@ def _progressions(degree: Any, n: Any, family: IntegerFamily) -> Iterator[Progre
     if not (is_linear and slope.is_Rational and constant.is_Rational) or slope == 0:
         return
     a, b = (Fraction(int(number.p), int(number.q)) for number in (slope, constant))
-    # n = (d - b)/a for d = 0, 1, ...: in the classes again after so many steps.
+    # n = (d - b)/a for d = 0, 1, ...: in the classes again after `period` steps.
     period = (family.numbers.modulus * abs(a)).numerator
     for d in range(period):
         first = (d - b) / a

@@ -210,7 +210,7 @@ def standard_form(
 def _0f1(argument: Any, c: Any) -> Any:
     """0F1(; c; argument), where FLINT sums the power series with its middle, and with more bits.
 
-    The terms are as large as exp(w), w = 2 sqrt(|argument|), while the sum may be near 1: so many bits, and as much of the
+    The terms are as large as exp(w), w = 2 sqrt(|argument|), while the sum may be near 1: w/log(2) bits, and as much of the
     radius of the argument, are lost up to where FLINT takes the asymptotic expansion, at a w that grows with the precision.
     For a real c >= -1/2 the derivative, 0F1(; c + 1; a)/c, is at most exp(|Im 2 sqrt(-a)|)/|c| [DLMF 10.14.4].
     """

@@ -353,13 +353,13 @@ class _GaussForm:
 
     @property
     def is_between(self) -> bool:
-        """Is f between 0 and 1 at a place, or unknown?"""
+        """True if f is between 0 and 1, or unknown, at one of the places."""
         values = self._values(self.f.num * (self.f.den - self.f.num))  # f (1 - f), up to a square
         return any(value is None or value > 0 for value in values)
 
     @property
     def is_beyond(self) -> bool:
-        """Is f above 1, on the cut of 2F1, at all of the places?"""
+        """True if f is above 1, on the cut of 2F1, at all places."""
         values = self._values(self.f.den * (self.f.den - self.f.num))  # 1 - f, up to a square
         return all(value is not None and value < 0 for value in values)
 

@@ -11,7 +11,7 @@ from dataclasses import dataclass
 
 @dataclass(frozen=True)
 class Price:
-    """Of so many digits: the price of a few, which is twice as high at `doubled` digits, and grows like their `power`.
+    """A price by digits: the least one, which is twice as high at `doubled` digits, and grows like their `power`.
 
     >>> Price(0.1, 50)(50)
     0.2
@@ -57,4 +57,4 @@ EXPONENTIALS = Price(0.056, 1000)
 COEFFICIENT = Price(0.002, 200)
 """What each degree of the polynomial adds."""
 DEGREES = 10.0
-"""Up to so many degrees for each millisecond that Taylor's method takes, a polynomial is sought to decide an equation."""
+"""A polynomial that decides an equation is sought up to this degree for each millisecond that Taylor's method takes."""

@@ -122,7 +122,7 @@ class StandardEquation(ABC):
 
     #: Which pull-backs are sought, for a user who reads that none was found.
     searched: ClassVar[str]
-    #: Have pull-backs irregular singular points?
+    #: True if pull-backs have irregular singular points.
     irregular: ClassVar[bool]
 
     # ----------------------------------------------------------------------------------------- the equation

@@ -839,7 +839,10 @@ def test_energies_are_written_without_the_imaginary_unit() -> None:
 def test_the_conditions_of_one_family_may_have_no_value_where_those_of_another_hold() -> None:
     """-Z/(l - n) > 0 for l = n = 0, where l >= -1/2 holds."""
     coulomb = kovacic.spectrum("l*(l+1)/x^2 - Z/x", domain=HALF)
-    assert [s.energy for s in coulomb.states({"l": 0, "Z": 1}, count=2)] == [-sympy.Rational(1, 4), -sympy.Rational(1, 16)]
+    assert [s.energy for s in coulomb.states({"l": 0, "Z": 1}, count=2)] == [
+        -sympy.Rational(1, 4),
+        -sympy.Rational(1, 16),
+    ]
     assert coulomb.states({"l": 0, "Z": 0}) == ()
 
 
