@@ -19,6 +19,7 @@ from sympy.core.function import AppliedUndef
 from sympy.simplify.fu import TR2
 
 from kovacic.closed_form.atoms import Atoms, display
+from kovacic.closed_form.cuts import all_turned
 from kovacic.closed_form.product import product
 from kovacic.errors import InputError, VerificationFailed
 from kovacic.general_solution.antiderivatives import antiderivative
@@ -30,7 +31,7 @@ from kovacic.general_solution.jumps import in_steps
 from kovacic.general_solution.steps import JUMPING, Apart, taken_apart
 from kovacic.general_solution.textbook import in_book_form, sums
 from kovacic.general_solution.values import value_at
-from kovacic.general_solution.variation import starting_at
+from kovacic.general_solution.variation import is_solution, starting_at
 from kovacic.general_solution.zero import is_zero
 from kovacic.limits import Limits
 from kovacic.numbers.numerals import as_text
@@ -98,6 +99,11 @@ class FirstOrderEquation:
         if apart is None or apart.impulses:
             return sympy.exp(sympy.Integral(self.q, self.x))
         return sympy.exp(_of_parts(apart, sympy.Integer(1), self.x, None))
+
+    def real_at(self, point: Expr, w: Expr, right: Expr) -> Expr:
+        """A solution of w' = q w + right in which log(-u), (-u)^e stand for arguments u < 0, if it is one; else w."""
+        turned = all_turned(w, self.x, point)
+        return turned if is_solution(turned, (-self.q,), right, self.x) else w
 
     def constant(self, taken: Set[Expr] = frozenset()) -> Expr:
         """C1, or the next of these names that is neither in the equation nor taken."""
@@ -206,8 +212,10 @@ def solved_linear(
     start = None
     if value is not None:
         start = value.point
-        h = _real_at(h, x, start)
+        h = starting_at(equation.real_at(start, h, _ZERO), x, start)
     particular = _particular(equation, h, start)
+    if value is not None:
+        particular = equation.real_at(start, particular, equation.p)
     constant = equation.constant(taken)
     if value is not None:
         constant = _constant_through(equation, h, particular, value, constant)
@@ -217,13 +225,6 @@ def solved_linear(
         w = in_book_form(w, x)
     notices = exceptions_of(w, x, (equation.p, equation.q))
     return sympy.Eq(equation.function, w, evaluate=False), notices + check_first_order(equation, w, conditions)
-
-
-def _real_at(h: Expr, x: Expr, point: Expr) -> Expr:
-    """A multiple of a product, with sqrt(1 - x^2) for sqrt(x^2 - 1) where x^2 < 1."""
-    powers = [factor.as_base_exp() for factor in sympy.Mul.make_args(h)]
-    turned = {base: -base for base, e in powers if not e.is_integer and base.has(x) and base.subs(x, point).is_negative}
-    return sympy.Mul(*(turned.get(base, base) ** e for base, e in powers))
 
 
 def exceptions_of(w: Expr, x: Expr, coefficients: Sequence[Expr]) -> list[str]:
@@ -279,7 +280,7 @@ def _integrated(p: Expr, h: Expr, x: Expr, start: Expr | None) -> Expr:
     if p == 0:
         return _ZERO
     integral = antiderivative(sympy.powsimp(p / h), x)
-    if integral is not None and not jumps(h * integral, x, [h, p]):
+    if integral is not None and not jumps(h * integral, x, [h, 1 / h, p]):
         return sympy.powsimp(sympy.expand(h * integral))
     return starting_at(h * sympy.Integral(sympy.powsimp(sympy.expand(p / h)), x), x, start)
 

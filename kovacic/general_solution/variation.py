@@ -159,8 +159,11 @@ def _open(integrand: Expr, x: Expr, start: Expr | None) -> Expr:
     return DefiniteIntegral(integrand.subs(x, s), (s, start, x))
 
 
-def is_solution(y: Expr, coefficients: tuple[Expr, Expr], right: Expr, x: Expr) -> bool:
-    """True if y satisfies y'' + (b/a) y' + (c/a) y = right at points in each quadrant and on the axis, to 50 digits."""
+def is_solution(y: Expr, coefficients: tuple[Expr, ...], right: Expr, x: Expr) -> bool:
+    """True if y satisfies an equation at points in each quadrant and on the axis, to 50 digits.
+
+    y'' + (b/a) y' + (c/a) y = right for two coefficients, y' + c y = right for one.
+    """
     given = y.atoms(AppliedUndef, *JUMPING) | right.atoms(AppliedUndef, *JUMPING)
     # An exponential function for each that is given by its name, or jumps: the formula holds for any function.
     functions = enumerate(sorted(given, key=str))
@@ -168,7 +171,8 @@ def is_solution(y: Expr, coefficients: tuple[Expr, Expr], right: Expr, x: Expr) 
     if sample:
         y = y.xreplace(sample)
         right = right.xreplace(sample)
-    residual = Residual(x, (sympy.S.One, *coefficients, right))
+    a, b, c = (sympy.S.Zero,) * (2 - len(coefficients)) + (sympy.S.One, *coefficients)
+    residual = Residual(x, (a, b, c, right))
     with working_digits(DIGITS + 15), suppress(NotImplementedError):
         found = (residual.at(y, point) for point in points())
         return all(bool(miss < arb(10) ** -DIGITS * (1 + scale)) for miss, scale in found)

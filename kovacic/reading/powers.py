@@ -16,6 +16,7 @@ from dataclasses import replace
 from typing import Any
 
 import sympy
+from sympy.core.function import AppliedUndef
 
 from kovacic.equation import UNKNOWN, Change, Parsed
 from kovacic.errors import NotRational
@@ -36,7 +37,11 @@ def in_powers(source: Source, limits: Limits) -> Parsed | None:
     x = sympy.Symbol(source.variable)
     (a, b, c, rest), notices = parts_of(source, limits)
     # Without functions, what isn't rational is a constant.
-    if a == 0 or all((part / a).is_rational_function(x) for part in (b, c)):
+    if (
+        a == 0
+        or any(part.has(AppliedUndef) for part in (a, b, c))
+        or all((part / a).is_rational_function(x) for part in (b, c))
+    ):
         return None
     P, Q = sympy.expand(x * b / a) - 1, sympy.expand(x**2 * c / a)
     waves = [wave for wave in (b / a).atoms(*_WAVE_FUNCTIONS) | (c / a).atoms(*_WAVE_FUNCTIONS) if wave.has(x)]

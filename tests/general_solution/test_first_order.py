@@ -95,6 +95,37 @@ def test_general_solutions_of_linear_equations(problem: tuple[Any, Any, int, Any
     assert abs(number(residual.subs(C1, 2).doit(), point + 0.5)) < 1e-12
 
 
+@pytest.mark.parametrize("side", [-1, 1])
+@parametrize(
+    ("a", "b", "pole"),
+    [
+        (1 / x, sympy.S(2), 0),
+        (-1 / x, x**-2, 0),
+        (-1 / (x - 2), (x - 2) ** -2, 2),
+        (1 / (x - 2), x / (x - 2), 2),
+        (n / x, sympy.S(1), 0),
+        (-x / (x**2 - 4), 1 / (x**2 - 4), 2),
+        (Rational(1, 3) / (x + 1), sympy.S(1), -1),
+        (-1 / (2 * sqrt(x)), sympy.S(0), 0),
+    ],
+    ids=str,
+    ordinary=4,
+    long=4,
+)
+@pytest.mark.filterwarnings("ignore:this holds unless")
+def test_values_on_either_side_of_a_pole(a: Any, b: Any, pole: int, side: int) -> None:
+    start = pole + side * Rational(1, 2)
+    answer = kovacic.answer_to(sympy.Eq(y(x).diff(x), a * y(x) + b), ics={y(start): 3})
+    found = answer.eq.rhs
+    assert not found.has(sympy.Integral)
+    assert abs(number(found, start) - 3) < 1e-15
+    if a.subs(x, start).is_real:
+        assert answer.validity.claim == "real and valid"
+        beyond = start + side * Rational(1, 3)
+        assert abs(sympy.im(number(found, beyond))) < 1e-15
+        assert abs(number(found.diff(x) - a * found - b, beyond)) < 1e-13
+
+
 def test_text_of_first_order() -> None:
     g = sympy.Function("g")
     assert kovacic.dsolve("y' + y = g(x)", "y").rhs.diff(x) == g(x) - kovacic.dsolve("y' + y = g(x)", "y(x)").rhs
@@ -108,6 +139,13 @@ def test_the_general_form_of_coefficients_is_kept() -> None:
     found = kovacic.dsolve(sympy.Eq(y(x).diff(x), g(x)), y(x), ics={y(0): 1}).rhs
     assert found.diff(x) == g(x)
     assert found.subs(x, 0).doit() == 1
+    found = kovacic.dsolve(sympy.Eq(y(x).diff(x), g(x) * y(x)), y(x), ics={y(1): 3}).rhs
+    assert str(found) == "3*exp(Integral(g(s), (s, 1, x)))"
+
+
+def test_a_function_without_a_formula_in_a_system_is_refused() -> None:
+    with pytest.raises(kovacic.NotRational, match="isn't a rational function of t"):
+        kovacic.dsolve("x' = f(t)*x - y, y' = x + f(t)*y")
 
 
 def test_values_at_a_singular_point() -> None:
