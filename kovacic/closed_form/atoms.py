@@ -5,7 +5,6 @@ from __future__ import annotations
 from collections import Counter
 from collections.abc import Callable
 from fractions import Fraction
-from functools import cached_property
 from itertools import product
 from typing import Any, cast
 
@@ -23,6 +22,7 @@ from kovacic.algebra.precision import working_precision
 from kovacic.algebra.ratfunc import RatFunc
 from kovacic.algebra.rationals import QQ
 from kovacic.closed_form.product import Factor, Product, grouped, merged
+from kovacic.compatibility import cached_property
 from kovacic.limits import check_time
 from kovacic.numbers.exact import radical
 from kovacic.reading.linear import chosen_root

@@ -7,13 +7,14 @@ are written anew, with roots that are real there.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from contextlib import suppress
 from itertools import pairwise
 from typing import Any
 
 import sympy
 from flint import acb, fmpq
+from sympy.core.traversal import iterargs
 from sympy.functions.special.bessel import BesselBase
 
 from kovacic.algebra.ratfunc import RatFunc
@@ -39,8 +40,8 @@ _CUTS: dict[Any, Callable[[Expr], Expr | None]] = {
     # zero where the argument is: what has a sign isn't analytic there
     **dict.fromkeys((sympy.Abs, sympy.sign, sympy.Heaviside), lambda e: e.args[0] ** 2),
 }
-#: Parts of solutions that are real on one side of a singular point.
-_TURNED = (sympy.log, sympy.Ci, sympy.lowergamma, sympy.uppergamma, sympy.Pow, BesselBase, sympy.hyper)
+#: Parts of solutions that are real on one side of a singular point, beside Bessel's and hypergeometric functions.
+_TURNED = (sympy.log, sympy.Ci, sympy.lowergamma, sympy.uppergamma, sympy.Pow)
 #: For Bessel's functions of i z those of z with the same span.
 _OF_IMAGINARY = {
     sympy.besselj: sympy.besseli,
@@ -67,17 +68,20 @@ def cuts_of(y: Expr, x: Expr) -> list[Expr]:
 def arguments_with_cuts(y: Expr) -> dict[Expr, Expr]:
     """The functions and powers with cuts in an expression: these lie where the argument, or 1 - z in pFq, is negative."""
     found = {}
-    for e in y.atoms(*_TURNED):
-        if isinstance(e, sympy.hyper):
+    for e in iterargs(y):
+        if isinstance(e, _TURNED):
+            found[e] = cut_of(e)
+        elif isinstance(e, BesselBase):
+            found[e] = e.args[-1]
+        elif isinstance(e, sympy.hyper):
             found[e] = 1 - e.argument if len(e.ap) > len(e.bq) else None
-        else:
-            found[e] = e.args[-1] if isinstance(e, BesselBase) else cut_of(e)
     return {e: cut for e, cut in found.items() if cut is not None and cut.free_symbols}
 
 
 def all_turned(y: Expr, x: Expr, point: Expr, own: Own = sympy.sympify) -> Expr:
     """With log(-u), (-u)^e for arguments u that are negative at the point; I_nu(z), K_nu(z) for J_nu(i z), Y_nu(i z)."""
-    turned = {e: (-u) ** e.exp for e, u in negative_arguments(y, x, point, own).items() if e.is_Pow}
+    negative = negative_arguments(arguments_with_cuts(y), x, point, own)
+    turned = {e: (-u) ** e.exp for e, u in negative.items() if e.is_Pow}
     roots = dict(turned)
     for e in y.atoms(sympy.log, sympy.Ci, BesselBase):
         *order, u = e.args
@@ -88,9 +92,11 @@ def all_turned(y: Expr, x: Expr, point: Expr, own: Own = sympy.sympify) -> Expr:
     return y.xreplace(turned)
 
 
-def negative_arguments(y: Expr, x: Expr, point: Expr, own: Own = sympy.sympify) -> dict[Expr, Expr]:
-    """Those whose arguments are negative at the point, in the user's symbols that `own` puts in."""
-    return {e: u for e, u in arguments_with_cuts(y).items() if _is_negative(u, x, point, own)}
+def negative_arguments(
+    arguments: Mapping[Expr, Expr], x: Expr, point: Expr, own: Own = sympy.sympify
+) -> dict[Expr, Expr]:
+    """Those of the `arguments_with_cuts` that are negative at the point, in the user's symbols that `own` puts in."""
+    return {e: u for e, u in arguments.items() if _is_negative(u, x, point, own)}
 
 
 def _is_negative(u: Expr, x: Expr, point: Expr, own: Own) -> bool:
@@ -110,21 +116,20 @@ def _is_below_zero(u: Expr, x: Expr, point: Expr, own: Own) -> bool:
     return bool(own(u.subs(x, point)).is_negative)
 
 
-def common_place(x: Expr, *parts: Expr, own: Own = sympy.sympify) -> Expr:
-    """The first of some points at which the fewest arguments lie on cuts, those of the first part before all: the others can be
-    turned there.
+def common_place(x: Expr, *parts: Mapping[Expr, Expr], own: Own = sympy.sympify) -> Expr:
+    """The first of some points at which the fewest `arguments_with_cuts` lie on these, those of the first part before all: the
+    others can be turned there.
 
     After the usual points come those between zeros of arguments, as for sqrt(x - 3) and sqrt(4 - x).
     """
-    arguments = [list(arguments_with_cuts(part).values()) for part in parts]
 
     def on_cuts(point: Expr) -> list[int]:
-        return [sum(_is_below_zero(u, x, point, own) for u in of_part) for of_part in arguments]
+        return [sum(_is_below_zero(u, x, point, own) for u in arguments.values()) for arguments in parts]
 
     usual = next((point for point in _POINTS if not any(on_cuts(point))), None)
     if usual is not None:
         return usual
-    lines = (u.as_poly(x) for of_part in arguments for u in of_part)
+    lines = (u.as_poly(x) for arguments in parts for u in arguments.values())
     zeros = sorted(
         {
             -p.coeff_monomial(1) / p.LC()
@@ -151,7 +156,7 @@ def real_at(
     """
 
     def left(found: Sequence[Expr]) -> int:
-        return len(negative_arguments(sympy.Tuple(*found), x, place, own))
+        return len(negative_arguments(arguments_with_cuts(sympy.Tuple(*found)), x, place, own))
 
     if not place.is_real or not left(pair):
         return pair

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass, field
-from functools import cached_property, partial
+from functools import partial
 from typing import Any
 
 from sympy import Add, Mul, Symbol, exp
@@ -15,6 +15,7 @@ from kovacic.closed_form.check import is_exact_solution, is_numerical_solution
 from kovacic.closed_form.integrals import exponentials, triangular
 from kovacic.closed_form.real_pair import conjugate_roots, is_real_pair, real_pair
 from kovacic.closed_form.structure import ClosedStructure, Conjugate, Covariants, Diagonal, OnCurve, Triangular
+from kovacic.compatibility import cached_property
 from kovacic.errors import VerificationFailed
 from kovacic.limits import check_time
 from kovacic.numbers.numerals import as_latex

@@ -22,7 +22,7 @@ from typing import Any
 
 import sympy
 
-from kovacic.closed_form.cuts import common_place
+from kovacic.closed_form.cuts import arguments_with_cuts, common_place
 from kovacic.decision import Status
 from kovacic.errors import InputError, LimitExceeded, warn_user
 from kovacic.general_solution.answer import FirstOrderAnswer, ProblemAnswer, SecondOrderAnswer, remember
@@ -378,13 +378,13 @@ def _solved(question: Question, budget: Budget, *, special: bool) -> ProblemAnsw
 def _general(question: Question, basis: Basis) -> SecondOrderAnswer:
     """C1 y1 + C2 y2 + y0, checked."""
     right = right_hand_side(question.equation)
-    place = partial(common_place, basis.x, right, own=basis.own)
+    place = partial(common_place, basis.x, arguments_with_cuts(right), own=basis.own)
     if basis.place is None or right != 0:
-        basis = real_at(basis, place(sympy.Tuple(basis.y1, basis.y2)))
+        basis = real_at(basis, place(arguments_with_cuts(sympy.Tuple(basis.y1, basis.y2))))
     particular = particular_solution(basis, None)
     if particular != 0:
         whole = sympy.Tuple(basis.y1, basis.y2, particular)
-        particular = real_particular(question, basis, particular, place(whole))
+        particular = real_particular(question, basis, particular, place(arguments_with_cuts(whole)))
     particular = without_homogeneous(particular, basis.y1, basis.y2, basis.x)
     constants = free_constants(question, basis, particular)
     value = in_book_form(combination(question, basis, particular, constants), question.x, constants)

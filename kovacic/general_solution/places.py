@@ -14,7 +14,7 @@ from typing import Any
 import sympy
 
 from kovacic.closed_form import cuts
-from kovacic.closed_form.cuts import all_turned, negative_arguments
+from kovacic.closed_form.cuts import all_turned, arguments_with_cuts, negative_arguments
 from kovacic.closed_form.form import ClosedForm, pair_at
 from kovacic.errors import InputError
 from kovacic.general_solution.basis import Basis
@@ -214,7 +214,7 @@ def real_particular(question: Question, basis: Basis, particular: Expr, place: E
     check_between(question, (basis.y1, basis.y2, particular))
     x, equation = question.x, question.equation
     is_settled = equation.change is not None or not place.is_real or particular.has(sympy.Integral, sympy.Heaviside)
-    if is_settled or not negative_arguments(particular, x, place, question.own):
+    if is_settled or not negative_arguments(arguments_with_cuts(particular), x, place, question.own):
         return particular
     turned = all_turned(particular, x, place, question.own)
     return turned if is_solution(turned, basis.rates, right_hand_side(equation), x) else particular

@@ -15,7 +15,7 @@ from collections.abc import Callable, Sequence
 from contextlib import suppress
 from dataclasses import dataclass, field, replace
 from enum import IntEnum
-from functools import cached_property, partial
+from functools import partial
 from itertools import pairwise
 from sys import maxsize
 from typing import Any
@@ -29,13 +29,14 @@ from kovacic.algebra.ratfunc import RatFunc
 from kovacic.algebra.rationals import RationalPoly
 from kovacic.closed_form.atoms import Atoms
 from kovacic.closed_form.check import independent, is_nonzero
-from kovacic.closed_form.cuts import common_place, real_at
+from kovacic.closed_form.cuts import arguments_with_cuts, common_place, negative_arguments, real_at
 from kovacic.closed_form.form import EXACT, ClosedForm, pair_at, written
 from kovacic.closed_form.jets import jet
 from kovacic.closed_form.primitive import FACTOR, LONG, SHORT, OpenPrimitive
 from kovacic.closed_form.product import written_length
 from kovacic.closed_form.structure import ClosedStructure, Covariants, Triangular, build
 from kovacic.closed_form.terminating import hypergeometric_pair
+from kovacic.compatibility import cached_property
 from kovacic.decision import Decision, TerminatingSeries
 from kovacic.errors import LimitExceeded, VerificationFailed
 from kovacic.limits import Budget, bounded_work, check_time
@@ -134,7 +135,10 @@ def _real(form: ClosedForm, S: RatFunc) -> ClosedForm:
     if form.place is not None:
         return form
     pair, x = (form.y1, form.y2), form.variable
-    place = common_place(x, Tuple(*pair))
+    arguments = arguments_with_cuts(Tuple(*pair))
+    place = common_place(x, arguments)
+    if not negative_arguments(arguments, x, place):
+        return form
     y1, y2 = real_at(pair, x, S, form.gauge, place, anew=partial(pair_at, form, place, sympify))
     return form if (y1, y2) == pair else replace(form, y1=y1, y2=y2, place=place)
 

@@ -34,7 +34,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from dataclasses import dataclass, replace
 from fractions import Fraction
-from functools import cached_property, partial
+from functools import partial
 from itertools import chain, islice, product
 from typing import TYPE_CHECKING, Any, ClassVar
 
@@ -46,6 +46,7 @@ from kovacic.algebra.poly import Poly
 from kovacic.algebra.ratfunc import RatFunc
 from kovacic.algebra.rationals import QQ, RationalPoly
 from kovacic.closed_form.structure import PLACES, Covariants
+from kovacic.compatibility import cached_property
 from kovacic.decision import Structure
 from kovacic.engine.places import Kind, Problem, analyse, rational_square_root
 from kovacic.limits import Budget

@@ -36,7 +36,6 @@ from __future__ import annotations
 from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass
 from fractions import Fraction
-from functools import cached_property
 from itertools import combinations
 from math import gcd, lcm
 
@@ -45,6 +44,7 @@ from kovacic.algebra.partial_fractions import decompose
 from kovacic.algebra.poly import Poly, Scalar
 from kovacic.algebra.ratfunc import RatFunc
 from kovacic.algebra.rationals import QQ
+from kovacic.compatibility import cached_property
 from kovacic.engine.places import Kind, Place, Problem, rational_square_root
 from kovacic.errors import LimitExceeded
 from kovacic.limits import Budget, check_time, count_work

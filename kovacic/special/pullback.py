@@ -20,7 +20,6 @@ from abc import ABC, abstractmethod
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
-from functools import cached_property
 from typing import TYPE_CHECKING, Any, ClassVar
 
 from flint import acb, fmpq, fmpq_poly
@@ -29,6 +28,7 @@ from flint.utils.flint_exceptions import DomainError
 from kovacic.algebra.poly import Field, Poly
 from kovacic.algebra.ratfunc import RatFunc
 from kovacic.algebra.rationals import RationalPoly
+from kovacic.compatibility import cached_property
 from kovacic.engine.places import Problem
 from kovacic.limits import count_work
 from kovacic.special.maps import half_rate

@@ -9,7 +9,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from fractions import Fraction
-from functools import cached_property, partial
+from functools import partial
 from typing import Any, Protocol
 
 import sympy
@@ -22,6 +22,7 @@ from kovacic.algebra.ratfunc import RatFunc
 from kovacic.algebra.rationals import QQ
 from kovacic.closed_form.atoms import Atoms, Expr, antiderivative_parameters, display, factors, hypergeometric
 from kovacic.closed_form.product import Power, Product, product
+from kovacic.compatibility import cached_property
 from kovacic.numbers.exact import radical
 from kovacic.special.maps import HALF, Number, half_rate, multiplicities, root
 
