@@ -45,12 +45,12 @@ from kovacic.limits import Limits, check_time, limited, limits_of
 
 _PREC = 300
 _GROWTH = 12.0
-"""The sums of the coefficients of y1 and y2 are at most so large."""
+"""The sums of the coefficients of y1 and y2 are at most this large."""
 _PIECES = 25
 _TOGETHER = 10_000
 _SMALLEST = -1000
-"""So many pieces for each unit of the limit `unknown_degree`: 500,000 by default, of a kilobyte and 0.3 ms each (measured);
-so many are treated together, which takes some 10 kilobytes each; their least binary exponent."""
+"""Pieces for each unit of the limit `unknown_degree`: 500,000 by default, of a kilobyte and 0.3 ms each (measured);
+how many are treated together, which takes some 10 kilobytes each; their least binary exponent."""
 _GAP = 2.0**-46
 """A table begins at this share of the larger end beside a singular point."""
 _ROOM = 900

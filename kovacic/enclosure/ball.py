@@ -456,7 +456,7 @@ class Ball:
         return f"({re} {sign} {im.lstrip('-')}j)"
 
     def _shown_digits(self, more: int) -> int:
-        """So many more than are known, three at least; 40 of an exact number."""
+        """The known digits and `more`, three at least; 40 of an exact number."""
         return _SHOWN_DIGITS if self.is_exact() else int(max(3.0, self.digits + more))
 
     def _decimal_disc(self, digits: int) -> tuple[str, str, str]:

@@ -126,7 +126,7 @@ def _zeros(product: Any, x: Any) -> set[Any]:
 
 
 def _order(function: Any, x: Any, zero: Any) -> int:
-    """So many derivatives, from the function itself on, are 0 at the point."""
+    """The number of derivatives, from the function itself on, that are 0 at the point."""
     for k in range(_MOST):
         if function.xreplace({x: zero}) != 0:
             return k
@@ -337,7 +337,7 @@ class CoefficientField:
         return Jets(centre, e, parts, rests, least, rate, bits, precision) if rate <= steepest else None
 
     def _truncated(self, centre: ExactPoint, h: arb, bits: int) -> tuple[int, list[arb]] | None:
-        """So many terms of A, B, C and F are to be known that the rests are below 2^-bits, and bounds of these, times a(z).
+        """The number of terms of A, B, C and F that leaves rests below 2^-bits, and bounds of the rests, times a(z).
 
         None if there is a singularity within twice the disc, or functions are as large as exp(bits) beside the way.
         """

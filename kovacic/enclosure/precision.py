@@ -105,7 +105,7 @@ def raise_precision(
 class _Run:
     """What one precision gave: without values if the balls aren't all finite.
 
-    So many of them are `lacking` digits, and `missing` are the bits that lack at most.
+    `lacking` of them have too few digits, by at most `missing` bits.
     """
 
     values: tuple[PointValue, ...]

@@ -32,7 +32,7 @@ _BINARY_KINDS = (*_BINARY, "CIRCUMFLEX")
 _NO_OPERANDS = (*_BINARY_KINDS, "RPAR", "COMMA", "EQUAL")
 #: SymPy's functions are recursive.
 _DEEPEST_CALL = 100
-#: So many digits form a group in 1,000.
+#: The digits of a group in 1,000.
 _GROUPED = 3
 
 

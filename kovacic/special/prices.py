@@ -38,7 +38,7 @@ BEGIN = 0.4
 DISC = Price(0.7, 62, 1.27)
 """A disc, as `kovacic.enclosure.states` foresees them: near singular points two or three stand for one."""
 BESIDE = 4.5
-"""So many times that for a disc beside the real axis: complex coefficients, and centres with long numbers."""
+"""The factor for a disc beside the real axis: complex coefficients, and centres with long numbers."""
 TARGET = Price(0.027, 113, 2.0)
 """A target in a disc that is there."""
 FIRST = 0.3

@@ -299,7 +299,7 @@ def _decision(data: Mapping[str, Any], S: RatFunc, variable: str) -> Decision:
 
 
 def _unless_none(value: Any, read: Callable[[Any], Any]) -> Any:
-    """The value that is read, or None for None."""
+    """The value that is read, or None if there is none."""
     return None if value is None else read(value)
 
 

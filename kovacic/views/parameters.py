@@ -138,7 +138,7 @@ def _grids(chosen: Sequence[str], ranges: Sequence[tuple[Any, Any]] | None, step
 
 
 def _grid(low: Any, high: Any, steps: int) -> list[Fraction]:
-    """So many intervals from one number to another, exactly."""
+    """The ends of equal intervals from one number to another, exactly."""
     first = exact_real(low, "an end of a range")
     last = exact_real(high, "an end of a range")
     if max(abs(first), abs(last)) > _FARTHEST:

@@ -203,7 +203,7 @@ AT_A_LETTER = [
 ]
 
 
-@parametrize(("f", "left"), product(AT_A_LETTER, [(0, 1), (3, 2)]), ordinary=3)
+@parametrize(("f", "left"), product(AT_A_LETTER, [(0, 1), (3, 2)]), ordinary=2)
 def test_a_step_at_a_parameter_beside_the_given_values(f: Any, left: tuple[Any, Any]) -> None:
     """At every value of a, before the given point, behind it and there, the answer with a is the one for that value."""
     b, c = map(sympy.sympify, left)
@@ -323,7 +323,7 @@ def test_a_shift_is_written_as_the_impulse_is() -> None:
 LOADS = [-Heaviside(x - A) * (x - A), -DiracDelta(x - A, 1), Heaviside(x - A) - Heaviside(x - A - 1), x - abs(x - A)]
 
 
-@parametrize(("f", "c"), product(LOADS, [0, 1]), ordinary=3)
+@parametrize(("f", "c"), product(LOADS, [0, 1]), ordinary=2)
 def test_a_load_between_two_ends_at_parameters(f: Any, c: int) -> None:
     """A beam or a string from 0 to L, the load before it, on it and behind it."""
     L = sympy.Symbol("L", real=True)
