@@ -1801,7 +1801,7 @@ class Answer:
             f = self.omega(STRUCTURES[self.structure].omega)
             F = self.rational_form(STRUCTURES[self.structure].form)
             checked.append("omega")
-        if self.data.get("group") is not None:
+        if self.data.get("group") is not None and "series" not in self.proof:
             self.group(f, F)
             checked.append("group")
         proven, unproven = self.solutions()

@@ -33,7 +33,7 @@ def group(answer: Answer) -> Group | None:
         found = group_of(answer.S, answer.decision, answer.limits)
         if found is None:
             return None
-        verification = verify(answer.S, answer.decision, found.claim)
+        verification = verify(answer.S, answer.decision, found.claim, budget=Budget(answer.limits))
     except LimitExceeded:
         return None
     if not verification:
@@ -140,4 +140,4 @@ def verification(answer: Answer) -> Verification:
         found = group_of(answer.S, answer.decision, answer.limits)
         return None if found is None else found.claim
 
-    return verify(answer.S, answer.decision, claim)
+    return verify(answer.S, answer.decision, claim, budget=Budget(answer.limits))

@@ -9,6 +9,7 @@ told by the roots of its two factors, whatever the degree; see `kovacic.algebra.
 from __future__ import annotations
 
 from collections.abc import Iterator
+from dataclasses import dataclass
 from itertools import chain, product
 from math import prod
 
@@ -24,12 +25,32 @@ from kovacic.engine.places import Problem
 _MOST_FAMILIES = 256
 
 
-def terminating_series(problem: Problem) -> TerminatingSeries | NoTerminatingSeries | None:
-    """A solution exp(int theta) P with a P of least degree, or that there is none; None where that isn't told in this way.
+@dataclass(frozen=True)
+class Search:
+    """What became of the theta that leave a natural degree for P: those with a P, by degrees, and whether all were decided.
 
-    A solution is told only if every theta with a smaller degree of P is excluded; that there is none, only for poles and
-    exponents in the field of S.
+    `known` is false from the first theta on whose recurrence has more terms than two; `complete` says that all poles and
+    exponents lie in the field of S, so that the kernel can go through the same theta.
     """
+
+    found: tuple[TerminatingSeries, ...]
+    known: bool
+    complete: bool
+    count: int
+
+
+def terminating_series(problem: Problem) -> TerminatingSeries | NoTerminatingSeries | None:
+    """A solution exp(int theta) P with a P of least degree, or that there is none; None where that isn't told in this way."""
+    search = search_series(problem)
+    if search is None:
+        return None
+    if search.found:
+        return search.found[0]
+    return NoTerminatingSeries(search.count) if search.known and search.complete else None
+
+
+def search_series(problem: Problem) -> Search | None:
+    """All theta, by the degree of P up to the first that isn't decided; None if they are too many, or over other fields."""
     roots = Roots(problem.field, "c")
     *poles, infinity = problem.places
     points = [*points_of_place(infinity, roots), *chain.from_iterable(points_of_place(place, roots) for place in poles)]
@@ -52,19 +73,20 @@ def terminating_series(problem: Problem) -> TerminatingSeries | NoTerminatingSer
             d -= point.count * choice.value
         if is_natural(d):
             families.append((natural(d), _in_least_field(RatFunc(theta_numerator(D, points, family), D))))
+    found = []
+    is_known = True
     for degree, theta in sorted(families, key=lambda pair: pair[0]):
         problem.budget.check()
-        for centre in _centres(problem, theta):
-            recurrence = recurrence_about(centre, problem.S, theta)
-            if recurrence is not None:
-                break
-        else:
-            return None
+        recurrences = ((centre, recurrence_about(centre, problem.S, theta)) for centre in _centres(problem, theta))
+        centre, recurrence = next((pair for pair in recurrences if pair[1] is not None), (theta.num, None))
+        if recurrence is None:
+            is_known = False
+            break
         lowest = recurrence.lowest(degree)
         if lowest is not None:
-            return TerminatingSeries(theta, centre, recurrence.step, degree, lowest)
+            found.append(TerminatingSeries(theta, centre, recurrence.step, degree, lowest))
     is_complete = field == problem.field and all(point.count == 1 for point in points)
-    return NoTerminatingSeries(len(families)) if is_complete else None
+    return Search(tuple(found), is_known, is_complete, len(families))
 
 
 def recurrence_about(centre: Poly, S: RatFunc, theta: RatFunc) -> TwoTerms | None:

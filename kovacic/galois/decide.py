@@ -18,10 +18,11 @@ from math import lcm
 
 from kovacic.algebra.partial_fractions import decompose
 from kovacic.algebra.ratfunc import RatFunc
-from kovacic.decision import Decision, SemiInvariant, Structure
+from kovacic.decision import Decision, SemiInvariant, Structure, TerminatingSeries
 from kovacic.engine.invariants import invariants
 from kovacic.engine.places import Problem, analyse
 from kovacic.engine.riccati import Form
+from kovacic.engine.terminating import search_series
 from kovacic.errors import LimitExceeded
 from kovacic.galois.group import Ground, Group, GroupKind
 from kovacic.galois.imprimitive import imprimitive_group
@@ -30,13 +31,15 @@ from kovacic.limits import DEFAULT_LIMITS, Budget, Limits
 
 def group_of(S: RatFunc, decision: Decision, limits: Limits = DEFAULT_LIMITS) -> Group | None:
     """The differential Galois group of y'' = S y; None if the equation is undecided, or a limit keeps a reducible group from
-    being determined, as where P is known by its recurrence alone.
+    being determined.
 
     The decision must be certified (with its semi-invariant).  Whatever is claimed is proven: where a limit of the work
     keeps the order of an imprimitive group from being determined, the kind of the group says so.
     """
-    if decision.undecided is not None or decision.series is not None:
+    if decision.undecided is not None:
         return None
+    if decision.series is not None:
+        return _group_of_series(analyse(S, Budget(limits)), decision.series)
     if decision.structure is None:
         return Group(GroupKind.SL2, Ground.NO_LIOUVILLIAN)
     if decision.structure.case == 3:
@@ -49,6 +52,17 @@ def group_of(S: RatFunc, decision: Decision, limits: Limits = DEFAULT_LIMITS) ->
         return _reducible_group(problem, decision.semi_invariant, decision.invariant)
     except LimitExceeded:
         return None
+
+
+def _group_of_series(problem: Problem, series: TerminatingSeries) -> Group | None:
+    """The group where P is known by its recurrence and no other omega is rational; None where another one may be."""
+    search = search_series(problem)
+    if search is None or not (search.known and search.complete) or len(search.found) > 1:
+        return None
+    residues = rational_residues(series.theta)
+    if isinstance(residues, Ground):
+        return Group(GroupKind.BOREL, residues)
+    return Group(GroupKind.ADDITIVE, Ground.RESIDUES, lcm(1, *(r.denominator for r in residues)))
 
 
 def _reducible_group(problem: Problem, f: SemiInvariant, F: SemiInvariant | None) -> Group:

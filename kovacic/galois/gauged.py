@@ -106,11 +106,13 @@ def equation_group(S: RatFunc, decision: Decision, normal_form: Group, rho: RatF
         if N is not None:  # -1 lies in SL2
             name = "SL2" if N == 2 else f"SL2 with the scalars mu_{lcm(2, N)}"
         return EquationGroup(normal_form, N, name, False)
-    assert f is not None
     if kind in (GroupKind.ADDITIVE, GroupKind.BOREL):
-        torus = _torus(*_lattice_forms(f.theta, rho))
+        known = f or decision.series
+        assert known is not None
+        torus = _torus(*_lattice_forms(known.theta, rho))
         name = "G_a" if torus.order == 1 else f"G_a extended by {torus.name}"
         return EquationGroup(normal_form, N, name, False)
+    assert f is not None
     if kind in (GroupKind.CYCLIC, GroupKind.MULTIPLICATIVE):
         torus = _torus(*_lattice_forms(f.theta, rho))
         return EquationGroup(normal_form, N, torus.name, torus.order is not None, torus.order)

@@ -305,7 +305,8 @@ def _laguerre(form: _WhittakerForm) -> WrittenPair | None:
             multiple = sympy.gamma(N + a + 1) / sympy.gamma(N + 1) / sympy.gamma(a + 1)
             return writer.pair(first, form.kummer(-mu), partial(form.bracket, mu, multiple), (2 * mu,))
         if integer:  # the same less L_N(0) = (a + 1)_N/N!
-            bracket = partial(mul, (-form.z) ** N / sympy.rf(a + 1, N), form.slope)
+            # a product of N factors is left as it is where N is a number, too large for a degree
+            bracket = partial(mul, (-form.z) ** N / sympy.rf(a + 1, N, evaluate=not N.is_Number), form.slope)
             return writer.pair(form.kummer(mu), form.turned.tricomi, bracket)
     return None
 

@@ -44,7 +44,7 @@ from kovacic.verify.primes import (
     translated,
 )
 from kovacic.verify.series import nullity, product_of_powers, solutions_at_ordinary_point
-from kovacic.verify.terminating import none_solves
+from kovacic.verify.terminating import numbers_of_series
 from kovacic.verify.zeros import ZeroCounts, is_proven_irrational, zero_counts
 
 #: Equations beyond the number of unknowns.
@@ -188,6 +188,11 @@ class Inspector:
         """The possible numbers of zeros of a solution with a unique rational omega; None if there provably is none."""
         return zero_counts(self.points)
 
+    @cached_property
+    def numbers_of_series(self) -> tuple[int, int] | None:
+        """How many theta are possible where P has a recurrence of two terms, and how many have a P; None if that isn't told."""
+        return numbers_of_series(self.S, self.points)
+
     @property
     def factors(self) -> list[Poly]:
         """The irreducible factors of the denominator of S."""
@@ -222,7 +227,7 @@ class Inspector:
         if isinstance(item, NoInvariant):
             return self._no_invariant(item)
         if isinstance(item, NoTerminatingSeries):
-            return structure is Structure.REDUCIBLE and none_solves(self.S, self.points, item.count)
+            return structure is Structure.REDUCIBLE and self.numbers_of_series == (item.count, 0)
         return self._no_rational_omega(item)
 
     def _no_invariant(self, item: NoInvariant) -> bool:

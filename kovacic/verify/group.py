@@ -49,8 +49,10 @@ def group_holds(inspector: Inspector, decision: Decision, claim: GroupClaim) -> 
         return False
     f = decision.semi_invariant
     riccati = decision.riccati
-    if decision.undecided is not None or decision.series is not None:
+    if decision.undecided is not None:
         return False
+    if decision.series is not None:
+        return _with_one_omega(decision.series.theta) == (claim.family, n) if _is_only_series(inspector) else None
     if f is None or riccati is None:  # there is no solution
         return (claim.family, claim.n) == ("SL2", None)
     if decision.structure is Structure.REDUCIBLE:
@@ -70,12 +72,10 @@ def _reducible_named(
     unique, and the group is {(c, b; 0, 1/c)}, c^n = 1 or any c.  If F = y1 y2 has different factors, the group is diagonal,
     mu_n or G_m; if F = y1^2, y2 = y1 int dx/F.
     """
-    residues = rational_residues(f.theta)
-    n = None if residues is None else lcm(*(value.denominator for _, value in residues))  # the least with f^n rational
+    one_omega = _with_one_omega(f.theta)
+    n = one_omega[1]
     if F is None:
-        if not inspector.dimension_is_at_most(0, 2):
-            return None
-        return ("borel", None) if n is None else ("additive", n)
+        return one_omega if inspector.dimension_is_at_most(0, 2) else None
     if F.degree != 2 or not is_rational(F):
         return None
     A = form_numerators(inspector.S, F, riccati.D)
@@ -86,6 +86,18 @@ def _reducible_named(
         family = "cyclic" if _inverse_has_an_integral(inspector, F) else "additive"
         return family, n
     return ("multiplicative", None) if n is None else ("cyclic", n)
+
+
+def _with_one_omega(theta: RatFunc) -> _Named:
+    """The group of y1 = exp(int theta) P where no other omega is rational: n is the least with y1^n rational."""
+    residues = rational_residues(theta)
+    return ("borel", None) if residues is None else ("additive", lcm(*(value.denominator for _, value in residues)))
+
+
+def _is_only_series(inspector: Inspector) -> bool:
+    """True if there is only one pair of a theta and a P, and so one omega."""
+    numbers = inspector.numbers_of_series
+    return numbers is not None and numbers[1] == 1
 
 
 def _inverse_has_an_integral(inspector: Inspector, F: SemiInvariant) -> bool:

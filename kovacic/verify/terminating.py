@@ -88,17 +88,17 @@ def solves(S: RatFunc, series: TerminatingSeries) -> bool:
     return found is not None and found.step == series.step and found.end(series.degree) == series.lowest
 
 
-def none_solves(S: RatFunc, points: list[Point], count: int) -> bool:
-    """True if no theta leaves a P: `count` of them a natural degree, and for each of these the recurrence rules a P out."""
+def numbers_of_series(S: RatFunc, points: list[Point]) -> tuple[int, int] | None:
+    """How many theta leave a natural degree for P, and how many of these a P; None unless each is told by its recurrence."""
     choices = []
     for point in points:
         found = _local_parts(point)
         if found is None:
-            return False
+            return None
         choices.append(found)
     if prod(map(len, choices)) > _MOST_FAMILIES:
-        return False
-    tried = 0
+        return None
+    tried = ending = 0
     for parts in product(*choices):
         check_time()
         theta = sum((part for _, part in parts), RatFunc(S.field.poly([])))
@@ -108,9 +108,10 @@ def none_solves(S: RatFunc, points: list[Point], count: int) -> bool:
         tried += 1
         found_here = [recurrence(S, theta, centre) for centre in _centres(points, theta)]
         usable = [found for found in found_here if found is not None]
-        if not usable or usable[0].end(int(degree)) is not None:
-            return False
-    return tried == count
+        if not usable:
+            return None
+        ending += usable[0].end(int(degree)) is not None
+    return tried, ending
 
 
 def _centres(points: list[Point], theta: RatFunc) -> list[Poly]:
