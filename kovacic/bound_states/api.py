@@ -9,7 +9,7 @@ from typing import Any
 
 import sympy
 
-from kovacic.bound_states.asked import Asked, asked
+from kovacic.bound_states.asked import asked, problem_of, unsolved
 from kovacic.bound_states.closed_forms import closed_forms, step
 from kovacic.bound_states.coordinates import RealPotential, check_poles, on_real_circle
 from kovacic.bound_states.ends import End, end_of, potential_in_t
@@ -24,7 +24,7 @@ from kovacic.bound_states.families import (
 from kovacic.bound_states.frame import SingularFrame, frames
 from kovacic.bound_states.levels import Algebraic, BoundState, Levels, Spectrum
 from kovacic.bound_states.numeric import check_first_levels, with_matching, with_numbers
-from kovacic.bound_states.question import FRIEDRICHS, SpectralProblem
+from kovacic.bound_states.question import FRIEDRICHS, Asked, SpectralProblem
 from kovacic.bound_states.signs import Uncovered
 from kovacic.bound_states.without_levels import NO_LEVELS, REASON, is_repulsive
 from kovacic.enclosure.request import Accuracy, digits_and_limits
@@ -44,6 +44,7 @@ _STANDARD_FORMS: tuple[tuple[Callable[[SingularFrame, SpectralProblem], Exponent
     (three_regular_points, "three regular singular points"),
     (bessel, "Bessel's equation"),
 )
+_CIRCULAR = "no formula is known for potentials in exp(i x) that aren't rational in one sine, cosine or tangent"
 _POLYNOMIAL = "each solution that is square integrable at both ends has a polynomial in it"
 #: Seconds that SymPy takes to expand a potential at the ends of its domain, over its terms to the power 3/2.
 _END_SECONDS = 4e-4
@@ -83,10 +84,11 @@ def spectrum(
         What is known of the parameters, as for `kovacic.conditions`: {"l": ">=0", "Z": "positive"}, or values.  Without it
         the conditions under which a solution is square integrable are part of the answer.
     boundary : str
-        Conditions at finite ends where V is regular: "y'(0) = 0", "y(0) = 0, y(1) + 2*y'(1) = 0".  Or "friedrichs": at an
-        end where both solutions are square integrable the smaller one is meant, which is y = 0 at a regular end.  It is taken,
-        with a note, where a condition is needed and none was given, and the operator is bounded below; where solutions
-        oscillate at an end no condition is distinguished, and there is no spectrum without one.
+        Conditions at finite ends where V is regular: "y'(0) = 0", "y(0) = 0, y(1) + 2*y'(1) = 0"; y = 0 also where V isn't,
+        if only the smaller solution vanishes there, as for -Z/x.  Or "friedrichs": at an end where both solutions are square
+        integrable the smaller one is meant, which is y = 0 at a regular end.  It is taken, with a note, where a condition is
+        needed and none was given, and the operator is bounded below; where solutions oscillate at an end no condition is
+        distinguished, and there is no spectrum without one.
     max_degree : int
         Of a quasi-exactly solvable potential, the levels with a polynomial of at most this degree are given; 2 by default.
     levels : int, optional
@@ -139,9 +141,9 @@ def spectrum(
         V, domain=domain, energy=energy, var=var, assume=assume, boundary=boundary, names=names, limits=limits
     )
     try:
-        found = with_matching(question.physical(_schroedinger_spectrum(question, degree, limits)))
+        found = with_matching(_schroedinger_spectrum(question, degree, limits))
     except NotRational as unread:
-        found = with_matching(question.physical(question.unsolved(unread)))
+        found = with_matching(unsolved(question, unread))
         if levels is None:
             values = f"with values of {', '.join(found.parameters)} " if found.parameters else ""
             hint = f"{values}the lowest levels are computed as proven numbers"
@@ -155,8 +157,8 @@ def spectrum(
 
 
 def _schroedinger_spectrum(given: Asked, max_degree: int, limits: Limits) -> Spectrum:
-    """The spectrum of -y'' + V y = E y; sentences about V speak of kinetic * V.  Raises `NotRational`."""
-    question = given.with_named_roots().problem(limits)
+    """The levels as far as exact methods give them.  Raises `NotRational`."""
+    question = problem_of(given, limits)
     budget = Budget(limits)
     with budget.watched():
         try:
@@ -186,20 +188,13 @@ class _Examined:
     def spectrum(self, **found: Any) -> Spectrum:
         """The answer, with what was `found`."""
         question = self.question
-        plain, meanings = question.plain, question.meanings
-        boundary = question.boundary.text or (FRIEDRICHS if question.friedrichs else None)
-        return Spectrum(
-            plain(question.V),
-            question.variable,
-            tuple(map(plain, question.domain)),
-            question.energy,
-            own_parameters(question.parameters, tuple(meanings.items())),
-            question.known.without(meanings),
-            boundary=boundary,
+        parameters = own_parameters(question.parameters, tuple(question.meanings.items()))
+        return question.spectrum(
+            parameters,
+            question.known.without(question.meanings),
+            boundary=question.boundary.text or (FRIEDRICHS if question.friedrichs else None),
             ends=tuple(end.sentence for end in self.ends),
-            excluded=tuple(relation for relation in map(plain, self.excluded) if relation != sympy.false),
-            notices=question.notices,
-            conditions=question.boundary.wishes,
+            excluded=tuple(relation for relation in map(question.plain, self.excluded) if relation != sympy.false),
             **found,
         )
 
@@ -220,7 +215,7 @@ def _examined(question: SpectralProblem) -> _Examined:
     for is_right, at in enumerate(question.domain):
         ends.append(end_of(question, real, is_right=bool(is_right)))
         wish = question.boundary.wishes[is_right]
-        if wish is not None and not ends[-1].is_regular:
+        if wish is not None and not (ends[-1].vanishes if wish.is_zero else ends[-1].is_regular):
             raise InputError(
                 f"V isn't regular at {question.variable} = {at}: only Friedrichs' condition is known there"
             )
@@ -233,16 +228,10 @@ def _examined(question: SpectralProblem) -> _Examined:
 def _excluded(question: SpectralProblem, ends: Sequence[End]) -> tuple[Any, ...]:
     """The relations where both solutions are square integrable at an end and none of them is chosen."""
     signs = question.signs
-    excluded: dict[Any, None] = {}
     free = [end for end, wish in zip(ends, question.boundary.wishes, strict=True) if wish is None]
-    for end in free:
-        circle = end.oscillation if question.friedrichs and not end.oscillates else end.circle
-        if circle is False or signs.holds(circle) is False:
-            continue
-        circle = sympy.sympify(circle, strict=True)
-        relation = sympy.true if signs.holds(circle) else tidied([circle], signs)[0]
-        excluded[relation] = None
-    return tuple(excluded)
+    found = [end.oscillation if question.friedrichs and not end.oscillates else end.circle for end in free]
+    left = [circle for circle in found if signs.holds(circle) is not False]
+    return tuple(dict.fromkeys(relation for circle in left for relation in tidied([circle], signs) or (sympy.true,)))
 
 
 def _all_levels(examined: _Examined, budget: Budget) -> Spectrum:
@@ -252,7 +241,7 @@ def _all_levels(examined: _Examined, budget: Budget) -> Spectrum:
     if sympy.true in examined.excluded:
         # Where solutions oscillate at an end, no boundary condition is distinguished, and none was given.
         return replace(examined, excluded=(sympy.true,)).spectrum(reason="none is distinguished")
-    oscillating = next((end for end in examined.ends if end.oscillates and end.circle is False), None)
+    oscillating = next((end for end in examined.ends if end.oscillates and end.is_limit_point), None)
     if oscillating is not None:
         reason = f"no solution is square integrable at {oscillating.at}"
         return replace(examined, excluded=()).spectrum(complete=True, reason=reason)
@@ -261,21 +250,14 @@ def _all_levels(examined: _Examined, budget: Budget) -> Spectrum:
             return examined.spectrum(complete=True, reason=NO_LEVELS)
         reason = "V is periodic, and no formula is known for its levels on a half line, which lie between the bands"
         return examined.spectrum(reason=f"undecided: {reason}")
-    is_circular = question.original.is_circular
     try:
-        if is_circular:
-            raise Uncovered(
-                "no formula is known for potentials in exp(i x) that aren't rational in one sine, cosine or tangent"
-            )
-        families, name = _families(question, budget)
-    except Uncovered as uncovered:
+        levels, name = _families(question, budget)
+    except Uncovered:
         is_settled = not examined.excluded and not question.boundary.is_mixed
         if is_settled and is_repulsive(examined.real, examined.ends, question.signs):
             return examined.spectrum(complete=True, reason=REASON)
-        why = _why_no_formula(examined) or (f"undecided: {uncovered}" if is_circular else "")
-        return _transformed(examined, budget) or examined.spectrum(reason=why)
-    levels = [one for one in families if sympy.false not in one.conditions and one.members != ()]
-    return examined.spectrum(levels=tuple(levels), complete=True, reason=f"{name}: {_POLYNOMIAL}")
+        return _transformed(examined, budget) or examined.spectrum(reason=_why_no_formula(examined))
+    return examined.spectrum(levels=levels, complete=True, reason=f"{name}: {_POLYNOMIAL}")
 
 
 def _why_no_formula(examined: _Examined) -> str:
@@ -283,7 +265,7 @@ def _why_no_formula(examined: _Examined) -> str:
     question = examined.question
     wall = next((end.at for end in examined.ends if end.is_ordinary), None)
     if wall is None:
-        return ""
+        return f"undecided: {_CIRCULAR}" if question.original.is_circular else ""
     where = f"{question.variable} = {question.shown(wall)}"
     meets = "fulfils the condition" if any(question.boundary.wishes) else "vanishes"
     return (
@@ -297,7 +279,7 @@ def _with_closed_forms(found: Spectrum, examined: _Examined, max_degree: int, li
     question = examined.question
     forms = closed_forms(question, examined.ends, examined.real, max_degree, limits)
     reason = forms.reason if forms.complete else found.reason or forms.reason
-    found = replace(found, algebraic=forms.levels, closed_forms_complete=forms.complete, reason=reason)
+    found = replace(found, algebraic=tuple(forms.levels), closed_forms_complete=forms.complete, reason=reason)
     if forms.complete or forms.higher is None or not examined.ends:
         return found
     higher = f"there may be levels with a polynomial of degree {forms.higher}"
@@ -310,10 +292,8 @@ def _transformed(examined: _Examined, budget: Budget) -> Spectrum | None:
     found = step(question, examined.ends, budget)
     if found is None:
         return None
-    V = question.signs.real(question.V).xreplace({sympy.Symbol(question.variable): question.x})
-    simpler_V = sympy.cancel(sympy.together(V - 2 * sympy.diff(found.W, question.x)))
     try:
-        other = _examined(question.with_potential(simpler_V))
+        other = _examined(question.with_S(found.S))
         simpler = _all_levels(other, budget)
     except (Uncovered, InputError):
         return None
@@ -321,19 +301,19 @@ def _transformed(examined: _Examined, budget: Budget) -> Spectrum | None:
     E0 = question.plain(found.energy)
     gaps = (question.signs.real(one.energy - E0).xreplace({one.number: question.signs.n}) for one in simpler.levels)
     are_kept = all(question.signs.sign(gap) is not None for gap in gaps)
-    if not (simpler.complete and are_kept and all(end.circle is False for end in other.ends)):
+    if not (simpler.complete and are_kept and all(end.is_limit_point for end in other.ends)):
         return None
-    # The levels of the simpler potential with y' + W y for y, whose norm^2 is (E - E0) times that of y; and E0 with y0.
-    W = question.plain(sympy.factor(found.W))
+    # The levels of the simpler potential with y' + W y for y, whose norm^2 is (E - E0)/k times that of y; and E0 with y0.
+    W, k = question.plain(sympy.factor(found.W)), question.plain(question.kinetic)
     x, E = sympy.symbols([question.variable, question.energy])
     levels = []
     for one in simpler.levels:
         wave = W * one.wave + sympy.Derivative(one.wave, x)
-        norm = None if one.norm is None else (one.energy - E0) * one.norm
+        norm = None if one.norm is None else (one.energy - E0) / k * one.norm
         levels.append(replace(one, wave=wave, zeros=one.zeros + int(found.is_level), norm=norm))
     lowest = question.plain(found.wave)
-    states = () if question.parameters else (BoundState(0, E0, lowest, 0),)
-    shown = question.shown(sympy.factor(question.kinetic * simpler_V))
+    states = () if question.parameters else (BoundState(0, E0, lowest),)
+    shown = question.shown(sympy.factor(question.kinetic * found.S.subs(question.E, 0)))
     return examined.spectrum(
         levels=tuple(levels),
         algebraic=(Algebraic(0, sympy.Integer(0), E - E0, lowest, (), states),) if found.is_level else (),
@@ -359,11 +339,12 @@ def _check_branch_point(question: SpectralProblem) -> None:
         )
 
 
-def _families(question: SpectralProblem, budget: Budget) -> tuple[list[Levels], str]:
+def _families(question: SpectralProblem, budget: Budget) -> tuple[tuple[Levels, ...], str]:
     """Those of the first coordinate and standard equation that fit, and its name."""
-    for frame in frames(question, budget):
+    for frame in frames(question, budget) if not question.original.is_circular else ():
         for standard_form, name in _STANDARD_FORMS:
             with suppress(Uncovered):
                 form = standard_form(frame, question)
-                return [] if form is None else [*form.levels(question)], name
+                found = () if form is None else form.levels(question)
+                return tuple(levels for levels in found if not levels.is_empty), name
     raise Uncovered("no formula is known")

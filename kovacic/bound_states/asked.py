@@ -1,8 +1,7 @@
 """The question as it was asked, and its answer in the user's terms.
 
 Text and SymPy objects are read here, once: a potential, "V(x) = ...", or Schroedinger's equation as a physicist writes it,
--hbar^2/(2 m) psi'' + V psi = E psi.  With the kinetic factor k = hbar^2/(2 m) > 0 the energies are k times those of V/k, with
-the same functions.
+-hbar^2/(2 m) psi'' + V psi = E psi.  With the kinetic factor k = hbar^2/(2 m) > 0 it is psi'' = S psi, S = (V - E)/k.
 
 Letters stand for sqrt(a), and for square roots of several numbers, while the spectrum is looked for.  One square root, or
 another root of one number, is computed with as such.  Several of them would have a common generator, that isn't written in the
@@ -15,15 +14,15 @@ from __future__ import annotations
 import re
 from collections.abc import Mapping, Sequence
 from contextlib import suppress
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, replace
 from itertools import count
 from typing import Any
 
 import sympy
 from sympy.functions.elementary.trigonometric import TrigonometricFunction
 
-from kovacic.bound_states.levels import Spectrum, scaled
-from kovacic.bound_states.question import FRIEDRICHS, Boundary, SpectralProblem, constants_among, read_boundary
+from kovacic.bound_states.levels import Spectrum
+from kovacic.bound_states.question import FRIEDRICHS, Asked, SpectralProblem, constants_among, read_boundary
 from kovacic.bound_states.signs import Signs
 from kovacic.equation import DEFAULT_VARIABLE, parameters_of
 from kovacic.errors import InputError, LimitExceeded, NotRational
@@ -55,127 +54,6 @@ _STEPS = 10**6
 _INFINITE = {"oo": sympy.oo, "+oo": sympy.oo, "inf": sympy.oo, "-oo": -sympy.oo, "-inf": -sympy.oo}
 #: V(x) = ..., V = ...
 _LEFT_SIDE = re.compile(r"\s*[VU]\s*(?:\(\s*(\w+)\s*\))?\s*=(?!=)")
-
-
-@dataclass(frozen=True)
-class Asked:
-    """-kinetic y'' + V y = E y between two ends, in plain symbols, and what is assumed beside values, which are put in.
-
-    V is any elementary function; `scaled` is V/kinetic, in which `roots` are the meanings of letters, and `given` what the user
-    gave, whose symbols may have assumptions.
-    """
-
-    given: Any
-    V: Any
-    scaled: Any
-    variable: str
-    ends: tuple[Any, Any]
-    energy: str
-    boundary: Boundary
-    friedrichs: bool
-    assumed: Mapping[Any, Any]
-    kinetic: Any = sympy.S.One
-    names: Sequence[str] = ()
-    notices: tuple[str, ...] = ()
-    roots: Mapping[str, Any] = field(default_factory=dict)
-
-    def with_named_roots(self) -> Asked:
-        """With letters for roots of numbers, where there are several or nested ones, or other letters."""
-        powers = (power for power in self.scaled.atoms(sympy.Pow) if power.is_number and not power.exp.is_Integer)
-        roots = sorted((p for p in powers if p.is_positive and p.is_algebraic), key=sympy.default_sort_key)
-        has_letters = bool({*names_of(self.scaled)} - {self.variable})
-        least = 1 if has_letters or self.scaled.has(TrigonometricFunction) else 2
-        if len(roots) < least:
-            return self
-        outermost = [root for root in roots if not any(root is not other and other.has(root) for other in roots)]
-        names = (name for name in map("root_{}".format, count(1)) if name not in names_of(self.scaled))
-        meanings = dict(zip(names, outermost, strict=False))
-        plain = self.scaled.xreplace({root: sympy.Symbol(name) for name, root in meanings.items()})
-        known = {name: _between_decimals(value) for name, value in meanings.items()}
-        return replace(self, scaled=plain, roots=meanings, assumed={**self.assumed, **known})
-
-    def problem(self, limits: Limits) -> SpectralProblem:
-        """The problem for exact methods.  Raises `NotRational` for a V that isn't rational in one function."""
-        potential = self._in_one_piece()
-        S = potential - sympy.Symbol(self.energy)
-        parsed = read_input(S, var=self.variable, limits=limits, exponentials=True, names=self.names)
-        # A shift, as b in 1/cosh(x - b)^2, doesn't occur in the equation in t.
-        meanings = {symbol.name for _, meaning in parsed.letters for symbol in meaning.free_symbols}
-        elsewhere = {symbol.name for part in (potential, *self.ends) for symbol in part.free_symbols}
-        in_S = parameters_of(parsed.S.field)
-        names = (*in_S, *sorted(elsewhere - meanings - {self.variable, *in_S}))
-        known = read_assumptions(_assumed_of_letters(self.assumed, parsed.letters) or None, self.given, names)
-        constants = constants_among(potential, names)
-        for constant in constants:
-            known = known.also(constant, ("irrational", "positive"))
-        signs = Signs(known, names)
-        first, last = (signs.real(end) for end in self.ends)
-        if signs.is_nonnegative(first - last) or first == sympy.oo or last == -sympy.oo:
-            raise InputError(f"the domain is empty: {first} isn't below {last}")
-        return SpectralProblem(
-            potential,
-            parsed,
-            domain=(first, last),
-            variable=self.variable,
-            energy=self.energy,
-            known=known,
-            signs=signs,
-            friedrichs=self.friedrichs,
-            boundary=self.boundary,
-            notices=self.notices,
-            kinetic=signs.real(self.kinetic),
-            meanings={**dict(parsed.letters), **self.roots, **constants},
-        )
-
-    def _in_one_piece(self) -> Any:
-        """V without absolute values and steps, if it is one function.  Raises `NotRational` for several pieces."""
-        V = self.scaled
-        if not V.has(*STEPS):
-            return V
-        x = sympy.Symbol(self.variable)
-        pieces = pieces_of(V, sympy.S.One, x, self.ends) if len(names_of(V)) == 1 else ()
-        if len(pieces) != 1:
-            raise NotRational(f"{caret(as_text(self.V))} is a function in pieces, and its levels have no formula here")
-        return pieces[0].Q
-
-    def unsolved(self, reason: NotRational) -> Spectrum:
-        """The problem alone, for a potential that no formulas are known for."""
-        inside = {symbol.name for part in (self.scaled, *self.ends) for symbol in part.free_symbols}
-        parameters = tuple(sorted(inside - {self.variable}))
-        wishes = self.boundary.wishes
-        is_open = any(end.is_finite and wish is None for end, wish in zip(self.ends, wishes, strict=True))
-        return Spectrum(
-            self.scaled,
-            self.variable,
-            self.ends,
-            self.energy,
-            parameters,
-            read_assumptions(self.assumed or None, self.given, parameters),
-            self.boundary.text or (FRIEDRICHS if is_open or self.friedrichs else None),
-            reason=f"undecided: {reason.args[0]}",
-            notices=self.notices,
-            conditions=wishes,
-        )
-
-    def physical(self, found: Spectrum) -> Spectrum:
-        """The spectrum of V/kinetic as that of V."""
-        k = self.kinetic
-        if k == 1:
-            return found
-        letters = sorted(symbol.name for symbol in k.free_symbols)
-        known = found.assumptions
-        for name in letters:
-            known = known if name in found.parameters else known.also(name, ("positive",))
-        return replace(
-            found,
-            potential=self.V,
-            kinetic=k,
-            parameters=(*found.parameters, *(name for name in letters if name not in found.parameters)),
-            assumptions=known,
-            levels=tuple(replace(one, energy=scaled(one.energy, k)) for one in found.levels),
-            algebraic=tuple(one.scaled(sympy.Symbol(self.energy), k) for one in found.algebraic),
-            notices=(*found.notices, f"{' and '.join(letters)} taken as positive") if letters else found.notices,
-        )
 
 
 def asked(
@@ -211,22 +89,87 @@ def asked(
     potential, kinetic, first, last = (part.xreplace(at) for part in (read.V, read.kinetic, *ends))
     if {sympy.Symbol(x), sympy.Symbol(energy)} & (first.free_symbols | last.free_symbols):
         raise InputError(f"an end of the domain contains {x} or {energy}")
-    plain = potential if kinetic == 1 else sympy.expand_mul(potential / kinetic)
-    positive = {symbol.name: "positive" for symbol in kinetic.free_symbols & plain.free_symbols}
+    S = potential - sympy.Symbol(energy)
+    S = S if kinetic == 1 else sympy.expand_mul(S / kinetic)
+    letters = sorted({symbol.name for symbol in kinetic.free_symbols} - {*map(str, rest)})
+    notices = (f"{' and '.join(letters)} taken as positive",) if letters else ()
     return Asked(
-        V,
-        potential,
-        plain,
+        given=V,
+        V=potential,
+        S=S,
         variable=x,
         ends=(first, last),
         energy=energy,
         boundary=read_boundary(boundary, (first, last), x),
         friedrichs=boundary == FRIEDRICHS,
-        assumed={**positive, **rest},
+        assumed={**dict.fromkeys(letters, "positive"), **rest},
         kinetic=kinetic,
         names=names,
-        notices=read.notices,
+        notices=(*read.notices, *notices),
     )
+
+
+def _with_named_roots(question: Asked) -> Asked:
+    """With letters for roots of numbers, where there are several or nested ones, or other letters."""
+    S = question.S
+    powers = (power for power in S.atoms(sympy.Pow) if power.is_positive and not power.exp.is_Integer)
+    roots = sorted((power for power in powers if power.is_algebraic), key=sympy.default_sort_key)
+    if len(roots) < 2 and not (question.letters or S.has(TrigonometricFunction)):
+        return question
+    outermost = [root for root in roots if not any(root is not other and other.has(root) for other in roots)]
+    names = (name for name in map("root_{}".format, count(1)) if name not in names_of(S))
+    meanings = dict(zip(names, outermost, strict=False))
+    known = {name: _between_decimals(value) for name, value in meanings.items()}
+    in_letters = S.xreplace({root: sympy.Symbol(name) for name, root in meanings.items()})
+    return replace(question, S=in_letters, roots=meanings, assumed={**question.assumed, **known})
+
+
+def problem_of(question: Asked, limits: Limits) -> SpectralProblem:
+    """The problem for exact methods.  Raises `NotRational` for a V that isn't rational in one function."""
+    question = _with_named_roots(question)
+    S = _in_one_piece(question)
+    parsed = read_input(S, var=question.variable, limits=limits, exponentials=True, names=question.names)
+    # A shift, as b in 1/cosh(x - b)^2, doesn't occur in the equation in t.
+    meanings = {symbol.name for _, meaning in parsed.letters for symbol in meaning.free_symbols}
+    in_S = parameters_of(parsed.S.field)
+    names = (*in_S, *sorted(question.letters - meanings - {*in_S}))
+    known = read_assumptions(_assumed_of_letters(question.assumed, parsed.letters) or None, question.given, names)
+    constants = constants_among(S, names)
+    for constant in constants:
+        known = known.also(constant, ("irrational", "positive"))
+    signs = Signs(known, names)
+    first, last = (signs.real(end) for end in question.ends)
+    if signs.is_nonnegative(first - last) or first == sympy.oo or last == -sympy.oo:
+        raise InputError(f"the domain is empty: {first} isn't below {last}")
+    if signs.sign(signs.real(question.kinetic)) == -1:
+        raise InputError(f"{question.kinetic}, the factor of -psi'', isn't positive")
+    letters = {**dict(parsed.letters), **question.roots, **constants}
+    return SpectralProblem(
+        **vars(question), parsed=parsed, domain=(first, last), known=known, signs=signs, meanings=letters
+    )
+
+
+def _in_one_piece(question: Asked) -> Any:
+    """S without absolute values and steps, if it is one function.  Raises `NotRational` for several pieces."""
+    S = question.S
+    if not S.has(*STEPS):
+        return S
+    pieces = () if question.letters else pieces_of(S, sympy.S.One, sympy.Symbol(question.variable), question.ends)
+    if len(pieces) != 1:
+        shown = caret(as_text(question.V))
+        raise NotRational(f"{shown} is a function in pieces, and its levels have no formula here")
+    return pieces[0].Q
+
+
+def unsolved(question: Asked, reason: NotRational) -> Spectrum:
+    """The problem alone, for a potential that no formulas are known for."""
+    parameters = tuple(sorted(question.letters))
+    known = read_assumptions(question.assumed or None, question.given, parameters)
+    is_open = any(
+        end.is_finite and wish is None for end, wish in zip(question.ends, question.boundary.wishes, strict=True)
+    )
+    boundary = question.boundary.text or (FRIEDRICHS if is_open or question.friedrichs else None)
+    return question.spectrum(parameters, known, boundary=boundary, reason=f"undecided: {reason.args[0]}")
 
 
 @dataclass(frozen=True)
@@ -315,12 +258,12 @@ def _schroedinger(text: str, var: str | None, energy: str, limits: Limits) -> _P
     source = source_of(text, var, limits, equation=True)
     whole = expression_of(source, limits)
     psi = function_of(whole)
-    x = psi.args[0]
+    (x,) = psi.args
     letters = [sympy.Dummy() for _ in range(3)]
-    plain = whole.subs(psi.diff(x, 2), letters[2]).subs(psi.diff(x), letters[1]).subs(psi, letters[0])
+    plain = whole.subs([(psi.diff(x, order) if order else psi, letters[order]) for order in (2, 1, 0)])
     c, b, a = (plain.diff(letter) for letter in letters)
-    b = sympy.simplify(b)
-    if b != 0 or a == 0 or plain.subs(dict.fromkeys(letters, 0)) != 0 or {*letters} & (a.free_symbols | c.free_symbols):
+    is_linear = not {*letters} & (a.free_symbols | c.free_symbols) and plain.subs(dict.fromkeys(letters, 0)) == 0
+    if not is_linear or a == 0 or sympy.simplify(b) != 0:
         raise InputError("an equation -k*psi'' + V*psi = E*psi is expected, without a first derivative")
     slope = sympy.cancel(c.diff(sympy.Symbol(energy)))
     if slope == 0 or slope.has(sympy.Symbol(energy)):

@@ -33,7 +33,7 @@ J. F. Carinena, A. M. Perelomov, M. F. Ranada & M. Santander, J. Phys. A 41 (200
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from functools import partial, reduce
 from itertools import chain
 from typing import Any, NamedTuple
@@ -47,11 +47,9 @@ from kovacic.bound_states.families import possible
 from kovacic.bound_states.levels import NO_FORMULA, Algebraic
 from kovacic.bound_states.question import SpectralProblem
 from kovacic.bound_states.signs import Signs, above
-from kovacic.closed_form.atoms import Atoms, factors
-from kovacic.closed_form.integrals import integral
-from kovacic.closed_form.product import product
 from kovacic.engine.places import analyse
-from kovacic.errors import InputError, LimitExceeded
+from kovacic.errors import LimitExceeded
+from kovacic.general_solution.antiderivatives import antiderivative
 from kovacic.limits import Budget, Limits
 from kovacic.parametric.api import conditions_of
 from kovacic.parametric.natural import Natural
@@ -60,7 +58,6 @@ from kovacic.parametric.partition import transformation
 from kovacic.parametric.regions import ParameterRegion
 from kovacic.parametric.solutions import PolynomialSolution, jacobi, translated, weight_by_signs
 from kovacic.parametric.statements import Statement, Vanishes
-from kovacic.reading.read import read_input
 from kovacic.sturm_liouville.problem import point_between
 
 #: Functions in an antiderivative whose limits at the ends are found at once.
@@ -74,22 +71,12 @@ def norm_of(wave: Any, x: Any, domain: tuple[Any, Any]) -> Any:
     >>> norm_of(sympy.exp(-1 / x) / x, x, (0, sympy.oo))
     1/2
     """
-    square = wave**2
-    rate = sympy.cancel(sympy.diff(square, x) / square)
-    if not rate.is_rational_function(x) or rate.free_symbols - {x}:
-        return None
-    try:
-        h = product(read_input(rate, var=x.name).S)
-        found = integral(h, Atoms(x))
-    except (InputError, LimitExceeded):
-        return None
+    found = antiderivative(wave**2, x)
     if found is None or not all(isinstance(f, _WITH_LIMITS) for f in found.atoms(sympy.Function)):
         return None
-    scale, shown = factors(h, Atoms(x))
-    constant = sympy.cancel(sympy.powsimp(square / (scale * sympy.Mul(*shown))))
     first, last = domain
     total = sympy.limit(found, x, last, "-") - sympy.limit(found, x, first, "+")
-    norm = sympy.simplify(constant * total)
+    norm = sympy.simplify(total)
     return norm if norm.is_positive and not norm.has(x) else None
 
 
@@ -101,7 +88,7 @@ _BARRED = "a solution with a polynomial that decays at one end doesn't at the ot
 _NUMBERED = "a level with k zeros is number k (Sturm)"
 
 
-@dataclass(frozen=True)
+@dataclass(kw_only=True)
 class ClosedForms:
     """The levels with a closed form; `complete`: it is proven that these are all.
 
@@ -109,8 +96,8 @@ class ClosedForms:
     wasn't tried.
     """
 
-    reason: str
-    levels: tuple[Algebraic, ...] = ()
+    reason: str = NO_FORMULA
+    levels: list[Algebraic] = field(default_factory=list)
     complete: bool = False
     higher: int | None = None
 
@@ -121,13 +108,16 @@ def closed_forms(
     """Those of a potential; without `ends`, where it can't be told how solutions behave there, only that there are none."""
     conditions = _solvable_conditions(question, limits)
     if conditions is None:
-        return ClosedForms(NO_FORMULA)
+        return ClosedForms()
     if not conditions.regions:
         why = f"the equation has no Liouvillian solution for any {question.energy}: {conditions.theory}"
-        return ClosedForms(why, complete=True)
+        return ClosedForms(reason=why, complete=True)
     window = _Window() if question.parameters else _Window.of(question, ends, real)
-    search = _ClosedFormSearch(question, ends, conditions, window, max_degree)
-    return search.with_parameters() if question.parameters else search.of_numbers()
+    search = _ClosedFormSearch(
+        question=question, ends=ends, conditions=conditions, window=window, max_degree=max_degree, complete=True
+    )
+    search.reason = search.with_parameters() if question.parameters else search.of_numbers()
+    return search
 
 
 def _solvable_conditions(question: SpectralProblem, limits: Limits) -> ParametricAnswer | None:
@@ -158,10 +148,11 @@ class _Window(NamedTuple):
         """From the infimum of V, and the thresholds of the continuous spectrum."""
         thresholds = [end.threshold for end in ends if end.threshold is not None and end.threshold.is_Rational]
         high = min(thresholds, default=sympy.oo)
-        if real is None or question.boundary.is_mixed:
+        bounds = question.original.monotonic_range(question.domain, question.signs)
+        if real is None or question.boundary.is_mixed or bounds is None:
             return cls(high=high)
-        bounds = real.original.monotonic_range(question.domain, question.signs)
-        return cls(high=high) if bounds is None else cls(_number_below(real.V, real.t, bounds), high)
+        low = question.kinetic * _number_below(real.V, real.t, bounds)
+        return cls(low if low.is_Rational else -sympy.oo, high)
 
     def has_zero_of(self, polynomial: Any, E: Any) -> bool:
         """True if a polynomial over Q has a real zero in it."""
@@ -169,17 +160,18 @@ class _Window(NamedTuple):
 
     def last_number(self, function: Any, E: Any, d: Any) -> int | None:
         """A degree from which on no E with `function`(E, d) = 0 lies in the window, or None if none is known."""
-        if function.free_symbols == {d}:
-            return max([0, *(int(sympy.floor(root)) + 1 for root in sympy.Poly(function, d).real_roots())])
         polynomial = sympy.Poly(function, E)
-        if polynomial.degree() != 1 or any(end.is_infinite for end in self):
+        is_solved = polynomial.degree() == 1 and not any(end.is_infinite for end in self)
+        if not function.free_symbols <= {E, d} or not (is_solved or polynomial.is_ground):
             return None
-        energy = -polynomial.coeff_monomial(1) / polynomial.coeff_monomial(E)
-        # Beyond the zeros of its denominator, of E(d) - low and of E(d) - high, E(d) stays inside or outside.
-        parts = [part for end in self for part in sympy.fraction(sympy.cancel(energy - end))]
-        roots = [root for part in parts if part.has(d) for root in sympy.Poly(part, d).real_roots()]
-        last = max([0, *(int(sympy.ceiling(root)) for root in roots)]) + 1
-        return None if self.low < energy.subs(d, last) <= self.high else last
+        # Beyond the zeros of these, E(d) stays inside or outside, and a function of d alone has no zero.
+        parts = [function, polynomial.LC(), *(function.subs(E, end) for end in self if end.is_finite)]
+        roots = [root for part in parts if part.free_symbols == {d} for root in sympy.Poly(part, d).real_roots()]
+        last = max([0, *(int(sympy.floor(root)) + 1 for root in roots)])
+        if not is_solved:
+            return last
+        (energy,) = sympy.solve(function.subs(d, last), E)
+        return None if self.low < energy <= self.high else last
 
 
 def _number_below(V: Any, t: Any, bounds: tuple[Any, Any]) -> Any:
@@ -199,9 +191,9 @@ def _number_below(V: Any, t: Any, bounds: tuple[Any, Any]) -> Any:
     return -sympy.oo
 
 
-@dataclass(frozen=True)
-class _ClosedFormSearch:
-    """Through the regions of the conditions."""
+@dataclass(kw_only=True)
+class _ClosedFormSearch(ClosedForms):
+    """Through the regions of the conditions: what was found, and `complete` as long as nothing may have been missed."""
 
     question: SpectralProblem
     ends: Sequence[End]
@@ -219,153 +211,135 @@ class _ClosedFormSearch:
         point = self.conditions.constant
         return {sympy.Symbol(name): c.to_sympy(_NUMBER) for name, c in zip(point.names, point.values, strict=True)}
 
-    def of_numbers(self) -> ClosedForms:
-        """All E at which a potential without parameters has a closed form, one after the other."""
-        levels: list[Algebraic] = []
+    def of_numbers(self) -> str:
+        """All E at which a potential without parameters has a closed form, one after the other; what is proven."""
         excluded: list[Any] = []
-        complete = True
-        higher = None
         for region in self.conditions.regions:
-            pairs, has_all_degrees, are_all = self._listed(region.statement)
-            complete = complete and are_all
-            if not has_all_degrees and region.case == 1 and self._are_examined:
-                higher = self.max_degree + 1
-            for number, polynomial in pairs:
+            for number, polynomial in self._listed(region):
                 if not self.window.has_zero_of(polynomial, self.E):
                     continue
-                fits = [(one, self._fits(one, polynomial)) for one in self._solutions_where(polynomial, region, number)]
-                here = [one for one, fit in fits if fit == [True, True]]
-                is_linear = sympy.degree(polynomial, self.E) == 1
-                value = -polynomial.subs(self.E, 0)
-                if is_linear:
-                    here = [replace(one, y=one.y.subs(self.E, value)) for one in here]
-                levels += (self._level(one, polynomial, sympy.Integer(0), []) for one in here)
-                if any(self._is_excluded(fit) for _, fit in fits):
+                found = [self._at(one, polynomial) for one in self._solutions(region, number, polynomial)]
+                fits = [self._fits(one, polynomial) for one in found]
+                here = [one for one, fit in zip(found, fits, strict=True) if fit == [True, True]]
+                self.levels += (self._level(one, polynomial, sympy.Integer(0), []) for one in here)
+                if any(map(self._is_excluded, fits)):
                     excluded.append(polynomial)
                 elif not here:
-                    is_none = is_linear and self.conditions.case_at({self.question.energy: value}) is None
-                    complete = complete and is_none
+                    self.complete = self.complete and self._is_unsolvable(polynomial)
         theory = self.conditions.theory
         zeros = " or ".join(f"{self.question.shown(polynomial)} = 0" for polynomial in excluded)
         others = zeros and f"at {zeros} the solution that is square integrable at one end isn't at the other; "
-        if not complete:
-            reason = self._incomplete(levels)
-        elif levels:
-            reason = f"{_NUMBERED}; {others}{theory}"
-        else:
-            energies = f"any other real {self.question.energy}" if excluded else "the energy of a level"
-            reason = f"{others}the equation has no Liouvillian solution for {energies}: {theory}"
-        return ClosedForms(reason, tuple(levels), complete, higher)
+        energies = f"any other real {self.question.energy}" if excluded else "the energy of a level"
+        if not self.complete:
+            return self._incomplete()
+        if self.levels:
+            return f"{_NUMBERED}; {others}{theory}"
+        return f"{others}the equation has no Liouvillian solution for {energies}: {theory}"
 
-    def _solutions_where(
-        self, polynomial: Any, region: ParameterRegion, number: int | None
-    ) -> list[PolynomialSolution]:
-        """The region's solutions at all zeros of a polynomial in E, if the ends are examined."""
-        found = region.solution(number) if self._are_examined else ()
-        return [
-            one
-            for one in found
-            if not any(sympy.rem(sympy.numer(sympy.together(f)), polynomial, self.E) for f in one.conditions)
-        ]
+    def _is_unsolvable(self, polynomial: Any) -> bool:
+        """True if there is no closed form at the only zero of a polynomial in E."""
+        energy = _only_zero(polynomial, self.E)
+        return energy is not None and self.conditions.case_at({self.question.energy: energy}) is None
 
     def _is_excluded(self, fit: Sequence[bool | None]) -> bool:
         """True if a solution is the only square integrable one at one end, and isn't square integrable at the other."""
-        first, last = (end.circle is False for end in self.ends)
+        first, last = (end.is_limit_point for end in self.ends)
         return (first and fit == [True, False]) or (last and fit == [False, True])
 
-    def _incomplete(self, levels: Sequence[Algebraic]) -> str:
+    def _incomplete(self) -> str:
         """What is known where there may be other levels."""
-        if not levels:
+        if not self.levels:
             return f"{NO_FORMULA}; degrees up to {self.max_degree} were tried"
         others = "whether others are Liouvillian isn't known"
         if all(region.case == 1 for region in self.conditions.regions):
             others = f"each level with a closed form has a polynomial of some degree d: {self.conditions.theory}"
         return f"the levels with a polynomial of degree d <= {self.max_degree}; {others}"
 
-    def _listed(self, statement: Statement) -> tuple[list[tuple[int | None, Any]], bool, bool]:
-        """The E for which the statement may hold: degrees (None if there is none to choose) with irreducible polynomials in E.
-
-        And whether all degrees are there, and all E.
-        """
-        pairs: list[tuple[int | None, Any]] = []
-        has_all_degrees = are_all = True
-        for alternative in statement.alternatives:
+    def _listed(self, region: ParameterRegion) -> Iterator[tuple[int | None, Any]]:
+        """The E at which the statement may hold: degrees (None without a choice) with irreducible polynomials in E."""
+        for alternative in region.statement.alternatives:
             parts = alternative.conjuncts
-            if None in map(_zero_where, parts):
-                are_all = False
-                continue
-            numbers, have_all = self._numbers(parts)
-            has_all_degrees = has_all_degrees and have_all
-            for number in numbers:
+            is_readable = None not in map(_zero_where, parts)
+            self.complete = self.complete and is_readable
+            for number in self._numbers(region, parts) if is_readable else ():
                 functions = [_function_for(part, number, self.constants) for part in parts]
                 if None in functions:
-                    are_all = False
+                    self.complete = False
                     continue
                 together = reduce(sympy.gcd, (sympy.Poly(f, self.E, extension=True) for f in functions))
-                polynomials = [factor.monic() for factor, _ in together.factor_list()[1]]
-                are_rational = all(polynomial.domain.is_QQ or polynomial.domain.is_ZZ for polynomial in polynomials)
-                are_all = are_all and are_rational
-                pairs += [(number, polynomial.as_expr()) for polynomial in polynomials if are_rational]
-        return pairs, has_all_degrees, are_all and has_all_degrees
+                for factor, _ in together.factor_list()[1]:
+                    if factor.domain.is_QQ or factor.domain.is_ZZ:
+                        yield number, factor.monic().as_expr()
+                    else:
+                        self.complete = False
 
-    def _numbers(self, parts: Sequence[Statement]) -> tuple[Sequence[int | None], bool]:
-        """The degrees to be tried, and whether these are all for which E may be in the window."""
+    def _numbers(self, region: ParameterRegion, parts: Sequence[Statement]) -> Sequence[int | None]:
+        """The degrees to be tried: as far as E may be in the window, if that is known, else up to `max_degree`."""
         natural = [part for part in parts if isinstance(part, Natural)]
         if not natural:
-            return (None,), True
+            return (None,)
         lasts = [self.window.last_number(factor, self.E, _NUMBER) for factor in _factors_of(natural[0])]
-        bounds = [last for last in lasts if last is not None]
-        return range(max([self.max_degree + 1, *bounds])), None not in lasts
+        if None in lasts:
+            self.complete = False
+            if region.case == 1 and self._are_examined:
+                self.higher = self.max_degree + 1
+        return range(max([self.max_degree + 1, *filter(None, lasts)]))
 
     @property
     def _are_examined(self) -> bool:
         """True if exponents decide what is square integrable at the ends; at an ordinary point that is a condition on E."""
         return bool(self.ends) and not any(end.is_ordinary for end in self.ends)
 
+    def _solutions(self, region: ParameterRegion, number: int | None, polynomial: Any) -> Iterator[PolynomialSolution]:
+        """The region's solutions of a degree at all zeros of a polynomial in E, if the ends are examined."""
+        for one in region.solution(number) if self._are_examined else ():
+            if not any(sympy.rem(sympy.numer(sympy.together(f)), polynomial, self.E) for f in one.conditions):
+                yield one
+
+    def _at(self, solution: PolynomialSolution, polynomial: Any) -> PolynomialSolution:
+        """The solution at the zeros of a polynomial in E, with its value if there is one zero."""
+        energy = _only_zero(polynomial, self.E)
+        return solution if energy is None else replace(solution, y=solution.y.subs(self.E, energy))
+
     def _fits(self, solution: PolynomialSolution, polynomial: Any) -> list[bool | None]:
         """Whether it is the square integrable solution at the left and at the right end, for all real zeros of the polynomial.
 
         False if it isn't for any of them, None if that differs among them.
         """
-        E = self.question.E
         roots = sympy.Poly(polynomial, self.E).real_roots()
         found: list[bool | None] = []
         for end in self.ends:
             demand = demand_at(end, solution.y, self.question)
-            verdicts = {bool(demand.subs(E, root)) for root in roots}
+            verdicts = {bool(demand.subs(self.question.E, root)) for root in roots}
             found.append(verdicts.pop() if len(verdicts) == 1 else None)
         return found
 
-    def with_parameters(self) -> ClosedForms:
-        """The levels with a polynomial of degree 0, 1, ..., `max_degree`."""
-        levels: dict[Algebraic, None] = {}
-        higher = None
+    def with_parameters(self) -> str:
+        """The levels with a polynomial of degree 0, 1, ..., `max_degree`; what is proven."""
         is_settled = is_barred = self._are_examined
         exceptions: dict[str, None] = {}
         for region in self.conditions.regions if self._are_examined else ():
             parts = region.statement.conjuncts
             functions = [_zero_where(part) for part in parts if isinstance(part, Vanishes)]
-            is_closed, decays = self._ways_out(region) if region.case == 1 else (False, False)
+            is_closed, decays = self._ways_out(region)
             is_settled = is_settled and decays
             if is_closed:
                 continue
             fixed = [function for function in functions if not function.has(self.E)]
             is_barred = is_barred and (bool(fixed) or region.case != 1)
             exceptions.update((f"{self.question.shown(function)} = 0", None) for function in fixed)
-            numbers, have_all = self._numbers(parts)
-            if not have_all and region.case == 1:
-                higher = self.max_degree + 1
+            numbers = self._numbers(region, parts)
             if None in map(_zero_where, parts):
                 continue
             zeros = [function.subs(self.constants) for function in functions]
             for solution in chain.from_iterable(map(region.solution, numbers)):
-                levels.update(dict.fromkeys(self._under_conditions(solution, zeros)))
-        reason = self._incomplete([*levels])
-        if is_barred and not levels:
-            unless = f", unless {' or '.join(exceptions)}" if exceptions else ""
-            reason = f"{_BARRED}{unless}"
-            reason = f"{reason}: {self.conditions.theory}" if is_settled else f"{NO_FORMULA}; {reason}"
-        return ClosedForms(reason, tuple(levels), is_settled, higher)
+                self.levels += self._under_conditions(solution, zeros)
+        self.levels = [*dict.fromkeys(self.levels)]
+        self.complete = is_settled
+        if self.levels or not is_barred:
+            return self._incomplete()
+        unless = f", unless {' or '.join(exceptions)}" if exceptions else ""
+        return f"{_BARRED}{unless}: {self.conditions.theory}" if is_settled else f"{NO_FORMULA}; {_BARRED}{unless}"
 
     def _ways_out(self, region: ParameterRegion) -> tuple[bool, bool]:
         """True if exponents exclude, for each degree, solutions with a polynomial at both ends; and True if they exclude all.
@@ -375,6 +349,8 @@ class _ClosedFormSearch:
         question, signs = self.question, self.question.signs
         variable = question.parsed.variable
         choices: tuple[PolynomialSolution, ...] = ()
+        if region.case != 1:
+            return False, False
         if all(isinstance(part, Vanishes) for part in region.statement.conjuncts):
             choices = region.solution(0)
         elif region.naturals:
@@ -390,7 +366,7 @@ class _ClosedFormSearch:
             if possible([above(signs.real(one.degree), 0, strict=False), *demands], signs):
                 return False, False
             decays = (
-                end.circle is False and signs.holds(demand) for end, demand in zip(self.ends, demands, strict=True)
+                end.is_limit_point and signs.holds(demand) for end, demand in zip(self.ends, demands, strict=True)
             )
             is_settled = is_settled and any(decays)
         return bool(choices), is_settled
@@ -407,13 +383,12 @@ class _ClosedFormSearch:
             polynomial = -polynomial
         signs = self.question.signs
         bounds = _bounds(sympy.expand(signs.real(constraint)), solution, signs)
-        demands = [demand_at(end, solution.y, self.question) for end in self.ends]
-        if sympy.degree(polynomial, self.E) == 1:
-            (energy,) = sympy.solve(polynomial, self.E)
-            solution = replace(solution, y=solution.y.subs(self.E, energy))
-            demands = [demand.subs(self.question.E, signs.real(energy)) for demand in demands]
-        if bounds is not None and possible([*bounds, *demands], signs):
-            level = self._level(solution, polynomial, constraint, [*bounds, *demands])
+        if bounds is None:
+            return
+        solution = self._at(solution, polynomial)
+        conditions = [*bounds, *(demand_at(end, solution.y, self.question) for end in self.ends)]
+        if possible(conditions, signs):
+            level = self._level(solution, polynomial, constraint, conditions)
             if sympy.false not in level.conditions:
                 yield level
 
@@ -450,6 +425,11 @@ class _ClosedFormSearch:
 def _factors_of(natural: Natural) -> list[Any]:
     """Polynomials in the number and the parameters of which one vanishes."""
     return [sympy.numer(sympy.together(factor.to_sympy(_NUMBER))) for factor in natural.factors or ()]
+
+
+def _only_zero(polynomial: Any, E: Any) -> Any:
+    """The zero of a linear polynomial; None for another one."""
+    return sympy.solve(polynomial, E)[0] if sympy.degree(polynomial, E) == 1 else None
 
 
 def _zero_where(statement: Statement) -> Any:
@@ -510,9 +490,10 @@ def _bounds(constraint: Any, solution: PolynomialSolution, signs: Signs) -> list
 
 @dataclass(frozen=True)
 class DarbouxStep:
-    """W, E0, y0, and whether y0 is square integrable; in real symbols, y0 in the user's variable."""
+    """W, the S of the other potential, E0, y0 in the user's variable, and whether it is square integrable; in real symbols."""
 
     W: Any
+    S: Any
     energy: Any
     wave: Any
     is_level: bool
@@ -520,7 +501,7 @@ class DarbouxStep:
 
 def step(question: SpectralProblem, ends: Sequence[End], budget: Budget) -> DarbouxStep | None:
     """The transformation that lowers the apparent singularities of a V in x; None if none is known to apply."""
-    if question.parsed.equation is not None or not all(end.circle is False for end in ends):
+    if question.parsed.equation is not None or not all(end.is_limit_point for end in ends):
         return None
     found = transformation(analyse(question.parsed.S, budget))
     signs = question.signs
@@ -528,11 +509,12 @@ def step(question: SpectralProblem, ends: Sequence[End], budget: Budget) -> Darb
     if found is None or any(signs.sign(signs.real(f.to_sympy(x))) is None for f in found.exceptions):
         return None
     W = signs.real(found.W.num.to_sympy(x) / found.W.den.to_sympy(x))
-    energy = sympy.cancel(sympy.together(signs.real(question.V) - W**2 - sympy.diff(W, x)))
+    S = signs.real(question.parsed.S.num.to_sympy(x) / question.parsed.S.den.to_sympy(x))
+    energy = sympy.cancel(sympy.together((S.subs(question.E, 0) - W**2 - sympy.diff(W, x)) * question.kinetic))
     if energy.has(x):
         return None
     wave = sympy.exp(sympy.integrate(sympy.apart(W, x), x))
     known = [signs.holds(demand_at(end, wave, question)) for end in ends]
     if None in known:
         return None
-    return DarbouxStep(W.xreplace({x: question.x}), energy, wave, all(known))
+    return DarbouxStep(W, sympy.cancel(sympy.together(S - 2 * sympy.diff(W, x))), energy, wave, all(known))

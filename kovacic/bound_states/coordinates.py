@@ -8,7 +8,7 @@ With u = tan(theta/2), exp(i theta) = (1 + i u)/(1 - i u): a function of exp(i t
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterable, Sequence
 from contextlib import suppress
 from dataclasses import dataclass, replace
 from typing import Any
@@ -33,8 +33,8 @@ _ANGLES: dict[str, Callable[[Any], tuple[Any, ...]]] = {
     "tan": lambda p: (sympy.pi / 2 if p == sympy.oo else sympy.atan(p),),
 }
 _PERIODS = {"cos": 2 * sympy.pi, "sin": 2 * sympy.pi, "tan": sympy.pi}
-#: The values of t where dt/dtheta = 0.
-_HALF_TURN_SIGNS = {"cosh": (1,), "cos": (1, -1), "sin": (1, -1)}
+_TURNING_VALUES = {"cosh": (sympy.S.One,), **dict.fromkeys(("cos", "sin"), (sympy.S.One, -sympy.S.One))}
+_UNLOCATED = "it couldn't be determined whether V has a pole inside the domain"
 #: Longer ends of a domain aren't suggested.
 _LONGEST = 30
 
@@ -70,13 +70,12 @@ class Original:
         twice = sum(self.theta_at(end, signs) for end in domain)
         if not twice.is_number or twice is sympy.nan:
             return self
+        shifted = self
         if self.is_periodic and twice.is_finite:
             period = _PERIODS[self.kind]
             turns = sympy.ceiling(twice / (2 * period) - sympy.Rational(1, 2))
             twice -= 2 * turns * period
             shifted = replace(self, offset=self.offset - turns * period)
-        else:
-            shifted = self
         if self.kind != "tan" and twice < 0:
             return replace(shifted, rate=-shifted.rate, offset=-shifted.offset)
         return shifted
@@ -114,10 +113,7 @@ class Original:
 
     def _direction(self, signs: Signs) -> int:
         """The sign of the rate."""
-        sign = signs.sign(self.rate)
-        if sign is None:
-            raise Uncovered(f"the sign of {self.rate} isn't known: assume that it is positive")
-        return sign
+        return signs.known_sign(self.rate, f"the sign of {self.rate} isn't known: assume that it is positive")
 
     def at(self, end: Any, signs: Signs) -> Any:
         """t at an end of the domain, a number or oo (both of its ends are one point)."""
@@ -142,32 +138,30 @@ class Original:
         for order in (1, 2):
             slope = sympy.simplify(sympy.simplify(u.diff(angle, order)).subs(angle, theta))
             if slope != 0:
-                sign = signs.sign(slope)
-                if sign is None:
-                    raise Uncovered(f"the end {end} isn't a multiple of pi/({self.rate})")
-                return sign * inwards**order
+                otherwise = f"the end {end} isn't a multiple of {sympy.pi / self.rate}"
+                return signs.known_sign(slope, otherwise) * inwards**order
         raise Uncovered(f"the end {end} isn't a point where t changes")
 
-    def angles_at(self, point: Any, ends: tuple[Any, Any]) -> list[Any]:
-        """The real theta with a value of t; of a sine, cosine or tangent those near the domain and between its ends."""
-        found = [angle for angle in dict.fromkeys(_ANGLES[self.kind](point)) if angle.is_real is not False]
-        if self.kind not in _PERIODS:
-            return found
-        period = _PERIODS[self.kind]
-        lowest = sympy.floor(min(ends) / period) - 1
-        number = int(sympy.ceiling((max(ends) - min(ends)) / period)) + 3
-        return [*dict.fromkeys(angle + period * (lowest + k) for angle in found for k in range(number))]
+    def points_inside(self, values: Iterable[Any], domain: tuple[Any, Any], signs: Signs) -> list[Any]:
+        """The x strictly inside the domain at which t has one of the values, each once; it may be infinite at poles of t.
 
-    def turning_points(self, domain: tuple[Any, Any], signs: Signs) -> list[Any]:
-        """Where dt/dx vanishes inside the domain: where t is 1 or -1."""
-        values = _HALF_TURN_SIGNS.get(self.kind, ())
-        if not values:
-            return []
+        Raises `Uncovered` if they can't be located.
+        """
         first, last = (self.theta_at(end, signs) for end in domain)
-        if self.is_periodic and not (first.is_number and last.is_number):
-            raise Uncovered(f"the ends of the domain aren't multiples of pi/({self.rate})")
-        angles = [a for value in values for a in self.angles_at(sympy.Integer(value), (first, last))]
-        return [self.x_at(a) for a in angles if is_between(a, first, last, signs)]
+        angles = [angle for value in values for angle in _ANGLES[self.kind](value) if angle.is_real is not False]
+        if angles and self.kind in _PERIODS:
+            if not (first.is_number and last.is_number):
+                raise Uncovered(f"the ends of the domain aren't multiples of {sympy.pi / self.rate}")
+            period = _PERIODS[self.kind]
+            lowest = sympy.floor(min(first, last) / period) - 1
+            number = int(sympy.ceiling(abs(last - first) / period)) + 3
+            angles = [angle + period * (lowest + k) for angle in angles for k in range(number)]
+        return [self.x_at(angle) for angle in dict.fromkeys(angles) if is_between(angle, first, last, signs)]
+
+    @property
+    def turning_values(self) -> tuple[Any, ...]:
+        """The values of t where dt/dtheta = 0."""
+        return _TURNING_VALUES.get(self.kind, ())
 
     def x_at(self, theta: Any) -> Any:
         """The value of the user's variable for an argument."""
@@ -176,7 +170,7 @@ class Original:
     def monotonic_range(self, domain: tuple[Any, Any], signs: Signs) -> tuple[Any, Any] | None:
         """The range of t on the domain; None unless t is proven to be monotonic there."""
         with suppress(Uncovered):
-            if not self.turning_points(domain, signs):
+            if not self.points_inside(self.turning_values, domain, signs):
                 return self.range_of(domain, signs)
         return None
 
@@ -220,37 +214,30 @@ def is_between(value: Any, first: Any, last: Any, signs: Signs) -> bool:
     from_first, to_last = (sympy.simplify(difference) for difference in (value - first, last - value))
     if 0 in (from_first, to_last):
         return False
-    known = [signs.sign(from_first), signs.sign(to_last)]
-    if None not in known:
-        return known[0] == known[1]
-    raise Uncovered(f"whether {value} lies between {first} and {last} isn't known")
+    otherwise = f"whether {value} lies between {first} and {last} isn't known"
+    return signs.known_sign(from_first, otherwise) == signs.known_sign(to_last, otherwise)
 
 
 def check_poles(real: RealPotential, domain: tuple[Any, Any], signs: Signs) -> None:
     """Raises `InputError` where V has a pole inside the domain, with a domain without, and `Uncovered` where it isn't known."""
-    original = real.original
+    original, poles = real.original, _poles(real, signs)
     if original.is_periodic and any(end.is_infinite for end in domain):
-        _check_period(real, signs)
+        _check_period(original, poles, signs)
         return
-    first, last = (original.theta_at(end, signs) for end in domain)
-    angles = [angle for point in _poles(real, signs) for angle in original.angles_at(point, (first, last))]
-    inside = [original.x_at(angle) for angle in angles if is_between(angle, first, last, signs)]
+    inside = original.points_inside(poles, domain, signs)
     if inside:
         largest = [point for point in inside if all(signs.is_nonnegative(point - other) for other in inside)]
         message = f"V isn't regular at {original.x} = {caret(as_text(inside[0]))}, inside the domain"
         raise _refused(message, "choose a domain without a pole inside", [(point, domain[1]) for point in largest])
 
 
-def _check_period(real: RealPotential, signs: Signs) -> None:
+def _check_period(original: Original, poles: Sequence[Any], signs: Signs) -> None:
     """Raise `InputError` if a periodic V has poles, which recur in each period, on a domain that ends at infinity."""
-    original = real.original
     period = _PERIODS[original.kind]
-    angles = [angle for point in _poles(real, signs) for angle in original.angles_at(point, (-period, period))]
-    # Where the leading coefficient vanishes there is a pole of the tangent at t = oo.
-    leading = sympy.Poly(sympy.denom(sympy.cancel(real.V)), real.t).LC()
-    may_have_more = original.kind == "tan" and signs.sign(leading) is None
-    if may_have_more or not all(angle.is_number for angle in angles):
-        raise Uncovered("V is periodic, and its poles couldn't be located")
+    angle = replace(original, rate=sympy.S.One, offset=sympy.S.Zero)
+    angles = angle.points_inside(poles, (-2 * period, 2 * period), signs)
+    if not all(angle.is_number for angle in angles):
+        raise Uncovered(_UNLOCATED)
     if angles:
         # The least positive angle, and the one before it: they come back in each period.
         start = max((angle for angle in angles if not angle > 0), key=float)
@@ -265,8 +252,12 @@ def _check_period(real: RealPotential, signs: Signs) -> None:
 def _poles(real: RealPotential, signs: Signs) -> list[Any]:
     """The real poles t of V, and oo for a tangent.  Raises `Uncovered` if they can't be determined."""
     num, den = (sympy.Poly(part, real.t) for part in sympy.fraction(sympy.cancel(real.V)))
-    is_pole_of_tangent = real.original.kind == "tan" and num.degree() > den.degree()
-    return [*_real_zeros(den, signs), *([sympy.oo] if is_pole_of_tangent else [])]
+    zeros = _real_zeros(den, signs)
+    if real.original.kind != "tan":
+        return zeros
+    if signs.sign(den.LC()) is None:  # where it vanishes there is a pole of V at the tangent's
+        raise Uncovered(_UNLOCATED)
+    return [*zeros, *([sympy.oo] if num.degree() > den.degree() else [])]
 
 
 def _refused(message: str, hint: str, proposed: list[tuple[Any, Any]]) -> InputError:
@@ -294,5 +285,5 @@ def _real_zeros(polynomial: Any, signs: Signs) -> list[Any]:
         return []
     roots = sympy.roots(polynomial)
     if sum(roots.values()) < polynomial.degree() or any(root.is_real is None for root in roots):
-        raise Uncovered("it couldn't be determined whether V has a pole inside the domain")
+        raise Uncovered(_UNLOCATED)
     return [root for root in roots if root.is_real]

@@ -20,20 +20,21 @@ from kovacic.bound_states.signs import Signs, Uncovered
 
 @dataclass(frozen=True)
 class End:
-    """One end: where both solutions are square integrable (`circle`, a relation, True or False), and a sentence about it.
+    """One end: where both solutions are square integrable (`circle`, a relation, true or false), and a sentence about it.
 
     `oscillates` says that V falls without bound there, so that no boundary condition is distinguished; `oscillation` is where
     the solutions oscillate at a regular end, which has the same effect.  `threshold` is where
     the continuous spectrum begins at an infinite end, None if it doesn't.  The end is t = `point`, with
     (du/dx)^2 ~ u^mu for a local coordinate u of this `direction` inside the domain.  It `is_ordinary` where the exponents are
-    those at an ordinary point, and `is_regular` where V has a value.
+    those at an ordinary point, and `is_regular` where V has a value; y = 0 means the smaller solution where only that one
+    `vanishes`.
     """
 
     at: Any
-    circle: Any
     sentence: str
+    circle: Any = sympy.false
     oscillates: bool = False
-    oscillation: Any = False
+    oscillation: Any = sympy.false
     threshold: Any = None
     is_right: bool = True
     point: Any = sympy.oo
@@ -41,21 +42,27 @@ class End:
     direction: int = 1
     is_ordinary: bool = False
     is_regular: bool = False
+    vanishes: bool = False
+
+    @property
+    def is_limit_point(self) -> bool:
+        """True if one solution at most is square integrable, for all parameters."""
+        return bool(self.circle == sympy.false)
 
 
 def potential_in_t(question: SpectralProblem, original: Original) -> RealPotential:
-    """V as a function of t, which may be complex here."""
+    """V/kinetic as a function of t, which may be complex here."""
     signs = question.signs
     parsed = question.parsed
     equation = parsed.equation
     t = sympy.Symbol(parsed.variable)
     if equation is None or equation.change is None:
         S = signs.real(parsed.S.num.to_sympy(t) / parsed.S.den.to_sympy(t))
-        return RealPotential(sympy.cancel(S + question.E), original, t)
+        return RealPotential(sympy.cancel(S.subs(question.E, 0)), original, t)
     quotient = equation.c / equation.a
     c = signs.real(quotient.num.to_sympy(t) / quotient.den.to_sympy(t))
-    V = sympy.cancel(question.E - original.slope_squared(t) * c)
-    return RealPotential(V, original, t)
+    V = -original.slope_squared(t) * c.subs(question.E, 0)
+    return RealPotential(sympy.cancel(V), original, t)
 
 
 def end_of(question: SpectralProblem, real: RealPotential, *, is_right: bool) -> End:
@@ -63,7 +70,7 @@ def end_of(question: SpectralProblem, real: RealPotential, *, is_right: bool) ->
     signs, original = question.signs, real.original
     at = question.domain[int(is_right)]
     if original.is_periodic and at.is_infinite:
-        return End(at, False, f"{question.variable} -> {at}: V is periodic, at most one solution decays")
+        return End(at, f"{question.variable} -> {at}: V is periodic, at most one solution decays")
     point = original.at(at, signs)
     u = sympy.Dummy("u")
     t, dt_du_squared = (1 / u, u**-4) if point == sympy.oo else (point + u, sympy.Integer(1))
@@ -72,11 +79,11 @@ def end_of(question: SpectralProblem, real: RealPotential, *, is_right: bool) ->
     direction = original.side_of(at, point, signs, is_right=is_right)
     where = f"{question.variable} -> {at if at.is_infinite else question.shown(at)}: "
     is_regular = at.is_finite and order >= 0
-    end = End(at, False, where, is_right=is_right, point=point, mu=mu, direction=direction, is_regular=is_regular)
+    end = End(at, where, is_right=is_right, point=point, mu=mu, direction=direction, is_regular=is_regular)
     inside = strength * direction ** abs(order)
     if at.is_infinite and order >= 0:
-        threshold = inside if order == 0 else sympy.Integer(0)
-        limit = question.shown(sympy.factor(question.kinetic * threshold))
+        threshold = sympy.factor(question.kinetic * inside) if order == 0 else sympy.Integer(0)
+        limit = question.shown(threshold)
         begin = "there" if limit != "0" else "0"
         return replace(end, sentence=f"{where}V -> {limit}, continuous spectrum from {begin}", threshold=threshold)
     if at.is_infinite or order < mu - 2:
@@ -104,45 +111,43 @@ def _unbounded(end: End, pole: int, strength: Any, question: SpectralProblem) ->
     """Where V ~ strength |u|^(-pole); for V -> -oo int |V|^(-1/2) dx may be finite, at a finite end or where V falls fast."""
     sign = question.signs.sign(strength)
     is_fast = end.at.is_finite or end.mu < pole + 2
-    circle: Any = False
+    circle: Any = sympy.false
     match sign, is_fast:
         case 1, _:
             said = "V -> oo, one solution decays"
         case -1, True:
-            circle, said = True, "V -> -oo so fast that both solutions are square integrable (limit circle)"
+            circle, said = sympy.true, "V -> -oo so fast that both solutions are square integrable (limit circle)"
         case -1, False:
             said = "V -> -oo, no solution is square integrable"
         case _, True:
-            circle, said = sympy.Lt(strength, 0), f"one solution decays where {question.shown(strength)} > 0"
+            shown = question.shown(sympy.factor(question.kinetic * strength))
+            circle, said = sympy.Lt(strength, 0), f"one solution decays where {shown} > 0"
         case _:
             said = "at most one solution is square integrable"
-    oscillates = sign == -1 or circle is not False
-    return replace(end, circle=circle, sentence=end.sentence + said, oscillates=oscillates)
+    oscillates = sign == -1 or circle != sympy.false
+    return replace(end, circle=circle, sentence=end.sentence + said, oscillates=oscillates, vanishes=sign == 1)
 
 
 def _finite(end: End, square: Any, question: SpectralProblem) -> End:
     """A finite regular end: V ~ (nu^2 - 1/4)/(x - a)^2, and the square of nu."""
     signs = question.signs
+    end = replace(end, vanishes=signs.is_nonnegative(square - sympy.Rational(1, 4)) is True)
     circle = _less_than_1(square, signs)
-    known = signs.holds(circle)
     distance = end.at - question.x if end.is_right else question.x - end.at
     powers = f"y ~ {_end_powers(distance, square, question)}"
-    if known is False:
+    if signs.holds(circle) is False:
         return replace(end, sentence=f"{end.sentence}{powers}, the smaller one is square integrable")
     if signs.is_nonnegative(square) is False:
         shown = question.shown(-sympy.Symbol("c") / distance**2)
         said = f"V ~ {shown} with c > 1/4, the solutions oscillate (limit circle)"
-        return replace(end, circle=True, sentence=end.sentence + said, oscillates=True)
-    oscillation = False if signs.is_nonnegative(square) else sympy.Lt(square, 0)
+        return replace(end, circle=sympy.true, sentence=end.sentence + said, oscillates=True)
     said = f"{powers}, both are square integrable (limit circle)"
-    if known:
-        is_ordinary = square == sympy.Rational(1, 4)
-        circle = True
-    else:
-        is_ordinary = False
-        condition = tidied([circle], signs)[0]
+    for condition in tidied([circle], signs):
         said += f" where {question.shown(condition.lhs)} {condition.rel_op} {question.shown(condition.rhs)}"
-    return replace(end, circle=circle, sentence=end.sentence + said, oscillation=oscillation, is_ordinary=is_ordinary)
+    is_ordinary = square == sympy.Rational(1, 4)
+    return replace(
+        end, circle=circle, sentence=end.sentence + said, oscillation=sympy.Lt(square, 0), is_ordinary=is_ordinary
+    )
 
 
 def _less_than_1(square: Any, signs: Signs) -> Any:

@@ -287,26 +287,21 @@ def _solved(condition: Any, signs: Signs) -> Any:
     base, exponent = factor.as_base_exp()
     if is_strict and exponent == -1:  # c p in the place of c/p, which is positive where that is
         rest = sympy.expand(number * base)
-    parameters = sorted(rest.free_symbols - {n}, key=str)
-    for unknown in (n, *parameters):
-        solved = _solved_for(unknown, rest, signs, is_strict=is_strict)
-        if solved is not None:
-            return solved
-    if _degree_in_unknown(rest, n) == 2:
-        return _solved_for_square(rest, signs, is_strict=is_strict)
+    for unknown, slope, constant in _linear_forms(rest, n):
+        sign = signs.sign(slope)
+        if sign is not None:
+            return _unknown_beyond(unknown, shortest(sympy.factor(-constant / slope)), sign, is_strict=is_strict)
     return _unknown_beyond(shortest(rest), 0, 1, is_strict=is_strict)
 
 
-def _solved_for(unknown: Any, rest: Any, signs: Signs, *, is_strict: bool) -> Any:
-    """rest > 0, or >= 0, for an unknown in which it is linear with a slope of a known sign; None for another one."""
-    if _degree_in_unknown(rest, unknown) != 1:
-        return None
-    slope = rest.coeff(unknown, 1)
-    sign = signs.sign(slope)
-    if sign is None:
-        return None
-    bound = shortest(sympy.factor(-rest.coeff(unknown, 0) / slope))
-    return _unknown_beyond(unknown, bound, sign, is_strict=is_strict)
+def _linear_forms(rest: Any, n: Any) -> Iterator[tuple[Any, Any, Any]]:
+    """What it is linear in, n, a parameter or a square (n + h)^2, with the slope and the constant."""
+    for unknown in (n, *sorted(rest.free_symbols - {n}, key=str)):
+        if _degree_in_unknown(rest, unknown) == 1:
+            yield unknown, rest.coeff(unknown, 1), rest.coeff(unknown, 0)
+    if _degree_in_unknown(rest, n) == 2:
+        c, b, k = (rest.coeff(n, power) for power in (2, 1, 0))
+        yield (n + shortest(sympy.factor(b / (2 * c)))) ** 2, c, k - b**2 / (4 * c)
 
 
 def _degree_in_unknown(expression: Any, unknown: Any) -> Any:
@@ -317,17 +312,3 @@ def _degree_in_unknown(expression: Any, unknown: Any) -> Any:
 def _unknown_beyond(unknown: Any, bound: Any, sign: int, *, is_strict: bool) -> Any:
     """unknown > bound for the sign 1, unknown < bound for -1; or >= and <=."""
     return sympy.Rel(unknown, bound, (">" if sign == 1 else "<") + ("" if is_strict else "="))
-
-
-def _solved_for_square(rest: Any, signs: Signs, *, is_strict: bool) -> Any:
-    """c n^2 + b n + k > 0 as (n + b/(2 c))^2 < (b^2/(4 c) - k)/c for c < 0, and > for c > 0."""
-    n = signs.n
-    c = rest.coeff(n, 2)
-    b = rest.coeff(n, 1)
-    k = rest.coeff(n, 0)
-    sign = signs.sign(c)
-    if sign is None:
-        return _unknown_beyond(rest, 0, 1, is_strict=is_strict)
-    square = (n + shortest(sympy.factor(b / (2 * c)))) ** 2
-    bound = shortest(sympy.factor((b**2 / (4 * c) - k) / c))
-    return _unknown_beyond(square, bound, sign, is_strict=is_strict)

@@ -356,17 +356,19 @@ def _shortened(norm: Any) -> Any:
 
 @dataclass(frozen=True)
 class ExponentForm:
-    """A standard equation: its `roots`, and what follows from them with signs, as functions of a list of them.
+    """A standard equation in a frame: its `roots`, and what follows from them with signs, as functions of a list of them.
 
-    `degree` is that of the polynomial in a solution, `demands` the conditions for it to be square integrable, beside those
-    for the roots to be real, `wave` the solution and `zeros` their number, where the degree is n.
+    `degree` is that of the polynomial in a solution, and `wave` the solution where the degree is n.  The last roots are the
+    exponent differences at the `spots`; one before them is the rate of decay kappa, and `outwards` the signs of z where it is
+    infinite.
     """
 
+    frame: SingularFrame
     roots: list[Root]
     degree: Callable[[list[Any]], Any]
-    demands: Callable[[list[Any]], list[Any]]
     wave: Callable[[list[Any]], Wave]
-    zeros: Callable[[list[Any]], Any]
+    spots: Sequence[Spot] = ()
+    outwards: Sequence[int] = ()
 
     def levels(self, question: SpectralProblem) -> Iterator[Levels]:
         """The families of levels, for each choice of signs."""
@@ -375,12 +377,31 @@ class ExponentForm:
         for signed in _choices(self.roots):
             for found in solved(sympy.expand(self.degree(signed) - signs.n), self.roots, question.E):
                 values = [root.xreplace(found.values) for root in signed]
-                conditions = [*_are_real(self.roots), *self.demands(values)]
+                conditions = [*_are_real(self.roots), *self._demands(values, question)]
                 if possible(conditions, signs):
                     wave = self.wave(values)
                     known = tidied(conditions, signs, radicals)
-                    found_levels = Levels(signs.n, found.energy, wave.y, known, self.zeros(values), wave.norm)
+                    found_levels = Levels(signs.n, found.energy, wave.y, known, self._zeros(values, signs.n), wave.norm)
                     yield found_levels.mapped(lambda part: plain(part.xreplace(radicals)))
+
+    def _at_spots(self, values: list[Any]) -> Iterator[tuple[Spot, Any]]:
+        """The spots with the signed exponent differences there."""
+        return zip(self.spots, values[len(values) - len(self.spots) :], strict=True)
+
+    def _demands(self, values: list[Any], question: SpectralProblem) -> Iterator[Any]:
+        """The conditions for the solution to be square integrable at the ends, beside those for the roots to be real."""
+        for direction in self.outwards:
+            yield above(direction * values[0], 0, strict=True)
+        for spot, delta in self._at_spots(values):
+            for side in self.frame.ends_at(spot):
+                yield question.demand(side, spot.mu, delta)
+
+    def _zeros(self, values: list[Any], n: Any) -> Any:
+        """Their number inside the domain: n; twice as many about the middle, and one there for an odd solution."""
+        for spot, delta in self._at_spots(values):
+            if len(self.frame.ends_at(spot)) < len(spot.sides):
+                return 2 * n + int(bool(delta.is_positive))
+        return n
 
 
 def three_regular_points(frame: SingularFrame, question: SpectralProblem) -> ExponentForm:
@@ -391,11 +412,11 @@ def three_regular_points(frame: SingularFrame, question: SpectralProblem) -> Exp
     _check_ends(frame)
     roots = [Root.of(spot.square, question.E) for spot in spots]
     return ExponentForm(
+        frame,
         roots,
         degree=lambda deltas: (-1 - sympy.Add(*deltas)) / 2,
-        demands=lambda deltas: [d for at in zip(spots, deltas, strict=True) for d in _demands(question, frame, *at)],
         wave=lambda deltas: jacobi_wave(frame, roots, deltas, signs),
-        zeros=lambda deltas: _zeros(frame, spots, deltas, signs),
+        spots=spots,
     )
 
 
@@ -409,21 +430,14 @@ def whittaker(frame: SingularFrame, question: SpectralProblem) -> ExponentForm:
     q, r, b = sympy.Poly(square, z).all_coeffs()
     ordinary = Spot(sympy.Integer(0), 1 + 4 * b, 0)
     origin = next((spot for spot in frame.spots if spot.point == 0), ordinary)
-    outwards = [
-        _direction(frame, side) for spot in frame.spots if spot.point == sympy.oo for side in frame.ends_at(spot)
-    ]
-
-    def demands(values: list[Any]) -> list[Any]:
-        kappa, delta = values
-        decay = [above(direction * kappa, 0, strict=True) for direction in outwards]
-        return [*decay, *_demands(question, frame, origin, delta)]
-
+    infinity = next(spot for spot in frame.spots if spot.point == sympy.oo)
     return ExponentForm(
+        frame,
         [Root.of(sympy.factor(q), question.E, positive=True), Root.of(sympy.factor(1 + 4 * b), question.E)],
         degree=lambda values: -r / (2 * values[0]) - (1 + values[1]) / 2,
-        demands=demands,
         wave=lambda values: laguerre_wave(frame, origin, values, signs),
-        zeros=lambda values: _zeros(frame, [origin], values[1:], signs),
+        spots=(origin,),
+        outwards=[frame.direction(side, signs) for side in frame.ends_at(infinity)],
     )
 
 
@@ -442,17 +456,12 @@ def oscillator(frame: SingularFrame, question: SpectralProblem) -> ExponentForm:
         return Wave(y, 2**n * sympy.factorial(n) * sympy.sqrt(sympy.pi / kappa))
 
     return ExponentForm(
+        frame,
         [Root.of(sympy.factor(alpha), question.E, positive=True)],
         degree=lambda values: (beta**2 / (4 * alpha) - gamma) / (2 * values[0]) - sympy.Rational(1, 2),
-        demands=lambda values: [above(values[0], 0, strict=True)],
         wave=wave,
-        zeros=lambda values: n,
+        outwards=(1,),
     )
-
-
-def _demands(question: SpectralProblem, frame: SingularFrame, spot: Spot, delta: Any) -> list[Any]:
-    """What is demanded of a signed exponent difference at the ends of the domain that are there."""
-    return [question.demand(side, spot.mu, delta) for side in frame.ends_at(spot)]
 
 
 def _are_real(roots: list[Root]) -> list[Any]:
@@ -500,29 +509,11 @@ def _check_ends(frame: SingularFrame) -> None:
             raise Uncovered(f"V isn't regular at {frame.original.x} = {frame.fold}, inside the domain")
 
 
-def _zeros(frame: SingularFrame, spots: Sequence[Spot], deltas: list[Any], signs: Signs) -> Any:
-    """The number of zeros inside the domain: n; twice as many about the middle, and one there for an odd solution."""
-    for spot, delta in zip(spots, deltas, strict=True):
-        if len(frame.ends_at(spot)) < len(spot.sides):
-            return 2 * signs.n + int(bool(delta.is_positive))
-    return signs.n
-
-
 def _is_polynomial_of_degree(k: int, quotient: Any, z: Any) -> bool:
     """True for a quotient in lowest terms that is a polynomial in z of this degree."""
     if sympy.denom(quotient).has(z):
         return False
     return bool(sympy.degree(sympy.numer(quotient), z) == k)
-
-
-def _direction(frame: SingularFrame, side: int) -> int:
-    """The sign of z near an end at which it is infinite."""
-    if frame.is_even or frame.original.kind in ("exp", "cosh"):
-        return 1
-    if frame.original.kind != "x":
-        raise Uncovered(f"the sign of z = {frame.coordinate} isn't known")
-    outwards = 1 if side == 1 else -1
-    return outwards if frame.domain[side].is_infinite else -outwards  # z = 1/(x - end)
 
 
 def bessel(frame: SingularFrame, question: SpectralProblem) -> None:

@@ -18,7 +18,8 @@ from typing import Any
 
 import sympy
 
-from kovacic.bound_states.coordinates import Original, is_between
+from kovacic.bound_states.coordinates import Original
+from kovacic.bound_states.ends import leading
 from kovacic.bound_states.question import SpectralProblem
 from kovacic.bound_states.signs import Signs, Uncovered
 from kovacic.engine.places import Kind, Problem, analyse
@@ -69,15 +70,20 @@ class SingularFrame:
         """The sides of the spot that are ends of the domain."""
         return tuple(side for side in spot.sides if side == 1 or self.fold is None)
 
+    def direction(self, side: int, signs: Signs) -> int:
+        """The sign of z near an end at which it is infinite."""
+        if self.coordinate.is_Pow and self.coordinate.exp % 2 == 0:
+            return 1
+        u, end = sympy.Dummy("u"), self.domain[side]
+        point = self.original.at(end, signs)
+        order, strength = leading(self.coordinate.xreplace({self.t: 1 / u if point == sympy.oo else point + u}), u)
+        sign = signs.known_sign(strength, f"the sign of z = {self.coordinate} isn't known")
+        return int(sign * self.original.side_of(end, point, signs, is_right=bool(side)) ** abs(order))
+
     @property
     def is_in_x(self) -> bool:
         """True for the user's own variable."""
         return self.original.kind == "x" and self.coordinate == self.t
-
-    @property
-    def is_even(self) -> bool:
-        """True if z is a square."""
-        return self.coordinate.is_Pow and bool(self.coordinate.exp % 2 == 0)
 
 
 def frames(question: SpectralProblem, budget: Budget) -> Iterator[SingularFrame]:
@@ -184,18 +190,13 @@ def _is_same(first: Any, second: Any) -> bool:
 
 def _fold(original: Original, t: Any, base: Any, m: int, question: SpectralProblem) -> Any:
     """The only point inside the domain at which dz/dx vanishes, or None."""
-    domain, signs = question.domain, question.signs
-    found = original.turning_points(domain, signs)
-    if m % 2 == 0 and original.kind in ("x", "sinh"):
-        zeros = sympy.solve(sympy.numer(sympy.together(base)), t)
-        angles = zeros if original.kind == "x" else map(sympy.asinh, zeros)
-        for x in ((angle - original.offset) / original.rate for angle in angles if angle.is_real is not False):
-            if x not in found and is_between(x, *domain, signs):
-                found.append(x)
+    # Where dt/dx = 0, and where base = 0 for an even m.
+    zeros = sympy.solve(sympy.numer(sympy.together(base)), t) if m % 2 == 0 else []
+    found = original.points_inside([*original.turning_values, *zeros], question.domain, question.signs)
     if not found:
         return None
     middle = found[0]
-    first, last = domain
+    first, last = question.domain
     is_symmetric = (first, last) == (-sympy.oo, sympy.oo) or sympy.simplify(first + last - 2 * middle) == 0
     on_y = {wish is None or wish.is_zero for wish in question.boundary.wishes}
     if len(found) > 1 or not is_symmetric or len(on_y) > 1:

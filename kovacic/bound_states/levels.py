@@ -7,7 +7,7 @@ ball meets the real axis is real, since its conjugate is a root as well.
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator, Mapping
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from fractions import Fraction
 from functools import cached_property
 from typing import TYPE_CHECKING, Any, cast
@@ -60,11 +60,6 @@ def real_roots(polynomial: Any, E: Any) -> list[Any]:
     return sorted({sign * sympy.sqrt(square) for square in positive for sign in (1, -1)})
 
 
-def scaled(energy: Any, k: Any) -> Any:
-    """k times an energy, the shortest of its forms."""
-    return min((k * energy, sympy.factor(k * energy), sympy.expand(k * energy)), key=sympy.count_ops)
-
-
 NO_FORMULA = "undecided: no formula for all levels is known"
 #: The n that are tried for a potential without parameters: more levels than that are shown by their condition.
 _MOST = 200
@@ -76,16 +71,21 @@ _LISTED = 6
 
 @dataclass(frozen=True)
 class BoundState:
-    """One level at given values of the parameters: its energy and its wave function, not normalised, with `zeros` inside.
+    """One level at given values of the parameters: its energy and its wave function, not normalised.
 
-    `norm` is the integral of the square of the wave function over the domain, None if it is unknown.
+    `number` counts the levels from 0, and is the number of zeros inside the domain, by Sturm's theorem.  `norm` is the integral
+    of the square of the wave function over the domain, None if it is unknown.
     """
 
     number: int
     energy: Any
     wave: Any
-    zeros: int
     norm: Any = None
+
+    @property
+    def zeros(self) -> int:
+        """The number of zeros of the wave function inside the domain."""
+        return self.number
 
     def __str__(self) -> str:
         return f"E_{self.number} {self.value}, y = {_text(self.wave)}"
@@ -129,6 +129,11 @@ class Levels:
         """The conditions on the parameters alone."""
         return tuple(c for c in self.conditions if not c.has(self.number))
 
+    @property
+    def is_empty(self) -> bool:
+        """True if no n fulfils the conditions."""
+        return sympy.false in self.conditions or self.members == ()
+
     @cached_property
     def members(self) -> tuple[int, ...] | None:
         """The n of finitely many levels without parameters; None for infinitely many, and where parameters decide."""
@@ -166,20 +171,6 @@ class Algebraic:
     P: Any = None
     range: tuple[Any, ...] | None = None
 
-    def with_values(self, values: Mapping[Any, Any]) -> Algebraic:
-        """A copy with other expressions substituted for letters in P and in its range."""
-        P = None if self.P is None else sympy.Poly(self.P.as_expr().xreplace(values), self.P.gen)
-        bounds = None if self.range is None else tuple(end.xreplace(values) for end in self.range)
-        return replace(self, P=P, range=bounds)
-
-    def scaled(self, energy: Any, k: Any) -> Algebraic:
-        """The levels of k times the operator."""
-        inside = {energy: energy / k}
-        polynomial = sympy.factor(sympy.primitive(sympy.numer(sympy.together(self.polynomial.xreplace(inside))))[1])
-        states = tuple(replace(state, energy=scaled(state.energy, k)) for state in self.states)
-        changed = replace(self, polynomial=polynomial, wave=self.wave.xreplace(inside), states=states)
-        return changed.with_values(inside)
-
     def states_at(self, values: Mapping[Any, Any], energy: str) -> Iterator[BoundState]:
         """The levels at rational values of the parameters: of each it is known how many zeros its function has."""
         if self.P is None or self.range is None or self.constraint.xreplace(values) != 0:
@@ -187,14 +178,15 @@ class Algebraic:
         if not all(_is_true(condition, values) for condition in self.conditions):
             return
         E = sympy.Symbol(energy)
-        here = self.with_values(values)
+        P = sympy.Poly(self.P.as_expr().xreplace(values), self.P.gen)
+        bounds = [end.xreplace(values) for end in self.range]
         polynomial = sympy.numer(sympy.together(self.polynomial.xreplace(values)))
         if not {symbol.name for symbol in polynomial.free_symbols} <= {energy}:
             return
         for value in real_roots(polynomial, E):
-            number = zeros_inside(here.P, E, value, here.range)
+            number = zeros_inside(P, E, value, bounds)
             if number is not None:
-                yield BoundState(number, value, self.wave.xreplace(values).subs(E, value), number)
+                yield BoundState(number, value, self.wave.xreplace(values).subs(E, value))
 
 
 @dataclass(frozen=True)
@@ -434,20 +426,16 @@ class Spectrum:
         for relation in self.excluded:
             where = "" if relation == sympy.true else f"where {_relation(relation)}: "
             lines.append(f"{where}a boundary condition is needed, there is no spectrum without one")
-        match self.complete, self.closed_forms_complete, bool(self.levels), bool(self.algebraic):
-            case (True, _, True, _) | (True, _, _, True):
-                proven = "proven to be all eigenvalues; "
-            case True, _, _, _:
-                lines.append("no eigenvalues")
-                proven = "proven; "
-            case _, True, _, True:
-                proven = "proven to be all eigenfunctions with a closed form; "
-            case _, True, _, _:
-                lines.append("no eigenfunction has a closed form")
-                proven = "proven; "
-            case _:
-                proven = ""
-        return [*lines, f"({proven}{self.reason})"]
+        is_proven = self.complete or self.closed_forms_complete
+        all_of_them, none = "eigenfunctions with a closed form", "no eigenfunction has a closed form"
+        if self.complete:
+            all_of_them, none = "eigenvalues", "no eigenvalues"
+        if self.levels or self.algebraic:
+            proven = f"proven to be all {all_of_them}; "
+        else:
+            proven = "proven; "
+            lines += [none] * is_proven
+        return [*lines, f"({proven * is_proven}{self.reason})"]
 
     def __str__(self) -> str:
         return self.text()
@@ -547,8 +535,7 @@ def _states_of(levels: Levels, at: Mapping[Any, Any], count: int) -> Iterator[Bo
         here = {**at, levels.number: sympy.Integer(n)}
         if all(_is_true(condition, here) for condition in levels.conditions):
             energy = sympy.simplify(levels.energy.subs(here))
-            zeros = int(levels.zeros.subs(here))
-            yield BoundState(zeros, energy, levels.wave.subs(here).doit(), zeros)
+            yield BoundState(int(levels.zeros.subs(here)), energy, levels.wave.subs(here).doit())
         elif levels.above:
             return
 

@@ -9,6 +9,7 @@ from typing import Any
 import sympy
 
 from kovacic.bound_states.coordinates import Original
+from kovacic.bound_states.levels import Spectrum
 from kovacic.bound_states.signs import Signs, Uncovered, above
 from kovacic.equation import EULER, PI, Parsed
 from kovacic.errors import InputError
@@ -37,25 +38,62 @@ class Boundary:
         return any(wish is not None and wish.alpha != 0 and wish.beta != 0 for wish in self.wishes)
 
 
-@dataclass(frozen=True)
-class SpectralProblem:
-    """The problem: V - E as it was read, and the domain, in real symbols.
+@dataclass(frozen=True, kw_only=True)
+class Asked:
+    """-kinetic y'' + V y = E y between two ends, in plain symbols, and what is assumed beside values, which are put in.
+
+    V is any elementary function; S is (V - E)/kinetic, in which `roots` are the meanings of letters, and `given` what the user
+    gave, whose symbols may have assumptions.
+    """
+
+    given: Any
+    V: Any
+    S: Any
+    variable: str
+    ends: tuple[Any, Any]
+    energy: str
+    boundary: Boundary
+    friedrichs: bool
+    assumed: Mapping[Any, Any]
+    kinetic: Any = sympy.S.One
+    names: Sequence[str] = ()
+    notices: tuple[str, ...] = ()
+    roots: Mapping[str, Any] = field(default_factory=dict)
+
+    @property
+    def letters(self) -> set[str]:
+        """The names in S and in the ends, but for the variable and the energy."""
+        used = {symbol.name for part in (self.S, *self.ends) for symbol in part.free_symbols}
+        return used - {self.variable, self.energy}
+
+    def spectrum(self, parameters: tuple[str, ...], known: Assumptions, **found: Any) -> Spectrum:
+        """The answer, with what was `found`."""
+        return Spectrum(
+            self.V,
+            self.variable,
+            self.ends,
+            self.energy,
+            parameters,
+            known,
+            notices=self.notices,
+            kinetic=self.kinetic,
+            conditions=self.boundary.wishes,
+            **found,
+        )
+
+
+@dataclass(frozen=True, kw_only=True)
+class SpectralProblem(Asked):
+    """The question for exact methods: the S that was `parsed`, and the domain, in real symbols.
 
     `meanings` are those of letters for roots, powers and exponentials of the user's parameters, and for pi and e.
     """
 
-    V: Any
     parsed: Parsed
     domain: tuple[Any, Any]
-    variable: str
-    energy: str
     known: Assumptions
     signs: Signs
-    friedrichs: bool
-    notices: tuple[str, ...] = ()
-    kinetic: Any = sympy.S.One
-    boundary: Boundary = Boundary()
-    meanings: Mapping[str, Any] = field(default_factory=dict)
+    meanings: Mapping[str, Any]
 
     @property
     def x(self) -> Any:
@@ -104,11 +142,10 @@ class SpectralProblem:
         # y ~ (x - a)^(1/2 + delta/(2 - mu)); at a limit point nu = delta/(2 - mu) is at least 1.
         return above(delta, 0 if self.friedrichs or wish is not None else 2 - mu, strict=False)
 
-    def with_potential(self, V: Any) -> SpectralProblem:
-        """The problem for another potential, in real symbols."""
-        plain = V.xreplace({symbol: sympy.Symbol(symbol.name) for symbol in V.free_symbols})
-        text = f"({as_text(plain)}) - {self.energy}"
-        return replace(self, V=plain, parsed=read_input(text, var=self.variable, exponentials=True))
+    def with_S(self, S: Any) -> SpectralProblem:
+        """The problem for another S, in real symbols."""
+        plain = S.xreplace({symbol: sympy.Symbol(symbol.name) for symbol in S.free_symbols})
+        return replace(self, S=plain, parsed=read_input(plain, var=self.variable, exponentials=True))
 
     def plain(self, expression: Any) -> Any:
         """In the user's terms: plain symbols of the same names, what letters stand for, n for the number of a level."""

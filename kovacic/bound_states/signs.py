@@ -86,6 +86,13 @@ class Signs:
             return -1
         return None
 
+    def known_sign(self, expression: Any, otherwise: str) -> int:
+        """The sign for all values.  Raises `Uncovered`, as `otherwise` says, where it isn't known."""
+        sign = self.sign(expression)
+        if sign is None:
+            raise Uncovered(otherwise)
+        return sign
+
     def _known(self, expression: Any, question: str) -> bool | None:
         """SymPy's answer to a question such as `is_positive`, from the first chart that gives one."""
         symbols = [self.symbols[name] for name in self._bounds]

@@ -29,7 +29,7 @@ from kovacic.algebra.poly import Poly
 from kovacic.algebra.ratfunc import RatFunc
 from kovacic.algebra.rationals import square_part
 from kovacic.algebra.sparse import by_power, factorisation
-from kovacic.numbers.numerals import digits
+from kovacic.numbers.numerals import as_text, digits
 from kovacic.parametric.functions import over_parameters
 from kovacic.reading.lexer import PRIMES, SUPERSCRIPT_DIGITS
 from kovacic.reading.names import is_function
@@ -55,7 +55,7 @@ def shifted(text: str, value: Poly) -> str:
     """`text - value`: x - 2, x + 1/2, x - (a + b)."""
     if not value:
         return text
-    amount = shown(over_parameters(value))
+    amount = shown(value) if isinstance(value, FunctionPoly) else caret(as_text(value.to_sympy(sympy.Symbol("x"))))
     if in_sum(amount) != amount:
         return f"{text} - ({amount})"
     if amount.startswith("-"):

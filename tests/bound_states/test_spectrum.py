@@ -271,6 +271,8 @@ WITH_CONDITIONS = [
     ("0", (0, "pi"), "y'(0) = 0, y'(pi) = 0", (0, 1, 4), True),
     ("0", (0, "pi"), "y'(0) = 0", ("1/4", "9/4", "25/4"), True),
     ("3", HALF, "y'(0) + 2*y(0) = 0", (-1,), True),
+    ("-2/x", HALF, "y(0) = 0", (-1, "-1/4", "-1/9"), True),
+    ("2/x^2 + x^2", HALF, "y(0) = 0", (5, 9, 13), True),
     ("3", HALF, "y'(0) = 2*y(0)", (), True),
     ("1/(1 + x^2)", HALF, "y'(0) = 0", (), True),
     ("1/(1 + x^2)", HALF, "y'(0) + 5*y(0) = 0", (), False),
@@ -304,9 +306,11 @@ def test_numeric_levels_obey_the_conditions() -> None:
     ("V", "options"),
     [
         ("-1/x", {"domain": HALF, "boundary": "y'(0) = 0"}),
+        ("x^2 - 3/(16*x^2)", {"domain": HALF, "boundary": "y(0) = 0"}),
         ("x^2", {"boundary": "y'(0) = 0"}),
         ("x^2", {"domain": HALF, "boundary": "y'(0) = 1"}),
         ("x^2", {"domain": HALF, "boundary": "y(0) + k*y'(0) = 0"}),
+        ("-psi''/m + x^2*psi = E*psi", {"assume": {"m": "negative"}}),
     ],
 )
 def test_conditions_that_are_refused(V: str, options: Any) -> None:
@@ -489,10 +493,19 @@ def test_no_eigenvalues(V: str, domain: tuple[object, object]) -> None:
     assert not found.levels
 
 
-@parametrize("V", ["1/(a^2 + 1 + cos(x))", "x^2 + 1/(x^2 + 5)"], ordinary=2)
-def test_what_is_not_covered_is_undecided(V: str) -> None:
+@parametrize(
+    ("V", "domain"),
+    [
+        ("1/(a^2 + 1 + cos(x))", LINE),
+        ("x^2 + 1/(x^2 + 5)", LINE),
+        ("2/sin(x)^2", (0, "L")),
+        ("4/cosh(x)^4 - sqrt(2)/cosh(x)^2", LINE),
+    ],
+    ordinary=4,
+)
+def test_what_is_not_covered_is_undecided(V: str, domain: tuple[object, object]) -> None:
     """Where the poles are isn't known, and whether E = 2 d + 1 has a closed form is known for each d alone."""
-    found = kovacic.spectrum(V, max_degree=0)
+    found = kovacic.spectrum(V, domain=domain, max_degree=0)
     assert not found.is_decided
     assert not found.levels
     assert found.reason.startswith("undecided: ")
@@ -1006,6 +1019,8 @@ def test_the_kinetic_factor_of_closed_forms() -> None:
     assert [state.energy for state in found.states()] == [-sympy.sqrt(2), sympy.sqrt(2)]
     assert found.text().startswith("-1/2 y'' + V y = E y, V = x^6/2 - 7*x^2/2")
     assert kovacic.spectrum("V(r) = r^2").variable == "r"
+    fall = kovacic.spectrum("-hbar^2/(2*m)*psi'' + m*g*x*psi = E*psi", domain=HALF, assume={"g": "positive"})
+    assert "(x - E/(m*g))^3" in fall.reason  # the energy is the user's
 
 
 @pytest.mark.parametrize(
