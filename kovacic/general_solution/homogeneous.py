@@ -64,8 +64,8 @@ def find_basis(question: Question, budget: Budget, *, special: bool = False) -> 
         known = None
         if is_changed:  # in t, where the quotient has values at more points
             known = partial(multiple_of, kernel(question.equation), form.y1, form.y2, form.variable)
-        pair = WrittenPair(form.y1, form.y2, known, form.undefined)
-        return replace(_basis(question, solution, pair), form=form, place=form.place)
+        pair = WrittenPair(form.y1, form.y2, known, form.undefined, form.place)
+        return replace(_basis(question, solution, pair), form=form)
     found = _in_special_functions(question, solution, budget, special=special)
     if not isinstance(found, BySign):
         return _basis(question, solution, found)
@@ -91,7 +91,9 @@ def _basis(question: Question, solution: Solution, pair: WrittenPair) -> Basis:
     if isinstance(constant, FunctionPoly) and not question.assumptions.is_positive(constant):
         y1, y2 = with_waves(y1, y2)
     if not question.conditions:  # which may be outside of the interval where f is a cosine
-        y1, y2 = of_chebyshev(y1, y2, question.x)
+        y1, y2, place = of_chebyshev(y1, y2, question.x)
+        if place is not None:
+            basis = replace(basis, place=place)
     return basis.of(y1, y2)
 
 

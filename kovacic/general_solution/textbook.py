@@ -107,20 +107,31 @@ def _exponent(y: Expr) -> tuple[Expr, Expr]:
     return sympy.Mul(*others), sympy.Add(*(factor.args[0] for factor in exponents))
 
 
-def of_chebyshev(y1: Expr, y2: Expr, x: Expr) -> tuple[Expr, Expr]:
-    """The pair (4) for (f + sqrt(f^2 - c^2))^n and its inverse, in acos(f/c) for a number or letter c; else these two."""
-    if not y1.is_Pow or sympy.powsimp(y1 * y2) != 1 or not y1.base.is_Add:
-        return y1, y2
-    n = y1.exp
-    for f, rest in (y1.base.as_two_terms(), y1.base.as_two_terms()[::-1]):
+def of_chebyshev(y1: Expr, y2: Expr, x: Expr) -> tuple[Expr, Expr, Expr | None]:
+    """The pair (4) beside g for g (f + sqrt(f^2 - c^2))^n and its inverse, c a number or a letter; else these two.
+
+    With it, where c is a number, a point at which |f| < |c|.
+    """
+    powers, others = sympy.sift(
+        sympy.Mul.make_args(y1), lambda part: part.is_Pow and part.base.is_Add and not part.exp.is_Rational, binary=True
+    )
+    g = sympy.Mul(*others)
+    if len(powers) != 1 or sympy.powsimp(powers[0] * y2 / g) != 1:
+        return y1, y2, None
+    (power,) = powers
+    for f, rest in (power.base.as_two_terms(), power.base.as_two_terms()[::-1]):
         square = sympy.expand(f**2 - rest**2)
         c = sympy.powdenest(sympy.sqrt(square), force=True)
         # sqrt(x^2 + 1) + x is one for f = x i alone
         is_real = square.is_positive or (not radicands(c) and not c.has(sympy.I))
-        if not radicands(f) and is_real and not square.has(x) and not n.is_number:
-            angle = n * sympy.acos(f / c)
-            return cos(angle), sin(angle)
-    return y1, y2
+        line, middle = (f**2, square / 4) if radicands(f) else (f, c / 2)
+        if line.diff(x).is_number and is_real and not square.has(x):
+            place = (middle - line.subs(x, 0)) / line.diff(x) if c.is_number else None
+            turned = (p for p in g.atoms(sympy.Pow) if sympy.rem(p.base, rest**2, x) == 0)
+            g = g.xreplace({p: (-p.base) ** p.exp for p in turned})  # a constant multiple, real where |f| < |c|
+            angle = power.exp * sympy.acos(f / c)
+            return g * cos(angle), g * sin(angle), place
+    return y1, y2, None
 
 
 def without_homogeneous(particular: Expr, y1: Expr, y2: Expr, x: Expr) -> Expr:

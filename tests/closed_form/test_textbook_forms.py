@@ -138,6 +138,8 @@ GENERAL: list[tuple[str, dict[str, Any], str]] = [
     ("y'' + 2*tan(x)*y' = 0", {}, "C1 + C2*(x + sin(x)*cos(x))"),
     ("y'' - 2*sec(x)^2*y = 0", {}, "C1*tan(x) + C2*(x*tan(x) + 1)"),
     ("(1-x^2)*y'' - x*y' + n^2*y = 0", {}, "C1*cos(n*acos(x)) + C2*sin(n*acos(x))"),
+    ("(1-x^2)*y'' - 3*x*y' + n*(n+2)*y = 0", {}, "(C1*cos((n + 1)*acos(x)) + C2*sin((n + 1)*acos(x)))/sqrt(1 - x**2)"),
+    ("x*(1-x)*y'' + (1/2-x)*y' + n^2*y = 0", {}, "C1*cos(2*n*acos(sqrt(x))) + C2*sin(2*n*acos(sqrt(x)))"),
     ("y'' + x^2*y = 0", POSITIVE, "sqrt(x)*(C1*besselj(1/4, x**2/2) + C2*besselj(-1/4, x**2/2))"),
     ("y'' + x^2*y = 0", {}, "C1*hyper((), (3/4,), -x**4/16) + C2*x*hyper((), (5/4,), -x**4/16)"),
     (

@@ -41,6 +41,8 @@ y''+y=x^n | y''+a*y=x^n | y''-a^2*y=x^n | y''+2*y'+y=x^n | y''-y=x^(1/3) | y''+a
 ROOTS = """
 (x^2-a^2)*y''+x*y'-n^2*y=0 | (x^2-3)*y''+x*y'-n^2*y=0 | (1-a^2*x^2)*y''-a^2*x*y'+n^2*y=0 | (a^2-x^2)*y''-x*y'=0
 (a^2+x^2)*y''+x*y'=0 | y''=1/sqrt(a^2-x^2) | y''=sqrt(a^2-x^2) | y''=1/sqrt(a^2+x^2) | y''=sqrt(x^2-a^2)
+(1-x^2)*y''-3*x*y'+n*(n+2)*y=0 | (a^2-x^2)*y''-3*x*y'+n*(n+2)*y=0 | x*(1-x)*y''+(1/2-x)*y'+n^2*y=0 | (1-x^2)*y''-x*y'+5*y=0
+x*(1-x)*y''+(3/2-3*x)*y'+n*(n+2)*y=0 | (2*x-3*x^2)*y''+(1-3*x)*y'+n^2*y=0
 """
 FUNCTIONS = """
 y''+(a*exp(x)-b)*y=0 | y''-(exp(2*x)+a*exp(x)+b)*y=0 | y''+a*exp(x)*y'+b*exp(x)*y=0 | y''-a*y'+b*exp(2*a*x)*y=0
