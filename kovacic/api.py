@@ -13,6 +13,7 @@ from kovacic.engine.decide import decide as decide_structure
 from kovacic.equation import Equation, Parsed, parameters_of
 from kovacic.errors import InputError, LimitExceeded, VerificationFailed
 from kovacic.limits import DEFAULT_LIMITS, Budget, Limits, limited
+from kovacic.reading.read import declared, read_coefficients, read_input
 from kovacic.verify import Verification, verify
 from kovacic.verify.identity import is_normal_form
 
@@ -163,8 +164,6 @@ def _read_question(
     limits: Limits,
 ) -> tuple[Any, Parsed, Mapping[Any, Any] | None]:
     """The input with the values among the assumptions, as given and as it was read, and the other assumptions."""
-    from kovacic.reading.read import declared, read_coefficients, read_input
-
     names = declared(parameters, assume)
     given = {name: value for name, value in coefficients.items() if value is not None}
     if S is None and coefficients:

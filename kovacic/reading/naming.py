@@ -189,7 +189,7 @@ class Vocabulary:
 
 def _guesses(tokens: Sentence) -> list[str]:
     """Notes on what may have been meant in another way: x^1/2 is x/2."""
-    found = _ROOT.search(tokens.line)
+    found = _ROOT.search(tokens.line) if "1" in tokens.pieces else None
     said = "^1/{0} was read as (...)^1 divided by {0}; a root is written ^(1/{0})"
     guesses = [said.format(found[1])] if found else []
     return [*guesses, *_divided_functions(tokens)] if "HEAD" in tokens.kinds else guesses
