@@ -49,7 +49,7 @@ from kovacic.parametric.partition import derived
 from kovacic.parametric.prose import ABELIAN, NOT_ABELIAN
 from kovacic.parametric.regions import ParameterRegion, verdict_of
 from kovacic.parametric.restriction import Letters, nonzero, own_parameters, spelled, transcendental, with_free_constant
-from kovacic.parametric.solutions import GivenSolutions
+from kovacic.parametric.solutions import Carried
 from kovacic.parametric.statements import Statement, Vanishes
 from kovacic.reading.change_of_variable import function_of_x, user_variable
 from kovacic.reading.read import read_input
@@ -175,7 +175,7 @@ def _false_formulas(
         numbers = [None]
     for number in numbers:
         formulas = region.formulas
-        if not isinstance(formulas, GivenSolutions):
+        if not isinstance(formulas, Carried):
             return
         # Formulas that aren't meant at these values aren't even translated to the equation that was given.
         meant = [solution for solution in formulas.found(number) if solution.at(values) is not None]

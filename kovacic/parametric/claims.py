@@ -13,7 +13,7 @@ from dataclasses import dataclass
 from fractions import Fraction
 from functools import reduce
 from itertools import chain, product
-from typing import NamedTuple
+from typing import ClassVar, NamedTuple
 
 from kovacic.algebra.extension import AlgebraicField, ExtensionPoly, norm
 from kovacic.algebra.function_field import FunctionPoly
@@ -24,8 +24,8 @@ from kovacic.errors import VerificationFailed
 from kovacic.parametric.functions import NATURALS, Classes, ParameterPoint, over_parameters
 
 
-class Proposition(ABC):
-    """What is true or false at a point."""
+class Claim(ABC):
+    """What is said of the parameters: true where a reader finds it true."""
 
     def holds(self, point: ParameterPoint) -> bool:
         """True if it is true at the point; a formula that isn't defined there makes it false."""
@@ -37,13 +37,9 @@ class Proposition(ABC):
     @abstractmethod
     def _holds(self, point: ParameterPoint) -> bool: ...
 
-
-class Claim(Proposition):
-    """What is said of the parameters: true where a reader finds it true."""
-
-    def numbers_at(self, point: ParameterPoint) -> Iterator[Fraction]:
+    def numbers_at(self, point: ParameterPoint) -> Iterable[Fraction | int]:
         """The integers for which it is true at the point, of a claim about one."""
-        return iter(())
+        return ()
 
 
 @dataclass(frozen=True)
@@ -63,26 +59,26 @@ class IsNonzero(Claim):
 
 
 @dataclass(frozen=True)
-class AllOf(Claim):
+class Several(Claim):
+    """Made of others: one truth value of a part decides."""
+
     parts: tuple[Claim, ...]
+    decisive: ClassVar[bool]
 
     def _holds(self, point: ParameterPoint) -> bool:
-        return all(part.holds(point) for part in self.parts)
+        return any(part.holds(point) is self.decisive for part in self.parts) is self.decisive
 
-    def numbers_at(self, point: ParameterPoint) -> Iterator[Fraction]:
+    def numbers_at(self, point: ParameterPoint) -> Iterator[Fraction | int]:
         if self.holds(point):
-            yield from chain.from_iterable(part.numbers_at(point) for part in self.parts)
+            yield from chain.from_iterable(part.numbers_at(point) for part in self.parts if part.holds(point))
 
 
-@dataclass(frozen=True)
-class AnyOf(Claim):
-    parts: tuple[Claim, ...]
+class AllOf(Several):
+    decisive = False
 
-    def _holds(self, point: ParameterPoint) -> bool:
-        return any(part.holds(point) for part in self.parts)
 
-    def numbers_at(self, point: ParameterPoint) -> Iterator[Fraction]:
-        yield from chain.from_iterable(part.numbers_at(point) for part in self.parts if part.holds(point))
+class AnyOf(Several):
+    decisive = True
 
 
 @dataclass(frozen=True)

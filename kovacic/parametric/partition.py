@@ -54,6 +54,7 @@ from kovacic.parametric.functions import (
     ParameterPoint,
     degrees,
     denominators,
+    element,
     in_field,
     irreducible_factors,
     over_parameters,
@@ -76,10 +77,10 @@ from kovacic.parametric.restriction import (
 from kovacic.parametric.search import Findings, all_half_integers, degree_equation, search
 from kovacic.parametric.solutions import (
     Carried,
-    GivenSolutions,
     Origin,
     PolynomialSolution,
     derivative,
+    given,
     solutions_there,
 )
 from kovacic.parametric.statements import ALWAYS, NEVER, Statement, Vanishes, both
@@ -140,14 +141,12 @@ def _energies(S: RatFunc) -> list[int]:
     field = S.field
     assert isinstance(field, FunctionField)
     above, below = map(over_parameters, S.cleared())
-    candidates = [i for i in range(len(field.names)) if degrees(above)[i] == 1 and not degrees(below)[i]]
     found = []
-    for i in candidates:
-        values = [field.generator(name) for name in field.names]
-        values[i] = values[i] + 1
-        slope = RatFunc(above.value_at(values, field) - above, below)  # S(E + 1) - S(E)
-        if slope.is_polynomial and slope.num.degree == 0 and field.rational_value(slope.num) is not None:
-            found.append(i)
+    for i in range(len(field.names)):
+        if degrees(above)[i] == 1 and not degrees(below)[i]:
+            slope = RatFunc(powers_of(above, i)[1], below * element(field, above.den))
+            if slope.is_polynomial and slope.num.degree == 0 and field.rational_value(slope.num) is not None:
+                found.append(i)
     return found
 
 
@@ -295,12 +294,11 @@ def _by_theorem(problem: Problem, theorem: Theorem, expected: RegionVerdict, set
     regions = _degenerate(problem.S, theorem.exceptions, settings)
     always = RegionVerdict(None)
     for region in theorem.regions:
-        if region.statement == NEVER:
-            continue
         if region.statement == ALWAYS:
             always = region.verdict
             break
-        regions.append(region)
+        if region.statement != NEVER:
+            regions.append(region)
     contradicts = expected.known and expected.case != always.case
     if contradicts:
         raise AssertionError(f"{theorem.name}: case {always.case} contradicts the generic answer, case {expected.case}")
@@ -317,7 +315,7 @@ def _by_transformation(problem: Problem, found: Transformation, settings: Settin
     inner = partition(found.simpler, settings)
     back = partial(carried_back, found.W, settings.variable)
     for region in filter(lambda one: one.defined, inner.regions):
-        origin = region.origin and Carried(region.origin, back)
+        origin = region.origin and Carried(region.origin, (back,))
         regions.append(replace(region, origin=origin))
     complete = together(regions) if inner.complete is True else inner.complete
     theory = inner.theory.also(", after Darboux' transformation", "Dar82")
@@ -326,10 +324,7 @@ def _by_transformation(problem: Problem, found: Transformation, settings: Settin
 
 def together(regions: Iterable[ParameterRegion]) -> bool | str:
     """True where everything is complete, else the first sentence that says what isn't."""
-    for region in regions:
-        if region.complete is not True:
-            return region.complete
-    return True
+    return next((region.complete for region in regions if region.complete is not True), True)
 
 
 def _by_candidates(problem: Problem, expected: RegionVerdict, settings: Settings) -> Partition:
@@ -503,9 +498,7 @@ def _rest(
     field = surface.field
     verdict = inner.generic
     complete = inner.complete
-    if field.ground == QQ:
-        return _at_a_value(statement, S, verdict, complete, settings)
-    num, den = map(without_parameters, (S.num, S.den))
+    num, den = (part if field.ground == QQ else without_parameters(part) for part in (S.num, S.den))
     if num is not None and den is not None:  # no parameter is left: 0 for k (1 + g/x) at k = 0
         return _at_a_value(statement, RatFunc(num, den), verdict, complete, settings)
     if complete is not True:
@@ -585,12 +578,12 @@ def derived(
         generic = result.generic if result.complete is True else None
         result = replace(result, regions=tuple(without_redundant(result.regions, generic)))
     regions = settled(result.regions, setting_of(variable, field.names, constant, letters, assumptions))
-    given = equation or normal_form(lifted, variable)
+    own = equation or normal_form(lifted, variable)
     # In solutions the constant is SymPy's number.
     x = sympy.Symbol(variable)
     numbers = zip(constant.names, (value.to_sympy(x) for value in constant.values), strict=True)
     letters = (*letters, *numbers)
-    return replace(result, regions=tuple([_finished(region, given, max_degree, budget, letters) for region in regions]))
+    return replace(result, regions=tuple([_finished(region, own, max_degree, budget, letters) for region in regions]))
 
 
 def _distinct(regions: Iterable[ParameterRegion], constant: ParameterPoint, budget: Budget) -> list[ParameterRegion]:
@@ -632,12 +625,12 @@ def _finished(
     """With solutions of the equation that was given, and the degree up to which determinants are shown."""
     statement = region.statement
     if region.origin is not None:
-        pieces = tuple(equations_on(region.statement, equation))
+        pieces = tuple(partial(given, *piece) for piece in equations_on(region.statement, equation))
         # With an algebraic constant the statement knows its value; the origin is about all values.
         origin: Origin = region.origin
         if isinstance(statement, Natural) and statement.constant.names:
             origin = partial(statement.solutions, equation.variable)
-        region = replace(region, origin=GivenSolutions(origin, pieces, letters) if pieces else None)
+        region = replace(region, origin=Carried(origin, pieces, letters) if pieces else None)
     if max_degree is None or not isinstance(statement, Natural) or statement.m > 1:
         return region
     return replace(region, shown_degree=max_degree, limits=budget.limits)

@@ -86,7 +86,8 @@ def text_of(words: Words) -> str:
 def sentence(claim: Claim) -> Words:
     """What is said, by the writer of its kind."""
     found: list[str | Math] = []
-    for part in _WRITERS[type(claim)](claim):
+    writer = next(_WRITERS[one] for one in type(claim).__mro__ if one in _WRITERS)
+    for part in writer(claim):
         if found and isinstance(part, str) and isinstance(found[-1], str):
             found[-1] += part
         else:

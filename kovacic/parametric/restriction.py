@@ -383,12 +383,8 @@ def _spelling(meaning: Any) -> str:
 
 def _in_other_names(function: RatFunc, field: FunctionField) -> RatFunc:
     """The function with other names for the parameters."""
-    return RatFunc(_renamed(function.num, field), _renamed(function.den, field), reduced=True)
-
-
-def _renamed(polynomial: Poly, field: FunctionField) -> FunctionPoly:
-    known = over_parameters(polynomial)
-    return FunctionPoly(field, known.num, known.den)
+    parts = map(over_parameters, (function.num, function.den))
+    return RatFunc(*(FunctionPoly(field, part.num, part.den) for part in parts), reduced=True)
 
 
 def own_parameters(names: Sequence[str], letters: Letters) -> tuple[str, ...]:

@@ -33,7 +33,6 @@ from kovacic.decision import Structure
 from kovacic.engine.places import Kind, Place, Problem, rational_square_root
 from kovacic.parametric import prose
 from kovacic.parametric.assumptions import Assumptions
-from kovacic.parametric.claims import Claim
 from kovacic.parametric.formulas import in_sum, root_written, shown
 from kovacic.parametric.functions import (
     ParameterPoint,
@@ -126,8 +125,11 @@ _CYCLIC = "finite cyclic, or `G_a` extended by a finite cyclic group"
 
 
 @dataclass(frozen=True)
-class Schwarz(Statement, Claim):
-    """The exponent differences, whose squares are the roots of `cubic`, belong to these structures in Schwarz's table."""
+class Schwarz(Statement):
+    """The exponent differences, whose squares are the roots of `cubic`, belong to these structures in Schwarz's table.
+
+    What is printed names them, and the rows.
+    """
 
     cubic: FunctionPoly
     structures: tuple[Structure, ...]
@@ -154,11 +156,6 @@ class Schwarz(Statement, Claim):
         if len(known) != 3:
             return []
         return [root - value for root, value in zip(known, values, strict=True)]
-
-    @property
-    def claim(self) -> Claim:
-        """Itself: what is printed names the exponent differences and the rows."""
-        return self
 
     def narrowed(self, assumptions: Assumptions) -> Statement:
         """At each value of an integer parameter for which its exponent difference has a denominator of the table."""
@@ -568,13 +565,5 @@ def _classes(single: _OneFunction, structure: Structure) -> Statement:
 
 def _numbers_in_table(line: _DifferenceLine, period: Fraction) -> set[Fraction]:
     """The w modulo a period at which the line has a denominator of the table: modulo 2, one of its values."""
-    step = abs(2 / line.slope)
-    steps = range(int(period / step))
-    found = set()
-    for denominator in range(2, LARGEST + 1):
-        for k in range(2 * denominator):
-            if gcd(k, denominator) > 1:
-                continue
-            first = (_F(k, denominator) - line.shift) / line.slope
-            found |= {(first + j * step) % period for j in steps}
-    return found
+    sixtieths = range(int(60 * period * abs(line.slope)))
+    return {(_F(k, 60) - line.shift) / line.slope % period for k in sixtieths if _F(k, 60).denominator <= LARGEST}

@@ -14,7 +14,6 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 from dataclasses import dataclass, field
-from fractions import Fraction
 from itertools import product
 from math import lcm, prod
 
@@ -257,27 +256,16 @@ def _add_reducible(problem: Problem, findings: Findings) -> None:
         return
     factors: list[FunctionPoly] = []
     for factor, _ in problem.field.factor(equation):
-        if may_be_natural(factor) and not _is_settled(problem, factor, findings):
+        if not may_be_natural(factor):
+            continue
+        # Of a degree that is a number nothing is left to say where the candidates are the only special values.
+        number = problem.field.rational_value(-factor[0]) if factor.degree == 1 else None
+        found = None if number is None else conditions_of_degree(problem, int(number))
+        are_complete = [findings.add(conditions) for conditions in found or ()]
+        if found is None or not all(are_complete):
             factors.append(over_parameters(factor))
     if factors:
         findings.natural.append(Natural(problem.S, 1, tuple(factors), Structure.REDUCIBLE))
-
-
-def _is_settled(problem: Problem, factor: Poly, findings: Findings) -> bool:
-    """True if the degree is a number, for which the candidates are the only special ones.  They are added in any case."""
-    root = _number_root(factor)
-    found = None if root is None else conditions_of_degree(problem, int(root))
-    if found is None:
-        return False
-    are_complete = [findings.add(conditions) for conditions in found]
-    return all(are_complete)
-
-
-def _number_root(factor: Poly) -> Fraction | None:
-    """The root of a polynomial over Q(t) of degree 1, where it is a number."""
-    if factor.degree != 1:
-        return None
-    return factor.field.rational_value(-factor[0])
 
 
 def all_half_integers(problem: Problem) -> Statement:

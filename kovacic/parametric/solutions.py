@@ -200,50 +200,31 @@ class Signed:
 
 @dataclass(frozen=True)
 class Carried:
-    """The solutions of another equation, each changed into one of this equation."""
+    """The solutions of another equation, changed into those of this equation, on each piece of a region.
 
-    origin: Origin
-    change: Callable[[PolynomialSolution], PolynomialSolution]
-
-    def __call__(self, number: int | None) -> tuple[PolynomialSolution, ...]:
-        return tuple(map(self.change, self.origin(number)))
-
-    def general(self, signs: Sequence[Any]) -> PolynomialSolution | None:
-        """All of them in one, with symbols for the signs; None if there is no such formula."""
-        found = general(self.origin, signs)
-        return None if found is None else self.change(found)
-
-
-@dataclass(frozen=True)
-class GivenSolutions:
-    """The solutions of a normal form as those of the equation of which it is one.
-
-    `pieces` are the equations on the pieces of a region, each with the functions that vanish on it and not on all of them;
     `letters` are parameters with what they stand for.
     """
 
     origin: Origin
-    pieces: tuple[tuple[Equation, tuple[FunctionPoly, ...]], ...]
+    changes: tuple[Callable[[PolynomialSolution], PolynomialSolution], ...]
     letters: Letters = ()
 
     def __call__(self, number: int | None) -> tuple[PolynomialSolution, ...]:
         return tuple(self.of(self.found(number)))
 
     def found(self, number: int | None) -> tuple[PolynomialSolution, ...]:
-        """Those of the normal form."""
+        """Those of the other equation."""
         return _found(self.origin, number)
 
     def of(self, solutions: Iterable[PolynomialSolution]) -> Iterator[PolynomialSolution]:
-        """Solutions of the normal form, on each piece."""
-        for solution, piece in product(solutions, self.pieces):
-            yield self.spelled(_given(solution, *piece))
+        """Solutions of the other equation, on each piece."""
+        for solution, change in product(solutions, self.changes):
+            yield self.spelled(change(solution))
 
     def general(self, signs: Sequence[Any]) -> PolynomialSolution | None:
         """All of them in one, with symbols for the signs; None if there is no such formula."""
         found = general(self.origin, signs)
-        if found is None or len(self.pieces) > 1:
-            return None
-        return self.spelled(_given(found, *self.pieces[0]))
+        return None if found is None or len(self.changes) > 1 else next(self.of([found]))
 
     def spelled(self, solution: PolynomialSolution) -> PolynomialSolution:
         """The solution in the user's parameters."""
@@ -257,8 +238,11 @@ def _found(origin: Origin, number: int | None) -> tuple[PolynomialSolution, ...]
 
 
 @lru_cache(maxsize=256)
-def _given(solution: PolynomialSolution, equation: Equation, zeros: tuple[FunctionPoly, ...]) -> PolynomialSolution:
-    """The solution with its degree and its conditions: where t = x^m, the roots in them are those of the translated y."""
+def given(equation: Equation, zeros: tuple[FunctionPoly, ...], solution: PolynomialSolution) -> PolynomialSolution:
+    """A solution of the normal form as one of the equation, on the piece of a region where functions vanish.
+
+    With its degree and its conditions: where t = x^m, the roots in them are those of the translated y.
+    """
     y = translated(solution.y, equation)
     degree = solution.degree
     conditions = solution.conditions

@@ -12,12 +12,11 @@ from dataclasses import dataclass, replace
 from functools import cached_property
 from itertools import chain
 from random import Random
-from typing import ClassVar
 
 from kovacic.algebra.function_field import FunctionField, FunctionPoly
 from kovacic.parametric import prose
 from kovacic.parametric.assumptions import NOTHING_ASSUMED, Assumptions
-from kovacic.parametric.claims import AllOf, AnyOf, Claim, IsZero, Proposition
+from kovacic.parametric.claims import AllOf, AnyOf, Claim, IsZero, Several
 from kovacic.parametric.functions import NO_CONSTANT, ParameterPoint, irreducible_factors, with_values
 
 
@@ -49,13 +48,13 @@ class Setting:
         return is_excluded or any(known <= common for known in self.covered)
 
 
-class Statement(Proposition):
+class Statement(Claim):
     """A statement about the parameters."""
 
-    @cached_property
-    @abstractmethod
+    @property
     def claim(self) -> Claim:
-        """What is printed."""
+        """What is printed: the statement itself, if it can be."""
+        return self
 
     @property
     def conjuncts(self) -> tuple[Statement, ...]:
@@ -107,13 +106,7 @@ class Statement(Proposition):
         return self.text()
 
 
-@dataclass(frozen=True)
-class Vanishes(Statement):
-    function: FunctionPoly
-
-    def _holds(self, point: ParameterPoint) -> bool:
-        return not point.at(self.function)
-
+class Vanishes(IsZero, Statement):
     @property
     def field(self) -> FunctionField:
         return self.function.field
@@ -128,20 +121,12 @@ class Vanishes(Statement):
     def decided(self, assumptions: Assumptions) -> bool | None:
         return assumptions.vanishes(self.function)
 
-    @cached_property
-    def claim(self) -> Claim:
-        return IsZero(self.function)
-
 
 @dataclass(frozen=True)
-class _Several(Statement):
-    """A statement made of others: one truth value of a part decides."""
+class _Several(Several, Statement):
+    """A statement made of others."""
 
     parts: tuple[Statement, ...]
-    decisive: ClassVar[bool]
-
-    def _holds(self, point: ParameterPoint) -> bool:
-        return any(part.holds(point) is self.decisive for part in self.parts) is self.decisive
 
     @property
     def field(self) -> FunctionField | None:
@@ -169,9 +154,7 @@ class _Several(Statement):
         return all_of(left)
 
 
-class Either(_Several):
-    decisive = True
-
+class Either(_Several, AnyOf):
     @property
     def alternatives(self) -> tuple[Statement, ...]:
         return self.parts
@@ -187,9 +170,7 @@ class Either(_Several):
         return AnyOf(tuple(part.claim for part in self.parts))
 
 
-class Both(_Several):
-    decisive = False
-
+class Both(_Several, AllOf):
     @property
     def conjuncts(self) -> tuple[Statement, ...]:
         return self.parts

@@ -31,13 +31,12 @@ from kovacic.parametric.regions import ParameterRegion, RegionVerdict
 from kovacic.parametric.restriction import spelled
 from kovacic.parametric.riemann import Schwarz
 from kovacic.parametric.solutions import (
-    GivenSolutions,
+    Carried,
     PolynomialSolution,
     SolutionRow,
     families_of,
     general,
     rows_of,
-    translated,
     weight_by_signs,
 )
 from kovacic.parametric.statements import Both, Either, Statement, Vanishes
@@ -296,7 +295,7 @@ class _TheoremWriter:
             return
         solutions = [*region.solution()]
         families = families_of(region.statement.claim) if case.statement == region.statement else []
-        letters = region.formulas.letters if isinstance(region.formulas, GivenSolutions) else ()
+        letters = region.formulas.letters if isinstance(region.formulas, Carried) else ()
         rows = [rows_of(solutions, family, letters) for family in families]
         if rows and all(rows):
             for family, found in zip(families, rows, strict=True):
@@ -355,9 +354,8 @@ class _TheoremWriter:
         solution = None if weight is None or weight.signs > len(self.signs) else weight.general(self.signs)
         if solution is None:
             return
-        if isinstance(region.formulas, GivenSolutions):
-            equation, _ = region.formulas.pieces[0]
-            solution = region.formulas.spelled(replace(solution, y=translated(solution.y, equation)))
+        if isinstance(region.formulas, Carried):
+            solution = next(region.formulas.of([solution]))
         yield Formula(self._named_solution(replace(solution, y=P * solution.y)))
         degree = Math.of(natural.letter).equals(of_sympy(self._collected(solution.degree)))
         in_t: list[str | Math] = []
