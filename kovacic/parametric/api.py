@@ -50,7 +50,7 @@ from kovacic.parametric.prose import ABELIAN, NOT_ABELIAN
 from kovacic.parametric.regions import ParameterRegion, verdict_of
 from kovacic.parametric.restriction import Letters, nonzero, own_parameters, spelled, transcendental, with_free_constant
 from kovacic.parametric.solutions import Carried
-from kovacic.parametric.statements import Statement, Vanishes
+from kovacic.parametric.statements import ALWAYS, Statement, Vanishes
 from kovacic.reading.change_of_variable import function_of_x, user_variable
 from kovacic.reading.read import read_input
 from kovacic.reading.substitution import with_values
@@ -211,46 +211,34 @@ class Sampler:
 
     def points(self, statements: Sequence[Statement]) -> Iterator[ParameterPoint | None]:
         """Every other one where one of the statements holds; None if an attempt failed."""
-        chosen: Sequence[Statement | None] = statements or [None]
-        for statement in cycle(chosen):
+        for statement in cycle(statements or [ALWAYS]):
             yield self.point(statement)
-            yield self.point(None)
+            yield self.point(ALWAYS)
 
     def point_in(self, found: ParametricAnswer, region: ParameterRegion | None) -> ParameterPoint | None:
         """One that belongs to no region before, None: to no region; None if a few attempts find none."""
         for _ in range(_ATTEMPTS):
-            point = self.point(None if region is None else region.statement)
+            point = self.point(ALWAYS if region is None else region.statement)
             if point is not None and found.region_at(point) is region:
                 return point
         return None
 
-    def point(self, statement: Statement | None) -> ParameterPoint | None:
-        """An admitted one at which the statement holds, if there is one; None if an attempt failed."""
-        point = self._point(statement)
-        if point is not None and not self.assumptions.admits(zip(point.names, point.values, strict=True)):
-            return None
-        return point
-
-    def _point(self, statement: Statement | None) -> ParameterPoint | None:
-        """A point at which the statement holds, any one without a statement; None if none was found."""
+    def point(self, statement: Statement) -> ParameterPoint | None:
+        """An admitted one at which the statement holds; None if an attempt failed."""
         values = dict(zip(self.start.names, self.start.values, strict=True))
         values |= {name: QQ.poly([self.assumptions.of(name).sample(self.random)]) for name in self.names}
-        if statement is None:
-            return self._with_values(values, self.start.field)
+        field = self.start.field
+        free = list(self.names)
         try:
             # One parameter is chosen for each function so that it vanishes, the last function first.
-            field = self.start.field
-            free = list(self.names)
             for function in reversed(statement.sample(self.random)):
                 field = self._solve_for_zero(function, values, field, free)
         except (ZeroDivisionError, ValueError):
             return None
-        point = self._with_values(values, field)
-        return point if statement.holds(point) else None
-
-    def _with_values(self, values: dict[str, Poly], field: Field) -> ParameterPoint:
         in_one_field = tuple(value.over(field) for value in values.values())
-        return ParameterPoint((*self.start.names, *self.names), in_one_field, field)
+        point = ParameterPoint((*self.start.names, *self.names), in_one_field, field)
+        is_admitted = self.assumptions.admits(zip(point.names, point.values, strict=True))
+        return point if is_admitted and statement.holds(point) else None
 
     def _solve_for_zero(self, function: FunctionPoly, values: dict[str, Poly], field: Field, free: list[str]) -> Field:
         """Choose one free parameter so that the function vanishes; the field of all values.  `ValueError` if none does it."""

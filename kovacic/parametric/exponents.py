@@ -322,18 +322,9 @@ class _ConstantPivot(NamedTuple):
 
 def _constant_entry(rows: Sequence[dict[int, Any]]) -> _ConstantPivot | None:
     """The constant entry with the fewest others in its row times those in its column; None without any."""
-    weights: Counter[int] = Counter()
-    for row in rows:
-        weights.update(row.keys())
-    best: _ConstantPivot | None = None
-    for i, row in enumerate(rows):
-        for k, entry in row.items():
-            if not entry.is_constant():
-                continue
-            pivot = _ConstantPivot(len(row) * weights[k], i, k)
-            if best is None or pivot < best:
-                best = pivot
-    return best
+    weights = Counter(chain.from_iterable(rows))
+    constant = ((i, k) for i, row in enumerate(rows) for k, entry in row.items() if entry.is_constant())
+    return min((_ConstantPivot(len(rows[i]) * weights[k], i, k) for i, k in constant), default=None)
 
 
 def _cleared(row: dict[int, Any], k: int, chosen: dict[int, Any]) -> dict[int, Any]:
@@ -501,7 +492,7 @@ def degrees_of_solutions(problem: Problem) -> Numbers | None:
     if apart is None:
         return None
     roots: list[ExponentRoot] = []
-    singular = _singular(apart)
+    singular = singular_places(apart)
     for place in singular:
         square = _difference_squared(place)
         assert square is not None  # of points that aren't apart the same
@@ -611,12 +602,12 @@ def places_of(problem: Problem) -> Places | None:
     """The choices differ by a root: the exponent difference, or the root of a leading coefficient."""
     if is_too_large(problem.field):
         return None
-    if sum(place.degree for place in _singular(problem)) > _POINTS:
+    if sum(place.degree for place in singular_places(problem)) > _POINTS:
         return None
     split = _with_rational_points(problem)
     if split is None:
         return None
-    singular = _singular(split)
+    singular = singular_places(split)
     field = split.field
     roots: list[Poly] = []
     for place in singular:
@@ -632,7 +623,7 @@ def places_of(problem: Problem) -> Places | None:
     return Places(split, field, parts)
 
 
-def _singular(problem: Problem) -> list[Place]:
+def singular_places(problem: Problem) -> list[Place]:
     return [place for place in problem.places if place.kind is not Kind.ORDINARY]
 
 
@@ -653,7 +644,7 @@ def _with_rational_points(problem: Problem) -> Problem | None:
 
 def with_points_apart(problem: Problem) -> Problem | None:
     """The problem itself, or one with rational points where exponents differ at conjugate ones: None unless these are two."""
-    conjugate = [place for place in _singular(problem) if place.degree > 1 and place.kind is not Kind.RAMIFIED]
+    conjugate = [place for place in singular_places(problem) if place.degree > 1 and place.kind is not Kind.RAMIFIED]
     if all(_difference_squared(place) is not None for place in conjugate):
         return problem
     return _with_rational_points(problem) if [place.degree for place in conjugate] == [2] else None

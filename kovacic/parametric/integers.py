@@ -195,14 +195,10 @@ def _spectrum(equation: FunctionPoly, numbers: Classes, letter: str, setting: Se
             said = prose.text_of(prose.numbers_of(family))
             cost = _LATER * k + _STRATUM * len(strata) + _WEIGHT * len(text) + _WORDS * len(said)
             # Of n and -n that by which f(1) = 1, if there is one: n + k*n*(n - 1)/2, as Yoshida and Morales & Ramis have it.
-            is_numbered_otherwise = not _is_one_at_one(family.value)
+            above, below = (part(Fraction(1)) for part in (family.value.num, family.value.den))
+            is_numbered_otherwise = not below or above != below
             found.append((cost, is_numbered_otherwise, IntegerCondition(family, strata, is_solved=True)))
     return min(found, key=lambda one: one[:2])[2] if found else None
-
-
-def _is_one_at_one(value: RatFunc) -> bool:
-    one = Fraction(1)
-    return bool(value.den(one)) and value.num(one) == value.den(one)
 
 
 def _integer_choices(
@@ -217,21 +213,15 @@ def _integer_choices(
     has_bound = numbers.least is not None
     if has_bound or equation.degree > 1 or not is_single:
         yield solved.family(letter, numbers)
-    if is_single and not has_bound and (numbers.modulus < 3 or not is_mirrored):
-        for line in _lines(numbers, N):
+    modulus = numbers.modulus
+    if is_single and not has_bound and (modulus < 3 or not is_mirrored):
+        # The residue and its neighbours for r, and both signs of s for the modulus 1.
+        pairs = product((1, -1), (0, -1, 1)) if modulus == 1 else [(1, 0), (1, -1)]
+        for sign, shift in pairs:
+            line = N * (sign * modulus) + first + modulus * shift
             poles = tuple(Free(over_parameters((pole.root - line[0]) / line[1]), pole.zero) for pole in solved.poles)
             value = solved.value(RatFunc(line))
             yield IntegerFamily(letter, solved.parameter, value, INTEGERS, possible(poles, INTEGERS))
-
-
-def _lines(numbers: Classes, N: Poly) -> Iterator[Poly]:
-    """s n + r for an integer n, with the residue and its neighbours for r, and with both signs for the modulus 1."""
-    modulus = numbers.modulus
-    pairs = [(1, 0), (1, -1)]
-    if modulus == 1:
-        pairs = list(product((1, -1), (0, -1, 1)))
-    for sign, shift in pairs:
-        yield N * (sign * modulus) + numbers.residues[0] + modulus * shift
 
 
 def _roots(equation: FunctionPoly, numbers: Classes, constant: ParameterPoint) -> SumOfRoots | None:
@@ -296,14 +286,10 @@ def natural_root(equations: Sequence[FunctionPoly], letter: str, setting: Settin
         solved = _spectrum(equation, NATURALS, letter, setting)
         parts.append(EquationFor(letter, equation, NATURALS) if solved is None else solved.claim)
         for zero, rest in solved.strata if solved else ():
-            where.setdefault(zero, []).extend(_that_can_be_natural(rest))
+            possible_there = (one for one in irreducible_factors(rest) if one.degree > 0 and may_be_natural(one))
+            where.setdefault(zero, []).extend(possible_there)
     parts += [AllOf((natural_root(rests, letter, setting), IsZero(zero))) for zero, rests in where.items() if rests]
     return AnyOf(tuple(parts))
-
-
-def _that_can_be_natural(equation: FunctionPoly) -> list[FunctionPoly]:
-    """The irreducible factors that have a natural root for some values of the parameters."""
-    return [factor for factor in irreducible_factors(equation) if factor.degree > 0 and may_be_natural(factor)]
 
 
 def may_be_natural(factor: Poly) -> bool:

@@ -33,6 +33,7 @@ from kovacic.decision import Structure
 from kovacic.engine.places import Kind, Place, Problem, rational_square_root
 from kovacic.parametric import prose
 from kovacic.parametric.assumptions import Assumptions
+from kovacic.parametric.exponents import singular_places
 from kovacic.parametric.formulas import in_sum, root_written, shown
 from kovacic.parametric.functions import (
     ParameterPoint,
@@ -340,10 +341,6 @@ def is_fuchsian(problem: Problem) -> bool:
     return all(place.kind in (Kind.ORDINARY, Kind.REGULAR) for place in problem.places)
 
 
-def singular_places(problem: Problem) -> list[Place]:
-    return [place for place in problem.places if place.kind is not Kind.ORDINARY]
-
-
 def singular_points(problem: Problem) -> int:
     """How many there are on the sphere."""
     return sum(place.degree for place in singular_places(problem))
@@ -495,14 +492,14 @@ class _OneFunction:
 def _one_function(cubic: FunctionPoly) -> _OneFunction | None:
     """The exponent differences by one function of the parameters, where they are."""
     squares = roots(cubic)
-    free = [over_parameters(square) for square in squares if not _is_number(square)]
+    free = [over_parameters(square) for square in squares if cubic.field.rational_value(square) is None]
     if not free or len(squares) < 3:
         return None
     first = free[0]
     root = _rational_root(first)
     lines: list[_DifferenceLine | None] = []
     for square in squares:
-        if _is_number(square):
+        if cubic.field.rational_value(square) is not None:
             constant = rational_square_root(square)
             lines.append(None if constant is None else _DifferenceLine(_F(0), constant))
             continue
@@ -511,10 +508,6 @@ def _one_function(cubic: FunctionPoly) -> _OneFunction | None:
             return None
         lines.append(line)
     return _OneFunction(first, root, tuple(lines))
-
-
-def _is_number(value: Poly) -> bool:
-    return value.field.rational_value(value) is not None
 
 
 def _rational_root(square: Poly) -> FunctionPoly | None:

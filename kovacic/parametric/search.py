@@ -28,6 +28,7 @@ from kovacic.parametric.exponents import (
     conditions_of_degree,
     degrees_of_solutions,
     form_conditions,
+    singular_places,
     with_points_apart,
     zeros_of_forms,
 )
@@ -277,7 +278,7 @@ def all_half_integers(problem: Problem) -> Statement:
     """
     if not riemann.is_fuchsian(problem) or riemann.singular_points(problem) != _HEUN:
         return NEVER
-    squares = [place.delta_squared for place in riemann.singular_places(problem)]
+    squares = [place.delta_squared for place in singular_places(problem)]
     known = [square for square in squares if square is not None and square.degree <= 0]
     if len(known) < len(squares):
         return NEVER
