@@ -36,7 +36,7 @@ from kovacic.numbers.exact import whole
 from kovacic.parametric import prose
 from kovacic.parametric.assumptions import Assumptions, read_assumptions
 from kovacic.parametric.cases import equation_at, normal_form
-from kovacic.parametric.claims import AllOf, AnyOf, Claim, DegreeExists, IntegerFamily, ThatIs
+from kovacic.parametric.claims import AllOf, AnyOf, Claim, DegreeExists, IntegerFamily
 from kovacic.parametric.functions import (
     ParameterPoint,
     coefficients_in,
@@ -126,8 +126,6 @@ def _strata(claim: Claim) -> Iterator[FunctionPoly]:
         yield from (factor for factor in irreducible_factors(below) if not factor.degree)
     elif isinstance(claim, AllOf | AnyOf):
         parts = claim.parts
-    elif isinstance(claim, ThatIs):
-        parts = (claim.second,)
     elif isinstance(claim, DegreeExists):
         parts = (claim.degree,)
     for part in parts:

@@ -20,7 +20,6 @@ from kovacic.algebra.function_field import FunctionPoly
 from kovacic.algebra.poly import Field, Poly
 from kovacic.algebra.ratfunc import RatFunc
 from kovacic.algebra.rationals import QQ
-from kovacic.errors import VerificationFailed
 from kovacic.parametric.functions import NATURALS, Classes, ParameterPoint, over_parameters
 
 
@@ -79,20 +78,6 @@ class AllOf(Several):
 
 class AnyOf(Several):
     decisive = True
-
-
-@dataclass(frozen=True)
-class ThatIs(Claim):
-    """A statement in two equivalent forms."""
-
-    first: Claim
-    second: Claim
-
-    def _holds(self, point: ParameterPoint) -> bool:
-        found = self.first.holds(point)
-        if found is not self.second.holds(point):
-            raise VerificationFailed(f"two forms of one statement differ at {point}; please report it")
-        return found
 
 
 @dataclass(frozen=True)

@@ -118,9 +118,7 @@ def sides_of_equation(function: FunctionPoly) -> SidesOfEquation:
     It is solved where it is linear, or a power is a product of linear factors; two terms have two sides.
     """
     above, _, names = _as_quotient(function, "x")
-    solved = _solved_for_a_parameter(above)
-    if solved is None:
-        solved = _power_in_linear_factors(above)
+    solved = _solved_for_a_power(above)
     if solved is not None:
         return SidesOfEquation(_polynomial(solved.left, names), _shortest(solved.values, names))
     negative = {exponents: -int(c) for exponents, c in above.to_dict().items() if int(c) < 0}
@@ -137,35 +135,25 @@ class _SolvedFor(NamedTuple):
     values: Sequence[Sequence[_FormulaTerm]]
 
 
-def _solved_for_a_parameter(above: Any) -> _SolvedFor | None:
-    """A linear equation, solved for the first parameter with the coefficient 1 or -1, or for the first; None for others."""
-    terms = above.to_dict()
-    degrees = {exponents: sum(map(int, exponents)) for exponents in terms}
-    linear = [exponents for exponents, degree in degrees.items() if degree == 1]
-    if not linear or max(degrees.values()) > 1:
-        return None
-    without_fractions = (exponents for exponents in linear if abs(int(terms[exponents])) == 1)
-    chosen = next(without_fractions, linear[0])
-    coefficient = int(terms[chosen])
-    left = above.context().from_dict({chosen: 1})
-    values = _written_forms(left * coefficient - above, above.context().constant(coefficient))
-    return _SolvedFor(left, [*values])
+def _solved_for_a_power(polynomial: Any) -> _SolvedFor | None:
+    """t = f, where the equation is linear, with the coefficient 1 or -1 of t if there is one; else t^k = f, f a product of lines.
 
-
-def _power_in_linear_factors(polynomial: Any) -> _SolvedFor | None:
-    """t^k = f, f a product of linear forms, where there are more than two terms; None if no power is alone."""
-    if len(polynomial) <= 2:
+    None if no power is alone.  Two terms of higher degree have two sides.
+    """
+    is_linear = polynomial.total_degree() == 1
+    if not is_linear and len(polynomial) <= 2:
         return None
+    found: list[tuple[bool, _SolvedFor]] = []
     for i, degree in enumerate(map(int, polynomial.degrees())):
-        if not degree:
-            continue
         parts = by_power(polynomial, i)
-        if parts.keys() != {0, degree} or not parts[degree].is_constant():
+        if not degree or not parts.keys() <= {0, degree} or not parts[degree].is_constant():
             continue
-        value = _factored(-parts[0], parts[degree])
-        if all(factor.total_degree() == 1 for factor, _ in value.top):
-            return _SolvedFor(polynomial.context().gen(i) ** degree, [[value]])
-    return None
+        quotient = (-parts.get(0, 0 * polynomial), parts[degree])
+        values = [*_written_forms(*quotient)] if is_linear else [[_factored(*quotient)]]
+        if is_linear or all(factor.total_degree() == 1 for factor, _ in values[0][0].top):
+            has_fractions = is_linear and abs(int(parts[degree].leading_coefficient())) != 1
+            found.append((has_fractions, _SolvedFor(polynomial.context().gen(i) ** degree, values)))
+    return min(found, key=lambda one: one[0])[1] if found else None
 
 
 def root_written(square: Poly, factor: str = "") -> str:

@@ -43,7 +43,6 @@ from kovacic.parametric.claims import (
     IsNonzero,
     IsZero,
     SumOfRoots,
-    ThatIs,
     rational_roots,
 )
 from kovacic.parametric.formulas import shortest
@@ -168,9 +167,7 @@ def integer_condition(
         return spectrum or IntegerCondition(EquationFor(letter, equation, numbers))
     if spectrum is None:
         return IntegerCondition(roots)
-    if len(roots.squares) > 1:
-        return IntegerCondition(roots if spectrum.strata else ThatIs(roots, spectrum.claim))
-    return spectrum
+    return IntegerCondition(roots) if len(roots.squares) > 1 and spectrum.strata else spectrum
 
 
 def _spectrum(equation: FunctionPoly, numbers: Classes, letter: str, setting: Setting) -> IntegerCondition | None:

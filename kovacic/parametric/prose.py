@@ -25,7 +25,6 @@ from kovacic.parametric.claims import (
     IsNonzero,
     IsZero,
     SumOfRoots,
-    ThatIs,
 )
 from kovacic.parametric.formulas import (
     SidesOfEquation,
@@ -436,7 +435,6 @@ _WRITERS: dict[type, Callable[[Any], Words]] = {
     SumOfRoots: lambda claim: (roots_of(claim), " is ", *kind(claim.numbers)),
     IntegerFamily: lambda claim: (*head_of(claim), *numbers_of(claim)),
     EquationFor: lambda claim: (*head_of(claim), *numbers_of(claim)),
-    ThatIs: lambda claim: (*sentence(claim.first), ", that is ", *sentence(claim.second)),
     DegreeBySum: _degree_by_sum,
     DegreeExists: _degree_exists,
 }

@@ -73,8 +73,7 @@ TABLE = [
     Published(
         "Rosen-Morse",
         "-(1-(-E-b))/(4*x^2)-(1-(-E+b))/(4*(x-1)^2)-((-E-b)+(-E+b)-(2*l+1)^2-1)/(4*x*(x-1))",
-        "2*l +- sqrt(-E + b) +- sqrt(-E - b) is an even integer, "
-        "that is E = -(n - l)^2 - b^2/(4*(n - l)^2) (b = 0 where n = l) for an integer n",
+        "E = -(n - l)^2 - b^2/(4*(n - l)^2) (b = 0 where n = l) for an integer n",
         1,
         "E = -(l - n)^2 - b^2/(4 (l - n)^2)",
         lambda n, l: {"E": -F((l + n + 1) ** 2) - F(4, 4 * (l + n + 1) ** 2), "b": 2, "l": l},  # noqa: E741
@@ -83,8 +82,7 @@ TABLE = [
     Published(
         "Hulthen",
         "-(1-(-E))/(4*(x-1)^2)*0+((-E+V-1)*x-V)/(4*x*(x-1)^2)",
-        "sqrt(-E + V) +- sqrt(-E) is an even integer, "
-        "that is E = -(4*n^2 - V)^2/(16*n^2) (V = 0 where n = 0) for an integer n",
+        "E = -(4*n^2 - V)^2/(16*n^2) (V = 0 where n = 0) for an integer n",
         1,
         "E = -((V - N^2)/(2 N))^2, N even",
         lambda n, v: {"E": -(F(v - 4 * (n + 1) ** 2, 4 * (n + 1)) ** 2), "V": v},

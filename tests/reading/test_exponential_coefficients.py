@@ -45,14 +45,12 @@ POTENTIALS = {
     ),
     "Rosen-Morse": (
         "b*tanh(x) - l*(l+1)*sech(x)^2 - E",
-        "2*l +- sqrt(-E + b) +- sqrt(-E - b) is an even integer, "
-        "that is E = -(n - l)^2 - b^2/(4*(n - l)^2) (b = 0 where n = l) for an integer n: case 1",
+        "E = -(n - l)^2 - b^2/(4*(n - l)^2) (b = 0 where n = l) for an integer n: case 1",
         lambda n, a, b: {"l": a, "b": b, "E": -((a - n) ** 2) - b * b / (4 * (a - n) ** 2)},
     ),
     "Eckart": (
         "-2*b*coth(x) + a*(a-1)*csch(x)^2 - E",
-        "2*a +- sqrt(-E + 2*b) +- sqrt(-E - 2*b) is an even integer, "
-        "that is E = -(n - a)^2 - b^2/(n - a)^2 (b = 0 where n = a) for an integer n: case 1",
+        "E = -(n - a)^2 - b^2/(n - a)^2 (b = 0 where n = a) for an integer n: case 1",
         lambda n, a, b: {"a": a, "b": b, "E": -((a + n) ** 2) - b * b / (a + n) ** 2},
     ),
     "Rosen-Morse, trigonometric": (
