@@ -36,7 +36,7 @@ from kovacic.numbers.exact import whole
 from kovacic.parametric import prose
 from kovacic.parametric.assumptions import Assumptions, read_assumptions
 from kovacic.parametric.cases import equation_at, normal_form
-from kovacic.parametric.claims import AllOf, AnyOf, Claim, DegreeExists, IntegerFamily
+from kovacic.parametric.claims import Claim, DegreeExists, IntegerFamily, Several
 from kovacic.parametric.functions import (
     ParameterPoint,
     coefficients_in,
@@ -120,16 +120,13 @@ def compare(found: ParametricAnswer, samples: int, seed: int) -> CheckReport:
 
 def _strata(claim: Claim) -> Iterator[FunctionPoly]:
     """The functions of the parameters that are denominators in what is printed: it isn't defined at their zeros."""
-    parts: tuple[Claim, ...] = ()
     if isinstance(claim, IntegerFamily):
         below = over_parameters(claim.value.cleared()[1])
         yield from (factor for factor in irreducible_factors(below) if not factor.degree)
-    elif isinstance(claim, AllOf | AnyOf):
-        parts = claim.parts
     elif isinstance(claim, DegreeExists):
-        parts = (claim.degree,)
-    for part in parts:
-        yield from _strata(part)
+        yield from _strata(claim.degree)
+    elif isinstance(claim, Several):
+        yield from chain.from_iterable(map(_strata, claim.parts))
 
 
 def contradictions(found: ParametricAnswer, point: ParameterPoint) -> Iterator[str]:

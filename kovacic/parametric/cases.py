@@ -304,7 +304,7 @@ def _is_redundant(
     """
     if not _is_known(region) or region.complete is not True:
         return False
-    is_generic = generic is not None and _is_alike(generic, region.verdict)
+    is_generic = generic is not None and generic.says_the_same(region.verdict)
     is_variety = all(isinstance(part, Vanishes) for part in region.statement.conjuncts)
     if not is_generic and not is_variety:
         return False
@@ -326,11 +326,7 @@ def _is_redundant(
 
 
 def _is_same_region(first: ParameterRegion, second: ParameterRegion) -> bool:
-    return _is_alike(first.verdict, second.verdict)
-
-
-def _is_alike(first: RegionVerdict, second: RegionVerdict) -> bool:
-    return first == second and first.group == second.group
+    return first.verdict.says_the_same(second.verdict)
 
 
 def _proves_a_solution(region: ParameterRegion) -> bool:

@@ -22,12 +22,12 @@ from dataclasses import dataclass
 from fractions import Fraction
 from functools import reduce
 from itertools import chain, combinations, product
-from math import comb, gcd, lcm
+from math import comb, gcd
 from operator import mul
 from random import Random
 from typing import Any, NamedTuple
 
-from flint import fmpz_mat, nmod_mat, nmod_poly
+from flint import nmod_mat, nmod_poly
 
 from kovacic.algebra.extension import AlgebraicField, adjoined_square_root, norm
 from kovacic.algebra.function_field import FunctionField, FunctionPoly
@@ -35,6 +35,7 @@ from kovacic.algebra.lifting import primes
 from kovacic.algebra.poly import Field, Poly
 from kovacic.algebra.ratfunc import RatFunc
 from kovacic.algebra.rationals import QQ
+from kovacic.algebra.recurrence import polynomial_solution
 from kovacic.algebra.sparse import by_power
 from kovacic.engine.invariants import bounds, least_valuation
 from kovacic.engine.local import irregular_difference_squared
@@ -72,35 +73,6 @@ class RankConditions:
     @property
     def happen_nowhere(self) -> bool:
         return not self.polynomials and self.system == () and not self.deficient
-
-
-def has_kernel(images: Sequence[Poly]) -> bool:
-    """True if polynomials over Q are linearly dependent.
-
-    A rank modulo a prime can only be smaller: where it is full there, it is full.  Where it isn't for several primes, they
-    divide all minors of this size, which are 0 if the product of the primes exceeds that of the lengths of the rows [Hadamard].
-    """
-    count = len(images)
-    width = max((image.degree for image in images), default=-1) + 1
-    if width < count:
-        return True
-    rows = []
-    bits = 0
-    for image in images:  # the coefficients of a multiple, padded
-        coefficients = image.rational_coefficients()
-        common = lcm(*(int(c.q) for c in coefficients))
-        numbers = [int(c.p) * (common // int(c.q)) for c in coefficients]
-        rows.append([*numbers, *[0] * (width - len(numbers))])
-        bits += sum(number**2 for number in numbers).bit_length() // 2 + 1
-    matrix = fmpz_mat(rows)
-    for p in primes():
-        check_time()
-        if nmod_mat(matrix, p).rank() == count:
-            return False
-        bits -= p.bit_length() - 1
-        if bits < 0:
-            return True
-    raise AssertionError("the sequence of primes is infinite")
 
 
 def rank_conditions(images: Sequence[Poly], field: Field) -> RankConditions:
@@ -407,12 +379,18 @@ class Exponents:
         """The degree of P."""
         return 1 - sum((part.exponent for part in self.parts), self.field.poly([]))
 
-    def images(self, d: int) -> list[Poly]:
-        """The images of 1, x, ..., x^d under D P'' + 2 R P' + ((R' D - R D' + R^2 - T)/D) P, theta = R/D."""
-        D = self.problem.D.over(self.field)
-        x = self.field.poly([0, 1])
+    @property
+    def operator(self) -> tuple[Poly, Poly, Poly]:
+        """D, 2 R and (R' D - R D' + R^2 - T)/D for theta = R/D: the coefficients of P'', P' and P."""
+        D, T = self.problem.D.over(self.field), self.problem.T.over(self.field)
         R = (sum((part.theta for part in self.parts), RatFunc(0 * D)) * D).num
-        return [2 * Form(1, R, x**k).numerators(self.problem)[-1] // D for k in range(d + 1)]
+        return D, 2 * R, (R.derivative() * D - R * D.derivative() + R * R - T) // D
+
+    def images(self, d: int) -> list[Poly]:
+        """Those of 1, x, ..., x^d."""
+        second, first, zeroth = self.operator
+        powers = [self.field.poly([0] * k + [1]) for k in range(d + 1)]
+        return [second * P.derivative().derivative() + first * P.derivative() + zeroth * P for P in powers]
 
     def conditions(self, d: int, below: Field) -> RankConditions:
         """The condition for a polynomial P of this degree, over the field below."""
@@ -546,10 +524,7 @@ def conditions_of_degree(problem: Problem, d: int) -> list[RankConditions] | Non
 def has_solution(problem: Problem, d: int) -> bool | None:
     """True if, over a field of numbers, a solution has a P of this degree.  None as in `choices_of_degree`."""
     chosen = choices_of_degree(problem, d)
-    if chosen is None:
-        return None
-    numbers = problem.field.ground
-    return any(has_kernel(_coordinates(e.images(d), e.field, numbers)) for e in chosen)
+    return None if chosen is None else any(polynomial_solution(*one.operator, d) is not None for one in chosen)
 
 
 def _coordinates(images: Sequence[Poly], field: Field, below: Field) -> list[Poly]:
@@ -693,29 +668,16 @@ def _local_parts(place: Place, S: RatFunc, root: Poly) -> list[LocalPart]:
     return [LocalPart(factor, 1 - (sign * ratio - n) / 2, sign * main) for sign in (1, -1)]
 
 
-def form_images(problem: Problem, m: int) -> list[Poly] | None:
-    """The images of 1, x, ..., x^N under the map whose kernel has the P of the rational forms of degree m.
+def form_conditions(problem: Problem, m: int) -> RankConditions:
+    """Where there are more rational forms of degree m than generically, whether or not there are logarithms there.
 
-    Whether or not there are logarithms at special values.  None if there can be no such form.
+    The map P -> A_(m+1) takes 1, x, ..., x^N to polynomials that span less.
     """
     bound = bounds(problem, m, logarithms=False)
     if bound is None:
-        return None
+        return RankConditions()
     valuations, N = bound
     x = problem.field.poly([0, 1])
     R0 = singular_part(problem, valuations[:-1])
-    return [Form(m, R0, x**j).numerators(problem)[-1] for j in range(N + 1)]
-
-
-def form_conditions(problem: Problem, m: int) -> RankConditions:
-    """Where there are more rational forms of degree m than generically."""
-    images = form_images(problem, m)
-    if images is None:
-        return RankConditions()
+    images = [Form(m, R0, x**j).numerators(problem)[-1] for j in range(N + 1)]
     return rank_conditions(images, problem.field)
-
-
-def has_form(problem: Problem, m: int) -> bool:
-    """True if, over a field of numbers, the solutions have a rational form of degree m."""
-    images = form_images(problem, m)
-    return images is not None and has_kernel(_coordinates(images, problem.field, problem.field.ground))

@@ -136,7 +136,7 @@ class _SolvedFor(NamedTuple):
 
 
 def _solved_for_a_power(polynomial: Any) -> _SolvedFor | None:
-    """t = f, where the equation is linear, with the coefficient 1 or -1 of t if there is one; else t^k = f, f a product of lines.
+    """t = f for a linear equation, with the coefficient 1 or -1 of t if there is one; else t^k = f, a product of linear forms.
 
     None if no power is alone.  Two terms of higher degree have two sides.
     """

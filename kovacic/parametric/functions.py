@@ -252,20 +252,13 @@ def values_at_integers(form: FunctionPoly, largest: int) -> ValuesAtIntegers | N
     (k,) = used
     if int(form.den.degrees()[k]) != 1 or int(form.num.degrees()[k]) > 1:
         return None
-
-    def parts_at(t: int) -> tuple[int, int]:
-        point = [0] * k + [t] + [0] * (len(form.field.names) - k)
-        return int(form.num(*point)), int(form.den(*point))
-
-    b, d = parts_at(0)
-    a, c = (first - second for first, second in zip(parts_at(1), (b, d), strict=True))
+    parts = (by_power(part, k) for part in (form.num, form.den))
+    numbers = [[int(part[j].leading_coefficient()) if j in part else 0 for j in (0, 1)] for part in parts]
+    (b, a), (d, c) = numbers
     most = largest * abs(a * d - b * c)
     if most > _MOST_INTEGERS:
         return None
     end = (most + abs(d)) // abs(c)
-    found: dict[int, Fraction] = {}
-    for t in range(-end, end + 1):
-        above, below = parts_at(t)
-        if below and Fraction(above, below).denominator <= largest:
-            found[t] = Fraction(above, below)
+    values = {t: Fraction(a * t + b, c * t + d) for t in range(-end, end + 1) if c * t + d}
+    found = {t: value for t, value in values.items() if value.denominator <= largest}
     return ValuesAtIntegers(form.field.names[k - 1], found)

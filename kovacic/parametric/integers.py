@@ -43,6 +43,7 @@ from kovacic.parametric.claims import (
     IsNonzero,
     IsZero,
     SumOfRoots,
+    rational,
     rational_roots,
 )
 from kovacic.parametric.formulas import shortest
@@ -128,12 +129,8 @@ def solve_for(name: str, equation: FunctionPoly) -> SolvedCondition | None:
 
 def possible(poles: Sequence[Free], numbers: Classes) -> tuple[Free, ...]:
     """The poles at which n can be one of the numbers."""
-    found = []
-    for pole in poles:
-        number = pole.root.field.rational_value(pole.root)
-        if number is None or numbers.contains(number):
-            found.append(pole)
-    return tuple(found)
+    known = [(pole, rational(pole.root)) for pole in poles]
+    return tuple(pole for pole, number in known if number is None or numbers.contains(number))
 
 
 def all_solved(equation: FunctionPoly, fixed: Collection[str] = ()) -> list[SolvedCondition]:
@@ -506,10 +503,6 @@ def integer_roots(equation: FunctionPoly, residues: Iterable[Fraction | int], mo
 
 def without_parameters(polynomial: Poly) -> Poly | None:
     """The polynomial over Q; None if a coefficient has parameters."""
-    values: list[Fraction] = []
-    for coefficient in polynomial:
-        value = polynomial.field.rational_value(coefficient)
-        if value is None:
-            return None
-        values.append(value)
-    return QQ.poly(values)
+    values = [rational(coefficient) for coefficient in polynomial]
+    known = [value for value in values if value is not None]
+    return QQ.poly(known) if len(known) == len(values) else None

@@ -23,7 +23,8 @@ from kovacic.algebra.extension import AlgebraicField
 from kovacic.algebra.function_field import FunctionField, FunctionPoly
 from kovacic.algebra.ratfunc import RatFunc
 from kovacic.algebra.rationals import QQ
-from kovacic.decision import Structure
+from kovacic.decision import NoInvariant, Structure
+from kovacic.engine.invariants import invariants
 from kovacic.engine.places import Problem, analyse
 from kovacic.equation import parameters_of
 from kovacic.errors import LimitExceeded
@@ -37,7 +38,6 @@ from kovacic.parametric.exponents import (
     conditions_of_degree,
     degrees_of_solutions,
     form_conditions,
-    has_form,
     has_solution,
     is_too_large,
     zeros_of_forms,
@@ -356,4 +356,4 @@ def _has_solution(S: RatFunc, number: int) -> bool:
 
 @lru_cache(maxsize=256)
 def _has_form(S: RatFunc, m: int) -> bool:
-    return has_form(analyse(S, Budget()), m)
+    return not isinstance(invariants(analyse(S, Budget()), m), NoInvariant)

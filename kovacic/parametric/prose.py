@@ -177,12 +177,17 @@ def unequal(zero: FunctionPoly) -> Math:
     return Math.of(f"{alone(left)} != {right}")
 
 
+def _modulo_integers(form: FunctionPoly) -> str:
+    """2*n - 1/2: of the constant term only what it is modulo 1."""
+    constant = constant_term(form)
+    shift = f" - {-constant % 1}" if constant.denominator > 1 else ""
+    return function(form - constant) + shift
+
+
 def _in_classes(claim: InClasses) -> Words:
     numbers = claim.numbers
-    if numbers == INTEGERS:  # 2*n - 1/2 in Z: of the constant term only what it is modulo 1
-        constant = constant_term(claim.form)
-        shift = f" - {-constant % 1}" if constant.denominator > 1 else ""
-        return (Math.of(f"{function(claim.form - constant)}{shift} in Z"),)
+    if numbers == INTEGERS:
+        return (Math.of(f"{_modulo_integers(claim.form)} in Z"),)
     form = Math.of(function(claim.form))
     if is_named(numbers):
         return (form, " is ", *kind(numbers))
@@ -298,10 +303,7 @@ def _of_one_kind(parts: Sequence[Claim]) -> Words | None:
         elif isinstance(part, InClasses) and part.numbers != INTEGERS and is_named(part.numbers):
             forms.append(Math.of(function(part.form)))
         elif isinstance(part, InClasses) and part.numbers == INTEGERS and len(parts) > 2:
-            constant = constant_term(part.form) % 1
-            forms.append(
-                Math.of(function(part.form - constant_term(part.form)) + (f" - {1 - constant}" if constant else ""))
-            )
+            forms.append(Math.of(_modulo_integers(part.form)))
         else:
             return None
         numbers.add(part.numbers)

@@ -114,6 +114,10 @@ class RegionVerdict:
             return prose.ABELIAN
         return self.abelian or ("abelian unless the group has dimension 2",)
 
+    def says_the_same(self, other: RegionVerdict) -> bool:
+        """True for the same structure, of the same group."""
+        return self == other and self.group == other.group
+
     def __str__(self) -> str:
         if not self.known:
             return "not determined"

@@ -214,20 +214,11 @@ NEVER = Either(())
 def either(*statements: Statement) -> Statement:
     """One statement that says that at least one of them holds; those about one form are merged."""
     merged: list[Statement] = []
-    for one in statements:
-        for part in one.alternatives:
-            _add(part, merged)
-    if len(merged) == 1:
-        return merged[0]
-    return Either(tuple(merged))
-
-
-def _add(statement: Statement, alternatives: list[Statement]) -> None:
-    """Merged with the first of the alternatives with which that can be, else as a new one."""
-    for k, known in enumerate(alternatives):
-        union = known.merged(statement)
+    for part in chain.from_iterable(one.alternatives for one in statements):
+        unions = (known.merged(part) for known in merged)
+        k, union = next(((k, union) for k, union in enumerate(unions) if union is not None), (0, None))
         if union is not None:
-            alternatives[k] = union
-            return
-    if statement not in alternatives:
-        alternatives.append(statement)
+            merged[k] = union
+        elif part not in merged:
+            merged.append(part)
+    return merged[0] if len(merged) == 1 else Either(tuple(merged))

@@ -24,12 +24,12 @@ import kovacic.ball
 #: What the page of the types says isn't public: data behind answers, of which no attribute is promised.
 INTERNAL = {
     "Assumptions",
+    "Carried",
     "Congruence",
     "Decision",
     "ExactPoint",
     "Exponential",
     "FunctionPoly",
-    "GivenSolutions",
     "NumericProblem",
     "Math",
     "Signed",

@@ -104,8 +104,8 @@ def test_conditions_that_are_false_never_leave(
 ) -> None:
     S, where, wrong = PLANTED[fault]
     monkeypatch.setattr(where, wrong)
-    solutions._given.cache_clear()  # what was right before
-    request.addfinalizer(solutions._given.cache_clear)
+    solutions.given.cache_clear()  # what was right before
+    request.addfinalizer(solutions.given.cache_clear)
     with pytest.raises(kovacic.VerificationFailed, match="failed their own check"):
         kovacic.conditions(S, var="x", max_degree=0)
 

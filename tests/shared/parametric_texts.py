@@ -20,7 +20,6 @@ from kovacic.parametric.claims import (
     IntegerFamily,
     IsZero,
     SumOfRoots,
-    ThatIs,
 )
 from kovacic.parametric.prose import marked, sentence
 
@@ -47,9 +46,8 @@ def says(claim: Claim, values: Values) -> bool:
     if isinstance(claim, IsZero):
         (equation,) = written(claim).strip("`").split("`")
         return _is_true(equation, values)
-    if isinstance(claim, IntegerFamily | EquationFor | SumOfRoots | InClasses | ThatIs):
-        family = claim.second if isinstance(claim, ThatIs) else claim
-        letter = family.letter if isinstance(family, IntegerFamily | EquationFor) else ""
+    if isinstance(claim, IntegerFamily | EquationFor | SumOfRoots | InClasses):
+        letter = claim.letter if isinstance(claim, IntegerFamily | EquationFor) else ""
         return _integer(written(claim), letter, values)
     raise NotReadError(type(claim).__name__)
 
@@ -178,8 +176,7 @@ def _kind(words: str) -> Callable[[Any], bool]:
     return belongs
 
 
-def _integer(said: str, letter: str, values: Values) -> bool:
-    text = said.partition(", that is ")[0]
+def _integer(text: str, letter: str, values: Values) -> bool:
     if match := re.fullmatch(r"`([^`]*) in Z`", text):
         return bool(read(match[1], values).is_Integer)
     if match := re.fullmatch(r"`([^`]*) = ([^`=]*) mod ([^`]*)`", text):
@@ -190,7 +187,7 @@ def _integer(said: str, letter: str, values: Values) -> bool:
         return any(belongs(sympy.simplify(read(form, values))) for form in _signs(match[1]))
     match = re.fullmatch(r"`([^`]*)`( \(.*\))?( for .*)", text)
     if match is None:
-        raise NotReadError(said)
+        raise NotReadError(text)
     equation, note, rest = match.groups()
     for n in _possible(rest, letter, values):
         there = {**values, letter: n}
