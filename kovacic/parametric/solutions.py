@@ -515,12 +515,14 @@ def rows_of(solutions: Iterable[PolynomialSolution], family: IntegerFamily, lett
         there = solution.with_values(values)
         written = _without_roots(there.degree)
         degree = sympy.expand(written)
+        progressions = [*_progressions(degree, n, family)]
+        if not progressions:
+            continue
         y = _without_roots(there.y).xreplace({written: degree})
         there = PolynomialSolution(y, degree, jacobi=tuple(map(_without_roots, there.jacobi)))
-        found = [*_progressions(degree, n, family)]
-        if found and there.exclusion(family.letter):
+        if there.exclusion(family.letter):
             return []
-        rows += [SolutionRow(progression, there) for progression in found]
+        rows += [SolutionRow(progression, there) for progression in progressions]
     numbers = [number for number in range(-_CHECKED, _CHECKED + 1) if family.numbers.contains(Fraction(number))]
     if not all(any(row.numbers.contains(number) for row in rows) for number in numbers):
         return []
