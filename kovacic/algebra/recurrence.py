@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from math import lcm
 from operator import mul
-from typing import Any
+from typing import Any, NamedTuple
 
 from flint import fmpq, fmpq_poly, fmpz, fmpz_poly
 
@@ -204,6 +204,14 @@ def _operator_value(coefficients: tuple[Any, ...], k: int) -> Any:
     return a * (k * (k - 1)) + b * k + c
 
 
+class Descended(NamedTuple):
+    """P = x^d + ..., whose coefficients follow from the top, what an operator leaves of it, and the power that was free."""
+
+    P: Poly
+    rest: Poly
+    free: int | None
+
+
 def polynomial_solution(second: Poly, first: Poly, zeroth: Poly, degree: int) -> Poly | None:
     """The monic P of the given degree with `second P'' + first P' + zeroth P = 0`, or None if there is none.
 
@@ -211,52 +219,47 @@ def polynomial_solution(second: Poly, first: Poly, zeroth: Poly, degree: int) ->
     more than one other k; if that is a smaller natural number, a multiple of the solution that begins there may have to
     be added.
     """
+    found = descended(second, first, zeroth, degree)
+    if found is None or not found.rest:
+        return found and found.P
+    other = None if found.free is None else descended(second, first, zeroth, found.free)
+    if other is None or other.rest.degree != found.rest.degree:
+        return None
+    factor = -found.rest.lc / other.rest.lc
+    return None if found.rest + factor * other.rest else found.P + factor * other.P
+
+
+def descended(second: Poly, first: Poly, zeroth: Poly, degree: int) -> Descended | None:
+    """The P of the given degree of which the operator leaves low powers alone; a free coefficient is set to 0.
+
+    None if the degree isn't possible, or the free coefficient meets an obstruction.
+    """
+    field = first.field
     parts = list[Any]([second, first, zeroth])
     shift = _shift(*parts)
-    if first.field == QQ:  # in integers
+    if field == QQ:  # in integers
         scale = lcm(*(f.content()[1] for f in parts))
         parts = [(f * scale).rep.numer() for f in parts]
-    operator = _rows(parts, shift)
-    if _operator_value(operator[0], degree):
+    lowest, *others = _rows(parts, shift)
+    if _operator_value(lowest, degree):
         return None
-    main = _descend(first.field, operator, degree)
-    if main is None:
-        return None
-    P, free = main
-    remainder = _remainder(second, first, zeroth, P)
-    if not remainder:
-        return P
-    other = None if free is None else _descend(first.field, operator, free)
-    if other is None:
-        return None
-    further = _remainder(second, first, zeroth, other[0])
-    if further.degree != remainder.degree:
-        return None
-    factor = -remainder.lc / further.lc
-    return None if remainder + factor * further else P + factor * other[0]
-
-
-def _descend(field: Field, operator: list[tuple[Any, ...]], start: int) -> tuple[Poly, int | None] | None:
-    """x^start + ..., of which the operator leaves a remainder of low powers alone, and the power whose coefficient was free
-    and set to 0.  None if the free coefficient meets an obstruction.
-    """
-    lowest, *others = operator
     free = None
     series = RationalSeries(len(others)) if field == QQ else FieldSeries(field, len(others))
-    for k in range(start - 1, -1, -1):
+    for k in range(degree - 1, -1, -1):
         if k % 64 == 0:
             check_time()
         pivot = _operator_value(lowest, k)
         obstruction = series.extend(
-            pivot, [_operator_value(row, k + j) for j, row in enumerate(others[: start - k], 1)]
+            pivot, [_operator_value(row, k + j) for j, row in enumerate(others[: degree - k], 1)]
         )
         if obstruction:
             return None
         if not pivot:
             free = k
-    # The term number n of the series is the coefficient of x^(start - n).
-    downwards = series.polynomial(start + 1)
-    return downwards.reversed(start - downwards.degree), free
+    # The term number n of the series is the coefficient of x^(degree - n).
+    downwards = series.polynomial(degree + 1)
+    P = downwards.reversed(degree - downwards.degree)
+    return Descended(P, _remainder(second, first, zeroth, P), free)
 
 
 def _remainder(second: Poly, first: Poly, zeroth: Poly, P: Poly) -> Poly:

@@ -393,32 +393,25 @@ class Exponents:
         return [second * P.derivative().derivative() + first * P.derivative() + zeroth * P for P in powers]
 
     def conditions(self, d: int, below: Field) -> RankConditions:
-        """The condition for a polynomial P of this degree, over the field below."""
-        return rank_conditions(_coordinates(self.images(d), self.field, below), below)
+        """The condition for a polynomial P of this degree, over the field below.
 
-    def polynomial(self, d: int) -> PossiblePolynomial | None:
-        """The only monic P of degree d that can solve the equation.
-
-        The coefficients follow from the highest one down; None if they don't.
+        The map is one over that field, from the basis of the extension times 1, x, ...; the coordinates of an image are put
+        into one polynomial, one behind the other for each power.
         """
-        images = self.images(d)
-        shift = max(image.degree - k for k, image in enumerate(images))
-        P = self.field.poly([0] * d + [1])
-        rest = images[d]
-        for k in range(d - 1, -1, -1):
-            if not images[k][k + shift]:
-                return None
-            factor = rest[k + shift] / images[k][k + shift]
-            P = P - self.field.poly([0] * k + [factor])
-            rest = rest - images[k] * factor
-        return PossiblePolynomial(P, rest)
-
-
-class PossiblePolynomial(NamedTuple):
-    """A polynomial that solves an equation where `rest`, what is left of its image, is 0."""
-
-    P: Poly
-    rest: Poly
+        basis = [self.field.poly([1])]  # products of powers of the generators
+        level = self.field
+        while level != below:
+            assert isinstance(level, AlgebraicField)
+            basis = [member * level.generator**k for k in range(level.dimension) for member in basis]
+            level = level.base
+        images = []
+        for image, member in product(self.images(d), basis):
+            parts = [image * member]
+            while parts[0].field != below:
+                parts = [*chain.from_iterable(part.parts for part in parts)]
+            size = max(part.degree for part in parts) + 1
+            images.append(below.poly([part[k] for k in range(size) for part in parts]))
+        return rank_conditions(images, below)
 
 
 class ExponentRoot(NamedTuple):
@@ -525,38 +518,6 @@ def has_solution(problem: Problem, d: int) -> bool | None:
     """True if, over a field of numbers, a solution has a P of this degree.  None as in `choices_of_degree`."""
     chosen = choices_of_degree(problem, d)
     return None if chosen is None else any(polynomial_solution(*one.operator, d) is not None for one in chosen)
-
-
-def _coordinates(images: Sequence[Poly], field: Field, below: Field) -> list[Poly]:
-    """The images under the same map over the field below: those of the basis of the extension times 1, x, ...
-
-    The coordinates of an image are put into one polynomial, one behind the other for each power.
-    """
-    basis = [field.poly([1])]  # products of powers of the generators
-    level = field
-    while level != below:
-        assert isinstance(level, AlgebraicField)
-        basis = [member * level.generator**k for k in range(level.dimension) for member in basis]
-        level = level.base
-    if len(basis) == 1:
-        return list(images)
-    found = []
-    for image in images:
-        for member in basis:
-            parts = _parts(image * member, below)
-            size = max(part.degree for part in parts) + 1
-            found.append(below.poly([part[k] for k in range(size) for part in parts]))
-    return found
-
-
-def _parts(polynomial: Poly, below: Field) -> list[Poly]:
-    """The coordinates of a polynomial over a field below its own."""
-    if polynomial.field == below:
-        return [polynomial]
-    found = []
-    for part in polynomial.parts:
-        found += _parts(part, below)
-    return found
 
 
 @dataclass(frozen=True)

@@ -26,6 +26,7 @@ from kovacic.algebra.function_field import FunctionPoly
 from kovacic.algebra.poly import Field, Poly
 from kovacic.algebra.ratfunc import RatFunc
 from kovacic.algebra.rationals import QQ
+from kovacic.algebra.recurrence import descended
 from kovacic.closed_form.atoms import Atoms, display
 from kovacic.closed_form.product import product as product_of_powers
 from kovacic.closed_form.structure import Diagonal, build
@@ -311,8 +312,8 @@ def solution_of_degree(exponents: Exponents, d: int, variable: str, given: Funct
     """
     if not has_radicals(exponents.field):
         return None
-    found = exponents.polynomial(d)
-    if found is None:
+    found = descended(*exponents.operator, d)
+    if found is None or found.free is not None:
         return None
     alternatives = [_conditions(coefficient) for coefficient in found.rest if coefficient]
     exists_nowhere = [] in alternatives
