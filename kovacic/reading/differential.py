@@ -31,7 +31,7 @@ from kovacic.reading.dialects import tokenize
 from kovacic.reading.expression import OperationPlace, RationalReader, parse_with
 from kovacic.reading.lexer import DERIVATIVES, PRIMES
 from kovacic.reading.linear import REST, DerivativeOperator, LinearArithmetic, LinearForm, differentiations, is_rational
-from kovacic.reading.names import FUNCTION_NAMES, NUMBERS, SEVERAL_ARGUMENTS, TRANSCENDENTAL_HINT
+from kovacic.reading.names import NUMBERS, TRANSCENDENTAL_HINT
 from kovacic.reading.parser import Site, evaluate
 
 _ORDER = 2
@@ -216,11 +216,10 @@ class EquationReader(RationalReader):
                 import sympy
 
                 return sympy.Function(head)(sympy.Symbol(self.variable))
-            if head in SEVERAL_ARGUMENTS:
-                return self.arithmetic.of_several(head, arguments)
-            if head not in FUNCTION_NAMES or len(arguments) != 1 or isinstance(arguments[0], tuple):
+            value = self.arithmetic.called(head, arguments)
+            if value is None:
                 raise
-            return self.arithmetic.applied(head, arguments[0])
+            return value
 
     def _call_of_unknown(self, head: str, arguments: list[Any], site: Site) -> LinearForm:
         y = self.unknown

@@ -175,7 +175,14 @@ class LinearArithmetic(Arithmetic):
                 terms.append(self._multiple(form, operator.parts[k]))
         return self.sum(terms)
 
-    def of_several(self, head: str, arguments: Sequence[Any]) -> Any:
+    def called(self, head: str, arguments: Sequence[Any]) -> Any:
+        """A function of `FUNCTION_NAMES` or `SEVERAL_ARGUMENTS`, by SymPy; None for any other call."""
+        if head in SEVERAL_ARGUMENTS:
+            return self._of_several(head, arguments)
+        is_function = head in FUNCTION_NAMES and len(arguments) == 1 and not isinstance(arguments[0], tuple)
+        return self.applied(head, arguments[0]) if is_function else None
+
+    def _of_several(self, head: str, arguments: Sequence[Any]) -> Any:
         """One of the functions of `SEVERAL_ARGUMENTS`, by SymPy; the arguments of Piecewise are pairs."""
         import sympy
 

@@ -30,7 +30,7 @@ from kovacic.reading.dialects import tokenize
 from kovacic.reading.expression import OperationPlace, RationalReader
 from kovacic.reading.lexer import DERIVATIVES, PRIMES, check_length
 from kovacic.reading.linear import LinearArithmetic, Symbols, differentiations
-from kovacic.reading.names import FUNCTION_NAMES, NUMBER_NAMES, NUMBERS, POWER_CALLS, SEVERAL_ARGUMENTS, is_function
+from kovacic.reading.names import FUNCTION_NAMES, NUMBER_NAMES, NUMBERS, POWER_CALLS, is_function
 from kovacic.reading.naming import Vocabulary, argument_of, differentiated
 from kovacic.reading.parser import Site, evaluate, shown
 from kovacic.reading.pieces import Paste, taken_apart
@@ -311,15 +311,13 @@ class SymbolicReader(RationalReader):
             base, n = arguments
             exponent = self.arithmetic.divide(Monomial(1, 0), n) if head == "root" else n
             return self.power(base, exponent, site)
-        if head in SEVERAL_ARGUMENTS:
-            return self.arithmetic.of_several(head, arguments)
         if self.has_functions and len(arguments) == 1 and self._is_variable(arguments[0]) and not is_function(head):
             return sympy.Function(head)(self.x)
-        head = _SYMBOLS_OF_FUNCTIONS.get(head, head)
-        if head not in FUNCTION_NAMES or len(arguments) != 1 or isinstance(arguments[0], tuple):
+        value = self.arithmetic.called(_SYMBOLS_OF_FUNCTIONS.get(head, head), arguments)
+        if value is None:
             hint = f"the functions are {', '.join(sorted(FUNCTION_NAMES))}, of one argument"
             raise InputError(f"{self.what} can't contain {site.text()}", hint=hint)
-        return self.arithmetic.applied(head, arguments[0])
+        return value
 
     def _is_variable(self, value: Any) -> bool:
         return bool(value == self.x)
