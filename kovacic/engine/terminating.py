@@ -26,7 +26,7 @@ _MOST_FAMILIES = 256
 
 
 @dataclass(frozen=True)
-class Search:
+class SeriesSearch:
     """What became of the theta that leave a natural degree for P: those with a P, by degrees, and whether all were decided.
 
     `known` is false from the first theta on whose recurrence has more terms than two; `complete` says that all poles and
@@ -49,7 +49,7 @@ def terminating_series(problem: Problem) -> TerminatingSeries | NoTerminatingSer
     return NoTerminatingSeries(search.count) if search.known and search.complete else None
 
 
-def search_series(problem: Problem) -> Search | None:
+def search_series(problem: Problem) -> SeriesSearch | None:
     """All theta, by the degree of P up to the first that isn't decided; None if they are too many, or over other fields."""
     roots = Roots(problem.field, "c")
     *poles, infinity = problem.places
@@ -86,7 +86,7 @@ def search_series(problem: Problem) -> Search | None:
         if lowest is not None:
             found.append(TerminatingSeries(theta, centre, recurrence.step, degree, lowest))
     is_complete = field == problem.field and all(point.count == 1 for point in points)
-    return Search(tuple(found), is_known, is_complete, len(families))
+    return SeriesSearch(tuple(found), is_known, is_complete, len(families))
 
 
 def recurrence_about(centre: Poly, S: RatFunc, theta: RatFunc) -> TwoTerms | None:

@@ -20,7 +20,17 @@ import pytest
 import strategies
 import transform
 from build import QQ, RatFunc, parametrize, verify
-from forged import INVARIANT_DEGREE, Decision, Exclusion, GroupClaim, NoInvariant, claimed, forged_evidence, inspector
+from forged import (
+    INVARIANT_DEGREE,
+    Decision,
+    Exclusion,
+    GroupClaim,
+    NoInvariant,
+    NoTerminatingSeries,
+    claimed,
+    forged_evidence,
+    inspector,
+)
 from hypothesis import given, settings
 from published import Published, load
 
@@ -398,6 +408,11 @@ def forged_proofs(answer: Solution) -> Iterator[tuple[tuple[Any, ...], Decision]
         yield evidence, Decision(None, (*decision.exclusions, Exclusion(structure, evidence), *following))
 
 
+def refusal(evidence: tuple[Any, ...]) -> str:
+    """The checker's verdict on wrong evidence: of the absence of a series that ends it proves nothing."""
+    return "not checked" if any(isinstance(item, NoTerminatingSeries) for item in evidence) else "refuted"
+
+
 def refuse(text: str) -> None:
     """No forged proof that there is no solution passes, in the kernel or in the checker."""
     answer = kovacic.solve(text)
@@ -405,7 +420,7 @@ def refuse(text: str) -> None:
         assert not inspector(answer.S).excludes(answer.decision.structure, evidence), evidence
         assert not verify(answer.S, none), evidence
         said = checker.verdict(replace(answer, decision=none).to_json())
-        assert said.startswith("refuted"), (evidence, said)
+        assert said.startswith(refusal(evidence)), (evidence, said)
 
 
 @pytest.mark.parametrize(
@@ -429,7 +444,7 @@ def test_no_solvable_equation_of_the_simplest_has_a_proof_of_none(text: str) -> 
     for k, (evidence, none) in enumerate(forged_proofs(answer)):
         if len(evidence) < 2 or k % 5 == 0:
             said = checker.verdict(replace(answer, decision=none).to_json())
-            assert said.startswith("refuted"), (evidence, said)
+            assert said.startswith(refusal(evidence)), (evidence, said)
 
 
 @parametrize("entry", SOLVABLE[::16], ids=lambda entry: entry.id, ordinary=0, long=5)
