@@ -61,6 +61,7 @@ def test_decided_at_any_degree(equation: str, theta: str | None, powers: tuple[i
         *(f"{n * (n + 1)}/x^2 - 4" for n in (9, 10, Fraction(19, 3))),
         *(f"(-1 - {n * (n + 1)}*(1 - x^2))/(1 - x^2)^2" for n in (9, Fraction(19, 2))),
         "(1 - 9^2)/(4*(1 - x^2)) - 20/(1 - x^2)^2",
+        "30/x^2 + 3/(4*(x - 1)^2) - 27/(x*(x - 1))",  # a P of degree 4, and an obstruction to one of degree 8
         "(x^2 - 76*x + 99)/(4*(x - 1)^2)",  # a logarithm within the limits, of which nothing is known beyond
     ],
 )  # fmt: skip
@@ -83,7 +84,14 @@ def test_the_same_as_with_the_polynomial_written_out(S: str) -> None:
 
 
 @pytest.mark.parametrize(
-    "equation", ["x^2 + 2000000001", "10000100000/x^2 - 1", "(1 - x^2)*y'' - 2*x*y' + 1000000001000000000*y = 0"]
+    "equation",
+    [
+        "x^2 + 2000000001",
+        "10000100000/x^2 - 1",
+        "(1 - x^2)*y'' - 2*x*y' + 1000000001000000000*y = 0",
+        # exponent differences 10^9 + 1, 2 and 4: a P with a degree higher by 4 would be obstructed at this degree
+        "1000000002000000000/(4*x^2) + 3/(4*(x - 1)^2) - 1000000001999999988/(4*x*(x - 1))",
+    ],
 )
 def test_a_forged_series(equation: str) -> None:
     """Every change of a certificate is noticed by the kernel and by the checker."""
@@ -94,7 +102,7 @@ def test_a_forged_series(equation: str) -> None:
     step = series["step"]
     forgeries = [
         ("step", step + 1),
-        *(("degree", series["degree"] + k) for k in (step, -step, 1)),
+        *(("degree", series["degree"] + k) for k in (step, -step, 1, 4)),
         *(("lowest", series["lowest"] + k) for k in (step, 1)),
         ("theta", f"-({series['theta']})"),
         ("theta", f"{series['theta']} + 1"),
