@@ -75,7 +75,7 @@ def antiderivative(integrand: Expr, x: Expr) -> Expr | None:
 
 
 def _by_rules(integrand: Expr, x: Expr) -> Expr | None:
-    """As a whole, or term by term; x may be a root or an exponential, which is positive."""
+    """As a whole, or term by term, or terms together by parts; x may be a root or an exponential, which is positive."""
     given = integrand
     integrand = prepared(given)
     functions = _functions(integrand)
@@ -87,8 +87,16 @@ def _by_rules(integrand: Expr, x: Expr) -> Expr | None:
                 found = rule(whole, x)
                 if found is not None:
                     return found
-    groups = _by_inverse_functions(integrand, x)
-    return sum_of(_of_terms(inverse, terms, x) for inverse, terms in groups.items())
+    total = sympy.S.Zero
+    for inverse, terms in _by_inverse_functions(integrand, x).items():
+        check_time()
+        found = sum_of(_of_term(term, x) for term in terms)
+        if found is None:
+            found = _by_parts(inverse, sympy.Add(*(term / inverse for term in terms)), x)
+        if found is None:
+            return None
+        total += found
+    return total
 
 
 def _holds_on_every_side(found: Expr, integrand: Expr, x: Expr) -> bool:
@@ -104,15 +112,6 @@ def _holds_on_every_side(found: Expr, integrand: Expr, x: Expr) -> bool:
         if other is not None and other.is_finite() and not other.overlaps(value):
             return False
     return True
-
-
-def _of_terms(inverse: Expr, terms: list[Expr], x: Expr) -> Expr | None:
-    """One after the other; or, where one isn't known, their sum by parts."""
-    check_time()
-    found = sum_of(_of_term(term, x) for term in terms)
-    if found is None:
-        found = _by_parts(inverse, sympy.Add(*(term / inverse for term in terms)), x)
-    return found
 
 
 def _functions(expression: Expr) -> set[Any]:
@@ -228,23 +227,11 @@ def _roots(term: Expr, x: Expr) -> Iterator[ChangeOfIntegrand]:
     yield ChangeOfIntegrand(inner, t, sympy.root(line, q))
 
 
-def _waves(term: Expr, x: Expr) -> Iterator[ChangeOfIntegrand]:
-    """To c, s or a tangent, with exp(i u) = cos(u) + i sin(u)."""
-    for e in term.atoms(exp):
-        angle = sympy.expand(e.args[0] / sympy.I)
-        if e.has(sympy.I) and not angle.has(sympy.I):
-            term = term.xreplace({e: cos(angle) + sympy.I * sin(angle)})
-    yield from wave_changes(term, x)
-
-
 # ------------------------------------------------------------------------------------------------------------ by parts
 
 
 def _by_parts(inverse: Expr, g: Expr, x: Expr) -> Expr | None:
-    """int g l dx = G l - int G l' dx for a product l of inverse functions and the like, where G is simpler than these.
-
-    g = k l' + H' with a constant k gives k l^(m+1)/(m+1) + int H' l^m dx beside l^m.
-    """
+    """int g l dx = G l - int G l' dx for a product l of inverse functions and the like, where G is simpler than these."""
     powers = [factor.as_base_exp() for factor in sympy.Mul.make_args(inverse)]
     if inverse == 1 or not all(m.is_Integer and m > 0 for _, m in powers):
         return None
@@ -255,13 +242,6 @@ def _by_parts(inverse: Expr, g: Expr, x: Expr) -> Expr | None:
     G = _by_rules(g, x)
     if G is None:
         return None
-    if len(powers) == 1:
-        ((function, m),) = powers
-        k = sympy.expand(G).coeff(function)
-        left = sympy.expand(g - k * _slope(function, x))
-        if k != 0 and not k.has(x) and size(left) <= size(g):
-            rest = _by_parts(inverse, left, x)
-            return None if rest is None else k * function ** (m + 1) / (m + 1) + rest
     if not _functions(G) <= _SIMPLE:
         return None
     slopes = (m * _slope(function, x) * inverse / function * G for function, m in powers)
@@ -270,15 +250,9 @@ def _by_parts(inverse: Expr, g: Expr, x: Expr) -> Expr | None:
 
 
 def _slope(function: Expr, x: Expr) -> Expr:
-    """1/sqrt(x^2 + 1) for log(x + sqrt(x^2 + 1)), and 1/sqrt(a^2 - x^2) for asin(x/sqrt(a^2))."""
+    """1/sqrt(x^2 + 1) for log(x + sqrt(x^2 + 1))."""
     slope = sympy.cancel(function.diff(x))
-    if slope.is_rational_function(x):
-        return slope
-    square = sympy.cancel(1 / slope**2)
-    real = {letter: sympy.Dummy(real=True, nonzero=True) for letter in slope.free_symbols}
-    if len(real) > 1 and square.is_polynomial(x) and slope.subs(x, 0).xreplace(real).is_positive:
-        return 1 / sympy.sqrt(sympy.expand(square))
-    return sympy.powsimp(sympy.radsimp(slope))
+    return slope if slope.is_rational_function(x) else sympy.powsimp(sympy.radsimp(slope))
 
 
 def _beside_logarithm(logarithm: Expr, g: Expr, x: Expr) -> Expr | None:
@@ -342,7 +316,7 @@ _RULES = (
     _Rule(
         "int R(sin(u), cos(u)) dx for linear u: rational in a wave or tangent",
         _has_waves,
-        partial(_in_another_variable, _waves),
+        partial(_in_another_variable, wave_changes),
     ),
     _Rule("products of powers and exponentials of rational functions", lambda e, x: True, integral_of_product),
     _Rule(

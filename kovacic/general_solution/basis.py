@@ -10,7 +10,6 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator, Mapping
 from contextlib import suppress
 from dataclasses import dataclass, replace
-from fractions import Fraction
 from functools import cached_property
 from itertools import chain, islice
 from types import MappingProxyType
@@ -22,7 +21,7 @@ from sympy import cos, expand, sin
 from sympy.simplify.fu import TR8
 
 from kovacic.algebra.precision import working_digits
-from kovacic.closed_form.atoms import Atoms, display, rational
+from kovacic.closed_form.atoms import Atoms, display
 from kovacic.closed_form.check import DIGITS
 from kovacic.closed_form.cuts import all_turned
 from kovacic.closed_form.form import ClosedForm
@@ -53,8 +52,6 @@ _TURNS = [sign * c for c in (sympy.Integer(1), sympy.pi / 2, 2 / sympy.pi) for s
 _POINTS = [*map(sympy.Integer, (0, 1, -1, 2, 3, -2)), sympy.S.Half]
 #: The longest Wronskian whose powers are joined, in subexpressions.
 _LONGEST_JOINED = 300
-#: That of the square of a number for which the quotient of two Wronskians is taken.
-_LARGEST_DENOMINATOR = 10**18
 
 
 @dataclass(frozen=True)
@@ -211,24 +208,10 @@ def multiple_of(w: Expr, y1: Expr, y2: Expr, x: Expr, integers: Mapping[Expr, Ex
     >>> multiple_of(1 / x, x**k, x**-k, x)
     -2*k/x
     """
-    for c in chain(_roots_of_rationals(w, y1, y2, x), _quotients(w, y1, y2, x), _TURNS):
+    for c in chain(_quotients(w, y1, y2, x), _TURNS):
         if _is_wronskian(c * w, y1, y2, x, integers):
             return _simplified(c) * w
     return None
-
-
-def _roots_of_rationals(w: Expr, y1: Expr, y2: Expr, x: Expr) -> Iterator[Expr]:
-    """Both roots of the rational number of few digits that is nearest to (W/w)^2, free of letters."""
-    if sympy.Tuple(w, y1, y2).free_symbols - {x}:
-        return
-    with working_digits(2 * DIGITS), suppress(NotImplementedError):
-        (u, du, _), (v, dv, _), (at, _, _) = (jet(e, x, next(points())) for e in (y1, y2, w))
-        square = ((u * dv - du * v) / at) ** 2
-        if square.is_finite():
-            mantissa, exponent = square.real.mid().man_exp()
-            nearest = Fraction(int(mantissa)) * Fraction(2) ** int(exponent)
-            root = sympy.sqrt(rational(nearest.limit_denominator(_LARGEST_DENOMINATOR)))
-            yield from (root, -root)
 
 
 def _quotients(w: Expr, y1: Expr, y2: Expr, x: Expr) -> Iterator[Expr]:

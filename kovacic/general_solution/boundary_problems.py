@@ -197,10 +197,8 @@ def _interval_ends(conditions: Sequence[Condition], domain: Sequence[Any] | None
         ends = [_INFINITE_ENDS.get(text) or read_expression(text, what="an end of the domain") for text in texts]
         if not points <= {*ends}:
             raise InputError("the conditions are at points that aren't the ends of the domain")
-    elif not points:
-        ends = [-sympy.oo, sympy.oo]
     else:
-        ends = [*points]
+        ends = [*points] or [-sympy.oo, sympy.oo]
     if len(ends) != 2:
         raise InputError(
             f"the conditions name {len(ends)} points, and an interval has two ends", hint='domain=(0, "oo") gives both'

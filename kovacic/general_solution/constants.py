@@ -259,8 +259,6 @@ def tidy(value: Any) -> Any:
         expanded = sympy.expand(value)
         return min((value, expanded, sympy.expand(TR8(expanded))), key=size)
     shorter = sympy.cancel(value)
-    if functions == {exp}:
-        return shorter
     return min(map(TR2i, (value, shorter)), key=size)
 
 

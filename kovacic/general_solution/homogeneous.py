@@ -138,18 +138,17 @@ def _in_special_functions(
     is_positive = is_positive and all(point.is_positive for c in question.conditions for point in c.points)
     places = _real_places(question)
     how: dict[str, Any] = {"symbols": question.parameters, "joined": not is_positive, "places": places}
-    found = special_functions(solution.S, solution.gauge, solution.variable, budget, **how)
+    given = solution.S, solution.gauge, solution.variable, budget
+    found = special_functions(*given, **how)
     pair = found.pair
     has_integers = any(symbol.is_integer for symbol in question.parameters.values())
     if has_integers and question.conditions and not limit_points(question):
-        of_any_letters = special_functions(
-            solution.S, solution.gauge, solution.variable, budget, joined=not is_positive, places=places
-        )
+        of_any_letters = special_functions(*given, joined=not is_positive, places=places)
         pair = _without_exceptions(of_any_letters.pair, sympy.Symbol(solution.variable)) or pair
     is_asked = not question.conditions or bool(limit_points(question))
     is_asked = is_asked and question.equation.is_homogeneous  # no particular solution is asked for
     if pair is None or is_asked:
-        halves = by_sign(solution.S, solution.gauge, solution.variable, budget, **how)
+        halves = by_sign(*given, **how)
         if halves is not None:
             return halves
     equation = question.equation

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 from dataclasses import dataclass
-from itertools import chain, filterfalse
 from typing import Any
 
 import sympy
@@ -123,11 +122,7 @@ def _integral_by_rate(rate: RatFunc, term: Expr, x: Expr) -> Expr | None:
 def _constant_value(term: Expr, other: Expr, x: Expr) -> Expr | None:
     """The value of a ratio that doesn't depend on x, where it has one, and the term a real one if it can be; else None."""
     points = (2, 3, 5, sympy.S.Half, -sympy.S.Half)
-
-    def is_complex(point: Expr) -> bool:
-        return term.subs(x, point).is_real is False
-
-    for point in chain(filterfalse(is_complex, points), filter(is_complex, points)):
+    for point in sorted(points, key=lambda point: term.subs(x, point).is_real is False):
         value = sympy.powsimp((term / other).subs(x, point))
         if value.free_symbols and size(value) <= _LONGEST:  # without terms that cancel
             value = sympy.cancel(value)

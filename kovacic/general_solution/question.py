@@ -183,10 +183,24 @@ def _with_meaning(symbols: Mapping[str, Expr], equation: Equation) -> dict[str, 
 
 
 def _meanings(letters: Sequence[tuple[str, Expr]], symbols: Mapping[str, Expr]) -> dict[Expr, Expr]:
-    """What letters stand for, in the user's symbols."""
+    """What letters stand for, in the user's symbols: letters with what is known of its sign.
+
+    Powers are principal ones, and taken for positive.
+    """
     plain = {sympy.Symbol(name): symbol for name, symbol in symbols.items()}
-    wholes = {name: meaning.xreplace(plain) for name, meaning in letters}
-    return {_letter(name, whole): whole for name, whole in wholes.items()}
+    meanings = {}
+    for name, meaning in letters:
+        whole = meaning.xreplace(plain)
+        is_power = whole.is_Pow or isinstance(whole, sympy.exp)
+        is_principal_power = is_power and not whole.as_base_exp()[0].is_negative
+        known = {
+            "positive": whole.is_positive or is_principal_power,
+            "negative": whole.is_negative,
+            "real": whole.is_real,
+        }
+        first = [word for word, holds in known.items() if holds][:1]
+        meanings[sympy.Symbol(name, **dict.fromkeys(first, True))] = whole
+    return meanings
 
 
 def apart(eq: Any, ics: Any) -> tuple[Any, Any]:
@@ -283,16 +297,3 @@ def _in_symbols(given: Any, renamed: Mapping[Expr, Expr]) -> Any:
     if isinstance(given, sympy.Basic):
         return given.xreplace(renamed)
     return given
-
-
-def _letter(name: str, meaning: Expr) -> Expr:
-    """The symbol for a constant, with what is known of its sign; powers are principal ones, and taken for positive."""
-    is_power = meaning.is_Pow or isinstance(meaning, sympy.exp)
-    is_principal_power = is_power and not meaning.as_base_exp()[0].is_negative
-    known = {
-        "positive": meaning.is_positive or is_principal_power,
-        "negative": meaning.is_negative,
-        "real": meaning.is_real,
-    }
-    first = [word for word, holds in known.items() if holds][:1]
-    return sympy.Symbol(name, **dict.fromkeys(first, True))

@@ -33,22 +33,10 @@ class WaveChange(ChangeOfIntegrand):
     def back(self, found: Expr) -> Expr:
         """An integral in the angle; logarithms are real for small angles where they can be."""
         early = sympy.Rational(99 if self.u.func is cos else 1, 100)
-        found = _joined_logarithms(found).replace(log, lambda q: log(-q if q.subs(self.t, early).is_negative else q))
+        found = found.replace(log, lambda q: log(-q if q.subs(self.t, early).is_negative else q))
         if self.u.func is tan:
             return TR2i(_at_tangent(found, self.u.args[0], self.t))
         return TR2i(found.xreplace({self.t: self.u}))
-
-
-def _joined_logarithms(found: Expr) -> Expr:
-    """k log(p/q) for k log(p) - k log(q): where p and q have poles, their logarithms would jump."""
-    terms = sympy.Add.make_args(found)
-    pairs = {term.as_independent(log)[0]: term.as_independent(log)[1] for term in terms}
-    joined = {
-        k: k * log(pairs[k].args[0] / pairs[-k].args[0]) - k * pairs[k] + k * pairs[-k]
-        for k in pairs
-        if -k in pairs and not k.could_extract_minus_sign() and isinstance(pairs[k], log) and isinstance(pairs[-k], log)
-    }
-    return sympy.Add(found, *joined.values())
 
 
 def _at_tangent(found: Expr, angle: Expr, u: Expr) -> Expr:

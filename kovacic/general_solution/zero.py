@@ -39,8 +39,6 @@ _LARGEST_DEGREE = 64
 _PRECISE = 400
 #: How many values of the parameters are tried.
 _SAMPLES = 6
-#: By how many steps of its recurrence a gamma function is rewritten.
-_FAR = 100
 #: Points x/101 + i y/89 in each quadrant and on the axis, where a formula is substituted: wrong branches of roots don't pass.
 _POINTS = [(137, 71), (-151, 83), (-97, -119), (163, -79), (23, 0), (67, 0), (173, 0), (431, 0), (-41, 0), (-257, 0)]
 
@@ -207,7 +205,6 @@ def is_identically_zero(value: Expr) -> bool:
     """True if it is provably zero: a sum of monomials in exponentials, waves and logarithms, or a number made of roots."""
     if size(value) > _LARGEST:
         return False
-    value = _with_gammas_in_a_strip(value)
     numerator = sympy.numer(sympy.together(prepared(value)))  # a sum of waves, as sin(a) cos(b) isn't
     if sympy.expand(numerator) == 0 or sympy.expand(TR8(sympy.expand(numerator))) == 0:
         return True
@@ -218,26 +215,6 @@ def is_identically_zero(value: Expr) -> bool:
         exponentials = sympy.expand(numerator.rewrite(sympy.exp))
         return bool(sympy.expand(sympy.powsimp(exponentials)) == 0)
     return is_algebraic_zero(value)
-
-
-def _with_gammas_in_a_strip(value: Expr) -> Expr:
-    """Gamma functions of rational numbers by those of numbers in (0, 1/2], by the recurrence and by reflection.
-
-    Gamma(q) = (q - 1) Gamma(q - 1), Gamma(q) Gamma(1 - q) = pi/sin(pi q) (DLMF 5.5.1, 5.5.3).
-
-    >>> _with_gammas_in_a_strip(sympy.gamma(sympy.Rational(-2, 3)) + sympy.gamma(sympy.Rational(1, 3)) * 3 / 2)
-    0
-    """
-    known = {}
-    for f in value.atoms(sympy.gamma):
-        q = f.args[0]
-        if q.is_Rational and not q.is_integer and abs(q) <= _FAR:
-            inner = q - sympy.floor(q)
-            strip = sympy.gamma(inner)
-            if 2 * inner > 1:
-                strip = sympy.pi / (sympy.sin(sympy.pi * inner) * sympy.gamma(1 - inner))
-            known[f] = strip * sympy.rf(inner, sympy.floor(q))
-    return value.xreplace(known)
 
 
 def is_algebraic_zero(value: Expr) -> bool:
