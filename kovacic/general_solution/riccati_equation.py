@@ -98,8 +98,8 @@ def solved_riccati(
         constants = found.constants
         notices = found.notices
         forms = [*_forms(found, solved_for)]
-        if is_inverted:
-            forms = [1 / w for w in forms]
+        if is_inverted:  # over one denominator, which doesn't divide by 1/w
+            forms = [next(over_one_denominator(1 / w, x), 1 / w) for w in forms]
     forms += [*over_one_denominator(forms[0], x), sympy.signsimp(forms[0]), *rational_in_waves(forms[0])]
     forms += [-n / -d for n, d in map(sympy.fraction, forms)]
     w = shortest(forms).xreplace(dict.fromkeys(constants, equation.constant()))
@@ -119,7 +119,7 @@ def _of_bernoulli(
         return [sympy.S.Zero]
     given = [replace(condition, value=1 / value.v) for condition in conditions]
     w = 1 / solved_linear(equation.of_inverse, given)[0].rhs
-    return [next(over_one_denominator(w, equation.x), w)]  # which doesn't divide by v
+    return [next(over_one_denominator(w, equation.x), w)]
 
 
 def _solved_linear(

@@ -75,6 +75,7 @@ def test_known_forms() -> None:
     [
         ("w' = -w^2 - 4*w/x - 2/x^2", "1/(C1 + x) - 2/x"),
         ("w' = -w^2 + (2*x + 1/x)*w - x^2", "x + 2*x/(C1 + x**2)"),
+        ("w' = w^2/x^2 - w/x + 1", "(C1*x + x*log(x))/(C1 + log(x) + 1)"),  # by that for 1/w, which has poles
         (
             "w' = -w^2*(x+1) + x^2*(x+1) + 1",
             "x + exp(-2*x**3/3 - x**2)/(C1 + Integral((x + 1)*exp(-2*x**3/3 - x**2), x))",
