@@ -116,10 +116,14 @@ def generic_conditions(answer: Answer) -> GenericConditions:
         return GenericConditions((), ())
     problem = analyse(answer.S, Budget())
     changes = [structure_changes(problem)]
-    riccati = answer.decision.riccati
-    if riccati is not None:  # where a polynomial in omega's equation isn't defined
-        for polynomial in (riccati.P, riccati.D, *riccati.numerators):
-            changes += [irreducible_factors(_down(d)) for d in functions.denominators(polynomial)]
+    riccati = answer.riccati
+    series = answer.series
+    # Where a polynomial in omega's equation isn't defined; multiples of P are, whatever its recurrence divides by.
+    defining = [] if riccati is None else [riccati.P, riccati.D, *riccati.numerators]
+    if series is not None:
+        defining = [series.theta.num, series.theta.den, series.centre]
+    for polynomial in defining:
+        changes += [irreducible_factors(_down(d)) for d in functions.denominators(polynomial)]
     constants = answer.constants
     if constants is not None:
         changes.append(_common_zeros(constants, constants.derivative()))

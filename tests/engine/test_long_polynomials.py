@@ -146,6 +146,8 @@ def test_the_group_of_a_single_series(equation: str, group: str, given: str) -> 
 def test_what_the_other_doors_say() -> None:
     answer = kovacic.solve("x^2 + 2000000001")
     assert answer.omega is None
+    moved = kovacic.solve("(x - 1/b)^2 + 2000000001")
+    assert (moved.case, str(moved.generic_conditions)) == (1, "b != 0")
     assert "steps of 2" in answer.explain()
     assert "{}_{1}F_{1}" in answer._repr_latex_()
     with pytest.warns(UserWarning, match="a value isn't finite"):  # which a check with fewer digits needs
