@@ -350,10 +350,15 @@ def norm(polynomial: Poly) -> Poly:
     return coefficients_from_traces(traces)[n] * (-1 if n % 2 else 1)
 
 
-def adjoined_square_root(field: Field, value: Poly) -> Poly:
-    """A square root of a non-zero constant: in the field if it has one, else in K(c) with c^2 the simplified radicand."""
+def adjoined_square_root(field: Field, value: Poly, *, as_radical: bool = False) -> Poly:
+    """A square root of a non-zero constant: in the field if it has one, else in K(c) with c^2 the simplified radicand.
+
+    c is called `sqrt(...)`, and written so, if it is wanted `as_radical`.
+    """
     root = field.sqrt(value)
     if root is not None:
         return root
     factor, radicand = square_part(value.constant()) if isinstance(value, RationalPoly) else (1, value)
-    return AlgebraicField(field, field.poly([-radicand, 0, 1])).generator * factor
+    modulus = field.poly([-radicand, 0, 1])
+    adjoined = AlgebraicField(field, modulus, f"sqrt({radicand})") if as_radical else AlgebraicField(field, modulus)
+    return adjoined.generator * factor

@@ -148,8 +148,10 @@ class _Window(NamedTuple):
         """From the infimum of V, and the thresholds of the continuous spectrum."""
         thresholds = [end.threshold for end in ends if end.threshold is not None and end.threshold.is_Rational]
         high = min(thresholds, default=sympy.oo)
-        bounds = question.original.monotonic_range(question.domain, question.signs)
-        if real is None or question.boundary.is_mixed or bounds is None:
+        if real is None or question.boundary.is_mixed:
+            return cls(high=high)
+        bounds = real.original.monotonic_range(question.domain, question.signs)
+        if bounds is None:
             return cls(high=high)
         low = question.kinetic * _number_below(real.V, real.t, bounds)
         return cls(low if low.is_Rational else -sympy.oo, high)

@@ -170,7 +170,7 @@ class Original:
     def monotonic_range(self, domain: tuple[Any, Any], signs: Signs) -> tuple[Any, Any] | None:
         """The range of t on the domain; None unless t is proven to be monotonic there."""
         with suppress(Uncovered):
-            if not self.points_inside(self.turning_values, domain, signs):
+            if not self.is_circular and not self.points_inside(self.turning_values, domain, signs):
                 return self.range_of(domain, signs)
         return None
 

@@ -596,7 +596,7 @@ def _square_root(square: Poly, field: Field) -> Poly:
     if root is not None:
         return root
     if field.ground == field and not isinstance(square, FunctionPoly):
-        return adjoined_square_root(field, square)
+        return adjoined_square_root(field, square, as_radical=True)
     outer = field.poly([1])
     inner = square
     if isinstance(square, FunctionPoly):
