@@ -28,7 +28,7 @@ from kovacic.enclosure.journey import Journey
 from kovacic.enclosure.points import ExactPoint, Number, as_number, as_point, to_ball
 from kovacic.enclosure.precision import PointValue, raise_precision, start_bits
 from kovacic.enclosure.problem import Coefficients, NumericProblem, as_problem, change_of
-from kovacic.enclosure.rational import way_for
+from kovacic.enclosure.rational import side_of, way_for
 from kovacic.enclosure.request import METHODS, Method, Path, Request, Start, number_of_digits
 from kovacic.enclosure.singular import Singular
 from kovacic.enclosure.start import middle, read_start
@@ -151,12 +151,9 @@ def _ways(journey: Journey, targets: Sequence[Number]) -> Iterator[tuple[ExactPo
     if journey.chain:
         yield from pairwise([here, *stops])
         return
-    real = [stop for stop in stops if stop.is_real() and here.is_real()]
-    others = [stop for stop in stops if not (stop.is_real() and here.is_real())]
-    farthest = {max(real, key=lambda stop: stop.x), min(real, key=lambda stop: stop.x)} if real else set()
-    if others:
-        farthest.add(max(others, key=lambda stop: position(here, stop)))
-    for stop in sorted(farthest - {here}, key=lambda stop: (stop.x, stop.y)):
+    by_distance = sorted(stops, key=lambda stop: position(here, stop))
+    farthest = {side_of(here, stop): stop for stop in by_distance if stop != here}
+    for stop in farthest.values():
         yield here, journey.way.horizon(here, stop)
 
 

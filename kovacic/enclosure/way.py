@@ -136,12 +136,13 @@ class DiscStep:
 
     @cached_property
     def _to_centre(self) -> Matrix:
-        """From (y, y') where it is entered to that at the centre."""
-        m = adjugate(transition(self.columns, self.enter))
-        if self.area is None:
-            return m
-        w = self.area.state(self.enter)[1]
-        return m[0] / w, m[1] / w, m[2] / w, m[3] / w
+        """From (y, y') where it is entered to that at the centre, whoever asks first at the precision of the columns."""
+        with working_precision(self.columns[0].precision):  # FLINT rounds where it changes a sign
+            m = adjugate(transition(self.columns, self.enter))
+            if self.area is None:
+                return m
+            w = self.area.state(self.enter)[1]
+            return m[0] / w, m[1] / w, m[2] / w, m[3] / w
 
     @cached_property
     def matrix(self) -> Matrix:

@@ -55,6 +55,20 @@ def test_no_value_depends_on_what_was_asked_before(equation: str, start: dict[st
         assert [*map(repr, alone)] == [*map(repr, values)]
 
 
+@parametrize(("equation", "start"), [*OTHERS, *CALLS], always=[OTHERS[-1]], ordinary=2)
+def test_two_orders_of_calls_give_the_same_balls(equation: str, start: dict[str, Any]) -> None:
+    """Points in one disc, at its ends and beyond, asked for in an order and in the reverse one: what a disc keeps is the same,
+    whoever asked first."""
+    calls = [["sqrt(3)", "1/7", 2], ["1/7", "sqrt(3)", "3/2"], ["1/7"], ["3/2", 1], [2, "1 + I/2"], ["20/3", "1/2"]]
+    found = []
+    for order in (calls, calls[::-1]):
+        for journeys in (journey_of, analytic_journeys):
+            journeys.cache_clear()
+        together = kovacic.prepared(equation, method="taylor", **start)
+        found.append({str(points): [*map(repr, together(points, derivative=True))] for points in order})
+    assert found[0] == found[1]
+
+
 @pytest.mark.parametrize(("equation", "start"), CALLS)
 def test_a_solution_is_prepared_with_digits_per_call(equation: str, start: dict[str, Any]) -> None:
     solution = kovacic.solve(equation)
