@@ -292,10 +292,10 @@ class RationalChart:
         """The midpoints of their enclosures."""
         return self.problem.singular_points(128)
 
-    def alike(self, cell: tuple[Any, int]) -> Any:
-        """What the equation on a piece depends on: its size alone where the coefficients are constant."""
-        is_constant = self._is_exact and all(part.degree() < 1 for part in self.problem.equation)
-        return cell[1] if is_constant else cell
+    @cached_property
+    def is_uniform(self) -> bool:
+        """True if the equation on a piece depends on its size alone: with constant coefficients."""
+        return self._is_exact and all(part.degree() < 1 for part in self.problem.equation)
 
     def local(self, centre: ExactPoint, e: int, terms: int) -> list[list[arb]]:
         """See `_equation_series`."""
@@ -340,6 +340,7 @@ class AnalyticChart:
     # None is known: a way through one is refused.
     singular: ClassVar[list[ExactPoint]] = []
     irregular: ClassVar[list[ExactPoint]] = []
+    is_uniform: ClassVar[bool] = False  # no piece has the equation of another one
 
     def region(self, interval: tuple[object, object]) -> tuple[Region, list[ExactPoint]]:
         """See `region_of`; raises InputError where a singular point is in the interval or on the way to it."""
@@ -382,10 +383,6 @@ class AnalyticChart:
         """True if the coefficients are provably analytic in the disc with twice the scale 2^e."""
         with working_precision(64):
             return self._functions.sizes(centre, arb((1, e + 1))) is not None
-
-    def alike(self, cell: tuple[Any, int]) -> Any:
-        """The piece itself: no other has the same equation."""
-        return cell
 
     def local(self, centre: ExactPoint, e: int, terms: int) -> list[list[arb]]:
         """See `_equation_series`."""

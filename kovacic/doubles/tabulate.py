@@ -26,6 +26,7 @@ from dataclasses import dataclass, replace
 from fractions import Fraction
 from functools import cached_property, lru_cache
 from math import ldexp
+from operator import itemgetter
 from typing import Any, NamedTuple, Unpack
 
 import numpy as np
@@ -361,21 +362,22 @@ def _pieces(chart: PieceChart, region: Region, variant: Variant, limits: Limits 
     scale = Fraction(2) ** e
     grain = max(scale / 2**24, Fraction(math.ulp(max(-region.low.real, region.high.real))))
     untried: list[Cell] = [(to_fmpq((start // grain - scale * Fraction(53, 128) // grain) * grain + scale), e)]
-    done: dict[Cell, Any] = {}
+    done: list[tuple[Cell, Any]] = []
     while untried:
         if len(untried) + len(done) > most:
             raise LimitExceeded(f"the table needs more than {most} pieces", limit="unknown_degree")
         check_time()
         inside = [cell for cell in untried if low <= cell[0] <= high]  # values are inside only
-        found: dict[Cell, Any] = {}
+        halved = [cell for cell in untried if not low <= cell[0] <= high]
         for first in range(0, len(inside), _TOGETHER):
-            some = {chart.alike(cell): cell for cell in inside[first : first + _TOGETHER]}
-            series = dict(zip(some, _series(chart, [*some.values()], variant), strict=True))
-            found |= {cell: series[chart.alike(cell)] for cell in inside[first : first + _TOGETHER]}
-        done |= {cell: item for cell, item in found.items() if item is not None}
-        untried = [half for cell in untried if cell not in done for half in _halves(cell, low, high)]
-    cells = sorted(done)
-    return cells, [done[cell] for cell in cells]
+            some = inside[first : first + _TOGETHER]  # of one size
+            tried = some[:1] if chart.is_uniform else some
+            series = _series(chart, tried, variant) * (len(some) // len(tried))
+            done += [pair for pair in zip(some, series, strict=True) if pair[1] is not None]
+            halved += [cell for cell, item in zip(some, series, strict=True) if item is None]
+        untried = [half for cell in halved for half in _halves(cell, low, high)]
+    done.sort(key=itemgetter(0))
+    return [cell for cell, _ in done], [item for _, item in done]
 
 
 def _halves(cell: Cell, low: fmpq, high: fmpq) -> list[Cell]:

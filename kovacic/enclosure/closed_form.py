@@ -16,7 +16,7 @@ import math
 from dataclasses import dataclass, replace
 from functools import cached_property, cmp_to_key, lru_cache
 
-from flint import acb, acb_poly, arb
+from flint import acb, acb_poly, arb, ctx
 
 from kovacic.algebra.extension import AlgebraicField
 from kovacic.algebra.partial_fractions import decompose
@@ -25,7 +25,7 @@ from kovacic.algebra.precision import working_precision
 from kovacic.algebra.ratfunc import RatFunc
 from kovacic.decision import SemiInvariant
 from kovacic.enclosure.frame import check_segment
-from kovacic.enclosure.log_derivative import conjugates, embed, log_derivative, sharp_roots
+from kovacic.enclosure.log_derivative import LogDerivative, conjugates, embed, log_derivative, sharp_roots
 from kovacic.enclosure.matrices import Matrix, State, fundamental, inverse, multiply
 from kovacic.enclosure.points import ExactPoint, to_acb
 from kovacic.enclosure.problem import NumericProblem
@@ -90,10 +90,17 @@ class Exponential:
         list of State
             The two values at a, and those at b.
         """
-        theta = log_derivative(self.theta, self.embedding)
-        P = embed(self.P, self.constant())
+        if ctx.prec not in self._in_balls:
+            P = embed(self.P, self.constant())
+            self._in_balls[ctx.prec] = log_derivative(self.theta, self.embedding), P, P.derivative()
+        theta, P, slope = self._in_balls[ctx.prec]
         E = theta.growth(a, b)
-        return [(g * P(x), g * (theta.value(x) * P(x) + P.derivative()(x))) for x, g in ((a, acb(1)), (b, E))]
+        return [(g * P(x), g * (theta.value(x) * P(x) + slope(x))) for x, g in ((a, acb(1)), (b, E))]
+
+    @cached_property
+    def _in_balls(self) -> dict[int, tuple[LogDerivative, acb_poly, acb_poly]]:
+        """theta, P and P' at precisions that were in force, for the next points."""
+        return {}
 
 
 def value(function: RatFunc, c: acb | None, z: acb) -> acb:
