@@ -74,6 +74,9 @@ _QUOTIENTS = {
 }
 
 
+_WAVES = (sympy.sin, sympy.cos)
+
+
 class Divided(sympy.Function):  # type: ignore[misc]
     """g/((x - z1)^k1 (x - z2)^k2 ...), of g, x, z1, k1, z2, k2, ...: analytic where g is."""
 
@@ -146,13 +149,22 @@ class CoefficientEvaluator(BallEvaluator):
         return bool(argument.has(self.variable))
 
     def _evaluated(self, e: Any) -> Any:
-        """A polynomial on a ball by its Taylor polynomial at the midpoint, since terms that cancel would widen it."""
+        """A polynomial on a ball by its Taylor polynomial at the midpoint, since terms that cancel would widen it; a sine or a
+        cosine by the mean value theorem, where that is sharper: beside a zero of its slope."""
         x: Any = self.values.get(self.variable)
-        coefficients = _polynomial_coefficients(e, self.variable) if e.is_Add and isinstance(x, acb) else None
-        if coefficients is None:
+        if not isinstance(x, acb):
             return super()._evaluated(e)
-        middle = acb(x.mid())
-        return acb_poly(list(map(self, coefficients)))(acb_poly([middle, 1]))(x - middle)
+        coefficients = _polynomial_coefficients(e, self.variable) if e.is_Add else None
+        if coefficients is not None:
+            middle = acb(x.mid())
+            return acb_poly(list(map(self, coefficients)))(acb_poly([middle, 1]))(x - middle)
+        found = super()._evaluated(e)
+        if e.func not in _WAVES:
+            return found
+        z: Any = self(e.args[0])
+        middle = acb(z.mid())
+        value, slope = (middle.sin(), z.cos()) if e.func is sympy.sin else (middle.cos(), -z.sin())
+        return max(found, value + slope * (z - middle), key=acb.rel_accuracy_bits)
 
     def other(self, e: Any) -> Any:
         if not isinstance(e, Divided):

@@ -152,6 +152,10 @@ def test_a_complex_way_around_a_singular_point() -> None:
     assert np.allclose([float(value) for value in together], np.tan([1.25, 0.75, 1]), rtol=1e-14)
 
 
+KINK = ("y'' + asin(sin(x))*y = 0", 0, 3)
+"""The slope is 1 before pi/2 and -1 behind: discs in balls that are too wide there become small too slowly, and never end."""
+
+
 @parametrize(
     ("equation", "x0", "place"),
     [
@@ -162,8 +166,11 @@ def test_a_complex_way_around_a_singular_point() -> None:
         ("y'' + log(cos(x))*y = 0", 0, 2),
         ("y'' + sqrt(x - 1)*y = exp(x)", 2, "1/2"),
         ("y'' + asin(x)*y = 0", 0, 2),
+        ("y'' + acos(cos(x))*y = 0", 1, 4),
+        KINK,
     ],
     ordinary=2,
+    always=[KINK],
 )
 def test_no_singular_point_is_passed(equation: str, x0: Any, place: Any) -> None:
     with pytest.raises(kovacic.InputError, match="analytic"):
