@@ -16,7 +16,6 @@ from typing import Any, NamedTuple
 
 import sympy
 from sympy.core.function import AppliedUndef
-from sympy.simplify.fu import TR2
 
 from kovacic.closed_form.atoms import Atoms, display
 from kovacic.closed_form.cuts import all_turned
@@ -220,7 +219,7 @@ def solved_linear(
     if value is not None:
         constant = _constant_through(equation, h, particular, value, constant)
     whole = constant * h + particular
-    w = shortest([*sums(whole, x), *sums(TR2(whole), x)])  # sin(x) for cos(x) tan(x)
+    w = shortest([*sums(whole, x)])
     if value is not None:
         w = in_book_form(w, x)
     notices = exceptions_of(w, x, (equation.p, equation.q))

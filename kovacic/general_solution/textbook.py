@@ -28,7 +28,7 @@ from typing import Any
 
 import sympy
 from sympy import Abs, Heaviside, cos, cosh, exp, sin, sinh
-from sympy.simplify.fu import TR8, TR2i, TR10i, hyper_as_trig
+from sympy.simplify.fu import TR2, TR8, TR2i, TR10i, hyper_as_trig
 
 from kovacic.closed_form.jets import jet
 from kovacic.general_solution.integrands import radicands
@@ -343,7 +343,14 @@ def _tangents(value: Expr, x: Expr) -> Iterator[Expr]:
 
 
 def sums(value: Expr, x: Expr) -> Iterator[Expr]:
-    """With powers joined, multiplied out, with one coefficient for each function of x, and rational ones in lowest terms."""
+    """With powers joined, multiplied out, with one coefficient for each function of x, and rational ones in lowest terms.
+
+    Also with quotients of waves for tangents: sin(x) for cos(x) tan(x).
+    """
+    if value.has(sympy.tan, sympy.cot, sympy.tanh, sympy.coth):
+        quotients = {f: sinh(f.args[0]) / cosh(f.args[0]) for f in value.atoms(sympy.tanh)}
+        quotients |= {f: cosh(f.args[0]) / sinh(f.args[0]) for f in value.atoms(sympy.coth)}
+        yield from sums(TR2(value).xreplace(quotients), x)
     value = sympy.powsimp(value)
     expanded = sympy.powsimp(sympy.expand(value))
     coefficients: dict[Expr, list[Expr]] = defaultdict(list)

@@ -226,6 +226,19 @@ def test_general_solutions_of_systems(problem: tuple[Any, Any, int, Any, Any]) -
     assert abs(number(fundamental.det(), start + 0.5, t)) > 1e-6
 
 
+@parametrize(
+    ("text", "printed"),
+    [
+        ("x' = tanh(t)*x + y, y' = x + tanh(t)*y", "(-C1*exp(-t) + C2*exp(t))*cosh(t)"),
+        ("x' = tan(t)*x + y, y' = -x + tan(t)*y", "-C1*tan(t) + C2"),
+        ("x' = coth(t)*x - y, y' = x + coth(t)*y", "(C1*sin(t) - C2*cos(t))*sinh(t)"),
+    ],
+    ordinary=1,
+)
+def test_the_second_unknown_is_short_beside_tangents(text: str, printed: str) -> None:
+    assert str(kovacic.dsolve(text)[1].rhs) == printed
+
+
 def test_derivatives_may_be_mixed() -> None:
     equations = [sympy.Eq(u(t).diff(t) + v(t).diff(t), u(t)), sympy.Eq(u(t).diff(t) - v(t).diff(t), v(t))]
     found = {e.lhs: e.rhs for e in kovacic.dsolve(equations, ics={u(0): 1, v(0): 0})}
