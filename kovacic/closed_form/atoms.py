@@ -143,6 +143,13 @@ class Atoms:
             return outer.to_sympy(self.x) * radical(inner.to_sympy(self.x))
         return radical(self.constant(value))
 
+    def root_of(self, g: Poly) -> tuple[Expr, Expr]:
+        """(s, r): sqrt(g) = s r, r the root of the primitive polynomial, sqrt(x^2 - 1/a^2) = sqrt(a^2 x^2 - 1)/a."""
+        c, shown = self.primitive(g)
+        if self.is_negative(c):
+            c, shown = -c, -shown
+        return 1 / self.sqrt(c.inverse()), radical(shown)
+
     def is_negative(self, value: Poly) -> bool:
         """True if a constant is negative; with parameters of unknown signs, if its first coefficient is, as that of -w^2."""
         if isinstance(value, FunctionPoly):
@@ -207,22 +214,24 @@ class Atoms:
                 terms.append(c * x**k)
         return Add(*terms)
 
-    def primitive(self, polynomial: Poly) -> tuple[Fraction, Expr]:
-        """(content, expression): the polynomial is content * expression, which has coprime integer coefficients over Q."""
-        if polynomial.field != QQ or not polynomial:
-            return Fraction(1), self.poly(polynomial)
-        content = Fraction(*polynomial.content())
-        if polynomial.rational_coefficients()[-1] < 0:
-            content = -content
-        if content != 1:
-            polynomial = polynomial * (1 / content)
-        return content, self.poly(polynomial)
+    def primitive(self, polynomial: Poly) -> tuple[Poly, Expr]:
+        """(c, expression): the polynomial is c times the expression, whose coefficients are coprime integers.
+
+        Over Q(t) they are polynomials in the letters, so that a x + b stands for x + b/a; over a field of numbers c is 1.
+        """
+        field = polynomial.field
+        if not polynomial or (field.height and field.ground == QQ):
+            return field.poly([1]), self.poly(polynomial)
+        shown, _ = field.ground.cleared(polynomial, field.poly([]))
+        if self.is_negative(shown.lc):
+            shown = -shown
+        return polynomial.lc / shown.lc, self.poly(shown)
 
     def ratio(self, r: RatFunc) -> Expr:
         """A rational function as one fraction."""
         c, num = self.primitive(r.num)
         d, den = self.primitive(r.den)
-        return rational(c / d) * num / den
+        return self.constant(c / d) * num / den
 
     def sum(self, r: RatFunc) -> Expr:
         """A rational function as polynomial part and proper fraction."""
@@ -233,15 +242,14 @@ class Atoms:
 
     def factored(self, r: RatFunc) -> Expr:
         """A rational function as a product of powers of irreducible polynomials."""
-        leading: Expr = self.constant(r.num.lc) if r.num else Integer(0)
+        scale = RatFunc(r.num.lc)
         powers = [(p, k) for p, k in _factors(r.num)] + [(p, -k) for p, k in _factors(r.den)]
-        content = Fraction(1)
         factors: list[Expr] = []
         for p, k in powers:
             c, base = self.primitive(p)
-            content *= c**k
+            scale = scale * RatFunc(c) ** k
             factors.append(base**k)
-        return Mul(rational(content), leading, *factors)
+        return Mul(self.constant(scale.num), *factors)
 
     # ---------------------------------------------------------------------------------------------- roots
 
@@ -259,7 +267,7 @@ class Atoms:
         p = residue.factor
         value = residue.value
         if residue.is_constant:
-            return self.constant(value) * log(self.primitive(p)[1], evaluate=False)
+            return self.constant(value) * log(self.base(p, around_zero=True), evaluate=False)
         roots = self.real_roots(p)
         if roots:
             return Add(*(sympy.expand_mul(self.poly(value, a)) * log(self.x - a) for a in roots))
@@ -269,37 +277,40 @@ class Atoms:
         return self.root_sum(self.poly(p, a), self.poly(value, a) * log(self.x - a))
 
     def _log_sum_of_quadratic(self, p: Poly, value: Poly) -> Expr:
-        """The sum of logarithms for x^2 + b x + c: m log(p) - k w atan((2 x + b)/w), w^2 = 4 c - b^2.
+        """The sum of logarithms for u = A x^2 + B x + C, p = u/A: m log(u) - k w/(A sqrt(w)) atan((2 A x + B)/sqrt(w)).
 
-        For negative 4 c - b^2 it is -k u log((2 x + b - u)/(2 x + b + u)) with u^2 = b^2 - 4 c, up to its sign.
+        m is the mean of both residues, k their slope, w = 4 A C - B^2; for negative w there is log with sqrt(-w).
         """
-        c, b = (self.constant(p[i]) for i in (0, 1))
-        slope = self.constant(value[1])
-        mean = sympy.cancel(self.constant(value[0]) - slope * b / 2)
-        total = mean * log(self.primitive(p)[1]) if mean else Integer(0)
-        twice = 2 * self.x + b
-        known = discriminant(p)
-        if known is not None:
-            root = radical(rational(-known))
-            return total - slope * root * sympy.atan(sympy.expand_mul(twice / root))
-        square = sympy.factor(4 * c - b**2)
-        if square.could_extract_minus_sign() and not square.is_positive:
-            root = sympy.sqrt(-square)
-            return total + sympy.cancel(slope / 2) * root * log((twice - root) / (twice + root))
-        root = sympy.sqrt(square)
-        return total - slope * root * sympy.atan(twice / root)
+        slope = value[1]
+        mean = self.constant(value[0] - slope * p[1] * Fraction(1, 2))
+        content, shown = self.primitive(p)
+        A = content.inverse()
+        total = mean * log(shown) if mean else Integer(0)
+        twice = self.poly(p.derivative() * A)
+        w = (4 * p[0] - p[1] * p[1]) * A * A
+        if discriminant(p) is None and self.is_negative(w):
+            root = self.sqrt(-w)
+            return total - self.constant(slope * w / (2 * A)) / root * log((twice - root) / (twice + root))
+        root = self.sqrt(w)
+        return total - self.constant(slope * w / A) / root * sympy.atan(sympy.expand_mul(twice / root))
 
-    def is_turned(self, base: Poly) -> bool:
-        """True for a monic polynomial that is negative where its roots are to be real: those of -base are written."""
-        if self.at is None:
-            is_pure_square = base.degree == 2 and not base[1]
-            return is_pure_square and is_seen_negative(self.own(self.constant(base[0])))
-        if self.at.is_infinite:
-            return False
-        if self.at.is_Rational and base.field == QQ:
-            value = QQ.rational_value(base(Fraction(int(self.at.p), int(self.at.q))))
-            return value is not None and value < 0
-        return is_seen_negative(self.own(self.poly(base).subs(self.x, self.at)))
+    def is_turned(self, base: Poly, *, around_zero: bool = True) -> bool:
+        """True for a polynomial that is negative where its roots are to be real: those of -base are written.
+
+        Without a point that is 0 for 1 - k x and other letters before x, and for a - x^2 with `around_zero`.
+        """
+        content, shown = self.primitive(base)
+        if self.is_negative(content):
+            shown = -shown
+        point = self.at
+        if point is None:
+            is_pure_square = around_zero and base.degree == 2 and not base[1]
+            point = 0 if is_pure_square or content.field.rational_value(content) is None else sympy.oo
+        return point != sympy.oo and is_seen_negative(self.own(shown.subs(self.x, point)))
+
+    def base(self, p: Poly, *, around_zero: bool) -> Expr:
+        """What is written for a multiple of a monic polynomial whose roots are to be real."""
+        return self.primitive(p)[1] * (-1) ** self.is_turned(p, around_zero=around_zero)
 
     def root_sum(self, polynomial: Expr, body: Expr) -> Expr:
         """The sum of the body over the roots of a polynomial, both in the symbol `root`."""
@@ -348,19 +359,15 @@ def display(y: Product, atoms: Atoms, *, around_zero: bool = False) -> Expr:
 
 
 def factors(
-    y: Product, atoms: Atoms, extra: RatFunc | None = None, *, like: Product | None = None, around_zero: bool = True
+    y: Product, atoms: Atoms, extra: RatFunc | None = None, *, like: Product | None = None
 ) -> tuple[Expr, list[Expr]]:
-    """(c, factors): y * extra is c times the product of the factors, merged and grouped (`kovacic.closed_form.product`).
-
-    Roots are real at the point of `atoms`; without one, those of x^2 - a, a > 0, are real around 0 with `around_zero`.
-    """
+    """(c, factors): y * extra is c times the product of the factors, merged and grouped (`kovacic.closed_form.product`)."""
     found = merged(y, extra, like=like)
-    turned, shown = _shown(y, found, atoms, around_zero=around_zero)
+    turned, shown = _shown(y, found, atoms, around_zero=True)
     scale: Expr = Mul(*(Integer(-1) ** index for index in turned))
     for factor in found:
-        content = atoms.primitive(factor.base)[0]
-        if content != 1:
-            scale = scale * rational(content) ** atoms.constant(factor.exponent)
+        leading = atoms.primitive(factor.base)[0].inverse()
+        scale = scale * atoms.sqrt(leading) ** (-2 * atoms.constant(factor.exponent))
     return scale, shown
 
 
@@ -368,15 +375,13 @@ def _shown(y: Product, found: list[Factor], atoms: Atoms, *, around_zero: bool) 
     """The exponents of bases with the other sign, and the factors of a product, up to contents."""
     turned: list[Expr] = []
     shown: list[Expr] = []
-    is_wanted = around_zero or atoms.at is not None
     for group, exponent in grouped(found):
         index = atoms.constant(exponent)
         bases = []
         for base in group:
-            is_turned = is_wanted and not index.is_Integer and atoms.is_turned(base)
+            is_turned = not index.is_Integer and atoms.is_turned(base, around_zero=around_zero)
             turned += [index] * is_turned
-            primitive = atoms.primitive(base)[1]
-            bases.append(-primitive if is_turned else primitive)
+            bases.append(atoms.primitive(base)[1] * (-1) ** is_turned)
         shown.append(Mul(*bases) ** index)
     for residue in y.roots:
         roots = atoms.real_roots(residue.factor)

@@ -76,7 +76,7 @@ from kovacic.closed_form.primitive import (
     integrate,
     normalised_constant,
 )
-from kovacic.closed_form.product import Power, Product, gathered, grouped, merged
+from kovacic.closed_form.product import Power, Product, gathered, grouped, joined, merged
 from kovacic.closed_form.structure import OnCurve, Triangular
 from kovacic.numbers.exact import radical as sqrt
 
@@ -168,7 +168,7 @@ def _zero_factors(form: OnCurve, kappa: Expr, atoms: Atoms) -> tuple[Expr, Expr]
         return Integer(1), Integer(0)
     a, A = atoms.primitive(form.zeros.A)
     b, B = atoms.primitive(form.zeros.B)
-    numbers, roots = (rational(b / a) * kappa * sqrt(atoms.poly(form.integral.g))).as_coeff_Mul()
+    numbers, roots = (atoms.constant(b / a) * kappa * sqrt(atoms.poly(form.integral.g))).as_coeff_Mul()
     return numbers.q * A, numbers.p * B * roots
 
 
@@ -213,7 +213,7 @@ def _on_the_other_side(form: OnCurve) -> OnCurve:
 
 def _curve_terms(integral: CurveIntegral, atoms: Atoms, *, alone: bool, exponents: bool) -> _Terms:
     """With `exponents` the terms will be exponents, and int dx/sqrt(g) is a logarithm, which becomes a power."""
-    root = sqrt(atoms.poly(integral.g))
+    root = Mul(*atoms.root_of(integral.g))
     terms = _Terms()
     if integral.exact:
         terms.others.append(atoms.ratio(integral.exact) * root)
@@ -226,7 +226,7 @@ def _curve_terms(integral: CurveIntegral, atoms: Atoms, *, alone: bool, exponent
                 _append_unit(u, root, atoms, terms, integral.g)
         return terms
     if integral.rest:
-        _append_rest(integral, root, atoms, terms, alone=alone, exponents=exponents)
+        _append_rest(integral, atoms, terms, alone=alone, exponents=exponents)
     for residue in integral.residues:
         found = unit(integral.g, residue)
         if found is not None:
@@ -236,10 +236,8 @@ def _curve_terms(integral: CurveIntegral, atoms: Atoms, *, alone: bool, exponent
     return terms
 
 
-def _append_rest(
-    integral: CurveIntegral, root: Expr, atoms: Atoms, terms: _Terms, *, alone: bool, exponents: bool
-) -> None:
-    """c int dx/sqrt(g) = c log(x - (x1 + x2)/2 + sqrt(g)), or an inverse sine."""
+def _append_rest(integral: CurveIntegral, atoms: Atoms, terms: _Terms, *, alone: bool, exponents: bool) -> None:
+    """c int dx/sqrt(g) = c log((x - (x1 + x2)/2 + sqrt(g))/s), s the constant before the root of g, or an inverse sine."""
     g = integral.g
     inverse = None if exponents and g.lc == 1 else _inverse_sine(g, atoms, exponents=exponents)
     c = atoms.constant(integral.rest)
@@ -252,7 +250,8 @@ def _append_rest(
         # The square root of the base: its square has another sign of sqrt(g) in some regions, which is of no account alone.
         terms.logarithms.append((2 * c, Add(*(sqrt(atoms.x - a) for a in roots))))
         return
-    terms.logarithms.append((c, atoms.poly(g.derivative() * Fraction(1, 2)) + root))
+    scale, root = atoms.root_of(g)
+    terms.logarithms.append((c, sympy.expand_mul(atoms.poly(g.derivative() * Fraction(1, 2)) / scale) + root))
 
 
 def _inverse_sine(g: Poly, atoms: Atoms, *, exponents: bool) -> Expr | None:
@@ -267,7 +266,8 @@ def _inverse_sine(g: Poly, atoms: Atoms, *, exponents: bool) -> Expr | None:
     if not atoms.own(square).is_positive:
         if k.has(sympy.I) or not k.is_rational_function(*square.free_symbols):
             return None
-        k = k if exponents else sympy.sqrt(square)
+        scale, _ = atoms.root_of(g)
+        k = k if exponents else scale * sympy.sqrt(sympy.cancel(square / scale**2))
     z = (atoms.x - atoms.constant(h)) / k
     if g.lc == -1:
         return asin(z)
@@ -280,14 +280,13 @@ def _append_unit(u: Unit, root: Expr, atoms: Atoms, terms: _Terms, g: Poly) -> N
     A = u.A
     B = u.B
     content, _ = atoms.primitive(A)
-    if content:
-        A = A * (1 / content)
-        B = B * (1 / content)
+    A = A / content
+    B = B / content
     if atoms.is_negative(u.tau_squared):
         eta = atoms.sqrt(-u.tau_squared)
         a, top = atoms.primitive(A)
         b, bottom = atoms.primitive(B)
-        terms.others.append(atan(Mul(rational(a / b) / eta, top, 1 / bottom, 1 / root)) * -factor / eta)
+        terms.others.append(atan(Mul(atoms.constant(a / b) / eta, top, 1 / bottom, 1 / root)) * -factor / eta)
         return
     tau = atoms.sqrt(u.tau_squared)
     argument = atoms.poly(A) + sympy.expand_mul(tau * atoms.poly(B)) * root
@@ -567,9 +566,7 @@ def triangular(form: Triangular, atoms: Atoms) -> tuple[Expr, Expr, tuple[str, .
         return first, Add(*(first * term for term in Add.make_args(shown))), notes
     # y1 times the rational function before the root of g, in lowest terms
     scale, whole = factors(form.first, atoms, primitive.exact)
-    c, monic = atoms.primitive(primitive.g * primitive.g.lc)
-    root = sqrt(rational(c)) * sqrt(monic * atoms.constant(primitive.g.lc))
-    algebraic = Mul(scale / (parts[0] * content), *whole, root)
+    algebraic = Mul(scale / (parts[0] * content), *whole, *atoms.root_of(primitive.g))
     _, rest, _ = curve_integral(replace(primitive, exact=primitive.exact * 0), atoms)
     return first, Add(algebraic, *(first * (term / content) for term in Add.make_args(rest))), notes
 
@@ -626,11 +623,18 @@ def _rational(y: Product, primitive: RationalPrimitive, first: Factors, atoms: A
 
 
 def logarithms(residues: Iterable[Residue], atoms: Atoms, y: Product | None = None) -> list[Expr]:
-    """Logarithms, to be multiplied with y; those of two linear factors with opposite residues as one.
+    """Logarithms, to be multiplied with y; those of two linear factors with opposite residues as one, and of x - a and x + a.
 
     It is real between the roots if 0 lies there, unless the roots in y aren't.
     """
-    pending = list(residues)
+    apart: dict[Poly, list[Poly]] = {}
+    pending = []
+    for residue in residues:
+        if residue.is_constant:
+            apart.setdefault(residue.value, []).append(residue.factor)
+        else:
+            pending.append(residue)
+    pending = [Residue(p, value) for value, bases in apart.items() for p in joined(bases)] + pending
     terms = []
     while pending:
         first = pending.pop()

@@ -168,11 +168,11 @@ def grouped(found: Sequence[Factor]) -> list[tuple[list[Poly], Poly]]:
         for factor in group[1:]:
             if factor.exponent != exponent:
                 integral.setdefault(factor.exponent - exponent, []).append(factor.base)
-        powers.append((_joined([factor.base for factor in group]), exponent))
-    return powers + [([base], exponent) for exponent, bases in integral.items() for base in _joined(bases)]
+        powers.append((joined([factor.base for factor in group]), exponent))
+    return powers + [([base], exponent) for exponent, bases in integral.items() for base in joined(bases)]
 
 
-def _joined(bases: list[Poly]) -> list[Poly]:
+def joined(bases: list[Poly]) -> list[Poly]:
     """With every pair x - a, x + a multiplied out."""
     pending = list(bases)
     result = []

@@ -26,7 +26,7 @@ from kovacic.algebra.extension import AlgebraicField
 from kovacic.algebra.partial_fractions import Residue
 from kovacic.algebra.poly import Poly
 from kovacic.algebra.rationals import QQ
-from kovacic.closed_form.atoms import Atoms, Expr, display, rational
+from kovacic.closed_form.atoms import Atoms, Expr, display
 from kovacic.closed_form.product import Power, gathered
 from kovacic.closed_form.structure import Conjugate
 from kovacic.closed_form.way_back import solution_in_x
@@ -69,15 +69,15 @@ def real_pair(form: Conjugate, atoms: Atoms) -> tuple[Expr, Expr]:
             pair = turned
     common = display(replace(form.common, powers=gathered(pair.powers)), atoms)
     content = atoms.primitive(pair.A or pair.B)[0]
-    A = pair.A * (1 / content)
-    B = pair.B * (1 / content)
+    A = pair.A / content
+    B = pair.B / content
     first = atoms.poly(A)
     second = s * atoms.poly(B)
     for p, sign in pair.halves:
         # exp(+-i phi/2) is a multiple of plus +- i minus, plus * minus = t.
         distance = atoms.poly(p.derivative() * Fraction(1, 2))
         (scale, radical) = atoms.primitive(p)
-        root = sqrt(radical) * sqrt(rational(scale))
+        root = sqrt(radical) * sqrt(atoms.constant(scale))
         plus = sqrt(root + distance)
         minus = sign * sqrt(-atoms.constant(p[1] * p[1] - 4 * p[0])) / (2 * plus)
         first, second = first * plus - second * minus, first * minus + second * plus
@@ -150,7 +150,7 @@ def _conjugate_root(form: Conjugate, s: Expr, atoms: Atoms) -> Expr:
             exponents[p] = exponents.get(p, Integer(0)) + s * atoms.constant(residue.value)
         else:
             inner.append(s * atoms.log_sum(residue))
-    powers = Mul(*(atoms.primitive(base)[1] ** sympy.expand_mul(e) for base, e in exponents.items()))
+    powers = Mul(*(atoms.base(base, around_zero=False) ** sympy.expand_mul(e) for base, e in exponents.items()))
     rest = display(replace(form.common, powers=()), atoms)
     return Add(atoms.poly(form.A), sympy.expand_mul(s * atoms.poly(form.B))) * powers * rest * sympy.exp(Add(*inner))
 

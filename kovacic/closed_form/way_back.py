@@ -9,7 +9,7 @@ from __future__ import annotations
 from typing import Any
 
 import sympy
-from sympy.simplify.fu import TR2
+from sympy.simplify.fu import TR2, TR8
 
 from kovacic.equation import Equation
 from kovacic.reading.change_of_variable import function_of_x, is_power, user_variable
@@ -22,11 +22,13 @@ def in_x(equation: Equation, expression: Any) -> Any:
     own = sympy.Symbol(equation.variable)
     x = user_variable(equation)
     t = function_of_x(equation)
-    integrals = {  # int f(t(x)) t'(x) dx for int f(t) dt
-        integral: sympy.Integral(in_x(equation, integral.function) * t.diff(x), x)
-        for integral in expression.atoms(sympy.Integral)
-        if integral.limits == (sympy.Tuple(own),)
-    }
+    slope = t.diff(x).subs(t**2, sympy.cos(t.args[0]) ** -2 - 1) if t.func is sympy.tan else t.diff(x)
+    integrals = {}  # int f(t(x)) t'(x) dx for int f(t) dt
+    for integral in expression.atoms(sympy.Integral):
+        if integral.limits == (sympy.Tuple(own),):
+            inner = sympy.powsimp(in_x(equation, integral.function) * slope, combine="exp")
+            c, integrand = inner.as_independent(x, as_Add=False)
+            integrals[integral] = c * sympy.Integral(integrand, x)
     with_integrals = expression.xreplace(integrals)
     if is_power(equation):
         return _in_powers_of_x(with_integrals, own, t.exp, x)
@@ -66,8 +68,10 @@ def _continued(expression: Any, t: Any) -> Any:
     for base, root in ((square(t), other(w) ** sign), (-square(t), sympy.I * other(w) ** sign)):
         powers = {e for e in expression.atoms(sympy.Pow) if e.base == base and (2 * e.exp).is_Integer}
         expression = expression.xreplace({e: root ** (2 * e.exp) for e in powers})
-    if t.func is sympy.tan:  # sin(w) for cos(w) tan(w)
-        expression = expression.replace(lambda e: e.is_Mul and e.has(t), lambda e: min(TR2(e), e, key=sympy.count_ops))
+    if t.func is sympy.tan:  # sin(w) for cos(w) tan(w), and sin(2 w)/2 for sin(w) cos(w)
+        expression = expression.replace(
+            lambda e: e.is_Mul and e.has(t), lambda e: min(TR8(TR2(e)), TR2(e), e, key=sympy.count_ops)
+        )
     # cos(w) +- i sin(w) = exp(+-i w), and sin(w) +- i cos(w) = +-i exp(-+i w).  The constant is left out: a solution stays one
     # where the logarithm of t +- i other(w), which isn't algebraic in t, is continued with another constant.
     for i in (sympy.I, -sympy.I) if t.func in (sympy.sin, sympy.cos) else ():
@@ -138,7 +142,11 @@ def _with_joined_powers(expression: Any, x: Any) -> Any:
     def is_power_of_exponential(e: Any) -> bool:
         return bool(e.is_Pow and e.base.func is sympy.exp)
 
+    def is_of_waves(e: Any) -> bool:
+        return bool(e.func is sympy.exp and any(inner.has(sympy.I) for inner in e.args[0].atoms(sympy.exp)))
+
     found = expression.replace(is_log_of_exponential, lambda e: e.args[0].exp)
+    found = found.replace(is_of_waves, lambda e: sympy.exp(sympy.expand(e.args[0].rewrite(sympy.cos))))
     found = found.replace(is_exponential_and_one, _by_half_angle)
     found = found.replace(is_product_with_x, lambda e: sympy.expand_power_base(e, force=True, deep=False))
     found = found.replace(is_power_of_exponential, lambda e: sympy.exp(e.base.exp * e.exp))

@@ -184,11 +184,12 @@ def _in_another_variable(
 
 
 def _arguments(term: Expr, x: Expr) -> Iterator[ChangeOfIntegrand]:
-    """To functions and arguments u of functions in a term, beside whose slope it is one of u; x = exp(u) for u = log(x)."""
+    """To functions, their arguments u and bases u of powers, beside whose slope it is one of u; x = exp(u) for u = log(x)."""
     t = sympy.Dummy(real=True)
     own = term.atoms(*_BY_PARTS) | {f.args[0] for f in term.atoms(sympy.Function) if f.args[0].has(exp, sin, cos, log)}
-    for u in sorted((u for u in own if u.has(x)), key=str):
-        inner = (term / u.diff(x)).subs(u, t)
+    own |= {p.base for p in term.atoms(sympy.Pow) if p.exp.free_symbols and not p.exp.has(x)}
+    for u in sorted((u for u in own if u.has(x) and u != x), key=str):
+        inner = (term / _slope(u, x)).subs(u, t)
         yield ChangeOfIntegrand(prepared(inner.subs(x, exp(t))) if u == log(x) else inner, t, u)
 
 
@@ -246,13 +247,23 @@ def _by_parts(inverse: Expr, g: Expr, x: Expr) -> Expr | None:
         return None
     slopes = (m * _slope(function, x) * inverse / function * G for function, m in powers)
     rest = _by_rules(sympy.Add(*slopes), x)
-    return None if rest is None else sympy.expand(G * inverse) - rest
+    return None if rest is None else sympy.expand(G * inverse, deep=False) - rest
 
 
 def _slope(function: Expr, x: Expr) -> Expr:
-    """1/sqrt(x^2 + 1) for log(x + sqrt(x^2 + 1))."""
+    """1/sqrt(x^2 + 1) for log(x + sqrt(x^2 + 1)), and a/sqrt(b^2 - a^2 x^2) for asin(a x/sqrt(b^2))."""
     slope = sympy.cancel(function.diff(x))
-    return slope if slope.is_rational_function(x) else sympy.powsimp(sympy.radsimp(slope))
+    if slope.is_rational_function(x):
+        return slope
+    P, square = sympy.fraction(sympy.cancel(1 / slope**2))
+    c = sympy.powdenest(sympy.sqrt(square), force=True)
+    if (
+        len(slope.free_symbols) > 1
+        and P.is_polynomial(x)
+        and sympy.cancel(slope.subs(x, 0) * sympy.sqrt(P.subs(x, 0)) / c) == 1
+    ):
+        return c / sympy.sqrt(sympy.expand(P))
+    return sympy.powsimp(sympy.radsimp(slope))
 
 
 def _beside_logarithm(logarithm: Expr, g: Expr, x: Expr) -> Expr | None:
@@ -307,7 +318,7 @@ def _has_waves(term: Expr, _: Expr) -> bool:
 
 _RULES = (
     _Rule("int P exp(r x) cos(w x) dx: undetermined coefficients", lambda e, x: True, by_coefficients),
-    _Rule("int f(u) u' dx = int f(u) du", lambda e, x: bool(_functions(e)), partial(_in_another_variable, _arguments)),
+    _Rule("int f(u) u' dx = int f(u) du", lambda e, x: True, partial(_in_another_variable, _arguments)),
     _Rule(
         "int f(exp(k x)) dx = int f(u)/(k u) du",
         lambda e, x: bool(e.has(exp)),

@@ -196,20 +196,26 @@ def _steps_of_first_order(answer: FirstOrderAnswer) -> Iterator[Block]:
     equation = answer.equation
     w, x = equation.function, equation.x
     name = str(w.func)
-    square = equation.r * sympy.Symbol(name) ** 2
+    square = equation.r * sympy.Symbol(name) ** equation.power
     yield Heading("The equation")
     yield from _equation(name, (-equation.q, sympy.Integer(1)), equation.p + square, answer.conditions)
     if equation.is_linear:
         yield Heading("The integrating factor")
         yield say(f"h = exp(int q), q the coefficient of {name}, solves the equation without its right-hand side p:")
-        yield _named("h", equation.homogeneous)
+        yield _named("h", equation.homogeneous())
         if equation.p == 0:
             return
         yield say(f"With {name} = h c it says that c' = p/h, so {name} = h (C1 + int p/h), where")
-        yield Formula(Math("p/h", "p/h").equals(of_sympy(shortest([*sums(equation.p / equation.homogeneous, x)]))))
+        yield Formula(Math("p/h", "p/h").equals(of_sympy(shortest([*sums(equation.p / equation.homogeneous(), x)]))))
+        return
+    yield Heading("The linear equation")
+    if equation.power != 2:
+        linear_one = equation.of_power
+        yield say(f"u = {name}^m makes it linear, where")
+        yield _named("m", 1 - equation.power)
+        yield from _equation("u", (-linear_one.q, sympy.Integer(1)), linear_one.p)
         return
     linear, u = linear_equation(equation)
-    yield Heading("The linear equation")
     yield say(f"{name} = -u'/(r u), r the coefficient of {name}^2, makes it linear:")
     yield from _equation("u", [linear.lhs.coeff(u.diff(x, k) if k else u) for k in range(3)], sympy.Integer(0))
     yield say("Of the two constants of u only their quotient matters.")

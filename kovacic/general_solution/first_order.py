@@ -1,20 +1,21 @@
-"""Equations of first order, w' = p + q w + r w^2: linear ones where r = 0, Riccati's elsewhere.
+"""Equations of first order, w' = p + q w + r w^n: linear ones where r = 0, Riccati's for n = 2, Bernoulli's for p = 0.
 
 A linear equation has the solutions
 
     w = h (C1 + int p/h dx),    h = exp(int q dx),                                                                    (1)
 
-and one of Riccati's is made linear in `riccati_equation`.
+with powers of cosh(x), cos(x), ... for tanh(x), tan(x), ... in q; the others are made linear in `riccati_equation`.
 """
 
 from __future__ import annotations
 
-from collections.abc import Collection, Mapping, Sequence, Set
+from collections import defaultdict
+from collections.abc import Callable, Collection, Mapping, Sequence, Set
 from dataclasses import dataclass, replace
-from functools import cached_property
 from typing import Any, NamedTuple
 
 import sympy
+from sympy import Integer, cosh, sinh
 from sympy.core.function import AppliedUndef
 
 from kovacic.closed_form.atoms import Atoms, display
@@ -28,7 +29,7 @@ from kovacic.general_solution.continuity import jumps
 from kovacic.general_solution.integrands import NUMBERS, ratfunc
 from kovacic.general_solution.jumps import in_steps
 from kovacic.general_solution.steps import JUMPING, Apart, taken_apart
-from kovacic.general_solution.textbook import in_book_form, sums
+from kovacic.general_solution.textbook import in_book_form, in_hyperbolic_functions, sums
 from kovacic.general_solution.values import value_at
 from kovacic.general_solution.variation import is_solution, starting_at
 from kovacic.general_solution.zero import is_zero
@@ -40,23 +41,24 @@ from kovacic.reading.symbolic import expression_of, function_of
 from kovacic.special.choice import shortest
 
 Expr = Any  # SymPy publishes no types
-_ZERO = sympy.Integer(0)
+_ZERO, _TWO = Integer(0), Integer(2)
 
 
 @dataclass(frozen=True)
 class FirstOrderEquation:
-    """w' = p + q w + r w^2; `function` is w(x), `guesses` say what was guessed when a text was read."""
+    """w' = p + q w + r w^n, n = `power`; `function` is w(x), `guesses` say what was guessed when a text was read."""
 
     function: Expr
     p: Expr
     q: Expr
     r: Expr
     guesses: tuple[str, ...] = ()
+    power: Expr = _TWO
 
     def in_symbols(self, others: Mapping[Expr, Expr]) -> FirstOrderEquation:
         """The equation in other symbols."""
-        p, q, r = (e.xreplace(others) for e in self.parts)
-        return FirstOrderEquation(self.function.xreplace(others), p, q, r, self.guesses)
+        function, p, q, r, n = (e.xreplace(others) for e in (self.function, *self.parts, self.power))
+        return FirstOrderEquation(function, p, q, r, self.guesses, n)
 
     @property
     def x(self) -> Expr:
@@ -71,12 +73,18 @@ class FirstOrderEquation:
         """The reading in one line: y' = k*y, y(x), parameters k."""
         w = sympy.Symbol(self.function.func.__name__)
         names = ", ".join(sorted(self.parameters))
-        line = f"{w}' = {as_text(self.p + self.q * w + self.r * w**2)}, {self.function}".replace("**", "^")
+        line = f"{w}' = {as_text(self.p + self.q * w + self.r * w**self.power)}, {self.function}".replace("**", "^")
         return f"{line}, parameters {names}" if names else line
 
     @property
     def parameters(self) -> set[str]:
-        return {str(symbol) for part in self.parts for symbol in part.free_symbols} - {str(self.x)}
+        return {str(symbol) for symbol in sympy.Tuple(*self.parts, self.power).free_symbols} - {str(self.x)}
+
+    @property
+    def of_power(self) -> FirstOrderEquation:
+        """The equation of u = w^(1 - n) for p = 0, u' = (1 - n) (r + q u)."""
+        m = 1 - self.power
+        return FirstOrderEquation(self.function, m * self.r, m * self.q, _ZERO)
 
     @property
     def of_inverse(self) -> FirstOrderEquation:
@@ -87,17 +95,9 @@ class FirstOrderEquation:
     def is_linear(self) -> bool:
         return bool(self.r == 0)
 
-    @cached_property
-    def homogeneous(self) -> Expr:
-        """h with h'/h = q: a product of powers and an exponential where q is rational."""
-        rate = ratfunc(self.q, self.x)
-        if rate is not None:
-            own = {sympy.Symbol(symbol.name): symbol for symbol in self.q.free_symbols}
-            return display(product(rate), Atoms(self.x)).xreplace(NUMBERS | own)
-        apart = _apart(self.q, self.x)
-        if apart is None or apart.impulses:
-            return sympy.exp(sympy.Integral(self.q, self.x))
-        return sympy.exp(_of_parts(apart, sympy.Integer(1), self.x, None))
+    def homogeneous(self, start: Expr | None = None) -> Expr:
+        """h with h'/h = q, real at the start."""
+        return _exponential_of_integral(self.q, self.x, start)
 
     def real_at(self, point: Expr, w: Expr, right: Expr) -> Expr:
         """A solution of w' = q w + right in which log(-u), (-u)^e stand for arguments u < 0, if it is one; else w."""
@@ -171,21 +171,25 @@ def read_first_order(
 
 
 def _in_powers(whole: Expr, function: Expr) -> FirstOrderEquation | None:
-    """From an expression that is zero: its numerator is a polynomial of degree 2 in w, and linear in w'."""
-    slope = sympy.Dummy()
-    value = sympy.Dummy()
+    """From an expression that is zero: its numerator has w' times one power of w, and up to one power beside 1 and w."""
+    slope, value = sympy.Dummy(), sympy.Dummy()
     plain = whole.subs(function.diff(function.args[0]), slope).subs(function, value)
-    if plain.atoms(sympy.Derivative) or any(f.has(value) or f.has(slope) for f in plain.atoms(AppliedUndef)):
+    terms: dict[tuple[Expr, Expr], Expr] = defaultdict(sympy.Add)
+    for term in sympy.Add.make_args(sympy.expand(sympy.numer(sympy.together(plain)))):
+        exponents = tuple(sympy.cancel(u * term.diff(u) / term) for u in (slope, value))
+        if any(e.has(slope, value, function.args[0], sympy.Derivative) for e in exponents):
+            return None
+        terms[exponents] += term.xreplace({slope: sympy.S.One, value: sympy.S.One})
+    below = [e for m, e in terms if m == 1]
+    if len(below) != 1 or not {m for m, _ in terms} <= {0, 1}:
         return None
-    numerator = sympy.numer(sympy.together(plain))
-    if not numerator.is_polynomial(slope, value):
+    leading = terms.pop((sympy.S.One, below[0]))
+    right = {sympy.cancel(e - below[0]): _quotient_by_terms(-c, leading) for (_, e), c in terms.items()}
+    p, q = (right.pop(sympy.Integer(k), _ZERO) for k in (0, 1))
+    power, r = next(iter(right.items()), (_TWO, _ZERO))
+    if len(right) > 1 or (power != 2 and p != 0):
         return None
-    terms = dict(sympy.Poly(numerator, value, slope).terms())
-    leading = terms.pop((0, 1), _ZERO)
-    coefficients = [-terms.pop((power, 0), _ZERO) for power in range(3)]
-    if terms or leading == 0:
-        return None
-    return FirstOrderEquation(function, *(_quotient_by_terms(part, leading) for part in coefficients))
+    return FirstOrderEquation(function, p, q, r, (), power)
 
 
 def _quotient_by_terms(numerator: Expr, denominator: Expr) -> Expr:
@@ -207,10 +211,9 @@ def solved_linear(
     """
     value = value_of(conditions)
     x = equation.x
-    h = equation.homogeneous
-    start = None
+    start = None if value is None else value.point
+    h = equation.homogeneous(start)
     if value is not None:
-        start = value.point
         h = starting_at(equation.real_at(start, h, _ZERO), x, start)
     particular = _particular(equation, h, start)
     if value is not None:
@@ -219,7 +222,8 @@ def solved_linear(
     if value is not None:
         constant = _constant_through(equation, h, particular, value, constant)
     whole = constant * h + particular
-    w = shortest([*sums(whole, x)])
+    product_form = h * (constant + sympy.powsimp(particular / h))
+    w = shortest([*sums(whole, x), product_form])
     if value is not None:
         w = in_book_form(w, x)
     notices = exceptions_of(w, x, (equation.p, equation.q))
@@ -242,6 +246,47 @@ def _constant_denominators(e: Expr, x: Expr) -> list[Expr]:
     bases = dict.fromkeys(b for p in powers for b, _ in sympy.factor_list(p.base)[1])
     bases = {b: None for b in bases if b.free_symbols and b.free_symbols <= e.free_symbols}  # no letter of integration
     return [base for base in sorted(bases, key=str) if base.is_zero is not False]
+
+
+#: c and h with h'/h = c f(u) for these functions f.
+_ANTILOGARITHMS: dict[Any, tuple[int, Callable[[Expr], Expr]]] = {
+    sympy.tanh: (1, cosh),
+    sympy.coth: (1, sinh),
+    sympy.csch: (1, lambda u: sympy.tanh(u / 2)),
+    sympy.tan: (-1, sympy.cos),
+    sympy.cot: (1, sympy.sin),
+    sympy.csc: (1, lambda u: sympy.tan(u / 2)),
+    sympy.sec: (-1, lambda u: sympy.cos(u) / (1 + sympy.sin(u))),
+}
+
+
+def _exponential_of_integral(q: Expr, x: Expr, start: Expr | None) -> Expr:
+    """h with h'/h = q: a product of powers and an exponential where q is rational beside tan(k x), tanh(k x), ...
+
+    Powers are real at the start, or at 0 unless q is singular there.
+    """
+    own = {sympy.Symbol(symbol.name): symbol for symbol in q.free_symbols}
+    at = start if start is not None else Integer(0)
+    rest, powers = [], []
+    for term in sympy.Add.make_args(sympy.expand(q)):
+        c, f = term.as_independent(x, as_Add=False)
+        slope = f.args[0].diff(x) if f.func in _ANTILOGARITHMS else x
+        if slope.has(x):
+            rest.append(term)
+            continue
+        sign, function = _ANTILOGARITHMS[f.func]
+        powers.append(function(f.args[0]) ** (sign * c / slope))
+    if powers:
+        return sympy.Mul(*powers, _exponential_of_integral(sympy.Add(*rest), x, start))
+    rate = ratfunc(q, x)
+    if rate is not None:
+        atoms = Atoms(x, at=at if is_finite(q.subs(x, at)) else None, own=lambda e: e.xreplace(own))
+        h = display(product(rate), atoms).xreplace(NUMBERS | own)
+        return h.replace(lambda e: e.is_Add, sympy.expand)  # as in p
+    apart = _apart(q, x)
+    if apart is None or apart.impulses:
+        return sympy.exp(sympy.Integral(q, x))
+    return sympy.exp(_of_parts(apart, sympy.Integer(1), x, None))
 
 
 def _particular(equation: FirstOrderEquation, h: Expr, start: Expr | None) -> Expr:
@@ -280,7 +325,9 @@ def _integrated(p: Expr, h: Expr, x: Expr, start: Expr | None) -> Expr:
         return _ZERO
     integral = antiderivative(sympy.powsimp(p / h), x)
     if integral is not None and not jumps(h * integral, x, [h, 1 / h, p]):
-        return sympy.powsimp(sympy.expand(h * integral))
+        if (p / h).has(sinh, cosh):
+            integral = in_hyperbolic_functions(integral)
+        return shortest([sympy.powsimp(sympy.expand(h * integral)), h * integral])
     return starting_at(h * sympy.Integral(sympy.powsimp(sympy.expand(p / h)), x), x, start)
 
 
@@ -307,11 +354,14 @@ def _constant_through(equation: FirstOrderEquation, h: Expr, particular: Expr, v
 def check_first_order(equation: FirstOrderEquation, w: Expr, conditions: Sequence[Condition]) -> list[str]:
     """One sentence per check that could not be carried out.  Raises `VerificationFailed` where w is seen to be wrong.
 
-    w' - (q + r w) w = p.  Raises `InputError` where w hasn't the value at a singular point, as no solution needs to have it.
+    w' - (q + r w^(n - 1)) w = p.  Raises `InputError` where w hasn't the value at a singular point, as no solution needs
+    to have it.
     """
     value = value_of(conditions)
     p, q, r = equation.parts
-    claim = SolutionClaim(equation.x, w, (_ZERO, sympy.Integer(1), -q - r * w, p), conditions, equation.reading)
+    claim = SolutionClaim(
+        equation.x, w, (_ZERO, Integer(1), -q - r * w ** (equation.power - 1), p), conditions, equation.reading
+    )
     try:
         return claim.check()
     except VerificationFailed:

@@ -58,9 +58,11 @@ def prepared(integrand: Expr) -> Expr:
     if integrand.has(tan, cot, sec, csc):
         integrand = integrand.replace(tan, lambda a: sin(a) / cos(a)).replace(cot, lambda a: cos(a) / sin(a))
         integrand = integrand.replace(sec, lambda a: 1 / cos(a)).replace(csc, lambda a: 1 / sin(a))
-    # SymPy would multiply (x + 1)^(-3/2) out, in the denominator.
+    # SymPy would multiply (x + 1)^(-3/2) out, in the denominator, and write log(x/(1 - x) + 1/(1 - x)).
+    quotients = [f for f in integrand.atoms(log) if f.args[0].is_Mul and sympy.denom(f.args[0]).is_Add]
     sums = [power for power in integrand.atoms(sympy.Pow) if power.base.is_Add and power.exp.is_Rational]
-    kept = {power: sympy.Dummy() for power in sums if power.exp < -1 and not power.exp.is_Integer}
+    powers = (power for power in sums if power.exp < -1 and not power.exp.is_Integer)
+    kept = {part: sympy.Dummy() for part in (*quotients, *powers)}
     back = {letter: power for power, letter in kept.items()}
     rest = integrand.xreplace(kept)
     check_duration(_PART_SECONDS * expanded_size(rest), "expanding an integrand")
@@ -116,7 +118,7 @@ def _integral_by_rate(rate: RatFunc, term: Expr, x: Expr) -> Expr | None:
     K = _constant_value(term, scale * sympy.Mul(*shown), x)
     if K is None:
         return None
-    return sympy.expand(K * found)
+    return sympy.expand(K * found, deep=False)
 
 
 def _constant_value(term: Expr, other: Expr, x: Expr) -> Expr | None:

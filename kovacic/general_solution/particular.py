@@ -29,7 +29,7 @@ from sympy import DiracDelta, Heaviside
 from kovacic.algebra.factors import combination
 from kovacic.algebra.poly import Poly
 from kovacic.algebra.ratfunc import RatFunc
-from kovacic.closed_form.atoms import Atoms
+from kovacic.closed_form.atoms import Atoms, is_seen_negative
 from kovacic.closed_form.cuts import cuts_of
 from kovacic.closed_form.way_back import in_x
 from kovacic.equation import Equation
@@ -126,23 +126,27 @@ def _without_integrals(basis: Basis, right: Expr) -> Expr | None:
     b, c = map(sympy.factor, basis.rates)
     if not (b.has(x) or c.has(x)):
         return undetermined(b, c, right, x)
-    return _of_euler(b, c, right, x)
+    return _of_euler(basis, b, c, right)
 
 
-def _of_euler(b: Expr, c: Expr, right: Expr, x: Expr) -> Expr | None:
-    """For b = beta/u, c = gamma/u^2 with u = x - p: u = e^t turns it into y_tt + (beta - 1) y_t + gamma y = e^(2t) right."""
+def _of_euler(basis: Basis, b: Expr, c: Expr, right: Expr) -> Expr | None:
+    """For u = m x + p, b = m beta/u, c = m^2 gamma/u^2: u = e^t gives y_tt + (beta - 1) y_t + gamma y = e^(2t) right/m^2."""
+    x = basis.x
     double = sympy.Poly(sympy.denom(b) ** 2 if c == 0 else sympy.denom(c), x)
     if double.degree() != 2:
         return None
-    u = x + double.coeff_monomial(x) / (2 * double.LC())
-    beta, gamma = sympy.cancel(b * u), sympy.cancel(c * u**2)
+    root = -double.coeff_monomial(x) / (2 * double.LC())
+    u = sympy.numer(sympy.together(x - root))
+    m = u.diff(x)
+    beta, gamma = sympy.cancel(b * u / m), sympy.cancel(c * u**2 / m**2)
     if beta.has(x) or gamma.has(x):
         return None
-    if any(cut.subs(x, 1 - u + x).is_negative for cut in cuts_of(right, x)):  # real on the left of p
-        u = -u
+    cuts = cuts_of(sympy.Tuple(right, basis.y1, basis.y2), x)
+    if any(is_seen_negative(cut.subs(x, root + 1)) for cut in cuts):  # real on the left of the root
+        u, m = -u, -m
     t = sympy.Dummy(real=True)
-    inner = right.subs(x, (sympy.exp(t) - u) / u.diff(x) + x).replace(lambda e: e.is_Add, sympy.expand)
-    found = undetermined(beta - 1, gamma, sympy.exp(2 * t) * inner, t)
+    inner = right.subs(x, (sympy.exp(t) - u) / m + x).replace(lambda e: e.is_Add, sympy.expand)
+    found = undetermined(beta - 1, gamma, sympy.exp(2 * t) * inner / m**2, t)
     return None if found is None else ChangeOfIntegrand(inner, t, sympy.log(u)).back(found)
 
 

@@ -136,7 +136,7 @@ def _read_coefficients(p: Any, q: Any, r: Any, var: str | None, limits: Limits) 
     """r, q and p as the coefficients a, b and c of an equation; `p` alone may be Riccati's equation."""
     if q is None and r is None:
         equation = read_first_order(p, None, var, limits)
-        if equation is None or equation.is_linear:
+        if equation is None or equation.is_linear or equation.power != 2:
             raise InputError(f"{p} isn't a Riccati equation", hint="write w' = p + q*w + r*w^2, or give p, q and r")
         p = equation.p
         q = equation.q

@@ -13,7 +13,7 @@ formula, so that
 
     w = -omega/r - E/(r (C + int E dx)),                                                                              (2)
 
-a rational solution and a term that the constant moves.
+a rational solution and a term that the constant moves.  Bernoulli's equations, w' = q w + r w^n, are linear in w^(1 - n).
 """
 
 from __future__ import annotations
@@ -88,9 +88,13 @@ def solved_riccati(
     value = value_of(conditions)
     x = equation.x
     constants: tuple[Expr, ...] = ()
-    if equation.p == 0 and (value is None or equation.is_regular_at(value.point)):
+    if equation.power != 2 or (equation.p == 0 and (value is None or equation.is_regular_at(value.point))):
         forms = _of_bernoulli(equation, conditions, value)
         notices = exceptions_of(sympy.Tuple(*forms), x, equation.parts)
+        if value is None and equation.power.is_odd:
+            notices.append(f"-{equation.function} is a solution, too")
+        if not equation.power.is_integer:
+            notices.append(f"{equation.function}^({1 - equation.power}) is {forms[0] ** (1 - equation.power)}")
     else:
         is_inverted = _is_inverted(equation, value)
         solved_for = equation.of_inverse if is_inverted else equation
@@ -112,14 +116,18 @@ def solved_riccati(
 def _of_bernoulli(
     equation: FirstOrderEquation, conditions: Sequence[Condition], value: GivenValue | None
 ) -> list[Expr]:
-    """Forms of w for w' = q w + r w^2: v = 1/w has v' = -r - q v, and w = 0 through 0."""
+    """Forms of w for w' = q w + r w^n, by u = w^(1 - n); w = 0 through 0, for n > 1."""
+    m = 1 - equation.power
     if value is None:
-        return [1 / solved_linear(equation.of_inverse, ())[0].rhs]
+        return [solved_linear(equation.of_power, ())[0].rhs ** (1 / m)]
     if value.v == 0:
+        if not m.is_negative:
+            raise NotImplementedError("undecided: more than one solution may have the value 0")
         return [sympy.S.Zero]
-    given = [replace(condition, value=1 / value.v) for condition in conditions]
-    w = 1 / solved_linear(equation.of_inverse, given)[0].rhs
-    return [next(over_one_denominator(w, equation.x), w)]
+    given = [replace(condition, value=value.v**m) for condition in conditions]
+    u = solved_linear(equation.of_power, given)[0].rhs / value.v**m
+    u = next(over_one_denominator(u, equation.x), u)  # which doesn't divide by v
+    return [value.v * sympy.powsimp(u) ** (1 / m)]  # the branch with the sign of v
 
 
 def _solved_linear(

@@ -22,13 +22,13 @@ from __future__ import annotations
 from collections import defaultdict
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import suppress
-from itertools import combinations
+from itertools import combinations, product
 from math import lcm
 from typing import Any
 
 import sympy
 from sympy import Abs, Heaviside, cos, cosh, exp, sin, sinh
-from sympy.simplify.fu import TR2, TR8, TR2i, TR10i, hyper_as_trig
+from sympy.simplify.fu import TR2, TR5, TR6, TR8, TR2i, TR10i, hyper_as_trig
 
 from kovacic.closed_form.jets import jet
 from kovacic.general_solution.integrands import radicands
@@ -61,7 +61,22 @@ def in_book_form(value: Expr, x: Expr, free: Sequence[Expr] = ()) -> Expr:
         found = shortest([value, *rule(value, x)])
         if found != value:
             value, is_small = found, _is_small(found)
-    return _with_equal_roots(value)
+    return _with_equal_roots(_without_roots_of_squares(value, x, free))
+
+
+def _without_roots_of_squares(value: Expr, x: Expr, free: Sequence[Expr]) -> Expr:
+    """With u for sqrt(u^2) where -u gives the same, or the same solutions by the signs of the free constants."""
+    for base in {base for base in radicands(value) if base.free_symbols and not base.has(x)}:
+        u = sympy.powdenest(sympy.sqrt(base), force=True)
+        s = sympy.Dummy()
+        in_s = value.replace(lambda e: e.is_Pow and e.base == base, lambda e: s ** (2 * e.exp))  # noqa: B023
+        other = in_s.xreplace({s: -s})
+        signs = (dict(zip(free, row, strict=True)) for row in product((1, -1), repeat=len(free)))
+        if u.is_rational_function() and any(
+            in_s.subs({C: sign * C for C, sign in row.items()}) == other for row in signs
+        ):
+            value = in_s.xreplace({s: u})
+    return value
 
 
 def _with_equal_roots(value: Expr) -> Expr:
@@ -124,9 +139,9 @@ def of_chebyshev(y1: Expr, y2: Expr, x: Expr) -> tuple[Expr, Expr, Expr | None]:
         c = sympy.powdenest(sympy.sqrt(square), force=True)
         # sqrt(x^2 + 1) + x is one for f = x i alone
         is_real = square.is_positive or (not radicands(c) and not c.has(sympy.I))
-        line, middle = (f**2, square / 4) if radicands(f) else (f, c / 2)
-        if line.diff(x).is_number and is_real and not square.has(x):
-            place = (middle - line.subs(x, 0)) / line.diff(x) if c.is_number else None
+        line, middle = (f**2, square / 4) if any(base.has(x) for base in radicands(f)) else (f, c / 2)
+        if not line.diff(x).has(x) and is_real and not square.has(x):
+            place = (middle - line.subs(x, 0)) / line.diff(x) if c.is_number and line.diff(x).is_number else None
             turned = (p for p in g.atoms(sympy.Pow) if sympy.rem(p.base, rest**2, x) == 0)
             g = g.xreplace({p: (-p.base) ** p.exp for p in turned})  # a constant multiple, real where |f| < |c|
             angle = power.exp * sympy.acos(f / c)
@@ -138,7 +153,7 @@ def without_homogeneous(particular: Expr, y1: Expr, y2: Expr, x: Expr) -> Expr:
     """The shortest of the particular solutions that differ from this one by a multiple of a term of its own."""
     if not particular.has(sympy.Add, sin, cos) or not _is_small(particular):
         return particular
-    forms = [particular, *_single_waves(particular, x), *_common_factors(particular, x)]
+    forms = [particular, *_single_waves(particular, x), *_common_factors(particular, x), *_in_one_wave(particular)]
     pieces = _before_and_after(particular, x)
     if pieces is not None:
         _, before, after = pieces
@@ -278,6 +293,16 @@ def _single_waves(value: Expr, x: Expr) -> Iterator[Expr]:
         yield sympy.collect(found, steps, _with_common_factors)
         if steps:
             yield sympy.collect(expanded, steps, _as_one_wave)
+
+
+def _in_one_wave(value: Expr) -> Iterator[Expr]:
+    """Powers of sines, or of cosines, for sin(3 x) beside logarithms of these."""
+    if value.has(sympy.log) and value.has(sin, cos):
+        logarithms = {f: sympy.factor(f.args[0]) for f in value.atoms(sympy.log)}
+        letters = {u: sympy.Dummy() for u in logarithms.values()}
+        plain = value.xreplace({f: letters[u] for f, u in logarithms.items()})
+        back = {letters[u]: f for f, u in sorted(logarithms.items(), key=str)}
+        yield from (sympy.expand(form(sympy.expand(sympy.expand_trig(plain)))).xreplace(back) for form in (TR5, TR6))
 
 
 def _as_one_wave(total: Expr) -> Expr:

@@ -74,7 +74,9 @@ def needed_for(value: Expr, x: Expr, exceptions: Iterable[Expr] = ()) -> Validit
     plain = value.xreplace({total: sympy.Dummy() for total in value.atoms(sympy.RootSum)})
     numbers = (node for node in sympy.preorder_traversal(plain) if node.is_number)
     is_of_real_numbers = all(number.is_extended_real for number in numbers)
-    relations = [*dict.fromkeys(relation.xreplace(roots) for relation in needs_of(value))]
+    # Of an imaginary root they have cuts.
+    cuts = (1 + e.args[0] ** 2 > 0 for e in value.atoms(sympy.atan, sympy.asinh) if e.has(*roots))
+    relations = [*dict.fromkeys(relation.xreplace(roots) for relation in (*needs_of(value), *cuts))]
     if sympy.false in relations:
         return Validity((sympy.false,), without_implied(exceptions), is_of_real_numbers)
     of_letters, others = sympy.sift(relations, lambda r: isinstance(r, sympy.Ne) and not r.has(x), binary=True)
@@ -99,7 +101,8 @@ def _joined(relations: Iterable[Expr], nonzero: set[Expr]) -> tuple[Expr, ...]:
         strict.append(relation.lhs > 0 if isinstance(relation, sympy.GreaterThan) and is_nonzero else relation)
     positive = {r.lhs for r in strict if isinstance(r, sympy.StrictGreaterThan)}
     weaker = {sympy.Ne: _nonzero_beside(strict), sympy.GreaterThan: positive, sympy.StrictGreaterThan: set()}
-    return tuple(dict.fromkeys(_of_cosine(r) for r in strict if r.lhs not in weaker[r.func]))
+    found = [_of_cosine(r) for r in strict if r.lhs not in weaker[r.func]]
+    return tuple({(r.func, sympy.expand(r.lhs)): r for r in found}.values())
 
 
 def _nonzero_beside(relations: Iterable[Expr]) -> set[Expr]:
@@ -300,7 +303,7 @@ def _of_the_same_sign(u: Expr) -> Expr:
 
 def _nonzero(u: Expr) -> Expr:
     """u != 0, said without factors that are numbers, and without the denominator, which needs something itself."""
-    factors = sympy.Mul.make_args(sympy.numer(u))
+    factors = sympy.Mul.make_args(sympy.numer(u).as_content_primitive()[1])
     return sympy.Ne(sympy.Mul(*(factor for factor in factors if not factor.is_number)), 0)
 
 

@@ -9,7 +9,8 @@ from __future__ import annotations
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from fractions import Fraction
-from functools import partial
+from functools import partial, reduce
+from operator import mul
 from typing import Any, Protocol
 
 import sympy
@@ -20,7 +21,7 @@ from sympy.polys.polytools import parallel_poly_from_expr
 from kovacic.algebra.poly import Poly
 from kovacic.algebra.ratfunc import RatFunc
 from kovacic.algebra.rationals import QQ
-from kovacic.closed_form.atoms import Atoms, Expr, antiderivative_parameters, display, factors, hypergeometric
+from kovacic.closed_form.atoms import Atoms, Expr, antiderivative_parameters, display, hypergeometric
 from kovacic.closed_form.product import Power, Product, product
 from kovacic.compatibility import cached_property
 from kovacic.numbers.exact import radical
@@ -177,7 +178,7 @@ class Writer:
             rate = rate + base.derivative() / base * number.part
             if number.roots:
                 e = self.constant(Number(number.part * 0, number.roots))
-                others += [self.atoms.primitive(p)[1] ** (k * e) for p, k in multiplicities(base)]
+                others += [self.atoms.base(p, around_zero=False) ** (k * e) for p, k in multiplicities(base)]
         if exponent is not None:
             number, function = exponent
             rate = rate + function.derivative() * number.part
@@ -200,28 +201,34 @@ class Writer:
         times P1 P2 it is the Wronskian.  A member has no value where one of the numbers `undefined` is an integer.
         With `real_at` the powers are real at that point, or at the first of the places.
         """
-        if self.places:
-            real_at = self.real.at
-        atoms = self.real if self.places or real_at is None else Atoms(self.atoms.x, at=real_at)
-        P, Q = (Mul(display(f.product, atoms), *f.others) for f, _ in (first, second))
-        place = real_at if real_at is not None and real_at.is_number else None
+        at = self.real.at if self.places else real_at
+        atoms = self.real if at == self.real.at else Atoms(self.atoms.x, at=at)
+        members = [self._member(*term, atoms) for term in (first, second)]
+        is_turned_round = self.transform is None and second[0].size < first[0].size
+        (y, C), (z, D) = members[::-1] if is_turned_round else members
+        known = None
+        if bracket is not None and C is not None and D is not None:
+            known = partial(self._wronskian, -C if is_turned_round else C, D, bracket)
         # An antiderivative shows its poles itself, and with the elementary member it has a Wronskian without series.
-        is_antiderivative = any(isinstance(F, sympy.hyper) and antiderivative_parameters(F) for _, F in (first, second))
-        numbers = [number for number in undefined if not is_antiderivative and self.has_letters(number)]
-        excluded = tuple(_sine_of_letters(self.constant(number)) for number in numbers)
-        x = self.atoms.x
+        shows_poles = any(isinstance(F, sympy.hyper) and antiderivative_parameters(F) for _, F in (first, second))
+        numbers = () if shows_poles else map(self.constant, filter(self.has_letters, undefined))
+        place = at if at is not None and at.is_number else None
+        return WrittenPair(y, z, known, tuple(map(_sine_of_letters, numbers)), place)
+
+    def _wronskian(self, C: Expr, D: Expr, bracket: Callable[[], Expr]) -> Expr:
+        """From the bracket of two members, and what stands before each."""
+        scale = 1 if self.transform is None else self.atoms.factored(self.transform.factor / self.transform.m)
+        others, rational = _by_rationality(C * D * scale, self.atoms.x)
+        return others * sympy.factor(rational) * bracket()
+
+    def _member(self, before: WrittenFactor, function: Expr, atoms: Atoms) -> tuple[Expr, Expr | None]:
+        """A solution, and what stands before the function in it; None if that isn't known."""
         if self.transform is not None:
-            (y, C), (z, D) = (self._combined(self.transform, *term, atoms) for term in (first, second))
-            if bracket is None or C is None or D is None:
-                return WrittenPair(y, z, None, excluded, place)
-            others, rational = _by_rationality(C * D * self.atoms.factored(self.transform.factor / self.transform.m), x)
-            return WrittenPair(y, z, lambda: others * sympy.factor(rational) * bracket(), excluded, place)
-        if real_at is not None and (first[0].others or second[0].others):
-            P, Q = (_real_at(factor, x, real_at) for factor in (P, Q))
-        y, z = P * first[1], Q * second[1]
-        if second[0].size < first[0].size:
-            return WrittenPair(z, y, None if bracket is None else lambda: -P * Q * bracket(), excluded, place)
-        return WrittenPair(y, z, None if bracket is None else lambda: P * Q * bracket(), excluded, place)
+            return self._combined(self.transform, before, function, atoms)
+        powers = Mul(display(before.product, atoms), *before.others)
+        if atoms.at is not None and before.others:
+            powers = _real_at(powers, atoms.x, atoms.at)
+        return powers * function, powers
 
     def _combined(
         self, transform: Combined, before: WrittenFactor, function: Expr, atoms: Atoms
@@ -337,13 +344,14 @@ class Writer:
             return self.constant(inside)
         if n == 3 and self.is_negative(value):
             return -self.root(-value, n)
-        return radical(self.constant(value), n)
+        return self.atoms.sqrt(value) if n == 2 else radical(self.constant(value), n)
 
     # ------------------------------------------------------------------------------------- functions
 
     def argument(self, f: RatFunc) -> Expr:
-        """A rational function: a polynomial in full, else a fraction of products."""
-        return self.atoms.poly(f.num) if f.is_polynomial else self.atoms.factored(f)
+        """A rational function: a polynomial in full unless it is a multiple of a power, else a fraction of products."""
+        is_power = len(multiplicities(f)) == 1 and f.num.degree > 1
+        return self.atoms.poly(f.num) if f.is_polynomial and not is_power else self.atoms.factored(f)
 
     def rate(self, f: RatFunc) -> Expr:
         return self.atoms.factored(f.derivative() / f)
@@ -361,9 +369,10 @@ class Writer:
 
     def root_of(self, f: RatFunc) -> Expr:
         """A square root of a rational function, by factors, up to its sign."""
-        powers = [Power(p, p.field.poly([Fraction(k, 2)])) for p, k in multiplicities(f)]
-        scale, shown = factors(Product(tuple(powers), (), f * 0), self.real, around_zero=False)
-        return self.root(self.scale(f), 2) * Mul(scale / sympy.I ** self._turns(f), *shown)
+        powers = multiplicities(f)
+        root = Product(tuple(Power(p, p.field.poly([Fraction(k, 2)])) for p, k in powers), (), f * 0)
+        contents = [RatFunc(self.atoms.primitive(p)[0]) ** k for p, k in powers]
+        return self.root(reduce(mul, contents, RatFunc(self.scale(f))).num, 2) * display(root, self.real)
 
     def hypergeometric(self, top: Sequence[Number], bottom: Sequence[Number], z: Expr) -> Expr:
         above, below = (tuple(self.constant(value) for value in values) for values in (top, bottom))

@@ -126,6 +126,49 @@ def test_values_on_either_side_of_a_pole(a: Any, b: Any, pole: int, side: int) -
         assert abs(number(found.diff(x) - a * found - b, beyond)) < 1e-13
 
 
+#: q, r, m, the point and the value of y' = q y + r y^m, Bernoulli's equation.
+BERNOULLI: list[tuple[Any, Any, Any, int, Any]] = [
+    (k, -n, sympy.S(3), 0, Rational(1, 2)),
+    (k, -n, sympy.S(3), 0, -1),
+    (x, x, sympy.S(3), 0, Rational(1, 2)),
+    (-1 / x, x, Rational(1, 2), 1, 4),
+    (-1 / x, sympy.S(1), sympy.S(-1), 1, -2),
+    (tan(x), cos(x), sympy.S(4), 0, Rational(1, 2)),
+    (-k, sympy.S(1), n, 0, Rational(1, 3)),
+    (sympy.S(0), k, Rational(2, 3), 0, 1),
+]
+
+
+@parametrize("problem", BERNOULLI, ids=str, ordinary=3)
+@pytest.mark.filterwarnings("ignore:this holds unless", r"ignore:y\(x\)\^")
+def test_bernoulli_equations_with_values(problem: tuple[Any, Any, Any, int, Any]) -> None:
+    q, r, m, point, value = problem
+    right = q * y(x) + r * y(x) ** m
+    found = kovacic.dsolve(sympy.Eq(y(x).diff(x), right), ics={y(point): value}).rhs
+    wanted = integrated([right], [y(x)], point, [value], point + 0.25)[0]
+    assert abs(number(found, point + 0.25) - wanted) < 1e-12 * (1 + abs(wanted))
+
+
+@pytest.mark.parametrize(
+    ("text", "printed"),
+    [
+        ("y' + a*tanh(x)*y = 0", "C1/cosh(x)**a"),
+        ("y' + y*tanh(x) = 1", "(C1 + sinh(x))/cosh(x)"),
+        ("y' + a*tan(x)*y = 0", "C1*cos(x)**a"),
+        ("y' + y*sec(x) = 0", "C1*cos(x)/(sin(x) + 1)"),
+        ("y' = x/(1 - x^2)", "C1 - log(1 - x**2)/2"),
+        ("y' + y/(1 - x^2) = 0", "C1*sqrt(1 - x)/sqrt(x + 1)"),
+        ("(a*x + b)*y' + c*y = 1", "C1/(a*x + b)**(c/a) + 1/c"),
+        ("(1 + a*x)*y' = 1, y(0) = 0", "log(a*x + 1)/a"),
+        ("(1 - k*x)*y' = 2*y, y(0) = 1", "(-k*x + 1)**(-2/k)"),
+        ("y' = x*y + x*y^3, y(0) = 1", "1/sqrt(-1 + 2*exp(-x**2))"),
+    ],
+)
+@pytest.mark.filterwarnings("ignore:this holds unless")
+def test_what_a_textbook_prints(text: str, printed: str) -> None:
+    assert str(kovacic.dsolve(text).rhs) == printed
+
+
 def test_text_of_first_order() -> None:
     g = sympy.Function("g")
     assert kovacic.dsolve("y' + y = g(x)", "y").rhs.diff(x) == g(x) - kovacic.dsolve("y' + y = g(x)", "y(x)").rhs

@@ -44,7 +44,15 @@ ROOTS = """
 (1-x^2)*y''-3*x*y'+n*(n+2)*y=0 | (a^2-x^2)*y''-3*x*y'+n*(n+2)*y=0 | x*(1-x)*y''+(1/2-x)*y'+n^2*y=0 | (1-x^2)*y''-x*y'+5*y=0
 x*(1-x)*y''+(3/2-3*x)*y'+n*(n+2)*y=0 | (2*x-3*x^2)*y''+(1-3*x)*y'+n^2*y=0
 """
+LINES = """
+y''+a/(a*x+1)*y'=0 | (a*x+b)*y''+c*y'=0 | (a*x+b)^2*y''+(a*x+b)*y'+k*y=0 | (a*x+b)*y''+2*y'=x | (1-k*x)*y''-k*y'=x
+(a*x+b)^2*y''+a*(a*x+b)*y'-a^2*y=x | (1-k*x)^2*y''-2*y=0 | (a*x+b)*y''+a*y'/2=1 | (a*x+b)*y''+a*y'/2+k*y=0
+(1+a*x^2)*y''+2*a*x*y'=0 | (b+a*x^2)*y''+2*a*x*y'=0 | (a^2-b^2*x^2)*y''-2*b^2*x*y'=0 | (1+a*x^2)*y''+a*x*y'=0
+(1+a*x^2)*y''+a*x*y'+k*y=0 | (1-a*x^2)*y''-a*x*y'+k^2*a*y=0 | (1-a^2*x^2)*y''-a^2*x*y'+n^2*a^2*y=0 | (a^2-x^2)*y''-x*y'=1
+(a*x^2+b)*y''+3*a*x*y'+a*y=0 | (1+a^2*x^2)*y''+a^2*x*y'=0 | y''=k*y/(a*x+b) | y''+(a*x+b)^2*y=0 | y''+k*(a*x+b)*y=0
+"""
 FUNCTIONS = """
+y''+sin(x)*y'+cos(x)*y=0 | y''+a*cos(x)*y'-a*sin(x)*y=0 | y''-tan(x)*y'+2*y=sin(x)
 y''+(a*exp(x)-b)*y=0 | y''-(exp(2*x)+a*exp(x)+b)*y=0 | y''+a*exp(x)*y'+b*exp(x)*y=0 | y''-a*y'+b*exp(2*a*x)*y=0
 y''+2*k*exp(x)*y'+k*exp(x)*(k*exp(x)+1)*y=0 | y''+a*tan(x)*y'+b*y=0 | y''+tan(x)*y'-a*(a-1)*cot(x)^2*y=0
 y''-n*(n-1)/cos(x)^2*y=0 | y''-(a^2+n*(n-1)/sin(x)^2)*y=0 | y''+a*tanh(x)*y'+b*y=0 | y''+a*coth(x)*y'+b*y=0
@@ -78,7 +86,7 @@ def _number(e: Any, place: dict[Any, Any]) -> Any:
     return mpmath.mpmathify(sympy.lambdify([], plain, [AIRY, "mpmath"])())
 
 
-@parametrize("text", _equations(POLYNOMIALS, POWERS, ROOTS, FUNCTIONS), ordinary=5)
+@parametrize("text", _equations(POLYNOMIALS, POWERS, ROOTS, LINES, FUNCTIONS), ordinary=5)
 def test_what_is_printed_is_real_and_a_solution_where_it_says_so(text: str) -> None:
     answer = kovacic.answer_to(text)
     y, x = answer.eq.rhs, answer.eq.lhs.args[0]
@@ -119,6 +127,7 @@ x*y''+(1-x)*y'+n*y=0, y(-1)=1, y'(-1)=0 | x*y''+(1+x)*y'+n*y=0, y(1)=1, y'(1)=0 
 (1-x^2)*y''-2*x*y'+n*(n+1)*y=0, y(2)=1, y'(2)=0 | (1-x^2)*y''-2*x*y'+n*(n+1)*y=0, y(-2)=1, y'(-2)=0
 (1-x^2)*y''-4*x*y'+n*(n+3)*y=0, y(2)=1, y'(2)=0 | x*(1-x)*y''+(c-(a+b+1)*x)*y'-a*b*y=0, y(2)=1, y'(2)=0
 (x^2-a^2)*y''+x*y'-n^2*y=0, y(0)=1, y'(0)=0 | (a^2-x^2)*y''-x*y'=1, y(0)=0, y'(0)=0 | y''=1/sqrt(a^2-x^2), y(0)=0, y'(0)=0
+y''+y'/(a*x+1)=0, y(0)=0, y'(0)=1 | (1-k*x)*y''-k*y'=x, y(0)=0, y'(0)=0 | (b^2+a^2*x^2)*y''+a^2*x*y'=1, y(0)=0, y'(0)=1
 y''+a*x^2*y'=0, y(0)=0, y'(0)=1 | y''+a*x^n*y'=0, y(1)=0, y'(1)=1 | y''=x^n*exp(x), y(1)=0, y'(1)=0
 """
 
