@@ -100,13 +100,17 @@ class ProblemAnswer:
         """The values of letters for which the general solution isn't made of this pair, and what holds there."""
         return ()
 
+    def relations_beside(self, eq: Expr) -> tuple[Expr, ...]:
+        """What is needed besides what the formula says, with symbols that know what is assumed."""
+        return ()
+
     @cached_property
     def validity(self) -> Validity:
         """Where the formula is real and valid: relations, and exceptional values of parameters."""
         eq = self.eq.xreplace(self.known)
         found = needed_for(eq.rhs, eq.lhs.args[0], self.pair_exceptions)
         return Validity(
-            tuple(relation.xreplace(self.own) for relation in found.real),
+            tuple(relation.xreplace(self.own) for relation in (*found.real, *self.relations_beside(eq))),
             tuple(e.xreplace(self.own) for e in found.exceptions),
             found.of_real_numbers,
         )
@@ -182,6 +186,16 @@ class FirstOrderAnswer(ProblemAnswer):
 
     equation: FirstOrderEquation
     conditions: Sequence[Condition]
+
+    def relations_beside(self, eq: Expr) -> tuple[Expr, ...]:
+        """u >= 0 for the w = u^k, k = 1/(1 - n) an integer, that solves Bernoulli's equation where w^(1/k) is u."""
+        w, n, x = eq.rhs, self.equation.power, eq.lhs.args[0]
+        if n.is_integer or not (1 / (1 - n)).is_integer or w == 0:
+            return ()
+        u = sympy.cancel(w * self.equation.r / (w.diff(x) - self.equation.q * w))  # w^n = (w' - q w)/r, and u = w/w^n
+        number, rest = sympy.factor(u).as_coeff_Mul()
+        rest = sympy.Mul(*(factor for factor in sympy.Mul.make_args(rest) if not isinstance(factor, sympy.exp)))
+        return ((rest if number > 0 else -rest) >= 0,)
 
 
 def _cases(zero: Expr) -> Iterator[Exceptional]:

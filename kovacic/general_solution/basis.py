@@ -251,6 +251,8 @@ def with_single_waves(e: Expr) -> Expr:
 def _simplified(c: Expr) -> Expr:
     """A constant in a short form: gamma functions and waves stay."""
     c = c.replace(lambda e: e.is_Pow and e.base.is_number, lambda e: e.base ** sympy.cancel(e.exp))
+    if any(not p.exp.is_number for p in c.atoms(sympy.Pow)):  # b^(c/a) b^(1 - c/a) is b
+        c = sympy.powsimp(c)
     if c.has(sympy.Function):
         return sympy.factor_terms(c)
     if c.free_symbols and c.is_rational_function():

@@ -174,10 +174,12 @@ def _in_powers(whole: Expr, function: Expr) -> FirstOrderEquation | None:
     """From an expression that is zero: its numerator has w' times one power of w, and up to one power beside 1 and w."""
     slope, value = sympy.Dummy(), sympy.Dummy()
     plain = whole.subs(function.diff(function.args[0]), slope).subs(function, value)
+    if any(e.has(slope, value) for e in plain.atoms(sympy.Derivative, AppliedUndef)):
+        return None
     terms: dict[tuple[Expr, Expr], Expr] = defaultdict(sympy.Add)
     for term in sympy.Add.make_args(sympy.expand(sympy.numer(sympy.together(plain)))):
         exponents = tuple(sympy.cancel(u * term.diff(u) / term) for u in (slope, value))
-        if any(e.has(slope, value, function.args[0], sympy.Derivative) for e in exponents):
+        if any(e.has(slope, value, function.args[0]) for e in exponents):
             return None
         terms[exponents] += term.xreplace({slope: sympy.S.One, value: sympy.S.One})
     below = [e for m, e in terms if m == 1]

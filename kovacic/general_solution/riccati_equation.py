@@ -93,8 +93,6 @@ def solved_riccati(
         notices = exceptions_of(sympy.Tuple(*forms), x, equation.parts)
         if value is None and equation.power.is_odd:
             notices.append(f"-{equation.function} is a solution, too")
-        if not equation.power.is_integer:
-            notices.append(f"{equation.function}^({1 - equation.power}) is {forms[0] ** (1 - equation.power)}")
     else:
         is_inverted = _is_inverted(equation, value)
         solved_for = equation.of_inverse if is_inverted else equation

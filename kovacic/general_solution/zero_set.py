@@ -94,15 +94,15 @@ def without_implied(exceptions: Iterable[Expr]) -> tuple[Expr, ...]:
 
     def is_implied(e: Expr) -> bool:
         number = (poles_of(e) or (e,))[0]
-        return any(sympy.expand(number - sign * c).is_Integer for c in periodic for sign in (1, -1))
+        return any(sympy.cancel(number - sign * c).is_Integer for c in periodic for sign in (1, -1))
 
     return tuple(e for e in exceptions if not is_implied(e))
 
 
 def _bases(zero: Expr) -> Iterator[Expr]:
-    """The factors, without positive powers."""
+    """The factors, without powers that are positive or may be: b^c is zero for b = 0 alone."""
     for factor in sympy.Mul.make_args(_factored(zero)):
-        if factor.is_Pow and factor.exp.is_positive:
+        if factor.is_Pow and not isinstance(factor, exp) and not factor.exp.is_nonpositive:
             yield from _bases(factor.base)
         else:
             yield factor

@@ -140,7 +140,7 @@ BERNOULLI: list[tuple[Any, Any, Any, int, Any]] = [
 
 
 @parametrize("problem", BERNOULLI, ids=str, ordinary=3)
-@pytest.mark.filterwarnings("ignore:this holds unless", r"ignore:y\(x\)\^")
+@pytest.mark.filterwarnings("ignore:this holds unless")
 def test_bernoulli_equations_with_values(problem: tuple[Any, Any, Any, int, Any]) -> None:
     q, r, m, point, value = problem
     right = q * y(x) + r * y(x) ** m
@@ -430,6 +430,20 @@ def test_the_only_finite_solution_at_a_singular_point() -> None:
     assert kovacic.dsolve("x*y' + y = x, y(0) = 0").rhs == x / 2
     with pytest.raises(kovacic.InputError, match="at most one solution is finite"):
         kovacic.dsolve("x*y' + y = x, y(0) = 1")
+
+
+@pytest.mark.parametrize("power", ["1/2", "2/3", "3/4"])
+@pytest.mark.parametrize("side", [-1, 1])
+def test_a_power_without_a_root_is_a_solution_on_one_side_alone(power: str, side: int) -> None:
+    """w = u^k, which is emptied where u is zero, as in Torricelli's law: w^(1/k) is u for u >= 0."""
+    answer = kovacic.answer_to(f"y' = {side}*y^({power}), y(0) = 1")
+    w = answer.eq.rhs
+    assert answer.validity.real
+    for at in (-40, -1, 0, 1, 40):
+        residual = (w.diff(x) - side * w ** Rational(power)).subs(x, at)
+        holds = all(relation.subs(x, at) == sympy.true for relation in answer.validity.real)
+        assert holds == (residual == 0), at
+    assert holds == (side == 1)
 
 
 def test_bernoulli_through_any_value() -> None:
