@@ -6,6 +6,10 @@ How much SymPy writes when it expands an expression is counted before, since it 
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+from functools import reduce
+from operator import mul
 from typing import Any
 
 import sympy
@@ -22,6 +26,8 @@ _ODD = (sympy.mathieus, sympy.mathieucprime)
 _OPEN = {sympy.nan, sympy.zoo, sympy.oo, -sympy.oo}
 #: From which on terms and exponent of a power aren't counted.
 _MANY = 10**4
+#: A power of the variable with its coefficient has so many subexpressions.
+_MONOMIAL = 5
 
 
 class _SingularError(Exception):
@@ -95,34 +101,65 @@ def size(expression: Expr) -> int:
     return 1 + sum(map(size, expression.args))
 
 
-def expanded_size(expression: Expr) -> float:
-    """The number of subexpressions at most, under roots and in functions, too, if no terms are gathered.
+@dataclass(frozen=True)
+class _Size:
+    """Terms and subexpressions at most, and the degree of a polynomial in the variable, infinite for anything else."""
 
-    Those of products of denominators aren't known.
+    terms: float
+    parts: float
+    degree: float
+
+    def __mul__(self, other: _Size) -> _Size:
+        """A part of a factor is written beside every term of the other one; like powers of the variable are gathered."""
+        degree = self.degree + other.degree
+        terms = self.terms * other.terms
+        parts = self.parts * other.terms + other.parts * self.terms + terms
+        return _Size(min(terms, degree + 1), min(parts, _MONOMIAL * (degree + 1)), degree)
+
+    def __pow__(self, k: int) -> _Size:
+        """Each term has at most k of the terms of the base as factors; SymPy writes all of them before it gathers any."""
+        terms = 1.0
+        if self.terms > 1:
+            if self.terms * k >= _MANY:
+                return _Size(math.inf, math.inf, math.inf)
+            terms = math.comb(int(self.terms) + k - 1, k)  # the monomials of degree k in so many letters
+        parts = terms * min(k, self.terms) * (self.parts / self.terms + 2)
+        return _Size(terms, parts, self.degree * k)
+
+
+def expanded_size(expression: Expr) -> float:
+    """The number of subexpressions at most, under roots and in functions, too; those of products of denominators aren't known.
 
     >>> import sympy
     >>> from sympy.abc import x
+    >>> expanded_size((x + 1) * (x + 2) * (x + 3) * (x + 4))
+    25.0
     >>> expanded_size((x + sympy.sin(x)) * (x + sympy.cos(x)) * (x + sympy.exp(x)))
     52.0
     """
-    return _terms_and_parts(expression)[1]
+    has_one_symbol = len(expression.free_symbols) == 1
+    return float(_expression_size(expression, 1 if has_one_symbol else math.inf).parts)
 
 
-def _terms_and_parts(e: Expr) -> tuple[float, float]:
-    """The number of terms of a sum, and of subexpressions in all of them."""
-    terms, parts = zip((0.0, 0.0), *map(_terms_and_parts, e.args), strict=True)
-    if e.is_Add:
-        return sum(terms), sum(parts)
-    if e.is_Mul:  # a part of a factor is written beside every combination of terms of the other ones
-        total = math.prod(terms[1:])
-        return total, total * (
-            len(e.args) - 1 + sum(part / term for term, part in zip(terms[1:], parts[1:], strict=True))
-        )
-    if not e.is_Pow or not e.exp.is_Rational or e.exp < 1:
-        return 1.0, 1 + sum(parts)
-    # SymPy writes all monomials of degree k in the terms of the base, before it gathers any; u^(7/3) as u^2 u^(1/3)
-    k = int(e.exp)
-    if terms[1] > 1 and terms[1] * k >= _MANY:
-        return math.inf, math.inf
-    total = math.comb(int(terms[1]) + k - 1, k)
-    return total, total * min(k, terms[1]) * (parts[1] / terms[1] + 2)
+def _expression_size(expression: Expr, degree: float) -> _Size:
+    """`degree`: that of a symbol."""
+    if expression.is_Symbol:
+        return _Size(1, 1, degree)
+    if expression.is_Number:
+        return _Size(1, 1, 0)
+    inner = [_expression_size(part, degree) for part in expression.args]
+    if expression.is_Add:
+        terms = sum(one.terms for one in inner)
+        return _Size(terms, _parts_size(inner), max(one.degree for one in inner))
+    if expression.is_Mul:
+        return reduce(mul, sorted(inner, key=lambda part: part.degree))
+    if expression.is_Pow and expression.exp.is_Rational and expression.exp >= 1:
+        power = inner[0] ** int(expression.exp)
+        if expression.exp.is_Integer:
+            return power
+        return replace(power, degree=math.inf)  # u^(7/3) is expanded as u^2 u^(1/3)
+    return _Size(1, 1 + _parts_size(inner), math.inf)
+
+
+def _parts_size(sizes: Sequence[_Size]) -> float:
+    return sum(one.parts for one in sizes)
