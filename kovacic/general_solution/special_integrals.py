@@ -47,7 +47,10 @@ def incomplete_gamma(term: Expr, x: Expr) -> Expr | None:
     if base != t or m.has(t) or m == 0:
         return None
     e = (s + 1) / m
-    if is_seen_negative(c) or e.is_Integer:  # for an integer e it is elementary, or has Ei
+    if e == sympy.S.Half:  # u = t^(s+1): t^s dt is du/(s + 1)
+        function, root = (sympy.erf, sympy.sqrt(-c)) if is_seen_negative(c) else (sympy.erfi, sympy.sqrt(c))
+        found = sympy.sqrt(sympy.pi) * function(root * t ** (s + 1)) / (2 * root * (s + 1))
+    elif is_seen_negative(c) or e.is_Integer:  # for an integer e it is elementary, or has Ei
         z = -c * t**m
         found = -sympy.powsimp(t ** (s + 1) * z**-e) * sympy.uppergamma(e, z) / m
     else:
