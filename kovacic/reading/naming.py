@@ -118,10 +118,15 @@ class Vocabulary:
         return y, has_operator
 
     def _imaginary_unit(self, tokens: Sentence, x: str, y: str) -> list[str]:
-        """Notes that i or j, undeclared, is taken as a parameter."""
+        """Notes that i or j, undeclared, is taken as a parameter; and that I isn't, before y'', as an inertia is."""
         taken = (x, y, *self.declared)
         said = "{} is a parameter; the imaginary unit is I"
-        return [said.format(name) for name in "ij" if name in tokens.names and name not in taken]
+        found = [said.format(name) for name in "ij" if name in tokens.names and name not in taken]
+        pieces = [piece for piece in tokens.pieces if piece != "*"] if "I" in {*tokens.names} - {*taken} else []
+        triples = zip(["+", *pieces], pieces, pieces[1:], strict=False)
+        if any(a in "+-=" and (b, c) == ("I", f"{y}''") for a, b, c in triples):
+            found.append("I is the imaginary unit: a moment of inertia needs another letter, or is declared")
+        return found
 
     def _with_products(self, tokens: Sentence, x: str, y: str) -> tuple[Sentence, list[str]]:
         """With x y for xy; notes say so.  Raises `ParseError` for all other names that aren't known."""
