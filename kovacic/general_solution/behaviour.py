@@ -111,7 +111,10 @@ def limit_at(expression: Expr, x: Expr, place: Approach) -> Expr:
         found = _quotient_of_analytic_functions(e, x, place.point)
         if found is not None and _is_confirmed(found, e, x, place):
             return found
-    found = _classified(_by_sympy(_with_leading_terms(inner, variable, towards), variable, towards))
+    leading = _with_leading_terms(inner, variable, towards)
+    found = _classified(_term_by_term(leading, variable, towards) if leading != inner else None)
+    if found is None:
+        found = _classified(_by_sympy(leading, variable, towards))
     if found is None or not _is_confirmed(found, e, x, place):
         raise UnknownLimit(f"the limit of {_shown(e)} isn't known")
     return found
@@ -172,6 +175,21 @@ def _by_sympy(e: Expr, variable: Expr, towards: Expr) -> Any:
     except (NotImplementedError, ValueError, TypeError, AttributeError, RecursionError, sympy.PoleError):
         return None
     return found if found.has(sympy.AccumBounds) else constant * found
+
+
+def _term_by_term(e: Expr, variable: Expr, towards: Expr) -> Any:
+    """The limit of a sum from those of its terms; None if it isn't known, as where unbounded terms cancel."""
+    terms = sympy.Add.make_args(sympy.expand_mul(e))
+    limits = [_by_sympy(term, variable, towards) for term in terms]
+    if None in limits:
+        return None
+    unbounded = [term for term, found in zip(terms, limits, strict=True) if found.has(sympy.oo, -sympy.oo)]
+    if not unbounded:
+        return sympy.Add(*limits)
+    ratios = [_by_sympy(sympy.powsimp(term / unbounded[0]), variable, towards) for term in unbounded[1:]]
+    if any(ratio is None or ratio.has(sympy.oo, -sympy.oo, sympy.AccumBounds) for ratio in ratios):
+        return None
+    return None if sympy.expand(sympy.Add(_ONE, *ratios)) == 0 else sympy.oo
 
 
 def _rates_with_signs(e: Expr, variable: Expr) -> dict[Expr, Expr]:

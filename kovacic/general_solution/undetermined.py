@@ -21,6 +21,8 @@ import sympy
 from sympy import cos, cosh, sin, sinh
 from sympy.simplify.fu import TR8
 
+from kovacic.general_solution.substitution import size
+
 Expr = Any  # SymPy publishes no types
 Complex = tuple[Expr, Expr]
 #: The largest degree of a polynomial, and number of terms, that is solved for.
@@ -56,9 +58,31 @@ def undetermined(b: Expr, c: Expr, right: Expr, x: Expr) -> Expr | None:
         if Q is None:
             return None
         A, B = (sympy.Add(*(coefficient[part] * x**k for k, coefficient in Q.items())) for part in (0, 1))
-        waves = sympy.expand_mul(A * cos(rate.omega * x) - B * sin(rate.omega * x))
-        total.append(sympy.powdenest(sympy.exp(rate.rho * x)) * waves)
+        total.append(sympy.powdenest(sympy.exp(rate.rho * x)) * _wave_terms(A, B, rate.omega * x))
     return sympy.Add(*total)
+
+
+def _wave_terms(A: Expr, B: Expr, angle: Expr) -> Expr:
+    """A cos(angle) - B sin(angle): a term each, or over one denominator where that has parameters and is shorter.
+
+    >>> a, b, t = sympy.symbols("a b t")
+    >>> _wave_terms(a / (a**2 + b**2), -b / (a**2 + b**2), t)
+    (a*cos(t) + b*sin(t))/(a**2 + b**2)
+    """
+    expanded = sympy.expand_mul(A * cos(angle) - B * sin(angle))
+    if A.is_polynomial() and B.is_polynomial():
+        return expanded
+    denominators = [sympy.denom(sympy.together(part)) for part in (A, B)]
+    common = sympy.lcm(*denominators)
+    if not common.free_symbols or not common.is_polynomial():
+        return expanded
+    numerators = [sympy.cancel(part * common) for part in (A, -B)]
+    shared = sympy.gcd(*numerators)
+    if shared == 0:
+        return expanded
+    first, second = (sympy.cancel(part / shared) for part in numerators)
+    joined = sympy.factor(shared / common) * (first * cos(angle) + second * sin(angle))
+    return min(expanded, joined, key=size)
 
 
 def _polynomials(right: Expr, x: Expr) -> dict[Rate, dict[int, Complex]] | None:

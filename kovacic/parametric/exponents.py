@@ -389,8 +389,12 @@ class Exponents:
     def images(self, d: int) -> list[Poly]:
         """Those of 1, x, ..., x^d."""
         second, first, zeroth = self.operator
-        powers = [self.field.poly([0] * k + [1]) for k in range(d + 1)]
-        return [second * P.derivative().derivative() + first * P.derivative() + zeroth * P for P in powers]
+        found = []
+        for k in range(d + 1):
+            check_time()
+            P = self.field.poly([0] * k + [1])
+            found.append(second * P.derivative().derivative() + first * P.derivative() + zeroth * P)
+        return found
 
     def conditions(self, d: int, below: Field) -> RankConditions:
         """The condition for a polynomial P of this degree, over the field below.

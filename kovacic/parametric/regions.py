@@ -115,7 +115,13 @@ class RegionVerdict:
         return self.abelian or ("abelian unless the group has dimension 2",)
 
     def says_the_same(self, other: RegionVerdict) -> bool:
-        """True for the same structure, of the same group."""
+        """True for the same structure, of the same group.
+
+        Parameters
+        ----------
+        other : RegionVerdict
+            That of another region.
+        """
         return self == other and self.group == other.group
 
     def __str__(self) -> str:
