@@ -218,8 +218,11 @@ def _envelope(
     samples = _with_samples(x, states)
     q = here.frequency
     velocity = samples.dy + here.beta * samples.y
-    real = np.hypot(samples.y.real, velocity.real / q)
-    imaginary = np.hypot(samples.y.imag, velocity.imag / q)
+    turned = np.divide(
+        velocity, q, out=np.full_like(velocity, np.nan), where=q != 0
+    )  # no envelope where nothing oscillates
+    real = np.hypot(samples.y.real, turned.real)
+    imaginary = np.hypot(samples.y.imag, turned.imag)
     return Envelope(x, real, imaginary, _periods(part.x, part.frequency))
 
 

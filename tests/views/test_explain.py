@@ -173,6 +173,12 @@ def test_a_page_needs_nothing_from_elsewhere(text: str, picture: bool) -> None:
     assert "url(http" not in page
 
 
+@pytest.mark.long
+@pytest.mark.filterwarnings("error")
+def test_an_envelope_ends_where_nothing_oscillates() -> None:
+    assert "</html>" in kovacic.solve("x^3 + 10^6*x").explain(format="html")
+
+
 @parametrize("text", LONG, ordinary=0, long=1)
 def test_long_formulas_on_a_page_are_many_short_ones(text: str) -> None:
     page = kovacic.solve(text).explain(format="html")
