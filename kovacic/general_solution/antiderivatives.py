@@ -228,11 +228,23 @@ def _roots(term: Expr, x: Expr) -> Iterator[ChangeOfIntegrand]:
     yield ChangeOfIntegrand(inner, t, sympy.root(line, q))
 
 
+def _waves(term: Expr, x: Expr) -> Iterator[ChangeOfIntegrand]:
+    """To c, s or a tangent, with exp(i u) = cos(u) + i sin(u)."""
+    for e in term.atoms(exp):
+        angle = sympy.expand(e.args[0] / sympy.I)
+        if e.has(sympy.I) and not angle.has(sympy.I):
+            term = term.xreplace({e: cos(angle) + sympy.I * sin(angle)})
+    yield from wave_changes(term, x)
+
+
 # ------------------------------------------------------------------------------------------------------------ by parts
 
 
 def _by_parts(inverse: Expr, g: Expr, x: Expr) -> Expr | None:
-    """int g l dx = G l - int G l' dx for a product l of inverse functions and the like, where G is simpler than these."""
+    """int g l dx = G l - int G l' dx for a product l of inverse functions and the like, where G is simpler than these.
+
+    g = k l' + H' with a constant k gives k l^(m+1)/(m+1) + int H' l^m dx beside l^m.
+    """
     powers = [factor.as_base_exp() for factor in sympy.Mul.make_args(inverse)]
     if inverse == 1 or not all(m.is_Integer and m > 0 for _, m in powers):
         return None
@@ -243,6 +255,13 @@ def _by_parts(inverse: Expr, g: Expr, x: Expr) -> Expr | None:
     G = _by_rules(g, x)
     if G is None:
         return None
+    if len(powers) == 1:
+        ((function, m),) = powers
+        k = sympy.expand(G).coeff(function)
+        left = sympy.expand(g - k * _slope(function, x))
+        if k != 0 and not k.has(x) and size(left) <= size(g):
+            rest = _by_parts(inverse, left, x)
+            return None if rest is None else k * function ** (m + 1) / (m + 1) + rest
     if not _functions(G) <= _SIMPLE:
         return None
     slopes = (m * _slope(function, x) * inverse / function * G for function, m in powers)
@@ -327,7 +346,7 @@ _RULES = (
     _Rule(
         "int R(sin(u), cos(u)) dx for linear u: rational in a wave or tangent",
         _has_waves,
-        partial(_in_another_variable, wave_changes),
+        partial(_in_another_variable, _waves),
     ),
     _Rule("products of powers and exponentials of rational functions", lambda e, x: True, integral_of_product),
     _Rule(

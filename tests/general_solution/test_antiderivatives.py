@@ -85,6 +85,23 @@ def test_powers_beside_waves_of_squares_are_real(n: int, wave: Any) -> None:
 
 
 @pytest.mark.parametrize(
+    "term",
+    [
+        exp(sympy.I * x) / sin(x),  # cos(x) + i sin(x) for exp(i x)
+        exp(2 * sympy.I * x) / (1 + cos(2 * x)),
+        log(x + 2) ** 2 / x**2,  # by parts, as x^-2 = k l' + H'
+        log(x) ** 2 / (x + 1) ** 2,
+    ],
+    ids=str,
+)
+def test_integrals_that_one_rule_alone_finds(term: Any) -> None:
+    found = antiderivatives.antiderivative(term, x)
+    assert not found.has(sympy.Integral)
+    for point in POINTS:
+        assert jet(found, x, point)[1].overlaps(jet(term, x, point)[0])
+
+
+@pytest.mark.parametrize(
     "term", [1 / (sqrt(4 - x**2) * (x**2 - 4)), 1 / ((1 - x) ** sympy.Rational(3, 2) * sqrt(1 + x))]
 )
 def test_roots_that_are_real_on_an_interval_alone(term: Any) -> None:
