@@ -295,7 +295,7 @@ def _solved(condition: Any, signs: Signs) -> Any:
 
 
 def _linear_forms(rest: Any, n: Any) -> Iterator[tuple[Any, Any, Any]]:
-    """What it is linear in, n, a parameter or a square (n + h)^2, with the slope and the constant."""
+    """The quantity in which it is linear (n, a parameter or a square (n + h)^2), with the slope and the constant."""
     for unknown in (n, *sorted(rest.free_symbols - {n}, key=str)):
         if _degree_in_unknown(rest, unknown) == 1:
             yield unknown, rest.coeff(unknown, 1), rest.coeff(unknown, 0)

@@ -309,7 +309,7 @@ class Atoms:
         return point != sympy.oo and is_seen_negative(self.own(shown.subs(self.x, point)))
 
     def base(self, p: Poly, *, around_zero: bool) -> Expr:
-        """What is written for a multiple of a monic polynomial whose roots are to be real."""
+        """The multiple of a monic polynomial that is written where its roots are to be real."""
         return self.primitive(p)[1] * (-1) ** self.is_turned(p, around_zero=around_zero)
 
     def root_sum(self, polynomial: Expr, body: Expr) -> Expr:

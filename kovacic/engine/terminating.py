@@ -27,7 +27,7 @@ _MOST_FAMILIES = 256
 
 @dataclass(frozen=True)
 class SeriesSearch:
-    """What became of the theta that leave a natural degree for P: those with a P, by degrees, and whether all were decided.
+    """The theta that leave a natural degree for P: those for which there is a P, by degree, and whether all were decided.
 
     `known` is false from the first theta on whose recurrence has more terms than two; `complete` says that all poles and
     exponents lie in the field of S, so that the kernel can go through the same theta.
@@ -40,7 +40,7 @@ class SeriesSearch:
 
 
 def terminating_series(problem: Problem) -> TerminatingSeries | NoTerminatingSeries | None:
-    """A solution exp(int theta) P with a P of least degree, or that there is none; None where that isn't told in this way."""
+    """A solution exp(int theta) P with P of least degree, or the proof that there is none; None if recurrences don't decide."""
     search = search_series(problem)
     if search is None:
         return None
@@ -98,7 +98,7 @@ def recurrence_about(centre: Poly, S: RatFunc, theta: RatFunc) -> TwoTerms | Non
 
 
 def _in_least_field(theta: RatFunc) -> RatFunc:
-    """The same function over K where it lies over K(c), but doesn't contain c."""
+    """A function over K(c) that doesn't contain c as one over K; any other as it is."""
     parts = [part for f in (theta.num, theta.den) for part in f.parts[1:]]
     return theta if any(parts) else RatFunc(theta.num.parts[0], theta.den.parts[0])
 

@@ -55,7 +55,7 @@ def group_of(S: RatFunc, decision: Decision, limits: Limits = DEFAULT_LIMITS) ->
 
 
 def _group_of_series(problem: Problem, series: TerminatingSeries) -> Group | None:
-    """The group where P is known by its recurrence and no other omega is rational; None where another one may be."""
+    """The group if P is known by its recurrence and no other omega is rational; None if another one may be."""
     search = search_series(problem)
     if search is None or not (search.known and search.complete) or len(search.found) > 1:
         return None

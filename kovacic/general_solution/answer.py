@@ -101,7 +101,7 @@ class ProblemAnswer:
         return ()
 
     def relations_beside(self, eq: Expr) -> tuple[Expr, ...]:
-        """What is needed besides what the formula says, with symbols that know what is assumed."""
+        """Relations that the solution needs and the formula doesn't show, in symbols that carry the assumptions."""
         return ()
 
     @cached_property

@@ -161,7 +161,7 @@ class ConditionReader:
         return self._symbol(point, 1)
 
     def _symbol(self, point: Expr, order: int) -> Expr:
-        """What stands for y(a) or y'(a) in an expression."""
+        """The symbol that stands for y(a) or y'(a) in an expression."""
         if order > 1:
             raise self._no_condition(self.unknown + "'" * order + f"({point})")
         if point not in (sympy.oo, -sympy.oo):

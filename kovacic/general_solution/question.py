@@ -183,10 +183,7 @@ def _with_meaning(symbols: Mapping[str, Expr], equation: Equation) -> dict[str, 
 
 
 def _meanings(letters: Sequence[tuple[str, Expr]], symbols: Mapping[str, Expr]) -> dict[Expr, Expr]:
-    """What letters stand for, in the user's symbols: letters with what is known of its sign.
-
-    Powers are principal ones, and taken for positive.
-    """
+    """The expressions in the user's symbols that letters stand for.  Powers are principal ones, and taken to be positive."""
     plain = {sympy.Symbol(name): symbol for name, symbol in symbols.items()}
     meanings = {}
     for name, meaning in letters:

@@ -24,7 +24,7 @@ from kovacic.parametric.functions import NATURALS, Classes, ParameterPoint, over
 
 
 class Claim(ABC):
-    """What is said of the parameters: true where a reader finds it true."""
+    """A statement about the parameters, true exactly where a reader finds it true."""
 
     def holds(self, point: ParameterPoint) -> bool:
         """True if it is true at the point; a formula that isn't defined there makes it false."""
