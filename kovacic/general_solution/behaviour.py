@@ -311,6 +311,8 @@ def _leading(f: Expr, variable: Expr, towards: Expr) -> Expr | None:
         return _gauss_at_one(parameters, sympy.expand(1 - z))
     if end == -1 and isinstance(f, sympy.legendre) and not parameters[0].is_integer:
         return sin(pi * parameters[0]) / pi * log(sympy.expand(1 + z) / 2)
+    if isinstance(f, sympy.hyper) and (end == sympy.zoo or not end.is_finite) and len(f.ap) == 2 and not f.bq:
+        return _tricomi(parameters, z)  # in every direction
     if end in (sympy.oo, -sympy.oo) and f.func in _AT_INFINITY:
         at_plus, at_minus = _AT_INFINITY[f.func]
         return at_plus(parameters, z) if end == sympy.oo else at_minus(parameters, sympy.expand(-z))
@@ -354,7 +356,7 @@ def _confluent(parameters: Sequence[Any], z: Expr) -> Expr | None:
         (b,) = bottom
         return gamma(b) / (2 * sqrt(pi)) * z ** ((1 - 2 * b) / 4) * exp(2 * sqrt(z))
     if len(top) != 1 or len(bottom) != 1:
-        return _tricomi(parameters, z)
+        return None
     (a,), (b,) = top, bottom
     if _is_natural(-a):
         return (-z) ** (-a) * gamma(b) / gamma(b - a)
@@ -368,7 +370,7 @@ def _confluent_below(parameters: Sequence[Any], z: Expr) -> Expr | None:
         (b,) = bottom
         return gamma(b) / sqrt(pi) * z ** ((1 - 2 * b) / 4) * cos(2 * sqrt(z) - pi * (2 * b - 1) / 4)
     if len(top) != 1 or len(bottom) != 1:
-        return _tricomi(parameters, -z)
+        return None
     (a,), (b,) = top, bottom
     other = _confluent(((sympy.expand(b - a),), (b,)), z)
     return None if other is None else sympy.powsimp(sympy.expand(exp(-z) * other))
@@ -376,9 +378,7 @@ def _confluent_below(parameters: Sequence[Any], z: Expr) -> Expr | None:
 
 def _tricomi(parameters: Sequence[Any], z: Expr) -> Expr | None:
     """2F0(a, b; z) = w^a U(a, a - b + 1, w), w = -1/z to 0: the smaller of the powers w^a and w^b, by the sign of a - b."""
-    top, bottom = parameters
-    if bottom or len(top) != 2:
-        return None
+    top, _ = parameters
     a, b = top
     c = sympy.expand(a - b)
     w = -1 / z

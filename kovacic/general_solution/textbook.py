@@ -239,7 +239,9 @@ def _symmetric_product(polynomial: Expr, rate_of: Mapping[Expr, Expr]) -> tuple[
     None for the rest if a factor isn't symmetric.
     """
     constant, polynomial = polynomial.as_independent(*rate_of, as_Add=False)
-    if any(power.exp.free_symbols for power in polynomial.atoms(sympy.Pow)):  # SymPy can't sort factors with a^n
+    if not all(
+        power.exp.is_Rational for power in polynomial.atoms(sympy.Pow)
+    ):  # SymPy can't sort factors with a^n, a^i
         return sympy.S.Zero, None
     number, factors = sympy.factor_list(polynomial, *rate_of)
     groups: list[Expr] = []

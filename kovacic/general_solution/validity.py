@@ -270,8 +270,8 @@ def _of_power(e: Expr) -> Expr:
     if e.exp.is_integer:
         return sympy.Ne(e.base, 0)
     if e.exp.is_Rational and e.exp > 0:
-        return _not_negative(e.base)
-    return _positive(e.base)
+        return sympy.true if e.base.has(sympy.I) else _not_negative(e.base)
+    return _off_the_cut(e.base)
 
 
 # ----------------------------------------------------------------------------------------------------------- relations
@@ -365,7 +365,7 @@ def _of_hypergeometric(e: Expr) -> Expr:
 
 _OF_FUNCTIONS: dict[Any, Need] = {
     # inverse functions, and those with poles
-    sympy.log: _of_last(_positive),
+    sympy.log: _of_last(_off_the_cut),
     **dict.fromkeys((sympy.asin, sympy.acos), _of_last(lambda u: _not_negative(1 - u**2))),
     sympy.acosh: _of_last(lambda u: _not_negative(u - 1)),
     sympy.atanh: _of_last(lambda u: _positive(1 - u**2)),
@@ -377,9 +377,9 @@ _OF_FUNCTIONS: dict[Any, Need] = {
     sympy.polylog: _of_last(_below_one),
     **dict.fromkeys((sympy.elliptic_k, sympy.elliptic_e, sympy.elliptic_f, sympy.elliptic_pi), _of_elliptic_integral),
     # J_n(u) is (u/2)^n times an entire function; y_n(u) is rational in u beside waves for an integer n
-    **dict.fromkeys((sympy.besselj, sympy.besseli, sympy.jn), _for_integers(_nothing, _positive)),
+    **dict.fromkeys((sympy.besselj, sympy.besseli, sympy.jn), _for_integers(_nothing, _off_the_cut)),
     **dict.fromkeys((sympy.bessely, sympy.besselk), _of_last(_positive)),
-    sympy.yn: _for_integers(_nonzero, _positive),
+    sympy.yn: _for_integers(_nonzero, _off_the_cut),
     # polynomials for an integer n; else u > -1
     **dict.fromkeys(
         (sympy.legendre, sympy.gegenbauer, sympy.jacobi, sympy.chebyshevt, sympy.chebyshevu),

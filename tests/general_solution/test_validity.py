@@ -77,14 +77,27 @@ PARTS = (
 @parametrize("part", PARTS, ordinary=2)
 @pytest.mark.parametrize("known", [{"positive": True}, {"negative": True}, {"real": True, "nonzero": True}])
 def test_a_part_that_is_complex_by_what_is_assumed(part: Any, known: dict[str, bool]) -> None:
-    """With t > 0 for -t - 1, t < 0 for t - 1, and a real t for i t: no relation is left to say."""
+    """With t > 0 for -t - 1, t < 0 for t - 1, and a real t for -t^2 - 1: no relation is left to say."""
     t = sympy.Symbol("t", **known)
-    unreal = {t.is_positive: -t - 1, t.is_negative: t - 1}.get(True, sympy.I * t)
+    unreal = {t.is_positive: -t - 1, t.is_negative: t - 1}.get(True, -(t**2) - 1)
     solution = sympy.Eq(sympy.Function("y")(t), part(unreal) + 1 / (w - v))
     found = kovacic.validity(solution)
     assert found.real == (sympy.false,)
     assert found
     assert str(found) == "no value"
+
+
+@pytest.mark.parametrize(
+    ("text", "said"),
+    [
+        ("x^2*y''+x*y'+(I*x^2-n^2)*y=0", "x != 0"),  # Y_n(sqrt(i) x)
+        ("y''+(k^2-2*a/x)*y=0, y(1)=0, y'(1)=1", "x > 0"),  # (-2 i k)^(1 - i a/k)
+    ],
+)
+def test_an_argument_with_an_i(text: str, said: str) -> None:
+    """Where a solution is complex, it isn't said to be real, nor to be so nowhere; zeros of arguments are named."""
+    found = kovacic.answer_to(text, assume={"k": "positive", "a": "positive"} if "k" in text else {}).validity
+    assert (found.claim, str(found)) == ("valid", said)
 
 
 def test_a_complex_rate() -> None:
