@@ -26,7 +26,7 @@ from sympy.solvers.inequalities import reduce_rational_inequalities
 from kovacic.algebra.precision import working_digits
 from kovacic.closed_form.check import DIGITS
 from kovacic.general_solution.zero import ball, is_nowhere_zero
-from kovacic.general_solution.zero_set import ZeroSet, inequality, without_implied
+from kovacic.general_solution.zero_set import ZeroSet, inequality, poles_of, without_implied
 
 Expr = Any  # SymPy publishes no types
 #: What a function needs, from an application of it.
@@ -82,6 +82,8 @@ def needed_for(value: Expr, x: Expr, exceptions: Iterable[Expr] = ()) -> Validit
     of_letters, others = sympy.sift(relations, lambda r: isinstance(r, sympy.Ne) and not r.has(x), binary=True)
     nonzero = [factor for relation in of_letters for factor in ZeroSet(relation.lhs).factors]
     nonzero += [e for e in exceptions if not is_nowhere_zero(e)]
+    if is_of_real_numbers:
+        nonzero = [factor for e in nonzero for factor in _beside_real_roots(e)]
     others = [relation for relation in others if not _holds_for_real_symbols(relation)]
     known = {r.lhs for r in others if not isinstance(r, sympy.Ne)}
     on_x = [part for relation in others for part in _of_factors(relation, known) if not _holds_for_real_symbols(part)]
@@ -110,6 +112,18 @@ def _nonzero_beside(relations: Iterable[Expr]) -> set[Expr]:
     positive = [relation.lhs for relation in relations if isinstance(relation, sympy.StrictGreaterThan)]
     parts = [u for e in positive for u in (e, *sympy.Mul.make_args(e), *ZeroSet(e).factors)]
     return {sign * u for u in parts for sign in (1, -1)}
+
+
+def _beside_real_roots(zero: Expr) -> tuple[Expr, ...]:
+    """The factors of r for 1/gamma(sqrt(r)), nothing for 1/gamma(1 + sqrt(r)): a real root isn't negative."""
+    if poles_of(zero) is None:
+        return (zero,)
+    roots = {p: sympy.Dummy(nonnegative=True) for p in zero.atoms(sympy.Pow) if p.exp == sympy.S.Half}
+    u = sympy.expand((1 / zero).args[0].xreplace(roots))
+    if u.is_positive:
+        return ()
+    radicand = next((p.base for p, s in roots.items() if (u / s).is_positive), None)
+    return (zero,) if radicand is None else ZeroSet(radicand).factors
 
 
 def _without_even_roots(value: Expr, x: Expr) -> tuple[Expr, dict[Expr, Expr]]:

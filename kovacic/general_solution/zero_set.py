@@ -72,7 +72,7 @@ def poles_of(e: Expr) -> tuple[Expr, str] | None:
     """n and "0, 1, 2, ...", n and "0, -1, -2, ...", where 1/gamma(-n), 1/gamma(n) is zero; None for other expressions."""
     if not isinstance(1 / e, gamma):
         return None
-    u = (1 / e).args[0]
+    u = min((1 / e).args[0], sympy.together((1 / e).args[0]), key=size)
     return (-u, "0, 1, 2, ...") if u.could_extract_minus_sign() else (u, "0, -1, -2, ...")
 
 
