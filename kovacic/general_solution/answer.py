@@ -112,7 +112,7 @@ class ProblemAnswer:
         return Validity(
             tuple(relation.xreplace(self.own) for relation in (*found.real, *self.relations_beside(eq))),
             tuple(e.xreplace(self.own) for e in found.exceptions),
-            found.of_real_numbers,
+            found.has_real_parts,
         )
 
 

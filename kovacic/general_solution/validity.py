@@ -11,7 +11,7 @@ Reference: DLMF 4.2, 4.23, 4.37 (logarithms, inverse functions), 6.4 (Ei, Ci), 8
 
 from __future__ import annotations
 
-from collections.abc import Callable, Collection, Iterable, Iterator
+from collections.abc import Callable, Collection, Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from functools import partial
 from typing import Any
@@ -37,22 +37,19 @@ Need = Callable[[Expr], Expr]
 class Validity:
     """`real`: relations that make every part of the formula real and finite; `exceptions`: what must not be zero.
 
-    `real` is `false` alone where what is assumed of symbols makes a part complex, as sqrt(k) for a negative k.  An exception
-    depends on parameters alone: for values where it is zero a part has a zero denominator, or the two solutions of a general
-    solution become dependent, so that other formulas hold.  Where a number in the formula isn't known to be real
-    (`of_real_numbers`), the relations make it valid, and whether it is real isn't said.
+    An exception depends on parameters alone: for values where it is zero a part has a zero denominator, or the two solutions of
+    a general solution become dependent, so that other formulas hold.  Where a part is complex (`has_real_parts` is false), as
+    sqrt(k) for a k that is assumed to be negative, the relations make the formula valid, and whether it is real isn't said.
     """
 
     real: tuple[Expr, ...]
     exceptions: tuple[Expr, ...]
-    of_real_numbers: bool = True
+    has_real_parts: bool = True
 
     @property
     def claim(self) -> str:
-        """What the formula is where the relations hold: "real and valid"; "valid" where a number in it isn't real."""
-        if self.of_real_numbers or sympy.false in self.real:
-            return "real and valid"
-        return "valid"
+        """What the formula is where the relations hold: "real and valid"; "valid" where a part of it isn't real."""
+        return "real and valid" if self.has_real_parts else "valid"
 
     def __bool__(self) -> bool:
         """True if anything is needed."""
@@ -60,8 +57,6 @@ class Validity:
 
     def __str__(self) -> str:
         """`x > 0, c**2 - 4*k*m != 0`."""
-        if sympy.false in self.real:
-            return "no value"
         real = (f"{r.lhs} != 0" if isinstance(r, sympy.Ne) else str(r) for r in self.real)
         implied = _nonzero_beside(self.real)
         return ", ".join([*real, *(inequality(e) for e in self.exceptions if e not in implied)])
@@ -73,25 +68,40 @@ def needed_for(value: Expr, x: Expr, exceptions: Iterable[Expr] = ()) -> Validit
     # The bounds of an integral may be infinite; of a sum over roots SymPy can't tell.
     plain = value.xreplace({total: sympy.Dummy() for total in value.atoms(sympy.RootSum)})
     numbers = (node for node in sympy.preorder_traversal(plain) if node.is_number)
-    is_of_real_numbers = all(number.is_extended_real for number in numbers)
+    has_real_numbers = all(number.is_extended_real for number in numbers)
     # Of an imaginary root they have cuts.
     cuts = (1 + e.args[0] ** 2 > 0 for e in value.atoms(sympy.atan, sympy.asinh) if e.has(*roots))
-    relations = [*dict.fromkeys(relation.xreplace(roots) for relation in (*needs_of(value), *cuts))]
-    if sympy.false in relations:
-        return Validity((sympy.false,), without_implied(exceptions), is_of_real_numbers)
+    needs = [*needs_of(value), *cuts]
+    found = _without_what_holds([r.xreplace(roots) for r in needs], x, exceptions, has_real_parts=has_real_numbers)
+    if found is None:  # no x and letters make all parts real: it is a solution between the branch points
+        apart = [_nonzero(relation.lhs.xreplace(roots)) for relation in needs]
+        found = _without_what_holds(apart, x, exceptions, has_real_parts=False)
+    assert found is not None
+    return found
+
+
+def _without_what_holds(
+    relations: Sequence[Expr], x: Expr, exceptions: Iterable[Expr], *, has_real_parts: bool
+) -> Validity | None:
+    """The relations that say something; None where one is false, by what is assumed of letters or beside the others."""
+    relations = [*dict.fromkeys(relations)]
+    if any(_is_false(relation) for relation in relations):
+        return None
     of_letters, others = sympy.sift(relations, lambda r: isinstance(r, sympy.Ne) and not r.has(x), binary=True)
     nonzero = [factor for relation in of_letters for factor in ZeroSet(relation.lhs).factors]
     nonzero += [e for e in exceptions if not is_nowhere_zero(e)]
-    if is_of_real_numbers:
+    if has_real_parts:
         nonzero = [factor for e in nonzero for factor in _beside_real_roots(e)]
     others = [relation for relation in others if not _holds_for_real_symbols(relation)]
     known = {r.lhs for r in others if not isinstance(r, sympy.Ne)}
     on_x = [part for relation in others for part in _of_factors(relation, known) if not _holds_for_real_symbols(part)]
     if sympy.false in on_x:
-        return Validity((sympy.false,), without_implied(nonzero), is_of_real_numbers)
+        return None
     said = _nonzero_beside(on_x)
-    exceptions = without_implied(e for e in nonzero if e not in said)
-    return Validity(_in_one_interval(_joined(on_x, {*nonzero}), x), exceptions, is_of_real_numbers)
+    real = _in_one_interval(_joined(on_x, {*nonzero}), x)
+    return (
+        None if real is None else Validity(real, without_implied(e for e in nonzero if e not in said), has_real_parts)
+    )
 
 
 def _joined(relations: Iterable[Expr], nonzero: set[Expr]) -> tuple[Expr, ...]:
@@ -152,6 +162,20 @@ def _are_equal(e: Expr, other: Expr) -> bool:
         return None not in (first, second) and bool(abs(first - second) < arb(10) ** -DIGITS * abs(first))
 
 
+def _is_false(relation: Expr) -> bool:
+    """True if an inequality holds for no real values of the symbols, or isn't one between real numbers."""
+    if isinstance(relation, BooleanAtom | sympy.Ne):
+        return bool(relation == sympy.false)
+    e = relation.lhs.xreplace(
+        {symbol: sympy.Dummy(real=True) for symbol in relation.free_symbols if symbol.is_real is None}
+    )
+    return (
+        e.is_extended_real is False
+        or bool(e.is_negative)
+        or bool(e.is_zero and relation.func is sympy.StrictGreaterThan)
+    )
+
+
 def _holds_for_real_symbols(relation: Expr) -> bool:
     """As exp(x) + 1 != 0, x^2 - x + 1 > 0 and x + sqrt(x^2 + 1) > 0 do; nothing has to be said then."""
     real = {symbol: sympy.Dummy(real=True) for symbol in relation.free_symbols if symbol.is_real is None}
@@ -178,15 +202,15 @@ def _holds_for_real_symbols(relation: Expr) -> bool:
         return bool(relation.has(sympy.I))
 
 
-def _in_one_interval(relations: tuple[Expr, ...], x: Expr) -> tuple[Expr, ...]:
-    """x > 0 for x != 0, 1 + 1/x > 0, x + 1 > 0, and without what holds there; `false` alone where nothing is left."""
+def _in_one_interval(relations: tuple[Expr, ...], x: Expr) -> tuple[Expr, ...] | None:
+    """x > 0 for x != 0, 1 + 1/x > 0, x + 1 > 0, and without what holds there; None where nothing is left."""
     rational, others = sympy.sift(relations, lambda r: r.free_symbols == {x} and _is_over_Q(r.lhs, x), binary=True)
     if len(relations) == 1 or not rational:
         return relations
     t = sympy.Dummy(real=True)
     where = reduce_rational_inequalities([[r.xreplace({x: t}) for r in rational]], t, relational=False)
-    if where is sympy.S.EmptySet:
-        return (sympy.false,)
+    if where.is_empty or isinstance(where, sympy.FiniteSet):
+        return None
     if not isinstance(where, sympy.Interval) or where == sympy.S.Reals or where.has(sympy.CRootOf):
         return relations
     a, b = where.start, where.end
@@ -237,7 +261,7 @@ def _of_cosine(relation: Expr) -> Expr:
 
 
 def needs_of(e: Expr) -> Iterator[Expr]:
-    """Relations that make an expression real and finite, part by part; `false` for a part that is complex.
+    """Relations that make an expression real and finite, part by part.
 
     >>> x = sympy.Symbol("x")
     >>> list(needs_of(1 / sympy.log(x)))
@@ -292,11 +316,10 @@ def _of_power(e: Expr) -> Expr:
 
 
 def _comparison(relation: Any, u: Expr) -> Expr:
-    """u > 0 or u >= 0, which SymPy refuses to write for what is known not to be real."""
+    """u > 0 or u >= 0, also where it is known to be false, and for what isn't real, which SymPy refuses to compare."""
     short = _of_the_same_sign(u)
-    if short.is_extended_real is False:
-        return sympy.false
-    return relation(short, 0)
+    holds = short.is_extended_real is not False and relation(short, 0) == sympy.true
+    return sympy.true if holds else relation(short, 0, evaluate=False)
 
 
 _positive = partial(_comparison, sympy.StrictGreaterThan)
