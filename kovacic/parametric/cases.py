@@ -39,9 +39,9 @@ from kovacic.parametric.statements import (
 )
 
 
-def everything(statement: Statement) -> list[ParameterPoint]:
-    """All values of the parameters, as one chart; none for a statement in which no function occurs."""
-    return [] if statement.field is None else [ParameterPoint.generic(statement.field)]
+def charts_of(statement: Statement) -> list[ParameterPoint]:
+    """Charts that contain all values at which the statement holds; none for one in which no function occurs."""
+    return [] if statement.field is None else within(statement, [ParameterPoint.generic(statement.field)])
 
 
 def within(statement: Statement, charts: list[ParameterPoint]) -> list[ParameterPoint]:
@@ -88,10 +88,10 @@ def _where_solvable(equation: Poly, chart: ParameterPoint) -> list[ParameterPoin
 def _where_zero(value: Poly, chart: ParameterPoint) -> list[ParameterPoint]:
     if not value:
         return [chart]
-    if isinstance(value, ExtensionPoly):  # over a number field, maybe a function of further parameters
-        return [chart]
-    if not isinstance(value, FunctionPoly):
+    if chart.field.ground == QQ:  # a number, and not 0
         return []
+    if isinstance(value, ExtensionPoly):  # over a number field, a function of further parameters
+        return [chart]
     surfaces = [*map(hypersurface, irreducible_factors(value))]
     if any(surface.missed or surface.curve for surface in surfaces):
         return [chart]
@@ -142,10 +142,9 @@ def without_implied(statement: Statement) -> Statement:
     zeros = [zero.function for zero in vanishing(statement.parts)]
     valued = partial(with_values, zeros=zeros)
     parts = [part.rewritten(valued) if isinstance(part, Vanishes) else part for part in statement.parts]
-    for part in [*parts]:
+    for part in vanishing(parts):
         others = Both(tuple(other for other in vanishing(parts) if other is not part))
-        follows = isinstance(part, Vanishes) and len(others.parts) > 1
-        if follows and covered(within(others, everything(part)), [part]):
+        if len(others.parts) > 1 and covered(charts_of(others), [part]):
             parts.remove(part)
     return Both(tuple(dict.fromkeys(part for part in parts if part != ALWAYS)))
 
@@ -244,7 +243,7 @@ def solvable_cases(regions: Sequence[ParameterRegion]) -> list[Case]:
         else:
             # The unsolvable ones that the statement meets outside of the cases before.
             before = [case.statement for case in found if not case.without]
-            charts = within(region.statement, everything(region.statement))
+            charts = charts_of(region.statement)
             meeting = ((other, within(region.statement, within(other, charts))) for other in unsolvable)
             without = [other for other, common in meeting if not covered(common, before)]
             found.append(Case(region.statement, (region,), tuple(without)))
@@ -267,7 +266,7 @@ def without_empty(regions: Sequence[ParameterRegion]) -> list[ParameterRegion]:
         said = {*region.statement.conjuncts}
         if any(known <= said for known in seen):
             continue
-        charts = within(region.statement, everything(region.statement))
+        charts = charts_of(region.statement)
         if covered(charts, [other.statement for other in kept]):
             continue
         seen.append(said)
@@ -308,7 +307,7 @@ def _is_redundant(
     is_variety = all(isinstance(part, Vanishes) for part in region.statement.conjuncts)
     if not is_generic and not is_variety:
         return False
-    charts = within(region.statement, everything(region.statement))
+    charts = charts_of(region.statement)
     if not charts:
         return False
     known = [one.statement for one in before]

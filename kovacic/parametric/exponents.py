@@ -75,6 +75,10 @@ class RankConditions:
         return not self.polynomials and self.system == () and not self.deficient
 
 
+#: Those that weren't computed.
+OPEN = RankConditions(system=None)
+
+
 def rank_conditions(images: Sequence[Poly], field: Field) -> RankConditions:
     """Where polynomials span less than generically: over Q(t) or, on a hypersurface in parameter space, over its field.
 
@@ -92,7 +96,7 @@ def rank_conditions(images: Sequence[Poly], field: Field) -> RankConditions:
     except LimitExceeded as limit:
         if limit.limit != "work":
             raise
-        return RankConditions(system=None)
+        return OPEN
 
 
 def _conditions(images: Sequence[Poly], field: FunctionField, surface: _Surface | None) -> RankConditions:
@@ -512,10 +516,10 @@ def choices_of_degree(problem: Problem, d: int) -> list[Exponents] | None:
     return [exponents for exponents in chosen if exponents.field.rational_value(exponents.degree) == d]
 
 
-def conditions_of_degree(problem: Problem, d: int) -> list[RankConditions] | None:
-    """For each of these choices, where there is a P of the degree: over the field of the problem."""
+def conditions_of_degree(problem: Problem, d: int) -> list[RankConditions]:
+    """For each of these choices, where there is a P of the degree, over the field of the problem; open without choices."""
     chosen = choices_of_degree(problem, d)
-    return None if chosen is None else [exponents.conditions(d, problem.field) for exponents in chosen]
+    return [OPEN] if chosen is None else [exponents.conditions(d, problem.field) for exponents in chosen]
 
 
 def has_solution(problem: Problem, d: int) -> bool | None:

@@ -411,16 +411,8 @@ class Congruence(Statement):
         if self.form is None:
             return self
         largest = lcm(self.modulus.denominator, *(residue.denominator for residue in self.residues))
-        known = values_at_integers(self.form, largest)
-        if known is None or not assumptions.is_integer(known.name):
-            return self
-        parameter = self.equation.field.generator(known.name)
-        found: list[Statement] = []
-        for number, value in known.values.items():
-            here = Vanishes(over_parameters(parameter - number))
-            if self._has_one_of([value]) and here.decided(assumptions) is not False:
-                found.append(here)
-        return either(*found)
+        known = at_integers(self.form, largest, assumptions)
+        return self if known is None else either(*(here for here, value in known if self._has_one_of([value])))
 
     def avoiding(self, setting: Setting) -> Statement:
         return replace(self, setting=setting)
@@ -475,6 +467,16 @@ class Congruence(Statement):
         if has_several_parameters and all_solved(equation, self.setting.fixed):
             return self._solved(equation, Classes.of([residue * scale], modulus * scale))
         return InClasses(form, self.numbers)
+
+
+def at_integers(form: FunctionPoly, largest: int, assumptions: Assumptions) -> list[tuple[Vanishes, Fraction]] | None:
+    """Where a form with an integer parameter has values with denominators up to the largest, and these; None for others."""
+    known = values_at_integers(form, largest)
+    if known is None or not assumptions.is_integer(known.name):
+        return None
+    parameter = form.field.generator(known.name)
+    places = ((Vanishes(over_parameters(parameter - number)), value) for number, value in known.values.items())
+    return [(here, value) for here, value in places if here.decided(assumptions) is not False]
 
 
 def free_letter(names: Collection[str], preferred: str = LETTERS) -> str:

@@ -200,10 +200,7 @@ class Natural(Statement):
             return [form_conditions(problem, self.m)]
         if problem.field.ground == QQ:  # no parameter is left
             return [RankConditions(deficient=_has_solution(problem.S, number))]
-        found = conditions_of_degree(problem, number)
-        if found is None:
-            return [RankConditions(system=None)]
-        return found
+        return conditions_of_degree(problem, number)
 
     def solutions(self, variable: str, number: int | None) -> tuple[PolynomialSolution, ...]:
         """Solutions with a P of this degree, for each way in which the exponents give it and P can exist."""

@@ -41,13 +41,12 @@ from kovacic.parametric.functions import (
     normal_form,
     over_parameters,
     roots,
-    values_at_integers,
 )
-from kovacic.parametric.integers import Congruence, integer_roots, squares_of_roots, without_parameters
+from kovacic.parametric.integers import Congruence, at_integers, integer_roots, squares_of_roots, without_parameters
 from kovacic.parametric.prose import Words
 from kovacic.parametric.regions import RegionVerdict
 from kovacic.parametric.restriction import Hypersurface, hypersurface, over_all
-from kovacic.parametric.statements import ALWAYS, NEVER, Statement, Vanishes, both, either
+from kovacic.parametric.statements import ALWAYS, NEVER, Statement, both, either
 from kovacic.writing.formula import Math, latex_text
 
 _F = Fraction
@@ -163,13 +162,10 @@ class Schwarz(Statement):
         for difference in map(_rational_root, roots(self.cubic)):
             if difference is None:
                 continue
-            known = values_at_integers(difference, LARGEST)
-            if known is not None and assumptions.is_integer(known.name):
-                parameter = self.cubic.field.generator(known.name)
-                values = [Vanishes(over_parameters(parameter - number)) for number in known.values]
-                possible = [here for here in values if here.decided(assumptions) is not False]
-                there = [self._on(hypersurface(here.function)) for here in possible]
-                return either(*(both(*pair) for pair in zip(possible, there, strict=True) if pair[1] != NEVER))
+            known = at_integers(difference, LARGEST, assumptions)
+            if known is not None:
+                there = ((here, self._on(hypersurface(here.function))) for here, _ in known)
+                return either(*(both(*pair) for pair in there if pair[1] != NEVER))
         return self
 
     def _on(self, surface: Hypersurface) -> Statement:

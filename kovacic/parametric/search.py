@@ -24,6 +24,7 @@ from kovacic.engine.places import Kind, Place, Problem
 from kovacic.limits import check_time
 from kovacic.parametric import riemann
 from kovacic.parametric.exponents import (
+    OPEN,
     RankConditions,
     conditions_of_degree,
     degrees_of_solutions,
@@ -261,9 +262,9 @@ def _add_reducible(problem: Problem, findings: Findings) -> None:
             continue
         # Of a degree that is a number nothing is left to say where the candidates are the only special values.
         number = problem.field.rational_value(-factor[0]) if factor.degree == 1 else None
-        found = None if number is None else conditions_of_degree(problem, int(number))
-        are_complete = [findings.add(conditions) for conditions in found or ()]
-        if found is None or not all(are_complete):
+        found = [OPEN] if number is None else conditions_of_degree(problem, int(number))
+        are_complete = [findings.add(conditions) for conditions in found]
+        if not all(are_complete):
             factors.append(over_parameters(factor))
     if factors:
         findings.natural.append(Natural(problem.S, 1, tuple(factors), Structure.REDUCIBLE))

@@ -7,7 +7,7 @@ for Schwarz's table, `natural` for determinants.  Nothing here is numerical.
 from __future__ import annotations
 
 from abc import abstractmethod
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterable
 from dataclasses import dataclass, replace
 from functools import cached_property
 from itertools import chain
@@ -132,6 +132,18 @@ class _Several(Several, Statement):
     def field(self) -> FunctionField | None:
         return next((part.field for part in self.parts if part.field is not None), None)
 
+    @cached_property
+    def claim(self) -> Claim:
+        kind = AnyOf if self.decisive else AllOf
+        return kind(tuple(part.claim for part in self.parts))
+
+    def _of(self, parts: Iterable[Statement]) -> Statement:
+        """The same of other parts."""
+        return either(*parts) if self.decisive else all_of(parts)
+
+    def rewritten(self, change: Callable[[FunctionPoly], FunctionPoly]) -> Statement:
+        return self._of(part.rewritten(change) for part in self.parts)
+
     def avoiding(self, setting: Setting) -> Statement:
         return replace(self, parts=tuple(part.avoiding(setting) for part in self.parts))
 
@@ -147,11 +159,7 @@ class _Several(Several, Statement):
         """The parts that aren't the case anyway: false ones where one has to hold, true ones where all have to."""
         narrower = [part.narrowed(assumptions) for part in self.parts]
         left = [part for part in narrower if part.decided(assumptions) is not (not self.decisive)]
-        if not left:
-            return self
-        if self.decisive:
-            return either(*left)
-        return all_of(left)
+        return self._of(left) if left else self
 
 
 class Either(_Several, AnyOf):
@@ -159,24 +167,14 @@ class Either(_Several, AnyOf):
     def alternatives(self) -> tuple[Statement, ...]:
         return self.parts
 
-    def rewritten(self, change: Callable[[FunctionPoly], FunctionPoly]) -> Statement:
-        return either(*(part.rewritten(change) for part in self.parts))
-
     def sample(self, random: Random) -> list[FunctionPoly]:
         return random.choice(self.parts).sample(random)
-
-    @cached_property
-    def claim(self) -> Claim:
-        return AnyOf(tuple(part.claim for part in self.parts))
 
 
 class Both(_Several, AllOf):
     @property
     def conjuncts(self) -> tuple[Statement, ...]:
         return self.parts
-
-    def rewritten(self, change: Callable[[FunctionPoly], FunctionPoly]) -> Statement:
-        return all_of([part.rewritten(change) for part in self.parts])
 
     def merged(self, other: Statement) -> Statement | None:
         if not isinstance(other, Both) or other.parts[:-1] != self.parts[:-1]:
@@ -189,16 +187,12 @@ class Both(_Several, AllOf):
     def sample(self, random: Random) -> list[FunctionPoly]:
         return list(chain.from_iterable(part.sample(random) for part in self.parts))
 
-    @cached_property
-    def claim(self) -> Claim:
-        return AllOf(tuple(part.claim for part in self.parts))
-
 
 def both(*statements: Statement) -> Both:
     return Both(tuple(chain.from_iterable(one.conjuncts for one in statements)))
 
 
-def all_of(statements: Sequence[Statement]) -> Statement:
+def all_of(statements: Iterable[Statement]) -> Statement:
     """The statement that all of them hold, without repetitions; a single one is returned as it is."""
     different = dict.fromkeys(one for one in statements if one != ALWAYS)
     if NEVER in different:

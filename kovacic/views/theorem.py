@@ -7,7 +7,7 @@ before holds.  Text, Markdown and HTML have headings, as for `explain`; LaTeX ha
 from __future__ import annotations
 
 import re
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Sequence
 from contextlib import suppress
 from dataclasses import replace
 from typing import NamedTuple
@@ -21,7 +21,7 @@ from kovacic.errors import InputError, LimitExceeded
 from kovacic.limits import DEFAULT_LIMITS, Budget
 from kovacic.parametric import prose
 from kovacic.parametric.assumptions import WORDS
-from kovacic.parametric.cases import Case, outside, solvable_cases
+from kovacic.parametric.cases import Case, charts_of, outside, solvable_cases, vanishing, within
 from kovacic.parametric.claims import IntegerFamily
 from kovacic.parametric.formulas import partial_fractions, unexpanded
 from kovacic.parametric.integers import free_letter
@@ -260,7 +260,7 @@ class _TheoremWriter:
 
     def _case(self, case: Case, number: str) -> Iterator[Block]:
         rows = _table_rows(case)
-        without = _exclusion_words(case)
+        without = _exclusions(case.without)
         if rows:
             yield say(f"{number}one row of the table holds", *without, ":")
             yield Table(("where", "condition"), rows)
@@ -278,13 +278,13 @@ class _TheoremWriter:
         if all(block == blocks[0] for block in blocks):
             yield from blocks[0]
             return
-        before: list[str | Math] = []
+        before: list[Vanishes] = []
         for region, block in zip(case.regions, blocks, strict=True):
             if block:
-                yield say("For ", *_sentence_of(region.statement), *before, ":")
+                meeting = [one for one in before if within(one, charts_of(region.statement))]
+                yield say("For ", *_sentence_of(region.statement), *_exclusions(meeting), ":")
             yield from block
-            if isinstance(region.statement, Vanishes):
-                before += [", and ", prose.unequal(region.statement.function)]
+            before += vanishing([region.statement])
 
     def _solutions_in(self, region: ParameterRegion, case: Case) -> Iterator[Block]:
         """The formulas for one region."""
@@ -520,11 +520,11 @@ def _is_unequal(region: ParameterRegion) -> bool:
     return not region.defined and isinstance(region.statement, Vanishes)
 
 
-def _exclusion_words(case: Case) -> list[str | Math]:
-    """What must not hold in the case: `, and a != 1` where all that are equations, else `, and not: ...` for each."""
-    are_equations = all(isinstance(other, Vanishes) for other in case.without)
+def _exclusions(others: Sequence[Statement]) -> list[str | Math]:
+    """What must not hold: `, and a != 1` where all of it are equations, else `, and not: ...` for each."""
+    are_equations = len(vanishing(others)) == len(others)
     found: list[str | Math] = []
-    for other in case.without:
+    for other in others:
         if are_equations and isinstance(other, Vanishes):
             found += [", and ", prose.unequal(other.function)]
         else:
