@@ -47,7 +47,7 @@ from kovacic.equation import Equation
 from kovacic.errors import LimitExceeded
 from kovacic.galois import group_of
 from kovacic.limits import Budget, bounded_work, count_work
-from kovacic.parametric import prose, restriction
+from kovacic.parametric import prose, restriction, riemann
 from kovacic.parametric.assumptions import NOTHING_ASSUMED, Assumptions
 from kovacic.parametric.cases import equations_on, normal_form, without_empty, without_implied, without_redundant
 from kovacic.parametric.functions import (
@@ -274,6 +274,9 @@ def _is_reducible(verdict: RegionVerdict) -> bool:
 def _by_theory(S: RatFunc, expected: RegionVerdict, settings: Settings) -> Partition:
     problem = analyse(S, settings.budget)
     if _is_reducible(expected):  # where S is defined: see the head of this module
+        changes = restriction.confluence if riemann.is_fuchsian(problem) else restriction.structure_changes
+        if {*changes(problem)} <= {*restriction.undefined(problem)}:
+            expected = riemann.verdict(problem, Structure.REDUCIBLE)
         always = ParameterRegion(ALWAYS, expected)
         name = Theory("a rational omega for generic values, and so for all", "Kov86")
         theorem: Theorem | None = Theorem(name, restriction.undefined(problem), [always])
@@ -346,7 +349,7 @@ def _by_candidates(problem: Problem, expected: RegionVerdict, settings: Settings
         _add_special(regions, findings.candidates, problem, expected, settings)
     except LimitExceeded as limit:
         complete = Limited.by(limit)
-    _add_natural(regions, findings, half_integers, expected, settings)
+    _add_natural(regions, findings, half_integers, problem, expected, settings)
     if complete is True:
         complete = together(regions)
     return Partition(expected, complete, findings.theory, tuple(regions))
@@ -378,6 +381,7 @@ def _add_natural(
     regions: list[ParameterRegion],
     findings: Findings,
     half_integers: Statement,
+    problem: Problem,
     expected: RegionVerdict,
     settings: Settings,
 ) -> None:
@@ -392,10 +396,13 @@ def _add_natural(
             half_integers = NEVER
         is_smaller = is_without_solution or is_reducible
         if is_smaller and structure is not expected.structure:
-            # Case 3 leaves the group open.
-            family = ("binary tetrahedral, octahedral or icosahedral",) if structure.case == 3 else None
+            verdict = RegionVerdict(structure)
+            if is_reducible:
+                verdict = riemann.verdict(problem, structure)
+            elif structure.case == 3:  # it leaves the group open
+                verdict = replace(verdict, family=("binary tetrahedral, octahedral or icosahedral",))
             origin = partial(statement.solutions, settings.variable)
-            regions.append(ParameterRegion(statement, RegionVerdict(structure, family=family), origin=origin))
+            regions.append(ParameterRegion(statement, verdict, origin=origin))
 
 
 def _discriminants(problem: Problem, settings: Settings) -> list[FunctionPoly]:

@@ -122,6 +122,8 @@ def _difference_key(differences: Sequence[Fraction]) -> tuple[int, ...]:
 
 #: The group where all exponents are rational, and a solution has a rational omega.
 _CYCLIC = "finite cyclic, or `G_a` extended by a finite cyclic group"
+#: When a reducible group is diagonal.
+_DIAGONAL = "two solutions have rational logarithmic derivatives"
 
 
 @dataclass(frozen=True)
@@ -343,7 +345,7 @@ def singular_points(problem: Problem) -> int:
 
 
 def squares_of_differences(problem: Problem) -> FunctionPoly:
-    """The monic cubic over Q(t) whose roots are the squares of the exponent differences."""
+    """The monic polynomial over Q(t) whose roots are the squares of the exponent differences, three at least."""
     cubic = problem.field.poly([1])
     for place in singular_places(problem):
         cubic = cubic * characteristic_polynomial(difference_squared(place), place.factor)
@@ -363,18 +365,32 @@ def difference_squared(place: Place) -> Poly:
 def verdict(problem: Problem, structure: Structure) -> RegionVerdict:
     """The family of the groups with this structure, and where the identity component of a reducible one is abelian.
 
-    All residues of a logarithmic derivative of a solution come from the exponents and from zeros, so that its constant
-    multiples are rational logarithmic derivatives exactly where the exponents are rational.  On the curve w^2 = F of an
-    imprimitive equation, which is rational because it has two branch points, the same holds for the third difference.
+    It holds for values of the parameters at which the singular points are as they are generically.  All residues of a
+    logarithmic derivative of a solution come from the exponents and from zeros, so that its constant multiples are rational
+    logarithmic derivatives exactly where the exponents are rational, and none is beside an irregular point.  With two singular
+    points the solutions are powers.  On the curve w^2 = F of an imprimitive equation, which is rational because it has two
+    branch points, the same holds for the third difference.
+
+    With a polynomial S that isn't a constant, y1 = P1 exp(q) and y2 = P2 exp(-q) can't both be solutions, since their Wronskian
+    has the degree of q' P1 P2: the group is Borel's [Acosta-Humanez & Blazquez-Sanz 2008].
     """
-    known = differences(squares_of_differences(problem))
+    if structure is Structure.REDUCIBLE and not is_fuchsian(problem):
+        if problem.S.is_polynomial and problem.S.num.degree > 0:
+            return RegionVerdict(structure, family=("the Borel group",), abelian=prose.NOT_ABELIAN)
+        family = prose.phrase(f"the Borel group, or `G_m` where {_DIAGONAL}")
+        return RegionVerdict(structure, family=family, abelian=(f"abelian exactly where {_DIAGONAL}",))
+    cubic = squares_of_differences(problem)
+    known = differences(cubic)
     if structure is Structure.IMPRIMITIVE:
         return RegionVerdict(structure, family=prose.phrase(known.imprimitive_group))
     if structure is not Structure.REDUCIBLE:
         return RegionVerdict(structure)
-    if len(known.constants) >= 2 and None not in known.constants:
-        # These make the third one rational: its sum with them is an integer.
+    if len(known.constants) >= cubic.degree - 1 and None not in known.constants:
+        # These make the last one rational: its sum with them is an integer.
         return RegionVerdict(structure, family=prose.phrase(_CYCLIC), abelian=prose.ABELIAN)
+    if singular_points(problem) <= 2:
+        family = prose.phrase(f"{_CYCLIC}, where {known.rational}; else `G_m`")
+        return RegionVerdict(structure, family=family, abelian=prose.ABELIAN)
     family = prose.phrase(f"{_CYCLIC}, where {known.rational}; else `G_m`, or the Borel group")
     abelian = prose.phrase(f"abelian where {known.rational}; elsewhere exactly where the group is `G_m`")
     return RegionVerdict(structure, family=family, abelian=abelian)

@@ -45,6 +45,7 @@ from kovacic.parametric.functions import element, irreducible_factors, over_para
 from kovacic.parametric.prose import Words
 from kovacic.parametric.restriction import Letters
 from kovacic.reading.change_of_variable import is_power, user_variable
+from kovacic.reading.read import read_input
 from kovacic.writing.formula import Math, caret
 
 
@@ -122,11 +123,10 @@ class PolynomialSolution:
 
     def at(self, values: Mapping[Any, Any]) -> Any:
         """y at values of the parameters, by symbol; None if it isn't one of the solutions there, or vanishes identically."""
-        degree = sympy.Integer(self.degree) if isinstance(self.degree, int) else self.degree.xreplace(values)
-        is_natural = degree.is_Integer and degree >= 0
-        if not is_natural or any(condition.xreplace(values) != 0 for condition in self.conditions):
+        degree = natural(sympy.sympify(self.degree, strict=True).xreplace(values))
+        if degree is None or any(condition.xreplace(values) != 0 for condition in self.conditions):
             return None
-        y = self.y.xreplace(values)
+        y = self.y.xreplace({self.degree: degree}).xreplace(values)
         return None if y == 0 else y
 
     def with_values(self, values: Mapping[Any, Any]) -> PolynomialSolution:
@@ -157,6 +157,15 @@ class PolynomialSolution:
         a, b = (caret(as_text(parameter)) for parameter in self.jacobi)
         name = str(self.degree) if self.degree.is_Symbol else d
         return prose.phrase(f", unless `{a}` and `{b}` are integers from `-{name}` to -1 with a sum below `-{name}`")
+
+
+def natural(number: Any) -> Any:
+    """The natural number that a constant is, also as a sum of roots, sqrt(3 + sqrt(5)) + sqrt(3 - sqrt(5)); None for others."""
+    if number.is_number and number.is_finite and not number.is_Rational:
+        S = read_input(number, var="x_").S
+        exact = S.field.rational_value(S.num[0] / S.den[0])
+        number = number if exact is None else sympy.Rational(exact)
+    return number if number.is_Integer and number >= 0 else None
 
 
 #: From the degree d, if there is one to be chosen.

@@ -36,7 +36,8 @@ SL2, for an imprimitive group needs two branch points, and a finite one no irreg
 index, so the group over C(x) is the same.  For q = 0, r != 0: case 1 never (n odd) and case 2 exactly when 2 Delta/n is an odd
 integer, since an imprimitive group becomes reducible over C(sqrt x); n even is the first kind with n/2 and beta = 0.
 The irregular point makes the group infinite.  For q != 0 a solution with a rational omega has one of two exponential factors;
-the group is diagonal where both occur, as for beta = 0.
+the group is diagonal where both occur.  Then (beta + f Delta)/(2 n) and (-beta + g Delta)/(2 n) are positive half-integers, and
+f = g: exactly where Delta/n is an integer and beta^2 < Delta^2, given the condition.
 
 In case 1 there, with signs e, f (both +-1) for which d is a natural number (DLMF 18.8),
 
@@ -60,13 +61,13 @@ import sympy
 from kovacic.algebra.poly import Poly
 from kovacic.algebra.ratfunc import RatFunc
 from kovacic.decision import Structure
-from kovacic.engine.places import Kind, Place, Problem, analyse
+from kovacic.engine.places import Kind, Place, Problem, analyse, rational_square_root
 from kovacic.parametric import restriction, riemann
 from kovacic.parametric.claims import signed_sums
-from kovacic.parametric.formulas import has_roots, shifted, shorter_sum
+from kovacic.parametric.formulas import has_roots, root_written, shifted, shorter_sum, written
 from kovacic.parametric.functions import irreducible_factors, over_parameters
 from kovacic.parametric.integers import integer_roots
-from kovacic.parametric.prose import ABELIAN, phrase
+from kovacic.parametric.prose import ABELIAN, NOT_ABELIAN, phrase
 from kovacic.parametric.regions import ParameterRegion, RegionVerdict, Theorem, Theory
 from kovacic.parametric.solutions import BySigns, Origin, PolynomialSolution, Signed, jacobi, root
 from kovacic.parametric.statements import Statement, all_of
@@ -321,20 +322,30 @@ def martinet_ramis(problem: Problem, variable: str) -> Theorem | None:
     author = "Whittaker" if form.q else "Bessel"
     name = Theory(f"{author}'s equation in `{form.coordinate}`: Martinet & Ramis", "MR89", "DLR92")
     origin = Signed(partial(laguerre_formula, form, variable), 2)
-    verdict = RegionVerdict(Structure.REDUCIBLE, family=phrase("`G_m`"), abelian=ABELIAN)
-    if not form.q:
-        verdict = RegionVerdict(Structure.IMPRIMITIVE, family=("the infinite dihedral group",))
-    elif form.r:
-        family = phrase("the Borel group, or `G_m` where both exponential factors occur")
-        where = ("abelian exactly where both exponential factors occur",)
-        verdict = RegionVerdict(Structure.REDUCIBLE, family=family, abelian=where)
     # N = +-beta +- Delta is n modulo 2n; for q = 0, N = 2 Delta.
     delta_squared = 1 + 4 * form.b
     squares = [form.r * form.r / form.q, delta_squared] if form.q else [4 * delta_squared]
+    verdict = RegionVerdict(Structure.IMPRIMITIVE, family=("the infinite dihedral group",))
+    if form.q:
+        verdict = _whittaker(squares[0], delta_squared, form.coordinate.n)
     equation = signed_sums(squares, Fraction(0), form.b.field)
     n = form.coordinate.n
     region = ParameterRegion(integer_roots(over_parameters(equation), [n], 2 * n), verdict, origin=origin)
     return Theorem(name, [*restriction.undefined(problem), *irreducible_factors(form.q or form.r)], [region])
+
+
+def _whittaker(beta_squared: Poly, delta_squared: Poly, n: int) -> RegionVerdict:
+    """The group of a reducible equation (2) for q != 0."""
+    delta = rational_square_root(delta_squared / n**2)
+    if not beta_squared:
+        return RegionVerdict(Structure.REDUCIBLE, family=phrase("`G_m`"), abelian=ABELIAN)
+    if delta is not None and (delta.denominator > 1 or not delta):
+        return RegionVerdict(Structure.REDUCIBLE, family=("the Borel group",), abelian=NOT_ABELIAN)
+    where = f"`{written(over_parameters(beta_squared))} < {written(over_parameters(delta_squared))}`"
+    if delta is None:
+        where = f"`{root_written(delta_squared / n**2)}` is an integer and {where}"
+    family, abelian = map(phrase, (f"the Borel group, or `G_m` where {where}", f"abelian exactly where {where}"))
+    return RegionVerdict(Structure.REDUCIBLE, family=family, abelian=abelian)
 
 
 def _confluent(problem: Problem, variable: str) -> Confluent | None:

@@ -410,8 +410,11 @@ def test_theorems_are_printed_as_people_write_them(S: str, sentence: str) -> Non
 @parametrize(
     ("S", "expected"),
     [
-        ("k*(1+g/x)", "abelian exactly where both exponential factors occur"),
-        ("x*y''+(1-x)*y'+m*y=0", "abelian exactly where both exponential factors occur"),
+        ("k*(1+g/x)", "abelian exactly where k*g^2 < 1"),
+        ("x*y''+(1-x)*y'+m*y=0", "not abelian"),
+        ("a/x^2 + b/x + c", "abelian exactly where sqrt(4*a + 1) is an integer and b^2/c < 4*a + 1"),
+        ("x^4 + a*x^2 + b*x + c", "not abelian"),
+        ("x^6 + a*x^2 + b + c/x^2", "abelian exactly where two solutions have rational logarithmic derivatives"),
         (hypergeometric(("1/2", "1/2", "n")), "abelian"),
         (
             hypergeometric(("l", "m", "1/3")),
@@ -424,6 +427,17 @@ def test_the_identity_component_is_named(S: str, expected: str) -> None:
     answer = kovacic.conditions(S, var="x")
     assert f"Its identity component is {expected}." in answer.theorem()
     assert Conditions.from_json(answer.to_json()).theorem() == answer.theorem()
+
+
+def test_whittakers_group_is_diagonal_where_the_theorem_says_so() -> None:
+    """2 m an integer and k^2 < m^2, given that k + m or k - m is a half-integer, against the group at each point."""
+    S = FAMILIES["whittaker"]
+    assert "G_m where 2*m is an integer and 4*k^2 < 4*m^2." in kovacic.conditions(S).theorem()
+    for twice_k, twice_m in product(range(-3, 4), repeat=2):
+        if (twice_k + twice_m) % 2:
+            k, m = Fraction(twice_k, 2), Fraction(twice_m, 2)
+            group = kovacic.solve(S.replace("k", f"({k})").replace("m", f"({m})")).group
+            assert (group.dimension < 2) is (k * k < m * m)
 
 
 @parametrize(
