@@ -130,6 +130,18 @@ class RegionVerdict:
         return "no Liouvillian solution" if self.case is None else f"case {self.case}"
 
 
+def reducible(family: str, component: str = "abelian") -> RegionVerdict:
+    """That of a reducible group, by its name and what its identity component is; formulas stand between backquotes."""
+    return RegionVerdict(Structure.REDUCIBLE, family=prose.phrase(family), abelian=prose.phrase(component))
+
+
+def borel(diagonal: str = "") -> RegionVerdict:
+    """That of Borel's group, or G_m where a phrase says so."""
+    if not diagonal:
+        return reducible("the Borel group", "not abelian")
+    return reducible(f"the Borel group, or `G_m` where {diagonal}", f"abelian exactly where {diagonal}")
+
+
 def verdict_of(decision: Decision) -> RegionVerdict:
     """What the engine's decision says."""
     return RegionVerdict(decision.structure, decision.status is not Status.UNDECIDED)

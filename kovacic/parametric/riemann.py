@@ -44,7 +44,7 @@ from kovacic.parametric.functions import (
 )
 from kovacic.parametric.integers import Congruence, at_integers, integer_roots, squares_of_roots, without_parameters
 from kovacic.parametric.prose import Words
-from kovacic.parametric.regions import RegionVerdict
+from kovacic.parametric.regions import RegionVerdict, borel, reducible
 from kovacic.parametric.restriction import Hypersurface, hypersurface, over_all
 from kovacic.parametric.statements import ALWAYS, NEVER, Statement, both, either
 from kovacic.writing.formula import Math, latex_text
@@ -122,8 +122,6 @@ def _difference_key(differences: Sequence[Fraction]) -> tuple[int, ...]:
 
 #: The group where all exponents are rational, and a solution has a rational omega.
 _CYCLIC = "finite cyclic, or `G_a` extended by a finite cyclic group"
-#: When a reducible group is diagonal.
-_DIAGONAL = "two solutions have rational logarithmic derivatives"
 
 
 @dataclass(frozen=True)
@@ -375,10 +373,8 @@ def verdict(problem: Problem, structure: Structure) -> RegionVerdict:
     has the degree of q' P1 P2: the group is Borel's [Acosta-Humanez & Blazquez-Sanz 2008].
     """
     if structure is Structure.REDUCIBLE and not is_fuchsian(problem):
-        if problem.S.is_polynomial and problem.S.num.degree > 0:
-            return RegionVerdict(structure, family=("the Borel group",), abelian=prose.NOT_ABELIAN)
-        family = prose.phrase(f"the Borel group, or `G_m` where {_DIAGONAL}")
-        return RegionVerdict(structure, family=family, abelian=(f"abelian exactly where {_DIAGONAL}",))
+        is_polynomial = problem.S.is_polynomial and problem.S.num.degree > 0
+        return borel("" if is_polynomial else "two solutions have rational logarithmic derivatives")
     cubic = squares_of_differences(problem)
     known = differences(cubic)
     if structure is Structure.IMPRIMITIVE:
@@ -386,14 +382,13 @@ def verdict(problem: Problem, structure: Structure) -> RegionVerdict:
     if structure is not Structure.REDUCIBLE:
         return RegionVerdict(structure)
     if len(known.constants) >= cubic.degree - 1 and None not in known.constants:
-        # These make the last one rational: its sum with them is an integer.
-        return RegionVerdict(structure, family=prose.phrase(_CYCLIC), abelian=prose.ABELIAN)
+        return reducible(_CYCLIC)  # the last one is rational, too: its sum with them is an integer
     if singular_points(problem) <= 2:
-        family = prose.phrase(f"{_CYCLIC}, where {known.rational}; else `G_m`")
-        return RegionVerdict(structure, family=family, abelian=prose.ABELIAN)
-    family = prose.phrase(f"{_CYCLIC}, where {known.rational}; else `G_m`, or the Borel group")
-    abelian = prose.phrase(f"abelian where {known.rational}; elsewhere exactly where the group is `G_m`")
-    return RegionVerdict(structure, family=family, abelian=abelian)
+        return reducible(f"{_CYCLIC}, where {known.rational}; else `G_m`")
+    return reducible(
+        f"{_CYCLIC}, where {known.rational}; else `G_m`, or the Borel group",
+        f"abelian where {known.rational}; elsewhere exactly where the group is `G_m`",
+    )
 
 
 def structures(problem: Problem) -> Iterator[tuple[Structure, Statement]]:

@@ -19,6 +19,7 @@ from math import lcm, prod
 
 from kovacic.algebra.function_field import FunctionField, FunctionPoly
 from kovacic.algebra.poly import Poly
+from kovacic.algebra.recurrence import FieldSeries
 from kovacic.decision import Structure
 from kovacic.engine.places import Kind, Place, Problem
 from kovacic.limits import check_time
@@ -180,32 +181,26 @@ def _where_a_logarithm_vanishes(problem: Problem) -> list[FunctionPoly] | None:
 
 
 def _obstruction(place: Place) -> Poly | None:
-    """What n (n - Delta) c_n = s_1 c_(n-1) + s_2 c_(n-2) + ... asks to vanish for n = Delta, S = s_0/t^2 + s_1/t + s_2 + ...
+    """What the recurrence n (n - Delta) c_n = ... asks to vanish for n = Delta: c_n belong to the smaller exponent.
 
-    c_n are the coefficients of the solution with the smaller exponent.  None unless the place is a rational pole of order 2,
-    and Delta a small positive integer.
+    None unless the place is a rational pole of order 2, and Delta a small positive integer.
     """
     delta = place.delta
     if place.order != 2 or place.degree > 1 or delta is None:
         return None
     if delta.denominator > 1 or not 0 < delta <= _SERIES:
         return None
-    # By long division from below: with t = x - c, den = den_2 t^2 + ...
-    x = place.factor.field.poly([0, 1]) - place.factor[0]
-    num = place.num(x)
-    den = place.den(x)
-    s: list[Poly] = []
-    for k in range(delta.numerator + 1):
-        known = [den[2 + j] * s[k - j] for j in range(1, k + 1)]
-        s.append((num[k] - sum(known, 0 * num)) / den[2])
-    c = [place.factor.field.poly([1])]
+    field = place.factor.field
+    t = field.poly([0, 1]) - place.factor[0]
+    num, den = place.num(t), place.den(t)  # den = den_2 t^2 + ...
+    series = FieldSeries(field, delta.numerator)
+    obstruction = None
     for n in range(1, delta.numerator + 1):
         check_time()
-        right = sum((s[k] * c[n - k] for k in range(1, n + 1)), 0 * c[0])
-        if n == delta:
-            return right
-        c.append(right / (n * (n - delta)))
-    return None
+        powers = [(h, (1 - delta) / 2 + n - h) for h in range(1, n + 1)]
+        factors = [(den[2 + h] * (e * (e - 1)) - num[h]) / den[2] for h, e in powers]
+        obstruction = series.extend(field.poly([n * (n - delta)]), factors)
+    return obstruction
 
 
 def _degrees_that_are_possible(problem: Problem) -> Degrees:

@@ -67,8 +67,7 @@ from kovacic.parametric.claims import signed_sums
 from kovacic.parametric.formulas import has_roots, root_written, shifted, shorter_sum, written
 from kovacic.parametric.functions import irreducible_factors, over_parameters
 from kovacic.parametric.integers import integer_roots
-from kovacic.parametric.prose import ABELIAN, NOT_ABELIAN, phrase
-from kovacic.parametric.regions import ParameterRegion, RegionVerdict, Theorem, Theory
+from kovacic.parametric.regions import ParameterRegion, RegionVerdict, Theorem, Theory, borel, reducible
 from kovacic.parametric.solutions import BySigns, Origin, PolynomialSolution, Signed, jacobi, root
 from kovacic.parametric.statements import Statement, all_of
 from kovacic.reading.symbolic import written_expression
@@ -338,14 +337,11 @@ def _whittaker(beta_squared: Poly, delta_squared: Poly, n: int) -> RegionVerdict
     """The group of a reducible equation (2) for q != 0."""
     delta = rational_square_root(delta_squared / n**2)
     if not beta_squared:
-        return RegionVerdict(Structure.REDUCIBLE, family=phrase("`G_m`"), abelian=ABELIAN)
+        return reducible("`G_m`")
     if delta is not None and (delta.denominator > 1 or not delta):
-        return RegionVerdict(Structure.REDUCIBLE, family=("the Borel group",), abelian=NOT_ABELIAN)
+        return borel()
     where = f"`{written(over_parameters(beta_squared))} < {written(over_parameters(delta_squared))}`"
-    if delta is None:
-        where = f"`{root_written(delta_squared / n**2)}` is an integer and {where}"
-    family, abelian = map(phrase, (f"the Borel group, or `G_m` where {where}", f"abelian exactly where {where}"))
-    return RegionVerdict(Structure.REDUCIBLE, family=family, abelian=abelian)
+    return borel(where if delta is not None else f"`{root_written(delta_squared / n**2)}` is an integer and {where}")
 
 
 def _confluent(problem: Problem, variable: str) -> Confluent | None:
