@@ -147,8 +147,6 @@ class IntegerCondition(NamedTuple):
 
     claim: Claim
     strata: tuple[Stratum, ...] = ()
-    #: True if a parameter was solved for, and the denominators of the equation are gone.
-    is_solved: bool = False
 
 
 def integer_condition(
@@ -191,7 +189,7 @@ def _spectrum(equation: FunctionPoly, numbers: Classes, letter: str, setting: Se
             # Of n and -n that by which f(1) = 1, if there is one: n + k*n*(n - 1)/2, as Yoshida and Morales & Ramis have it.
             above, below = (part(Fraction(1)) for part in (family.value.num, family.value.den))
             is_numbered_otherwise = not below or above != below
-            found.append((cost, is_numbered_otherwise, IntegerCondition(family, strata, is_solved=True)))
+            found.append((cost, is_numbered_otherwise, IntegerCondition(family, strata)))
     return min(found, key=lambda one: one[:2])[2] if found else None
 
 
@@ -438,7 +436,8 @@ class Congruence(Statement):
             if there != NEVER:
                 claims.append(all_of(both(Vanishes(zero), there).parts).avoiding(self.setting).claim)
         said = claims[0] if len(claims) == 1 else AnyOf(tuple(claims))
-        return self._where_defined(said, equation) if found.is_solved else said
+        # Where a parameter was solved for, the denominators of the equation are gone.
+        return self._where_defined(said, equation) if isinstance(found.claim, IntegerFamily) else said
 
     def _where_defined(self, said: Claim, equation: FunctionPoly) -> Claim:
         """With the denominators of the equation, which solving it cleared, where no earlier region has their zeros."""

@@ -31,6 +31,7 @@ from kovacic.algebra.function_field import FunctionField, FunctionPoly
 from kovacic.algebra.poly import Field, Poly
 from kovacic.algebra.ratfunc import RatFunc
 from kovacic.algebra.rationals import QQ
+from kovacic.algebra.traces import characteristic_polynomial
 from kovacic.answer import Answer
 from kovacic.engine.places import Kind, Problem, analyse
 from kovacic.equation import PI, Parsed
@@ -70,7 +71,7 @@ def confluence(problem: Problem) -> list[FunctionPoly]:
 def structure_changes(problem: Problem) -> list[FunctionPoly]:
     """Where poles merge, go to infinity, or change their order."""
     above, _ = problem.S.cleared()
-    zeros = [_common_zeros(above, place.factor) for place in problem.finite_places]
+    zeros = [_common_zeros(place.factor, above) for place in problem.finite_places]
     return union([confluence(problem), irreducible_factors(_down(above.lc)), *zeros])
 
 
@@ -138,18 +139,7 @@ def _common_zeros(first: Poly, second: Poly) -> list[FunctionPoly]:
         return []
     if isinstance(first, FunctionPoly) and isinstance(second, FunctionPoly):
         return irreducible_factors(element(first.field, first.num.resultant(second.num, 0)))
-    return irreducible_factors(_down(_resultant(first, second)))
-
-
-def _resultant(first: Poly, second: Poly) -> Poly:
-    """By Euclid's algorithm, up to a factor in Q."""
-    total: Poly = first.field.poly([1])
-    while second.degree > 0:
-        rest = first % second
-        total = total * second.lc ** max(first.degree - rest.degree, 0)
-        first = second
-        second = rest
-    return total * second ** max(first.degree, 0)
+    return irreducible_factors(_down(characteristic_polynomial(second, first.monic())[0]))
 
 
 def _down(constant: Poly) -> FunctionPoly:
