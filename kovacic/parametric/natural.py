@@ -192,7 +192,10 @@ class Natural(Statement):
         for exponents in union(irreducible_factors(value) if value else [value] for value in equations):
             surface = hypersurface(exponents) if exponents else everywhere(exponents.field, self.constant)
             with suppress(ZeroDivisionError):
-                yield _GivenBy(exponents, surface, surface.restricted(self.S))
+                S = surface.restricted(self.S)
+                if isinstance(S.field, FunctionField) and S.field.names[-1:] == self.constant.names:
+                    S = everywhere(S.field, self.constant).restricted(S)
+                yield _GivenBy(exponents, surface, S)
 
     def conditions(self, problem: Problem, number: int) -> list[RankConditions]:
         """One for each choice of exponents."""
@@ -328,7 +331,8 @@ def _determinants(statement: Natural, number: int) -> tuple[Determinant, ...]:
     """Computed once for samples, lists and theorems."""
     found: dict[Determinant, None] = {}
     for exponents, surface, S in statement.given(number):
-        if statement.m == 1 and is_too_large(S.field):
+        has_free_constant = bool(statement.constant.names and exponents) and isinstance(surface.field, AlgebraicField)
+        if statement.m == 1 and (has_free_constant or is_too_large(S.field)):
             found[Determinant(exponents)] = None
             continue
         for conditions in statement.conditions(analyse(S, Budget()), number):
