@@ -274,7 +274,9 @@ def _is_reducible(verdict: RegionVerdict) -> bool:
 def _by_theory(S: RatFunc, expected: RegionVerdict, settings: Settings) -> Partition:
     problem = analyse(S, settings.budget)
     if _is_reducible(expected):  # where S is defined: see the head of this module
-        changes = restriction.confluence if riemann.is_fuchsian(problem) else restriction.structure_changes
+        is_constant = problem.S.is_polynomial and problem.S.num.degree <= 0
+        is_simple = is_constant or riemann.is_fuchsian(problem)  # orders of poles don't matter
+        changes = restriction.confluence if is_simple else restriction.structure_changes
         if {*changes(problem)} <= {*restriction.undefined(problem)}:
             expected = riemann.verdict(problem, Structure.REDUCIBLE)
         always = ParameterRegion(ALWAYS, expected)

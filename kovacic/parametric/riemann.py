@@ -373,8 +373,11 @@ def verdict(problem: Problem, structure: Structure) -> RegionVerdict:
     has the degree of q' P1 P2: the group is Borel's [Acosta-Humanez & Blazquez-Sanz 2008].
     """
     if structure is Structure.REDUCIBLE and not is_fuchsian(problem):
-        is_polynomial = problem.S.is_polynomial and problem.S.num.degree > 0
-        return borel("" if is_polynomial else "two solutions have rational logarithmic derivatives")
+        if not problem.S.is_polynomial:
+            return borel("two solutions have rational logarithmic derivatives")
+        if problem.S.num.degree > 0:
+            return borel()
+        return reducible(f"`G_m`, or trivial where `{prose.equation(over_parameters(problem.S.num)).text}`")
     cubic = squares_of_differences(problem)
     known = differences(cubic)
     if structure is Structure.IMPRIMITIVE:

@@ -93,7 +93,7 @@ PLANTED: dict[str, tuple[str, str, Callable[..., Any]]] = {
         "kovacic.parametric.solutions.translated",
         lambda y, equation: y + x**7,
     ),
-    "a group is too small": ("k*(1+g/x)", "kovacic.parametric.theorems.RegionVerdict", lambda *_, **__: G_M),
+    "a group is too small": ("k*(1+g/x)", "kovacic.parametric.theorems.borel", lambda *_, **__: G_M),
 }
 G_M = RegionVerdict(Structure.REDUCIBLE, family=("G_m",), abelian=("abelian",))
 
