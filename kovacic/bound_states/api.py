@@ -44,7 +44,6 @@ _STANDARD_FORMS: tuple[tuple[Callable[[SingularFrame, SpectralProblem], Exponent
     (three_regular_points, "three regular singular points"),
     (bessel, "Bessel's equation"),
 )
-_CIRCULAR = "no formula is known for potentials in exp(i x) that aren't rational in one sine, cosine or tangent"
 _POLYNOMIAL = "each solution that is square integrable at both ends has a polynomial in it"
 #: Seconds that SymPy takes to expand a potential at the ends of its domain, over its terms to the power 3/2.
 _END_SECONDS = 4e-4
@@ -263,9 +262,9 @@ def _all_levels(examined: _Examined, budget: Budget) -> Spectrum:
 def _why_no_formula(examined: _Examined) -> str:
     """What there is instead of a formula at an ordinary point; "" where there may be single levels."""
     question = examined.question
-    wall = next((end.at for end in examined.ends if end.is_ordinary), None)
+    wall = next((end.at for end in examined.ends if end.is_regular), None)
     if wall is None:
-        return f"undecided: {_CIRCULAR}" if question.original.is_circular else ""
+        return ""
     where = f"{question.variable} = {question.shown(wall)}"
     meets = "fulfils the condition" if any(question.boundary.wishes) else "vanishes"
     return (

@@ -32,7 +32,7 @@ J. F. Carinena, A. M. Perelomov, M. F. Ranada & M. Santander, J. Phys. A 41 (200
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass, field, replace
 from functools import partial, reduce
 from itertools import chain
@@ -40,7 +40,7 @@ from typing import Any, NamedTuple
 
 import sympy
 
-from kovacic.bound_states.coordinates import RealPotential
+from kovacic.bound_states.coordinates import RealPotential, circle_point
 from kovacic.bound_states.ends import End, leading
 from kovacic.bound_states.energies import tidied
 from kovacic.bound_states.families import possible
@@ -114,7 +114,13 @@ def closed_forms(
         return ClosedForms(reason=why, complete=True)
     window = _Window() if question.parameters else _Window.of(question, ends, real)
     search = _ClosedFormSearch(
-        question=question, ends=ends, conditions=conditions, window=window, max_degree=max_degree, complete=True
+        question=question,
+        ends=ends,
+        real=real,
+        conditions=conditions,
+        window=window,
+        max_degree=max_degree,
+        complete=True,
     )
     search.reason = search.with_parameters() if question.parameters else search.of_numbers()
     return search
@@ -199,6 +205,7 @@ class _ClosedFormSearch(ClosedForms):
 
     question: SpectralProblem
     ends: Sequence[End]
+    real: RealPotential | None
     conditions: ParametricAnswer
     window: _Window
     max_degree: int
@@ -220,17 +227,22 @@ class _ClosedFormSearch(ClosedForms):
             for number, polynomial in self._listed(region):
                 if not self.window.has_zero_of(polynomial, self.E):
                     continue
-                found = [self._at(one, polynomial) for one in self._solutions(region, number, polynomial)]
+                found = [
+                    self._where_zero(one, polynomial, self.E) for one in self._solutions(region, number, polynomial)
+                ]
                 fits = [self._fits(one, polynomial) for one in found]
                 here = [one for one, fit in zip(found, fits, strict=True) if fit == [True, True]]
-                self.levels += (self._level(one, polynomial, sympy.Integer(0), []) for one in here)
-                if any(map(self._is_excluded, fits)):
+                self._add(self._level(one, polynomial, sympy.Integer(0), []) for one in here)
+                # A solution that is meant at an end is the only one.
+                if [True, False] in fits or [False, True] in fits:
                     excluded.append(polynomial)
                 elif not here:
                     self.complete = self.complete and self._is_unsolvable(polynomial)
         theory = self.conditions.theory
-        zeros = " or ".join(f"{self.question.shown(polynomial)} = 0" for polynomial in excluded)
-        others = zeros and f"at {zeros} the solution that is square integrable at one end isn't at the other; "
+        zeros = " or ".join(f"{self.question.shown(polynomial)} = 0" for polynomial in dict.fromkeys(excluded))
+        is_limit_point = all(end.is_limit_point for end in self.ends)
+        verb = "is square integrable" if is_limit_point else "is the smaller one"
+        others = zeros and f"at {zeros} the solution that {verb} at one end isn't at the other; "
         energies = f"any other real {self.question.energy}" if excluded else "the energy of a level"
         if not self.complete:
             return self._incomplete()
@@ -242,11 +254,6 @@ class _ClosedFormSearch(ClosedForms):
         """True if there is no closed form at the only zero of a polynomial in E."""
         energy = _only_zero(polynomial, self.E)
         return energy is not None and self.conditions.case_at({self.question.energy: energy}) is None
-
-    def _is_excluded(self, fit: Sequence[bool | None]) -> bool:
-        """True if a solution is the only square integrable one at one end, and isn't square integrable at the other."""
-        first, last = (end.is_limit_point for end in self.ends)
-        return (first and fit == [True, False]) or (last and fit == [False, True])
 
     def _incomplete(self) -> str:
         """What is known where there may be other levels."""
@@ -290,7 +297,7 @@ class _ClosedFormSearch(ClosedForms):
     @property
     def _are_examined(self) -> bool:
         """True if exponents decide what is square integrable at the ends; at an ordinary point that is a condition on E."""
-        return bool(self.ends) and not any(end.is_ordinary for end in self.ends)
+        return bool(self.ends) and not any(end.is_regular for end in self.ends)
 
     def _solutions(self, region: ParameterRegion, number: int | None, polynomial: Any) -> Iterator[PolynomialSolution]:
         """The region's solutions of a degree at all zeros of a polynomial in E, if the ends are examined."""
@@ -298,10 +305,26 @@ class _ClosedFormSearch(ClosedForms):
             if not any(sympy.rem(sympy.numer(sympy.together(f)), polynomial, self.E) for f in one.conditions):
                 yield one
 
-    def _at(self, solution: PolynomialSolution, polynomial: Any) -> PolynomialSolution:
-        """The solution at the zeros of a polynomial in E, with its value if there is one zero."""
-        energy = _only_zero(polynomial, self.E)
-        return solution if energy is None else replace(solution, y=solution.y.subs(self.E, energy))
+    def _where_zero(self, solution: PolynomialSolution, function: Any, unknown: Any) -> PolynomialSolution:
+        """The solution where a polynomial in an unknown vanishes: at its zero, or with the remainders of coefficients by it."""
+        zero = _only_zero(function, unknown)
+        if zero is not None:
+            return replace(solution, y=solution.y.subs(unknown, zero))
+        t = sympy.Symbol(self.question.parsed.variable)
+        y = sympy.Integer(1)
+        for factor in sympy.Mul.make_args(solution.y):
+            if factor.is_polynomial(t) and factor.has(t) and factor.has(unknown):
+                parts = (sympy.fraction(sympy.together(c)) for c in sympy.Poly(factor, t).all_coeffs())
+                factor = sympy.Poly([sympy.rem(num, function, unknown) / den for num, den in parts], t).as_expr()
+            y *= factor
+        return replace(solution, y=y)
+
+    def _add(self, levels: Iterable[Algebraic]) -> None:
+        """With those that aren't there by a polynomial of another degree: x P for the exponent 0 at x = 0 is P for 1."""
+        for level in levels:
+            known = ((one.constraint, one.polynomial, one.conditions) for one in self.levels)
+            if (level.constraint, level.polynomial, level.conditions) not in known:
+                self.levels.append(level)
 
     def _fits(self, solution: PolynomialSolution, polynomial: Any) -> list[bool | None]:
         """Whether it is the square integrable solution at the left and at the right end, for all real zeros of the polynomial.
@@ -335,8 +358,7 @@ class _ClosedFormSearch(ClosedForms):
                 continue
             zeros = [function.subs(self.constants) for function in functions]
             for solution in chain.from_iterable(map(region.solution, numbers)):
-                self.levels += self._under_conditions(solution, zeros)
-        self.levels = [*dict.fromkeys(self.levels)]
+                self._add(self._under_conditions(solution, zeros))
         self.complete = is_settled
         if self.levels or not is_barred:
             return self._incomplete()
@@ -380,18 +402,24 @@ class _ClosedFormSearch(ClosedForms):
         others = {one for one in numerators if not one.has(self.E)}
         if not polynomial.has(self.E) or len(others) > 1:
             return
-        constraint = others.pop() if others else sympy.Integer(0)
         if sympy.LC(polynomial, self.E).could_extract_minus_sign():
             polynomial = -polynomial
         signs = self.question.signs
-        bounds = _bounds(sympy.expand(signs.real(constraint)), solution, signs)
-        if bounds is None:
-            return
-        solution = self._at(solution, polynomial)
-        conditions = [*bounds, *(demand_at(end, solution.y, self.question) for end in self.ends)]
-        if possible(conditions, signs):
-            level = self._level(solution, polynomial, constraint, conditions)
-            if sympy.false not in level.conditions:
+        solution = self._where_zero(solution, polynomial, self.E)
+        t = sympy.Symbol(self.question.parsed.variable)
+        exponents = sympy.Mul(*(f for f in sympy.Mul.make_args(solution.y) if not f.is_polynomial(t))).free_symbols
+        for constraint in _factors(others.pop()) if others else [sympy.Integer(0)]:
+            letters = sorted(
+                constraint.free_symbols, key=lambda a: (a in exponents, sympy.degree(constraint, a), str(a))
+            )
+            is_used = len(letters) == 1 or bool(letters and letters[0] not in exponents)
+            there = self._where_zero(solution, constraint, letters[0]) if is_used else solution
+            bounds = _bounds(sympy.expand(signs.real(constraint)), solution, signs)
+            if bounds is None:
+                continue
+            conditions = [*bounds, *(demand_at(end, there.y, self.question) for end in self.ends)]
+            level = self._level(there if len(letters) == 1 else solution, polynomial, constraint, conditions)
+            if possible(conditions, signs) and sympy.false not in level.conditions:
                 yield level
 
     def _level(
@@ -405,8 +433,14 @@ class _ClosedFormSearch(ClosedForms):
         bases = (
             power.base if power.is_Pow else power for power in sympy.Mul.make_args(solution.y) if power.is_polynomial(t)
         )
-        inside = (base for base in bases if all(base.subs(t, end.point) != 0 for end in self.ends))
-        limits = question.original.monotonic_range(question.domain, question.signs)
+        P = sympy.Mul(*bases)
+        limits = None if self.real is None else self.real.original.monotonic_range(question.domain, question.signs)
+        if question.original.is_circular:
+            P = sympy.numer(sympy.cancel(P.subs(t, circle_point(t))))
+        P = sympy.Poly(question.plain(P), t)
+        for end in self.ends if P.degree() > 0 else ():
+            while end.point != sympy.oo and P.eval(end.point) == 0:
+                P = P.quo(sympy.Poly(t - end.point, t))
         known = map(question.plain, tidied(conditions, question.signs))
         level = Algebraic(
             int(solution.degree),
@@ -414,7 +448,7 @@ class _ClosedFormSearch(ClosedForms):
             question.plain(sympy.factor(polynomial)),
             question.plain(solution.y if parsed.equation is None else translated(solution.y, parsed.equation)),
             tuple(condition for condition in known if condition != sympy.true),
-            P=sympy.Poly(question.plain(sympy.Mul(*inside)), t),
+            P=P,
             range=None if limits is None else tuple(map(question.plain, limits)),
         )
         if question.parameters:
@@ -422,6 +456,11 @@ class _ClosedFormSearch(ClosedForms):
         x = sympy.Symbol(question.variable)
         states = level.states_at({}, question.energy)
         return replace(level, states=tuple(replace(s, norm=norm_of(s.wave, x, question.domain)) for s in states))
+
+
+def _factors(function: Any) -> list[Any]:
+    """The irreducible factors of a polynomial."""
+    return [factor for factor, _ in sympy.factor_list(function)[1]]
 
 
 def _factors_of(natural: Natural) -> list[Any]:
@@ -468,6 +507,10 @@ def demand_at(end: End, v: Any, question: SpectralProblem) -> Any:
     t = sympy.Symbol(question.parsed.variable)
     u = sympy.Dummy("u")
     rate = sympy.cancel(sympy.together(sympy.diff(v, t) / v))
+    if question.original.is_circular:  # v sqrt(du/dt) as a function of the real u
+        on_circle = circle_point(t)
+        slope = sympy.diff(on_circle, t)
+        rate = rate.subs(t, on_circle) * slope - sympy.diff(slope, t) / slope / 2
     is_far = end.point == sympy.oo
     local = 1 / u - rate.subs(t, 1 / u) / u**2 if is_far else rate.subs(t, end.point + u)  # of u v(1/u), of v(c + u)
     order, strength = leading(signs.real(sympy.together(local)), u)
@@ -479,7 +522,10 @@ def demand_at(end: End, v: Any, question: SpectralProblem) -> Any:
 
 
 def _bounds(constraint: Any, solution: PolynomialSolution, signs: Signs) -> list[Any] | None:
-    """The bounds of the parameter that the constraint determines, for its value; None if they exclude that value."""
+    """The bounds of the parameter that the constraint determines, for its value; None if they exclude that value.
+
+    Nothing but that it has a real zero is asked of a constraint that is linear in no parameter.
+    """
     if constraint == 0:
         return []
     used = signs.real(solution.y).free_symbols
@@ -487,7 +533,7 @@ def _bounds(constraint: Any, solution: PolynomialSolution, signs: Signs) -> list
         if sympy.degree(constraint, symbol) == 1:
             value = sympy.factor(-constraint.coeff(symbol, 0) / constraint.coeff(symbol, 1))
             return signs.bounds_of(symbol.name, value) if signs.admits(symbol.name, value) else None
-    return None
+    return [] if signs.sign(constraint) is None else None
 
 
 @dataclass(frozen=True)

@@ -168,17 +168,23 @@ class Original:
         return (theta - self.offset) / self.rate
 
     def monotonic_range(self, domain: tuple[Any, Any], signs: Signs) -> tuple[Any, Any] | None:
-        """The range of t on the domain; None unless t is proven to be monotonic there."""
+        """The range of t on the domain; None unless t is proven to be monotonic there, but for a pole if it is all values."""
         with suppress(Uncovered):
-            if not self.is_circular and not self.points_inside(self.turning_values, domain, signs):
+            breaks = [*self.turning_values, *self._poles_of_t]
+            is_period = self.kind == "tan" and self.at(domain[0], signs) == self.at(domain[1], signs)
+            if is_period or not (self.is_circular or self.points_inside(breaks, domain, signs)):
                 return self.range_of(domain, signs)
         return None
 
+    @property
+    def _poles_of_t(self) -> tuple[Any, ...]:
+        return (sympy.oo,) if self.kind == "tan" else ()
+
     def range_of(self, half: tuple[Any, Any], signs: Signs) -> tuple[Any, Any]:
         """The range of t where it is monotonic; infinite for a tangent with a pole."""
-        if self.kind == "tan":
-            return -sympy.oo, sympy.oo
         first, last = (self.value(self.theta_at(end, signs)) for end in half)
+        if sympy.zoo in (first, last) or self.points_inside(self._poles_of_t, half, signs):
+            return -sympy.oo, sympy.oo
         is_increasing = sympy.simplify(last - first).is_positive or last == sympy.oo or first == -sympy.oo
         return (first, last) if is_increasing else (last, first)
 
@@ -192,6 +198,11 @@ class RealPotential:
     t: Any
 
 
+def circle_point(u: Any) -> Any:
+    """exp(i theta) for u = tan(theta/2)."""
+    return (1 + sympy.I * u) / (1 - sympy.I * u)
+
+
 def on_real_circle(real: RealPotential) -> RealPotential:
     """A function of exp(i theta) as one of tan(theta/2); any other one unchanged."""
     original = real.original
@@ -200,8 +211,7 @@ def on_real_circle(real: RealPotential) -> RealPotential:
         return real
     rate = sympy.expand(original.rate / sympy.I)
     offset = sympy.expand(original.offset / sympy.I)
-    value = (1 + sympy.I * t) / (1 - sympy.I * t)
-    V = sympy.cancel(sympy.together(real.V.xreplace({t: value})), extension=sympy.I)
+    V = sympy.cancel(sympy.together(real.V.xreplace({t: circle_point(t)})), extension=sympy.I)
     # V is real, but its numerator and denominator may have a complex factor in common.
     num, den = sympy.fraction(sympy.together(V))
     scale = sympy.Poly(den, t).LC()

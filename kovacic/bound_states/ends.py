@@ -23,11 +23,11 @@ class End:
     """One end: where both solutions are square integrable (`circle`, a relation, true or false), and a sentence about it.
 
     `oscillates` says that V falls without bound there, so that no boundary condition is distinguished; `oscillation` is where
-    the solutions oscillate at a regular end, which has the same effect.  `threshold` is where
-    the continuous spectrum begins at an infinite end, None if it doesn't.  The end is t = `point`, with
-    (du/dx)^2 ~ u^mu for a local coordinate u of this `direction` inside the domain.  It `is_ordinary` where the exponents are
-    those at an ordinary point, and `is_regular` where V has a value; y = 0 means the smaller solution where only that one
-    `vanishes`.
+    the solutions oscillate at a regular end, which has the same effect.  `threshold` is where the continuous spectrum begins at
+    an infinite end, None if it doesn't.  The end is t = `point`, with (du/dx)^2 ~ u^mu for a local coordinate u of this
+    `direction` inside the domain.  It `is_regular` where V has a value, so that all solutions are analytic there; at a simple
+    pole, which has the same exponents 0 and 1, all but the smaller one have a logarithm.  y = 0 means the smaller solution
+    where only that one `vanishes`.
     """
 
     at: Any
@@ -40,7 +40,6 @@ class End:
     point: Any = sympy.oo
     mu: int = 4
     direction: int = 1
-    is_ordinary: bool = False
     is_regular: bool = False
     vanishes: bool = False
 
@@ -144,10 +143,7 @@ def _finite(end: End, square: Any, question: SpectralProblem) -> End:
     said = f"{powers}, both are square integrable (limit circle)"
     for condition in tidied([circle], signs):
         said += f" where {question.shown(condition.lhs)} {condition.rel_op} {question.shown(condition.rhs)}"
-    is_ordinary = square == sympy.Rational(1, 4)
-    return replace(
-        end, circle=circle, sentence=end.sentence + said, oscillation=sympy.Lt(square, 0), is_ordinary=is_ordinary
-    )
+    return replace(end, circle=circle, sentence=end.sentence + said, oscillation=sympy.Lt(square, 0))
 
 
 def _less_than_1(square: Any, signs: Signs) -> Any:

@@ -199,10 +199,11 @@ class Natural(Statement):
 
     def conditions(self, problem: Problem, number: int) -> list[RankConditions]:
         """One for each choice of exponents."""
+        if problem.field.ground == QQ:  # no parameter is left
+            exists = _has_form(problem.S, self.m) if self.m > 1 else _has_solution(problem.S, number)
+            return [RankConditions(deficient=exists)]
         if self.m > 1:
             return [form_conditions(problem, self.m)]
-        if problem.field.ground == QQ:  # no parameter is left
-            return [RankConditions(deficient=_has_solution(problem.S, number))]
         return conditions_of_degree(problem, number)
 
     def solutions(self, variable: str, number: int | None) -> tuple[PolynomialSolution, ...]:
@@ -337,7 +338,7 @@ def _determinants(statement: Natural, number: int) -> tuple[Determinant, ...]:
             continue
         for conditions in statement.conditions(analyse(S, Budget()), number):
             determinant = Determinant(exponents, conditions.polynomials, conditions.system or ())
-            if conditions.deficient and statement.m == 1:
+            if conditions.deficient and (statement.m == 1 or S.field.ground == QQ):
                 determinant = Determinant(exponents, (exponents - exponents,))
             elif conditions.system is None:
                 determinant = Determinant(exponents)
