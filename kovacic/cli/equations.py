@@ -198,15 +198,9 @@ def _solution_lines(equation: Any, *, latex: bool = False, **given: Any) -> Iter
     from kovacic.writing.formula import caret
 
     found = dsolve(equation, **given)
-    if isinstance(found, list):
-        for solution in found:
-            yield as_latex(solution) if latex else f"{solution.lhs} = {caret(as_text(solution.rhs))}"
-        return
-    if latex:
-        yield as_latex(found)
-        return
-    yield f"{found.lhs} = {caret(as_text(found.rhs))}"
-    needed = validity(found, given.get("assume"))
+    for solution in found if isinstance(found, list) else [found]:
+        yield as_latex(solution) if latex else f"{solution.lhs} = {caret(as_text(solution.rhs))}"
+    needed = None if latex else validity(found, given.get("assume"))
     if needed:
         yield f"  {needed.claim} for {caret(as_text(needed))}"
 
@@ -218,12 +212,14 @@ def _solution_in_json(equation: str, ics: str, **given: Any) -> str:
 
     with options.waiting("solving"), warnings.catch_warnings(record=True, action="always") as noticed:
         found = dsolve(equation, ics=ics, **given)
+        needed = str(validity(found, given.get("assume"))) or None
         data: dict[str, Any] = {"schema": 1, "input": equation, "ics": ics or None, "status": "solved"}
         if isinstance(found, list):  # a system
             data |= {
                 "unknown": [str(solution.lhs) for solution in found],
                 "solution": [as_text(solution.rhs) for solution in found],
                 "latex": [as_latex(solution) for solution in found],
+                "validity": needed,
             }
         else:
             shorter = in_special_functions(found, equation, ics=ics, **given)
@@ -232,7 +228,7 @@ def _solution_in_json(equation: str, ics: str, **given: Any) -> str:
                 "solution": as_text(found.rhs),
                 "latex": as_latex(found),
                 "special": None if shorter is None else as_text(shorter.rhs),
-                "validity": str(validity(found, given.get("assume"))) or None,
+                "validity": needed,
                 "exceptions": _exception_lines(given_answer(found)),
             }
     return json_line(data | {"notices": [str(warning.message) for warning in noticed]})

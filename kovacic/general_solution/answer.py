@@ -250,7 +250,7 @@ def validity(solution: Any, assume: Mapping[Any, Any] | None = None) -> Validity
 
     Parameters
     ----------
-    solution : ProblemAnswer or sympy.Eq
+    solution : ProblemAnswer, sympy.Eq or list of sympy.Eq
         What `answer_to` or `dsolve` returns.  Of an `Eq` that `dsolve` didn't return lately the formula alone is known.
     assume : mapping, optional
         What was assumed of parameters, as given to `dsolve`, whose answer has the user's own symbols: {"k": "positive"}.
@@ -281,15 +281,18 @@ def validity(solution: Any, assume: Mapping[Any, Any] | None = None) -> Validity
     """
     if isinstance(solution, ProblemAnswer):
         return solution.validity
-    function = getattr(solution, "lhs", None)
-    value = getattr(solution, "rhs", None)
+    first, *others = solution if isinstance(solution, list) else [solution]
+    function = getattr(first, "lhs", None)
+    value = getattr(first, "rhs", None)
     arguments: tuple[Any, ...] = getattr(function, "args", ())
     if value is None or len(arguments) != 1 or not arguments[0].is_Symbol:
         raise InputError(f"{solution!r} isn't a solution y(x) = ...", hint="give what dsolve returns")
+    if others:
+        value = sympy.Tuple(value, *(other.rhs for other in others))
     own = {symbol.name: symbol for symbol in value.free_symbols}
     said = {name: what for name, what in (assume or {}).items() if str(name) in own}
     known = read_assumptions(said, sympy.Tuple(*own.values()), tuple(own)).symbols()
     symbols = {own[name]: symbol for name, symbol in known.items()}
-    given = given_answer(solution)
+    given = given_answer(first)
     exceptions = [] if given is None else [e.xreplace(given.own).xreplace(symbols) for e in given.pair_exceptions]
     return needed_for(value.xreplace(symbols), arguments[0].xreplace(symbols), exceptions)

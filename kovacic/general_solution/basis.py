@@ -182,6 +182,10 @@ def definition(y1: Expr, y2: Expr, x: Expr) -> Expr:
         shorter = W.xreplace({f: sympy.S.Zero})
         if _is_wronskian(shorter, y1, y2, x, _NONE):
             W = shorter
+    if any(power.exp.free_symbols for power in W.atoms(sympy.Pow)):
+        rate = sympy.cancel(slope(y2, x) / y2 - slope(y1, x) / y1)
+        if rate.is_rational_function(x):
+            return y1 * y2 * sympy.factor(rate)
     bases = radicands(W)
     # beside roots of numbers, with polynomials in several of these, SymPy takes minutes
     if bases and all(base.free_symbols for base in bases) and not W.has(*_UNKNOWN, sympy.Function):

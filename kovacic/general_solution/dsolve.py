@@ -49,6 +49,7 @@ from kovacic.general_solution.question import (
     has_floats,
     positive_variable,
     read_question,
+    with_values,
 )
 from kovacic.general_solution.riccati_equation import solved_riccati
 from kovacic.general_solution.systems import read_system, solved_system
@@ -196,6 +197,7 @@ def dsolve(
         raise InputError(f"there is no method {hint!r} here, only {', '.join(_HINTS)}", hint=others)
     if xi is not None or eta is not None:
         raise InputError("xi and eta belong to Lie's method, which isn't used here", hint="call sympy.dsolve")
+    eq, ics, assume = with_values(eq, ics, assume, limits)
     if isinstance(eq, str):
         eq, func, ics = _several(eq, func, ics, parameters)
     is_list = isinstance(eq, list | tuple)
@@ -203,8 +205,8 @@ def dsolve(
         budget = Budget(limits)
         with budget.watched():
             try:
-                answered = partial(_answered, limits=limits)
-                found, notices = solved_system(read_system(eq, func), as_mapping(ics), answered)
+                solver = partial(answer_to, limits=limits)
+                found, notices = solved_system(read_system(eq, func), as_mapping(ics), solver)
             except LimitExceeded as limit:
                 raise NotImplementedError(f"undecided: {limit}") from None
     else:
@@ -311,6 +313,7 @@ def answer_to(
     c is a positive integer | C1*hyper((a,), (c,), x) + C2*hyper((a, a - c + 1), (), -1/x)/x**a
     c is a nonpositive integer | C1*x**(1 - c)*hyper((a - c + 1,), (2 - c,), x) + C2*hyper((a, a - c + 1), (), -1/x)/x**a
     """
+    eq, ics, assume = with_values(eq, ics, assume, limits)
     budget = Budget(limits)
     with budget.watched():
         try:

@@ -10,7 +10,7 @@ with powers of cosh(x), cos(x), ... for tanh(x), tan(x), ... in q; the others ar
 from __future__ import annotations
 
 from collections import defaultdict
-from collections.abc import Callable, Collection, Mapping, Sequence, Set
+from collections.abc import Callable, Collection, Iterable, Mapping, Sequence, Set
 from dataclasses import dataclass, replace
 from typing import Any, NamedTuple
 
@@ -33,6 +33,7 @@ from kovacic.general_solution.textbook import in_book_form, in_hyperbolic_functi
 from kovacic.general_solution.values import value_at
 from kovacic.general_solution.variation import is_solution, starting_at
 from kovacic.general_solution.zero import is_zero
+from kovacic.general_solution.zero_set import ZeroSet
 from kovacic.limits import Limits
 from kovacic.numbers.numerals import as_text
 from kovacic.reading.pieces import Paste
@@ -232,14 +233,17 @@ def solved_linear(
     return sympy.Eq(equation.function, w, evaluate=False), notices + check_first_order(equation, w, conditions)
 
 
-def exceptions_of(w: Expr, x: Expr, coefficients: Sequence[Expr]) -> list[str]:
-    """One sentence if denominators without x may vanish for values of parameters at which the equation has no pole."""
+def exceptions_of(w: Expr, x: Expr, coefficients: Sequence[Expr], of_pair: Iterable[Expr] = ()) -> list[str]:
+    """One sentence if denominators without x may vanish for values of parameters at which the equation has no pole.
+
+    It also says where one of `of_pair` vanishes: there the two solutions in w are dependent.
+    """
     given = _constant_denominators(sympy.Tuple(*coefficients), x)
-    others = [factor for factor in _constant_denominators(w, x) if factor not in given and -factor not in given]
-    if not others:
+    others = dict.fromkeys([*_constant_denominators(w, x), *of_pair])
+    zeros = [str(ZeroSet(factor)) for factor in others if factor not in given and -factor not in given]
+    if not zeros:
         return []
-    zeros = " or ".join(f"{as_text(factor)} = 0" for factor in others)
-    return [f"this holds unless {zeros}: give such values for the solutions there"]
+    return [f"this holds unless {' or '.join(zeros)}: give such values for the solutions there"]
 
 
 def _constant_denominators(e: Expr, x: Expr) -> list[Expr]:
@@ -329,7 +333,7 @@ def _integrated(p: Expr, h: Expr, x: Expr, start: Expr | None) -> Expr:
     if integral is not None and not jumps(h * integral, x, [h, 1 / h, p]):
         if (p / h).has(sinh, cosh):
             integral = in_hyperbolic_functions(integral)
-        return shortest([sympy.powsimp(sympy.expand(h * integral)), h * integral])
+        return starting_at(shortest([sympy.powsimp(sympy.expand(h * integral)), h * integral]), x, start)
     return starting_at(h * sympy.Integral(sympy.powsimp(sympy.expand(p / h)), x), x, start)
 
 

@@ -25,6 +25,7 @@ from kovacic.parametric.assumptions import Assumptions, read_assumptions
 from kovacic.reading.change_of_variable import function_of_x
 from kovacic.reading.pieces import Paste, taken_apart
 from kovacic.reading.read import declared, read_input
+from kovacic.reading.substitution import Template, value_text, values_among
 from kovacic.reading.symbolic import function_of, functions_in
 
 Expr = Any  # SymPy publishes no types
@@ -211,6 +212,21 @@ def apart(eq: Any, ics: Any) -> tuple[Any, Any]:
     if values and ics:
         raise InputError("values stand in the equation's text and apart from it", hint="give them in one of these ways")
     return paste, values or ics
+
+
+def with_values(eq: Any, ics: Any, assume: Mapping[Any, Any] | None, limits: Limits) -> tuple[Any, Any, Any]:
+    """The texts of an equation and its conditions with the values that are among the assumptions, and the other assumptions.
+
+    Raises `InputError` for values beside an equation that is no text.
+    """
+    values, others = values_among(assume) if isinstance(assume, Mapping) else ({}, assume)
+    if not values:
+        return eq, ics, others
+    if not isinstance(eq, str) or not isinstance(ics or "", str):
+        name, value = next(iter(values.items()))
+        raise InputError(f"{name} = {value} is a value, not an assumption", hint="substitute it in the equation")
+    texts = {name: value_text(value, name, limits=limits) for name, value in values.items()}
+    return Template(f"{eq}, {ics}" if ics else eq, [*texts]).filled(texts), None, others
 
 
 def has_floats(eq: Any, values: Mapping[Any, Any]) -> bool:

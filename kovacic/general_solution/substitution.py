@@ -61,6 +61,10 @@ def slope(expression: Expr, x: Expr) -> Expr:
         for e, b in antiderivative_parameters(expression):  # z F' + e F is e times the function without e and b
             rest = hypergeometric((*expression.ap, b), (*expression.bq, e), z)
             return e * (rest - expression) * z.diff(x) / z
+    if expression.has(sympy.Abs):  # of what is real, else SymPy writes real and imaginary parts
+        real = {symbol: sympy.Dummy(real=True) for symbol in expression.free_symbols}
+        own = {dummy: symbol for symbol, dummy in real.items()}
+        return expression.xreplace(real).diff(real.get(x, x)).xreplace(own)
     return expression.diff(x)
 
 

@@ -21,6 +21,7 @@ from sympy.solvers.solveset import NonlinearError
 
 from kovacic.equation import eliminated
 from kovacic.errors import InputError, NotLinear
+from kovacic.general_solution.answer import ProblemAnswer
 from kovacic.general_solution.conditions import Condition, ConditionReader, exact
 from kovacic.general_solution.constants import Outcome, Row, determine
 from kovacic.general_solution.first_order import (
@@ -32,15 +33,15 @@ from kovacic.general_solution.first_order import (
 )
 from kovacic.general_solution.jumps import in_steps
 from kovacic.general_solution.steps import JUMPING, taken_apart
-from kovacic.general_solution.substitution import size
+from kovacic.general_solution.substitution import size, slope
 from kovacic.general_solution.textbook import in_book_form, sums
 from kovacic.general_solution.values import value_at
 from kovacic.general_solution.zero import is_zero
 from kovacic.special.choice import shortest
 
 Expr = Any  # SymPy publishes no types
-#: `dsolve` for one equation: its answer, and the notices.
-Solver = Callable[..., tuple[Expr, list[str]]]
+#: `answer_to`, for one equation.
+Solver = Callable[..., ProblemAnswer]
 
 
 @dataclass(frozen=True)
@@ -74,7 +75,7 @@ class LinearSystem:
     def second(self, x: Expr) -> Expr:
         """The second unknown where the first one is x, b not zero."""
         (a, b), _ = self.matrix
-        y = (x.diff(self.t) - a * x - self.right[0]) / b
+        y = (slope(x, self.t) - a * x - self.right[0]) / b
         apart = taken_apart(y, self.t) if y.has(sympy.DiracDelta) else None
         if apart is None:
             return y
@@ -145,14 +146,17 @@ def solved_system(system: LinearSystem, ics: Mapping[Any, Any], solver: Solver) 
     if start is not None and is_swapped:
         start = start[0], start[2], start[1]
     (_, b), _ = ordered.matrix
+    exceptions: list[Expr] = []
     if b == 0:
         pair, notices = _triangular(ordered)
     elif start is not None and is_unit(b, ordered.t, start[0]):
         pair, notices = _through_values(ordered, start, solver)
         conditions = []
     else:
-        found, notices = solver(ordered.equation, ordered.functions[0], ics={})
-        pair = found.rhs, ordered.second(found.rhs)
+        answer = solver(ordered.equation, ordered.functions[0], ics={})
+        notices = answer.notices
+        pair = answer.eq.rhs, ordered.second(answer.eq.rhs)
+        exceptions = [e.xreplace(answer.own) for e in answer.pair_exceptions] if not conditions else []
     if is_swapped:
         pair = pair[1], pair[0]
     if conditions:
@@ -162,7 +166,7 @@ def solved_system(system: LinearSystem, ics: Mapping[Any, Any], solver: Solver) 
     own = sympy.Tuple(*entries, *given).free_symbols | {system.t}
     constants = sorted((pair[0].free_symbols | pair[1].free_symbols) - own, key=str)
     pair = _with_constants_apart(pair[0], constants, system.t), _with_constants_apart(pair[1], constants, system.t)
-    notices += exceptions_of(sympy.Tuple(*pair), system.t, entries)
+    notices += exceptions_of(sympy.Tuple(*pair), system.t, entries, exceptions)
     for number, solution in enumerate(pair):
         notices += check_first_order(system.alone(number, pair[1 - number]), solution, ())
     return [sympy.Eq(f, e, evaluate=False) for f, e in zip(system.functions, pair, strict=True)], [
@@ -204,12 +208,12 @@ def _through_values(
     point, first, second = start
     x, t = system.functions[0], system.t
     (a, b), _ = system.matrix
-    slope = (a * first + b * second + system.right[0]).subs(t, point)
-    letters = {f: sympy.Dummy() for f in slope.atoms(AppliedUndef)}  # g(t0), for a given function g
-    ics = {x.subs(t, point): first, x.diff(t).subs(t, point): slope.xreplace(letters)}
-    found, notices = solver(system.equation, x, ics=ics)
-    solution = found.rhs.xreplace({letter: f for f, letter in letters.items()})
-    return (solution, system.second(solution)), notices
+    start_slope = (a * first + b * second + system.right[0]).subs(t, point)
+    letters = {f: sympy.Dummy() for f in start_slope.atoms(AppliedUndef)}  # g(t0), for a given function g
+    ics = {x.subs(t, point): first, x.diff(t).subs(t, point): start_slope.xreplace(letters)}
+    answer = solver(system.equation, x, ics=ics)
+    solution = answer.eq.rhs.xreplace({letter: f for f, letter in letters.items()})
+    return (solution, system.second(solution)), answer.notices
 
 
 # ------------------------------------------------------------------------------------------------------------- values

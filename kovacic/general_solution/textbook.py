@@ -34,7 +34,7 @@ from kovacic.closed_form.jets import jet
 from kovacic.general_solution.integrands import radicands
 from kovacic.general_solution.steps import place_of
 from kovacic.general_solution.substitution import expanded_size
-from kovacic.general_solution.zero import is_zero, points
+from kovacic.general_solution.zero import is_positive_polynomial, is_zero, points
 from kovacic.special.choice import shortest
 
 Expr = Any  # SymPy publishes no types
@@ -102,7 +102,7 @@ def _is_small(value: Expr) -> bool:
 
 
 def with_waves(y1: Expr, y2: Expr) -> tuple[Expr, Expr]:
-    """The pair (3) for solutions with u of an unknown sign, which is taken as that of a damping below 1; else these two."""
+    """The pair (3) where u may be negative, which is taken for that of a damping below 1; else these two."""
     (c1, A1), (c2, A2) = (_exponent(y) for y in (y1, y2))
     P = sympy.expand((A1 + A2) / 2)
     Q = sympy.expand((A1 - A2) / 2)
@@ -110,7 +110,8 @@ def with_waves(y1: Expr, y2: Expr) -> tuple[Expr, Expr]:
     if c1 == c2 and P != 0 and len(roots) == 1 and roots[0].base.is_Add:
         (root,) = roots
         q = sympy.cancel(Q / root)
-        if not q.has(root):
+        is_real = root.base.is_polynomial() and is_positive_polynomial(sympy.expand(root.base), or_zero=True)
+        if not is_real and not q.has(root):
             angle = q * sympy.sqrt(sympy.expand(-root.base))
             return c1 * exp(P) * cos(angle), c1 * exp(P) * sin(angle)
     return y1, y2

@@ -25,7 +25,7 @@ from sympy.solvers.inequalities import reduce_rational_inequalities
 
 from kovacic.algebra.precision import working_digits
 from kovacic.closed_form.check import DIGITS
-from kovacic.general_solution.zero import ball, is_nowhere_zero
+from kovacic.general_solution.zero import ball, is_nowhere_zero, is_positive_polynomial
 from kovacic.general_solution.zero_set import ZeroSet, inequality, poles_of, without_implied
 
 Expr = Any  # SymPy publishes no types
@@ -190,10 +190,10 @@ def _holds_for_real_symbols(relation: Expr) -> bool:
             e = sympy.factor(sympy.together(sympy.expand(e.rewrite(sympy.exp))))
             if isinstance(relation.func(e, 0), BooleanAtom):
                 return bool(relation.func(e, 0))
-        if len(e.free_symbols) == 1 and e.is_polynomial():
-            p = sympy.Poly(e, *e.free_symbols)
-            if (p.domain.is_ZZ or p.domain.is_QQ) and p.count_roots() == 0:
-                return isinstance(relation, sympy.Ne) or bool(p(0) > 0)
+        if e.free_symbols and e.is_polynomial() and sympy.Poly(e, *e.free_symbols).domain in (sympy.ZZ, sympy.QQ):
+            signed = (e, -e) if isinstance(relation, sympy.Ne) else (e,)
+            or_zero = isinstance(relation, sympy.GreaterThan)
+            return any(is_positive_polynomial(sympy.expand(p), or_zero=or_zero) for p in signed)
         roots, others = sympy.sift(sympy.Add.make_args(e), lambda part: part.is_Pow, binary=True)
         if len(roots) != 1 or roots[0].exp != sympy.S.Half:
             return False

@@ -98,6 +98,27 @@ def _is_nonzero(factor: Expr) -> bool:
     return base.is_zero is False and exponent.is_finite is not False
 
 
+def is_positive_polynomial(p: Expr, *, or_zero: bool = False) -> bool:
+    """True if a polynomial in real letters is seen to be positive, or never negative, wherever they are.
+
+    a v^2 + b v + c is if a and 4 a c - b^2 are; in one letter it is if it has no real root and is positive at 0.
+
+    >>> a, b = sympy.symbols("a b")
+    >>> is_positive_polynomial(a**2 - 2*a + b**2 + 2), is_positive_polynomial(a**2 - 2*a + b**2 + 1)
+    (True, False)
+    """
+    letters = sorted(p.free_symbols, key=str)
+    if not letters:
+        return bool(p >= 0 if or_zero else p > 0)
+    for v in letters:
+        coefficients = sympy.Poly(p, v).all_coeffs()
+        if len(coefficients) == 3:
+            a, b, c = coefficients
+            parts = (a, sympy.expand(4 * a * c - b**2))
+            return all(is_positive_polynomial(part, or_zero=or_zero) for part in parts)
+    return len(letters) == 1 and bool(p.subs(letters[0], 0) > 0) and sympy.Poly(p, letters[0]).count_roots() == 0
+
+
 def _bessel_is_nonzero(f: Expr) -> bool:
     """K of a real order has no positive zero; I hasn't if the order isn't negative."""
     order, z = f.args

@@ -312,10 +312,15 @@ class _Translation:
             return False
         y, x, order, end = found
         whole = Token("", "", token.start, self.scan[end - 1].end)
-        by = [("COMMA", ","), ("NAME", x), ("COMMA", ","), ("NUMBER", str(order)), ("RPAR", ")")]
-        if y is None:  # what follows is differentiated
+        inner = None
+        while y is None:  # what follows is differentiated, perhaps more than once
             end += self.texts[end] == "*"
             inner = self.quotient(end)
+            if inner is None or inner[0] is not None or inner[1] != x:
+                break
+            order, end = order + inner[2], inner[3]
+        by = [("COMMA", ","), ("NAME", x), ("COMMA", ","), ("NUMBER", str(order)), ("RPAR", ")")]
+        if y is None:
             behind = inner[3] if inner and inner[0] else self.operand_end(end)
             if behind is None:  # d^2/dx^2 - x
                 self.write("OPERATOR", x, whole)
@@ -346,7 +351,11 @@ class _Translation:
         if 0 < closing - k < _LONGEST_QUOTIENT:
             inner = self.quotient(k + 1)
             if inner is not None and inner[3] == closing:
-                return (*inner[:3], closing + 1)
+                y, x, order, _ = inner
+                power, behind = self.exponent(closing + 1)
+                if y is not None or not power:
+                    return y, x, order, closing + 1
+                return (None, x, order * int(power), behind) if power.isdigit() else None  # (d/dx)^2 y
         if text in FRACTIONS:
             begin, middle = k + 1, self.operand_end(k + 1)
             end = middle and self.operand_end(middle)

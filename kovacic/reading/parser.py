@@ -451,7 +451,7 @@ def _comma(tokens: Sentence, k: int) -> _Fault:
     if tokens.are(k - 1, "NUMBER", "COMMA", "NUMBER") and tokens.rows[k - 1].end + 1 == tokens.rows[k + 1].start:
         begin, whole, digits = k - 1, tokens.pieces[k - 1], tokens.pieces[k + 1]
         grouped = f"; digits aren't grouped: {whole}{digits}" if len(digits) == _GROUPED else ""
-        hint = f"decimals are written with a point: {whole}.{digits}{grouped}"
+        hint = f"decimals are written with a point: {whole.replace('.', '')}.{digits}{grouped}"
     elif "EQUAL" in tokens.kinds[:k]:
         hint = "values, y(0) = 1, are for dsolve, which takes them after the equation"
     return "a comma doesn't belong here", begin, k, hint

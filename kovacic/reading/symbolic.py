@@ -224,6 +224,9 @@ def read_equations(
     guesses = dict.fromkeys(paste.notes)
     equations = []
     for tokens in paste.equations:
+        if not differentiated(tokens):
+            said = f"{shown(' '.join(tokens.pieces).strip())!r} contains no derivative, and isn't a condition"
+            raise InputError(said, hint="a value of a parameter is substituted, or assumed: --assume k=2")
         named = Vocabulary(chosen, unknowns[0], frozenset({*names, *unknowns})).of(tokens, is_equation=True)
         guesses |= dict.fromkeys(named.guesses)
         reader = SymbolicReader.of_equations(chosen, unknowns, limits, "the equation")

@@ -529,6 +529,24 @@ def test_initial_values_in_case_3() -> None:
     assert abs(sympy.N(at_pole.subs(x, Rational(5, 2)), 20) - sympy.Float(str(expected).split()[0], 20)) < 1e-18
 
 
+@pytest.mark.parametrize(
+    ("text", "plain"),
+    [
+        ("y'' + n^2*y = k", "y'' + 9*y = k"),
+        ("y'' + y = n, y(0)=n, y'(0)=0", "y'' + y = 3, y(0)=3, y'(0)=0"),
+        ("y' + n*y = 1", "y' + 3*y = 1"),
+        ("u' = n*v, v' = -n*u", "u' = 3*v, v' = -3*u"),
+    ],
+)
+def test_a_value_among_the_assumptions_takes_the_place_of_the_letter(text: str, plain: str) -> None:
+    assert dsolve(text, assume={"n": "3"}) == dsolve(plain)
+
+
+def test_a_value_beside_an_expression_is_refused() -> None:
+    with pytest.raises(kovacic.InputError, match="n = 3 is a value, not an assumption"):
+        dsolve(sympy.Eq(y(x).diff(x, 2), sympy.Symbol("n") * y(x)), assume={"n": 3})
+
+
 def test_one_exponential() -> None:
     solution = dsolve("y'' + 2*b*y' + w^2*y = 0", var="x")
     checked("y'' + 2*b*y' + w^2*y = 0", solution, b="3/2", w="5/4")

@@ -275,11 +275,24 @@ def test_general_solutions_of_systems(problem: tuple[Any, Any, int, Any, Any]) -
         ("x' = tanh(t)*x + y, y' = x + tanh(t)*y", "(-C1*exp(-t) + C2*exp(t))*cosh(t)"),
         ("x' = tan(t)*x + y, y' = -x + tan(t)*y", "-C1*tan(t) + C2"),
         ("x' = coth(t)*x - y, y' = x + coth(t)*y", "(C1*sin(t) - C2*cos(t))*sinh(t)"),
+        ("x' = y + abs(t), y' = -x", "C1*cos(t) + C2*sin(t) + sin(Abs(t)) - Abs(t)"),
     ],
     ordinary=1,
 )
-def test_the_second_unknown_is_short_beside_tangents(text: str, printed: str) -> None:
+def test_the_second_unknown_is_short(text: str, printed: str) -> None:
     assert str(kovacic.dsolve(text)[1].rhs) == printed
+
+
+def test_where_the_solutions_of_a_system_with_letters_are_real_and_independent() -> None:
+    with pytest.warns(UserWarning, match=r"unless b = 0 or a\*\*2 - 2\*a\*d \+ 4\*b\*c \+ d\*\*2 = 0"):
+        found = kovacic.dsolve("x' = a*x + b*y, y' = c*x + d*y")
+    assert str(kovacic.validity(found)) == "-a**2 + 2*a*d - 4*b*c - d**2 >= 0, b != 0"
+
+
+def test_integrals_beside_a_value_begin_at_its_point() -> None:
+    w = kovacic.dsolve("y' + tan(x)*y = cos(x)*log(cos(x)), y(0) = 1").rhs
+    assert all(len(integral.limits[0]) == 3 for integral in w.atoms(sympy.Integral))
+    assert w.subs("x", 0).doit() == 1
 
 
 def test_derivatives_may_be_mixed() -> None:
@@ -360,6 +373,8 @@ def test_what_is_no_such_system_is_refused() -> None:
         kovacic.dsolve([first, sympy.Eq(v(t).diff(t), v(t) ** 2)])
     with pytest.raises(kovacic.InputError, match="of first order is expected"):
         kovacic.dsolve([sympy.Eq(u(t).diff(t, 2), v(t)), sympy.Eq(v(t).diff(t), u(t))])
+    with pytest.raises(kovacic.InputError, match="'k = 2' contains no derivative"):
+        kovacic.dsolve("y'' + k^2*y = 0, k = 2")
     with pytest.raises(kovacic.InputError, match="don't determine both derivatives"):
         kovacic.dsolve([first, sympy.Eq(u(t).diff(t), v(t) + u(t))], [u(t), v(t)])
 

@@ -438,6 +438,9 @@ def test_a_number_behind_a_function_is_a_factor_which_is_said(number: str) -> No
         (r"\left(t\frac{d}{dt} + 1\right) x = t", "t*x' + x = t"),
         ("(d/dx + 1)(d/dx + 2) y = 0", "y'' + 3*y' + 2*y = 0"),
         ("(x d/dx)^2 y = n^2 y", "x^2*y'' + x*y' = n^2*y"),
+        ("x (d/dx)^2 y + y = 0", "x*y'' + y = 0"),
+        ("(d/dx)(d/dx) y + y = x", "y'' + y = x"),
+        (r"\left(\frac{d}{dt}\right)^{2} u = u", "u''(t) = u(t)"),
         (r"\left[\frac{d^2}{dr^2} + \frac{2}{r}\frac{d}{dr} + k^2\right] R(r) = 0", "R'' + 2/r*R' + k^2*R = 0"),
     ],
 )
