@@ -285,7 +285,7 @@ class RationalChart:
     @property
     def _is_exact(self) -> bool:
         """True for polynomials over Q and no right-hand side."""
-        return not self.is_forced and self.problem.embedded is None
+        return not self.is_forced and self.problem.is_rational
 
     @cached_property
     def singular(self) -> list[ExactPoint]:

@@ -220,7 +220,7 @@ def _chart(
     if start:
         return chart
     problem = chart.problem
-    if params and problem is not None and problem.S is not None:
+    if params and problem is not None and problem.is_rational:
         # The answer was one for generic values.
         problem = replace(problem, decision=find_answer(problem.S, limits=limits or DEFAULT_LIMITS).decision)
         chart = replace(chart, problem=problem)

@@ -404,9 +404,8 @@ def way_of(problem: NumericProblem) -> AnalyticWay:
     """The way of an equation with a right-hand side beside rational coefficients, or constants that are known by balls."""
     equation = problem.right
     if equation is None:
-        assert problem.embedded is not None
         atoms = _Letters(sympy.Symbol("the variable"))  # no parameter has this name
-        a, b, c = map(atoms.ratio, problem.embedded.equation)
+        a, b, c = map(atoms.ratio, problem.cleared)
         f = sympy.Integer(0)
     else:
         atoms = _Letters(sympy.Symbol(equation.variable))
@@ -416,9 +415,7 @@ def way_of(problem: NumericProblem) -> AnalyticWay:
             f += common * equation.h.xreplace({s: sympy.Symbol(s.name) for s in equation.h.free_symbols})
     if not a.has(atoms.x):
         a, b, c, f = sympy.Integer(1), b / a, c / a, f / a
-    values = dict(atoms.constants)
-    if problem.embedded is not None:
-        values |= problem.embedded.values
+    values = {**atoms.constants, **problem.values}
     return constant_way(Coefficients(atoms.x, b, c, f, tuple(sorted(values.items())), a=a), problem)
 
 

@@ -118,7 +118,7 @@ class Classical:
         """The transition matrix that carries (y, y') from a to b along the straight segment; raises NotServed."""
         return _settled(lambda: self._leg(a, b), _sharper(ctx.prec))
 
-    def frobenius(self, point: Singular, gauge: RatFunc | None, needed: tuple[bool, bool], x: ExactPoint) -> Matrix:
+    def frobenius(self, point: Singular, gauge: RatFunc, needed: tuple[bool, bool], x: ExactPoint) -> Matrix:
         """The Frobenius basis of the user's equation at a rational zero of f, or its solutions that are needed, at x.
 
         Raises NotServed at other points, and where a solution is needed that may have a logarithm.
@@ -166,7 +166,7 @@ def _form(classical: Classical, coordinate: int) -> StandardForm:
 
 
 @kept_at_precision(maxsize=64)
-def _frobenius(classical: Classical, point: Singular, gauge: RatFunc | None, needed: tuple[bool, bool]) -> Solutions:
+def _frobenius(classical: Classical, point: Singular, gauge: RatFunc, needed: tuple[bool, bool]) -> Solutions:
     if not point.is_rational or point.inverted:
         raise NotServed
     with working_precision(_sharper(ctx.prec)):
@@ -179,8 +179,7 @@ def _frobenius(classical: Classical, point: Singular, gauge: RatFunc | None, nee
         raise NotServed
     if needed[0] and point.difference is not None:
         raise NotServed
-    rest = None if gauge is None else _without_pole(gauge, point.near)
-    return Solutions.make(form, point.near, (lower, upper), rest, needed)
+    return Solutions.make(form, point.near, (lower, upper), _without_pole(gauge, point.near), needed)
 
 
 @lru_cache(maxsize=64)

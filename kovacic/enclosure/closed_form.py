@@ -185,7 +185,7 @@ def decided(problem: NumericProblem, degree: int) -> NumericProblem | None:
     decision = problem.decision
     if decision is not None:
         return problem if decision.semi_invariant is not None else None
-    if problem.S is None:
+    if not problem.is_rational:
         return None
     budget = Budget(Limits(unknown_degree=degree))
     with bounded_work(int(degree / prices.DEGREES / prices.UNIT)):
@@ -214,8 +214,7 @@ def exponentials(problem: NumericProblem) -> list[Exponential]:
     closed = closed_form_of(problem)
     if closed is None:
         return []
-    gauge = 0 if problem.gauge is None else problem.gauge
-    return [Exponential(y.theta + gauge, y.P, y.embedding) for y in closed.branches]
+    return [Exponential(y.theta + problem.gauge, y.P, y.embedding) for y in closed.branches]
 
 
 def omegas(problem: NumericProblem, x0: ExactPoint) -> list[acb]:
@@ -232,7 +231,7 @@ def omegas(problem: NumericProblem, x0: ExactPoint) -> list[acb]:
     assert riccati is not None
     c = conjugates(riccati.coefficients[0].field)[0]
     roots = sorted(sharp_roots(acb_poly([value(r, c, z) for r in riccati.coefficients])), key=cmp_to_key(_order))
-    shift = 0 if problem.gauge is None else value(problem.gauge, None, z)
+    shift = value(problem.gauge, None, z)
     return [root + shift for root in roots]
 
 

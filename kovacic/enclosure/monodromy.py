@@ -204,7 +204,7 @@ def _polygon(problem: NumericProblem, path: Sequence[object]) -> _Polygon:
 
 def _end(problem: NumericProblem, value: object) -> ExactPoint | Singular:
     """An end of a path: a point where the equation is regular stays one."""
-    if problem.embedded is not None:
+    if not problem.is_rational:
         return as_point(value, "an end of the path of an equation whose constants aren't rational")
     place = place_of(problem, value, "a vertex")
     return place.near if place.is_ordinary else place
@@ -265,8 +265,7 @@ def monodromy(
     """
     digits, limits = digits_and_limits("monodromy", accuracy=accuracy, digits=digits, limits=limits)
     given = as_problem(with_variable(equation, var, limits, params), params, constants=True)
-    constants = given.embedded and replace(given.embedded, gauge=None)
-    problem = NumericProblem(given.system, embedded=constants)
+    problem = replace(given, gauge=given.gauge * 0, right=None)  # the normal form
     budget = Budget(limits)
     result = []
     for loop, z in _loops(_places(problem)):

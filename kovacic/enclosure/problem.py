@@ -47,68 +47,9 @@ _SHOWN = 64  # bits after the binary point of a singular point that is named
 _SHARP = 700  # bits at which a leading coefficient is told from zero
 
 
-@dataclass(frozen=True)
-class Embedded:
-    """S and the gauge over a field of constants, with the values of the parameters."""
-
-    S: RatFunc
-    gauge: RatFunc | None
-    values: Mapping[str, Number]
-
-    @property
-    def exact(self) -> bool:
-        """True if every precision can be had."""
-        return not any(getattr(value, "fixed", False) for value in self.values.values())
-
-    def check(self) -> None:
-        """Raise InputError unless numerator and denominator of S are known, with a leading coefficient of the latter."""
-        with working_precision(_SHARP):
-            num, den = (part.coeffs() for part in self.polynomials())
-            if not all(c.is_finite() for c in (*num, *den)) or den[-1].contains(0):
-                raise InputError(
-                    "the equation isn't defined at these values of the parameters, as far as they are known"
-                )
-
-    def is_real(self) -> bool:
-        """True if the coefficients of S and of the gauge are real."""
-        functions = [self.S] if self.gauge is None else [self.S, self.gauge]
-        return all(are_real(self._embed(part).coeffs()) for f in functions for part in (f.num, f.den))
-
-    def polynomials(self) -> tuple[acb_poly, acb_poly]:
-        """Numerator and denominator of S, at the working precision in force."""
-        return self._embed(self.S.num), self._embed(self.S.den)
-
-    def poles(self, function: RatFunc) -> list[tuple[acb, int]]:
-        """Those of S, or of another function, with their exact multiplicities; raises LimitExceeded where they can't be told
-        apart."""
-        found: list[tuple[acb, int]] = []
-        for factor, k in squarefree_factors(function.den):
-            roots = sharp_roots(self._embed(factor)) if factor.degree else []
-            if len(roots) < factor.degree:
-                raise LimitExceeded("the singular points can't be told apart at this precision", limit="digits")
-            found += [(root, k) for root in roots]
-        return found
-
-    @cached_property
-    def equation(self) -> list[RatFunc]:
-        """Polynomials a, b and c of the user's equation."""
-        return cleared(*gauged(self.S, self.gauge or self.S * 0))
-
-    def _embed(self, poly: Poly) -> acb_poly:
-        """The polynomial at the working precision in force."""
-        if isinstance(poly, RationalPoly):
-            return acb_poly(poly.rep)
-        if isinstance(poly, ExtensionPoly):
-            c = root_of(poly.field)
-            return sum((self._embed(part) * c**k for k, part in enumerate(poly.parts)), acb_poly([]))
-        assert isinstance(poly, FunctionPoly)
-        balls = [to_ball(self.values[name]) for name in poly.field.names]
-        return _at(poly.num, balls) * (1 / _at(poly.den, balls)[0])
-
-
 def gauged(S: RatFunc, gamma: RatFunc) -> tuple[RatFunc, RatFunc, RatFunc]:
     """a, b and c of a z'' + b z' + c z = 0, where y'' = S y, z = g y and gamma = g'/g."""
-    return S * 0 + 1, -2 * gamma, gamma * gamma - gamma.derivative() - S
+    return S * 0 + 1, S * 0 - 2 * gamma, gamma * gamma - gamma.derivative() - S
 
 
 def cleared(a: RatFunc, b: RatFunc, c: RatFunc, *others: RatFunc) -> list[RatFunc]:
@@ -198,86 +139,119 @@ class Coefficients:
 
 @dataclass(frozen=True, eq=False)
 class NumericProblem:
-    """y'' = S y as `system`; S and the decision on it where the problem was read from a solution.
+    """y'' = S y with z = g y, the user's solution: `gauge` is g'/g = -b/(2a), zero where the normal form itself was given.
 
-    `gauge` is g'/g = -b/(2a) where the user's equation is a z'' + b z' + c z = 0 with z = g y; None for a normal form.
-    `right` is that equation where its right-hand side isn't zero.  `embedded` has S and the gauge where their constants are
-    known by balls only: `system`, S and gauge say nothing then.
+    `decision` is that on S where the problem was read from a solution, `right` the user's equation where its right-hand side
+    isn't zero.  All may be over a field of constants that are known by balls: algebraic ones, or parameters with `values`.
     """
 
-    system: System
-    S: RatFunc | None = None
+    S: RatFunc
+    gauge: RatFunc
     decision: Decision | None = None
-    gauge: RatFunc | None = None
     right: Equation | None = None
-    embedded: Embedded | None = None
+    values: Mapping[str, Number] = field(default_factory=dict)
+
+    @cached_property
+    def is_rational(self) -> bool:
+        """True if all rational functions of the equation are over Q."""
+        return all(function.field == QQ for function in self._functions)
+
+    @cached_property
+    def system(self) -> System:
+        """The normal form with integer coefficients, of a rational problem."""
+        return System.of(self.S)
 
     @cached_property
     def is_real(self) -> bool:
         """True if the coefficients of S and of the gauge are real; the right-hand side may be complex."""
-        if self.embedded is None:
-            return True
         with working_precision(_BITS):
-            return self.embedded.is_real()
+            polynomials = [part for function in (self.S, self.gauge) for part in (function.num, function.den)]
+            return all(are_real(self._embed(part).coeffs()) for part in polynomials)
 
     @property
     def is_exact(self) -> bool:
         """True unless a parameter's value is a ball."""
-        return self.embedded is None or self.embedded.exact
+        return not any(getattr(value, "fixed", False) for value in self.values.values())
+
+    def check(self) -> None:
+        """Raise InputError unless numerator and denominator of S are known, with a leading coefficient of the latter."""
+        with working_precision(_SHARP):
+            num, den = (part.coeffs() for part in self.polynomials())
+            if not all(c.is_finite() for c in (*num, *den)) or den[-1].contains(0):
+                raise InputError(
+                    "the equation isn't defined at these values of the parameters, as far as they are known"
+                )
 
     @cached_property
     def places(self) -> System:
-        """Its denominator vanishes at the singular points of the user's equation: the poles of S, the gauge and a rational
-        right-hand side."""
-        den = fmpz_poly(list(self.system.den))
-        functions = (self.gauge, self._rational_right) if self.embedded is None else ()
-        for part in (fmpz_poly(list(System.of(function).den)) for function in functions if function is not None):
+        """Its denominator vanishes at the singular points of a rational problem, and nowhere in other ones."""
+        den = fmpz_poly([1])
+        for part in (fmpz_poly(list(System.of(f).den)) for f in self._functions if self.is_rational):
             den *= part // part.gcd(den)
         return System((), tuple(int(c) for c in den.coeffs()))
 
     @cached_property
-    def equation(self) -> tuple[fmpq_poly, fmpq_poly, fmpq_poly]:
+    def cleared(self) -> list[RatFunc]:
         """Polynomials a, b and c of the user's equation."""
-        if self.gauge is None or self.S is None:
-            num, den = (fmpq_poly(list(part)) for part in (self.system.num, self.system.den))
-            return den, fmpq_poly([]), -num
-        a, b, c = (part.num.rep for part in cleared(*gauged(self.S, self.gauge)) if isinstance(part.num, RationalPoly))
+        return cleared(*gauged(self.S, self.gauge))
+
+    @cached_property
+    def equation(self) -> tuple[fmpq_poly, fmpq_poly, fmpq_poly]:
+        """The same of a rational problem, as FLINT's."""
+        a, b, c = (part.num.rep for part in self.cleared if isinstance(part.num, RationalPoly))
         return a, b, c
 
     @cached_property
-    def _rational_right(self) -> RatFunc | None:
-        """The right-hand side over the coefficient of y'', if it is rational."""
-        return None if self.right is None or self.right.h is not None else self.right.f / self.right.a
+    def _functions(self) -> list[RatFunc]:
+        """S, the gauge, and a rational right-hand side over the coefficient of y'': their poles are the singular points."""
+        if self.right is None or self.right.h is not None:
+            return [self.S, self.gauge]
+        return [self.S, self.gauge, self.right.f / self.right.a]
 
     def poles(self, prec: int) -> Zeros:
         """Enclosures of the poles of S at about `prec` bits, with their multiplicities."""
-        if self.embedded is None:
-            return self.system.roots("den", prec)
+        return self._poles_of(self.S, prec)
+
+    def _poles_of(self, function: RatFunc, prec: int) -> Zeros:
+        """Those of a function, with exact multiplicities; raises LimitExceeded where they can't be told apart."""
+        if self.is_rational:
+            return System.of(function).roots("den", prec)
+        found: list[tuple[acb, int]] = []
         with working_precision(2 * prec):
-            return tuple(self.embedded.poles(self.embedded.S))
+            for factor, k in squarefree_factors(function.den):
+                roots = sharp_roots(self._embed(factor)) if factor.degree else []
+                if len(roots) < factor.degree:
+                    raise LimitExceeded("the singular points can't be told apart at this precision", limit="digits")
+                found += [(root, k) for root in roots]
+        return tuple(found)
 
     def enclosures(self, prec: int) -> list[acb]:
         """Those of the singular points of the user's equation: the poles of S, of the gauge and of a rational right-hand side,
         some perhaps several times."""
-        if self.embedded is None:
-            return [root for root, _ in self.places.roots("den", prec)]
-        functions = (self.embedded.S, self.embedded.gauge, self._rational_right)
-        with working_precision(2 * prec):
-            return [root for f in functions if f is not None for root, _ in self.embedded.poles(f)]
+        return [root for function in self._functions for root, _ in self._poles_of(function, prec)]
 
     def polynomials(self) -> tuple[acb_poly, acb_poly]:
         """Numerator and denominator of S, at the working precision in force."""
-        if self.embedded is not None:
-            return self.embedded.polynomials()
-        return self.system.polynomial("num"), self.system.polynomial("den")
+        return self._embed(self.S.num), self._embed(self.S.den)
+
+    def _embed(self, poly: Poly) -> acb_poly:
+        """The polynomial at the working precision in force."""
+        if isinstance(poly, RationalPoly):
+            return acb_poly(poly.rep)
+        if isinstance(poly, ExtensionPoly):
+            c = root_of(poly.field)
+            return sum((self._embed(part) * c**k for k, part in enumerate(poly.parts)), acb_poly([]))
+        assert isinstance(poly, FunctionPoly)
+        balls = [to_ball(self.values[name]) for name in poly.field.names]
+        return _at(poly.num, balls) * (1 / _at(poly.den, balls)[0])
 
     def check_segment(self, a: ExactPoint, b: ExactPoint) -> None:
         """Raise InputError if the closed segment contains a singular point of the user's equation, or may contain one where
         constants are known by balls."""
-        if self.embedded is not None:
+        if self.is_rational:
+            check_segment(self.places, a, b)
+        else:
             check_apart(self.enclosures(ctx.prec), to_acb(a), to_acb(b))
-            return
-        check_segment(self.places, a, b)
 
     def singular_points(self, prec: int) -> list[ExactPoint]:
         """The midpoints of their enclosures, each once; on the real axis exactly where the singular point is."""
@@ -298,8 +272,6 @@ def as_problem(
         return equation
     if isinstance(equation, Coefficients):
         raise NotRational(f"numerical evaluation needs coefficients that are rational in {equation.variable} here")
-    if isinstance(equation, System):
-        return NumericProblem(equation)
     if params is not None or not isinstance(equation, Answer | str):
         found = read_problem(equation, params)
     else:  # answers and text are read once
@@ -309,7 +281,7 @@ def as_problem(
         found = known
     if found.right is not None and not forced:
         raise InputError("an equation without a right-hand side is needed here")
-    if found.embedded is not None and not constants:
+    if not (found.is_rational or constants):
         raise InputError("numerical evaluation needs S with rational coefficients here, and values such as '1/3'")
     return found
 
@@ -356,19 +328,15 @@ def read_problem(equation: object, params: Mapping[str, object] | None = None) -
     constants = {name: meaning for name, meaning in letters if meaning.is_number and name in names}
     numbers = values_of_parameters(tuple(sorted(names)), params or {}, constants)
     values = {name: n.re for name, n in numbers.items() if isinstance(n, ExactPoint) and n.is_real()}
-    fields = (S.field, given.gauge.field, given.f.field)
-    is_exact = len(values) == len(numbers) and not any(isinstance(field, AlgebraicField) for field in fields)
+    is_algebraic = any(isinstance(field, AlgebraicField) for field in (S.field, given.gauge.field, given.f.field))
     decision = found.decision if isinstance(found, Answer) else None
-    if is_exact and values:  # the decision is that for generic values
+    if values and len(values) == len(numbers) and not is_algebraic:  # the decision is that for generic values
         given, decision = _specialised(given, values), None
         S = given.S
     right = None if given.is_homogeneous else given
-    gauge = given.gauge or None
-    if is_exact:
-        return NumericProblem(System.of(S), S, decision, gauge, right)
-    embedded = Embedded(S, gauge, numbers)
-    embedded.check()
-    return NumericProblem(System((), (1,)), right=right, embedded=embedded)
+    problem = NumericProblem(S, given.gauge, decision, right, numbers)
+    problem.check()
+    return problem
 
 
 def _specialised(given: Equation, values: Mapping[str, Fraction]) -> Equation:

@@ -34,7 +34,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property, lru_cache
 from typing import Any
 
@@ -42,7 +42,6 @@ from flint import acb, acb_poly, arb, arb_poly, fmpq, fmpq_poly, fmpq_series
 
 from kovacic.algebra.precision import series_length, working_precision
 from kovacic.enclosure.classical import Classical, Closed
-from kovacic.enclosure.closed_form import value
 from kovacic.enclosure.frame import System, foreseen_growth, frequency, largest_exponent, log2
 from kovacic.enclosure.frobenius import basis, junction
 from kovacic.enclosure.log_derivative import LogDerivative, log_derivative
@@ -52,7 +51,6 @@ from kovacic.enclosure.matrices import (
     State,
     apply,
     fundamental,
-    identity,
     inverse,
     multiply,
     real_part,
@@ -272,9 +270,9 @@ class RationalWay(Way):
         return RationalWay(self.problem, prec)
 
     @cached_property
-    def gauge(self) -> LogDerivative | None:
-        """gamma; None for a normal form."""
-        return None if self.problem.gauge is None else log_derivative(self.problem.gauge)
+    def gauge(self) -> LogDerivative:
+        """gamma: zero for a normal form, and its growth 1."""
+        return log_derivative(self.problem.gauge)
 
     def check(self, a: ExactPoint, b: ExactPoint) -> None:
         self.problem.check_segment(a, b)
@@ -307,11 +305,9 @@ class RationalWay(Way):
         return swing_from(system, b, a, self.prec), swing_from(system, a, b, self.prec)
 
     def into(self, x: ExactPoint) -> Matrix:
-        return identity() if self.gauge is None else (acb(1), acb(0), -self.gauge.value(to_acb(x)), acb(1))
+        return acb(1), acb(0), -self.gauge.value(to_acb(x)), acb(1)
 
     def out_of(self, a: ExactPoint, x: ExactPoint) -> Matrix:
-        if self.gauge is None:
-            return identity()
         E = self.gauge.growth(to_acb(a), to_acb(x))
         if a.is_real() and x.is_real():
             E = acb(E.real)
@@ -327,8 +323,9 @@ class RationalWay(Way):
     def decay_rate(self, x: ExactPoint) -> acb:
         system = self.problem.system
         prec = self.prec + 20
-        rate = logarithmic_derivative(RationalWay(NumericProblem(system), prec), system, x, prec)
-        return rate if self.problem.gauge is None else rate + value(self.problem.gauge, None, to_acb(x))
+        normal = replace(self.problem, gauge=self.problem.gauge * 0)
+        rate = logarithmic_derivative(RationalWay(normal, prec), system, x, prec)
+        return rate + self.gauge.value(to_acb(x))
 
     def departure(self, point: Singular, stop: ExactPoint, start: State) -> tuple[ExactPoint, Matrix]:
         last, bound = junction(point, stop, self.prec)
@@ -365,7 +362,7 @@ class RationalWay(Way):
                 if served:
                     local = step.local(maps.apply(traveller.start))
                     for stop in served:
-                        if self.gauge is not None:
+                        if self.problem.gauge:
                             self.check(here, stop)
                         found[stop] = apply(self.out_of(here, stop), local.state(stop))
                     waiting = [stop for stop in waiting if stop not in found]
@@ -404,7 +401,7 @@ class ClosedWay(RationalWay):
 
 def way_for(problem: NumericProblem) -> Way:
     """The way of an equation with rational coefficients."""
-    if problem.right is None and problem.embedded is None:
+    if problem.right is None and problem.is_rational:
         return RationalWay(problem)
     from kovacic.enclosure.analytic import way_of  # imports SymPy
 

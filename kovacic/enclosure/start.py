@@ -99,7 +99,7 @@ def read_start(problem: NumericProblem | None, given: Start) -> Origin:
         elif problem.right is not None:
             reason = "with a right-hand side"
         else:
-            reason = "whose constants aren't rational" if problem.embedded is not None else ""
+            reason = "" if problem.is_rational else "whose constants aren't rational"
         if reason:
             raise InputError(f"an equation {reason} needs y0 and dy0 at a regular point")
     is_decaying = which == "decaying"

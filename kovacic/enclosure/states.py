@@ -20,7 +20,6 @@ from typing import TYPE_CHECKING, Any
 from flint import acb, arb
 
 from kovacic.algebra.precision import working_precision
-from kovacic.algebra.ratfunc import RatFunc
 from kovacic.enclosure.classical import Closed, NotServed, classical_of
 from kovacic.enclosure.closed_form import closed_form_of, decided
 from kovacic.enclosure.frame import foreseen_growth, frequency
@@ -69,13 +68,13 @@ def route_of(journey: Journey, targets: Sequence[Number], method: Method | None,
     if method is not None:
         return _asked_for(journey, digits)
     problem = journey.problem
-    if problem is None or problem.right is not None or problem.S is None:
+    if problem is None or problem.right is not None or not problem.is_rational:
         return None
     count = 1 << (len(targets) - 1).bit_length()
     ways = tuple(_ways(journey, targets))
     key = ways, count, digits
     if key not in journey.routes:
-        journey.routes[key] = _chosen(journey, problem, problem.S, *key)
+        journey.routes[key] = _chosen(journey, problem, *key)
     found: ClosedRoute | None = journey.routes[key]
     return found
 
@@ -85,25 +84,24 @@ def _asked_for(journey: Journey, digits: int) -> ClosedRoute:
     problem = journey.problem
     if problem is None or problem.right is not None:
         raise InputError("the method 'closed form' is for equations without a right-hand side", hint="method='taylor'")
-    known = None if problem.S is None else decided(problem, DEFAULT_LIMITS.unknown_degree)
+    known = decided(problem, DEFAULT_LIMITS.unknown_degree)
     closed = None if known is None else closed_form_of(known)
     if closed is not None and closed.is_elementary and isinstance(journey.place, ExactPoint):
         return closed, 0
-    classical = None if problem.S is None else classical_of(problem.S)
+    classical = classical_of(problem.S)
     if classical is None:
         raise InputError(NO_CLOSED_FORM, hint=TAYLOR)
     return classical, start_bits(digits + classical.lost_digits(journey.place))
 
 
-def _chosen(
-    journey: Journey, problem: NumericProblem, S: RatFunc, ways: Ways, count: int, digits: int
-) -> ClosedRoute | None:
+def _chosen(journey: Journey, problem: NumericProblem, ways: Ways, count: int, digits: int) -> ClosedRoute | None:
     """That of case 1, or FLINT's functions, sought for no longer than Taylor's method would take; from a singular point on
     the functions always pay."""
     price = _foreseen(journey, problem, ways, count, digits)
     most = (price - prices.FIRST) / count  # for a target
     from_zero = isinstance(journey.place, Singular)
     # An equation that wasn't solved is decided only as far as Taylor's method takes that long.
+    S = problem.S
     size = S.num.degree + S.den.degree
     is_solved = problem.decision is not None
     if not from_zero and (is_solved or (size <= _DEGREE and price >= _WORTH)):
@@ -286,7 +284,7 @@ def _check_regular(problem: NumericProblem, numbers: Sequence[Number]) -> None:
     """Raise InputError for a number such as sqrt(2) that is a singular point; rational points are compared exactly."""
     with working_precision(256):
         for number in numbers:
-            if problem.embedded is None and isinstance(number, ExactPoint):
+            if problem.is_rational and isinstance(number, ExactPoint):
                 continue
             ball = to_ball(number)
             if any(abs(ball - z).lower() < _APART for z in problem.enclosures(256)):

@@ -19,7 +19,6 @@ from kovacic import InputError, LimitExceeded, Limits, connection_matrix, evalua
 from kovacic.enclosure import rational
 from kovacic.enclosure.frame import Frame
 from kovacic.enclosure.matrices import Matrix, product
-from kovacic.enclosure.problem import NumericProblem
 from kovacic.enclosure.splitting import Recurrence, bit_burst, is_split, split_legs
 from kovacic.enclosure.taylor import expand
 from kovacic.enclosure.way import transition
@@ -35,7 +34,7 @@ def both_ways(system: System, path: list[ExactPoint], prec: int) -> tuple[Matrix
     with flint.ctx.workprec(prec + 40), pytest.MonkeyPatch.context() as patch:
         for split in (False, True):
             patch.setattr(rational, "is_split", lambda *_, split=split: split)
-            way = rational.RationalWay(NumericProblem(system), prec)
+            way = rational.RationalWay(as_problem((list(system.num), list(system.den))), prec)
             try:
                 for a, b in pairwise(path):
                     way.check(a, b)
