@@ -45,14 +45,16 @@ from kovacic.enclosure.points import (
     Number,
     are_real,
     around_zero,
+    binary_exponent,
     in_balls,
+    middle,
     power_of_two,
+    root_below,
     to_acb,
     to_ball,
 )
 from kovacic.enclosure.problem import Coefficients, NumericProblem, cleared, root_of
-from kovacic.enclosure.start import middle, spread, spread_by
-from kovacic.enclosure.way import Forecast, Traveller, Way, WayStep
+from kovacic.enclosure.way import Forecast, Traveller, Way, WayStep, spread
 from kovacic.errors import InputError, LimitExceeded
 from kovacic.limits import check_time, count_work
 
@@ -158,12 +160,9 @@ class AnalyticWay(Way):
         """The stop itself where the coefficients aren't analytic there."""
         return super().horizon(here, stop) if self.functions.is_regular(to_acb(stop)) else stop
 
-    def spread(self, number: Number, state: State) -> State:
-        def coefficients(ball: acb) -> tuple[acb, acb, acb, bool]:
-            b, c, f = self.functions.values(ball, analytic=True)
-            return b, c, f, are_real(self.functions.values(ball))
-
-        return spread_by(coefficients, number, state)
+    def around(self, ball: acb) -> tuple[acb, acb, acb, bool]:
+        b, c, f = self.functions.values(ball, analytic=True)
+        return b, c, f, are_real(self.functions.values(ball))
 
     def walk(self, a: ExactPoint, b: ExactPoint, *, alone: bool = False) -> Iterator[WayStep]:
         edge = power_of_two(-self.prec - _EDGE)
@@ -181,19 +180,14 @@ class AnalyticWay(Way):
         length = b - a
         square = length.norm_squared()
         t = fmpq(0)
-        e = exponent(square)
+        e = (binary_exponent(square) + 1) // 2  # 2^(e + 1) is at least the length
         while t < 1:
             check_time()
             count_work(self.prec)
             rest = 1 - t
-            e = min(e + 1, exponent(square * rest * rest))
+            e = min(e + 1, (binary_exponent(square * rest * rest) + 1) // 2)
             while True:
-                ratio = power_of_two(2 * e) / square
-                k = (ratio.p.bit_length() - ratio.q.bit_length()) // 2
-                root = (
-                    (ratio * power_of_two(24 - 2 * k)).floor().isqrt()
-                )  # 2^e over the length, a dyadic number just below
-                half = min(fmpq(root) * power_of_two(k - 12), rest / 2)
+                half = min(root_below(power_of_two(2 * e) / square, 12), rest / 2)  # 2^e as a share of the length
                 centre = a + length.scaled(t + half)
                 jets = self.functions.jets(centre, e, self.prec, max(_STEEPEST, _SHARE * self.prec))
                 if jets is not None:
@@ -203,11 +197,6 @@ class AnalyticWay(Way):
             enter = a + length.scaled(t)
             t += 2 * half
             yield step_of(jets, enter, b if t == 1 else a + length.scaled(t))
-
-
-def exponent(square: Any) -> int:
-    """An integer e with 2^(e+1) at least the length whose square this is."""
-    return int(square.p.bit_length() - square.q.bit_length() + 1) // 2
 
 
 def _check_size(a: ExactPoint, b: ExactPoint, t: Any, e: int, start: int) -> None:
@@ -296,11 +285,9 @@ class PeriodicWay(AnalyticWay):
 def period_of(coefficients: Coefficients) -> Any:
     """A period of functions of waves of commensurable frequencies; None if none is seen."""
     x = coefficients.variable
-    waves = sorted({e for part in coefficients.parts for e in part.atoms(*_WAVES) if e.has(x)}, key=str)
+    waves = sorted({e for part in coefficients.all_parts for e in part.atoms(*_WAVES) if e.has(x)}, key=str)
     known = {e: sympy.Dummy() for e in waves}
-    if not waves or any(
-        part.xreplace(known).has(x) for part in (sympy.sympify(coefficients.a, strict=True), *coefficients.parts)
-    ):
+    if not waves or any(part.xreplace(known).has(x) for part in coefficients.all_parts):
         return None
     rates = [e.args[0].diff(x) / (sympy.I if e.func is sympy.exp else 1) for e in waves]
     shares = [sympy.simplify(rate / rates[0]) for rate in rates]
@@ -369,8 +356,8 @@ def constant_way(coefficients: Coefficients, problem: NumericProblem | None = No
     """The way by matrices where there is one, else that by power series, over many periods at once where there are any."""
     functions = CoefficientField(coefficients)
     x = coefficients.variable
-    parts = (sympy.sympify(coefficients.a, strict=True), coefficients.b, coefficients.c)
-    terms = None if any(part.has(x) for part in parts) else _right_side_terms(coefficients.f, x)
+    a, b, c, f = coefficients.all_parts
+    terms = None if any(part.has(x) for part in (a, b, c)) else _right_side_terms(f, x)
     if terms is not None:
         return ConstantWay(functions, problem, terms=terms)
     period = period_of(coefficients)
@@ -378,23 +365,20 @@ def constant_way(coefficients: Coefficients, problem: NumericProblem | None = No
 
 
 def _right_side_terms(f: Any, x: Any) -> tuple[Term, ...] | None:
-    """The terms of a right-hand side; None for another one."""
+    """The terms of a right-hand side; None for another one.
+
+    The logarithmic derivative of w x^k exp(alpha x) is alpha + k/x; a constant quotient w proves that a term is one.
+    """
     weights: dict[Any, dict[int, Any]] = {}
-    for term in sympy.Add.make_args(sympy.expand(f.rewrite(sympy.exp))):
-        weight, rest = term.as_independent(x, as_Add=False)
-        k = 0
-        alpha = sympy.Integer(0)
-        for factor in sympy.Mul.make_args(rest):
-            if factor.func is sympy.exp and not factor.args[0].diff(x).has(x):
-                alpha += factor.args[0].diff(x)
-                weight *= sympy.exp(factor.args[0].xreplace({x: sympy.Integer(0)}))
-            elif factor.as_base_exp()[0] == x and factor.as_base_exp()[1].is_Integer and factor.as_base_exp()[1] > 0:
-                k += int(factor.as_base_exp()[1])
-            elif factor != 1:
-                return None
-        if weight != 0:
-            known = weights.setdefault(sympy.expand(alpha), {})
-            known[k] = known.get(k, sympy.Integer(0)) + weight
+    for term in (part for part in sympy.Add.make_args(sympy.expand(f.rewrite(sympy.exp))) if part != 0):
+        rate = sympy.expand(term.diff(x) / term)
+        k = rate.coeff(x, -1)
+        alpha = sympy.expand(rate - k / x)
+        weight = term / (x**k * sympy.exp(alpha * x))
+        if alpha.has(x) or weight.has(x) or not (k.is_Integer and k >= 0):
+            return None
+        known = weights.setdefault(alpha, {})
+        known[int(k)] = known.get(int(k), sympy.Integer(0)) + weight
     found = [(alpha, tuple(w.get(k, sympy.Integer(0)) for k in range(max(w) + 1))) for alpha, w in weights.items()]
     return tuple(found) if sum(len(polynomial) for _, polynomial in found) <= _LARGEST else None
 

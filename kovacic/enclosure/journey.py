@@ -12,11 +12,11 @@ from typing import Any
 
 from kovacic.enclosure.classical import Closed
 from kovacic.enclosure.matrices import State
-from kovacic.enclosure.points import ExactPoint, Number, power_of_two
+from kovacic.enclosure.points import ExactPoint, Number, binary_exponent, middle, power_of_two
 from kovacic.enclosure.problem import NumericProblem
 from kovacic.enclosure.rational import ClosedWay, sides
 from kovacic.enclosure.singular import Singular
-from kovacic.enclosure.start import Origin, middle
+from kovacic.enclosure.start import Origin
 from kovacic.enclosure.way import Traveller, Way
 from kovacic.errors import InputError
 
@@ -165,7 +165,7 @@ def _detours(here: ExactPoint | Singular, last: ExactPoint, singular: Sequence[E
         point = ExactPoint(place)
         squares = [(other - point).norm_squared() / 4 for other in singular if other != point]
         square = min([*squares, (here - point).norm_squared()])
-        radius = power_of_two((square.p.bit_length() - square.q.bit_length() - 1) // 2)
+        radius = power_of_two((binary_exponent(square) - 1) // 2)
         centre = (place / radius * 16).floor() * radius / 16
         yield _Detour(place, centre - sign * radius, centre + sign * radius, sign)
 

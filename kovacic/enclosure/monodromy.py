@@ -24,7 +24,7 @@ from kovacic.enclosure.ball import Ball, ball_from_flint, ball_to_flint, finite_
 from kovacic.enclosure.evaluate import with_variable
 from kovacic.enclosure.frobenius import basis, junction
 from kovacic.enclosure.matrices import Matrix, inverse, multiply
-from kovacic.enclosure.points import ExactPoint, as_point, midpoint, power_of_two, to_acb
+from kovacic.enclosure.points import ExactPoint, as_point, binary_exponent, midpoint, root_below, to_acb
 from kovacic.enclosure.precision import start_bits
 from kovacic.enclosure.problem import NumericProblem, as_problem
 from kovacic.enclosure.rational import way_for
@@ -281,8 +281,8 @@ def _places(problem: NumericProblem) -> list[tuple[ExactPoint, Any]]:
     places = []
     for i, p in enumerate(points):
         check_time()
-        gap = min([fmpq(2), *(_root_below((p - q).norm_squared()) for j, q in enumerate(points) if j != i)])
-        places.append((p.rounded(gap.p.bit_length() - gap.q.bit_length() - 8), gap / 2))
+        gap = min([fmpq(2), *(root_below((p - q).norm_squared(), 1) for j, q in enumerate(points) if j != i)])
+        places.append((p.rounded(binary_exponent(gap) - 8), gap / 2))
     return places
 
 
@@ -300,7 +300,7 @@ def _loops(places: list[tuple[ExactPoint, Any]]) -> list[tuple[tuple[ExactPoint,
     loops = []
     for (z, _), radius in zip(places, radii, strict=True):
         # A segment to a square around the point, the square counter-clockwise, and the segment back.
-        corners = [(base - z).scaled(_root_below(radius * radius / (base - z).norm_squared()))]
+        corners = [(base - z).scaled(root_below(radius * radius / (base - z).norm_squared(), 1))]
         for _ in range(4):
             corners.append(corners[-1] * ExactPoint(0, 1))
         loops.append(((base, *(z + corner for corner in corners), base), z))
@@ -313,9 +313,8 @@ def _bases(places: list[tuple[ExactPoint, Any]]) -> Iterator[ExactPoint]:
     spread = max(abs(p.x - q.x) + abs(p.y - q.y) for p in centres for q in centres)
     top = max(z.y for z in centres) + max(fmpq(1), spread)
     middle = sum((z.x for z in centres), fmpq(0)) / len(centres)
-    e = int(spread.p.bit_length() - spread.q.bit_length()) - 10
     for shift in (1, -3, 10, -17, 29, -41):
-        yield ExactPoint(middle + (spread * shift + 1) / 97, top).rounded(e)
+        yield ExactPoint(middle + (spread * shift + 1) / 97, top).rounded(binary_exponent(spread) - 10)
 
 
 def _star(base: ExactPoint, places: list[tuple[ExactPoint, Any]]) -> tuple[list[Any], Any]:
@@ -330,18 +329,13 @@ def _star(base: ExactPoint, places: list[tuple[ExactPoint, Any]]) -> tuple[list[
     return radii, min(radius / largest for radius, (_, largest) in zip(radii, places, strict=True))
 
 
-def _root_below(square: Any) -> Any:
-    """A rational number with few digits between half the square root and the square root; 0 for 0."""
-    unit = power_of_two((square.p.bit_length() - square.q.bit_length()) // 2 - 1)
-    return next(unit * k for k in (3, 2, 1, 0) if (unit * k) ** 2 <= square)
-
-
 def _distance_below(point: ExactPoint, a: ExactPoint, b: ExactPoint) -> Any:
-    """A rational number not above the distance of the point from the segment, and above a third of it."""
+    """A rational number not above the distance of the point from the segment, and at least half of it."""
     step = b - a
     offset = point - a
     t = (offset.x * step.x + offset.y * step.y) / step.norm_squared()
-    return _root_below((offset - step.scaled(min(max(t, fmpq(0)), fmpq(1)))).norm_squared())
+    nearest = step.scaled(min(max(t, fmpq(0)), fmpq(1)))
+    return root_below((offset - nearest).norm_squared(), 1)
 
 
 def _local(

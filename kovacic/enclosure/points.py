@@ -131,6 +131,17 @@ def power_of_two(e: int) -> Any:
     return fmpq(1 << e) if e >= 0 else fmpq(1, 1 << -e)
 
 
+def binary_exponent(value: Any) -> int:
+    """An integer e with 2^(e - 1) < value < 2^(e + 1), for a positive rational number of FLINT's."""
+    return int(value.p.bit_length() - value.q.bit_length())
+
+
+def root_below(square: Any, bits: int) -> Any:
+    """A dyadic number of about so many bits not above the root: floor(2^(bits - k) root) 2^(k - bits), 2^k about the root."""
+    grain = binary_exponent(square) // 2 - bits
+    return fmpq((square / power_of_two(2 * grain)).floor().isqrt()) * power_of_two(grain)
+
+
 def _short(value: Fraction) -> str:
     text = str(value) if value.numerator.bit_length() + value.denominator.bit_length() < 100 else ""
     if 0 < len(text) <= 24:
@@ -161,6 +172,11 @@ def to_double(point: ExactPoint) -> complex:
         return complex(point)
     except OverflowError:
         return complex(math.inf)
+
+
+def middle(number: Number) -> ExactPoint:
+    """The point, or the midpoint of its ball."""
+    return number if isinstance(number, ExactPoint) else number.point()
 
 
 def midpoint(ball: acb) -> ExactPoint:

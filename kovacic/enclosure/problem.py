@@ -119,6 +119,11 @@ class Coefficients:
         """b, c and f."""
         return self.b, self.c, self.f
 
+    @property
+    def all_parts(self) -> tuple[Any, Any, Any, Any]:
+        """a, an expression also where it is 1, b, c and f."""
+        return self.a + self.variable * 0, self.b, self.c, self.f
+
     def given(self, values: Mapping[str, object] | None) -> Coefficients:
         """With the values of the parameters; raises InputError unless each has one."""
         symbols = set().union(*(part.free_symbols for part in self.parts))

@@ -55,11 +55,11 @@ from kovacic.enclosure.matrices import (
     multiply,
     real_part,
 )
-from kovacic.enclosure.points import ExactPoint, Number, around_zero, power_of_two, to_acb
+from kovacic.enclosure.points import ExactPoint, around_zero, power_of_two, to_acb
 from kovacic.enclosure.problem import NumericProblem
 from kovacic.enclosure.singular import Singular
 from kovacic.enclosure.splitting import is_split
-from kovacic.enclosure.start import logarithmic_derivative, spread_by
+from kovacic.enclosure.start import logarithmic_derivative
 from kovacic.enclosure.transport import growth_of_disc, walk
 from kovacic.enclosure.way import MAX_DISCS, Forecast, Homogeneous, Traveller, Way, WayStep, position
 from kovacic.limits import check_time, count_work
@@ -313,12 +313,9 @@ class RationalWay(Way):
             E = acb(E.real)
         return E, acb(0), E * self.gauge.value(to_acb(x)), E
 
-    def spread(self, number: Number, state: State) -> State:
-        def coefficients(ball: acb) -> tuple[acb, acb, acb, bool]:
-            top, first, last = (acb_poly(poly)(ball) for poly in self.problem.equation)
-            return first / top, last / top, acb(0), True
-
-        return spread_by(coefficients, number, state)
+    def around(self, ball: acb) -> tuple[acb, acb, acb, bool]:
+        top, first, last = (acb_poly(poly)(ball) for poly in self.problem.equation)
+        return first / top, last / top, acb(0), True
 
     def decay_rate(self, x: ExactPoint) -> acb:
         system = self.problem.system

@@ -16,7 +16,7 @@ Reference: P. Hartman, "Ordinary Differential Equations" (1964), XI.6 (principal
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 from flint import acb, arb
@@ -24,7 +24,7 @@ from flint import acb, arb
 from kovacic.algebra.precision import working_precision
 from kovacic.enclosure.frame import System, foreseen_growth, frequency
 from kovacic.enclosure.matrices import MapProduct, State
-from kovacic.enclosure.points import Constant, ExactPoint, Number, are_real, around_zero, as_number, to_acb, to_ball
+from kovacic.enclosure.points import ExactPoint, Number, as_number, middle, to_ball
 from kovacic.enclosure.problem import NumericProblem
 from kovacic.enclosure.request import Start
 from kovacic.enclosure.singular import Singular
@@ -54,36 +54,6 @@ class Origin:
         if self.decaying:
             dy = y * way.decay_rate(middle(self.place))
         return way.spread(self.place, (y, dy))
-
-
-def middle(number: Number) -> ExactPoint:
-    """The point, or the midpoint of its ball."""
-    return number if isinstance(number, ExactPoint) else number.point()
-
-
-def spread(values: Sequence[acb], length: arb, state: State, *, real: bool) -> State:
-    """The state anywhere on a piece so long from that at a point of it; b, c and f of y'' + b y' + c y = f on it are `values`.
-
-    For s > 0 and K >= max(1/s, |b| + s |c|), (y, s y') changes by at most (exp(K r) - 1) (max(|y|, s |y'|) + s |f|/K)
-    [equation (1) of `kovacic.enclosure.analytic`].
-    """
-    b, c, f = values
-    steepness = (abs(b) + abs(c).upper().sqrt()).upper()  # for which s b and s^2 c are about 1 at most
-    s = (1 / steepness.max(arb((1, -64)))).mid()
-    K = (1 / s).max(abs(b) + s * abs(c))
-    largest = abs(state[0]).max(s * abs(state[1])) + s * abs(f) / K
-    change = (K * length).expm1() * largest
-    return state[0] + around_zero(change.upper(), real=real), state[1] + around_zero((change / s).upper(), real=real)
-
-
-def spread_by(coefficients: Callable[[acb], tuple[acb, acb, acb, bool]], number: object, state: State) -> State:
-    """The state at a number in a ball from that at its midpoint: `coefficients` gives b, c and f of y'' + b y' + c y = f on a
-    ball, and True if they are proven to be real there."""
-    if not isinstance(number, Constant):
-        return state
-    ball = number.value()
-    *values, real = coefficients(ball)
-    return spread(values, abs(ball - to_acb(middle(number))), state, real=real and are_real([ball, *state]))
 
 
 def read_start(problem: NumericProblem | None, given: Start) -> Origin:

@@ -24,13 +24,13 @@ from kovacic.enclosure.classical import Closed, NotServed, classical_of
 from kovacic.enclosure.closed_form import closed_form_of, decided
 from kovacic.enclosure.frame import foreseen_growth, frequency
 from kovacic.enclosure.journey import Journey
-from kovacic.enclosure.points import ExactPoint, Number, as_number, as_point, to_ball
+from kovacic.enclosure.points import ExactPoint, Number, as_number, as_point, middle, to_ball
 from kovacic.enclosure.precision import PointValue, raise_precision, start_bits
 from kovacic.enclosure.problem import Coefficients, NumericProblem, as_problem, change_of
 from kovacic.enclosure.rational import side_of, way_for
 from kovacic.enclosure.request import METHODS, Method, Path, Request, Start, number_of_digits
 from kovacic.enclosure.singular import Singular
-from kovacic.enclosure.start import middle, read_start
+from kovacic.enclosure.start import read_start
 from kovacic.enclosure.transport import growth_of_disc
 from kovacic.enclosure.way import position
 from kovacic.errors import InputError, LimitExceeded, NotRational

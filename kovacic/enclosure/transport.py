@@ -26,7 +26,7 @@ from flint import fmpq
 
 from kovacic.enclosure.frame import REACH, Frame, System, distance_lower, fitting, is_apart, largest_exponent, log2
 from kovacic.enclosure.matrices import Matrix, State, adjugate, multiply, product
-from kovacic.enclosure.points import ExactPoint, power_of_two
+from kovacic.enclosure.points import ExactPoint, binary_exponent, power_of_two, root_below
 from kovacic.enclosure.splitting import legs
 from kovacic.enclosure.taylor import expand
 from kovacic.enclosure.way import DiscStep, Homogeneous, Local, WayStep
@@ -151,7 +151,7 @@ class StraightPiece:
         None if the junction `enter` lies off the path and no disc down to an eighth of the last one (`guess`) contains both.
         """
         remaining = (1 - t) ** 2 * (self.b - self.a).norm_squared()
-        e = _root_exponent(remaining)
+        e = binary_exponent(remaining) // 2
         if not _reaches_end(remaining, e):  # a scale at which the last disc never comes would be taken again and again
             e += 1
         if guess is not None:
@@ -203,9 +203,8 @@ class StraightPiece:
     def _beside(self, t: Any, e: int) -> _Placed:
         """Ahead by short dyadic parameters, just below 2^e/|b - a| and twice as much."""
         square = power_of_two(2 * e) / (self.b - self.a).norm_squared()
-        k = _root_exponent(square)
-        forward = (square / power_of_two(2 * k - 24)).floor().isqrt() * power_of_two(k - 12) * fmpq(15, 16)
-        grain = power_of_two(k - 8)
+        forward = root_below(square, 12) * fmpq(15, 16)
+        grain = power_of_two(binary_exponent(square) // 2 - 8)
         t_leave = t + (forward * fmpq(31, 16) / grain).floor() * grain
         return _Placed(self.at(t + forward).rounded(e - 4), self.at(t_leave).rounded(e - 4), t_leave)
 
@@ -221,8 +220,3 @@ class _Placed(NamedTuple):
 def _reaches_end(square: Any, e: int) -> bool:
     """True if a disc of scale 2^e contains, with room to spare, a way whose length has this square."""
     return bool(square <= power_of_two(2 * e + 2) * fmpq(9, 10))
-
-
-def _root_exponent(square: Any) -> int:
-    """An integer e with 2^e within a factor of 2 of the root of `square`."""
-    return int(square.p.bit_length() - square.q.bit_length()) // 2

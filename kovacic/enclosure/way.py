@@ -32,7 +32,15 @@ from kovacic.enclosure.matrices import (
     identity,
     multiply,
 )
-from kovacic.enclosure.points import ExactPoint, Number, around_zero, power_of_two, to_acb
+from kovacic.enclosure.points import (
+    ExactPoint,
+    Number,
+    are_real,
+    around_zero,
+    binary_exponent,
+    power_of_two,
+    to_acb,
+)
 from kovacic.enclosure.singular import Singular
 from kovacic.errors import InputError, LimitExceeded
 from kovacic.limits import check_duration, watched_seconds
@@ -240,8 +248,16 @@ class Way(ABC):
         """The discs from a towards b; `alone` says that only the end is asked for."""
 
     @abstractmethod
+    def around(self, ball: acb) -> tuple[acb, acb, acb, bool]:
+        """b, c and f of y'' + b y' + c y = f on a ball, and True if they are proven to be real there."""
+
     def spread(self, number: Number, state: State) -> State:
         """The state at a number in a ball from that at its midpoint."""
+        if isinstance(number, ExactPoint):
+            return state
+        ball = number.value()
+        *values, real = self.around(ball)
+        return spread(values, abs(ball - to_acb(number.point())), state, real=real and are_real([ball, *state]))
 
     def into(self, x: ExactPoint) -> Matrix:
         """From the user's (y, y') at x to what is carried."""
@@ -254,8 +270,8 @@ class Way(ABC):
     def horizon(self, here: ExactPoint, stop: ExactPoint) -> ExactPoint:
         """The end of the ray that serves this target and nearer ones: at the next power of two."""
         distance = position(here, stop)
-        e = int(distance.p.bit_length() - distance.q.bit_length()) - 1
-        while power_of_two(e) < distance:
+        e = binary_exponent(distance)
+        if power_of_two(e) < distance:
             e += 1
         return here + (stop - here).scaled(power_of_two(e) / distance)
 
@@ -280,6 +296,21 @@ class Way(ABC):
     def decay_rate(self, x: ExactPoint) -> acb:
         """y'/y at x of the solution that decays for large x."""
         raise InputError("the decaying solution needs rational coefficients", hint="give y0 and dy0")
+
+
+def spread(values: Sequence[acb], length: arb, state: State, *, real: bool) -> State:
+    """The state anywhere on a piece so long from that at a point of it; b, c and f of y'' + b y' + c y = f on it are `values`.
+
+    For s > 0 and K >= max(1/s, |b| + s |c|), (y, s y') changes by at most (exp(K r) - 1) (max(|y|, s |y'|) + s |f|/K)
+    [equation (1) of `kovacic.enclosure.analytic`].
+    """
+    b, c, f = values
+    steepness = (abs(b) + abs(c).upper().sqrt()).upper()  # for which s b and s^2 c are about 1 at most
+    s = (1 / steepness.max(arb((1, -64)))).mid()
+    K = (1 / s).max(abs(b) + s * abs(c))
+    largest = abs(state[0]).max(s * abs(state[1])) + s * abs(f) / K
+    change = (K * length).expm1() * largest
+    return state[0] + around_zero(change.upper(), real=real), state[1] + around_zero((change / s).upper(), real=real)
 
 
 def position(here: ExactPoint, x: ExactPoint) -> Any:

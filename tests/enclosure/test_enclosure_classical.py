@@ -63,8 +63,7 @@ def compare(pullback: Pullback, a: ExactPoint, b: ExactPoint, bits: int) -> bool
             matrix = Classical(pullback).leg(a, b)
         except NotServed:
             return False
-    system = System.of(pullback.S)
-    rows = connection_matrix(system, [a, b], digits=bits * 3 // 10)
+    rows = connection_matrix(pullback.S, [a, b], digits=bits * 3 // 10)
     with ctx.workprec(bits + 20):
         taylor = [ball_to_flint(entry) for row in rows for entry in row]
         assert all(m.overlaps(n) for m, n in zip(matrix, taylor, strict=True)), (pullback, a, b, bits)
