@@ -93,38 +93,26 @@ def without_removable(e: Any, x: Any) -> Any:
     for function, quotient in _QUOTIENTS.items():
         plain = plain.replace(function, quotient)
     numerator, denominator = sympy.fraction(sympy.together(plain))
-    over: list[tuple[Any, int]] = []
-    under: list[tuple[Any, int]] = []
-    powers = []
+    over: list[Any] = []  # zeros and their orders, as arguments of `Divided`
+    under: list[Any] = []
+    power = sympy.Integer(1)
     for zero in _zeros(numerator, x) | _zeros(denominator, x):
         k = _order(numerator, x, zero)
         m = _order(denominator, x, zero)
         if k > 0 and m > 0:
-            over.append((zero, k))
-            under.append((zero, m))
-            powers.append((x - zero) ** (k - m))
-    if not over:
-        return e
-    return sympy.Mul(*powers, _divided(numerator, x, over), 1 / _divided(denominator, x, under))
-
-
-def _divided(function: Any, x: Any, zeros: list[tuple[Any, int]]) -> Any:
-    pairs: list[Any] = []
-    for zero, k in zeros:
-        pairs += [zero, sympy.Integer(k)]
-    return Divided(function, x, *pairs)
+            over += [zero, k]
+            under += [zero, m]
+            power *= (x - zero) ** (k - m)
+    return power * Divided(numerator, x, *over) / Divided(denominator, x, *under) if over else e
 
 
 def _zeros(product: Any, x: Any) -> set[Any]:
     """The zeros of linear factors over Q of its polynomial factors."""
-    found = set()
+    found: set[Any] = set()
     for factor in sympy.Mul.make_args(product):
-        base = factor.base if factor.is_Pow else factor
-        if not base.has(x) or not base.is_polynomial(x):
-            continue
-        for part, _ in sympy.Poly(base, x).factor_list()[1]:
-            if part.degree() == 1:
-                found.add(-part.nth(0) / part.nth(1))
+        base, _ = factor.as_base_exp()
+        if base.has(x) and base.is_polynomial(x):
+            found.update(sympy.Poly(base, x).ground_roots())
     return found
 
 
@@ -181,12 +169,8 @@ class CoefficientEvaluator(BallEvaluator):
 
     def _near(self, function: Any, symbol: Any, x: Any, zero: acb, k: int) -> Any:
         """The function over (x - zero)^k, by its series there."""
-        if isinstance(x, acb_series):
-            centre = x[0] - zero
-            scale = x[1]
-        else:
-            centre = x - zero
-            scale = acb(0)
+        # A ball counts as a series of one term.
+        centre, scale, length = (x[0] - zero, x[1], ctx.cap) if isinstance(x, acb_series) else (x - zero, acb(0), 1)
         reach = (abs(centre) + 2 * abs(scale)).upper()
         # At the zero itself any reach will do for which the disc is free of other singularities.
         reaches = [arb((1, -k)) for k in range(1, _NEAREST)] if reach.is_zero() else [reach]
@@ -209,11 +193,9 @@ class CoefficientEvaluator(BallEvaluator):
         inside = zero + arb(0, reach)
         values = CoefficientEvaluator({**self.values, symbol: inside}, variable=symbol)
         error = around_zero(tail, real=are_real([inside, centre, scale, values(function)]))
-        if not isinstance(x, acb_series):
-            return polynomial(centre) + error
-        found = polynomial(acb_poly([centre, scale])).coeffs()[: ctx.cap]
-        found += [acb(0)] * (ctx.cap - len(found))
-        return acb_series([value + error / 2**j for j, value in enumerate(found)])
+        moved = polynomial(acb_poly([centre, scale]))
+        found = [moved[j] + error / 2**j for j in range(length)]
+        return acb_series(found) if isinstance(x, acb_series) else found[0]
 
 
 @lru_cache(maxsize=1024)
@@ -237,9 +219,9 @@ _ROUGH = 64
 """Bits of bounds."""
 _RADII = (2, 3, 4, 6, 8, 12, 16)
 _LEAF = 6
-_FIRST = 24
+_DOUBLINGS = 40
 _QUIET = 8
-"""Terms of the recurrence that are computed one by one, those of the first block, and the number of small ones at its end."""
+"""Terms of the recurrence that are computed one by one, how often that is doubled at most, and the small ones at its end."""
 _TERMS = 2
 _MOST_TERMS = 40
 """Terms for each bit, at most: of the coefficients in a disc, and of a solution."""
@@ -444,16 +426,19 @@ def _solved(jets: Jets, start: int | None) -> Local:
 
 def _defect(jets: Jets, values: list[Any], right: Any) -> arb:
     """A bound rho of the defect for |u| <= 1."""
-    n = len(values)
-    y = [abs(value).upper() for value in values]
-    dy = [value * k for k, value in enumerate(y)][1:]
-    ddy = [value * k for k, value in enumerate(dy)][1:]
+    y = _absolute(values)
+    slope = y.derivative()
     rho = arb(0) if right.degree() < 0 else jets.rests[3]
-    total = arb_poly([abs(value).upper() for value in right.coeffs()])
-    for part, rest, series in zip(jets.parts, jets.rests, (ddy, dy, y), strict=False):
-        total += arb_poly([abs(value).upper() for value in part.coeffs()]) * arb_poly(series)
-        rho += rest * sum(series, arb(0))
-    return ((rho + sum(total.coeffs()[n - 2 :], arb(0))) / jets.least).upper()
+    total = _absolute(right.coeffs())
+    for part, rest, series in zip(jets.parts, jets.rests, (slope.derivative(), slope, y), strict=False):
+        total += _absolute(part.coeffs()) * series
+        rho += rest * series(1)
+    return ((rho + sum(total.coeffs()[len(values) - 2 :], arb(0))) / jets.least).upper()
+
+
+def _absolute(values: list[Any]) -> arb_poly:
+    """The polynomial with the absolute values as its coefficients: at 1 it bounds that with the values for |u| <= 1."""
+    return arb_poly([abs(value).upper() for value in values])
 
 
 class _Recurrence:
@@ -471,20 +456,15 @@ class _Recurrence:
         series = self.bends, self.slopes, self.values
         self.terms = [(part.coeffs(), known) for part, known in zip(parts, series, strict=True) if part.degree() >= 0]
         self.sums = [-value for value in right.coeffs()]
+        self._extend(_LEAF)
         self.least = max(_QUIET + 2, len(self.sums), *(len(part) for part, _ in self.terms), 0)
         self.small = arb((1, -bits))
         self.most = _MOST_TERMS * bits + 400
         self.ended = False
-        known = 0
-        size = _FIRST
-        while not self.ended:
-            self._give(0, known, known + size)
-            self._continue(known, known + size)
-            known += size
-            size = known
+        self._continue(0, _LEAF << _DOUBLINGS)
 
     def _continue(self, low: int, high: int) -> None:
-        """The steps k = low, ..., high - 1, where what comes from j < low is in the sums."""
+        """The steps k = low, ..., high - 1, or up to the end, where what comes from j < low is in the sums."""
         if self.ended:
             return
         if high - low > _LEAF:
@@ -493,7 +473,6 @@ class _Recurrence:
             self._give(low, middle, high)
             self._continue(middle, high)
             return
-        self._extend(high)
         for k in range(low, high):
             total = self.sums[k]
             for part, series in self.terms:
@@ -511,15 +490,14 @@ class _Recurrence:
 
     def _give(self, low: int, middle: int, high: int) -> None:
         """To the sums k = middle, ..., high - 1 what comes from j = low, ..., middle - 1."""
-        if self.ended or low == middle:
+        if self.ended:
             return
         count = high - low
         product = self.kind([])
         for part, series in self.terms:
             product += self.kind(part[:count]) * self.kind(series[low:middle])
-        given = product.coeffs()[middle - low : count]
-        self._extend(middle + len(given))
-        for k, value in enumerate(given, start=middle):
+        self._extend(high)
+        for k, value in enumerate(product.coeffs()[middle - low : count], start=middle):
             self.sums[k] += value
 
     def _extend(self, length: int) -> None:
