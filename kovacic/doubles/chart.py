@@ -7,7 +7,7 @@ A `Region` is where a double-precision function is defined: a real interval, or 
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from fractions import Fraction
 from functools import cached_property
@@ -29,7 +29,9 @@ from kovacic.enclosure.matrices import State
 from kovacic.enclosure.points import ExactPoint, as_point, in_balls, midpoint, power_of_two, to_acb
 from kovacic.enclosure.precision import start_bits
 from kovacic.enclosure.problem import Coefficients, NumericProblem, as_problem, change_of
+from kovacic.enclosure.request import Params
 from kovacic.enclosure.states import evaluate_states
+from kovacic.enclosure.way import States
 from kovacic.errors import InputError, NotRational
 from kovacic.limits import DEFAULT_LIMITS, Limits, check_time, count_work
 from kovacic.reading.change_of_variable import function_of_x, without_change
@@ -264,7 +266,7 @@ class RationalChart:
         equation, in which the dominant solution would grow."""
         goal = start_bits(digits) - 24
         prec = 2 * start_bits(digits) + branch.P.degree
-        found = dict[ExactPoint, State]()
+        found: States = {}
         while len(found) < len({*points}):
             with working_precision(prec):
                 z = to_acb(self.given["x0"])
@@ -408,9 +410,7 @@ def _real_value(value: acb) -> arb:
 PieceChart = RationalChart | AnalyticChart
 
 
-def chart_of(
-    equation: object, given: dict[str, Any], params: Mapping[str, object] | None, *, constants: bool = True
-) -> PieceChart:
+def chart_of(equation: object, given: dict[str, Any], params: Params, *, constants: bool = True) -> PieceChart:
     """The chart of an equation, as `evaluate` takes it; right-hand sides and constants only where a solution is `given`."""
     change = change_of(equation)
     if change is None:
@@ -425,7 +425,7 @@ def chart_of(
     return AnalyticChart(coefficients, given, getattr(equation, "equation", None), problem)
 
 
-def _real_problem(equation: object, params: Mapping[str, object] | None, constants: bool) -> NumericProblem:
+def _real_problem(equation: object, params: Params, constants: bool) -> NumericProblem:
     problem = as_problem(equation, params, forced=constants, constants=constants)
     if not problem.is_real:
         raise InputError(_COMPLEX, hint="evaluate takes others")

@@ -29,6 +29,7 @@ from kovacic.limits import check_time
 
 Floats = NDArray[np.float64]
 Complexes = NDArray[np.complex128]
+Solution = Callable[[Sequence[ExactPoint]], Sequence[Any]]  # y and y' in balls at points
 
 _PER_PERIOD = 12
 #: Periods shorter than this share of the picture's width are shown by their envelope.
@@ -108,7 +109,7 @@ def arcs(
     interval: tuple[Fraction, Fraction],
     width: Fraction,
     points: int,
-    states: Callable[[Sequence[ExactPoint]], Sequence[Any]],
+    states: Solution,
 ) -> list[Arc | Envelope]:
     """The curve over an interval without singular points, of a picture of this width with this many samples or more.
 
@@ -162,9 +163,7 @@ def _stretches(kind: NDArray[np.bool_]) -> list[tuple[int, int]]:
     return [(first, last) for first, last in pairwise(ends) if first < last]
 
 
-def _arc(
-    part: CurveCoefficients, width: Fraction, points: int, states: Callable[[Sequence[ExactPoint]], Sequence[Any]]
-) -> Arc:
+def _arc(part: CurveCoefficients, width: Fraction, points: int, states: Solution) -> Arc:
     """Samples by the local frequency, then halved where the cubic between two isn't good enough."""
     density = np.maximum(points / float(width), _PER_PERIOD * part.frequency / (2 * np.pi))
     steps = np.maximum(density[1:], density[:-1]) * np.diff(part.x)
@@ -182,9 +181,7 @@ def _arc(
     return arc
 
 
-def _halved(
-    arc: Arc, doubtful: NDArray[np.bool_], usual: float, states: Callable[[Sequence[ExactPoint]], Sequence[Any]]
-) -> tuple[Arc, NDArray[np.bool_]]:
+def _halved(arc: Arc, doubtful: NDArray[np.bool_], usual: float, states: Solution) -> tuple[Arc, NDArray[np.bool_]]:
     """One more sample in the middle of each doubtful interval; both halves stay doubtful where the cubic missed it."""
     left = np.flatnonzero(doubtful)
     right = left + 1
@@ -207,9 +204,7 @@ def _halved(
     return merged, still
 
 
-def _envelope(
-    chart: PieceChart, part: CurveCoefficients, width: Fraction, states: Callable[[Sequence[ExactPoint]], Sequence[Any]]
-) -> Envelope:
+def _envelope(chart: PieceChart, part: CurveCoefficients, width: Fraction, states: Solution) -> Envelope:
     low = part.x[0]
     high = part.x[-1]
     count = max(8, int(_ENVELOPE * (high - low) / float(width)))
@@ -230,7 +225,7 @@ def _periods(x: Floats, frequency: Floats) -> float:
     return float(np.trapezoid(frequency, x) / (2 * np.pi))
 
 
-def _with_samples(x: Floats, states: Callable[[Sequence[ExactPoint]], Sequence[Any]]) -> Arc:
+def _with_samples(x: Floats, states: Solution) -> Arc:
     found = states([ExactPoint(Fraction(float(at))) for at in x])
     balls = [[finite_ball(value) for value in state] for state in found]
     try:

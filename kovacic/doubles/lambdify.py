@@ -30,7 +30,7 @@ from kovacic.enclosure.ball import ball_from_flint
 from kovacic.enclosure.evaluate import with_variable
 from kovacic.enclosure.points import ExactPoint, as_point, to_acb
 from kovacic.enclosure.precision import AccuracyWarning
-from kovacic.enclosure.request import Keywords, Path, Request, Start, fields_of
+from kovacic.enclosure.request import Keywords, Params, Path, Request, Start, fields_of
 from kovacic.errors import InputError, LimitExceeded, warn_user
 from kovacic.limits import DEFAULT_LIMITS, Limits, bounded_work, limited
 from kovacic.numbers.exact import exact_real, whole
@@ -191,9 +191,7 @@ def _question(initial: Start, path: Path) -> tuple[dict[str, Any], int]:
     return start, number
 
 
-def _printed(
-    solution: object, which: str, candidates: Sequence[ExactPoint], params: Mapping[str, object] | None
-) -> dict[str, Any]:
+def _printed(solution: object, which: str, candidates: Sequence[ExactPoint], params: Params) -> dict[str, Any]:
     """The start of y1 or y2 of the closed form, from its balls at the first of the points where they are finite."""
     import sympy
 
@@ -212,9 +210,7 @@ def _printed(
     raise InputError(f"{y} has no value near the middle of the interval")
 
 
-def _chart(
-    solution: object, start: dict[str, Any], params: Mapping[str, object] | None, limits: Limits | None
-) -> PieceChart:
+def _chart(solution: object, start: dict[str, Any], params: Params, limits: Limits | None) -> PieceChart:
     """The equation with the values of its parameters; without initial values, with a decision."""
     chart = chart_of(solution, start, params, constants=bool(start))
     if start:

@@ -54,7 +54,7 @@ from kovacic.enclosure.points import (
     to_ball,
 )
 from kovacic.enclosure.problem import Coefficients, NumericProblem, cleared, root_of
-from kovacic.enclosure.way import Forecast, Traveller, Way, WayStep, spread
+from kovacic.enclosure.way import Forecast, States, Traveller, Way, WayStep, spread
 from kovacic.errors import InputError, LimitExceeded
 from kovacic.limits import check_time, count_work
 
@@ -274,7 +274,7 @@ class PeriodicWay(AnalyticWay):
         first, second, own = (self.spread(number, v) for v in ((M[0], M[2]), (M[1], M[3]), particular))
         return fundamental(first, second), own
 
-    def fan(self, traveller: Traveller, stops: Sequence[ExactPoint]) -> dict[ExactPoint, State]:
+    def fan(self, traveller: Traveller, stops: Sequence[ExactPoint]) -> States:
         here = traveller.point
         periods = {stop: abs(self._periods(here, stop)) for stop in stops}
         if max(periods.values()) < _FEWEST_PERIODS + len(stops):  # discs on the way serve all of them
@@ -348,7 +348,7 @@ class ConstantWay(AnalyticWay):
             first, second = acb(first.real), acb(second.real)
         return maps.after(matrix, (first, second))
 
-    def fan(self, traveller: Traveller, stops: Sequence[ExactPoint]) -> dict[ExactPoint, State]:
+    def fan(self, traveller: Traveller, stops: Sequence[ExactPoint]) -> States:
         return traveller.to_each(stops)
 
 

@@ -20,7 +20,7 @@ from typing import Any, Literal, Unpack, overload
 from kovacic.answer import Answer
 from kovacic.enclosure.ball import Ball
 from kovacic.enclosure.precision import AccuracyWarning
-from kovacic.enclosure.request import Keywords, Request, Start, fields_of, number_of_digits
+from kovacic.enclosure.request import Keywords, Params, Request, Start, fields_of, number_of_digits
 from kovacic.enclosure.states import question_of
 from kovacic.errors import InputError, NotRational, warn_user
 from kovacic.limits import Limits, limited, limits_of
@@ -252,9 +252,7 @@ def _prepared(equation: object, request: Request) -> Prepared:
     return Prepared(question_of(equation, request), request.start)
 
 
-def with_variable(
-    equation: object, var: object, limits: Limits | None = None, params: Mapping[str, object] | None = None
-) -> object:
+def with_variable(equation: object, var: object, limits: Limits | None = None, params: Params = None) -> object:
     """The equation, read with this name of its variable; as it was given where none is named.  Warns of what is guessed."""
     declared = words_among(params or ())
     if isinstance(equation, str):

@@ -17,7 +17,7 @@ y' = t' Y'.  What a wave exp(i k x) makes of a segment is no segment; its discs 
 
 from __future__ import annotations
 
-from collections.abc import Collection, Mapping, Sequence
+from collections.abc import Collection, Sequence
 from dataclasses import dataclass, replace
 from functools import lru_cache
 from typing import Any
@@ -32,6 +32,7 @@ from kovacic.closed_form.atoms import Atoms
 from kovacic.enclosure.points import Constant, Number, are_real, in_balls, to_ball
 from kovacic.enclosure.precision import PointValue
 from kovacic.enclosure.problem import Coefficients, NumericProblem, as_problem, change_of
+from kovacic.enclosure.request import Params
 from kovacic.enclosure.start import Origin
 from kovacic.equation import Equation
 from kovacic.errors import LimitExceeded, NotRational
@@ -41,7 +42,7 @@ from kovacic.reading.read import read_input
 from kovacic.reading.source import parts_of, source_of
 
 
-def coefficients_of_any(equation: Any, params: Mapping[str, object] | None, limits: Limits) -> Coefficients:
+def coefficients_of_any(equation: Any, params: Params, limits: Limits) -> Coefficients:
     """Those of an equation whose coefficients aren't rational: a text, a SymPy expression, or what was read or solved.
 
     Raises InputError for what isn't a linear equation of second order, or lacks values of its parameters.

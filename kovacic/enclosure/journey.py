@@ -17,7 +17,7 @@ from kovacic.enclosure.problem import NumericProblem
 from kovacic.enclosure.rational import ClosedWay, sides
 from kovacic.enclosure.singular import Singular
 from kovacic.enclosure.start import Origin
-from kovacic.enclosure.way import Traveller, Way
+from kovacic.enclosure.way import States, Traveller, Way
 from kovacic.errors import InputError
 
 _MARGIN = 1 + power_of_two(-16)  # more than the errors of singular points that are known to 256 bits
@@ -92,7 +92,7 @@ class Journey:
             traveller = traveller.moved(middle(vertex))
         return traveller
 
-    def _around(self, traveller: Traveller, stops: Sequence[ExactPoint], side: str) -> dict[ExactPoint, State]:
+    def _around(self, traveller: Traveller, stops: Sequence[ExactPoint], side: str) -> States:
         """As `Traveller.fan`, around singular points of the real axis on this side.
 
         A detour is as wide as its distance to the start and to other singular points allows: near an irregular one the
@@ -101,7 +101,7 @@ class Journey:
         """
         assert self.problem is not None
         singular = self.problem.singular_points(256)
-        found: dict[ExactPoint, State] = {}
+        found: States = {}
         for waiting in sides(traveller.here, list(dict.fromkeys(stops))):
             one = traveller
             for detour in _joined(_detours(one.here, waiting[-1], singular), waiting, singular):

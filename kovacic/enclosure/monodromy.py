@@ -13,7 +13,7 @@ Reference: M. van der Put and M. F. Singer, "Galois Theory of Linear Differentia
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 from typing import Any
 
@@ -28,7 +28,7 @@ from kovacic.enclosure.points import ExactPoint, as_point, binary_exponent, midp
 from kovacic.enclosure.precision import start_bits
 from kovacic.enclosure.problem import NumericProblem, as_problem
 from kovacic.enclosure.rational import way_for
-from kovacic.enclosure.request import Accuracy, digits_and_limits
+from kovacic.enclosure.request import Accuracy, Params, digits_and_limits
 from kovacic.enclosure.singular import Singular
 from kovacic.enclosure.start import place_of
 from kovacic.enclosure.way import Traveller
@@ -127,7 +127,7 @@ def connection_matrix(
     equation: object,
     path: Sequence[object],
     *,
-    params: Mapping[str, object] | None = None,
+    params: Params = None,
     var: str | None = None,
     accuracy: Accuracy | None = None,
     digits: int | None = None,
@@ -230,7 +230,7 @@ def _connection(problem: NumericProblem, way: _Polygon, prec: int) -> Matrix:
 def monodromy(
     equation: object,
     *,
-    params: Mapping[str, object] | None = None,
+    params: Params = None,
     var: str | None = None,
     accuracy: Accuracy | None = None,
     digits: int | None = None,

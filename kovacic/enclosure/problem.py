@@ -39,6 +39,7 @@ from kovacic.enclosure.points import (
     to_acb,
     to_ball,
 )
+from kovacic.enclosure.request import Params
 from kovacic.equation import Change, Equation, Parsed, parameters_of
 from kovacic.errors import InputError, LimitExceeded, NotRational
 from kovacic.numbers.numerals import as_text
@@ -124,7 +125,7 @@ class Coefficients:
         """a, an expression also where it is 1, b, c and f."""
         return self.a + self.variable * 0, self.b, self.c, self.f
 
-    def given(self, values: Mapping[str, object] | None) -> Coefficients:
+    def given(self, values: Params) -> Coefficients:
         """With the values of the parameters; raises InputError unless each has one."""
         symbols = set().union(*(part.free_symbols for part in self.parts))
         names = {symbol.name for symbol in symbols} - {self.variable.name}
@@ -268,7 +269,7 @@ class NumericProblem:
 
 
 def as_problem(
-    equation: object, params: Mapping[str, object] | None = None, *, forced: bool = False, constants: bool = False
+    equation: object, params: Params = None, *, forced: bool = False, constants: bool = False
 ) -> NumericProblem:
     """The numerical problem that `equation` stands for, with these values of its parameters; see
     `kovacic.enclosure.evaluate.evaluate` for what is accepted.  Only with `forced` may it have a right-hand side, and only
@@ -313,7 +314,7 @@ def _of_text(equation: str) -> NumericProblem | NotRational:
         return reason
 
 
-def read_problem(equation: object, params: Mapping[str, object] | None = None) -> NumericProblem:
+def read_problem(equation: object, params: Params = None) -> NumericProblem:
     """As `as_problem`, whatever its coefficients and its right-hand side are."""
     found: Answer | Parsed
     if isinstance(equation, Answer | Parsed):
@@ -365,7 +366,7 @@ def _specialised(given: Equation, values: Mapping[str, Fraction]) -> Equation:
 
 
 def values_of_parameters(
-    names: tuple[str, ...], params: Mapping[str, object], constants: Mapping[str, object] | None = None
+    names: tuple[str, ...], params: Mapping[str, object], constants: Params = None
 ) -> dict[str, Number]:
     """The values of the parameters, those of `constants` included; raises InputError unless there is one for each other."""
     known = {name: as_number(value, name) for name, value in (constants or {}).items()}

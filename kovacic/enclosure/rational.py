@@ -61,7 +61,7 @@ from kovacic.enclosure.singular import Singular
 from kovacic.enclosure.splitting import is_split
 from kovacic.enclosure.start import logarithmic_derivative
 from kovacic.enclosure.transport import growth_of_disc, walk
-from kovacic.enclosure.way import MAX_DISCS, Forecast, Homogeneous, Traveller, Way, WayStep, position
+from kovacic.enclosure.way import MAX_DISCS, Forecast, Homogeneous, States, Traveller, Way, WayStep, position
 from kovacic.limits import check_time, count_work
 
 _WORTH = 4  # times as many radians as bits, on the whole way: with fewer, discs are as fast
@@ -329,9 +329,9 @@ class RationalWay(Way):
         needed = not start[0].is_zero(), not start[1].is_zero()
         return last, basis(point, last, stop, bound, self.prec, needed=needed)
 
-    def fan(self, traveller: Traveller, stops: Sequence[ExactPoint]) -> dict[ExactPoint, State]:
+    def fan(self, traveller: Traveller, stops: Sequence[ExactPoint]) -> States:
         here = traveller.here
-        found: dict[ExactPoint, State] = {}
+        found: States = {}
         ends = stops if isinstance(here, Singular) else [here, *stops]
         is_far = is_split(self.problem.system, self.prec // len(stops), *ends)
         if is_far or isinstance(here, Singular):
@@ -344,9 +344,9 @@ class RationalWay(Way):
             return traveller.along_rays(stops)
         return self._by_discs(traveller, here, stops)
 
-    def _by_discs(self, traveller: Traveller, here: ExactPoint, stops: Sequence[ExactPoint]) -> dict[ExactPoint, State]:
+    def _by_discs(self, traveller: Traveller, here: ExactPoint, stops: Sequence[ExactPoint]) -> States:
         """Along the line to the farthest stop, again and again: the discs on it serve others, too."""
-        found: dict[ExactPoint, State] = {}
+        found: States = {}
         waiting = sorted(set(stops), key=lambda stop: (stop - here).norm_squared())
         inward = self.into(here)
         while waiting:
@@ -385,7 +385,7 @@ class ClosedWay(RationalWay):
             matrix = real_part(matrix)
         return maps.after(multiply(self.out_of(a, b), multiply(matrix, self.into(a))))
 
-    def fan(self, traveller: Traveller, stops: Sequence[ExactPoint]) -> dict[ExactPoint, State]:
+    def fan(self, traveller: Traveller, stops: Sequence[ExactPoint]) -> States:
         return traveller.to_each(stops)
 
     def departure(self, point: Singular, stop: ExactPoint, start: State) -> tuple[ExactPoint, Matrix]:

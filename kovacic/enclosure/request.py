@@ -84,6 +84,7 @@ class Accuracy:
 
 
 Path = Sequence[object] | Literal["chain", "above", "below"] | None
+Params = Mapping[str, object] | None  # values of parameters by their names
 
 
 class Keywords(TypedDict, total=False):
@@ -100,7 +101,7 @@ class Keywords(TypedDict, total=False):
     method: Method | None
     limits: Limits | None
     path: Path
-    params: Mapping[str, object] | None
+    params: Params
     var: str | None
 
 
@@ -110,7 +111,7 @@ class Request(NamedTuple):
     start: Start
     accuracy: Accuracy
     path: Path = None
-    params: Mapping[str, object] | None = None
+    params: Params = None
     var: str | None = None
 
     @classmethod

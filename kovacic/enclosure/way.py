@@ -53,6 +53,9 @@ _MOST_DISCS = 4000
 """Discs that a ray keeps: some kilobytes each at 15 digits."""
 
 
+States = dict[ExactPoint, State]  # what was found, by points
+
+
 @dataclass(frozen=True)
 class Local:
     """A solution in a disc, x = centre + 2^e u: `poly` in u, off by at most `error`, and its derivative by `slope_error`.
@@ -285,7 +288,7 @@ class Way(ABC):
             ahead.check(number)
         return maps.after(self.out_of(a, b))
 
-    def fan(self, traveller: Traveller, stops: Sequence[ExactPoint]) -> dict[ExactPoint, State]:
+    def fan(self, traveller: Traveller, stops: Sequence[ExactPoint]) -> States:
         """The states at the ends of straight lines from where the traveller is, which is none of them."""
         return traveller.along_rays(stops)
 
@@ -436,7 +439,7 @@ class Traveller:
             self.onward[corner] = self.moved(corner)
         return self.onward[corner]
 
-    def fan(self, stops: Sequence[ExactPoint]) -> dict[ExactPoint, State]:
+    def fan(self, stops: Sequence[ExactPoint]) -> States:
         """The states at the ends of straight lines from here."""
         at_rest = {stop for stop in stops if self.is_at(stop)}
         others = [stop for stop in stops if stop not in at_rest]
@@ -451,17 +454,17 @@ class Traveller:
         """The state here, at a singular point the limits of y and y'."""
         return limit(self.here, self.start) if isinstance(self.here, Singular) else self.state
 
-    def to_each(self, stops: Sequence[ExactPoint]) -> dict[ExactPoint, State]:
+    def to_each(self, stops: Sequence[ExactPoint]) -> States:
         """Straight on to one after the other, from here."""
         return {stop: self.moved(stop).state for stop in stops}
 
-    def along_rays(self, stops: Sequence[ExactPoint]) -> dict[ExactPoint, State]:
+    def along_rays(self, stops: Sequence[ExactPoint]) -> States:
         """In discs that are kept for the next call."""
         here = self.point
         rays: dict[ExactPoint, list[ExactPoint]] = {}  # the points in one direction together, the nearest first
         for stop in sorted({*stops}, key=lambda stop: position(here, stop)):
             rays.setdefault((stop - here).scaled(1 / position(here, stop)), []).append(stop)
-        found: dict[ExactPoint, State] = {}
+        found: States = {}
         for on_it in rays.values():
             far = self.way.horizon(here, on_it[-1])
             if far not in self.rays:
