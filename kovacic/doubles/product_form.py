@@ -323,15 +323,10 @@ class _Product:
             e = 2 * e
             power = Complex(power.re)
         whole = f.whole
-        if d.im is None and not f.is_natural:
+        is_real = d.im is None
+        if is_real and not f.is_natural:
             d = Complex(absolute(d.re))
-        if whole is None:
-            is_real = d.im is None and power.im is None
-            if is_real and not self.careful:
-                self._times(Complex(np.power(d.re, power.re.hi)), 0)  # exact but for one rounding, unlike a logarithm
-            else:
-                growth.append(power * self._logarithm(d, e, f.turn))
-        elif d.im is None or f.is_natural:
+        if whole is not None and (is_real or f.is_natural):
             self.binary = self.binary + e * whole
             degree = 2 if f.paired else 1
             # One factor after the other, or the reciprocal of them all.
@@ -340,6 +335,8 @@ class _Product:
                 pieces = [math.prod(pieces[1:], start=d).reciprocal()]
             for piece in pieces:
                 self._times(piece, degree)
+        elif is_real and power.im is None and not self.careful:
+            self._times(Complex(np.power(d.re, power.re.hi)), 0)  # exact but for one rounding, unlike a logarithm
         else:
             growth.append(power * self._logarithm(d, e, f.turn))
 

@@ -32,10 +32,10 @@ from kovacic.enclosure.frame import System, check_segment
 from kovacic.enclosure.log_derivative import log_derivative
 from kovacic.enclosure.matrices import Matrix, State, fundamental, inverse, multiply
 from kovacic.enclosure.points import ExactPoint, kept_at_precision, to_acb
-from kovacic.enclosure.singular import Singular
+from kovacic.enclosure.singular import Singular, power_of
 from kovacic.errors import LimitExceeded
 from kovacic.limits import Budget, Limits, bounded_work
-from kovacic.special.pullback import Pullback, StandardForm, is_integer
+from kovacic.special.pullback import Pullback, StandardForm
 from kovacic.special.search import find
 
 _BITS = 64  # in which the course of a leg is proven
@@ -292,7 +292,7 @@ class Solutions:
             if x.is_real():
                 y = acb(y.real)
                 dy = acb(dy.real)
-            power = t ** int(exponent.p) if is_integer(exponent) else (exponent * t.log()).exp()
+            power = power_of(t, exponent, t.log())
             columns.append((y * power, dy * power))
         return columns
 

@@ -259,8 +259,6 @@ def shift(system: System, centre: ExactPoint, scale: ExactPoint) -> tuple[Gaussi
 
 
 def _times(part: tuple[fmpq_poly, fmpq_poly], factor: ExactPoint) -> tuple[fmpq_poly, fmpq_poly]:
-    if factor.y == 0 and part[1] == 0:
-        return part[0] * factor.x, part[1]
     return part[0] * factor.x - part[1] * factor.y, part[0] * factor.y + part[1] * factor.x
 
 

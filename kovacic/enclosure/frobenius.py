@@ -40,7 +40,7 @@ from __future__ import annotations
 import logging
 import math
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
 from flint import acb, acb_poly, arb, ctx, fmpq
@@ -49,9 +49,10 @@ from kovacic.algebra.precision import working_precision
 from kovacic.enclosure.frame import log2
 from kovacic.enclosure.matrices import Matrix, State
 from kovacic.enclosure.points import ExactPoint, around_zero, power_of_two
-from kovacic.enclosure.singular import Operator, Singular
+from kovacic.enclosure.singular import Operator, Singular, power_of
 from kovacic.errors import InputError, LimitExceeded
 from kovacic.limits import check_time
+from kovacic.special.pullback import is_integer
 
 _LOG = logging.getLogger(__name__)
 
@@ -178,41 +179,29 @@ def _expansions(
     op = point.operator()
     balls = op.in_balls()
     delta = abs(acb(upper) - lower).upper()
-    if point.difference == 0:
-        dominant = _Beginning(lower, delta, start=(0, 1))
-    else:
-        N = point.difference
-        resonance = None
-        if N is not None:  # whether there is a logarithm is decided where that costs little
-            resonance = _Resonance(N)
-            if point.is_rational and N <= _MOST_SOUGHT_TERMS:
-                terms: list[LogPair] = [(fmpq(1), fmpq(0))]  # of the smaller exponent, in exact numbers
-                while len(terms) <= N:
-                    terms.append(_next(op, lower + len(terms), terms, resonance))
-                resonance = _Resonance(N, bool(terms[N][1] != 0))
-        dominant = _Beginning(lower, delta, resonance)
+    N = point.difference
+    dominant = _Beginning(lower, delta, N, start=(0, 1) if N == 0 else (1, 0))
+    if N and point.is_rational and N <= _MOST_SOUGHT_TERMS:  # whether there is a logarithm costs little, then
+        terms: list[LogPair] = [(fmpq(1), fmpq(0))]  # of the smaller exponent, in exact numbers
+        while len(terms) <= N:
+            terms.append(_next(op, lower + len(terms), terms, dominant))
+        dominant = replace(dominant, logarithm=bool(terms[N][1] != 0))
     beginnings = dominant, _Beginning(upper, arb(0))
     return {k: _expand(balls, beginnings[k], length, bound, prec) for k in (0, 1) if needed[k]}
-
-
-@dataclass(frozen=True)
-class _Resonance:
-    """P_0 vanishes at the term of this number; `logarithm` says that a logarithm may begin there."""
-
-    number: int
-    logarithm: bool = True
 
 
 @dataclass(frozen=True)
 class _Beginning:
     """A solution that begins with t^exponent (u + v log t), (u, v) = `start`.
 
-    `delta` bounds the difference of the exponents where the other one is the larger one, else it's 0.
+    `delta` bounds the difference of the exponents where the other one is the larger one, else it's 0.  P_0 vanishes at the term
+    of the number `resonance`, if there is one; `logarithm` says that a logarithm may begin there.
     """
 
     exponent: Any
     delta: arb
-    resonance: _Resonance | None = None
+    resonance: int | None = None
+    logarithm: bool = True
     start: tuple[int, int] = (1, 0)
 
 
@@ -241,7 +230,7 @@ def _apply(op: Operator, j: int, nu: Any, a: LogPair) -> LogPair:
     return value * u + (2 * A * nu + B) * v, value * v
 
 
-def _next(op: Operator, nu: Any, terms: list[LogPair], resonance: _Resonance | None) -> LogPair:
+def _next(op: Operator, nu: Any, terms: list[LogPair], beginning: _Beginning) -> LogPair:
     """a_n by equation (1), n the number of `terms`."""
     n = len(terms)
     f0 = f1 = op.A[0] * 0
@@ -250,9 +239,8 @@ def _next(op: Operator, nu: Any, terms: list[LogPair], resonance: _Resonance | N
         f0 = f0 - p
         f1 = f1 - q
     slope = 2 * op.A[0] * nu + op.B[0]
-    if resonance is not None and n == resonance.number:
-        v = f0 / slope if resonance.logarithm else f0 * 0
-        return f0 * 0, v
+    if n == beginning.resonance:
+        return f0 * 0, f0 / slope * beginning.logarithm
     value = (op.A[0] * nu + op.B[0]) * nu + op.C[0]
     v = f1 / value
     return (f0 - slope * v) / value, v
@@ -272,7 +260,7 @@ class FrobeniusSeries:
     def derivative_at_zero(self, k: int) -> acb | None:
         """The limit of the derivative of order k = 0 or 1 for t to 0; None if it is infinite."""
         exponent = self.exponent
-        if isinstance(exponent, fmpq) and exponent.q == 1 and 0 <= exponent <= k:
+        if is_integer(exponent) and 0 <= exponent <= k:
             n = k - int(exponent.p)
             has_logarithm = any(not self.V[m].is_zero() for m in range(n + 1))
             return None if has_logarithm else self.U[n]
@@ -285,26 +273,21 @@ class FrobeniusSeries:
         lam = acb(self.lam)
         value = U(t)
         slope = lam * U(t) + t * U.derivative()(t)
-        if V.length():
-            value = value + V(t) * log
-            slope = slope + (lam * V(t) + t * V.derivative()(t)) * log + V(t)
+        value = value + V(t) * log
+        slope = slope + (lam * V(t) + t * V.derivative()(t)) * log + V(t)
         real = t.imag.is_zero() and value.imag.is_zero() and slope.imag.is_zero()
         size = max(arb(1), abs(log).upper())
         tails = [around_zero((error * size).upper(), real=real) for error in self.errors]
-        whole = isinstance(self.exponent, fmpq) and self.exponent.q == 1
-        power = t ** int(self.exponent.p) if whole else (acb(self.exponent) * log).exp()
+        power = power_of(t, self.exponent, log)
         return (value + tails[0]) * power, (slope + tails[1]) * power
 
 
 def _expand(op: Operator, beginning: _Beginning, length: arb, bound: Majorant, prec: int) -> FrobeniusSeries:
     """The solution with this beginning for |t| <= length."""
     exponent = beginning.exponent
-    resonance = beginning.resonance
     with working_precision(64):
         size = abs(acb(exponent)).upper()
-    first = max(_terms_before_bound(beginning.delta), len(op.A))
-    if resonance is not None:
-        first = max(first, resonance.number + 1)
+    first = max(_terms_before_bound(beginning.delta), len(op.A), (beginning.resonance or 0) + 1)
     kind = type(op.A[0])
     if not isinstance(exponent, fmpq) and not acb(exponent).imag.is_zero():
         kind = acb
@@ -315,7 +298,7 @@ def _expand(op: Operator, beginning: _Beginning, length: arb, bound: Majorant, p
     while True:
         for _ in range(more):
             check_time()
-            terms.append(_next(op, lam + len(terms), terms, resonance))
+            terms.append(_next(op, lam + len(terms), terms, beginning))
         more = _STRIDE
         n = len(terms)
         with working_precision(64):

@@ -69,17 +69,17 @@ def _of_text(text: str, limits: Limits) -> Coefficients:
 
 def _of_input(equation: Any, limits: Limits) -> Coefficients:
     """As they are written where nothing can cancel; else in t, where what cancels is known."""
+    parsed = None
     try:
         parsed = read_input(equation, limits=limits, exponentials=True)
     except NotRational:
-        return as_written(equation, None, limits)
+        pass
     except LimitExceeded as reason:
-        if reason.limit != "constants":
+        if reason.limit != "constants":  # balls need no field of constants
             raise
-        return as_written(equation, None, limits)  # balls need no field of constants
-    if change_of(parsed) is None or parsed.equation is None:
-        return as_written(equation, None, limits)
     written = as_written(equation, None, limits)
+    if change_of(parsed) is None:
+        return written
     if all(_nothing_cancels(part, written.variable) for part in written.parts):
         return replace(written, changed=parsed)
     return _of_parsed(parsed)

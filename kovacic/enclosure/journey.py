@@ -170,19 +170,15 @@ def _detours(here: ExactPoint | Singular, last: ExactPoint, singular: Sequence[E
         yield _Detour(place, centre - sign * radius, centre + sign * radius, sign)
 
 
-def _joined(
-    detours: Iterator[_Detour], stops: Sequence[ExactPoint], singular: Sequence[ExactPoint]
-) -> Iterator[_Detour]:
+def _joined(detours: Iterator[_Detour], stops: Sequence[ExactPoint], singular: Sequence[ExactPoint]) -> list[_Detour]:
     """Those without stops between their places become one, if no other singular point is between them and that."""
-    last = next(detours, None)
+    found: list[_Detour] = []
     for detour in detours:
-        assert last is not None
+        last = found[-1] if found else detour
         both = _Detour(detour.place, last.begin, detour.end, detour.sign)
-        has_stops = any(min(last.place, detour.place) < stop.x < max(last.place, detour.place) for stop in stops)
-        if has_stops or not both.is_free(singular):
-            yield last
-            last = detour
+        near, far = sorted((last.place, detour.place))
+        if last is not detour and both.is_free(singular) and not any(near < stop.x < far for stop in stops):
+            found[-1] = both
         else:
-            last = both
-    if last is not None:
-        yield last
+            found.append(detour)
+    return found

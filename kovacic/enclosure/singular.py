@@ -21,6 +21,7 @@ from kovacic.enclosure.points import ExactPoint, midpoint, to_acb
 from kovacic.enclosure.problem import NumericProblem
 from kovacic.errors import InputError
 from kovacic.limits import check_time
+from kovacic.special.pullback import is_integer
 
 OperatorCoefficients = tuple["fmpq_poly", "fmpq_poly", "fmpq_poly"]  # a, b, c of a y'' + b y' + c y = 0
 
@@ -131,7 +132,7 @@ class Singular:
     def difference(self) -> int | None:
         """The difference of the exponents where it is an integer, decided exactly."""
         delta = self._delta
-        return int(delta.p) if isinstance(delta, fmpq) and delta.q == 1 else None
+        return int(delta.p) if is_integer(delta) else None
 
     @property
     def _delta(self) -> Any:
@@ -193,6 +194,11 @@ class Singular:
             if len(others) == len(found) - own:
                 return others
             prec *= 2
+
+
+def power_of(t: acb, exponent: Any, log: acb) -> acb:
+    """t^exponent with this logarithm of t, which integers don't need."""
+    return t ** int(exponent.p) if is_integer(exponent) else (acb(exponent) * log).exp()
 
 
 def _order(poly: fmpq_poly, minimal: fmpq_poly) -> int:
