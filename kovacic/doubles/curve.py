@@ -115,8 +115,7 @@ def arcs(
 
     `states` gives y and y' in balls.  Raises `LimitExceeded` where more than 400,000 samples would be needed.
     """
-    if points > _MOST:
-        raise LimitExceeded(f"the curve would have more than {_MOST} samples", limit="samples")
+    _check_count(points)
     # S is looked at in equidistant points, and in nearer and nearer ones beside singular points.
     low, high = interval
     count = max(8, round(_GRID * (high - low) / width))

@@ -182,6 +182,16 @@ def double(a: Any) -> Any:
     return a.hi + a.lo if isinstance(a, Pair) else a
 
 
+def complex_array(z: Complex) -> Any:
+    """The nearest doubles, complex unless z is real."""
+    if z.im is None:
+        return double(z.re)
+    result = np.empty(np.broadcast_shapes(np.shape(z.re), np.shape(z.im)), dtype=complex)
+    result.real = double(z.re)  # 1j times an infinite part would be NaN
+    result.imag = double(z.im)
+    return result
+
+
 def absolute(a: Any) -> Any:
     """|a|."""
     if isinstance(a, np.ndarray):

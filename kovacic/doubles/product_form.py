@@ -35,6 +35,7 @@ from kovacic.doubles.double_double import (
     Pair,
     absolute,
     angle,
+    complex_array,
     double,
     horner,
     log,
@@ -243,9 +244,9 @@ class ProductForm:
             parts = self._parts(points.reshape(-1), careful=True)
             growth = parts.growth
             assert growth is not None
-            unit = _complex_array(parts.value)
+            unit = complex_array(parts.value)
             total = double(growth.re + LOG_2 * Pair(0.0 + parts.binary)) + np.log(np.abs(unit))
-            unit = np.sign(unit) * _complex_array(_turn(growth))
+            unit = np.sign(unit) * complex_array(_turn(growth))
         return unit.reshape(points.shape)[()], total.reshape(points.shape)[()]
 
     def _values(self, x: Any) -> Any:
@@ -266,7 +267,7 @@ class ProductForm:
                 value *= _turn(growth)
         if np.ndim(binary):
             value = value.each(lambda part: np.ldexp(part, binary))
-        return value.re if self.is_real else _complex_array(value)
+        return value.re if self.is_real else complex_array(value)
 
     def _parts(self, x: Any, careful: bool) -> _Parts:
         """The function in the parts of the product."""
@@ -374,15 +375,6 @@ def _turn(growth: Complex) -> Complex:
     c = np.cos(t)
     s = np.sin(t)
     return Complex(c - rest * s, s + rest * c)
-
-
-def _complex_array(z: Complex) -> Any:
-    if z.im is None:
-        return double(z.re)
-    result = np.empty(np.broadcast_shapes(np.shape(z.re), np.shape(z.im)), dtype=complex)
-    result.real = double(z.re)
-    result.imag = double(z.im)
-    return result
 
 
 _SAME = 2.0**-60

@@ -36,7 +36,7 @@ from numpy.polynomial import chebyshev
 from kovacic.algebra.precision import working_precision
 from kovacic.algebra.rationals import to_fmpq
 from kovacic.doubles.chart import BLOCK, Measured, PieceChart, Region, chart_of, facts, in_blocks
-from kovacic.doubles.double_double import Pair, double, folded, halves, horner, scaled, two_sum
+from kovacic.doubles.double_double import Complex, Pair, complex_array, double, folded, halves, horner, scaled, two_sum
 from kovacic.enclosure.evaluate import with_variable
 from kovacic.enclosure.frame import log2
 from kovacic.enclosure.points import ExactPoint, power_of_two
@@ -244,11 +244,7 @@ class TabulatedFunction:
                 row[where] = double(horner(map(Pair, *table), u)) if self.careful else horner(table[0], u.hi)
         if self.powers.any():
             found = np.ldexp(found, self.powers[index])
-        if len(found) == 1:
-            return found[0]
-        values = np.empty(flat.shape, dtype=complex)  # 1j times an infinite part would be NaN
-        values.real, values.imag = found
-        return values
+        return complex_array(Complex(*found))
 
 
 @limited
@@ -391,9 +387,10 @@ def _halves(cell: Cell, low: fmpq, high: fmpq) -> list[Cell]:
 
 
 def _series(chart: PieceChart, cells: list[Cell], variant: Variant) -> list[Any]:
-    """y1, y2, and beside a right-hand side y3, on each of these pieces that will do: high and low halves, terms, series.
+    """y1, y2, and beside a right-hand side y3, on each of these pieces: high and low halves, terms, series.
 
-    The equation a y'' + b y' + c y = f has the coefficients of u^j at a[j], b[j + 1] and c[j + 2].
+    None for a piece on which they don't end or grow too much.  The equation a y'' + b y' + c y = f has the coefficients of u^j
+    at a[j], b[j + 1] and c[j + 2].
     """
     terms = variant.terms
     count = 2 if not chart.is_forced else 3
@@ -416,11 +413,7 @@ def _series(chart: PieceChart, cells: list[Cell], variant: Variant) -> list[Any]
         sizes = np.abs(z[0, : variant.tested])
         converges = (sizes[-4:].max(0) <= sizes.max(0) * 2.0**-variant.bits).all(0)
         is_bounded = (sizes[:, :2].sum(0) <= _GROWTH).all(0)
-    found: list[Any] = [None] * size
-    for k in range(size):
-        if converges[k] and is_bounded[k]:
-            found[k] = z[..., k]
-    return found
+    return [z[..., k] if will_do else None for k, will_do in enumerate(converges & is_bounded)]
 
 
 def _series_recurrence(equation: Any, source: Any, variant: Variant) -> Any:

@@ -131,28 +131,25 @@ def _inverse(m: acb_mat) -> acb_mat:
     return acb_mat([[m[1, 1], -m[0, 1]], [-m[1, 0], m[0, 0]]])
 
 
-def _angles(group: Group) -> dict[Fraction, int] | None:
+def _angles(group: Group) -> Counter[Fraction] | None:
     """The numbers of elements with the eigenvalues exp(+-2 pi i angle), or None for an infinite or a large group."""
     if group.kind in _PRIMITIVE:
-        return {Fraction(angle): count for angle, count in _PRIMITIVE[group.kind].items()}
+        return Counter({Fraction(angle): count for angle, count in _PRIMITIVE[group.kind].items()})
     if group.order is None or group.n is None or group.order > _LARGEST:
         return None
     if group.kind is GroupKind.CYCLIC:
         return _angles_of_roots(group.n)
     # Dicyclic: the roots of unity of order 2 n, and as many elements of order 4.
-    found = _angles_of_roots(2 * group.n)
-    quarter = Fraction(1, 4)
-    found[quarter] = found.get(quarter, 0) + 2 * group.n
-    return found
+    return _angles_of_roots(2 * group.n) + Counter({Fraction(1, 4): 2 * group.n})
 
 
-def _angles_of_roots(n: int) -> dict[Fraction, int]:
+def _angles_of_roots(n: int) -> Counter[Fraction]:
     """The angles of the n-th roots of unity; a root and its inverse have one."""
     turns = [Fraction(k, n) for k in range(n)]
-    return dict(Counter(min(turn, 1 - turn) for turn in turns))
+    return Counter(min(turn, 1 - turn) for turn in turns)
 
 
-def _enumerate(generators: list[acb_mat], angles: dict[Fraction, int], group: Group) -> Agreement:
+def _enumerate(generators: list[acb_mat], angles: Counter[Fraction], group: Group) -> Agreement:
     """A finite group: its elements by their traces."""
     enumeration = _Enumeration(group, angles)
     for element in enumeration.elements:  # which grows meanwhile
@@ -178,7 +175,7 @@ class _Element(IntEnum):
 class _Enumeration:
     """The elements of the monodromy group that are known, under the claim that it is the group with these angles."""
 
-    def __init__(self, group: Group, angles: dict[Fraction, int]) -> None:
+    def __init__(self, group: Group, angles: Counter[Fraction]) -> None:
         self.group = group
         self.angles = angles
         self.traces = {angle: _trace_of_turn(angle) for angle in angles}
@@ -217,7 +214,7 @@ class _Enumeration:
     def verdict(self) -> Agreement:
         """The verdict on all elements: no product of generators is a new one."""
         count = len(self.elements)
-        if self.found != Counter(self.angles):
+        if self.found != self.angles:
             return Agreement(False, f"the monodromy group has {count} elements, with other traces than {self.group}")
         plural = "element" if count == 1 else "elements"
         return Agreement(True, f"the monodromy group has {count} {plural}, with the traces of {self.group}")

@@ -36,7 +36,7 @@ from flint import acb, acb_mat, acb_poly, arb, ctx, fmpq
 from kovacic.algebra.extension import AlgebraicField
 from kovacic.algebra.precision import working_precision
 from kovacic.closed_form.atoms import Atoms
-from kovacic.enclosure.frame import foreseen_growth, upper_exponent
+from kovacic.enclosure.frame import upper_exponent
 from kovacic.enclosure.jets import CoefficientField, step_of
 from kovacic.enclosure.matrices import NOTHING, Affine, MapProduct, Matrix, State, compose, fundamental, real_part
 from kovacic.enclosure.points import (
@@ -152,7 +152,7 @@ class AnalyticWay(Way):
             b_value, c_value, _ = self.functions.values(x)
             return abs(b_value).max(abs(c_value).sqrt())
 
-        found = Forecast(a, b, lambda: foreseen_growth(rate, a, b), 2 * max(_STEEPEST, _SHARE * self.prec))
+        found = Forecast(a, b, rate, 2 * max(_STEEPEST, _SHARE * self.prec))
         found.refuse()
         return found
 

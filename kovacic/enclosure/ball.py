@@ -385,10 +385,10 @@ class Ball:
         return self._order(other, strict=False)
 
     def __ge__(self, other: object) -> bool | None:
-        return None if (found := self < other) is None else not found
+        return _as_ball(other)._order(self, strict=False)
 
     def __gt__(self, other: object) -> bool | None:
-        return None if (found := self <= other) is None else not found
+        return _as_ball(other)._order(self, strict=True)
 
     def _order(self, other: object, *, strict: bool) -> bool | None:
         second = _as_ball(other)

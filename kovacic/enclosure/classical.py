@@ -191,16 +191,13 @@ def _without_pole(gauge: RatFunc, point: ExactPoint) -> RatFunc | None:
 
 def _ordinary_zero(form: StandardForm, a: ExactPoint, b: ExactPoint) -> ExactPoint | None:
     """A zero of f on a real leg that is an ordinary point of y'' = S y: where f^(1/2 +- mu) has the orders 1/2 +- 1/2."""
-    if form.n.degree() < 2 or form.powers[0][0] == 0:
+    is_real = a.is_real() and b.is_real()
+    if not is_real or form.n.degree() < 2 or form.powers[0][0] == 0:
         return None
-    if not a.is_real() or not b.is_real():
-        return None
-    low = min(a.x, b.x)
-    high = max(a.x, b.x)
+    low, high = sorted((a.x, b.x))
     doubled = 2 * form.powers[0][0] - 1  # 2 mu, or -2 mu
-    ordinary = [z for z, k in form.n.roots() if k > 1 and k * doubled == 1]
-    zeros = [z for z in ordinary if low <= z <= high]
-    return ExactPoint(zeros[0]) if zeros else None
+    zeros = (z for z, k in form.n.roots() if k > 1 and k * doubled == 1 and low <= z <= high)
+    return next(map(ExactPoint, zeros), None)
 
 
 @dataclass(frozen=True, eq=False)

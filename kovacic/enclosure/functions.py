@@ -89,13 +89,11 @@ def _nothing_cancels(part: Any, x: Any) -> bool:
     """True if at most one term is singular anywhere, a constant times a power of one function, as in cos(x) + 2*tan(x/5)^2."""
     singular = []
     for term in sympy.Add.make_args(part):
-        inverses = [p for p in term.atoms(sympy.Pow) if p.exp.is_negative and p.base.has(x)]
-        if inverses or term.has(*_WITH_POLES):
+        has_inverse = any(p.exp.is_negative and p.base.has(x) for p in term.atoms(sympy.Pow))
+        if has_inverse or term.has(*_WITH_POLES):
             singular.append(term)
-    if not singular:
-        return True
-    if len(singular) > 1:
-        return False
+    if len(singular) != 1:
+        return not singular
     factors = [factor for factor in sympy.Mul.make_args(singular[0]) if factor.has(x)]
     return len(factors) <= 1 and all(isinstance(f.as_base_exp()[0], sympy.Function) for f in factors)
 
@@ -253,7 +251,7 @@ class Substitution:
 
     def image(self, x: Number) -> Number:
         """t at a number, to every precision that this has."""
-        return Constant(f"t({x})", lambda: in_balls(self.t, {self.x: to_ball(x)}), getattr(x, "fixed", False))
+        return Constant(f"t({x})", lambda: in_balls(self.t, {self.x: to_ball(x)}), x.fixed)
 
     def slope(self, x: Number) -> acb:
         """dt/dx at a number, at the working precision in force."""
@@ -262,8 +260,9 @@ class Substitution:
     def start(self, x0: Number, data: tuple[Number, Number]) -> Origin:
         """The start in t with these values of y and y'."""
         y, dy = data
-        fixed = any(getattr(number, "fixed", False) for number in (dy, x0))
-        return Origin(self.image(x0), (y, Constant("y'/t'", lambda: to_ball(dy) / self.slope(x0), fixed)))
+        return Origin(
+            self.image(x0), (y, Constant("y'/t'", lambda: to_ball(dy) / self.slope(x0), dy.fixed or x0.fixed))
+        )
 
     def is_real(self, numbers: Sequence[Number]) -> bool:
         """True if these numbers, and t and its derivative there, are real."""

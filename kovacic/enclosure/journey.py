@@ -46,8 +46,10 @@ class Journey:
 
     def is_exact(self, targets: Sequence[Number]) -> bool:
         """True if a higher precision makes every ball smaller."""
-        numbers = (self.start.place, *self.start.data, *self.vertices, *targets)
-        return self.way.is_exact and not any(getattr(number, "fixed", False) for number in numbers)
+        numbers = [
+            n for n in (self.start.place, *self.start.data, *self.vertices, *targets) if not isinstance(n, Singular)
+        ]
+        return self.way.is_exact and not any(number.fixed for number in numbers)
 
     def states(self, targets: Sequence[Number], closed: Closed | None, prec: int) -> list[State]:
         """The states at the targets, to about `prec` bits: exact points are travelled, the midpoints of balls."""

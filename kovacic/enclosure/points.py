@@ -13,7 +13,7 @@ from dataclasses import dataclass
 from decimal import Decimal
 from fractions import Fraction
 from functools import lru_cache, wraps
-from typing import Any, ParamSpec, TypeVar
+from typing import Any, ClassVar, ParamSpec, TypeVar
 
 from flint import acb, arb, ctx, fmpq
 
@@ -55,6 +55,7 @@ class ExactPoint:
 
     x: Any
     y: Any
+    fixed: ClassVar[bool] = False  # known to every precision, unlike some of a `Constant`
 
     def __init__(self, re: Any, im: Any = 0) -> None:
         if type(re) is not fmpq:

@@ -140,7 +140,7 @@ class Coefficients:
     @property
     def is_exact(self) -> bool:
         """True unless a parameter's value is a ball."""
-        return not any(getattr(value, "fixed", False) for _, value in self.values)
+        return not any(value.fixed for _, value in self.values)
 
 
 @dataclass(frozen=True, eq=False)
@@ -177,7 +177,7 @@ class NumericProblem:
     @property
     def is_exact(self) -> bool:
         """True unless a parameter's value is a ball."""
-        return not any(getattr(value, "fixed", False) for value in self.values.values())
+        return not any(value.fixed for value in self.values.values())
 
     def check(self) -> None:
         """Raise InputError unless numerator and denominator of S are known, with a leading coefficient of the latter."""
@@ -222,14 +222,12 @@ class NumericProblem:
         """Those of a function, with exact multiplicities; raises LimitExceeded where they can't be told apart."""
         if self.is_rational:
             return System.of(function).roots("den", prec)
-        found: list[tuple[acb, int]] = []
         with working_precision(2 * prec):
-            for factor, k in squarefree_factors(function.den):
-                roots = sharp_roots(self._embed(factor)) if factor.degree else []
-                if len(roots) < factor.degree:
-                    raise LimitExceeded("the singular points can't be told apart at this precision", limit="digits")
-                found += [(root, k) for root in roots]
-        return tuple(found)
+            factors = [(factor, k) for factor, k in squarefree_factors(function.den) if factor.degree]
+            found = tuple((root, k) for factor, k in factors for root in sharp_roots(self._embed(factor)))
+        if sum(k for _, k in found) < function.den.degree:
+            raise LimitExceeded("the singular points can't be told apart at this precision", limit="digits")
+        return found
 
     def enclosures(self, prec: int) -> list[acb]:
         """Those of the singular points of the user's equation: the poles of S, of the gauge and of a rational right-hand side,

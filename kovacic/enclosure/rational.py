@@ -42,7 +42,7 @@ from flint import acb, acb_poly, arb, arb_poly, fmpq, fmpq_poly, fmpq_series
 
 from kovacic.algebra.precision import series_length, working_precision
 from kovacic.enclosure.classical import Classical, Closed
-from kovacic.enclosure.frame import System, foreseen_growth, frequency, largest_exponent, log2
+from kovacic.enclosure.frame import System, frequency, largest_exponent, log2
 from kovacic.enclosure.frobenius import basis, junction
 from kovacic.enclosure.log_derivative import LogDerivative, log_derivative
 from kovacic.enclosure.matrices import (
@@ -282,7 +282,7 @@ class RationalWay(Way):
         enter, leave = self._in_discs(a, b)
         # A disc of growth g bits, on either side of its centre, has int |S|^(1/2) below 2 (g + 10) log 2.
         in_a_disc = 2 * (growth_of_disc(self.prec, alone=True) + 10) * math.log(2)
-        found = Forecast(enter, leave, lambda: foreseen_growth(frequency(system), enter, leave), in_a_disc)
+        found = Forecast(enter, leave, frequency(system), in_a_disc)
         e = largest_exponent(system, enter)
         if e is not None and power_of_two(2 * e) * MAX_DISCS**2 < (leave - enter).norm_squared():
             found.refuse()  # too many steps, were all as short as the first one has to be

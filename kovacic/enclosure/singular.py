@@ -172,14 +172,13 @@ class Singular:
     def _moved_in_balls(self) -> list[list[Any]]:
         """The coefficients of a, b and c in t."""
         here = self.value()
+        kind, place = (arb_poly, here.real) if here.imag.is_zero() else (acb_poly, here)
         found: list[list[Any]] = []
         for poly, order in zip(self.equation, self._orders, strict=True):
-            if here.imag.is_zero():
-                coefficients = arb_poly(poly)(arb_poly([here.real, 1])).coeffs()
-            else:
-                coefficients = acb_poly(poly)(acb_poly([here, 1])).coeffs()
-            vanishing = coefficients[:order]  # these are exactly zero
-            found.append([v * 0 for v in vanishing] + coefficients[len(vanishing) :])
+            coefficients = kind(poly)(kind([place, 1])).coeffs()
+            found.append(
+                [v * 0 for v in coefficients[:order]] + coefficients[order:]
+            )  # the first ones are exactly zero
         return found
 
     def neighbours(self) -> list[tuple[acb, int]]:

@@ -170,9 +170,8 @@ def _sum_series(
             radii = [error_radii((h * steps.size(m) * ratio).upper(), frame) for h in heights]
             errors = [(e, (slope * length).upper()) for e, slope in radii]
             if all(log2(e) < -goal for pair in errors for e in pair):
-                values = [[acb(sums[n, k]) for k in (0, 1)] for n in range(rows)]
-                if not steps.is_real:
-                    values = [[acb(sums[n, k], sums[n + rows, k]) for k in (0, 1)] for n in range(rows)]
+                below = 0 if steps.is_real else rows  # where the imaginary parts stand
+                values = [[acb(sums[n, k], sums[n + below, k] if below else 0) for k in (0, 1)] for n in range(rows)]
                 return values, errors
             if m > 40 * full + 4000:
                 raise LimitExceeded(f"a Taylor expansion needs more than {m} terms", limit="unknown_degree")

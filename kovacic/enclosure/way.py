@@ -20,6 +20,7 @@ from typing import Any, ClassVar, Protocol
 from flint import acb, acb_poly, arb, arb_poly
 
 from kovacic.algebra.precision import working_precision
+from kovacic.enclosure.frame import foreseen_growth
 from kovacic.enclosure.frobenius import limit
 from kovacic.enclosure.matrices import (
     NOTHING,
@@ -192,12 +193,13 @@ class DiscStep:
 class Forecast:
     """How many discs the way from a to b has, and whether the limits allow them.
 
-    `growth` gives int |S|^(1/2) on the way, about and rather too small, `in_a_disc` is the most that one disc covers.
+    `rate` is |S|^(1/2), or about that: its integral on the way is foreseen, rather too small, and a disc covers at most
+    `in_a_disc` of it.
     """
 
     a: ExactPoint
     b: ExactPoint
-    growth: Callable[[], float]
+    rate: Callable[[acb], arb]
     in_a_disc: float
     begun: float = field(default_factory=lambda: watched_seconds(math.inf))
     is_known: bool = False
@@ -213,7 +215,7 @@ class Forecast:
 
     def refuse(self, each: float = 0.0) -> None:
         """Raise `LimitExceeded` if the limits don't allow all discs, at `each` seconds a disc."""
-        growth = self.growth()
+        growth = foreseen_growth(self.rate, self.a, self.b)
         least = growth / self.in_a_disc
         size = f"exp({growth:.2g})" if growth < math.inf else "more than exp(1e308)"
         way = f"the way from {self.a} to {self.b}"

@@ -286,15 +286,15 @@ class Straight(Way):
         pass
 
     def forecast(self, a: ExactPoint, b: ExactPoint) -> Forecast:
-        return Forecast(a, b, lambda: 0.0, 1.0)
+        return Forecast(a, b, lambda _: arb(0), 1.0)
 
     def walk(self, a: ExactPoint, b: ExactPoint, *, alone: bool = False) -> Iterator[StraightStep]:
         while a != b:
             yield StraightStep(a, a + ExactPoint(1))
             a = a + ExactPoint(1)
 
-    def spread(self, number: Any, state: State) -> State:
-        return state
+    def around(self, ball: acb) -> tuple[acb, acb, acb, bool]:
+        return acb(0), acb(0), acb(0), True
 
 
 @pytest.mark.long
