@@ -28,7 +28,7 @@ from kovacic.enclosure.jets import CoefficientField
 from kovacic.enclosure.matrices import State
 from kovacic.enclosure.points import ExactPoint, as_point, in_balls, midpoint, power_of_two, to_acb
 from kovacic.enclosure.precision import start_bits
-from kovacic.enclosure.problem import Coefficients, NumericProblem, as_problem, change_of
+from kovacic.enclosure.problem import Coefficients, NumericProblem, as_problem
 from kovacic.enclosure.request import Params
 from kovacic.enclosure.states import evaluate_states
 from kovacic.enclosure.way import States
@@ -412,12 +412,10 @@ PieceChart = RationalChart | AnalyticChart
 
 def chart_of(equation: object, given: dict[str, Any], params: Params, *, constants: bool = True) -> PieceChart:
     """The chart of an equation, as `evaluate` takes it; right-hand sides and constants only where a solution is `given`."""
-    change = change_of(equation)
-    if change is None:
-        try:
-            return RationalChart(_real_problem(equation, params, constants), given)
-        except NotRational:
-            pass
+    try:
+        return RationalChart(_real_problem(equation, params, constants), given)
+    except NotRational:
+        pass
     coefficients = coefficients_of_any(equation, params, DEFAULT_LIMITS)
     problem = None
     if isinstance(equation, Answer) and not constants:

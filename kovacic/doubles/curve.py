@@ -123,10 +123,8 @@ def arcs(
     chosen.update(Fraction(x) for x in _beside_singular_points(chart, float(low), float(high)))
     here = coefficients(chart, [ExactPoint(x) for x in sorted(chosen)])
     finest = _FINEST * float(width)
-    too_fine = here.frequency * finest > 2 * np.pi
-    if chart.is_forced:
-        # The envelope is that of a solution of the homogeneous equation.
-        too_fine[:] = False
+    # The envelope is that of a solution of the homogeneous equation.
+    too_fine = (here.frequency * finest > 2 * np.pi) & (not chart.is_forced)
     for first, last in _stretches(too_fine):
         if _periods(here.x[first : last + 1], here.frequency[first : last + 1]) < _FEWEST:
             too_fine[first : last + 1] = False

@@ -154,7 +154,7 @@ def lambdify(
     chart = _chart(with_variable(solution, var, limits, params), start, params, limits)
     region, candidates = chart.region(interval)
     base = None
-    if isinstance(which, str) and which in _PRINTED:
+    if which in _PRINTED:
         chart = replace(chart, given=_printed(solution, which, candidates, params))
     elif not start:
         base = chart.base(number, candidates)
@@ -177,13 +177,12 @@ def _question(initial: Start, path: Path) -> tuple[dict[str, Any], int]:
     which = initial.which
     start = fields_of(initial) if path is None else {**fields_of(initial), "path": path}
     number = 0
-    if isinstance(which, str) and which in _PRINTED:
+    if which in _PRINTED:
         if len(start) > 1:
             raise InputError(f"which={which!r} is a solution without initial values")
         return {}, 0
     if not isinstance(which, str):
-        start.pop("which", None)
-        number = 0 if which is None else whole(which, "which")
+        number = whole(start.pop("which", 0), "which")
     if start and "x0" not in start:
         raise InputError(f"{', '.join(start)} without a point: x0 is needed", hint="x0=0, y0=1, dy0=0, for instance")
     if start and number:
@@ -216,7 +215,7 @@ def _chart(solution: object, start: dict[str, Any], params: Params, limits: Limi
     if start:
         return chart
     problem = chart.problem
-    if params and problem is not None and problem.is_rational:
+    if params and problem is not None:
         # The answer was one for generic values.
         problem = replace(problem, decision=find_answer(problem.S, limits=limits or DEFAULT_LIMITS).decision)
         chart = replace(chart, problem=problem)

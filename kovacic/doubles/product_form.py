@@ -85,20 +85,15 @@ class RationalFunction:
     polynomial: tuple[Complex, ...] = ()
     polar: tuple[tuple[Complex, Complex, int], ...] = ()
 
-    def __call__(self, x: Complex) -> Complex | None:
-        """The value at x; None for the zero function."""
+    def terms(self, x: Complex) -> list[Complex]:
+        """What it is the sum of at x; nothing for the zero function."""
         terms = [horner(self.polynomial, x)] if self.polynomial else []
         for a, c, k in self.polar:
             inverse = (x - a).reciprocal()
             for _ in range(k):
                 c *= inverse
             terms.append(c)
-        return sum_of(terms)
-
-
-def sum_of(terms: list[Complex]) -> Complex | None:
-    """None for no terms."""
-    return sum(terms[1:], terms[0]) if terms else None
+        return terms
 
 
 _ROOM = 900.0
@@ -106,11 +101,11 @@ _ROOM = 900.0
 
 
 class _Parts(NamedTuple):
-    """y = value * 2^binary * exp(growth); growth is None in plain arithmetic where there is none."""
+    """y = value * 2^binary * exp(growth)."""
 
     value: Complex
     binary: Any
-    growth: Complex | None
+    growth: Complex
 
 
 @dataclass(frozen=True)
@@ -243,7 +238,6 @@ class ProductForm:
         with np.errstate(all="ignore"):
             parts = self._parts(points.reshape(-1), careful=True)
             growth = parts.growth
-            assert growth is not None
             unit = complex_array(parts.value)
             total = double(growth.re + LOG_2 * Pair(0.0 + parts.binary)) + np.log(np.abs(unit))
             unit = np.sign(unit) * complex_array(_turn(growth))
@@ -254,17 +248,15 @@ class ProductForm:
         value = parts.value.each(double)
         binary = parts.binary
         growth = parts.growth
-        if growth is not None:
-            if self.careful:
-                turns = np.rint(growth.re.hi / LOG_2.hi)
-                rest = growth.re - Pair(turns, 0.0 * turns) * LOG_2
-                value *= Complex(np.exp(rest.hi) * (1.0 + rest.lo))
-                binary = np.clip(binary + turns, -6000, 6000).astype(np.int64)
-            else:
-                factor = Complex(np.exp(growth.re))
-                value = factor if np.ndim(value.re) == 0 else value * factor
-            if growth.im is not None:
-                value *= _turn(growth)
+        if self.careful:
+            turns = np.rint(growth.re.hi / LOG_2.hi)
+            rest = growth.re - Pair(turns, 0.0 * turns) * LOG_2
+            value *= Complex(np.exp(rest.hi) * (1.0 + rest.lo))
+            binary = np.clip(binary + turns, -6000, 6000).astype(np.int64)
+        else:
+            value *= Complex(np.exp(growth.re))
+        if growth.im is not None:
+            value *= _turn(growth)
         if np.ndim(binary):
             value = value.each(lambda part: np.ldexp(part, binary))
         return value.re if self.is_real else complex_array(value)
@@ -272,19 +264,17 @@ class ProductForm:
     def _parts(self, x: Any, careful: bool) -> _Parts:
         """The function in the parts of the product."""
         point = self._as_complex(x, careful)
-        growth = [self.exponent(point)]
+        growth = self.exponent.terms(point)
         size = max(abs(self.region.low), abs(self.region.high))
         zetas = (f.zeta for f in self.factors)
         reach = max((math.hypot(z.re.hi, 0.0 if z.im is None else z.im.hi) for z in zetas), default=0.0)
         product = _Product(point, careful, size + reach)
         for f in self.factors:
             product.multiply(f, growth)
-        total = sum_of([g for g in growth if g is not None])
-        if total is not None and self.is_real:
+        nothing = 0.0 * x.real  # of the shape of x, where no term is
+        total = sum(growth, Complex(_with_low_part(nothing) if careful else nothing))
+        if self.is_real:
             total = Complex(total.re)
-        if careful:
-            zero = 0.0 * x.real
-            total = Complex(Pair(zero, zero)) + (total or Complex(Pair(0.0)))
         value = product.value or Complex(np.ones(x.shape))
         return _Parts(value if self.constant is None else value * self.constant, product.binary, total)
 
@@ -310,7 +300,7 @@ class _Product:
         self.bits = 0.0
         self.degree_bits = math.log2(reach + 2.0)
 
-    def multiply(self, f: RootFactor, growth: list[Complex | None]) -> None:
+    def multiply(self, f: RootFactor, growth: list[Complex]) -> None:
         """One factor more."""
         d: Complex = self.t - f.zeta
         e: Any = 0  # the factor is 2^e d

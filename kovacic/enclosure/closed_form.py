@@ -137,13 +137,10 @@ class CaseOneForm:
         theta = self.first.theta
         P = self.first.P
         parts = decompose(theta * 2)  # of the logarithmic derivative of (y1/P)^2
-        residues = [
-            (part.factor, part.value.field.rational_value(part.value)) for part in parts.residues if part.is_constant
-        ]
-        is_rational = not parts.exact and len(residues) == len(parts.residues)
-        if not (is_rational and all(e is not None and e.denominator == 1 for _, e in residues)):
+        residues = [(part.factor, part.rational) for part in parts.residues]
+        exponents = [(factor, int(e)) for factor, e in residues if e is not None and e.denominator == 1]
+        if parts.exact or len(exponents) < len(residues):
             return None
-        exponents = [(factor, int(e)) for factor, e in residues if e is not None]
         if sum(abs(e) * factor.degree for factor, e in exponents) // 2 + P.degree > _SMALL:
             return None
         square = math.prod((RatFunc(factor) ** e for factor, e in exponents), start=RatFunc(P) ** 2)

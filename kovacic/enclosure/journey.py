@@ -46,9 +46,7 @@ class Journey:
 
     def is_exact(self, targets: Sequence[Number]) -> bool:
         """True if a higher precision makes every ball smaller."""
-        numbers = [
-            n for n in (self.start.place, *self.start.data, *self.vertices, *targets) if not isinstance(n, Singular)
-        ]
+        numbers = (self.start.place, *self.start.data, *self.vertices, *targets)
         return self.way.is_exact and not any(number.fixed for number in numbers)
 
     def states(self, targets: Sequence[Number], closed: Closed | None, prec: int) -> list[State]:

@@ -23,7 +23,7 @@ from kovacic.algebra.precision import working_precision
 from kovacic.enclosure.ball import Ball, ball_from_flint, ball_to_flint, finite_ball
 from kovacic.enclosure.evaluate import with_variable
 from kovacic.enclosure.frobenius import basis, junction
-from kovacic.enclosure.matrices import Matrix, inverse, multiply
+from kovacic.enclosure.matrices import Matrix, identity, inverse, multiply
 from kovacic.enclosure.points import ExactPoint, as_point, binary_exponent, midpoint, root_below, to_acb
 from kovacic.enclosure.precision import start_bits
 from kovacic.enclosure.problem import NumericProblem, as_problem
@@ -216,14 +216,13 @@ def _connection(problem: NumericProblem, way: _Polygon, prec: int) -> Matrix:
     traveller = Traveller(way_for(problem).at(prec), first, (acb(1), acb(1)))
     for vertex in middle:
         traveller = traveller.moved(vertex)
-    there = None
+    into = identity()
     if isinstance(end, Singular):
         here = traveller.point
         last, bound = junction(end, here, prec)
-        there = basis(end, last, here, bound, prec)
+        into = inverse(basis(end, last, here, bound, prec))
         end = last
-    found = traveller.moved(end).maps.whole()[0]
-    return found if there is None else multiply(inverse(there), found)
+    return multiply(into, traveller.moved(end).maps.whole()[0])
 
 
 @limited

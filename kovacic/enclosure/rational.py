@@ -324,9 +324,8 @@ class RationalWay(Way):
         rate = logarithmic_derivative(RationalWay(normal, prec), system, x, prec)
         return rate + self.gauge.value(to_acb(x))
 
-    def departure(self, point: Singular, stop: ExactPoint, start: State) -> tuple[ExactPoint, Matrix]:
+    def departure(self, point: Singular, stop: ExactPoint, needed: tuple[bool, bool]) -> tuple[ExactPoint, Matrix]:
         last, bound = junction(point, stop, self.prec)
-        needed = not start[0].is_zero(), not start[1].is_zero()
         return last, basis(point, last, stop, bound, self.prec, needed=needed)
 
     def fan(self, traveller: Traveller, stops: Sequence[ExactPoint]) -> States:
@@ -388,11 +387,10 @@ class ClosedWay(RationalWay):
     def fan(self, traveller: Traveller, stops: Sequence[ExactPoint]) -> States:
         return traveller.to_each(stops)
 
-    def departure(self, point: Singular, stop: ExactPoint, start: State) -> tuple[ExactPoint, Matrix]:
+    def departure(self, point: Singular, stop: ExactPoint, needed: tuple[bool, bool]) -> tuple[ExactPoint, Matrix]:
         assert isinstance(self.closed, Classical)
         check_time()
         count_work(self.prec)
-        needed = not start[0].is_zero(), not start[1].is_zero()
         return stop, self.closed.frobenius(point, self.problem.gauge, needed, stop)
 
 

@@ -10,7 +10,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from functools import cached_property
-from typing import Any
+from typing import Any, ClassVar
 
 from flint import acb, acb_poly, arb, arb_poly, fmpq, fmpq_poly
 from flint.utils.flint_exceptions import DomainError
@@ -54,6 +54,7 @@ class Singular:
     near: ExactPoint
     exact: bool = True
     inverted: bool = False
+    fixed: ClassVar[bool] = False  # known to every precision
 
     @classmethod
     def at(cls, problem: NumericProblem, point: ExactPoint | acb | None) -> Singular:

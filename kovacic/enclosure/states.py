@@ -26,7 +26,7 @@ from kovacic.enclosure.frame import foreseen_growth, frequency
 from kovacic.enclosure.journey import Journey
 from kovacic.enclosure.points import ExactPoint, Number, as_number, as_point, middle, to_ball
 from kovacic.enclosure.precision import PointValue, raise_precision, start_bits
-from kovacic.enclosure.problem import Coefficients, NumericProblem, as_problem, change_of
+from kovacic.enclosure.problem import Coefficients, NumericProblem, as_problem
 from kovacic.enclosure.rational import side_of, way_for
 from kovacic.enclosure.request import METHODS, Method, Path, Request, Start, number_of_digits
 from kovacic.enclosure.singular import Singular
@@ -215,12 +215,11 @@ def question_of(equation: object, request: Request) -> AskedSolution:
         raise InputError(f"unknown method {method!r}", hint=f"one of {', '.join(map(repr, METHODS))}, or None")
     numbers = [_comparable(value) for value in (initial.x0, initial.y0, initial.dy0)]
     given = _comparables(path, "path"), *numbers, initial.which, _comparables(initial.frobenius, "frobenius")
-    if change_of(equation) is None and not isinstance(equation, Coefficients):
-        try:
-            problem = as_problem(equation, params, forced=True, constants=True)
-            return AskedSolution(_looked_up(journey_of, problem, *given), digits, method, limits)
-        except NotRational:
-            pass
+    try:
+        problem = as_problem(equation, params, forced=True, constants=True)
+        return AskedSolution(_looked_up(journey_of, problem, *given), digits, method, limits)
+    except NotRational:
+        pass
     from kovacic.enclosure.functions import coefficients_of_any  # imports SymPy
 
     coefficients = coefficients_of_any(equation, params, limits)

@@ -294,8 +294,11 @@ class Way(ABC):
         """The states at the ends of straight lines from where the traveller is, which is none of them."""
         return traveller.along_rays(stops)
 
-    def departure(self, point: Singular, stop: ExactPoint, start: State) -> tuple[ExactPoint, Matrix]:
-        """Where the neighbourhood of a singular point is left, and the user's (y, y') there from coordinates at the point."""
+    def departure(self, point: Singular, stop: ExactPoint, needed: tuple[bool, bool]) -> tuple[ExactPoint, Matrix]:
+        """Where the neighbourhood of a singular point is left, and the user's (y, y') there from coordinates at the point.
+
+        Columns of Frobenius solutions that aren't `needed` may be zero.
+        """
         raise InputError(f"{point} is a singular point: values start at a regular one")
 
     def decay_rate(self, x: ExactPoint) -> acb:
@@ -429,7 +432,8 @@ class Traveller:
             if self.here.is_at(stop):
                 said = f"the path doesn't leave the singular point {self.here}"
                 raise InputError(said, hint="go on to another point")
-            last, matrix = self.way.departure(self.here, stop, self.start)
+            first, second = (not coordinate.is_zero() for coordinate in self.start)
+            last, matrix = self.way.departure(self.here, stop, (first, second))
             return replace(self, here=last, maps=self.maps.after(matrix), rays={}, onward={}).moved(stop)
         if stop == self.here:
             return self
