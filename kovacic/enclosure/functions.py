@@ -120,13 +120,14 @@ def in_the_given_variable(equation: Equation) -> Coefficients:
     """Equation (1)."""
     t = function_of_x(equation)
     x = user_variable(equation)
+    h = equation.h or 0  # over the coefficient of y'', in x
     if not is_of_a_line(equation):  # t' b/a - t''/t', t'^2 c/a and t'^2 f/a, as they are
         atoms = Atoms(sympy.Dummy("t"))
         p, q, r = (
             atoms.ratio(part / equation.a).xreplace({atoms.x: t}) for part in (equation.b, equation.c, equation.f)
         )
         slope = t.diff(x)
-        return Coefficients(x, slope * p - slope.diff(x) / slope, slope**2 * q, slope**2 * r + (equation.h or 0))
+        return Coefficients(x, slope * p - slope.diff(x) / slope, slope**2 * q, slope**2 * r + h)
     rate = t.args[0].diff(x)
     field = equation.a.field
     sigma = RatFunc(_sigma(t, field))
@@ -142,7 +143,6 @@ def in_the_given_variable(equation: Equation) -> Coefficients:
         parts = _wave_quotient(t, b * T, rate), _wave_quotient(t, c, rate**2), _wave_quotient(t, f, rate**2)
     else:
         parts = slope * _in(t, b), rate**2 * _in(t, c), rate**2 * _in(t, f)
-    h = 0 if equation.h is None else equation.h  # over the coefficient of y'', in x
     return Coefficients(x, parts[0], parts[1], parts[2] + h)
 
 

@@ -9,6 +9,7 @@ their poles, and the lines that meet none.  A constant of an extension Q(c) is t
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field, replace
 from fractions import Fraction
@@ -78,11 +79,8 @@ def _at(polynomial: Any, values: list[acb]) -> acb_poly:
     """A polynomial over Z in x and the parameters at these values of the latter."""
     columns: dict[int, acb] = {}
     for exponents, coefficient in polynomial.to_dict().items():
-        term = acb(coefficient)
-        for value, exponent in zip(values, exponents[1:], strict=True):
-            term *= value ** int(exponent)
-        power = int(exponents[0])
-        columns[power] = columns.get(power, acb(0)) + term
+        power, *others = map(int, exponents)  # that of x, and those of the parameters
+        columns[power] = columns.get(power, acb(0)) + math.prod(map(pow, values, others), start=acb(coefficient))
     return acb_poly([columns.get(k, acb(0)) for k in range(max(columns, default=-1) + 1)])
 
 

@@ -294,8 +294,7 @@ class RationalWay(Way):
         enter, leave = self._in_discs(a, b)
         if enter != a:
             yield swing(system, a, enter, self.prec)
-        growth = growth_of_disc(self.prec, alone=alone)
-        yield from (step for _, step in walk(system, enter, leave, self.prec, growth=growth, split=split))
+        yield from (step for _, step in walk(system, enter, leave, self.prec, alone=alone, split=split))
         if leave != b:
             yield swing(system, leave, b, self.prec)
 

@@ -48,17 +48,11 @@ def expand(frame: Frame, prec: int) -> Columns:
     w, columns = approximations(frame, prec)
     with working_precision(w + 10):
         units = arb((1, -w)), arb((1, frame.e - w))  # the second one has the slope 1 in x
-        first, second = (
-            _local(frame, polynomial(parts, unit), defect * unit, w + 10)
-            for (parts, defect), unit in zip(columns, units, strict=True)
-        )
-        return first, second
-
-
-def _local(frame: Frame, poly: Any, defect: arb, precision: int) -> Local:
-    """The solution that a polynomial stands for, by the coefficient sum of its defect."""
-    error, slope_error = error_radii(defect, frame)
-    return Local(frame.centre, frame.e, poly, error, slope_error, REACH, precision)
+        found = []
+        for (parts, defect), unit in zip(columns, units, strict=True):
+            radii = error_radii(defect * unit, frame)
+            found.append(Local(frame.centre, frame.e, polynomial(parts, unit), *radii, REACH, w + 10))
+        return found[0], found[1]
 
 
 def approximations(frame: Frame, prec: int) -> tuple[int, list[tuple[GaussianParts, int]]]:
@@ -83,12 +77,8 @@ def approximations(frame: Frame, prec: int) -> tuple[int, list[tuple[GaussianPar
 
 def _cut(parts: GaussianParts, excess: int) -> GaussianParts:
     """The coefficients without their lowest `excess` bits, which are beyond the fixed point anyway."""
-    if excess == 0:
-        return parts
     re, im = parts
-    if im is not None:
-        im = [v >> excess for v in im]
-    return [v >> excess for v in re], im
+    return [v >> excess for v in re], None if im is None else [v >> excess for v in im]
 
 
 def polynomial(parts: GaussianParts, unit: arb) -> Any:

@@ -86,13 +86,15 @@ class Split(Homogeneous):
 
 
 def walk(
-    system: System, a: ExactPoint, b: ExactPoint, prec: int, *, growth: float | None = None, split: bool = False
+    system: System, a: ExactPoint, b: ExactPoint, prec: int, *, alone: bool = True, split: bool = False
 ) -> Iterator[tuple[Disc, WayStep]]:
-    """The discs of the straight way from a to b, with the steps in them, for solutions that grow by up to the given bits;
-    `split`: by binary splitting."""
+    """The discs of the straight way from a to b, with the steps in them.
+
+    `alone` says that only the end is asked for; `split`, that the matrices come from binary splitting.
+    """
     how = ", by binary splitting" if split else ""
     _LOG.debug("from %s to %s, %d bits%s", a, b, prec, how)
-    for number, disc in enumerate(cover(system, a, b, prec, growth), 1):
+    for number, disc in enumerate(cover(system, a, b, prec, alone=alone), 1):
         _LOG.debug("disc %d: centre %s, radius 2^%d", number, disc.frame.centre, disc.frame.e)
         count_work(prec)
         if split:
@@ -108,14 +110,12 @@ def growth_of_disc(prec: int, *, alone: bool) -> float:
     return max(100.0 if alone else _KEPT_GROWTH, prec * _GROWTH)
 
 
-def cover(system: System, a: ExactPoint, b: ExactPoint, prec: int, growth: float | None = None) -> Iterator[Disc]:
+def cover(system: System, a: ExactPoint, b: ExactPoint, prec: int, *, alone: bool = True) -> Iterator[Disc]:
     """The discs that cover the straight piece from a to b, in order: O(log(far/near)) of them for each singular point at a
     distance between near and far.  Towards a singular point on it they never end."""
     if a == b:
         return
-    if growth is None:
-        growth = growth_of_disc(prec, alone=True)
-    piece = StraightPiece(system, a, b, growth)
+    piece = StraightPiece(system, a, b, growth_of_disc(prec, alone=alone))
     t = fmpq(0)
     enter = a
     guess = None
