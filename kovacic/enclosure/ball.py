@@ -44,6 +44,7 @@ def dyadic(mantissa: int, exponent: int) -> Dyadic:
     """
     if mantissa == 0:
         return (0, 0)
+    # m & -m is the lowest bit of m that is set, also for negative m.
     shift = (mantissa & -mantissa).bit_length() - 1
     return (mantissa >> shift, exponent + shift)
 
@@ -59,6 +60,7 @@ def _to_float(number: Dyadic) -> float:
 def _above(number: Dyadic) -> float:
     """The double at or next above m 2^e."""
     value = float(arb(number))
+    # float() rounds to nearest; both numbers are exact, and so is their comparison.
     return value if arb(value) >= arb(number) else math.nextafter(value, math.inf)
 
 
@@ -351,6 +353,7 @@ class Ball:
             second = _as_ball(other)
         except InputError:
             return NotImplemented  # type: ignore[no-any-return]
+        # 32 bits more than the longer operand: results of short exact numbers are exact, or nearly so.
         bits = max(part[0].bit_length() for ball in (self, second) for part in (ball.re, ball.im))
         with working_precision(max(64, bits) + 32):
             found = ball_from_flint(compute(ball_to_flint(self), ball_to_flint(second)))
@@ -396,6 +399,7 @@ class Ball:
         second._demand_real()
         low, high = _ends(self.re, self.rad)
         other_low, other_high = _ends(second.re, second.rad)
+        # Ends are exact, so these comparisons are; ends that touch decide <= alone.
         if arb(high) < arb(other_low) or (not strict and high == other_low):
             return True
         if arb(other_high) < arb(low) or (strict and other_high == low):
@@ -463,6 +467,7 @@ class Ball:
         """A disc around this one in decimals: its midpoint to this number of digits, and a radius that covers the error."""
         with working_precision(int(digits * 3.33) + 100):
             re, im = (arb(part).str(digits, radius=False) for part in (self.re, self.im))
+            # What was rounded away is seen by reading the decimals back.
             radius = arb(self.rad) + abs(arb(re) - arb(self.re)) + abs(arb(im) - arb(self.im))
             return re, im, _rounded_up(radius.upper())
 
@@ -479,6 +484,7 @@ def _rounded_up(radius: arb) -> str:
     if arb(text).lower() >= radius:
         return text
     mantissa, _, exponent = text.partition("e")
+    # Decimal has no such exponents; a unit of the second digit is a tenth of the mantissa.
     if len(exponent) > _DECIMAL_EXPONENT:
         return f"{Decimal(mantissa) + Decimal('0.1')}e{exponent}"
     near = Decimal(text)
@@ -492,6 +498,7 @@ def _ends(middle: Dyadic, rad: Dyadic) -> tuple[Dyadic, Dyadic]:
     e = min(middle[1], rad[1])
     if max(middle[1], rad[1]) - e > _FRACTION_BITS:
         raise OverflowError("midpoint and radius are too far apart to be added")
+    # Both as integers over 2^-e, e the smaller exponent.
     m = middle[0] << (middle[1] - e)
     r = rad[0] << (rad[1] - e)
     return dyadic(m - r, e), dyadic(m + r, e)
@@ -533,6 +540,7 @@ def ball_from_flint(value: acb | arb, route: Route | None = None) -> Ball | None
     im = z.imag
     if im.is_zero():
         return Ball(_man_exp(re.mid()), (0, 0), _man_exp(re.rad()), True, route)
+    # The disc around a rectangle: its radius is half the diagonal, rounded up.
     with working_precision(60):
         a = re.rad()
         b = im.rad()

@@ -128,6 +128,8 @@ def in_the_given_variable(equation: Equation) -> Coefficients:
         )
         slope = t.diff(x)
         return Coefficients(x, slope * p - slope.diff(x) / slope, slope**2 * q, slope**2 * r + h)
+    # u = k x + c, rate = k.  In u equation (1) is y.. + t. (p - sigma'/(2 sigma)) y. + sigma q y = sigma r; in x
+    # the middle coefficient is multiplied by k, the others by k^2.
     rate = t.args[0].diff(x)
     field = equation.a.field
     sigma = RatFunc(_sigma(t, field))
@@ -135,6 +137,7 @@ def in_the_given_variable(equation: Equation) -> Coefficients:
     c = sigma * equation.c / equation.a
     f = sigma * equation.f / equation.a
     slope = t.diff(x)
+    # t. = 1 + t^2 is taken into the bracket, so that one quotient of sines and cosines is left.
     if t.func is sympy.tan:  # a polynomial in t
         slope = rate
         b *= RatFunc(field.poly([1, 0, 1]))
@@ -148,6 +151,7 @@ def in_the_given_variable(equation: Equation) -> Coefficients:
 
 def _sigma(t: Any, field: Field) -> Poly:
     """(dt/du)^2 for t(u), as a polynomial in t."""
+    # SQUARES has it as a function of t: 1 - t^2 where t is sin(u) or cos(u), (1 + t^2)^2 where it is tan(u).
     T = sympy.Dummy()
     coefficients = sympy.Poly(SQUARES[t.func](T), T).all_coeffs()
     return field.poly([int(c) for c in reversed(coefficients)])
@@ -161,6 +165,7 @@ def _in(t: Any, function: RatFunc) -> Any:
     if t.func is sympy.tan:
         return _in_sines(t.args[0], function, atoms)
     u = sympy.Dummy("u")
+    # sigma = (dt/du)^2, so 1/sigma^n is dt/du to the power -2 n.
     root = t.func(u).diff(u).xreplace({u: t.args[0]})
     denominator, powers = _without_factor(function.den, _sigma(t, function.field))
     rest = atoms.ratio(RatFunc(function.num, denominator, reduced=True)).xreplace({atoms.x: t})
@@ -185,6 +190,7 @@ def _wave_quotient(t: Any, function: RatFunc, factor: Any) -> Any:
     first, last = (
         sympy.conjugate(c).xreplace({sympy.conjugate(s): s for s in c.free_symbols}) for c in (below[lowest], below[-1])
     )
+    # The sum may be 0; i times the difference makes D its own reversed conjugate as well.
     w = first + last or sympy.I * (first - last)
     above = [w * factor * c for c in atoms.coefficients(function.num)]
     return _waves(above, half, u) / _waves([w * c for c in below], half, u)
@@ -209,6 +215,7 @@ def _in_sines(u: Any, function: RatFunc, atoms: Atoms) -> Any:
     """A rational function of tan(u) by sin(u) and cos(u): polynomials in tan(u) times powers of cos(u), 1 + tan(u)^2 the latter
     alone."""
     denominator, count = _without_factor(function.den, function.field.poly([1, 0, 1]))
+    # tan = sin/cos: a polynomial of degree n is a form of degree n in sin and cos, over cos^n; 1 + tan^2 = cos^-2.
     powers = 2 * count + denominator.degree - function.num.degree
 
     def homogeneous(poly: Poly) -> Any:
@@ -271,6 +278,7 @@ class Substitution:
 
     def seen(self, target: Number, value: PointValue) -> PointValue:
         """The value at t(target) as one at the target: y' = t' Y'."""
+        # The state has 40 bits more than its route: the slope has to have as many.
         with working_precision(value.route.bits + 2 * _BITS):
             y, dy = value.state
             return replace(value, x=target, state=(y, dy * self.slope(target)))

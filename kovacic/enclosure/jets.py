@@ -93,6 +93,7 @@ def without_removable(e: Any, x: Any) -> Any:
     for function, quotient in _QUOTIENTS.items():
         plain = plain.replace(function, quotient)
     numerator, denominator = sympy.fraction(sympy.together(plain))
+    # n/d = (x - z)^(k - m) N/D with N = n/(x - z)^k and D = d/(x - z)^m, for all common zeros z at once.
     over: list[Any] = []  # zeros and their orders, as arguments of `Divided`
     under: list[Any] = []
     power = sympy.Integer(1)
@@ -118,6 +119,7 @@ def _zeros(product: Any, x: Any) -> set[Any]:
 
 def _order(function: Any, x: Any, zero: Any) -> int:
     """The number of derivatives, from the function itself on, that are 0 at the point."""
+    # Exact, by automatic evaluation: sin(0) is 0.  What isn't seen to be 0 isn't divided.
     for k in range(_MOST):
         if function.xreplace({x: zero}) != 0:
             return k
@@ -171,6 +173,7 @@ class CoefficientEvaluator(BallEvaluator):
         """The function over (x - zero)^k, by its series there."""
         # A ball counts as a series of one term.
         centre, scale, length = (x[0] - zero, x[1], ctx.cap) if isinstance(x, acb_series) else (x - zero, acb(0), 1)
+        # Around the zero, so far that |u| <= 2 is within; the function is bounded on twice that.
         reach = (abs(centre) + 2 * abs(scale)).upper()
         # At the zero itself any reach will do for which the disc is free of other singularities.
         reaches = [arb((1, -k)) for k in range(1, _NEAREST)] if reach.is_zero() else [reach]
@@ -187,12 +190,15 @@ class CoefficientEvaluator(BallEvaluator):
         with series_length(terms + k):
             beside = CoefficientEvaluator({**self.values, symbol: acb_series([zero, acb(1)])}, variable=symbol)
             given = beside(function).coeffs()
+        # The first k are 0 exactly, and the others are those of g/u^k.
         coefficients = [*given, *[acb(0)] * (terms + k - len(given))][k:]
         tail = (size / (2 * reach) ** k * arb((1, 1 - terms))).upper()
         polynomial = acb_poly(coefficients)
         inside = zero + arb(0, reach)
         values = CoefficientEvaluator({**self.values, symbol: inside}, variable=symbol)
         error = around_zero(tail, real=are_real([inside, centre, scale, values(function)]))
+        # With x = centre + scale u the bound of the rest holds for |u| <= 2, so that of its j-th coefficient is 2^-j of it
+        # [Cauchy].
         moved = polynomial(acb_poly([centre, scale]))
         found = [moved[j] + error / 2**j for j in range(length)]
         return acb_series(found) if isinstance(x, acb_series) else found[0]
@@ -211,6 +217,7 @@ def _is_near(x: Any, zero: acb) -> bool:
     """True if the quotient is better taken from the series."""
     if isinstance(x, acb_series):
         return not abs(x[0] - zero) > _NEAR + 2 * abs(x[1])
+    # The quotient itself is sharp only where the ball is narrow beside its distance.
     distance = abs(x - zero)
     return not (distance.lower() > _NEAR and distance.lower() > distance.rad())
 
@@ -296,6 +303,7 @@ class CoefficientField:
         with working_precision(_ROUGH + longer):
             h = arb((1, e))
             near = self.sizes(centre, h)
+            # |b|, |c| and |f| over |a| in the disc: with h, h^2 and h^2 they bound B, C and F over A for |u| <= 1.
             if near is None or not _rate(near[0] * h, near[1] * h * h) <= _BOX * steepest:
                 return None
             inner = self.sizes(centre, h / 4)
@@ -323,9 +331,11 @@ class CoefficientField:
             sizes = [
                 sum((abs(value) for value in part.coeffs()), rest) for part, rest in zip(parts, rests, strict=True)
             ]
+            # |A| >= 1 - |A - 1|.
             least = (1 - sizes[0]).lower()
             if not least > _LEAST:
                 return None
+            # Bounds of |B/A| and |C/A|.
             beta, gamma = ((size / least).upper() for size in sizes[1:3])
             rate = _rate(beta, gamma)
         return Jets(centre, e, parts, rests, least, rate, bits, precision) if rate <= steepest else None
@@ -351,6 +361,7 @@ class CoefficientField:
             largest = max(scaled)
             needed = log2(largest) + bits + 1 if largest > 0 else 0.0
             terms = max(4, int(needed / math.log2(radius)) + 2)
+            # R^-N R/(R - 1) for N terms: times M it bounds the rest for |u| <= 1.
             share = arb(radius) ** (1 - terms) / (radius - 1)
             found.append((terms, [(size * share).upper() for size in scaled]))
         terms, rests = min(found, key=lambda choice: choice[0], default=(0, []))
@@ -365,9 +376,11 @@ class CoefficientField:
                 rows = [value.coeffs() if isinstance(value, acb_series) else [value] for value in values]
         except (ZeroDivisionError, ValueError):
             return None
+        # a(z) is the first coefficient of a: A = a/a(z), B = H b/a(z), C = H^2 c/a(z), F = H^2 f/a(z).
         scale = 1 / rows[0][0]
         factors = (scale, scale * H, scale * H**2, scale * H**2)
         rows = [[value * factor for value in row] for row, factor in zip(rows, factors, strict=True)]
+        # Exactly: it would be a ball around 0.
         rows[0][0] = acb(0)
         if not all(value.is_finite() for row in rows for value in row):
             return None
@@ -415,6 +428,7 @@ def _solved(jets: Jets, start: int | None) -> Local:
     number = arb if is_real else acb
     right = F if start is None else F * 0
     with working_precision(jets.precision):
+        # a_0 and a_1: 1, 0 or 0, 1; beside the right-hand side (start is None) 0, 0.
         first = [number(start == k) for k in (0, 1)]
         values = _Recurrence((A, B, C), right, first, jets.bits).values
         scale = arb((1, jets.e if start == 1 else 0))  # the slope 1 in x
@@ -453,6 +467,7 @@ class _Recurrence:
         self.values = first
         self.slopes = first[1:]
         self.bends: list[Any] = []
+        # A goes with Y'', B with Y' and C with Y.
         series = self.bends, self.slopes, self.values
         self.terms = [(part.coeffs(), known) for part, known in zip(parts, series, strict=True) if part.degree() >= 0]
         self.sums = [-value for value in right.coeffs()]
@@ -478,6 +493,7 @@ class _Recurrence:
             for part, series in self.terms:
                 for j in range(max(low, k + 1 - len(part)), min(k + 1, len(series))):
                     total += part[k - j] * series[j]
+            # e_k = -s_k, d_(k+1) = e_k/(k + 1), a_(k+2) = d_(k+1)/(k + 2).
             self.bends.append(-total)
             self.slopes.append(-total / (k + 1))
             self.values.append(self.slopes[-1] / (k + 2))

@@ -54,6 +54,7 @@ def apply(m: Matrix, v: State) -> State:
 
 def compose(second: Affine, first: Affine) -> Affine:
     """The first map, then the second one."""
+    # M2 (M1 v + p1) + p2 = M2 M1 v + (M2 p1 + p2).
     y, dy = apply(second[0], first[1])
     return multiply(second[0], first[0]), (y + second[1][0], dy + second[1][1])
 
@@ -69,6 +70,7 @@ class MapProduct:
         last = matrix, added
         parts = self._parts
         size = 1
+        # As in counting in binary: two products of equal length become one of twice the length.
         while parts and parts[-1][0] == size:
             last = compose(last, parts[-1][1])
             size = 2 * size
@@ -77,6 +79,7 @@ class MapProduct:
 
     def apply(self, state: State) -> State:
         """A_k ... A_1 v."""
+        # The first parts are the earliest factors, which act first.
         for _, (matrix, added) in self._parts:
             y, dy = apply(matrix, state)
             state = y + added[0], dy + added[1]

@@ -36,6 +36,7 @@ def kept_at_precision(maxsize: int) -> Callable[[Callable[P, R]], Callable[P, R]
 
         @wraps(compute)
         def called(*arguments: P.args, **keywords: P.kwargs) -> R:
+            # Keywords would make two keys of one call.
             assert not keywords
             return kept(ctx.prec, *arguments)
 
@@ -94,6 +95,7 @@ class ExactPoint:
 
     def rounded(self, e: int) -> ExactPoint:
         """The nearest multiple of 2^e, in both parts."""
+        # floor(x/unit + 1/2): a point in the middle goes to the larger multiple.
         unit = power_of_two(e)
         return ExactPoint(*((part / unit + _HALF).floor() * unit for part in (self.x, self.y)))
 
@@ -122,6 +124,7 @@ class ExactPoint:
         return f"ExactPoint({self})"
 
 
+# The class is frozen and has slots: these descriptors fill them.
 _set_x, _set_y = (ExactPoint.__dict__[part].__set__ for part in "xy")
 _HALF = fmpq(1, 2)
 
@@ -139,6 +142,7 @@ def binary_exponent(value: Any) -> int:
 
 def root_below(square: Any, bits: int) -> Any:
     """A dyadic number of about so many bits not above the root: floor(2^(bits - k) root) 2^(k - bits), 2^k about the root."""
+    # 2^(2k - 1) < square < 2^(2k + 2) for k = binary_exponent(square) // 2: the integer has up to bits + 1 bits.
     grain = binary_exponent(square) // 2 - bits
     return fmpq((square / power_of_two(2 * grain)).floor().isqrt()) * power_of_two(grain)
 
@@ -289,6 +293,7 @@ def _of_interval(interval: Any) -> arb:
     if any(not mantissa and exponent for _, mantissa, exponent, _ in interval):
         raise InputError("an interval isn't finite")
     e = min(exponent for _, _, exponent, _ in interval)
+    # Both ends over 2^-e; the midpoint (low + high)/2 and the radius (high - low)/2 are exact.
     low, high = ((-1) ** sign * (int(mantissa) << (exponent - e)) for sign, mantissa, exponent, _ in interval)
     return arb((low + high, e - 1), (high - low, e - 1))
 

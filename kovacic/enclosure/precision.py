@@ -69,7 +69,9 @@ def raise_precision(
     exact = journey.is_exact(targets)
     # Below 2^-ceiling a value isn't told from zero, unless other solutions are seen to be as large.
     ceiling = 6 * start_bits(digits) + 4000
+    # No later ceiling is above what the limit of digits stands for, or above the first one.
     most = int(max(ceiling, limits.digits * _BITS_PER_DIGIT))
+    # At most half the ceiling, so that a second run can be at twice the precision.
     bits = max(start_bits(digits), min(begin, ceiling // 2))
     previous: _Run | None = None  # the last one with finite balls
     number = 0
@@ -175,6 +177,7 @@ def _missing_bits(y: acb, digits: int, prec: int, *, doubled: bool) -> int:
 def _lost(y: acb, prec: int) -> int:
     """By how many bits other solutions grow, seen by an enclosure that contains zero."""
     largest = y.abs_upper()
+    # A solution of size 1 would be off by about 2^-prec: what the ball is larger by is growth.
     return 0 if largest == 0 else max(0, upper_exponent(largest) + prec)
 
 

@@ -119,7 +119,9 @@ class Recurrence:
         # Of b_(m-r), ..., b_(m-1): the last row of A, and of B.
         last, *imaginary = [[p - q * ((m - j) * (m - 1 - j)) for p, q, j in part] for part in self._terms]
         sign = 1 if m % 2 == 0 else -1
+        # b_m goes into Y = sum b_k and Y' = sum k b_k; at -v into sum (-1)^k b_k and -sum (-1)^k k b_k.
         factors = [1, m, sign, -sign * m] if self.mirror else [1, m]
+        # The state moves on by one place, times the common divisor; its last member is new.
         shift = [[D if k == n + 1 else 0 for k in range(self.order)] for n in range(self.order - 1)]
         C, R = [*shift, last], [[f * entry for entry in last] for f in factors]
         for B in imaginary:
@@ -140,6 +142,7 @@ class Recurrence:
 
 def _as_real(A: list[list[int]], B: list[list[int]]) -> list[list[int]]:
     """(A, -B; B, A)."""
+    # i (u, v) = (-v, u), real part above imaginary part.
     upper = [[*a, *(-entry for entry in b)] for a, b in zip(A, B, strict=True)]
     return upper + [[*b, *a] for a, b in zip(A, B, strict=True)]
 
@@ -154,6 +157,7 @@ def _sum_series(
     goal = prec + int(frame.bound.log2_growth) + 20
     full = goal + 64
     with working_precision(full):
+        # The state ends with b_0 and b_1: 1, 0 in the first column, 0, 1 in the second one.
         first = [[0, 0]] * (steps.order - 2) + [[1, 0], [0, 1]]
         first_sums = [[1, 1], [0, 1]]  # of b_0 and b_1
         if mirror:
@@ -163,6 +167,7 @@ def _sum_series(
             first, first_sums = ([*part, *[[0, 0]] * len(part)] for part in (first, first_sums))
         V, sums = arb_mat(first), arb_mat(first_sums)
         length = abs(to_acb(z)).upper()
+        # From the defect of Q y_vv = P y to that of q y_uu = p y: y_vv = z^2 y_uu, and Q is a multiple of q.
         ratio = arb(frame.q[0][0]) / steps.Q[0][0] / abs(to_acb(z)).lower() ** 2
         before: tuple[int, int] | None = None
         while True:
@@ -228,6 +233,7 @@ def split_legs(system: System, frame: Frame, target: ExactPoint, prec: int, *, m
             (y1, d1), (y2, d2) = (
                 [sums[row + i][k] + around_zero(error, real=real) for i, error in enumerate(errors[k])] for k in (0, 1)
             )
+            # v = (x - c)/h: the second solution has the slope 1 in v, 1/h in x; slopes are d/dx = (1/h) d/dv.
             matrices.append((y1, y2 * h, d1 / h, d2))
         return matrices
 

@@ -64,7 +64,9 @@ def approximations(frame: Frame, prec: int) -> tuple[int, list[tuple[GaussianPar
     q_0 = q[0][0]
     loss = max(0.0, log2(arb(norm(q)) / q_0) - bound.log2_least)
     quiet = 6 + int(loss)  # rounding errors keep the terms above about 2^loss units: they count as zero below 2^quiet
+    # For the loss and the growth of errors, and 3 log2(N) for the sum of N remainders of the size q_0 N^2.
     w = prec + quiet + int(loss + bound.log2_growth) + 12 + 3 * max(6, prec.bit_length() + 1)
+    # Bits of q_0 beyond those of the fixed point: no coefficient needs them.
     excess = max(0, q_0.bit_length() - (w + 40))
     p = _cut(p, excess)
     q = _cut(q, excess)
@@ -135,14 +137,17 @@ def recurrence(p: GaussianParts, q: GaussianParts, w: int, start: int, small: in
         if n % _TERMS_BETWEEN_LOOKS == 0:
             _check_terms(n, w)
         k = (n + 1) * (n + 2)
+        # (p + i p')(a + i a') = (p a - p' a') + i (p a' + p' a), and q so.
         re = real.known(p_re, q_re)
         im = zero
         if imag is not None:
             re -= imag.known(p_im, q_im)
             im = (imag.known(p_re, q_re) + real.known(p_im, q_im)) // (q_0 * k)
             imag.add(im, k)
+        # Rounded down: the remainder is a coefficient of the defect, and smaller than the divisor.
         re //= q_0 * k
         real.add(re, k)
+        # Once as many terms are small as the sums reach back, the defect behind them is small.
         quiet = quiet + 1 if -small < re < small and -small < im < small else 0
         n += 1
     return real.a[pad:], None if imag is None else imag.a[pad:]

@@ -63,6 +63,7 @@ class Disc:
             return
         centre = self.frame.centre
         reach = self.frame.scale * REACH
+        # The square around what is served: where it sees a without singular points between, each stop does.
         corners = [centre + ExactPoint(x * reach, y * reach) for x in (1, -1) for y in (1, -1)]  # around what is served
         is_free = self.begin == a or is_apart(system, a, *corners)
         square = self.frame.scale**2
@@ -98,6 +99,7 @@ def walk(
         _LOG.debug("disc %d: centre %s, radius 2^%d", number, disc.frame.centre, disc.frame.e)
         count_work(prec)
         if split:
+            # E(leave) E(enter)^-1: the determinants are 1.
             start, stop = map(product, legs(system, disc.frame, disc.enter, disc.leave, prec))
             yield disc, Split(disc.leave, multiply(stop, adjugate(start)))
         else:
@@ -151,6 +153,7 @@ class StraightPiece:
         None if the junction `enter` lies off the path and no disc down to an eighth of the last one (`guess`) contains both.
         """
         remaining = (1 - t) ** 2 * (self.b - self.a).norm_squared()
+        # 2^e is about the rest of the way.
         e = binary_exponent(remaining) // 2
         if not _reaches_end(remaining, e):  # a scale at which the last disc never comes would be taken again and again
             e += 1
@@ -203,6 +206,7 @@ class StraightPiece:
     def _beside(self, t: Any, e: int) -> _Placed:
         """Ahead by short dyadic parameters, just below 2^e/|b - a| and twice as much."""
         square = power_of_two(2 * e) / (self.b - self.a).norm_squared()
+        # 2^e as a share of the way, and a sixteenth less, since centre and junctions are rounded.
         forward = root_below(square, 12) * fmpq(15, 16)
         grain = power_of_two(binary_exponent(square) // 2 - 8)
         t_leave = t + (forward * fmpq(31, 16) / grain).floor() * grain
@@ -219,4 +223,5 @@ class _Placed(NamedTuple):
 
 def _reaches_end(square: Any, e: int) -> bool:
     """True if a disc of scale 2^e contains, with room to spare, a way whose length has this square."""
+    # (length/2)^2 <= 9/10 4^e: the last disc has its centre in the middle.
     return bool(square <= power_of_two(2 * e + 2) * fmpq(9, 10))
