@@ -149,6 +149,7 @@ class AnalyticWay(Way):
 
     def forecast(self, a: ExactPoint, b: ExactPoint) -> Forecast:
         def rate(x: acb) -> arb:
+            # About lambda of `kovacic.enclosure.jets` over the scale: max(|b|, |c|^(1/2)).
             b_value, c_value, _ = self.functions.values(x)
             return abs(b_value).max(abs(c_value).sqrt())
 
@@ -165,6 +166,7 @@ class AnalyticWay(Way):
         return b, c, f, are_real(self.functions.values(ball))
 
     def walk(self, a: ExactPoint, b: ExactPoint, *, alone: bool = False) -> Iterator[WayStep]:
+        # As a share of the way.
         edge = power_of_two(-self.prec - _EDGE)
         length = b - a
         first = a if self.functions.is_regular(to_acb(a)) else a + length.scaled(edge)
@@ -185,6 +187,7 @@ class AnalyticWay(Way):
             check_time()
             count_work(self.prec)
             rest = 1 - t
+            # At most twice as large as the last one, and no larger than the rest of the way needs.
             e = min(e + 1, (binary_exponent(square * rest * rest) + 1) // 2)
             while True:
                 half = min(root_below(power_of_two(2 * e) / square, 12), rest / 2)  # 2^e as a share of the length
@@ -205,6 +208,7 @@ def _check_size(a: ExactPoint, b: ExactPoint, t: Any, e: int, start: int) -> Non
     square = (b - a).norm_squared()
     behind = square * t * t
     ahead = square * (1 - t) ** 2
+    # Nothing lies behind the first disc: there 2^-start of the way counts.
     if t == 0:
         behind = square * power_of_two(-2 * start)
     if power_of_two(2 * (e + _LEAST)) < min(behind, ahead):
@@ -256,6 +260,7 @@ class PeriodicWay(AnalyticWay):
                 self._maps[key] = way._map(a, Constant("a period later", lambda: to_acb(a) + step))
             power = MapProduct().whole()
             square = self._maps[key]
+            # P^|n| by its binary digits, the lowest one first: `square` is P^(2^j).
             for bit in reversed(bin(abs(n))[2:]):
                 power = compose(square, power) if bit == "1" else power
                 square = compose(square, square)
@@ -271,6 +276,7 @@ class PeriodicWay(AnalyticWay):
         stop = middle(number)
         maps = MapProduct() if stop == a else super().carried(a, stop, MapProduct())
         M, particular = maps.whole()
+        # M = (m11, m12, m21, m22): its columns are solutions, and so is the particular one.
         first, second, own = (self.spread(number, v) for v in ((M[0], M[2]), (M[1], M[3]), particular))
         return fundamental(first, second), own
 
@@ -289,10 +295,12 @@ def period_of(coefficients: Coefficients) -> Any:
     known = {e: sympy.Dummy() for e in waves}
     if not waves or any(part.xreplace(known).has(x) for part in coefficients.all_parts):
         return None
+    # Of sin(r x + s) and of exp(i (r x + s)): r.
     rates = [e.args[0].diff(x) / (sympy.I if e.func is sympy.exp else 1) for e in waves]
     shares = [sympy.simplify(rate / rates[0]) for rate in rates]
     if rates[0].has(x) or not all(share.is_Rational for share in shares):
         return None
+    # All rates are multiples of rates[0] gcd(shares), and with tan and cot this is a period, too.
     period = 2 * sympy.pi / (rates[0] * sympy.gcd(shares))
     value = in_balls(period, coefficients.at(to_ball(ExactPoint(0))))
     return period if value.is_finite() and value.imag.is_zero() and not value.contains(0) else None
@@ -320,6 +328,7 @@ class ConstantWay(AnalyticWay):
         p, q, _ = self.functions.values(start)
         weights, rates = [], []
         for alpha, polynomial in self.terms:  # in powers of x - a
+            # P(x) exp(alpha x) = P(a + t) exp(alpha a) exp(alpha t), t = x - a.
             rate = in_balls(alpha, values)
             moved = acb_poly([in_balls(weight, values) for weight in polynomial])(acb_poly([start, 1]))
             weights += [moved[k] * (rate * start).exp() for k in range(len(polynomial))]
@@ -327,6 +336,7 @@ class ConstantWay(AnalyticWay):
         size = max((abs(weight).mid() for weight in weights), default=arb(0))
         unit = acb(size) if size > 0 else acb(1)  # A large weight would make the whole matrix large.
         A = acb_mat(2 + len(rates), 2 + len(rates))
+        # y' = y', y'' = -q y - p y' + w g.
         A[0, 1], A[1, 0], A[1, 1] = acb(1), -q, -p
         for row, ((rate, k), weight) in enumerate(zip(rates, weights, strict=True), 2):
             A[1, row] = weight / unit
@@ -340,6 +350,7 @@ class ConstantWay(AnalyticWay):
             raise LimitExceeded(f"the way is so long that values lose {lost} bits", limit="digits")
         with working_precision(ctx.prec + lost):
             E = (A * to_acb(b - a)).exp()
+        # At a the functions t^k exp(alpha t) with k = 0 are 1 and the others 0: these columns are added up.
         ones = [column for column, (_, k) in enumerate(rates, 2) if k == 0]
         matrix: Matrix = (E[0, 0], E[0, 1], E[1, 0], E[1, 1])
         first, second = (sum((E[row, column] for column in ones), acb(0)) * unit for row in (0, 1))
@@ -397,6 +408,7 @@ def way_of(problem: NumericProblem) -> AnalyticWay:
         a, b, c, f, common = map(atoms.ratio, cleared(equation.a, equation.b, equation.c, equation.f, one))
         if equation.h is not None:
             f += common * equation.h.xreplace({s: sympy.Symbol(s.name) for s in equation.h.free_symbols})
+    # Only a constant is divided by: over a polynomial b and c would be quotients, whose series are wider.
     if not a.has(atoms.x):
         a, b, c, f = sympy.Integer(1), b / a, c / a, f / a
     values = {**atoms.constants, **problem.values}

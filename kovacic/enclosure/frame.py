@@ -75,6 +75,7 @@ class System:
             raise InputError(
                 "numerical evaluation needs S with rational coefficients (no parameters, no algebraic constants)"
             )
+        # (p/d1)/(q/d2) = p d2/(q d1) with integer coefficients.
         p = num.rep
         q = den.rep
         whole = (p.numer() * q.denom(), q.numer() * p.denom())
@@ -87,6 +88,7 @@ class System:
     def along(self, which: Which, a: ExactPoint, step: ExactPoint) -> tuple[fmpq_poly, fmpq_poly]:
         """Real and imaginary part of numerator or denominator at a + t step, as polynomials in t over Q, by Horner's rule."""
         coefficients: tuple[int, ...] = getattr(self, which)
+        # Raises before numbers are made that would fill the memory.
         bits = max((c.bit_length() for c in coefficients), default=0)
         foresee_move(len(coefficients), bits, max(a.height_bits(), step.height_bits()))
         x = fmpq_poly([a.x, step.x])
@@ -122,6 +124,7 @@ def offsets(system: System, centre: ExactPoint) -> Zeros:
 
     Raises InputError if the centre is one of them.
     """
+    # The digits of the centre may cancel in the differences.
     prec = 64 + min(centre.height_bits(), 1 << 14)
     while True:
         with working_precision(max(128, prec)):
@@ -145,6 +148,7 @@ def is_apart(system: System, *points: ExactPoint) -> bool:
     with working_precision(128):
         left = [root for root, _ in system.roots("den", 128)]
         for a, b in combinations(points, 2):
+            # In the direction of each side, and across it.
             along = b - a
             across = ExactPoint(a.y - b.y, along.x)
             left = _not_beyond(_not_beyond(left, points, along), points, across)
@@ -209,6 +213,7 @@ def _first_meeting(system: System, a: ExactPoint, b: ExactPoint) -> tuple[str, f
     while True:
         zeros = _isolated(coefficients, prec)
         with working_precision(prec):
+            # Real zeros only: where both parts vanish at a real parameter.
             shares = [(z.real - first) / length for z, _ in zeros if z.imag.is_zero()]
             inside = [share for share in shares if not (share < 0 or share > 1)]
             if not inside:
@@ -247,9 +252,11 @@ def shift(system: System, centre: ExactPoint, scale: ExactPoint) -> tuple[Gaussi
     p = system.along("num", centre, scale)
     re = q[0][0]
     im = q[1][0]
+    # q_0 times its conjugate is positive.
     turn = ExactPoint(re, -im)  # makes q_0 positive
     if im == 0:
         turn = ExactPoint(1) if re > 0 else ExactPoint(-1)
+    # y_uu = scale^2 y_xx: p is multiplied by scale^2, and both by the turn.
     parts = [*_times(p, scale * scale * turn), *_times(q, turn)]
     common = math.lcm(*(int(part.denom()) for part in parts))
     whole = [(part * common).numer() for part in parts]
@@ -259,6 +266,7 @@ def shift(system: System, centre: ExactPoint, scale: ExactPoint) -> tuple[Gaussi
 
 
 def _times(part: tuple[fmpq_poly, fmpq_poly], factor: ExactPoint) -> tuple[fmpq_poly, fmpq_poly]:
+    # (A + i B)(x + i y).
     return part[0] * factor.x - part[1] * factor.y, part[0] * factor.y + part[1] * factor.x
 
 
@@ -336,6 +344,7 @@ def _bound(p: GaussianParts, q_0: int, poles: list[tuple[arb, int]]) -> DefectBo
         return least, (majorant(r) / least).upper()
 
     least, sigma = bounds(arb(REACH))
+    # The last ring has the least |q| and the largest sigma.
     if not (least > 0 and sigma < _MOST_GROWTH**2):
         return None
     rings = min(_RINGS, 1 + int(float(sigma.sqrt().upper())))  # growth by exp(1) in each, or more
@@ -402,6 +411,7 @@ def largest_exponent(system: System, point: ExactPoint) -> int | None:
     """
     with working_precision(_BITS):
         here = to_acb(point)
+        # A frame needs sigma < _MOST_GROWTH^2 for its sigma >= |p/q|, which is 4^e |S| at the point.
         size = abs(system.polynomial("num")(here)).lower()
         steepest = arb(_MOST_GROWTH**2) * abs(system.polynomial("den")(here)).upper()
         is_known = size > 0 and steepest > 0
@@ -421,6 +431,7 @@ def foreseen_growth(rate: Callable[[acb], arb], a: ExactPoint, b: ExactPoint) ->
         for t in _MARKS:
             check_time()
             sizes.append(rate(start + step * t).mid())
+        # (t - s) min(value at s, value at t), without those that aren't finite.
         least = zip(_MARKS, _MARKS[1:], sizes, sizes[1:], strict=False)
         pieces = ((t - s) * min((v for v in (x, y) if v.is_finite()), default=arb(0)) for s, t, x, y in least)
         return float(sum(pieces, arb(0)) * abs(step).mid())

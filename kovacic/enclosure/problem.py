@@ -51,6 +51,8 @@ _SHARP = 700  # bits at which a leading coefficient is told from zero
 
 def gauged(S: RatFunc, gamma: RatFunc) -> tuple[RatFunc, RatFunc, RatFunc]:
     """a, b and c of a z'' + b z' + c z = 0, where y'' = S y, z = g y and gamma = g'/g."""
+    # y = z/g: y' = (z' - gamma z)/g, y'' = (z'' - 2 gamma z' + (gamma^2 - gamma') z)/g.
+    # S * 0 brings all three into one field.
     return S * 0 + 1, S * 0 - 2 * gamma, gamma * gamma - gamma.derivative() - S
 
 
@@ -58,6 +60,7 @@ def cleared(a: RatFunc, b: RatFunc, c: RatFunc, *others: RatFunc) -> list[RatFun
     """All of these times the common denominator of the first three."""
     common = a.den
     for part in (b, c):
+        # The least common multiple: without what a denominator shares with the others.
         common *= part.den // common.gcd(part.den)
     return [part * RatFunc(common) for part in (a, b, c, *others)]
 
@@ -221,6 +224,7 @@ class NumericProblem:
         if self.is_rational:
             return System.of(function).roots("den", prec)
         with working_precision(2 * prec):
+            # Squarefree factors have simple zeros, which can be isolated in balls; k is exact.
             factors = [(factor, k) for factor, k in squarefree_factors(function.den) if factor.degree]
             found = tuple((root, k) for factor, k in factors for root in sharp_roots(self._embed(factor)))
         if sum(k for _, k in found) < function.den.degree:
@@ -241,6 +245,7 @@ class NumericProblem:
         if isinstance(poly, RationalPoly):
             return acb_poly(poly.rep)
         if isinstance(poly, ExtensionPoly):
+            # sum of the parts times powers of the generator.
             c = root_of(poly.field)
             return sum((self._embed(part) * c**k for k, part in enumerate(poly.parts)), acb_poly([]))
         assert isinstance(poly, FunctionPoly)
@@ -327,8 +332,10 @@ def read_problem(equation: object, params: Params = None) -> NumericProblem:
     if given.h is not None:
         names |= {symbol.name for symbol in given.h.free_symbols} - {given.variable}
     letters = getattr(found, "letters", ())
+    # Letters that the reader put for constants such as pi have their own values.
     constants = {name: meaning for name, meaning in letters if meaning.is_number and name in names}
     numbers = values_of_parameters(tuple(sorted(names)), params or {}, constants)
+    # Rational values can be put into the equation; the others stay parameters with balls.
     values = {name: n.re for name, n in numbers.items() if isinstance(n, ExactPoint) and n.is_real()}
     is_algebraic = any(isinstance(field, AlgebraicField) for field in (S.field, given.gauge.field, given.f.field))
     decision = found.decision if isinstance(found, Answer) else None

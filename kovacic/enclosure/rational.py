@@ -93,9 +93,11 @@ class Oscillation:
         bits = self.prec + _GUARD + max(0, int(_phase_bits(self.c, self.d, abscissa)))
         with working_precision(bits):
             t = 1 / arb(abscissa)
+            # f = x^(d/2) T(1/x), and f' = x^(d/2) t (d/2 T - t T') with t = 1/x.
             head = _half_power(arb(abscissa), self.d)
             f = head * arb_poly(self.T)(t)
             slope = head * t * arb_poly(self.T * fmpq(self.d, 2) - self.T.derivative() * fmpq_poly([0, 1]))(t)
+            # phi = kappa int x^(d/2) T(1/x) dx term by term; the power x^-1 gives the logarithm.
             kappa = arb(self.c).sqrt()
             phi = arb(0)
             for k, coefficient in enumerate(self.T.coeffs()):
@@ -106,6 +108,7 @@ class Oscillation:
             y1 = cos / f.sqrt()
             y2 = sin / f.sqrt()
             share = slope / f / 2
+            # w = f^(-1/2) (cos phi, sin phi), dw/d|x| = -f'/(2 f) w + kappa f f^(-1/2) (-sin phi, cos phi); f' is `slope`.
             dy1 = self.sign * (-share * y1 - kappa * f * y2)
             dy2 = self.sign * (-share * y2 + kappa * f * y1)
             return acb(y1), acb(y2), acb(dy1), acb(dy2)
@@ -186,6 +189,7 @@ def _towards(system: System, end: ExactPoint, prec: int) -> Oscillation | None:
     if d < -1 or not system.num or end.x == 0:
         return None
     sign = 1 if end.x > 0 else -1
+    # S(sign x) ~ -c x^d for x to infinity.
     c = -fmpq(system.num[-1], system.den[-1]) * sign ** abs(d)
     with working_precision(_BITS):
         if c < 0 or not _phase_bits(c, d, abs(end.x)) > math.log2(_WORTH * prec):
@@ -207,6 +211,7 @@ def _oscillation(system: System, sign: int, prec: int) -> Oscillation | None:
     with series_length(length):
         T = fmpq_poly((1 / fmpq_series(_modulus(num, den, half, length), prec=length)).coeffs())
     t = fmpq_poly([0, 1])
+    # Up to a factor U and V are f' and f'' [see above]: x d/dx is -t d/dt.
     U = T * half - t * T.derivative()
     V = U * (half - 1) - t * U.derivative()
     n, D = (fmpq_poly(part[::-1]) for part in (num, den))
@@ -250,6 +255,8 @@ def _change(sizes: Sequence[Sequence[arb]], c: Any, d: int, x: arb) -> arb | Non
     T_least, D_least = (1 - sum((v * t**k for k, v in enumerate(part) if k), arb(0)) for part in (T, D))
     if not (T_least > 0 and D_least > 0):
         return None
+    # |S~ - S|/(sqrt(c) f) = x^(d/2) |E|/(sqrt(c) D T^3), integrated from x on: x^(d/2 - k) gives
+    # x^(d/2 - k + 1)/(k - d/2 - 1).
     powers = ((v / (k - arb(d) / 2 - 1)) * t**k for k, v in enumerate(E) if v != 0)
     integral = sum(powers, arb(0)) * _half_power(x, d) * x / (arb(c).sqrt() * D_least * T_least**3)
     return (integral.exp() - 1).upper() if integral < 1 else None
@@ -304,15 +311,18 @@ class RationalWay(Way):
         return swing_from(system, b, a, self.prec), swing_from(system, a, b, self.prec)
 
     def into(self, x: ExactPoint) -> Matrix:
+        # y = z/g, y' = (z' - gamma z)/g, up to the factor 1/g(x).
         return acb(1), acb(0), -self.gauge.value(to_acb(x)), acb(1)
 
     def out_of(self, a: ExactPoint, x: ExactPoint) -> Matrix:
         E = self.gauge.growth(to_acb(a), to_acb(x))
         if a.is_real() and x.is_real():
             E = acb(E.real)
+        # z = E y, z' = E (y' + gamma y), with E = g(x)/g(a).
         return E, acb(0), E * self.gauge.value(to_acb(x)), E
 
     def around(self, ball: acb) -> tuple[acb, acb, acb, bool]:
+        # a y'' + b y' + c y = 0 over a, with the coefficients of the user's equation.
         top, first, last = (acb_poly(poly)(ball) for poly in self.problem.equation)
         return first / top, last / top, acb(0), True
 
@@ -331,6 +341,7 @@ class RationalWay(Way):
         here = traveller.here
         found: States = {}
         ends = stops if isinstance(here, Singular) else [here, *stops]
+        # By splitting every target has a way of its own; it has to pay although nothing is shared.
         is_far = is_split(self.problem.system, self.prec // len(stops), *ends)
         if is_far or isinstance(here, Singular):
             for first, *others in sides(here, stops):
@@ -357,6 +368,7 @@ class RationalWay(Way):
                 if served:
                     local = step.local(maps.apply(traveller.start))
                     for stop in served:
+                        # The walk has excluded the poles of S on the way to the stop, but none of gamma.
                         if self.problem.gauge:
                             self.check(here, stop)
                         found[stop] = apply(self.out_of(here, stop), local.state(stop))

@@ -79,6 +79,7 @@ def read_start(problem: NumericProblem | None, given: Start) -> Origin:
         raise InputError("one start is expected", hint=_START_HINT, shell=_SHELL_STARTS)
     if given.x0 is None:
         raise InputError("the point at which the solution starts is missing", hint="x0=0, for instance", shell="--x0 0")
+    # The decaying solution is 1 at x0 by default; its slope, 0 here, is replaced by what is found.
     y0, dy0 = (1 if given.y0 is None else given.y0, 0) if is_decaying else (given.y0, given.dy0)
     if is_decaying or has_values:
         if y0 is None or dy0 is None:
@@ -94,6 +95,7 @@ def _frobenius_coordinates(place: Singular, frobenius: Sequence[object] | None) 
     """The two that are given; without, those of the regular solution.  Raises `InputError` where there is none."""
     if frobenius is None:
         with working_precision(256):
+            # Smaller than all others: with the larger exponent, or without the logarithm where they are equal.
             lower, upper = (acb(v).real for v in place.exponents())
         if place.difference is None and not lower < upper:
             said = f"no solution is smaller than all others at {place}"
@@ -126,6 +128,7 @@ def logarithmic_derivative(way: Way, system: System, x0: ExactPoint, prec: int) 
     Raises InputError where no solution of y'' = S y decays in this way: S must be positive for large x, and grow or fall
     more slowly than 1/x^2.
     """
+    # S ~ c x^d for large x: c > 0, and d >= -1.
     is_positive = bool(system.num) and system.num[-1] * system.den[-1] > 0
     if not is_positive or len(system.num) - len(system.den) < -1:
         raise InputError(
@@ -139,12 +142,14 @@ def logarithmic_derivative(way: Way, system: System, x0: ExactPoint, prec: int) 
         raise LimitExceeded("S has zeros or poles beyond 1e308", limit="unknown_degree")
     beyond = ExactPoint(max(math.ceil(rightmost) + 1, math.ceil(x0.re)))
     step = 2
+    # The ball has about exp(-2 growth): a growth of prec log(2)/2 leaves prec bits.
     while foreseen_growth(frequency(system), beyond, beyond + ExactPoint(step)) < prec * math.log(2) / 2:
         step = 2 * step
         if step > _LARGEST_STEP:
             raise LimitExceeded("no starting point was found for the decaying solution", limit="unknown_degree")
     far = beyond + ExactPoint(step)
     matrix = way.carried(far, x0, MapProduct()).whole()[0]
+    # m = M (1, 0) and n = M (0, -1) have the values M_11 and -M_12, and n' is -M_22.
     m = matrix[0]
     n = -matrix[1]
     dn = -matrix[3]

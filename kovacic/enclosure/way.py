@@ -83,6 +83,7 @@ class Local:
         if u.norm_squared() > self.reach * self.reach:
             raise ArithmeticError("the target lies outside of its disc")
         with working_precision(self.precision):
+            # dy/dx = (dy/du)/2^e.
             h = arb((1, self.e))
             if isinstance(self.poly, arb_poly) and u.is_real():
                 at = arb(u.x)
@@ -153,6 +154,7 @@ class DiscStep:
             m = adjugate(transition(self.columns, self.enter))
             if self.area is None:
                 return m
+            # The Wronskian, which is the determinant: the inverse is the adjugate over it.
             w = self.area.state(self.enter)[1]
             return m[0] / w, m[1] / w, m[2] / w, m[3] / w
 
@@ -169,12 +171,14 @@ class DiscStep:
         """The contribution of the right-hand side: the particular solution that vanishes where the disc is entered."""
         if self.own is None:
             return NOTHING
+        # With p = `own` the solution is p + M (v - p(enter)): without v, p - M p(enter).
         y, dy = apply(self.matrix, self._particular(self.enter))
         p, dp = self._particular(self.leave)
         return p - y, dp - dy
 
     def local(self, state: State) -> Local:
         """The solution in the disc with this state where it is entered."""
+        # v - p(enter) is carried by the solutions without a right-hand side, and p has the factor 1.
         p, dp = self._particular(self.enter)
         parts = [] if self.own is None else [(acb(1), self.own)]
         total: Any = arb_poly([])
@@ -208,6 +212,7 @@ class Forecast:
         """Raise `LimitExceeded` if, after this number of discs, the remaining time clearly can't suffice for the others."""
         if number > MAX_DISCS:
             raise LimitExceeded(f"the path needs more than {MAX_DISCS} steps", limit="unknown_degree")
+        # The clock tells the seconds that are left.
         used = self.begun - watched_seconds(math.inf)
         if not self.is_known and number >= _TRIED and not used < _WORTH:
             self.is_known = True
@@ -275,6 +280,7 @@ class Way(ABC):
     def horizon(self, here: ExactPoint, stop: ExactPoint) -> ExactPoint:
         """The end of the ray that serves this target and nearer ones: at the next power of two."""
         distance = position(here, stop)
+        # The least power of two that isn't smaller than the distance: it is 2^e or 2^(e + 1).
         e = binary_exponent(distance)
         if power_of_two(e) < distance:
             e += 1
@@ -358,6 +364,7 @@ class Ray:
     def _begin(self) -> None:
         self._end = self.here
         self._nearest: Any = 0  # what is nearer was forgotten
+        # Of disc k: how far from here it is left, what was passed, and the solution in it if somebody has asked.
         self._leave: list[Any] = []
         self._passed: list[_Passed] = []
         self._locals: dict[int, Followed] = {}
@@ -374,6 +381,7 @@ class Ray:
             except BaseException:  # the discs can't be continued after an interruption
                 self._begin()
                 raise
+        # The first disc that is left at this place or behind it.
         k = bisect_left(self._leave, place)
         if k not in self._locals:
             passed = self._passed[k]
@@ -395,6 +403,7 @@ class Ray:
             self._leave.append(position(self.here, step.leave))
             self._end = step.leave
             if len(self._passed) > _MOST_DISCS:  # the first half is forgotten
+                # Who asks for what is nearer than `_nearest` begins anew.
                 half = _MOST_DISCS // 2
                 self._nearest = self._leave[half - 1]
                 self._locals = {k - half: local for k, local in self._locals.items() if k >= half}
@@ -449,6 +458,7 @@ class Traveller:
         """The states at the ends of straight lines from here."""
         at_rest = {stop for stop in stops if self.is_at(stop)}
         others = [stop for stop in stops if stop not in at_rest]
+        # The way is asked for points other than this one alone: a line needs a direction.
         found = self.way.fan(self, others) if others else {}
         return found | {stop: self.resting() for stop in at_rest}
 
