@@ -139,6 +139,7 @@ class Region:
 
 def _between(low: float, values: Any, high: float) -> bool:
     """True if all of the numbers among these lie there."""
+    # fmin and fmax leave NaN out.
     least = np.fmin.reduce(values, axis=None)
     largest = np.fmax.reduce(values, axis=None)
     return not (least < low or largest > high)
@@ -186,6 +187,7 @@ def region_of(problem: NumericProblem | None, interval: tuple[object, object]) -
     if problem is not None and not any(singular):
         with working_precision(_PREC):  # a double may lie beyond the end that it stands for
             _singular_ends(problem, as_point(complex(left, bottom), "an end"), as_point(complex(right, top), "an end"))
+    # The middle, and other places in case a solution is zero there.
     near = [low + (high - low).scaled(Fraction(k, 64)) for k in (32, 31, 34, 27, 39)]
     return Region(complex(left, bottom), complex(right, top), singular), near
 
@@ -216,6 +218,7 @@ def _doubles(low: Fraction, high: Fraction, singular: tuple[bool, bool]) -> tupl
         b = float(high)
     except OverflowError:
         raise InputError("an end of the interval is beyond the range of doubles") from None
+    # A singular end itself has no value, nor what lies beyond it.
     if singular[0] and Fraction(a) < low:
         a = math.nextafter(a, math.inf)
     if singular[1] and Fraction(b) > high:
@@ -264,6 +267,7 @@ class RationalChart:
     def _closed(self, branch: Exponential, points: Sequence[ExactPoint], digits: int) -> list[State]:
         """y = exp(int theta) P/P(base) and y' from the certificate: without the zeros of P, and without an integration of the
         equation, in which the dominant solution would grow."""
+        # Without the guard bits.
         goal = start_bits(digits) - 24
         prec = 2 * start_bits(digits) + branch.P.degree
         found: States = {}
@@ -305,6 +309,7 @@ class RationalChart:
             return _equation_series(way_of(self.problem).functions, centre, e, terms)
         line = fmpq_poly([centre.x, power_of_two(e)])
         found = [[arb(v) for v in _expanded(part, line, terms)] for part in self.problem.equation]
+        # a, H b and H^2 c over a(c).
         factors = [arb((1, k * e)) / found[0][0] for k in range(3)]
         return [[v * factor for v in part] for part, factor in zip(found, factors, strict=True)]
 

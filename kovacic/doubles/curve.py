@@ -98,6 +98,7 @@ def coefficients(chart: PieceChart, points: Sequence[ExactPoint]) -> CurveCoeffi
     for point in points:
         check_time()
         a, b, c, *_ = ([float(v.mid()) for v in part] + [0.0, 0.0] for part in chart.local(point, 0, 2))
+        # (b/a)' at the point, where a = 1.
         slope_of_b = b[1] - b[0] * a[1]
         rows.append((b[0] / 2, slope_of_b / 2 + b[0] ** 2 / 4 - c[0]))
     beta, S = np.array(rows).T
@@ -164,6 +165,7 @@ def _arc(part: CurveCoefficients, width: Fraction, points: int, states: Solution
     """Samples by the local frequency, then halved where the cubic between two isn't good enough."""
     density = np.maximum(points / float(width), _PER_PERIOD * part.frequency / (2 * np.pi))
     steps = np.maximum(density[1:], density[:-1]) * np.diff(part.x)
+    # How many samples there are up to each point; they are equidistant in that.
     reached = np.concatenate([[0.0], np.cumsum(steps)])
     count = max(2, int(np.ceil(reached[-1])) + 1)
     _check_count(count)
@@ -190,11 +192,13 @@ def _halved(arc: Arc, doubtful: NDArray[np.bool_], usual: float, states: Solutio
     h, middles = h[inside], middles[inside]
     _check_count(len(arc.x) + len(middles))
     new = _with_samples(middles, states)
+    # The cubic with these values and slopes, in the middle.
     cubic = (arc.y[left] + arc.y[right]) / 2 + h * (arc.dy[left] - arc.dy[right]) / 8
     allowed = _TOLERANCE * np.maximum(np.abs(new.y), usual) + new.radius
     missed = np.abs(cubic - new.y) > allowed
     merged = Arc(*(np.insert(known, right, one) for known, one in zip(arc, new, strict=True)))
     still = np.zeros(len(merged.x) - 1, dtype=bool)
+    # Each sample that was inserted moves the next ones by one.
     places = right + np.arange(len(right))  # of the new samples
     still[places[missed] - 1] = True
     still[places[missed]] = True
@@ -209,6 +213,7 @@ def _envelope(chart: PieceChart, part: CurveCoefficients, width: Fraction, state
     here = coefficients(chart, [ExactPoint(Fraction(float(at))) for at in x])
     samples = _with_samples(x, states)
     q = here.frequency
+    # u' exp(-int beta) = y' + beta y.
     velocity = samples.dy + here.beta * samples.y
     turned = np.divide(
         velocity, q, out=np.full_like(velocity, np.nan), where=q != 0

@@ -32,6 +32,7 @@ _SPLIT = 134217729.0  # 2^27 + 1
 
 def two_sum(a: Any, b: Any) -> Pair:
     """a + b exactly."""
+    # Knuth: t is the part of b that is in s; what a and b have lost are s - t and t.
     s = a + b
     t = s - a
     return Pair(s, (a - (s - t)) + (b - t))
@@ -39,6 +40,7 @@ def two_sum(a: Any, b: Any) -> Pair:
 
 def two_product(a: Any, b: Any) -> Pair:
     """a b exactly, unless it over- or underflows."""
+    # Dekker: halves of 26 bits, whose products are exact.
     p = a * b
     x = _SPLIT * a
     y = _SPLIT * b
@@ -96,6 +98,7 @@ class Pair:
     def __truediv__(self, other: Any) -> Any:
         if isinstance(other, np.ndarray):
             return self.hi / other
+        # Long division: each quotient is that of the rest by doubles.
         q = self.hi / other.hi
         rest = self - other * Pair(q, 0.0 * q)
         c = rest.hi / other.hi
@@ -159,6 +162,7 @@ class Complex:
         """1/self."""
         if self.im is None:
             return Complex(Pair(1.0) / self.re)
+        # 1/z = conj(z)/|z|^2.
         square = self.re * self.re + self.im * self.im
         return Complex(self.re / square, -self.im / square)
 
@@ -211,6 +215,7 @@ def horner(coefficients: Iterable[Any], x: Any) -> Any:
 def folded(a: Pair) -> Pair:
     """The sum over the first axis."""
     while len(a.hi) > 1:
+        # Halves are added, and an odd last one is kept.
         half = len(a.hi) // 2
         rest = a[2 * half :]
         a = a[:half] + a[half : 2 * half]
@@ -239,6 +244,7 @@ def log(a: Any) -> Any:
         return np.log(a)
     zero = a.hi == 0
     m, e = np.frexp(np.where(zero, 1.0, a.hi))
+    # m in [sqrt(1/2), sqrt(2)), so that the logarithm is small where the number is about 1.
     low = m < 0.7071067811865476
     m = np.where(low, 2 * m, m)
     e = np.where(low, e - 1, e)
@@ -261,6 +267,7 @@ def angle(z: Complex) -> Any:
     k = np.rint(64 * np.arctan2(z.im.hi, z.re.hi))
     index = k.astype(np.int64) + 202
     c, s = (Pair(part.hi[index], part.lo[index]) for part in (_COSINES, _SINES))
+    # z exp(-i t), whose angle is small: its tangent is im/re.
     turned = z * Complex(c, -s)
     origin = turned.re.hi == 0
     tangent = turned.im / Pair(np.where(origin, 1.0, turned.re.hi), np.where(origin, 0.0, turned.re.lo))

@@ -349,10 +349,12 @@ def _suspects(function: Function, zeros: Any, gaps: Any) -> Any:
         y = exact(points)
         sizes = np.abs(y)
         quotients = function(points) / y
+        # Normal doubles, with room: else the units are those of the underflow.
         within = np.flatnonzero((sizes > TINY) & (sizes < HUGE) & np.isfinite(quotients))
         sizes = sizes[within]
         quotients = quotients[within]
         factor = np.median(quotients) if within.size else 1
+        # |f/y - factor| |y| in units in the last place of y.
         errors = np.abs(quotients - factor) * sizes / np.spacing(sizes)
     return points[within[np.argsort(errors)[-_WORST:]]]
 
@@ -382,6 +384,7 @@ def _zeros(function: Function) -> tuple[Any, Any]:
     for _ in range(4):
         with np.errstate(all="ignore"):
             quotient = np.abs(b[1] / a[1])
+        # Regula falsi: the zero of the line through both ends, |f(a)|/(|f(a)| + |f(b)|) of the way.
         zeros = a[0] + (b[0] - a[0]) / (1 + np.where(np.isfinite(quotient), quotient, 1.0))
         between = np.array([zeros, function(zeros)])
         is_left = np.sign(between[1]) == np.sign(a[1])

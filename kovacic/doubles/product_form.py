@@ -187,6 +187,7 @@ class ProductForm:
             if found is None:
                 raise LimitExceeded("the zeros of the derivative weren't found", limit="digits")
             c = self.branch.constant()
+            # Products over zeros are monic: the leading coefficients of N, P and D aren't in them.
             lead, first, last = (embed(poly, c).coeffs() or [acb(0)] for poly in (slope.P, P, D))
             factor = lead[-1] / (first[-1] * last[-1]) * (_phase(found.factors) - _phase(self.factors)).exp()
             constant = Complex.of(acb(factor.real) if self.is_real else factor)
@@ -249,6 +250,7 @@ class ProductForm:
         binary = parts.binary
         growth = parts.growth
         if self.careful:
+            # exp(growth) = 2^turns exp(rest), |rest| <= log(2)/2, and exp(hi + lo) = exp(hi) (1 + lo).
             turns = np.rint(growth.re.hi / LOG_2.hi)
             rest = growth.re - Pair(turns, 0.0 * turns) * LOG_2
             value *= Complex(np.exp(rest.hi) * (1.0 + rest.lo))
@@ -307,6 +309,7 @@ class _Product:
         if self.careful:
             d, e = split(d)
         power = f.power
+        # (d conj(d))^re(power) exp(-2 im(power) arg d): both factors in one, with |d|^2 = 2^(2 e) |d 2^-e|^2.
         if f.paired:
             if power.im is not None:
                 growth.append(Complex(angle(d * f.turn.conjugate()) * (power.im * Pair(-2.0))))
@@ -315,6 +318,7 @@ class _Product:
             power = Complex(power.re)
         whole = f.whole
         is_real = d.im is None
+        # A real power other than a natural one is that of |x - zeta|, as (x - zeta)/turn > 0.
         if is_real and not f.is_natural:
             d = Complex(absolute(d.re))
         if whole is not None and (is_real or f.is_natural):
@@ -358,6 +362,7 @@ def _turn(growth: Complex) -> Complex:
     if growth.im is None:
         return Complex(1.0)
     t = growth.im
+    # exp(i (t + rest)) = exp(i t)(1 + i rest).
     rest: Any = 0.0
     if isinstance(growth.im, Pair):
         t = growth.im.hi
@@ -428,6 +433,7 @@ def _root_factors(powers: list[tuple[acb, acb]], base: acb, is_real: bool) -> tu
         if power.abs_upper() < _SAME or (is_real and zeta.imag < 0):
             continue
         d = base - zeta
+        # (base - zeta)/turn = |base - zeta| > 0.
         turn = acb(1) if d.contains(0) else d / abs(d)
         paired = is_real and not zeta.imag.contains(0)
         found.append(RootFactor(Complex.of(zeta), Complex.of(power), Complex.of(turn), paired))

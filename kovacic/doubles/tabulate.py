@@ -198,6 +198,7 @@ class TabulatedFunction:
     def derivative(self) -> TabulatedFunction:
         """y', a table on the same pieces; its error isn't measured, some ten times that of y over the length of a piece."""
         terms = self.coefficients.shape[2]
+        # d/dx = 2^-exponent d/du, and (u^n)' = n u^(n - 1).
         factors = np.arange(1.0, terms)
         product = Pair(*self.coefficients[:, :, 1:].swapaxes(0, 1)) * Pair(factors[:, None])
         table = np.array([product.hi, product.lo]).swapaxes(0, 1)
@@ -214,6 +215,7 @@ class TabulatedFunction:
         if k not in self._whole:
             self._whole[k] = [_Whole.of(part[:, :, k], self.careful) for part in self.coefficients]
         e = exponents[k]
+        # x - centre = high + low exactly [two_sum], then in units of 2^-_FIXED.
         high = x - centres[k]
         low = (x - (high - (high - x))) - (centres[k] + (high - x))
         u = int(ldexp(high, _FIXED - e)) + int(ldexp(low, _FIXED - e))
@@ -304,6 +306,7 @@ def table_of(chart: PieceChart, region: Region, careful: bool, limits: Limits | 
     rows = []
     for first in range(0, len(cells), _TOGETHER):
         some = slice(first, first + _TOGETHER)
+        # series: (terms, solutions, pieces), states: ((y, H y'), parts, pieces), coefficients: (terms, parts, pieces).
         series = Pair(*np.stack(found[some], axis=-1))
         states, powers = _states(chart, cells[some], variant, limits)
         coefficients = series[:, 0, None] * states[0] + series[:, 1, None] * states[1]
@@ -314,6 +317,7 @@ def table_of(chart: PieceChart, region: Region, careful: bool, limits: Limits | 
         kept = variant.kept
         lowered = np.tensordot(_lowering(variant.terms, kept), coefficients.hi[kept:], 1)
         coefficients = coefficients[:kept] + Pair(lowered)
+        # (halves, terms, parts, pieces) becomes (parts, halves, terms, pieces), the shape of the table.
         rows.append((np.array([coefficients.hi, coefficients.lo]).transpose(2, 0, 1, 3), powers))
     x0 = chart.given.get("x0")
     base = x0 if isinstance(x0, ExactPoint) else None
@@ -411,6 +415,7 @@ def _series(chart: PieceChart, cells: list[Cell], variant: Variant) -> list[Any]
     with np.errstate(all="ignore"):
         z = _series_recurrence(numbers, source, variant)
         sizes = np.abs(z[0, : variant.tested])
+        # By four terms, since some equations have zeros in between: even solutions, or every fourth power only.
         converges = (sizes[-4:].max(0) <= sizes.max(0) * 2.0**-variant.bits).all(0)
         is_bounded = (sizes[:, :2].sum(0) <= _GROWTH).all(0)
     return [z[..., k] if will_do else None for k, will_do in enumerate(converges & is_bounded)]
@@ -453,6 +458,7 @@ def _states(chart: PieceChart, cells: list[Cell], variant: Variant, limits: Limi
     with working_precision(_PREC):
         for k, ((_, e), (y, dy)) in enumerate(zip(cells, balls, strict=True)):
             row = (y, dy * arb((1, e)))
+            # The larger of |y| and |H y'|: a power of two about that is taken out of both.
             size = max(abs(v).mid() for v in row)
             if max(abs(v).rad() for v in row) > size * arb((1, -variant.bits)):
                 raise LimitExceeded("the initial values are too inaccurate for a table", limit="digits")
@@ -461,6 +467,7 @@ def _states(chart: PieceChart, cells: list[Cell], variant: Variant, limits: Limi
             for v in row:
                 imaginary = v.imag * 0 if v.imag.contains(0) else v.imag
                 numbers += [v.real * scale, imaginary * scale]
+        # From (halves, pieces, (y, H y'), (re, im)) to (halves, (y, H y'), (re, im), pieces).
         table = halves(numbers).reshape(2, len(cells), 2, 2).transpose(0, 2, 3, 1)
     kept = np.where(np.abs(powers) > _ROOM, powers, 0)
     # Imaginary parts that are all zero are left out.

@@ -107,6 +107,7 @@ def agrees_with_group(
 def is_fuchsian(problem: NumericProblem) -> bool:
     """True if all singular points, infinity among them, are regular."""
     num, den = problem.polynomials()
+    # S = O(1/x^2) at infinity, and poles of order 2 at most [Fuchs].
     is_infinity_regular = num.degree() < 0 or num.degree() - den.degree() <= -2
     return is_infinity_regular and all(multiplicity <= 2 for _, multiplicity in problem.poles(64))
 
@@ -145,6 +146,7 @@ def _angles(group: Group) -> Counter[Fraction] | None:
 
 def _angles_of_roots(n: int) -> Counter[Fraction]:
     """The angles of the n-th roots of unity; a root and its inverse have one."""
+    # exp(2 pi i turn) and its inverse are the eigenvalues of one element, or of two with the same trace.
     turns = [Fraction(k, n) for k in range(n)]
     return Counter(min(turn, 1 - turn) for turn in turns)
 
@@ -185,6 +187,7 @@ class _Enumeration:
 
     def add(self, candidate: acb_mat) -> Agreement | None:
         """Another product of generators; a verdict where it contradicts the claim, or can't be told from other elements."""
+        # Those of the claimed traces that this one may be.
         angles = [angle for angle, value in self.traces.items() if candidate.trace().overlaps(value)]
         if not angles:
             return Agreement(False, f"the monodromy group has an element whose trace isn't one of {self.group}")
@@ -203,6 +206,7 @@ class _Enumeration:
     def _kind(self, element: acb_mat) -> _Element:
         """Which an element is whose trace is one of these."""
         trace = element.trace()
+        # Beside another element, the trace of the quotient is 2 only if both are equal, or if the group is infinite.
         if not trace.overlaps(_TWO):
             return _Element.OTHER
         if any(trace.overlaps(value) for angle, value in self.traces.items() if angle):
@@ -336,6 +340,7 @@ def _may_be_in(m: acb_mat, kind: GroupKind) -> bool:
     """True if the matrix may be an element of this primitive group.  In a finite group only +-1 have their traces."""
     if m.trace().overlaps(_TWO):
         return _may_be_identity(m)
+    # -1, whose square is 1.
     if m.trace().overlaps(-_TWO):
         return _may_be_identity(m**2)
     return any(bool(m.trace().overlaps(_trace_of_turn(Fraction(angle)))) for angle in _PRIMITIVE[kind])

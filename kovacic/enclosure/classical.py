@@ -94,6 +94,7 @@ class Classical:
         try:
             with working_precision(_BITS):
                 y1, y2, dy1, dy2 = _solutions_at_start(self, start, False).at(start)
+                # The two products in the Wronskian y1 dy2 - y2 dy1.
                 squares = [float(abs(y * dy).mid().log()) for y, dy in ((y1, dy2), (y2, dy1)) if abs(y * dy).mid() > 0]
         except NotServed:
             return 0.0
@@ -185,6 +186,7 @@ def _frobenius(classical: Classical, point: Singular, gauge: RatFunc, needed: tu
 @lru_cache(maxsize=64)
 def _without_pole(gauge: RatFunc, point: ExactPoint) -> RatFunc | None:
     """Without the part c/(x - x0), at most a simple pole; None for zero."""
+    # c = (gauge t) at the point; an ordinary point has c = 0.
     t = QQ.poly([-point.re, 1])
     return (gauge - (gauge * t)(point.re) / t) or None
 
@@ -247,6 +249,7 @@ class Solutions:
         NotServed."""
         if self.exponents is not None:
             if self.point == x:  # an ordinary point, where the second solution in the form's order is 1
+                # There E = 1, and the slope of the first solution is that of the factors alone.
                 rate = sum((powers[1] * acb(slope(x.x) / poly(x.x)) for poly, slope, powers in self.factors), acb(0))
                 return acb(1), acb(0), rate, acb(1)
             with working_precision(_sharper(ctx.prec)):
@@ -262,12 +265,14 @@ class Solutions:
         n = value_at(form.n, x)
         d = value_at(form.d, x)
         dn, dd = (value_at(poly, x) for poly in form.derivatives)
+        # f' = (n' d - n d')/d^2.
         slope = acb((dn - n / d * dd) / d)
         rates = [acb(value_at(derivative, x) / value_at(poly, x)) for poly, derivative, _ in self.factors]
         found = []
         for i, (E, dE) in enumerate(form.values(acb(n / d), needed)):
             exponents = [powers[i] for _, _, powers in self.factors]
             rate = sum((e * value for e, value in zip(exponents, rates, strict=True)), acb(0))
+            # The product of the factors to their powers, 1 at the point, by sums of continued logarithms.
             power = sum((e * log for e, log in zip(exponents, logs, strict=True)), acb(0)).exp()
             found.append((E * power, (rate * E + slope * dE) * power))
         return found
@@ -282,8 +287,10 @@ class Solutions:
             theta = log_derivative(self.gauge)
             growth = theta.growth(to_acb(self.point), to_acb(x))
             rate = theta.value(to_acb(x))
+        # A form has the solution with the larger exponent first, a Frobenius basis second.
         first, second = self._states(x, self.needed[::-1])
         for (y, dy), exponent in zip((second, first), exponents, strict=True):
+            # (t^e g y)' = t^e g (y' + (e/t + g'/g) y), and t^e follows.
             dy = (dy + (exponent / t + rate) * y) * growth
             y = y * growth
             if x.is_real():
@@ -327,6 +334,7 @@ def _followed(poly: fmpq_poly, a: ExactPoint, b: ExactPoint) -> acb:
         if not all(_off(quotient) for quotient, _ in quotients):
             raise NotServed
         angle = sum((quotient.log().imag * k for quotient, k in quotients), arb(0))
+    # log p(b)/p(a) = log(+-ratio) + i pi turns: an odd number of half turns where the sign was changed.
     back = ratio.real.mid() < 0
     beside = -ratio if back else ratio  # away from the cut of the principal logarithm
     log = beside.log()
@@ -343,6 +351,7 @@ def _check_pieces(a: ExactPoint, b: ExactPoint, allowed: Callable[[acb], bool]) 
     waiting = [(0, 0)]  # k and depth: the piece from k/2^depth to (k + 1)/2^depth
     for _ in range(_MOST_LEG_PIECES):
         k, depth = waiting.pop()
+        # A ball on the segment with the middle (2 k + 1)/2^(depth + 1) of it: half the piece is its radius.
         if not allowed(start + step * acb(arb((2 * k + 1, -depth - 1), (1, -depth - 1)))):
             waiting += [(2 * k + 1, depth + 1), (2 * k, depth + 1)]
         if not waiting:
@@ -360,6 +369,7 @@ def _avoids(form: StandardForm, a: ExactPoint, b: ExactPoint, needed: tuple[bool
 
     On the real axis z and 1 - z keep their signs, since their numerators and denominators have no zeros (`_followed`).
     """
+    # z and 1 - z are these over d; each has its slit.
     tops = (form.n, form.d - form.n)
     for c, top, is_met in zip(form.slits, tops, (needed[0], True), strict=True):
         if c is None or not is_met:

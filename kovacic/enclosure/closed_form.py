@@ -95,6 +95,7 @@ class Exponential:
             self._in_balls[ctx.prec] = log_derivative(self.theta, self.embedding), P, P.derivative()
         theta, P, slope = self._in_balls[ctx.prec]
         E = theta.growth(a, b)
+        # y' = E (theta P + P').
         return [(g * P(x), g * (theta.value(x) * P(x) + slope(x))) for x, g in ((a, acb(1)), (b, E))]
 
     @cached_property
@@ -126,6 +127,7 @@ class CaseOneForm:
             return tuple(Exponential(theta, P, k) for k in range(count))
         square = self.square
         if square is not None and theta.field == square.theta.field:
+            # y1 y2 is the invariant: y2 has the rest of theta and of the zeros, unless the invariant is y1^2.
             zeros = square.P.exact_quotient(P)
             if zeros is not None and square.logarithmic_derivative != 2 * (theta + RatFunc(P.derivative(), P)):
                 return self.first, Exponential(square.theta - theta, zeros)
@@ -143,10 +145,12 @@ class CaseOneForm:
             return None
         if sum(abs(e) * factor.degree for factor, e in exponents) // 2 + P.degree > _SMALL:
             return None
+        # y1^2 = exp(int 2 theta) P^2, and exp(int e/(x - a)) = (x - a)^e.
         square = math.prod((RatFunc(factor) ** e for factor, e in exponents), start=RatFunc(P) ** 2)
         inverse = decompose(1 / square)
         if inverse.residues:
             return None
+        # y2 = y1 R with R = int y1^-2, so P R in place of P; its denominator goes into theta.
         factor = inverse.exact * P
         return Exponential(theta - RatFunc(factor.den.derivative(), factor.den), factor.num)
 
@@ -170,6 +174,7 @@ class CaseOneForm:
         """The transition matrix that carries (y, y') from a to b along the straight segment, for elementary solutions."""
         check_segment(self.problem.system, a, b)
         first, second = (y.states(to_acb(a), to_acb(b)) for y in self.branches)
+        # Y(b) Y(a)^-1, with the two solutions as columns.
         start, end = (fundamental(y, z) for y, z in zip(first, second, strict=True))
         return multiply(end, inverse(start))
 
@@ -257,6 +262,7 @@ def omega(problem: NumericProblem, which: int, x0: ExactPoint, bits: int) -> acb
                 )
             if found and found[which].is_finite():
                 ball = found[which]
+                # A logarithmic derivative that is 0 has no relative accuracy.
                 if ball.rel_accuracy_bits() >= bits or ball.real.rad() + ball.imag.rad() < arb((1, -bits - 400)):
                     return ball
         prec *= 2

@@ -196,6 +196,7 @@ class Prepared:
 
         points: Any = np.asarray(x, dtype=object)
         mask: Any = np.ma.getmaskarray(np.ma.asanyarray(x))
+        # A point that isn't equal to itself is NaN, which stays; what is masked isn't computed.
         wanted = [k for k, point in enumerate(points.flat) if point == point and not mask.flat[k]]  # NaN is no number
         values = np.full(points.size, math.nan, dtype=object)
         for k, value in zip(wanted, self._at([points.flat[k] for k in wanted], derivative), strict=True):

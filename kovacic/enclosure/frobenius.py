@@ -75,9 +75,11 @@ class Majorant:
     @classmethod
     def make(cls, op: Operator, neighbours: list[tuple[acb, int]], rho: arb) -> Majorant:
         """The bounds, from the coefficients and the other zeros of A."""
+        # |A| >= |A_0| prod (1 - rho/|zeta|)^k on the circle.
         inverse = 1 / abs(op.A[0])
         for zeta, k in neighbours:
             inverse /= (1 - rho / abs(zeta)) ** k
+        # beta - beta_0 = (B - B_0/A_0 A)/A, with nothing at t^0 in the numerator.
         rows = ([v - row[0] / op.A[0] * a for v, a in zip(row, op.A, strict=True)] for row in (op.B, op.C))
         beta, gamma = (sum((abs(v) * rho**j for j, v in enumerate(row) if j), arb(0)) * inverse for row in rows)
         return cls(rho, beta.upper(), gamma.upper(), inverse.upper())
@@ -135,6 +137,7 @@ def junction(point: Singular, towards: ExactPoint, prec: int) -> tuple[ExactPoin
         e, bound = radius(point, prec, t.upper())
         if t <= arb((1, e)):
             return towards, bound
+        # 2^share of the way to `towards` is in the disc; at infinity t = 1/x.
         share = math.floor(log2(arb((1, e)) / t))
     if point.inverted:
         return towards.scaled(power_of_two(-share)), bound
@@ -207,6 +210,7 @@ class _Beginning:
 
 def limit(point: Singular, start: State) -> State:
     """y and y' at the point itself, for coordinates in the basis; raises InputError where one is infinite."""
+    # At the point itself t is 0: which way the series would go doesn't matter.
     beside = point.near + ExactPoint(1)
     last, bound = junction(point, beside, 64)
     needed = [not coordinate.is_zero() for coordinate in start]
@@ -226,6 +230,7 @@ def _apply(op: Operator, j: int, nu: Any, a: LogPair) -> LogPair:
     B = op.B[j]
     C = op.C[j]
     (u, v) = a
+    # P_j(nu + eps) = P_j(nu) + P_j'(nu) eps, and eps (u, v) = (v, 0).
     value = (A * nu + B) * nu + C
     return value * u + (2 * A * nu + B) * v, value * v
 
@@ -239,9 +244,11 @@ def _next(op: Operator, nu: Any, terms: list[LogPair], beginning: _Beginning) ->
         f0 = f0 - p
         f1 = f1 - q
     slope = 2 * op.A[0] * nu + op.B[0]
+    # There P_0 is P_0' eps: it gives P_0' v = f0, and u may be chosen.
     if n == beginning.resonance:
         return f0 * 0, f0 / slope * beginning.logarithm
     value = (op.A[0] * nu + op.B[0]) * nu + op.C[0]
+    # P_0 v = f1 and P_0 u + P_0' v = f0.
     v = f1 / value
     return (f0 - slope * v) / value, v
 
@@ -261,6 +268,7 @@ class FrobeniusSeries:
         """The limit of the derivative of order k = 0 or 1 for t to 0; None if it is infinite."""
         exponent = self.exponent
         if is_integer(exponent) and 0 <= exponent <= k:
+            # t^p sum U_m t^m: the derivative of order k at 0 is k! U_(k - p), and k! is 1.
             n = k - int(exponent.p)
             has_logarithm = any(not self.V[m].is_zero() for m in range(n + 1))
             return None if has_logarithm else self.U[n]
@@ -276,6 +284,7 @@ class FrobeniusSeries:
         value = value + V(t) * log
         slope = slope + (lam * V(t) + t * V.derivative()(t)) * log + V(t)
         real = t.imag.is_zero() and value.imag.is_zero() and slope.imag.is_zero()
+        # The errors are over max(1, |log t|).
         size = max(arb(1), abs(log).upper())
         tails = [around_zero((error * size).upper(), real=real) for error in self.errors]
         power = power_of(t, self.exponent, log)
@@ -288,12 +297,14 @@ def _expand(op: Operator, beginning: _Beginning, length: arb, bound: Majorant, p
     with working_precision(64):
         size = abs(acb(exponent)).upper()
     first = max(_terms_before_bound(beginning.delta), len(op.A), (beginning.resonance or 0) + 1)
+    # Real numbers where the equation and the exponent are real.
     kind = type(op.A[0])
     if not isinstance(exponent, fmpq) and not acb(exponent).imag.is_zero():
         kind = acb
     lam = kind(exponent) if kind is acb or isinstance(exponent, fmpq) else kind(acb(exponent).real)
     terms: list[LogPair] = [(kind(beginning.start[0]), kind(beginning.start[1]))]
     cap = 40 * prec + 4000 + 4 * first
+    # Before these many terms there is no bound.
     more = first
     while True:
         for _ in range(more):
@@ -305,6 +316,7 @@ def _expand(op: Operator, beginning: _Beginning, length: arb, bound: Majorant, p
             defect = _tail_defect(op, lam, terms, length)
             factor, kappa = bound.growth(n, beginning.delta, size, length)
             F = (factor * bound.inverse * defect * length**n / (kappa * n)).upper()  # equation (2)
+        # F bounds sum n E_n t^n: the values are off by F/n at most, and theta y by F (1 + (|lambda| + 1)/n).
         if arb((1, -prec - 20)) > F:
             U, V = (acb_poly([pair[k] for pair in terms]) for k in (0, 1))
             return FrobeniusSeries(exponent, lam, U, V, ((F / n).upper(), (F * (1 + (size + 1) / n)).upper()))
@@ -319,6 +331,7 @@ def _tail_defect(op: Operator, lam: Any, terms: list[LogPair], length: arb) -> a
     zero = type(lam)(0)
     total = arb(0)
     for m in range(order):
+        # P_j with j > m reaches from the terms that are there, n - 1 the last one, to the equation of t^(n + m).
         pairs = [_apply(op, j, lam + (n + m - j), terms[n + m - j]) for j in range(m + 1, order + 1)]
         u, v = (abs(sum(part, zero)).upper() for part in zip(*pairs, strict=True))
         total += (u + v) * length**m

@@ -53,6 +53,7 @@ class Journey:
         """The states at the targets, to about `prec` bits: exact points are travelled, the midpoints of balls."""
         key = closed, prec
         if key not in self._begun:
+            # A higher precision begins anew; the lower ones may be asked for again.
             if len(self._begun) >= _KEPT:
                 self._begun.clear()
             self._begun[key] = self._begin(closed, prec)
@@ -105,6 +106,7 @@ class Journey:
         for waiting in sides(traveller.here, list(dict.fromkeys(stops))):
             one = traveller
             for detour in _joined(_detours(one.here, waiting[-1], singular), waiting, singular):
+                # Before the place, in the direction of the way: they are reached before the detour begins.
                 nearer = [stop for stop in waiting if detour.sign * (stop.x - detour.place) < 0]
                 found |= one.fan(nearer)
                 waiting = waiting[len(nearer) :]
@@ -149,6 +151,7 @@ class _Detour:
 def _detours(here: ExactPoint | Singular, last: ExactPoint, singular: Sequence[ExactPoint]) -> Iterator[_Detour]:
     """Those on the way to `last`, in order; from infinity beyond all singular points."""
     if isinstance(here, Singular):
+        # From infinity: beyond all singular points and the last stop.
         far = 2 * max(abs(p.x) for p in (last, *singular)) + 1
         here = ExactPoint(far if last.x > 0 else -far) if here.inverted else here.near
     if not (here.is_real() and last.is_real()):
@@ -163,9 +166,12 @@ def _detours(here: ExactPoint | Singular, last: ExactPoint, singular: Sequence[E
     places = [place for place in on_axis if 0 < sign * (place - here.x) < distance]
     for place in sorted(places, reverse=sign < 0):
         point = ExactPoint(place)
+        # Half the distance to another singular point, or the whole one to the start, whichever is less.
         squares = [(other - point).norm_squared() / 4 for other in singular if other != point]
         square = min([*squares, (here - point).norm_squared()])
+        # A power of two below the root.
         radius = power_of_two((binary_exponent(square) - 1) // 2)
+        # A short number, at most a sixteenth of the radius to the left of the place.
         centre = (place / radius * 16).floor() * radius / 16
         yield _Detour(place, centre - sign * radius, centre + sign * radius, sign)
 

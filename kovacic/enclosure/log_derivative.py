@@ -61,6 +61,7 @@ def zeros(poly: Poly, c: acb | None) -> list[tuple[acb, int]]:
     result = []
     for p, k in squarefree_factors(poly):
         factor = p.monic()
+        # A factor with coefficients in Q is isolated as such: its balls don't depend on c.
         rational, *rest = factor.parts
         found = sharp_roots(embed(factor, c)) if any(rest) else [root for root, _ in _roots(rational)]
         result += [(root, k) for root in found]
@@ -69,6 +70,7 @@ def zeros(poly: Poly, c: acb | None) -> list[tuple[acb, int]]:
 
 def sharp_roots(poly: acb_poly) -> list[acb]:
     """All zeros of a squarefree polynomial, isolated and refined; an empty list where the coefficients don't allow it."""
+    # A share of the precision that the coefficients may allow; the first one at which all zeros are isolated.
     for share in (0.95, 0.85, 0.75, 0.6, 0.45, 0.3):
         try:
             roots: list[acb] = poly.roots(tol=arb(2) ** -int(ctx.prec * share), maxprec=4 * ctx.prec)
@@ -123,6 +125,7 @@ class LogDerivative:
             if not residue.is_zero():
                 total += residue * (u / v).log(analytic=analytic)
             for k, coefficient in enumerate(pole.coefficients[1:], start=2):
+                # int (x - zeta)^-k = -(x - zeta)^(1 - k)/(k - 1).
                 total += coefficient * (v ** (1 - k) - u ** (1 - k)) / (k - 1)
         return total
 
@@ -144,6 +147,7 @@ def log_derivative(theta: RatFunc, embedding: int = 0) -> LogDerivative:
 def _principal_part(num: acb_poly, den: acb_poly, zeta: acb, k: int) -> tuple[acb, ...]:
     """The coefficients of t^-1, ..., t^-k of num/den at x = zeta + t, a zero of den of multiplicity exactly k."""
     check_time()
+    # num/den = t^-k top/bottom, and found[n] is the coefficient of t^(n - k).
     top = _taylor(num, zeta, k)
     bottom = _taylor(den, zeta, 2 * k)[k:]  # the first k coefficients are exactly zero
     found: list[acb] = []

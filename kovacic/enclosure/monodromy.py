@@ -23,7 +23,7 @@ from kovacic.algebra.precision import working_precision
 from kovacic.enclosure.ball import Ball, ball_from_flint, ball_to_flint, finite_ball
 from kovacic.enclosure.evaluate import with_variable
 from kovacic.enclosure.frobenius import basis, junction
-from kovacic.enclosure.matrices import Matrix, identity, inverse, multiply
+from kovacic.enclosure.matrices import Matrix, inverse, multiply
 from kovacic.enclosure.points import ExactPoint, as_point, binary_exponent, midpoint, root_below, to_acb
 from kovacic.enclosure.precision import start_bits
 from kovacic.enclosure.problem import NumericProblem, as_problem
@@ -178,9 +178,11 @@ def connection_matrix(
     while True:
         with working_precision(prec + 40), budget.watched():
             entries = _connection(problem, way, prec)
+            # Relative to the largest entry.
             goal = max((entry.abs_upper() for entry in entries), key=float) * arb(10) ** -digits
             sharp = all(entry.real.rad() + entry.imag.rad() <= goal for entry in entries)
             balls = [ball for ball in map(ball_from_flint, entries) if ball is not None]
+        # An entry isn't finite: the precision was too low.
         if len(balls) < 4:
             prec += prec // 2
         elif sharp or not problem.is_exact:
@@ -213,16 +215,16 @@ def _end(problem: NumericProblem, value: object) -> ExactPoint | Singular:
 def _connection(problem: NumericProblem, way: _Polygon, prec: int) -> Matrix:
     """The matrix to about `prec` bits."""
     first, middle, end = way
+    # Both coordinates are 1, so that both columns are computed; only the matrix is taken.
     traveller = Traveller(way_for(problem).at(prec), first, (acb(1), acb(1)))
     for vertex in middle:
         traveller = traveller.moved(vertex)
-    into = identity()
-    if isinstance(end, Singular):
-        here = traveller.point
-        last, bound = junction(end, here, prec)
-        into = inverse(basis(end, last, here, bound, prec))
-        end = last
-    return multiply(into, traveller.moved(end).maps.whole()[0])
+    if not isinstance(end, Singular):
+        return traveller.moved(end).maps.whole()[0]
+    here = traveller.point
+    last, bound = junction(end, here, prec)
+    there = basis(end, last, here, bound, prec)
+    return multiply(inverse(there), traveller.moved(last).maps.whole()[0])
 
 
 @limited
@@ -303,6 +305,7 @@ def _loops(places: list[tuple[ExactPoint, Any]]) -> list[tuple[tuple[ExactPoint,
         for _ in range(4):
             corners.append(corners[-1] * ExactPoint(0, 1))
         loops.append(((base, *(z + corner for corner in corners), base), z))
+    # By the tangent of the angle at the base point, which lies above all: from the left to the right.
     return sorted(loops, key=lambda item: (item[1].x - base.x) / (base.y - item[1].y))
 
 
@@ -312,6 +315,7 @@ def _bases(places: list[tuple[ExactPoint, Any]]) -> Iterator[ExactPoint]:
     spread = max(abs(p.x - q.x) + abs(p.y - q.y) for p in centres for q in centres)
     top = max(z.y for z in centres) + max(fmpq(1), spread)
     middle = sum((z.x for z in centres), fmpq(0)) / len(centres)
+    # Beside the middle, by shares that see equally spaced points and mirrored ones in different directions.
     for shift in (1, -3, 10, -17, 29, -41):
         yield ExactPoint(middle + (spread * shift + 1) / 97, top).rounded(binary_exponent(spread) - 10)
 
@@ -332,6 +336,7 @@ def _distance_below(point: ExactPoint, a: ExactPoint, b: ExactPoint) -> Any:
     """A rational number not above the distance of the point from the segment, and at least half of it."""
     step = b - a
     offset = point - a
+    # The parameter of the foot of the perpendicular; the nearest point of the segment is at the nearer end beyond it.
     t = (offset.x * step.x + offset.y * step.y) / step.norm_squared()
     nearest = step.scaled(min(max(t, fmpq(0)), fmpq(1)))
     return root_below((offset - nearest).norm_squared(), 1)
@@ -350,6 +355,7 @@ def _local(
             if multiplicity == 2:  # b = num/(den''/2) at the double zero
                 num, den = problem.polynomials()
                 b = 2 * num(root) / den.derivative().derivative()(root)
+            # rho (rho - 1) = b: rho = 1/2 +- s, and Delta = 2 s.
             s = (arb(1) / 4 + b).sqrt()
             exponents = (finite_ball(arb(1) / 2 + s), finite_ball(arb(1) / 2 - s))
             trace = finite_ball(-2 * (2 * s).cos_pi())

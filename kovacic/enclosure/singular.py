@@ -73,10 +73,12 @@ class Singular:
             inverted = reverse(a, 4), 2 * reverse(a, 3) - reverse(b, 2), reverse(c, 0)
             found = cls(inverted, fmpq_poly([0, 1]), ExactPoint(0), inverted=True)
         elif isinstance(point, ExactPoint):
+            # x - p, or (x - z)(x - conj z).
             minimal = [-point.x, 1] if point.is_real() else [point.norm_squared(), -2 * point.x, 1]
             found = cls((a, b, c), fmpq_poly(minimal), point)
         else:
             found = cls((a, b, c), *_root_in(a, point), exact=False)
+        # Fuchs: b has at most one order less than a, and c two.
         orders = found._orders
         if orders[1] < orders[0] - 1 or orders[2] < orders[0] - 2:
             raise InputError(
@@ -88,6 +90,7 @@ class Singular:
         """The point, in a ball of the working precision in force (0 for infinity)."""
         if self.exact:
             return to_acb(self.near)
+        # The zero of the minimal polynomial next to `near`.
         roots = [root for root, _ in complex_zeros(self.minimal.numer())]
         return min(roots, key=lambda root: float(abs(root - to_acb(self.near)).mid()))
 
@@ -138,6 +141,7 @@ class Singular:
     @property
     def _delta(self) -> Any:
         """The difference of the exponents: a rational number where it is one, else a ball."""
+        # rho^2 - s rho + p = 0 has the roots (s +- (s^2 - 4 p)^(1/2))/2.
         square = self._at(self._indicial[1])
         try:
             return square.sqrt() if isinstance(square, fmpq) else acb(square).sqrt()
@@ -164,6 +168,8 @@ class Singular:
             moved = [poly(fmpq_poly([self.near.x, 1])).coeffs() for poly in self.equation]
         else:
             moved = self._moved_in_balls()
+        # t^2 y.. = theta (theta - 1) y, t y. = theta y: t^2 times the equation is a theta (theta - 1) + t b theta + t^2 c,
+        # so A = a, B = t b - a and C = t^2 c, up to a power of t.
         lines = [[0] * k + part for k, part in enumerate(moved)]
         size = max(map(len, lines))
         a, b, c = (line + [0] * (size - len(line)) for line in lines)
@@ -190,6 +196,7 @@ class Singular:
             with working_precision(prec):
                 here = self.value()
                 found = [(root - here, k) for root, k in complex_zeros(self.equation[0].numer())]
+            # The point itself is a zero of a unless it is ordinary; balls that contain 0 can't be told from it.
             others = [(d, k) for d, k in found if not d.contains(0)]
             if len(others) == len(found) - own:
                 return others

@@ -28,13 +28,18 @@ LEGENDRE = System.make((-13, 0, 4), (9, 0, -18, 0, 9))  # nu = 1/3: S = -(4/9 (1
 DIGITS = 5000
 
 
+def pair_of(system: System) -> tuple[list[int], list[int]]:
+    """S as a pair of coefficient lists."""
+    return list(system.num), list(system.den)
+
+
 def both_ways(system: System, path: list[ExactPoint], prec: int) -> tuple[Matrix, Matrix]:
     """The transition matrix term by term, and by splitting."""
     matrices = []
     with flint.ctx.workprec(prec + 40), pytest.MonkeyPatch.context() as patch:
         for split in (False, True):
             patch.setattr(rational, "is_split", lambda *_, split=split: split)
-            way = rational.RationalWay(as_problem((list(system.num), list(system.den))), prec)
+            way = rational.RationalWay(as_problem(pair_of(system)), prec)
             try:
                 for a, b in pairwise(path):
                     way.check(a, b)
@@ -245,7 +250,7 @@ def carried(matrix: object, y: flint.arb, dy: flint.arb) -> flint.arb:
 
 def test_five_thousand_digits_of_airy_functions() -> None:
     assert is_split(AIRY, 3 * DIGITS)
-    matrix = connection_matrix(AIRY, [0, 1], digits=DIGITS)
+    matrix = connection_matrix(pair_of(AIRY), [0, 1], digits=DIGITS)
     with flint.ctx.workdps(DIGITS + 20):
         zero, one = flint.arb(0), flint.arb(1)
         for name in ("airy_ai", "airy_bi"):
@@ -269,7 +274,7 @@ def test_five_thousand_digits_of_a_bessel_function_of_order_one_third() -> None:
 @pytest.mark.parametrize("x", ["1/3", "0.3141592653589793"])
 def test_five_thousand_digits_of_a_legendre_function_of_order_one_third(x: str) -> None:
     assert is_split(LEGENDRE, 3 * DIGITS)
-    matrix = connection_matrix(LEGENDRE, [0, x], digits=DIGITS)
+    matrix = connection_matrix(pair_of(LEGENDRE), [0, x], digits=DIGITS)
     with flint.ctx.workdps(DIGITS + 20):
         nu, end = flint.arb(1) / 3, flint.arb(flint.fmpq(*Fraction(x).as_integer_ratio()))
         start = (flint.arb(0).legendre_p(nu), nu * flint.arb(0).legendre_p(nu - 1))
@@ -277,7 +282,7 @@ def test_five_thousand_digits_of_a_legendre_function_of_order_one_third(x: str) 
 
 
 def test_the_goal_is_met_in_one_run_above_the_crossover() -> None:
-    (state,) = evaluate_states(LEGENDRE, ["2/5"], x0="-1/7", y0=1, dy0=2, digits=3000)
+    (state,) = evaluate_states(pair_of(LEGENDRE), ["2/5"], x0="-1/7", y0=1, dy0=2, digits=3000)
     assert state.missing == 0
     assert state.route.runs == 1
 
@@ -288,9 +293,9 @@ def test_the_goal_is_met_in_one_run_above_the_crossover() -> None:
 def test_an_exhausted_limit_and_an_interruption_leave_the_precision_alone() -> None:
     before = flint.ctx.prec
     with pytest.raises(LimitExceeded):
-        evaluate(LEGENDRE, "1/3", x0=0, y0=1, dy0=0, digits=50_000, limits=Limits(seconds=0.1))
+        evaluate(pair_of(LEGENDRE), "1/3", x0=0, y0=1, dy0=0, digits=50_000, limits=Limits(seconds=0.1))
     assert flint.ctx.prec == before
 
     with pytest.raises(KeyboardInterrupt), interrupted(20):
-        evaluate(LEGENDRE, "1/3", x0=0, y0=1, dy0=0, digits=5000)
+        evaluate(pair_of(LEGENDRE), "1/3", x0=0, y0=1, dy0=0, digits=5000)
     assert flint.ctx.prec == before
