@@ -176,26 +176,25 @@ def region_of(problem: NumericProblem | None, interval: tuple[object, object]) -
     is_reversed = a.is_real() and b.is_real() and a != low
     if a == b or is_reversed:
         raise InputError("the interval is empty", hint="give two real numbers, the smaller one first")
-    singular = (False, False)
-    if problem is not None:
-        with working_precision(_PREC):
-            singular = _singular_ends(problem, low, high)
+    singular = _singular_ends(problem, low, high)
     left, right = _doubles(low.re, high.re, singular)
     bottom, top = _doubles(low.im, high.im, singular)
     if left > right or bottom > top:
         raise InputError("the interval contains no double")
-    if problem is not None and not any(singular):
-        with working_precision(_PREC):  # a double may lie beyond the end that it stands for
-            _singular_ends(problem, as_point(complex(left, bottom), "an end"), as_point(complex(right, top), "an end"))
+    if not any(singular):  # a double may lie beyond the end that it stands for
+        _singular_ends(problem, as_point(complex(left, bottom), "an end"), as_point(complex(right, top), "an end"))
     # The middle, and other places in case a solution is zero there.
     near = [low + (high - low).scaled(Fraction(k, 64)) for k in (32, 31, 34, 27, 39)]
     return Region(complex(left, bottom), complex(right, top), singular), near
 
 
-def _singular_ends(problem: NumericProblem, low: ExactPoint, high: ExactPoint) -> tuple[bool, bool]:
+@working_precision(_PREC)
+def _singular_ends(problem: NumericProblem | None, low: ExactPoint, high: ExactPoint) -> tuple[bool, bool]:
     """True for each of the two corners that is a singular point.  Raises InputError if another point may be one."""
     at_low = False
     at_high = False
+    if problem is None:
+        return at_low, at_high
     a = to_acb(low)
     b = to_acb(high)
     for root in problem.enclosures(_PREC):

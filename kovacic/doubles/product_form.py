@@ -265,7 +265,9 @@ class ProductForm:
 
     def _parts(self, x: Any, careful: bool) -> _Parts:
         """The function in the parts of the product."""
-        point = self._as_complex(x, careful)
+        point = Complex(x) if self.region.is_real else Complex(x.real, x.imag)
+        if careful:
+            point = point.each(_with_low_part)
         growth = self.exponent.terms(point)
         size = max(abs(self.region.low), abs(self.region.high))
         zetas = (f.zeta for f in self.factors)
@@ -279,11 +281,6 @@ class ProductForm:
             total = Complex(total.re)
         value = product.value or Complex(np.ones(x.shape))
         return _Parts(value if self.constant is None else value * self.constant, product.binary, total)
-
-    def _as_complex(self, x: Any, careful: bool) -> Complex:
-        """The points x, their parts double-doubles if careful."""
-        point = Complex(x) if self.region.is_real else Complex(x.real, x.imag)
-        return point.each(_with_low_part) if careful else point
 
 
 def _with_low_part(v: Any) -> Any:

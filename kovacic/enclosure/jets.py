@@ -265,9 +265,9 @@ class CoefficientField:
         self._parts = [
             without_removable(part, x) for part in (sympy.sympify(coefficients.a, strict=True), *coefficients.parts)
         ]
-        # Of polynomials; 0 for zero.
+        # Of polynomials, 0 for zero; None for other functions.
         self._degrees = [
-            max(0, int(sympy.Poly(part, x).degree() if part else 0)) for part in self._parts if part.is_polynomial(x)
+            int(max(0, sympy.Poly(part, x).degree())) if part.is_polynomial(x) else None for part in self._parts
         ]
 
     def all_values(self, x: Any, *, analytic: bool = False) -> list[Any]:
@@ -345,9 +345,8 @@ class CoefficientField:
 
         None if there is a singularity within twice the disc, or functions are as large as exp(bits) beside the way.
         """
-        longest = max(self._degrees, default=0) + 1
-        polynomials = [part.is_polynomial(self.coefficients.variable) for part in self._parts]
-        if all(polynomials):
+        longest = max(degree or 0 for degree in self._degrees) + 1
+        if None not in self._degrees:
             return longest, [arb(0)] * len(self._parts)
         found = []
         for radius in _RADII:
@@ -355,8 +354,8 @@ class CoefficientField:
             if sizes is None:
                 break
             scaled = [
-                arb(0) if has_no_rest else size * factor
-                for size, factor, has_no_rest in zip(sizes, (arb(1), h, h * h, h * h), polynomials, strict=True)
+                size * factor if degree is None else arb(0)
+                for size, factor, degree in zip(sizes, (arb(1), h, h * h, h * h), self._degrees, strict=True)
             ]
             largest = max(scaled)
             needed = log2(largest) + bits + 1 if largest > 0 else 0.0

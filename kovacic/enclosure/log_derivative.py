@@ -12,7 +12,6 @@ Symbols: c, the root of the field's modulus that constants are embedded by.
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any
 
@@ -100,16 +99,11 @@ class LogDerivative:
     @classmethod
     def make(cls, theta: RatFunc, c: acb | None) -> LogDerivative:
         """The partial fractions of theta at the working precision in force."""
-        return cls.of(theta, lambda poly: embed(poly, c), zeros(theta.den, c))
-
-    @classmethod
-    def of(cls, theta: RatFunc, embed: Callable[[Poly], acb_poly], poles: list[tuple[acb, int]]) -> LogDerivative:
-        """From theta and an embedding of its constants; the poles come with their multiplicities."""
         quotient, rest = divmod(theta.num, theta.den)
-        num = embed(rest)
-        den = embed(theta.den)
-        parts = tuple(Pole(zeta, _principal_part(num, den, zeta, k)) for zeta, k in poles)
-        return cls(embed(quotient).integral(), parts, embed(theta.num), den)
+        num = embed(rest, c)
+        den = embed(theta.den, c)
+        parts = tuple(Pole(zeta, _principal_part(num, den, zeta, k)) for zeta, k in zeros(theta.den, c))
+        return cls(embed(quotient, c).integral(), parts, embed(theta.num, c), den)
 
     def value(self, x: acb) -> acb:
         """theta(x)."""

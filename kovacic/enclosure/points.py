@@ -186,7 +186,8 @@ def middle(number: Number) -> ExactPoint:
 
 def midpoint(ball: acb) -> ExactPoint:
     """The midpoint of a finite ball."""
-    return ExactPoint(*(_exact_point(part.mid()) for part in (ball.real, ball.imag)))
+    parts = (part.mid().man_exp() for part in (ball.real, ball.imag))
+    return ExactPoint(*(fmpq(mantissa) * power_of_two(int(e)) for mantissa, e in parts))
 
 
 def are_real(values: Iterable[Any]) -> bool:
@@ -202,11 +203,6 @@ def around_zero(radius: arb, *, real: bool) -> acb:
     """The ball of all errors up to this radius; of the real ones only, if `real`."""
     error = arb(0, radius)
     return acb(error) if real else acb(error, error)
-
-
-def _exact_point(number: arb) -> Any:
-    mantissa, exponent = number.man_exp()
-    return fmpq(mantissa) * power_of_two(int(exponent))
 
 
 @dataclass(frozen=True)

@@ -164,29 +164,20 @@ class Singular:
 
     def operator(self) -> Operator:
         """The operator: rational coefficients at a rational point, else balls of the working precision in force."""
+        here = self.value()
+        kind, place = (arb_poly, here.real) if here.imag.is_zero() else (acb_poly, here)
         if self.is_rational:
-            moved = [poly(fmpq_poly([self.near.x, 1])).coeffs() for poly in self.equation]
-        else:
-            moved = self._moved_in_balls()
+            kind, place = fmpq_poly, self.near.x
         # t^2 y.. = theta (theta - 1) y, t y. = theta y: t^2 times the equation is a theta (theta - 1) + t b theta + t^2 c,
         # so A = a, B = t b - a and C = t^2 c, up to a power of t.
-        lines = [[0] * k + part for k, part in enumerate(moved)]
+        lines = []
+        for k, (poly, order) in enumerate(zip(self.equation, self._orders, strict=True)):
+            moved = kind(poly)(kind([place, 1])).coeffs()
+            lines.append([0] * k + [v * 0 for v in moved[:order]] + moved[order:])  # the first ones are exactly zero
         size = max(map(len, lines))
         a, b, c = (line + [0] * (size - len(line)) for line in lines)
         first = self._orders[0]
         return Operator(a[first:], [y - x for x, y in zip(a, b, strict=True)][first:], c[first:])
-
-    def _moved_in_balls(self) -> list[list[Any]]:
-        """The coefficients of a, b and c in t."""
-        here = self.value()
-        kind, place = (arb_poly, here.real) if here.imag.is_zero() else (acb_poly, here)
-        found: list[list[Any]] = []
-        for poly, order in zip(self.equation, self._orders, strict=True):
-            coefficients = kind(poly)(kind([place, 1])).coeffs()
-            found.append(
-                [v * 0 for v in coefficients[:order]] + coefficients[order:]
-            )  # the first ones are exactly zero
-        return found
 
     def neighbours(self) -> list[tuple[acb, int]]:
         """The other singular points in t, with their multiplicities as zeros of A."""
