@@ -37,6 +37,7 @@ from kovacic.limits import DEFAULT_LIMITS, Limits, check_time, count_work
 from kovacic.reading.change_of_variable import function_of_x, without_change
 from kovacic.writing.document import FORMATS, Table
 
+# Bits for ends and singular points: more than twice those of double-doubles.
 _PREC = 240
 
 MEDIAN = 8.0
@@ -198,6 +199,7 @@ def _singular_ends(problem: NumericProblem | None, low: ExactPoint, high: ExactP
     a = to_acb(low)
     b = to_acb(high)
     for root in problem.enclosures(_PREC):
+        # A root that overlaps an end is taken for it; others have to be apart from the rectangle.
         is_low = root.overlaps(a)
         is_high = root.overlaps(b)
         is_beside = root.real < a.real or root.real > b.real

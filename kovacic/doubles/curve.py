@@ -163,6 +163,7 @@ def _stretches(kind: NDArray[np.bool_]) -> list[tuple[int, int]]:
 
 def _arc(part: CurveCoefficients, width: Fraction, points: int, states: Solution) -> Arc:
     """Samples by the local frequency, then halved where the cubic between two isn't good enough."""
+    # As many as were asked for on the whole width, and _PER_PERIOD in each period.
     density = np.maximum(points / float(width), _PER_PERIOD * part.frequency / (2 * np.pi))
     steps = np.maximum(density[1:], density[:-1]) * np.diff(part.x)
     # How many samples there are up to each point; they are equidistant in that.
@@ -172,6 +173,7 @@ def _arc(part: CurveCoefficients, width: Fraction, points: int, states: Solution
     x = np.interp(np.linspace(0.0, reached[-1], count), reached, part.x)
     arc = _with_samples(np.unique(x), states)
     doubtful = np.ones(len(arc.x) - 1, dtype=bool)
+    # Near zeros the cubic may be off by a share of the usual size.
     usual = float(np.median(np.abs(arc.y)))
     for _ in range(_HALVINGS):
         if not doubtful.any():

@@ -234,6 +234,7 @@ with working_precision(160):
     _RECIPROCALS = tuple(Pair.of(arb(1) / (2 * k + 1)) for k in reversed(range(7)))
     _ALTERNATING = tuple(Pair.of(arb((-1) ** k) / (2 * k + 1)) for k in reversed(range(7)))
     _LOGARITHMS = Pair(*halves([(arb(max(k, 1)) / 64).log() for k in range(93)]))  # log(k/64), and 0 in place of log 0
+    # Of k/64 from -202/64 to 202/64: all angles from -pi to pi, k = 0 at the index 202.
     _COSINES = Pair(*halves([(arb(k) / 64).cos() for k in range(-202, 203)]))
     _SINES = Pair(*halves([(arb(k) / 64).sin() for k in range(-202, 203)]))
 

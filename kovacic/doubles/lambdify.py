@@ -40,6 +40,7 @@ HUGE = 2.0**1020
 """Where values count."""
 
 _DIGITS = 50
+# For errors of values that have 50 digits.
 _PREC = 240
 _BITS = 166
 """The bits of 50 digits."""
@@ -330,6 +331,7 @@ def samples(function: Function, near: tuple[Any, Any] | None = None) -> Any:
     chosen = np.unique(np.linspace(0, len(zeros) - 1, used).astype(int))
     beside = [zeros[chosen] + way * gaps[chosen] for way in (-_BESIDE, _BESIDE)]
     count = _SAMPLES - 2 - 2 * len(chosen)
+    # No round shares of the interval, at which solutions are often 0.
     between = low.real + size.real * (np.arange(count) + 0.5) / (count + 0.13)
     return np.concatenate([[low.real + left, region.high.real - right], *beside, between])
 
@@ -343,6 +345,7 @@ def _suspects(function: Function, zeros: Any, gaps: Any) -> Any:
     points = _grid(function)
     if len(zeros):
         starts, stops = (np.searchsorted(zeros + way * gaps, points) for way in (-_BESIDE, _BESIDE))
+        # As near to zeros as is measured, where plain doubles lose most.
         beside = [zeros + way * _BESIDE * gaps for way in (-2.0, -1.5, -1.2, -1.0, 1.0, 1.2, 1.5, 2.0)]
         points = np.concatenate([points[starts == stops], *beside])
     with np.errstate(all="ignore"):

@@ -48,6 +48,7 @@ from kovacic.enclosure.points import ExactPoint, as_point, to_acb
 from kovacic.enclosure.problem import NumericProblem
 from kovacic.errors import LimitExceeded
 
+# For zeros, residues and phases before they become double-doubles.
 _PREC = 240
 _MULTIPLIED_OUT = 8
 """Powers up to here are multiplied out, if they are integers."""
@@ -269,6 +270,7 @@ class ProductForm:
         if careful:
             point = point.each(_with_low_part)
         growth = self.exponent.terms(point)
+        # |x - zeta| <= size + reach.
         size = max(abs(self.region.low), abs(self.region.high))
         zetas = (f.zeta for f in self.factors)
         reach = max((math.hypot(z.re.hi, 0.0 if z.im is None else z.im.hi) for z in zetas), default=0.0)
@@ -343,6 +345,7 @@ class _Product:
         return logarithm
 
     def _times(self, piece: Complex, degree: int) -> None:
+        # 2^degree_bits bounds a linear factor on the region.
         self.bits += degree * self.degree_bits
         if self.value is None:
             self.value = piece

@@ -44,6 +44,7 @@ from kovacic.enclosure.request import Keywords, Request, fields_of
 from kovacic.errors import InputError, LimitExceeded
 from kovacic.limits import Limits, check_time, limited, limits_of
 
+# For coefficients and states before they become double-doubles.
 _PREC = 300
 _GROWTH = 12.0
 """The sums of the coefficients of y1 and y2 are at most this large."""
@@ -180,6 +181,7 @@ class TabulatedFunction:
         if isinstance(x, float) and self.region.low.real <= x <= self.region.high.real:
             return self._single(float(x))
         points = self.region.points(x)
+        # Many points to a piece are treated piece by piece, for which longer blocks pay.
         block = 4 * BLOCK if points.size > _CROWD * self.centres.size else BLOCK // 2
         return in_blocks(self._values, points, block)
 
@@ -361,6 +363,7 @@ def _pieces(chart: PieceChart, region: Region, variant: Variant, limits: Limits 
     e = math.frexp(float(length))[1]
     scale = Fraction(2) ** e
     grain = max(scale / 2**24, Fraction(math.ulp(max(-region.low.real, region.high.real))))
+    # From 53/128 2^e before the interval to 203/128 2^e behind its begin: its length is below 2^e.
     untried: list[Cell] = [(to_fmpq((start // grain - scale * Fraction(53, 128) // grain) * grain + scale), e)]
     done: list[tuple[Cell, Any]] = []
     while untried:
@@ -462,6 +465,7 @@ def _states(chart: PieceChart, cells: list[Cell], variant: Variant, limits: Limi
             size = max(abs(v).mid() for v in row)
             if max(abs(v).rad() for v in row) > size * arb((1, -variant.bits)):
                 raise LimitExceeded("the initial values are too inaccurate for a table", limit="digits")
+            # 0 for the zero solution, or where one with a right-hand side has a double zero.
             powers[k] = int(log2(size)) if size > 0 else 0
             scale = arb((1, -int(powers[k])))
             for v in row:

@@ -123,6 +123,7 @@ def compare(local: tuple[LocalMonodromy, ...], group: Group, fuchsian: bool) -> 
             return Agreement(None, "there is no finite singular point, so the monodromy is trivial")
         # The generators and their products in pairs; with one generator, itself and its square.
         longer = [generators[0] ** 2] if len(generators) == 1 else _products(generators)
+        # As many as can be compared with one another, but all generators.
         words = [*generators, *longer][: max(_MOST_PRODUCTS, len(generators))]
         return _by_conditions(words, group, fuchsian)
 

@@ -61,8 +61,8 @@ from kovacic.limits import check_time, count_work
 _STEEPEST = 40.0
 _SHARE = 0.15
 """The growth exp(lambda) in one disc: lambda is at most so large, or that share of the bits."""
+# Steps as small as 2^-60 of what lies behind and ahead: a singular point is there.
 _LEAST = 60
-_ROUGH = 64
 _EDGE = 16
 """The piece beside an end where the coefficients aren't analytic is 2^-16 of the way over 2^bits."""
 _START = 512
@@ -140,6 +140,7 @@ class AnalyticWay(Way):
     def check(self, a: ExactPoint, b: ExactPoint) -> None:
         if self.problem is not None:
             self.problem.check_segment(a, b)
+        # Between the ends the discs decide; at them values are enough.
         for name, end in (("start", a), ("end", b)):
             if not all(value.is_finite() for value in self.functions.values(to_acb(end))):
                 said = f"the coefficients have no value at the {name} {end} of the path"
@@ -172,6 +173,7 @@ class AnalyticWay(Way):
         first = a if self.functions.is_regular(to_acb(a)) else a + length.scaled(edge)
         last = b if self.functions.is_regular(to_acb(b)) else b - length.scaled(edge)
         if first != a:
+            # The first piece has no series at its end, and is as short as the precision.
             yield Edge.of(self.functions, a, first)
         yield from self._discs(first, last)
         if last != b:
@@ -243,6 +245,7 @@ class PeriodicWay(AnalyticWay):
         if not (a.is_real() and b.is_real()):
             return 0
         with working_precision(64 + (b - a).height_bits()):
+            # Rounded down, also to the left: what is left goes to the right, and is shorter than a period.
             return int((arb((b - a).x) / self._length()).mid().floor().unique_fmpz())
 
     def carried(self, a: ExactPoint, b: ExactPoint, maps: MapProduct) -> MapProduct:

@@ -65,9 +65,8 @@ def classical_of(S: RatFunc, work: int = UNBOUNDED) -> Classical | None:
     found = search.pullback
     if found is None or found.f.field != QQ:
         return None
-    if any(abs(square) >= _LARGEST**2 for square in found.equation.parameters):
-        return None
-    return Classical(found)
+    is_short = all(abs(square) < _LARGEST**2 for square in found.equation.parameters)
+    return Classical(found) if is_short else None
 
 
 @dataclass(frozen=True, eq=False)
@@ -130,6 +129,7 @@ class Classical:
         start = _solutions_at_start(self, a, False)
         if not start.form.independent:
             raise NotServed
+        # Through an ordinary zero of f the powers of f can't be followed, but solutions from there on both sides can.
         zero = _ordinary_zero(start.form, a, b)
         if zero is None:
             return multiply(start.at(b), start.coordinates)
@@ -178,6 +178,7 @@ def _frobenius(classical: Classical, point: Singular, gauge: RatFunc, needed: tu
         raise NotServed
     if form.powers[0][0] == 0 or not acb(upper).imag.is_zero():
         raise NotServed
+    # The dominant solution may have a logarithm.
     if needed[0] and point.difference is not None:
         raise NotServed
     return Solutions.make(form, point.near, (lower, upper), _without_pole(gauge, point.near), needed)

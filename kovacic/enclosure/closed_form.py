@@ -122,6 +122,7 @@ class CaseOneForm:
         """The solutions with conjugate omegas, or with two rational ones: those that the certificate has, or the companion."""
         theta = self.first.theta
         P = self.first.P
+        # Conjugates over Q: each embedding of the constants gives a solution.
         count = len(self.first.constants())
         if count > 1:
             return tuple(Exponential(theta, P, k) for k in range(count))
@@ -231,6 +232,7 @@ def omegas(problem: NumericProblem, x0: ExactPoint) -> list[acb]:
     assert problem.decision is not None
     riccati = problem.decision.riccati
     assert riccati is not None
+    # The roots of its polynomial are all conjugates already, for any embedding of the constants.
     c = conjugates(riccati.coefficients[0].field)[0]
     roots = sorted(sharp_roots(acb_poly([value(r, c, z) for r in riccati.coefficients])), key=cmp_to_key(_order))
     shift = value(problem.gauge, None, z)

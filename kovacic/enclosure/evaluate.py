@@ -176,6 +176,7 @@ class Prepared:
         """
         if digits is None:
             return self._values(x, derivative=derivative)
+        # The journey stays: discs serve other numbers of digits as well.
         question = replace(self._question, digits=number_of_digits(digits, self._question.limits))
         return Prepared(question, self._start)._values(x, derivative=derivative)
 
@@ -210,9 +211,7 @@ class Prepared:
         for result in results:
             if result.note is not None:
                 warn_user(f"at x = {result.x}: {result.note}", AccuracyWarning)
-        if derivative:
-            return [(result.y, result.dy) for result in results]
-        return [result.y for result in results]
+        return [(result.y, result.dy) if derivative else result.y for result in results]
 
 
 @limited
@@ -257,6 +256,7 @@ def with_variable(equation: object, var: object, limits: Limits | None = None, p
     """The equation, read with this name of its variable; as it was given where none is named.  Warns of what is guessed."""
     declared = words_among(params or ())
     if isinstance(equation, str):
+        # Only text leaves something to guess.
         for guess in source_of(equation, None if var is None else str(var), limits_of(limits), names=declared).guesses:
             warn_user(guess)
     if var is None and not (declared and isinstance(equation, str)):

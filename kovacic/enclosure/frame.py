@@ -104,6 +104,7 @@ class System:
 
     def roots(self, which: Which, prec: int) -> Zeros:
         """Enclosures of the zeros of numerator or denominator at about `prec` bits, with multiplicities."""
+        # Few different precisions, since many near ones are asked for.
         return _isolated(getattr(self, which), max(64, 1 << (prec - 1).bit_length()))
 
     def is_singular(self, point: ExactPoint) -> bool:
@@ -204,6 +205,7 @@ def _first_meeting(system: System, a: ExactPoint, b: ExactPoint) -> tuple[str, f
     """
     step = b - a
     first, length = (a.x, step.x) if step.x != 0 else (a.y, step.y)
+    # The abscissa, or on a vertical line the ordinate, is the parameter.
     unit = step.scaled(1 / length)
     real, imaginary = system.along("den", a - unit.scaled(first), unit)
     coefficients = tuple(int(c) for c in real.gcd(imaginary).numer().coeffs())
@@ -348,6 +350,7 @@ def _bound(p: GaussianParts, q_0: int, poles: list[tuple[arb, int]]) -> DefectBo
     if not (least > 0 and sigma < _MOST_GROWTH**2):
         return None
     rings = min(_RINGS, 1 + int(float(sigma.sqrt().upper())))  # growth by exp(1) in each, or more
+    # The majorant is constant on each ring: its largest value, at the outer end.
     delta = arb(REACH) / rings
     error = (arb(0), arb(0))  # z and z' for z'' = sigma z + 1
     growth = (arb(1), arb(1))  # and for z'' = sigma z
@@ -378,6 +381,7 @@ class _Ring:
         t = sigma.sqrt() * delta
         if not t > 0:
             return cls(sigma, arb(1), delta, delta * delta * (arb(1) / 2))
+        # cosh t - 1 = 2 sinh(t/2)^2, without cancellation.
         return cls(sigma, t.cosh(), delta * (t.sinh() / t), delta * delta * (2 * ((t / 2).sinh() / t) ** 2))
 
     def carried(self, z: tuple[arb, arb]) -> tuple[arb, arb]:

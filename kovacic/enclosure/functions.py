@@ -49,8 +49,7 @@ def coefficients_of_any(equation: Any, params: Params, limits: Limits) -> Coeffi
     """
     if isinstance(equation, Coefficients):
         return equation if equation.values else equation.given(params)
-    change = change_of(equation)
-    if change is not None:
+    if change_of(equation) is not None:
         found = _of_parsed(equation)
     elif isinstance(equation, str):
         found = _of_text(equation, limits)

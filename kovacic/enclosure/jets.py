@@ -61,6 +61,7 @@ _MOST = 12
 """The highest order of a zero that is looked for."""
 _LONGEST = 60
 """Coefficients of a polynomial that is moved to the middle of a ball, at most."""
+# Within this distance of a zero a quotient is taken from its series.
 _NEAR = arb(0.5)
 _NEAREST = 60
 """Binary exponents of distances to the next singularity that are tried."""
@@ -224,6 +225,7 @@ def _is_near(x: Any, zero: acb) -> bool:
 
 _ROUGH = 64
 """Bits of bounds."""
+# Radii over the scale on which functions are bounded: on a larger one fewer terms are needed, if it is free.
 _RADII = (2, 3, 4, 6, 8, 12, 16)
 _LEAF = 6
 _DOUBLINGS = 40

@@ -86,6 +86,7 @@ class Journey:
             assert self.problem is not None
             way = ClosedWay(self.problem, prec, closed)
         place = self.place
+        # A start at a singular point of the user's equation is refused at once.
         if isinstance(place, ExactPoint):
             way.check(place, place)
         traveller = Traveller(way, place, self.start.state(way))
@@ -180,6 +181,7 @@ def _joined(detours: Iterator[_Detour], stops: Sequence[ExactPoint], singular: S
     """Those without stops between their places become one, if no other singular point is between them and that."""
     found: list[_Detour] = []
     for detour in detours:
+        # The first one is joined to none.
         last = found[-1] if found else detour
         both = _Detour(detour.place, last.begin, detour.end, detour.sign)
         near, far = sorted((last.place, detour.place))

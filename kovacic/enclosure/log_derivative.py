@@ -44,6 +44,7 @@ def embed(poly: Poly, c: acb | None) -> acb_poly:
     total = acb_poly([])
     power = acb_poly([1])
     parts: tuple[Any, ...] = poly.parts if isinstance(poly, ExtensionPoly) else (poly,)
+    # The parts go with 1, c, c^2, ...
     for part in parts:
         total += acb_poly(part.rep) * power
         if c is not None:
@@ -134,6 +135,7 @@ def log_derivative(theta: RatFunc, embedding: int = 0) -> LogDerivative:
 
     Constants are embedded by the conjugate number `embedding`, rational ones by any.
     """
+    # Over Q there is one value, None.
     values = conjugates(theta.field)
     return LogDerivative.make(theta, values[embedding % len(values)])
 

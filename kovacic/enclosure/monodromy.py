@@ -200,6 +200,7 @@ def _polygon(problem: NumericProblem, path: Sequence[object]) -> _Polygon:
     if len(path) == 2 and isinstance(first, Singular) and isinstance(last, Singular):
         if first.inverted or last.inverted:
             raise InputError("a path between a singular point and infinity needs a vertex", hint="e.g. [0, 1j, 'oo']")
+        # Between two neighbourhoods: each is left towards an ordinary point.
         middle = [(first.near + last.near).scaled(fmpq(1, 2)).rounded(-64)]
     return first, middle, last
 
@@ -345,6 +346,7 @@ def _distance_below(point: ExactPoint, a: ExactPoint, b: ExactPoint) -> Any:
 def _local(
     problem: NumericProblem, z: ExactPoint, loop: tuple[ExactPoint, ...], matrix: BallMatrix, digits: int
 ) -> LocalMonodromy:
+    # 3.33 bits a digit, and some more than the matrix has.
     prec = int(digits * 3.33) + 60
     with working_precision(prec):
         near = to_acb(z)

@@ -242,6 +242,7 @@ def as_number(value: Any, name: str) -> Number:
     if fixed is not None:
         if not fixed.is_finite():
             raise InputError(f"{name} isn't a finite ball: {value}")
+        # An exact ball is a point, known to every precision.
         if fixed.real.is_exact() and fixed.imag.is_exact():
             return midpoint(fixed)
         return Constant(str(value), lambda: fixed, True)
@@ -286,6 +287,7 @@ def _given_ball(value: Any) -> acb | None:
 
 def _of_interval(interval: Any) -> arb:
     """The ball with the ends of an mpmath interval, (sign, mantissa, exponent, bits) each."""
+    # In mpmath zero has the exponent 0, and infinity another one, both without a mantissa.
     if any(not mantissa and exponent for _, mantissa, exponent, _ in interval):
         raise InputError("an interval isn't finite")
     e = min(exponent for _, _, exponent, _ in interval)

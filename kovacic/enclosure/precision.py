@@ -163,6 +163,7 @@ def _missing_bits(y: acb, digits: int, prec: int, *, doubled: bool) -> int:
     """
     if not y.is_finite():
         return prec
+    # Exact, such as y = 0 or an end of the way: no digit is missing.
     if y.is_exact():
         return 0
     goal = int(digits * _BITS_PER_DIGIT) + 2

@@ -90,6 +90,7 @@ def _at(polynomial: Any, values: list[acb]) -> acb_poly:
 @kept_at_precision(maxsize=32)
 def root_of(field: AlgebraicField) -> acb:
     """The generator, at the working precision in force."""
+    # Over a base with parameters no root is meant: None.
     modulus = [field.base.rational_value(field.modulus[k]) for k in range(field.dimension + 1)]
     if field.approximation is None or None in modulus:
         raise InputError(f"which root of {field.modulus} the constant {field.name} is isn't known")
@@ -183,6 +184,7 @@ class NumericProblem:
     def check(self) -> None:
         """Raise InputError unless numerator and denominator of S are known, with a leading coefficient of the latter."""
         with working_precision(_SHARP):
+            # A parameter may be so wide that the degree of the denominator isn't known.
             num, den = (part.coeffs() for part in self.polynomials())
             if not all(c.is_finite() for c in (*num, *den)) or den[-1].contains(0):
                 raise InputError(

@@ -67,7 +67,9 @@ from kovacic.limits import check_time, count_work
 _WORTH = 4  # times as many radians as bits, on the whole way: with fewer, discs are as fast
 _DOUBLINGS = 64  # of the least abscissa at which the series can be that sharp: singular points far away
 _MOST_TERMS = 2000
+# Of bounds.
 _BITS = 64
+# Beyond the precision of a way, for the phase and for products.
 _GUARD = 40
 
 
@@ -143,6 +145,7 @@ class Swing(Homogeneous):
         count_work(self.oscillation.prec)
         with working_precision(self.oscillation.prec + _GUARD):
             C = apply(inverse(self.oscillation.fundamental(self.enter)), state)
+            # |C| changes by at most (exp(I) - 1) |C|, over whichever part of the half line.
             error = (self.oscillation.change * (abs(C[0]).upper() + abs(C[1]).upper())).upper()
         real = C[0].imag.is_zero() and C[1].imag.is_zero()
         off = around_zero(error, real=real)
@@ -170,6 +173,7 @@ def swing_from(system: System, near: ExactPoint, end: ExactPoint, prec: int) -> 
     if found is None or (abs(near.x) >= abs(end.x) and found.reaches(near)):
         return end
     edge = near if found.reaches(near) else ExactPoint(found.sign * found.edge)
+    # The share of the phase at the end that lies between both: about as many radians are on the way.
     share = (end - edge).x / end.x
     if share > 0 and _phase_bits(found.c, found.d, abs(end.x)) + log2(arb(share)) > math.log2(_WORTH * prec):
         return edge
@@ -228,6 +232,7 @@ def _oscillation(system: System, sign: int, prec: int) -> Oscillation | None:
 
 def _modulus(num: Sequence[Any], den: Sequence[Any], half: Any, length: int) -> list[Any]:
     """M from A N''' = B N' + G N with A = den^2, B = 4 num den and G = 2 (num' den - num den')."""
+    # S = p/q in N''' = 4 S N' + 2 S' N, times q^2; the coefficient of each power of x gives one of N.
     p, q = fmpq_poly(list(num)), fmpq_poly(list(den))
     A = q * q
     B = p * q * 4
@@ -345,9 +350,7 @@ class RationalWay(Way):
         is_far = is_split(self.problem.system, self.prec // len(stops), *ends)
         if is_far or isinstance(here, Singular):
             for first, *others in sides(here, stops):
-                one = traveller.moved(first)
-                found[first] = one.state
-                found |= one.fan(others) if others else {}
+                found |= traveller.moved(first).fan([first, *others])
             return found
         if here.is_real() and all(stop.is_real() for stop in stops):
             return traveller.along_rays(stops)

@@ -154,6 +154,7 @@ def _sum_series(
     and |e_v|: blocks until these are about 2^-prec."""
     steps = Recurrence(*shift(system, frame.centre, z.scaled(frame.scale)), mirror)
     m = 2
+    # Errors grow with the solutions; 20 and 64 bits more for the bound and for the roundings of blocks.
     goal = prec + int(frame.bound.log2_growth) + 20
     full = goal + 64
     with working_precision(full):
@@ -180,6 +181,7 @@ def _sum_series(
                 return values, errors
             if m > 40 * full + 4000:
                 raise LimitExceeded(f"a Taylor expansion needs more than {m} terms", limit="unknown_degree")
+            # V falls like the terms, and with it the bits of V that count.
             needed = max(64, full + 33 + int(max(map(log2, heights))))
             length_of_block = _block_length(steps, m, needed, before)
             block = steps.block(m, length_of_block)
@@ -203,6 +205,7 @@ def _block_length(steps: Recurrence, m: int, needed: int, before: tuple[int, int
         for _ in range(3):  # the steps get longer
             count = needed // steps.size(m + count).bit_length()
         return max(1, count)
+    # As many steps as the last block took for the bits by which `needed` has fallen.
     steps_left = needed * (m - before[0]) / max(1, before[1] - needed)
     return max(1, math.ceil(min(_BLOCK * max(needed, _LEAST) / each, steps_left)))
 

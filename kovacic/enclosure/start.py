@@ -113,6 +113,7 @@ def _frobenius_coordinates(place: Singular, frobenius: Sequence[object] | None) 
 
 def place_of(problem: NumericProblem, x0: object, name: str) -> Singular:
     """The regular singular point, ordinary point or infinity ("oo") that the argument stands for."""
+    # Infinity is a word: no number of any kind stands for it.
     if plain_text(x0) in ("oo", "inf", "+inf"):
         return Singular.at(problem, None)
     number = as_number(x0, name)

@@ -157,12 +157,11 @@ class StraightPiece:
         e = binary_exponent(remaining) // 2
         if not _reaches_end(remaining, e):  # a scale at which the last disc never comes would be taken again and again
             e += 1
-        if guess is not None:
-            e = min(e, guess + 2)
         near = distance_lower(self.system, enter)
         if near is not None:  # H <= 5/8 (distance here + H), so H <= 5/3 of the distance here
             e = min(e, math.ceil(log2(near)) + 1)
-        steepest = largest_exponent(self.system, enter) if guess is None else None
+        # Beside a disc that fits the next one is seldom much larger.
+        steepest = largest_exponent(self.system, enter) if guess is None else guess + 2
         if steepest is not None:
             e = min(e, steepest)
         for _ in range(20_000):

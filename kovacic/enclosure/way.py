@@ -187,6 +187,7 @@ class DiscStep:
             at_centre = apply(self._to_centre, (state[0] - p, state[1] - dp))
             for factor, part in [*zip(at_centre, self.columns, strict=True), *parts]:
                 if not factor.is_zero():
+                    # A real factor leaves a real polynomial real.
                     total = total + part.poly * (factor.real if factor.imag.is_zero() else factor)
                     size = abs(factor).upper()
                     errors = [errors[0] + size * part.error, errors[1] + size * part.slope_error]
@@ -227,6 +228,7 @@ class Forecast:
         if least > MAX_DISCS:
             said = f"the solutions grow or oscillate by {size} on {way}, which takes {least:.2g} steps or more"
             raise LimitExceeded(f"{said}, above the limit of {MAX_DISCS}", limit="unknown_degree")
+        # _TRIED of the discs are behind.
         check_duration(each * (least - _TRIED), way)
 
 
@@ -398,6 +400,7 @@ class Ray:
                 ahead.check(number)
             number += 1
             step = next(self._steps)
+            # From the start to where this disc is entered.
             entered = self._passed[-1].left() if self._passed else self.maps.after(self.way.into(self.here))
             self._passed.append(_Passed(step, entered))
             self._leave.append(position(self.here, step.leave))
@@ -479,6 +482,7 @@ class Traveller:
         here = self.point
         rays: dict[ExactPoint, list[ExactPoint]] = {}  # the points in one direction together, the nearest first
         for stop in sorted({*stops}, key=lambda stop: position(here, stop)):
+            # The same point for all stops in one direction.
             rays.setdefault((stop - here).scaled(1 / position(here, stop)), []).append(stop)
         found: States = {}
         for on_it in rays.values():
