@@ -118,6 +118,7 @@ class Region:
             )
         low, high = self.corners
         points = points.astype(type(low), copy=False)
+        # Any point of the region will do for a value that stays masked.
         if np.ma.is_masked(points):
             points = np.ma.array(points.filled((low + high) / 2), mask=points.mask)
         # By the extremes, but for NaN, which has the value NaN.

@@ -188,6 +188,7 @@ def _halved(arc: Arc, doubtful: NDArray[np.bool_], usual: float, states: Solutio
     right = left + 1
     h = arc.x[right] - arc.x[left]
     middles = arc.x[left] + h / 2
+    # Neighbouring doubles have no double between them.
     inside = (middles > arc.x[left]) & (middles < arc.x[right])
     left = left[inside]
     right = left + 1

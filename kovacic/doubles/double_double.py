@@ -69,6 +69,7 @@ class Pair:
         return Pair(self.hi[index], self.lo[index])
 
     def __add__(self, other: Any) -> Any:
+        # Beside an array the low half is below its last place.
         if isinstance(other, np.ndarray):
             return other + self.hi
         # both halves exactly first
@@ -200,6 +201,7 @@ def absolute(a: Any) -> Any:
     """|a|."""
     if isinstance(a, np.ndarray):
         return np.abs(a)
+    # The high half decides: the low one is smaller than its last place.
     sign = np.where(a.hi < 0, -1.0, 1.0)
     return Pair(sign * a.hi, sign * a.lo)
 
@@ -248,6 +250,7 @@ def log(a: Any) -> Any:
     # m in [sqrt(1/2), sqrt(2)), so that the logarithm is small where the number is about 1.
     low = m < 0.7071067811865476
     m = np.where(low, 2 * m, m)
+    # frexp gives m in [1/2, 1).
     e = np.where(low, e - 1, e)
     rest = np.ldexp(np.where(zero, 0.0, a.lo), -e)
     k = np.rint(64 * m)

@@ -290,6 +290,7 @@ def measure(
         zeros, gaps = _zeros(function)
         points = samples(function, (zeros, gaps))
         extra = _suspects(function, zeros, gaps)
+    # Suspects count for the worst error, not for the median.
     given = np.append(np.atleast_1d(points), extra)
     found = [complex(v) for v in function(given)]
     reference = [
@@ -381,6 +382,7 @@ def _zeros(function: Function) -> tuple[Any, Any]:
     y = function(x)
     if np.iscomplexobj(y):
         return np.empty(0), np.empty(0)
+    # Changes of sign between neighbouring points of the grid.
     k = np.flatnonzero(np.sign(y[1:]) * np.sign(y[:-1]) < 0)
     a = np.array([x[k], y[k]])  # brackets: points and values
     b = np.array([x[k + 1], y[k + 1]])

@@ -190,6 +190,7 @@ class ProductForm:
             c = self.branch.constant()
             # Products over zeros are monic: the leading coefficients of N, P and D aren't in them.
             lead, first, last = (embed(poly, c).coeffs() or [acb(0)] for poly in (slope.P, P, D))
+            # The phases are those of the turns, which are divided out of the factors.
             factor = lead[-1] / (first[-1] * last[-1]) * (_phase(found.factors) - _phase(self.factors)).exp()
             constant = Complex.of(acb(factor.real) if self.is_real else factor)
         whole = constant if self.constant is None else constant * self.constant
@@ -240,6 +241,7 @@ class ProductForm:
         with np.errstate(all="ignore"):
             parts = self._parts(points.reshape(-1), careful=True)
             growth = parts.growth
+            # log|y| = re(growth) + binary log(2) + log|value|; the sign is that of the value times exp(i im(growth)).
             unit = complex_array(parts.value)
             total = double(growth.re + LOG_2 * Pair(0.0 + parts.binary)) + np.log(np.abs(unit))
             unit = np.sign(unit) * complex_array(_turn(growth))

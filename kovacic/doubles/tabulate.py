@@ -362,6 +362,7 @@ def _pieces(chart: PieceChart, region: Region, variant: Variant, limits: Limits 
     start, length = Fraction(region.low.real), Fraction(region.high.real) - Fraction(region.low.real)
     e = math.frexp(float(length))[1]
     scale = Fraction(2) ** e
+    # Centres are doubles: multiples of a unit in the last place, or of 2^-24 of the first piece.
     grain = max(scale / 2**24, Fraction(math.ulp(max(-region.low.real, region.high.real))))
     # From 53/128 2^e before the interval to 203/128 2^e behind its begin: its length is below 2^e.
     untried: list[Cell] = [(to_fmpq((start // grain - scale * Fraction(53, 128) // grain) * grain + scale), e)]
@@ -374,6 +375,7 @@ def _pieces(chart: PieceChart, region: Region, variant: Variant, limits: Limits 
         halved = [cell for cell in untried if not low <= cell[0] <= high]
         for first in range(0, len(inside), _TOGETHER):
             some = inside[first : first + _TOGETHER]  # of one size
+            # Pieces of one size have the same series, then.
             tried = some[:1] if chart.is_uniform else some
             series = _series(chart, tried, variant) * (len(some) // len(tried))
             done += [pair for pair in zip(some, series, strict=True) if pair[1] is not None]
@@ -428,7 +430,7 @@ def _series_recurrence(equation: Any, source: Any, variant: Variant) -> Any:
     """The coefficients of the series, shaped as those of the source, from the first two of y1, y2 and y3: 1, 0; 0, 1; 0, 0."""
     a, b, c = (Pair(*equation[:, i]) for i in range(3))
     length = equation.shape[2]
-    z = np.zeros(source.shape)
+    z = np.zeros(source.shape)  # halves, terms, solutions, pieces
     z[0, 0, 0] = z[0, 1, 1] = 1.0
     for n in range(2, variant.terms):
         j = np.arange(1, min(length, n + 1))
@@ -473,6 +475,7 @@ def _states(chart: PieceChart, cells: list[Cell], variant: Variant, limits: Limi
                 numbers += [v.real * scale, imaginary * scale]
         # From (halves, pieces, (y, H y'), (re, im)) to (halves, (y, H y'), (re, im), pieces).
         table = halves(numbers).reshape(2, len(cells), 2, 2).transpose(0, 2, 3, 1)
+    # Small powers go into the coefficients, which stay doubles.
     kept = np.where(np.abs(powers) > _ROOM, powers, 0)
     # Imaginary parts that are all zero are left out.
     return scaled(Pair(*table[:, :, : 1 + table[:, :, 1].any()]), powers - kept), kept

@@ -179,6 +179,7 @@ class Ball:
         (True, True, True)
         """
         number = as_number(value, "the number")
+        # Constants to 100 digits and some more; a long integer exactly.
         parts = (number.re, number.im) if isinstance(number, ExactPoint) else ()
         with working_precision(400 + max((part.numerator.bit_length() for part in parts), default=0)):
             found = ball_from_flint(to_ball(number))

@@ -319,6 +319,7 @@ def _followed(poly: fmpq_poly, a: ExactPoint, b: ExactPoint) -> acb:
     and add up to the logarithm.  So its imaginary part is known to a few digits, and which multiple of pi i is to be added to
     the principal logarithm of p(b)/p(a) or of its negative.
     """
+    # 0 where the way begins at a zero of f, of 1 - f or a pole.
     start = value_at(poly, a)
     if start == 0:
         raise NotServed

@@ -74,6 +74,7 @@ class Exponential:
             The value at z.
         """
         c = self.constant()
+        # omega = theta + P'/P.
         P = embed(self.P, c)
         return value(self.theta, c, z) + P.derivative()(z) / P(z)
 

@@ -186,6 +186,7 @@ class Prepared:
 
     def _values(self, x: object, *, derivative: bool) -> Any:
         """Values at the points; a warning names the line that called the caller."""
+        # Arrays have a shape; everything else is a point or an iterable of points.
         shape = getattr(x, "shape", None)
         if shape is None:
             is_many = isinstance(x, Iterable) and not isinstance(x, str | bytes | Mapping | Set)

@@ -61,6 +61,7 @@ class System:
         if q == 0:
             raise InputError("the denominator of S is zero")
         common = p.gcd(q)
+        # The denominator gets a positive leading coefficient.
         if q.leading_coefficient() < 0:
             common = common * -1
         num, den = (tuple(int(c) for c in (part // common).coeffs()) for part in (p, q))

@@ -101,6 +101,7 @@ def radius(point: Singular, prec: int, distance: arb) -> tuple[int, Majorant]:
     op = point.operator().in_balls()
     neighbours = point.neighbours()
     near = min((d.abs_lower() for d, _ in neighbours), default=None)
+    # No larger than the way needs, and at most half the distance to the next singular point.
     e = math.ceil(log2(distance))
     if near is not None:
         e = min(e, math.floor(log2(near)) - 1)
@@ -110,6 +111,7 @@ def radius(point: Singular, prec: int, distance: arb) -> tuple[int, Majorant]:
     for _ in range(20_000):
         r = arb((1, e))
         if sum((abs(v) * r**j for j, v in enumerate(op.A) if j), arb(0)) <= abs(op.A[0]):
+            # On the circle |t| = 3/2 r, at most 3/4 of the distance to the next singular point.
             bound = Majorant.make(op, neighbours, r * 3 / 2)
             factor, _ = bound.growth(max(_terms_before_bound(delta), prec // 2), delta, size, r)
             if factor > 0 and log2(factor) < max(60.0, _GROWTH * prec):

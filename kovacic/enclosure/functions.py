@@ -100,6 +100,7 @@ def _nothing_cancels(part: Any, x: Any) -> bool:
 def _of_parsed(parsed: Any) -> Coefficients:
     """Without letters for constants."""
     found = in_the_given_variable(parsed.equation)
+    # A letter may stand in the meaning of a later one: the last one is replaced first.
     for letter, meaning in reversed(getattr(parsed, "letters", ())):
         b, c, f = (part.xreplace({sympy.Symbol(letter): meaning}) for part in found.parts)
         found = Coefficients(found.variable, b, c, f)
@@ -110,6 +111,7 @@ def as_written(equation: Any, var: Any, limits: Limits, names: Collection[str] =
     """What stands there, over the coefficient of y''."""
     name = None if var is None else str(var)
     source = source_of(equation, name, limits, names=names)
+    # a y'' + b y' + c y + rest = 0.
     (a, b, c, rest), _ = parts_of(source, limits)
     return Coefficients(sympy.Symbol(source.variable), b / a, c / a, -rest / a)
 
@@ -243,6 +245,7 @@ class Substitution:
     def of(cls, coefficients: Coefficients) -> Substitution | None:
         """None unless the equation is rational in an exponential of x."""
         changed: Any = coefficients.changed
+        # Letters for constants would be parameters of the equation in t.
         if changed is None or getattr(changed, "letters", None):
             return None
         t = function_of_x(changed.equation)

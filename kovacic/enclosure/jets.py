@@ -250,8 +250,10 @@ class Jets:
 
     centre: ExactPoint
     e: int
+    # Those of A - 1, B, C and F, in this order.
     parts: Sequence[Any]
     rests: Sequence[arb]
+    # mu and lambda
     least: arb
     rate: arb
     bits: int
@@ -409,6 +411,7 @@ def _rate(beta: arb, gamma: arb) -> arb:
 def step_of(jets: Jets, enter: ExactPoint, leave: ExactPoint) -> DiscStep:
     """The disc of a way that is entered and left at these points."""
     A, B, C, F = jets.parts
+    # Without rests a part is exactly zero.
     is_homogeneous = F.degree() < 0 and jets.rests[3].is_zero()
     has_area = not (B.degree() < 0 and jets.rests[1].is_zero())
     # The Wronskian exp(-int B/A) is the slope of the solution of A y'' + B y' = 0 that begins with 0, 1.

@@ -140,6 +140,7 @@ class _Detour:
 
     def corners(self, side: str) -> tuple[ExactPoint, ...]:
         """Where the axis is left, the corner "above" or "below" it, and where it is reached again."""
+        # A right angle at the corner: the triangle is as high as half its base.
         top = ExactPoint(self._centre, self._radius if side == "above" else -self._radius)
         return ExactPoint(self.begin), top, ExactPoint(self.end)
 

@@ -15,6 +15,7 @@ NOTHING: State = (acb(0), acb(0))
 
 def multiply(m: Matrix, n: Matrix) -> Matrix:
     """The product m n."""
+    # By rows: (a, b; c, d) (e, f; g, h).
     a, b, c, d = m
     e, f, g, h = n
     return a * e + b * g, a * f + b * h, c * e + d * g, c * f + d * h

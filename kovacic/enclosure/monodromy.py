@@ -283,6 +283,7 @@ def _places(problem: NumericProblem) -> list[tuple[ExactPoint, Any]]:
     places = []
     for i, p in enumerate(points):
         check_time()
+        # Not above the distance to the nearest other point: discs with half of it as radius are apart.
         gap = min([fmpq(2), *(root_below((p - q).norm_squared(), 1) for j, q in enumerate(points) if j != i)])
         places.append((p.rounded(binary_exponent(gap) - 8), gap / 2))
     return places
@@ -302,6 +303,7 @@ def _loops(places: list[tuple[ExactPoint, Any]]) -> list[tuple[tuple[ExactPoint,
     loops = []
     for (z, _), radius in zip(places, radii, strict=True):
         # A segment to a square around the point, the square counter-clockwise, and the segment back.
+        # Towards the base point, and then a quarter turn at a time.
         corners = [(base - z).scaled(root_below(radius * radius / (base - z).norm_squared(), 1))]
         for _ in range(4):
             corners.append(corners[-1] * ExactPoint(0, 1))

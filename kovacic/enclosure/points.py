@@ -262,6 +262,7 @@ def _symbolic(value: Any, name: str) -> Number | None:
         from kovacic.reading.symbolic import read_expression
 
         expression = read_expression(value, names={}, what=name)
+        # Such as "1/3 + I/2": a point, exactly.
         if expression.is_number and all(part.is_Rational for part in expression.expand().as_real_imag()):
             return as_point(expression.expand(), name)
     if not getattr(expression, "is_number", False) or getattr(expression, "is_finite", None) is False:

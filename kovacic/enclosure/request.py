@@ -120,9 +120,11 @@ class Request(NamedTuple):
 
         Raises `TypeError` for other keywords, as Python does, with the nearest name, and for the fields that are `unused`.
         """
+        # What a call has no use for it doesn't know.
         known = [name for name in Keywords.__annotations__ if name not in unused]
         start = _object(Start, keywords.get("initial"))
         accuracy = _object(Accuracy, keywords.get("accuracy"))
+        # The fields of an `Accuracy` count as keywords: some calls have no method.
         for name in [*keywords, *fields_of(accuracy)]:
             if name not in known:
                 near = get_close_matches(name, known, n=1)

@@ -128,6 +128,7 @@ class Singular:
         constant where they are rational."""
         first = self._orders[0]
         alpha, beta, gamma = (_taylor(poly, first - k) for k, poly in enumerate(self.equation))
+        # 1/alpha modulo the minimal polynomial: alpha isn't 0 at the point.
         inverse = alpha.xgcd(self.minimal)[1]  # P_0 = alpha theta^2 + (beta - alpha) theta + gamma
         total, product = ((part * inverse) % self.minimal for part in (alpha - beta, gamma))
         return total, (total * total - 4 * product) % self.minimal

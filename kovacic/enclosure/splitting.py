@@ -199,6 +199,7 @@ def _block_length(steps: Recurrence, m: int, needed: int, before: tuple[int, int
 
     `before` has m and `needed` as they were before the last block.
     """
+    # Bits that a step adds to the integers of a block.
     each = steps.size(m).bit_length()
     if before is None:
         count = needed // each

@@ -75,6 +75,7 @@ def read_start(problem: NumericProblem | None, given: Start) -> Origin:
     is_decaying = which == "decaying"
     if is_decaying and (given.dy0 is not None or has_coordinates):
         raise InputError("the decaying solution is given by y0 alone")
+    # One of the three kinds, and only one.
     if not is_decaying and [has_values, has_coordinates, which == "regular"].count(True) != 1:
         raise InputError("one start is expected", hint=_START_HINT, shell=_SHELL_STARTS)
     if given.x0 is None:

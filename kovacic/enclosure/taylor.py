@@ -170,6 +170,7 @@ def _proven_defect(p: GaussianParts, q: GaussianParts, column: GaussianParts, ex
     """
     n = len(column[0])
     width = max(len(p[0]), len(q[0])) + 3
+    # The first sum is that of the remainders, the second one what the last terms give to later equations.
     total = q[0][0] * n**3 + 2 * small * width * (n * n * norm(q) + norm(p))
     if excess:
         total += 2 * int(norm(column)) * (len(p[0]) + len(q[0]) * n * n)

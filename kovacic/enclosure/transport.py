@@ -68,6 +68,7 @@ class Disc:
         is_free = self.begin == a or is_apart(system, a, *corners)
         square = self.frame.scale**2
         for stop in stops:
+            # The end is reached along the piece itself, whatever lies beside it.
             is_end = self.t_leave == 1 and stop == self.leave
             is_inside = is_end or (stop - centre).norm_squared() <= square
             if is_inside and (is_end or is_free or is_apart(system, a, self.begin, stop)):

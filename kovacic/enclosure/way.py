@@ -445,6 +445,7 @@ class Traveller:
                 said = f"the path doesn't leave the singular point {self.here}"
                 raise InputError(said, hint="go on to another point")
             first, second = (not coordinate.is_zero() for coordinate in self.start)
+            # Coordinates at the point become a state beside it; from there on the way is regular.
             last, matrix = self.way.departure(self.here, stop, (first, second))
             return replace(self, here=last, maps=self.maps.after(matrix), rays={}, onward={}).moved(stop)
         if stop == self.here:
