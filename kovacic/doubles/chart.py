@@ -358,29 +358,26 @@ class AnalyticChart:
             self.states([as_point(end.real, "x") for end in (found[0].low, found[0].high)], 3, None)
         return found
 
-    def _variable_at(self, x: ExactPoint) -> tuple[acb, acb]:
-        """t and dt/dx."""
+    @working_precision(_SLOPE_BITS + 200)
+    def _in_t(self, x: ExactPoint) -> tuple[ExactPoint, acb]:
+        """About t, and dt/dx."""
         t = function_of_x(self.equation)
         known = self.coefficients.at(to_acb(x))
-        return in_balls(t, known), in_balls(t.diff(self.coefficients.variable), known)
-
-    def _in_t(self, x: ExactPoint) -> ExactPoint:
-        with working_precision(_SLOPE_BITS + 200):
-            return midpoint(self._variable_at(x)[0])
+        return midpoint(in_balls(t, known)), in_balls(t.diff(self.coefficients.variable), known)
 
     def base(self, which: int, candidates: list[ExactPoint]) -> ExactPoint:
         """The first of the points where the logarithmic derivative number `which` is finite."""
         assert self.problem is not None
-        points = [self._in_t(x) for x in candidates]
+        points = [self._in_t(x)[0] for x in candidates]
         return candidates[points.index(finite_base(self.problem, which, points))]
 
     def beginning(self, which: int, base: ExactPoint) -> AnalyticChart:
         """The solution with this logarithmic derivative, 1 at the base."""
         assert self.problem is not None
-        slope = omega(self.problem, which, self._in_t(base), _SLOPE_BITS)
+        place, rate = self._in_t(base)
+        slope = omega(self.problem, which, place, _SLOPE_BITS)
         with working_precision(_SLOPE_BITS + 200):
-            slope *= self._variable_at(base)[1]
-        return replace(self, given={"x0": base, "y0": 1, "dy0": ball_from_flint(slope)})
+            return replace(self, given={"x0": base, "y0": 1, "dy0": ball_from_flint(slope * rate)})
 
     def states(self, points: Sequence[ExactPoint], digits: int, limits: Limits | None, **options: Any) -> list[State]:
         """y and dy/dx along the real axis, to the given digits where that is possible."""

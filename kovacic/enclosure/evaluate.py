@@ -256,9 +256,10 @@ def _prepared(equation: object, request: Request) -> Prepared:
 def with_variable(equation: object, var: object, limits: Limits | None = None, params: Params = None) -> object:
     """The equation, read with this name of its variable; as it was given where none is named.  Warns of what is guessed."""
     declared = words_among(params or ())
+    limits = limits_of(limits)
     if isinstance(equation, str):
         # Only text leaves something to guess.
-        for guess in source_of(equation, None if var is None else str(var), limits_of(limits), names=declared).guesses:
+        for guess in source_of(equation, None if var is None else str(var), limits, names=declared).guesses:
             warn_user(guess)
     if var is None and not (declared and isinstance(equation, str)):
         return equation
@@ -268,7 +269,6 @@ def with_variable(equation: object, var: object, limits: Limits | None = None, p
         return equation
     from kovacic.reading.read import read_input
 
-    limits = limits_of(limits)
     try:
         return read_input(equation, var=var, limits=limits, exponentials=True, names=declared)
     except NotRational:

@@ -164,8 +164,7 @@ def _detours(here: ExactPoint | Singular, last: ExactPoint, singular: Sequence[E
         )
     sign = 1 if last.x > here.x else -1
     distance = sign * (last.x - here.x)
-    on_axis = {p.x for p in singular if p.is_real()}
-    places = [place for place in on_axis if 0 < sign * (place - here.x) < distance]
+    places = [p.x for p in singular if p.is_real() and 0 < sign * (p.x - here.x) < distance]
     for place in sorted(places, reverse=sign < 0):
         point = ExactPoint(place)
         # Half the distance to another singular point, or the whole one to the start, whichever is less.
