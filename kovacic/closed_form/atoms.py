@@ -152,6 +152,9 @@ class Atoms:
 
     def is_negative(self, value: Poly) -> bool:
         """True if a constant is negative; with parameters of unknown signs, if its first coefficient is, as that of -w^2."""
+        number = value.field.rational_value(value)
+        if number is not None:
+            return number < 0
         if isinstance(value, FunctionPoly):
             known = self.own(self.constant(value)).is_negative
             return value.is_written_with_minus if known is None else bool(known)
@@ -214,18 +217,23 @@ class Atoms:
                 terms.append(c * x**k)
         return Add(*terms)
 
-    def primitive(self, polynomial: Poly) -> tuple[Poly, Expr]:
-        """(c, expression): the polynomial is c times the expression, whose coefficients are coprime integers.
+    def cleared(self, polynomial: Poly) -> tuple[Poly, Poly]:
+        """(c, p): the polynomial is c times p, whose coefficients are coprime integers.
 
         Over Q(t) they are polynomials in the letters, so that a x + b stands for x + b/a; over a field of numbers c is 1.
         """
         field = polynomial.field
         if not polynomial or (field.height and field.ground == QQ):
-            return field.poly([1]), self.poly(polynomial)
+            return field.poly([1]), polynomial
         shown, _ = field.ground.cleared(polynomial, field.poly([]))
         if self.is_negative(shown.lc):
             shown = -shown
-        return polynomial.lc / shown.lc, self.poly(shown)
+        return polynomial.lc / shown.lc, shown
+
+    def primitive(self, polynomial: Poly) -> tuple[Poly, Expr]:
+        """As `cleared`, with an expression."""
+        content, shown = self.cleared(polynomial)
+        return content, self.poly(shown)
 
     def ratio(self, r: RatFunc) -> Expr:
         """A rational function as one fraction."""
@@ -299,18 +307,25 @@ class Atoms:
 
         Without a point that is 0 for 1 - k x and other letters before x, and for a - x^2 with `around_zero`.
         """
-        content, shown = self.primitive(base)
-        if self.is_negative(content):
-            shown = -shown
+        content, shown = self.cleared(base)
         point = self.at
         if point is None:
             is_pure_square = around_zero and base.degree == 2 and not base[1]
-            point = 0 if is_pure_square or content.field.rational_value(content) is None else sympy.oo
-        return point != sympy.oo and is_seen_negative(self.own(shown.subs(self.x, point)))
+            point = Integer(0) if is_pure_square or content.field.rational_value(content) is None else sympy.oo
+        if point == sympy.oo:
+            return False
+        if self.is_negative(content):
+            shown = -shown
+        if not point.is_Rational:
+            return is_seen_negative(self.own(self.poly(shown).subs(self.x, point)))
+        value = shown(Fraction(point.p, point.q))
+        number = value.field.rational_value(value)
+        return is_seen_negative(self.own(self.constant(value))) if number is None else number < 0
 
     def base(self, p: Poly, *, around_zero: bool) -> Expr:
         """The multiple of a monic polynomial that is written where its roots are to be real."""
-        return self.primitive(p)[1] * (-1) ** self.is_turned(p, around_zero=around_zero)
+        shown = self.cleared(p)[1]
+        return self.poly(-shown if self.is_turned(p, around_zero=around_zero) else shown)
 
     def root_sum(self, polynomial: Expr, body: Expr) -> Expr:
         """The sum of the body over the roots of a polynomial, both in the symbol `root`."""
@@ -366,8 +381,12 @@ def factors(
     turned, shown = _shown(y, found, atoms, around_zero=True)
     scale: Expr = Mul(*(Integer(-1) ** index for index in turned))
     for factor in found:
-        leading = atoms.primitive(factor.base)[0].inverse()
-        scale = scale * atoms.sqrt(leading) ** (-2 * atoms.constant(factor.exponent))
+        content = atoms.cleared(factor.base)[0]
+        exponent = factor.exponent.field.rational_value(factor.exponent)
+        if exponent is not None and exponent.denominator == 1:
+            scale = scale * atoms.constant(content) ** int(exponent)
+        elif content != 1:
+            scale = scale * atoms.sqrt(content.inverse()) ** (-2 * atoms.constant(factor.exponent))
     return scale, shown
 
 
@@ -381,7 +400,8 @@ def _shown(y: Product, found: list[Factor], atoms: Atoms, *, around_zero: bool) 
         for base in group:
             is_turned = not index.is_Integer and atoms.is_turned(base, around_zero=around_zero)
             turned += [index] * is_turned
-            bases.append(atoms.primitive(base)[1] * (-1) ** is_turned)
+            shown_base = atoms.cleared(base)[1]
+            bases.append(atoms.poly(-shown_base if is_turned else shown_base))
         shown.append(Mul(*bases) ** index)
     for residue in y.roots:
         roots = atoms.real_roots(residue.factor)

@@ -7,6 +7,8 @@ are written anew, with roots that are real there.
 
 from __future__ import annotations
 
+import sys
+from collections import Counter
 from collections.abc import Callable, Mapping, Sequence
 from contextlib import suppress
 from itertools import pairwise
@@ -69,6 +71,8 @@ def arguments_with_cuts(y: Expr) -> dict[Expr, Expr]:
     """The functions and powers with cuts in an expression: these lie where the argument, or 1 - z in pFq, is negative."""
     found = {}
     for e in iterargs(y):
+        if not (e.is_Pow or e.is_Function):
+            continue
         if isinstance(e, _TURNED):
             found[e] = cut_of(e)
         elif isinstance(e, BesselBase):
@@ -123,13 +127,17 @@ def common_place(x: Expr, *parts: Mapping[Expr, Expr], own: Own = sympy.sympify)
     After the usual points come those between zeros of arguments, as for sqrt(x - 3) and sqrt(4 - x).
     """
 
-    def on_cuts(point: Expr) -> list[int]:
-        return [sum(_is_below_zero(u, x, point, own) for u in arguments.values()) for arguments in parts]
+    shared = [Counter(arguments.values()) for arguments in parts]
 
-    usual = next((point for point in _POINTS if not any(on_cuts(point))), None)
-    if usual is not None:
-        return usual
-    lines = (u.as_poly(x) for arguments in parts for u in arguments.values())
+    def on_cuts(point: Expr) -> list[int]:
+        return [sum(n for u, n in counts.items() if _is_below_zero(u, x, point, own)) for counts in shared]
+
+    found: dict[Expr, list[int]] = {}
+    for point in _POINTS:
+        found[point] = on_cuts(point)
+        if not any(found[point]):
+            return point
+    lines = (u.as_poly(x) for counts in shared for u in counts)
     zeros = sorted(
         {
             -p.coeff_monomial(1) / p.LC()
@@ -137,7 +145,9 @@ def common_place(x: Expr, *parts: Mapping[Expr, Expr], own: Own = sympy.sympify)
             if p is not None and p.degree() == 1 and p.domain in (sympy.ZZ, sympy.QQ)
         }
     )
-    return min([*_POINTS, *((a + b) / 2 for a, b in pairwise(zeros))], key=on_cuts)
+    between = ((a + b) / 2 for a, b in pairwise(zeros))
+    found.update({point: on_cuts(point) for point in between if point not in found})
+    return min(found, key=lambda point: found[point])
 
 
 def real_at(
@@ -160,11 +170,13 @@ def real_at(
 
     if not place.is_real or not left(pair):
         return pair
-    pairs = [pair] if anew is None else [pair, anew()]
-    turned = [tuple(all_turned(sympy.Tuple(*found), x, place, own)) for found in pairs]
-    found = [
-        (y1, y2)
-        for y1, y2 in turned
-        if all(y in pair or is_numerical_solution(y, x, S, gauge) for y in (y1, y2)) and are_independent(y1, y2, x)
-    ]
-    return min(found, key=left, default=pair)
+    chosen, least = pair, sys.maxsize
+    for written in [lambda: pair] if anew is None else [lambda: pair, anew]:
+        turned = tuple(all_turned(sympy.Tuple(*written()), x, place, own))
+        count = left(turned)
+        are_solutions = count < least and all(y in pair or is_numerical_solution(y, x, S, gauge) for y in turned)
+        if are_solutions and are_independent(*turned, x):
+            chosen, least = turned, count
+        if not least:
+            break
+    return chosen

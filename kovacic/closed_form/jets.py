@@ -120,7 +120,7 @@ class BallEvaluator:
             root = self._cut(base, "sqrt")
             return root if exponent == sympy.S.Half else _quotient(1, root)
         value = self(base)
-        if not self.analytic and exponent.is_positive and isinstance(value, acb) and value.contains(0):
+        if not self.analytic and isinstance(value, acb) and value.contains(0) and exponent.is_positive:
             size = abs(value).upper()  # |z^e| = |z|^e for e > 0
             bound = (self(exponent).real * size.log()).exp().upper() if size > 0 else size
             return acb(arb(0, bound), arb(0, bound))

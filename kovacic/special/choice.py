@@ -29,7 +29,7 @@ from kovacic.algebra.ratfunc import RatFunc
 from kovacic.algebra.rationals import RationalPoly
 from kovacic.closed_form.atoms import Atoms
 from kovacic.closed_form.check import independent, is_nonzero
-from kovacic.closed_form.cuts import arguments_with_cuts, common_place, negative_arguments, real_at
+from kovacic.closed_form.cuts import arguments_with_cuts, common_place, real_at
 from kovacic.closed_form.form import EXACT, ClosedForm, pair_at, written
 from kovacic.closed_form.jets import jet
 from kovacic.closed_form.primitive import FACTOR, LONG, SHORT, OpenPrimitive
@@ -136,9 +136,9 @@ def _real(form: ClosedForm, S: RatFunc) -> ClosedForm:
         return form
     pair, x = (form.y1, form.y2), form.variable
     arguments = arguments_with_cuts(Tuple(*pair))
-    place = common_place(x, arguments)
-    if not negative_arguments(arguments, x, place):
+    if not arguments:
         return form
+    place = common_place(x, arguments)
     y1, y2 = real_at(pair, x, S, form.gauge, place, anew=partial(pair_at, form, place, sympify))
     return form if (y1, y2) == pair else replace(form, y1=y1, y2=y2, place=place)
 
