@@ -6,8 +6,10 @@ First the paper's own steps, line by line (`steps`), then what this package clai
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator
+from fractions import Fraction
 from functools import partial
 from io import StringIO
+from typing import Any
 
 from kovacic import derived
 from kovacic.algebra.ratfunc import RatFunc
@@ -128,24 +130,36 @@ def _in_time(part: Callable[[], Iterator[Block]]) -> Iterator[Block]:
 
 
 def _picture(answer: Answer) -> str:
-    """A picture of solutions near the singular points on the axis; empty without values, NumPy or matplotlib."""
-    from kovacic.enclosure.problem import as_problem
-
+    """A picture of solutions, or why there is none; empty without values, NumPy or matplotlib."""
+    heading = FORMATS["html"].heading(_PICTURE, 2)
     try:
-        from kovacic.views.plot import plot
-
-        singular = [float(z.re) for z in as_problem(answer).singular_points(64) if z.is_real()]
-        low = round(min(singular, default=-3)) - 2
-        high = round(max(singular, default=3)) + 2
-        with bounded_work(_PICTURE_WORK):
-            figure = plot(answer, low, high, digits=6, points=240, limits=answer.limits)
+        figure, caption = _figure(answer)
+    except LimitExceeded as limit:
+        said = FORMATS["html"].render([say(f"There is no picture: {limit}.")])
+        return f"\n{heading}\n\n{said}\n"
     except (KovacicError, ImportError, OverflowError):
         return ""
     figure.savefig(drawing := StringIO(), format="svg", metadata={"Date": None})
     svg = drawing.getvalue()[drawing.getvalue().index("<svg") :]
-    caption = "Solutions near the singular points on the real axis."
-    heading = FORMATS["html"].heading(_PICTURE, 2)
     return f"\n{heading}\n\n<figure>{svg}<figcaption>{caption}</figcaption></figure>\n"
+
+
+def _figure(answer: Answer) -> tuple[Any, str]:
+    """Solutions near the singular points on the real axis, or nearer to their middle, and the caption."""
+    from kovacic.enclosure.problem import as_problem
+    from kovacic.views.plot import modest_window, plot
+
+    singular = [float(z.re) for z in as_problem(answer).singular_points(64) if z.is_real()]
+    low = Fraction(round(min(singular, default=-3)) - 2)
+    high = Fraction(round(max(singular, default=3)) + 2)
+    window = modest_window(answer, low, high)
+    if window is None:
+        raise LimitExceeded("solutions oscillate or grow too fast on every interval that was tried", limit="work")
+    with bounded_work(_PICTURE_WORK):
+        figure = plot(answer, *window, digits=6, points=240, limits=answer.limits)
+    if window == (low, high):
+        return figure, "Solutions near the singular points on the real axis."
+    return figure, "Solutions on an interval that is short, since they oscillate or grow fast beyond it."
 
 
 class ExplanationWriter:

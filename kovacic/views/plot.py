@@ -69,6 +69,9 @@ _SEEN = 2e-3
 #: Beside a singular point, up to this share of the width, a solution may be as large as it likes without being drawn whole.
 _NEAR_SINGULAR = 0.05
 _NEAR_IRREGULAR = 0.2
+#: The largest integral of sqrt|S| over a picture that nobody has chosen, and how often its interval is halved at most.
+_MODEST = 200
+_HALVINGS = 24
 #: The axis is cut off if the largest value is more than this many times the typical size: cosh isn't cut.
 _RANGE = 4
 
@@ -489,15 +492,36 @@ def _agrees(y: Any, x: Any, curve: SampledCurve) -> bool:
     return True
 
 
-def _digits_gained(chart: PieceChart, intervals: list[tuple[Fraction, Fraction]]) -> int:
-    """Decimal digits by which a growing solution may gain on a decaying one: twice the integral of sqrt(S), S > 0."""
-    total = 0.0
+def modest_window(answer: Answer, low: Fraction, high: Fraction) -> tuple[Fraction, Fraction] | None:
+    """[low, high], or a shorter interval about its middle, over which the integral of sqrt|S| isn't large.
+
+    That is, solutions oscillate at most some dozens of times, and grow by at most as many digits; None without such an interval.
+    """
+    chart = chart_of(answer, {}, None)
+    middle = (low + high) / 2
+    for k in range(_HALVINGS):
+        half = (high - low) / 2 ** (k + 1)
+        a, b = middle - half, middle + half
+        if sum(_integral_of_root(chart, _regular_intervals(chart, a, b))) <= _MODEST:
+            return a, b
+    return None
+
+
+def _integral_of_root(chart: PieceChart, intervals: list[tuple[Fraction, Fraction]]) -> tuple[float, float]:
+    """The integrals of sqrt(S) where S > 0, and of sqrt(-S) elsewhere, estimated from samples."""
+    growth = turning = 0.0
     for low, high in intervals:
         here = coefficients(chart, [ExactPoint(low + (high - low) * Fraction(k, 200)) for k in range(201)])
-        growth = np.sqrt(np.maximum(here.S, 0.0))
-        total += float(np.trapezoid(growth, here.x))
+        growth += float(np.trapezoid(np.sqrt(np.maximum(here.S, 0.0)), here.x))
+        turning += float(np.trapezoid(np.sqrt(np.maximum(-here.S, 0.0)), here.x))
+    return growth, turning
+
+
+def _digits_gained(chart: PieceChart, intervals: list[tuple[Fraction, Fraction]]) -> int:
+    """Decimal digits by which a growing solution may gain on a decaying one: twice the integral of sqrt(S), S > 0."""
     # One grows like exp(int sqrt(S)), the other decays as fast: the quotient gains twice the integral.
-    return int(min(5000.0, 2 * total / np.log(10)))
+    growth, _ = _integral_of_root(chart, intervals)
+    return int(min(5000.0, 2 * growth / np.log(10)))
 
 
 @dataclass(frozen=True)
