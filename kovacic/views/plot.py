@@ -70,7 +70,7 @@ _SEEN = 2e-3
 _NEAR_SINGULAR = 0.05
 _NEAR_IRREGULAR = 0.2
 #: The largest integral of sqrt|S| over a picture that nobody has chosen, and how often its interval is halved at most.
-_MODEST = 200
+_MODEST = 100
 _HALVINGS = 24
 #: The axis is cut off if the largest value is more than this many times the typical size: cosh isn't cut.
 _RANGE = 4
@@ -495,7 +495,7 @@ def _agrees(y: Any, x: Any, curve: SampledCurve) -> bool:
 def modest_window(answer: Answer, low: Fraction, high: Fraction) -> tuple[Fraction, Fraction] | None:
     """[low, high], or a shorter interval about its middle, over which the integral of sqrt|S| isn't large.
 
-    That is, solutions oscillate at most some dozens of times, and grow by at most as many digits; None without such an interval.
+    So solutions oscillate at most some dozens of times, and grow by at most as many digits.  None without such an interval.
     """
     chart = chart_of(answer, {}, None)
     middle = (low + high) / 2

@@ -312,6 +312,24 @@ def test_a_page_has_a_picture_beside_an_irregular_singular_point() -> None:
     assert "<svg" in page
 
 
+@pytest.mark.parametrize(
+    ("S", "shown"),
+    [
+        ("2000000*x", "on an interval that is short"),
+        ("10^40*x + 1", "There is no picture: solutions oscillate or grow too fast"),
+        pytest.param("x + 10^6", "on an interval that is short", marks=pytest.mark.long),
+        pytest.param("x^300 + 1", "on an interval that is short", marks=pytest.mark.long),
+        pytest.param("10^6/x^4", "There is no picture: solutions oscillate or grow too fast", marks=pytest.mark.long),
+    ],
+)
+def test_a_page_has_a_picture_of_few_oscillations(S: str, shown: str) -> None:
+    """On the usual interval there would be thousands, or values that differ by thousands of digits."""
+    page = kovacic.solve(S).explain(format="html")
+    assert shown in page
+    assert ("<svg" in page) == shown.startswith("on")
+    assert '<a href="#a-picture">' in page
+
+
 @pytest.mark.long
 def test_a_page_on_a_slow_machine_has_its_picture() -> None:
     with controlled(step=0.01):

@@ -13,7 +13,7 @@ from typing import Any
 import jsonschema
 import pytest
 import sympy
-from build import QQ, RatFunc, parametrize
+from build import QQ, RatFunc, parametrize, run
 from published import Published, load
 
 import kovacic
@@ -44,6 +44,18 @@ def test_published_equations_there_and_back(entry: Published) -> None:
     read = kovacic.Solution.from_json(line)
     assert read == answer
     assert read.to_json() == line
+
+
+@pytest.mark.parametrize("most", [1, 3])
+@pytest.mark.parametrize(
+    "S", ["x", "x^6 + 2000000007*x^2", "x^2 + a", "(x^2 + 21)", "675/(324*x^4 + 864*x^3 + 2664*x^2 + 2784*x + 3364)"]
+)
+def test_answers_within_low_limits_there_and_back(S: str, most: int, capsys: pytest.CaptureFixture[str]) -> None:
+    """What was decided, or left open, with a low bound on degrees is read where the bound is the usual one."""
+    answer = kovacic.solve(S, limits=Limits(unknown_degree=most))
+    assert loads(answer.to_json()) == loads(answer.to_json(full=True)) == answer
+    assert run(["solve", "--json", "--limit", f"unknown_degree={most}", S]) in (0, 3)
+    assert loads(capsys.readouterr().out) == answer
 
 
 @pytest.mark.parametrize("variable", ["t", "c", "w", "W", "xx", "λ"])
