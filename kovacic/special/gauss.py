@@ -376,7 +376,9 @@ class _GaussForm:
         real = sum(value is not None and value > 0 for value in inside) if natural else 0
         terms = sum(bool(c) for c in (*f.num, *f.den))
         uneven = natural and self.alpha != self.beta
-        is_cut = self.is_beyond or natural and (not real if self.writer.places else f.field == QQ and self.between is None)
+        is_cut = self.is_beyond
+        if natural and not is_cut:
+            is_cut = not real if self.writer.places else f.field == QQ and self.between is None
         return is_cut, not f.is_polynomial, uneven, natural, -real, terms, not self.writer.is_negative(f.num.lc), str(f)
 
 
