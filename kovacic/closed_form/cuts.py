@@ -170,13 +170,14 @@ def real_at(
 
     if not place.is_real or not left(pair):
         return pair
+    makers: list[Callable[[], tuple[Expr, Expr]]] = [lambda: pair] if anew is None else [lambda: pair, anew]
     chosen, least = pair, sys.maxsize
-    for written in [lambda: pair] if anew is None else [lambda: pair, anew]:
-        turned = tuple(all_turned(sympy.Tuple(*written()), x, place, own))
+    for written in makers:
+        y1, y2 = turned = tuple(all_turned(sympy.Tuple(*written()), x, place, own))
         count = left(turned)
         are_solutions = count < least and all(y in pair or is_numerical_solution(y, x, S, gauge) for y in turned)
-        if are_solutions and are_independent(*turned, x):
-            chosen, least = turned, count
+        if are_solutions and are_independent(y1, y2, x):
+            chosen, least = (y1, y2), count
         if not least:
             break
     return chosen
