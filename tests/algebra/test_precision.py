@@ -22,12 +22,11 @@ def setters(source: str) -> set[str]:
     """What in it changes FLINT's context: a method that does, an assignment to an attribute of it."""
     found = set()
     for node in ast.walk(ast.parse(source)):
-        if not isinstance(node, ast.Attribute) or not isinstance(node.value, ast.Attribute | ast.Name):
-            continue
-        if ast.unparse(node.value) in ("ctx", "flint.ctx"):
-            is_method = node.attr in ("workprec", "workdps", "extraprec", "extradps")
-            if is_method or isinstance(node.ctx, ast.Store):
-                found.add(ast.unparse(node))
+        match node:
+            case ast.Attribute(value=ast.Name(id="ctx") | ast.Attribute(value=ast.Name(id="flint"), attr="ctx")):
+                is_method = node.attr in ("workprec", "workdps", "extraprec", "extradps")
+                if is_method or isinstance(node.ctx, ast.Store):
+                    found.add(ast.unparse(node))
     return found
 
 

@@ -782,7 +782,7 @@ def test_an_empty_summary() -> None:
     ("S", "label"),
     [
         ("(-32*x^2 + 27*x - 27)/(144*x^2*(x - 1)^2)", "case 3 (4)"),
-        ("(-135*x^2 + 115*x - 108)/(576*x^2*(x - 1)^2)", "case 3 (6)"),
+        pytest.param("(-135*x^2 + 115*x - 108)/(576*x^2*(x - 1)^2)", "case 3 (6)", marks=pytest.mark.long),
     ],
 )
 def test_a_record_that_is_read_again_has_its_label(S: str, label: str) -> None:

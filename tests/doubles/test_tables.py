@@ -168,7 +168,7 @@ def test_tables_may_have_tens_of_thousands_of_pieces(equation: str, interval: tu
 @pytest.mark.parametrize(
     ("equation", "interval", "start", "exact"),
     [
-        ("-1", (0, 3142), SINE, math.sin),
+        pytest.param("-1", (0, 3142), SINE, math.sin, marks=pytest.mark.long),
         ("y'' + 2*y' + 101*y = 0", (-1, 30), SINE, lambda x: math.exp(-x) * math.sin(10 * x) / 10),
         ("4", (0, 9), {"x0": "1/3", "y0": 1, "dy0": 0}, lambda x: math.cosh(2 * x - 2 / 3)),
         (

@@ -18,7 +18,7 @@ x = sympy.Symbol("x")
 #: Equations and a point with y = y' = 0; their right-hand sides lead to Ei, Si, Ci, log, atan, asin, roots, Fresnel's
 #: functions, error and gamma functions, dilogarithms, whose arguments cross a cut on the real axis.
 PROBLEMS: list[tuple[str, int]] = [
-    ("y'' + 4*y = x/(1 + x^2)", 0),
+    pytest.param(("y'' + 4*y = x/(1 + x^2)", 0), marks=pytest.mark.long),
     ("y'' + y = x/(x^2 - 2*x + 2)", 0),
     ("y'' + y = 1/(x^2 + x + 1)", 0),
     ("y'' + y = 1/(x^2 + 2*x + 5)", 0),

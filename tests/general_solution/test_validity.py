@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from itertools import product
 from typing import Any
 
 import pytest
@@ -191,8 +192,12 @@ def test_integrals_that_stay_need_what_is_integrated(equation: str, ics: str | N
     assert str(kovacic.validity(kovacic.dsolve(equation, ics=ics))) == needed
 
 
-@pytest.mark.parametrize("polynomial", ["x^5+x+1", "x^4+1"])
-@pytest.mark.parametrize("values", [None, "y(0)=0, y'(0)=0"])
+@parametrize(
+    ("polynomial", "values"),
+    product(["x^4+1", "x^5+x+1"], [None, "y(0)=0, y'(0)=0"]),
+    ordinary=1,
+    always=[("x^5+x+1", "y(0)=0, y'(0)=0")],
+)
 def test_a_sum_over_roots_names_no_other_symbol(polynomial: str, values: str | None) -> None:
     """Of the needs of its terms those at the real roots are said: they stood there in the name that is summed over."""
     found = kovacic.validity(kovacic.dsolve(f"y'' = 1/({polynomial})", ics=values))
@@ -302,7 +307,7 @@ def test_what_has_no_sign_and_what_has_no_zero_need_nothing() -> None:
     """Conjugate logarithms of complex numbers; x^2 + 3 x + 5; x - r and r - x for one root r."""
     found = kovacic.validity(kovacic.dsolve("(x^2+3*x+5)*y'' + (x+1/3)*y' + 7*y = log(x^5+x^2-7*x+2)"))
     assert (str(found), found.claim) == ("x**5 + x**2 - 7*x + 2 > 0", "valid")
-    assert str(kovacic.validity(kovacic.dsolve("y'' - y = 1/(x^7-3*x+1)"))).count("!= 0") == 3
+    assert str(kovacic.validity(kovacic.dsolve("y'' - y = 1/(x^5-3*x+1)"))).count("!= 0") == 3
 
 
 def test_bounds_that_are_assumed_are_not_said() -> None:

@@ -422,7 +422,12 @@ def test_an_integer_is_not_called_like_a_parameter() -> None:
             "a^2 + b^2 = 0",
             [("4*I", -4, "-2*I"), ("4*I", -4, 1), ("I", 1, 0), (0, 0, 0), (0, -3, 0), (2, 1, -2)],
         ),
-        ("(n^2*x^2+m)/(x^3-1)^2*x", "n^4 - n^2*m + m^2 = 0", [(2, "2 + 2*sqrt(-3)"), (1, 0), (0, 4), (1, -1)]),
+        pytest.param(
+            "(n^2*x^2+m)/(x^3-1)^2*x",
+            "n^4 - n^2*m + m^2 = 0",
+            [(2, "2 + 2*sqrt(-3)"), (1, 0), (0, 4), (1, -1)],
+            marks=pytest.mark.long,
+        ),
         ("a*x^6 + (w^2+1)*x^3 + b/x^2", "w^2 + 1 = 0", [(1, "I", 6), (1, "-I", 2), (0, "I", 0), (1, 2, 6)]),
     ],
     ordinary=5,
@@ -959,7 +964,7 @@ def test_no_condition_is_solved_for_e(S: str) -> None:
 @parametrize(
     ("S", "root"),
     product(["{0}*a^2/x^2 + {0}*b/x - c", "{0}*a*x^2 + b + c/x^2"], ["sqrt(2)", "sqrt(5)", "i"]),
-    ordinary=3,  # each of both
+    ordinary=2,  # each S
 )
 def test_conditions_with_a_root_in_them_are_sums_of_roots(S: str, root: str) -> None:
     """beta +- Delta = n, not the equation of degree 4 for n, also where the squares are squares over Q(t, sqrt(2)) alone."""
