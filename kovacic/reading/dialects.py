@@ -12,7 +12,6 @@ from __future__ import annotations
 
 import re
 from collections.abc import Callable, Sequence
-from itertools import pairwise
 from string import ascii_letters, digits
 
 from kovacic.errors import ParseError
@@ -198,13 +197,14 @@ def translated(text: str, scan: Tokens, *, condition: bool = False) -> Sentence:
     """
     if scan.has("\n"):
         scan = Tokens(token for token in scan if token.kind != "NEWLINE")
-    has_braces = scan.has("{") and any(
-        b.text == "{" and (a.text == "^" or a.text.endswith("_")) for a, b in pairwise(scan)
-    )
-    latex = has_braces or scan.has(("COMMAND",))
+    latex = scan.has(("COMMAND",)) or _BRACES.search(scan.spaced) is not None
     if latex:
         scan = rewritten(_Latex(text, scan).ordinary(), LATEX)
     return _Translation(text, scan, latex=latex, condition=condition).tokens()
+
+
+#: An exponent or an index in braces.
+_BRACES = re.compile(r"(?:(?<!\S)\^|_) +\{")
 
 
 class _Translation:
@@ -227,7 +227,8 @@ class _Translation:
         self.closers: dict[int, list[tuple[str, str]]] = {}
         self.skipped: set[int] = set()
         self.partner = scan.partners
-        self.bars = _bars(scan) if scan.has("|") else {}
+        self.bars = _bars(scan)
+        self.enclosed = self.partner | self.bars
 
     def tokens(self) -> Sentence:
         while self.k < len(self.scan):
@@ -284,8 +285,8 @@ class _Translation:
         text = self.texts[k]
         if depth > _DEEPEST:
             return None
-        if k in self.partner or k in self.bars:
-            return (self.partner.get(k) or self.bars[k]) + 1
+        if k in self.enclosed:
+            return self.enclosed[k] + 1
         if text in FRACTIONS:
             middle = self.operand_end(k + 1, depth + 1)
             return middle and self.operand_end(middle, depth + 1)
@@ -375,8 +376,7 @@ class _Translation:
 
     def method(self, token: Token) -> bool:
         """y(x).diff(x, 2): what stands before the point is differentiated."""
-        is_method = self.texts[self.k + 1] in DERIVATIVES and self.texts[self.k + 2] == "("
-        if not is_method or not self.found:
+        if not self.found or self.texts[self.k + 1] not in DERIVATIVES or self.texts[self.k + 2] != "(":
             return False
         self.differentiate_last()
         if self.texts[self.k + 3] != ")":
@@ -386,8 +386,7 @@ class _Translation:
 
     def primes(self, token: Token) -> bool:
         """((1 - x^2) y')': what the parentheses enclose is differentiated; y(x)'' is y''(x)."""
-        is_behind = self.found and self.found[-1][0] == "RPAR" and self.texts[self.k - 1] in CLOSING
-        if not is_behind:
+        if not self.found or self.found[-1][0] != "RPAR" or self.texts[self.k - 1] not in CLOSING:
             return False
         kind, name, start, end = self.found[max(0, self.closed - 1)]
         if kind == "HEAD":

@@ -84,7 +84,7 @@ class Vocabulary:
         _check_two_readings(tokens, *_POWER_OF_TEN)
         choose = _equation_variable if is_equation else _variable_of_S
         x, why = (self.variable, None) if self.variable else choose(tokens, y, self.declared)
-        if is_equation and x == y:
+        if x == y:
             said = f"{y} is the unknown function, and can't be the variable"
             raise InputError(said, hint="name another variable: var='x'", shell="name another variable: --var x")
         if not is_equation and x in ("e", "E"):
@@ -92,16 +92,14 @@ class Vocabulary:
         split, products = self._with_products(tokens, x, y)
         if is_equation or x != "e":
             _check_two_readings(split, *_EXPONENT, unknown=y)
-        is_usual = is_equation and x in (DEFAULT_VARIABLE, "t")
         reasons = [why] if why else []
-        notes, guessed = (reasons, []) if is_usual else ([], reasons)
-        guesses = [*_guesses(tokens), *guessed, *products]
-        guesses += self._imaginary_unit(split, x, y)
+        guesses = [*_guesses(tokens), *products, *self._imaginary_unit(split, x, y)]
         named = _with_factors(split, x, y) if "HEAD" in split.kinds else split
         if has_operator:
             new = [t._replace(kind="OPERATOR", text=x) if t[:2] == ("NAME", OPERATOR) else t for t in named.rows]
             named = Sentence.of(new, tokens.text, tokens.variable)
-        return Named(named, x, y, (*notes, *guesses), tuple(guesses))
+        is_usual = is_equation and x in (DEFAULT_VARIABLE, "t")
+        return Named(named, x, y, (*reasons, *guesses), tuple(guesses if is_usual else [*reasons, *guesses]))
 
     def _unknown_of(self, tokens: Sentence) -> tuple[str, bool]:
         """The unknown function of an equation, and True if D stands for the derivative."""

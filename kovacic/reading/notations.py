@@ -97,6 +97,16 @@ class Tokens(list[Token]):
                 found[opened.pop()] = k
         return found
 
+    @cached_property
+    def depths(self) -> list[int]:
+        """The number of brackets that are open behind each token, less those that close nothing."""
+        return [*accumulate((token.text in OPENING) - (token.text in CLOSING) for token in self)]
+
+    def split(self, signs: Collection[str] = (",",)) -> list[Tokens]:
+        """The parts between commas, or other signs, outside all brackets."""
+        cuts = [k for k, token in enumerate(self) if token.text in signs and not self.depths[k]]
+        return [Tokens(self[begin + 1 : end]) for begin, end in pairwise([-1, *cuts, len(self)])]
+
     @property
     def is_enclosed(self) -> bool:
         """True if the first token is a bracket closed by the last one."""
@@ -175,6 +185,9 @@ class Rewrite(NamedTuple):
         """Compiled for the first text that has one of the marks."""
         return pattern(self.text)
 
+    def found_in(self, scan: Tokens) -> Match | None:
+        return self.pattern.search(scan.spaced) if scan.has(self.marks) else None
+
     def applied(self, scan: Tokens) -> Tokens:
         found = Tokens()
         done = 0
@@ -197,7 +210,7 @@ class Rewrite(NamedTuple):
 def rewritten(scan: Tokens, rules: Sequence[Rewrite]) -> Tokens:
     """The tokens after all rules, in their order."""
     for notation in rules:
-        if not notation.marks.isdisjoint(scan.marks) and notation.pattern.search(scan.spaced):
+        if notation.found_in(scan):
             scan = notation.applied(scan)
     return scan
 

@@ -19,6 +19,7 @@ import re
 from collections.abc import Callable, Collection, Iterator, Sequence
 from dataclasses import dataclass, field
 from functools import cached_property
+from itertools import takewhile
 from typing import NamedTuple
 
 from kovacic.errors import ParseError
@@ -170,9 +171,8 @@ def _line_separates(scan: Tokens, k: int, current: list[Token], is_complete: boo
     """Between two statements, each of which has an equals sign or solves something."""
     if not is_complete or {current[-1].text, scan[min(k + 1, len(scan) - 1)].text} & _UNFINISHED:
         return False
-    rest = scan[k + 1 : k + 200]
-    end = next((j for j, t in enumerate(rest) if t.kind == "NEWLINE" or t.text == ";"), len(rest))
-    return _has_equals(rest[:end]) or any(t.text in SOLVERS for t in rest[:end])
+    following = Tokens(takewhile(lambda token: token.text not in ("\n", ";"), scan[k + 1 : k + 200]))
+    return following.has(SOLVERS) or _has_equals(following)
 
 
 #: What may separate statements, and when it does; Maple has colons behind them.
@@ -261,7 +261,7 @@ class _Apart:
     def without_surroundings(self, scan: Tokens) -> Tokens:
         """Without prompts, numbers of lists and equations, prose and punctuation."""
         for around in SURROUNDINGS if scan[0].text not in _DECLARATIONS else ():
-            match = around.pattern.search(scan.spaced) if scan.has(around.marks) else None
+            match = around.found_in(scan)
             if match is None:
                 continue
             first, behind = scan.span(match)
@@ -310,9 +310,11 @@ class _Apart:
             self.named[name] = scan
         elif self.list_of(scan):
             return
-        elif not is_alone and len(scan) == 1 and is_letter(scan[0].text) and "=" in self.text:
+        elif is_alone or _has_equals(scan) or scan.has(("else",)):
+            self.add("equation", scan)
+        elif len(scan) == 1 and is_letter(scan[0].text) and "=" in self.text:
             self.add("declaration", scan)  # x, t = var("x t")
-        elif not is_alone and _has_equals(scan, _INEQUALITIES) and not (_has_equals(scan) or scan.has(("else",))):
+        elif _has_equals(scan, _INEQUALITIES):
             self.notes.append(f"not used: {self.written(scan)}")
             self.add("remark", scan)
         else:
@@ -320,12 +322,14 @@ class _Apart:
 
     def command(self, scan: Tokens) -> bool:
         """The arguments of a command of another system: its equation, values, and names that occur in the equation."""
-        match = _COMMAND.match(scan.spaced) if scan.has(SOLVERS) else None
-        opening = len(match[0].split()) - 1 if match else 0
-        if not opening or scan.partners.get(opening) != len(scan) - 1:
+        match = _COMMAND.match(scan.spaced)
+        if match is None:
+            return False
+        opening = scan.span(match)[1] - 1
+        if scan.partners.get(opening) != len(scan) - 1:
             return False
         self.add("command", Tokens(scan[: opening + 1]))
-        first, *rest = [self.resolved(_unquoted(part)) for part in _separated(scan[opening + 1 : -1])]
+        first, *rest = [self.resolved(_unquoted(part)) for part in Tokens(scan[opening + 1 : -1]).split()]
         if first and first[0].text in SOLVERS:
             return self.command(first)
         if not first:
@@ -345,14 +349,16 @@ class _Apart:
 
     def list_of(self, scan: Tokens) -> bool:
         """{y'' + y = 0, y(0) = 1}."""
-        is_list = scan.has("{[") and scan[0].text in ("{", "[") and scan.is_enclosed
-        parts = [part for part in _separated(scan[1:-1]) if part] if is_list else []
-        if len(parts) == 1 and all(token.text in self.named for token in parts[0]):  # MATLAB's [cond1 cond2]
-            parts = [Tokens([token]) for token in parts[0]]
-        are_named = all(len(part) == 1 and part[0].text in self.named for part in parts)
-        if not is_list or not (are_named or _has_equals(scan, depth=1)):
+        if scan[0].text not in ("{", "[") or not scan.is_enclosed:
             return False
-        for part in map(self.resolved, parts):
+        names = [token.text for token in scan[1:-1] if token.text != ","]
+        if self.named.keys() >= {*names}:  # MATLAB's [cond1 cond2], too
+            parts = [self.named.pop(name) for name in dict.fromkeys(names)]
+        elif _has_equals(scan, depth=1):
+            parts = [*map(self.resolved, Tokens(scan[1:-1]).split())]
+        else:
+            return False
+        for part in parts:
             if part and not self.list_of(part):
                 self.add("equation", part)
         return True
@@ -360,50 +366,43 @@ class _Apart:
     def argument(self, part: Tokens, names: set[str]) -> bool:
         """An argument behind the equation; false where it says nothing that is read."""
         match [token.text for token in part]:
-            case []:
-                return False
             case ["ivar" | "func" | "function" as keyword, "=", name, *_]:
                 self.variable = name if keyword == "ivar" or len(part) == 3 else self.variable
                 return self.argument(Tokens(part[2:]), names)
             case ["dvar", "=", _, *_]:
                 return self.argument(Tokens(part[2:]), names)
-            case ["singsol" | "IncludeSingularSolutions", *_]:
+            case ["singsol" | "IncludeSingularSolutions", *_] | ["ics", "="] | ["ics", "=", "{", "}"]:
                 return True
             case ["ics", "=", name]:
                 return self.argument(Tokens([*part[:2], *self.named.pop(name, [])]), names)
-            case ["ics", "="] | ["ics", "=", "{", "}"]:
-                return True
-            case ["ics", "=", "{", *_]:
-                return self.values(part[3:-1])
-            case ["ics", "=", "[", *_]:
-                return self.values_of_sage(_separated(part[3:-1]))
+            case ["ics", "=", "{" | "[" as opening, *_]:
+                values = self.values if opening == "{" else self.values_of_sage
+                return values(Tokens(part[3:-1]).split())
             case [name] | [name, "(" | "[", _, _]:
-                is_alone = len(part) == 1 and is_letter(name)
-                if name not in names and not is_alone:
-                    return False
                 if name not in names:
+                    if len(part) > 1 or not is_letter(name):
+                        return False
                     self.variable = name  # MATLAB's
                 self.add("name", part)
                 return True
             case ["[" | "{", *_] if self.list_of(part):
                 return True
             case ["[" | "{", *_] if not _has_equals(part, depth=1):  # the unknown functions of a system
-                inside = _separated(part[1:-1])  # or a range {t, 0, 30}
+                inside = Tokens(part[1:-1]).split()  # or a range {t, 0, 30}
                 if inside[0] and inside[0][0].kind == "NUMBER":
                     return self.values_of_sage(inside)
                 return all((inner[:1] and inner[0].kind == "NUMBER") or self.argument(inner, names) for inner in inside)
             case [name, "=", _, *_] if is_word(name):
                 return False
-        if not self.list_of(part):
-            if not _has_equals(part):
-                return False
-            self.add("equation", part)
-        return True
+            case _ if _has_equals(part):
+                self.add("equation", part)
+                return True
+        return False
 
-    def values(self, inside: list[Token]) -> bool:
+    def values(self, inside: Sequence[Tokens]) -> bool:
         """SymPy's ics={y(0): 1}."""
-        for value in _separated(inside):
-            if not any(token.text == ":" for token in value):
+        for value in inside:
+            if not value.has((":",)):
                 return False
             self.add("equation", Tokens(token._replace(text="=") if token.text == ":" else token for token in value))
         return True
@@ -446,7 +445,7 @@ _PRIMES_ALONE = pattern(r"(?:''|\"|˙˙)(?! OPEN)")
 
 def _is_equation(scan: Tokens) -> bool:
     """True if an equals sign, a prime or a derivative occurs."""
-    if scan.has(("PRIMES", "\\prime", "\\dot", "\\ddot", *_ASSIGNS, *DERIVATIVES)) and _EQUATION.search(scan.spaced):
+    if _EQUATION.search(scan.spaced):
         return True
     if not scan.has(("/", *FRACTIONS)) or re.search(r"d|\\partial", scan.spaced) is None:
         return False
@@ -468,13 +467,10 @@ def is_word(text: str) -> bool:
     return text.isalpha() and len(text) > 1 and not is_letter(text)
 
 
-def _has_equals(scan: Sequence[Token], signs: Collection[str] = _ASSIGNS, depth: int = 0) -> bool:
+def _has_equals(scan: Tokens, signs: Collection[str] = _ASSIGNS, depth: int = 0) -> bool:
     """True if an equals sign, or another one, stands outside all brackets, or as deep as is said."""
-    level = 0
-    for token in scan:
-        level += (token.text in OPENING) - (token.text in CLOSING)
-        if token.text in signs and level <= depth:
-            return True
+    if any(token.text in signs and scan.depths[k] <= depth for k, token in enumerate(scan)):
+        return True
     return signs is _ASSIGNS and depth == 0 and bool(scan) and scan[0].text in _WHOLE
 
 
@@ -487,34 +483,19 @@ _ASSIGNMENT = pattern(
 
 def _without_assignment(scan: Tokens) -> tuple[str, Tokens]:
     """The name to which an equation or a command is assigned, and the rest."""
-    match = _ASSIGNMENT.match(scan.spaced) if scan.has((":", *_ASSIGNS)) else None
-    if match is None and len(scan) > 2 and scan[1].text == "=" and is_word(scan[0].text):
-        return scan[0].text, Tokens(scan[2:])
-    rest = scan[scan.span(match)[1] :] if match else []
-    return (match["name"], Tokens(rest)) if match and rest else ("", scan)
+    match = _ASSIGNMENT.match(scan.spaced)
+    is_named = len(scan) > 2 and scan[1].text == "=" and is_word(scan[0].text)
+    behind = scan.span(match)[1] if match else 2 * is_named
+    return (scan[0].text, Tokens(scan[behind:])) if 0 < behind < len(scan) else ("", scan)
 
 
 def _without_eq(scan: Tokens) -> Tokens:
     """left = right for Eq(left, right) of SymPy."""
-    if len(scan) < 4 or scan[0].text not in _WHOLE or scan.partners.get(1) != len(scan) - 1:
-        return scan
-    left, *others = _separated(scan[2:-1])
-    if not left or not others or not others[0]:
-        return scan
-    return Tokens([*left, Token("SIGN", "=", left[-1].end, others[0][0].start), *others[0]])
-
-
-def _separated(scan: Sequence[Token], signs: Collection[str] = (",",)) -> list[Tokens]:
-    """The parts between commas, or other signs, outside all brackets."""
-    parts = [Tokens()]
-    depth = 0
-    for token in scan:
-        depth += (token.text in OPENING) - (token.text in CLOSING)
-        if depth == 0 and token.text in signs:
-            parts.append(Tokens())
-        else:
-            parts[-1].append(token)
-    return parts
+    is_call = scan[0].text in _WHOLE and scan.partners.get(1) == len(scan) - 1
+    match Tokens(scan[2:-1]).split() if is_call else []:
+        case [[*_, last] as left, [first, *_] as right, *_]:
+            return Tokens([*left, Token("SIGN", "=", last.end, first.start), *right])
+    return scan
 
 
 def _is_quoted(scan: Tokens) -> bool:
@@ -532,17 +513,17 @@ def _is_condition(scan: Tokens, *, is_first: bool = False) -> bool:
     if not _has_equals(scan) or _PRIMES_ALONE.search(scan.spaced):
         return False
     partner = scan.partners
-    for match in _CALL.finditer(scan.spaced):
-        name, behind = scan.span(match)
+    for call in _CALL.finditer(scan.spaced):
+        name, behind = scan.span(call)
         opening = behind - 1
         function = scan[name].text.removeprefix("\\")
         if opening not in partner or is_function(function) or function in DERIVATIVES:
             continue
-        inside = scan[opening + 1 : partner[opening]]
-        if len(inside) == 1 and inside[0].kind == "WORD" and inside[0].text not in _NAMED_POINTS:
-            return name == 0 and not is_first
-        if len(inside) == 1 and inside[0].kind == "NUMBER":
-            return True
+        match [token[:2] for token in scan[opening + 1 : partner[opening]]]:
+            case [("WORD", point)] if point not in _NAMED_POINTS:
+                return name == 0 and not is_first
+            case [("NUMBER", _)]:
+                return True
         if scan[name].text == "}" or not _is_equation(Tokens(scan[:name])):  # \dot{y}(0)
             return True
     return False
@@ -551,7 +532,7 @@ def _is_condition(scan: Tokens, *, is_first: bool = False) -> bool:
 def _placed_values(text: str, scan: Tokens) -> Iterator[PlacedValue]:
     """The conditions that one statement has; y(0) = y'(0) = 1 are two."""
     plain = Tokens(token for token in scan if token.text not in ("$", "`"))
-    sides = [translated(text, side, condition=True) for side in _separated(plain, _ASSIGNS)]
+    sides = [translated(text, side, condition=True) for side in plain.split(_ASSIGNS)]
     # In this package's notation a blank stands between names and numbers alone.
     *places, value = (re.sub(r"(?<![\w']) | (?!\w)", "", " ".join(tokens.pieces)) for tokens in sides)
     if not places or not all((*places, value)):
