@@ -179,8 +179,7 @@ def written_expression(text: str) -> Any:
 
 def expression_of(source: Any, limits: Limits, *, what: str = "the equation") -> Any:
     """An equation in a text as the SymPy expression that is zero, whether it is linear or not.  Raises `InputError`."""
-    reader = SymbolicReader.of_equations(source.variable, [source.unknown], limits, what)
-    reader.has_functions = source.has_functions
+    reader = EquationsReader(source.variable, [source.unknown], limits, what, has_functions=source.has_functions)
     value = source.walk(reader)
     if isinstance(value, sympy.Equality):
         return value.lhs - value.rhs
@@ -229,8 +228,8 @@ def read_equations(
             raise InputError(said, hint="a value of a parameter is substituted, or assumed: --assume k=2")
         named = Vocabulary(chosen, unknowns[0], frozenset({*names, *unknowns})).of(tokens, is_equation=True)
         guesses |= dict.fromkeys(named.guesses)
-        reader = SymbolicReader.of_equations(chosen, unknowns, limits, "the equation")
-        reader.has_functions = True  # those that aren't differentiated
+        # Functions that aren't differentiated are given ones.
+        reader = EquationsReader(chosen, unknowns, limits, "the equation", has_functions=True)
         equations.append(evaluate(named.tokens, reader))
     x = sympy.Symbol(chosen)
     functions = tuple(sympy.Function(name)(x) for name in unknowns)
@@ -238,7 +237,7 @@ def read_equations(
 
 
 class SymbolicReader(RationalReader):
-    """Reads a text as a SymPy expression, or as an equation in `unknowns`, functions of x."""
+    """Reads a text as a SymPy expression, in which `unknowns` are functions at points."""
 
     arithmetic: LinearArithmetic
 
@@ -247,22 +246,6 @@ class SymbolicReader(RationalReader):
         self.any_name = names is None
         self.unknowns = unknowns
         self.what = what
-        #: The variable of an equation; None for an expression, in which the unknown functions are at points.
-        self.x: Any = None
-        #: g(x) is a function that is given.
-        self.has_functions = False
-
-    @classmethod
-    def of_equations(cls, variable: str, unknowns: Collection[str], limits: Limits, what: str) -> SymbolicReader:
-        """A reader of equations in functions of this variable."""
-        x = sympy.Symbol(variable)
-
-        def derivative(function: Any) -> Callable[[Any, int], Any]:
-            return lambda point, order: function(point).diff(point, order) if order else function(point)
-
-        reader = cls(None, what, limits, {name: derivative(sympy.Function(name)) for name in unknowns})
-        reader.x = x
-        return reader
 
     def read(self, text: str) -> Any:
         check_length(text, self.arithmetic.limits, what=self.what)
@@ -272,8 +255,6 @@ class SymbolicReader(RationalReader):
         return self.arithmetic.expression(evaluate(tokens, self))
 
     def name(self, name: str) -> Any:
-        if self.x is not None and name in self.unknowns:
-            return self.unknowns[name](self.x, 0)
         if name in self.names:
             return self.names[name]
         if not self.any_name or (name in NUMBER_NAMES and name not in NUMBERS):
@@ -281,21 +262,16 @@ class SymbolicReader(RationalReader):
         return sympy.Symbol(name)
 
     def follows_without_sign(self, name: str) -> bool:
-        return name.rstrip(PRIMES) in self.unknowns or (self.x is not None and name in DERIVATIVES)
+        return name.rstrip(PRIMES) in self.unknowns
 
     def derivative(self, text: str) -> Any:
-        name = text.rstrip(PRIMES)
-        if self.x is None or name not in self.unknowns:
-            raise InputError(f"{self.what} can't contain the derivative {text}")
-        return self.unknowns[name](self.x, len(text) - len(name))
+        raise InputError(f"{self.what} can't contain the derivative {text}")
 
     def operator(self, variable: str) -> Any:
         raise InputError(f"{self.what} can't contain the operator d/d{variable}", hint="write dy/dx, or y'")
 
     def equation(self, left: Any, right: Any) -> Any:
-        if self.x is None:
-            raise InputError(f"{self.what} is an expression, not an equation")
-        return sympy.Eq(self.arithmetic.expression(left), self.arithmetic.expression(right), evaluate=False)
+        raise InputError(f"{self.what} is an expression, not an equation")
 
     def power(self, base: Any, exponent: Any, place: OperationPlace) -> Any:
         try:
@@ -305,22 +281,55 @@ class SymbolicReader(RationalReader):
 
     def call(self, head: str, arguments: list[Any], site: Site) -> Any:
         name = head.rstrip(PRIMES)
-        if head in DERIVATIVES and self.x is not None:
-            order = differentiations(arguments[1:], self._is_variable, self.arithmetic, self.x)
-            return self.arithmetic.expression(arguments[0]).diff(self.x, order)
-        if name in self.unknowns and len(arguments) == 1 and (self.x is None or self._is_variable(arguments[0])):
+        if name in self.unknowns and len(arguments) == 1:
             return self.unknowns[name](self.arithmetic.expression(arguments[0]), len(head) - len(name))
         if head in (*POWER_CALLS, "root") and len(arguments) == 2:
             base, n = arguments
             exponent = self.arithmetic.divide(Monomial(1, 0), n) if head == "root" else n
             return self.power(base, exponent, site)
-        if self.has_functions and len(arguments) == 1 and self._is_variable(arguments[0]) and not is_function(head):
-            return sympy.Function(head)(self.x)
         value = self.arithmetic.called(_SYMBOLS_OF_FUNCTIONS.get(head, head), arguments)
         if value is None:
             hint = f"the functions are {', '.join(sorted(FUNCTION_NAMES))}, of one argument"
             raise InputError(f"{self.what} can't contain {site.text()}", hint=hint)
         return value
+
+
+class EquationsReader(SymbolicReader):
+    """Reads equations in functions of one variable, the `unknowns`; with `has_functions`, others are given ones: g(x)."""
+
+    def __init__(
+        self, variable: str, unknowns: Collection[str], limits: Limits, what: str, *, has_functions: bool
+    ) -> None:
+        super().__init__(None, what, limits, {})
+        self.x = sympy.Symbol(variable)
+        self.functions = {name: sympy.Function(name)(self.x) for name in unknowns}
+        self.has_functions = has_functions
+
+    def name(self, name: str) -> Any:
+        return self.functions[name] if name in self.functions else super().name(name)
+
+    def follows_without_sign(self, name: str) -> bool:
+        return name.rstrip(PRIMES) in self.functions or name in DERIVATIVES
+
+    def derivative(self, text: str) -> Any:
+        name = text.rstrip(PRIMES)
+        if name not in self.functions:
+            return super().derivative(text)
+        return self.functions[name].diff(self.x, len(text) - len(name))
+
+    def equation(self, left: Any, right: Any) -> Any:
+        return sympy.Eq(self.arithmetic.expression(left), self.arithmetic.expression(right), evaluate=False)
+
+    def call(self, head: str, arguments: list[Any], site: Site) -> Any:
+        if head in DERIVATIVES:
+            order = differentiations(arguments[1:], self._is_variable, self.arithmetic, self.x)
+            return self.arithmetic.expression(arguments[0]).diff(self.x, order)
+        if len(arguments) == 1 and self._is_variable(arguments[0]):
+            if head.rstrip(PRIMES) in self.functions:
+                return self.derivative(head)
+            if self.has_functions and not is_function(head):
+                return sympy.Function(head)(self.x)
+        return super().call(head, arguments, site)
 
     def _is_variable(self, value: Any) -> bool:
         return bool(value == self.x)

@@ -57,15 +57,13 @@ def references(answer: Answer) -> tuple[Reference, ...]:
 
 def _for_the_decision(decision: Decision) -> list[str]:
     """The publications for invariants and for a rational omega."""
-    evidence = [item for exclusion in decision.exclusions for item in exclusion.evidence]
-    excludes_invariants = any(isinstance(item, NoInvariant) for item in evidence)
-    excludes_omega = any(isinstance(item, NoRationalOmega) for item in evidence)
+    kinds = {type(evidence) for exclusion in decision.exclusions for evidence in exclusion.evidence}
     has_invariant = decision.invariant is not None
     has_omega = decision.structure is Structure.REDUCIBLE and decision.series is None
     used = []
-    if has_invariant or excludes_invariants:
+    if has_invariant or NoInvariant in kinds:
         used += ["UW96", "HW97"]
-    if excludes_omega or (has_omega and not has_invariant):
+    if NoRationalOmega in kinds or (has_omega and not has_invariant):
         used += ["vH97", "CvH04"]
     elif has_omega:
         used.append("HvdP95")

@@ -118,15 +118,13 @@ def document(answer: Answer, *, solutions: bool = True) -> list[Block]:
         parts += [writer.certificate, writer.omega]
     if solutions and answer.status is not Status.UNDECIDED:
         parts.append(writer.closed_form)
-    return [block for part in (*parts, writer.group, writer.check, writer.bibliography) for block in _in_time(part)]
-
-
-def _in_time(part: Callable[[], Iterator[Block]]) -> Iterator[Block]:
-    """The blocks of a part, with a sentence about any limit that ends it early."""
-    try:
-        yield from part()
-    except LimitExceeded as limit:
-        yield say(f"The rest of this part isn't written out: {limit}.")
+    blocks: list[Block] = []
+    for part in (*parts, writer.group, writer.check, writer.bibliography):
+        try:
+            blocks.extend(part())  # those before a limit stay
+        except LimitExceeded as limit:
+            blocks.append(say(f"The rest of this part isn't written out: {limit}."))
+    return blocks
 
 
 def _picture(answer: Answer) -> str:

@@ -21,6 +21,7 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping
 from contextlib import suppress
 from dataclasses import dataclass, replace
+from functools import partial
 from typing import Any
 
 from kovacic import derived
@@ -44,7 +45,7 @@ from kovacic.decision import (
     Structure,
     TerminatingSeries,
 )
-from kovacic.equation import EULER, PI, Equation, Parsed, parameters_of
+from kovacic.equation import EULER, PI, Change, Equation, Parsed, parameters_of
 from kovacic.errors import InputError, LimitExceeded, VerificationFailed
 from kovacic.limits import Limits
 from kovacic.numbers.numerals import as_text, for_json
@@ -106,7 +107,6 @@ def to_dict(answer: Answer, *, full: bool = False) -> dict[str, Any]:
     """The answer as a JSON object of plain Python values."""
     names = Formulas(answer.variable, answer.S.field)
     decision = answer.decision
-    gauge = None if answer.equation is None else names.python(answer.gauge)
     conditions = None
     if parameters_of(answer.S.field):
         from kovacic.parametric.restriction import generic_conditions
@@ -136,8 +136,8 @@ def to_dict(answer: Answer, *, full: bool = False) -> dict[str, Any]:
         "proof": _proof(decision, names),
         "notices": list(answer.notices),
         "seconds": answer.seconds,
-        "equation": _given_equation(answer.equation),
-        "gauge": gauge,
+        "equation": _unless_none(answer.equation, _given_equation),
+        "gauge": _unless_none(answer.equation, lambda equation: names.python(equation.gauge)),
     }
     if full:
         data["group"] = group_dict(answer)
@@ -149,16 +149,18 @@ def to_dict(answer: Answer, *, full: bool = False) -> dict[str, Any]:
 
 def _proof(decision: Decision, names: Formulas) -> dict[str, Any]:
     """The data for a check in addition to the polynomial of omega."""
-    structure = None if decision.structure is None else decision.structure.value
-    invariant = None if decision.invariant is None else _form_dict(decision.invariant, names)
     semi_invariant = None
     if decision.semi_invariant is not None and decision.riccati is not None:
         semi_invariant = {**_form_dict(decision.semi_invariant, names), "D": names.python(decision.riccati.D)}
-    series = {} if decision.series is None else {"series": _series_dict(decision.series, names)}
+    series = {}
+    if decision.series is not None:
+        found = decision.series
+        powers = {name: for_json(getattr(found, name)) for name in ("step", "degree", "lowest")}
+        series["series"] = {"theta": names.python(found.theta), "centre": names.python(found.centre), **powers}
     return {
-        "structure": structure,
+        "structure": _unless_none(decision.structure, lambda structure: structure.value),
         "semi_invariant": semi_invariant,
-        "invariant": invariant,
+        "invariant": _unless_none(decision.invariant, partial(_form_dict, names=names)),
         "excluded": [
             {
                 "structure": exclusion.structure.value,
@@ -170,11 +172,6 @@ def _proof(decision: Decision, names: Formulas) -> dict[str, Any]:
         "undecided": decision.undecided,
         **series,
     }
-
-
-def _series_dict(series: TerminatingSeries, names: Formulas) -> dict[str, Any]:
-    powers = {name: for_json(getattr(series, name)) for name in ("step", "degree", "lowest")}
-    return {"theta": names.python(series.theta), "centre": names.python(series.centre), **powers}
 
 
 def _solutions_as_text(answer: Answer) -> list[str] | None:
@@ -190,10 +187,10 @@ def group_dict(answer: Answer) -> dict[str, Any] | None:
         return None
     data: dict[str, Any] = {
         "name": group.name,
-        "order": _integer(group.order),
+        "order": _unless_none(group.order, for_json),
         "finite": group.finite,
         "family": group.kind.value,
-        "n": _integer(group.n),
+        "n": _unless_none(group.n, for_json),
     }
     f = group.function
     if f is not None:
@@ -210,10 +207,6 @@ def group_dict(answer: Answer) -> dict[str, Any] | None:
     if group.orders:
         data["orders"] = [{"prime": p, "order": for_json(k)} for p, k in group.orders]
     return data
-
-
-def _integer(number: int | None) -> int | str | None:
-    return None if number is None else for_json(number)
 
 
 def from_dict(data: Mapping[str, Any]) -> Answer:
@@ -430,20 +423,16 @@ def _check_given_equation(data: Mapping[str, Any], equation: Equation | None, va
         raise ValueError("the gauge isn't that of the equation")
 
 
-def _given_equation(equation: Equation | None) -> dict[str, Any] | None:
-    """The equation as given; None if S alone was given."""
-    if equation is None:
-        return None
+def _given_equation(equation: Equation) -> dict[str, Any]:
+    """The equation as given."""
     coefficients = {name: getattr(equation, name).to_str(equation.variable) for name in _COEFFICIENTS}
-    h = None if equation.h is None else as_text(equation.h)
-    change = None if equation.change is None else equation.change.to_dict()
     return {
         "text": equation.text(caret=False),
         "unknown": equation.unknown,
         **coefficients,
-        "h": h,
+        "h": _unless_none(equation.h, as_text),
         "field": _field_dict(equation.a.field),
-        "change": change,
+        "change": _unless_none(equation.change, Change.to_dict),
     }
 
 

@@ -80,6 +80,11 @@ def powers_in(series: TerminatingSeries, formulas: Formulas) -> Iterator[str | M
     yield f" down to {lowest} in steps of {step}"
 
 
+def plain(parts: Iterable[str | Math]) -> str:
+    """A sentence as text."""
+    return "".join(part.text if isinstance(part, Math) else part for part in parts)
+
+
 def omega_lines(answer: Answer) -> list[str]:
     """omega, or its polynomial, and its constants, as text."""
     riccati = answer.riccati
@@ -91,8 +96,8 @@ def omega_lines(answer: Answer) -> list[str]:
     if roots is not None and omega.text == formulas.symbol:
         return [f"omega = {roots}"]
     if series is not None:
-        powers = "".join(part.text if isinstance(part, Math) else part for part in powers_in(series, formulas))
-        lines = [f"omega = theta + P'/P with theta = {formulas.math(series.theta).text} and P of {powers}"]
+        theta, powers = formulas.math(series.theta).text, plain(powers_in(series, formulas))
+        lines = [f"omega = theta + P'/P with theta = {theta} and P of {powers}"]
     elif riccati is None or riccati.degree == 1:
         lines = [f"omega = {omega.text}"]
     else:

@@ -245,8 +245,6 @@ def _allowed(case: int, places: Sequence[Place]) -> bool:
     if case == 1:
         return all(place.kind is not Kind.RAMIFIED for place in places)
     if case == 2:
-        poles = [place for place in places if not place.at_infinity]
-        return any(place.order == 2 or place.kind is Kind.RAMIFIED for place in poles)
+        return any(p.order == 2 or p.kind is Kind.RAMIFIED for p in places if not p.at_infinity)
     # S has the order 4 - k at infinity, k the order of the place: k <= 2 says that it is at least 2.
-    singular = [place for place in places if place.order > 0]
-    return all(place.order <= 2 and place.delta is not None for place in singular)
+    return all(p.order <= 2 and p.delta is not None for p in places if p.order > 0)

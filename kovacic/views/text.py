@@ -21,6 +21,7 @@ from kovacic.views.sentences import (
     of_degree,
     omega_lines,
     omega_math,
+    plain,
     reason,
     solutions_of,
     verdict_of,
@@ -152,10 +153,7 @@ def _exclusions(answer: Answer) -> list[str]:
     formulas = formulas_of(answer)
     grouped: dict[tuple[int, str], list[str]] = {}
     for exclusion in answer.proof:
-        reasons = "; ".join(
-            "".join(part.text if isinstance(part, Math) else part for part in reason(evidence, formulas))
-            for evidence in exclusion.evidence
-        )
+        reasons = "; ".join(plain(reason(evidence, formulas)) for evidence in exclusion.evidence)
         grouped.setdefault((exclusion.structure.case, reasons), []).append(exclusion.structure.value)
     lines = []
     for (case, reasons), structures in grouped.items():

@@ -90,6 +90,7 @@ def blocks(answer: ParametricAnswer) -> list[Block]:
 class _TheoremWriter:
     def __init__(self, answer: ParametricAnswer) -> None:
         self.answer = answer
+        self.change = answer.equation and answer.equation.change
         self.is_solvable = answer.generic.known and answer.generic.case is not None
         self.cases = solvable_cases(answer.regions)
         self.left_out = [*outside(answer.regions)]
@@ -108,9 +109,8 @@ class _TheoremWriter:
                 otherwise += ", for generic values,"
             yield say(f"{otherwise} it is case {self.answer.generic.case}. ", *_group(self.answer.generic))
         yield from self._exceptions()
-        change = self.answer.equation and self.answer.equation.change
-        if change:  # the field isn't C(x)
-            yield say("Cases and groups are those over ", rational_functions(change.expression), ".")
+        if self.change:  # the field isn't C(x)
+            yield say("Cases and groups are those over ", rational_functions(self.change.expression), ".")
         yield from self._delta(cases)
         yield from self._proof()
 
@@ -132,13 +132,13 @@ class _TheoremWriter:
         yield Formula(given or expanded)
         start: list[str | Math] = []
         if given and equation.change:
-            yield say("is, in ", self._change(), ", the equation")
+            yield say("is, in ", self._changed_variable(), ", the equation")
             yield Formula(expanded)
             start = ["which "]
         elif equation.change:
             start = [
                 "in ",
-                self._change(),
+                self._changed_variable(),
                 " (",
                 Math.of(equation.change.variable),
                 " is the variable that was given) ",
@@ -217,12 +217,10 @@ class _TheoremWriter:
                 found += [", ", Math.of(f"{name} {sign} {value}")]
         return found
 
-    def _change(self) -> Math:
-        change = self.answer.equation and self.answer.equation.change
-        assert change
-        return Math.of(self.answer.variable).equals(
-            Math(change.expression.replace("**", "^"), latex_text(change.expression))
-        )
+    def _changed_variable(self) -> Math:
+        assert self.change
+        expression = self.change.expression
+        return Math.of(self.answer.variable).equals(Math(expression.replace("**", "^"), latex_text(expression)))
 
     def _substitution(self, v: str) -> list[str | Math]:
         equation = self.answer.equation
@@ -387,8 +385,7 @@ class _TheoremWriter:
     @property
     def _variable(self) -> str:
         """The user's."""
-        change = self.answer.equation and self.answer.equation.change
-        return change.variable if change else self.answer.variable
+        return self.change.variable if self.change else self.answer.variable
 
     def _collected(self, expression: sympy.Expr) -> sympy.Expr:
         """A sum as one fraction whose numerator is sorted by the signs: -(epsilon*(c - 1) + zeta*(a + b - c) + 1)/2."""

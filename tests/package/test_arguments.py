@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from itertools import product
 from typing import Any
 
 import pytest
@@ -73,10 +74,14 @@ DOORS: dict[str, Callable[..., object]] = {
 }  # fmt: skip
 
 
-@pytest.mark.parametrize(
-    "start", [{"x0": 1, "y0": 2, "dy0": "1/3"}, {"x0": 0, "which": "regular"}, {"x0": 0, "frobenius": (1, 2)}]
-)
-@pytest.mark.parametrize("door", DOORS)
+STARTS: list[dict[str, Any]] = [
+    {"x0": 1, "y0": 2, "dy0": "1/3"},
+    {"x0": 0, "which": "regular"},
+    {"x0": 0, "frobenius": (1, 2)},
+]
+
+
+@parametrize(("door", "start"), product(DOORS, STARTS), ordinary=9)  # each door, each start
 def test_an_object_says_what_its_fields_say_as_keywords(door: str, start: dict[str, Any]) -> None:
     call = DOORS[door]
     expected = str(call(**start))

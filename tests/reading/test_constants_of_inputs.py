@@ -6,11 +6,12 @@ Generated: every constant and every door, as text and as SymPy expression.
 from __future__ import annotations
 
 from collections.abc import Callable
+from itertools import product
 from typing import Any
 
 import pytest
 import sympy
-from build import Conditions
+from build import Conditions, parametrize
 
 import kovacic
 
@@ -54,8 +55,7 @@ def dsolve(given: Any) -> list[Any]:
 DOORS: dict[str, Callable[[Any], list[Any]]] = {"solve": solutions_of, "JSON": from_json, "dsolve": dsolve}
 
 
-@pytest.mark.parametrize("name", NUMBERS)
-@pytest.mark.parametrize("door", DOORS)
+@parametrize(("door", "name"), product(DOORS, NUMBERS), ordinary=11)  # each door, each number
 def test_a_number_is_a_number_in_solutions(door: str, name: str) -> None:
     k = NUMBERS[name]
     for given in (equation(k), f"y'' = ({name})^2*y"):
