@@ -99,15 +99,17 @@ def _kernels(e: Expr, x: Expr, *, e_is_known: bool) -> list[Expr]:
 
     `e_is_known`: powers of Euler's number are none.
     """
-    is_power_of_e = e is sympy.E or isinstance(e, sympy.exp)
-    is_constant = not e.has(x)
-    if is_constant and (e.is_Symbol or e is sympy.pi or (e.is_number and not is_power_of_e and e.is_algebraic)):
+    base, exponent = e.as_base_exp()
+    is_power_of_e = base is sympy.E
+    if e_is_known and is_power_of_e and exponent.is_Integer:
         return []
-    if e_is_known and (e is sympy.E or (is_power_of_e and e.args[0].is_Integer)):
+    is_constant = not e.has(x)
+    is_algebraic = e.is_number and e.is_algebraic and not is_power_of_e
+    if is_constant and (e.is_Symbol or e is sympy.pi or is_algebraic):
         return []
     inner = [kernel for argument in e.args for kernel in _kernels(argument, x, e_is_known=e_is_known)]
-    is_integer_power = e.is_Pow and e.exp.is_Integer and not is_power_of_e
-    return inner if inner or not is_constant or e.is_Add or e.is_Mul or is_integer_power else [e]
+    is_rational = e.is_Add or e.is_Mul or (e.is_Pow and exponent.is_Integer and not is_power_of_e)
+    return [e] if is_constant and not inner and not is_rational else inner
 
 
 class _LetterTable:

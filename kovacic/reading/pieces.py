@@ -250,7 +250,12 @@ class _Apart:
         return Paste(self.text, self.sorted_roles(), self.variable, tuple(self.notes))
 
     def add(self, role: str, scan: Tokens) -> None:
-        self.found.append(PastedPiece(role, _without_eq(scan) if role == "equation" else scan))
+        """Adds a piece; left = right for the equation Eq(left, right) of SymPy."""
+        is_call = role == "equation" and scan[0].text in _WHOLE and scan.partners.get(1) == len(scan) - 1
+        match Tokens(scan[2:-1]).split() if is_call else []:
+            case [[*_, last] as left, [first, *_] as right, *_]:
+                scan = Tokens([*left, Token("SIGN", "=", last.end, first.start), *right])
+        self.found.append(PastedPiece(role, scan))
 
     def equations(self) -> list[Tokens]:
         return [piece.scan for piece in self.found if piece.role == "equation"]
@@ -487,15 +492,6 @@ def _without_assignment(scan: Tokens) -> tuple[str, Tokens]:
     is_named = len(scan) > 2 and scan[1].text == "=" and is_word(scan[0].text)
     behind = scan.span(match)[1] if match else 2 * is_named
     return (scan[0].text, Tokens(scan[behind:])) if 0 < behind < len(scan) else ("", scan)
-
-
-def _without_eq(scan: Tokens) -> Tokens:
-    """left = right for Eq(left, right) of SymPy."""
-    is_call = scan[0].text in _WHOLE and scan.partners.get(1) == len(scan) - 1
-    match Tokens(scan[2:-1]).split() if is_call else []:
-        case [[*_, last] as left, [first, *_] as right, *_]:
-            return Tokens([*left, Token("SIGN", "=", last.end, first.start), *right])
-    return scan
 
 
 def _is_quoted(scan: Tokens) -> bool:

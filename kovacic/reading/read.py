@@ -136,14 +136,14 @@ def read_coefficients(
     Raises `InputError` and `LimitExceeded`; positions refer to the equation as it was put together.
     """
     given = (a, b, c, f)
-    for value in given:
-        if _is_sympy(value) and not hasattr(value, "as_numer_denom"):
+    expressions = [*filter(_is_sympy, given)]
+    for value in expressions:
+        if not hasattr(value, "as_numer_denom"):
             raise InputError(f"a coefficient is a function of the variable, not {value}")
-    has_text = any(isinstance(value, str | RatFunc) for value in given)
-    if not has_text and any(map(_is_sympy, given)):
+    if expressions and not any(isinstance(value, str | RatFunc) for value in given):
         import sympy
 
-        symbols = {s.name: s for value in given if _is_sympy(value) for s in sorted(value.free_symbols, key=str)}
+        symbols = {s.name: s for value in expressions for s in sorted(value.free_symbols, key=str)}
         only = next(iter(symbols)) if len(symbols) == 1 else DEFAULT_VARIABLE
         name = _variable_name(var) or only
         y = sympy.Function("y_" if "y" in symbols else "y")(symbols.get(name, sympy.Symbol(name)))

@@ -61,7 +61,7 @@ def source_of(
         check_length(given, limits, what="the text")
         plain = plain_tokens(given)
         given = taken_apart(given) if plain is None else Paste(given)
-        values = given.scans("condition") if plain is None else []
+        values = given.scans("condition")
         if values:
             scan = given.scans("equation")[0]
             hint = f"give the equation: {given.text[scan[0].start : scan[-1].end]}"
