@@ -181,13 +181,14 @@ _INDEXED_OPERATOR = re.compile(r"d_([a-z])\1*")
 #: Fractions and roots without braces within each other: 2^20 looks where each is looked at twice.
 _DEEPEST = 20
 _LONGEST_QUOTIENT = 36  # tokens of the quotient of a derivative
+_NAMED_LETTERS = GREEK | SPECIAL_LETTERS
 #: What the argument of a function without parentheses ends with, as in cos omega t.
 _VARIABLES = frozenset("xtzsr") | {"theta", "phi", "tau", "xi", "rho"}
 
 
 def _is_name(text: str) -> bool:
     bare = text.partition("_")[0]
-    return (len(bare) == 1 and bare.isalpha()) or bare in GREEK or bare in SPECIAL_LETTERS
+    return (len(bare) == 1 and bare.isalpha()) or bare in _NAMED_LETTERS
 
 
 def translated(text: str, scan: Tokens, *, condition: bool = False) -> Sentence:
@@ -248,8 +249,7 @@ class _Translation:
             self.k = k
             self.close()
         end = max(self.scan[-1].end if self.scan else 0, len(self.text))
-        has_dots = any(token.kind == "PRIMES" and DOTS in token.text for token in self.scan)
-        variable = "t" if has_dots else None
+        variable = "t" if any(DOTS in text for text in self.texts) else None
         return Sentence.of([*self.found, Token("$END", "", end, end)], self.text, variable)
 
     def write(self, kind: str, piece: str, token: Token | None = None) -> None:

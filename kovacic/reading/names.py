@@ -79,8 +79,11 @@ def words_among(names: Iterable[object]) -> tuple[str, ...]:
     return tuple(name for name in names if isinstance(name, str) and (name in NUMBERS or not is_letter(name)))
 
 
+_FUNCTIONS = frozenset({*FUNCTION_NAMES, "sqrt", "cbrt", "root", *SEVERAL_ARGUMENTS})
+
+
 def is_function(name: str) -> bool:
-    return name in FUNCTION_NAMES or name in ("sqrt", "cbrt", "root") or name in SEVERAL_ARGUMENTS
+    return name in _FUNCTIONS
 
 
 #: The parts of a word that was glued together: functions, Greek letters, letters with an index, digits; no ell, as in hello.

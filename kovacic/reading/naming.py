@@ -236,7 +236,7 @@ def _check_decimals(tokens: Sentence, variable: str) -> None:
 
 def _check_two_readings(tokens: Sentence, readings: re.Pattern[str], hint: str, unknown: str = "") -> None:
     """Raises `ParseError` for a name, other than the unknown, that may belong to the number before it."""
-    for found in readings.finditer(tokens.rows.spaced) if "e" in tokens.names or "E" in tokens.names else ():
+    for found in readings.finditer(tokens.rows.spaced) if {"e", "E"} & tokens.names.keys() else ():
         begin, behind = tokens.rows.span(found)
         if found[1] != unknown:
             said = hint.format(tokens.piece(begin, behind - 1).rpartition("^")[2].strip(), tokens.pieces[behind - 1])

@@ -201,8 +201,7 @@ class Rewrite(NamedTuple):
                 continue
             result = match.expand(self.result) if isinstance(self.result, str) else self.result(match)
             place = scan[first].start, scan[behind - 1].end
-            kinds = {text: "NEWLINE" if text == "\n" else scanned(text)[0].kind for text in result.split(" ") if text}
-            found += [Token(kinds[text], text, *place) for text in result.split(" ") if text]
+            found += [Token(scanned(text)[0].kind, text, *place) for text in filter(None, result.split(" "))]
         found += scan[done:]
         return found
 

@@ -303,8 +303,7 @@ class _Apart:
             self.add("declaration", scan)
             return
         name, scan = _without_assignment(scan)
-        is_identity = scan.has(("diff", "PRIMES")) and _IDENTITY.fullmatch(scan.spaced)
-        if is_identity or (name and scan and scan[0].text in MAKERS):
+        if _IDENTITY.fullmatch(scan.spaced) or (name and scan[0].text in MAKERS):
             match [token.text for token in scan]:
                 case ["Differential", "(", variable, ")"] if is_letter(variable):  # Julia's D = Differential(t)
                     self.variable = variable
