@@ -819,10 +819,24 @@ _SIGNS = r"( ) [ ] { } ' '' ^ / * (* *) // # % -- @@ $ ` . : , ? > = == \begin \
 _TOKENS = [*_WORDS.split(), *_SIGNS.split(), "π", " ", "  ", "\n"]
 
 
-@settings(max_examples=2000)
-@given(st.lists(st.sampled_from(_TOKENS), max_size=12).map("".join) | st.lists(st.sampled_from(_TOKENS)).map(" ".join))
+_TEXTS = st.lists(st.sampled_from(_TOKENS), max_size=12).map("".join) | st.lists(st.sampled_from(_TOKENS)).map(" ".join)
+
+
+@settings(max_examples=200)
+@given(_TEXTS)
 def test_a_rule_is_asked_wherever_its_pattern_occurs(text: str) -> None:
     """Rules are chosen by the tokens of a text: no pattern occurs without one of the marks that its rule states."""
+    demand_the_marks_of_rules(text)
+
+
+@pytest.mark.long
+@settings(max_examples=2000)
+@given(_TEXTS)
+def test_a_rule_is_asked_in_many_texts_wherever_its_pattern_occurs(text: str) -> None:
+    demand_the_marks_of_rules(text)
+
+
+def demand_the_marks_of_rules(text: str) -> None:
     scan = notations.Tokens(scanned(text))
     for rule in (*notations.NOTATIONS, *notations.LATEX, *notations.AROUND, *pieces.SURROUNDINGS):
         if rule.pattern.search(scan.spaced):
