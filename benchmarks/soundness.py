@@ -18,6 +18,7 @@ from __future__ import annotations
 
 import json
 import random
+import signal
 import sys
 import time
 import warnings
@@ -46,6 +47,9 @@ import newton_euler
 x = sympy.Symbol("x")
 _SIZE = 1e-7
 _EVERY = 100
+_PATIENCE = kovacic.Limits(seconds=60)
+_LONGEST = 5.0
+"""Seconds of processor time after which `odefun` is given up: it has no limit of its own."""
 _NEAR, _CIRCLE = 0.01, 0.125
 """Nearer to a removable singularity a coefficient is the mean of its values on a circle of that radius."""
 
@@ -327,7 +331,11 @@ def by_dop853(asked: Call) -> tuple[complex, complex, float] | None:
     return found.y[0, -1], found.y[1, -1], float(np.abs(found.y).max())
 
 
-def by_mpmath(asked: Call) -> tuple[Any, Any]:
+def given_up(*_: Any) -> None:
+    raise TimeoutError
+
+
+def by_mpmath(asked: Call) -> tuple[Any, Any] | None:
     b, c, f = coefficients(asked, "mpmath")
     with mpmath.workdps(30):
         begin, end = (mpmath.mpmathify(sympy.N(sympy.sympify(v), 40)) for v in (asked.x0, asked.place))
@@ -338,7 +346,13 @@ def by_mpmath(asked: Call) -> tuple[Any, Any]:
             z = begin + step * t
             return [step * s[1], step * (f(z) - b(z) * s[1] - c(z) * s[0])]
 
-        return tuple(mpmath.odefun(slope, 0, start)(1))
+        signal.setitimer(signal.ITIMER_VIRTUAL, _LONGEST)
+        try:
+            return tuple(mpmath.odefun(slope, 0, start)(1))
+        except TimeoutError:
+            return None
+        finally:
+            signal.setitimer(signal.ITIMER_VIRTUAL, 0)
 
 
 def distance(ball: Any, other: Any) -> float:
@@ -373,11 +387,14 @@ def check_matrix(rng: random.Random, row: dict[str, Any]) -> dict[str, Any]:
             middle = complex(rng.randint(1, 8) / 2, rng.choice((-1, 1)) * rng.randint(1, 8) / 2)
             path = [ends[0], middle, ends[1]]
             row |= {"kind": "connection matrices", "call": f"{S}, {path}"}
-            pairs.append((kovacic.connection_matrix(S, path), [complex(corner) for corner in path]))
+            pairs.append((kovacic.connection_matrix(S, path, limits=_PATIENCE), [complex(corner) for corner in path]))
         else:
             row |= {"kind": "monodromy", "call": S}
-            pairs += [(point.matrix, [complex(corner) for corner in point.loop]) for point in kovacic.monodromy(S)]
-            row["disproved"] = kovacic.solve(S).compare_with_monodromy().verdict is False
+            pairs += [
+                (point.matrix, [complex(corner) for corner in point.loop])
+                for point in kovacic.monodromy(S, limits=_PATIENCE)
+            ]
+            row["disproved"] = kovacic.solve(S).compare_with_monodromy(limits=_PATIENCE).verdict is False
     except kovacic.KovacicError as reason:
         return {**row, "refused": f"{type(reason).__name__}: {reason}"}
     off = []
@@ -418,9 +435,10 @@ def check(seed: int) -> dict[str, Any]:
         at = widened(str(sympy.sympify(asked.place)))
     row: dict[str, Any] = {"seed": seed, "kind": asked.kind, "call": f"{asked.equation}, {asked.x0} to {asked.place}"}
     try:
-        balls = kovacic.evaluate(asked.equation, at, derivative=True, digits=digits, **asked.start(wide=wide))
-        sharp = kovacic.evaluate(
-            asked.equation, asked.place, derivative=True, digits=digits + 25, **asked.start(wide=False)
+        given = asked.start(wide=wide), asked.start(wide=False)
+        balls, sharp = (
+            kovacic.evaluate(asked.equation, to, derivative=True, digits=more, limits=_PATIENCE, **start)
+            for to, more, start in zip((at, asked.place), (digits, digits + 25), given, strict=True)
         )
     except kovacic.KovacicError as reason:
         return {**row, "refused": f"{type(reason).__name__}: {reason}"}
@@ -435,8 +453,9 @@ def check(seed: int) -> dict[str, Any]:
     )
     if far or seed % _EVERY == 0:
         precise = by_mpmath(asked)
-        row["odefun"] = difference(sharp, precise, own[2] if own else 0)
-        far = row["odefun"] > 1e-15
+        if precise is not None:
+            row["odefun"] = difference(sharp, precise, own[2] if own else 0)
+            far = row["odefun"] > 1e-15
     row["wrong"] = bool(far or row["ratio"] > 1)
     return row
 
@@ -458,6 +477,7 @@ def main() -> None:
     rows: list[dict[str, Any]] = []
     if given.rows and given.rows.exists():
         rows = [json.loads(line) for line in given.rows.read_text(encoding="utf-8").splitlines()]
+    signal.signal(signal.SIGVTALRM, given_up)
     first = given.seed * 1_000_000
     begin = time.process_time()
     for seed in range(first + len(rows), first + given.count):
