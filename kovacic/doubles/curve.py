@@ -13,7 +13,7 @@ which is the amplitude up to a relative error of about S'/(4 q^3), small where S
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from fractions import Fraction
 from itertools import pairwise
 from typing import Any, NamedTuple
@@ -56,6 +56,10 @@ class Arc(NamedTuple):
     dy: Complexes
     radius: Floats
 
+    def times(self, factor: float) -> Arc:
+        """That of a multiple of the solution."""
+        return Arc(self.x, factor * self.y, factor * self.dy, abs(factor) * self.radius)
+
     def drawn(self) -> tuple[Floats, Complexes]:
         """Points so dense that straight lines between them are as good as the cubics."""
         h = np.diff(self.x)[:, None]
@@ -78,6 +82,10 @@ class Envelope:
     real: Floats
     imaginary: Floats
     periods: float
+
+    def times(self, factor: float) -> Envelope:
+        """That of a multiple of the solution."""
+        return replace(self, real=abs(factor) * self.real, imaginary=abs(factor) * self.imaginary)
 
 
 class CurveCoefficients(NamedTuple):
@@ -123,6 +131,9 @@ def arcs(
     chosen = {low + (high - low) * Fraction(k, count) for k in range(count + 1)}
     chosen.update(Fraction(x) for x in _beside_singular_points(chart, float(low), float(high)))
     here = coefficients(chart, [ExactPoint(x) for x in sorted(chosen)])
+    if not np.isfinite(here.S).all():  # there the states raise the reason, or nothing oscillates
+        states([ExactPoint(Fraction(float(at))) for at in here.x[~np.isfinite(here.S)]])
+        here = here._replace(S=np.nan_to_num(here.S))
     finest = _FINEST * float(width)
     # The envelope is that of a solution of the homogeneous equation.
     too_fine = (here.frequency * finest > 2 * np.pi) & (not chart.is_forced)

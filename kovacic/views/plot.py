@@ -14,6 +14,7 @@ and neither the backend nor the state of pyplot is touched.
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from fractions import Fraction
@@ -72,6 +73,8 @@ _NEAR_IRREGULAR = 0.2
 #: The largest integral of sqrt|S| over a picture that nobody has chosen, and how often its interval is halved at most.
 _MODEST = 100
 _HALVINGS = 24
+#: Of two solutions one that is this many times as large as the other is drawn times a power of ten: it is known up to a factor.
+_MUCH_LARGER = 30
 #: The axis is cut off if the largest value is more than this many times the typical size: cosh isn't cut.
 _RANGE = 4
 
@@ -84,6 +87,10 @@ class SampledCurve:
     singular: tuple[complex, ...]
     irregular: tuple[complex, ...]  # those among them beside which solutions are as large as exp(1/distance)
     initial: Start  # the values that were missing among them
+
+    def times(self, factor: float) -> SampledCurve:
+        """That of a multiple of the solution."""
+        return replace(self, runs=tuple(tuple(part.times(factor) for part in run) for run in self.runs))
 
     @property
     def arcs(self) -> list[Arc]:
@@ -373,16 +380,20 @@ def _name_by_values(y: str, initial: Start) -> str:
 
 @dataclass(frozen=True)
 class _Label:
-    """The name of a solution in the legend, and its formula in LaTeX if that is known and short."""
+    """The name of a solution in the legend, its formula in LaTeX if that is known and short, and the factor of the curve."""
 
     name: str
     formula: str = ""
+    factor: str = ""
 
     def of_part(self, part: str) -> str:
         """The entry of the real or the imaginary part, or, for "", of a real solution."""
+        if self.factor:
+            defined = rf"{self.name.strip('$')} = {self.formula}" if self.formula else ""
+            return f"{_typeset(self.factor)} {self.name}" + (defined and rf", {_typeset(defined, '')}")
         if not self.formula:
             return f"{part} {self.name}".strip()
-        equation = _typeset(f"{self.name.strip('$')} = {self.formula}", self.name)
+        equation = _typeset(f"{self.name.strip('$')} = {self.formula}", "") or self.name
         return f"{part} {self.name}, {equation}" if part else equation
 
 
@@ -427,6 +438,13 @@ def _solution_curves(
         if len(names) > 1:
             names = [f"{name} ({_typeset(latex_text(f'x = {part.initial.x0}'))})" for name, part in curves]
         labelled.append((_Label(", ".join(names), text.latex if is_shown else ""), curve))
+    sizes = [_DrawnPart(curve, "real", "").sizes(float(b - a))[0] for _, curve in labelled]
+    if max(sizes) <= _MUCH_LARGER * min(sizes) or not min(sizes):
+        return labelled
+    k = math.floor(math.log10(max(sizes) / min(sizes)))
+    larger = sizes.index(max(sizes))
+    label, curve = labelled[larger]
+    labelled[larger] = replace(label, factor=f"10^{{-{k}}}"), curve.times(10.0**-k)
     return labelled
 
 
@@ -457,25 +475,30 @@ def _real_functions(unknown: str, values: Sequence[Any]) -> list[tuple[str, Sequ
     if not all(value.is_number and value.is_finite for value in values):
         return []
     named = [(_typeset(f"{unknown}_1"), values[:2]), (_typeset(f"{unknown}_2"), values[2:])]
-    found = _independent(named)
-    if len(found) == 2 and not all(value.is_real for value in values):
-        parts = (("Re", sympy.re), ("Im", sympy.im))
-        found = _independent([(f"{part} {name}", [*map(of, data)]) for name, data in named for part, of in parts])
-    return found if len(found) == 2 else []
+    if len(_independent(named)) < 2:
+        return []
+    parts = []
+    for name, data in named:
+        if all(value.is_real for value in data):
+            parts.append((name, data))
+            continue
+        of_both = [("Re", [*map(sympy.re, data)]), ("Im", [*map(sympy.im, data)])]
+        # Anything smaller is the rounding error of a part that is zero.
+        least = 1e-25 * sum(map(abs, data))
+        parts += [(f"{part} {name}", own) for part, own in of_both if sum(map(abs, own)) > least]
+    return _independent(parts)
 
 
 def _independent(solutions: Sequence[tuple[str, Sequence[Any]]]) -> list[tuple[str, Sequence[Any]]]:
-    """The first solution that isn't zero, and the first one that isn't a multiple of it, by values and slopes to 30 digits."""
-    sizes = [abs(y) + abs(dy) for _, (y, dy) in solutions]
-    # Anything smaller is the rounding error of an imaginary part.
-    visible = [(one, size) for one, size in zip(solutions, sizes, strict=True) if size > 1e-25 * max(sizes)]
-    first, first_size = visible[0]
+    """The first solution, and the first one that isn't a multiple of it, by values and slopes to 30 digits; empty if there is
+    none."""
+    first, *others = solutions
     y1, dy1 = first[1]
-    for second, size in visible[1:]:
+    for second in others:
         y2, dy2 = second[1]
-        if abs(y1 * dy2 - y2 * dy1) > 1e-25 * size * first_size:
+        if abs(y1 * dy2 - y2 * dy1) > 1e-25 * (abs(y1) + abs(dy1)) * (abs(y2) + abs(dy2)):
             return [first, second]
-    return [first]
+    return []
 
 
 def _agrees(y: Any, x: Any, curve: SampledCurve) -> bool:

@@ -44,8 +44,9 @@ _PRINTED_FUNCTIONS = tuple(
 )
 _INNERMOST = re.compile(rf"(\b(?:sqrt|cbrt|root|{'|'.join(_PRINTED_FUNCTIONS)})|\^)?\(([^()]*)\)")
 # It begins where a word does: else each digit of a long number would be tried as a beginning.
+# Above and below are factors, between signs and relations; the sign in 1e-3 is a part of one.
 # Only one factor is below the line: 1/2*t is (1/2) t.
-_QUOTIENT = re.compile(r"(?<![^\s/,-])([^\s/,-][^\s/,]*)/((?:\*\*|[^\s/,*])+)")
+_QUOTIENT = re.compile(r"(?<![^\s/,+=<>-])((?:(?<=\d)e[+-](?=\d)|[^\s/,+=<>-])+)/((?:\*\*|[^\s/,*+=<>-])+)")
 # Characters for private use stand for the parts of a formula which are ready.
 _PART = 0xF0000
 _READY = re.compile(f"[{chr(_PART)}-{chr(0x10FFFD)}]")
@@ -254,6 +255,8 @@ def latex_text(text: str) -> str:
     -\frac{n (n + 3)}{2 \sqrt{\mu}} - b^{2}
     >>> print(latex_text("1/2*t**2"))
     \frac{1}{2} t^{2}
+    >>> print(latex_text("1+2/5*t=1e-3/7"))
+    1+\frac{2}{5} t=\frac{1e-3}{7}
     >>> print(latex_text("sin(x/2)^(n + 1)"))
     \sin\left(\frac{x}{2}\right)^{n + 1}
     >>> print(latex_text("2*n in Z"), latex_text("n != +-1/2"))

@@ -346,6 +346,10 @@ PICTURES: list[tuple[str, Any, Any, int | None]] = [
     ("x^2*y'' + x*y' + (x^2+1)*y = 0", "1/100", 10, 2),
     ("x^3", -4, 2, 2),
     ("sqrt(2)", -1, 2, 2),
+    ("y''+(1+2/5*cos(2*x))*y=0", 0, 9, 1),  # no spaces around the signs of a fraction
+    ("y''+100*y'+y=0", 0, 5, 2),  # one of the two is 10^109 times as large as the other
+    ("x^2/4 - 7", -7, 7, 2),  # a formula that matplotlib doesn't set
+    ("(1-x^2)*y'' - 2*x*y' + 20*y = 0", -1, 1, 2),  # the second one is 170 times as large
 ]
 
 
@@ -371,6 +375,7 @@ def test_a_picture_shows_what_its_labels_say(equation: str, start: Any, stop: An
     assert count is None or len(named) == count
     data = []
     for label, parts in named.items():
+        assert r"\$" not in label
         at, drawn = (
             np.concatenate([np.asarray(get(part)) for part in parts]) for get in (Line2D.get_xdata, Line2D.get_ydata)
         )
