@@ -149,10 +149,10 @@ class AnalyticWay(Way):
                 raise InputError(said, hint="choose a point beside it")
 
     def forecast(self, a: ExactPoint, b: ExactPoint) -> Forecast:
-        def rate(x: acb) -> arb:
+        def rate(x: acb) -> float:
             # About lambda of `kovacic.enclosure.jets` over the scale: max(|b|, |c|^(1/2)).
             b_value, c_value, _ = self.functions.values(x)
-            return abs(b_value).max(abs(c_value).sqrt())
+            return float(abs(b_value).max(abs(c_value).sqrt()).mid())
 
         found = Forecast(a, b, rate, 2 * max(_STEEPEST, _SHARE * self.prec))
         found.refuse()

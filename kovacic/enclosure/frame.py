@@ -423,11 +423,11 @@ def largest_exponent(system: System, point: ExactPoint) -> int | None:
         return math.ceil(log2(steepest / size) / 2) if is_known else None
 
 
-def foreseen_growth(rate: Callable[[acb], arb], a: ExactPoint, b: ExactPoint) -> float:
+def foreseen_growth(rate: Callable[[acb], float], a: ExactPoint, b: ExactPoint) -> float:
     """The integral of `rate` |dx| along the segment from a to b, by the lower sum on pieces that get shorter towards both ends.
 
-    No bound: between two marks the function counts as its smaller value there.  With |S|^(1/2) it tells by how much solutions
-    grow or oscillate.
+    No bound: between two marks the function counts as its smaller value there, and where it is NaN as nothing.  With |S|^(1/2)
+    it tells by how much solutions grow or oscillate.
     """
     with working_precision(_BITS):
         start = to_acb(a)
@@ -435,17 +435,17 @@ def foreseen_growth(rate: Callable[[acb], arb], a: ExactPoint, b: ExactPoint) ->
         sizes = []
         for t in _MARKS:
             check_time()
-            sizes.append(rate(start + step * t).mid())
-        # (t - s) min(value at s, value at t), without those that aren't finite.
-        least = zip(_MARKS, _MARKS[1:], sizes, sizes[1:], strict=False)
-        pieces = ((t - s) * min((v for v in (x, y) if v.is_finite()), default=arb(0)) for s, t, x, y in least)
-        return float(sum(pieces, arb(0)) * abs(step).mid())
+            sizes.append(rate(start + step * t))
+        # (t - s) min(value at s, value at t), without those that are NaN.
+        pieces = zip(_MARKS, _MARKS[1:], sizes, sizes[1:], strict=False)
+        least = ((t - s) * min([v for v in (x, y) if not math.isnan(v)], default=0.0) for s, t, x, y in pieces)
+        return sum(least) * float(abs(step).mid())
 
 
-def frequency(system: System) -> Callable[[acb], arb]:
-    """|S|^(1/2) as a function."""
+def frequency(system: System) -> Callable[[acb], float]:
+    """|S|^(1/2) as a function, about."""
     num, den = system.polynomial("num"), system.polynomial("den")
-    return lambda x: abs(num(x) / den(x)).sqrt()
+    return lambda x: float(abs(num(x) / den(x)).sqrt().mid())
 
 
 def log2(value: arb) -> float:

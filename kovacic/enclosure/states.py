@@ -42,14 +42,13 @@ NO_CLOSED_FORM = (
     "and Gauss' equations over Q"
 )
 TAYLOR = "method='taylor' treats every equation"
-_WORTH = 3.4  # milliseconds that Taylor's method takes where a closed form is sought
-_SOUGHT = 0.5  # of them, for the search
+_SOUGHT = 0.3  # of the milliseconds that Taylor's method takes, for a decision or a search
 _DEGREE = 40  # of S, up to which an equation given as text is decided
 _UNKNOWN = 400  # degree of a polynomial that is sought for that, at most
 _SHARE = 0.3  # of the distance to a singular point: the mean radius of a disc
-_LOG_2 = 0.69
+_COVERED = 0.35  # of the bits of growth that a disc may have: log(2), for discs half as long as they may be (measured)
 _MOST_SEARCH = 60.0  # milliseconds of Taylor's method that count for the search for a pull-back
-_BITS = 64
+_BITS = 128  # the precision at which singular points are sought beside the path, too
 Ways = tuple[tuple[ExactPoint, ExactPoint], ...]
 
 
@@ -99,20 +98,24 @@ def _chosen(journey: Journey, problem: NumericProblem, ways: Ways, count: int, d
     the functions always pay."""
     price = _foreseen(journey, problem, ways, count, digits)
     most = (price - prices.FIRST) / count  # for a target
+    if not all(a.is_real() and b.is_real() for a, b in ways):
+        most /= prices.CLOSED_BESIDE
     from_zero = isinstance(journey.place, Singular)
     # An equation that wasn't solved is decided only as far as Taylor's method takes that long.
     S = problem.S
     size = S.num.degree + S.den.degree
     is_solved = problem.decision is not None
-    if not from_zero and (is_solved or (size <= _DEGREE and price >= _WORTH)):
+    if not from_zero and (is_solved or (size <= _DEGREE and price >= prices.decided_from(size))):
         known = decided(problem, _UNKNOWN if is_solved else int(min(_SOUGHT * prices.DEGREES * price, _UNKNOWN)))
         closed = None if known is None else closed_form_of(known)
         if closed is not None and closed.is_cheap(digits) and closed.price(digits) <= most:
             return closed, 0
-    if not from_zero and price < _WORTH:
+    if not from_zero and price < prices.sought_from(size):
         return None
     classical = classical_of(S, int(_SOUGHT * min(price, _MOST_SEARCH) / prices.UNIT))
     if classical is None or not classical.is_cheap(digits, from_zero=from_zero):
+        return None
+    if not from_zero and classical.price(digits) > most:
         return None
     more = digits + classical.lost_digits(journey.place)
     return (classical, start_bits(more)) if from_zero or classical.price(more) <= most else None
@@ -125,20 +128,25 @@ def _foreseen(journey: Journey, problem: NumericProblem, ways: Ways, count: int,
     with working_precision(_BITS):
         poles = [complex(root) for root, _ in problem.poles(_BITS)]
         frequent = frequency(problem.system)
-    growth = growth_of_disc(start_bits(digits), alone=False) * _LOG_2
+    growth = growth_of_disc(start_bits(digits), alone=False) * _COVERED
 
-    def rate(x: acb) -> arb:
+    def rate(x: acb) -> float:
         """The inverse of a disc's diameter."""
         here = complex(x)
-        distances = (abs(here - pole) for pole in poles)
-        near = min((d for d in distances if d > 0), default=math.inf)  # not where a solution starts
-        return (frequent(x) / growth).max(arb(1 / near) / _SHARE) / 2
+        near = min(
+            [abs(here - pole) for pole in poles if here != pole], default=math.inf
+        )  # not where a solution starts
+        return max(frequent(x) / growth, 1 / near / _SHARE) / 2
 
     discs = 0.0
+    target = prices.TARGET(digits)
     for a, b in [*pairwise(corners), *ways]:
-        beside = 1.0 if a.is_real() and b.is_real() else prices.BESIDE
-        discs += beside * (1 + foreseen_growth(rate, a, b))
-    return prices.BEGIN + count * prices.TARGET(digits) + discs * prices.DISC(digits)
+        discs_here = 1 + foreseen_growth(rate, a, b)
+        if not (a.is_real() and b.is_real()):
+            discs_here *= prices.BESIDE
+            target = prices.TARGET_BESIDE * prices.TARGET(digits)
+        discs += discs_here
+    return prices.BEGIN + count * target + discs * prices.DISC(digits)
 
 
 def _ways(journey: Journey, targets: Sequence[Number]) -> Iterator[tuple[ExactPoint, ExactPoint]]:

@@ -204,7 +204,7 @@ class Forecast:
 
     a: ExactPoint
     b: ExactPoint
-    rate: Callable[[acb], arb]
+    rate: Callable[[acb], float]
     in_a_disc: float
     begun: float = field(default_factory=lambda: watched_seconds(math.inf))
     is_known: bool = False

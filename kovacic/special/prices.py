@@ -41,20 +41,38 @@ BESIDE = 4.5
 """The factor for a disc beside the real axis: complex coefficients, and centres with long numbers."""
 TARGET = Price(0.027, 113, 2.0)
 """A target in a disc that is there."""
+TARGET_BESIDE = 4.0
+"""The factor for one beside the real axis."""
 FIRST = 0.3
 """The start of a closed form, beside its targets."""
+CLOSED_BESIDE = 2.5
+"""The factor for a target of a closed form beside the real axis."""
 UNIT = 0.015
 """A unit of the work that the search for a pull-back counts."""
 
+
+def decided_from(size: int) -> float:
+    """What Taylor's method has to take for an equation to be decided first: ten times the decision, which is in vain as often
+    as not; where S is constant, and there are two exponentials for certain, four times."""
+    return 4.0 if size == 0 else 12.0
+
+
+def sought_from(size: int) -> float:
+    """The same for the search for a pull-back, by the degrees of S together; where S is linear it is one of Airy's equation."""
+    return 1.5 if size <= 1 else 4.5
+
+
 AIRY = Cost(Price(0.05, 330), 20_000)
 BESSEL = Cost(Price(0.12, 100), 10_000)
-WHITTAKER = Cost(Price(0.17, 66), 2_000)
-GAUSS = Cost(Price(0.17, 44), 1_000)
+WHITTAKER = Cost(Price(0.17, 100), 2_000)
+TRICOMI = Cost(Price(0.5, 90), 2_000)
+"""Whittaker's functions with an integer 2 mu: U is a limit, then."""
+GAUSS = Cost(Price(0.27, 60), 1_000)
 GAUSS_DIHEDRAL = Cost(Price(0.1, 85), 1_000_000_000)
 
 EXPONENTIALS = Price(0.056, 1000)
 """Two exponentials, with polynomials of degree 0."""
-COEFFICIENT = Price(0.002, 200)
+COEFFICIENT = Price(0.002, 120)
 """What each degree of the polynomial adds."""
 DEGREES = 10.0
 """A polynomial that decides an equation is sought up to this degree for each millisecond that Taylor's method takes."""

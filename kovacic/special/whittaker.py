@@ -134,7 +134,10 @@ class Whittaker(StandardEquation):
 
     @property
     def cost(self) -> prices.Cost:
-        return prices.WHITTAKER if self.r else prices.BESSEL
+        if not self.r:
+            return prices.BESSEL
+        root = square_root(self.parameters[0])  # 2 mu
+        return prices.TRICOMI if is_integer(root) else prices.WHITTAKER
 
     def coordinate(self, n: Any, d: Any) -> int:
         return bessel.sign_of(n, d)

@@ -58,9 +58,7 @@ def test_rational_functions_in_latex() -> None:
     assert latex_text((x**12 / 3).to_str()) == r"\frac{x^{12}}{3}"
     assert latex_text("sqrt(2)*lambda**2 + x_1") == r"\sqrt{2} \lambda^{2} + x_{1}"
     assert latex_text("cbrt(5)*root(7, 4)/(2*(x + 1)**2)") == r"\frac{\sqrt[3]{5} \sqrt[4]{7}}{2 (x + 1)^{2}}"
-    assert latex_text("y''+sin(x)/x*y-1/2=1e-3/7") == (
-        r"y''+\frac{\sin\left(x\right)}{x} y-\frac{1}{2}=\frac{1e-3}{7}"
-    )
+    assert latex_text("y''+sin(x)/x*y-1/2=1e-3/7") == (r"y''+\frac{\sin\left(x\right)}{x} y-\frac{1}{2}=\frac{1e-3}{7}")
     assert latex_text("-(a + 1/b)*y'' + 0") == r"-\left(a + \frac{1}{b}\right) y'' + 0"
     assert latex_text("((mu_1 + 1)*x - 3)/sqrt(n^2/4 - b)") == (
         r"\frac{(\mu_{1} + 1) x - 3}{\sqrt{\frac{n^{2}}{4} - b}}"
