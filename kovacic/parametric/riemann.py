@@ -38,6 +38,7 @@ from kovacic.parametric.formulas import in_sum, root_written, shown
 from kovacic.parametric.functions import (
     ParameterPoint,
     common_multiple,
+    irreducible_factors,
     normal_form,
     over_parameters,
     roots,
@@ -377,7 +378,8 @@ def verdict(problem: Problem, structure: Structure) -> RegionVerdict:
             return borel("two solutions have rational logarithmic derivatives")
         if problem.S.num.degree > 0:
             return borel()
-        return reducible(f"`G_m`, or trivial where `{prose.equation(over_parameters(problem.S.num)).text}`")
+        zeros = " or ".join(f"`{prose.equation(zero).text}`" for zero in irreducible_factors(problem.S.num))
+        return reducible(f"`G_m`, or trivial where {zeros}" if zeros else "`G_m`")
     cubic = squares_of_differences(problem)
     known = differences(cubic)
     if structure is Structure.IMPRIMITIVE:

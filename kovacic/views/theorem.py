@@ -109,8 +109,14 @@ class _TheoremWriter:
                 otherwise += ", for generic values,"
             yield say(f"{otherwise} it is case {self.answer.generic.case}. ", *_group(self.answer.generic))
         yield from self._exceptions()
-        if self.change:  # the field isn't C(x)
-            yield say("Cases and groups are those over ", rational_functions(self.change.expression), ".")
+        equation = self.answer.equation
+        if equation is not None and (self.change or not equation.is_normal_form):
+            said: list[str | Math] = ["Cases and groups are those"]
+            if not equation.is_normal_form:
+                said.append(" of the normal form")
+            if self.change:  # the field isn't C(x)
+                said += [" over ", rational_functions(self.change.expression)]
+            yield say(*said, ".")
         yield from self._delta(cases)
         yield from self._proof()
 

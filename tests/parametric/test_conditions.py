@@ -891,7 +891,7 @@ def test_cases_are_those_over_the_field_that_is_said(V: str, field: str) -> None
     answer = kovacic.conditions(V, var="x")
     assert f"cases and groups over {field}" in str(answer)
     assert json.loads(answer.to_json())["equation"]["change"]["field"] == field
-    assert f"Cases and groups are those over {field}." in answer.theorem()
+    assert f"Cases and groups are those of the normal form over {field}." in answer.theorem()
     assert Conditions.from_json(answer.to_json()) == answer
 
 

@@ -414,6 +414,7 @@ def test_theorems_are_printed_as_people_write_them(S: str, sentence: str) -> Non
         ("x*y''+(1-x)*y'+m*y=0", "not abelian"),
         ("a/x^2 + b/x + c", "abelian exactly where sqrt(4*a + 1) is an integer and b^2/c < 4*a + 1"),
         ("a*b/(x^2 - 1)^2", "abelian"),
+        ("y'' - 2*x*y' + 2*n*y = 0", "not abelian"),
         ("x^4 + a*x^2 + b*x + c", "not abelian"),
         ("x^6 + a*x^2 + b + c/x^2", "abelian exactly where two solutions have rational logarithmic derivatives"),
         (hypergeometric(("1/2", "1/2", "n")), "abelian"),
@@ -427,6 +428,7 @@ def test_theorems_are_printed_as_people_write_them(S: str, sentence: str) -> Non
 def test_the_identity_component_is_named(S: str, expected: str) -> None:
     answer = kovacic.conditions(S, var="x")
     assert f"Its identity component is {expected}." in answer.theorem()
+    assert ("Cases and groups are those of the normal form." in answer.theorem()) is ("y'" in S)
     assert Conditions.from_json(answer.to_json()).theorem() == answer.theorem()
 
 
