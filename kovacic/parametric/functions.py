@@ -16,9 +16,6 @@ from kovacic.algebra.ratfunc import RatFunc
 from kovacic.algebra.rationals import QQ, to_fraction
 from kovacic.algebra.sparse import by_power, factorisation
 
-#: Integers that are tried one by one.
-_MOST_INTEGERS = 1000
-
 
 def over_parameters(value: Poly) -> FunctionPoly:
     """The polynomial as one over a field Q(t).  Raises `TypeError` if its field isn't one."""
@@ -231,34 +228,3 @@ def common_divisor(a: Fraction, b: Fraction) -> Fraction:
 def common_multiple(a: Fraction, b: Fraction) -> Fraction:
     """The least positive integral multiple of both; a and b are positive."""
     return a * b / common_divisor(a, b)
-
-
-class ValuesAtIntegers(NamedTuple):
-    """The name of the only parameter in a form, and some of the form's values by those of the parameter."""
-
-    name: str
-    values: dict[int, Fraction]
-
-
-def values_at_integers(form: FunctionPoly, largest: int) -> ValuesAtIntegers | None:
-    """The values of a form (a t + b)/(c t + d) with denominators up to the largest, at all integers t.
-
-    c isn't 0; None for any other form, and where there might be too many.  The denominator is that of c t + d divided by a
-    divisor of a d - b c.
-    """
-    used = [k for k, degree in enumerate(map(int, (form.num * form.den).degrees())) if degree]
-    if form.degree > 0 or len(used) != 1:
-        return None
-    (k,) = used
-    if int(form.den.degrees()[k]) != 1 or int(form.num.degrees()[k]) > 1:
-        return None
-    parts = (by_power(part, k) for part in (form.num, form.den))
-    numbers = [[int(part[j].leading_coefficient()) if j in part else 0 for j in (0, 1)] for part in parts]
-    (b, a), (d, c) = numbers
-    most = largest * abs(a * d - b * c)
-    if most > _MOST_INTEGERS:
-        return None
-    end = (most + abs(d)) // abs(c)
-    values = {t: Fraction(a * t + b, c * t + d) for t in range(-end, end + 1) if c * t + d}
-    found = {t: value for t, value in values.items() if value.denominator <= largest}
-    return ValuesAtIntegers(form.field.names[k - 1], found)

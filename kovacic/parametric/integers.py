@@ -29,6 +29,7 @@ from kovacic.algebra.function_field import FunctionField, FunctionPoly
 from kovacic.algebra.poly import Poly
 from kovacic.algebra.ratfunc import RatFunc
 from kovacic.algebra.rationals import QQ
+from kovacic.algebra.sparse import by_power
 from kovacic.equation import ENERGY
 from kovacic.parametric import prose
 from kovacic.parametric.assumptions import Assumptions
@@ -63,7 +64,6 @@ from kovacic.parametric.functions import (
     on_zeros,
     over_parameters,
     powers_of,
-    values_at_integers,
 )
 from kovacic.parametric.restriction import everywhere
 from kovacic.parametric.statements import ALWAYS, NEVER, Setting, Statement, Vanishes, all_of, both, either
@@ -74,6 +74,8 @@ _WORDS = 2
 _LATER = 10
 #: What it costs, for each stratum of which something has to be said.
 _STRATUM = 20
+#: Integers that are tried one by one.
+_MOST_INTEGERS = 1000
 
 
 class Stratum(NamedTuple):
@@ -469,12 +471,27 @@ class Congruence(Statement):
 
 
 def at_integers(form: FunctionPoly, largest: int, assumptions: Assumptions) -> list[tuple[Vanishes, Fraction]] | None:
-    """Where a form with an integer parameter has values with denominators up to the largest, and these; None for others."""
-    known = values_at_integers(form, largest)
-    if known is None or not assumptions.is_integer(known.name):
+    """Where (a t + b)/(c t + d) has values with denominators up to the largest, for an integer parameter t, and these values.
+
+    c isn't 0; None for any other form, and where there might be too many.  The denominator is that of c t + d divided by a
+    divisor of a d - b c.
+    """
+    used = [k for k, degree in enumerate(map(int, (form.num * form.den).degrees())) if degree]
+    if form.degree > 0 or len(used) != 1 or not assumptions.is_integer(form.field.names[used[0] - 1]):
         return None
-    parameter = form.field.generator(known.name)
-    places = ((Vanishes(over_parameters(parameter - number)), value) for number, value in known.values.items())
+    (k,) = used
+    if int(form.den.degrees()[k]) != 1 or int(form.num.degrees()[k]) > 1:
+        return None
+    parts = (by_power(part, k) for part in (form.num, form.den))
+    numbers = [[int(part[j].leading_coefficient()) if j in part else 0 for j in (0, 1)] for part in parts]
+    (b, a), (d, c) = numbers
+    most = largest * abs(a * d - b * c)
+    if most > _MOST_INTEGERS:
+        return None
+    end = (most + abs(d)) // abs(c)
+    t = form.field.generator(form.field.names[k - 1])
+    values = {n: Fraction(a * n + b, c * n + d) for n in range(-end, end + 1) if c * n + d}
+    places = ((Vanishes(over_parameters(t - n)), value) for n, value in values.items() if value.denominator <= largest)
     return [(here, value) for here, value in places if here.decided(assumptions) is not False]
 
 

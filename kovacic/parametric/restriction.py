@@ -239,17 +239,20 @@ def _with_two_terms(function: FunctionPoly) -> Hypersurface | None:
     u = alpha T^q and v = beta T^p with A alpha^p + B beta^q = 0: alpha = A^r (-B)^s, beta = A^((1 + r p)/q) (-B)^((s p - 1)/q)
     for s p = 1 modulo q, r = -s modulo q.  T is the monomial (u/alpha)^a/(v/beta)^((a q - 1)/p) with a q = 1 modulo p.
     """
-    terms = _powers_of_parameters(function)
-    if len(terms) != 2:
+    names = function.field.names
+    terms = [
+        ([(name, int(n)) for name, n in zip(("", *names), exponents, strict=True) if n], Fraction(int(coefficient)))
+        for exponents, coefficient in function.num.to_dict().items()
+    ]
+    if [len(powers) for powers, _ in terms] != [1, 1]:
         return None
-    (u, p, A), (v, q, B) = terms
+    ([(u, p)], A), ([(v, q)], B) = terms
     if u == v or gcd(p, q) > 1 or min(p, q) < 2:
         return None
     s = pow(p, -1, q)
     r = -s % q
     alpha = A**r * (-B) ** s
     beta = A ** ((1 + r * p) // q) * (-B) ** ((s * p - 1) // q)
-    names = function.field.names
     letter = _free_name(names)
     field = FunctionField((*(name for name in names if name not in (u, v)), letter))
     T = field.generator(letter)
@@ -260,17 +263,6 @@ def _with_two_terms(function: FunctionPoly) -> Hypersurface | None:
     curve = Curve(letter, (first / alpha) ** a / (second / beta) ** ((a * q - 1) // p))
     missed = min(first, second, key=[*map(function.field.generator, names)].index)
     return Hypersurface(names, tuple(values[name] for name in names), field, (T,), (missed,), curve)
-
-
-def _powers_of_parameters(function: FunctionPoly) -> list[tuple[str, int, Fraction]]:
-    """The terms: the name of a parameter, its power and the coefficient; none where a term isn't a power of one parameter."""
-    found = []
-    for exponents, coefficient in function.num.to_dict().items():
-        powers = [(name, int(n)) for name, n in zip(function.field.names, exponents[1:], strict=True) if n]
-        if exponents[0] or len(powers) != 1:
-            return []
-        found.append((*powers[0], Fraction(int(coefficient))))
-    return found
 
 
 class WithFreeConstant(NamedTuple):
