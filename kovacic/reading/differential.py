@@ -229,7 +229,8 @@ class EquationReader(RationalReader):
         if self._is_variable(argument):
             return _derivative_of_unknown(len(head) - len(y))
         is_value = is_rational(argument) and self.arithmetic.number(argument) is not None
-        hint = f"values follow the equation after commas: {y}'' + {y} = 0, {y}(0) = 1" if is_value else None
+        values = f"values follow the equation after commas: {y}'' + {y} = 0, {y}(0) = 1"
+        hint = values if is_value else f"for a product write {y}*(...)"
         said = f"{site.text()} and {y}({self.variable}) have different arguments, as in a delay equation"
         raise NotLinear(said, hint=hint)
 

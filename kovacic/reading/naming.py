@@ -116,10 +116,12 @@ class Vocabulary:
         return y, has_operator
 
     def _imaginary_unit(self, tokens: Sentence, x: str, y: str) -> list[str]:
-        """Notes that i or j, undeclared, is taken as a parameter; and that I isn't, before y'', as an inertia is."""
+        """Notes that i or j, or E beside y[x], undeclared, is a parameter; and that I isn't, before y'', as an inertia is."""
         taken = (x, y, *self.declared)
         said = "{} is a parameter; the imaginary unit is I"
         found = [said.format(name) for name in "ij" if name in tokens.names and name not in taken]
+        if "E" in {*tokens.names} - {*taken} and f"{y}[{x}]" in tokens.text:  # Mathematica's
+            found.append("E is a parameter; Euler's number is e")
         pieces = [piece for piece in tokens.pieces if piece != "*"] if "I" in {*tokens.names} - {*taken} else []
         triples = zip(["+", *pieces], pieces, pieces[1:], strict=False)
         if any(a in "+-=" and (b, c) == ("I", f"{y}''") for a, b, c in triples):

@@ -697,6 +697,7 @@ def test_mutated_texts_are_read_or_refused(seed: int) -> None:
         ("y'' + y = sin x/2", "sin x/2 was read as \\(sin x\\)/2"),
         (r"u'' + u = \sin n\pi x/L", "was read as"),
         ("y'' + 2jωy' + y = 0", "the imaginary unit is I"),
+        ("DSolve[y''[x] + E y[x] == 0, y[x], x]", "Euler's number is e"),
         ("I*θ'' + b*θ' + k*θ = 0", "I is the imaginary unit"),
         ("I y'' = M", "I is the imaginary unit"),
         ("y'' + y = x [2]", "number of the equation"),
