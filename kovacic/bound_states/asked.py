@@ -208,7 +208,9 @@ def _read(V: Any, var: str | None, energy: str, names: Sequence[str], limits: Li
         expression = given.xreplace({symbol: sympy.Symbol(symbol.name) for symbol in given.free_symbols})
     _check_real(expression, energy)
     x, notices = _variable_of(names_of(expression)) if var is None else (var, ())
-    return _PotentialAsRead(expression, x, (*guesses, *notices, *_of_charges(V, expression)))
+    return _PotentialAsRead(
+        expression, x, (*guesses, *notices, *_of_charges(V, expression), *_of_the_factor(expression))
+    )
 
 
 def _letters(text: str) -> list[str]:
@@ -222,6 +224,12 @@ def _of_charges(text: Any, V: Any) -> tuple[str, ...]:
     if isinstance(text, str) and is_power and "e" in _letters(text):
         return ("e is Euler's number; give a charge another name, q^2 for e^2",)
     return ()
+
+
+def _of_the_factor(V: Any) -> tuple[str, ...]:
+    """A note where hbar^2/(2 m) may have been meant as the factor of -y''."""
+    is_said = "hbar" in names_of(V)
+    return ("-y'' + V y = E y is solved; give the whole equation for -hbar^2/(2*m)*psi''",) if is_said else ()
 
 
 def _check_real(V: Any, energy: str) -> None:

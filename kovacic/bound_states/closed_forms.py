@@ -227,9 +227,7 @@ class _ClosedFormSearch(ClosedForms):
             for number, polynomial in self._listed(region):
                 if not self.window.has_zero_of(polynomial, self.E):
                     continue
-                found = [
-                    self._where_zero(one, polynomial, self.E) for one in self._solutions(region, number, polynomial)
-                ]
+                found = [self._at(one, polynomial) for one in self._solutions(region, number, polynomial)]
                 fits = [self._fits(one, polynomial) for one in found]
                 here = [one for one, fit in zip(found, fits, strict=True) if fit == [True, True]]
                 self._add(self._level(one, polynomial, sympy.Integer(0), []) for one in here)
@@ -305,15 +303,19 @@ class _ClosedFormSearch(ClosedForms):
             if not any(sympy.rem(sympy.numer(sympy.together(f)), polynomial, self.E) for f in one.conditions):
                 yield one
 
-    def _where_zero(self, solution: PolynomialSolution, function: Any, unknown: Any) -> PolynomialSolution:
-        """The solution where a polynomial in an unknown vanishes: at its zero, or with the remainders of coefficients by it."""
-        zero = _only_zero(function, unknown)
-        if zero is not None:
-            return replace(solution, y=solution.y.subs(unknown, zero))
+    def _at(self, solution: PolynomialSolution, polynomial: Any) -> PolynomialSolution:
+        """The solution at the zeros of a polynomial in E, with its value if there is one zero."""
+        energy = _only_zero(polynomial, self.E)
+        if energy is None:
+            return self._with_remainders(solution, polynomial, self.E)
+        return replace(solution, y=solution.y.subs(self.E, energy))
+
+    def _with_remainders(self, solution: PolynomialSolution, function: Any, unknown: Any) -> PolynomialSolution:
+        """The solution where a polynomial in an unknown vanishes: coefficients of its polynomials are remainders by it."""
         t = sympy.Symbol(self.question.parsed.variable)
         y = sympy.Integer(1)
         for factor in sympy.Mul.make_args(solution.y):
-            if factor.is_polynomial(t) and factor.has(t) and factor.has(unknown):
+            if factor.is_polynomial(t):
                 parts = (sympy.fraction(sympy.together(c)) for c in sympy.Poly(factor, t).all_coeffs())
                 factor = sympy.Poly([sympy.rem(num, function, unknown) / den for num, den in parts], t).as_expr()
             y *= factor
@@ -380,7 +382,9 @@ class _ClosedFormSearch(ClosedForms):
         elif region.naturals:
             weights = (weight_by_signs(analyse(part.S, Budget()), variable) for part in region.naturals)
             choices = tuple(one for by_signs in weights if by_signs is not None for one in by_signs(None))
-        square = sympy.Symbol(variable) ** 2 + 1  # P has no zero at an end, and its degree at infinity
+        square = (
+            sympy.Symbol(variable) ** 2 + 2
+        )  # P has no zero at an end, |t| = 1 or t real, and its degree at infinity
         is_settled = bool(choices)
         for one in choices:
             y = one.y * square ** (one.degree / 2) if region.naturals else one.y
@@ -405,15 +409,10 @@ class _ClosedFormSearch(ClosedForms):
         if sympy.LC(polynomial, self.E).could_extract_minus_sign():
             polynomial = -polynomial
         signs = self.question.signs
-        solution = self._where_zero(solution, polynomial, self.E)
-        t = sympy.Symbol(self.question.parsed.variable)
-        exponents = sympy.Mul(*(f for f in sympy.Mul.make_args(solution.y) if not f.is_polynomial(t))).free_symbols
+        solution = self._at(solution, polynomial)
         for constraint in _factors(others.pop()) if others else [sympy.Integer(0)]:
-            letters = sorted(
-                constraint.free_symbols, key=lambda a: (a in exponents, sympy.degree(constraint, a), str(a))
-            )
-            is_used = len(letters) == 1 or bool(letters and letters[0] not in exponents)
-            there = self._where_zero(solution, constraint, letters[0]) if is_used else solution
+            letters = sorted(constraint.free_symbols, key=lambda a: (sympy.degree(constraint, a), str(a)))
+            there = self._with_remainders(solution, constraint, letters[0]) if letters else solution
             bounds = _bounds(sympy.expand(signs.real(constraint)), solution, signs)
             if bounds is None:
                 continue
@@ -438,7 +437,7 @@ class _ClosedFormSearch(ClosedForms):
         if question.original.is_circular:
             P = sympy.numer(sympy.cancel(P.subs(t, circle_point(t))))
         P = sympy.Poly(question.plain(P), t)
-        for end in self.ends if P.degree() > 0 else ():
+        for end in self.ends:
             while end.point != sympy.oo and P.eval(end.point) == 0:
                 P = P.quo(sympy.Poly(t - end.point, t))
         known = map(question.plain, tidied(conditions, question.signs))

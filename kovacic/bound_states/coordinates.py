@@ -34,6 +34,8 @@ _ANGLES: dict[str, Callable[[Any], tuple[Any, ...]]] = {
 }
 _PERIODS = {"cos": 2 * sympy.pi, "sin": 2 * sympy.pi, "tan": sympy.pi}
 _TURNING_VALUES = {"cosh": (sympy.S.One,), **dict.fromkeys(("cos", "sin"), (sympy.S.One, -sympy.S.One))}
+#: The value of t that it has inside of some domains without being analytic.
+_POLES = {"tan": (sympy.oo,)}
 _UNLOCATED = "it couldn't be determined whether V has a pole inside the domain"
 #: Longer ends of a domain aren't suggested.
 _LONGEST = 30
@@ -170,20 +172,16 @@ class Original:
     def monotonic_range(self, domain: tuple[Any, Any], signs: Signs) -> tuple[Any, Any] | None:
         """The range of t on the domain; None unless t is proven to be monotonic there, but for a pole if it is all values."""
         with suppress(Uncovered):
-            breaks = [*self.turning_values, *self._poles_of_t]
+            breaks = [*self.turning_values, *_POLES.get(self.kind, ())]
             is_period = self.kind == "tan" and self.at(domain[0], signs) == self.at(domain[1], signs)
             if is_period or not (self.is_circular or self.points_inside(breaks, domain, signs)):
                 return self.range_of(domain, signs)
         return None
 
-    @property
-    def _poles_of_t(self) -> tuple[Any, ...]:
-        return (sympy.oo,) if self.kind == "tan" else ()
-
     def range_of(self, half: tuple[Any, Any], signs: Signs) -> tuple[Any, Any]:
         """The range of t where it is monotonic; infinite for a tangent with a pole."""
         first, last = (self.value(self.theta_at(end, signs)) for end in half)
-        if sympy.zoo in (first, last) or self.points_inside(self._poles_of_t, half, signs):
+        if sympy.zoo in (first, last) or self.points_inside(_POLES.get(self.kind, ()), half, signs):
             return -sympy.oo, sympy.oo
         is_increasing = sympy.simplify(last - first).is_positive or last == sympy.oo or first == -sympy.oo
         return (first, last) if is_increasing else (last, first)

@@ -500,13 +500,12 @@ def possible(conditions: list[Any], signs: Signs) -> bool:
 
 
 def _check_ends(frame: SingularFrame) -> None:
-    """Both ends are singular points in z, or one and the middle of the domain, where V is regular: even and odd solutions."""
+    """Both ends are singular points in z, or one and the middle of the domain, for even and odd solutions.
+
+    V is regular at the middle, as at all points inside: `check_poles`.
+    """
     if sorted(side for spot in frame.spots for side in spot.sides) != [0, 1]:
         raise Uncovered("an end of the domain is an ordinary point of the equation")
-    for spot in frame.spots:
-        is_fold = len(frame.ends_at(spot)) < len(spot.sides)
-        if is_fold and sympy.simplify(4 * spot.square - (2 - spot.mu) ** 2) != 0:  # y ~ (x - a)^(1/2 +- delta/(2 - mu))
-            raise Uncovered(f"V isn't regular at {frame.original.x} = {frame.fold}, inside the domain")
 
 
 def _is_polynomial_of_degree(k: int, quotient: Any, z: Any) -> bool:

@@ -50,17 +50,13 @@ _MOST_TERMS_OF_SUM = 12
 def lower_bound(e: Expr, x: Expr, c: Expr, *, derivatives: int = _MOST_DERIVATIVES) -> Any:
     """A number (an exact arb, maybe -oo) that isn't above any value of e on [c, oo).
 
-    The expression as it stands, with its dominant term as a factor, and, where its derivative isn't negative, its
-    value at c.
+    The expression as it stands, or with its dominant term as a factor where that isn't positive; and, where its derivative
+    isn't negative, its value at c.
     """
     simple = _direct(e, x, c)
-    if simple > -_INFINITY:
-        return simple
-    factored = _dominated(e, x, c)
-    if factored > -_INFINITY:
-        return factored
-    if derivatives == 0:
-        return -_INFINITY
+    best = simple if simple > 0 else simple.max(_dominated(e, x, c))
+    if best > -_INFINITY or derivatives == 0:
+        return best
     slope = lower_bound(sympy.expand(e.diff(x)), x, c, derivatives=derivatives - 1)
     if slope >= 0:
         value = BallEvaluator({x: BallEvaluator({})(c)})(e).real

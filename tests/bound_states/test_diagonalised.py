@@ -52,6 +52,7 @@ WELLS = [
     Well("3/sin(x)^2", (0, "pi")),
     Well("2/sin(x)^2 + 5*cot(x)", (0, "pi")),
     Well("x^2/4 - x + 2/x^2", HALF, kind=NUMERIC),
+    Well("x^2/4 - 3/x + 2/x^2", HALF, kind=NUMERIC),
     Well("-12*exp(-x)/(1 - exp(-x))", HALF),
     Well("-7*sech(x)^2 + tanh(x)"),
     Well("2*cosh(x)^2/sinh(x)^2 - 11*coth(x)", HALF),

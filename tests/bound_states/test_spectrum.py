@@ -1202,11 +1202,18 @@ def test_values_of_letters_in_the_kinetic_factor() -> None:
 
 
 @pytest.mark.parametrize(
-    ("V", "is_charge"), [("-e^2/r", True), ("-exp(2)/r", False), ("-1/2 u'' - e^2/r*u = E*u", True)]
+    ("V", "said", "is_said"),
+    [
+        ("-e^2/r", "e is Euler's number", True),
+        ("-exp(2)/r", "e is Euler's number", False),
+        ("-1/2 u'' - e^2/r*u = E*u", "e is Euler's number", True),
+        ("hbar^2/(m*r^2) - Z/r", "give the whole equation for -hbar^2/(2*m)*psi''", True),
+        ("-hbar^2/(2*m) u'' - Z/r*u = E*u", "give the whole equation", False),
+    ],
 )
-def test_a_charge_is_not_taken_for_a_number_in_silence(V: str, is_charge: bool) -> None:
+def test_what_a_physicist_may_have_meant_is_said(V: str, said: str, is_said: bool) -> None:
     found = kovacic.spectrum(V, domain=HALF)
-    assert any("e is Euler's number" in notice for notice in found.notices) == is_charge
+    assert any(said in notice for notice in found.notices) == is_said
 
 
 def test_a_root_of_a_number_beside_a_letter() -> None:
