@@ -42,7 +42,7 @@ NO_CLOSED_FORM = (
     "and Gauss' equations over Q"
 )
 TAYLOR = "method='taylor' treats every equation"
-_SOUGHT = 0.3  # of the milliseconds that Taylor's method takes, for a decision or a search
+_SOUGHT = 0.2  # of the milliseconds that Taylor's method takes, for a decision or a search
 _DEGREE = 40  # of S, up to which an equation given as text is decided
 _UNKNOWN = 400  # degree of a polynomial that is sought for that, at most
 _SHARE = 0.3  # of the distance to a singular point: the mean radius of a disc
@@ -106,19 +106,25 @@ def _chosen(journey: Journey, problem: NumericProblem, ways: Ways, count: int, d
     size = S.num.degree + S.den.degree
     is_solved = problem.decision is not None
     if not from_zero and (is_solved or (size <= _DEGREE and price >= prices.decided_from(size))):
-        known = decided(problem, _UNKNOWN if is_solved else int(min(_SOUGHT * prices.DEGREES * price, _UNKNOWN)))
+        foreseen = _rounded(min(_SOUGHT * prices.DEGREES * price, _UNKNOWN))
+        known = decided(problem, _UNKNOWN if is_solved else min(foreseen, _UNKNOWN))
         closed = None if known is None else closed_form_of(known)
         if closed is not None and closed.is_cheap(digits) and closed.price(digits) <= most:
             return closed, 0
     if not from_zero and price < prices.sought_from(size):
         return None
-    classical = classical_of(S, int(_SOUGHT * min(price, _MOST_SEARCH) / prices.UNIT))
+    classical = classical_of(S, _rounded(_SOUGHT * min(price, _MOST_SEARCH) / prices.UNIT))
     if classical is None or not classical.is_cheap(digits, from_zero=from_zero):
         return None
     if not from_zero and classical.price(digits) > most:
         return None
     more = digits + classical.lost_digits(journey.place)
     return (classical, start_bits(more)) if from_zero or classical.price(more) <= most else None
+
+
+def _rounded(work: float) -> int:
+    """The next power of two: what is found is looked up for other targets of about the same price."""
+    return 1 << int(work).bit_length()
 
 
 def _foreseen(journey: Journey, problem: NumericProblem, ways: Ways, count: int, digits: int) -> float:
