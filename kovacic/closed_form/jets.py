@@ -467,11 +467,18 @@ def _hypergeometric(e: Any, value: Callable[[Any], Acb], z: Acb) -> list[Acb]:
     series = _series_of(e, value)
     found = []
     factor = acb(1)
-    for k in range(3):
+    leading = z * (1 - z) if len(top) == 2 else z
+    has_equation = len(top) < 3 and len(bottom) == 1 and not leading.contains(0)
+    for k in range(2 if has_equation else 3):
         above = [a + k for a in top]
         below = [b + k for b in bottom]
         found.append(factor * series(above, below, z))
         factor *= prod(above, start=acb(1)) / prod(below, start=acb(1))
+    if has_equation:
+        # z (1 - z) F'' + (c - (a + b + 1) z) F' - a b F = 0, and z F'' + (c - z) F' - a F = 0, z F'' + c F' - F = 0
+        value, slope = found
+        lower = bottom[0] - [acb(0), z, (sum(top) + 1) * z][len(top)]
+        found.append((prod(top, start=acb(1)) * value - lower * slope) / leading)
     return found
 
 

@@ -27,10 +27,10 @@ from kovacic.algebra.embedding import complex_zeros
 from kovacic.algebra.precision import working_digits
 from kovacic.algebra.ratfunc import RatFunc
 from kovacic.algebra.rationals import RationalPoly
-from kovacic.closed_form.atoms import Atoms
-from kovacic.closed_form.check import independent, is_nonzero
+from kovacic.closed_form.atoms import Atoms, display
+from kovacic.closed_form.check import independent, is_nonzero, is_numerical_solution
 from kovacic.closed_form.cuts import arguments_with_cuts, common_place, real_at
-from kovacic.closed_form.form import EXACT, ClosedForm, pair_at, written
+from kovacic.closed_form.form import EXACT, ClosedForm, one_exponential, pair_at, written
 from kovacic.closed_form.jets import jet
 from kovacic.closed_form.primitive import FACTOR, LONG, SHORT, OpenPrimitive
 from kovacic.closed_form.product import written_length
@@ -246,11 +246,12 @@ class _Equation:
             return None
         pair = found.y1, found.y2
         pairs = [pair]
-        if self.decision.case == 1 and not self._is_long and isinstance(self.structure, Triangular):
-            elementary = self._written(replace(self.structure, primitive=OpenPrimitive("")))
-            is_short = _length(elementary.y1) <= max(map(_length, pair))
-            pairs = [*((elementary.y1, y2) for y2 in pair if is_short), pair]
         x = Symbol(self.variable)
+        if self.decision.case == 1 and not self._is_long and isinstance(self.structure, Triangular):
+            y1 = one_exponential(display(self.structure.first, Atoms(x), around_zero=True))
+            is_short = _length(y1) <= max(map(_length, pair))
+            if is_short and is_numerical_solution(y1, x, self.S, self.gauge):
+                pairs = [*((y1, y2) for y2 in pair), pair]
         # In an irreducible equation what differs by its exponents is independent.
         chosen = pair if self.decision.case != 1 else independent(pairs, x)
         if chosen is None and found.wronskian is not None and is_nonzero(found.wronskian, x):
