@@ -96,7 +96,7 @@ def without_implied(exceptions: Iterable[Expr]) -> tuple[Expr, ...]:
         number = (poles_of(e) or (e,))[0]
         return any(sympy.cancel(number - sign * c).is_Integer for c in periodic for sign in (1, -1))
 
-    return tuple(e for e in exceptions if not is_implied(e))
+    return tuple(dict.fromkeys(e for e in exceptions if not is_implied(e)))
 
 
 def _bases(zero: Expr) -> Iterator[Expr]:

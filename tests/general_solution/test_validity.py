@@ -331,3 +331,8 @@ def test_bounds_that_are_assumed_are_not_said() -> None:
 def test_what_is_even_in_a_root_needs_no_sign_below_it(equation: str, needed: str) -> None:
     """sin(sqrt(a) x)/a^(3/2) is real for a negative a as well: SymPy's sqrt(a^3)/a^3 in place of a^(-3/2) isn't even."""
     assert str(kovacic.validity(kovacic.dsolve(equation))) == needed
+
+
+def test_poles_of_several_functions_are_said_once() -> None:
+    answer = kovacic.answer_to("y'' = x^n*exp(x)", ics="y(1)=0, y'(1)=0")
+    assert str(answer.validity) == "x > 0, n + 1 is none of 0, -1, -2, ..."
