@@ -7,7 +7,7 @@ A `Region` is where a double-precision function is defined: a real interval, or 
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Sequence
+from collections.abc import Callable
 from dataclasses import dataclass, replace
 from fractions import Fraction
 from functools import cached_property
@@ -26,7 +26,7 @@ from kovacic.enclosure.frame import name_of
 from kovacic.enclosure.functions import coefficients_of_any
 from kovacic.enclosure.jets import CoefficientField
 from kovacic.enclosure.matrices import State
-from kovacic.enclosure.points import ExactPoint, as_point, in_balls, midpoint, power_of_two, to_acb
+from kovacic.enclosure.points import ExactPoint, Points, as_point, in_balls, midpoint, power_of_two, to_acb
 from kovacic.enclosure.precision import start_bits
 from kovacic.enclosure.problem import Coefficients, NumericProblem, as_problem
 from kovacic.enclosure.request import Params
@@ -259,14 +259,14 @@ class RationalChart:
         slope = omega(self.problem, which, base, _SLOPE_BITS)
         return replace(self, given={"x0": base, "y0": 1, "dy0": ball_from_flint(slope)})
 
-    def states(self, points: Sequence[ExactPoint], digits: int, limits: Limits | None, **options: Any) -> list[State]:
+    def states(self, points: Points, digits: int, limits: Limits | None, **options: Any) -> list[State]:
         """y and dy/dx, to the given digits where that is possible."""
         if self.branch is not None:
             return self._closed(self.branch, points, digits)
         options |= {"digits": digits, "limits": limits, **self.given}
         return [s.state for s in evaluate_states(self.problem, points, **options)]
 
-    def _closed(self, branch: Exponential, points: Sequence[ExactPoint], digits: int) -> list[State]:
+    def _closed(self, branch: Exponential, points: Points, digits: int) -> list[State]:
         """y = exp(int theta) P/P(base) and y' from the certificate: without the zeros of P, and without an integration of the
         equation, in which the dominant solution would grow."""
         # Without the guard bits.
@@ -379,7 +379,7 @@ class AnalyticChart:
         with working_precision(_SLOPE_BITS + 200):
             return replace(self, given={"x0": base, "y0": 1, "dy0": ball_from_flint(slope * rate)})
 
-    def states(self, points: Sequence[ExactPoint], digits: int, limits: Limits | None, **options: Any) -> list[State]:
+    def states(self, points: Points, digits: int, limits: Limits | None, **options: Any) -> list[State]:
         """y and dy/dx along the real axis, to the given digits where that is possible."""
         options |= {"digits": digits, "limits": limits, **self.given}
         options["path"] = self.given.get("path")

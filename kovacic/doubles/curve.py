@@ -23,13 +23,13 @@ from numpy.typing import NDArray
 
 from kovacic.doubles.chart import PieceChart
 from kovacic.enclosure.ball import finite_ball
-from kovacic.enclosure.points import ExactPoint, to_double
+from kovacic.enclosure.points import ExactPoint, Points, to_double
 from kovacic.errors import LimitExceeded
 from kovacic.limits import check_time
 
 Floats = NDArray[np.float64]
 Complexes = NDArray[np.complex128]
-Solution = Callable[[Sequence[ExactPoint]], Sequence[Any]]  # y and y' in balls at points
+Solution = Callable[[Points], Sequence[Any]]  # y and y' in balls at points
 
 _PER_PERIOD = 12
 #: Periods shorter than this share of the picture's width are shown by their envelope.
@@ -100,7 +100,7 @@ class CurveCoefficients(NamedTuple):
         return np.sqrt(np.maximum(-self.S, 0.0))
 
 
-def coefficients(chart: PieceChart, points: Sequence[ExactPoint]) -> CurveCoefficients:
+def coefficients(chart: PieceChart, points: Points) -> CurveCoefficients:
     """By y'' + b y' + c y = f/a at each point, divided by a: S = b'/2 + b^2/4 - c."""
     rows = []
     for point in points:

@@ -43,6 +43,7 @@ from kovacic.enclosure.points import (
     Constant,
     ExactPoint,
     Number,
+    Points,
     are_real,
     around_zero,
     binary_exponent,
@@ -283,7 +284,7 @@ class PeriodicWay(AnalyticWay):
         first, second, own = (self.spread(number, v) for v in ((M[0], M[2]), (M[1], M[3]), particular))
         return fundamental(first, second), own
 
-    def fan(self, traveller: Traveller, stops: Sequence[ExactPoint]) -> States:
+    def fan(self, traveller: Traveller, stops: Points) -> States:
         here = traveller.point
         periods = {stop: abs(self._periods(here, stop)) for stop in stops}
         if max(periods.values()) < _FEWEST_PERIODS + len(stops):  # discs on the way serve all of them
@@ -362,7 +363,7 @@ class ConstantWay(AnalyticWay):
             first, second = acb(first.real), acb(second.real)
         return maps.after(matrix, (first, second))
 
-    def fan(self, traveller: Traveller, stops: Sequence[ExactPoint]) -> States:
+    def fan(self, traveller: Traveller, stops: Points) -> States:
         return traveller.to_each(stops)
 
 

@@ -12,7 +12,7 @@ from typing import Any
 
 from kovacic.enclosure.classical import Closed
 from kovacic.enclosure.matrices import State
-from kovacic.enclosure.points import ExactPoint, Number, binary_exponent, middle, power_of_two
+from kovacic.enclosure.points import ExactPoint, Number, Points, binary_exponent, middle, power_of_two
 from kovacic.enclosure.problem import NumericProblem
 from kovacic.enclosure.rational import ClosedWay, sides
 from kovacic.enclosure.singular import Singular
@@ -94,7 +94,7 @@ class Journey:
             traveller = traveller.moved(middle(vertex))
         return traveller
 
-    def _around(self, traveller: Traveller, stops: Sequence[ExactPoint], side: str) -> States:
+    def _around(self, traveller: Traveller, stops: Points, side: str) -> States:
         """As `Traveller.fan`, around singular points of the real axis on this side.
 
         A detour is as wide as its distance to the start and to other singular points allows: near an irregular one the
@@ -144,13 +144,13 @@ class _Detour:
         top = ExactPoint(self._centre, self._radius if side == "above" else -self._radius)
         return ExactPoint(self.begin), top, ExactPoint(self.end)
 
-    def is_free(self, singular: Sequence[ExactPoint]) -> bool:
+    def is_free(self, singular: Points) -> bool:
         """True if no singular point beside the real axis lies in the triangle |x - centre| + |y| <= radius, or near it."""
         least = self._radius * _MARGIN
         return all(p.is_real() or abs(p.x - self._centre) + abs(p.y) > least for p in singular)
 
 
-def _detours(here: ExactPoint | Singular, last: ExactPoint, singular: Sequence[ExactPoint]) -> Iterator[_Detour]:
+def _detours(here: ExactPoint | Singular, last: ExactPoint, singular: Points) -> Iterator[_Detour]:
     """Those on the way to `last`, in order; from infinity beyond all singular points."""
     if isinstance(here, Singular):
         # From infinity: beyond all singular points and the last stop.
@@ -177,7 +177,7 @@ def _detours(here: ExactPoint | Singular, last: ExactPoint, singular: Sequence[E
         yield _Detour(place, centre - sign * radius, centre + sign * radius, sign)
 
 
-def _joined(detours: Iterator[_Detour], stops: Sequence[ExactPoint], singular: Sequence[ExactPoint]) -> list[_Detour]:
+def _joined(detours: Iterator[_Detour], stops: Points, singular: Points) -> list[_Detour]:
     """Those without stops between their places become one, if no other singular point is between them and that."""
     found: list[_Detour] = []
     for detour in detours:

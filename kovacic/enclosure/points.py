@@ -8,7 +8,7 @@ numerical evaluation, whose digits aren't proven, goes in.
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterable, Mapping
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from decimal import Decimal
 from fractions import Fraction
@@ -124,6 +124,7 @@ class ExactPoint:
         return f"ExactPoint({self})"
 
 
+Points = Sequence[ExactPoint]
 # The class is frozen and has slots: these descriptors fill them.
 _set_x, _set_y = (ExactPoint.__dict__[part].__set__ for part in "xy")
 _HALF = fmpq(1, 2)

@@ -247,7 +247,6 @@ class NumericProblem:
         if isinstance(poly, RationalPoly):
             return acb_poly(poly.rep)
         if isinstance(poly, ExtensionPoly):
-            # sum of the parts times powers of the generator.
             c = root_of(poly.field)
             return sum((self._embed(part) * c**k for k, part in enumerate(poly.parts)), acb_poly([]))
         assert isinstance(poly, FunctionPoly)

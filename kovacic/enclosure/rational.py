@@ -55,7 +55,7 @@ from kovacic.enclosure.matrices import (
     multiply,
     real_part,
 )
-from kovacic.enclosure.points import ExactPoint, around_zero, power_of_two, to_acb
+from kovacic.enclosure.points import ExactPoint, Points, around_zero, power_of_two, to_acb
 from kovacic.enclosure.problem import NumericProblem
 from kovacic.enclosure.singular import Singular
 from kovacic.enclosure.splitting import is_split
@@ -67,7 +67,6 @@ from kovacic.limits import check_time, count_work
 _WORTH = 4  # times as many radians as bits, on the whole way: with fewer, discs are as fast
 _DOUBLINGS = 64  # of the least abscissa at which the series can be that sharp: singular points far away
 _MOST_TERMS = 2000
-# Of bounds.
 _BITS = 64
 # Beyond the precision of a way, for the phase and for products.
 _GUARD = 40
@@ -342,7 +341,7 @@ class RationalWay(Way):
         last, bound = junction(point, stop, self.prec)
         return last, basis(point, last, stop, bound, self.prec, needed=needed)
 
-    def fan(self, traveller: Traveller, stops: Sequence[ExactPoint]) -> States:
+    def fan(self, traveller: Traveller, stops: Points) -> States:
         here = traveller.here
         found: States = {}
         ends = stops if isinstance(here, Singular) else [here, *stops]
@@ -356,7 +355,7 @@ class RationalWay(Way):
             return traveller.along_rays(stops)
         return self._by_discs(traveller, here, stops)
 
-    def _by_discs(self, traveller: Traveller, here: ExactPoint, stops: Sequence[ExactPoint]) -> States:
+    def _by_discs(self, traveller: Traveller, here: ExactPoint, stops: Points) -> States:
         """Along the line to the farthest stop, again and again: the discs on it serve others, too."""
         found: States = {}
         waiting = sorted(set(stops), key=lambda stop: (stop - here).norm_squared())
@@ -398,7 +397,7 @@ class ClosedWay(RationalWay):
             matrix = real_part(matrix)
         return maps.after(multiply(self.out_of(a, b), multiply(matrix, self.into(a))))
 
-    def fan(self, traveller: Traveller, stops: Sequence[ExactPoint]) -> States:
+    def fan(self, traveller: Traveller, stops: Points) -> States:
         return traveller.to_each(stops)
 
     def departure(self, point: Singular, stop: ExactPoint, needed: tuple[bool, bool]) -> tuple[ExactPoint, Matrix]:
@@ -422,7 +421,7 @@ def side_of(here: ExactPoint, stop: ExactPoint) -> bool | None:
     return bool(stop.x >= here.x) if here.is_real() and stop.is_real() else None
 
 
-def sides(here: ExactPoint | Singular, stops: Sequence[ExactPoint]) -> list[list[ExactPoint]]:
+def sides(here: ExactPoint | Singular, stops: Points) -> list[list[ExactPoint]]:
     """The stops by straight ways that are shared: those on the same side on the real axis, in the order of visit (from
     infinity the farthest first), and each of the others alone."""
     is_inverted = isinstance(here, Singular) and here.inverted

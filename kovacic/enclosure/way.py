@@ -36,6 +36,7 @@ from kovacic.enclosure.matrices import (
 from kovacic.enclosure.points import (
     ExactPoint,
     Number,
+    Points,
     are_real,
     around_zero,
     binary_exponent,
@@ -298,7 +299,7 @@ class Way(ABC):
             ahead.check(number)
         return maps.after(self.out_of(a, b))
 
-    def fan(self, traveller: Traveller, stops: Sequence[ExactPoint]) -> States:
+    def fan(self, traveller: Traveller, stops: Points) -> States:
         """The states at the ends of straight lines from where the traveller is, which is none of them."""
         return traveller.along_rays(stops)
 
@@ -458,7 +459,7 @@ class Traveller:
             self.onward[corner] = self.moved(corner)
         return self.onward[corner]
 
-    def fan(self, stops: Sequence[ExactPoint]) -> States:
+    def fan(self, stops: Points) -> States:
         """The states at the ends of straight lines from here."""
         at_rest = {stop for stop in stops if self.is_at(stop)}
         others = [stop for stop in stops if stop not in at_rest]
@@ -474,11 +475,11 @@ class Traveller:
         """The state here, at a singular point the limits of y and y'."""
         return limit(self.here, self.start) if isinstance(self.here, Singular) else self.state
 
-    def to_each(self, stops: Sequence[ExactPoint]) -> States:
+    def to_each(self, stops: Points) -> States:
         """Straight on to one after the other, from here."""
         return {stop: self.moved(stop).state for stop in stops}
 
-    def along_rays(self, stops: Sequence[ExactPoint]) -> States:
+    def along_rays(self, stops: Points) -> States:
         """In discs that are kept for the next call."""
         here = self.point
         rays: dict[ExactPoint, list[ExactPoint]] = {}  # the points in one direction together, the nearest first
