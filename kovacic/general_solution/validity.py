@@ -70,8 +70,8 @@ def needed_for(value: Expr, x: Expr, exceptions: Iterable[Expr] = ()) -> Validit
     numbers = (node for node in sympy.preorder_traversal(plain) if node.is_number)
     has_real_numbers = all(number.is_extended_real for number in numbers)
     # Of an imaginary root they have cuts.
-    cuts = (1 + e.args[0] ** 2 > 0 for e in value.atoms(sympy.atan, sympy.asinh) if e.has(*roots))
-    needs = [*needs_of(value), *cuts]
+    cuts = (_positive(1 + e.args[0] ** 2) for e in value.atoms(sympy.atan, sympy.asinh) if e.has(*roots))
+    needs = [*needs_of(value), *(relation for relation in cuts if relation != sympy.true)]
     found = _without_what_holds([r.xreplace(roots) for r in needs], x, exceptions, has_real_parts=has_real_numbers)
     if found is None:  # no x and letters make all parts real: it is a solution between the branch points
         apart = [_nonzero(relation.lhs.xreplace(roots)) for relation in needs]
@@ -92,9 +92,10 @@ def _without_what_holds(
     nonzero += [e for e in exceptions if not is_nowhere_zero(e)]
     if has_real_parts:
         nonzero = [factor for e in nonzero for factor in _beside_real_roots(e)]
-    others = [relation for relation in others if not _holds_for_real_symbols(relation)]
-    known = {r.lhs for r in others if not isinstance(r, sympy.Ne)}
-    on_x = [part for relation in others for part in _of_factors(relation, known) if not _holds_for_real_symbols(part)]
+    on_x = [relation for relation in others if not _holds_for_real_symbols(relation)]
+    for _ in range(2):  # k > 0 from k sqrt(h k) > 0, and then h > 0 from h k > 0
+        known = {r.lhs for r in on_x if not isinstance(r, sympy.Ne)}
+        on_x = [part for relation in on_x for part in _of_factors(relation, known) if not _holds_for_real_symbols(part)]
     if sympy.false in on_x:
         return None
     said = _nonzero_beside(on_x)
@@ -105,13 +106,21 @@ def _without_what_holds(
 
 
 def _joined(relations: Iterable[Expr], nonzero: set[Expr]) -> tuple[Expr, ...]:
-    """u >= 0 beside u != 0 as u > 0, also by factors, and without what follows: x != 0 from a x > 0, but not x >= 0."""
+    """u >= 0 beside u != 0 as u > 0, also by factors, and without what follows: x != 0 from a x > 0, but not x >= 0.
+
+    Without factors of which it is said that they are positive: h >= 0 for h k >= 0 beside k > 0.
+    """
     strict = []
     for relation in relations:
         factors = ZeroSet(relation.lhs).factors
         is_nonzero = bool(factors) and {*factors} <= nonzero
         strict.append(relation.lhs > 0 if isinstance(relation, sympy.GreaterThan) and is_nonzero else relation)
     positive = {r.lhs for r in strict if isinstance(r, sympy.StrictGreaterThan)}
+    for k, relation in enumerate(strict):
+        others = [f for f in sympy.Mul.make_args(relation.lhs) if f not in positive]
+        if isinstance(relation, sympy.GreaterThan):
+            strict[k] = sympy.GreaterThan(sympy.Mul(*others), 0)
+    strict = [relation for relation in strict if relation != sympy.true]
     weaker = {sympy.Ne: _nonzero_beside(strict), sympy.GreaterThan: positive, sympy.StrictGreaterThan: set()}
     found = [_of_cosine(r) for r in strict if r.lhs not in weaker[r.func]]
     return tuple({(r.func, sympy.expand(r.lhs)): r for r in found}.values())
@@ -243,7 +252,7 @@ def _of_factors(relation: Expr, known: Collection[Expr]) -> list[Expr]:
     bases = {f: f.base if f.is_Pow and not f.exp.is_Integer else f for f in factors}
     apart = [base for f, base in bases.items() if base in known or (f != base and f.exp.is_Rational)]
     rest = sympy.Mul(*(f for f, base in bases.items() if base not in apart))
-    return [base > 0 for base in (*apart, rest) if base != 1]
+    return [_positive(base) if base.is_Pow else base > 0 for base in (*apart, rest) if base != 1]
 
 
 def _of_cosine(relation: Expr) -> Expr:
@@ -316,8 +325,13 @@ def _of_power(e: Expr) -> Expr:
 
 
 def _comparison(relation: Any, u: Expr) -> Expr:
-    """u > 0 or u >= 0, also where it is known to be false, and for what isn't real, which SymPy refuses to compare."""
+    """u > 0 or u >= 0, also where it is known to be false, and for what isn't real, which SymPy refuses to compare.
+
+    For u = v^2 it is v != 0, or nothing.
+    """
     short = _of_the_same_sign(u)
+    if short.is_Pow and short.exp.is_even and short.base.is_Symbol:
+        return sympy.Ne(short.base, 0) if relation is sympy.StrictGreaterThan else sympy.true
     holds = short.is_extended_real is not False and relation(short, 0) == sympy.true
     return sympy.true if holds else relation(short, 0, evaluate=False)
 
@@ -327,7 +341,11 @@ _not_negative = partial(_comparison, sympy.GreaterThan)
 
 
 def _of_the_same_sign(u: Expr) -> Expr:
-    """Without a positive factor that is rational; the base of a root or an odd power, u being real."""
+    """Without a rational or even factor, a^2 - x^2 for 1 - x^2/a^2; the base of a root or an odd power, u being real."""
+    if u.is_Add and u.is_rational_function() and any(p.exp.is_negative for p in u.atoms(sympy.Pow)):
+        u = sympy.factor_terms(sympy.together(u))
+        even = {p: sympy.S.One for p in sympy.Mul.make_args(u) if p.is_Pow and p.exp.is_even and p.exp.is_negative}
+        u = sympy.Mul(*(even.get(factor, factor) for factor in sympy.Mul.make_args(u)))
     _, short = u.as_content_primitive()
     if short.is_Mul or short.is_Pow:  # -1/x > 0 where -x > 0
         odd = {p: p.base for p in sympy.Mul.make_args(short) if p.is_Pow and p.exp.is_odd and p.exp.is_negative}

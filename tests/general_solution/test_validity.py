@@ -297,7 +297,16 @@ def test_equal_roots_are_written_alike() -> None:
     assert len({power.base for power in current.atoms(sympy.Pow) if power.exp in (sympy.S.Half, -sympy.S.Half)}) == 1
 
 
-@pytest.mark.parametrize(("equation", "needed"), [("y'' = k*y*exp(x)", "k > 0"), ("x*y'' + y' = k*y", "x > 0, k > 0")])
+@pytest.mark.parametrize(
+    ("equation", "needed"),
+    [
+        ("y'' = k*y*exp(x)", "k > 0"),
+        ("x*y'' + y' = k*y", "x > 0, k > 0"),
+        ("k*y'' = h*y*exp(x)", "k > 0, h > 0"),
+        ("y'' = 1/(a + x^2), y(0)=0, y'(0)=0", "a > 0, a + x**2 > 0"),
+        ("(a^2-x^2)*y'' - x*y' = 0", "a**2 - x**2 >= 0, a != 0"),
+    ],
+)
 def test_positive_products_of_roots_are_positive_letters(equation: str, needed: str) -> None:
     """K0 needs sqrt(k)*sqrt(x) > 0."""
     assert str(kovacic.validity(kovacic.dsolve(equation, var="x"))) == needed
