@@ -89,11 +89,40 @@ def all_turned(y: Expr, x: Expr, point: Expr, own: Own = sympy.sympify) -> Expr:
     roots = dict(turned)
     for e in y.atoms(sympy.log, sympy.Ci, BesselBase):
         *order, u = e.args
-        if e.func in _OF_IMAGINARY and own((u**2).subs(x, point)).is_negative:
+        if e.func in _OF_IMAGINARY and _is_negative(u**2, x, point, own):
             turned[e] = _OF_IMAGINARY[e.func](*order, u.xreplace(roots))
         elif _is_negative(u, x, point, own):  # SymPy writes J(-z) as J(z) (-z)^nu/z^nu
-            turned[e] = e.func(*order, -u, evaluate=False)
+            turned[e] = e.func(*order, _opposite(u, x, point, own), evaluate=False)
     return y.xreplace(turned)
+
+
+def _opposite(u: Expr, x: Expr, point: Expr, own: Own) -> Expr:
+    """-u, as (a - x)/(a + x) for (x - a)/(a + x) where x - a is negative at the point."""
+    factors = sympy.Mul.make_args(u)
+    sums = [f for f in factors if abs(f.as_base_exp()[1]) == 1 and f.as_base_exp()[0].is_Add]
+    negative = [f for f in sums if _is_negative(f.as_base_exp()[0], x, point, own)]
+    if len(factors) == 1 or len(negative) != 1:
+        return -u
+    base, exponent = negative[0].as_base_exp()
+    return sympy.Mul(*(f for f in factors if f != negative[0])) * (-base) ** exponent
+
+
+def with_roots_of_factors(y: Expr, x: Expr, point: Expr) -> Expr:
+    """sqrt(1 - x) sqrt(1 + x) for sqrt(1 - x^2) and other roots of products, with factors that are positive at the point."""
+
+    def in_factors(power: Expr) -> Expr:
+        number, factors = sympy.factor_list(power.base)
+        signs = [-1 if is_seen_negative(f.subs(x, point)) else 1 for f, _ in factors]
+        number *= sympy.Mul(*(s**k for s, (_, k) in zip(signs, factors, strict=True)))
+        if not number.is_positive:
+            return power
+        return number**power.exp * sympy.Mul(
+            *((s * f) ** (k * power.exp) for s, (f, k) in zip(signs, factors, strict=True))
+        )
+
+    return y.replace(
+        lambda e: e.is_Pow and e.base.has(x) and e.base.is_polynomial() and not e.exp.is_Integer, in_factors
+    )
 
 
 def negative_arguments(

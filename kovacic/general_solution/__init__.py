@@ -8,7 +8,14 @@ which `jumps` writes them.  `riccati_equation` and `riccati` have the solutions 
 among SymPy's own methods.
 """
 
-from kovacic.general_solution.answer import FirstOrderAnswer, ProblemAnswer, SecondOrderAnswer, given_answer, validity
+from kovacic.general_solution.answer import (
+    FirstOrderAnswer,
+    ProblemAnswer,
+    SecondOrderAnswer,
+    SystemAnswer,
+    given_answer,
+    validity,
+)
 from kovacic.general_solution.dsolve import answer_to, dsolve, in_special_functions
 from kovacic.general_solution.explained import explain, is_problem
 from kovacic.general_solution.homogeneous import NothingKnown
@@ -22,6 +29,7 @@ __all__ = [
     "ProblemAnswer",
     "RiccatiSolutions",
     "SecondOrderAnswer",
+    "SystemAnswer",
     "Validity",
     "answer_to",
     "dsolve",

@@ -83,7 +83,12 @@ class ProblemAnswer:
         return f"<{type(self).__name__}: {self}>"
 
     def __str__(self) -> str:
-        return f"{self.eq.lhs} = {self.eq.rhs}"
+        return "\n".join(f"{eq.lhs} = {eq.rhs}" for eq in self.equations)
+
+    @property
+    def equations(self) -> Sequence[Expr]:
+        """y(x) = ..., or one equation for each unknown of a system."""
+        return (self.eq,)
 
     @property
     def own(self) -> dict[Expr, Expr]:
@@ -196,6 +201,22 @@ class FirstOrderAnswer(ProblemAnswer):
         number, rest = sympy.factor(u).as_coeff_Mul()
         rest = sympy.Mul(*(factor for factor in sympy.Mul.make_args(rest) if not isinstance(factor, sympy.exp)))
         return ((rest if number > 0 else -rest) >= 0,)
+
+
+@dataclass(frozen=True, repr=False)
+class SystemAnswer(ProblemAnswer):
+    """The answer to a system of two equations, whose `eq` is a list: x(t) = ..., y(t) = ..."""
+
+    eq: list[Expr]
+
+    @property
+    def equations(self) -> Sequence[Expr]:
+        return self.eq
+
+    @cached_property
+    def validity(self) -> Validity:
+        """Where both formulas are real and valid."""
+        return needed_for(sympy.Tuple(*(eq.rhs for eq in self.eq)), self.eq[0].lhs.args[0])
 
 
 def _cases(zero: Expr) -> Iterator[Exceptional]:

@@ -22,6 +22,7 @@ from typing import Any
 import sympy
 from sympy import atan, cos, exp, log, sin
 
+from kovacic.closed_form.cuts import cuts_of
 from kovacic.general_solution.integrands import (
     ChangeOfIntegrand,
     integral_of_fraction,
@@ -37,6 +38,7 @@ from kovacic.general_solution.special_integrals import (
     power_beside_wave,
 )
 from kovacic.general_solution.substitution import size
+from kovacic.general_solution.values import have_values
 from kovacic.general_solution.waves import beside_waves, by_coefficients, common_factor, wave_changes
 from kovacic.general_solution.zero import ball, samples
 from kovacic.limits import check_time
@@ -52,10 +54,11 @@ _SIMPLE = {exp, sin, cos}
 _POINTS = tuple(map(sympy.Rational, ("3/10", "6/5", "9/5", "3", "18/5", "5", "11", "-2/7", "-7/5", "-2", "-4", "-9")))
 
 
-def antiderivative(integrand: Expr, x: Expr) -> Expr | None:
+def antiderivative(integrand: Expr, x: Expr, start: Expr | None = None) -> Expr | None:
     """int g dx, None if a term isn't of one of these kinds; an `Integral` that isn't elementary beside tangents.
 
-    Nothing that is assumed of symbols is used.
+    None as well where g has a value or a limit at `start`, from which a cut of the integral begins that g hasn't, as in
+    Ei(x) - log(x) for (exp(x) - 1)/x.  Nothing that is assumed of symbols is used.
 
     >>> x = sympy.Symbol("x")
     >>> antiderivative(sympy.tan(x) ** 2 + log(x), x)
@@ -67,6 +70,10 @@ def antiderivative(integrand: Expr, x: Expr) -> Expr | None:
     if found is None:
         return None
     found = found.xreplace(own)
+    if start is not None:
+        cuts = {*cuts_of(found, x)} - {*cuts_of(integrand, x)}
+        if any(cut.subs(x, start) == 0 for cut in cuts) and have_values([integrand], x, start):
+            return None
     # sqrt(1 + tan(x)^2) is 1/cos(x) on one side of pi/2, and -1/cos(x) on the other one
     has_a_root_of_a_sum = any(base.has(x) and not base.is_Symbol for base in radicands(integrand))
     if has_a_root_of_a_sum and not _holds_on_every_side(found, integrand, x):

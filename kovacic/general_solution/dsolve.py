@@ -25,7 +25,13 @@ import sympy
 from kovacic.closed_form.cuts import arguments_with_cuts, common_place
 from kovacic.decision import Status
 from kovacic.errors import InputError, LimitExceeded, warn_user
-from kovacic.general_solution.answer import FirstOrderAnswer, ProblemAnswer, SecondOrderAnswer, remember
+from kovacic.general_solution.answer import (
+    FirstOrderAnswer,
+    ProblemAnswer,
+    SecondOrderAnswer,
+    SystemAnswer,
+    remember,
+)
 from kovacic.general_solution.basis import Basis
 from kovacic.general_solution.check import check_answer
 from kovacic.general_solution.conditions import Condition, ConditionReader, as_mapping
@@ -42,6 +48,7 @@ from kovacic.general_solution.places import (
     real_particular,
     start_of,
 )
+from kovacic.general_solution.poles import is_singular
 from kovacic.general_solution.question import (
     Question,
     about_letters,
@@ -197,37 +204,29 @@ def dsolve(
         raise InputError(f"there is no method {hint!r} here, only {', '.join(_HINTS)}", hint=others)
     if xi is not None or eta is not None:
         raise InputError("xi and eta belong to Lie's method, which isn't used here", hint="call sympy.dsolve")
-    eq, ics, assume = with_values(eq, ics, assume, limits)
-    if isinstance(eq, str):
-        eq, func, ics = _several(eq, func, ics, parameters)
-    is_list = isinstance(eq, list | tuple)
-    if is_list and len(eq) > 1:
-        budget = Budget(limits)
-        with budget.watched():
-            try:
-                solver = partial(answer_to, limits=limits)
-                found, notices = solved_system(read_system(eq, func), as_mapping(ics), solver)
-            except LimitExceeded as limit:
-                raise NotImplementedError(f"undecided: {limit}") from None
-    else:
-        one, function = _single(eq, "equation"), _single(func, "function")
-        answer = answer_to(one, function, ics=ics, var=var, parameters=parameters, assume=assume, limits=limits)
-        remember(answer)
-        found, notices = [answer.eq] if is_list else answer.eq, answer.notices
-    for notice in notices:
+    answer = answer_to(eq, func, ics=ics, var=var, parameters=parameters, assume=assume, limits=limits)
+    for notice in answer.notices:
         warn_user(notice)
-    return found
+    if isinstance(answer, SystemAnswer):
+        return answer.eq
+    remember(answer)
+    return [answer.eq] if isinstance(eq, list | tuple) else answer.eq
 
 
-def _several(text: str, func: Any, ics: Any, parameters: Sequence[str]) -> tuple[Any, Any, Any]:
-    """The equations, unknown functions and values of a text with several equations; anything else as it was given."""
-    paste = taken_apart(text)
-    if len(paste.scans("equation")) < 2:
-        return text, func, ics
-    reading = read_equations(paste, names=declared(parameters))
-    for guess in reading.guesses:
-        warn_user(guess)
-    return list(reading.equations), func or list(reading.functions), ics or dict(reading.conditions)
+def _system(eq: Any, func: Any, ics: Any, parameters: Sequence[str], limits: Limits) -> SystemAnswer | None:
+    """The answer for a list of several equations, or a text with several; None for anything else."""
+    guesses: tuple[str, ...] = ()
+    if isinstance(eq, str):
+        paste = taken_apart(eq)
+        if len(paste.scans("equation")) < 2:
+            return None
+        reading = read_equations(paste, names=declared(parameters))
+        eq, func, ics = reading.equations, func or reading.functions, ics or dict(reading.conditions)
+        guesses = reading.guesses
+    if not isinstance(eq, list | tuple) or len(eq) == 1:
+        return None
+    found, notices = solved_system(read_system(eq, func), as_mapping(ics), partial(answer_to, limits=limits))
+    return SystemAnswer(found, [*guesses, *notices])
 
 
 def _single(given: Any, what: str) -> Any:
@@ -279,7 +278,7 @@ def answer_to(
     Parameters
     ----------
     eq, func, ics, var, parameters, assume, limits
-        As for `dsolve`; one equation, no system.
+        As for `dsolve`.
     special : bool
         Special functions also where there are Liouvillian solutions.
 
@@ -287,7 +286,8 @@ def answer_to(
     -------
     ProblemAnswer
         Its `eq` is what `dsolve` returns, its `notices` are the warnings of `dsolve`.  Of an equation of second order it is a
-        `SecondOrderAnswer`, unless an eigenvalue problem with an integer was recognised; of first order a `FirstOrderAnswer`.
+        `SecondOrderAnswer`, unless an eigenvalue problem with an integer was recognised; of first order a `FirstOrderAnswer`;
+        of a system a `SystemAnswer`, whose `eq` is a list.
 
     Raises
     ------
@@ -316,6 +316,13 @@ def answer_to(
     eq, ics, assume = with_values(eq, ics, assume, limits)
     budget = Budget(limits)
     with budget.watched():
+        try:
+            system = _system(eq, func, ics, parameters, limits)
+        except LimitExceeded as limit:
+            raise NotImplementedError(f"undecided: {limit}") from None
+        if system is not None:
+            return system
+        eq, func = _single(eq, "equation"), _single(func, "function")
         try:
             question = read_question(eq, func, ics, var, budget.limits, parameters, assume)
         except InputError as reason:
@@ -381,7 +388,14 @@ def _solved(question: Question, budget: Budget, *, special: bool) -> ProblemAnsw
 def _general(question: Question, basis: Basis) -> SecondOrderAnswer:
     """C1 y1 + C2 y2 + y0, checked."""
     right = right_hand_side(question.equation)
-    place = partial(common_place, basis.x, arguments_with_cuts(right), own=basis.own)
+    is_ordinary = question.equation.change is None and not is_singular(question, sympy.S.Zero)
+
+    def place(arguments: Mapping[Expr, Expr]) -> Expr:
+        """Around 0 if the equation is regular there."""
+        if is_ordinary:
+            return sympy.S.Zero
+        return common_place(basis.x, arguments_with_cuts(right), arguments, own=basis.own)
+
     if basis.place is None or right != 0:
         basis = real_at(basis, place(arguments_with_cuts(sympy.Tuple(basis.y1, basis.y2))))
     particular = particular_solution(basis, None)

@@ -81,15 +81,16 @@ def explain(
     elif isinstance(answer, SecondOrderAnswer):
         blocks += _steps(answer)
     blocks += (say(f"Note: {caret(notice)}.") for notice in answer.notices)
-    blocks += [Heading("The solution"), Formula(of_sympy(answer.eq.lhs).equals(of_sympy(answer.eq.rhs)))]
-    title = f"The solution of {shortened(eq) if isinstance(eq, str) else answer.eq.lhs}"
+    blocks.append(Heading("The solution"))
+    blocks += (Formula(of_sympy(found.lhs).equals(of_sympy(found.rhs))) for found in answer.equations)
+    title = f"The solution of {shortened(eq) if isinstance(eq, str) else answer.equations[0].lhs}"
     return chosen.document(title, [Heading(title, 1), *blocks])
 
 
 def is_problem(text: str) -> bool:
     """True for a text with values, with a right-hand side, or with an equation that isn't a linear one of second order."""
     paste = taken_apart(text)
-    if not paste.is_equation or paste.conditions:
+    if not paste.is_equation or paste.conditions or len(paste.scans("equation")) > 1:
         return paste.is_equation
     try:
         found = read_input(text, exponentials=True, equation=True).equation

@@ -12,25 +12,26 @@ from __future__ import annotations
 from collections import defaultdict
 from collections.abc import Callable, Collection, Iterable, Mapping, Sequence, Set
 from dataclasses import dataclass, replace
+from functools import cached_property
 from typing import Any, NamedTuple
 
 import sympy
 from sympy import Integer, cosh, sinh
 from sympy.core.function import AppliedUndef
 
-from kovacic.closed_form.atoms import Atoms, display
-from kovacic.closed_form.cuts import all_turned
+from kovacic.closed_form.atoms import Atoms, display, is_seen_negative
+from kovacic.closed_form.cuts import all_turned, with_roots_of_factors
 from kovacic.closed_form.product import product
 from kovacic.errors import InputError, VerificationFailed
 from kovacic.general_solution.antiderivatives import antiderivative
 from kovacic.general_solution.check import SolutionClaim, is_finite
 from kovacic.general_solution.conditions import Condition, exact
 from kovacic.general_solution.continuity import jumps
-from kovacic.general_solution.integrands import NUMBERS, ratfunc
+from kovacic.general_solution.integrands import NUMBERS, radicands, ratfunc
 from kovacic.general_solution.jumps import in_steps
 from kovacic.general_solution.steps import JUMPING, Apart, taken_apart
 from kovacic.general_solution.textbook import in_book_form, in_hyperbolic_functions, sums
-from kovacic.general_solution.values import value_at
+from kovacic.general_solution.values import have_values, value_at
 from kovacic.general_solution.variation import is_solution, starting_at
 from kovacic.general_solution.zero import is_zero
 from kovacic.general_solution.zero_set import ZeroSet
@@ -97,8 +98,8 @@ class FirstOrderEquation:
         return bool(self.r == 0)
 
     def homogeneous(self, start: Expr | None = None) -> Expr:
-        """h with h'/h = q, real at the start."""
-        return _exponential_of_integral(self.q, self.x, start)
+        """h with h'/h = q, real at the start, or at the `place`."""
+        return _exponential_of_integral(self.q, self.x, start, self.place if start is None else start)
 
     def real_at(self, point: Expr, w: Expr, right: Expr) -> Expr:
         """A solution of w' = q w + right in which log(-u), (-u)^e stand for arguments u < 0, if it is one; else w."""
@@ -110,15 +111,26 @@ class FirstOrderEquation:
         own = set().union(*(e.free_symbols for e in self.parts), taken)
         return next(sympy.numbered_symbols("C", start=1, exclude=[sympy.Symbol(symbol.name) for symbol in own]))
 
+    @cached_property
+    def place(self) -> Expr | None:
+        """Where solutions are to be real without a value: at 0, or half way to a pole on the right of it if 0 is one."""
+        if self.is_regular_at(_ZERO):
+            return _ZERO
+        whole = self.p + self.q
+        is_rational = whole.is_rational_function(self.x)
+        factors = sympy.factor_list(sympy.denom(sympy.together(whole)))[1] if is_rational else ()
+        lines = [f.as_poly(self.x) for f, _ in factors]
+        poles = [-f.nth(0) / f.nth(1) for f in lines if f is not None and f.degree() == 1]
+        return next((pole / 2 for pole in poles if is_seen_negative(-pole)), None)
+
     def is_regular_at(self, point: Expr) -> bool:
-        """True if the coefficients are finite at the point, so that a value there determines one solution."""
-        return all(is_finite(e.subs(self.x, point)) for e in self.parts)
+        """True if the coefficients have values at the point, so that one of w determines one solution."""
+        return have_values(self.parts, self.x, point)
 
 
 def is_unit(coefficient: Expr, x: Expr, point: Expr) -> bool:
     """True if the value at the point is finite, and not always zero."""
-    value = coefficient.subs(x, point)
-    return is_finite(value) and not is_zero(value)
+    return have_values([coefficient], x, point) and not is_zero(value_at(coefficient, x, point))
 
 
 class GivenValue(NamedTuple):
@@ -215,18 +227,23 @@ def solved_linear(
     value = value_of(conditions)
     x = equation.x
     start = None if value is None else value.point
+    place = equation.place if value is None else start
     h = equation.homogeneous(start)
-    if value is not None:
-        h = starting_at(equation.real_at(start, h, _ZERO), x, start)
+    if place is not None:
+        h = starting_at(equation.real_at(place, h, _ZERO), x, start)
+    if value is not None and equation.p == 0:
+        h = _beside_value(h, x, start)
     particular = _particular(equation, h, start)
-    if value is not None:
-        particular = equation.real_at(start, particular, equation.p)
+    if place is not None:
+        particular = equation.real_at(place, particular, equation.p)
+        in_factors = with_roots_of_factors(particular, x, place) if radicands(particular) else particular
+        if in_factors != particular and in_factors.is_rational_function(x):
+            particular = sympy.cancel(in_factors)
     constant = equation.constant(taken)
     if value is not None:
         constant = _constant_through(equation, h, particular, value, constant)
     whole = constant * h + particular
-    product_form = h * (constant + sympy.powsimp(particular / h))
-    w = shortest([*sums(whole, x), product_form])
+    w = shortest([*sums(whole, x), h * (constant + sympy.powsimp(particular / h))])
     if value is not None:
         w = in_book_form(w, x)
     notices = exceptions_of(w, x, (equation.p, equation.q))
@@ -266,13 +283,12 @@ _ANTILOGARITHMS: dict[Any, tuple[int, Callable[[Expr], Expr]]] = {
 }
 
 
-def _exponential_of_integral(q: Expr, x: Expr, start: Expr | None) -> Expr:
+def _exponential_of_integral(q: Expr, x: Expr, start: Expr | None, place: Expr | None) -> Expr:
     """h with h'/h = q: a product of powers and an exponential where q is rational beside tan(k x), tanh(k x), ...
 
-    Powers are real at the start, or at 0 unless q is singular there.
+    Powers are real at the place, unless q is singular there; integrals begin at the start.
     """
     own = {sympy.Symbol(symbol.name): symbol for symbol in q.free_symbols}
-    at = start if start is not None else Integer(0)
     rest, powers = [], []
     for term in sympy.Add.make_args(sympy.expand(q)):
         c, f = term.as_independent(x, as_Add=False)
@@ -283,16 +299,27 @@ def _exponential_of_integral(q: Expr, x: Expr, start: Expr | None) -> Expr:
         sign, function = _ANTILOGARITHMS[f.func]
         powers.append(function(f.args[0]) ** (sign * c / slope))
     if powers:
-        return sympy.Mul(*powers, _exponential_of_integral(sympy.Add(*rest), x, start))
+        return sympy.Mul(*powers, _exponential_of_integral(sympy.Add(*rest), x, start, place))
     rate = ratfunc(q, x)
     if rate is not None:
-        atoms = Atoms(x, at=at if is_finite(q.subs(x, at)) else None, own=lambda e: e.xreplace(own))
+        is_known = place is not None and have_values([q], x, place)
+        atoms = Atoms(x, at=place if is_known else None, own=lambda e: e.xreplace(own))
         h = display(product(rate), atoms).xreplace(NUMBERS | own)
         return h.replace(lambda e: e.is_Add, sympy.expand)  # as in p
     apart = _apart(q, x)
     if apart is None or apart.impulses:
         return sympy.exp(sympy.Integral(q, x))
-    return sympy.exp(_of_parts(apart, sympy.Integer(1), x, None))
+    return sympy.exp(_of_parts(apart, sympy.Integer(1), x, start))
+
+
+def _beside_value(h: Expr, x: Expr, start: Expr) -> Expr:
+    """With (u(x)/u(a))^e for u^e, real on the side of a, where letters leave the sign of u(a) open."""
+
+    def is_open(e: Expr) -> bool:
+        there = e.base.subs(x, start) if e.is_Pow and e.base.has(x) and not e.exp.is_Integer else _ZERO
+        return bool(there.free_symbols) and not (is_seen_negative(there) or is_seen_negative(-there))
+
+    return h.replace(is_open, lambda e: (e.base / e.base.subs(x, start)) ** e.exp)
 
 
 def _particular(equation: FirstOrderEquation, h: Expr, start: Expr | None) -> Expr:
@@ -329,7 +356,7 @@ def _integrated(p: Expr, h: Expr, x: Expr, start: Expr | None) -> Expr:
     """h int p/h dx."""
     if p == 0:
         return _ZERO
-    integral = antiderivative(sympy.powsimp(p / h), x)
+    integral = antiderivative(sympy.powsimp(p / h), x, start)
     if integral is not None and not jumps(h * integral, x, [h, 1 / h, p]):
         if (p / h).has(sinh, cosh):
             integral = in_hyperbolic_functions(integral)

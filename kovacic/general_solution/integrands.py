@@ -12,6 +12,7 @@ from sympy import cos, cosh, cot, coth, csc, csch, exp, log, sec, sech, sin, sin
 from kovacic.algebra.partial_fractions import decompose
 from kovacic.algebra.ratfunc import RatFunc
 from kovacic.closed_form.atoms import Atoms, factors
+from kovacic.closed_form.cuts import common_place
 from kovacic.closed_form.integrals import integral, logarithms
 from kovacic.closed_form.product import product
 from kovacic.equation import EULER, PI
@@ -105,9 +106,12 @@ def integral_of_product(term: Expr, x: Expr) -> Expr | None:
 def _integral_by_rate(rate: RatFunc, term: Expr, x: Expr) -> Expr | None:
     """int g dx for g = K h with h'/h = rate: K int h dx."""
     polynomials = _polynomial_radicands(term, x)
-    # sqrt(x^2 - 1) and the like are real for large x
-    is_real_far_away = bool(polynomials) and all(polynomial.LC().is_positive for polynomial in polynomials)
-    atoms = Atoms(x, at=sympy.oo if is_real_far_away else None)
+    at = None
+    if polynomials and all(p.LC().is_positive for p in polynomials):
+        at = sympy.oo  # where sqrt(x^2 - 1) and the like are real
+    elif polynomials and not any(p.free_symbols_in_domain for p in polynomials):
+        at = common_place(x, {p: p.as_expr() for p in polynomials})
+    atoms = Atoms(x, at=at)
     h = product(rate)
     scale, shown = factors(h, atoms)
     if any(factor.has(sympy.CRootOf) for factor in shown):  # SymPy's arithmetic with these takes minutes

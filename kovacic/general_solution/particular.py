@@ -95,7 +95,8 @@ def _solved(basis: Basis, right: Expr, start: Expr | None) -> Expr:
     if found is None:
         found = with_integrals(basis, right, start)
     terms = sympy.Add.make_args(prepared(right)) if found.has(sympy.Integral) else ()
-    if not 1 < len(terms) <= _LARGEST_SUM:
+    # not exp(x)/x and 1/x apart, which aren't defined at 0, where the difference may be
+    if not 1 < len(terms) <= _LARGEST_SUM or not (start is None or have_values(terms, basis.x, start)):
         return found
     parts = {term: _solved(basis, term, start) for term in terms}
     known = [part for part in parts.values() if not part.has(sympy.Integral)]

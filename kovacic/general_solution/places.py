@@ -6,7 +6,7 @@ the other.  At a singular point and at infinity, a condition is one on a limit, 
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, replace
 from functools import partial
 from typing import Any
@@ -140,7 +140,7 @@ def start_of(question: Question, limits: dict[Expr, Approach]) -> Expr:
     """An ordinary point on the side that is meant: the first one with a condition, or one between singular points."""
     ordinary = [point for point in given_points(question) if point not in limits]
     if ordinary:
-        return ordinary[0]
+        return next(_removable_between(question, ordinary), ordinary[0])
     poles = [*rational_poles(question)]
     finite = [approach for approach in limits.values() if not approach.is_infinite]
     if not finite:  # an integer beyond all poles
@@ -157,6 +157,14 @@ def start_of(question: Question, limits: dict[Expr, Approach]) -> Expr:
     return (place.point + nearest) / 2
 
 
+def _removable_between(question: Question, points: Sequence[Expr]) -> Iterator[Expr]:
+    """Points between the given numbers at which f/a has only a limit: solutions are continued beyond them from there."""
+    if len(points) > 1 and question.equation.change is None and all(point.is_number for point in points):
+        for point, is_removable in poles_between(question, sympy.Min(*points), sympy.Max(*points)):
+            if is_removable:
+                yield point
+
+
 def check_between(question: Question, solutions: Sequence[Expr]) -> None:
     """Raises `InputError` where a singular point lies between points of conditions or jumps.
 
@@ -170,8 +178,9 @@ def check_between(question: Question, solutions: Sequence[Expr]) -> None:
         if len({sign for point in points if (sign := sympy.sign(point - pole)) in (1, -1)}) > 1:
             raise _apart_error(pole, points)
     if all(point.is_number for point in points):
-        for pole in poles_between(question, sympy.Min(*points), sympy.Max(*points)):
-            raise _apart_error(pole, points)
+        for pole, is_removable in poles_between(question, sympy.Min(*points), sympy.Max(*points)):
+            if not is_removable:
+                raise _apart_error(pole, points)
 
 
 def _points(question: Question) -> list[Expr]:

@@ -6,7 +6,7 @@ right-hand side with polynomials, roots of x, or waves below the line.
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator
 from contextlib import suppress
 from fractions import Fraction
 from typing import Any
@@ -17,9 +17,9 @@ from kovacic.algebra.poly import Poly
 from kovacic.algebra.rationals import QQ
 from kovacic.closed_form.atoms import Atoms
 from kovacic.equation import Equation
-from kovacic.general_solution.behaviour import Approach, finite_limit
+from kovacic.general_solution.particular import right_hand_side
 from kovacic.general_solution.question import Question
-from kovacic.general_solution.substitution import finite_value
+from kovacic.general_solution.values import have_values
 from kovacic.general_solution.zero import is_zero
 from kovacic.limits import check_time
 from kovacic.reading.change_of_variable import function_of_x, is_of_a_line, is_power, user_variable
@@ -33,11 +33,11 @@ _MOST_POINTS = 200
 
 
 def is_singular(question: Question, point: Expr) -> bool:
-    """True for a finite pole of b/a, c/a or f/a, and where the rest of the right-hand side has no value."""
+    """True for a finite pole of b/a or c/a, and where f/a has neither a value nor a limit."""
     equation = question.equation
     atoms = Atoms(sympy.Symbol(equation.variable))
     at = question.own(function_of_x(equation)).subs(user_variable(equation), point)
-    for den in _denominators(equation):
+    for den in _denominators(equation, equation.h is None):
         if at.is_Rational and den.field == QQ:
             is_root = not den(Fraction(int(at.p), int(at.q)))
         else:
@@ -45,24 +45,24 @@ def is_singular(question: Question, point: Expr) -> bool:
             is_root = value.is_finite is False or is_zero(value)
         if is_root:
             return True
-    h = equation.h
-    if h is None:
+    if equation.h is None:
         return False
-    smooth = h.xreplace(dict.fromkeys(h.atoms(sympy.Heaviside, sympy.DiracDelta), sympy.Integer(0)))
-    return finite_value(smooth, question.x, point) is None
+    whole = right_hand_side(equation)
+    smooth = whole.xreplace(dict.fromkeys(whole.atoms(sympy.Heaviside, sympy.DiracDelta), sympy.Integer(0)))
+    return not have_values([smooth], question.x, point)
 
 
-def _denominators(equation: Equation) -> list[Poly]:
-    """Those of b/a, c/a and f/a that aren't constant."""
-    quotients = [part / equation.a for part in (equation.b, equation.c, equation.f)]
-    return [quotient.den for quotient in quotients if quotient.den.degree > 0]
+def _denominators(equation: Equation, with_right: bool) -> list[Poly]:
+    """Those of b/a, c/a and, if it is asked for, of the rational part of f/a that aren't constant."""
+    parts = (equation.b, equation.c, equation.f)[: 2 + with_right]
+    return [quotient.den for part in parts if (quotient := part / equation.a).den.degree > 0]
 
 
-def poles_between(question: Question, first: Expr, last: Expr) -> Iterator[Expr]:
-    """The singular points between two numbers that `rational_poles` doesn't have."""
+def poles_between(question: Question, first: Expr, last: Expr) -> Iterator[tuple[Expr, bool]]:
+    """Singular points between two numbers that `rational_poles` doesn't have; and True for removable ones of f/a."""
     x = question.x
     equation = question.equation
-    parts = [] if equation.h is None else [equation.h]
+    parts = [] if equation.h is None else [right_hand_side(equation)]
     if equation.change is not None:
         if is_power(equation) and first < 0 < last:
             yield sympy.Integer(0)
@@ -72,10 +72,8 @@ def poles_between(question: Question, first: Expr, last: Expr) -> Iterator[Expr]
         parts = [b / a, c / a, f / a]
     for below in {base: None for part in parts for base in _below_the_line(part, x)}:
         for point in _zeros(below, x, first, last):
-            is_between = point.is_number and first < point < last
-            is_candidate = is_between and (equation.change is not None or is_singular(question, point))
-            if is_candidate and not _is_analytic(parts, x, point):
-                yield point
+            if point.is_number and first < point < last:
+                yield point, have_values(parts, x, point)
 
 
 def rational_poles(question: Question) -> Iterator[Expr]:
@@ -83,15 +81,15 @@ def rational_poles(question: Question) -> Iterator[Expr]:
     equation = question.equation
     if equation.change is not None:
         return
-    for den in _denominators(equation):
+    for den in _denominators(equation, True):
         for factor, _ in den.field.factor(den):
             polynomial = question.own(Atoms(question.x).poly(factor))
             if polynomial.free_symbols != {question.x}:
                 continue
-            with suppress(
-                NotImplementedError, sympy.PolynomialError
-            ):  # an i, or roots of polynomials without a formula
-                yield from dict.fromkeys(sympy.real_roots(sympy.Poly(polynomial, question.x, extension=True)))
+            # an i, or roots of polynomials without a formula
+            with suppress(NotImplementedError, sympy.PolynomialError):
+                roots = dict.fromkeys(sympy.real_roots(sympy.Poly(polynomial, question.x, extension=True)))
+                yield from (root for root in roots if equation.h is None or is_singular(question, root))
 
 
 def _below_the_line(e: Expr, x: Expr) -> list[Expr]:
@@ -109,10 +107,8 @@ def _zeros(e: Expr, x: Expr, first: Expr, last: Expr) -> Iterator[Expr]:
     None of an expression with several functions, other than exponentials.
     """
     functions = {f for f in e.atoms(sympy.Function) if f.has(x)}
-    if len(functions) > 1 and {f.func for f in functions} != {
-        sympy.exp
-    }:  # of sin(3 x) and cos(5 x) it thinks for minutes
-        return
+    if len(functions) > 1 and {f.func for f in functions} != {sympy.exp}:
+        return  # of sin(3 x) and cos(5 x) it thinks for minutes
     t = sympy.Dummy(real=True)
     e = e.xreplace({x: t})
     if e.has(sympy.I):
@@ -127,8 +123,3 @@ def _zeros(e: Expr, x: Expr, first: Expr, last: Expr) -> Iterator[Expr]:
                 yield from zeros
                 found += len(zeros)
         first, width = end, 2 * width
-
-
-def _is_analytic(rates: Sequence[Expr], x: Expr, point: Expr) -> bool:
-    """True if the coefficients have limits at the point."""
-    return all(finite_limit(rate, x, Approach(point)) is not None for rate in rates)

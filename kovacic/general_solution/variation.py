@@ -50,7 +50,7 @@ def with_integrals(basis: Basis, right: Expr, start: Expr | None) -> Expr:
     """A solution of y'' + ... = right; integrals that aren't known stay, and begin at `start` unless it is None."""
     x = basis.x
     integrands = [powsimp(y * right / basis.wronskian) for y in (basis.y2, basis.y1)]
-    known = _known_integrals(basis, integrands)
+    known = _known_integrals(basis, integrands, start)
     if None not in known and basis.equation.change is None:
         whole = _checked(basis, known, right)
         if whole is not None:
@@ -69,14 +69,14 @@ def _from_integrals(basis: Basis, integrals: Sequence[Expr]) -> Expr:
     return basis.y2 * integrals[1] - basis.y1 * integrals[0]
 
 
-def _known_integrals(basis: Basis, integrands: Sequence[Expr]) -> list[Any]:
+def _known_integrals(basis: Basis, integrands: Sequence[Expr], start: Expr | None) -> list[Any]:
     """The integrals that are known within the limits, without exponential integrals that jump on the real axis.
 
     None of them with more than a few special functions of complex arguments, which are harder to read than an integral.
     """
     known: list[Any] = [None for _ in integrands]
     with suppress(LimitExceeded):
-        known = [_without_crossings(basis, antiderivative(integrand, basis.x)) for integrand in integrands]
+        known = [_without_crossings(basis, antiderivative(integrand, basis.x, start)) for integrand in integrands]
     functions = set().union(*(integral.atoms(*_COMPLEX) for integral in known if integral is not None))
     if sum(bool(f.has(sympy.I)) for f in functions) <= _MOST_COMPLEX:
         return known

@@ -31,7 +31,7 @@ from kovacic.reading.dialects import tokenize
 from kovacic.reading.expression import OperationPlace, RationalReader, parse_with
 from kovacic.reading.lexer import DERIVATIVES, PRIMES
 from kovacic.reading.linear import REST, DerivativeOperator, LinearArithmetic, LinearForm, differentiations, is_rational
-from kovacic.reading.names import NUMBERS, TRANSCENDENTAL_HINT
+from kovacic.reading.names import NUMBERS, TRANSCENDENTAL_HINT, is_letter
 from kovacic.reading.parser import Site, evaluate
 
 _ORDER = 2
@@ -211,12 +211,19 @@ class EquationReader(RationalReader):
         try:
             return super().call(head, arguments, site)
         except NotRational:
-            is_given = self.source.has_functions and head.isidentifier()
-            if is_given and len(arguments) == 1 and self._is_variable(arguments[0]):
+            is_given = head.isidentifier() and len(arguments) == 1 and self._is_variable(arguments[0])
+            if is_given and self.source.has_functions:
                 import sympy
 
                 return sympy.Function(head)(sympy.Symbol(self.variable))
             value = self.arithmetic.called(head, arguments)
+            if value is None and is_given and is_letter(head):
+                unknown, either = f"{self.unknown}({self.variable})", f"for a product write {head}*(...)"
+                raise NotRational(
+                    f"{site.text()} isn't a rational function of {self.variable}",
+                    hint=f'{either}; dsolve takes a given function {head} with func="{unknown}"',
+                    shell=f'{either}; dsolve takes a given function {head} with --func "{unknown}"',
+                ) from None
             if value is None:
                 raise
             return value

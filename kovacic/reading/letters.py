@@ -107,7 +107,10 @@ def _kernels(e: Expr, x: Expr, *, e_is_known: bool) -> list[Expr]:
     is_algebraic = e.is_number and e.is_algebraic and not is_power_of_e
     if is_constant and (e.is_Symbol or e is sympy.pi or is_algebraic):
         return []
-    inner = [kernel for argument in e.args for kernel in _kernels(argument, x, e_is_known=e_is_known)]
+    arguments = [
+        argument for argument in e.args if isinstance(argument, sympy.Expr)
+    ]  # a derivative has a pair beside f(t)
+    inner = [kernel for argument in arguments for kernel in _kernels(argument, x, e_is_known=e_is_known)]
     is_rational = e.is_Add or e.is_Mul or (e.is_Pow and exponent.is_Integer and not is_power_of_e)
     return [e] if is_constant and not inner and not is_rational else inner
 

@@ -162,6 +162,10 @@ def test_bernoulli_equations_with_values(problem: tuple[Any, Any, Any, int, Any]
         ("(1 + a*x)*y' = 1, y(0) = 0", "log(a*x + 1)/a"),
         ("(1 - k*x)*y' = 2*y, y(0) = 1", "(-k*x + 1)**(-2/k)"),
         ("y' = x*y + x*y^3, y(0) = 1", "1/sqrt(-1 + 2*exp(-x**2))"),
+        ("y' = y/(x*(L - x))", "C1*x**(1/L)/(L - x)**(1/L)"),
+        ("y' = b*y/(x - a), y(1) = 2", "2*((a - x)/(a - 1))**b"),
+        ("y' = 1/(3 - x)", "C1 - log(3 - x)"),
+        ("(x^2 - 1)*y' + y = 1/(x - 1), y(0) = 0", "x/(1 - x)"),
     ],
 )
 @pytest.mark.filterwarnings("ignore:this holds unless")
@@ -186,9 +190,34 @@ def test_the_general_form_of_coefficients_is_kept() -> None:
     assert str(found) == "3*exp(Integral(g(s), (s, 1, x)))"
 
 
+def test_the_hint_beside_a_function_without_a_formula() -> None:
+    with pytest.raises(kovacic.NotRational) as refused:
+        kovacic.dsolve("y'' + a(x)*y = 0")
+    assert 'dsolve takes a given function a with func="y(x)"' in str(refused.value)
+
+
 def test_a_function_without_a_formula_in_a_system_is_refused() -> None:
     with pytest.raises(kovacic.NotRational, match="isn't a rational function of t"):
         kovacic.dsolve("x' = f(t)*x - y, y' = x + f(t)*y")
+
+
+@parametrize(
+    ("equation", "f"),
+    product(
+        ["y'' = {}", "y'' + y = {}", "y'' + y' = {}", "y' = {}", "y' = {}*y", "y' = {}*y^2"],
+        ["atan(x)/x", "sin(x)/x", "(exp(x)-1)/x", "log(1+x)/x", "(1-cos(x))/x^2"],
+    ),
+    ordinary=8,
+)
+def test_values_where_a_coefficient_has_only_a_limit(equation: str, f: str) -> None:
+    """One formula, put into the equation and its values, that is real on both sides of 0."""
+    answer = kovacic.answer_to(equation.format(f), ics="y(0)=1, y'(0)=1" if "''" in equation else "y(0)=1")
+    assert answer.unchecked == ()
+    assert answer.validity.claim == "real and valid"
+    for side in (-1, 1):
+        away_from_poles = {x: Rational(side, 9)}
+        relations = [r for r in answer.validity.real if not r.has(sympy.Integral)]
+        assert all(relation.subs(away_from_poles) == sympy.true for relation in relations)
 
 
 def test_values_at_a_singular_point() -> None:
@@ -397,6 +426,13 @@ def test_json_of_systems_and_of_first_order_follows_the_schema(text: str, capsys
     assert (data["unknown"] == ["u(t)", "v(t)"]) == ("v'" in text)
 
 
+def test_an_answer_to_a_system_says_where_it_is_valid() -> None:
+    answer = kovacic.answer_to("u' = v/t, v' = -u/t, u(1) = 0, v(1) = 1")
+    assert str(answer) == "u(t) = sin(log(t))\nv(t) = cos(log(t))"
+    assert answer.eq == kovacic.dsolve("u' = v/t, v' = -u/t, u(1) = 0, v(1) = 1")
+    assert str(answer.validity) == "t > 0"
+
+
 def test_a_step_whose_side_depends_on_a_sign_is_no_step_at_its_place() -> None:
     """H(k x - 1) is H(x - 1/k) for k > 0 alone: an answer, if there is one, satisfies the equation for both signs."""
     x, k = sympy.Symbol("x"), sympy.Symbol("k", real=True, nonzero=True)
@@ -433,6 +469,10 @@ def test_a_system_with_an_impulse_is_written_as_one_wave() -> None:
         ("(1 - x^2)*y' - x*y = 1, y(0) = 0", asin(x) / sqrt(1 - x**2)),
         ("(4 - x^2)*y' + x*y = 1, y(1) = 0", x / 4 - sqrt(3) * sqrt(4 - x**2) / 12),
         ("x*y' + y/2 = x, y(-1) = 0", 2 * x / 3 + 2 / (3 * sqrt(-x))),
+        (
+            "(x^2 - 4)*y' + y = 1/(x - 2), y(0) = 0",
+            (x - 1) / (6 - 3 * x) + sympy.root((x + 2) / (2 - x), 4) / 6,
+        ),
     ],
 )
 def test_a_solution_is_real_on_the_side_of_its_value(text: str, wanted: Any) -> None:
