@@ -439,7 +439,8 @@ def foreseen_growth(rate: Callable[[acb], float], a: ExactPoint, b: ExactPoint) 
         # (t - s) min(value at s, value at t), without those that are NaN.
         pieces = zip(_MARKS, _MARKS[1:], sizes, sizes[1:], strict=False)
         least = ((t - s) * min([v for v in (x, y) if not math.isnan(v)], default=0.0) for s, t, x, y in pieces)
-        return sum(least) * float(abs(step).mid())
+        total = sum(least)
+        return total and total * float(abs(step).mid())  # 0 on an infinite way, too
 
 
 def frequency(system: System) -> Callable[[acb], float]:

@@ -388,11 +388,13 @@ def _solved(question: Question, budget: Budget, *, special: bool) -> ProblemAnsw
 def _general(question: Question, basis: Basis) -> SecondOrderAnswer:
     """C1 y1 + C2 y2 + y0, checked."""
     right = right_hand_side(question.equation)
-    is_ordinary = question.equation.change is None and not is_singular(question, sympy.S.Zero)
+    # The closed form of `solve` stays as it is there.
+    is_around_zero = (basis.form is None or right != 0) and question.equation.change is None
+    is_around_zero = is_around_zero and not is_singular(question, sympy.S.Zero)
 
     def place(arguments: Mapping[Expr, Expr]) -> Expr:
         """Around 0 if the equation is regular there."""
-        if is_ordinary:
+        if is_around_zero:
             return sympy.S.Zero
         return common_place(basis.x, arguments_with_cuts(right), arguments, own=basis.own)
 

@@ -72,7 +72,8 @@ def _direct(e: Expr, x: Expr, c: Expr) -> Any:
         found = sympy.lambdify(x, e, [_FUNCTIONS], printer=_PRINTER)(_INTERVALS.mpf([start.a, mpmath.inf]))
     except (AttributeError, NameError, TypeError, ValueError):
         return -_INFINITY
-    sign, mantissa, exponent, _ = _INTERVALS.convert(found)._mpi_[0]
+    found = _INTERVALS.convert(found)  # a constant is none of these numbers
+    sign, mantissa, exponent, _ = found._mpi_[0]
     if mantissa == 0 and exponent:  # infinite, or unknown
         return _INFINITY if found.a == mpmath.inf else -_INFINITY
     return (arb(-mantissa if sign else mantissa) * arb(2) ** exponent).lower()
