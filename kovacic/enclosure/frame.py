@@ -423,7 +423,7 @@ def largest_exponent(system: System, point: ExactPoint) -> int | None:
         return math.ceil(log2(steepest / size) / 2) if is_known else None
 
 
-def foreseen_growth(rate: Callable[[acb], float], a: ExactPoint, b: ExactPoint) -> float:
+def foreseen_growth(rate: Callable[[acb], Any], a: ExactPoint, b: ExactPoint) -> float:
     """The integral of `rate` |dx| along the segment from a to b, by the lower sum on pieces that get shorter towards both ends.
 
     No bound: between two marks the function counts as its smaller value there, and where it is NaN as nothing.  With |S|^(1/2)
@@ -432,21 +432,22 @@ def foreseen_growth(rate: Callable[[acb], float], a: ExactPoint, b: ExactPoint) 
     with working_precision(_BITS):
         start = to_acb(a)
         step = to_acb(b - a)
+        length = abs(step)
         sizes = []
         for t in _MARKS:
             check_time()
-            sizes.append(rate(start + step * t))
+            # The product may be a double where its factors aren't.
+            sizes.append(float((rate(start + step * t) * length).mid()))
         # (t - s) min(value at s, value at t), without those that are NaN.
         pieces = zip(_MARKS, _MARKS[1:], sizes, sizes[1:], strict=False)
         least = ((t - s) * min([v for v in (x, y) if not math.isnan(v)], default=0.0) for s, t, x, y in pieces)
-        total = sum(least)
-        return total and total * float(abs(step).mid())  # 0 on an infinite way, too
+        return sum(least)
 
 
-def frequency(system: System) -> Callable[[acb], float]:
-    """|S|^(1/2) as a function, about."""
+def frequency(system: System) -> Callable[[acb], arb]:
+    """|S|^(1/2) as a function."""
     num, den = system.polynomial("num"), system.polynomial("den")
-    return lambda x: float(abs(num(x) / den(x)).sqrt().mid())
+    return lambda x: abs(num(x) / den(x)).sqrt()
 
 
 def log2(value: arb) -> float:

@@ -142,7 +142,7 @@ def _foreseen(journey: Journey, problem: NumericProblem, ways: Ways, count: int,
         near = min(
             [abs(here - pole) for pole in poles if here != pole], default=math.inf
         )  # not where a solution starts
-        return max(frequent(x) / growth, 1 / near / _SHARE) / 2
+        return max(float(frequent(x).mid()) / growth, 1 / near / _SHARE) / 2
 
     discs = 0.0
     target = prices.TARGET(digits)

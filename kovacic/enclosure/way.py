@@ -205,7 +205,7 @@ class Forecast:
 
     a: ExactPoint
     b: ExactPoint
-    rate: Callable[[acb], float]
+    rate: Callable[[acb], Any]  # an arb or a double
     in_a_disc: float
     begun: float = field(default_factory=lambda: watched_seconds(math.inf))
     is_known: bool = False
