@@ -139,9 +139,8 @@ def _foreseen(journey: Journey, problem: NumericProblem, ways: Ways, count: int,
     def rate(x: acb) -> float:
         """The inverse of a disc's diameter."""
         here = complex(x)
-        near = min(
-            [abs(here - pole) for pole in poles if here != pole], default=math.inf
-        )  # not where a solution starts
+        # Without the pole where a solution starts.
+        near = min([abs(here - pole) for pole in poles if here != pole], default=math.inf)
         return max(float(frequent(x).mid()) / growth, 1 / near / _SHARE) / 2
 
     discs = 0.0
