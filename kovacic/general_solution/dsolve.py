@@ -388,15 +388,14 @@ def _solved(question: Question, budget: Budget, *, special: bool) -> ProblemAnsw
 def _general(question: Question, basis: Basis) -> SecondOrderAnswer:
     """C1 y1 + C2 y2 + y0, checked."""
     right = right_hand_side(question.equation)
-    # The closed form of `solve` stays as it is there.
-    is_around_zero = (basis.form is None or right != 0) and question.equation.change is None
-    is_around_zero = is_around_zero and not is_singular(question, sympy.S.Zero)
+    cuts = arguments_with_cuts(right)
+    # The closed form of `solve` stays as it is there, and log(x - 2) on the right is real for x > 2.
+    is_free = question.equation.change is None and not (cuts if right != 0 else basis.form)
+    is_around_zero = is_free and not is_singular(question, sympy.S.Zero)
 
     def place(arguments: Mapping[Expr, Expr]) -> Expr:
         """Around 0 if the equation is regular there."""
-        if is_around_zero:
-            return sympy.S.Zero
-        return common_place(basis.x, arguments_with_cuts(right), arguments, own=basis.own)
+        return sympy.S.Zero if is_around_zero else common_place(basis.x, cuts, arguments, own=basis.own)
 
     if basis.place is None or right != 0:
         basis = real_at(basis, place(arguments_with_cuts(sympy.Tuple(basis.y1, basis.y2))))

@@ -70,7 +70,8 @@ def needed_for(value: Expr, x: Expr, exceptions: Iterable[Expr] = ()) -> Validit
     numbers = (node for node in sympy.preorder_traversal(plain) if node.is_number)
     has_real_numbers = all(number.is_extended_real for number in numbers)
     # Of an imaginary root they have cuts.
-    cuts = (_positive(1 + e.args[0] ** 2) for e in value.atoms(sympy.atan, sympy.asinh) if e.has(*roots))
+    squares = (e.args[0].xreplace(roots) ** 2 for e in value.atoms(sympy.atan, sympy.asinh) if e.has(*roots))
+    cuts = (_positive(1 + square) for square in squares)
     needs = [*needs_of(value), *(relation for relation in cuts if relation != sympy.true)]
     found = _without_what_holds([r.xreplace(roots) for r in needs], x, exceptions, has_real_parts=has_real_numbers)
     if found is None:  # no x and letters make all parts real: it is a solution between the branch points
@@ -341,8 +342,12 @@ _not_negative = partial(_comparison, sympy.GreaterThan)
 
 
 def _of_the_same_sign(u: Expr) -> Expr:
-    """Without a rational or even factor, a^2 - x^2 for 1 - x^2/a^2; the base of a root or an odd power, u being real."""
-    if u.is_Add and u.is_rational_function() and any(p.exp.is_negative for p in u.atoms(sympy.Pow)):
+    """Without a rational or even factor, a^2 - x^2 for 1 - x^2/a^2; the base of a root or an odd power, u being real.
+
+    A sum with a letter that stands for a root is left: its square may be negative.
+    """
+    is_plain = u.is_Add and u.is_rational_function() and not u.atoms(sympy.Dummy)
+    if is_plain and any(p.exp.is_negative for p in u.atoms(sympy.Pow)):
         u = sympy.factor_terms(sympy.together(u))
         even = {p: sympy.S.One for p in sympy.Mul.make_args(u) if p.is_Pow and p.exp.is_even and p.exp.is_negative}
         u = sympy.Mul(*(even.get(factor, factor) for factor in sympy.Mul.make_args(u)))
