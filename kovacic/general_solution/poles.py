@@ -65,7 +65,7 @@ def poles_between(question: Question, first: Expr, last: Expr) -> Iterator[tuple
     parts = [] if equation.h is None else [right_hand_side(equation)]
     if equation.change is not None:
         if is_power(equation) and first < 0 < last:
-            yield sympy.Integer(0)
+            yield sympy.Integer(0), False
         elif not is_power(equation) and not is_of_a_line(equation):
             raise NotImplementedError("undecided: whether a singular point lies between the points that are given")
         a, b, c, f = map(question.own, question.coefficients)

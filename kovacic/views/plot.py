@@ -70,6 +70,8 @@ _SEEN = 2e-3
 #: Beside a singular point, up to this share of the width, a solution may be as large as it likes without being drawn whole.
 _NEAR_SINGULAR = 0.05
 _NEAR_IRREGULAR = 0.2
+#: The least size of a solution that is drawn, and the inverse of the largest.
+_LEAST = 1e-300
 #: The largest integral of sqrt|S| over a picture that nobody has chosen, and how often its interval is halved at most.
 _MODEST = 100
 _HALVINGS = 24
@@ -424,7 +426,8 @@ def _solution_curves(
             at = as_point(request.start.x0, "x0").re
         place = sympy.Rational(at.numerator, at.denominator)
         functions = _real_functions(unknown, [sympy.N(f.subs(x, place), digits) for y in pair for f in (y, y.diff(x))])
-        if not functions:
+        # Other solutions are drawn where doubles don't hold these.
+        if not functions or not all(_LEAST < sum(map(abs, values)) < 1 / _LEAST for _, values in functions):
             return []
         for curves, (name, values) in zip(found, functions, strict=True):
             initial = Start(at, str(values[0]), str(values[1]))
