@@ -438,7 +438,7 @@ class _ClosedFormSearch(ClosedForms):
             P = sympy.numer(sympy.cancel(P.subs(t, circle_point(t))))
         P = sympy.Poly(question.plain(P), t)
         for end in self.ends:
-            while end.point != sympy.oo and P.eval(end.point) == 0:
+            while end.point != sympy.oo and P(end.point) == 0:
                 P = P.quo(sympy.Poly(t - end.point, t))
         known = map(question.plain, tidied(conditions, question.signs))
         level = Algebraic(
