@@ -155,7 +155,7 @@ def lambdify(
     chart = _chart(with_variable(solution, var, limits, params), start, params, limits)
     region, candidates = chart.region(interval)
     base = None
-    if which in _PRINTED:
+    if isinstance(which, str) and which in _PRINTED:
         chart = replace(chart, given=_printed(solution, which, candidates, params))
     elif not start:
         base = chart.base(number, candidates)
@@ -178,7 +178,7 @@ def _question(initial: Start, path: Path) -> tuple[dict[str, Any], int]:
     which = initial.which
     start = fields_of(initial) if path is None else {**fields_of(initial), "path": path}
     number = 0
-    if which in _PRINTED:
+    if isinstance(which, str) and which in _PRINTED:
         if len(start) > 1:
             raise InputError(f"which={which!r} is a solution without initial values")
         return {}, 0
