@@ -389,8 +389,8 @@ def _general(question: Question, basis: Basis) -> SecondOrderAnswer:
     """C1 y1 + C2 y2 + y0, checked."""
     right = right_hand_side(question.equation)
     cuts = arguments_with_cuts(right)
-    # The closed form of `solve` stays as it is there, and log(x - 2) on the right is real for x > 2.
-    is_free = question.equation.change is None and not (cuts if right != 0 else basis.form)
+    # The pair of `solve` stays as it is there, and log(x - 2) on the right is real for x > 2.
+    is_free = question.equation.change is None and right != 0 and not cuts
     is_around_zero = is_free and not is_singular(question, sympy.S.Zero)
 
     def place(arguments: Mapping[Expr, Expr]) -> Expr:
