@@ -87,7 +87,7 @@ class RationalFunction:
     polar: tuple[tuple[Complex, Complex, int], ...] = ()
 
     def terms(self, x: Complex) -> list[Complex]:
-        """What it is the sum of at x; nothing for the zero function."""
+        """The terms of its sum at x; an empty list for the zero function."""
         terms = [horner(self.polynomial, x)] if self.polynomial else []
         for a, c, k in self.polar:
             inverse = (x - a).reciprocal()

@@ -142,7 +142,7 @@ def binary_exponent(value: Any) -> int:
 
 
 def root_below(square: Any, bits: int) -> Any:
-    """A dyadic number of about so many bits not above the root: floor(2^(bits - k) root) 2^(k - bits), 2^k about the root."""
+    """The root rounded down to about `bits` bits: floor(2^(bits - k) root) 2^(k - bits), where 2^k is about the root."""
     # 2^(2k - 1) < square < 2^(2k + 2) for k = binary_exponent(square) // 2: the integer has up to bits + 1 bits.
     grain = binary_exponent(square) // 2 - bits
     return fmpq((square / power_of_two(2 * grain)).floor().isqrt()) * power_of_two(grain)

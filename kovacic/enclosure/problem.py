@@ -206,7 +206,7 @@ class NumericProblem:
 
     @cached_property
     def equation(self) -> tuple[fmpq_poly, fmpq_poly, fmpq_poly]:
-        """The same of a rational problem, as FLINT's."""
+        """The cleared coefficients of a rational problem, as FLINT's polynomials."""
         a, b, c = (part.num.rep for part in self.cleared if isinstance(part.num, RationalPoly))
         return a, b, c
 

@@ -48,7 +48,7 @@ class Validity:
 
     @property
     def claim(self) -> str:
-        """What the formula is where the relations hold: "real and valid"; "valid" where a part of it isn't real."""
+        """Whether the relations make the formula "real and valid", or only "valid", since a part of it isn't real."""
         return "real and valid" if self.has_real_parts else "valid"
 
     def __bool__(self) -> bool:
@@ -75,7 +75,9 @@ def needed_for(value: Expr, x: Expr, exceptions: Iterable[Expr] = ()) -> Validit
     needs = [*needs_of(value), *(relation for relation in cuts if relation != sympy.true)]
     found = _without_what_holds([r.xreplace(roots) for r in needs], x, exceptions, has_real_parts=has_real_numbers)
     if found is None:  # no x and letters make all parts real: it is a solution between the branch points
-        apart = [_nonzero(relation.lhs.xreplace(roots)) for relation in needs]
+        inequalities, comparisons = sympy.sift(needs, lambda need: isinstance(need, sympy.Ne), binary=True)
+        apart = [*inequalities, *(_nonzero(need.lhs) for need in comparisons if need != sympy.false)]
+        apart = [relation.xreplace(roots) for relation in apart]
         found = _without_what_holds(apart, x, exceptions, has_real_parts=False)
     assert found is not None
     return found
@@ -84,7 +86,7 @@ def needed_for(value: Expr, x: Expr, exceptions: Iterable[Expr] = ()) -> Validit
 def _without_what_holds(
     relations: Sequence[Expr], x: Expr, exceptions: Iterable[Expr], *, has_real_parts: bool
 ) -> Validity | None:
-    """The relations that say something; None where one is false, by what is assumed of letters or beside the others."""
+    """The relations that need to be stated; None if one is false, by the assumptions on letters or beside the others."""
     relations = [*dict.fromkeys(relations)]
     if any(_is_false(relation) for relation in relations):
         return None
@@ -213,7 +215,7 @@ def _holds_for_real_symbols(relation: Expr) -> bool:
 
 
 def _in_one_interval(relations: tuple[Expr, ...], x: Expr) -> tuple[Expr, ...] | None:
-    """x > 0 for x != 0, 1 + 1/x > 0, x + 1 > 0, and without what holds there; None where nothing is left."""
+    """x > 0 for x != 0, 1 + 1/x > 0, x + 1 > 0, leaving out what holds there; None if no interval satisfies all of them."""
     rational, others = sympy.sift(relations, lambda r: r.free_symbols == {x} and _is_over_Q(r.lhs, x), binary=True)
     if len(relations) == 1 or not rational:
         return relations
@@ -326,7 +328,7 @@ def _of_power(e: Expr) -> Expr:
 
 
 def _comparison(relation: Any, u: Expr) -> Expr:
-    """u > 0 or u >= 0, also where it is known to be false, and for what isn't real, which SymPy refuses to compare.
+    """u > 0 or u >= 0, unevaluated where it is false, or where u isn't real and SymPy refuses to compare it.
 
     For u = v^2 it is v != 0, or nothing.
     """

@@ -181,7 +181,7 @@ def _where_a_logarithm_vanishes(problem: Problem) -> list[FunctionPoly] | None:
 
 
 def _obstruction(place: Place) -> Poly | None:
-    """What the recurrence n (n - Delta) c_n = ... asks to vanish for n = Delta: c_n belong to the smaller exponent.
+    """The right side of the recurrence n (n - Delta) c_n = ... at n = Delta, which has to vanish, from the smaller exponent on.
 
     None unless the place is a rational pole of order 2, and Delta a small positive integer.
     """

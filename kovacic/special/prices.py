@@ -52,8 +52,11 @@ UNIT = 0.015
 
 
 def decided_from(size: int) -> float:
-    """What Taylor's method has to take for an equation to be decided first: ten times the decision, which is in vain as often
-    as not; where S is constant, and there are two exponentials for certain, four times."""
+    """The price of Taylor's method from which it pays to decide the equation first.
+
+    Ten times that of a decision, which is in vain as often as not; four times where S is constant, with two exponentials for
+    certain.
+    """
     return 4.0 if size == 0 else 12.0
 
 

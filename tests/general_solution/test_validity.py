@@ -106,6 +106,12 @@ def test_poles_of_a_gamma_function_of_a_root() -> None:
     assert "(n + 2)/(n + 1) is none of" in str(kovacic.answer_to("y''+a*x^n*y'=0").validity)
 
 
+def test_poles_are_named_beside_complex_parts() -> None:
+    y = sympy.Function("y")(x)
+    found = kovacic.validity(sympy.Eq(y, sympy.log(-(x**2) - 1) + sympy.hyper((k,), (c,), x) / x))
+    assert (found.claim, str(found)) == ("valid", "x != 0, c is none of 0, -1, -2, ...")
+
+
 def test_a_complex_rate() -> None:
     """exp(x/k^(3/2)) has no real value for a negative k; 1/k^3 is negative, and the solutions are waves."""
     k = sympy.Symbol("k", negative=True)
