@@ -12,7 +12,7 @@ is a positive parameter there, and its value is put in at the end.
 from __future__ import annotations
 
 import re
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from contextlib import suppress
 from dataclasses import dataclass, replace
 from itertools import count
@@ -26,32 +26,25 @@ from kovacic.bound_states.question import FRIEDRICHS, Asked, SpectralProblem, co
 from kovacic.bound_states.signs import Signs
 from kovacic.equation import DEFAULT_VARIABLE, parameters_of
 from kovacic.errors import InputError, LimitExceeded, NotRational
+from kovacic.general_solution.boundary_problems import read_domain
 from kovacic.limits import Limits
 from kovacic.numbers.exact import exact_text
 from kovacic.numbers.numerals import as_text
-from kovacic.parametric.assumptions import read_assumptions
+from kovacic.parametric.assumptions import Assumptions, read_assumptions
+from kovacic.parametric.restriction import Letters, own_parameters
 from kovacic.reading.lexer import scanned
 from kovacic.reading.names import NUMBER_NAMES, is_letter
 from kovacic.reading.naming import USUAL_VARIABLES, chosen_variable
 from kovacic.reading.read import read_input
-from kovacic.reading.source import source_of
+from kovacic.reading.source import parts_of, source_of
 from kovacic.reading.substitution import value_text, values_among
 from kovacic.reading.symbolic import LIMITS as SYMBOLIC
-from kovacic.reading.symbolic import expression_of, function_of, names_of, read_expression
+from kovacic.reading.symbolic import expression_of, names_of, read_expression
 from kovacic.sturm_liouville.problem import STEPS, pieces_of
 from kovacic.writing.formula import caret
 
-#: Possible assumptions on a parameter under a root, and the resulting properties of the root.
-_SIGNS = {
-    "positive": "positive",
-    ">0": "positive",
-    "nonnegative": "nonnegative",
-    ">=0": "nonnegative",
-    "real": "nonnegative",
-}
 #: A root is enclosed between neighbouring multiples of the inverse of this number.
 _STEPS = 10**6
-_INFINITE = {"oo": sympy.oo, "+oo": sympy.oo, "inf": sympy.oo, "-oo": -sympy.oo, "-inf": -sympy.oo}
 #: V(x) = ..., V = ...
 _LEFT_SIDE = re.compile(r"\s*[VU]\s*(?:\(\s*(\w+)\s*\))?\s*=(?!=)")
 
@@ -73,9 +66,7 @@ def asked(
     """
     if not isinstance(energy, str) or not energy.isidentifier():
         raise InputError(f"{energy!r} can't be the name of the energy")
-    if len(domain) != 2 or isinstance(domain, str):
-        raise InputError("a domain is a pair of ends", hint='domain=(0, "oo")')
-    ends = [read_end(value) for value in domain]
+    ends = read_domain(domain)
     read = _read(V, None if var is None else str(var), energy, names, limits)
     x = read.variable
     values, rest = values_among(assume or {})
@@ -133,7 +124,9 @@ def problem_of(question: Asked, limits: Limits) -> SpectralProblem:
     meanings = {symbol.name for _, meaning in parsed.letters for symbol in meaning.free_symbols}
     in_S = parameters_of(parsed.S.field)
     names = (*in_S, *sorted(question.letters - meanings - {*in_S}))
-    known = read_assumptions(_assumed_of_letters(question.assumed, parsed.letters) or None, question.given, names)
+    own = own_parameters(names, parsed.letters)
+    known = read_assumptions(question.assumed or None, question.given, (*dict.fromkeys((*names, *own)),))
+    known = _with_letters(known, parsed.letters, own)
     constants = constants_among(S, names)
     for constant in constants:
         known = known.also(constant, ("irrational", "positive"))
@@ -265,31 +258,19 @@ def _schroedinger(text: str, var: str | None, energy: str, limits: Limits) -> _P
     """The equation in a text.  Raises `InputError` for one that isn't Schroedinger's."""
     source = source_of(text, var, limits, equation=True)
     whole = expression_of(source, limits)
-    psi = function_of(whole)
-    (x,) = psi.args
-    letters = [sympy.Dummy() for _ in range(3)]
-    plain = whole.subs([(psi.diff(x, order) if order else psi, letters[order]) for order in (2, 1, 0)])
-    c, b, a = (plain.diff(letter) for letter in letters)
-    is_linear = not {*letters} & (a.free_symbols | c.free_symbols) and plain.subs(dict.fromkeys(letters, 0)) == 0
-    if not is_linear or a == 0 or sympy.simplify(b) != 0:
+    parts, _ = parts_of(source_of(whole, source.variable, limits, equation=True), limits)
+    a, b, c, rest = map(sympy.sympify, parts)
+    if rest != 0 or sympy.simplify(b) != 0:
         raise InputError("an equation -k*psi'' + V*psi = E*psi is expected, without a first derivative")
     slope = sympy.cancel(c.diff(sympy.Symbol(energy)))
     if slope == 0 or slope.has(sympy.Symbol(energy)):
         raise InputError(f"the equation has no energy {energy}", hint="energy= gives it another name")
     kinetic = sympy.cancel(a / slope)
-    if kinetic.has(x) or kinetic.is_negative:
+    if kinetic.has(sympy.Symbol(source.variable)) or kinetic.is_negative:
         raise InputError(f"the factor of psi'' over that of {energy}, {kinetic}, isn't a positive constant")
     V = sympy.expand_mul(sympy.Symbol(energy) - sympy.expand_mul(c) / slope)
     _check_real(V, energy)
-    return _PotentialAsRead(V, x.name, (*source.guesses, *_of_charges(text, V)), kinetic)
-
-
-def read_end(value: Any) -> Any:
-    """An end of the domain, a number, an expression or infinite.  Raises `InputError` for anything else."""
-    text = exact_text(value, "an end of the domain")
-    if text in _INFINITE:
-        return _INFINITE[text]
-    return read_expression(text, what="an end of the domain")
+    return _PotentialAsRead(V, source.variable, (*source.guesses, *_of_charges(text, V)), kinetic)
 
 
 def _between_decimals(value: Any) -> str:
@@ -298,34 +279,21 @@ def _between_decimals(value: Any) -> str:
     return f">{sympy.Rational(below, _STEPS)} <{sympy.Rational(below + 1, _STEPS)}"
 
 
-def _assumed_of_letters(assume: Mapping[Any, Any], letters: Sequence[tuple[str, Any]]) -> Mapping[Any, Any]:
-    """What is assumed, and the sign of a letter for log(2), exp(b), or for sqrt(a): not negative, and positive where a is.
+def _with_letters(known: Assumptions, letters: Letters, parameters: Iterable[str]) -> Assumptions:
+    """With the signs of letters for exp(b), log(2), sqrt(a), and that a isn't negative, since sqrt(a) is real.
 
-    Raises `InputError` where something else than that is assumed of such an a.
+    Raises `InputError` where it is known to be negative.
     """
-    found = dict(assume)
-    for letter, meaning in letters:
+    for _, meaning in letters:
         base, exponent = meaning.as_base_exp()
-        if exponent == sympy.S.Half and base.is_Symbol:
-            found[letter] = _sign_of_root(base.name, found)
-            continue
-        real = meaning.xreplace({symbol: sympy.Dummy(real=True) for symbol in meaning.free_symbols})
-        if real.is_positive or real.is_negative:
-            found[letter] = "positive" if real.is_positive else "negative"
-    return found
-
-
-def _sign_of_root(name: str, assumed: dict[Any, Any]) -> str:
-    """Of the root of a parameter, of which nothing is `assumed` afterwards: it occurs in its root alone."""
-    key = next((key for key in assumed if str(key) == name), None)
-    if key is None:
-        return "nonnegative"
-    said = assumed.pop(key)
-    word = said.replace(" ", "") if isinstance(said, str) else said
-    if word not in _SIGNS:
-        raise InputError(
-            f"sqrt({name}) is real, and of {name} it can be assumed only that it is positive or nonnegative",
-            hint=f'assume={{"{name}": "positive"}}, or write {name} = b^2 where more is known',
-            shell=f"--assume {name}=positive, or write {name} = b^2 where more is known",
-        )
-    return _SIGNS[word]
+        is_root = base.is_Symbol and exponent.is_Rational and exponent.q % 2 == 0
+        if is_root and not {"positive", "nonnegative"} & {*known.of(base.name).sympy_properties()}:
+            known = known.also(base.name, ("nonnegative",))
+            if known.of(base.name).is_contradiction():
+                raise InputError(f"the potential isn't real: {caret(as_text(meaning))} with a negative {base}")
+    signs = Signs(known, parameters)
+    for letter, meaning in letters:
+        value = signs.real(meaning)
+        weaker = "nonnegative" if signs.is_nonnegative(value) else "real"
+        known = known.also(letter, ({1: "positive", -1: "negative"}.get(signs.sign(value) or 0, weaker),))
+    return known

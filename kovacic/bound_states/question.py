@@ -166,16 +166,19 @@ def read_boundary(boundary: str | None, ends: Sequence[Any], variable: str) -> B
         hint = f'boundary="{FRIEDRICHS}", or a condition at an end: boundary="y\'(0) = 0"'
         raise InputError(f"{boundary!r} isn't a boundary condition", hint=hint)
     reader = ConditionReader(sympy.Function("y")(sympy.Symbol(variable)), "y")
-    wishes: list[Robin | None] = [None, None]
+    wishes: dict[Any, Robin] = {}
+    finite = [end for end in ends if not end.is_infinite]
     for key, value in as_mapping(boundary).items():
         condition = reader.read(key, value)
-        places = [side for side, end in enumerate(ends) if {end} == {*condition.points}]
-        if len(places) != 1 or condition.value != 0 or ends[places[0]].is_infinite:
+        at, *others = {*condition.points}
+        wish = Robin(*condition.by_order)
+        is_one_at_an_end = not others and at in finite and at not in wishes and condition.value == 0
+        if not is_one_at_an_end or (wish.alpha.free_symbols | wish.beta.free_symbols):
             raise InputError(
-                f"{condition.text}: a condition alpha*y + beta*y' = 0 at a finite end of the domain is expected"
+                f"{condition.text}: one condition alpha*y + beta*y' = 0, with numbers, at a finite end is expected"
             )
-        wishes[places[0]] = Robin.of(((term.order, term.coefficient) for term in condition.terms), condition.text)
-    return Boundary((wishes[0], wishes[1]), boundary)
+        wishes[at] = wish
+    return Boundary((wishes.get(ends[0]), wishes.get(ends[1])), boundary)
 
 
 def number_beside(*taken: str) -> Any:

@@ -191,10 +191,7 @@ def _interval_ends(conditions: Sequence[Condition], domain: Sequence[Any] | None
                 shell="--param NAME=NUMBER gives a value",
             )
     if domain is not None:
-        if isinstance(domain, str) or len(domain) != 2:
-            raise InputError("a domain is a pair of ends", hint='domain=(0, "oo")')
-        texts = [exact_text(value, "an end of the domain") for value in domain]
-        ends = [_INFINITE_ENDS.get(text) or read_expression(text, what="an end of the domain") for text in texts]
+        ends = read_domain(domain)
         if not points <= {*ends}:
             raise InputError("the conditions are at points that aren't the ends of the domain")
     else:
@@ -207,6 +204,14 @@ def _interval_ends(conditions: Sequence[Condition], domain: Sequence[Any] | None
     if not _position_of(low) < _position_of(high):
         raise InputError("the interval is empty")
     return low, high
+
+
+def read_domain(domain: Sequence[Any]) -> list[Expr]:
+    """Two ends, numbers, expressions or infinite.  Raises `InputError` for anything else."""
+    if isinstance(domain, str) or len(domain) != 2:
+        raise InputError("a domain is a pair of ends", hint='domain=(0, "oo")')
+    texts = [exact_text(value, "an end of the domain") for value in domain]
+    return [_INFINITE_ENDS.get(text) or read_expression(text, what="an end of the domain") for text in texts]
 
 
 def _position_of(end: Expr) -> float:

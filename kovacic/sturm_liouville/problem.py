@@ -6,7 +6,7 @@ c1/a. Zeros stay where they are, and alpha y + beta y' = 0 becomes (alpha - beta
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from functools import cmp_to_key, wraps
 from itertools import combinations
@@ -52,16 +52,6 @@ class Robin:
 
     alpha: Expr
     beta: Expr
-
-    @classmethod
-    def of(cls, terms: Iterable[tuple[int, Expr]], text: str) -> Robin:
-        """From pairs of a derivative's order and its coefficient.  Raises `InputError` unless the coefficients are numbers."""
-        parts = [sympy.Integer(0), sympy.Integer(0)]
-        for order, coefficient in terms:
-            parts[order] += coefficient
-        if any(part.free_symbols for part in parts):
-            raise InputError(f"{text}: numbers are expected in it")
-        return cls(*parts)
 
     @property
     def is_zero(self) -> bool:

@@ -587,6 +587,7 @@ def test_an_end_at_an_ordinary_point_is_undecided(V: str, domain: tuple[object, 
         ("x^2", {"domain": (0, "E")}),
         ("x^2", {"boundary": "neumann"}),
         ("x^2", {"domain": "0"}),
+        ("x^2", {"domain": (0, "oo"), "boundary": "y(0) = 0, y'(0) = 0"}),
         ("a*x^2", {"assume": {"b": "positive"}}),
     ],
 )
@@ -973,17 +974,27 @@ def test_where_no_condition_is_distinguished_none_is_proposed(boundary: str | No
     assert "friedrichs" not in str(refused.value)
 
 
-@pytest.mark.parametrize("V", ["sqrt(a)*x^2", "x^2/sqrt(a)", "sqrt(a)*x^2 + a*x"])
-@parametrize("word", ["negative", "<0", "integer", ">=1", "<=-1", "0<a<3", "!=0"], ordinary=2)
-def test_nothing_is_dropped_that_is_assumed_of_a_parameter_under_a_root(V: str, word: str) -> None:
-    with pytest.raises(kovacic.InputError, match=r"of a it can be assumed only that it is positive or nonnegative"):
+@parametrize("V", ["sqrt(a)*x^2", "x^2/sqrt(a)", "sqrt(a)*x^2 + a*x", "a^(1/4)*x^2"], ordinary=2)
+@pytest.mark.parametrize("word", ["negative", "<=-1"])
+def test_a_parameter_under_a_root_is_not_negative(V: str, word: str) -> None:
+    with pytest.raises(kovacic.InputError, match=r"the potential isn't real"):
         kovacic.spectrum(V, assume={"a": word})
 
 
-@parametrize("word", ["positive", "> 0", "nonnegative", ">=0", "real"], ordinary=2)
-def test_a_parameter_under_a_root_may_be_positive(word: str) -> None:
-    (levels,) = kovacic.spectrum("sqrt(a)*x^2", assume={"a": word}).levels
-    assert bool(levels.conditions) == (word not in ("positive", "> 0"))
+@parametrize("word", ["positive", "> 0", "nonnegative", "integer", "real", ">=1"], ordinary=3)
+def test_what_is_assumed_of_a_parameter_under_a_root(word: str) -> None:
+    found = kovacic.spectrum("sqrt(a)*x^2", assume={"a": word})
+    assert bool(found.levels[0].conditions) == (word in ("nonnegative", "integer", "real"))
+    with pytest.raises(kovacic.InputError, match="contradicts the assumption"):
+        found.states({"a": -1})
+
+
+@parametrize(("factor", "value"), [("exp(b)", "3"), ("log(b)", "3"), ("b^(1/3)", "8")], ordinary=1)
+def test_a_parameter_may_occur_in_a_function_alone(factor: str, value: str) -> None:
+    found = kovacic.spectrum(f"{factor}*x^2", assume={"b": ">=2"})
+    assert found.levels[0].conditions == ()
+    (state,) = found.states({"b": value}, count=1)
+    assert sympy.simplify(state.energy**2 - sympy.sympify(factor.replace("b", value))) == 0
 
 
 #: Equations as physicists write them, what is assumed, the energies as a function of n, and values of the letters.
