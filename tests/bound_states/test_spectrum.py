@@ -290,7 +290,7 @@ WITH_CONDITIONS = [
 ]
 
 
-@parametrize(("V", "domain", "boundary", "energies", "complete"), WITH_CONDITIONS, ordinary=4)
+@parametrize(("V", "domain", "boundary", "energies", "complete"), WITH_CONDITIONS, ordinary=4, long=4)
 def test_conditions_at_an_end(V: str, domain: Any, boundary: str, energies: Any, complete: bool) -> None:
     """Neumann's at the middle of a symmetric potential gives its even levels; Robin's may have one below the infimum of V."""
     found = kovacic.spectrum(V, domain=domain, boundary=boundary)
@@ -945,6 +945,7 @@ def test_two_solutions_at_an_end(nu: str, base: str, domain: tuple[object, objec
         ("integer", (0, 2)),
     ],
     ordinary=1,
+    long=3,
 )
 def test_levels_by_degree_are_those_that_the_assumptions_admit(kind: str, degrees: tuple[int, ...]) -> None:
     """V has levels with a polynomial of degree d for m = d/2."""
@@ -1075,6 +1076,7 @@ def test_the_numbers_of_finitely_many_levels_are_listed(V: str, numbers: Any) ->
         ("3/sin(x)^2", {"domain": (0, "pi")}, None),
     ],
     ordinary=1,
+    long=4,
 )
 def test_pictures_show_each_level_at_its_height(V: str, options: Any, values: Any) -> None:
     """What the legend names is drawn: the potential, and for each energy a multiple of its wave function above it."""
@@ -1191,7 +1193,7 @@ def test_a_norm_has_a_value_for_each_level(V: str, numbers: tuple[int, ...]) -> 
         ("6*tan(x)^2 + 2*tan(x)", ("pi/2", "3*pi/2"), (1.570797, 4.712388)),
     ],
     ordinary=2,
-    long=5,
+    long=3,
 )
 def test_functions_are_real_in_every_period(V: str, domain: Any, period: tuple[float, float]) -> None:
     """Powers of sin(x/2), which is negative in some of them, and of a distance on the left of 0; with the norm."""

@@ -889,7 +889,7 @@ IN_FIELDS = {
 }  # fmt: skip
 
 
-@parametrize("text", IN_FIELDS.values(), ids=IN_FIELDS, ordinary=8, long=30, always=[IN_FIELDS["tetrahedral 4"]])
+@parametrize("text", IN_FIELDS.values(), ids=IN_FIELDS, ordinary=8, long=4, always=[IN_FIELDS["tetrahedral 4"]])
 def test_answers_over_number_fields_are_checked(text: str) -> None:
     """Case, omega and group, whatever the field is called."""
     answer = kovacic.solve(text)
@@ -908,7 +908,7 @@ def test_published_answers_in_a_number_field_are_checked(entry: Published) -> No
         assert said.startswith(("checked: ", *TOO_LARGE)), said
 
 
-@parametrize("text", IN_FIELDS.values(), ids=IN_FIELDS, ordinary=1, long=6)
+@parametrize("text", IN_FIELDS.values(), ids=IN_FIELDS, ordinary=1, long=2)
 def test_no_solvable_equation_over_a_number_field_has_a_proof_of_none(text: str) -> None:
     if kovacic.solve(text).case is not None:
         refuse(text)

@@ -170,6 +170,7 @@ KINK = ("y'' + asin(sin(x))*y = 0", 0, 3)
         KINK,
     ],
     ordinary=2,
+    long=4,
     always=[KINK],
 )
 def test_no_singular_point_is_passed(equation: str, x0: Any, place: Any) -> None:
@@ -246,7 +247,9 @@ PERIODIC = [
 ]
 
 
-@parametrize(("problem", "x"), product(PERIODIC, [-70, "1234567.5", 10**15]), ordinary=5)  # each equation, each place
+@parametrize(
+    ("problem", "x"), product(PERIODIC, [-70, "1234567.5", 10**15]), ordinary=5, long=4
+)  # each equation, each place
 def test_many_periods_are_one_step(problem: tuple[str, Any], x: Any) -> None:
     equation, exact = problem
     with mpmath.workdps(90):

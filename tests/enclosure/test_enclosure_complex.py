@@ -200,7 +200,9 @@ REAL_SOLUTIONS = ["exp(x)", "sin(x) + x", "x^2 + 1/(x + 5)", "x*log(x)", "sqrt(x
 REAL_COEFFICIENTS = [("-8/5/x^2", "(7/3 + 2/5*x)/x^2"), ("0", "1/x"), ("0", "-4"), ("3/x", "x"), ("exp(-x)", "sin(x)")]
 
 
-@parametrize(("coefficients", "solution"), product(REAL_COEFFICIENTS, REAL_SOLUTIONS), ordinary=6)  # each of both
+@parametrize(
+    ("coefficients", "solution"), product(REAL_COEFFICIENTS, REAL_SOLUTIONS), ordinary=6, long=4
+)  # each of both
 def test_real_right_hand_sides_on_ways_beside_the_axis(coefficients: tuple[str, str], solution: str) -> None:
     """Junctions of discs are rounded, and may lie on the axis; with its centre beside it, or 1/g complex, a disc isn't real."""
     b, c = coefficients

@@ -98,6 +98,7 @@ def test_a_coefficient_that_is_singular_at_the_start_is_integrated() -> None:
         ("y'' + (x - 1)^(4/3)*y' + y = cos(x)^(2/3)", 1, "3/2"),
     ],
     ordinary=2,
+    long=3,
 )
 def test_there_and_back_from_an_end_without_power_series(equation: str, x0: Any, x: Any) -> None:
     y, dy = kovacic.evaluate(equation, x, x0=x0, digits=15, derivative=True, y0="2/3", dy0="1/3")

@@ -256,7 +256,9 @@ POLES: list[Callable[[Any], Any]] = [
 ]
 
 
-@parametrize(("equation", "p"), [(equation, p) for equation in POLES for p in (1, sqrt(2), cbrt(5))], ordinary=4)
+@parametrize(
+    ("equation", "p"), [(equation, p) for equation in POLES for p in (1, sqrt(2), cbrt(5))], ordinary=4, long=4
+)
 def test_values_on_two_sides_of_a_pole(equation: Callable[[Any], Any], p: Any) -> None:
     """The pole was found where coefficients were rational, or a logarithm changed its sign."""
     with pytest.raises(kovacic.InputError, match="a singular point of the equation lies between"):
@@ -336,7 +338,7 @@ def test_limits(left: Any, ics: dict[Any, Any], expected: Any) -> None:
         ("x^2*y'' + (2*v+1)*x*y' - k*y = 0", "y(1)=1, y(0)=0", POSITIVE, "x**(-v + sqrt(k + v**2))"),
     ],
     ordinary=2,
-    long=11,
+    long=4,
     ids=str,
 )
 def test_limits_with_letters(text: str, ics: str | None, assume: dict[str, str], expected: str) -> None:

@@ -633,6 +633,7 @@ def test_sympy_s_own_equations() -> None:
         ("2*x^2*y'' + 3*x*y' - y = 1/(x-1)", None),
     ],
     ordinary=1,
+    long=4,
 )
 def test_variation_of_products(text: str, functions: set | None) -> None:
     """Own integrals, without SymPy's; no multiple of a solution of the homogeneous equation is added."""
@@ -673,7 +674,7 @@ def test_a_singular_point_between() -> None:
     assert dsolve("x^2*y'' - 2*x*y' + 2*y = 0", ics={"y(-1)": 0, "y(1)": 2}).rhs == x**2 + x
 
 
-@parametrize("seed", range(30), ordinary=1, long=12)
+@parametrize("seed", range(30), ordinary=1, long=3)
 def test_constants_keep_the_limit(seed: int) -> None:
     """Initial and boundary values within a second more than the limit; what isn't found in time is an `Integral`, or said."""
     random = Random(seed)

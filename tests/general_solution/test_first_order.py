@@ -73,7 +73,7 @@ LINEAR: list[tuple[Any, Any, int, Any]] = [
 ]
 
 
-@parametrize("problem", LINEAR, ids=str, ordinary=8, long=30)
+@parametrize("problem", LINEAR, ids=str, ordinary=8, long=4)
 @pytest.mark.filterwarnings("ignore:this holds unless n - 3")
 def test_linear_equations_with_values(problem: tuple[Any, Any, int, Any]) -> None:
     a, b, point, value = problem
@@ -281,7 +281,7 @@ def test_systems_with_values(problem: tuple[Any, Any, int, Any, Any]) -> None:
         assert abs(number(answer.rhs, start + 0.75, t) - value) < 1e-12 * (1 + abs(value))
 
 
-@parametrize("problem", SYSTEMS, ids=str, ordinary=4, long=30)
+@parametrize("problem", SYSTEMS, ids=str, ordinary=4, long=4)
 @pytest.mark.filterwarnings("ignore:this holds unless")
 def test_general_solutions_of_systems(problem: tuple[Any, Any, int, Any, Any]) -> None:
     first, second, start, *_ = problem
@@ -355,6 +355,7 @@ JUMPS = ["Heaviside(t - 1)", "Piecewise((1, t < 1), (0, True))", "abs(t - 1)"]
     ("system", "jump"),
     product(JUMPING, JUMPS),
     ordinary=1,
+    long=4,
     always=[*zip(JUMPING, [JUMPS[0], JUMPS[1], JUMPS[2], JUMPS[1], JUMPS[0]], strict=True)],
 )
 def test_the_unknowns_of_a_system_are_continuous_at_jumps(system: tuple[str, str], jump: str) -> None:

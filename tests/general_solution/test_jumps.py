@@ -203,7 +203,7 @@ AT_A_LETTER = [
 ]
 
 
-@parametrize(("f", "left"), product(AT_A_LETTER, [(0, 1), (3, 2)]), ordinary=2)
+@parametrize(("f", "left"), product(AT_A_LETTER, [(0, 1), (3, 2)]), ordinary=2, long=2)
 def test_a_step_at_a_parameter_beside_the_given_values(f: Any, left: tuple[Any, Any]) -> None:
     """At every value of a, before the given point, behind it and there, the answer with a is the one for that value."""
     b, c = map(sympy.sympify, left)
@@ -216,7 +216,7 @@ def test_a_step_at_a_parameter_beside_the_given_values(f: Any, left: tuple[Any, 
         agree(found.subs(A, value), member, [sympy.Rational(k, 7) for k in (-3, 5, 10, 18, 30)])
 
 
-@parametrize("s", [sympy.Integer(-2), sympy.Rational(3, 2), sympy.Integer(0), A], ordinary=1)
+@parametrize("s", [sympy.Integer(-2), sympy.Rational(3, 2), sympy.Integer(0), A], ordinary=1, long=1)
 @parametrize(
     ("b", "c", "f", "wanted"),
     [
@@ -228,6 +228,7 @@ def test_a_step_at_a_parameter_beside_the_given_values(f: Any, left: tuple[Any, 
         (0, -4, sympy.exp(-abs(x)), (sympy.exp(-2 * abs(x)) / 2 - sympy.exp(-abs(x))) / 3),
     ],
     ordinary=3,
+    long=1,
 )
 def test_bounded_solutions_about_a_source(b: int, c: int, f: Any, wanted: Any, s: Any) -> None:
     """The bounded solution on the whole line, for a source at any place: its own Green's function, moved there."""
@@ -273,6 +274,7 @@ def test_green_functions_from_a_singular_point_to_infinity(left: str, below: Any
         sympy.exp(sympy.sin(sympy.sign(x))),
     ],
     ordinary=3,
+    long=3,
 )
 def test_functions_of_steps_are_integrated_on_either_side(f: Any) -> None:
     """No integral is left; y = H u + (1 - H) v, checked at points on all sides."""
@@ -333,7 +335,7 @@ def test_a_shift_is_written_as_the_impulse_is() -> None:
 LOADS = [-Heaviside(x - A) * (x - A), -DiracDelta(x - A, 1), Heaviside(x - A) - Heaviside(x - A - 1), x - abs(x - A)]
 
 
-@parametrize(("f", "c"), product(LOADS, [0, 1]), ordinary=2)
+@parametrize(("f", "c"), product(LOADS, [0, 1]), ordinary=2, long=3)
 def test_a_load_between_two_ends_at_parameters(f: Any, c: int) -> None:
     """A beam or a string from 0 to L, the load before it, on it and behind it."""
     L = sympy.Symbol("L", real=True)

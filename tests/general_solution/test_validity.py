@@ -245,7 +245,7 @@ def test_an_answer_is_shown_as_its_formula() -> None:
         *("1/(1-2*cos(x))", "1/(3*cos(x)-1)", "sec(x)*csc(x)", "1/(cos(x)-2*sin(x))", "1/(1+2*sin(x))", "cot(x)^2"),
     ],
     ordinary=2,
-    long=13,
+    long=4,
 )
 def test_answers_in_logarithms_of_waves_are_real_for_small_angles(right: str) -> None:
     """They were log(tan(x/2) - sqrt(3)) beside log(2*cos(x) + 1), both of which are real nowhere."""

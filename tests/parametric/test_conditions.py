@@ -431,6 +431,7 @@ def test_an_integer_is_not_called_like_a_parameter() -> None:
         ("a*x^6 + (w^2+1)*x^3 + b/x^2", "w^2 + 1 = 0", [(1, "I", 6), (1, "-I", 2), (0, "I", 0), (1, 2, 6)]),
     ],
     ordinary=5,
+    long=2,
 )
 def test_hypersurfaces_from_which_no_parameter_is_eliminated(
     S: str, curve: str, points: list[tuple[object, ...]]

@@ -112,7 +112,7 @@ def test_solutions_are_those_of_the_equation_that_was_given(name: str) -> None:
     assert Conditions.from_json(answer.to_json()) == answer
 
 
-@parametrize("name", SOME, ordinary=2)
+@parametrize("name", SOME, ordinary=2, long=4)
 def test_answers_are_read_back(name: str) -> None:
     """With everything that is printed of them."""
     answer = kovacic.conditions(FAMILIES[name], var="x", max_degree=0)

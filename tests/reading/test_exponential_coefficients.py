@@ -274,6 +274,7 @@ def test_values_of_a_closed_form_with_constants_as_initial_values() -> None:
         ("y'' + y/(exp(x) - 1) = 0", 1, 0, "at the end 0"),
     ],
     ordinary=1,
+    long=2,
 )
 def test_singular_points_on_the_way_are_refused(equation: str, x0: Any, x: Any, message: str) -> None:
     with pytest.raises(kovacic.InputError, match=message):
@@ -561,7 +562,7 @@ SHAPES = [
 SPECIAL = [F(k, 4) for k in (-9, -8, -4, -3, -1, 1, 3, 4, 5, 8, 15)]
 
 
-@parametrize("shape", SHAPES, ordinary=1, always=["a*exp(2*x) + b*exp(x) + c", "a/sin(x)^2 + b"])
+@parametrize("shape", SHAPES, ordinary=1, long=4, always=["a*exp(2*x) + b*exp(x) + c", "a/sin(x)^2 + b"])
 def test_the_variable_is_the_same_for_letters_and_special_numbers(shape: str) -> None:
     family = kovacic.conditions(shape, var="x", max_degree=0)
     names = family.parameters
