@@ -353,7 +353,7 @@ def test_motions_that_just_turn_are_periodic():
         assert motion.period is not None
 
 
-@pytest.mark.parametrize("R1", [3, "-7/2"])
+@pytest.mark.parametrize("R1", [3, pytest.param("-7/2", marks=pytest.mark.long)])
 def test_the_start_is_where_the_state_says(R1):
     """u1 and v1 are the contact point's, inside too; the ball moves there along e_u as theta says."""
     sphere = BALLS["l > 0"].on_sphere(R1)

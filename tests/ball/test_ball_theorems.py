@@ -320,7 +320,7 @@ def test_theorem_1_by_the_engine(roots):
         assert (answer.case, answer.riccati.degree, answer.verified, answer.group.name) == (1, 1, True, "mu_4"), N
 
 
-@parametrize("roots", ROOTS, ordinary=2, ids=str)
+@parametrize("roots", ROOTS, ordinary=(2,), ids=str)
 def test_theorem_2_by_the_engine(roots):
     for q in range(3, 9) if roots == ROOTS[0] else (3, 5):
         for p in range(1, 16, 3) if roots == ROOTS[0] else (1, 4):

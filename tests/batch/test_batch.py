@@ -337,7 +337,10 @@ def single() -> Iterator[Pool]:
         yield running
 
 
-@pytest.mark.parametrize(("timeout", "seconds", "label"), [(0.05, 600.0, "undecided"), (60.0, 0.3, "none")])
+@pytest.mark.parametrize(
+    ("timeout", "seconds", "label"),
+    [(0.05, 600.0, "undecided"), pytest.param(60.0, 0.3, "none", marks=pytest.mark.long)],
+)
 def test_a_late_line_ends_and_costs_no_other(timeout: float, seconds: float, label: str) -> None:
     """What waited behind it in the same lot is given back, answered, and the pool knows that nothing is left.
 
@@ -353,7 +356,7 @@ def test_a_late_line_ends_and_costs_no_other(timeout: float, seconds: float, lab
 @pytest.mark.parametrize(
     ("serve", "words", "replaced"),
     [
-        (workers.leaves, "the worker process ended with exit status 0", 1),
+        pytest.param(workers.leaves, "the worker process ended with exit status 0", 1, marks=pytest.mark.long),
         (workers.is_killed, "the worker process ended with signal SIGKILL", 4),
     ],
     ids=["leaves", "is killed"],

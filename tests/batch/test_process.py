@@ -9,6 +9,7 @@ from pathlib import Path
 from typing import Any
 
 import pytest
+from build import parametrize
 from processes import answered, talks
 
 from kovacic.errors import LimitExceeded
@@ -16,12 +17,12 @@ from kovacic.limits import Budget, Limits
 from kovacic.process import Process, computed_apart
 
 
-@pytest.mark.parametrize("value", [None, 1, "x^2 + 3", (None, (2**100,))])
+@parametrize("value", [None, 1, "x^2 + 3", (None, (2**100,))], ordinary=(1,))
 def test_the_value_comes_back(value: Any) -> None:
     assert computed_apart("answer", answered, "a value", value) == value
 
 
-@pytest.mark.parametrize("how", ["an exception", "an end"])
+@pytest.mark.parametrize("how", [pytest.param("an exception", marks=pytest.mark.long), "an end"])
 def test_without_a_value_there_is_a_reason(how: str) -> None:
     with pytest.raises(LimitExceeded, match="a process of its own gave no answer"):
         computed_apart("answer", answered, how, 1)

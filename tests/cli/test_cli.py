@@ -636,7 +636,15 @@ def test_an_option_without_effect_is_refused(line: str, message: str, capsys: py
     assert shown.out == ""
 
 
-@pytest.mark.parametrize("joined", ["a>3, a<5", "a>3,<5", "3<a<5", "a>3,a<5,a!=4"])
+@pytest.mark.parametrize(
+    "joined",
+    [
+        pytest.param("a>3, a<5", marks=pytest.mark.long),
+        pytest.param("a>3,<5", marks=pytest.mark.long),
+        "3<a<5",
+        "a>3,a<5,a!=4",
+    ],
+)
 def test_assumptions_may_stand_in_one_option(joined: str, capsys: pytest.CaptureFixture[str]) -> None:
     """a = 3 + 2 k has a solution where a is odd, so that all of these leave none, and a > 2 alone some."""
     assert run(["solve", "x^2 + a", "--assume", joined]) == 0

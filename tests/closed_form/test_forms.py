@@ -50,7 +50,7 @@ def check_dihedral(n: int, f: RatFunc) -> None:
     assert len(str(form.y1)) + len(str(form.y2)) < 2500
 
 
-@pytest.mark.parametrize("n", [90, 110, 301])
+@pytest.mark.parametrize("n", [90, 110, pytest.param(301, marks=pytest.mark.long)])
 def test_functions_on_a_curve_stay_products(n: int) -> None:
     check_dihedral(n, GENUS_ONE[0])
 
@@ -188,7 +188,14 @@ def check_transform(name: str, a: RatFunc, b: RatFunc) -> None:
 
 @pytest.mark.parametrize(
     "name",
-    ["Airy in 2^(1/3) x", "Airy in x^2 + 1/x", "Bessel of order 2", "Weber", "Gauss in x^2/(x + 1)", "icosahedral"],
+    [
+        "Airy in 2^(1/3) x",
+        pytest.param("Airy in x^2 + 1/x", marks=pytest.mark.long),
+        "Bessel of order 2",
+        "Weber",
+        pytest.param("Gauss in x^2/(x + 1)", marks=pytest.mark.long),
+        pytest.param("icosahedral", marks=pytest.mark.long),
+    ],
 )
 def test_gauge_transforms_are_found(name: str) -> None:
     check_transform(name, *PAIRS[0])
@@ -367,7 +374,7 @@ def test_logarithms_are_real_where_the_roots_before_them_are(a: str, b: int) -> 
 @pytest.mark.parametrize(
     "equation",
     [
-        "y'' = (x^2 + 2001)*y",
+        pytest.param("y'' = (x^2 + 2001)*y", marks=pytest.mark.long),
         "(1-x^2)*y'' - 2*x*y' + 500*501*y = 0",
         "x*y'' + (1-x)*y' + 500*y = 0",
         "x^2*y'' + x*y' - (x^2 + (400+1/2)^2)*y = 0",
@@ -405,6 +412,7 @@ def test_solutions_that_are_real_between_two_points_stay_so() -> None:
     assert sympy.expand(general.subs({"C1": 1, "C2": 0}) - pair[0]) == 0
 
 
+@pytest.mark.long
 def test_gauss_functions_are_written_where_they_are_real() -> None:
     """2F1(f) is real for f < 1: (1 - f)^e stands before it, not (f - 1)^e, for functions f of a higher degree, too."""
     for z in ("x^2+4*x/3", "x^2+2*x/3", "x^2+4*x"):

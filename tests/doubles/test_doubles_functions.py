@@ -177,6 +177,7 @@ def test_the_ball_has_its_known_solution_on_the_curve() -> None:
         assert np.ptp(np.log(y / known[which])) < 1e-12
 
 
+@pytest.mark.long
 def test_conjugate_solutions_of_an_oscillating_case_2_multiply_to_the_amplitude() -> None:
     x = np.linspace(0.1, 25, 9)  # y1 y2 = sqrt(x) for S = -1/x - 3/(16 x^2): x^(1/4) exp(+-2 i sqrt(x))
     first, second = (lambdify(kovacic.solve("-1/x - 3/(16*x^2)"), interval=(0, 26), which=w)(x) for w in (0, 1))
@@ -321,7 +322,7 @@ def test_functions_with_values_of_parameters() -> None:
         ("x*y'' + (1-x)*y' + 120*y = 0", (0, 400)),  # Laguerre
         ("x^2*y'' + 2*x*y' + (x^2 - 80*81)*y = 0", (0, 600)),  # spherical Hankel: the zeros are complex
     ],
-    ordinary=1,
+    ordinary=0,
 )
 def test_polynomials_with_many_zeros_are_tabulated(equation: str, interval: Any) -> None:
     """Up to singular points, too, and with the values of the known functions."""

@@ -109,6 +109,7 @@ def test_derivatives_of_product_forms_are_those_of_evaluate(equation: str, inter
     assert (np.abs(dy - np.array([complex(b) for _, b in balls])) < 1e-12 * sizes).all()
 
 
+@pytest.mark.long
 def test_derivatives_at_zeros_and_of_long_tables() -> None:
     """x (4 x^4 - 20 x^2 + 15), and cos on 1,000 periods."""
     hermite = kovacic.solve("y'' - 2*x*y' + 10*y = 0").lambdify(interval=(-2, 2))
@@ -169,13 +170,20 @@ def test_tables_may_have_tens_of_thousands_of_pieces(equation: str, interval: tu
     ("equation", "interval", "start", "exact"),
     [
         pytest.param("-1", (0, 3142), SINE, math.sin, marks=pytest.mark.long),
-        ("y'' + 2*y' + 101*y = 0", (-1, 30), SINE, lambda x: math.exp(-x) * math.sin(10 * x) / 10),
+        pytest.param(
+            "y'' + 2*y' + 101*y = 0",
+            (-1, 30),
+            SINE,
+            lambda x: math.exp(-x) * math.sin(10 * x) / 10,
+            marks=pytest.mark.long,
+        ),
         ("4", (0, 9), {"x0": "1/3", "y0": 1, "dy0": 0}, lambda x: math.cosh(2 * x - 2 / 3)),
-        (
+        pytest.param(
             "-1 + 2/x^2",
             (1, 1000),
             {"x0": 1, "y0": "sin(1) - cos(1)", "dy0": "cos(1)"},
             lambda x: math.sin(x) / x - math.cos(x),
+            marks=pytest.mark.long,
         ),
     ],
 )

@@ -248,7 +248,7 @@ PERIODIC = [
 
 
 @parametrize(
-    ("problem", "x"), product(PERIODIC, [-70, "1234567.5", 10**15]), ordinary=5, long=4
+    ("problem", "x"), product(PERIODIC, [-70, "1234567.5", 10**15]), ordinary=(0,), long=4
 )  # each equation, each place
 def test_many_periods_are_one_step(problem: tuple[str, Any], x: Any) -> None:
     equation, exact = problem

@@ -346,7 +346,9 @@ def test_arrays_of_no_dimension_are_numbers() -> None:
     assert evaluate(bessel(0), numpy.array([]), x0=0, which="regular").shape == (0,)
 
 
-@pytest.mark.parametrize(("side", "vertex"), [("above", "1 + I"), ("below", "1 - I")])
+@pytest.mark.parametrize(
+    ("side", "vertex"), [pytest.param("above", "1 + I", marks=pytest.mark.long), ("below", "1 - I")]
+)
 def test_from_infinity_around_a_singular_point(side: Any, vertex: str) -> None:
     gauss = "x*(1-x)*y'' + (5/4 - 11/6*x)*y' - 1/6*y = 0"
     start: dict[str, Any] = {"x0": "oo", "which": "regular"}

@@ -711,7 +711,7 @@ def test_a_gauge_with_its_poles_where_the_exponents_of_a_dicyclic_group_are(
         assert group.order == 2 * (len(one) * len(other) // len(one & other))
 
 
-@pytest.mark.parametrize("multiple", [13, 37])
+@pytest.mark.parametrize("multiple", [13, pytest.param(37, marks=pytest.mark.long)])
 def test_of_three_pairs_of_lines_the_one_with_the_fewest_zeros_is_taken(multiple: int) -> None:
     """u + 1/u and u - 1/u are products of solutions of a quaternion equation, too, with more and more zeros; y1 y2 has none."""
     f = (X**4 - X + 3) / (X**2 + 2)

@@ -27,7 +27,7 @@ def test_the_orders_of_points_on_an_elliptic_curve() -> None:
         order(2, 1)
 
 
-@pytest.mark.parametrize("p", [23, 41])
+@pytest.mark.parametrize("p", [23, pytest.param(41, marks=pytest.mark.long)])
 def test_orders_that_are_found_from_a_multiple(p: int) -> None:
     """On y^2 = x^3 + 1 for a p that is larger than the orders: the number of all points is near p."""
     curve = Jacobian(nmod_poly([1, 0, 0, 1], p))

@@ -479,7 +479,10 @@ def test_an_expansion_is_foreseen_wherever_sums_are_multiplied(power: str, outsi
             prepared(integrand(12))
 
 
-@pytest.mark.parametrize("kind", ["root", "function", "exponential"])
+@pytest.mark.parametrize(
+    "kind",
+    [pytest.param("root", marks=pytest.mark.long), pytest.param("function", marks=pytest.mark.long), "exponential"],
+)
 def test_an_expansion_is_foreseen_where_a_long_factor_stands_in_many_terms(kind: str) -> None:
     """400 terms, each of them with a factor of a hundred parts; a shorter factor isn't refused."""
 
@@ -499,7 +502,7 @@ def test_an_expansion_is_foreseen_where_a_long_factor_stands_in_many_terms(kind:
             prepared(integrand(40))
 
 
-@pytest.mark.parametrize("outside", ["1", "sin(x)", "exp(x^2)"])
+@pytest.mark.parametrize("outside", [pytest.param("1", marks=pytest.mark.long), "sin(x)", "exp(x^2)"])
 def test_a_product_of_polynomials_is_no_long_expansion(outside: str) -> None:
     """Powers of the variable are gathered: 31 terms, and not 2^30."""
     product = sympy.Mul(*[x + k for k in range(1, 31)]) * sympy.sympify(outside.replace("^", "**"))

@@ -144,7 +144,7 @@ def test_a_limit_within_the_search_is_a_value(seconds: float) -> None:
         (1, "b*x + c"),
         (2, "b*x^3"),
     ],
-    ordinary=2,
+    ordinary=(4,),
     long=4,
 )
 def test_a_logarithm_leaves_case_1(first: int, rest: str) -> None:

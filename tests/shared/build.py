@@ -11,7 +11,7 @@ needs more of the inside says so by its imports.
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Collection, Iterable, Sequence
 from typing import Any
 
 import pytest
@@ -103,20 +103,22 @@ def parametrize(
     names: str | tuple[str, ...],
     values: Iterable[Any],
     *,
-    ordinary: int,
+    ordinary: int | Collection[int],
     long: int | None = None,
     always: Sequence[Any] = (),
     **options: Any,
 ) -> pytest.MarkDecorator:
-    """`pytest.mark.parametrize` of which `ordinary` values, spread evenly, are in the ordinary suite; the others are `long`.
+    """`pytest.mark.parametrize` of which `ordinary` values are in the ordinary suite; the others are `long`.
 
+    `ordinary` is how many, spread evenly, or the places of those that cover every branch that the others cover.
     For properties of which every member takes a while: a few say at once that something broke, all of them run in .ci/run.
     Where that takes minutes, `long` is how many of the others, spread evenly, run there; the rest is `slow`.  A value that
     alone covers a branch is ordinary `always`.
     """
     members = list(values)
     one_name = isinstance(names, str) and "," not in names
-    at_once = _spread(range(len(members)), ordinary) | {members.index(member) for member in always}
+    chosen = _spread(range(len(members)), ordinary) if isinstance(ordinary, int) else set(ordinary)
+    at_once = chosen | {members.index(member) for member in always}
     others = [index for index in range(len(members)) if index not in at_once]
     in_ci = _spread(others, len(others) if long is None else long)
     marked = []
