@@ -77,7 +77,9 @@ _COMMANDS = {
 }
 #: Words that are one name in LaTeX without a backslash, too; mu and nu may be products.
 _LATEX_WORDS = sorted(
-    (*FUNCTION_NAMES, *(name for name in GREEK if len(name) > 2), "pi", "diff"), key=len, reverse=True
+    (*FUNCTION_NAMES, *(name for name in GREEK if len(name) > 2), "pi", "diff", "Piecewise", "True"),
+    key=len,
+    reverse=True,
 )
 _LATEX_PARTS = re.compile(rf"(?:{'|'.join(_LATEX_WORDS)})(?![A-Za-z])|[^\W\d_](?:_[A-Za-z0-9])?|[0-9]+|_")
 
@@ -173,9 +175,8 @@ class _Latex:
         return error_at(self.text, message, [token], hint)
 
 
-#: d^2 y, d^2 P_l, d y(x) without brackets.
-_NUMERATOR = re.compile(rf"d\^?([2-9]?)({LETTER}(?:_(?:[0-9]+|[A-Za-z]))?)?({LETTER})?")
-_DENOMINATOR = re.compile(rf"d({LETTER})\^?([2-9]?)")
+#: d^2 y/dx^2, d^2 P_l/dx^2, d y(x)/dx, d/dx without brackets.
+_QUOTIENT = re.compile(rf"d\^?([2-9]?)({LETTER}(?:_(?:[0-9]+|[A-Za-z]))?)?(?:{LETTER})?/d({LETTER})\^?\1")
 #: \partial_x, ∂ₓₓ.
 _INDEXED_OPERATOR = re.compile(r"d_([a-z])\1*")
 #: Fractions and roots without braces within each other: 2^20 looks where each is looked at twice.
@@ -317,7 +318,7 @@ class _Translation:
         while y is None:  # what follows is differentiated, perhaps more than once
             end += self.texts[end] == "*"
             inner = self.quotient(end)
-            if inner is None or inner[0] is not None or inner[1] != x:
+            if inner is None or inner[:2] != (None, x):
                 break
             order, end = order + inner[2], inner[3]
         by = [("COMMA", ","), ("NAME", x), ("COMMA", ","), ("NUMBER", str(order)), ("RPAR", ")")]
@@ -344,35 +345,32 @@ class _Translation:
     def quotient(self, k: int) -> tuple[str | None, str, int, int] | None:
         """y or None, x, the order, and the number of the token behind d^2y/dx^2 or d^2/dx^2; None for anything else."""
         text = self.texts[k]
-        if _INDEXED_OPERATOR.fullmatch(text) and self.text.startswith(("∂", "\\partial"), self.scan[k].start):
-            power, behind = self.exponent(k + 1)
-            power = power or "1"
-            return (None, text[2], int(power) * len(text[2:]), behind) if power.isdigit() else None
         closing = self.partner.get(k, k)
-        if 0 < closing - k < _LONGEST_QUOTIENT:
-            inner = self.quotient(k + 1)
-            if inner is not None and inner[3] == closing:
-                y, x, order, _ = inner
-                power, behind = self.exponent(closing + 1)
-                if y is not None or not power:
-                    return y, x, order, closing + 1
-                return (None, x, order * int(power), behind) if power.isdigit() else None  # (d/dx)^2 y
+        if _INDEXED_OPERATOR.fullmatch(text) and self.text.startswith(("∂", "\\partial"), self.scan[k].start):
+            return self.operator(text[2], len(text) - 2, k + 1)
+        inner = self.quotient(k + 1) if 0 < closing - k < _LONGEST_QUOTIENT else None
+        if inner is not None and inner[3] == closing:
+            y, x, order, _ = inner
+            return (y, x, order, closing + 1) if y else self.operator(x, order, closing + 1)
         if text in FRACTIONS:
-            begin, middle = k + 1, self.operand_end(k + 1)
+            middle = self.operand_end(k + 1)
             end = middle and self.operand_end(middle)
         elif (text.startswith("d") or closing > k) and "/" in self.texts[k : k + _LONGEST_QUOTIENT]:
-            begin, middle = k, self.texts.index("/", k)
+            middle = self.texts.index("/", k)
             first = middle + 1  # of dx^2, (dx)^2 or (dx^2)
             end = self.power_end(first + 2 if self.texts[first] == "d" else self.partner.get(first, first) + 1)
         else:
             return None
         if middle is None or end is None or end - k > _LONGEST_QUOTIENT or closing > middle:  # (d/dx + 1)
             return None
-        numerator = _NUMERATOR.fullmatch(self.compact(begin, middle))
-        denominator = _DENOMINATOR.fullmatch(self.compact(middle, end).removeprefix("/"))
-        if not numerator or not denominator or numerator[1] != denominator[2]:
-            return None
-        return numerator[2], denominator[1], int(numerator[1] or 1), end
+        above, below = self.compact(k, middle), self.compact(middle, end)
+        found = _QUOTIENT.fullmatch(f"{above.removeprefix(text)}/{below}" if text in FRACTIONS else above + below)
+        return found and (found[2], found[3], int(found[1] or 1), end)
+
+    def operator(self, x: str, order: int, k: int) -> tuple[None, str, int, int] | None:
+        """The quotient of an operator, (d/dx)^2, whose exponent begins with number k; None if that isn't a number."""
+        power, end = self.exponent(k)
+        return (None, x, order * int(power or 1), end) if (power or "1").isdigit() else None
 
     def method(self, token: Token) -> bool:
         """y(x).diff(x, 2): what stands before the point is differentiated."""
@@ -499,10 +497,24 @@ class _Translation:
         if token.text == "{" and self.texts[k + 1] == "(" and self.partner.get(k + 1) == self.partner.get(k, 0) - 1:
             self.skipped.add(self.partner[k])  # y{\left(x\right)}, as SymPy prints it
             return True
+        if token.text == "{" and self.texts[max(0, k - 2) : k] == ["Piecewise", "["] and k - 1 in self.partner:
+            self.pieces(self.partner[k], self.partner[k - 1])
+            return True
         if self.is_application(token, k):
             self.found[-1] = self.found[-1]._replace(kind="HEAD")
         self.write("LPAR", "(", token)
         return True
+
+    def pieces(self, inner: int, outer: int) -> None:
+        """Mathematica's Piecewise[{{1, x < 5}}, 2] as Piecewise((1, x < 5), (2, True)); the last value is 0 by default.
+
+        Its braces and its brackets close at tokens `inner` and `outer`.
+        """
+        self.skipped.add(inner)
+        default = [] if self.texts[inner + 1] == "," else [("COMMA", ","), ("LPAR", "("), ("NUMBER", "0")]
+        if not default:
+            self.later(inner + 2, ("LPAR", "("))
+        self.later(outer, *default, ("COMMA", ","), ("OTHERWISE", "True"), ("RPAR", ")"))
 
     def is_application(self, token: Token, k: int) -> bool:
         """True if the parenthesis is the argument of the name before it."""

@@ -106,9 +106,11 @@ def _ordinary(text: str, k: int) -> str:
     character = text[k]
     if character.isascii():
         return character
+    before = text[k - 1 : k]
+    if character == "∞" and before.isalpha():  # T∞ is T_∞
+        return "_oo"
     if character in _CHARACTERS:
         return _CHARACTERS[character]
-    before = text[k - 1 : k]
     if character in _FRACTIONS:
         is_mixed = before.isdecimal()
         return character if is_mixed else f"({unicodedata.normalize('NFKC', character)})".replace("\u2044", "/")

@@ -41,8 +41,6 @@ INSTEAD |= {"sen": "sin(...)", "cosec": "csc(...)", "sh": "sinh(...)", "ch": "co
 INSTEAD |= dict.fromkeys(("log2", "log10", "lg", "log_2", "log_10"), "log(x)/log(b) for the logarithm to the base b")
 #: Powers as calls: of C, SymPy and Mathematica, of spreadsheets.
 POWER_CALLS = frozenset({"pow", "Pow", "Power", "POWER"})
-#: Calls that other systems write about numbers.
-NUMBER_CALLS = frozenset({"Rational", "Integer", "S"})
 #: The functions whose parentheses may be left out.
 BARE = frozenset(
     "sinh cosh tanh coth sech csch sin cos tan cot sec csc arcsin arccos arctan exp log ln".split()  # noqa: SIM905

@@ -22,7 +22,6 @@ from kovacic.reading.names import (
     FUNCTION_NAMES,
     INSTEAD,
     LETTER,
-    NUMBER_CALLS,
     NUMBER_NAMES,
     is_function,
     is_letter,
@@ -93,8 +92,8 @@ class Vocabulary:
         if is_equation or x != "e":
             _check_two_readings(split, *_EXPONENT, unknown=y)
         reasons = [why] if why else []
-        guesses = [*_guesses(tokens), *products, *self._imaginary_unit(split, x, y)]
-        named = _with_factors(split, x, y) if "HEAD" in split.kinds else split
+        named, factors = _with_factors(split, x, y) if "HEAD" in split.kinds else (split, [])
+        guesses = [*_guesses(tokens), *products, *factors, *self._imaginary_unit(split, x, y)]
         if has_operator:
             new = [t._replace(kind="OPERATOR", text=x) if t[:2] == ("NAME", OPERATOR) else t for t in named.rows]
             named = Sentence.of(new, tokens.text, tokens.variable)
@@ -117,14 +116,11 @@ class Vocabulary:
 
     def _imaginary_unit(self, tokens: Sentence, x: str, y: str) -> list[str]:
         """Notes that i or j, or E beside y[x], undeclared, is a parameter; and that I isn't, before y'', as an inertia is."""
-        taken = (x, y, *self.declared)
-        said = "{} is a parameter; the imaginary unit is I"
-        found = [said.format(name) for name in "ij" if name in tokens.names and name not in taken]
-        if "E" in {*tokens.names} - {*taken} and f"{y}[{x}]" in tokens.text:  # Mathematica's
+        free = tokens.names.keys() - {x, y, *self.declared}
+        found = [f"{name} is a parameter; the imaginary unit is I" for name in "ij" if name in free]
+        if "E" in free and f"{y}[{x}]" in tokens.text:  # Mathematica's
             found.append("E is a parameter; Euler's number is e")
-        pieces = [piece for piece in tokens.pieces if piece != "*"] if "I" in {*tokens.names} - {*taken} else []
-        triples = zip(["+", *pieces], pieces, pieces[1:], strict=False)
-        if any(a in "+-=" and (b, c) == ("I", f"{y}''") for a, b, c in triples):
+        if "I" in free and pattern(rf"(?:^|[-+=] )I (?:\* )?{re.escape(y)}''").search(tokens.line):
             found.append("I is the imaginary unit: a moment of inertia needs another letter, or is declared")
         return found
 
@@ -155,10 +151,7 @@ class Vocabulary:
 
     def _is_known(self, tokens: Sentence, k: int, x: str, y: str) -> bool:
         name = tokens.pieces[k].rstrip(PRIMES)
-        is_call = tokens.kinds[k] == "HEAD"
-        if name in (x, y) or name in self.declared or name in NUMBER_NAMES:
-            return True
-        if is_function(name) or (is_call and (name in DERIVATIVES or name in NUMBER_CALLS)):
+        if name in (x, y, *self.declared) or name in NUMBER_NAMES or is_function(name):
             return True
         indexed = _GLUED_INDEX.fullmatch(name)
         if indexed is not None and {*indexed[1]} <= {x, y} and "{" not in tokens.piece(k, k + 1):
@@ -167,7 +160,7 @@ class Vocabulary:
             numbered = [other for other in tokens.names if other.rstrip(digits) in (x, y) and other not in (x, y)]
             if numbered == [name]:
                 return False  # x2 alone may be a product, or a power; x1 and x2 are two points
-        return is_letter(name) or is_call
+        return is_letter(name) or tokens.kinds[k] == "HEAD"
 
     def _unknown_name(self, tokens: Sentence, k: int, x: str, y: str) -> InputError:
         name = tokens.pieces[k].rstrip(PRIMES)
@@ -192,17 +185,12 @@ class Vocabulary:
         return tokens.error(ParseError, said, k, k + 1, hint=hint, shell=f"{meant}, or declare it: --names {name}")
 
 
-def _guesses(tokens: Sentence) -> list[str]:
-    """Notes on what may have been meant in another way: x^1/2 is x/2."""
-    found = _ROOT.search(tokens.line) if "1" in tokens.pieces else None
-    said = "^1/{0} was read as (...)^1 divided by {0}; a root is written ^(1/{0})"
-    guesses = [said.format(found[1])] if found else []
-    return [*guesses, *_divided_functions(tokens)] if "HEAD" in tokens.kinds else guesses
-
-
-def _divided_functions(tokens: Sentence) -> Iterator[str]:
-    """Notes on sin x/2, which is (sin x)/2 and may be meant as sin(x/2): no parentheses, and no blank before the slash."""
-    for opening, k in tokens.rows.partners.items():
+def _guesses(tokens: Sentence) -> Iterator[str]:
+    """Notes on what may have been meant in another way: x^1/2 is x/2; sin x/2, without parentheses or a blank, (sin x)/2."""
+    found = _ROOT.search(tokens.line)
+    if found:
+        yield "^1/{0} was read as (...)^1 divided by {0}; a root is written ^(1/{0})".format(found[1])
+    for opening, k in tokens.rows.partners.items() if "HEAD" in tokens.kinds else ():
         head = opening - 1
         is_bare = tokens.rows[k].start == tokens.rows[k].end and tokens.kinds[head] == "HEAD"
         if is_bare and tokens.are(k + 1, "SLASH") and tokens.rows[k - 1].end == tokens.rows[k + 1].start:
@@ -246,15 +234,25 @@ def _check_two_readings(tokens: Sentence, readings: re.Pattern[str], hint: str, 
             raise tokens.error(ParseError, f"{whole} can be read in two ways", begin, behind, hint=said)
 
 
-def _with_factors(tokens: Sentence, x: str, y: str) -> Sentence:
-    """With factors for heads that are no functions: n(n+1) is a product where n occurs without parentheses, too."""
-    alone = {*tokens.names, x} - {y, *FUNCTION_NAMES, *DERIVATIVES}
+def _with_factors(tokens: Sentence, x: str, y: str) -> tuple[Sentence, list[str]]:
+    """With factors for heads that are no functions: n(n+1) is a product where n occurs without parentheses, too.
+
+    So is y(1 - y), of which a note says so: y is no argument of itself.
+    """
+    alone = {*tokens.names, x} - {*FUNCTION_NAMES, *DERIVATIVES}
     rows = list(tokens.rows)
+    notes = []
     for k, (kind, name, _, _) in enumerate(tokens.rows[:-3]):
-        is_applied = tokens.are(k + 2, "NAME", "RPAR") or tokens.are(k + 2, "NUMBER", "RPAR")
-        if kind == "HEAD" and name in alone and not is_applied:
-            rows[k] = rows[k]._replace(kind="NAME")
-    return Sentence.of(rows, tokens.text, tokens.variable)
+        is_applied = tokens.kinds[k + 2] in ("NAME", "NUMBER") and tokens.kinds[k + 3] == "RPAR"
+        if kind != "HEAD" or name not in alone or is_applied:
+            continue
+        if name == y:
+            end = tokens.rows.partners.get(k + 1, k)
+            if ("NAME", y) not in (token[:2] for token in rows[k + 2 : end]):
+                continue
+            notes.append(f"{tokens.piece(k, end + 1)} was read as a product")
+        rows[k] = rows[k]._replace(kind="NAME")
+    return Sentence.of(rows, tokens.text, tokens.variable), notes
 
 
 def _primed(tokens: Sentence, declared: Collection[str]) -> str | None:
@@ -296,9 +294,8 @@ def _equation_variable(tokens: Sentence, y: str, declared: Collection[str]) -> t
         return named, None
     excluded = {*_NO_VARIABLES, y, *declared}
     names = [name for name in _single_letters(tokens, declared) if name not in excluded and is_letter(name)]
-    default = tokens.variable or DEFAULT_VARIABLE
-    if default == y or default in declared:
-        default = next((name for name in "txsz" if name != y and name not in declared), default)
+    usual = tokens.variable or DEFAULT_VARIABLE
+    default = next((name for name in (usual, *"txsz") if name not in (y, *declared)), usual)
     for likely in (DEFAULT_VARIABLE, default, "t"):
         if likely in names:
             return likely, None
@@ -376,8 +373,6 @@ def _varies(name: str, evidence: dict[str, Counter[str]], names: Collection[str]
 
 def _variable_of_S(tokens: Sentence, _: str, declared: Collection[str]) -> tuple[str, str | None]:
     """The only name that isn't one of a number, the energy or a function, or x.  Asks where it can't be told."""
-    if DEFAULT_VARIABLE in tokens.names and DEFAULT_VARIABLE not in declared:
-        return DEFAULT_VARIABLE, None
     no_variables = {*NUMBER_NAMES, ENERGY, UNKNOWN, *declared}
     letters = [name for name in _single_letters(tokens, declared) if is_letter(name)]
     names = [name for name in letters if name not in no_variables] or [name for name in letters if name == EULER]

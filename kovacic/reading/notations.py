@@ -250,6 +250,19 @@ def _power_of_e(match: Match) -> str:
     return "e ^" if _occurs(r"(?:\w|') \[ +[a-z] +\]|[A-Z][a-z]+ \[", match.string) else match[0]
 
 
+def _pieces(match: Match) -> str:
+    r"""Piecewise((a, x < 1), (b, True)) for the rows a & x < 1 \\ b & \text{otherwise}; words such as if are left out."""
+    rows = []
+    for row in filter(str.strip, re.split(r"\\\\ ", match[1])):
+        value, _, case = _WORDS.sub(lambda m: " True " if m[1] in _OTHERWISE else " ", row).partition("& ")
+        rows.append(f"( {value.rstrip(' ,')} , {case.rstrip(' ,.')} )")
+    return f"Piecewise ( {' , '.join(rows)} )"
+
+
+_OTHERWISE = ("otherwise", "else", "elsewhere")
+_WORDS = re.compile(rf"\\(?:text|textrm|mbox|mathrm) \{{ +(if|for|when|{'|'.join(_OTHERWISE)}) *(?:[.,] +)?\}}")
+
+
 #: What names of Mathematica's, Maple's and SymPy's are.
 _SYNONYMS = {
     "ArcSin": "asin",
@@ -326,6 +339,9 @@ LATEX = (
 
 _LINE = r"(?:^|(?<=\n\x20)|(?<=\n\x20\x20))"
 _NO_INDEX = r"(?<!_\x20)(?<!_\x20\{\x20)"
+_NO_END = r"(?:(?!(?:==?|\\end) )\S+ +)"
+_ARRAY = r"\\left \\\{ \\begin \{ array \} \{ [lcr ]+\}"
+_END_OF_ARRAY = r"\\end \{ array \} \\right \."
 _NO_NAME = rf"(?!(?:{'|'.join(FUNCTION_NAMES)}|\w) \}})"
 #: Comments, breaks and layout, before all else.
 AROUND = (
@@ -338,7 +354,20 @@ AROUND = (
         "PROSE hi a an is no",
         rf"(?:{_LINE}|(?<=\x20\x20))(?:/~/|#|%|-~-) (?:WORD|hi|an?|is|no)(?!\S)[^\n]*",
     ),
-    rule("environments", r"\begin \end \label \tag \ref", r"\\(?:begin|end|label|tag|ref)(?: [^\s}]+){0,12} \}", "\n"),
+    rule(
+        "cases",
+        r"\begin",
+        rf"(?:{_ARRAY}|\\begin \{{ cases \}}) +((?:(?!& ){_NO_END}){{0,2000}}& +{_NO_END}{{0,2000}})"
+        rf"(?:{_END_OF_ARRAY}|\\end \{{ cases \}})",
+        _pieces,
+    ),
+    rule("comparisons", r"\le \leq \ge \geq", r"\\([lg])eq?", lambda m: "<=" if m[1] == "l" else ">="),
+    rule(
+        "environments",
+        r"\begin \end \label \tag \ref",
+        rf"{_ARRAY}|{_END_OF_ARRAY}|\\(?:begin|end|label|tag|ref)(?: [^\s}}]+){{0,12}} \}}",
+        "\n",
+    ),
     rule(
         "words",
         r"\text \textrm \mbox \textnormal",

@@ -363,6 +363,29 @@ def test_riccati_equations_in_any_notation(text: str) -> None:
     assert kovacic.dsolve(text).rhs == x * sympy.tan(constant + x)
 
 
+@pytest.mark.parametrize(
+    ("text", "plain"),
+    [
+        ("y''[x] + y[x] == Piecewise[{{1, x < 5}, {x, x >= 5}}]", "y'' + y = Piecewise((1, x < 5), (x, True))"),
+        ("y''[x] + y[x] == Piecewise[{{1, 0 <= x < 5}}]", "y'' + y = Piecewise((1, 0 <= x < 5), (0, True))"),
+        ("y''[x] + y[x] == Piecewise[{{1, x < 5}}, x/2]", "y'' + y = Piecewise((1, x < 5), (x/2, True))"),
+        (
+            r"y'' + y = \begin{cases} 1, & x < 5 \\ \frac{x}{2}, & \text{if } x \ge 5. \end{cases}",
+            "y'' + y = Piecewise((1, x < 5), (x/2, True))",
+        ),
+        (
+            r"y'' + y = \left\{\begin{array}{rl} 1 & 0 \leq x < 5 \\ 0 & \text{otherwise} \end{array}\right.",
+            "y'' + y = Piecewise((1, 0 <= x < 5), (0, True))",
+        ),
+        (r"\left\{\begin{array}{l} x' = y \\ y' = -x \end{array}\right.", "x' = y, y' = -x"),
+        ("T' = -k*(T - T∞)", "T' = -k*(T - T_oo)"),
+        (r"\frac{dN}{dt} = r N (1 - N/K)", "dN/dt = r*N*(1 - N/K)"),
+    ],
+)
+def test_notations_of_one_equation_have_one_solution(text: str, plain: str) -> None:
+    assert kovacic.dsolve(text) == kovacic.dsolve(plain)
+
+
 @pytest.mark.parametrize("infinity", ["oo", "inf", "infinity", "Infinity", "+oo", "∞"])
 def test_infinity_has_many_names(infinity: str) -> None:
     assert kovacic.dsolve(f"y'' - y = 0, y(0) = 1, y({infinity}) = 0").rhs == sympy.exp(-x)
@@ -700,6 +723,7 @@ def test_mutated_texts_are_read_or_refused(seed: int) -> None:
         ("DSolve[y''[x] + E y[x] == 0, y[x], x]", "Euler's number is e"),
         ("I*θ'' + b*θ' + k*θ = 0", "I is the imaginary unit"),
         ("I y'' = M", "I is the imaginary unit"),
+        ("dN/dt = r N (1 - N/K)", r"N \(1 - N/K\) was read as a product"),
         ("y'' + y = x [2]", "number of the equation"),
         ("3. y'' - 4y = 0", "3. was taken for a number in a list"),
         ("Solve the equation y'' + y = 0", "left out: Solve the equation"),
