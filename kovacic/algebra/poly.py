@@ -242,18 +242,30 @@ class Poly(Immutable):
         radical = self if n == 1 or self.degree <= 0 else self // self.gcd(self.derivative())
         return radical if radical**n == self else None
 
-    def inverse_modulo(self, modulus: Poly) -> Self:
-        """The inverse of self modulo a polynomial that is coprime to it."""
-        r0: Any = modulus
-        r1: Any = self % modulus
-        t0: Any = self.field.poly([])
-        t1: Any = self.field.poly([1])
+    def _gcd_and_multiple(self, other: Poly) -> tuple[Any, Any]:
+        """The monic greatest common divisor d, and s with d = s self modulo the other polynomial."""
+        r0: Any = self
+        r1: Any = other
+        s0: Any = self.field.poly([1])
+        s1: Any = self.field.poly([])
         while r1.degree > 0:
             quotient, rest = divmod(r0, r1)
-            r0, r1, t0, t1 = r1, rest, t1, t0 - quotient * t1
-        if not r1:
+            r0, r1, s0, s1 = r1, rest, s1, s0 - quotient * s1
+        d, s = (r1, s1) if r1 else (r0, s0)
+        inverse = d.lc.inverse()
+        return d * inverse, s * inverse
+
+    def xgcd(self, other: Poly) -> tuple[Self, Self, Self]:
+        """(d, s, t) with d = s self + t other the monic greatest common divisor."""
+        d, s = self._gcd_and_multiple(other)
+        return d, s, (d - s * self) // other if other else other  # type: ignore[return-value]
+
+    def inverse_modulo(self, modulus: Poly) -> Self:
+        """The inverse of self modulo a polynomial that is coprime to it."""
+        common, inverse = self._gcd_and_multiple(modulus)
+        if common.degree > 0:
             raise ZeroDivisionError("not invertible: the polynomials have a common factor")
-        return (t1 * r1.inverse()) % modulus  # type: ignore[no-any-return]
+        return inverse % modulus  # type: ignore[no-any-return]
 
     def content(self) -> tuple[int, int]:
         """`(p, q)` in lowest terms, p/q > 0 such that self * q/p has coprime integer coordinates; (1, 1) for zero."""

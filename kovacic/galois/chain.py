@@ -25,7 +25,7 @@ from dataclasses import dataclass
 from fractions import Fraction
 from itertools import count
 from math import lcm
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 from flint import fmpq_mat, fmpz_mat
 
@@ -42,10 +42,23 @@ _LARGEST_HEIGHT = 50_000
 
 
 class Points(NamedTuple):
-    """The points over the roots of u, with y = v there: an effective divisor without two conjugate points."""
+    """The points over the roots of u, with y = v there: an effective divisor without two conjugate points.
 
-    u: Poly
-    v: Poly
+    Over a field, or modulo a prime.
+    """
+
+    u: Any
+    v: Any
+
+    def plus(self, other: Points, h: Any) -> Points:
+        """The sum of two divisors on y^2 = h, without pairs of conjugate points [Cantor]."""
+        u1, v1 = self
+        u2, v2 = other
+        d, e1, e2 = u1.xgcd(u2)
+        d, c1, c2 = d.xgcd(v1 + v2)
+        u = u1 * u2 // (d * d)
+        v = (c1 * e1 * u1 * v2 + c1 * e2 * u2 * v1 + c2 * (v1 * v2 + h)) // d % u
+        return Points(u, v)
 
 
 @dataclass(frozen=True)
@@ -163,27 +176,16 @@ def _doubled(model: Model, multiples: list[int]) -> list[Piece] | None:
     pieces: list[Piece] = []
     for digit in reversed(range(max(multiples).bit_length())):
         check_time()
-        total = _sum_of_divisors(model.h, total, total)
+        total = total.plus(total, model.h)
         for (points, _), N in zip(model.poles, multiples, strict=True):
             if N >> digit & 1:
-                total = _sum_of_divisors(model.h, total, points)
+                total = total.plus(points, model.h)
         total, found = _small_divisor(model, total)
         if total.u.height_bits() > _LARGEST_HEIGHT:
             return None
         if found is not None:
             pieces.append(Piece(2**digit, *found))  # it is doubled `digit` times from now on
     return None if total.u.degree else pieces
-
-
-def _sum_of_divisors(h: Poly, first: Points, second: Points) -> Points:
-    """The sum of two divisors, without pairs of conjugate points [Cantor]."""
-    u1, v1 = first
-    u2, v2 = second
-    d1, e1, e2 = _extended_gcd(u1, u2)
-    d, c1, c2 = _extended_gcd(d1, v1 + v2)
-    u = u1 * u2 // (d * d)
-    v = (c1 * e1 * u1 * v2 + c1 * e2 * u2 * v1 + c2 * (v1 * v2 + h)) // d % u
-    return Points(u, v)
 
 
 def _small_divisor(model: Model, E: Points) -> tuple[Points, tuple[Poly, Poly] | None]:
@@ -199,7 +201,7 @@ def _small_divisor(model: Model, E: Points) -> tuple[Points, tuple[Poly, Poly] |
     if others.degree:
         ordinate = -a * b.inverse_modulo(others) % others
     conjugate = Points(others, ordinate)
-    return _sum_of_divisors(model.h, conjugate, Points(common, E.v % common)), (a, -b)
+    return conjugate.plus(Points(common, E.v % common), model.h), (a, -b)
 
 
 def _least_function(model: Model, E: Points) -> tuple[Poly, Poly]:
@@ -216,20 +218,6 @@ def _least_function(model: Model, E: Points) -> tuple[Poly, Poly]:
     if before == after:
         return _shortest_pair((a0, b0), (a1, b1))
     return _without_rational_content(a0, b0) if before < after else _without_rational_content(a1, b1)
-
-
-def _extended_gcd(f: Poly, g: Poly) -> tuple[Poly, Poly, Poly]:
-    """(d, s, t) with d = s f + t g the monic greatest common divisor."""
-    r0, r1 = f, g
-    s0, s1 = f * 0 + 1, f * 0
-    t0, t1 = s1, s0
-    while r1:
-        quotient, remainder = divmod(r0, r1)
-        r0, r1 = r1, remainder
-        s0, s1 = s1, s0 - quotient * s1
-        t0, t1 = t1, t0 - quotient * t1
-    inverse = r0.lc.inverse()
-    return r0 * inverse, s0 * inverse, t0 * inverse
 
 
 def _without_rational_content(a: Poly, b: Poly) -> tuple[Poly, Poly]:

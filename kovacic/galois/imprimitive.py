@@ -49,20 +49,8 @@ from kovacic.engine.places import Kind as PlaceKind
 from kovacic.engine.places import Problem
 from kovacic.engine.riccati import residue
 from kovacic.errors import LimitExceeded
-from kovacic.galois.chain import function_of_order
+from kovacic.galois.chain import Points, function_of_order
 from kovacic.galois.group import Ground, Group, GroupKind
-
-
-class DivisorClass(NamedTuple):
-    """(u, v) in Mumford's representation; compared by the coefficients."""
-
-    u: Any
-    v: Any
-
-    @property
-    def key(self) -> tuple[Any, ...]:
-        """A hashable form."""
-        return tuple(self.u), tuple(self.v)
 
 
 @dataclass(frozen=True)
@@ -72,30 +60,24 @@ class Jacobian:
     h: Any
 
     @property
-    def zero(self) -> DivisorClass:
-        return DivisorClass(self.h**0, self.h * 0)
+    def zero(self) -> Points:
+        return Points(self.h**0, self.h * 0)
 
-    def point(self, u: Any, v: Any) -> DivisorClass:
+    def point(self, u: Any, v: Any) -> Points:
         """The class of the points (x, v(x)) at the roots of u.  Raises `ValueError` unless they lie on the curve."""
         if (self.h - v * v) % u:
             raise ValueError("the points don't lie on the curve")
         return self._reduced(_monic(u), v % u)
 
-    def add(self, first: DivisorClass, second: DivisorClass) -> DivisorClass:
+    def add(self, first: Points, second: Points) -> Points:
         """The sum of two classes."""
-        u1, v1 = first
-        u2, v2 = second
-        d, e1, e2 = u1.xgcd(u2)
-        d, c1, c2 = d.xgcd(v1 + v2)
-        u = u1 * u2 // (d * d)
-        v = (c1 * e1 * u1 * v2 + c1 * e2 * u2 * v1 + c2 * (v1 * v2 + self.h)) // d % u
-        return self._reduced(u, v)
+        return self._reduced(*first.plus(second, self.h))
 
-    def multiple(self, k: int, value: DivisorClass) -> DivisorClass:
+    def multiple(self, k: int, value: Points) -> Points:
         """k times a class, for an integer k of either sign."""
         if k < 0:
             k = -k
-            value = DivisorClass(value.u, -value.v)
+            value = Points(value.u, -value.v)
         result = self.zero
         while k:
             if k & 1:
@@ -104,7 +86,7 @@ class Jacobian:
             k >>= 1
         return result
 
-    def order(self, value: DivisorClass) -> int:
+    def order(self, value: Points) -> int:
         """The order of a class: of a multiple that is zero, without the prime factors that aren't needed."""
         order = self._vanishing_multiple(value)
         for q, _ in fmpz(order).factor():
@@ -112,7 +94,7 @@ class Jacobian:
                 order //= int(q)
         return order
 
-    def _vanishing_multiple(self, value: DivisorClass) -> int:
+    def _vanishing_multiple(self, value: Points) -> int:
         """Some n > 0 with n D = 0, from the interval of Hasse and Weil in which the number of all classes lies.
 
         n = least + i s - j for one of the giant steps i and of the s baby steps j [Shanks].
@@ -126,24 +108,29 @@ class Jacobian:
         babies: dict[tuple[Any, ...], int] = {}
         current = self.zero
         for j in range(s):
-            babies[current.key] = j
+            babies[_key(current)] = j
             current = self.add(current, value)
             if current == self.zero:
                 return j + 1
         giant = self.multiple(s, value)
         current = self.multiple(least, value)
         for i in range(s + 2):
-            n = least + i * s - babies.get(current.key, 0)
-            if current.key in babies and n > 0:
+            n = least + i * s - babies.get(_key(current), 0)
+            if _key(current) in babies and n > 0:
                 return n
             current = self.add(current, giant)
         raise AssertionError("the number of classes is in the interval of Hasse and Weil")
 
-    def _reduced(self, u: Any, v: Any) -> DivisorClass:
+    def _reduced(self, u: Any, v: Any) -> Points:
         while 2 * u.degree() >= self.h.degree():
             u = _monic((self.h - v * v) // u)
             v = -v % u
-        return DivisorClass(u, v)
+        return Points(u, v)
+
+
+def _key(divisor: Points) -> tuple[Any, ...]:
+    """The coefficients, which FLINT's polynomials can be told by in a dictionary."""
+    return tuple(divisor.u), tuple(divisor.v)
 
 
 def _monic(u: Any) -> Any:
