@@ -89,7 +89,7 @@ class AlgebraicField(Field):
         zero = self.base.poly([])
         return ExtensionPoly(self, (polynomial, *[zero] * (self.dimension - 1)))
 
-    def factor(self, polynomial: Poly) -> list[tuple[Poly, int]]:
+    def _factors(self, polynomial: Poly) -> list[tuple[Poly, int]]:
         remaining = polynomial.monic()
         factors: list[tuple[Poly, int]] = []
         for factor in self._factor_squarefree(remaining // remaining.gcd(remaining.derivative())):
@@ -362,3 +362,40 @@ def adjoined_square_root(field: Field, value: Poly, *, as_radical: bool = False)
     modulus = field.poly([-radicand, 0, 1])
     adjoined = AlgebraicField(field, modulus, f"sqrt({radicand})") if as_radical else AlgebraicField(field, modulus)
     return adjoined.generator * factor
+
+
+def root(value: Poly, n: int) -> Poly | None:
+    """A square (n = 2) or cubic (n = 3) root of a constant of the field within it, None if there is none."""
+    field = value.field
+    if n == 2:
+        return field.sqrt(value)
+    factors = field.factor(field.poly([-value, *[0] * (n - 1), 1]))
+    return next((-factor[0] for factor, _ in factors if factor.degree == 1), None)
+
+
+def root_in_residue_field(value: Poly, p: Poly, n: int) -> Poly | None:
+    """A square or cubic root in K[x]/p, None if there is none."""
+    if p.degree == 1:
+        return root(value % p, n)
+    extension = AlgebraicField(value.field, p, "_a")
+    found = root(extension.element(value % p), n)
+    return None if found is None else value.field.poly([part[0] for part in found.over(extension).parts])
+
+
+def inverse_root(value: Poly, p: Poly, n: int, precision: int, start: Poly | int = 1) -> Poly:
+    """The y = start modulo p with value y^n = 1 modulo p^precision, where that holds modulo p; by Newton's method."""
+    y = value.field.poly([]) + start
+    known = 1
+    while known < precision:
+        known = min(2 * known, precision)
+        power = p**known
+        y = (y + y * (1 - value * y**n % power) / n) % power
+    return y
+
+
+def root_modulo(value: Poly, p: Poly, n: int, precision: int) -> Poly | None:
+    """A square or cubic root of a polynomial prime to p modulo p^precision, None if there is none."""
+    start = root_in_residue_field(value, p, n)
+    if start is None:
+        return None
+    return value * inverse_root(value, p, n, precision, start.inverse_modulo(p)) ** (n - 1) % p**precision

@@ -94,7 +94,7 @@ class FunctionField(Field):
         terms = {(i, *[0] * k): c for i, c in enumerate(num.coeffs()) if c}
         return FunctionPoly(self, self.context.from_dict(terms), self.context.constant(den))
 
-    def factor(self, polynomial: Poly) -> list[tuple[Poly, int]]:
+    def _factors(self, polynomial: Poly) -> list[tuple[Poly, int]]:
         assert isinstance(polynomial, FunctionPoly)
         factors: list[tuple[Poly, int]]
         if any(polynomial.num.degrees()[1:]):

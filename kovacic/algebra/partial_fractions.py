@@ -74,12 +74,12 @@ def reduce_poles(r: RatFunc, slope: RatFunc, apart: Poly | None = None) -> tuple
     """
     W = RatFunc(r.field.poly([]))
     den = r.den if apart is None else prime_part(r.den, apart)
-    for p, multiplicity in squarefree_factors(den) if den.degree > 0 else []:
+    for p, multiplicity in squarefree_factors(den):
         if multiplicity > 1:
             part, r = _reduce_at(r, p, multiplicity, slope)
             W = W + part
     left = r.den if apart is None else prime_part(r.den, apart)
-    return W, r, tuple(Residue(p, residue(r, p)) for p, _ in (r.field.factor(left) if left.degree > 0 else []))
+    return W, r, tuple(Residue(p, residue(r, p)) for p, _ in r.field.factor(left))
 
 
 def prime_part(polynomial: Poly, other: Poly) -> Poly:

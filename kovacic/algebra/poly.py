@@ -327,9 +327,13 @@ class Field:
     def embed(self, polynomial: Poly) -> Poly:
         """A polynomial over a field below this one, over this one."""
 
-    @abstractmethod
     def factor(self, polynomial: Poly) -> list[tuple[Poly, int]]:
-        """The monic irreducible factors with their multiplicities, in a fixed order."""
+        """The monic irreducible factors with their multiplicities, in a fixed order; none of a constant."""
+        return self._factors(polynomial) if polynomial.degree > 0 else []
+
+    @abstractmethod
+    def _factors(self, polynomial: Poly) -> list[tuple[Poly, int]]:
+        """Those of a polynomial that isn't constant."""
 
     @abstractmethod
     def sqrt(self, constant: Poly) -> Poly | None:

@@ -83,6 +83,11 @@ class RatFunc(Immutable):
         """Degree of the numerator less that of the denominator: the order of growth at infinity.  Meaningless for 0."""
         return self.num.degree - self.den.degree
 
+    @property
+    def multiplicities(self) -> list[tuple[Poly, int]]:
+        """The monic irreducible factors with their multiplicities, negative in the denominator."""
+        return [*self.field.factor(self.num), *((p, -k) for p, k in self.field.factor(self.den))]
+
     def _coerce(self, other: object) -> RatFunc | None:
         if isinstance(other, RatFunc):
             return other

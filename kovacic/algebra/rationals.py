@@ -313,7 +313,7 @@ class RationalField(Field):
     def embed(self, polynomial: Poly) -> Poly:
         return polynomial
 
-    def factor(self, polynomial: Poly) -> list[tuple[Poly, int]]:
+    def _factors(self, polynomial: Poly) -> list[tuple[Poly, int]]:
         check_time()
         numerator = polynomial.rep.numer()  # type: ignore[attr-defined]
         if _may_take_long(numerator):

@@ -251,9 +251,8 @@ class Atoms:
     def factored(self, r: RatFunc) -> Expr:
         """A rational function as a product of powers of irreducible polynomials."""
         scale = RatFunc(r.num.lc)
-        powers = [(p, k) for p, k in _factors(r.num)] + [(p, -k) for p, k in _factors(r.den)]
         factors: list[Expr] = []
-        for p, k in powers:
+        for p, k in r.multiplicities:
             c, base = self.primitive(p)
             scale = scale * RatFunc(c) ** k
             factors.append(base**k)
@@ -340,13 +339,6 @@ class Atoms:
             return Add(*(body.subs(self.root, root) for root in roots))
         kind = RootSum if over.domain.is_EX else sympy.RootSum
         return kind(over, sympy.Lambda(self.root, body), auto=False)
-
-
-def _factors(polynomial: Poly) -> list[tuple[Poly, int]]:
-    """The irreducible factors with their multiplicities; none of a constant."""
-    if polynomial.degree <= 0:
-        return []
-    return list(polynomial.field.factor(polynomial))
 
 
 def _positive_radicand(modulus: Poly) -> Fraction | None:

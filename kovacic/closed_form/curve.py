@@ -133,7 +133,7 @@ def integrate_on_curve(r: RatFunc, g: Poly) -> CurveIntegral:
     W, r, residues = reduce_poles(r, RatFunc(g.derivative(), g) * Fraction(-1, 2), g)
     exact = W / g
     r = r - sum((found.logarithmic for found in residues), r * 0)
-    factors = field.factor(r.den) if r.den.degree > 0 else []
+    factors = field.factor(r.den)
     for p, j in [(p, j) for p, multiplicity in factors for j in range(multiplicity, 0, -1)]:
         # at a branch point, g = p u: ((B/p^j) s)' s = (1/2 - j) B p' u/p^j + ...
         cofactor, count = r.den.remove(p)

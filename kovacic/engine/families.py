@@ -14,7 +14,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 
-from kovacic.algebra.extension import AlgebraicField
+from kovacic.algebra.extension import AlgebraicField, root_modulo
 from kovacic.algebra.function_field import FunctionPoly
 from kovacic.algebra.poly import Field, Poly
 from kovacic.engine.places import Kind, Place
@@ -117,35 +117,22 @@ def _irregular(place: Place, roots: Roots) -> tuple[Choice, ...] | None:
     count = place.order // 2  # of the terms up to w_k
     sign = -1 if place.at_infinity else 1
     nu = count - 2 if place.at_infinity else count
-    leading, w = _series_square_root(place, count)
+    p = place.factor
+    V = place.unit(count)
+    leading = V % p
     a = roots.root(leading)
     if a is None:
         return None
+    series = root_modulo(V / leading, p, 2, count)
+    assert series is not None  # that of 1
+    w = series(place.num.field.poly([-p[0], 1]))
     singular = [(sign * (k - nu), a * w[k]) for k in range(count - 1) if w[k]]
-    last = 2 * a * w[-1]
+    last = 2 * a * w[count - 1]
     choices = []
     for s in (1, -1):
         terms = tuple((power, s * coefficient) for power, coefficient in singular)
         choices.append(Choice((s * last + sign * nu) / 2, terms))
     return tuple(choices)
-
-
-def _series_square_root(place: Place, count: int) -> tuple[Poly, list[Poly]]:
-    """The coefficient s, and w_1, ..., w_count of w = 1 + w_1 t + ..., with r = s t^(-2 nu) w^2 at the place."""
-    field = place.num.field
-    shift = field.poly([0, 2]) - place.factor
-    top = place.num(shift)
-    bottom = place.den(shift)
-    zero = field.poly([])
-    u: list[Poly] = []  # the series of r
-    for k in range(count):
-        known = sum((bottom[place.order + i] * u[k - i] for i in range(1, k + 1)), zero)
-        u.append((top[k] - known) / bottom[place.order])
-    w = [field.poly([1])]
-    for k in range(1, count):
-        known = sum((w[i] * w[k - i] for i in range(1, k)), zero)
-        w.append((u[k] / u[0] - known) / 2)
-    return u[0], w
 
 
 def theta_numerator(

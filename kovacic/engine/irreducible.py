@@ -55,7 +55,7 @@ def _squares_in_pencil(problem: Problem, basis: list[Form]) -> list[Form]:
     (a0, b0), (a1, b1), (a2, b2) = pure1, mixed, pure2
     field = problem.field
     cubic = field.poly([b0, b1 - a0, b2 - a1, -a2])
-    moduli = [factor for factor, _ in field.factor(cubic)] if cubic.degree > 0 else []
+    moduli = [factor for factor, _ in field.factor(cubic)]
     values = [-modulus[0] for modulus in moduli if modulus.degree == 1]
     squares = [Form(4, F1.R, F1.P + value * F2.P) for value in values]
     if not a2:

@@ -20,7 +20,7 @@ from typing import Any
 
 from flint import nmod_poly
 
-from kovacic.algebra.extension import AlgebraicField
+from kovacic.algebra.extension import inverse_root, root_in_residue_field
 from kovacic.algebra.homomorphism import BadPrimeError, Homomorphism
 from kovacic.algebra.modular import (
     rational_function_from_series,
@@ -31,7 +31,9 @@ from kovacic.algebra.modular import (
     square_root_series,
     translate,
 )
+from kovacic.algebra.partial_fractions import reduce_poles
 from kovacic.algebra.poly import Poly
+from kovacic.algebra.ratfunc import RatFunc
 from kovacic.algebra.rationals import QQ, to_fraction
 from kovacic.algebra.traces import is_provably_not_a_square, largest_integer_total, power_sums
 from kovacic.decision import Evidence, NecessaryCondition, NoRationalOmega, Rule
@@ -132,65 +134,30 @@ def is_cheap(problem: Problem) -> bool:
 
 def trace_of_square_root(square: Poly, p: Poly) -> Poly | None:
     """The trace over K of a square root of an element of K[x]/p, with one choice of its sign; None if it has none there."""
-    field = p.field
-    if p.degree == 1:
-        return field.sqrt(square)
-    extension = AlgebraicField(field, p)
-    root = extension.sqrt(extension.element(square))
+    root = root_in_residue_field(square, p, 2)
     if root is None:
         return None
-    parts = root.over(extension).parts
-    return sum((part[0] * total for part, total in zip(parts, power_sums(p), strict=True)), field.poly([]))
+    return sum((root[i] * total for i, total in enumerate(power_sums(p))), p.field.poly([]))
 
 
 def irregular_difference_squared(place: Place) -> Poly:
-    """(b/a)^2 at an unramified irregular place, in K[x]/p: 4 s_0 rho^2, rho the coefficient of t^(nu-1) in sqrt(s/s_0).
+    """(b/a)^2 in K[x]/p at an unramified irregular place: four times the square of the residue of sqrt(S) dx.
 
-    Here S = s(t)/t^(2 nu) with t = x - c, c the class of x modulo p.  For s = N/E and v = 1/(N_0 E_0) that is 4 v l^2, l the
-    coefficient of t^(nu-1) in N (v N E)^(-1/2), which Newton's iteration gives.
+    For S = N/(p^(2 nu) q) and v = N q modulo p, sqrt(S) = v^(-1/2) N Y/p^nu, where Y = 1 modulo p and N q Y^2 = v.
     """
     p = place.factor
     nu = place.order // 2
-    (num, cofactor) = place.near
-    extension = AlgebraicField(p.field, p) if p.degree > 1 else None
-    t = (extension or p.field).poly([0, 1])
-    end = t**nu
-    N, E = (_taylor_shifted(f, p, extension, nu) for f in (num, cofactor))
-    if extension:
-        slope = _taylor_shifted(p, p, extension, nu + 1) // t  # p = t slope
-        power = extension.poly([1])
-        for digit in f"{place.order:b}":
-            power = power * power % end
-            if digit == "1":
-                power = power * slope % end
-        E = E * power
-    u = N * E % end
-    v = u[0].inverse()
-    u = u * v
-    # Newton's first step, from 1
-    root = (3 - u) / 2
-    known = 2
-    while known < nu:
-        known = min(2 * known, nu)
-        ahead = t**known
-        root = (root + root * (1 - u * root * root % ahead) / 2) % ahead
-    last = (N * root)[nu - 1]
-    value = 4 * v * last * last
-    return value if p.degree == 1 else p.field.poly([part[0] for part in value.parts])
-
-
-def _taylor_shifted(f: Poly, p: Poly, extension: AlgebraicField | None, count: int) -> Poly:
-    """f(t + c) modulo t^count, c the class of x modulo p: by Taylor's formula over the extension by c, if there is one."""
-    if extension is None:
-        t = p.field.poly([0, 1])
-        if p[0]:
-            f = f(t - p[0])
-        return f % t**count
-    coefficients = []
-    for k in range(count):
-        coefficients.append(extension.element(f % p))
-        f = f.derivative() / (k + 1)
-    return extension.poly(coefficients)
+    power = p**nu
+    N, q = place.near
+    v = N * q % p
+    Y = inverse_root(N * q * v.inverse_modulo(power) % power, p, 2, nu)
+    root = N * Y % power
+    if p.degree == 1:
+        residue = root(p.field.poly([-p[0], 1]))[nu - 1]
+    else:
+        _, _, residues = reduce_poles(RatFunc(root, power), RatFunc(v.derivative(), v) / -2, v)
+        residue = residues[0].value if residues else 0 * v
+    return 4 * residue * residue * v.inverse_modulo(p) % p
 
 
 @dataclass(frozen=True)

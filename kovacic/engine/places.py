@@ -100,6 +100,11 @@ class Place:
         b = top[bottom.degree] / bottom.lc
         return 4 * b + 1 if p.degree == 1 or top == bottom * b else None
 
+    def unit(self, precision: int) -> Poly:
+        """V modulo p^precision, for S = V/p^order."""
+        power = self.factor**precision
+        return self.num * (self.den // self.factor**self.order).inverse_modulo(power) % power
+
     @cached_property
     def delta(self) -> Fraction | None:
         """Delta >= 0 at a regular place where it is rational, else None."""
@@ -206,7 +211,7 @@ class Problem:
 
 def analyse(S: RatFunc, budget: Budget) -> Problem:
     """The singular places of y'' = S y and their local data."""
-    factors = S.field.factor(S.den) if S.den.degree > 0 else []
+    factors = S.field.factor(S.den)
     num, den, order = at_infinity(S)
     infinity = (S.field.poly([0, 1]), order)
     places = []

@@ -38,7 +38,6 @@ from kovacic.special.maps import (
     fibres,
     irregular_places,
     leading_square,
-    multiplicities,
     square,
     zeros,
 )
@@ -166,7 +165,7 @@ def written(writer: Writer, nu_squared: Poly, t: RatFunc, singular: Poly | None)
     import sympy
 
     nu = writer.square_root(nu_squared)
-    if singular is not None and any(k > 0 and p.gcd(singular).degree == 0 for p, k in multiplicities(t)):
+    if singular is not None and any(k > 0 and p.gcd(singular).degree == 0 for p, k in t.multiplicities):
         first, second = (
             (writer.factor(t, [((m + 1) * HALF, t)]), writer.hypergeometric((), (m + 1,), writer.argument(-t)))
             for m in (nu, -nu)

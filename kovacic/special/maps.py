@@ -39,7 +39,7 @@ from fractions import Fraction
 from itertools import combinations
 from math import gcd, lcm
 
-from kovacic.algebra.extension import AlgebraicField, ExtensionPoly
+from kovacic.algebra.extension import root, root_modulo
 from kovacic.algebra.partial_fractions import decompose
 from kovacic.algebra.poly import Poly, Scalar
 from kovacic.algebra.ratfunc import RatFunc
@@ -84,26 +84,6 @@ class Number:
         return -self + other
 
 
-def multiplicities(f: RatFunc) -> list[tuple[Poly, int]]:
-    """The monic irreducible factors with their multiplicities, negative in the denominator."""
-    zeros = _factors(f.num)
-    poles = _factors(f.den)
-    return zeros + [(p, -k) for p, k in poles]
-
-
-def _factors(polynomial: Poly) -> list[tuple[Poly, int]]:
-    return polynomial.field.factor(polynomial) if polynomial.degree > 0 else []
-
-
-def root(value: Poly, n: int) -> Poly | None:
-    """A square (n = 2) or cubic (n = 3) root of a constant of the field within it, None if there is none."""
-    field = value.field
-    if n == 2:
-        return field.sqrt(value)
-    factors = field.factor(field.poly([-value, *[0] * (n - 1), 1]))
-    return next((-factor[0] for factor, _ in factors if factor.degree == 1), None)
-
-
 #: Conjugate poles up to which roots are taken where the field has parameters: factoring there takes long.
 _WITH_PARAMETERS = 2
 
@@ -135,28 +115,6 @@ def half_rate(m: Poly) -> RatFunc:
     return RatFunc(m.derivative(), m) * Fraction(1, 2)
 
 
-def unit(place: Place, precision: int) -> Poly:
-    """V modulo p^precision, for S = V/p^k."""
-    power = place.factor**precision
-    return place.num * (place.den // place.factor**place.order).inverse_modulo(power) % power
-
-
-def root_modulo(v: Poly, p: Poly, n: int, precision: int) -> Poly | None:
-    """A square (n = 2) or cubic (n = 3) root of v modulo p^precision, None if there is none; by Newton's method."""
-    if p.degree == 1:
-        w = root(v % p, n)
-    else:
-        extension = AlgebraicField(v.field, p, "_a")
-        element = root(ExtensionPoly(extension, tuple((v % p)[k] for k in range(p.degree))), n)
-        w = None if element is None else v.field.poly([part[0] for part in element.parts])
-    known = 1
-    while w is not None and known < precision:
-        known = min(2 * known, precision)
-        power = p**known
-        w = (w * (n - 1) + v * (w ** (n - 1)).inverse_modulo(power)) * Fraction(1, n) % power
-    return w
-
-
 def integral_of_square_root(place: Place, q: Poly) -> PolarPart | None:
     """int sqrt(S/q) dx at an unramified place, up to its sign.
 
@@ -164,7 +122,7 @@ def integral_of_square_root(place: Place, q: Poly) -> PolarPart | None:
     """
     p = place.factor
     m = place.order // 2
-    s = root_modulo(unit(place, m) / q, p, 2, m)
+    s = root_modulo(place.unit(m) / q, p, 2, m)
     if s is None:
         return None
     parts = decompose(RatFunc(s, p**m))
@@ -176,7 +134,7 @@ def leading_square(place: Place) -> Poly:
     """T modulo p for the t = T/p^d with t'^2/t = -S + ..., d = k - 2: d^2 p'^2 T = -V."""
     p = place.factor
     d = place.order - 2
-    return -unit(place, 1) * (d * d * p.derivative() ** 2).inverse_modulo(p) % p
+    return -place.unit(1) * (d * d * p.derivative() ** 2).inverse_modulo(p) % p
 
 
 def square(place: Place) -> RatFunc:
@@ -190,7 +148,7 @@ def expanded_square(place: Place, precision: int) -> Poly:
     """T modulo p^precision, term by term; for even d = k - 2 only d/2 terms are determined."""
     p = place.factor
     d = place.order - 2
-    V = unit(place, precision)
+    V = place.unit(precision)
     slope = p.derivative()
     T = leading_square(place)
     scale = (d * slope * slope * T).inverse_modulo(p)
@@ -254,9 +212,8 @@ def zeros(problem: Problem, polar: RatFunc, *, shifted: bool) -> Iterator[tuple[
     points = [(place.factor, place.at_infinity, place.delta_squared) for place in seen or regular]
     if not seen:
         slope = polar.derivative().num
-        critical = slope.field.factor(slope) if slope.degree > 0 else []
         one = slope.field.poly([1])
-        points += [*((p, False, one) for p, _ in critical), (slope.field.poly([0, 1]), True, one)]
+        points += [*((p, False, one) for p, _ in slope.field.factor(slope)), (slope.field.poly([0, 1]), True, one)]
     for p, at_infinity, delta_squared in points:
         value = value_at(polar, p, at_infinity=at_infinity)
         if value is None or delta_squared is None:

@@ -45,7 +45,7 @@ from kovacic.numbers.numerals import as_latex, as_text
 from kovacic.special.airy import Airy
 from kovacic.special.bessel import Bessel
 from kovacic.special.gauss import Gauss
-from kovacic.special.maps import half_rate, integral_of_square_root, irregular_places, scales, unit
+from kovacic.special.maps import half_rate, integral_of_square_root, irregular_places, scales
 from kovacic.special.pullback import TRIAL, GaugeTransform, Pullback, StandardEquation
 from kovacic.special.whittaker import Whittaker
 
@@ -134,7 +134,7 @@ def _shifts(first: Place | None, second: Place | None) -> list[int]:
 
 
 def _shifts_of_residues(first: Place, second: Place) -> list[int]:
-    for q in scales([second], lambda place: unit(place, 1), 2):
+    for q in scales([second], lambda place: place.unit(1), 2):
         own = integral_of_square_root(first, q)
         other = integral_of_square_root(second, q)
         if own is None or other is None:

@@ -44,9 +44,7 @@ from kovacic.special.maps import (
     check_conjugates,
     integral_of_square_root,
     irregular_places,
-    multiplicities,
     scales,
-    unit,
     zeros,
 )
 from kovacic.special.pullback import (
@@ -98,7 +96,7 @@ class Whittaker(StandardEquation):
         if any(place.order % 2 for place in places):
             return
         check_conjugates(problem, places)
-        for q in scales(places, lambda place: unit(place, 1), 2):
+        for q in scales(places, lambda place: place.unit(1), 2):
             parts = [part for place in places if (part := integral_of_square_root(place, q)) is not None]
             if len(parts) < len(places):
                 continue
@@ -273,7 +271,7 @@ def _hermite(form: _WhittakerForm) -> WrittenPair | None:
     writer = form.writer
     degree = 2 * form.kappa - HALF
     is_weber = not form.mu.roots and form.mu.part == Fraction(1, 4)
-    is_square = not form.q.roots and all(k % 2 == 0 for _, k in multiplicities(form.f))
+    is_square = not form.q.roots and all(k % 2 == 0 for _, k in form.f.multiplicities)
     if not (writer.is_degree(degree) and is_weber and is_square):
         return None
     N = writer.constant(degree)

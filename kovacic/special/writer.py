@@ -18,6 +18,7 @@ from sympy import Mul, exp
 from sympy.polys.polyerrors import HeuristicGCDFailed
 from sympy.polys.polytools import parallel_poly_from_expr
 
+from kovacic.algebra.extension import root
 from kovacic.algebra.poly import Poly
 from kovacic.algebra.ratfunc import RatFunc
 from kovacic.algebra.rationals import QQ
@@ -25,7 +26,7 @@ from kovacic.closed_form.atoms import Atoms, Expr, antiderivative_parameters, di
 from kovacic.closed_form.product import Power, Product, product
 from kovacic.compatibility import cached_property
 from kovacic.numbers.exact import radical
-from kovacic.special.maps import HALF, Number, half_rate, multiplicities, root
+from kovacic.special.maps import HALF, Number, half_rate
 
 
 @dataclass(frozen=True)
@@ -178,7 +179,7 @@ class Writer:
             rate = rate + base.derivative() / base * number.part
             if number.roots:
                 e = self.constant(Number(number.part * 0, number.roots))
-                others += [self.atoms.base(p, around_zero=False) ** (k * e) for p, k in multiplicities(base)]
+                others += [self.atoms.base(p, around_zero=False) ** (k * e) for p, k in base.multiplicities]
         if exponent is not None:
             number, function = exponent
             rate = rate + function.derivative() * number.part
@@ -350,7 +351,7 @@ class Writer:
 
     def argument(self, f: RatFunc) -> Expr:
         """A rational function: a polynomial in full unless it is a multiple of a power, else a fraction of products."""
-        is_power = len(multiplicities(f)) == 1 and f.num.degree > 1
+        is_power = len(f.multiplicities) == 1 and f.num.degree > 1
         return self.atoms.poly(f.num) if f.is_polynomial and not is_power else self.atoms.factored(f)
 
     def rate(self, f: RatFunc) -> Expr:
@@ -365,11 +366,11 @@ class Writer:
         return -f.num.lc if self._turns(f) % 2 else f.num.lc
 
     def _turns(self, f: RatFunc) -> int:
-        return sum(k for p, k in multiplicities(f) if k % 2 and self.places and self.real.is_turned(p))
+        return sum(k for p, k in f.multiplicities if k % 2 and self.places and self.real.is_turned(p))
 
     def root_of(self, f: RatFunc) -> Expr:
         """A square root of a rational function, by factors, up to its sign."""
-        powers = multiplicities(f)
+        powers = f.multiplicities
         root = Product(tuple(Power(p, p.field.poly([Fraction(k, 2)])) for p, k in powers), (), f * 0)
         contents = [RatFunc(self.atoms.primitive(p)[0]) ** k for p, k in powers]
         return self.root(reduce(mul, contents, RatFunc(self.scale(f))).num, 2) * display(root, self.real)
