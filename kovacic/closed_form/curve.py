@@ -48,6 +48,7 @@ from kovacic.algebra.poly import Poly
 from kovacic.algebra.ratfunc import RatFunc
 from kovacic.decision import CurveFunction, SemiInvariant
 from kovacic.engine.places import analyse, rational_square_root
+from kovacic.galois.chain import logarithmic_slope, remainders
 from kovacic.galois.group import GroupKind
 from kovacic.galois.imprimitive import imprimitive_group
 from kovacic.limits import Budget
@@ -72,10 +73,8 @@ class Unit:
 
     def integrand(self, g: Poly) -> RatFunc:
         """r with r dx/s the derivative of the contribution, which is log((A + B tau s)/(A - B tau s)) factor/(2 tau)."""
-        A = self.A
-        B = self.B
-        top = (B.derivative() * g + B * g.derivative() * Fraction(1, 2)) * A - A.derivative() * B * g
-        return RatFunc(top, self.norm(g)) * self.factor
+        h = g * self.tau_squared
+        return logarithmic_slope(self.A, self.B, h) / self.tau_squared * self.factor
 
 
 @dataclass(frozen=True)
@@ -195,19 +194,7 @@ def gathered_zeros(g: Poly, r: RatFunc, kappa_squared: Poly, P: Poly) -> Unit | 
 
 def _euclid(T: Poly, p: Poly) -> tuple[Poly, Poly]:
     """A and B of (3)."""
-    A = T % p
-    B = p.field.poly([-1])
-    before = (p, p.field.poly([]))  # the pair (A, B) of the step before
-    while 2 * A.degree > p.degree:
-        scale = A.lc.inverse()  # else the coefficients become long
-        A = A * scale
-        B = B * scale
-        quotient, remainder = divmod(before[0], A)
-        next_B = before[1] - quotient * B
-        before = (A, B)
-        A = remainder
-        B = next_B
-    return -A, -B
+    return next((-A, B) for A, B in remainders(T, p) if 2 * A.degree <= p.degree)
 
 
 FIRST_KIND = "it has no logarithmic part on the curve s^2 = {g} of genus {genus}, so it isn't elementary"

@@ -21,6 +21,7 @@ of divisors.
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import dataclass
 from fractions import Fraction
 from itertools import count
@@ -90,16 +91,14 @@ def function_of_order(H: RatFunc, k: int) -> CurveFunction | None:
         return None
     slope = RatFunc(H.field.poly([]))
     for piece in pieces:
-        slope = slope + logarithmic_slope(piece, model.h) * piece.exponent
+        slope = slope + logarithmic_slope(piece.a, piece.b, model.h) * piece.exponent
     rest = model.s * model.h * (k * l) - slope
     assert rest.is_polynomial
     return _in_x(model, CurveFunction(k * l, model.h, tuple(pieces), rest.num))
 
 
-def logarithmic_slope(piece: Piece, h: Poly) -> RatFunc:
+def logarithmic_slope(a: Poly, b: Poly, h: Poly) -> RatFunc:
     """R with R dx/y the odd part of d log(a + b y): half of d log of its quotient by the conjugate."""
-    a = piece.a
-    b = piece.b
     odd = (b.derivative() * h + b * h.derivative() / 2) * a - a.derivative() * b * h
     return RatFunc(odd, a * a - h * b * b)
 
@@ -206,18 +205,28 @@ def _small_divisor(model: Model, E: Points) -> tuple[Points, tuple[Poly, Poly] |
 
 def _least_function(model: Model, E: Points) -> tuple[Poly, Poly]:
     """(a, b) with a = b v modulo u, of the least max(deg a, deg b + deg h/2), and short."""
-    a0 = E.u
-    a1 = E.v
-    b0 = E.u * 0
-    b1 = b0 + 1
-    while a1.degree > b1.degree + model.half:
-        quotient, remainder = divmod(a0, a1)
-        a0, a1, b0, b1 = a1, remainder, b1, b0 - quotient * b1
-    before = a0.degree
-    after = b1.degree + model.half
+    first = E.u, E.u * 0
+    for second in remainders(E.v, E.u):
+        before = first[0].degree
+        after = second[1].degree + model.half
+        if second[0].degree <= after:
+            break
+        first = second
     if before == after:
-        return _shortest_pair((a0, b0), (a1, b1))
-    return _without_rational_content(a0, b0) if before < after else _without_rational_content(a1, b1)
+        return _shortest_pair(first, second)
+    return _without_rational_content(*(first if before < after else second))
+
+
+def remainders(v: Poly, u: Poly) -> Iterator[tuple[Poly, Poly]]:
+    """(a, b) with a = b v modulo u, without end and of falling degrees of a: those of Euclid's algorithm."""
+    before = u, u * 0
+    a, b = v % u, u * 0 + 1
+    while True:
+        yield a, b
+        scale = a.lc.inverse()  # else the coefficients become long
+        a, b = a * scale, b * scale
+        quotient, rest = divmod(before[0], a)
+        before, (a, b) = (a, b), (rest, before[1] - quotient * b)
 
 
 def _without_rational_content(a: Poly, b: Poly) -> tuple[Poly, Poly]:

@@ -29,7 +29,7 @@ from kovacic.reading.change_of_variable import function_of_x, is_power, real_val
 from kovacic.solution import Solution, solve
 from kovacic.special.choice import solutions
 from kovacic.special.mathieu import mathieu
-from kovacic.special.search import BySign, by_sign, special_functions
+from kovacic.special.search import BySign, Request, by_sign, special_functions
 from kovacic.special.writer import WrittenPair
 
 Expr = Any  # SymPy publishes no types
@@ -137,18 +137,19 @@ def _in_special_functions(
     is_positive = bool(question.function.args[0].is_positive)
     is_positive = is_positive and all(point.is_positive for c in question.conditions for point in c.points)
     places = _real_places(question)
-    how: dict[str, Any] = {"symbols": question.parameters, "joined": not is_positive, "places": places}
-    given = solution.S, solution.gauge, solution.variable, budget
-    found = special_functions(*given, **how)
+    request = Request(
+        solution.S, solution.gauge, solution.variable, question.parameters, joined=not is_positive, places=places
+    )
+    found = special_functions(request, budget)
     pair = found.pair
     has_integers = any(symbol.is_integer for symbol in question.parameters.values())
     if has_integers and question.conditions and not limit_points(question):
-        of_any_letters = special_functions(*given, joined=not is_positive, places=places)
+        of_any_letters = special_functions(replace(request, symbols={}), budget)
         pair = _without_exceptions(of_any_letters.pair, sympy.Symbol(solution.variable)) or pair
     is_asked = not question.conditions or bool(limit_points(question))
     is_asked = is_asked and question.equation.is_homogeneous  # no particular solution is asked for
     if pair is None or is_asked:
-        halves = by_sign(*given, **how)
+        halves = by_sign(request, budget)
         if halves is not None:
             return halves
     equation = question.equation

@@ -69,7 +69,7 @@ class Airy(StandardEquation):
             if c is not None:
                 yield Pullback(Airy(q), f + c)
 
-    def written(self, writer: Writer, f: RatFunc, singular: Poly | None) -> WrittenPair:
+    def written(self, writer: Writer, f: RatFunc) -> WrittenPair:
         import sympy
 
         z = writer.root(self.q, 3) * writer.argument(f)

@@ -88,8 +88,8 @@ class Bessel(StandardEquation):
         for f, nu_squared in zeros(problem, polar, shifted=shifted):
             yield Pullback(Bessel(one, (nu_squared - 1) * Fraction(1, 4)), f)
 
-    def written(self, writer: Writer, f: RatFunc, singular: Poly | None) -> WrittenPair:
-        return written(writer, 4 * self.M + 1, f * self.r, singular)
+    def written(self, writer: Writer, f: RatFunc) -> WrittenPair:
+        return written(writer, 4 * self.M + 1, f * self.r)
 
     @property
     def parameters(self) -> list[fmpq]:
@@ -157,7 +157,7 @@ def _scale(f: RatFunc, place: Place) -> Poly | None:
 # ------------------------------------------------------------------------------------------ written
 
 
-def written(writer: Writer, nu_squared: Poly, t: RatFunc, singular: Poly | None) -> WrittenPair:
+def written(writer: Writer, nu_squared: Poly, t: RatFunc) -> WrittenPair:
     """u = sqrt(t) J_nu(2 sqrt t), or with I, K and -t where the constant factor of t is negative.
 
     Where t vanishes at a point that isn't `singular`, nu isn't an integer, and t^((1 +- nu)/2) 0F1(; 1 +- nu; -t) are analytic.
@@ -165,6 +165,7 @@ def written(writer: Writer, nu_squared: Poly, t: RatFunc, singular: Poly | None)
     import sympy
 
     nu = writer.square_root(nu_squared)
+    singular = writer.singular
     if singular is not None and any(k > 0 and p.gcd(singular).degree == 0 for p, k in t.multiplicities):
         first, second = (
             (writer.factor(t, [((m + 1) * HALF, t)]), writer.hypergeometric((), (m + 1,), writer.argument(-t)))

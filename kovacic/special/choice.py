@@ -43,7 +43,7 @@ from kovacic.limits import Budget, bounded_work, check_time
 from kovacic.numbers.numerals import as_text
 from kovacic.special.gauss import klein_pullback
 from kovacic.special.pullback import GaugeTransform, Pullback
-from kovacic.special.search import find, find_transform, written_pair
+from kovacic.special.search import Request, find, find_transform
 
 #: Units of work after which no pull-back is sought any more beside a form that is there.
 _SEARCH = 6000
@@ -157,6 +157,10 @@ class _Equation:
     def structure(self) -> ClosedStructure:
         return build(self.S, self.decision, self.gauge)
 
+    @property
+    def _request(self) -> Request:
+        return Request(self.S, self.gauge, self.variable, joined=True)
+
     @cached_property
     def _is_long(self) -> bool:
         """True if the polynomial of the certificate alone takes more characters than any short form is preferred to."""
@@ -194,7 +198,7 @@ class _Equation:
             source = self._source()
             found = None
             with suppress(LimitExceeded):
-                found = source and written_pair(source, self.S, self.gauge, self.variable, {}, joined=True)
+                found = source and self._request.pair(source)
             if found and found.wronskian is not None and is_nonzero(found.wronskian, Symbol(self.variable)):
                 x = Symbol(self.variable)
                 return ClosedForm(found.y1, found.y2, x, self.gauge, EXACT, place=found.place, build=make)
@@ -241,7 +245,7 @@ class _Equation:
 
     def _in_special_functions(self, source: Pullback | GaugeTransform) -> ClosedForm | None:
         """With y1 as it is where that is elementary and short; None if the two aren't known to be independent."""
-        found = written_pair(source, self.S, self.gauge, self.variable, {}, joined=True)
+        found = self._request.pair(source)
         if found is None:
             return None
         pair = found.y1, found.y2

@@ -124,21 +124,17 @@ class Gauss(StandardEquation):
         for covering in coverings(points, apparent, problem.budget):
             yield Pullback(Gauss(covering.zeros, covering.ones, covering.poles), covering.f)
 
-    def written(self, writer: Writer, f: RatFunc, singular: Poly | None) -> WrittenPair | None:
+    def written(self, writer: Writer, f: RatFunc) -> WrittenPair | None:
         forms = sorted(_GaussForm.of(self, writer, f).arranged, key=lambda form: form.cost)
         first = forms[0]
         if any(map(writer.has_letters, (first.alpha, first.beta, first.gamma))):
             signed_forms = [signed for form in forms for signed in form.signs]
-            for signed in signed_forms if writer.knows_integers else ():
-                apart = (
-                    writer.is_natural(-value) or not writer.is_integer(value) for value in (signed.alpha, signed.beta)
-                )
-                if writer.is_degree(signed.degree) and all(apart):
-                    return _jacobi(signed)
+            polynomial = next((form for form in signed_forms if form.has_polynomial), None)
+            if polynomial is not None:
+                return _jacobi(polynomial)
             even = next((form for form in signed_forms if form.alpha == form.beta and form.is_between), None)
-            if even is not None and any(map(writer.has_letters, (even.alpha, even.degree))):
-                # Independent for all values of the letters.
-                return _by_parity(even)
+            if even is not None:
+                return _by_parity(even)  # independent for all values of the letters
             for form in forms:  # P_nu and Q_nu beyond 1
                 if form.is_between and writer.has_letters(form.beta) and form.has_integers:
                     decaying = form.swapped if writer.is_negative(form.beta) else form.swapped.turned
@@ -240,6 +236,14 @@ class _GaussForm:
     def has_integers(self) -> bool:
         """True if the exponent differences at the zeros and poles of f are integers."""
         return self.writer.is_integer(self.alpha) and self.writer.is_integer(self.gamma)
+
+    @property
+    def has_polynomial(self) -> bool:
+        """True if a polynomial of symbolic degree has exponents that are known to be the larger ones, or no integers."""
+        writer = self.writer
+        return writer.is_degree(self.degree) and all(
+            writer.is_natural(-value) or not writer.is_integer(value) for value in (self.alpha, self.beta)
+        )
 
     @property
     def turned(self) -> _GaussForm:

@@ -149,12 +149,10 @@ class StandardEquation(ABC):
         """
 
     @abstractmethod
-    def written(self, writer: Writer, f: RatFunc, singular: Poly | None) -> WrittenPair | None:
+    def written(self, writer: Writer, f: RatFunc) -> WrittenPair | None:
         """Two independent solutions pulled back by f, with their Wronskian.
 
         None if the assumptions leave open which are independent.
-
-        With `singular`, solutions are analytic wherever this denominator of S isn't zero, even where f is.
         """
 
     def integers(self, writer: Writer, f: RatFunc) -> Iterator[Number]:
@@ -188,6 +186,13 @@ class Pullback:
 
     equation: StandardEquation
     f: RatFunc
+    #: As a `GaugeTransform` has it.
+    transform: ClassVar[None] = None
+
+    @property
+    def pullback(self) -> Pullback:
+        """This one."""
+        return self
 
     @property
     def S(self) -> RatFunc:
@@ -209,6 +214,11 @@ class GaugeTransform:
     m: Poly
     a: RatFunc
     b: RatFunc
+
+    @property
+    def transform(self) -> GaugeTransform:
+        """This one."""
+        return self
 
     def gives(self, S: RatFunc) -> bool:
         """True if the identities (1) of `kovacic.special.search` hold exactly and the transformation is invertible."""

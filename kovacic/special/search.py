@@ -351,50 +351,83 @@ def _first(problem: Problem, equations: list[type[StandardEquation]], *, extende
     return None
 
 
-def special_functions(
-    S: RatFunc,
-    gauge: RatFunc,
-    variable: str,
-    budget: Budget,
-    *,
-    symbols: Mapping[str, Any] | None = None,
-    joined: bool = False,
-    places: Sequence[Fraction] = (),
-) -> SpecialFunctions:
-    """Solutions of the equation that was given, those of y'' = S y times the gauge factor exp(int gauge dx).
+@dataclass(frozen=True)
+class Request:
+    """The equation whose solutions are written, those of y'' = S y times exp(int gauge dx), and how.
 
     `symbols` are SymPy's symbols for the parameters by name; the expressions are in these, and what is assumed about them is
     used: with n a natural number, Hermite's equation has `hermite(n, x)`.  With `joined`, solutions are analytic at ordinary
     points where the argument of Bessel's functions is zero: series 0F1 instead of these.  Solutions are real at one of the
-    `places`, those values of the variable that are meant, as far as it can be had.  The pull-back is verified exactly, in
-    rational functions; what is shown is checked at a point, to 50 digits.  Liouvillian solutions aren't looked for, but where
-    the group is reducible the two solutions may be dependent for some values of the parameters.
+    `places`, those values of the variable that are meant, as far as it can be had.
+    """
+
+    S: RatFunc
+    gauge: RatFunc
+    variable: str
+    symbols: Mapping[str, Any] = field(default_factory=dict)
+    joined: bool = False
+    places: Sequence[Fraction] = ()
+
+    def writer(self, transform: GaugeTransform | None = None) -> Writer:
+        """A writer of solutions as they are wanted."""
+        import sympy
+
+        from kovacic.special.writer import Writer
+
+        singular = self.S.den if self.joined else None
+        return Writer(self.gauge, sympy.Symbol(self.variable), self.symbols, transform, self.places, singular)
+
+    def pair(self, source: Pullback | GaugeTransform) -> WrittenPair | None:
+        """y1 and y2, checked; None if the assumptions on the symbols leave open which solutions are independent.
+
+        Raises `VerificationFailed` if the check fails, which is a defect of this package; `LimitExceeded` within
+        `Budget.watched`.
+        """
+        writer = self.writer(source.transform)
+        found = source.pullback.equation.written(writer, source.pullback.f)
+        return None if found is None else self.checked(found, writer)
+
+    def checked(self, pair: WrittenPair, writer: Writer) -> WrittenPair:
+        """The pair in the user's symbols; raises `VerificationFailed` where one isn't a solution, to 50 digits at a point."""
+        from kovacic.closed_form.check import is_numerical_solution
+
+        for y in pair:
+            if not is_numerical_solution(y, writer.atoms.x, self.S, self.gauge):
+                said = f"a special function for S = {self.S} failed its check; please report the equation: {y}"
+                raise VerificationFailed(said)
+        return pair.mapped(lambda e: e.xreplace(writer.own))
+
+
+def special_functions(request: Request, budget: Budget) -> SpecialFunctions:
+    """Solutions of the equation of a request.
+
+    The pull-back is verified exactly, in rational functions; what is shown is checked at a point, to 50 digits.  Liouvillian
+    solutions aren't looked for, but where the group is reducible the two solutions may be dependent for some values of the
+    parameters.
 
     >>> import kovacic
     >>> answer = kovacic.solve("x^2*y'' + x*y' + (x^2 - n^2)*y = 0")
-    >>> print(special_functions(answer.S, answer.gauge, "x", Budget()))
+    >>> print(special_functions(Request(answer.S, answer.gauge, "x"), Budget()))
     y1 = besselj(n, x)
     y2 = bessely(n, x)
     """
-    search = find(S, budget)
+    search = find(request.S, budget)
     source: Pullback | GaugeTransform | None = search.pullback
     searched = search.searched
     if source is None and search.stopped is None:
-        source = find_transform(S, budget)
+        source = find_transform(request.S, budget)
         searched = (*searched, GAUGED)
     if source is None:
         return replace(search, searched=searched)
     try:
         with budget.watched():
-            found = written_pair(source, S, gauge, variable, symbols or {}, joined=joined, places=places)
+            found = request.pair(source)
     except LimitExceeded as limit:
         return SpecialFunctions(None, searched, str(limit))
     if found is None:
         said = "the assumptions don't tell which solutions are independent"
         return SpecialFunctions(None, searched, said)
-    if isinstance(source, GaugeTransform):
-        return SpecialFunctions(source.pullback, searched, None, found, source)
-    return SpecialFunctions(source, searched, None, found)
+    return SpecialFunctions(source.pullback, searched, None, found, source.transform)
 
 
 def find_transform(S: RatFunc, budget: Budget) -> GaugeTransform | None:
@@ -413,43 +446,6 @@ def find_transform(S: RatFunc, budget: Budget) -> GaugeTransform | None:
         return None
 
 
-def written_pair(
-    source: Pullback | GaugeTransform,
-    S: RatFunc,
-    gauge: RatFunc,
-    variable: str,
-    symbols: Mapping[str, Any],
-    *,
-    joined: bool,
-    places: Sequence[Fraction] = (),
-) -> WrittenPair | None:
-    """y1 and y2, checked at a point; None if the assumptions on the symbols leave open which solutions are independent.
-
-    Raises `VerificationFailed` if the check fails, which is a defect of this package; `LimitExceeded` within `Budget.watched`.
-    """
-    import sympy
-
-    from kovacic.special.writer import Writer
-
-    transform = source if isinstance(source, GaugeTransform) else None
-    pullback = source.pullback if isinstance(source, GaugeTransform) else source
-    writer = Writer(gauge, sympy.Symbol(variable), symbols, transform, places)
-    found = pullback.equation.written(writer, pullback.f, S.den if joined else None)
-    return None if found is None else _checked_pair(found, writer, S, gauge)
-
-
-def _checked_pair(pair: WrittenPair, writer: Writer, S: RatFunc, gauge: RatFunc) -> WrittenPair:
-    """The pair in the user's symbols; raises `VerificationFailed` where one isn't a solution, to 50 digits at a point."""
-    from kovacic.closed_form.check import is_numerical_solution
-
-    for y in pair:
-        if not is_numerical_solution(y, writer.atoms.x, S, gauge):
-            said = f"a special function for S = {S} failed its check; please report the equation: {y}"
-            raise VerificationFailed(said)
-    own = _own_symbols(writer)
-    return pair.mapped(lambda e: e.xreplace(own))
-
-
 @dataclass(frozen=True)
 class BySign:
     """Solutions where an integer that depends on parameters isn't negative, and where it is; None if none are known."""
@@ -459,78 +455,55 @@ class BySign:
     negative: WrittenPair | None
 
 
-def by_sign(
-    S: RatFunc,
-    gauge: RatFunc,
-    variable: str,
-    budget: Budget,
-    *,
-    symbols: Mapping[str, Any],
-    joined: bool,
-    places: Sequence[Fraction] = (),
-) -> BySign | None:
+def by_sign(request: Request, budget: Budget) -> BySign | None:
     """Solutions by the sign of an integer: where polynomials have names, or where it tells which solutions are independent.
 
-    Arguments as for `special_functions`; None if the sign of no integer helps.
+    None if the sign of no integer helps.
 
     >>> import kovacic, sympy
     >>> n, l = sympy.symbols("n l", integer=True, positive=True)
     >>> answer = kovacic.solve("x^2*y'' + 2*x*y' + (2*x - x^2/n^2 - l*(l + 1))*y = 0", var="x")
-    >>> found = by_sign(answer.S, answer.gauge, "x", Budget(), symbols={"n": n, "l": l}, joined=False)
+    >>> found = by_sign(Request(answer.S, answer.gauge, "x", {"n": n, "l": l}), Budget())
     >>> print(found.integer, "|", found.natural.y1)
     -l + n - 1 | x**l*exp(-x/n)*assoc_laguerre(-l + n - 1, 2*l + 1, 2*x/n)
     """
-    if not any(symbol.is_integer for symbol in symbols.values()):
+    if not any(symbol.is_integer for symbol in request.symbols.values()):
         return None
-    pullback = find(S, budget).pullback
+    pullback = find(request.S, budget).pullback
     if pullback is None:
         return None
-    import sympy
-
-    from kovacic.special.writer import Writer
-
-    writer = Writer(gauge, sympy.Symbol(variable), symbols, places=places)
+    writer = request.writer()
     try:
         with budget.watched():
-            found = _helpful(pullback, writer, S.den if joined else None)
-            best = max(found, key=lambda found: found.negative is not None, default=None)
+            best = max(_helpful(pullback, writer), key=lambda found: found.negative is not None, default=None)
             if best is None:
                 return None
-            natural = _checked_pair(best.natural, writer, S, gauge)
-            negative = None if best.negative is None else _checked_pair(best.negative, writer, S, gauge)
+            natural = request.checked(best.natural, writer)
+            negative = None if best.negative is None else request.checked(best.negative, writer)
     except LimitExceeded:
         return None
-    return BySign(best.integer.xreplace(_own_symbols(writer)), natural, negative)
+    return BySign(best.integer.xreplace(writer.own), natural, negative)
 
 
-def _helpful(pullback: Pullback, writer: Writer, singular: Poly | None) -> Iterator[BySign]:
+def _helpful(pullback: Pullback, writer: Writer) -> Iterator[BySign]:
     """What each integer gives whose sign is open: solutions that are known only by it, or polynomials that have names."""
     import sympy
 
-    equation = pullback.equation
-    whole = equation.written(writer, pullback.f, singular)
-    for number in dict.fromkeys(equation.integers(writer, pullback.f)):
-        if not writer.is_integer(number):
-            continue
+    def assuming(value: Any) -> WrittenPair | None:
+        """The solutions where the value is natural."""
+        informed = writer.assuming(value)
+        return None if informed is None else pullback.equation.written(informed, pullback.f)
+
+    whole = pullback.equation.written(writer, pullback.f)
+    for number in dict.fromkeys(pullback.equation.integers(writer, pullback.f)):
         is_sign_known = writer.is_natural(number) or writer.is_natural(-number - 1)
-        if is_sign_known:
+        if is_sign_known or not writer.is_integer(number):
             continue
         value = writer.constant(number)
-        natural = _assuming(writer, value, pullback, singular)
+        natural = assuming(value)
         if natural is None or natural == whole:
             continue
         if whole is None:
-            yield BySign(value, natural, _assuming(writer, -value - 1, pullback, singular))
+            yield BySign(value, natural, assuming(-value - 1))
         elif any(y.has(sympy.assoc_legendre, sympy.assoc_laguerre) for y in natural):
             yield BySign(value, natural, whole)
-
-
-def _own_symbols(writer: Writer) -> dict[Any, Any]:
-    """The user's symbols, which carry assumptions, for those that were computed with."""
-    return {plain: symbol for plain, symbol in writer.symbols.items() if plain != symbol}
-
-
-def _assuming(writer: Writer, value: Any, pullback: Pullback, singular: Poly | None) -> WrittenPair | None:
-    """The solutions where the value is natural."""
-    informed = writer.assuming(value)
-    return None if informed is None else pullback.equation.written(informed, pullback.f, singular)

@@ -109,9 +109,9 @@ class Whittaker(StandardEquation):
                     near = _near_zero(q, r) if shifted else []
                     yield from (Pullback(Whittaker(q, value, M), f) for value in dict.fromkeys([*near, r]))
 
-    def written(self, writer: Writer, f: RatFunc, singular: Poly | None) -> WrittenPair:
+    def written(self, writer: Writer, f: RatFunc) -> WrittenPair:
         if not self.r:
-            return bessel.written(writer, self.M + Fraction(1, 4), f * f * self.q * Fraction(-1, 4), singular)
+            return bessel.written(writer, self.M + Fraction(1, 4), f * f * self.q * Fraction(-1, 4))
         form = _WhittakerForm.of(self, writer, f)
         for turned in (form, form.turned):
             polynomial = _hermite(turned) or _laguerre(turned)

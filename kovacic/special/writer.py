@@ -120,7 +120,8 @@ class Writer:
     """Writes in one variable; `symbols` are the user's own by name, with what is assumed about them.
 
     With a gauge transformation a v + b v' is written for what would be v without.  `places` are values of the variable at which
-    solutions are to be real.
+    solutions are to be real.  With `singular`, a denominator of S, they are analytic wherever it isn't zero, even where
+    f is.
     """
 
     def __init__(
@@ -130,8 +131,10 @@ class Writer:
         symbols: Mapping[str, Any],
         transform: Combined | None = None,
         places: Sequence[Fraction] = (),
+        singular: Poly | None = None,
     ) -> None:
         self.places = places
+        self.singular = singular
         self.gauge = gauge
         self.transform = transform
         self.atoms = Atoms(x)
@@ -142,6 +145,11 @@ class Writer:
         self._shown: dict[Number | Poly, Expr] = {}
         self._natural: dict[Number, bool] = {}
         self._lower: dict[Expr, Expr] = {}
+
+    @property
+    def own(self) -> dict[Expr, Expr]:
+        """The user's symbols, which carry assumptions, for those that are computed with."""
+        return {plain: symbol for plain, symbol in self.symbols.items() if plain != symbol}
 
     def assuming(self, value: Expr) -> Writer | None:
         """A writer that knows the value to be natural: a symbol of an integer is written by that; None without one.
@@ -157,7 +165,7 @@ class Writer:
             for plain in (plain for plain in slopes if slopes[plain] == slope and self.symbols[plain].is_integer):
                 natural = sympy.Dummy("d", integer=True, nonnegative=True)
                 meaning = sympy.expand(plain + (natural - value) / slope).xreplace(self.symbols)
-                writer = Writer(self.gauge, self.atoms.x, {}, places=self.places)
+                writer = Writer(self.gauge, self.atoms.x, {}, places=self.places, singular=self.singular)
                 writer.symbols = self.symbols
                 writer.known = {**self.symbols, plain: meaning}
                 return writer
