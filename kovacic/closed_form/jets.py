@@ -275,8 +275,8 @@ class _Evaluator(BallEvaluator):
         """A special function; a constant that is none of these by SymPy's numbers."""
         if e.func in _UNARY:
             return getattr(_lifted(self(e.args[0])), _UNARY[e.func])()
-        if (known := rewritten(e)) is not None:
-            return self(known)
+        if (by_series := _BY_SERIES.get(e.func)) is not None:
+            return self(by_series(*e.args))
         if isinstance(e, (sympy.uppergamma, sympy.lowergamma)):
             name = "gamma_upper" if isinstance(e, sympy.uppergamma) else "gamma_lower"
             return getattr(acb_series, name)(self(e.args[0]), _lifted(self(e.args[1])))
@@ -404,24 +404,6 @@ _DERIVATIVES: dict[Any, Callable[[Sequence[Acb], Acb], list[Acb]]] = {
 }
 
 
-#: Functions that SymPy writes by others.
-_REWRITTEN: dict[Any, Any] = {
-    **dict.fromkeys((sympy.asin, sympy.acos, sympy.asinh, sympy.acosh, sympy.atanh), sympy.log),
-    **dict.fromkeys((sympy.elliptic_k, sympy.elliptic_e), sympy.hyper),
-}
-
-
-def rewritten(e: Any) -> Any:
-    """By functions that are known here: those above, spherical Bessel functions, and polynomials by 2F1, 1F1; or None."""
-    is_incomplete = isinstance(e, sympy.elliptic_e) and len(e.args) > 1
-    if e.func in _REWRITTEN and not is_incomplete:
-        return e.rewrite(_REWRITTEN[e.func])
-    rule = _BY_SERIES.get(e.func)
-    if rule is None:
-        return None
-    return rule(*e.args)
-
-
 def _spherical(function: Any) -> Callable[..., Any]:
     """sqrt(pi/(2 z)) C_(n + 1/2)(z)."""
     return lambda n, z: sympy.sqrt(sympy.pi / (2 * z)) * function(n + sympy.S.Half, z)
@@ -449,6 +431,8 @@ def _jacobi(n: Any, a: Any, b: Any, z: Any) -> Any:
 
 #: By Bessel's functions, and by hypergeometric series.
 _BY_SERIES: dict[Any, Callable[..., Any]] = {
+    sympy.elliptic_k: lambda m: sympy.elliptic_k(m).rewrite(sympy.hyper),
+    sympy.elliptic_e: lambda m: sympy.elliptic_e(m).rewrite(sympy.hyper),
     sympy.jn: _spherical(sympy.besselj),
     sympy.yn: _spherical(sympy.bessely),
     sympy.laguerre: lambda n, z: _laguerre(n, sympy.S.Zero, z),

@@ -36,6 +36,7 @@ from dataclasses import dataclass, replace
 from fractions import Fraction
 from functools import partial
 from itertools import chain, islice, product
+from math import nan
 from typing import TYPE_CHECKING, Any, ClassVar
 
 from flint import acb, fmpq, fmpq_poly
@@ -294,10 +295,10 @@ class _GaussForm:
         found = next(inside, None)
         return None if found is None else sympy.Rational(found)
 
-    def _at(self, x: Fraction) -> fmpq | Fraction | None:
-        """f at a place, None at a pole."""
+    def _at(self, x: Fraction) -> Fraction | float | None:
+        """f at a place, None where that has letters; not a number at a pole, and so neither above nor below one."""
         den = self.f.den(x)
-        return self.f.field.rational_value(self.f.num(x) / den) if den else None
+        return self.f.field.rational_value(self.f.num(x) / den) if den else nan
 
     @property
     def inside(self) -> Expr | None:
@@ -352,21 +353,15 @@ class _GaussForm:
         """N with a = -N."""
         return (self.alpha + self.beta + self.gamma - 1) * HALF
 
-    def _values(self, polynomial: Poly) -> list[fmpq | Fraction | None]:
-        """Those at the places where solutions are to be real, None for those with letters."""
-        return [self.f.field.rational_value(polynomial(place)) for place in self.writer.places or _SAMPLE]
+    @cached_property
+    def _values(self) -> list[Fraction | float | None]:
+        """f at the places where solutions are to be real."""
+        return [self._at(place) for place in self.writer.places or _SAMPLE]
 
     @property
     def is_between(self) -> bool:
         """True if f is between 0 and 1, or unknown, at one of the places."""
-        values = self._values(self.f.num * (self.f.den - self.f.num))  # f (1 - f), up to a square
-        return any(value is None or value > 0 for value in values)
-
-    @property
-    def is_beyond(self) -> bool:
-        """True if f is above 1, on the cut of 2F1, at all places."""
-        values = self._values(self.f.den * (self.f.den - self.f.num))  # 1 - f, up to a square
-        return all(value is not None and value < 0 for value in values)
+        return any(value is None or 0 < value < 1 for value in self._values)
 
     @property
     def cost(self) -> tuple[bool | int | str, ...]:
@@ -376,11 +371,11 @@ class _GaussForm:
         """
         f = self.f
         natural = self.writer.is_integer(self.alpha)
-        inside = self._values(f.num * (f.den - f.num))  # f (1 - f), up to a square
-        real = sum(value is not None and value > 0 for value in inside) if natural else 0
+        values = self._values
+        real = sum(value is not None and 0 < value < 1 for value in values) if natural else 0
         terms = sum(bool(c) for c in (*f.num, *f.den))
         uneven = natural and self.alpha != self.beta
-        is_cut = self.is_beyond
+        is_cut = all(value is not None and value > 1 for value in values)  # of 2F1, at all places
         if natural and not is_cut:
             is_cut = not real if self.writer.places else f.field == QQ and self.between is None
         return is_cut, not f.is_polynomial, uneven, natural, -real, terms, not self.writer.is_negative(f.num.lc), str(f)
