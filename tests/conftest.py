@@ -17,7 +17,7 @@ from hypothesis import HealthCheck, Phase, settings
 SLOW = [HealthCheck.too_slow, HealthCheck.filter_too_much, HealthCheck.data_too_large, HealthCheck.large_base_example]
 
 settings.register_profile(
-    "ci", max_examples=50, deadline=None, derandomize=True, database=None, suppress_health_check=SLOW
+    "ci", max_examples=25, deadline=None, derandomize=True, database=None, suppress_health_check=SLOW
 )
 settings.register_profile("mutation", settings.get_profile("ci"), phases=[Phase.explicit, Phase.generate])
 settings.register_profile("dev", deadline=None, suppress_health_check=SLOW)

@@ -11,7 +11,7 @@ from math import gcd, prod
 import pytest
 import strategies
 import sympy
-from build import QQ, AlgebraicField, Budget, Field, FunctionField, Poly, RatFunc, decompose, parametrize
+from build import QQ, AlgebraicField, Budget, Field, FunctionField, Poly, RatFunc, decompose, generated, parametrize
 from flint import Ordering, fmpz_mpoly_ctx, fmpz_poly, nmod_poly
 from hypothesis import assume, given, settings
 from hypothesis import strategies as st
@@ -100,7 +100,7 @@ def test_roots_of_powers_over_every_kind_of_field(field: Field) -> None:
 
 
 @pytest.mark.long
-@settings(max_examples=20)
+@generated(6)
 @given(st.data(), st.sampled_from([QQ, SQRT5]), st.integers(0, 40))
 def test_a_factor_is_removed_as_often_as_it_divides(data: st.DataObject, field: AlgebraicField, count: int) -> None:
     elements = polynomials if field == QQ else over(field)
@@ -459,7 +459,7 @@ def test_sparse_polynomials_factor_whatever_their_coefficients_are(
 
 
 @pytest.mark.long
-@settings(max_examples=20)
+@generated(6)
 @given(st.lists(polynomials.filter(lambda f: f.degree > 0), min_size=1, max_size=4), st.integers(1, 7), st.booleans())
 def test_factors_of_powers_are_those_of_their_roots(parts: list[RationalPoly], n: int, equal: bool) -> None:
     """Powers of long squarefree polynomials, of others, and products with different multiplicities."""
@@ -514,7 +514,7 @@ def test_zeros_that_take_long_to_isolate_are_isolated_in_a_process() -> None:
 
 
 @pytest.mark.long
-@settings(max_examples=20)
+@generated(6)
 @given(
     st.integers(1, 900),
     st.integers(0, 900),

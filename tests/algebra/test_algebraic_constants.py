@@ -8,7 +8,7 @@ from fractions import Fraction
 import pytest
 import strategies
 import sympy
-from build import QQ, AlgebraicField, Budget, RatFunc, analyse, function, parametrize, read_expression
+from build import QQ, AlgebraicField, Budget, RatFunc, analyse, function, generated, parametrize, read_expression
 from hypothesis import given, settings
 from strategies import Example
 from transform import hypergeometric
@@ -82,7 +82,7 @@ def _has_the_right_case(example: Example) -> None:
 
 
 @pytest.mark.long
-@settings(max_examples=30)
+@generated(8)
 @given(strategies.over_number_fields())
 def test_moved_by_a_moebius_map_over_a_number_field(example: Example) -> None:
     _has_the_right_case(example)
@@ -96,7 +96,7 @@ def test_moved_by_moebius_maps_over_number_fields_in_the_long_run(example: Examp
 
 
 @pytest.mark.long
-@settings(max_examples=20)
+@generated(6)
 @given(strategies.over_number_fields("case 1: diagonal"))
 def test_two_omegas_over_a_number_field(example: Example) -> None:
     """Their constant is a square root over the field."""
@@ -110,7 +110,7 @@ def test_a_square_root_beside_an_irrational_coefficient() -> None:
 
 
 @pytest.mark.long
-@settings(max_examples=20)
+@generated(6)
 @given(strategies.over_number_fields("case 1", "case 2", "odd"))
 def test_closed_forms_over_a_number_field(example: Example) -> None:
     """Each is checked, exactly and to 50 digits, before it is returned."""

@@ -7,7 +7,7 @@ from fractions import Fraction
 import pytest
 import strategies
 import transform
-from build import QQ, Poly, RatFunc
+from build import QQ, Poly, RatFunc, generated
 from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 
@@ -64,7 +64,7 @@ def test_conjugate_omegas(F: RatFunc, w: int) -> None:
 
 @pytest.mark.long
 @given(omegas, small_functions)
-@settings(max_examples=50)
+@generated(12)
 def test_pull_back_of_a_solution(omega: RatFunc, f: RatFunc) -> None:
     """`y(f) f'^(-1/2)` has the logarithmic derivative `omega(f) f' - f''/(2 f')`."""
     first = f.derivative()
@@ -75,7 +75,7 @@ def test_pull_back_of_a_solution(omega: RatFunc, f: RatFunc) -> None:
 
 @pytest.mark.long
 @given(omegas.map(transform.from_omega), small_functions, small_functions)
-@settings(max_examples=30)
+@generated(8)
 def test_pull_backs_compose(S: RatFunc, f: RatFunc, g: RatFunc) -> None:
     assume(f.derivative() and g.derivative())
     assume(S.den.degree + S.num.degree <= 12)
@@ -84,7 +84,7 @@ def test_pull_backs_compose(S: RatFunc, f: RatFunc, g: RatFunc) -> None:
 
 @pytest.mark.long
 @given(omegas.map(transform.from_omega), strategies.moebius_maps())
-@settings(max_examples=50)
+@generated(12)
 def test_moebius_is_a_pull_back_and_has_an_inverse(S: RatFunc, m: tuple[int, int, int, int]) -> None:
     a, b, c, d = m
     image = transform.moebius(S, a, b, c, d)
@@ -101,7 +101,7 @@ def test_translation_and_scaling(S: RatFunc, shift: Fraction, factor: Fraction) 
 
 @pytest.mark.long
 @given(omegas, small_functions, strategies.polynomials(0, 1, 3))
-@settings(max_examples=50)
+@generated(12)
 def test_gauge_of_a_solution(omega: RatFunc, a: RatFunc, b: Poly) -> None:
     """`u = a y + b y'` divided by `sqrt(det)` solves the new equation."""
     S, b_function = transform.from_omega(omega), RatFunc(b)

@@ -12,8 +12,8 @@ from pathlib import Path
 
 import pytest
 from batch_lines import KINDS, SLOW, Run, answers_of, lines_of, random_runs
-from build import parametrize
-from hypothesis import example, given, settings
+from build import generated, parametrize
+from hypothesis import example, given
 from hypothesis import strategies as st
 from processes import finished
 
@@ -59,7 +59,7 @@ _RUNS = st.lists(
 
 
 @pytest.mark.long
-@settings(max_examples=20)
+@generated(6)
 @given(_RUNS, st.sampled_from([1, 2, 8]), st.booleans(), st.booleans())
 @example([("wrong key", 2000)], 1, True, False)
 @example([("slow", 1), ("long wrong key", 40)], 2, True, False)

@@ -10,9 +10,21 @@ import flint
 import pytest
 import strategies
 import sympy
-from build import QQ, Atoms, Poly, RatFunc, Triangular, decompose, is_exact_solution, jet, parametrize, read_input
+from build import (
+    QQ,
+    Atoms,
+    Poly,
+    RatFunc,
+    Triangular,
+    decompose,
+    generated,
+    is_exact_solution,
+    jet,
+    parametrize,
+    read_input,
+)
 from flint import acb
-from hypothesis import assume, given, settings
+from hypothesis import assume, given
 from hypothesis import strategies as st
 from sympy.abc import t, x
 
@@ -69,7 +81,7 @@ def test_logarithms_of_partial_fractions(data: st.DataObject) -> None:
 
 
 @pytest.mark.long
-@settings(max_examples=60)
+@generated(15)
 @given(strategies.rational_functions(4), squarefree)
 def test_integrals_on_curves(r: RatFunc, g: Poly) -> None:
     integral = integrate_on_curve(r, g)
@@ -84,7 +96,7 @@ def test_integrals_on_curves(r: RatFunc, g: Poly) -> None:
 
 
 @pytest.mark.long
-@settings(max_examples=40)
+@generated(10)
 @given(strategies.rational_functions(3), squarefree.filter(lambda g: g.degree <= 2))
 def test_integrals_of_genus_0_differentiate_back(r: RatFunc, g: Poly) -> None:
     scale, expression, notes = curve_integral(integrate_on_curve(r, g), Atoms(x))
@@ -195,7 +207,7 @@ def test_exact_check_notices_every_changed_part() -> None:
 
 
 @pytest.mark.long
-@settings(max_examples=15)
+@generated(5)
 @given(strategies.case_1_diagonal())
 def test_gauge_and_normal_form_agree(example: strategies.Example) -> None:
     """y times the gauge factor solves the equation with that gauge; the check inside `solutions` fails otherwise."""
@@ -232,7 +244,7 @@ def test_large_powers(omega: str) -> None:
 
 
 @pytest.mark.long
-@settings(max_examples=60, deadline=None)
+@generated(15)
 @given(ratios, ratios, st.lists(st.tuples(small, small), max_size=2))
 def test_derivatives_are_integrated(E: RatFunc, W: RatFunc, levels: list[tuple[int, int]]) -> None:
     """W exp(E) + sum c exp(e) Ei(E - e), for rational e."""
@@ -247,7 +259,7 @@ def test_derivatives_are_integrated(E: RatFunc, W: RatFunc, levels: list[tuple[i
 
 
 @pytest.mark.long
-@settings(max_examples=30, deadline=None)
+@generated(8)
 @given(ratios, ratios, st.sampled_from([1, -1, 2, -3]), small, small)
 def test_error_functions(q: RatFunc, W: RatFunc, b: int, e: int, c: int) -> None:
     E = q * q * b + e

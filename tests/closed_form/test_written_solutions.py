@@ -10,8 +10,8 @@ from pathlib import Path
 
 import pytest
 import sympy
-from build import parametrize, run, size
-from hypothesis import given, settings
+from build import generated, parametrize, run, size
+from hypothesis import given
 from hypothesis import strategies as st
 from test_textbook_equations import EQUATIONS
 
@@ -60,7 +60,7 @@ EXPONENTS = st.fractions(min_value=-2, max_value=2, max_denominator=3)
 
 
 @pytest.mark.long
-@settings(max_examples=12, deadline=None)
+@generated(4)
 @given(
     st.tuples(EXPONENTS, EXPONENTS),
     st.tuples(EXPONENTS, EXPONENTS),

@@ -9,9 +9,9 @@ from itertools import pairwise
 
 import flint
 import pytest
-from build import ExactPoint, System, as_problem, ball_to_flint, evaluate_states, make_frame, parametrize
+from build import ExactPoint, System, as_problem, ball_to_flint, evaluate_states, generated, make_frame, parametrize
 from clocks import interrupted
-from hypothesis import assume, given, settings
+from hypothesis import assume, given
 from hypothesis import strategies as st
 from strategies import Example, examples, fractions, integers, nonzero
 
@@ -133,7 +133,7 @@ points = st.builds(ExactPoint, parts) | st.builds(ExactPoint, parts, parts)
 
 
 @pytest.mark.long
-@settings(max_examples=8)
+@generated(3)
 @given(examples().filter(lambda example: example.size <= 5), points, points)
 def test_both_ways_agree_for_equations_of_every_case(example: Example, a: ExactPoint, b: ExactPoint) -> None:
     m, n = both_ways(as_problem(example.S).system, [a, b], 300)

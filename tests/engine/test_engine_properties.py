@@ -19,7 +19,7 @@ import pytest
 import strategies
 import textbook
 import transform
-from build import QQ, AlgebraicField, Poly, RatFunc, function, parametrize, verify
+from build import QQ, AlgebraicField, Poly, RatFunc, function, generated, parametrize, verify
 from flint import nmod_poly
 from forged import (
     Decision,
@@ -163,7 +163,7 @@ def test_conjugate_places_with_one_irrational_exponent(p: str, m: int) -> None:
 
 
 @pytest.mark.long
-@settings(max_examples=60)
+@generated(15)
 @given(strategies.rational_pole_equations())
 def test_textbook_search_agrees_on_random_equations(S: RatFunc) -> None:
     try:
@@ -175,7 +175,7 @@ def test_textbook_search_agrees_on_random_equations(S: RatFunc) -> None:
 
 
 @pytest.mark.long
-@settings(max_examples=40)
+@generated(10)
 @given(strategies.examples("case 1", "case 2", "case 3: Schwarz tetrahedral", "none", "odd"))
 def test_textbook_search_agrees_on_constructed_equations(example: Example) -> None:
     S = example.S
@@ -193,7 +193,7 @@ def test_textbook_search_agrees_on_constructed_equations(example: Example) -> No
 
 
 @pytest.mark.long
-@settings(max_examples=60)
+@generated(15)
 @given(strategies.omegas(2, 4))
 def test_unique_omega_is_found_itself(omega: RatFunc) -> None:
     """Where the answer needs no choice (omega unique, or the same by chance), it's the one we started from."""
@@ -207,7 +207,7 @@ def test_unique_omega_is_found_itself(omega: RatFunc) -> None:
 
 
 @pytest.mark.long
-@settings(max_examples=40)
+@generated(10)
 @given(strategies.products((-2, -1, 1, 2, 3), 3, 3), strategies.nonzero(30))
 def test_constants_of_the_diagonal_case(F: RatFunc, W: int) -> None:
     """`(F' +- sqrt W)/(2F)`: in Q(x) exactly when W is a square, else over Q(sqrt W).
@@ -237,7 +237,7 @@ def test_scalar_group_needs_no_constants(example: Example) -> None:
 
 
 @pytest.mark.long
-@settings(max_examples=40)
+@generated(10)
 @given(strategies.examples())
 def test_decide_agrees_and_answers_survive_pickle_and_json(example: Example) -> None:
     answer = solve(example.S)
@@ -266,7 +266,7 @@ def changed(decision: Decision, i: int, j: int, evidence: Any) -> Decision:
 
 
 @pytest.mark.long
-@settings(max_examples=40)
+@generated(10)
 @given(strategies.examples("case 2", "case 3", "none", "case 1: omega"), st.integers(1, 5), st.integers(2, 50))
 def test_nullity_is_the_same_at_another_prime_and_point(example: Example, index: int, offset: int) -> None:
     """The rank statement of a "no" by plain arithmetic: another prime, another point, more terms."""
@@ -279,7 +279,7 @@ def test_nullity_is_the_same_at_another_prime_and_point(example: Example, index:
 
 
 @pytest.mark.long
-@settings(max_examples=30)
+@generated(8)
 @given(strategies.examples("case 2", "case 3", "none"), st.integers(1, 20), st.integers(60, 90))
 def test_a_proof_at_another_prime_and_point_verifies(example: Example, index: int, point: int) -> None:
     """The verifier computes the nullity itself, at the prime and the point that the record names."""

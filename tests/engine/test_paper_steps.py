@@ -8,8 +8,8 @@ from typing import Any
 import pytest
 import strategies
 import sympy
-from build import QQ, Budget, analyse, parametrize, size
-from hypothesis import given, settings
+from build import QQ, Budget, analyse, generated, parametrize, size
+from hypothesis import given
 
 import kovacic
 from kovacic.engine.families import Roots, is_natural
@@ -74,7 +74,7 @@ def test_kovacic_s_third_example_line_by_line() -> None:
 
 
 @pytest.mark.long
-@settings(max_examples=25, deadline=None)
+@generated(8)
 @given(strategies.examples("case", "odd"))
 def test_the_paper_s_steps_find_what_the_engine_finds(example: strategies.Example) -> None:
     """A family succeeds for the degree of omega and for no smaller one; none does where there is no solution."""

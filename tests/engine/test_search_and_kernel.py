@@ -9,7 +9,7 @@ from typing import Any
 import pytest
 import strategies
 import transform
-from build import QQ, Budget, RatFunc, analyse, function
+from build import QQ, Budget, RatFunc, analyse, function, generated
 from forged import inspector
 from hypothesis import example, given, settings
 from hypothesis import strategies as st
@@ -26,7 +26,7 @@ X = RatFunc(QQ.poly([0, 1]))
 
 
 @pytest.mark.long
-@settings(max_examples=80)
+@generated(20)
 @given(st.one_of(strategies.omegas(), strategies.case_1_orthogonal()))
 @example((X + 1) / (X**2 - 2))
 @example((2 * X + 3) / (X**2 + 1) + 1 / (X - 1) + 1)

@@ -14,7 +14,7 @@ import pytest
 import strategies
 import sympy
 import transform
-from build import QQ, AlgebraicField, Budget, Equation, Field, Ground, RatFunc, analyse, parametrize, verify
+from build import QQ, AlgebraicField, Budget, Equation, Field, Ground, RatFunc, analyse, generated, parametrize, verify
 from forged import CurveFunction, claimed
 from hypothesis import assume, given, settings
 from hypothesis import strategies as st
@@ -95,7 +95,7 @@ def test_the_second_solution_of_a_rational_one(omega: RatFunc, name: str) -> Non
 
 
 @pytest.mark.long
-@settings(max_examples=25)
+@generated(8)
 @given(strategies.distinct_irreducibles(1, 3, 3), st.data())
 def test_a_unique_omega_with_rational_residues(factors: list, data: st.DataObject) -> None:
     """y1 = prod p^r has y1^n rational exactly for the multiples of the common denominator of the exponents r."""
@@ -108,7 +108,7 @@ def test_a_unique_omega_with_rational_residues(factors: list, data: st.DataObjec
 
 
 @pytest.mark.long
-@settings(max_examples=25)
+@generated(8)
 @given(strategies.distinct_irreducibles(1, 3, 3), strategies.nonzero(5), st.data())
 def test_an_exponential_omega(factors: list, slope: int, data: st.DataObject) -> None:
     exponents = [data.draw(strategies.fractions(3)) for _ in factors]
@@ -117,7 +117,7 @@ def test_an_exponential_omega(factors: list, slope: int, data: st.DataObject) ->
 
 
 @pytest.mark.long
-@settings(max_examples=25)
+@generated(8)
 @given(strategies.products((-2, -1, 1, 2)), strategies.nonzero(6))
 def test_a_rational_product_of_solutions_with_irrational_wronskian(F: RatFunc, w: int) -> None:
     """y1 y2 = F: the group is diagonal, and finite only if the residues of w/F are rational."""
@@ -309,7 +309,7 @@ def test_an_order_that_is_a_large_prime() -> None:
 
 
 @pytest.mark.long
-@settings(max_examples=25)
+@generated(8)
 @given(strategies.examples("case 1", "case 2"))
 def test_local_monodromies_lie_in_the_group(example: strategies.Example) -> None:
     """In PGL2, a local monodromy has the denominator of Delta as its order, or is infinite."""
@@ -329,7 +329,7 @@ def test_local_monodromies_lie_in_the_group(example: strategies.Example) -> None
 
 
 @pytest.mark.long
-@settings(max_examples=25)
+@generated(8)
 @given(strategies.examples("case 3"))
 def test_primitive_groups(example: strategies.Example) -> None:
     group = kovacic.solve(example.S).group

@@ -10,8 +10,8 @@ from typing import Any
 import mpmath
 import pytest
 import sympy
-from build import parametrize, size
-from hypothesis import given, settings
+from build import generated, parametrize, size
+from hypothesis import given
 from hypothesis import strategies as st
 from sympy import Rational, Symbol, cos, exp, log, oo, pi, sin, sqrt
 
@@ -174,7 +174,7 @@ constants = st.sampled_from(
 
 
 @pytest.mark.long
-@settings(max_examples=25, deadline=None)
+@generated(8)
 @given(constants, st.lists(waves, min_size=1, max_size=3))
 def test_random_right_hand_sides(equation: tuple[int, int], terms: list) -> None:
     """Substituted; the roots of the characteristic polynomial often are exponents on the right: resonance."""

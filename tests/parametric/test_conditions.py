@@ -12,7 +12,7 @@ from typing import Any
 
 import pytest
 import sympy
-from build import QQ, Conditions, parametrize, run
+from build import QQ, Conditions, generated, parametrize, run
 from clocks import controlled
 from hypothesis import given, settings
 from parametric_cases import FAMILIES, Family, hypergeometric, with_squares
@@ -539,7 +539,7 @@ def _regions_agree_with_the_engine(S: str, samples: int, seconds: float) -> None
 
 @pytest.mark.long
 @given(parametric_equations())
-@settings(max_examples=25)
+@generated(8)
 def test_random_equations_agree_with_the_engine(S: str) -> None:
     _regions_agree_with_the_engine(S, 12, 1.0)
 

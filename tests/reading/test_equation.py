@@ -15,7 +15,7 @@ import jsonschema
 import pytest
 import strategies
 import sympy
-from build import QQ, Equation, RatFunc, parametrize, read_input
+from build import QQ, Equation, RatFunc, generated, parametrize, read_input
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
@@ -135,7 +135,7 @@ def test_refusals_have_a_place(text: str, kind: type, message: str, position: in
 
 @pytest.mark.long
 @given(strategies.rational_functions(), strategies.rational_functions(), strategies.rational_functions())
-@settings(max_examples=40)
+@generated(10)
 def test_text_of_an_equation_reads_back(a: RatFunc, b: RatFunc, c: RatFunc) -> None:
     equation = Equation(a, b, c, b * c)
     assert read_input(str(equation)).equation == equation
@@ -144,7 +144,7 @@ def test_text_of_an_equation_reads_back(a: RatFunc, b: RatFunc, c: RatFunc) -> N
 
 @pytest.mark.long
 @given(strategies.rational_functions(), strategies.rational_functions(), strategies.rational_functions())
-@settings(max_examples=25)
+@generated(8)
 def test_sympy_equations_read_like_text(a: RatFunc, b: RatFunc, c: RatFunc) -> None:
     equation = Equation(a, b, c, ZERO)
     A, B, C = (sympy.sympify(value.to_str()) for value in (a, b, c))
@@ -232,7 +232,7 @@ def test_constants_and_parameters_in_equations() -> None:
 
 @pytest.mark.long
 @given(st.text(alphabet="xy'=+-*/^() 0123diff,", max_size=30))
-@settings(max_examples=200)
+@generated(40)
 def test_garbage_is_refused_with_an_input_error(text: str) -> None:
     with contextlib.suppress(kovacic.InputError, kovacic.LimitExceeded):
         read_input(text)

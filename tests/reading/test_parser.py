@@ -8,7 +8,7 @@ from typing import Any
 
 import pytest
 import sympy
-from build import QQ, RatFunc, parametrize, read_expression, read_input
+from build import QQ, RatFunc, generated, parametrize, read_expression, read_input
 from expressions import Expression, expressions
 from hypothesis import example, given, settings
 from hypothesis import strategies as st
@@ -46,7 +46,7 @@ def expected(expression: Expression) -> list[Fraction] | None:
 
 @pytest.mark.long
 @given(expressions())
-@settings(max_examples=300)
+@generated(60)
 def test_random_expressions_have_their_exact_value(expression: Expression) -> None:
     values = expected(expression)
     if values is None:
@@ -58,7 +58,7 @@ def test_random_expressions_have_their_exact_value(expression: Expression) -> No
 
 @pytest.mark.long
 @given(expressions(max_leaves=8))
-@settings(max_examples=100)
+@generated(25)
 def test_random_expressions_agree_with_sympy_and_so_do_sympys_own(expression: Expression) -> None:
     values = expected(expression)
     if values is None:
@@ -74,7 +74,7 @@ def test_random_expressions_agree_with_sympy_and_so_do_sympys_own(expression: Ex
 
 @pytest.mark.long
 @given(expressions())
-@settings(max_examples=100)
+@generated(25)
 def test_what_is_printed_is_read_back(expression: Expression) -> None:
     if expected(expression) is not None:
         S = read_input(expression.text).S
@@ -95,7 +95,7 @@ PIECES = [
 
 @pytest.mark.long
 @given(st.lists(st.sampled_from(PIECES), max_size=25).map("".join) | st.text(max_size=30))
-@settings(max_examples=800)
+@generated(100)
 @example("x" * 50 + "\x00")
 @example("(" * 1000)
 def test_garbage_is_refused_with_a_position_or_read(text: str) -> None:
@@ -215,7 +215,7 @@ def test_structure(text: str, structure: str) -> None:
 
 @pytest.mark.long
 @given(expressions())
-@settings(max_examples=300)
+@generated(60)
 def test_the_structure_doesnt_depend_on_redundant_parentheses(expression: Expression) -> None:
     """What an operation stands on is its operands' text: parentheses around it change nothing."""
     tokens = tokenize(expression.text)
@@ -277,7 +277,7 @@ def test_what_isnt_an_expression(text: str, position: int, words: str) -> None:
 @pytest.mark.long
 @given(expressions())
 @example(Expression(" 2e-3**x' -\u2003(y″ (x) + .5x⁻²) = é ", "", lambda x: x, 0))
-@settings(max_examples=100)
+@generated(25)
 def test_tokens_are_the_text_without_its_spaces(expression: Expression) -> None:
     text = expression.text
     tokens = tokenize(text)
@@ -829,7 +829,7 @@ def test_a_rule_is_asked_wherever_its_pattern_occurs(text: str) -> None:
     demand_the_marks_of_rules(text)
 
 
-@pytest.mark.long
+@pytest.mark.slow
 @settings(max_examples=2000)
 @given(_TEXTS)
 def test_a_rule_is_asked_in_many_texts_wherever_its_pattern_occurs(text: str) -> None:

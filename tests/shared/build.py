@@ -17,6 +17,7 @@ from typing import Any
 import pytest
 import sympy
 from flint import acb
+from hypothesis import settings
 
 from kovacic import Equation
 from kovacic.algebra.extension import AlgebraicField
@@ -68,6 +69,7 @@ __all__ = [
     "equation",
     "evaluate_states",
     "function",
+    "generated",
     "is_exact_solution",
     "jet",
     "make_frame",
@@ -128,6 +130,11 @@ def parametrize(
         else:
             marked.append(_marked(member, pytest.mark.long if index in in_ci else pytest.mark.slow, one_name))
     return pytest.mark.parametrize(names, marked, **options)
+
+
+def generated(count: int) -> settings:
+    """`count` generated examples in .ci/run; ten times as many before a release, with HYPOTHESIS_PROFILE=fuzz."""
+    return settings(max_examples=count * (10 if settings.get_current_profile_name() == "fuzz" else 1))
 
 
 def size(number: Any, digits: int = 20) -> Any:

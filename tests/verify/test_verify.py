@@ -14,7 +14,7 @@ import pytest
 import strategies
 import textbook
 import transform
-from build import QQ, AlgebraicField, Budget, Ground, Poly, RatFunc, analyse, verify
+from build import QQ, AlgebraicField, Budget, Ground, Poly, RatFunc, analyse, generated, verify
 from flint import nmod_poly
 from forged import (
     GroupClaim,
@@ -239,7 +239,7 @@ def test_the_size_of_the_group_is_checked_with_its_name(text: str) -> None:
 
 
 @pytest.mark.long
-@settings(max_examples=150)
+@generated(30)
 @given(strategies.examples(), st.sampled_from(FAMILIES), st.sampled_from([None, 1, 2, 3, 4, 5, 6]))
 def test_every_group_is_confirmed_and_a_random_other_one_refuted(
     example: strategies.Example, family: str, n: int | None

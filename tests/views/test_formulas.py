@@ -7,8 +7,8 @@ import re
 import pytest
 import strategies
 import sympy
-from build import QQ, RatFunc, parametrize
-from hypothesis import given, settings
+from build import QQ, RatFunc, generated, parametrize
+from hypothesis import given
 
 import kovacic
 from kovacic.views.sentences import formulas_of, normal_form
@@ -17,7 +17,7 @@ from kovacic.writing.formula import Formulas, latex_text
 
 
 @pytest.mark.long
-@settings(max_examples=25, deadline=None)
+@generated(8)
 @given(strategies.rational_functions(max_degree=6, bound=99))
 def test_a_broken_formula_has_the_same_value(function: RatFunc) -> None:
     latex = latex_text(function.to_str())

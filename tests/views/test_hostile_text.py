@@ -10,8 +10,8 @@ from html.parser import HTMLParser
 from typing import Any
 
 import pytest
-from build import Conditions, parametrize
-from hypothesis import given, settings
+from build import Conditions, generated, parametrize
+from hypothesis import given
 from hypothesis import strategies as st
 
 import kovacic
@@ -75,7 +75,7 @@ _OBEYED_BY_MARKDOWN = re.compile(r"(?<!\\)(?:\\\\)*[<\[\]`*_$|#]|\n")
 
 
 @pytest.mark.long
-@settings(max_examples=200)
+@generated(40)
 @given(_texts)
 def test_escaped_text_does_nothing(text: str) -> None:
     assert not obeyed_by_a_terminal(visible(text))
