@@ -22,7 +22,8 @@ settings.register_profile(
 settings.register_profile("mutation", settings.get_profile("ci"), phases=[Phase.explicit, Phase.generate])
 settings.register_profile("dev", deadline=None, suppress_health_check=SLOW)
 settings.register_profile("fuzz", deadline=None, database=None, suppress_health_check=SLOW, print_blob=True)
-settings.load_profile(os.environ.get("HYPOTHESIS_PROFILE", "ci"))
+PROFILE = os.environ.get("HYPOTHESIS_PROFILE", "ci")
+settings.load_profile(PROFILE)
 
 #: The modules of `pytest -m quick`, with the examples in the docstrings of every room: arithmetic, the readers, the engine on
 #: published equations, groups, closed forms, values with bounds, parameters, JSON, the commands' examples.
@@ -71,7 +72,7 @@ def pytest_collection_finish() -> None:
 def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
     for item in items:
         named = item.path.stem in QUICK or isinstance(item, pytest.DoctestItem)
-        if item.get_closest_marker("slow"):
+        if item.get_closest_marker("slow") or PROFILE == "fuzz":
             item.add_marker(pytest.mark.timeout(6 * 3600))
         if named and not any(map(item.get_closest_marker, ("slow", "long"))):
             item.add_marker(pytest.mark.quick)
