@@ -34,10 +34,10 @@ from kovacic.general_solution.answer import (
 )
 from kovacic.general_solution.basis import Basis
 from kovacic.general_solution.check import check_answer
-from kovacic.general_solution.conditions import Condition, ConditionReader, as_mapping
+from kovacic.general_solution.conditions import ConditionReader, as_mapping
 from kovacic.general_solution.constants import Outcome, ParameterCase, constants_of
 from kovacic.general_solution.eigenfunctions import eigenfunctions
-from kovacic.general_solution.first_order import FirstOrderEquation, read_first_order, solved_linear
+from kovacic.general_solution.first_order import read_first_order, solved_linear
 from kovacic.general_solution.homogeneous import find_basis, no_solution
 from kovacic.general_solution.particular import particular_solution, right_hand_side
 from kovacic.general_solution.places import (
@@ -59,7 +59,7 @@ from kovacic.general_solution.question import (
     with_values,
 )
 from kovacic.general_solution.riccati_equation import solved_riccati
-from kovacic.general_solution.systems import read_system, solved_system
+from kovacic.general_solution.systems import Solver, read_system, solved_system
 from kovacic.general_solution.textbook import in_book_form, without_homogeneous
 from kovacic.general_solution.written import combination, free_constants, with_floats, written
 from kovacic.general_solution.zero_set import ZeroSet
@@ -213,7 +213,7 @@ def dsolve(
     return [answer.eq] if isinstance(eq, list | tuple) else answer.eq
 
 
-def _system(eq: Any, func: Any, ics: Any, parameters: Sequence[str], limits: Limits) -> SystemAnswer | None:
+def _system(eq: Any, func: Any, ics: Any, parameters: Sequence[str], solver: Solver) -> SystemAnswer | None:
     """The answer for a list of several equations, or a text with several; None for anything else."""
     guesses: tuple[str, ...] = ()
     if isinstance(eq, str):
@@ -225,7 +225,7 @@ def _system(eq: Any, func: Any, ics: Any, parameters: Sequence[str], limits: Lim
         guesses = reading.guesses
     if not isinstance(eq, list | tuple) or len(eq) == 1:
         return None
-    found, notices = solved_system(read_system(eq, func), as_mapping(ics), partial(answer_to, limits=limits))
+    found, notices = solved_system(read_system(eq, func), as_mapping(ics), solver)
     return SystemAnswer(found, [*guesses, *notices])
 
 
@@ -249,16 +249,10 @@ def in_special_functions(found: Any, eq: Any, func: Any = None, **given: Any) ->
     if length <= SCREEN:
         return None
     with suppress(NotImplementedError, InputError):
-        other, _ = _answered(eq, func, special=True, **given)
+        other = answer_to(eq, func, special=True, **given).eq
         if len(as_text(other.rhs)) < length / 2:
             return other
     return None
-
-
-def _answered(eq: Any, func: Any, **given: Any) -> tuple[Expr, list[str]]:
-    """The answer, and what is to be said beside."""
-    answer = answer_to(eq, func, **given)
-    return answer.eq, answer.notices
 
 
 @limited
@@ -315,49 +309,41 @@ def answer_to(
     """
     eq, ics, assume = with_values(eq, ics, assume, limits)
     budget = Budget(limits)
+    solver = partial(answer_to, limits=limits)
     with budget.watched():
         try:
-            system = _system(eq, func, ics, parameters, limits)
-        except LimitExceeded as limit:
-            raise NotImplementedError(f"undecided: {limit}") from None
-        if system is not None:
-            return system
-        eq, func = _single(eq, "equation"), _single(func, "function")
-        try:
-            question = read_question(eq, func, ics, var, budget.limits, parameters, assume)
-        except InputError as reason:
-            first_order = _first_order(
-                eq, func, ics, var, budget.limits, declared(parameters, about_letters(assume, var)), assume or {}
-            )
-            if first_order is None:
-                raise reason from None
-            equation, conditions, known = first_order
-            if equation.is_linear:
-                found, notices = solved_linear(equation, conditions)
-            else:
-                found, notices = solved_riccati(equation, conditions, partial(_answered, limits=limits))
-            found = found.xreplace({symbol: own for own, symbol in known.items()})
-            if has_floats(eq, as_mapping(ics)):
-                found = sympy.Eq(found.lhs, with_floats(found.rhs), evaluate=False)
-            return FirstOrderAnswer(found, [*equation.guesses, *notices], equation, conditions, known=known)
-        try:
+            system = _system(eq, func, ics, parameters, solver)
+            if system is not None:
+                return system
+            eq, func = _single(eq, "equation"), _single(func, "function")
+            try:
+                question = read_question(eq, func, ics, var, budget.limits, parameters, assume)
+            except InputError as reason:
+                names = declared(parameters, about_letters(assume, var))
+                first_order = _first_order(eq, func, ics, var, budget.limits, names, assume or {}, solver)
+                if first_order is None:
+                    raise reason from None
+                return first_order
             return _solved(question, budget, special=special)
         except LimitExceeded as limit:
             raise NotImplementedError(f"undecided: {limit}") from None
 
 
 def _first_order(
-    eq: Any, func: Any, ics: Any, var: str | None, limits: Limits, names: Collection[str], assume: Mapping[Any, Any]
-) -> tuple[FirstOrderEquation, tuple[Condition, ...], dict[Expr, Expr]] | None:
-    """The equation of first order and its conditions, with symbols that know what is assumed of the user's own, and these.
-
-    None if it isn't one, or can't be read.
-    """
+    eq: Any,
+    func: Any,
+    ics: Any,
+    var: str | None,
+    limits: Limits,
+    names: Collection[str],
+    assume: Mapping[Any, Any],
+    solver: Solver,
+) -> FirstOrderAnswer | None:
+    """The answer for an equation of first order; None if it isn't one, or can't be read."""
     eq, ics = apart(eq, ics)
-    try:
+    found = None
+    with suppress(InputError):
         found = read_first_order(eq, func, var, limits, names)
-    except InputError:
-        return None
     if found is None:
         return None
     reader = ConditionReader(found.function, str(found.function.func))
@@ -367,7 +353,15 @@ def _first_order(
     own = {symbol.name: symbol for symbol in symbols}
     assumed = read_assumptions(assume, sympy.Tuple(*symbols), tuple(own)).symbols()
     known |= {own[name]: symbol for name, symbol in assumed.items() if symbol != own[name]}
-    return found.in_symbols(known), tuple(condition.in_symbols(known) for condition in conditions), known
+    equation, conditions = found.in_symbols(known), tuple(condition.in_symbols(known) for condition in conditions)
+    if equation.is_linear:
+        solution, notices = solved_linear(equation, conditions)
+    else:
+        solution, notices = solved_riccati(equation, conditions, solver)
+    solution = solution.xreplace({symbol: own for own, symbol in known.items()})
+    if has_floats(eq, as_mapping(ics)):
+        solution = sympy.Eq(solution.lhs, with_floats(solution.rhs), evaluate=False)
+    return FirstOrderAnswer(solution, [*equation.guesses, *notices], equation, conditions, known=known)
 
 
 def _solved(question: Question, budget: Budget, *, special: bool) -> ProblemAnswer:

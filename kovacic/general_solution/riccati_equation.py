@@ -79,9 +79,9 @@ class _LinearSolution:
 def solved_riccati(
     equation: FirstOrderEquation,
     conditions: Sequence[Condition],
-    linear_solution: Callable[..., tuple[Expr, list[str]]],
+    solver: Callable[..., Any],
 ) -> tuple[Expr, list[str]]:
-    """w(x) = ..., checked, and what is to be said beside; `linear_solution` is `dsolve` for the linear equation.
+    """w(x) = ..., checked, and what is to be said beside; `solver` is `answer_to`, for the linear equation.
 
     Raises `NotImplementedError` for a value at a point where neither linear equation is known to be regular.
     """
@@ -96,7 +96,7 @@ def solved_riccati(
     else:
         is_inverted = _is_inverted(equation, value)
         solved_for = equation.of_inverse if is_inverted else equation
-        found = _solved_linear(equation, solved_for, value, linear_solution)
+        found = _solved_linear(equation, solved_for, value, solver)
         constants = found.constants
         notices = found.notices
         forms = [*_forms(found, solved_for)]
@@ -132,7 +132,7 @@ def _solved_linear(
     equation: FirstOrderEquation,
     solved_for: FirstOrderEquation,
     value: GivenValue | None,
-    linear_solution: Callable[..., tuple[Expr, list[str]]],
+    solver: Callable[..., Any],
 ) -> _LinearSolution:
     """For a value at an ordinary point the solution with values of u and u'; else all of them, or those through the value.
 
@@ -147,11 +147,11 @@ def _solved_linear(
         if solved_for is not equation:
             u_there, slope_there = value.v, equation.p.subs(here)
         start = {u.subs(here): u_there, u.diff().subs(here): slope_there}
-    found, notices = linear_solution(linear, u, ics=start)
+    answer = solver(linear, u, ics=start)
     # Letters of their own for C1 and C2, which may be symbols of r, or of the value, too.
     own = sympy.Tuple(linear, *start.values()).free_symbols
-    letters = {symbol: sympy.Dummy() for symbol in sorted(found.rhs.free_symbols - own, key=str)}
-    solution = found.rhs.xreplace(letters)
+    letters = {symbol: sympy.Dummy() for symbol in sorted(answer.eq.rhs.free_symbols - own, key=str)}
+    solution = answer.eq.rhs.xreplace(letters)
     constants = tuple(letters.values())
     if value is not None and not start:  # those of C1 u1 + C2 u2 for which -u'/r is v u at a: one, or all
         basis = [solution.diff(constant) for constant in constants]
@@ -159,7 +159,7 @@ def _solved_linear(
         misses = [s - value.v * value_at(y, x, value.point) for s, y in zip(slopes, basis, strict=True)]
         if not all(map(is_zero, misses)):
             solution = misses[1] * basis[0] - misses[0] * basis[1]
-    return _LinearSolution(solution, constants, notices)
+    return _LinearSolution(solution, constants, answer.notices)
 
 
 def _is_inverted(equation: FirstOrderEquation, value: GivenValue | None) -> bool:
