@@ -17,8 +17,7 @@ from typing import Any
 
 import sympy
 from flint import arb
-from sympy import cos, expand, sin
-from sympy.simplify.fu import TR8
+from sympy import expand
 
 from kovacic.algebra.precision import working_digits
 from kovacic.closed_form.atoms import Atoms, display
@@ -30,7 +29,7 @@ from kovacic.closed_form.product import product
 from kovacic.closed_form.way_back import in_x
 from kovacic.equation import Equation
 from kovacic.general_solution.integrands import NUMBERS, radicands
-from kovacic.general_solution.substitution import finite_value, size, slope
+from kovacic.general_solution.substitution import finite_value, in_single_waves, size, slope
 from kovacic.general_solution.zero import points, samples
 from kovacic.general_solution.zero_set import ZeroSet, without_implied
 from kovacic.limits import check_time
@@ -226,7 +225,7 @@ def _quotients(w: Expr, y1: Expr, y2: Expr, x: Expr) -> Iterator[Expr]:
     joined = (sympy.powsimp(expand(W / w)) for _ in range(size(W) <= _LONGEST_JOINED))
     for quotient in chain(found, (finite_value(e, x, point) for e in joined for point in _POINTS)):
         check_time()
-        c = with_single_waves(expand(quotient or 0))
+        c = in_single_waves(quotient or 0)
         if c != 0 and c.is_finite is not False and not c.has(sympy.Function, sympy.nan, sympy.zoo):
             yield c
 
@@ -243,13 +242,6 @@ def _is_wronskian(W: Expr, y1: Expr, y2: Expr, x: Expr, letters: Mapping[Expr, E
                 return False
         return True
     return False
-
-
-def with_single_waves(e: Expr) -> Expr:
-    """Products of waves as sums of waves."""
-    if not e.has(sin, cos):
-        return e
-    return expand(TR8(e))
 
 
 def _simplified(c: Expr) -> Expr:

@@ -17,15 +17,15 @@ from itertools import islice, pairwise
 from typing import Any
 
 import sympy
-from flint import acb, arb
+from flint import arb
 from sympy import Rational, cos, exp, factorial, gamma, log, pi, rf, sin, sqrt
 from sympy.functions.special.bessel import BesselBase
 
 from kovacic.algebra.precision import working_digits
 from kovacic.closed_form.atoms import sign_of_root
-from kovacic.closed_form.jets import ANTIDERIVATIVES, jet
+from kovacic.closed_form.jets import ANTIDERIVATIVES
 from kovacic.general_solution.substitution import finite_value, size
-from kovacic.general_solution.zero import is_zero, opposite, samples
+from kovacic.general_solution.zero import ball, is_zero, known_jet, opposite, samples
 from kovacic.limits import check_time
 
 Expr = Any  # SymPy publishes no types
@@ -273,11 +273,11 @@ def _size_near(e: Expr, x: Expr, place: Approach, t: Expr) -> Any:
     for factor in _AROUND:
         at = place.in_terms_of(t * factor)
         with working_digits(_DIGITS):
-            try:
-                point = jet(at, sympy.Dummy(), acb(0))[0]
-                value = abs(jet(e, x, point)[0])
-            except (NotImplementedError, ZeroDivisionError, AttributeError, ValueError):
+            point = ball(at)
+            found = None if point is None else known_jet(e, x, point)
+            if found is None:
                 return None
+            value = abs(found[0])
             if not value.is_finite() or (value.rel_accuracy_bits() < 10 and not value < arb(10) ** (-_DIGITS // 2)):
                 return None
             largest = value if largest is None or value > largest else largest

@@ -31,7 +31,7 @@ from kovacic.general_solution.jumps import between, break_points, in_steps, on_p
 from kovacic.general_solution.question import Question
 from kovacic.general_solution.steps import JUMPING, taken_apart
 from kovacic.general_solution.values import have_values, value_at
-from kovacic.general_solution.zero import Residual, ball, samples
+from kovacic.general_solution.zero import NOT_EVALUATED, Residual, ball, samples
 
 Expr = Any  # SymPy publishes no types
 _NOT_FINITE = {sympy.nan, sympy.zoo, sympy.oo, -sympy.oo}
@@ -43,8 +43,6 @@ _SMALL = arb(10) ** (-DIGITS // 2)
 _SAMPLES = 6
 #: Functions that aren't steps or impulses, and aren't analytic either.
 _CORNERS = tuple(function for function in JUMPING if function not in (sympy.Heaviside, sympy.DiracDelta))
-#: What is raised for functions that can't be evaluated.
-_NOT_EVALUATED = (NotImplementedError, ZeroDivisionError, AttributeError, ValueError)
 
 
 @dataclass(frozen=True)
@@ -106,7 +104,7 @@ class SolutionClaim:
         """The notices for a test that can't be carried out.  Raises `VerificationFailed` if the answer fails it."""
         try:
             fails = is_wrong()
-        except _NOT_EVALUATED as reason:
+        except NOT_EVALUATED as reason:
             said = "a part of it can't be evaluated"
             if isinstance(reason, NotImplementedError):  # the messages of other errors are no help
                 said = str(reason)
@@ -168,7 +166,7 @@ def is_finite(value: Expr) -> bool:
 
 
 def _is_wrong_at(claim: SolutionClaim, start: Expr | None) -> bool:
-    """True if the residual is provably not zero at a point.  Raises one of `_NOT_EVALUATED` if it can't be computed."""
+    """True if the residual is provably not zero at a point.  Raises one of `NOT_EVALUATED` if it can't be computed."""
     x = claim.x
     definite = [integral for integral in _outer_integrals(claim.y) if not integral.has_free(x)]
     claim = claim.at(dict.fromkeys(definite, sympy.Integer(1)))  # they are factors of y1 and y2

@@ -23,14 +23,14 @@ from typing import Any, NamedTuple
 
 import sympy
 from sympy import acos, atan, cos, cosh, exp, log, sin, sinh, tan, tanh
-from sympy.simplify.fu import TR8, TR2i
+from sympy.simplify.fu import TR2i
 
 from kovacic.errors import InputError
 from kovacic.general_solution.basis import Basis
 from kovacic.general_solution.behaviour import OSCILLATING, Approach, UnknownLimit, limit_at
 from kovacic.general_solution.conditions import Condition
 from kovacic.general_solution.question import Question
-from kovacic.general_solution.substitution import finite_value, size
+from kovacic.general_solution.substitution import finite_value, in_single_waves, size
 from kovacic.general_solution.values import value_at
 from kovacic.general_solution.zero import Zero, is_nowhere_zero, when_zero
 from kovacic.general_solution.zero_set import ZeroSet
@@ -212,7 +212,7 @@ def _norm(row: Row) -> Expr | None:
         return None
     if row.r == 0 and _are_gammas_without_common_poles(row):
         return _ONE
-    norm = sympy.factor_terms(sympy.expand(TR8(sympy.expand(row.u**2 + row.v**2))))
+    norm = sympy.factor_terms(in_single_waves(row.u**2 + row.v**2))
     is_needed = Zero.NEVER not in (when_zero(row.u), when_zero(row.v))
     return norm if is_needed and is_nowhere_zero(norm) else None
 
@@ -256,8 +256,7 @@ def tidy(value: Any) -> Any:
         shorten = sympy.cancel if value.free_symbols or value.has(sympy.E) else sympy.expand
         return sympy.radsimp(shorten(value), symbolic=False)
     if not functions <= _ELEMENTARY:
-        expanded = sympy.expand(value)
-        return min((value, expanded, sympy.expand(TR8(expanded))), key=size)
+        return min((value, sympy.expand(value), in_single_waves(value)), key=size)
     shorter = sympy.cancel(value)
     return min(map(TR2i, (value, shorter)), key=size)
 

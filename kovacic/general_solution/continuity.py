@@ -22,8 +22,7 @@ from sympy.core.function import AppliedUndef
 from kovacic.algebra.embedding import complex_zeros
 from kovacic.algebra.precision import working_precision
 from kovacic.closed_form.cuts import cut_of, cuts_of
-from kovacic.closed_form.jets import jet
-from kovacic.general_solution.zero import opposite, samples
+from kovacic.general_solution.zero import known_jet, opposite, samples
 from kovacic.limits import check_time
 
 Expr = Any  # SymPy publishes no types
@@ -38,8 +37,6 @@ _HALVINGS = 12
 _COMPARISONS = 12
 #: How many short intervals are compared between two points: a formula along the cut itself has hundreds, a jump a few.
 _MOST_SUSPECTS = 8
-_NOT_EVALUATED = (NotImplementedError, ZeroDivisionError, AttributeError, ValueError, TypeError)
-
 
 #: What stands for entire functions here: integrals that are left, and the functions of which pairs of solutions are made.
 _OPAQUE = (
@@ -151,12 +148,11 @@ class _Course:
 
     def _is_analytic(self, here: Acb, functions: Sequence[Expr], cuts: Sequence[Expr]) -> bool:
         """True if all functions are finite on a real ball, with no argument on a cut, or continuous along one."""
-        try:
-            if not all(_is_beside_cut(jet(cut, self.x, here)[0]) for cut in cuts):
-                return False
-            return all(value.is_finite() for e in functions for value in jet(e, self.x, here)[:2])
-        except _NOT_EVALUATED:
+        arguments = (known_jet(cut, self.x, here) for cut in cuts)
+        if not all(found and _is_beside_cut(found[0]) for found in arguments):
             return False
+        values = (known_jet(e, self.x, here) for e in functions)
+        return all(found and found[0].is_finite() and found[1].is_finite() for found in values)
 
     def _differ(self, a: Any, b: Any, order: int) -> bool:
         """True if the values of y, or of y', at the ends of ever shorter intervals stay apart."""
@@ -174,10 +170,8 @@ class _Course:
 
     def _value(self, point: Any, order: int) -> Acb:
         """Not finite where it isn't known."""
-        try:
-            return jet(self.y, self.x, acb(arb(point)))[order]
-        except _NOT_EVALUATED:
-            return acb("nan")
+        found = known_jet(self.y, self.x, acb(arb(point)))
+        return found[order] if found else acb("nan")
 
 
 def _crossing(e: Expr, x: Expr) -> Any:

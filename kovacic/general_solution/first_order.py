@@ -30,6 +30,7 @@ from kovacic.general_solution.continuity import jumps
 from kovacic.general_solution.integrands import NUMBERS, radicands, ratfunc
 from kovacic.general_solution.jumps import in_steps
 from kovacic.general_solution.steps import JUMPING, Apart, taken_apart
+from kovacic.general_solution.substitution import changed_beside
 from kovacic.general_solution.textbook import in_book_form, in_hyperbolic_functions, sums
 from kovacic.general_solution.values import have_values, value_at
 from kovacic.general_solution.variation import is_solution, starting_at
@@ -209,9 +210,7 @@ def _in_powers(whole: Expr, function: Expr) -> FirstOrderEquation | None:
 
 def _quotient_by_terms(numerator: Expr, denominator: Expr) -> Expr:
     """In lowest terms, with letters for functions that jump, which SymPy can't cancel."""
-    letters = {jump: sympy.Dummy() for jump in numerator.atoms(*JUMPING)}
-    found = sympy.cancel(numerator.xreplace(letters) / denominator)
-    return found.xreplace({letter: jump for jump, letter in letters.items()})
+    return changed_beside(numerator.atoms(*JUMPING), numerator, lambda plain: sympy.cancel(plain / denominator))
 
 
 # ------------------------------------------------------------------------------------------------------------ solving

@@ -38,7 +38,7 @@ from kovacic.general_solution.first_order import (
     value_of,
 )
 from kovacic.general_solution.integrands import NUMBERS, ratfunc
-from kovacic.general_solution.substitution import size
+from kovacic.general_solution.substitution import changed_beside, size
 from kovacic.general_solution.textbook import in_book_form, over_one_denominator
 from kovacic.general_solution.values import value_at
 from kovacic.general_solution.waves import rational_in_waves
@@ -256,5 +256,4 @@ def _slope(y: Expr, x: Expr) -> Expr:
         step = 1 if nu.is_positive else -1
         other = _NEIGHBOURS[f.func](step, f.func(nu - step, z), 2 * nu / z * f)
         slope = slope.xreplace({f.func(nu + step, z): other})
-    letters = {f: sympy.Dummy() for f in slope.atoms(*_NEIGHBOURS)}
-    return sympy.expand_mul(slope.xreplace(letters)).xreplace({letter: f for f, letter in letters.items()})
+    return changed_beside(slope.atoms(*_NEIGHBOURS), slope, sympy.expand_mul)

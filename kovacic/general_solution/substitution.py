@@ -6,13 +6,14 @@ How much SymPy writes when it expands an expression is counted before, since it 
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass, replace
 from functools import reduce
 from operator import mul
 from typing import Any
 
 import sympy
+from sympy.simplify.fu import TR8
 
 from kovacic.closed_form.atoms import antiderivative_parameters, hypergeometric, sign_of_root
 from kovacic.limits import check_time
@@ -95,6 +96,17 @@ def _at_zero(value: Expr) -> Expr:
     value = value.xreplace(known)
     empty = [i for i in value.atoms(sympy.Integral) if i.limits[0][1:2] == i.limits[0][2:]]
     return value.xreplace(dict.fromkeys(empty, _ZERO))
+
+
+def in_single_waves(e: Expr) -> Expr:
+    """Expanded, with sums of waves for their products."""
+    return sympy.expand(TR8(sympy.expand(e)))
+
+
+def changed_beside(parts: Iterable[Expr], e: Expr, change: Callable[[Expr], Expr]) -> Expr:
+    """An expression changed with a letter for each of the parts, which stay."""
+    letters = {part: sympy.Dummy() for part in parts}
+    return change(e.xreplace(letters)).xreplace({letter: part for part, letter in letters.items()})
 
 
 # ---------------------------------------------------------------------------------------------------------------- size

@@ -28,12 +28,12 @@ from typing import Any
 
 import sympy
 from sympy import Abs, Heaviside, cos, cosh, exp, sin, sinh
-from sympy.simplify.fu import TR2, TR5, TR6, TR8, TR2i, TR10i, hyper_as_trig
+from sympy.simplify.fu import TR2, TR5, TR6, TR2i, TR10i, hyper_as_trig
 
 from kovacic.closed_form.jets import jet
 from kovacic.general_solution.integrands import radicands
 from kovacic.general_solution.steps import place_of
-from kovacic.general_solution.substitution import expanded_size
+from kovacic.general_solution.substitution import changed_beside, expanded_size, in_single_waves
 from kovacic.general_solution.zero import is_positive_polynomial, is_zero, points
 from kovacic.special.choice import shortest
 
@@ -289,7 +289,7 @@ def _single_waves(value: Expr, x: Expr) -> Iterator[Expr]:
     expanded = sympy.expand(value) if value.has(sin, cos) else value
     terms = (sympy.Mul.make_args(term) for term in sympy.Add.make_args(expanded))
     if any(sum(isinstance(factor, sin | cos) for factor in term) > 1 for term in terms):
-        found = sympy.powsimp(sympy.expand(TR8(expanded)))
+        found = sympy.powsimp(in_single_waves(value))
         yield found
         yield _with_common_factors(found)
         steps = sorted(value.atoms(Heaviside), key=str)
@@ -406,11 +406,11 @@ def over_one_denominator(value: Expr, x: Expr) -> Iterator[Expr]:
 
 def _common_factors(value: Expr, x: Expr) -> Iterator[Expr]:
     """Over one denominator, and with common factors before the sum; different exponentials stay different."""
-    letters = {e: sympy.Dummy() for e in value.atoms(exp) if e.has(x)}
-    back = {letter: e for e, letter in letters.items()}
-    plain = value.xreplace(letters)
-    for form in (plain, *over_one_denominator(plain, x)):
-        yield _with_common_factors(form).xreplace(back)
+    exponentials = [e for e in value.atoms(exp) if e.has(x)]
+    yield changed_beside(exponentials, value, _with_common_factors)
+    yield changed_beside(
+        exponentials, value, lambda plain: _with_common_factors(next(over_one_denominator(plain, x), plain))
+    )
 
 
 def _with_common_factors(value: Expr) -> Expr:

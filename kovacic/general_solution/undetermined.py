@@ -19,9 +19,8 @@ from typing import Any, NamedTuple
 
 import sympy
 from sympy import cos, cosh, sin, sinh
-from sympy.simplify.fu import TR8
 
-from kovacic.general_solution.substitution import size
+from kovacic.general_solution.substitution import in_single_waves, size
 
 Expr = Any  # SymPy publishes no types
 Complex = tuple[Expr, Expr]
@@ -129,7 +128,7 @@ def _summands(right: Expr, x: Expr) -> Sequence[Expr] | None:
         return None  # before it is expanded
     right = sympy.expand(right.rewrite((sinh, cosh), sympy.exp))
     if right.has(sin, cos):
-        right = sympy.expand(TR8(right))  # powers and products of waves become waves
+        right = in_single_waves(right)
     summands: tuple[Expr, ...] = sympy.Add.make_args(right) if right != 0 else ()
     return summands if len(summands) <= _LARGEST else None
 

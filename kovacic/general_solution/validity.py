@@ -17,15 +17,13 @@ from functools import partial
 from typing import Any
 
 import sympy
-from flint import arb
 from sympy import cos, sin
 from sympy.logic.boolalg import BooleanAtom
-from sympy.simplify.fu import TR5, TR6, TR8
+from sympy.simplify.fu import TR5, TR6
 from sympy.solvers.inequalities import reduce_rational_inequalities
 
-from kovacic.algebra.precision import working_digits
-from kovacic.closed_form.check import DIGITS
-from kovacic.general_solution.zero import ball, is_nowhere_zero, is_positive_polynomial
+from kovacic.general_solution.substitution import in_single_waves
+from kovacic.general_solution.zero import agree, is_nowhere_zero, is_positive_polynomial
 from kovacic.general_solution.zero_set import ZeroSet, inequality, poles_of, without_implied
 
 Expr = Any  # SymPy publishes no types
@@ -169,9 +167,7 @@ def _are_equal(e: Expr, other: Expr) -> bool:
     """To 50 digits, for small values of the letters."""
     symbols = sorted(e.free_symbols | other.free_symbols, key=str)
     sample = {symbol: sympy.Rational(k + 2, 2 * k + 5) for k, symbol in enumerate(symbols)}
-    with working_digits(2 * DIGITS):
-        first, second = ball(e, sample), ball(other, sample)
-        return None not in (first, second) and bool(abs(first - second) < arb(10) ** -DIGITS * abs(first))
+    return agree(e.xreplace(sample), other.xreplace(sample))
 
 
 def _is_false(relation: Expr) -> bool:
@@ -264,7 +260,7 @@ def _of_cosine(relation: Expr) -> Expr:
         return relation
     product = sympy.expand(relation.lhs)
     powers = (square.as_base_exp() for square in (TR5(product), TR6(product)))
-    of_one_wave = sympy.expand(TR8(product)).as_content_primitive()[1]
+    of_one_wave = in_single_waves(product).as_content_primitive()[1]
     shorter = min(relation, of_one_wave > 0, key=sympy.count_ops)
     return next((sympy.Ne(base, 0) for base, exponent in powers if exponent == 2), shorter)
 

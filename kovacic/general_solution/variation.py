@@ -19,10 +19,10 @@ from kovacic.closed_form.check import DIGITS
 from kovacic.closed_form.form import one_exponential
 from kovacic.errors import LimitExceeded
 from kovacic.general_solution.antiderivatives import antiderivative
-from kovacic.general_solution.basis import Basis, with_single_waves
+from kovacic.general_solution.basis import Basis
 from kovacic.general_solution.continuity import jumps
 from kovacic.general_solution.steps import JUMPING
-from kovacic.general_solution.substitution import size
+from kovacic.general_solution.substitution import in_single_waves, size
 from kovacic.general_solution.textbook import is_constant
 from kovacic.general_solution.waves import fractions_of_waves
 from kovacic.general_solution.zero import Residual, points
@@ -103,7 +103,7 @@ def _checked(basis: Basis, parts: Sequence[Any], right: Expr) -> Expr | None:
         whole = powsimp(whole)
     forms = [whole]
     if whole.has(sin, cos):
-        forms += [with_single_waves(whole), *fractions_of_waves(whole, basis.x)]
+        forms += [in_single_waves(whole), *fractions_of_waves(whole, basis.x)]
     candidates = [_without_homogeneous(basis, part) for form in forms for part in (form, _gathered(form, basis.x))]
     found = one_exponential(min(candidates, key=size))
     return found if _is_right(basis, found, right) else None

@@ -15,10 +15,11 @@ from typing import Any
 
 import sympy
 from sympy import atan, cos, log, sin, tan
-from sympy.simplify.fu import TR2, TR8, TR2i
+from sympy.simplify.fu import TR2, TR2i
 
 from kovacic.general_solution.integrands import ChangeOfIntegrand, integral_of_fraction, sum_of
 from kovacic.general_solution.special_integrals import fresnel
+from kovacic.general_solution.substitution import in_single_waves
 from kovacic.general_solution.undetermined import undetermined
 
 Expr = Any  # SymPy publishes no types
@@ -54,7 +55,7 @@ def _at_tangent(found: Expr, angle: Expr, u: Expr) -> Expr:
             continue
         degrees = [sympy.degree(part, u) for part in parts]
         in_waves = [sympy.expand(sympy.expand(p.subs(u, s / c) * c**n)) for p, n in zip(parts, degrees, strict=True)]
-        n, m = (_waves_of_one_angle(part).as_content_primitive()[1] for part in in_waves)
+        n, m = (in_single_waves(part).as_content_primitive()[1] for part in in_waves)
         known[logarithm] = log(n / m) - sympy.Rational(degrees[0] - degrees[1], 2) * in_cosine
     whole = sympy.expand(found.xreplace(known), deep=False).xreplace({in_cosine: 2 * log(c)})
     return whole.xreplace({u**2 + 1: c**-2}).xreplace({u: s / c})
@@ -78,12 +79,7 @@ def _continuous_angle(line: Expr, angle: Expr, u: Expr) -> Expr:
     along = (c * c + s * image, c * image - s * c)
     D = (1 + a) * along[0] + b * along[1]
     N = (1 + a) * along[1] - b * along[0]
-    return angle + atan(sympy.cancel(_waves_of_one_angle(N) / _waves_of_one_angle(D)))
-
-
-def _waves_of_one_angle(e: Expr) -> Expr:
-    """A sum of waves of multiples of one angle, for products of them."""
-    return sympy.expand(TR8(sympy.expand(e)))
+    return angle + atan(sympy.cancel(in_single_waves(N) / in_single_waves(D)))
 
 
 @dataclass(frozen=True)
@@ -180,7 +176,7 @@ def _in_fractions(R: Expr, s: Expr, c: Expr, theta: Expr, k: int, *, doubled: bo
     terms = (*A, *(term * s for term in B))
     back = dict(zip((s, c), (sin(theta), cos(theta))[:: 1 - 2 * k], strict=True))
     polynomials, fractions = sympy.sift(terms, lambda term: term.is_polynomial(s, c), binary=True)
-    return _waves_of_one_angle(sympy.Add(*polynomials).xreplace(back)) + sympy.Add(*fractions).xreplace(back)
+    return in_single_waves(sympy.Add(*polynomials).xreplace(back)) + sympy.Add(*fractions).xreplace(back)
 
 
 def _is_even(f: Expr, c: Expr) -> bool:
@@ -245,8 +241,7 @@ def beside_waves(term: Expr, x: Expr) -> Expr | None:
     >>> print(beside_waves(x**2 * cos(x**2), x))
     x*sin(x**2)/2 - sqrt(2)*sqrt(pi)*fresnels(sqrt(2)*x/sqrt(pi))/4
     """
-    singles = sympy.Add.make_args(sympy.expand(TR8(term)))
-    return sum_of(_beside_at_most_one_wave(single, x) for single in singles)
+    return sum_of(_beside_at_most_one_wave(single, x) for single in sympy.Add.make_args(in_single_waves(term)))
 
 
 def _beside_at_most_one_wave(term: Expr, x: Expr) -> Expr | None:

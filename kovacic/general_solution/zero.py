@@ -19,16 +19,17 @@ from typing import Any
 
 import sympy
 from flint import acb, arb, fmpq
-from sympy.simplify.fu import TR8
 
 from kovacic.algebra.precision import working_digits
 from kovacic.closed_form.check import DIGITS
 from kovacic.closed_form.jets import ARBITRARY, jet
 from kovacic.general_solution.integrands import prepared
-from kovacic.general_solution.substitution import size
+from kovacic.general_solution.substitution import in_single_waves, size
 from kovacic.reading.parser import shown
 
 Expr = Any  # SymPy publishes no types
+#: What is raised for functions that can't be evaluated.
+NOT_EVALUATED = (NotImplementedError, ZeroDivisionError, AttributeError, ValueError, TypeError)
 #: How many subexpressions a constant may have that is rewritten.
 _LARGEST = 2000
 #: How many subexpressions a sum may have of which SymPy is asked whether it is zero.
@@ -196,9 +197,15 @@ def ball(value: Expr, sample: dict[Expr, Expr] | None = None) -> Any:
         value = value.xreplace(sample)
     if value.has(*ARBITRARY):
         return None
+    found = known_jet(value, sympy.Dummy(), acb(0))
+    return found and found[0]
+
+
+def known_jet(e: Expr, x: Expr, point: Any) -> Any:
+    """The value and two slopes of an expression at a ball; None if a part can't be evaluated there."""
     try:
-        return jet(value, sympy.Dummy(), acb(0))[0]
-    except (NotImplementedError, AttributeError, ZeroDivisionError):
+        return jet(e, x, point)
+    except NOT_EVALUATED:
         return None
 
 
@@ -227,7 +234,7 @@ def is_identically_zero(value: Expr) -> bool:
     if size(value) > _LARGEST:
         return False
     numerator = sympy.numer(sympy.together(prepared(value)))  # a sum of waves, as sin(a) cos(b) isn't
-    if sympy.expand(numerator) == 0 or sympy.expand(TR8(sympy.expand(numerator))) == 0:
+    if sympy.expand(numerator) == 0 or in_single_waves(numerator) == 0:
         return True
     spread = sympy.expand_log(sympy.expand(numerator, power_base=True), force=False, factor=True)
     if sympy.expand(spread) == 0:

@@ -9,9 +9,8 @@ from typing import Any
 
 import sympy
 from sympy import cosh, exp, gamma, sinh
-from sympy.simplify.fu import TR8
 
-from kovacic.general_solution.substitution import size
+from kovacic.general_solution.substitution import in_single_waves, size
 from kovacic.general_solution.textbook import in_hyperbolic_functions
 from kovacic.general_solution.zero import by_parity, is_nowhere_zero
 
@@ -116,7 +115,7 @@ def _factored(zero: Expr) -> Expr:
         return zero
     above, below = sympy.fraction(sympy.together(zero))
     above /= sympy.Mul(*(f for f in sympy.Mul.make_args(below) if isinstance(f, gamma)))  # 0 at its poles
-    return min(map(sympy.factor, (above, sympy.expand(TR8(sympy.expand(above))))), key=size)
+    return min(map(sympy.factor, (above, in_single_waves(above))), key=size)
 
 
 def _has_no_zero(factor: Expr) -> bool:
