@@ -69,9 +69,10 @@ class SolutionClaim:
         return [part / leading for part in others]
 
     def at(self, numbers: Mapping[Expr, Expr]) -> SolutionClaim:
-        """The claim with numbers for letters, except in the conditions."""
+        """The claim with numbers for letters."""
         y, a, b, c, f = (e.xreplace(numbers) for e in (self.y, *self.coefficients))
-        return replace(self, y=y, coefficients=(a, b, c, f))
+        conditions = [condition.in_symbols(numbers) for condition in self.conditions]
+        return replace(self, y=y, coefficients=(a, b, c, f), conditions=conditions)
 
     def failed(self, what: str) -> VerificationFailed:
         """The exception for an answer that is wrong."""
@@ -121,15 +122,17 @@ def check_answer(
     limits: Mapping[Expr, Approach] = MappingProxyType({}),
     *,
     natural: Expr | None = None,
+    letters: Mapping[Expr, Expr] = MappingProxyType({}),
 ) -> list[str]:
     """What couldn't be checked, in a sentence each.  Raises `VerificationFailed` where the answer isn't one: a defect.
 
     `value` is the answer in the variable of the question, `start` an ordinary point on the side that is meant, and `limits`
-    says where conditions are on limits, and from which side.  The answer holds where the integer `natural` isn't negative.
+    says where conditions are on limits, and from which side.  The answer holds where the integer `natural` isn't negative, and
+    with these expressions for `letters`.
     """
-    claim = SolutionClaim.of(question, value)
+    claim = SolutionClaim.of(question, value).at(letters)
     unchecked = claim.check(start, limits, natural=natural)
-    parts = [value, *claim.rates] if cuts_of(value, question.x) else []
+    parts = [claim.y, *claim.rates] if cuts_of(claim.y, question.x) else []
     if question.function.args[0].is_positive:  # the whole line, where x = exp(t)
         parts = [part.subs(question.x, sympy.exp(question.x)) for part in parts]
     if parts and jumps(parts[0], question.x, parts[1:]):

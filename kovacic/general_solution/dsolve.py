@@ -400,11 +400,10 @@ def _general(question: Question, basis: Basis) -> SecondOrderAnswer:
     particular = without_homogeneous(particular, basis.y1, basis.y2, basis.x)
     constants = free_constants(question, basis, particular)
     value = in_book_form(combination(question, basis, particular, constants), question.x, constants)
-    notices = _by_sign(question, basis, particular, constants)
     unchecked = check_answer(question, value, natural=basis.natural)
+    notices = _by_sign(question, basis, particular, constants) + unchecked
     rests_on = (question, basis, particular, constants, None)
-    eq = written(question, value)
-    return SecondOrderAnswer(eq, notices + unchecked, *rests_on, unchecked=tuple(unchecked), ask=answer_to)
+    return SecondOrderAnswer(written(question, value), notices, *rests_on, unchecked=tuple(unchecked), ask=answer_to)
 
 
 def _determined(question: Question, basis: Basis) -> SecondOrderAnswer:
@@ -423,14 +422,11 @@ def _determined(question: Question, basis: Basis) -> SecondOrderAnswer:
     exceptions = [_said(question, basis, particular, names, case, value) for case in cases]
     if generic.outcome is Outcome.NONE:
         raise _contradiction([point for point, place in limits.items() if not place.is_infinite], exceptions)
-    notices = _by_sign(question, basis, particular, None) + inside.notices
-    unchecked = check_answer(
-        inside.sample(question), value.xreplace(inside.numbers), start, limits, natural=basis.natural
-    )
-    notices += [*unchecked, *(f"this holds unless {said}" for said in exceptions)]
+    unchecked = check_answer(question, value, start, limits, natural=basis.natural, letters=inside.numbers)
+    notices = _by_sign(question, basis, particular, None) + inside.notices + unchecked
+    notices += [f"this holds unless {said}" for said in exceptions]
     rests_on = (question, basis, particular, names, determined)
-    eq = written(question, value)
-    return SecondOrderAnswer(eq, notices, *rests_on, unchecked=tuple(unchecked), ask=answer_to)
+    return SecondOrderAnswer(written(question, value), notices, *rests_on, unchecked=tuple(unchecked), ask=answer_to)
 
 
 def _contradiction(singular: Sequence[Expr], exceptions: Sequence[str]) -> InputError:

@@ -92,13 +92,6 @@ class ImpulsesInside:
         others = [a for a in self.places if not a.is_Symbol]
         return numbers | ({self.high: sympy.Add(1, *others)} if others else {})
 
-    def sample(self, question: Question) -> Question:
-        """The question with these expressions."""
-        numbers = self.numbers
-        symbols = {**question.symbols, **{letter.name: value for letter, value in numbers.items()}}
-        conditions = tuple(condition.in_symbols(numbers) for condition in question.conditions)
-        return replace(question, symbols=symbols, conditions=conditions)
-
 
 def limit_points(question: Question) -> dict[Expr, Approach]:
     """The points of the conditions at which these are conditions on limits, with the side.

@@ -138,27 +138,24 @@ def solved_system(system: LinearSystem, ics: Mapping[Any, Any], solver: Solver) 
 
     Raises `InputError` for values that no solution has, and `NotImplementedError` where nothing is found.
     """
+    functions = system.functions
+    if _is_swapped(system, _initial_values(_conditions(system, ics))):
+        system = system.swapped
     conditions = _conditions(system, ics)
     given = [e for _, condition in conditions for e in (condition.value, *condition.points)]
     start = _initial_values(conditions)
-    is_swapped = _is_swapped(system, start)
-    ordered = system.swapped if is_swapped else system
-    if start is not None and is_swapped:
-        start = start[0], start[2], start[1]
-    (_, b), _ = ordered.matrix
+    (_, b), _ = system.matrix
     exceptions: list[Expr] = []
     if b == 0:
-        pair, notices = _triangular(ordered)
-    elif start is not None and is_unit(b, ordered.t, start[0]):
-        pair, notices = _through_values(ordered, start, solver)
+        pair, notices = _triangular(system)
+    elif start is not None and is_unit(b, system.t, start[0]):
+        pair, notices = _through_values(system, start, solver)
         conditions = []
     else:
-        answer = solver(ordered.equation, ordered.functions[0], ics={})
+        answer = solver(system.equation, system.functions[0], ics={})
         notices = answer.notices
-        pair = answer.eq.rhs, ordered.second(answer.eq.rhs)
+        pair = answer.eq.rhs, system.second(answer.eq.rhs)
         exceptions = [e.xreplace(answer.own) for e in answer.pair_exceptions] if not conditions else []
-    if is_swapped:
-        pair = pair[1], pair[0]
     if conditions:
         pair, others = _with_constants(system, pair, conditions)
         notices += others
@@ -169,9 +166,8 @@ def solved_system(system: LinearSystem, ics: Mapping[Any, Any], solver: Solver) 
     notices += exceptions_of(sympy.Tuple(*pair), system.t, entries, exceptions)
     for number, solution in enumerate(pair):
         notices += check_first_order(system.alone(number, pair[1 - number]), solution, ())
-    return [sympy.Eq(f, e, evaluate=False) for f, e in zip(system.functions, pair, strict=True)], [
-        *dict.fromkeys(notices)
-    ]
+    found = dict(zip(system.functions, pair, strict=True))
+    return [sympy.Eq(f, found[f], evaluate=False) for f in functions], [*dict.fromkeys(notices)]
 
 
 def _with_constants_apart(value: Expr, constants: Sequence[Expr], t: Expr) -> Expr:

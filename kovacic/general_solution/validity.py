@@ -170,25 +170,22 @@ def _are_equal(e: Expr, other: Expr) -> bool:
     return agree(e.xreplace(sample), other.xreplace(sample))
 
 
+def _in_real_symbols(e: Expr) -> Expr:
+    return e.xreplace({symbol: sympy.Dummy(real=True) for symbol in e.free_symbols if symbol.is_real is None})
+
+
 def _is_false(relation: Expr) -> bool:
     """True if an inequality holds for no real values of the symbols, or isn't one between real numbers."""
     if isinstance(relation, BooleanAtom | sympy.Ne):
         return bool(relation == sympy.false)
-    e = relation.lhs.xreplace(
-        {symbol: sympy.Dummy(real=True) for symbol in relation.free_symbols if symbol.is_real is None}
-    )
-    return (
-        e.is_extended_real is False
-        or bool(e.is_negative)
-        or bool(e.is_zero and relation.func is sympy.StrictGreaterThan)
-    )
+    e = _in_real_symbols(relation.lhs)
+    return bool(e.is_extended_real is False or e.is_negative or (e.is_zero and relation.func is sympy.Gt))
 
 
 def _holds_for_real_symbols(relation: Expr) -> bool:
     """As exp(x) + 1 != 0, x^2 - x + 1 > 0 and x + sqrt(x^2 + 1) > 0 do; nothing has to be said then."""
-    real = {symbol: sympy.Dummy(real=True) for symbol in relation.free_symbols if symbol.is_real is None}
     try:
-        relation = relation.xreplace(real)
+        relation = _in_real_symbols(relation)
         if isinstance(relation, BooleanAtom):
             return bool(relation)
         e = relation.lhs
@@ -347,16 +344,14 @@ def _of_the_same_sign(u: Expr) -> Expr:
     is_plain = u.is_Add and u.is_rational_function() and not u.atoms(sympy.Dummy)
     if is_plain and any(p.exp.is_negative for p in u.atoms(sympy.Pow)):
         u = sympy.factor_terms(sympy.together(u))
-        even = {p: sympy.S.One for p in sympy.Mul.make_args(u) if p.is_Pow and p.exp.is_even and p.exp.is_negative}
-        u = sympy.Mul(*(even.get(factor, factor) for factor in sympy.Mul.make_args(u)))
-    _, short = u.as_content_primitive()
-    if short.is_Mul or short.is_Pow:  # -1/x > 0 where -x > 0
-        odd = {p: p.base for p in sympy.Mul.make_args(short) if p.is_Pow and p.exp.is_odd and p.exp.is_negative}
-        short = sympy.Mul(*(odd.get(factor, factor) for factor in sympy.Mul.make_args(short)))
-    is_even_power = short.is_Pow and short.exp.is_even
-    if short.is_Pow and short.exp.is_Rational and not is_even_power:
-        return short.base
-    return short
+    factors = sympy.Mul.make_args(u.as_content_primitive()[1])
+    below = [p for p in factors if p.is_Pow and p.exp.is_integer and p.exp.is_negative]
+    same = {p: p.base for p in below if p.exp.is_odd} | {
+        p: 1 for p in below if p.exp.is_even and not p.atoms(sympy.Dummy)
+    }
+    short = sympy.Mul(*(same.get(factor, factor) for factor in factors))
+    is_odd_power = short.is_Pow and short.exp.is_Rational and not short.exp.is_even
+    return short.base if is_odd_power else short
 
 
 def _nonzero(u: Expr) -> Expr:
