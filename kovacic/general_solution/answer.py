@@ -15,10 +15,9 @@ from kovacic.general_solution.basis import Basis
 from kovacic.general_solution.conditions import Condition
 from kovacic.general_solution.constants import Determined
 from kovacic.general_solution.first_order import FirstOrderEquation
-from kovacic.general_solution.question import Question
+from kovacic.general_solution.question import Question, symbols_that_know
 from kovacic.general_solution.validity import Validity, needed_for
 from kovacic.general_solution.zero_set import ZeroSet
-from kovacic.parametric.assumptions import read_assumptions
 
 Expr = Any  # SymPy publishes no types
 #: Answers by their equations, and how many of them.
@@ -312,8 +311,7 @@ def validity(solution: Any, assume: Mapping[Any, Any] | None = None) -> Validity
         value = sympy.Tuple(value, *(other.rhs for other in others))
     own = {symbol.name: symbol for symbol in value.free_symbols}
     said = {name: what for name, what in (assume or {}).items() if str(name) in own}
-    known = read_assumptions(said, sympy.Tuple(*own.values()), tuple(own)).symbols()
-    symbols = {own[name]: symbol for name, symbol in known.items()}
+    symbols = symbols_that_know(said, own)
     given = given_answer(first)
     exceptions = [] if given is None else [e.xreplace(given.own).xreplace(symbols) for e in given.pair_exceptions]
     return needed_for(value.xreplace(symbols), arguments[0].xreplace(symbols), exceptions)

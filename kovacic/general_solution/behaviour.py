@@ -27,6 +27,7 @@ from kovacic.closed_form.jets import ANTIDERIVATIVES
 from kovacic.general_solution.substitution import finite_value, size
 from kovacic.general_solution.zero import ball, is_zero, known_jet, opposite, samples
 from kovacic.limits import check_time
+from kovacic.reading.parser import shown
 
 Expr = Any  # SymPy publishes no types
 _ZERO = sympy.Integer(0)
@@ -98,7 +99,7 @@ def limit_at(expression: Expr, x: Expr, place: Approach) -> Expr:
     if not e.has_free(x):
         return e
     if e.has(*ANTIDERIVATIVES, sympy.RootSum):
-        raise UnknownLimit(f"the limit of {_shown(e)} isn't known")
+        raise UnknownLimit(f"the limit of {shown(e, 60)} isn't known")
     # At infinity the variable is x or -x, as SymPy has it; else the distance from the point.
     variable = sympy.Dummy("s", positive=True)
     towards = sympy.oo if place.is_infinite else _ZERO
@@ -116,7 +117,7 @@ def limit_at(expression: Expr, x: Expr, place: Approach) -> Expr:
     if found is None:
         found = _classified(_by_sympy(leading, variable, towards))
     if found is None or not _is_confirmed(found, e, x, place):
-        raise UnknownLimit(f"the limit of {_shown(e)} isn't known")
+        raise UnknownLimit(f"the limit of {shown(e, 60)} isn't known")
     return found
 
 
@@ -135,11 +136,6 @@ def _near_the_point(jump: Expr, argument: Expr, variable: Expr, towards: Expr) -
         return _ZERO
     end = _by_sympy(argument, variable, towards)
     return jump if end is None or end == 0 else sympy.Heaviside(end)
-
-
-def _shown(e: Expr) -> str:
-    text = str(e)
-    return text if len(text) <= 60 else "a long expression"
 
 
 def _quotient_of_analytic_functions(e: Expr, x: Expr, point: Expr) -> Expr | None:

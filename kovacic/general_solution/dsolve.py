@@ -56,6 +56,7 @@ from kovacic.general_solution.question import (
     has_floats,
     positive_variable,
     read_question,
+    symbols_that_know,
     with_values,
 )
 from kovacic.general_solution.riccati_equation import solved_riccati
@@ -65,7 +66,6 @@ from kovacic.general_solution.written import combination, free_constants, with_f
 from kovacic.general_solution.zero_set import ZeroSet
 from kovacic.limits import DEFAULT_LIMITS, Budget, Limits, limited
 from kovacic.numbers.numerals import as_text
-from kovacic.parametric.assumptions import read_assumptions
 from kovacic.reading.pieces import taken_apart
 from kovacic.reading.read import declared
 from kovacic.reading.symbolic import read_equations
@@ -350,9 +350,7 @@ def _first_order(
     conditions = tuple(reader.read(key, value) for key, value in as_mapping(ics).items())
     known, assume = positive_variable(assume, found.x)
     symbols = sympy.Tuple(*found.parts, *(c.value for c in conditions)).free_symbols - {found.x}
-    own = {symbol.name: symbol for symbol in symbols}
-    assumed = read_assumptions(assume, sympy.Tuple(*symbols), tuple(own)).symbols()
-    known |= {own[name]: symbol for name, symbol in assumed.items() if symbol != own[name]}
+    known |= symbols_that_know(assume, {symbol.name: symbol for symbol in symbols})
     equation, conditions = found.in_symbols(known), tuple(condition.in_symbols(known) for condition in conditions)
     if equation.is_linear:
         solution, notices = solved_linear(equation, conditions)

@@ -133,7 +133,9 @@ def start_of(question: Question, limits: dict[Expr, Approach]) -> Expr:
     """An ordinary point on the side that is meant: the first one with a condition, or one between singular points."""
     ordinary = [point for point in given_points(question) if point not in limits]
     if ordinary:
-        return next(_removable_between(question, ordinary), ordinary[0])
+        between = _poles_between(question, ordinary) if question.equation.change is None else ()
+        # beyond a removable point of f/a solutions are continued from there
+        return next((point for point, is_removable in between if is_removable), ordinary[0])
     poles = [*rational_poles(question)]
     finite = [approach for approach in limits.values() if not approach.is_infinite]
     if not finite:  # an integer beyond all poles
@@ -150,12 +152,10 @@ def start_of(question: Question, limits: dict[Expr, Approach]) -> Expr:
     return (place.point + nearest) / 2
 
 
-def _removable_between(question: Question, points: Sequence[Expr]) -> Iterator[Expr]:
-    """Points between the given numbers at which f/a has only a limit: solutions are continued beyond them from there."""
-    if len(points) > 1 and question.equation.change is None and all(point.is_number for point in points):
-        for point, is_removable in poles_between(question, sympy.Min(*points), sympy.Max(*points)):
-            if is_removable:
-                yield point
+def _poles_between(question: Question, points: Sequence[Expr]) -> Iterator[tuple[Expr, bool]]:
+    """Those of `poles_between` for several points, if they are numbers."""
+    if len(points) > 1 and all(point.is_number for point in points):
+        yield from poles_between(question, sympy.Min(*points), sympy.Max(*points))
 
 
 def check_between(question: Question, solutions: Sequence[Expr]) -> None:
@@ -170,10 +170,9 @@ def check_between(question: Question, solutions: Sequence[Expr]) -> None:
     for pole in rational_poles(question):
         if len({sign for point in points if (sign := sympy.sign(point - pole)) in (1, -1)}) > 1:
             raise _apart_error(pole, points)
-    if all(point.is_number for point in points):
-        for pole, is_removable in poles_between(question, sympy.Min(*points), sympy.Max(*points)):
-            if not is_removable:
-                raise _apart_error(pole, points)
+    for pole, is_removable in _poles_between(question, points):
+        if not is_removable:
+            raise _apart_error(pole, points)
 
 
 def _points(question: Question) -> list[Expr]:

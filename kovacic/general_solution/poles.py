@@ -8,13 +8,11 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from contextlib import suppress
-from fractions import Fraction
 from typing import Any
 
 import sympy
 
 from kovacic.algebra.poly import Poly
-from kovacic.algebra.rationals import QQ
 from kovacic.closed_form.atoms import Atoms
 from kovacic.equation import Equation
 from kovacic.general_solution.particular import right_hand_side
@@ -37,14 +35,9 @@ def is_singular(question: Question, point: Expr) -> bool:
     equation = question.equation
     atoms = Atoms(sympy.Symbol(equation.variable))
     at = question.own(function_of_x(equation)).subs(user_variable(equation), point)
-    for den in _denominators(equation, equation.h is None):
-        if at.is_Rational and den.field == QQ:
-            is_root = not den(Fraction(int(at.p), int(at.q)))
-        else:
-            value = question.own(atoms.poly(den)).subs(atoms.x, at)
-            is_root = value.is_finite is False or is_zero(value)
-        if is_root:
-            return True
+    values = (question.own(atoms.poly(den)).subs(atoms.x, at) for den in _denominators(equation, equation.h is None))
+    if any(value.is_finite is False or is_zero(value) for value in values):
+        return True
     if equation.h is None:
         return False
     whole = right_hand_side(equation)

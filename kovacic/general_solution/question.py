@@ -168,19 +168,25 @@ def _with_assumptions(
     own = {symbol.name: symbol for condition in conditions for symbol in condition.free_symbols}
     own |= {name: sympy.Symbol(name) for name in parameters_of(equation.S.field)} | dict(symbols)
     own.pop(equation.variable, None)
-    known = own | read_assumptions(assume, sympy.Tuple(*symbols.values()), tuple(own)).symbols()
-    return {own[name]: symbol for name, symbol in _with_meaning(known, equation).items() if symbol != own[name]}
+    known = symbols_that_know(assume, own)
+    # Positive ones for those that aren't negative, if the equation has no meaning where they are 0.
+    for symbol in own.values():
+        s = known.get(symbol, symbol)
+        if s.is_nonnegative and not s.is_positive and _is_excluded_at_zero(sympy.Symbol(s.name), equation):
+            known[symbol] = sympy.Symbol(s.name, integer=s.is_integer, positive=True)
+    return known
 
 
-def _with_meaning(symbols: Mapping[str, Expr], equation: Equation) -> dict[str, Expr]:
-    """Positive symbols for those that aren't negative, if the equation has no meaning where they are 0."""
-    open_at_zero = {name for name, symbol in symbols.items() if symbol.is_nonnegative and not symbol.is_positive}
-    if not open_at_zero:
-        return dict(symbols)
+def symbols_that_know(assume: Mapping[Any, Any], own: Mapping[str, Expr]) -> dict[Expr, Expr]:
+    """For the user's own symbols, by name, those that know what is assumed of them; none of which nothing more is."""
+    known = read_assumptions(assume, sympy.Tuple(*own.values()), tuple(own)).symbols()
+    return {own[name]: symbol for name, symbol in known.items() if symbol != own[name]}
+
+
+def _is_excluded_at_zero(letter: Expr, equation: Equation) -> bool:
+    """True if the normal form has no meaning where a letter is 0."""
     below = sympy.denom(sympy.together(Atoms(sympy.Symbol(equation.variable)).ratio(equation.S)))
-    excluded = {name for name in open_at_zero if below.subs(sympy.Symbol(name), 0) == 0}
-    positive = {name: sympy.Symbol(name, integer=symbols[name].is_integer, positive=True) for name in excluded}
-    return dict(symbols) | positive
+    return bool(below.subs(letter, 0) == 0)
 
 
 def _meanings(letters: Sequence[tuple[str, Expr]], symbols: Mapping[str, Expr]) -> dict[Expr, Expr]:
