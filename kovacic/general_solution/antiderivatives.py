@@ -23,22 +23,20 @@ import sympy
 from sympy import atan, cos, exp, log, sin
 
 from kovacic.closed_form.cuts import cuts_of
+from kovacic.general_solution.behaviour import have_values
 from kovacic.general_solution.integrands import (
     ChangeOfIntegrand,
+    dilogarithm,
+    in_complex_exponentials,
+    incomplete_gamma,
     integral_of_fraction,
     integral_of_product,
+    power_beside_wave,
     prepared,
     radicands,
     sum_of,
 )
-from kovacic.general_solution.special_integrals import (
-    dilogarithm,
-    in_complex_exponentials,
-    incomplete_gamma,
-    power_beside_wave,
-)
 from kovacic.general_solution.substitution import size
-from kovacic.general_solution.values import have_values
 from kovacic.general_solution.waves import beside_waves, by_coefficients, common_factor, wave_changes
 from kovacic.general_solution.zero import ball, samples
 from kovacic.limits import check_time

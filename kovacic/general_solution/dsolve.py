@@ -9,7 +9,7 @@ The steps, each in a module of this package:
 3. `particular`: one solution y0;
 4. `determined`: linear conditions on y are linear equations for C1 and C2, solved by rank in `constants`;
 5. `check`: the whole is put into the equation and into the conditions;
-6. `written`: C1 y1 + C2 y2 + y0 as SymPy's `Eq`, in the user's symbols.
+6. C1 y1 + C2 y2 + y0 as SymPy's `Eq`, in the user's symbols.
 """
 
 from __future__ import annotations
@@ -18,6 +18,7 @@ from collections.abc import Collection, Mapping, Sequence
 from contextlib import suppress
 from dataclasses import replace
 from functools import partial
+from itertools import islice
 from typing import Any
 
 import sympy
@@ -33,22 +34,22 @@ from kovacic.general_solution.answer import (
     remember,
 )
 from kovacic.general_solution.basis import Basis
+from kovacic.general_solution.boundary_problems import eigenfunctions
 from kovacic.general_solution.check import check_answer
 from kovacic.general_solution.conditions import ConditionReader, as_mapping
 from kovacic.general_solution.constants import Outcome, ParameterCase, constants_of
-from kovacic.general_solution.eigenfunctions import eigenfunctions
 from kovacic.general_solution.first_order import read_first_order, solved_linear
 from kovacic.general_solution.homogeneous import find_basis, no_solution
 from kovacic.general_solution.particular import particular_solution, right_hand_side
 from kovacic.general_solution.places import (
     ImpulsesInside,
     basis_from,
+    is_singular,
     limit_points,
     real_at,
     real_particular,
     start_of,
 )
-from kovacic.general_solution.poles import is_singular
 from kovacic.general_solution.question import (
     Question,
     about_letters,
@@ -57,12 +58,13 @@ from kovacic.general_solution.question import (
     positive_variable,
     read_question,
     symbols_that_know,
+    with_floats,
     with_values,
 )
 from kovacic.general_solution.riccati_equation import solved_riccati
+from kovacic.general_solution.substitution import size
 from kovacic.general_solution.systems import Solver, read_system, solved_system
 from kovacic.general_solution.textbook import in_book_form, without_homogeneous
-from kovacic.general_solution.written import combination, free_constants, with_floats, written
 from kovacic.general_solution.zero_set import ZeroSet
 from kovacic.limits import DEFAULT_LIMITS, Budget, Limits, limited
 from kovacic.numbers.numerals import as_text
@@ -367,7 +369,7 @@ def _solved(question: Question, budget: Budget, *, special: bool) -> ProblemAnsw
     notices = [*question.guesses]
     family = eigenfunctions(question)
     if family is not None:
-        return ProblemAnswer(written(question, family[0]), notices + family[1], known=question.renamed)
+        return ProblemAnswer(question.written(family[0]), notices + family[1], known=question.renamed)
     basis = find_basis(question, budget, special=special)
     solution = basis.solution
     assert solution is not None
@@ -396,12 +398,37 @@ def _general(question: Question, basis: Basis) -> SecondOrderAnswer:
         whole = sympy.Tuple(basis.y1, basis.y2, particular)
         particular = real_particular(question, basis, particular, place(arguments_with_cuts(whole)))
     particular = without_homogeneous(particular, basis.y1, basis.y2, basis.x)
-    constants = free_constants(question, basis, particular)
-    value = in_book_form(combination(question, basis, particular, constants), question.x, constants)
+    constants = _free_constants(question, basis, particular)
+    value = in_book_form(_combination(question, basis, particular, constants), question.x, constants)
     unchecked = check_answer(question, value, natural=basis.natural)
     notices = _by_sign(question, basis, particular, constants) + unchecked
     rests_on = (question, basis, particular, constants, None)
-    return SecondOrderAnswer(written(question, value), notices, *rests_on, unchecked=tuple(unchecked), ask=answer_to)
+    return SecondOrderAnswer(question.written(value), notices, *rests_on, unchecked=tuple(unchecked), ask=answer_to)
+
+
+def _free_constants(question: Question, basis: Basis, particular: Expr) -> tuple[Expr, Expr]:
+    """C1 and C2, or the next of these names that nothing else has."""
+    used = sympy.Tuple(basis.y1, basis.y2, particular).free_symbols
+    used = used.union(*(condition.free_symbols for condition in question.conditions))
+    excluded = [sympy.Symbol(name) for name in {*question.symbols, *(symbol.name for symbol in used)}]
+    c1, c2 = islice(sympy.numbered_symbols("C", start=1, exclude=excluded), 2)
+    return c1, c2
+
+
+def _combination(question: Question, basis: Basis, particular: Expr, constants: tuple[Expr, Expr]) -> Expr:
+    """c1 y1 + c2 y2 + y0 in the user's symbols, factors that y1 and y2 share before the sum; in the variable of `basis`."""
+    common: list[Expr] = []
+    if 0 not in constants:
+        others = sympy.Mul.make_args(basis.y2)
+        common = [factor for factor in sympy.Mul.make_args(basis.y1) if factor in others]
+    summands = []
+    for constant, y in zip(constants, (basis.y1, basis.y2), strict=True):
+        own = [factor for factor in sympy.Mul.make_args(y) if factor not in common]
+        summands.append(sympy.Mul(constant, *own))
+    general = sympy.Mul(*common, sympy.Add(*summands)) + particular
+    if question.conditions:
+        general = min(general, sympy.expand_mul(general, deep=False), key=size)
+    return question.own(general)
 
 
 def _determined(question: Question, basis: Basis) -> SecondOrderAnswer:
@@ -410,11 +437,11 @@ def _determined(question: Question, basis: Basis) -> SecondOrderAnswer:
     start = start_of(question, limits)
     basis = basis_from(question, basis, start)
     particular = real_particular(question, basis, particular_solution(basis, start), start)
-    names = free_constants(question, basis, particular)
+    names = _free_constants(question, basis, particular)
     inside = ImpulsesInside.of(question)
     determined = constants_of(question, basis, particular, names, limits, inside.values)
     generic = determined.generic
-    value = combination(question, basis, particular, generic.values)
+    value = _combination(question, basis, particular, generic.values)
     value = in_book_form(value, question.x, names if value.has(*names) else ())
     cases = [case for case in determined.particular if case.is_possible]
     exceptions = [_said(question, basis, particular, names, case, value) for case in cases]
@@ -424,7 +451,7 @@ def _determined(question: Question, basis: Basis) -> SecondOrderAnswer:
     notices = _by_sign(question, basis, particular, None) + inside.notices + unchecked
     notices += [f"this holds unless {said}" for said in exceptions]
     rests_on = (question, basis, particular, names, determined)
-    return SecondOrderAnswer(written(question, value), notices, *rests_on, unchecked=tuple(unchecked), ask=answer_to)
+    return SecondOrderAnswer(question.written(value), notices, *rests_on, unchecked=tuple(unchecked), ask=answer_to)
 
 
 def _contradiction(singular: Sequence[Expr], exceptions: Sequence[str]) -> InputError:
@@ -444,7 +471,7 @@ def _by_sign(question: Question, basis: Basis, particular: Expr, names: tuple[Ex
     holds = f"this holds where {as_text(basis.natural)} >= 0"
     if basis.otherwise is None or names is None or particular != 0:
         return [f"{holds}: give such values for the solutions elsewhere"]
-    other = written(question, combination(question, basis.otherwise, particular, names))
+    other = question.written(_combination(question, basis.otherwise, particular, names))
     return [f"{holds}; elsewhere, {other.lhs} = {other.rhs}"]
 
 
@@ -462,13 +489,13 @@ def _said(
         return f"{where}, where there is no solution"
     if case.outcome is Outcome.OPEN:
         return f"{where}: give such values for the solutions there"
-    value = combination(question, basis, particular, case.values)
+    value = _combination(question, basis, particular, case.values)
     free = [name for name in names if value.has(name)]
     value = in_book_form(value, question.x, free if len(free) == len(names) else ())
     if len(free) == 1:  # a number beside it goes into it
         number = sympy.factor_terms(value.diff(free[0])).as_coeff_Mul()[0]
         value = value.subs(free[0], free[0] / number)
-    found = written(question, value)
+    found = question.written(value)
     if not case.needed:
         return f"{where}, where {found.lhs} = {found.rhs}"
     needed = " and ".join(ZeroSet(zero).equation(answer) for zero in case.needed)

@@ -24,15 +24,14 @@ from kovacic.closed_form.cuts import all_turned, with_roots_of_factors
 from kovacic.closed_form.product import product
 from kovacic.errors import InputError, VerificationFailed
 from kovacic.general_solution.antiderivatives import antiderivative
+from kovacic.general_solution.behaviour import have_values, value_at
 from kovacic.general_solution.check import SolutionClaim, is_finite
 from kovacic.general_solution.conditions import Condition, exact
 from kovacic.general_solution.continuity import jumps
 from kovacic.general_solution.integrands import NUMBERS, radicands, ratfunc
-from kovacic.general_solution.jumps import in_steps
-from kovacic.general_solution.steps import JUMPING, Apart, taken_apart
+from kovacic.general_solution.steps import JUMPING, Apart, in_steps, taken_apart
 from kovacic.general_solution.substitution import changed_beside
 from kovacic.general_solution.textbook import in_book_form, in_hyperbolic_functions, sums
-from kovacic.general_solution.values import have_values, value_at
 from kovacic.general_solution.variation import is_solution, starting_at
 from kovacic.general_solution.zero import is_zero
 from kovacic.general_solution.zero_set import ZeroSet

@@ -35,12 +35,12 @@ from kovacic.closed_form.way_back import in_x
 from kovacic.equation import Equation
 from kovacic.errors import LimitExceeded
 from kovacic.general_solution.basis import Basis
+from kovacic.general_solution.behaviour import have_values, value_at, values_at
 from kovacic.general_solution.check import is_finite
 from kovacic.general_solution.constants import tidy
 from kovacic.general_solution.integrands import NUMBERS, ChangeOfIntegrand, prepared, ratfunc
 from kovacic.general_solution.steps import HeavisideTerm, taken_apart
 from kovacic.general_solution.undetermined import undetermined
-from kovacic.general_solution.values import have_values, value_at, values_at
 from kovacic.general_solution.variation import with_integrals
 from kovacic.reading.change_of_variable import slope_squared
 

@@ -18,8 +18,7 @@ from kovacic.closed_form.atoms import Atoms
 from kovacic.equation import EULER, PI, Equation, parameters_of
 from kovacic.errors import InputError, NotLinear
 from kovacic.general_solution.conditions import Condition, ConditionReader, as_mapping, exact
-from kovacic.general_solution.jumps import in_steps
-from kovacic.general_solution.steps import JUMPING
+from kovacic.general_solution.steps import JUMPING, in_steps
 from kovacic.limits import Limits
 from kovacic.parametric.assumptions import Assumptions, read_assumptions
 from kovacic.reading.change_of_variable import function_of_x
@@ -29,6 +28,8 @@ from kovacic.reading.substitution import Template, value_text, values_among
 from kovacic.reading.symbolic import function_of, functions_in
 
 Expr = Any  # SymPy publishes no types
+#: Digits of a float that is given back.
+_DIGITS = 15
 
 
 @dataclass(frozen=True)
@@ -84,6 +85,12 @@ class Question:
     def own(self, expression: Expr) -> Expr:
         """The expression in the user's symbols for the parameters, with what letters stand for."""
         return expression.xreplace(self._own) if self._own else expression
+
+    def written(self, value: Expr) -> Expr:
+        """Eq(y(x), value) with the user's symbols for the variable and for those with the names of numbers."""
+        found = sympy.Eq(self.function, value.xreplace({self.x: self.function.args[0]}), evaluate=False)
+        found = found.xreplace({new: symbol for symbol, new in self.renamed.items()})
+        return sympy.Eq(found.lhs, with_floats(found.rhs), evaluate=False) if self.has_floats else found
 
     @cached_property
     def _own(self) -> dict[Expr, Expr]:
@@ -239,6 +246,29 @@ def has_floats(eq: Any, values: Mapping[Any, Any]) -> bool:
     """True if an equation, or given values, contain floats."""
     parts = (eq, *values, *values.values())
     return any(bool(e.atoms(sympy.Float)) if isinstance(e, sympy.Basic) else isinstance(e, float) for e in parts)
+
+
+def with_floats(e: Expr) -> Expr:
+    """With floats for constants that aren't integers; orders and parameters of functions, and roots, stay as they are.
+
+    >>> x = sympy.Symbol("x")
+    >>> print(with_floats(sympy.sqrt(2) * x**2 * sympy.exp(-x / 5)))
+    1.4142135623731*x**2*exp(-0.2*x)
+    """
+    if e.is_Integer or e.is_Symbol or isinstance(e, sympy.Integral):
+        return e
+    if e.is_number and not e.has(sympy.Integral):
+        value = e.evalf(_DIGITS)
+        if e.is_real:  # to as many digits as are given back; complex numbers as SymPy writes them
+            return sympy.Float(str(value), _DIGITS)
+        return value
+    is_power = e.is_Pow and not isinstance(e, sympy.exp)
+    if is_power and e.exp.is_Rational and e.exp.q <= 2:
+        return with_floats(e.base) ** e.exp
+    if e.is_Function and len(e.args) > 1:
+        *parameters, argument = e.args
+        return e.func(*parameters, with_floats(argument), evaluate=False)
+    return e.func(*map(with_floats, e.args))
 
 
 @dataclass(frozen=True)

@@ -27,6 +27,7 @@ import sympy
 from kovacic.closed_form.atoms import Atoms, display
 from kovacic.closed_form.product import product
 from kovacic.general_solution.antiderivatives import antiderivative
+from kovacic.general_solution.behaviour import value_at
 from kovacic.general_solution.conditions import Condition
 from kovacic.general_solution.first_order import (
     FirstOrderEquation,
@@ -40,7 +41,6 @@ from kovacic.general_solution.first_order import (
 from kovacic.general_solution.integrands import NUMBERS, ratfunc
 from kovacic.general_solution.substitution import changed_beside, size
 from kovacic.general_solution.textbook import in_book_form, over_one_denominator
-from kovacic.general_solution.values import value_at
 from kovacic.general_solution.waves import rational_in_waves
 from kovacic.general_solution.zero import is_zero
 from kovacic.special.choice import shortest

@@ -22,6 +22,7 @@ from sympy.solvers.solveset import NonlinearError
 from kovacic.equation import eliminated
 from kovacic.errors import InputError, NotLinear
 from kovacic.general_solution.answer import ProblemAnswer
+from kovacic.general_solution.behaviour import value_at
 from kovacic.general_solution.conditions import Condition, ConditionReader, exact
 from kovacic.general_solution.constants import Outcome, Row, determine
 from kovacic.general_solution.first_order import (
@@ -31,11 +32,9 @@ from kovacic.general_solution.first_order import (
     is_unit,
     solved_linear,
 )
-from kovacic.general_solution.jumps import in_steps
-from kovacic.general_solution.steps import JUMPING, taken_apart
+from kovacic.general_solution.steps import JUMPING, in_steps, taken_apart
 from kovacic.general_solution.substitution import size, slope
 from kovacic.general_solution.textbook import in_book_form, sums
-from kovacic.general_solution.values import value_at
 from kovacic.general_solution.zero import is_zero
 from kovacic.special.choice import shortest
 

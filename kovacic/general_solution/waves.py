@@ -17,8 +17,7 @@ import sympy
 from sympy import atan, cos, log, sin, tan
 from sympy.simplify.fu import TR2, TR2i
 
-from kovacic.general_solution.integrands import ChangeOfIntegrand, integral_of_fraction, sum_of
-from kovacic.general_solution.special_integrals import fresnel
+from kovacic.general_solution.integrands import ChangeOfIntegrand, fresnel, integral_of_fraction, sum_of
 from kovacic.general_solution.substitution import in_single_waves
 from kovacic.general_solution.undetermined import undetermined
 

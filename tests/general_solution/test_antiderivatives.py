@@ -15,8 +15,7 @@ from sympy import atan, cos, exp, log, sin, sqrt
 import kovacic
 from kovacic.closed_form.jets import jet
 from kovacic.general_solution import antiderivatives
-from kovacic.general_solution.integrands import prepared
-from kovacic.general_solution.special_integrals import incomplete_gamma
+from kovacic.general_solution.integrands import incomplete_gamma, prepared
 
 x = sympy.Symbol("x")
 POINTS = (acb(fmpq(3, 10), fmpq(1, 7)), acb(fmpq(6, 5)), acb(fmpq(17, 10), fmpq(-1, 9)))
