@@ -14,7 +14,6 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator
-from dataclasses import dataclass
 from functools import partial
 from math import lcm
 from typing import Any
@@ -135,24 +134,10 @@ def _by_inverse_functions(integrand: Expr, x: Expr) -> dict[Expr, list[Expr]]:
     return groups
 
 
-@dataclass(frozen=True)
-class _Rule:
-    """A way to integrate a term."""
-
-    #: What it finds.
-    claim: str
-    #: Is it for such a term of x?  A look at which functions there are.
-    concerns: Callable[[Expr, Expr], bool]
-    #: int g dx; None if it isn't found in this way.
-    integral: Callable[[Expr, Expr], Expr | None]
-
-
 def _of_term(term: Expr, x: Expr) -> Expr | None:
     """By the first rule that knows it."""
-    for rule in _RULES:
-        if not rule.concerns(term, x):
-            continue
-        found = rule.integral(term, x)
+    for rule in _RULES.values():
+        found = rule(term, x)
         if found is not None:
             return found
     return None
@@ -221,7 +206,7 @@ def _roots(term: Expr, x: Expr) -> Iterator[ChangeOfIntegrand]:
     """To t = (a x + b)^(1/q), of which all roots of functions of x are powers."""
     powers = [power for power in term.atoms(sympy.Pow) if power.exp.is_Rational and not power.exp.is_Integer]
     bases = {power.base for power in powers if power.base.has(x)}
-    if len(bases) != 1:
+    if len(bases) != 1 or not all(radicands(f) for f in term.atoms(*_BY_PARTS)):
         return
     (line,) = bases
     slope = line.diff(x)
@@ -336,37 +321,18 @@ def _beside_tangents(term: Expr, x: Expr) -> Expr | None:
 # --------------------------------------------------------------------------------------------------------------- rules
 
 
-def _has_waves(term: Expr, _: Expr) -> bool:
-    return bool(term.has(sin, cos))
-
-
-_RULES = (
-    _Rule("int P exp(r x) cos(w x) dx: undetermined coefficients", lambda e, x: True, by_coefficients),
-    _Rule("int f(u) u' dx = int f(u) du", lambda e, x: True, partial(_in_another_variable, _arguments)),
-    _Rule(
-        "int f(exp(k x)) dx = int f(u)/(k u) du",
-        lambda e, x: bool(e.has(exp)),
-        partial(_in_another_variable, _exponentials),
-    ),
-    _Rule(
-        "int R(sin(u), cos(u)) dx for linear u: rational in a wave or tangent",
-        _has_waves,
-        partial(_in_another_variable, _waves),
-    ),
-    _Rule("products of powers and exponentials of rational functions", lambda e, x: True, integral_of_product),
-    _Rule(
-        "int R cos(u) dx: Si and Ci for linear u, Fresnel functions for quadratic u",
-        lambda e, x: _has_waves(e, x) and not e.has(exp, log, atan),
-        beside_waves,
-    ),
-    _Rule("int q + (a + b s)/c dx where the second part isn't elementary", _has_waves, _beside_tangents),
-    _Rule(
-        "int f(x, u^(1/q)) dx for u = a x + b: in t = u^(1/q)",
-        lambda e, x: all(radicands(f) for f in e.atoms(*_BY_PARTS)),
-        partial(_in_another_variable, _roots),
-    ),
-    _Rule("int P g dx = P G - int P' G dx", lambda e, x: True, _powers_by_parts),
-    _Rule("int x^s cos(c x^m) dx: 1F2", _has_waves, power_beside_wave),
-    _Rule("int f(x) cos(u) dx: Ei, erf and gamma functions of complex arguments", _has_waves, in_complex_exponentials),
-    _Rule("int x^s exp(c x^m) dx: incomplete gamma functions", lambda e, x: True, incomplete_gamma),
-)
+#: int g dx for a term g of x, by what each rule knows; None if it isn't found in this way.
+_RULES: dict[str, Callable[[Expr, Expr], Expr | None]] = {
+    "int P exp(r x) cos(w x) dx: undetermined coefficients": by_coefficients,
+    "int f(u) u' dx = int f(u) du": partial(_in_another_variable, _arguments),
+    "int f(exp(k x)) dx = int f(u)/(k u) du": partial(_in_another_variable, _exponentials),
+    "int R(sin(u), cos(u)) dx for linear u: rational in a wave or tangent": partial(_in_another_variable, _waves),
+    "products of powers and exponentials of rational functions": integral_of_product,
+    "int R cos(u) dx: Si and Ci for linear u, Fresnel functions for quadratic u": beside_waves,
+    "int q + (a + b s)/c dx where the second part isn't elementary": _beside_tangents,
+    "int f(x, u^(1/q)) dx for u = a x + b: in t = u^(1/q)": partial(_in_another_variable, _roots),
+    "int P g dx = P G - int P' G dx": _powers_by_parts,
+    "int x^s cos(c x^m) dx: 1F2": power_beside_wave,
+    "int f(x) cos(u) dx: Ei, erf and gamma functions of complex arguments": in_complex_exponentials,
+    "int x^s exp(c x^m) dx: incomplete gamma functions": incomplete_gamma,
+}
