@@ -111,10 +111,10 @@ class ProblemAnswer:
     @cached_property
     def validity(self) -> Validity:
         """Where the formula is real and valid: relations, and exceptional values of parameters."""
-        eq = self.eq.xreplace(self.known)
-        found = needed_for(eq.rhs, eq.lhs.args[0], self.pair_exceptions)
+        eqs = [eq.xreplace(self.known) for eq in self.equations]
+        found = needed_for(sympy.Tuple(*(eq.rhs for eq in eqs)), eqs[0].lhs.args[0], self.pair_exceptions)
         return Validity(
-            tuple(relation.xreplace(self.own) for relation in (*found.real, *self.relations_beside(eq))),
+            tuple(relation.xreplace(self.own) for relation in (*found.real, *self.relations_beside(eqs[0]))),
             tuple(e.xreplace(self.own) for e in found.exceptions),
             found.has_real_parts,
         )
@@ -211,11 +211,6 @@ class SystemAnswer(ProblemAnswer):
     @property
     def equations(self) -> Sequence[Expr]:
         return self.eq
-
-    @cached_property
-    def validity(self) -> Validity:
-        """Where both formulas are real and valid."""
-        return needed_for(sympy.Tuple(*(eq.rhs for eq in self.eq)), self.eq[0].lhs.args[0])
 
 
 def _cases(zero: Expr) -> Iterator[Exceptional]:

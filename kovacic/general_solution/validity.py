@@ -27,8 +27,6 @@ from kovacic.general_solution.zero import agree, is_nowhere_zero, is_positive_po
 from kovacic.general_solution.zero_set import ZeroSet, inequality, poles_of, without_implied
 
 Expr = Any  # SymPy publishes no types
-#: What a function needs, from an application of it.
-Need = Callable[[Expr], Expr]
 
 
 @dataclass(frozen=True)
@@ -273,35 +271,25 @@ def needs_of(e: Expr) -> Iterator[Expr]:
     [x > 0, Ne(log(x), 0)]
     """
     if isinstance(e, sympy.Integral):
-        yield from _needs_of_integral(e)
+        # the integrand at x, where it is integrated up to x; an end without x may be a singular point of it
+        variable, upper = e.limits[0][0], e.limits[0][-1]
+        if upper.free_symbols:
+            yield from needs_of(e.function.subs(variable, upper))
         return
     if isinstance(e, sympy.RootSum):
-        yield from _needs_at_real_roots(e)
+        # the terms at the real roots: the others come in pairs, and roots with parameters aren't known
+        if e.poly.domain.is_ZZ or e.poly.domain.is_QQ:
+            for root, _ in sympy.real_roots(e.poly, multiple=False):
+                yield from needs_of(e.fun(root))
         return
     for argument in e.args:
         yield from needs_of(argument)
-    need = _OF_FUNCTIONS.get(e.func, _nothing)
+    need = sympy.true
     if e.is_Pow and not isinstance(e, sympy.exp):
-        need = _of_power
-    for relation in sympy.And.make_args(need(e)):
-        if relation != sympy.true:
-            yield relation
-
-
-def _needs_of_integral(integral: Expr) -> Iterator[Expr]:
-    """Those of the integrand at x, where it is integrated up to x.  An end without x may be a singular point of it."""
-    variable, upper = integral.limits[0][0], integral.limits[0][-1]
-    if upper.free_symbols:
-        yield from needs_of(integral.function.subs(variable, upper))
-
-
-def _needs_at_real_roots(total: Expr) -> Iterator[Expr]:
-    """Those of the terms of a `RootSum` at its real roots: the others come in pairs.  Roots with parameters aren't known."""
-    polynomial = total.poly
-    if not (polynomial.domain.is_ZZ or polynomial.domain.is_QQ):
-        return
-    for root, _ in sympy.real_roots(polynomial, multiple=False):
-        yield from needs_of(total.fun(root))
+        need = _of_power(e)
+    elif e.func in _OF_FUNCTIONS:
+        need = _OF_FUNCTIONS[e.func](e, e.args[-1])
+    yield from (relation for relation in sympy.And.make_args(need) if relation != sympy.true)
 
 
 def _of_power(e: Expr) -> Expr:
@@ -370,74 +358,56 @@ def _off_the_cut(u: Expr) -> Expr:
 # ----------------------------------------------------------------------------------------------------------- functions
 
 
-def _of_last(need: Need) -> Need:
-    """The need of the last argument."""
-    return lambda e: need(e.args[-1])
+def _unless(is_entire: Any, need: Expr) -> Expr:
+    """Nothing for a function that is seen to be entire."""
+    return sympy.true if is_entire else need
 
 
-def _below_one(u: Expr) -> Expr:
-    return _off_the_cut(1 - u)
-
-
-def _for_integers(need: Need, otherwise: Need) -> Need:
-    """One of the last argument, by whether the first is an integer."""
-    return lambda e: (need if e.args[0].is_integer else otherwise)(e.args[-1])
-
-
-def _nothing(u: Expr) -> Expr:
-    return sympy.true
-
-
-def _of_associated_legendre(e: Expr) -> Expr:
-    """P_n^m(u) = (1 - u^2)^(m/2) times a polynomial for integers n and m."""
-    n, m, u = e.args
-    if n.is_integer and m.is_even:
-        return sympy.true
-    return _off_the_cut(1 - u**2)
-
-
-def _of_elliptic_integral(e: Expr) -> Expr:
+def _of_elliptic_integral(e: Expr, last: Expr) -> Expr:
     """F, E and Pi up to phi, or pi/2: there 1 - m sin(phi)^2, and 1 - n sin(phi)^2, have no zero."""
-    moduli = [e.args[-1]] + [e.args[0]] * isinstance(e, sympy.elliptic_pi)
+    moduli = [last] + [e.args[0]] * isinstance(e, sympy.elliptic_pi)
     square = sympy.sin(e.args[-2]) ** 2 if len(e.args) > len(moduli) else sympy.S.One
     return sympy.And(*(_off_the_cut(1 - m * square) for m in moduli))
 
 
-def _of_hypergeometric(e: Expr) -> Expr:
+def _of_hypergeometric(e: Expr, u: Expr) -> Expr:
     """pFq: entire for p <= q; with a cut from 1 on for p = q + 1, from 0 on for p > q + 1; or a polynomial.
 
     It has poles where a lower parameter is 0, -1, ....
     """
-    defined = sympy.And(*(sympy.Ne(1 / sympy.gamma(c), 0) for c in e.bq if c.free_symbols))
-    if len(e.ap) <= len(e.bq) or any(a.is_integer and a.is_nonpositive for a in e.ap):
-        return defined
-    if len(e.ap) == len(e.bq) + 1:
-        return sympy.And(_below_one(e.argument), defined)
-    return sympy.And(_off_the_cut(-e.argument), defined)
+    defined = (sympy.Ne(1 / sympy.gamma(c), 0) for c in e.bq if c.free_symbols)
+    is_polynomial = any(a.is_integer and a.is_nonpositive for a in e.ap)
+    cut = 1 - u if len(e.ap) == len(e.bq) + 1 else -u
+    return sympy.And(_unless(is_polynomial or len(e.ap) <= len(e.bq), _off_the_cut(cut)), *defined)
 
 
-_OF_FUNCTIONS: dict[Any, Need] = {
+#: What a function e needs, with the last argument u.
+_OF_FUNCTIONS: dict[Any, Callable[[Expr, Expr], Expr]] = {
     # inverse functions, and those with poles
-    sympy.log: _of_last(_off_the_cut),
-    **dict.fromkeys((sympy.asin, sympy.acos), _of_last(lambda u: _not_negative(1 - u**2))),
-    sympy.acosh: _of_last(lambda u: _not_negative(u - 1)),
-    sympy.atanh: _of_last(lambda u: _positive(1 - u**2)),
-    **dict.fromkeys((sympy.tan, sympy.sec), _of_last(lambda u: _nonzero(sympy.cos(u)))),
-    **dict.fromkeys((sympy.cot, sympy.csc), _of_last(lambda u: _nonzero(sympy.sin(u)))),
-    **dict.fromkeys((sympy.coth, sympy.csch, sympy.Ei), _of_last(_nonzero)),
-    # integrals
-    **dict.fromkeys((sympy.Ci, sympy.expint, sympy.uppergamma, sympy.lowergamma), _of_last(_off_the_cut)),
-    sympy.polylog: _of_last(_below_one),
+    **dict.fromkeys((sympy.asin, sympy.acos), lambda e, u: _not_negative(1 - u**2)),
+    sympy.acosh: lambda e, u: _not_negative(u - 1),
+    sympy.atanh: lambda e, u: _positive(1 - u**2),
+    **dict.fromkeys((sympy.tan, sympy.sec), lambda e, u: _nonzero(sympy.cos(u))),
+    **dict.fromkeys((sympy.cot, sympy.csc), lambda e, u: _nonzero(sympy.sin(u))),
+    **dict.fromkeys((sympy.coth, sympy.csch, sympy.Ei), lambda e, u: _nonzero(u)),
+    # with a cut from 0 to -oo
+    **dict.fromkeys(
+        (sympy.log, sympy.Ci, sympy.expint, sympy.uppergamma, sympy.lowergamma), lambda e, u: _off_the_cut(u)
+    ),
+    sympy.polylog: lambda e, u: _off_the_cut(1 - u),
     **dict.fromkeys((sympy.elliptic_k, sympy.elliptic_e, sympy.elliptic_f, sympy.elliptic_pi), _of_elliptic_integral),
     # J_n(u) is (u/2)^n times an entire function; y_n(u) is rational in u beside waves for an integer n
-    **dict.fromkeys((sympy.besselj, sympy.besseli, sympy.jn), _for_integers(_nothing, _off_the_cut)),
-    **dict.fromkeys((sympy.bessely, sympy.besselk), _of_last(_positive)),
-    sympy.yn: _for_integers(_nonzero, _off_the_cut),
+    **dict.fromkeys(
+        (sympy.besselj, sympy.besseli, sympy.jn), lambda e, u: _unless(e.args[0].is_integer, _off_the_cut(u))
+    ),
+    **dict.fromkeys((sympy.bessely, sympy.besselk), lambda e, u: _positive(u)),
+    sympy.yn: lambda e, u: _nonzero(u) if e.args[0].is_integer else _off_the_cut(u),
     # polynomials for an integer n; else u > -1
     **dict.fromkeys(
         (sympy.legendre, sympy.gegenbauer, sympy.jacobi, sympy.chebyshevt, sympy.chebyshevu),
-        _for_integers(_nothing, lambda u: _off_the_cut(u + 1)),
+        lambda e, u: _unless(e.args[0].is_integer, _off_the_cut(u + 1)),
     ),
-    sympy.assoc_legendre: _of_associated_legendre,
+    # P_n^m(u) = (1 - u^2)^(m/2) times a polynomial for integers n and m
+    sympy.assoc_legendre: lambda e, u: _unless(e.args[0].is_integer and e.args[1].is_even, _off_the_cut(1 - u**2)),
     sympy.hyper: _of_hypergeometric,
 }
