@@ -88,7 +88,10 @@ class Question:
 
     def written(self, value: Expr) -> Expr:
         """Eq(y(x), value) with the user's symbols for the variable and for those with the names of numbers."""
-        found = sympy.Eq(self.function, value.xreplace({self.x: self.function.args[0]}), evaluate=False)
+        x = self.function.args[0]
+        if x != self.x:  # where nothing is replaced SymPy keeps (x + 1)/2 as it is
+            value = value.xreplace({self.x: x})
+        found = sympy.Eq(self.function, value, evaluate=False)
         found = found.xreplace({new: symbol for symbol, new in self.renamed.items()})
         return sympy.Eq(found.lhs, with_floats(found.rhs), evaluate=False) if self.has_floats else found
 
