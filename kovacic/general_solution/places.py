@@ -29,7 +29,7 @@ from kovacic.general_solution.behaviour import Approach, have_values
 from kovacic.general_solution.integrands import NUMBERS
 from kovacic.general_solution.particular import right_hand_side
 from kovacic.general_solution.question import Question
-from kovacic.general_solution.steps import is_analytic, place_of
+from kovacic.general_solution.steps import is_analytic, jump_points
 from kovacic.general_solution.variation import is_solution, starting_at
 from kovacic.general_solution.zero import is_zero
 from kovacic.limits import check_time
@@ -47,15 +47,6 @@ def given_points(question: Question) -> list[Expr]:
     return [*dict.fromkeys(point for condition in question.conditions for point in condition.points)]
 
 
-def jump_points(question: Question) -> list[Expr]:
-    """The places of steps and impulses on the right-hand side."""
-    h = question.equation.h
-    if h is None:
-        return []
-    places = [place_of(jump, question.x) for jump in sorted(h.atoms(sympy.Heaviside, sympy.DiracDelta), key=str)]
-    return [*dict.fromkeys(place.a for place in places if place is not None)]
-
-
 @dataclass(frozen=True)
 class ImpulsesInside:
     """Places of unit impulses, taken to lie between the two points of the conditions: Green's function."""
@@ -68,14 +59,14 @@ class ImpulsesInside:
     def of(cls, question: Question) -> ImpulsesInside:
         """Those for which that is open, letters or beside a letter; none without two finite points, or beside steps."""
         points = given_points(question)
-        h = question.equation.h
-        jumps = set() if h is None else h.atoms(sympy.Heaviside, sympy.DiracDelta)
+        h = sympy.sympify(question.equation.h or 0)
+        jumps = h.atoms(sympy.Heaviside, sympy.DiracDelta)
         is_impulse = all(isinstance(jump, sympy.DiracDelta) and len(jump.args) == 1 for jump in jumps)
         if len(points) != 2 or not {*points}.isdisjoint(_INFINITIES) or not is_impulse:
             return cls()
         low, high = points[::-1] if (points[1] - points[0]).is_negative else points
         places = []
-        for place in map(question.own, jump_points(question)):
+        for place in map(question.own, jump_points(h, question.x)):
             distances = [(place - low).is_positive, (high - place).is_positive]
             if None in distances and False not in distances and (place.is_Symbol or high.is_Symbol):
                 places.append(place)
@@ -115,7 +106,7 @@ def limit_points(question: Question) -> dict[Expr, Approach]:
         if point in _INFINITIES:
             found[point] = Approach(point)
         elif is_singular(question, point):
-            found[point] = Approach(point, _side(point, [*points, *jump_points(question)]))
+            found[point] = Approach(point, _side(point, _points(question)))
     return found
 
 
@@ -188,7 +179,7 @@ def check_between(question: Question, solutions: Sequence[Expr]) -> None:
 
 def _points(question: Question) -> list[Expr]:
     """Those of conditions, and those of jumps."""
-    return [*given_points(question), *jump_points(question)]
+    return [*given_points(question), *jump_points(sympy.sympify(question.equation.h or 0), question.x)]
 
 
 def basis_from(question: Question, basis: Basis, start: Expr) -> Basis:

@@ -116,6 +116,12 @@ def place_of(jump: Expr, x: Expr) -> HeavisidePlace | None:
     return HeavisidePlace(sympy.expand(x - inner / slope), slope)
 
 
+def jump_points(e: Expr, x: Expr) -> list[Expr]:
+    """The places of the steps and impulses in an expression, each once."""
+    places = (place_of(jump, x) for jump in sorted(e.atoms(Heaviside, DiracDelta), key=str))
+    return [*dict.fromkeys(place.a for place in places if place is not None)]
+
+
 def with_single_steps(e: Expr) -> Expr:
     """H(u)^n = H(u)."""
     return e.replace(
@@ -343,11 +349,8 @@ def above(u: Expr, x: Expr) -> Expr | None:
 
 def break_points(expression: Expr, x: Expr) -> list[Expr]:
     """The points where functions of an expression jump, as far as they are known, from left to right."""
-    parts = [_at_points(e, x) for e in expression.atoms(*JUMPING) if e.has(x)]
-    steps = {step.args[0] for part in parts for step in part.atoms(Heaviside, DiracDelta)}
-    steps = {u for u in steps if not u.diff(x).has(x) and u.diff(x) != 0}
-    points = {sympy.expand(x - u / u.diff(x)) for u in steps}
-    numbers = [point for point in points if point.is_number and point.is_real]
+    parts = sympy.Tuple(*(_at_points(e, x) for e in expression.atoms(*JUMPING) if e.has(x)))
+    numbers = [point for point in jump_points(parts, x) if point.is_number and point.is_real]
     return sorted(numbers, key=lambda point: float(point.evalf()))
 
 
