@@ -112,7 +112,7 @@ class ProblemAnswer:
     def validity(self) -> Validity:
         """Where the formula is real and valid: relations, and exceptional values of parameters."""
         eqs = [eq.xreplace(self.known) for eq in self.equations]
-        found = needed_for(sympy.Tuple(*(eq.rhs for eq in eqs)), eqs[0].lhs.args[0], self.pair_exceptions)
+        found = needed_for([eq.rhs for eq in eqs], eqs[0].lhs.args[0], self.pair_exceptions)
         return Validity(
             tuple(relation.xreplace(self.own) for relation in (*found.real, *self.relations_beside(eqs[0]))),
             tuple(e.xreplace(self.own) for e in found.exceptions),
@@ -302,8 +302,7 @@ def validity(solution: Any, assume: Mapping[Any, Any] | None = None) -> Validity
     arguments: tuple[Any, ...] = getattr(function, "args", ())
     if value is None or len(arguments) != 1 or not arguments[0].is_Symbol:
         raise InputError(f"{solution!r} isn't a solution y(x) = ...", hint="give what dsolve returns")
-    if others:
-        value = sympy.Tuple(value, *(other.rhs for other in others))
+    value = sympy.Tuple(value, *(other.rhs for other in others))
     own = {symbol.name: symbol for symbol in value.free_symbols}
     said = {name: what for name, what in (assume or {}).items() if str(name) in own}
     symbols = symbols_that_know(said, own)

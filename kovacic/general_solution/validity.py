@@ -58,9 +58,9 @@ class Validity:
         return ", ".join([*real, *(inequality(e) for e in self.exceptions if e not in implied)])
 
 
-def needed_for(value: Expr, x: Expr, exceptions: Iterable[Expr] = ()) -> Validity:
-    """What a formula needs, part by part; `exceptions` are those of the pair of solutions in it."""
-    value, roots = _without_even_roots(value, x)
+def needed_for(formulas: Iterable[Expr], x: Expr, exceptions: Iterable[Expr] = ()) -> Validity:
+    """What formulas need, part by part; `exceptions` are those of the pair of solutions in them."""
+    value, roots = _without_even_roots(sympy.Tuple(*formulas), x)
     # The bounds of an integral may be infinite; of a sum over roots SymPy can't tell.
     plain = value.xreplace({total: sympy.Dummy() for total in value.atoms(sympy.RootSum)})
     numbers = (node for node in sympy.preorder_traversal(plain) if node.is_number)
@@ -162,10 +162,10 @@ def _without_even_roots(value: Expr, x: Expr) -> tuple[Expr, dict[Expr, Expr]]:
 
 
 def _are_equal(e: Expr, other: Expr) -> bool:
-    """To 50 digits, for small values of the letters."""
+    """To 50 digits, for small values of the letters in tuples."""
     symbols = sorted(e.free_symbols | other.free_symbols, key=str)
     sample = {symbol: sympy.Rational(k + 2, 2 * k + 5) for k, symbol in enumerate(symbols)}
-    return agree(e.xreplace(sample), other.xreplace(sample))
+    return all(agree(u, v) for u, v in zip(e.xreplace(sample), other.xreplace(sample), strict=True))
 
 
 def _in_real_symbols(e: Expr) -> Expr:
