@@ -49,7 +49,14 @@ from kovacic.galois import group_of
 from kovacic.limits import Budget, bounded_work, count_work
 from kovacic.parametric import prose, restriction, riemann
 from kovacic.parametric.assumptions import NOTHING_ASSUMED, Assumptions
-from kovacic.parametric.cases import equations_on, normal_form, without_empty, without_implied, without_redundant
+from kovacic.parametric.cases import (
+    equations_on,
+    normal_form,
+    vanishing,
+    without_empty,
+    without_implied,
+    without_redundant,
+)
 from kovacic.parametric.functions import (
     ParameterPoint,
     degrees,
@@ -85,7 +92,8 @@ from kovacic.parametric.solutions import (
 )
 from kovacic.parametric.statements import ALWAYS, NEVER, Statement, Vanishes, both
 from kovacic.parametric.theorems import kimura, martinet_ramis
-from kovacic.writing.formula import Math
+from kovacic.reading.change_of_variable import function_of_x, user_variable
+from kovacic.writing.formula import Math, caret
 
 #: Degrees of P up to which an E0 is looked for.
 _DEGREE = 4
@@ -633,6 +641,9 @@ def _finished(
 ) -> ParameterRegion:
     """With solutions of the equation that was given, and the degree up to which determinants are shown."""
     statement = region.statement
+    if not region.defined and equation.change and _is_constant(equation, vanishing(statement.conjuncts)):
+        t = Math.of(f"{equation.variable} = {caret(equation.change.expression)}")
+        region = replace(region, verdict=replace(region.verdict, family=(t, " is constant there: assume this value")))
     if region.origin is not None:
         pieces = tuple(partial(given, *piece) for piece in equations_on(region.statement, equation))
         # With an algebraic constant the statement knows its value; the origin is about all values.
@@ -643,3 +654,10 @@ def _finished(
     if max_degree is None or not isinstance(statement, Natural) or statement.m > 1:
         return region
     return replace(region, shown_degree=max_degree, limits=budget.limits)
+
+
+def _is_constant(equation: Equation, zeros: Iterable[Vanishes]) -> bool:
+    """True if the variable, as a function of the user's, is constant where a function vanishes: x^n where n = 0."""
+    x = user_variable(equation)
+    slope = sympy.Mul.make_args(sympy.factor(function_of_x(equation).diff(x)))
+    return any(sympy.cancel(part / zero.function.to_sympy(x)).is_number for zero in zeros for part in slope)

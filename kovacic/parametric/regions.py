@@ -286,11 +286,11 @@ class ParameterRegion:
     @property
     def group(self) -> str:
         """The family of the Galois group, in words."""
-        return self.verdict.group if self.defined else "S isn't defined"
+        return self.verdict.group if self.defined else prose.text_of(self.verdict.family or ("S isn't defined",))
 
     @property
     def said(self) -> str:
-        """What holds in words: the case, or that S isn't defined."""
+        """What holds in words: the case, or why none is known."""
         return str(self.verdict) if self.defined else self.group
 
     @property

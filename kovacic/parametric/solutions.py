@@ -368,41 +368,7 @@ def solutions_there(S: RatFunc, variable: str, _: int | None = None) -> tuple[Po
         found += [one for one in (structure.first, structure.second) if one.logarithmic_derivative != omega]
     degree = sympy.Integer(max(riccati.P.degree, 0))
     where = "the region's statement holds"
-    return tuple(PolynomialSolution(_in_factors(display(one, atoms), atoms.x), degree, (), where) for one in found)
-
-
-def _in_factors(y: Any, x: Any) -> Any:
-    """A product with the exponents of its powers in factors, and bases without denominators."""
-    factors = []
-    for factor in sympy.Mul.make_args(y):
-        base, exponent = factor.as_base_exp()
-        is_exponential = base == sympy.E
-        factors.append(factor if is_exponential else _without_constant(base, x) ** sympy.factor(exponent))
-    return sympy.Mul(*factors)
-
-
-def _without_constant(base: Any, x: Any) -> Any:
-    """The base of a power times a constant, so that it has no denominator: k x^2 - 1 for x^2 - 1/k."""
-    signs = _letters_under_roots(base)
-    roots = {name: sympy.Dummy(positive=True) for name in signs}
-    # sqrt(a) is a letter, so that it is no factor of everything: that would vanish where a does.
-    in_letters = base.subs({name: signs[name] * root**2 for name, root in roots.items()})
-    above, below = sympy.fraction(sympy.cancel(in_letters))
-    if below.has(x) or below.is_number:
-        return base
-    return above.subs({root: sympy.sqrt(signs[name] * name) for name, root in roots.items()})
-
-
-def _letters_under_roots(expression: Any) -> dict[Any, int]:
-    """1 for an a with sqrt(a) or 1/sqrt(a) in an expression, -1 for sqrt(-a)."""
-    signs: dict[Any, int] = {}
-    for power in expression.atoms(sympy.Pow):
-        if abs(power.exp) == sympy.S.Half:
-            for sign in (1, -1):
-                letter = sign * power.base
-                if letter.is_Symbol:
-                    signs[letter] = sign
-    return signs
+    return tuple(PolynomialSolution(display(one, atoms), degree, (), where) for one in found)
 
 
 def _local_factor(u: Poly | None, exponent: Any, main: Any, x: Any) -> Any:
