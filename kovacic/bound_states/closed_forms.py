@@ -43,7 +43,6 @@ import sympy
 from kovacic.bound_states.coordinates import RealPotential, circle_point
 from kovacic.bound_states.ends import End, leading
 from kovacic.bound_states.energies import tidied
-from kovacic.bound_states.families import possible
 from kovacic.bound_states.levels import NO_FORMULA, Algebraic
 from kovacic.bound_states.question import SpectralProblem
 from kovacic.bound_states.signs import Signs, above
@@ -391,7 +390,7 @@ class _ClosedFormSearch(ClosedForms):
             if y.has(jacobi, sympy.assoc_laguerre):
                 return False, False
             demands = [demand_at(end, y, question) for end in self.ends]
-            if possible([above(signs.real(one.degree), 0, strict=False), *demands], signs):
+            if sympy.false not in tidied([above(signs.real(one.degree), 0, strict=False), *demands], signs):
                 return False, False
             decays = (
                 end.is_limit_point and signs.holds(demand) for end, demand in zip(self.ends, demands, strict=True)
@@ -414,11 +413,9 @@ class _ClosedFormSearch(ClosedForms):
             letters = sorted(constraint.free_symbols, key=lambda a: (sympy.degree(constraint, a), str(a)))
             there = self._with_remainders(solution, constraint, letters[0]) if letters else solution
             bounds = _bounds(sympy.expand(signs.real(constraint)), solution, signs)
-            if bounds is None:
-                continue
             conditions = [*bounds, *(demand_at(end, there.y, self.question) for end in self.ends)]
             level = self._level(there if len(letters) == 1 else solution, polynomial, constraint, conditions)
-            if possible(conditions, signs) and sympy.false not in level.conditions:
+            if sympy.false not in level.conditions:
                 yield level
 
     def _level(
@@ -520,19 +517,17 @@ def demand_at(end: End, v: Any, question: SpectralProblem) -> Any:
     return question.demand(int(end.is_right), sympy.Integer(end.mu), sympy.simplify(2 * exponent - 1))
 
 
-def _bounds(constraint: Any, solution: PolynomialSolution, signs: Signs) -> list[Any] | None:
-    """The bounds of the parameter that the constraint determines, for its value; None if they exclude that value.
+def _bounds(constraint: Any, solution: PolynomialSolution, signs: Signs) -> list[Any]:
+    """The bounds of the parameter that the constraint determines, for its value; false among them if they exclude that value.
 
     Nothing but that it has a real zero is asked of a constraint that is linear in no parameter.
     """
-    if constraint == 0:
-        return []
     used = signs.real(solution.y).free_symbols
     for symbol in sorted(constraint.free_symbols, key=lambda s: (s in used, str(s))):
         if sympy.degree(constraint, symbol) == 1:
             value = sympy.factor(-constraint.coeff(symbol, 0) / constraint.coeff(symbol, 1))
-            return signs.bounds_of(symbol.name, value) if signs.admits(symbol.name, value) else None
-    return [] if signs.sign(constraint) is None else None
+            return signs.bounds_of(symbol.name, value)
+    return [] if signs.sign(constraint) is None else [sympy.false]
 
 
 @dataclass(frozen=True)

@@ -10,7 +10,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass
-from itertools import combinations
+from itertools import chain, combinations
 from typing import Any
 
 import sympy
@@ -183,15 +183,20 @@ def _real_part(form: Any) -> Any:
 def tidied(conditions: Iterable[Any], signs: Signs, radicals: Mapping[Any, Any] | None = None) -> tuple[Any, ...]:
     """The conditions that don't hold anyway, each solved for n, or for a parameter, where it is linear in it.
 
-    `radicals` are the square roots for which symbols stand: sqrt(a) >= 2 is written a >= 4, and then a >= 0 isn't.
+    (False,) where one of them, or the sum of two of them, is false for all values.  `radicals` are the square roots for which symbols stand: sqrt(a) >= 2 is written a >= 4, and then a >= 0 isn't.
     """
+    different = [*dict.fromkeys(conditions)]
+    gaps = (c.gts - c.lts for c in different if c not in (sympy.true, sympy.false))
+    sums = (sympy.Ge(sympy.expand(first + second), 0) for first, second in combinations(gaps, 2))
+    if any(signs.holds(condition) is False for condition in chain(different, sums)):
+        return (sympy.false,)
     meanings = dict(radicals or {})
     squares = {symbol: sympy.expand(root**2) for symbol, root in meanings.items()}
     # Not those with a root of what depends on parameters.
     squares = {
         symbol: square for symbol, square in squares.items() if square.is_rational_function(*square.free_symbols)
     }
-    left = [c for c in dict.fromkeys(conditions) if signs.holds(c) is not True]
+    left = [c for c in different if signs.holds(c) is not True]
     found = []
     implied = set()
     for condition in _paired(left, signs):

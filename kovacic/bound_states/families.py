@@ -32,7 +32,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, field
-from itertools import combinations, product
+from itertools import product
 from typing import Any, NamedTuple
 
 import sympy
@@ -378,9 +378,9 @@ class ExponentForm:
             for found in solved(sympy.expand(self.degree(signed) - signs.n), self.roots, question.E):
                 values = [root.xreplace(found.values) for root in signed]
                 conditions = [*_are_real(self.roots), *self._demands(values, question)]
-                if possible(conditions, signs):
+                known = tidied(conditions, signs, radicals)
+                if sympy.false not in known:
                     wave = self.wave(values)
-                    known = tidied(conditions, signs, radicals)
                     found_levels = Levels(signs.n, found.energy, wave.y, known, self._zeros(values, signs.n), wave.norm)
                     yield found_levels.mapped(lambda part: plain(part.xreplace(radicals)))
 
@@ -487,16 +487,6 @@ def _choices(roots: list[Root]) -> Iterator[list[Any]]:
                 continue
             choice[second] = conjugate(choice[first])
         yield choice
-
-
-def possible(conditions: list[Any], signs: Signs) -> bool:
-    """False if one of the conditions is false for all values, or the sum of two of them."""
-    if any(signs.holds(condition) is False for condition in conditions):
-        return False
-    relations = [condition for condition in dict.fromkeys(conditions) if condition not in (True, False)]
-    gaps = [relation.gts - relation.lts for relation in relations]
-    sums = (sympy.expand(first + second) for first, second in combinations(gaps, 2))
-    return all(signs.is_nonnegative(total) is not False for total in sums)
 
 
 def _check_ends(frame: SingularFrame) -> None:

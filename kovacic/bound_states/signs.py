@@ -39,23 +39,18 @@ class Signs:
         return expression.xreplace({symbol: self.symbols[symbol.name] for symbol in of_parameters})
 
     def bounds_of(self, name: str, expression: Any) -> list[Any]:
-        """The known bounds of the parameter, as relations for an expression that is its value."""
-        found = []
+        """The known bounds of the parameter, as relations for an expression that is its value; false if it can't be that."""
+        coset = self._known_of(name).coset
+        if coset is not None and expression.is_Rational:
+            is_admitted = coset.contains(Fraction(int(expression.p), int(expression.q)))
+        else:  # an integer, say
+            facts = self.symbols[name].assumptions0.items()
+            is_admitted = all(getattr(expression, f"is_{fact}", None) in (None, value) for fact, value in facts)
+        found = [] if is_admitted else [sympy.false]
         for bound in self._bounds.get(name, ()):
             relation = sympy.Gt if bound.strict else sympy.Ge
             found.append(relation(bound.sign * (expression - _end_of(bound)), 0))
         return found
-
-    def admits(self, name: str, expression: Any) -> bool:
-        """False if the expression can't be the value of the parameter, which is an integer, say."""
-        coset = self._known_of(name).coset
-        if coset is not None and expression.is_Rational:
-            return bool(coset.contains(Fraction(int(expression.p), int(expression.q))))
-        for fact, value in self.symbols[name].assumptions0.items():
-            known = getattr(expression, f"is_{fact}", None)
-            if known is not None and known != value:
-                return False
-        return True
 
     def holds(self, relation: Any) -> bool | None:
         """True if a relation holds for all values, False if for none, None if neither is proven.
