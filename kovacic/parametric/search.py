@@ -146,16 +146,11 @@ def _degrees_that_decide(problem: Problem) -> Degrees | None:
     if len(differences) < len(places):
         return None
     found: Degrees = {}
-    is_ramified = _is_ramified(problem)
-    if not is_ramified:
+    if not _is_ramified(problem):
         q = lcm(*(((1 + difference) / 2).denominator for difference in differences))
-        found[2] = [Structure.REDUCIBLE]
-        found[q] = [Structure.REDUCIBLE]
-    if not _has_logarithms(problem):
-        if _has_two_branch_points(problem):
-            found.setdefault(4, []).append(Structure.IMPRIMITIVE)
-        if not is_ramified:
-            found.setdefault(12, []).append(Structure.TETRAHEDRAL)
+        found = {2: [Structure.REDUCIBLE], q: [Structure.REDUCIBLE]}
+    for m, structures in _degrees_that_are_possible(problem).items():
+        found.setdefault(m, []).extend(structures)
     return dict(sorted(found.items()))
 
 
