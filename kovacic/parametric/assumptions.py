@@ -328,17 +328,10 @@ class Assumptions:
         return ", ".join(parts)
 
     def symbols(self) -> dict[str, Any]:
-        """SymPy's symbols with these properties, by name.  Raises `InputError` for properties that exclude each other."""
+        """SymPy's symbols with these properties, by name."""
         from sympy import Symbol
-        from sympy.core.facts import InconsistentAssumptions
 
-        found = {}
-        for name, known in self.known:
-            try:
-                found[name] = Symbol(name, **dict.fromkeys(known.sympy_properties(), True))
-            except InconsistentAssumptions:
-                raise InputError(f"the assumptions on {name} contradict one another: {' '.join(known.words)}") from None
-        return found
+        return {name: Symbol(name, **dict.fromkeys(known.sympy_properties(), True)) for name, known in self.known}
 
     def meets_classes(self, form: FunctionPoly, numbers: Classes) -> bool | None:
         """Whether the value of a form is one of the numbers: True (always), False (never) or None."""

@@ -175,10 +175,7 @@ class Schwarz(Statement):
         if not isinstance(cubic, FunctionPoly) or without_parameters(cubic) is not None:
             is_there = kimura([*map(rational_square_root, roots(cubic))]) in self.structures
             return ALWAYS if is_there else NEVER
-        single = _one_function(cubic)
-        if single is None:
-            return over_all(Schwarz(cubic, self.structures), self.cubic.field)
-        return over_all(either(*(_classes(single, structure) for structure in self.structures)), self.cubic.field)
+        return over_all(either(*(_in_table(cubic, structure) for structure in self.structures)), self.cubic.field)
 
     def sentence(self) -> Words:
         """Which differences are in which rows."""
@@ -410,20 +407,10 @@ def structures(problem: Problem) -> Iterator[tuple[Structure, Statement]]:
     always = kimura(constants)
     if always is not None:
         yield always, ALWAYS
-    elif len(constants) < 3:
-        yield from _irreducible_structures(cubic, constants)
-
-
-def _irreducible_structures(
-    cubic: FunctionPoly, constants: Sequence[Fraction | None]
-) -> Iterator[tuple[Structure, Statement]]:
-    """The rows of the table, by one function of the parameters where all differences are said by it."""
-    single = _one_function(cubic)
+        return
     for structure in (Structure.IMPRIMITIVE, Structure.TETRAHEDRAL, Structure.OCTAHEDRAL, Structure.ICOSAHEDRAL):
-        if single is not None:
-            yield structure, _classes(single, structure)
-        elif _is_possible(structure, constants):
-            yield structure, _in_table(cubic, structure, constants)
+        if len(constants) < 3 and _is_possible(structure, constants):
+            yield structure, _in_table(cubic, structure)
 
 
 def _is_possible(structure: Structure, constants: Sequence[Fraction | None]) -> bool:
@@ -438,14 +425,16 @@ def _is_possible(structure: Structure, constants: Sequence[Fraction | None]) -> 
     return any(residues <= {*row} for row in rows)
 
 
-def _in_table(cubic: FunctionPoly, structure: Structure, constants: Sequence[Fraction | None]) -> Statement:
-    """The statement that the exponent differences are in the rows of the structure."""
-    if structure is not Structure.IMPRIMITIVE:
-        return Schwarz(cubic, (structure,))
-    if any(d is not None and d.denominator == 2 for d in constants):
-        return _half_integers(cubic, 1)
-    if any(multiplicity > 1 for _, multiplicity in cubic.field.factor(cubic)):
-        return _half_integers(cubic, 2)
+def _in_table(cubic: FunctionPoly, structure: Structure) -> Statement:
+    """The statement that the exponent differences are in the rows of the structure, by one function where that says them."""
+    single = _one_function(cubic)
+    if single is not None:
+        return _classes(single, structure)
+    if structure is Structure.IMPRIMITIVE:
+        if any(d is not None and d.denominator == 2 for d in differences(cubic).constants):
+            return _half_integers(cubic, 1)
+        if any(multiplicity > 1 for _, multiplicity in cubic.field.factor(cubic)):
+            return _half_integers(cubic, 2)
     return Schwarz(cubic, (structure,))
 
 
