@@ -183,7 +183,8 @@ def _real_part(form: Any) -> Any:
 def tidied(conditions: Iterable[Any], signs: Signs, radicals: Mapping[Any, Any] | None = None) -> tuple[Any, ...]:
     """The conditions that don't hold anyway, each solved for n, or for a parameter, where it is linear in it.
 
-    (False,) where one of them, or the sum of two of them, is false for all values.  `radicals` are the square roots for which symbols stand: sqrt(a) >= 2 is written a >= 4, and then a >= 0 isn't.
+    (False,) where one of them, or the sum of two of them, is false for all values.  `radicals` are the square roots for which
+    symbols stand: sqrt(a) >= 2 is written a >= 4, and then a >= 0 isn't.
     """
     different = [*dict.fromkeys(conditions)]
     gaps = (c.gts - c.lts for c in different if c not in (sympy.true, sympy.false))

@@ -471,7 +471,7 @@ def _origins(answer: ParametricAnswer) -> dict[Statement, Origin | None]:
     if isinstance(S.field, FunctionField):  # an algebraic constant isn't a parameter there
         S = everywhere(S.field, answer.constant).restricted(S)
     found = derived(S, answer.variable, answer.equation, answer.assumptions, Budget(answer.limits), 0, answer.letters)
-    return {region.statement: region.origin for region in found.regions}
+    return {region.statement: region.formulas for region in found.regions}
 
 
 def _origin_of(answer: ParametricAnswer, statement: Statement) -> Origin | None:

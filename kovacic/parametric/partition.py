@@ -84,7 +84,6 @@ from kovacic.parametric.restriction import (
 from kovacic.parametric.search import Findings, all_half_integers, degree_equation, search
 from kovacic.parametric.solutions import (
     Carried,
-    Origin,
     PolynomialSolution,
     derivative,
     given,
@@ -328,7 +327,7 @@ def _by_transformation(problem: Problem, found: Transformation, settings: Settin
     inner = partition(found.simpler, settings)
     back = partial(carried_back, found.W, settings.variable)
     for region in filter(lambda one: one.defined, inner.regions):
-        origin = region.origin and Carried(region.origin, (back,))
+        origin = region.formulas and Carried(region.formulas, (back,))
         regions.append(replace(region, origin=origin))
     complete = together(regions) if inner.complete is True else inner.complete
     theory = inner.theory.also(", after Darboux' transformation", "Dar82")
@@ -644,10 +643,10 @@ def _finished(
     if not region.defined and equation.change and _is_constant(equation, vanishing(statement.conjuncts)):
         t = Math.of(f"{equation.variable} = {caret(equation.change.expression)}")
         region = replace(region, verdict=replace(region.verdict, family=(t, " is constant there: assume this value")))
-    if region.origin is not None:
+    if region.formulas is not None:
         pieces = tuple(partial(given, *piece) for piece in equations_on(region.statement, equation))
         # With an algebraic constant the statement knows its value; the origin is about all values.
-        origin: Origin = region.origin
+        origin = region.formulas
         if isinstance(statement, Natural) and statement.constant.names:
             origin = partial(statement.solutions, equation.variable)
         region = replace(region, origin=Carried(origin, pieces, letters) if pieces else None)

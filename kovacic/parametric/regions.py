@@ -197,7 +197,7 @@ class ParameterRegion:
     defined: bool = True
     shown_degree: int | None = None
     limits: Limits = field(default=DEFAULT_LIMITS, compare=False)
-    origin: Origin | None = field(default=None, compare=False)
+    origin: Origin | Later | None = field(default=None, compare=False)
 
     @property
     def naturals(self) -> list[Natural]:

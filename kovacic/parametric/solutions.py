@@ -178,10 +178,6 @@ class Later:
 
     find: Callable[[], Origin | None]
 
-    def __call__(self, number: int | None) -> tuple[PolynomialSolution, ...]:
-        origin = self.find()
-        return () if origin is None else origin(number)
-
 
 #: The solution for signs, numbers +-1 or symbols for them.
 BySigns = Callable[[Sequence[Any]], PolynomialSolution]
