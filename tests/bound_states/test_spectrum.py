@@ -263,6 +263,7 @@ def test_repulsive_potentials_have_no_eigenvalues(V: str, domain: Any, assume: A
     assert not found.levels
 
 
+@pytest.mark.long
 @pytest.mark.parametrize(
     "kind", [pytest.param("real", marks=pytest.mark.long), pytest.param("positive", marks=pytest.mark.long), 2]
 )

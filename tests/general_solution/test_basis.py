@@ -61,7 +61,7 @@ FAMILIES: list[tuple[str, dict[str, str]]] = [
 ]
 
 
-@parametrize(("equation", "assume"), FAMILIES, ordinary=6)
+@parametrize(("equation", "assume"), FAMILIES, ordinary=(0, 6, 12, 25))
 def test_the_wronskian_is_that_of_the_pair(equation: str, assume: dict[str, str]) -> None:
     """W = y1 y2' - y1' y2 at a point, for letters that fit the assumptions; special functions state theirs."""
     answer = kovacic.answer_to(equation, assume=assume)
@@ -83,7 +83,7 @@ def test_the_wronskian_is_that_of_the_pair(equation: str, assume: dict[str, str]
     [
         ("y'' + k^2*y = 0", [(k, 0)]),
         ("y'' + a*x*y = 0", [(a, 0)]),
-        ("x*y'' + (c - x)*y' - 2*y/3 = 0", [(c, 1), (c, 3), (c, -2)]),
+        pytest.param("x*y'' + (c - x)*y' - 2*y/3 = 0", [(c, 1), (c, 3), (c, -2)], marks=pytest.mark.long),
         ("x*(1-x)*y'' + (c - 3*x/2)*y' - y/15 = 0", [(c, 1), (c, 2), (c, 0)]),
     ],
 )
@@ -122,6 +122,7 @@ def test_exceptions_at_poles_of_gamma_functions_are_said_in_integers() -> None:
     assert str(laguerre.validity) == "x > 0, n is none of 0, 1, 2, ..."
 
 
+@pytest.mark.long
 def test_conditions_and_first_order_have_an_answer_too() -> None:
     assert (
         str(kovacic.answer_to("x*y'' + (c - x)*y' - a*y = 0", ics="y(1)=1, y'(1)=0").validity)
@@ -135,7 +136,9 @@ def test_exceptions_are_in_the_json(capsys: pytest.CaptureFixture[str]) -> None:
     assert json.loads(capsys.readouterr().out)["exceptions"] == [{"where": "k = 0", "solution": "C1 + C2*x"}]
 
 
-@pytest.mark.parametrize("equation", ["x*y'' + y' + x*y = 0", "x^2*y'' + x*y' - (x^2 + 1)*y = 0"])
+@pytest.mark.parametrize(
+    "equation", [pytest.param("x*y'' + y' + x*y = 0", marks=pytest.mark.long), "x^2*y'' + x*y' - (x^2 + 1)*y = 0"]
+)
 def test_beyond_a_singular_point_the_determinant_is_abels(equation: str) -> None:
     """Values at -1 are divided by W = c/x there, not by a combination of Bessel's functions."""
     value = kovacic.dsolve(equation, ics="y(-1)=1, y'(-1)=0").rhs
@@ -157,7 +160,7 @@ def _with_an_algebraic_solution(y1: Any, w: Any) -> str:
         for pole in (x - 1, x + 2, 2 * x - 3)
         for power in (sympy.Rational(1, 2), sympy.Rational(3, 2), sympy.Rational(5, 2))
     ],
-    ordinary=2,
+    ordinary=(0,),
     long=4,
 )
 def test_a_second_solution_on_a_curve_is_in_lowest_terms(polynomial: Any, pole: Any, power: Any) -> None:
@@ -174,7 +177,14 @@ def test_a_second_solution_on_a_curve_is_in_lowest_terms(polynomial: Any, pole: 
     assert all(den.subs(x, zero) != 0 for den in below for zero in sympy.roots(polynomial, x))
 
 
-@pytest.mark.parametrize("c", [sympy.Rational(7, 3), sympy.Rational(-2, 5), sympy.Integer(3)])
+@pytest.mark.parametrize(
+    "c",
+    [
+        pytest.param(sympy.Rational(7, 3), marks=pytest.mark.long),
+        sympy.Rational(-2, 5),
+        pytest.param(sympy.Integer(3), marks=pytest.mark.long),
+    ],
+)
 def test_beside_an_elementary_solution_the_constant_is_exact(c: Any) -> None:
     """x^(1-c) (1-x)^(c-2) and 2F1(1, 1; c; x): W = (c - 1) w(x), which vanishes at c = 1, and there alone."""
     answer = kovacic.answer_to("x*(1-x)*y'' + (c-3*x)*y' - y = 0", ics="y(1/2)=1, y'(1/2)=0")

@@ -257,7 +257,7 @@ POLES: list[Callable[[Any], Any]] = [
 
 
 @parametrize(
-    ("equation", "p"), [(equation, p) for equation in POLES for p in (1, sqrt(2), cbrt(5))], ordinary=4, long=4
+    ("equation", "p"), [(equation, p) for equation in POLES for p in (1, sqrt(2), cbrt(5))], ordinary=(0, 15), long=4
 )
 def test_values_on_two_sides_of_a_pole(equation: Callable[[Any], Any], p: Any) -> None:
     """The pole was found where coefficients were rational, or a logarithm changed its sign."""
@@ -266,7 +266,7 @@ def test_values_on_two_sides_of_a_pole(equation: Callable[[Any], Any], p: Any) -
     assert dsolve(equation(p), ics={y(p + 1): 0, y(p + 2): 1}).lhs == D0
 
 
-@parametrize("right", [log(x) / (x - 1), (sqrt(x) + 3) / (x - 9), 1 / (sqrt(x) - 3)], ordinary=2)
+@parametrize("right", [log(x) / (x - 1), (sqrt(x) + 3) / (x - 9), 1 / (sqrt(x) - 3)], ordinary=(0,))
 def test_poles_of_another_right_hand_side(right: Any) -> None:
     """log(x)/(x - 1) has none at 1; 1/(sqrt(x) - 3) is infinite at 9."""
     if right.subs(x, 1) is sympy.nan:
@@ -337,7 +337,7 @@ def test_limits(left: Any, ics: dict[Any, Any], expected: Any) -> None:
         ("x^2*y'' + (2*v+1)*x*y' - k*y = 0", "y(1)=1, y(oo)=0", POSITIVE, "x**(-v - sqrt(k + v**2))"),
         ("x^2*y'' + (2*v+1)*x*y' - k*y = 0", "y(1)=1, y(0)=0", POSITIVE, "x**(-v + sqrt(k + v**2))"),
     ],
-    ordinary=2,
+    ordinary=(0,),
     long=4,
     ids=str,
 )
@@ -438,10 +438,11 @@ def test_a_zero_that_the_pair_alone_has_is_no_exception() -> None:
 @pytest.mark.parametrize(
     ("equation", "ics", "said"),
     [
-        (
+        pytest.param(
             "y'' + a*y' + b*y = 0",
             "y(0)=0, y(1)=1",
             "sin(sqrt(-a**2 + 4*b)/2) = 0 and -a**2 + 4*b != 0, where there is no solution",
+            marks=pytest.mark.long,
         ),
         ("y'' + k^2*y = x", "y(0)=0, y'(1)=0", "unless cos(k) = 0, where there is no solution"),
     ],
@@ -451,7 +452,7 @@ def test_exceptions_without_a_solution(equation: str, ics: str, said: str) -> No
         kovacic.dsolve(equation, ics=ics)
 
 
-@pytest.mark.parametrize(
+@parametrize(
     ("ics", "said"),
     [
         ("y(0)=0, y(a)=1", "unless sinh(a*k) = 0 and k != 0, where there is no solution"),
@@ -460,6 +461,7 @@ def test_exceptions_without_a_solution(equation: str, ics: str, said: str) -> No
         ("y'(0)=0, y'(a)=1", "unless k*sinh(a*k) = 0:"),
         ("y(0)=1, y'(a)=-h*y(a)", "unless h*sinh(a*k) + k*cosh(a*k) = 0 and k != 0"),
     ],
+    ordinary=(0, 3),
 )
 def test_exceptions_are_in_the_functions_of_the_answer(ics: str, said: str) -> None:
     """What is named is the denominator, up to a factor that is none of these functions."""

@@ -38,8 +38,20 @@ def answered(equation, conditions):
             "tan(sqrt(lambda)) = -sqrt(lambda) other than 0",
         ),
         ("y''+lambda*y=0", "y'(0)=0, y'(L)+h*y(L)=0", "C1*cos(sqrt(lambda)*x)", "tan(L*sqrt(lambda)) = h/sqrt(lambda)"),
-        ("x^2*y''+x*y'+lambda*y=0", "y(1)=0, y(b)=0", "C1*sin(pi*n*log(x)/log(b))", "pi**2*n**2/log(b)**2 with n = 1"),
-        ("y''+2*y'+lambda*y=0", "y(0)=0, y(L)=0", "C1*exp(-x)*sin(pi*n*x/L)", "1 + pi**2*n**2/L**2 with n = 1"),
+        pytest.param(
+            "x^2*y''+x*y'+lambda*y=0",
+            "y(1)=0, y(b)=0",
+            "C1*sin(pi*n*log(x)/log(b))",
+            "pi**2*n**2/log(b)**2 with n = 1",
+            marks=pytest.mark.long,
+        ),
+        pytest.param(
+            "y''+2*y'+lambda*y=0",
+            "y(0)=0, y(L)=0",
+            "C1*exp(-x)*sin(pi*n*x/L)",
+            "1 + pi**2*n**2/L**2 with n = 1",
+            marks=pytest.mark.long,
+        ),
         ("y''-lambda*y=0", "y(0)=0, y(1)=0", "C1*sin(pi*n*x)", "lambda = -pi**2*n**2 with n = 1"),
     ],
 )

@@ -73,7 +73,7 @@ LINEAR: list[tuple[Any, Any, int, Any]] = [
 ]
 
 
-@parametrize("problem", LINEAR, ids=str, ordinary=8, long=4)
+@parametrize("problem", LINEAR, ids=str, ordinary=(0, 3, 15, 18), long=4)
 @pytest.mark.filterwarnings("ignore:this holds unless n - 3")
 def test_linear_equations_with_values(problem: tuple[Any, Any, int, Any]) -> None:
     a, b, point, value = problem
@@ -268,7 +268,7 @@ SYSTEMS: list[tuple[Any, Any, int, Any, Any]] = [
 ]
 
 
-@parametrize("problem", SYSTEMS, ids=str, ordinary=8, long=30)
+@parametrize("problem", SYSTEMS, ids=str, ordinary=(0, 3, 15), long=30)
 @pytest.mark.filterwarnings("ignore:this holds unless")
 def test_systems_with_values(problem: tuple[Any, Any, int, Any, Any]) -> None:
     first, second, start, u0, v0 = problem
@@ -281,7 +281,7 @@ def test_systems_with_values(problem: tuple[Any, Any, int, Any, Any]) -> None:
         assert abs(number(answer.rhs, start + 0.75, t) - value) < 1e-12 * (1 + abs(value))
 
 
-@parametrize("problem", SYSTEMS, ids=str, ordinary=4, long=4)
+@parametrize("problem", SYSTEMS, ids=str, ordinary=(0, 15, 22), long=4)
 @pytest.mark.filterwarnings("ignore:this holds unless")
 def test_general_solutions_of_systems(problem: tuple[Any, Any, int, Any, Any]) -> None:
     first, second, start, *_ = problem
@@ -354,9 +354,8 @@ JUMPS = ["Heaviside(t - 1)", "Piecewise((1, t < 1), (0, True))", "abs(t - 1)"]
 @parametrize(
     ("system", "jump"),
     product(JUMPING, JUMPS),
-    ordinary=1,
-    long=4,
-    always=[*zip(JUMPING, [JUMPS[0], JUMPS[1], JUMPS[2], JUMPS[1], JUMPS[0]], strict=True)],
+    ordinary=(12,),
+    long=6,
 )
 def test_the_unknowns_of_a_system_are_continuous_at_jumps(system: tuple[str, str], jump: str) -> None:
     first, second = system
@@ -373,6 +372,7 @@ def test_the_unknowns_of_a_system_are_continuous_at_jumps(system: tuple[str, str
             assert abs(number(solution[f].diff(t) - wanted, point, t)) < 1e-12
 
 
+@pytest.mark.long
 def test_given_functions_in_a_system() -> None:
     g = sympy.Function("g")
     found = {e.lhs: e.rhs for e in kovacic.dsolve("u' = v + g(t), v' = -u, u(0) = 0, v(0) = 0")}
@@ -418,7 +418,14 @@ def test_what_is_no_such_system_is_refused() -> None:
         kovacic.dsolve([first, sympy.Eq(u(t).diff(t), v(t) + u(t))], [u(t), v(t)])
 
 
-@pytest.mark.parametrize("text", ["u' = v, v' = -u", "u' = v + g(t), v' = -u, u(0) = 0, v(0) = 1", "y' = -2*y + t"])
+@pytest.mark.parametrize(
+    "text",
+    [
+        pytest.param("u' = v, v' = -u", marks=pytest.mark.long),
+        "u' = v + g(t), v' = -u, u(0) = 0, v(0) = 1",
+        "y' = -2*y + t",
+    ],
+)
 @pytest.mark.filterwarnings("ignore:the answer could not be verified")
 def test_json_of_systems_and_of_first_order_follows_the_schema(text: str, capsys: pytest.CaptureFixture[str]) -> None:
     assert run(["dsolve", "--json", text]) == 0
@@ -468,11 +475,12 @@ def test_a_system_with_an_impulse_is_written_as_one_wave() -> None:
     ("text", "wanted"),
     [
         ("(1 - x^2)*y' - x*y = 1, y(0) = 0", asin(x) / sqrt(1 - x**2)),
-        ("(4 - x^2)*y' + x*y = 1, y(1) = 0", x / 4 - sqrt(3) * sqrt(4 - x**2) / 12),
+        pytest.param("(4 - x^2)*y' + x*y = 1, y(1) = 0", x / 4 - sqrt(3) * sqrt(4 - x**2) / 12, marks=pytest.mark.long),
         ("x*y' + y/2 = x, y(-1) = 0", 2 * x / 3 + 2 / (3 * sqrt(-x))),
-        (
+        pytest.param(
             "(x^2 - 4)*y' + y = 1/(x - 2), y(0) = 0",
             (x - 1) / (6 - 3 * x) + sympy.root((x + 2) / (2 - x), 4) / 6,
+            marks=pytest.mark.long,
         ),
     ],
 )
