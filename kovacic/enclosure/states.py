@@ -59,7 +59,7 @@ ClosedRoute = tuple[Closed, int]
 def route_of(journey: Journey, targets: Sequence[Number], method: Method | None, digits: int) -> ClosedRoute | None:
     """The closed form, where it is asked for or the cheaper way; None for Taylor's method.
 
-    The choice depends on the horizons of the farthest targets and on the size of their number alone.  Raises InputError where
+    The choice depends on the horizons of the farthest targets and on their number alone.  Raises InputError where
     a closed form is asked for and there is none.
     """
     if method == "taylor" or not targets:
@@ -69,9 +69,8 @@ def route_of(journey: Journey, targets: Sequence[Number], method: Method | None,
     problem = journey.problem
     if problem is None or problem.right is not None or not problem.is_rational:
         return None
-    count = 1 << (len(targets) - 1).bit_length()
     ways = tuple(_ways(journey, targets))
-    key = ways, count, digits
+    key = ways, len(targets), digits
     if key not in journey.routes:
         journey.routes[key] = _chosen(journey, problem, *key)
     found: ClosedRoute | None = journey.routes[key]
@@ -143,15 +142,16 @@ def _foreseen(journey: Journey, problem: NumericProblem, ways: Ways, count: int,
         near = min([abs(here - pole) for pole in poles if here != pole], default=math.inf)
         return max(float(frequent(x).mid()) / growth, 1 / near / _SHARE) / 2
 
+    size = problem.S.num.degree + problem.S.den.degree
     discs = 0.0
     target = prices.TARGET(digits)
     for a, b in [*pairwise(corners), *ways]:
         discs_here = 1 + foreseen_growth(rate, a, b)
         if not (a.is_real() and b.is_real()):
-            discs_here *= prices.BESIDE
+            discs_here *= prices.beside(size)
             target = prices.TARGET_BESIDE * prices.TARGET(digits)
         discs += discs_here
-    return prices.BEGIN + count * target + discs * prices.DISC(digits)
+    return prices.BEGIN + count * target + discs * prices.DISC(digits, prices.terms(size))
 
 
 def _ways(journey: Journey, targets: Sequence[Number]) -> Iterator[tuple[ExactPoint, ExactPoint]]:

@@ -37,8 +37,9 @@ _LOG = logging.getLogger(__name__)
 
 # Scale of a disc as a share of the distance to the nearest singular point, at most (scales are powers of two)
 _RATIO = 0.625
-_GROWTH = 0.2  # growth of the solutions in one disc, as a share of the working precision
-_KEPT_GROWTH = 30.0
+# Bits by which the solutions may grow in one disc, at least, and as a share of the working precision
+_GROWTH = 100.0, 0.2
+_KEPT_GROWTH = 30.0, 0.05
 
 
 @dataclass(frozen=True)
@@ -108,9 +109,13 @@ def walk(
 
 
 def growth_of_disc(prec: int, *, alone: bool) -> float:
-    """The bits by which the solutions may grow from the centre of a disc to its junctions: less where it is kept, for shorter
-    polynomials at its targets."""
-    return max(100.0 if alone else _KEPT_GROWTH, prec * _GROWTH)
+    """The bits by which the solutions may grow from the centre of a disc to its junctions.
+
+    It is less where the disc is kept: polynomials are shorter at its targets, and beyond the spare bits of the precision a
+    value that is small beside the others in the disc would ask for a second run.
+    """
+    least, share = _GROWTH if alone else _KEPT_GROWTH
+    return max(least, prec * share)
 
 
 def cover(system: System, a: ExactPoint, b: ExactPoint, prec: int, *, alone: bool = True) -> Iterator[Disc]:

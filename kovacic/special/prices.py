@@ -13,6 +13,8 @@ from dataclasses import dataclass
 class Price:
     """A price by digits: the least one, which is twice as high at `doubled` digits, and grows like their `power`.
 
+    The part that grows may have a factor.
+
     >>> Price(0.1, 50)(50)
     0.2
     """
@@ -21,8 +23,8 @@ class Price:
     doubled: float
     power: float = 1.5
 
-    def __call__(self, digits: float) -> float:
-        return self.least * (1.0 + math.pow(digits / self.doubled, self.power))
+    def __call__(self, digits: float, factor: float = 1.0) -> float:
+        return self.least * (1.0 + factor * math.pow(digits / self.doubled, self.power))
 
 
 @dataclass(frozen=True)
@@ -37,8 +39,20 @@ BEGIN = 0.4
 """The start of Taylor's method."""
 DISC = Price(0.7, 62, 1.27)
 """A disc, as `kovacic.enclosure.states` foresees them: near singular points two or three stand for one."""
-BESIDE = 4.5
-"""The factor for a disc beside the real axis: complex coefficients, and centres with long numbers."""
+
+
+def terms(size: int) -> float:
+    """The factor by the degrees of S together, for a disc at many digits: the recurrence of the coefficients has as many
+    terms."""
+    return 0.5 + size / 8
+
+
+def beside(size: int) -> float:
+    """The factor for a disc beside the real axis: complex coefficients, and centres whose numbers are the longer the higher the
+    powers of x."""
+    return 4.0 + size / 4
+
+
 TARGET = Price(0.027, 113, 2.0)
 """A target in a disc that is there."""
 TARGET_BESIDE = 4.0

@@ -134,8 +134,10 @@ class Whittaker(StandardEquation):
     def cost(self) -> prices.Cost:
         if not self.r:
             return prices.BESSEL
-        root = square_root(self.parameters[0])  # 2 mu
-        return prices.TRICOMI if is_integer(root) else prices.WHITTAKER
+        mu, kappa = (square_root(square) / 2 for square in self.parameters)
+        if any(ends(fmpq(1, 2) + sign * mu - kappa) for sign in (1, -1)):  # Laguerre's polynomial, and one series
+            return prices.BESSEL
+        return prices.TRICOMI if is_integer(2 * mu) else prices.WHITTAKER
 
     def coordinate(self, n: Any, d: Any) -> int:
         return bessel.sign_of(n, d)
