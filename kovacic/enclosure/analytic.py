@@ -155,7 +155,9 @@ class AnalyticWay(Way):
             b_value, c_value, _ = self.functions.values(x)
             return float(abs(b_value).max(abs(c_value).sqrt()).mid())
 
-        found = Forecast(a, b, rate, 2 * max(_STEEPEST, _SHARE * self.prec))
+        steepest = max(_STEEPEST, _SHARE * self.prec)
+        e = (binary_exponent((b - a).norm_squared()) + 1) // 2
+        found = Forecast(a, b, rate, 2 * steepest, lambda x: self.functions.crowd(x, e, steepest))
         found.refuse()
         return found
 

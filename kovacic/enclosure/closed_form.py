@@ -61,36 +61,13 @@ class Exponential:
         return self.constants()[self.embedding]
 
     def omega(self, z: acb) -> acb:
-        """y'/y.
-
-        Parameters
-        ----------
-        z : acb
-            A point of the plane, not a zero of P.
-
-        Returns
-        -------
-        acb
-            The value at z.
-        """
+        """omega = y'/y = theta + P'/P at z, which is no zero of P."""
         c = self.constant()
-        # omega = theta + P'/P.
         P = embed(self.P, c)
         return value(self.theta, c, z) + P.derivative()(z) / P(z)
 
     def states(self, a: acb, b: acb) -> list[State]:
-        """y and y', where the exponential is 1 at a.
-
-        Parameters
-        ----------
-        a, b : acb
-            The ends of a straight line without a singular point.
-
-        Returns
-        -------
-        list of State
-            The two values at a, and those at b.
-        """
+        """y and y' at a and at b, the ends of a straight line without a singular point; the exponential is 1 at a."""
         if ctx.prec not in self._in_balls:
             P = embed(self.P, self.constant())
             self._in_balls[ctx.prec] = log_derivative(self.theta, self.embedding), P, P.derivative()
@@ -159,7 +136,8 @@ class CaseOneForm:
     def __str__(self) -> str:
         return f"the closed form of case 1, with a polynomial of degree {self.first.P.degree}"
 
-    def is_cheap(self, _digits: int) -> bool:
+    @property
+    def is_cheap(self) -> bool:
         """True if the first leg costs less than Taylor steps (measured)."""
         return self.is_elementary and self.first.P.degree <= _CHEAP
 

@@ -298,6 +298,17 @@ class CoefficientField:
         """Bounds of |b|, |c| and |f| over |a| in a disc, or None unless they are proven to be analytic there."""
         return _sizes(self.values(_box(centre, radius), analytic=True))
 
+    def crowd(self, x: acb, e: int, steepest: float) -> float:
+        """How many discs a unit of length has at x, at least: the largest scale below 2^e whose bounds `jets` admits; NaN where
+        none is."""
+        with working_precision(_ROUGH):
+            for k in range(_DOUBLINGS):
+                h = arb((1, e - k))
+                near = _sizes(self.values(x + around_zero(h, real=False), analytic=True))
+                if near is not None and _rate(near[0] * h, near[1] * h * h) <= _BOX * steepest:
+                    return float(1 / (2 * h))
+        return math.nan
+
     def jets(self, centre: ExactPoint, e: int, prec: int, steepest: float) -> Jets | None:
         """The series for solutions to about 2^-prec; None if the disc of twice this scale has a singularity, lambda is above
         `steepest`, or a function grows so much that its series would be long or cancel."""

@@ -108,7 +108,7 @@ def _chosen(journey: Journey, problem: NumericProblem, ways: Ways, count: int, d
         foreseen = _rounded(min(_SOUGHT * prices.DEGREES * price, _UNKNOWN))
         known = decided(problem, _UNKNOWN if is_solved else min(foreseen, _UNKNOWN))
         closed = None if known is None else closed_form_of(known)
-        if closed is not None and closed.is_cheap(digits) and closed.price(digits) <= most:
+        if closed is not None and closed.is_cheap and closed.price(digits) <= most:
             return closed, 0
     if not from_zero and price < prices.sought_from(size):
         return None

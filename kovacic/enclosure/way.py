@@ -47,7 +47,7 @@ from kovacic.enclosure.singular import Singular
 from kovacic.errors import InputError, LimitExceeded
 from kovacic.limits import check_duration, watched_seconds
 
-_TRIED = 32
+_TRIED = 16
 _WORTH = 0.2
 """Discs and seconds after which the time of the others is known well enough to be foreseen."""
 MAX_DISCS = 200_000
@@ -200,13 +200,15 @@ class Forecast:
     """How many discs the way from a to b has, and whether the limits allow them.
 
     `rate` is |S|^(1/2), or about that: its integral on the way is foreseen, rather too small, and a disc covers at most
-    `in_a_disc` of it.
+    `in_a_disc` of it.  Where functions are larger beside the way, `crowd` tells the discs for a unit of length; it takes some
+    time.
     """
 
     a: ExactPoint
     b: ExactPoint
     rate: Callable[[acb], Any]  # an arb or a double
     in_a_disc: float
+    crowd: Callable[[acb], float] | None = None
     begun: float = field(default_factory=lambda: watched_seconds(math.inf))
     is_known: bool = False
 
@@ -229,6 +231,8 @@ class Forecast:
         if least > MAX_DISCS:
             said = f"the solutions grow or oscillate by {size} on {way}, which takes {least:.2g} steps or more"
             raise LimitExceeded(f"{said}, above the limit of {MAX_DISCS}", limit="unknown_degree")
+        if each and self.crowd is not None:
+            least = max(least, foreseen_growth(self.crowd, self.a, self.b))
         # _TRIED of the discs are behind.
         check_duration(each * (least - _TRIED), way)
 

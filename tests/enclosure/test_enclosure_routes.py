@@ -270,6 +270,13 @@ def test_a_ball_knows_its_route(equation: Any, start: dict[str, Any], method: st
     assert (y + 1).route is None
 
 
+@pytest.mark.parametrize(("S", "x"), [("16*x^2 + 4", 30), ("-x^2 - 1", 20)])
+def test_small_values_in_a_disc_need_no_second_run(S: str, x: int) -> None:
+    """Where solutions grow by more than the spare bits in a disc, values at its beginning would lack digits."""
+    values = evaluate(S, [Fraction(x * k, 40) for k in range(1, 41)], x0=0, y0=1, dy0=9, digits=200, method="taylor")
+    assert all(value.digits >= 200 and value.route.runs == 1 for value in values)
+
+
 def test_a_target_where_two_discs_meet_needs_no_way_of_its_own(caplog: pytest.LogCaptureFixture) -> None:
     # y'' = -10^4 y: the discs are [0, 1], [1, 2], ..., and these targets are among their ends
     targets = [Fraction(k, 4) for k in range(1, 41)]

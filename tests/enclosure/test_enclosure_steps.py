@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import itertools
 import random
 from typing import Any
 
@@ -11,6 +12,7 @@ from build import bounded_work, parametrize
 from scipy.integrate import solve_ivp
 
 import kovacic
+from kovacic.limits import CLOCK
 
 BUMPS = [
     "exp(-x^2)",
@@ -57,6 +59,16 @@ def test_bumps_are_passed_in_few_discs(seed: int) -> None:
 def test_too_many_discs_are_foreseen(equation: str, x: int) -> None:
     with bounded_work(100), pytest.raises(kovacic.LimitExceeded, match=r"takes .* steps or more"):
         kovacic.evaluate(equation, x, x0=0, y0=1, dy0=0)
+
+
+def test_discs_are_foreseen_by_the_size_of_functions_beside_the_way(monkeypatch: pytest.MonkeyPatch) -> None:
+    """|sin(x^5)| <= 1 on the way, and about exp(5 x^4 |y|) beside it; beside a pole discs are small, but few."""
+    ticks = itertools.count()
+    monkeypatch.setattr(CLOCK, "now", lambda: next(ticks) / 100)
+    start = {"x0": 0, "y0": 1, "dy0": 0, "limits": kovacic.Limits(seconds=1000)}
+    with pytest.raises(kovacic.LimitExceeded, match="the way from 0 to 30 takes about"):
+        kovacic.evaluate("y'' + sin(x^5)*y = 0", 30, **start)
+    assert kovacic.evaluate("y'' + cos(x)/((x - 15)^2 + 1/10^6)*y = 0", 30, **start).digits >= 15
 
 
 @pytest.mark.parametrize(
