@@ -175,12 +175,13 @@ def pair_in_x(equation: Equation, y1: Expr, y2: Expr) -> tuple[Expr, Expr]:
     roots = {power for power in powers if power.free_symbols and not power.has(x) and not power.exp.is_Integer}
     real = {e: sympy.Dummy(real=True) for e in (*roots, *(first.free_symbols | second.free_symbols))}
     back = {letter: e for e, letter in real.items()}
-    both = [sympy.expand(y.xreplace(real), complex=True).as_real_imag() for y in (first, second)]
-    parts = [[part for part in of_one if part != 0] for of_one in both]
-    pair = parts[0] + parts[1]
-    if len(pair) == 4 and all(sympy.expand(p**2 - q**2) == 0 for p, q in zip(*parts, strict=True)):
-        pair = parts[0]
-    if len(pair) != 2 or any(part.has(sympy.re, sympy.im, sympy.arg) for part in pair):
+    pair: list[Expr] = []
+    for y in (first, second):
+        for part in sympy.expand(y.xreplace(real), complex=True).as_real_imag():
+            if all(sympy.expand(part**2 - other**2) != 0 for other in (0, *pair)):
+                pair.append(part)
+    # Two of which both solutions are combinations are solutions themselves.
+    if len(pair) != 2 or sympy.Tuple(*pair).has(sympy.re, sympy.im, sympy.arg):
         return first, second
     y1, y2 = (sympy.factor_terms(part.xreplace(back)) for part in pair)
     return -y1 if y1.could_extract_minus_sign() else y1, -y2 if y2.could_extract_minus_sign() else y2

@@ -18,6 +18,7 @@ from kovacic.algebra.extension import AlgebraicField, root_modulo
 from kovacic.algebra.function_field import FunctionPoly
 from kovacic.algebra.poly import Field, Poly
 from kovacic.engine.places import Kind, Place
+from kovacic.limits import check_time
 
 #: The degree over Q from which on no further roots are adjoined.
 _MOST_ROOTS = 256
@@ -133,6 +134,29 @@ def _irregular(place: Place, roots: Roots) -> tuple[Choice, ...] | None:
         terms = tuple((power, s * coefficient) for power, coefficient in singular)
         choices.append(Choice((s * last + sign * nu) / 2, terms))
     return tuple(choices)
+
+
+#: d = scale * (value at infinity - sum of the values at the poles), and theta has the residues scale * value.
+SCALE = {1: Fraction(1), 2: Fraction(1, 2), 4: Fraction(1, 3), 6: Fraction(1, 2), 12: Fraction(1)}
+
+
+def weight(point: SingularPoint, m: int) -> Fraction | int:
+    """The factor of an exponent at this point in d: SCALE[m] at infinity, minus that at a pole."""
+    return SCALE[m] if point.place.at_infinity else -SCALE[m]
+
+
+def families(
+    choices: Sequence[Sequence[Choice]], points: Sequence[SingularPoint], m: int, field: Field
+) -> list[tuple[tuple[Choice, ...], Number]]:
+    """Step 2: all families, each with its d; conjugate poles that are taken together have equal exponents."""
+    zero: Number = field.poly([]) if m == 1 else 0
+    found: list[tuple[tuple[Choice, ...], Number]] = [((), zero)]
+    for point, chosen in zip(points, choices, strict=True):
+        check_time()
+        factor = weight(point, m) * point.count
+        parts = [(choice, zero + factor * choice.value) for choice in chosen]
+        found = [((*family, choice), d + part) for family, d in found for choice, part in parts]
+    return found
 
 
 def theta_numerator(

@@ -29,7 +29,7 @@ from kovacic.algebra.poly import Poly
 from kovacic.algebra.rationals import QQ
 from kovacic.decision import NoInvariant
 from kovacic.engine.expansion import polynomial_invariant
-from kovacic.engine.places import Kind, Place, Problem
+from kovacic.engine.places import Place, Problem
 from kovacic.engine.riccati import Form, numerators, singular_part
 
 #: Equations beyond the number of unknowns, so that accidental solutions are improbable.
@@ -43,9 +43,7 @@ def least_valuation(place: Place, m: int, *, logarithms: bool = True) -> int | N
     valuations among m/2 + j Delta, j = -m/2, ..., m/2.  A logarithm leaves only the m-th power of the solution without
     one, an irregular place only powers of y+ y-, whose valuation is order/2.  With `logarithms=False` none is counted on.
     """
-    if place.kind is Kind.ORDINARY:
-        return 0
-    if place.kind is not Kind.REGULAR:
+    if place.order > 2:
         exact = Fraction(m * place.order, 4)
         return int(exact) if exact.denominator == 1 else None
     if place.delta is None:

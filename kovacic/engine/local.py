@@ -127,9 +127,7 @@ def degree_bound(problem: Problem) -> DegreeBound | Evidence:
 
 def is_cheap(problem: Problem) -> bool:
     """True if `degree_bound` needs no traces of square roots in extensions."""
-    return all(
-        place.kind is Kind.ORDINARY or place.delta_squared is not None or place.degree == 1 for place in problem.places
-    )
+    return all(place.delta_squared is not None or place.degree == 1 for place in problem.places)
 
 
 def trace_of_square_root(square: Poly, p: Poly) -> Poly | None:

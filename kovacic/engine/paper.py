@@ -36,15 +36,18 @@ from sympy import Add, Integer, Symbol, expand, symbols, sympify
 from kovacic.algebra.factors import combination
 from kovacic.algebra.poly import Field, Poly
 from kovacic.engine.families import (
+    SCALE,
     Choice,
     Number,
     Roots,
     SingularPoint,
+    families,
     first_case_choices,
     is_natural,
     natural,
     points_of_place,
     theta_numerator,
+    weight,
 )
 from kovacic.engine.places import Kind, Problem
 from kovacic.engine.riccati import numerators
@@ -62,8 +65,6 @@ _HIGHEST_DEGREE = 6
 _MOST_TRIAL_WORK = 1_000_000
 #: Coefficients of P whose conditions are written out.
 _MOST_UNKNOWNS = 3
-#: d = scale * (value at infinity - sum of the values at the poles), and theta has the residues scale * value.
-SCALE = {1: Fraction(1), 2: Fraction(1, 2), 4: Fraction(1, 3), 6: Fraction(1, 2), 12: Fraction(1)}
 
 
 @dataclass(frozen=True)
@@ -127,35 +128,13 @@ def search(problem: Problem, variable: str, m: int) -> Search | None:
     if prod(map(len, choices)) > _MOST_FAMILIES:
         return Search(m, points, choices, total, natural=_naturals(choices, points, m), families=None)
 
-    every = _all_families(choices, points, m, roots.field)
+    every = [Family(*family) for family in families(choices, points, m, roots.field)]
     hopeful = [family for family in every if _may_succeed(family, m)]
     are_one_by_one = all(point.count == 1 for point in points)
     natural = len(hopeful) if are_one_by_one else _naturals(choices, points, m)
     shown = every if m == 1 and total <= _FEW_FAMILIES else hopeful
     trial = _Trial(problem, points, m, roots.field, Symbol(variable))
     return Search(m, points, choices, total, natural, _tried(shown, trial))
-
-
-def _all_families(
-    choices: Sequence[Sequence[Choice]], points: Sequence[SingularPoint], m: int, field: Field
-) -> list[Family]:
-    """Step 2: all families, each with its d; conjugate poles that are taken together have equal exponents."""
-    zero: Number = field.poly([]) if m == 1 else 0
-    families = [Family((), zero)]
-    for point, chosen in zip(points, choices, strict=True):
-        check_time()
-        weight = _weight(point, m) * point.count
-        parts = [(choice, zero + weight * choice.value) for choice in chosen]
-        longer = []
-        for family in families:
-            longer += [Family((*family.choices, choice), family.d + part) for choice, part in parts]
-        families = longer
-    return families
-
-
-def _weight(point: SingularPoint, m: int) -> Fraction | int:
-    """The factor of an exponent at this point in d: SCALE[m] at infinity, minus that at a pole."""
-    return SCALE[m] if point.place.at_infinity else -SCALE[m]
 
 
 def _may_succeed(family: Family, m: int) -> bool:
@@ -173,8 +152,8 @@ def _naturals(choices: Sequence[Sequence[Choice]], points: Sequence[SingularPoin
     # By d, and whether all e are even so far, which for m = 2 excludes the family.
     sums: Counter[tuple[Number, bool]] = Counter({(0, m == 2): 1})
     for point, chosen in zip(points, choices, strict=True):
-        weight = _weight(point, m)
-        parts = [(weight * choice.value, m == 2 and choice.value % 2 == 0) for choice in chosen]
+        factor = weight(point, m)
+        parts = [(factor * choice.value, m == 2 and choice.value % 2 == 0) for choice in chosen]
         for _ in range(point.count):
             check_time()
             longer: Counter[tuple[Number, bool]] = Counter()

@@ -87,14 +87,14 @@ class Place:
 
     @cached_property
     def delta_squared(self) -> Poly | None:
-        """The square of the exponent difference Delta at a regular place, if it is the same constant of K at all roots.
+        """The square of the exponent difference Delta unless the place is irregular, if it is the same in K at all roots.
 
         For a double pole Delta^2 = 1 + 4b, b = N/(p'^2 q) in K[x]/p.  None elsewhere; then Delta is irrational.
         """
         p = self.factor
         (top, bottom) = self.near
         if self.order != 2:
-            return p.field.poly([1]) if self.order == 1 else None
+            return p.field.poly([1]) if self.order < 2 else None
         if p.degree > 1:
             bottom = p.derivative() ** 2 * bottom % p
         b = top[bottom.degree] / bottom.lc
@@ -107,7 +107,7 @@ class Place:
 
     @cached_property
     def delta(self) -> Fraction | None:
-        """Delta >= 0 at a regular place where it is rational, else None."""
+        """Delta >= 0 at a regular or ordinary place where it is rational, else None."""
         square = self.delta_squared
         return None if square is None else rational_square_root(square)
 
@@ -168,8 +168,6 @@ class Place:
     @property
     def is_apparent(self) -> bool:
         """True if all solutions look alike here up to a sign: an integer exponent difference, and no logarithm found."""
-        if self.kind is Kind.ORDINARY:
-            return True
         return self.delta is not None and self.delta.denominator == 1 and not self.logarithm
 
     def __str__(self) -> str:

@@ -10,7 +10,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import dataclass
-from itertools import chain, product
+from itertools import chain
 from math import prod
 
 from kovacic.algebra.extension import AlgebraicField
@@ -18,7 +18,15 @@ from kovacic.algebra.poly import Poly
 from kovacic.algebra.ratfunc import RatFunc, over_one_denominator
 from kovacic.algebra.recurrence import TwoTerms
 from kovacic.decision import NoTerminatingSeries, TerminatingSeries
-from kovacic.engine.families import Roots, first_case_choices, is_natural, natural, points_of_place, theta_numerator
+from kovacic.engine.families import (
+    Roots,
+    families,
+    first_case_choices,
+    is_natural,
+    natural,
+    points_of_place,
+    theta_numerator,
+)
 from kovacic.engine.places import Problem
 
 #: Families of exponents that are tried.
@@ -65,17 +73,13 @@ def search_series(problem: Problem) -> SeriesSearch | None:
     if prod(map(len, choices)) > _MOST_FAMILIES or not (field == problem.field or is_single):
         return None
     D = problem.D.over(field)
-    families = []
-    for family in product(*choices):
-        at_infinity, *at_poles = family
-        d = field.poly([]) + at_infinity.value
-        for choice, point in zip(at_poles, points[1:], strict=True):
-            d -= point.count * choice.value
+    tried = []
+    for family, d in families(choices, points, 1, field):
         if is_natural(d):
-            families.append((natural(d), _in_least_field(RatFunc(theta_numerator(D, points, family), D))))
+            tried.append((natural(d), _in_least_field(RatFunc(theta_numerator(D, points, family), D))))
     found = []
     is_known = True
-    for degree, theta in sorted(families, key=lambda pair: pair[0]):
+    for degree, theta in sorted(tried, key=lambda pair: pair[0]):
         problem.budget.check()
         recurrences = ((centre, recurrence_about(centre, problem.S, theta)) for centre in _centres(problem, theta))
         centre, recurrence = next((pair for pair in recurrences if pair[1] is not None), (theta.num, None))
@@ -86,7 +90,7 @@ def search_series(problem: Problem) -> SeriesSearch | None:
         if lowest is not None:
             found.append(TerminatingSeries(theta, centre, recurrence.step, degree, lowest))
     is_complete = field == problem.field and all(point.count == 1 for point in points)
-    return SeriesSearch(tuple(found), is_known, is_complete, len(families))
+    return SeriesSearch(tuple(found), is_known, is_complete, len(tried))
 
 
 def recurrence_about(centre: Poly, S: RatFunc, theta: RatFunc) -> TwoTerms | None:

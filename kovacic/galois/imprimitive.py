@@ -45,7 +45,6 @@ from kovacic.algebra.ratfunc import RatFunc
 from kovacic.algebra.rationals import QQ
 from kovacic.algebra.splitting import homomorphisms_modulo
 from kovacic.decision import SemiInvariant
-from kovacic.engine.places import Kind as PlaceKind
 from kovacic.engine.places import Problem
 from kovacic.engine.riccati import residue
 from kovacic.errors import LimitExceeded
@@ -172,10 +171,9 @@ class SquareRootCurve:
 
 def imprimitive_group(problem: Problem, f: SemiInvariant) -> Group:
     """The group of an equation whose semi-invariant f = y1 y2 of degree 2 isn't rational, with two conjugate omegas."""
-    singular = [place for place in problem.places if place.kind is not PlaceKind.ORDINARY]
-    if any(place.kind is not PlaceKind.REGULAR for place in singular):
+    if any(place.order > 2 for place in problem.places):
         return Group(GroupKind.INFINITE_DIHEDRAL, Ground.IRREGULAR)
-    if any(place.delta is None for place in singular):
+    if any(place.delta is None for place in problem.places):
         return Group(GroupKind.INFINITE_DIHEDRAL, Ground.IRRATIONAL_EXPONENT)
     if f.P.field != problem.field:  # three pairs of lines: only the quaternion group has them
         return Group(GroupKind.DICYCLIC, Ground.THREE_PAIRS, 2)
@@ -205,8 +203,7 @@ def curve_of(problem: Problem, f: SemiInvariant) -> SquareRootCurve:
         points.append(CurvePoint(f.P, 2, Fraction(1)))
     place = problem.infinity
     e = 4 - growth
-    delta = Fraction(1) if place.kind is PlaceKind.ORDINARY else place.delta
-    return SquareRootCurve(tuple(points), CurvePoint(place.factor, e, _residue_of_eta(e, delta)))
+    return SquareRootCurve(tuple(points), CurvePoint(place.factor, e, _residue_of_eta(e, place.delta)))
 
 
 def _residue_of_eta(e: int, delta: Fraction | None) -> Fraction:

@@ -65,7 +65,7 @@ class Airy(StandardEquation):
             if len(parts) < len(places):
                 continue
             f = sum(parts, RatFunc(q * 0))
-            c = value_at(standard_part(problem.S, f) / q - f, places[0].factor, at_infinity=places[0].at_infinity)
+            c = value_at(standard_part(problem.S, f) / q - f, places[0])
             if c is not None:
                 yield Pullback(Airy(q), f + c)
 

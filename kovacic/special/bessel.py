@@ -27,17 +27,17 @@ from flint import acb, arb, ctx, fmpq, fmpq_poly
 from kovacic.algebra.poly import Poly
 from kovacic.algebra.precision import working_precision
 from kovacic.algebra.ratfunc import RatFunc
-from kovacic.engine.places import Kind, Place, Problem
+from kovacic.engine.places import Place, Problem
 from kovacic.limits import count_work
 from kovacic.special import prices
 from kovacic.special.maps import (
     HALF,
     Fibre,
     Number,
-    Point,
     fibres,
     irregular_places,
     leading_square,
+    regular_points,
     square,
     zeros,
 )
@@ -129,11 +129,7 @@ def _by_zeros(problem: Problem, irregular: list[Place]) -> Iterator[Pullback]:
 
 def _zeros(problem: Problem, n: int) -> Iterable[Fibre]:
     """Sets of points with multiplicities proportional to the exponent differences, up to n zeros in all, and nu^2."""
-    points = [
-        Point(place.factor, place.at_infinity, place.delta_squared)
-        for place in problem.places
-        if place.kind is Kind.REGULAR and place.delta_squared is not None
-    ]
+    points = regular_points(problem)
     logarithmic = [point for point in points if not point.square]
     if not logarithmic:
         return fibres(points, n)

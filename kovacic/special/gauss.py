@@ -49,10 +49,10 @@ from kovacic.algebra.rationals import QQ, RationalPoly
 from kovacic.closed_form.structure import PLACES, Covariants
 from kovacic.compatibility import cached_property
 from kovacic.decision import Structure
-from kovacic.engine.places import Kind, Problem, analyse, rational_square_root
+from kovacic.engine.places import Problem, analyse, rational_square_root
 from kovacic.limits import Budget
 from kovacic.special import prices
-from kovacic.special.maps import HALF, Number, Point, coverings
+from kovacic.special.maps import HALF, Number, Point, coverings, regular_points
 from kovacic.special.pullback import (
     Pullback,
     StandardEquation,
@@ -106,19 +106,14 @@ class Gauss(StandardEquation):
 
     @classmethod
     def candidates(cls, problem: Problem, *, extended: bool, shifted: bool = False) -> Iterator[Pullback]:
-        regular = [place for place in problem.places if place.kind is Kind.REGULAR]
-        different = [place.factor for place in regular if place.delta_squared is None]
+        different = [place.factor for place in problem.places if place.delta_squared is None]
         if different:
             if extended and different[0].degree == 2:  # conjugate places are separated over a larger field
                 field = AlgebraicField(problem.field, different[0])
                 S = RatFunc(problem.S.num.over(field), problem.S.den.over(field), reduced=True)
                 yield from cls.candidates(analyse(S, problem.budget), extended=extended)
             return
-        points: list[Point] = []
-        apparent: list[Point] = []
-        for place in regular:
-            found = apparent if place.is_apparent else points
-            found.append(Point(place.factor, place.at_infinity, place.delta_squared or problem.field.poly([])))
+        points, apparent = (regular_points(problem, apparent=flag) for flag in (False, True))
         if shifted:
             yield from _shifted(points, apparent, problem.budget)
             return

@@ -199,6 +199,36 @@ def scales(places: list[Place], value: Callable[[Place], Poly], n: int) -> list[
     return list(dict.fromkeys(scale for scale in scales if scale))
 
 
+@dataclass(frozen=True)
+class Point:
+    """All roots of a polynomial, or infinity, and the square of the exponent difference there."""
+
+    factor: Poly
+    at_infinity: bool
+    square: Poly
+
+    @property
+    def degree(self) -> int:
+        return self.factor.degree
+
+
+def regular_points(problem: Problem, *, apparent: bool | None = None) -> list[Point]:
+    """The regular places whose roots have one exponent difference: all, the apparent ones, or the others."""
+    places = (place for place in problem.places if place.kind is Kind.REGULAR)
+    return [
+        Point(place.factor, place.at_infinity, place.delta_squared)
+        for place in places
+        if place.delta_squared is not None and apparent in (None, place.is_apparent)
+    ]
+
+
+def unseen_points(f: RatFunc) -> list[Point]:
+    """The critical points of f, and infinity, as ordinary points."""
+    one = f.field.poly([1])
+    critical = [Point(p, False, one) for p, _ in f.field.factor(f.derivative().num)]
+    return [*critical, Point(f.field.poly([0, 1]), True, one)]
+
+
 def zeros(problem: Problem, polar: RatFunc, *, shifted: bool) -> Iterator[tuple[RatFunc, Poly]]:
     """f with its constant, and e^2 for the standard equation's exponent difference e at 0: a k-fold zero of f has k e.
 
@@ -207,31 +237,26 @@ def zeros(problem: Problem, polar: RatFunc, *, shifted: bool) -> Iterator[tuple[
     """
     if not polar.derivative():
         return
-    regular = [place for place in problem.places if place.kind is Kind.REGULAR]
-    seen = [place for place in regular if not place.is_apparent]
-    points = [(place.factor, place.at_infinity, place.delta_squared) for place in seen or regular]
-    if not seen:
-        slope = polar.derivative().num
-        one = slope.field.poly([1])
-        points += [*((p, False, one) for p, _ in slope.field.factor(slope)), (slope.field.poly([0, 1]), True, one)]
-    for p, at_infinity, delta_squared in points:
-        value = value_at(polar, p, at_infinity=at_infinity)
-        if value is None or delta_squared is None:
+    seen = regular_points(problem, apparent=False)
+    for point in seen or [*regular_points(problem, apparent=True), *unseen_points(polar)]:
+        value = value_at(polar, point)
+        if value is None:
             continue
         check_time()
         f = polar - value
-        k = -f.degree if at_infinity else f.num.remove(p)[1]
-        yield f, delta_squared * Fraction(1, k * k)
+        k = -f.degree if point.at_infinity else f.num.remove(point.factor)[1]
+        yield f, point.square * Fraction(1, k * k)
         if shifted:
-            yield from ((f, e_squared) for e_squared in _shifted_differences(delta_squared, k))
+            yield from ((f, e_squared) for e_squared in _shifted_differences(point.square, k))
 
 
-def value_at(f: RatFunc, p: Poly, *, at_infinity: bool) -> Poly | None:
-    """The value at all roots of p, or at infinity, if it is one and finite."""
-    if at_infinity:
+def value_at(f: RatFunc, point: Point | Place) -> Poly | None:
+    """The value at all roots of a factor, or at infinity, if it is one and finite."""
+    if point.at_infinity:
         if not f or f.degree < 0:
             return f.num * 0
-        return f.num.lc / f.den.lc if f.degree == 0 else None
+        return f.num.lc if f.degree == 0 else None
+    p = point.factor
     if f.den.gcd(p).degree > 0:
         return None
     value = f.num * f.den.inverse_modulo(p) % p
@@ -267,19 +292,6 @@ class Covering:
     zeros: Poly
     ones: Poly
     poles: Poly
-
-
-@dataclass(frozen=True)
-class Point:
-    """All roots of a polynomial, or infinity, and the square of the exponent difference there."""
-
-    factor: Poly
-    at_infinity: bool
-    square: Poly
-
-    @property
-    def degree(self) -> int:
-        return self.factor.degree
 
 
 def coverings(points: list[Point], apparent: list[Point], budget: Budget, hidden: int = 0) -> Iterator[Covering]:
@@ -435,13 +447,7 @@ def _ratio(point: Point, other: Point) -> Fraction | None:
 def _scaled_to_one(zeros: Poly, poles: Poly, rest: list[Point]) -> Iterator[RatFunc]:
     """The multiples of zeros/poles that are 1 at the points of the rest, or have 1 for a critical value."""
     f = RatFunc(zeros, poles)
-    factors = [point.factor for point in rest[:1] if not point.at_infinity]
-    slope = f.derivative().num
-    if not rest and slope.degree > 0:
-        factors = [p for p, _ in slope.field.factor(slope)]
-    values = [value_at(f, p, at_infinity=False) for p in factors]
-    if f.degree == 0 and not (rest and factors):
-        values.append(f.num.lc)
+    values = [value_at(f, point) for point in rest[:1] or unseen_points(f)]
     yield from (f / value for value in values if value)
 
 

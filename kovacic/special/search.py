@@ -38,7 +38,7 @@ from kovacic.algebra.homomorphism import BadPrimeError
 from kovacic.algebra.poly import Poly
 from kovacic.algebra.ratfunc import RatFunc, over_one_denominator
 from kovacic.algebra.rationals import QQ
-from kovacic.engine.places import Kind, Place, Problem, analyse, rational_square_root
+from kovacic.engine.places import Place, Problem, analyse, rational_square_root
 from kovacic.errors import LimitExceeded, VerificationFailed
 from kovacic.limits import Budget, bounded_work, count_work
 from kovacic.numbers.numerals import as_latex, as_text
@@ -88,8 +88,9 @@ def _transformation(problem: Problem, target: Problem) -> tuple[Poly, RatFunc, R
     """m, a and b, or None."""
     own, other = ({(p.at_infinity, p.factor): p for p in given.places} for given in (problem, target))
     options = []
-    for key in dict.fromkeys([*own, *other]):
-        possible = _orders(own.get(key), other.get(key))
+    for key, place in (own | other).items():
+        ordinary = replace(place, order=0)
+        possible = _orders(own.get(key, ordinary), other.get(key, ordinary))
         if not possible:
             return None
         options.append(possible)
@@ -101,34 +102,28 @@ def _transformation(problem: Problem, target: Problem) -> tuple[Poly, RatFunc, R
     return None
 
 
-def _orders(first: Place | None, second: Place | None) -> list[_Order]:
+def _orders(first: Place, second: Place) -> list[_Order]:
     """What is possible, for each parity; nothing where something isn't kept."""
-    place = first or second
-    assert place is not None
-    order = max([2, *(p.order for p in (first, second) if p is not None)])
-    base = order - 4 if place.at_infinity else order
+    order = max(2, first.order, second.order)
+    base = order - 4 if first.at_infinity else order
     found: dict[int, _Order] = {}
     for n in sorted(_shifts(first, second), reverse=True):
         for least in (base - n, base - n + 1) if order % 2 else (base - n,):
-            found.setdefault(least % 2, (place, least))
+            found.setdefault(least % 2, (first, least))
     return list(found.values())
 
 
-def _shifts(first: Place | None, second: Place | None) -> list[int]:
+def _shifts(first: Place, second: Place) -> list[int]:
     """By which integers exponents of y and v differ: at a regular place |Delta_S -+ Delta_T|, else twice the residues'."""
-    orders = [0 if place is None else place.order for place in (first, second)]
-    if max(orders) > 2:
-        if orders[0] != orders[1] or first is None or second is None:
+    if max(first.order, second.order) > 2:
+        if first.order != second.order:
             return []
-        return [0] if orders[0] % 2 else _shifts_of_residues(first, second)
-    place = first or second
-    assert place is not None
-    one = place.factor.field.poly([1])
-    A, B = (one if p is None or p.kind is Kind.ORDINARY else p.delta_squared for p in (first, second))
+        return [0] if first.order % 2 else _shifts_of_residues(first, second)
+    A, B = first.delta_squared, second.delta_squared
     if A is None or B is None:
         return [0] if A is B else []
     # n^2 = A + B -+ 2 sqrt(A B), whether the roots of A and B lie in the field or not
-    root = one.field.sqrt(A * B) if A * B else one * 0
+    root = A.field.sqrt(A * B) if A * B else A * B
     squares = [] if root is None else [A + B - 2 * root, A + B + 2 * root]
     return [int(n) for square in squares if (n := rational_square_root(square)) is not None and n.denominator == 1]
 
