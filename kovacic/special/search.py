@@ -33,7 +33,6 @@ from typing import TYPE_CHECKING, Any
 from flint import fmpq_mat, nmod_mat
 
 from kovacic.algebra.factors import dependence
-from kovacic.algebra.factors import product as product_of
 from kovacic.algebra.homomorphism import BadPrimeError
 from kovacic.algebra.poly import Poly
 from kovacic.algebra.ratfunc import RatFunc, over_one_denominator
@@ -145,53 +144,69 @@ def _shifts_of_residues(first: Place, second: Place) -> list[int]:
 
 # ------------------------------------------------------------------------------------------ a and b
 
-_Operator = list[RatFunc]
-"""c_0, c_1, ... for c_0 B + c_1 B' + ..., each times one function u."""
 
+@dataclass(frozen=True)
+class _Operator:
+    """u (c_0 B + c_1 B' + ...), for a function u with the rate u'/u."""
 
-def _derived(operator: _Operator, rate: RatFunc) -> _Operator:
-    """The derivative, u'/u the rate."""
-    return _sum([c.derivative() + c * rate for c in operator], [rate * 0, *operator])
+    coefficients: list[RatFunc]
+    rate: RatFunc
 
+    def __mul__(self, factor: RatFunc | int) -> _Operator:
+        return replace(self, coefficients=[c * factor for c in self.coefficients])
 
-def _sum(*operators: _Operator) -> _Operator:
-    zero = operators[0][0] * 0
-    return [sum(parts, zero) for parts in zip_longest(*operators, fillvalue=zero)]
+    def __add__(self, other: _Operator) -> _Operator:
+        pairs = zip_longest(self.coefficients, other.coefficients, fillvalue=self.rate * 0)
+        return replace(self, coefficients=[c + d for c, d in pairs])
+
+    @property
+    def derived(self) -> _Operator:
+        """The derivative."""
+        moved = replace(self, coefficients=[self.rate * 0, *self.coefficients])
+        return moved + replace(self, coefficients=[c.derivative() + c * self.rate for c in self.coefficients])
+
+    def __call__(self, B: Poly) -> RatFunc:
+        """c_0 B + c_1 B' + ..."""
+        total = self.rate * 0
+        for c in self.coefficients:
+            total = total + c * B
+            B = B.derivative()
+        return total
 
 
 def _solved(S: RatFunc, T: RatFunc, orders: Sequence[_Order]) -> tuple[Poly, RatFunc, RatFunc] | None:
     """m, a and b by (2), for b = u B with u = sqrt(m) R and a polynomial B."""
-    finite = [(place.factor, least) for place, least in orders if not place.at_infinity]
-    (at_infinity,) = (least for place, least in orders if place.at_infinity)
-    poles = [(p, least // 2) for p, least in finite]
     one = S.field.poly([1])
-    m = product_of([one, *(p for p, least in finite if least % 2)])
-    degree = (-at_infinity - m.degree) // 2 - sum(order * p.degree for p, order in poles)
-    size = degree + 1 + sum(abs(order) * p.degree for p, order in poles)
+    m = one
+    R = RatFunc(one)
+    degree = size = 0
+    for place, least in orders:
+        if place.at_infinity:
+            degree -= least
+            continue
+        if least % 2:
+            m = m * place.factor
+        order = least // 2
+        R = R * RatFunc(place.factor) ** order
+        degree -= 2 * order * place.degree
+        size += abs(order) * place.degree
+    degree = (degree - m.degree) // 2
+    size += degree + 1
     if degree < 0 or size > (_UNKNOWNS if S.field == QQ else _WITH_PARAMETERS):
         return None
-    R = RatFunc(one)
-    for p, order in poles:
-        R = R * RatFunc(p) ** order
     D = S - T
-    rate = half_rate(m) + R.derivative() / R
-    db = _derived([RatFunc(one)], rate)
-    double_slope = _sum([D], [-c for c in _derived(db, rate)])  # 2 a'
-    parts = _derived(double_slope, rate), [4 * T * c for c in db], [2 * T.derivative()]
-    a = [c / (2 * D) for c in _sum(*parts)]
-    B = _bounded_polynomial_solution(_sum([2 * c for c in _derived(a, rate)], [-c for c in double_slope]), degree)
-    if B is None:
-        return None
-    derivatives = [RatFunc(B)]
-    while len(derivatives) < len(a):
-        derivatives.append(derivatives[-1].derivative())
-    return m, R * sum((c * d for c, d in zip(a, derivatives, strict=True)), D * 0), R * B
+    b = _Operator([RatFunc(one)], half_rate(m) + R.derivative() / R)
+    slope = b.derived
+    double_slope = b * D + slope.derived * -1  # 2 a'
+    a = (double_slope.derived + slope * (4 * T) + b * (2 * T.derivative())) * (1 / (2 * D))
+    B = _bounded_polynomial_solution(a.derived * 2 + double_slope * -1, degree)
+    return None if B is None else (m, R * a(B), R * B)
 
 
 def _bounded_polynomial_solution(operator: _Operator, degree: int) -> Poly | None:
     """A polynomial of this degree at most, not 0, that the operator takes to 0."""
-    x = operator[0].field.poly([0, 1])
-    cleared = over_one_denominator(operator)
+    x = operator.rate.field.poly([0, 1])
+    cleared = over_one_denominator(operator.coefficients)
     columns = []
     for i in range(degree + 1):
         column = x * 0

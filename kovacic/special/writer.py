@@ -442,7 +442,8 @@ def _sine_of_letters(number: Expr) -> Expr:
 
 def _derivative(F: Expr, x: Any) -> tuple[Expr, Expr, Expr, Expr]:
     """(s, t, w, F1) with F' = s F + t w F1: s and t rational functions, w a root of one or 1."""
-    found = _by_argument(F)
+    rule = _SLOPES.get(F.func)
+    found = None if rule is None else rule(*F.args)
     if found is None:
         slope = sympy.diff(F, x)
         if isinstance(F, exp | sympy.Pow) or F.is_Number:
@@ -455,27 +456,41 @@ def _derivative(F: Expr, x: Any) -> tuple[Expr, Expr, Expr, Expr]:
     return sympy.cancel(s * z * rate), sympy.cancel(t * z / root * rate), root, other
 
 
-def _by_argument(F: Expr) -> tuple[Expr, Expr, Expr] | None:
-    """(s, t, F1) with dF/dz = s F + t F1 for the last argument z, s and t rational in z; None for other functions."""
-    zero = sympy.S.Zero
-    z = F.args[-1] if F.args else zero
-    if isinstance(F, sympy.besselj | sympy.bessely | sympy.besseli | sympy.besselk):
-        # C' = C_(nu-1) - (nu/z) C for J, Y and I, with -K_(nu-1) for K; C_0' = -C_1, and C_1 for I.
-        nu = F.args[0]
-        if nu == 0:
-            return zero, sympy.S(1 if isinstance(F, sympy.besseli) else -1), F.func(1, z)
-        return -nu / z, sympy.S(-1 if isinstance(F, sympy.besselk) else 1), F.func(nu - 1, z, evaluate=False)
-    if isinstance(F, sympy.airyai | sympy.airybi):
-        return zero, sympy.S.One, (sympy.airyaiprime if isinstance(F, sympy.airyai) else sympy.airybiprime)(z)
-    if isinstance(F, sympy.hyper) and 0 not in F.ap:
-        above, below = (tuple(sympy.cancel(value + 1) for value in values) for values in (F.ap, F.bq))
-        return zero, Mul(*F.ap) / Mul(*F.bq), hypergeometric(above, below, z)
-    if isinstance(F, sympy.legendre):  # (t^2 - 1) P_nu' = nu (t P_nu - P_(nu-1))
-        nu = F.args[0]
-        other = -nu if nu.is_negative else nu - 1  # P_(nu - 1) is P_(-nu)
-        return nu * z / (z**2 - 1), -nu / (z**2 - 1), sympy.legendre(other, z)
-    if isinstance(F, sympy.elliptic_k):  # 2 m (1 - m) K' = E - (1 - m) K [DLMF 19.4.1]
-        return -1 / (2 * z), 1 / (2 * z * (1 - z)), sympy.elliptic_e(z)
-    if isinstance(F, sympy.elliptic_e):  # 2 m E' = E - K
-        return 1 / (2 * z), -1 / (2 * z), sympy.elliptic_k(z)
-    return None
+#: s, t and F1 with dF/dz = s F + t F1 for a function F of z, s and t rational in z.
+_Slope = tuple[Expr, Expr, Expr]
+
+
+def _slope_of_bessel(kind: Any, below: int, above: int, nu: Expr, z: Expr) -> _Slope:
+    """C' = below C_(nu-1) - (nu/z) C, and C_0' = above C_1, with the signs of this kind [DLMF 10.6, 10.29]."""
+    if nu == 0:
+        return sympy.S.Zero, sympy.Integer(above), kind(1, z)
+    return -nu / z, sympy.Integer(below), kind(nu - 1, z, evaluate=False)
+
+
+def _slope_of_series(above: Expr, below: Expr, z: Expr) -> _Slope | None:
+    """Of pFq, None if that is 1."""
+    if 0 in above:
+        return None
+    top, bottom = (tuple(sympy.cancel(value + 1) for value in values) for values in (above, below))
+    return sympy.S.Zero, Mul(*above) / Mul(*below), hypergeometric(top, bottom, z)
+
+
+def _slope_of_legendre(nu: Expr, z: Expr) -> _Slope:
+    """(z^2 - 1) P_nu' = nu (z P_nu - P_(nu-1))."""
+    other = -nu if nu.is_negative else nu - 1  # P_(nu - 1) is P_(-nu)
+    return nu * z / (z**2 - 1), -nu / (z**2 - 1), sympy.legendre(other, z)
+
+
+_SLOPES: dict[Any, Callable[..., _Slope | None]] = {
+    sympy.besselj: partial(_slope_of_bessel, sympy.besselj, 1, -1),
+    sympy.bessely: partial(_slope_of_bessel, sympy.bessely, 1, -1),
+    sympy.besseli: partial(_slope_of_bessel, sympy.besseli, 1, 1),
+    sympy.besselk: partial(_slope_of_bessel, sympy.besselk, -1, -1),
+    sympy.airyai: lambda z: (sympy.S.Zero, sympy.S.One, sympy.airyaiprime(z)),
+    sympy.airybi: lambda z: (sympy.S.Zero, sympy.S.One, sympy.airybiprime(z)),
+    sympy.hyper: _slope_of_series,
+    sympy.legendre: _slope_of_legendre,
+    # 2 z (1 - z) K' = E - (1 - z) K and 2 z E' = E - K [DLMF 19.4.1, 19.4.2]
+    sympy.elliptic_k: lambda z: (-1 / (2 * z), 1 / (2 * z * (1 - z)), sympy.elliptic_e(z)),
+    sympy.elliptic_e: lambda z: (1 / (2 * z), -1 / (2 * z), sympy.elliptic_k(z)),
+}
