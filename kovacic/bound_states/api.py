@@ -237,13 +237,13 @@ def _all_levels(examined: _Examined, budget: Budget) -> Spectrum:
     """All levels in one formula, or the reason why there is none."""
     question = examined.question
     assert examined.real is not None
-    if sympy.true in examined.excluded:
-        # Where solutions oscillate at an end, no boundary condition is distinguished, and none was given.
-        return replace(examined, excluded=(sympy.true,)).spectrum(reason="none is distinguished")
     oscillating = next((end for end in examined.ends if end.oscillates and end.is_limit_point), None)
     if oscillating is not None:
         reason = f"no solution is square integrable at {oscillating.at}"
         return replace(examined, excluded=()).spectrum(complete=True, reason=reason)
+    if sympy.true in examined.excluded:
+        # Where solutions oscillate at an end, no boundary condition is distinguished, and none was given.
+        return replace(examined, excluded=(sympy.true,)).spectrum(reason="none is distinguished")
     if examined.real.original.is_periodic and any(at.is_infinite for at in question.domain):
         if all(at.is_infinite for at in question.domain):
             return examined.spectrum(complete=True, reason=NO_LEVELS)

@@ -15,7 +15,7 @@ import sympy
 from kovacic.bound_states.coordinates import Original, RealPotential
 from kovacic.bound_states.energies import exact_root, tidied
 from kovacic.bound_states.question import SpectralProblem
-from kovacic.bound_states.signs import Signs, Uncovered
+from kovacic.bound_states.signs import Signs
 
 
 @dataclass(frozen=True)
@@ -87,8 +87,6 @@ def end_of(question: SpectralProblem, real: RealPotential, *, is_right: bool) ->
         return replace(end, sentence=f"{where}V -> {limit}, continuous spectrum from {begin}", threshold=threshold)
     if at.is_infinite or order < mu - 2:
         return _unbounded(end, -order, inside, question)
-    if mu >= 2:
-        raise Uncovered(f"the coordinate isn't regular at {where[:-2]}")
     # u ~ (x - a)^p with p = 2/(2 - mu), so that with (du/dx)^2 ~ C u^mu it is (x - a)^p (C/p^2)^(p/2).
     nu_squared = sympy.Rational(1, 4)
     if order == mu - 2:

@@ -133,12 +133,8 @@ class SpectralProblem(Asked):
             if wish.alpha != 0 or mu != 1:
                 raise Uncovered("the boundary condition isn't one on exponents")
             return above(-delta, 0, strict=False)
-        if end.is_infinite and mu < 2:
-            raise Uncovered(f"the end {end} is a finite point of the coordinate")
-        if end.is_infinite:
+        if end.is_infinite:  # mu >= 2 there, and at no finite end
             return above(delta, mu - 2, strict=True)
-        if mu >= 2:
-            raise Uncovered(f"the end {end} is at infinity in the coordinate")
         # y ~ (x - a)^(1/2 + delta/(2 - mu)); at a limit point nu = delta/(2 - mu) is at least 1.
         return above(delta, 0 if self.friedrichs or wish is not None else 2 - mu, strict=False)
 

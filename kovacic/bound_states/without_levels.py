@@ -58,13 +58,7 @@ def _has_sign(function: Any, t: Any, bounds: tuple[Any, Any], sign: int, signs: 
     """True if the function isn't of the other sign between two bounds, of which one may be infinite."""
     low, high = bounds
     s = sympy.Dummy("s", positive=True)
-    match low.is_finite, high.is_finite:
-        case True, True:
-            inside = low + (high - low) * s / (1 + s)
-        case True, False:
-            inside = low + s
-        case False, True:
-            inside = high - s
-        case _:
-            inside = sympy.Dummy("t", real=True)
+    inside = low + s if low.is_finite else high - s
+    if low.is_finite and high.is_finite:
+        inside = low + (high - low) * s / (1 + s)
     return signs.is_nonnegative(sign * function.xreplace({t: inside})) is True
