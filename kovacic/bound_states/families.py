@@ -147,6 +147,11 @@ class _JacobiForm:
         first, second, _ = self.points
         return first.spot.exponent(first.delta), second.spot.exponent(second.delta)
 
+    @property
+    def size(self) -> Any:
+        """|scale|; nan if it depends on z, so that the norm is unknown."""
+        return sympy.nan if self.scale.has(self.frame.z) else sympy.Abs(self.scale)
+
 
 class Wave(NamedTuple):
     """A solution y in the user's variable, up to a factor; `norm` is the integral of its square, None if unknown."""
@@ -164,11 +169,7 @@ def jacobi_wave(frame: SingularFrame, roots: list[Root], deltas: list[Any], sign
     e1, e2 = form.exponents
     whole = WaveProduct().times(as_product(frame, 1 - form.w), e1).times(as_product(frame, 1 + form.w), e2)
     polynomial = jacobi(form.n, shortest(first.delta), shortest(second.delta), _argument(frame, form.w))
-    y = whole.shown() * polynomial
-    norm = None if form.scale.has(frame.z) else _norm_between(form)
-    if norm is None:
-        return Wave(y)
-    return Wave(y, _tidy(frame, norm / whole.constant**2))
+    return Wave(whole.shown() * polynomial, _tidy(frame, _norm_between(form) / whole.constant**2))
 
 
 def _jacobi_form(frame: SingularFrame, roots: list[Root], deltas: list[Any], signs: Signs) -> _JacobiForm:
@@ -213,10 +214,7 @@ def _complex_pair(form: _JacobiForm) -> Wave:
     a = shortest(first.delta)
     b = shortest(second.delta)
     y = powers.written * ((-sympy.I) ** n * jacobi(n, a, b, sympy.I * powers.r))
-    norm = _norm_on_line(form, a, b)
-    if norm is None:
-        return Wave(y)
-    return Wave(y, _tidy(form.frame, -norm / powers.dropped))
+    return Wave(y, _tidy(form.frame, -_norm_on_line(form, a, b) / powers.dropped))
 
 
 class _RealPowers(NamedTuple):
@@ -245,21 +243,17 @@ def _real_powers(form: _JacobiForm, p: Any, q: Any) -> _RealPowers:
 
 
 def _norm_on_line(form: _JacobiForm, a: Any, b: Any) -> Any:
-    """int y^2 dx for w = i r, up to its sign; None if unknown, or if r doesn't run through the whole line."""
+    """int y^2 dx for w = i r, up to its sign; nan if unknown, or if r doesn't run through the whole line."""
     first, second, _ = form.points
     n = form.n
-    is_whole_line = any(len(spot.sides) == 2 for spot in form.frame.spots)
-    if not is_whole_line or form.scale.has(form.frame.z):
-        return None
+    if not any(len(spot.sides) == 2 for spot in form.frame.spots):
+        return sympy.nan
     middle = 2 * sympy.pi * sympy.gamma(-n - a - b) / (sympy.gamma(-n - a) * sympy.gamma(-n - b))
-    integral = _jacobi_integral(a, b, (1 - first.spot.mu, 1 - second.spot.mu), n, middle)
-    if integral is None:
-        return None
-    return integral / sympy.sqrt(sympy.Abs(form.scale))
+    return _jacobi_integral(a, b, (1 - first.spot.mu, 1 - second.spot.mu), n, middle) / sympy.sqrt(form.size)
 
 
 def _jacobi_integral(a: Any, b: Any, shifts: tuple[Any, Any], n: Any, middle: Any) -> Any:
-    """int (1 - v)^(a + i) (1 + v)^(b + j) P_n^(a, b)(v)^2 dv over (-1, 1), shifts (i, j); None if unknown.
+    """int (1 - v)^(a + i) (1 + v)^(b + j) P_n^(a, b)(v)^2 dv over (-1, 1), shifts (i, j); nan if unknown.
 
     With `middle` = Gamma(n + a + 1) Gamma(n + b + 1)/Gamma(n + a + b + 1) [Gradshteyn & Ryzhik 7.391; DLMF 18.3].  On the line
     v = i r all of these have the same factor, 2 sin(pi a) sin(pi b)/sin(pi (a + b)), which is in another `middle`.
@@ -280,30 +274,25 @@ def _jacobi_integral(a: Any, b: Any, shifts: tuple[Any, Any], n: Any, middle: An
         (1, 0): plain * (1 - mean),
         (0, 1): plain * (1 + mean),
     }
-    return known.get(shifts)
+    return known.get(shifts, sympy.nan)
 
 
 def _norm_between(form: _JacobiForm) -> Any:
-    """int y^2 dx between two of the points w = 1, -1, oo, or None if unknown.
+    """int y^2 dx between two of the points w = 1, -1, oo, or nan if unknown.
 
     For oo: w = (3 - v)/(1 + v) runs from 1 to it for v from 1 to -1, and P_n^(a, b)(w) = (2/(1 + v))^n P_n^(a, c)(v).
     """
     n, (first, second, third) = form.n, form.points
     end, other = (first, second) if first.spot.sides else (second, first)  # w -> -w
-    integral = _integral_between(end, third if third.spot.sides else other, n)
-    scale, powers = sympy.Abs(form.scale), sympy.S.Zero
+    scale, powers, last = form.size, sympy.S.Zero, other
     if third.spot.sides:
+        last = third
         scale *= 2 ** (end.spot.mu + 2 * other.spot.mu - 4)
         powers = 2 * end.spot.exponent(end.delta) + 4 * other.spot.exponent(other.delta) + 2 * n
-    return None if integral is None else 2**powers * integral / sympy.sqrt(scale)
-
-
-def _integral_between(first: _RegularPoint, second: _RegularPoint, n: Any) -> Any:
-    """The integral of `_jacobi_integral` for the deltas and the mu of two points."""
-    a = first.delta
-    b = second.delta
+    a, b = end.delta, last.delta
     middle = sympy.gamma(n + a + 1) * sympy.gamma(n + b + 1) / sympy.gamma(n + a + b + 1)
-    return _jacobi_integral(a, b, (1 - first.spot.mu, 1 - second.spot.mu), n, middle)
+    integral = _jacobi_integral(a, b, (1 - end.spot.mu, 1 - last.spot.mu), n, middle)
+    return 2**powers * integral / sympy.sqrt(scale)
 
 
 def laguerre_wave(frame: SingularFrame, origin: Spot, values: list[Any], signs: Signs) -> Wave:
@@ -319,20 +308,22 @@ def laguerre_wave(frame: SingularFrame, origin: Spot, values: list[Any], signs: 
     scale = sympy.simplify(frame.slope / z**origin.mu)
     weight = sympy.gamma(n + delta + 1) / sympy.factorial(n)
     known = {0: 1, 1: 2 * n + delta + 1, -1: 1 / delta}
-    j = 1 - origin.mu
-    if j not in known or scale.has(z):
-        return Wave(y)
+    if scale.has(z):
+        scale = sympy.nan  # the norm is unknown
     if signs.sign(kappa) == -1:  # where z is negative
         rate = -rate
-    integral = rate ** (origin.mu - 2 - delta) * weight * known[j]
+    integral = rate ** (origin.mu - 2 - delta) * weight * known.get(1 - origin.mu, sympy.nan)
     return Wave(y, _tidy(frame, integral / sympy.sqrt(sympy.Abs(scale)) / whole.constant**2))
 
 
 def _tidy(frame: SingularFrame, norm: Any) -> Any:
     """The norm or its form with simplified quotients of Gamma functions, the shorter; doubled on half of a domain.
 
-    A sine from the reflection formula may be 0 where a Gamma function is infinite: such a form has no value at integers.
+    None for nan.  A sine from the reflection formula may be 0 where a Gamma function is infinite: such a form has no value at
+    integers.
     """
+    if norm is sympy.nan:
+        return None
     simplified = sympy.gammasimp(norm).replace(
         lambda e: e.func == sympy.gamma and e.args[0].is_integer, lambda e: sympy.factorial(e.args[0] - 1)
     )
