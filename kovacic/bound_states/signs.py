@@ -119,7 +119,7 @@ def _beyond(bound: Bound, symbol: Any) -> Any:
 
 def above(delta: Any, least: Any, *, strict: bool) -> Any:
     """delta > least, or >=; false for a delta that isn't real."""
-    if delta.is_number and delta.is_real is False:
+    if delta.is_real is False:
         return sympy.false
     relation = sympy.Gt if strict else sympy.Ge
     return relation(delta, least)

@@ -233,6 +233,12 @@ def test_a_level_at_the_edge_of_the_continuous_spectrum(V: str, domain: Any, wav
     assert found.closed_forms_complete or V.startswith("5")
 
 
+def test_a_negative_letter_has_an_imaginary_root() -> None:
+    """exp(sqrt(a) x), by which no solution decays."""
+    found = kovacic.spectrum("a/(1 + x^2) - 3/(1 + x^2)^2", assume={"a": "negative"})
+    assert "undecided" in found.reason
+
+
 @parametrize(("V", "domain"), [("x^8 - 4*x^3", LINE), ("x^4 + 2*x", LINE)], ordinary=1)
 def test_a_closed_form_at_one_end_alone_is_no_level(V: str, domain: Any) -> None:
     found = kovacic.spectrum(V, domain=domain)
