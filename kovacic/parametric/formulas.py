@@ -33,7 +33,7 @@ from kovacic.numbers.numerals import as_text, digits
 from kovacic.parametric.functions import over_parameters
 from kovacic.reading.lexer import PRIMES, SUPERSCRIPT_DIGITS
 from kovacic.reading.names import is_function
-from kovacic.reading.source import Source
+from kovacic.reading.naming import Source
 from kovacic.writing.formula import Math, caret, latex_text
 
 #: Terms up to which a quotient is written as a sum.

@@ -251,7 +251,7 @@ class _Translation:
             self.close()
         end = max(self.scan[-1].end if self.scan else 0, len(self.text))
         variable = "t" if any(DOTS in text for text in self.texts) else None
-        return Sentence.of([*self.found, Token("$END", "", end, end)], self.text, variable)
+        return Sentence([*self.found, Token("$END", "", end, end)], self.text, variable)
 
     def write(self, kind: str, piece: str, token: Token | None = None) -> None:
         """A token where the `token` stands, or behind what was written before."""
@@ -666,12 +666,11 @@ def plain_tokens(text: str) -> Sentence | None:
     """
     if _PLAIN_TEXT.fullmatch(text) is None or text.isspace():
         return None
-    pieces = _PLAIN_TOKEN.findall(text)
-    kinds = [_PLAIN_KINDS[piece] for piece in pieces]
-    for k, piece in enumerate(pieces if _PLAIN_CALL.search(text) else ()):
-        if piece == "(" and k and kinds[k - 1] in ("NAME", "PRIMED"):
-            kinds[k - 1] = "HEAD"
-    return Sentence([*kinds, "$END"], [*pieces, ""], text)
+    found = [Token(_PLAIN_KINDS[match[0]], match[0], *match.span()) for match in _PLAIN_TOKEN.finditer(text)]
+    for k, token in enumerate(found if _PLAIN_CALL.search(text) else ()):
+        if token.text == "(" and k and found[k - 1].kind in ("NAME", "PRIMED"):
+            found[k - 1] = found[k - 1]._replace(kind="HEAD")
+    return Sentence([*found, Token("$END", "", len(text), len(text))], text)
 
 
 def tokenize(text: str) -> Sentence:

@@ -34,7 +34,8 @@ from kovacic.equation import UNKNOWN, Change, Equation, Parsed, lowered, over
 from kovacic.errors import NotRational
 from kovacic.limits import Limits
 from kovacic.numbers.numerals import as_text
-from kovacic.reading.source import Source, parts_of, read_source, source_of_parts
+from kovacic.reading.naming import Source
+from kovacic.reading.source import parts_of, read_source, source_of_parts
 
 _HINT = "coefficients are rational in x, or in exp(k*x) and sines, cosines, ... of rational multiples of k*x"
 

@@ -15,8 +15,9 @@ from kovacic.errors import InputError, NotRational
 from kovacic.limits import Limits
 from kovacic.reading.exponentials import in_exponentials
 from kovacic.reading.letters import with_letters, without_shifts
+from kovacic.reading.naming import Source
 from kovacic.reading.powers import in_powers
-from kovacic.reading.source import Source, parts_of, read_source, read_with_numbers, source_of_parts
+from kovacic.reading.source import parts_of, read_source, read_with_numbers, source_of_parts
 from kovacic.reading.symbolic import expression_of, functions_in
 
 Expr = Any  # SymPy publishes no types

@@ -10,10 +10,11 @@ from __future__ import annotations
 
 import re
 from collections import Counter
-from collections.abc import Collection, Iterator, Sequence
+from collections.abc import Callable, Collection, Iterator, Sequence
 from dataclasses import dataclass
+from functools import partial
 from string import digits
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 from kovacic.equation import DEFAULT_VARIABLE, ENERGY, EULER, UNKNOWN
 from kovacic.errors import InputError, ParseError
@@ -28,6 +29,7 @@ from kovacic.reading.names import (
     unglued,
 )
 from kovacic.reading.notations import Sentence, pattern
+from kovacic.reading.parser import evaluate
 
 #: Names that stand for the variable where they are the only one; others might be parameters of an equation in x.
 USUAL_VARIABLES = frozenset("xtzsruXTZθφτξρζ") | {"theta", "phi", "tau", "xi", "rho", "zeta"}
@@ -54,16 +56,19 @@ _DIFFERENTIATED = pattern(
 _NAME_KINDS = frozenset({"NAME", "PRIMED", "HEAD"})
 
 
-class Named(NamedTuple):
-    """The tokens of an expression in which every name is known; the `unknown` is empty for S alone.
+class Source(NamedTuple):
+    """The input, not yet read: `walk(reader)` is its value; `unknown` is the function of an equation, empty for S alone."""
 
-    `guesses` are those of the notes that say what was guessed.
-    """
-
-    tokens: Sentence
+    walk: Callable[[Any], Any]
     variable: str
-    unknown: str
-    notes: tuple[str, ...]
+    unknown: str = ""
+    text: str | None = None
+    notes: tuple[str, ...] = ()
+    tokens: Sentence | None = None
+    declared: frozenset[str] = frozenset()
+    #: The unknown function was named: others, g(x), are given ones.
+    has_functions: bool = False
+    #: Those of the notes that say what was guessed.
     guesses: tuple[str, ...] = ()
 
 
@@ -75,8 +80,11 @@ class Vocabulary:
     unknown: str | None = None
     declared: frozenset[str] = frozenset()
 
-    def of(self, tokens: Sentence, *, is_equation: bool) -> Named:
-        """The names of an equation, or of S alone.  Raises `InputError` for unknown and for ambiguous names."""
+    def of(self, tokens: Sentence, *, is_equation: bool, notes: Sequence[str] = ()) -> Source:
+        """An equation, or S alone, in which every name is known.  Raises `InputError` for unknown and for ambiguous names.
+
+        The `notes` say what was left out around it.
+        """
         y, has_operator = self._unknown_of(tokens) if is_equation else ("", False)
         if is_equation:
             _check_stiffness(tokens, self.declared)
@@ -86,19 +94,29 @@ class Vocabulary:
         if x == y:
             said = f"{y} is the unknown function, and can't be the variable"
             raise InputError(said, hint="name another variable: var='x'", shell="name another variable: --var x")
-        if not is_equation and x in ("e", "E"):
+        if x in ("e", "E"):
             _check_decimals(tokens, x)
         split, products = self._with_products(tokens, x, y)
-        if is_equation or x != "e":
+        if x != "e":
             _check_two_readings(split, *_EXPONENT, unknown=y)
         reasons = [why] if why else []
         named, factors = _with_factors(split, x, y) if "HEAD" in split.kinds else (split, [])
         guesses = [*_guesses(tokens), *products, *factors, *self._imaginary_unit(split, x, y)]
         if has_operator:
-            new = [t._replace(kind="OPERATOR", text=x) if t[:2] == ("NAME", OPERATOR) else t for t in named.rows]
-            named = Sentence.of(new, tokens.text, tokens.variable)
+            new = [t._replace(kind="OPERATOR", text=x) if t[:2] == ("NAME", OPERATOR) else t for t in named]
+            named = tokens.of(new)
         is_usual = is_equation and x in (DEFAULT_VARIABLE, "t")
-        return Named(named, x, y, (*reasons, *guesses), tuple(guesses if is_usual else [*reasons, *guesses]))
+        return Source(
+            partial(evaluate, named),
+            x,
+            y,
+            tokens.text,
+            (*notes, *reasons, *guesses),
+            named,
+            self.declared,
+            has_functions=self.unknown is not None,
+            guesses=(*notes, *([] if is_usual else reasons), *guesses),
+        )
 
     def _unknown_of(self, tokens: Sentence) -> tuple[str, bool]:
         """The unknown function of an equation, and True if D stands for the derivative."""
@@ -134,7 +152,7 @@ class Vocabulary:
         ]
         if not unknown:
             return tokens, []
-        rows = list(tokens.rows)
+        rows = list(tokens)
         notes: dict[str, None] = {}
         for k in reversed(unknown):
             kind, piece, start, end = rows[k]
@@ -147,7 +165,7 @@ class Vocabulary:
                 raise tokens.error(ParseError, f"{name} in an exponent can be read in two ways", k, k + 1, hint=hint)
             notes[f"{name} was read as {name[0]}*{name[1]}"] = None
             rows[k : k + 1] = [Token("NAME", name[0], start, start + 1), Token(kind, piece[1:], start + 1, end)]
-        return Sentence.of(rows, tokens.text, tokens.variable), list(reversed(notes))
+        return tokens.of(rows), list(reversed(notes))
 
     def _is_known(self, tokens: Sentence, k: int, x: str, y: str) -> bool:
         name = tokens.pieces[k].rstrip(PRIMES)
@@ -190,10 +208,10 @@ def _guesses(tokens: Sentence) -> Iterator[str]:
     found = _ROOT.search(tokens.line)
     if found:
         yield "^1/{0} was read as (...)^1 divided by {0}; a root is written ^(1/{0})".format(found[1])
-    for opening, k in tokens.rows.partners.items() if "HEAD" in tokens.kinds else ():
+    for opening, k in tokens.partners.items() if "HEAD" in tokens.kinds else ():
         head = opening - 1
-        is_bare = tokens.rows[k].start == tokens.rows[k].end and tokens.kinds[head] == "HEAD"
-        if is_bare and tokens.are(k + 1, "SLASH") and tokens.rows[k - 1].end == tokens.rows[k + 1].start:
+        is_bare = tokens[k].start == tokens[k].end and tokens.kinds[head] == "HEAD"
+        if is_bare and tokens.are(k + 1, "SLASH") and tokens[k - 1].end == tokens[k + 1].start:
             function, below = tokens.piece(head, k), tokens.pieces[k + 2]
             yield f"{function}/{below} was read as ({function})/{below}"
 
@@ -201,14 +219,12 @@ def _guesses(tokens: Sentence) -> Iterator[str]:
 def _check_stiffness(tokens: Sentence, declared: Collection[str]) -> None:
     """Raises `ParseError` for E I, which may be a stiffness, or the energy times the imaginary unit."""
     has_both = {"E", "I"} <= tokens.names.keys() and "I" not in declared
-    found = _STIFFNESS.search(tokens.rows.spaced) if has_both else None
+    found = _STIFFNESS.search(tokens.spaced) if has_both else None
     if found is None:
         return
     hint = "take one letter for a stiffness, such as B; or declare I as a parameter: "
     said = "E I may be a stiffness, or an energy times the imaginary unit"
-    raise tokens.error(
-        ParseError, said, *tokens.rows.span(found), hint=f"{hint}parameters=['I']", shell=f"{hint}--names I"
-    )
+    raise tokens.error(ParseError, said, *tokens.span(found), hint=f"{hint}parameters=['I']", shell=f"{hint}--names I")
 
 
 def _check_decimals(tokens: Sentence, variable: str) -> None:
@@ -226,8 +242,8 @@ def _check_decimals(tokens: Sentence, variable: str) -> None:
 
 def _check_two_readings(tokens: Sentence, readings: re.Pattern[str], hint: str, unknown: str = "") -> None:
     """Raises `ParseError` for a name, other than the unknown, that may belong to the number before it."""
-    for found in readings.finditer(tokens.rows.spaced) if {"e", "E"} & tokens.names.keys() else ():
-        begin, behind = tokens.rows.span(found)
+    for found in readings.finditer(tokens.spaced) if {"e", "E"} & tokens.names.keys() else ():
+        begin, behind = tokens.span(found)
         if found[1] != unknown:
             said = hint.format(tokens.piece(begin, behind - 1).rpartition("^")[2].strip(), tokens.pieces[behind - 1])
             whole = tokens.piece(begin, behind)
@@ -240,19 +256,19 @@ def _with_factors(tokens: Sentence, x: str, y: str) -> tuple[Sentence, list[str]
     So is y(1 - y), of which a note says so: y is no argument of itself.
     """
     alone = {*tokens.names, x} - {*FUNCTION_NAMES, *DERIVATIVES}
-    rows = list(tokens.rows)
+    rows = list(tokens)
     notes = []
-    for k, (kind, name, _, _) in enumerate(tokens.rows[:-3]):
+    for k, (kind, name, _, _) in enumerate(tokens[:-3]):
         is_applied = tokens.kinds[k + 2] in ("NAME", "NUMBER") and tokens.kinds[k + 3] == "RPAR"
         if kind != "HEAD" or name not in alone or is_applied:
             continue
         if name == y:
-            end = tokens.rows.partners.get(k + 1, k)
+            end = tokens.partners.get(k + 1, k)
             if ("NAME", y) not in (token[:2] for token in rows[k + 2 : end]):
                 continue
             notes.append(f"{tokens.piece(k, end + 1)} was read as a product")
         rows[k] = rows[k]._replace(kind="NAME")
-    return Sentence.of(rows, tokens.text, tokens.variable), notes
+    return tokens.of(rows), notes
 
 
 def _primed(tokens: Sentence, declared: Collection[str]) -> str | None:

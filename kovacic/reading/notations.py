@@ -113,36 +113,28 @@ class Tokens(list[Token]):
         return len(self) > 1 and self.partners.get(0) == len(self) - 1
 
 
-class Sentence:
+class Sentence(Tokens):
     """The tokens of an expression or equation in `text`, for names and the parser; the last one is `$END`, and empty.
 
-    Token k is `pieces[k]`, of the kind `kinds[k]`.  The `rows`, which have the places as well, are looked for in the text, in
-    which the pieces stand one after the other, by whom asks for them, unless they are given.  `variable` is what the notation
-    stands for where none is named.
+    Token k is `pieces[k]`, of the kind `kinds[k]`.  `variable` is what the notation stands for where none is named.
     """
 
-    def __init__(self, kinds: list[str], pieces: list[str], text: str, variable: str | None = None) -> None:
-        self.kinds = kinds
-        self.pieces = pieces
+    def __init__(self, tokens: Iterable[Token], text: str, variable: str | None = None) -> None:
+        super().__init__(tokens)
         self.text = text
         self.variable = variable
 
-    @classmethod
-    def of(cls, rows: Iterable[Token], text: str, variable: str | None = None) -> Sentence:
-        rows = Tokens(rows)
-        sentence = cls([token.kind for token in rows], [token.text for token in rows], text, variable)
-        sentence.rows = rows
-        return sentence
+    def of(self, tokens: Iterable[Token]) -> Sentence:
+        """The same text with other tokens."""
+        return Sentence(tokens, self.text, self.variable)
 
     @cached_property
-    def rows(self) -> Tokens:
-        found = Tokens()
-        end = 0
-        for kind, piece in zip(self.kinds, self.pieces, strict=True):
-            start = self.text.index(piece, end) if piece else len(self.text)
-            end = start + len(piece)
-            found.append(Token(kind, piece, start, end))
-        return found
+    def kinds(self) -> list[str]:
+        return [token.kind for token in self]
+
+    @cached_property
+    def pieces(self) -> list[str]:
+        return [token.text for token in self]
 
     @cached_property
     def names(self) -> dict[str, int]:
@@ -162,12 +154,12 @@ class Sentence:
         return self.kinds[k : k + len(kinds)] == [*kinds]
 
     def piece(self, begin: int, end: int) -> str:
-        return self.text[self.rows[begin].start : self.rows[end - 1].end] if end > begin else ""
+        return self.text[self[begin].start : self[end - 1].end] if end > begin else ""
 
     def error(self, kind: type[InputError], message: str, begin: int, end: int, **hints: str | None) -> InputError:
         """An error that marks the tokens begin, ..., end - 1; `hints` are hint and shell."""
-        start = self.rows[begin].start
-        return kind(message, text=self.text, position=start, length=max(1, self.rows[end - 1].end - start), **hints)
+        start = self[begin].start
+        return kind(message, text=self.text, position=start, length=max(1, self[end - 1].end - start), **hints)
 
 
 class Rewrite(NamedTuple):

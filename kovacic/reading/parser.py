@@ -60,7 +60,7 @@ class Site:
         """An error of the operation with its place in the text."""
         begin, right, end = self.span
         if isinstance(error, LimitExceeded):
-            where = f"{self.text()} at position {self.tokens.rows[begin].start}"
+            where = f"{self.text()} at position {self.tokens[begin].start}"
             said = f"{error} while {where} was read" if error.limit == "seconds" else f"{where} would have {error}"
             return LimitExceeded(said, limit=error.limit)
         if isinstance(error, ZeroDivisionError):
@@ -264,7 +264,7 @@ class _Parser:
         self.complete(k)
         group = self.groups[-1]
         if not group.is_pair:
-            raise unexpected(self.tokens.text, self.tokens.rows[k])
+            raise unexpected(self.tokens.text, self.tokens[k])
         group.signs.append(self.pieces[k])
         group.arguments.append(self.operands.pop())
         return True
@@ -448,7 +448,7 @@ def _incomplete(tokens: Sentence, end: int, opened: Sequence[int]) -> _Fault:
 def _comma(tokens: Sentence, k: int) -> _Fault:
     """Of a comma outside calls, which may be that of a decimal, or separate values."""
     begin, hint = k, "decimals are written with a point, and one expression is one S"
-    if tokens.are(k - 1, "NUMBER", "COMMA", "NUMBER") and tokens.rows[k - 1].end + 1 == tokens.rows[k + 1].start:
+    if tokens.are(k - 1, "NUMBER", "COMMA", "NUMBER") and tokens[k - 1].end + 1 == tokens[k + 1].start:
         begin, whole, digits = k - 1, tokens.pieces[k - 1], tokens.pieces[k + 1]
         grouped = f"; digits aren't grouped: {whole}{digits}" if len(digits) == _GROUPED else ""
         hint = f"decimals are written with a point: {whole.replace('.', '')}.{digits}{grouped}"

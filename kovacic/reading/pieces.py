@@ -6,7 +6,7 @@
 >>> paste.conditions
 (PlacedValue(place='y(0)', value='1'), PlacedValue(place="y'(0)", value='0'))
 >>> taken_apart("3. Solve the equation y'' + y = 0;  // easy").notes
-('3. was taken for a number in a list', 'left out: Solve the equation')
+['3. was taken for a number in a list', 'left out: Solve the equation']
 
 Comments, numbers of lists and equations, prose, dollar signs, environments of LaTeX, assignments and commands of other systems
 are what stands around an equation; values follow it, or are arguments of the command.  What the equation means is found by
@@ -73,46 +73,11 @@ class PlacedValue(NamedTuple):
     value: str
 
 
-@dataclass
-class Paste:
-    """A text with its pieces; `variable` is one that a command names, `notes` say what was left out."""
-
-    text: str
-    pieces: list[PastedPiece] = field(default_factory=list)
-    variable: str | None = None
-    notes: tuple[str, ...] = ()
-
-    def scans(self, role: str) -> list[Tokens]:
-        return [piece.scan for piece in self.pieces if piece.role == role]
-
-    @cached_property
-    def is_equation(self) -> bool:
-        """True for an equation, false for S alone."""
-        return any(map(_is_equation, self.scans("equation")))
-
-    @property
-    def beside(self) -> Tokens | None:
-        """A piece besides the one equation or expression: prose, or a second one."""
-        scans = self.scans("equation")
-        if len(scans) < 2:
-            return None
-        return next((scan for scan in scans if self.is_equation and not _is_equation(scan)), scans[1])
-
-    @cached_property
-    def equations(self) -> list[Sentence]:
-        return [translated(self.text, scan) for scan in self.scans("equation")]
-
-    @cached_property
-    def conditions(self) -> tuple[PlacedValue, ...]:
-        return tuple(given for scan in self.scans("condition") for given in _placed_values(self.text, scan))
-
-    def error(self, message: str, scan: Sequence[Token], hint: str) -> ParseError:
-        return error_at(self.text, message, scan, hint)
-
-
 def taken_apart(text: str) -> Paste:
     """The pieces of a text.  Raises `ParseError` for arguments of a command that say nothing about the equation."""
-    return _Apart(text).paste()
+    paste = Paste(text)
+    paste.take_apart()
+    return paste
 
 
 def conditions_in(text: str) -> tuple[PlacedValue, ...]:
@@ -226,28 +191,58 @@ SURROUNDINGS = (
 )
 
 
-class _Apart:
-    """The pieces of a text, statement by statement."""
+@dataclass
+class Paste:
+    """A text with its pieces; `variable` is one that a command names, `notes` say what was left out.
 
-    def __init__(self, text: str) -> None:
-        self.text = text
-        self.notes: list[str] = []
-        self.found: list[PastedPiece] = []
-        self.variable: str | None = None
-        #: Statements that have names.
-        self.named: dict[str, Tokens] = {}
+    Statements that have names are kept under these until they are used.
+    """
 
-    def paste(self) -> Paste:
+    text: str
+    pieces: list[PastedPiece] = field(default_factory=list)
+    variable: str | None = None
+    notes: list[str] = field(default_factory=list)
+    named: dict[str, Tokens] = field(default_factory=dict)
+
+    def scans(self, role: str) -> list[Tokens]:
+        return [piece.scan for piece in self.pieces if piece.role == role]
+
+    @cached_property
+    def is_equation(self) -> bool:
+        """True for an equation, false for S alone."""
+        return any(map(_is_equation, self.scans("equation")))
+
+    @property
+    def beside(self) -> Tokens | None:
+        """A piece besides the one equation or expression: prose, or a second one."""
+        scans = self.scans("equation")
+        if len(scans) < 2:
+            return None
+        return next((scan for scan in scans if self.is_equation and not _is_equation(scan)), scans[1])
+
+    @cached_property
+    def equations(self) -> list[Sentence]:
+        return [translated(self.text, scan) for scan in self.scans("equation")]
+
+    @cached_property
+    def conditions(self) -> tuple[PlacedValue, ...]:
+        return tuple(given for scan in self.scans("condition") for given in _placed_values(self.text, scan))
+
+    def error(self, message: str, scan: Sequence[Token], hint: str) -> ParseError:
+        return error_at(self.text, message, scan, hint)
+
+    def take_apart(self) -> None:
+        """Finds the pieces, statement by statement."""
         statements = list(_statements(_plain_tokens(self.text)))
         for scan in statements:
             self.statement(self.without_surroundings(scan), is_alone=len(statements) == 1)
-        is_solved = any(piece.role == "command" for piece in self.found) and bool(self.equations())
+        is_solved = bool(self.scans("command") and self.scans("equation"))
         for scan in [*self.named.values()]:
             if is_solved:  # MATLAB's dsolve(ode) where the values have names
                 self.notes.append(f"not used: {self.written(scan)}")
             elif not self.list_of(scan):
                 self.add("equation", scan)
-        return Paste(self.text, self.sorted_roles(), self.variable, tuple(self.notes))
+        self.sort_roles()
 
     def add(self, role: str, scan: Tokens) -> None:
         """Adds a piece; left = right for the equation Eq(left, right) of SymPy."""
@@ -255,10 +250,7 @@ class _Apart:
         match Tokens(scan[2:-1]).split() if is_call else []:
             case [[*_, last] as left, [first, *_] as right, *_]:
                 scan = Tokens([*left, Token("SIGN", "=", last.end, first.start), *right])
-        self.found.append(PastedPiece(role, scan))
-
-    def equations(self) -> list[Tokens]:
-        return [piece.scan for piece in self.found if piece.role == "equation"]
+        self.pieces.append(PastedPiece(role, scan))
 
     def written(self, scan: Sequence[Token]) -> str:
         return self.text[scan[0].start : scan[-1].end] if scan else ""
@@ -340,10 +332,10 @@ class _Apart:
             return True
         if not self.list_of(first):
             self.add("equation", first)
-        names = {token.text for equation in self.equations() for token in equation}
+        names = {token.text for equation in self.scans("equation") for token in equation}
         for part in rest:
             if not self.argument(part, names):
-                given = ", ".join(map(self.written, self.equations()))
+                given = ", ".join(map(self.written, self.scans("equation")))
                 said = f"{self.written(part)} isn't read in {self.written(scan[:1])}(...)"
                 raise error_at(self.text, said, part, f"give the equation and its values: {given}")
         return True
@@ -413,7 +405,7 @@ class _Apart:
 
     def values_of_sage(self, inside: Sequence[Tokens]) -> bool:
         """Sage's ics=[x0, y0, dy0]."""
-        function = next((piece.scan[0] for piece in self.found if piece.role == "name"), None)
+        function = next((piece.scan[0] for piece in self.pieces if piece.role == "name"), None)
         if function is None or len(inside) != 3 or not all(inside):
             return False
         point, *values = inside
@@ -423,17 +415,17 @@ class _Apart:
         self.add("equation", Tokens([function, primes, opening, *point, closing, equals, *values[1]]))
         return True
 
-    def sorted_roles(self) -> list[PastedPiece]:
+    def sort_roles(self) -> None:
         """Conditions among the statements; where nothing else is there, the first one is an equation."""
-        equations = self.equations()
+        equations = self.scans("equation")
         if len(equations) < 2:
-            return self.found
+            return
         letters = _argument_letters(equations[0])
         conditions = [scan for scan in equations[1:] if _is_condition(scan) and not letters & _argument_letters(scan)]
         if _is_condition(equations[0], is_first=True) and len(conditions) < len(equations) - 1:
             conditions.append(equations[0])
         ids = {id(scan) for scan in conditions}
-        return [piece._replace(role="condition") if id(piece.scan) in ids else piece for piece in self.found]
+        self.pieces = [p._replace(role="condition") if id(p.scan) in ids else p for p in self.pieces]
 
 
 _COMMAND = pattern(rf"(?:\w+ [.\[]? ?)?(?:{'|'.join(SOLVERS)}) (?:\] |\[ \w+ \] )?[(\[]")
@@ -535,15 +527,13 @@ def _placed_values(text: str, scan: Tokens) -> Iterator[PlacedValue]:
         raise error_at(text, f"{text[scan[0].start : scan[-1].end]!r} isn't an initial value", scan, hint)
     for tokens in sides[1:-1]:  # 1 y'(0), between two equals signs
         last = len(tokens.kinds) - 2  # before $END
-        closing = tokens.rows.partners
+        closing = tokens.partners
         calls = [k for k, kind in enumerate(tokens.kinds) if kind == "HEAD" and closing.get(k + 1, last) == last]
         if 0 not in calls:
             hint = "write y(0) = 1, y'(0) = 0"
             if calls:
                 k = calls[0]
-                hint = (
-                    f"write {text[scan[0].start : tokens.rows[k - 1].end]}, {text[tokens.rows[k].start : scan[-1].end]}"
-                )
+                hint = f"write {text[scan[0].start : tokens[k - 1].end]}, {text[tokens[k].start : scan[-1].end]}"
             raise error_at(text, "a comma is missing between two values", scan, hint)
     for place in places:
         yield PlacedValue(place, value)

@@ -24,7 +24,8 @@ from kovacic.limits import Limits
 from kovacic.numbers.numerals import as_text
 from kovacic.reading.change_of_variable import function_of_x
 from kovacic.reading.exponentials import common_power, in_exponentials, read_in
-from kovacic.reading.source import Source, parts_of, source_of_parts
+from kovacic.reading.naming import Source
+from kovacic.reading.source import parts_of, source_of_parts
 
 Expr = Any  # SymPy publishes no types
 

@@ -14,9 +14,10 @@ from kovacic.equation import DEFAULT_VARIABLE, PI, UNKNOWN, Equation, Parsed, pa
 from kovacic.errors import InputError, LimitExceeded, NotLinear, NotRational
 from kovacic.limits import DEFAULT_LIMITS, Limits
 from kovacic.numbers.exact import exact_real, exact_text, is_rational
+from kovacic.reading.naming import Source
 from kovacic.reading.parser import shown
 from kovacic.reading.pieces import Paste
-from kovacic.reading.source import Source, read_source, read_with_numbers, source_of
+from kovacic.reading.source import read_source, read_with_numbers, source_of
 
 
 def read_input(

@@ -5,10 +5,10 @@ given -> `Source`, which can be walked -> a reader, which calculates -> `Parsed`
 
 from __future__ import annotations
 
-from collections.abc import Callable, Collection, Sequence
+from collections.abc import Collection, Sequence
 from contextlib import suppress
 from functools import partial
-from typing import Any, NamedTuple
+from typing import Any
 
 from kovacic.equation import PI, UNKNOWN, Parsed
 from kovacic.errors import InputError, NotLinear, NotRational, ParseError
@@ -18,25 +18,9 @@ from kovacic.reading.constants import Constants, read_with_constants
 from kovacic.reading.dialects import plain_tokens
 from kovacic.reading.expression import RationalReader
 from kovacic.reading.lexer import PRIMES, check_length
-from kovacic.reading.naming import Vocabulary, chosen_variable
+from kovacic.reading.naming import Source, Vocabulary, chosen_variable
 from kovacic.reading.notations import Sentence
-from kovacic.reading.parser import evaluate
 from kovacic.reading.pieces import Paste, taken_apart
-
-
-class Source(NamedTuple):
-    """The input, not yet read: `walk(reader)` is its value; `unknown` is the function of an equation, empty for S alone."""
-
-    walk: Callable[[Any], Any]
-    variable: str
-    unknown: str = ""
-    text: str | None = None
-    notes: tuple[str, ...] = ()
-    tokens: Sentence | None = None
-    declared: frozenset[str] = frozenset()
-    #: The unknown function was named: others, g(x), are given ones.
-    has_functions: bool = False
-    guesses: tuple[str, ...] = ()
 
 
 def source_of(
@@ -71,18 +55,7 @@ def source_of(
     else:
         tokens, is_equation = plain, "=" in given.text or PRIMES in given.text
     vocabulary = Vocabulary(variable or given.variable, unknown, frozenset(names))
-    named = vocabulary.of(tokens, is_equation=equation or is_equation)
-    return Source(
-        partial(evaluate, named.tokens),
-        named.variable,
-        named.unknown,
-        given.text,
-        (*given.notes, *named.notes),
-        named.tokens,
-        vocabulary.declared,
-        has_functions=vocabulary.unknown is not None,
-        guesses=(*given.notes, *named.guesses),
-    )
+    return vocabulary.of(tokens, is_equation=equation or is_equation, notes=given.notes)
 
 
 def _only_equation(paste: Paste) -> Sentence:

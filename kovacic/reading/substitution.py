@@ -55,8 +55,8 @@ class Template:
         self._pieces: list[str] = []
         end = 0
         for k in places:
-            self._pieces.append(text[end : tokens.rows[k].start])
-            end = tokens.rows[k].end
+            self._pieces.append(text[end : tokens[k].start])
+            end = tokens[k].end
         self._pieces.append(text[end:])
         for name in names:
             if name not in self._names:

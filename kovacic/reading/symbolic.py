@@ -226,11 +226,11 @@ def read_equations(
         if not differentiated(tokens):
             said = f"{shown(' '.join(tokens.pieces).strip())!r} contains no derivative, and isn't a condition"
             raise InputError(said, hint="a value of a parameter is substituted, or assumed: --assume k=2")
-        named = Vocabulary(chosen, unknowns[0], frozenset({*names, *unknowns})).of(tokens, is_equation=True)
-        guesses |= dict.fromkeys(named.guesses)
+        source = Vocabulary(chosen, unknowns[0], frozenset({*names, *unknowns})).of(tokens, is_equation=True)
+        guesses |= dict.fromkeys(source.guesses)
         # Functions that aren't differentiated are given ones.
         reader = EquationsReader(chosen, unknowns, limits, "the equation", has_functions=True)
-        equations.append(evaluate(named.tokens, reader))
+        equations.append(source.walk(reader))
     x = sympy.Symbol(chosen)
     functions = tuple(sympy.Function(name)(x) for name in unknowns)
     return SystemReading(tuple(equations), functions, paste.conditions, tuple(guesses))

@@ -6,6 +6,7 @@ First the paper's own steps, line by line (`steps`), then what this package clai
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator
+from contextlib import suppress
 from fractions import Fraction
 from functools import partial
 from io import StringIO
@@ -44,7 +45,7 @@ from kovacic.writing.document import (
     format_of,
     say,
 )
-from kovacic.writing.formula import LARGEST_DEGREE, Math, caret, latex_text, rational_functions, shortened
+from kovacic.writing.formula import Math, caret, latex_text, rational_functions, shortened
 
 _CASES = {
     Structure.REDUCIBLE: "case 1 (the group is reducible, omega rational)",
@@ -206,11 +207,12 @@ class ExplanationWriter:
         before, name, after = more.partition("omega = y'/y")
         omega = [Math(name, r"\omega = y'/y")] if name else []
         yield say(f"{found[0].upper()}{found[1:]}: {before}", *omega, f"{after}.")
-        if not solutions or self.answer.status is Status.UNDECIDED or self._is_too_long():
+        if not solutions or self.answer.status is Status.UNDECIDED:
             return
-        pair, _ = solutions_of(self.answer)
-        if pair and max(len(y.text) for _, y in pair) <= _SHORT_SOLUTION:
-            yield from (Formula(name.equals(y)) for name, y in pair)
+        with suppress(LimitExceeded):  # of which the part with the solutions tells
+            pair, _ = solutions_of(self.answer)
+            if all(len(y.text) <= _SHORT_SOLUTION for _, y in pair):
+                yield from (Formula(name.equals(y)) for name, y in pair)
 
     def cases(self) -> Iterator[Block]:
         decision = self.answer.decision
@@ -300,10 +302,6 @@ class ExplanationWriter:
             yield say(f"where {self.formulas.symbol} is a root of ", Math(caret(text), latex_text(text)), ".")
 
     def closed_form(self) -> Iterator[Block]:
-        semi = self.answer.semi_invariant
-        if semi is not None and self._is_too_long():
-            yield say(f"The solutions aren't written out: P has the degree {semi.P.degree}.")
-            return
         found, notes = solutions_of(self.answer)
         if found:
             title = "Solutions" if self.answer.case else "Solutions in special functions"
@@ -312,11 +310,6 @@ class ExplanationWriter:
             text = shortened(y.text)
             yield Formula(name.equals(y if text == y.text else Math(text, r"\text{(too long to print)}")))
         yield from (say(f"Note: {note}.") for note in notes)
-
-    def _is_too_long(self) -> bool:
-        """True if the degree of P is so high that solutions aren't written out."""
-        semi = self.answer.semi_invariant
-        return semi is not None and semi.P.degree > LARGEST_DEGREE
 
     def group(self) -> Iterator[Block]:
         group = derived.group(self.answer)

@@ -18,8 +18,9 @@ from kovacic.decision import (
     TerminatingSeries,
 )
 from kovacic.equation import Parsed
+from kovacic.errors import LimitExceeded
 from kovacic.numbers.numerals import as_text, in_a_message
-from kovacic.writing.formula import Formulas, Math, caret, latex_text, of_sympy
+from kovacic.writing.formula import LARGEST_DEGREE, Formulas, Math, caret, latex_text, of_sympy
 
 #: Verdicts.
 SOLVABLE = "Liouvillian solutions exist"
@@ -149,7 +150,13 @@ def reason(evidence: Evidence, formulas: Formulas) -> Iterator[str | Math]:
 
 
 def solutions_of(answer: Answer) -> tuple[list[tuple[Math, Math]], tuple[str, ...]]:
-    """Names and formulas of two solutions, and notes; in special functions if there is no Liouvillian one, empty if unknown."""
+    """Names and formulas of two solutions, and notes; in special functions if there is no Liouvillian one, empty if unknown.
+
+    Raises `LimitExceeded` for formulas that are too long to be printed, and where no time is left.
+    """
+    semi = answer.semi_invariant
+    if semi is not None and semi.P.degree > LARGEST_DEGREE:
+        raise LimitExceeded(f"P has the degree {semi.P.degree}; --json --full has it", limit="degree")
     form = derived.closed_form(answer)
     if form is None:
         return _named_solutions(answer, derived.special(answer)), ()

@@ -27,7 +27,7 @@ from kovacic.views.sentences import (
     verdict_of,
 )
 from kovacic.writing.escaped import in_one_line
-from kovacic.writing.formula import LARGEST_DEGREE, Math, shortened
+from kovacic.writing.formula import Math, shortened
 
 if TYPE_CHECKING:
     from kovacic.writing.document import Sentence
@@ -126,24 +126,14 @@ def solution_lines(answer: Answer) -> Iterator[str]:
     Without a Liouvillian solution: two in special functions, or the classes that were searched in vain; for an undecided
     equation, two in special functions if they are found.
     """
-    if answer.status is Status.UNDECIDED and not derived.special(answer):
-        return
-    semi = answer.semi_invariant
-    if semi is not None and semi.P.degree > LARGEST_DEGREE:
-        yield f"the solutions aren't written out here: polynomials of degree {semi.P.degree} (--json --full has them)"
-        return
-    try:
-        found, notes = solutions_of(answer)
-    except LimitExceeded as limit:
-        yield f"the solutions weren't written out: {limit}"
-        return
+    found, notes = _solutions_in_time(answer)
     named = [f"{name.text} = {shortened(value.text)}" for name, value in found]
     if answer.case is not None:
         yield from named
     elif named:
         yield "in special functions, verified:"
         yield from _indented(named)
-    else:  # the classes of functions that were searched in vain
+    elif answer.status is Status.NONE_EXISTS and not notes:  # the classes of functions that were searched in vain
         yield str(derived.special(answer))
     yield from (f"note: {note}" for note in notes)
 
@@ -216,8 +206,6 @@ def _rows_of_solutions(answer: Answer) -> Iterator[tuple[Sentence, Sentence]]:
 
 def _solutions_in_time(answer: Answer) -> tuple[list[tuple[Math, Math]], tuple[str, ...]]:
     """Two solutions and notes; if a limit was reached, a note that says so."""
-    if answer.status is Status.UNDECIDED:
-        return [], ()
     try:
         return solutions_of(answer)
     except LimitExceeded as limit:

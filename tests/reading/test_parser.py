@@ -283,9 +283,9 @@ def test_tokens_are_the_text_without_its_spaces(expression: Expression) -> None:
     tokens = tokenize(text)
     plain = str.maketrans({"″": "''", "−": "-", "·": "*", "×": "*"})
     assert "".join(tokens.pieces) == "".join(text.split()).translate(plain)
-    written = [text[token.start : token.end].translate(plain) for token in tokens.rows]
+    written = [text[token.start : token.end].translate(plain) for token in tokens]
     assert written == tokens.pieces
-    starts = [token.start for token in tokens.rows]
+    starts = [token.start for token in tokens]
     assert starts == sorted(starts)
     assert tokens.kinds[-1] == "$END"
     assert starts[-1] == len(text)

@@ -835,7 +835,7 @@ def test_plain_texts_are_read_as_all_others() -> None:
             continue
         plain += 1
         paste = taken_apart(text)
-        assert [sentence.rows for sentence in paste.equations] == [found.rows], text
+        assert paste.equations == [found], text
         assert paste.equations[0].text == found.text
         assert paste.is_equation == ("=" in text or "'" in text)
         assert (paste.notes, paste.variable, len(paste.pieces)) == ((), None, 1), text
