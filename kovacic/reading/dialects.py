@@ -26,7 +26,17 @@ from kovacic.reading.lexer import (
     scanned,
     unexpected,
 )
-from kovacic.reading.names import BARE, FUNCTION_NAMES, GREEK, LETTER, SPECIAL_LETTERS, STEPS, is_function, unglued
+from kovacic.reading.names import (
+    BARE,
+    FUNCTION_NAMES,
+    GREEK,
+    LETTER,
+    SPECIAL_LETTERS,
+    STEPS,
+    is_function,
+    is_letter,
+    unglued,
+)
 from kovacic.reading.notations import CLOSING, LATEX, NOTATIONS, OPENING, Sentence, Tokens, primes_of, rewritten
 
 _SIGN_KINDS = {
@@ -55,9 +65,8 @@ LAYOUT = frozenset(
     \boxed \nonumber \notag &
     """.split()  # noqa: SIM905
 ) | {"\\ "}
-#: Commands about a name that is set upright, or in another style, and those of them for text.
+#: Commands about a name that is set upright, or in another style.
 _STYLES = frozenset(r"\operatorname \mathrm \mathop \mathit \mathbf \text \textrm \textit".split())  # noqa: SIM905
-_MATHEMATICAL_STYLES = ("\\mathrm", "\\mathit", "\\mathbf", "\\mathop")
 FRACTIONS = frozenset({"\\frac", "\\dfrac", "\\tfrac", "\\cfrac"})
 #: What commands stand for.
 _COMMANDS = {
@@ -108,14 +117,16 @@ class _Latex:
                 self.found.append(Token(*_COMMANDS[token.text], token.start, token.end))
             elif token.text == "_":
                 self.index()
-            elif token.kind == "NUMBER" and token.text.isdigit() and self.found and self.found[-1].text in FRACTIONS:
+            elif token.text.isdecimal() and self.found and self.found[-1].text in FRACTIONS:
                 # Of \frac12 each digit is an argument.
                 first = token.start
                 self.found += [Token("NUMBER", digit, first + k, first + k + 1) for k, digit in enumerate(token.text)]
-            elif token.kind == "COMMAND" and token.text not in LAYOUT:
+            elif token.text in LAYOUT:
+                continue
+            elif token.kind == "COMMAND":
                 shown = token.text if token.text.isprintable() else repr(token.text)
                 raise self.error(f"{shown} isn't a command that is read here", token)
-            elif token.text not in LAYOUT:
+            else:
                 self.found.append(token)
         return self.found
 
@@ -134,7 +145,7 @@ class _Latex:
     def upright(self, command: Token) -> None:
         r"""\mathrm{d}, \operatorname{sech}, \text{eff}: a name, of which the braces are no parentheses."""
         following = self.scan[self.k] if self.k < len(self.scan) else command
-        if following.kind == "WORD" and len(following.text) > 1:  # \mathrm dt
+        if following.kind == "WORD":  # \mathrm dt
             self.k += 1
             first = following.start + 1
             self.found.append(Token("WORD", following.text[0], command.start, first))
@@ -142,8 +153,7 @@ class _Latex:
             return
         group = self.group()
         name = "".join(token.text for token in group)
-        is_greek = command.text in _MATHEMATICAL_STYLES and name in GREEK
-        if not group or not (len(name) == 1 or is_function(name) or is_greek):
+        if not (len(name) == 1 or is_function(name) or name in GREEK):
             hint = "leave words out; functions are sin, exp, log, erf and the like"
             raise self.error(f"{name} isn't a function that is read here", command, hint)
         self.found.append(Token("WORD", name, command.start, group[-1].end))
@@ -182,14 +192,8 @@ _INDEXED_OPERATOR = re.compile(r"d_([a-z])\1*")
 #: Fractions and roots without braces within each other: 2^20 looks where each is looked at twice.
 _DEEPEST = 20
 _LONGEST_QUOTIENT = 36  # tokens of the quotient of a derivative
-_NAMED_LETTERS = GREEK | SPECIAL_LETTERS
 #: What the argument of a function without parentheses ends with, as in cos omega t.
 _VARIABLES = frozenset("xtzsr") | {"theta", "phi", "tau", "xi", "rho"}
-
-
-def _is_name(text: str) -> bool:
-    bare = text.partition("_")[0]
-    return (len(bare) == 1 and bare.isalpha()) or bare in _NAMED_LETTERS
 
 
 def translated(text: str, scan: Tokens, *, condition: bool = False) -> Sentence:
@@ -235,8 +239,7 @@ class _Translation:
     def tokens(self) -> Sentence:
         while self.k < len(self.scan):
             check_time()
-            if self.k in self.closers:
-                self.close()
+            self.close()
             token = self.scan[self.k]
             if self.k in self.skipped:
                 self.k += 1
@@ -249,7 +252,7 @@ class _Translation:
         for k in sorted(self.closers):
             self.k = k
             self.close()
-        end = max(self.scan[-1].end if self.scan else 0, len(self.text))
+        end = len(self.text)
         variable = "t" if any(DOTS in text for text in self.texts) else None
         return Sentence([*self.found, Token("$END", "", end, end)], self.text, variable)
 
@@ -304,8 +307,8 @@ class _Translation:
         last = self.partner.get(k)
         if last is None:
             return None
-        is_letter = last == k + 2 and self.kinds[k + 1] == "WORD" and _is_name(self.texts[k + 1])
-        return last + 1 if is_letter or self.argument_end(k + 1) == last else None
+        is_one = last == k + 2 and self.kinds[k + 1] == "WORD" and is_letter(self.texts[k + 1])
+        return last + 1 if is_one or self.argument_end(k + 1) == last else None
 
     def derivative(self, token: Token) -> bool:
         """d^2y/dx^2, (d^2/dx^2) y, \\frac{d}{dx}(...)."""
@@ -470,7 +473,7 @@ class _Translation:
         for last in range(k, len(self.scan)):
             if self.texts[last] in _VARIABLES:
                 return last + 1
-            if not _is_name(self.texts[last]) or self.kinds[last + 1] == "PRIMES":
+            if not is_letter(self.texts[last]) or self.kinds[last + 1] == "PRIMES":
                 break
         return k + 1
 
@@ -573,7 +576,7 @@ class _Translation:
         has_power = self.texts[end] == "(" or self.power_end(end) > end
         is_glued = self.kinds[end] == "WORD" and self.scan[end].start == self.scan[end - 1].end
         is_factor = is_glued and not is_function(self.texts[end]) and self.kinds[end + 1] != "PRIMES"
-        is_product = self.kinds[k] == "WORD" and not _is_name(self.texts[k])
+        is_product = self.kinds[k] == "WORD" and not is_letter(self.texts[k])
         if has_power or is_factor or is_product:
             said = "a root without parentheses can be read in two ways"
             hint = f"enclose the radicand in parentheses: {token.text}(...)"

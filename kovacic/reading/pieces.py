@@ -97,16 +97,12 @@ def _plain_tokens(text: str) -> Tokens:
     if scan.has(LAYOUT):
         scan = Tokens(token for token in scan if token.text not in LAYOUT)
     found = rewritten(scan, NOTATIONS)
-    is_name = len(found) > 2 and found[-2].kind == "WORD" and found[-2].end == found[-1].start  # y'
-    is_around = (is_displayed and found.is_enclosed) or (_is_quoted(found) and not is_name)
+    is_around = (is_displayed and found.is_enclosed) or _is_quoted(found)
     return Tokens(found[1:-1]) if is_around else found
 
 
 def _statements(scan: Tokens) -> Iterator[Tokens]:
     """The statements that commas, semicolons, words and ends of lines separate."""
-    if scan and not scan.has(_SEPARATORS):
-        yield scan
-        return
     current: list[Token] = []
     depth = 0
     is_first = True
@@ -246,7 +242,7 @@ class Paste:
 
     def add(self, role: str, scan: Tokens) -> None:
         """Adds a piece; left = right for the equation Eq(left, right) of SymPy."""
-        is_call = role == "equation" and scan[0].text in _WHOLE and scan.partners.get(1) == len(scan) - 1
+        is_call = scan[0].text in _WHOLE and scan.partners.get(1) == len(scan) - 1
         match Tokens(scan[2:-1]).split() if is_call else []:
             case [[*_, last] as left, [first, *_] as right, *_]:
                 scan = Tokens([*left, Token("SIGN", "=", last.end, first.start), *right])
@@ -274,7 +270,7 @@ class Paste:
                 self.notes.append(_NOTES[around.kind].format(self.written(left)))
                 self.add(around.kind, left)
             scan = rest
-        if scan and scan[-1].kind == "NUMBER" and scan[-1].text[-1] == "." and _has_equals(scan):  # y(0) = 1.
+        if scan and scan[-1].text[-1] == "." and _has_equals(scan):  # y(0) = 1.
             return Tokens([*scan[:-1], scan[-1]._replace(text=scan[-1].text[:-1])])
         return scan
 
@@ -362,10 +358,8 @@ class Paste:
     def argument(self, part: Tokens, names: set[str]) -> bool:
         """An argument behind the equation; false where it says nothing that is read."""
         match [token.text for token in part]:
-            case ["ivar" | "func" | "function" as keyword, "=", name, *_]:
-                self.variable = name if keyword == "ivar" or len(part) == 3 else self.variable
-                return self.argument(Tokens(part[2:]), names)
-            case ["dvar", "=", _, *_]:
+            case ["ivar" | "dvar" | "func" | "function" as keyword, "=", name, *_]:
+                self.variable = name if keyword == "ivar" else self.variable
                 return self.argument(Tokens(part[2:]), names)
             case ["singsol" | "IncludeSingularSolutions", *_] | ["ics", "="] | ["ics", "=", "{", "}"]:
                 return True
@@ -443,7 +437,7 @@ def _is_equation(scan: Tokens) -> bool:
     """True if an equals sign, a prime or a derivative occurs."""
     if _EQUATION.search(scan.spaced):
         return True
-    if not scan.has(("/", *FRACTIONS)) or re.search(r"d|\\partial", scan.spaced) is None:
+    if not scan.has(("/", *FRACTIONS)):
         return False
     try:
         return "diff" in translated("", scan).pieces
@@ -460,14 +454,13 @@ _ARGUMENT = pattern(r"(?:\\?[^\W\d]\S*|['\"˙]+) [(\[] ([^\W\d]\S*) [)\]]")
 
 
 def is_word(text: str) -> bool:
-    return text.isalpha() and len(text) > 1 and not is_letter(text)
+    return text.isalpha() and not is_letter(text)
 
 
 def _has_equals(scan: Tokens, signs: Collection[str] = _ASSIGNS, depth: int = 0) -> bool:
     """True if an equals sign, or another one, stands outside all brackets, or as deep as is said."""
-    if any(token.text in signs and scan.depths[k] <= depth for k, token in enumerate(scan)):
-        return True
-    return signs is _ASSIGNS and depth == 0 and bool(scan) and scan[0].text in _WHOLE
+    has_sign = any(token.text in signs and scan.depths[k] <= depth for k, token in enumerate(scan))
+    return has_sign or (bool(scan) and scan[0].text in _WHOLE)
 
 
 #: The name to which an equation or a command is assigned: ode := ..., eq: ..., eq = Eq(...), ySol(t) = dsolve(...).

@@ -380,6 +380,8 @@ def test_riccati_equations_in_any_notation(text: str) -> None:
         (r"\left\{\begin{array}{l} x' = y \\ y' = -x \end{array}\right.", "x' = y, y' = -x"),
         ("T' = -k*(T - T∞)", "T' = -k*(T - T_oo)"),
         (r"\frac{dN}{dt} = r N (1 - N/K)", "dN/dt = r*N*(1 - N/K)"),
+        ("\"y'' = x*y\"", "y'' = x*y"),
+        ("dsolve(y'' + y = 0, func=y)", "y'' + y = 0"),
     ],
 )
 def test_notations_of_one_equation_have_one_solution(text: str, plain: str) -> None:
