@@ -840,5 +840,5 @@ def test_plain_texts_are_read_as_all_others() -> None:
         assert paste.equations == [found], text
         assert paste.equations[0].text == found.text
         assert paste.is_equation == ("=" in text or "'" in text)
-        assert (paste.notes, paste.variable, len(paste.pieces)) == ((), None, 1), text
+        assert (paste.notes, paste.variable, len(paste.pieces)) == ([], None, 1), text
     assert plain > 1000
