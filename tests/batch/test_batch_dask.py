@@ -134,7 +134,7 @@ def test_a_scheduler_that_ends_is_named(tmp_path: Path) -> None:
     """From the shell: the answers so far, one sentence, and nothing of the engine's own traces."""
     cluster = Cluster(tmp_path)
     lines = tmp_path / "in.txt"
-    lines.write_text("\n".join(f"x^2 + {k}" for k in range(100 * CHUNK)))
+    lines.write_text("\n".join(f"x^2 + {k}" for k in range(30 * CHUNK)))
     run = ["batch", str(lines), "--backend", "dask", "--scheduler", cluster.address, "-q"]
     pipes = dict.fromkeys(("stdout", "stderr"), subprocess.PIPE)
     try:

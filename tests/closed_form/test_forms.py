@@ -10,7 +10,7 @@ from random import Random
 
 import pytest
 import sympy
-from build import function, run
+from build import function, parametrize, run
 from transform import gauge
 
 import kovacic
@@ -55,8 +55,7 @@ def test_functions_on_a_curve_stay_products(n: int) -> None:
     check_dihedral(n, GENUS_ONE[0])
 
 
-@pytest.mark.long
-@pytest.mark.parametrize("f", GENUS_ONE, ids=str)
+@parametrize("f", GENUS_ONE, ids=str, ordinary=0, long=1)
 def test_long_functions_on_a_curve_stay_products(f: RatFunc) -> None:
     for n in (7, *range(60, 200, 5), 200, 250, 301, 1000, 4001):
         check_dihedral(n, f)
@@ -350,7 +349,7 @@ def test_every_door_shows_the_same_form() -> None:
 
 @pytest.mark.long
 def test_every_door_shows_the_same_form_of_some() -> None:
-    for _, S in made_up(24):
+    for _, S in made_up(8):
         check_doors(S)
 
 

@@ -61,7 +61,7 @@ FAMILIES: list[tuple[str, dict[str, str]]] = [
 ]
 
 
-@parametrize(("equation", "assume"), FAMILIES, ordinary=(0, 6, 12, 25))
+@parametrize(("equation", "assume"), FAMILIES, ordinary=(0, 6, 12, 25), long=12)
 def test_the_wronskian_is_that_of_the_pair(equation: str, assume: dict[str, str]) -> None:
     """W = y1 y2' - y1' y2 at a point, for letters that fit the assumptions; special functions state theirs."""
     answer = kovacic.answer_to(equation, assume=assume)

@@ -268,7 +268,7 @@ SYSTEMS: list[tuple[Any, Any, int, Any, Any]] = [
 ]
 
 
-@parametrize("problem", SYSTEMS, ids=str, ordinary=(0, 3, 15), long=30)
+@parametrize("problem", SYSTEMS, ids=str, ordinary=(0, 3, 15), long=12)
 @pytest.mark.filterwarnings("ignore:this holds unless")
 def test_systems_with_values(problem: tuple[Any, Any, int, Any, Any]) -> None:
     first, second, start, u0, v0 = problem

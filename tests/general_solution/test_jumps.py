@@ -99,7 +99,7 @@ def test_corners(f: Any) -> None:
         assert abs(left - 2 * here + right) < 1e-10
 
 
-@parametrize("seed", range(60), ordinary=6, long=40)
+@parametrize("seed", range(60), ordinary=6, long=10)
 def test_values_at_a_corner_are_checked_on_either_side(seed: int, recwarn: Any) -> None:
     """y'' + b y' + c y = f(|x - a|), y(a) = y'(a) = 0 has a solution in |x - a|: nothing is left unchecked."""
     b, c = [(0, 1), (0, -1), (0, 0), (2, 1), (0, 4)][seed % 5]
