@@ -273,6 +273,14 @@ def test_the_group_of_a_region() -> None:
     assert group(yoshida, {"lam": F(1, 3)}) == "dicyclic"
 
 
+def test_a_natural_number_in_case_3_leaves_the_group_open() -> None:
+    """Heun's equation with three exponent differences 1/3: each of the three groups has an invariant of degree 12."""
+    heun = kovacic.conditions("-2/(9*x^2) - 2/(9*(x-1)^2) - 2/(9*(x+1)^2) + (a*x + B)/(x*(x^2-1))", var="x")
+    last = heun.regions[-1]
+    assert "for an invariant of degree 12: case 3" in str(last)
+    assert last.group == "binary tetrahedral, octahedral or icosahedral"
+
+
 @parametrize("family", FAMILIES, ordinary=6, ids=lambda family: family.name)
 def test_the_group_of_a_region_is_that_of_its_points(family: Family, answers: dict[str, Conditions]) -> None:
     """The names of groups that a family's text doesn't mention don't occur."""

@@ -106,7 +106,7 @@ def parametrize(
     values: Iterable[Any],
     *,
     ordinary: int | Collection[int],
-    long: int | None = None,
+    long: int | Collection[int] | None = None,
     always: Sequence[Any] = (),
     **options: Any,
 ) -> pytest.MarkDecorator:
@@ -114,13 +114,12 @@ def parametrize(
 
     `ordinary` is how many, spread evenly, or the places of those that cover every branch that the others cover.
     For properties of which every member takes a while: a few say at once that something broke, all of them run in .ci/run.
-    Where that takes minutes, `long` is how many of the others, spread evenly, run there; the rest is `slow`.  A value that
+    Where that takes minutes, `long` is how many of the others, or which, run there; the rest is `slow`.  A value that
     alone covers a branch is ordinary `always`.
     """
     members = list(values)
     one_name = isinstance(names, str) and "," not in names
-    chosen = _spread(range(len(members)), ordinary) if isinstance(ordinary, int) else set(ordinary)
-    at_once = chosen | {members.index(member) for member in always}
+    at_once = _spread(range(len(members)), ordinary) | {members.index(member) for member in always}
     others = [index for index in range(len(members)) if index not in at_once]
     in_ci = _spread(others, len(others) if long is None else long)
     marked = []
@@ -142,8 +141,8 @@ def size(number: Any, digits: int = 20) -> Any:
     return abs(sympy.N(number, digits, maxn=2 * digits))
 
 
-def _spread(indices: Sequence[int], count: int) -> set[int]:
-    return {indices[k * len(indices) // count] for k in range(count)}
+def _spread(indices: Sequence[int], chosen: int | Collection[int]) -> set[int]:
+    return {indices[k * len(indices) // chosen] for k in range(chosen)} if isinstance(chosen, int) else set(chosen)
 
 
 def _marked(member: Any, mark: pytest.MarkDecorator, one_name: bool) -> Any:
