@@ -51,6 +51,8 @@ def test_quartic_oscillator_has_its_published_levels():
         ),
         ("y'' = lambda*y", "y(0)=0, y(1)=0", {}, ["-9.869604401089358", "-39.478417604357434"]),
         ("-y'' + 2*y/x^2 = lambda*y", "y(0)=0, y(1)=0", {}, ["20.190728556427", "59.679515944109"]),  # zeros of j_1
+        # 10^4 (1/4 - k^2), tanh(k log(101)) = 2 k: 0 is regular, however close the singular point beyond it is
+        ("(100*x + 1)^2*y'' + lambda*y = 0", "y'(0)=0, y(1)=0", {}, ["107.0560891491"]),
     ],
 )
 def test_classical_problems_on_an_interval(equation, conditions, given, published):
