@@ -157,17 +157,21 @@ def _slope(C: RatFunc, g: Poly) -> RatFunc:
 
 def unit(g: Poly, residue: Residue) -> Unit | None:
     """The unit of one residue on a curve of genus 0, None if rho(a)^2/g(a) isn't constant."""
-    p = residue.factor
-    rho = residue.value
-    gamma = g % p
-    inverse = rho.inverse_modulo(p)
-    tau_squared = gamma * inverse * inverse % p
-    if tau_squared.degree > 0:
+    tau_squared = _tau_squared(g, residue)
+    if tau_squared is None:
         return None
-    T = -gamma * inverse % p
+    p = residue.factor
+    T = -g * residue.value.inverse_modulo(p) % p
     square = p * p
-    T = (T + (g * tau_squared[0] - T * T) * (T * 2).inverse_modulo(square)) % square  # Newton's step from p to p^2
-    return Unit(*_euclid(T, square), p, tau_squared[0])
+    T = (T + (g * tau_squared - T * T) * (T * 2).inverse_modulo(square)) % square  # Newton's step from p to p^2
+    return Unit(*_euclid(T, square), p, tau_squared)
+
+
+def _tau_squared(g: Poly, residue: Residue) -> Poly | None:
+    """gamma/rho^2, if it is the same constant at all roots."""
+    inverse = residue.value.inverse_modulo(residue.factor)
+    square = g * inverse * inverse % residue.factor
+    return None if square.degree > 0 else square[0]
 
 
 def gathered_zeros(g: Poly, r: RatFunc, kappa_squared: Poly, P: Poly) -> Unit | None:
@@ -246,20 +250,13 @@ def _decide(integral: CurveIntegral) -> tuple[Unit, ...] | str:
 
 def _common_tau(integral: CurveIntegral, at_infinity: Poly) -> Poly | None:
     """tau^2 if every residue is a rational multiple of 1/tau, else None."""
-    values = []
-    for pole in integral.residues:
-        p = pole.factor
-        rho = pole.value
-        inverse = rho.inverse_modulo(p)
-        square = integral.radicand(pole) * inverse * inverse % p
-        if square.degree > 0:
-            return None
-        values.append(square[0])
+    values = [_tau_squared(integral.g, residue) for residue in integral.residues]
     if at_infinity:
         values.append((at_infinity * at_infinity).inverse())
-    if any(rational_square_root(value / values[0]) is None for value in values):
+    first = values[0]
+    if first is None or any(value is None or rational_square_root(value / first) is None for value in values):
         return None
-    return values[0]
+    return first
 
 
 def _logarithms_of_pieces(integral: CurveIntegral, f: CurveFunction, kappa_squared: Poly) -> tuple[Unit, ...] | str:

@@ -18,11 +18,10 @@ from kovacic.algebra.ratfunc import RatFunc
 from kovacic.engine.places import Problem
 from kovacic.special import prices
 from kovacic.special.maps import (
-    check_conjugates,
     integral_of_cubic_root,
     irregular_places,
     leading_square,
-    scales,
+    parts_by_scale,
     value_at,
 )
 from kovacic.special.pullback import (
@@ -59,11 +58,7 @@ class Airy(StandardEquation):
         places = irregular_places(problem)
         if any((place.order - 2) % 3 for place in places):
             return
-        check_conjugates(problem, places)
-        for q in scales(places, lambda place: leading_square(place) * -9, 3):
-            parts = [part for place in places if (part := integral_of_cubic_root(place, q)) is not None]
-            if len(parts) < len(places):
-                continue
+        for q, parts in parts_by_scale(problem, lambda place: leading_square(place) * -9, 3, integral_of_cubic_root):
             f = sum(parts, RatFunc(q * 0))
             c = value_at(standard_part(problem.S, f) / q - f, places[0])
             if c is not None:

@@ -38,6 +38,7 @@ from dataclasses import dataclass
 from fractions import Fraction
 from itertools import combinations
 from math import gcd, lcm
+from typing import TypeVar
 
 from kovacic.algebra.extension import root, root_modulo
 from kovacic.algebra.partial_fractions import decompose
@@ -93,12 +94,25 @@ def irregular_places(problem: Problem) -> list[Place]:
     return [place for place in problem.places if place.kind in (Kind.UNRAMIFIED, Kind.RAMIFIED)]
 
 
-def check_conjugates(problem: Problem, places: list[Place]) -> None:
-    """Raise `LimitExceeded` where poles are conjugate over a larger field than the limit on constants allows."""
+Part = TypeVar("Part")
+
+
+def parts_by_scale(
+    problem: Problem, leading: Callable[[Place], Poly], n: int, part: Callable[[Place, Poly], Part | None]
+) -> Iterator[tuple[Poly, list[Part]]]:
+    """q with the parts of an n-th root at all irregular places, for each q for which there are such; `leading` is for `scales`.
+
+    Raises `LimitExceeded` where poles are conjugate over a larger field than the limit on constants allows.
+    """
+    places = irregular_places(problem)
     largest = max(place.degree for place in places)
     most = problem.budget.limits.constants if problem.field.ground == QQ else _WITH_PARAMETERS
     if largest > most:
         raise LimitExceeded(f"f has {largest} conjugate poles; roots are taken up to degree {most}", limit="constants")
+    for q in scales(places, leading, n):
+        parts = [found for place in places if (found := part(place, q)) is not None]
+        if len(parts) == len(places):
+            yield q, parts
 
 
 @dataclass(frozen=True)

@@ -41,10 +41,9 @@ from kovacic.special.maps import (
     HALF,
     Number,
     PolarPart,
-    check_conjugates,
     integral_of_square_root,
     irregular_places,
-    scales,
+    parts_by_scale,
     zeros,
 )
 from kovacic.special.pullback import (
@@ -92,14 +91,9 @@ class Whittaker(StandardEquation):
 
     @classmethod
     def candidates(cls, problem: Problem, *, extended: bool, shifted: bool = False) -> Iterator[Pullback]:
-        places = irregular_places(problem)
-        if any(place.order % 2 for place in places):
+        if any(place.order % 2 for place in irregular_places(problem)):
             return
-        check_conjugates(problem, places)
-        for q in scales(places, lambda place: place.unit(1), 2):
-            parts = [part for place in places if (part := integral_of_square_root(place, q)) is not None]
-            if len(parts) < len(places):
-                continue
+        for q, parts in parts_by_scale(problem, lambda place: place.unit(1), 2, integral_of_square_root):
             r = parts[0].residue * q * Fraction(2, parts[0].order)
             for signs in _signs(parts):
                 count_work(TRIAL)
