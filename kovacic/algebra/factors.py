@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from functools import reduce
 from itertools import islice
 from operator import mul
@@ -164,16 +164,8 @@ def combination(target: Poly, polynomials: Sequence[Poly]) -> list[Poly] | None:
     >>> [str(c) for c in combination(QQ.poly([1, -4, -1]), [p, q, p + q])]
     ['1', '-2', '0']
     """
-    zero = target.field.poly([])
-    echelon: dict[int, _Combination] = {}
-    for k, polynomial in enumerate(polynomials):
-        unit = [zero] * len(polynomials)
-        unit[k] = target.field.poly([1])
-        independent = _Combination(polynomial, unit).reduced(echelon)
-        if independent.value:
-            echelon[independent.value.degree] = independent
-    left = _Combination(target, [zero] * len(polynomials)).reduced(echelon)
-    return None if left.value else [-c for c in left.coefficients]
+    *_, last = _reduced_by_former([*polynomials, target])
+    return None if last.value else [-c for c in last.coefficients[:-1]]
 
 
 def dependence(polynomials: Sequence[Poly]) -> list[Poly] | None:
@@ -184,12 +176,20 @@ def dependence(polynomials: Sequence[Poly]) -> list[Poly] | None:
     >>> [str(c) for c in dependence([p, q, p - 2 * q])], dependence([p, q])
     (['-1', '2', '1'], None)
     """
+    return next((found.coefficients for found in _reduced_by_former(polynomials) if not found.value), None)
+
+
+def _reduced_by_former(polynomials: Sequence[Poly]) -> Iterator[_Combination]:
+    """Each of the polynomials less a combination of those before it that has the degree of none of these, reduced as well."""
+    zero = polynomials[0].field.poly([])
+    echelon: dict[int, _Combination] = {}
     for k, polynomial in enumerate(polynomials):
-        found = combination(polynomial, polynomials[:k])
-        if found is not None:
-            zero = polynomial.field.poly([])
-            return [*(-c for c in found), zero + 1, *[zero] * (len(polynomials) - k - 1)]
-    return None
+        unit = [zero] * len(polynomials)
+        unit[k] = zero + 1
+        found = _Combination(polynomial, unit).reduced(echelon)
+        yield found
+        if found.value:
+            echelon[found.value.degree] = found
 
 
 class _Combination(NamedTuple):
