@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import sys
 from collections import Counter
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import suppress
 from itertools import pairwise
 from typing import Any
@@ -161,21 +161,17 @@ def common_place(x: Expr, *parts: Mapping[Expr, Expr], own: Own = sympy.sympify)
     def on_cuts(point: Expr) -> list[int]:
         return [sum(n for u, n in counts.items() if _is_below_zero(u, x, point, own)) for counts in shared]
 
+    def points() -> Iterator[Expr]:
+        yield from _POINTS
+        linear = (u for counts in shared for u in counts if sympy.diff(u, x).is_Rational)
+        zeros = sorted({-u.subs(x, 0) / sympy.diff(u, x) for u in linear if u.subs(x, 0).is_Rational})
+        yield from ((a + b) / 2 for a, b in pairwise(zeros))
+
     found: dict[Expr, list[int]] = {}
-    for point in _POINTS:
+    for point in points():
         found[point] = on_cuts(point)
         if not any(found[point]):
             return point
-    lines = (u.as_poly(x) for counts in shared for u in counts)
-    zeros = sorted(
-        {
-            -p.coeff_monomial(1) / p.LC()
-            for p in lines
-            if p is not None and p.degree() == 1 and p.domain in (sympy.ZZ, sympy.QQ)
-        }
-    )
-    between = ((a + b) / 2 for a, b in pairwise(zeros))
-    found.update({point: on_cuts(point) for point in between if point not in found})
     return min(found, key=lambda point: found[point])
 
 
