@@ -36,7 +36,7 @@ _INTERPRETER_SOURCE = (
 _SHOWN_ERROR_BYTES = 20_000
 _PARENT_CHECK_SECONDS = 1.0
 # Three years: timers overflow for longer times, math.inf among them.
-_LONGEST_SECONDS = 1e8
+LONGEST_SECONDS = 1e8
 
 
 class Channel:
@@ -126,7 +126,7 @@ def computed_apart(what: str, function: Callable[..., Any], *arguments: Any) -> 
     process the computation might never end.
     """
     check_time()
-    seconds = watched_seconds(_LONGEST_SECONDS)
+    seconds = watched_seconds(LONGEST_SECONDS)
     missing = LimitExceeded(f"a process of its own gave no {what}; with seconds=inf none is started", limit="seconds")
     try:
         process = Process(_compute)

@@ -16,6 +16,7 @@ from typing import Any
 from kovacic.errors import InputError, KovacicError, LimitExceeded, VerificationFailed
 from kovacic.limits import DEFAULT_LIMITS, Limits, limits_of, seconds_of
 from kovacic.numbers.exact import whole
+from kovacic.process import LONGEST_SECONDS
 from kovacic.solution import Solution
 from kovacic.views.json import group_dict
 from kovacic.writing.document import FORMATS, Table
@@ -148,7 +149,7 @@ class Job:
         if self.jobs is not None:
             self._set(jobs=whole(self.jobs, "jobs", least=1))
         self._set(limits=limits_of(self.limits))
-        if self.timeout is not None and not 0 < self.timeout < 1e8:
+        if self.timeout is not None and not 0 < self.timeout < LONGEST_SECONDS:
             raise InputError(f"a timeout of {self.timeout} s is out of range", hint="give seconds, above 0")
         if self.memory is not None and not os.path.exists("/proc/self/statm"):
             raise InputError("memory limits need a Linux system", hint="leave the memory limit out")

@@ -18,7 +18,7 @@ from kovacic.errors import InputError, LimitExceeded, needs
 from kovacic.numbers.numerals import as_text
 from kovacic.reading.read import read_input
 from kovacic.reading.substitution import Template, number_text
-from kovacic.writing.maps import CellKind, draw_cells, new_axes
+from kovacic.writing.maps import CellKind, check_size, draw_cells, new_axes
 
 # Values of one parameter: `range` takes more, but nobody waits for them.
 _LARGEST_GRID = 10**9
@@ -35,8 +35,6 @@ _COLOURS_AND_NAMES = {
     "bad input": ("#777777", "not defined"),
     "failed": ("#000000", "failed"),
 }
-# Cells of a map, as many as the pixels of a large screen.
-_LARGEST_MAP = 4_000_000
 
 
 @dataclass(frozen=True, slots=True)
@@ -176,8 +174,7 @@ def draw_map(
     upwards, rightwards = grids
     height = len(upwards)
     width = len(rightwards)
-    if height * width > _LARGEST_MAP:
-        raise InputError(f"a map of {height} x {width} points is too large for a picture")
+    check_size(height, width)
     right = _monotonic(rightwards)
     up = _monotonic(upwards)
     code = {label: number for number, label in enumerate(_COLOURS_AND_NAMES, start=1)}

@@ -521,7 +521,7 @@ class _Translation:
 
     def is_application(self, token: Token, k: int) -> bool:
         """True if the parenthesis is the argument of the name before it."""
-        if not self.found or self.found[-1][0] not in ("NAME", "PRIMED") or self.closers.get(k):
+        if not self.found or self.found[-1][0] not in ("NAME", "PRIMED"):
             return False
         if not self.latex or self.condition or self.argument_end(k) is not None:
             return token.text != "{" or not self.latex
@@ -546,8 +546,6 @@ class _Translation:
             self.later(end, *behind)
             return
         self.closers.setdefault(begin, []).append(("LPAR", "("))
-        if begin == self.k:
-            self.close()
         self.later(end, ("RPAR", ")"), *behind)
 
     def root(self, token: Token) -> bool:

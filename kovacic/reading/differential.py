@@ -34,8 +34,6 @@ from kovacic.reading.linear import REST, DerivativeOperator, LinearArithmetic, L
 from kovacic.reading.names import NUMBERS, TRANSCENDENTAL_HINT, is_letter
 from kovacic.reading.parser import Site, evaluate
 
-_ORDER = 2
-
 
 class EquationReader(RationalReader):
     """Reads texts and SymPy expressions that are linear in the unknown function and its derivatives."""
@@ -91,7 +89,7 @@ class EquationReader(RationalReader):
         rest = parts.pop(REST, zero)
         coefficients = {k: self.arithmetic.rational(c) for k, c in parts.items()}
         order = max((k for k, c in coefficients.items() if c), default=0)
-        if order != _ORDER:
+        if order != 2:
             what = f"is of order {order}" if order else f"contains no derivative of {self.unknown}"
             said = f"an equation of second order is expected, and this one {what}"
             hint = f"for example {self.unknown}'' = (x^2 + 3) {self.unknown}; S alone is written without an equals sign"

@@ -32,8 +32,6 @@ _BINARY_KINDS = (*_BINARY, "CIRCUMFLEX")
 _NO_OPERANDS = (*_BINARY_KINDS, "RPAR", "COMMA", "EQUAL")
 #: SymPy's functions are recursive.
 _DEEPEST_CALL = 100
-#: The digits of a group in 1,000.
-_GROUPED = 3
 
 
 @dataclass(slots=True)
@@ -450,7 +448,7 @@ def _comma(tokens: Sentence, k: int) -> _Fault:
     begin, hint = k, "decimals are written with a point, and one expression is one S"
     if tokens.are(k - 1, "NUMBER", "COMMA", "NUMBER") and tokens[k - 1].end + 1 == tokens[k + 1].start:
         begin, whole, digits = k - 1, tokens.pieces[k - 1], tokens.pieces[k + 1]
-        grouped = f"; digits aren't grouped: {whole}{digits}" if len(digits) == _GROUPED else ""
+        grouped = f"; digits aren't grouped: {whole}{digits}" if len(digits) == 3 else ""
         hint = f"decimals are written with a point: {whole.replace('.', '')}.{digits}{grouped}"
     elif "EQUAL" in tokens.kinds[:k]:
         hint = "values, y(0) = 1, are for dsolve, which takes them after the equation"

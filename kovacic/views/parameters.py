@@ -9,10 +9,10 @@ from typing import Any
 
 from kovacic.errors import InputError, visible
 from kovacic.numbers.exact import exact_real, whole
-from kovacic.numbers.numerals import in_a_message, plain_text
+from kovacic.numbers.numerals import plain_text
 from kovacic.parametric.cases import in_lines
 from kovacic.parametric.parametric_answer import ParametricAnswer
-from kovacic.writing.maps import CellKind, draw_cells, new_axes
+from kovacic.writing.maps import FARTHEST, CellKind, check_size, draw_cells, new_axes
 
 #: The number of regions that are written by default.
 _SCREEN = 24
@@ -25,9 +25,6 @@ _KINDS = (
     CellKind("not determined", "#dddddd"),
     CellKind("S not defined", "#000000"),
 )
-#: The largest ends of ranges, and the largest number of intervals.
-_FARTHEST = 10**300
-_MOST_STEPS = 10_000
 _LABELS = tuple(kind.name for kind in _KINDS)
 
 
@@ -132,8 +129,7 @@ def _grids(chosen: Sequence[str], ranges: Sequence[tuple[Any, Any]] | None, step
     if len(given) != len(chosen):
         raise InputError(f"{len(given)} ranges for {len(chosen)} parameters", hint="ranges=[(0, 1), (-2, 2)]")
     steps = whole(steps, "steps", least=1)
-    if steps > _MOST_STEPS:
-        raise InputError(f"steps = {in_a_message(steps)}: at most {_MOST_STEPS} are drawn")
+    check_size(steps + 1, (steps + 1) ** (len(chosen) - 1))
     return [_grid(low, high, steps) for low, high in given]
 
 
@@ -141,7 +137,7 @@ def _grid(low: Any, high: Any, steps: int) -> list[Fraction]:
     """The ends of equal intervals from one number to another, exactly."""
     first = exact_real(low, "an end of a range")
     last = exact_real(high, "an end of a range")
-    if max(abs(first), abs(last)) > _FARTHEST:
+    if max(abs(first), abs(last)) > FARTHEST:
         raise InputError("a range of a map is beyond the range of doubles, in which pictures are drawn")
     if first >= last:
         said = f"the range from {plain_text(first)[:60]} to {plain_text(last)[:60]} is empty"

@@ -44,6 +44,7 @@ from kovacic.reading.read import read_input
 from kovacic.reading.symbolic import read_expression
 from kovacic.views.sentences import normal_form
 from kovacic.writing.formula import latex_text, of_sympy
+from kovacic.writing.maps import FARTHEST
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -54,8 +55,6 @@ if TYPE_CHECKING:
 _SINGULAR_GAP = Fraction(1, 256)
 _IRREGULAR_GAP = Fraction(1, 16)
 
-#: The ends of pictures.
-_LARGEST_END = 10**300
 #: Characters of a formula in the legend, of an entry of a legend in two columns, and of the equation in the title.
 _LONGEST_LABEL = 50
 _LONGEST_IN_COLUMNS = 55
@@ -147,7 +146,7 @@ def _sampled(equation: object, start: object, stop: object, points: int, request
 
     runs = [tuple(arcs(chart, interval, b - a, points, states)) for interval in intervals]
     singular, irregular = (
-        tuple(complex(z) for z in points if max(abs(z.x), abs(z.y)) < _LARGEST_END)
+        tuple(complex(z) for z in points if max(abs(z.x), abs(z.y)) < FARTHEST)
         for points in (chart.singular, chart.irregular)
     )
     return SampledCurve(tuple(runs), singular, irregular, initial)
@@ -158,7 +157,7 @@ def _interval_of(start: object, stop: object) -> tuple[Fraction, Fraction]:
     b = as_point(stop, "to")
     if not (a.is_real() and b.is_real()) or a.re >= b.re:
         raise InputError(f"the interval from {a} to {b} is empty", hint="give real numbers, the smaller one first")
-    if max(abs(a.re), abs(b.re)) > _LARGEST_END:
+    if max(abs(a.re), abs(b.re)) > FARTHEST:
         raise InputError(f"the interval from {a} to {b} is beyond the range of doubles, in which pictures are drawn")
     return a.re, b.re
 

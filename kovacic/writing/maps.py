@@ -11,6 +11,14 @@ from fractions import Fraction
 from itertools import pairwise
 from typing import Any
 
+from kovacic.errors import InputError
+from kovacic.numbers.numerals import in_a_message
+
+#: The range of doubles, in which pictures are drawn.
+FARTHEST = 10**300
+#: Cells of a map, as many as the pixels of a large screen.
+_MOST_CELLS = 4_000_000
+
 
 @dataclass(frozen=True)
 class CellKind:
@@ -25,6 +33,12 @@ def edges(values: Sequence[Fraction]) -> list[float]:
     steps = [b - a for a, b in pairwise(values)] or [Fraction(1)]
     middles = [(a + b) / 2 for a, b in pairwise(values)]
     return [float(edge) for edge in (values[0] - steps[0] / 2, *middles, values[-1] + steps[-1] / 2)]
+
+
+def check_size(height: int, width: int) -> None:
+    """Raise `InputError` for a map of more points than a screen has pixels."""
+    if height * width > _MOST_CELLS:
+        raise InputError(f"a map of {in_a_message(height)} x {in_a_message(width)} points is too large for a picture")
 
 
 def new_axes(width: float, height: float) -> Any:
