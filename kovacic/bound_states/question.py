@@ -13,7 +13,7 @@ from kovacic.bound_states.levels import Spectrum
 from kovacic.bound_states.signs import Signs, Uncovered, above
 from kovacic.equation import EULER, PI, Parsed
 from kovacic.errors import InputError
-from kovacic.general_solution.conditions import ConditionReader, as_mapping
+from kovacic.general_solution.question import ConditionReader, as_mapping
 from kovacic.numbers.numerals import as_text
 from kovacic.parametric.assumptions import Assumptions
 from kovacic.reading.read import read_input

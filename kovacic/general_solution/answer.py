@@ -12,10 +12,9 @@ import sympy
 
 from kovacic.errors import InputError
 from kovacic.general_solution.basis import Basis
-from kovacic.general_solution.conditions import Condition
 from kovacic.general_solution.constants import Determined
 from kovacic.general_solution.first_order import FirstOrderEquation
-from kovacic.general_solution.question import Question, symbols_that_know
+from kovacic.general_solution.question import Condition, Question, symbols_that_know
 from kovacic.general_solution.validity import Validity, needed_for
 from kovacic.general_solution.zero_set import ZeroSet
 

@@ -14,8 +14,7 @@ import sympy
 
 from kovacic.enclosure.request import Accuracy, digits_and_limits
 from kovacic.errors import InputError, LimitExceeded
-from kovacic.general_solution.conditions import Condition, ConditionReader, as_mapping, periodicity
-from kovacic.general_solution.question import Question, apart
+from kovacic.general_solution.question import Condition, ConditionReader, Question, apart, as_mapping, periodicity
 from kovacic.limits import DEFAULT_LIMITS, Limits, limited
 from kovacic.numbers.exact import exact_text, whole
 from kovacic.reading.names import words_among

@@ -25,9 +25,8 @@ from kovacic.closed_form.cuts import cuts_of
 from kovacic.closed_form.jets import jet
 from kovacic.errors import VerificationFailed
 from kovacic.general_solution.behaviour import Approach, have_values, is_refuted, value_at
-from kovacic.general_solution.conditions import Condition
 from kovacic.general_solution.continuity import jumps
-from kovacic.general_solution.question import Question
+from kovacic.general_solution.question import Condition, Question
 from kovacic.general_solution.steps import JUMPING, between, break_points, in_steps, on_piece, taken_apart
 from kovacic.general_solution.zero import NOT_EVALUATED, Residual, ball, samples
 

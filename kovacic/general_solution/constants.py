@@ -28,8 +28,7 @@ from sympy.simplify.fu import TR2i
 from kovacic.errors import InputError
 from kovacic.general_solution.basis import Basis
 from kovacic.general_solution.behaviour import OSCILLATING, Approach, UnknownLimit, limit_at, value_at
-from kovacic.general_solution.conditions import Condition
-from kovacic.general_solution.question import Question
+from kovacic.general_solution.question import Condition, Question
 from kovacic.general_solution.substitution import finite_value, in_single_waves, size
 from kovacic.general_solution.zero import Zero, is_nowhere_zero, when_zero
 from kovacic.general_solution.zero_set import ZeroSet

@@ -1,6 +1,6 @@
 """`dsolve`: linear equations of second order, a y'' + b y' + c y = f, with conditions: y = C1 y1 + C2 y2 + y0.
 
-Riccati equations are made linear, and back, in `riccati_equation`.
+Riccati equations are made linear, and back, in `riccati`.
 
 The steps, each in a module of this package:
 
@@ -36,7 +36,6 @@ from kovacic.general_solution.answer import (
 from kovacic.general_solution.basis import Basis
 from kovacic.general_solution.boundary_problems import eigenfunctions
 from kovacic.general_solution.check import check_answer
-from kovacic.general_solution.conditions import ConditionReader, as_mapping
 from kovacic.general_solution.constants import Outcome, ParameterCase, constants_of
 from kovacic.general_solution.first_order import read_first_order, solved_linear
 from kovacic.general_solution.homogeneous import find_basis, no_solution
@@ -51,9 +50,11 @@ from kovacic.general_solution.places import (
     start_of,
 )
 from kovacic.general_solution.question import (
+    ConditionReader,
     Question,
     about_letters,
     apart,
+    as_mapping,
     has_floats,
     positive_variable,
     read_question,
@@ -61,7 +62,7 @@ from kovacic.general_solution.question import (
     with_floats,
     with_values,
 )
-from kovacic.general_solution.riccati_equation import solved_riccati
+from kovacic.general_solution.riccati import solved_riccati
 from kovacic.general_solution.substitution import size
 from kovacic.general_solution.systems import Solver, read_system, solved_system
 from kovacic.general_solution.textbook import in_book_form, without_homogeneous

@@ -13,11 +13,11 @@ import sympy
 from kovacic.equation import parameters_of
 from kovacic.errors import InputError, NotLinear
 from kovacic.general_solution.answer import FirstOrderAnswer, SecondOrderAnswer
-from kovacic.general_solution.conditions import Condition
 from kovacic.general_solution.constants import Determined
 from kovacic.general_solution.dsolve import answer_to
 from kovacic.general_solution.particular import right_hand_side
-from kovacic.general_solution.riccati_equation import linear_equation
+from kovacic.general_solution.question import Condition
+from kovacic.general_solution.riccati import linear_equation
 from kovacic.general_solution.textbook import sums
 from kovacic.limits import DEFAULT_LIMITS, Limits, limited
 from kovacic.reading.change_of_variable import function_of_x

@@ -4,7 +4,7 @@ A linear equation has the solutions
 
     w = h (C1 + int p/h dx),    h = exp(int q dx),                                                                    (1)
 
-with powers of cosh(x), cos(x), ... for tanh(x), tan(x), ... in q; the others are made linear in `riccati_equation`.
+with powers of cosh(x), cos(x), ... for tanh(x), tan(x), ... in q; the others are made linear in `riccati`.
 """
 
 from __future__ import annotations
@@ -26,13 +26,13 @@ from kovacic.errors import InputError, VerificationFailed
 from kovacic.general_solution.antiderivatives import antiderivative
 from kovacic.general_solution.behaviour import have_values, value_at
 from kovacic.general_solution.check import SolutionClaim, is_finite
-from kovacic.general_solution.conditions import Condition, exact
 from kovacic.general_solution.continuity import jumps
 from kovacic.general_solution.integrands import NUMBERS, radicands, ratfunc
+from kovacic.general_solution.particular import is_solution, starting_at
+from kovacic.general_solution.question import Condition, exact
 from kovacic.general_solution.steps import JUMPING, Apart, in_steps, taken_apart
 from kovacic.general_solution.substitution import changed_beside
 from kovacic.general_solution.textbook import in_book_form, in_hyperbolic_functions, sums
-from kovacic.general_solution.variation import is_solution, starting_at
 from kovacic.general_solution.zero import is_zero
 from kovacic.general_solution.zero_set import ZeroSet
 from kovacic.limits import Limits

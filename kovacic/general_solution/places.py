@@ -27,10 +27,9 @@ from kovacic.errors import InputError
 from kovacic.general_solution.basis import Basis
 from kovacic.general_solution.behaviour import Approach, have_values
 from kovacic.general_solution.integrands import NUMBERS
-from kovacic.general_solution.particular import right_hand_side
+from kovacic.general_solution.particular import is_solution, right_hand_side, starting_at
 from kovacic.general_solution.question import Question
 from kovacic.general_solution.steps import is_analytic, jump_points
-from kovacic.general_solution.variation import is_solution, starting_at
 from kovacic.general_solution.zero import is_zero
 from kovacic.limits import check_time
 from kovacic.reading.change_of_variable import function_of_x, is_of_a_line, is_power, user_variable

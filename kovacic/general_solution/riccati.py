@@ -1,8 +1,25 @@
-"""Riccati equations: w' = p + q w + r w^2 by w = -u'/(r u),  u'' - (q + r'/r) u' + p r u = 0."""
+"""Riccati equations w' = p + q w + r w^2: all solutions, with one constant, and the rational and algebraic ones.
+
+By w = -u'/(r u) it is linear, u'' - (q + r'/r) u' + p r u = 0, and w(a) = v says that u'(a) = -r(a) v u(a).  Where r(a) = 0
+that equation is singular at a, though Riccati's isn't.  1/w satisfies z' = -r - q z - p z^2, which gives w = p u/u' with
+
+    u'' + (q - p'/p) u' + p r u = 0,        w(a) = v where u(a) : u'(a) = v : p(a),                                   (1)
+
+regular at a where p(a) isn't 0.  Where both vanish, u and -u'/r still have values at a for all solutions u, and
+C1 u1 + C2 u2 is meant for which the second is v times the first.
+
+If a solution u1 has a rational omega = u1'/u1, then u = u1 (C + V) with V' = E = exp(int q + r'/r - 2 omega dx), Abel's
+formula, so that
+
+    w = -omega/r - E/(r (C + int E dx)),                                                                              (2)
+
+a rational solution and a term that the constant moves.  Bernoulli's equations, w' = q w + r w^n, are linear in w^(1 - n).
+"""
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from collections.abc import Callable, Iterator, Sequence
+from dataclasses import dataclass, replace
 from fractions import Fraction
 from math import gcd, lcm
 from typing import Any
@@ -10,16 +27,252 @@ from typing import Any
 import sympy
 
 from kovacic.algebra.poly import Poly
-from kovacic.algebra.ratfunc import RatFunc, over_one_denominator
+from kovacic.algebra.ratfunc import RatFunc
+from kovacic.algebra.ratfunc import over_one_denominator as over_common_denominator
 from kovacic.algebra.rationals import QQ
-from kovacic.closed_form.atoms import Atoms
+from kovacic.closed_form.atoms import Atoms, display
+from kovacic.closed_form.product import product
 from kovacic.equation import Equation
 from kovacic.errors import InputError
-from kovacic.general_solution.first_order import read_first_order
+from kovacic.general_solution.antiderivatives import antiderivative
+from kovacic.general_solution.behaviour import value_at
+from kovacic.general_solution.first_order import (
+    FirstOrderEquation,
+    GivenValue,
+    check_first_order,
+    exceptions_of,
+    is_unit,
+    read_first_order,
+    solved_linear,
+    value_of,
+)
+from kovacic.general_solution.integrands import NUMBERS, ratfunc
+from kovacic.general_solution.question import Condition
+from kovacic.general_solution.substitution import changed_beside, size
+from kovacic.general_solution.textbook import in_book_form, over_one_denominator
+from kovacic.general_solution.waves import rational_in_waves
+from kovacic.general_solution.zero import is_zero
 from kovacic.limits import DEFAULT_LIMITS, Budget, Limits, check_time, limited
 from kovacic.numbers.numerals import as_latex, plain_text
 from kovacic.reading.read import read_coefficients
 from kovacic.solution import Solution, solve
+from kovacic.special.choice import shortest
+
+Expr = Any  # SymPy publishes no types
+#: The longest solution with Bessel functions, in subexpressions, that is differentiated by their recurrences.
+_LONGEST = 400
+#: The largest sum of exponents with which E is integrated: partial fractions of order 1,000 take 20 s.
+_HIGHEST = 100
+#: C_(nu+s) from C_(nu-s) and 2 nu C_nu/z, for s = 1 and s = -1 [DLMF 10.6.1, 10.29.1].
+_NEIGHBOURS: dict[Any, Callable[[int, Expr, Expr], Expr]] = {
+    sympy.besselj: lambda s, other, term: term - other,
+    sympy.bessely: lambda s, other, term: term - other,
+    sympy.besseli: lambda s, other, term: other - s * term,
+    sympy.besselk: lambda s, other, term: other + s * term,
+}
+
+
+def linear_equation(equation: FirstOrderEquation) -> tuple[Expr, Expr]:
+    """The linear equation for u, and u(x)."""
+    x = equation.x
+    u = sympy.Function(f"{equation.function.func}_")(x)
+    slope = sympy.cancel(equation.q + equation.r.diff(x) / equation.r)
+    return sympy.Eq(u.diff(x, 2) - slope * u.diff(x) + sympy.cancel(equation.p * equation.r) * u, 0), u
+
+
+@dataclass(frozen=True)
+class _LinearSolution:
+    """u(x), of which these are the constants that are free, and what is to be said beside."""
+
+    u: Expr
+    constants: tuple[Expr, ...]
+    notices: list[str]
+
+
+def solved_riccati(
+    equation: FirstOrderEquation,
+    conditions: Sequence[Condition],
+    solver: Callable[..., Any],
+) -> tuple[Expr, list[str]]:
+    """w(x) = ..., checked, and what is to be said beside; `solver` is `answer_to`, for the linear equation.
+
+    Raises `NotImplementedError` for a value at a point where neither linear equation is known to be regular.
+    """
+    value = value_of(conditions)
+    x = equation.x
+    constants: tuple[Expr, ...] = ()
+    if equation.power != 2 or (equation.p == 0 and (value is None or equation.is_regular_at(value.point))):
+        forms = _of_bernoulli(equation, conditions, value)
+        notices = exceptions_of(sympy.Tuple(*forms), x, equation.parts)
+        if value is None and equation.power.is_odd:
+            notices.append(f"-{equation.function} is a solution, too")
+    else:
+        is_inverted = _is_inverted(equation, value)
+        solved_for = equation.of_inverse if is_inverted else equation
+        found = _solved_linear(equation, solved_for, value, solver)
+        constants = found.constants
+        notices = found.notices
+        forms = [*_forms(found, solved_for)]
+        if is_inverted:  # over one denominator, which doesn't divide by 1/w
+            forms = [next(over_one_denominator(1 / w, x), 1 / w) for w in forms]
+    forms += [*over_one_denominator(forms[0], x), sympy.signsimp(forms[0]), *rational_in_waves(forms[0])]
+    forms += [-n / -d for n, d in map(sympy.fraction, forms)]
+    w = shortest(forms).xreplace(dict.fromkeys(constants, equation.constant()))
+    if len(constants) < 2:
+        w = in_book_form(w, x)
+    unchecked = check_first_order(equation, w, conditions)
+    return sympy.Eq(equation.function, w, evaluate=False), notices + unchecked
+
+
+def _of_bernoulli(
+    equation: FirstOrderEquation, conditions: Sequence[Condition], value: GivenValue | None
+) -> list[Expr]:
+    """Forms of w for w' = q w + r w^n, by u = w^(1 - n); w = 0 through 0, for n > 1."""
+    m = 1 - equation.power
+    if value is None:
+        return [solved_linear(equation.of_power, ())[0].rhs ** (1 / m)]
+    if value.v == 0:
+        if not m.is_negative:
+            raise NotImplementedError("undecided: more than one solution may have the value 0")
+        return [sympy.S.Zero]
+    given = [replace(condition, value=value.v**m) for condition in conditions]
+    u = solved_linear(equation.of_power, given)[0].rhs / value.v**m
+    u = next(over_one_denominator(u, equation.x), u)  # which doesn't divide by v
+    return [value.v * sympy.powsimp(u) ** (1 / m)]  # the branch with the sign of v
+
+
+def _solved_linear(
+    equation: FirstOrderEquation,
+    solved_for: FirstOrderEquation,
+    value: GivenValue | None,
+    solver: Callable[..., Any],
+) -> _LinearSolution:
+    """For a value at an ordinary point the solution with values of u and u'; else all of them, or those through the value.
+
+    Raises `NotImplementedError` where u1, u2, -u1'/r or -u2'/r has no value there that is found.
+    """
+    x = equation.x
+    linear, u = linear_equation(solved_for)
+    start: dict[Expr, Expr] = {}
+    if value is not None and is_unit(solved_for.r, x, value.point):
+        here = {x: value.point}
+        u_there, slope_there = sympy.S.One, -(equation.r * value.v).subs(here)
+        if solved_for is not equation:
+            u_there, slope_there = value.v, equation.p.subs(here)
+        start = {u.subs(here): u_there, u.diff().subs(here): slope_there}
+    answer = solver(linear, u, ics=start)
+    # Letters of their own for C1 and C2, which may be symbols of r, or of the value, too.
+    own = sympy.Tuple(linear, *start.values()).free_symbols
+    letters = {symbol: sympy.Dummy() for symbol in sorted(answer.eq.rhs.free_symbols - own, key=str)}
+    solution = answer.eq.rhs.xreplace(letters)
+    constants = tuple(letters.values())
+    if value is not None and not start:  # those of C1 u1 + C2 u2 for which -u'/r is v u at a: one, or all
+        basis = [solution.diff(constant) for constant in constants]
+        slopes = [value_at(-y.diff(x) / equation.r, x, value.point) for y in basis]
+        misses = [s - value.v * value_at(y, x, value.point) for s, y in zip(slopes, basis, strict=True)]
+        if not all(map(is_zero, misses)):
+            solution = misses[1] * basis[0] - misses[0] * basis[1]
+    return _LinearSolution(solution, constants, answer.notices)
+
+
+def _is_inverted(equation: FirstOrderEquation, value: GivenValue | None) -> bool:
+    """True if the linear equation for 1/w, (1), is solved: if only that is regular, or has the simpler coefficients."""
+    x = equation.x
+    if value is None:
+        is_constant = equation.p != 0 and not equation.p.has(x)
+        return is_constant and equation.r.has(x)
+    return not is_unit(equation.r, x, value.point) and is_unit(equation.p, x, value.point)
+
+
+# -------------------------------------------------------------------------------------------------------------- forms
+
+
+def _forms(found: _LinearSolution, equation: FirstOrderEquation) -> Iterator[Expr]:
+    """w = -u'/(r u) as a sum over the factors of u, and by (2) for each solution with a rational omega."""
+    x = equation.x
+    rate = _rate_of(found.u, found.constants, x)
+    yield _sum([-term / equation.r for term in sympy.Add.make_args(rate)], x)
+    if len(found.constants) < 2:
+        return
+    slope = ratfunc(equation.q + equation.r.diff(x) / equation.r, x)
+    for u1 in map(found.u.diff, found.constants):
+        omega = ratfunc(_rate(u1, x), x)
+        if slope is None or omega is None or slope.field != omega.field:
+            continue
+        powers = product(slope - omega - omega)
+        E = display(powers, Atoms(x)).xreplace(NUMBERS)
+        V = None
+        if sum(abs(float(power.rational_exponent or 0)) * power.base.degree for power in powers.powers) <= _HIGHEST:
+            V = antiderivative(E, x)
+        # E is written before the quotient, too: an integral that stays has it in the same form
+        V = sympy.Integral(E, x) if V is None else sympy.factor_terms(_sum(sympy.Add.make_args(V), x))
+        rational = -Atoms(x).ratio(omega).xreplace(NUMBERS) / equation.r
+        yield _sum([rational, -E / (equation.r * (found.constants[0] + V))], x)
+
+
+def _sum(terms: Sequence[Expr], x: Expr) -> Expr:
+    """The rational terms as one fraction, in factors or in partial fractions, and the others in lowest terms."""
+    rational = sympy.cancel(sympy.Add(*(term for term in terms if term.is_rational_function(x))))
+    others = (_reduced(term, x) for term in terms if not term.is_rational_function(x))
+    return sympy.Add(shortest([rational, sympy.factor(rational), sympy.apart(rational, x)]), *others)
+
+
+def _reduced(term: Expr, x: Expr) -> Expr:
+    """A product with its rational factors in lowest terms."""
+    rational, others = sympy.sift(
+        sympy.Mul.make_args(term), lambda factor: bool(factor.is_rational_function(x)), binary=True
+    )
+    return sympy.factor(sympy.Mul(*rational)) * sympy.Mul(*others)
+
+
+def _rate_of(u: Expr, constants: Sequence[Expr], x: Expr) -> Expr:
+    """u'/u, where of the constants of u only their quotient matters."""
+    u = sympy.Mul(*(_single_wave(factor, x) for factor in sympy.Mul.make_args(u)))
+    if len(constants) == 2:
+        c1, c2 = constants
+        u = u.subs(sympy.atan(c2 / c1), -c1).subs(c2, 1)
+    if u.has(*_NEIGHBOURS) and size(u) <= _LONGEST:
+        return sympy.powsimp(sympy.factor_terms(_slope(u, x)) / u)
+    return sympy.Add(*(_rate(factor, x) for factor in sympy.Mul.make_args(u)))
+
+
+def _single_wave(factor: Expr, x: Expr) -> Expr:
+    """cos(z - atan(b/a)), of which a cos(z) + b sin(z) is a multiple; any other factor itself."""
+    for wave in factor.atoms(sympy.cos) if factor.is_Add else ():
+        sine = sympy.sin(*wave.args)
+        a, b = factor.coeff(wave), factor.coeff(sine)
+        is_wave = a != 0 and not (a.has(x) or b.has(x)) and sympy.expand(factor - a * wave - b * sine) == 0
+        if is_wave and sympy.expand(a**2 + b**2) != 0:
+            return sympy.cos(wave.args[0] - sympy.atan(sympy.cancel(b / a)))
+    return factor
+
+
+def _rate(factor: Expr, x: Expr) -> Expr:
+    """The logarithmic derivative, in a short form."""
+    if isinstance(factor, sympy.cos):
+        return -factor.args[0].diff(x) * sympy.tan(factor.args[0])
+    if factor.is_Mul:
+        return sympy.Add(*(_rate(part, x) for part in factor.args))
+    if factor.is_Pow and not factor.exp.has(x):
+        return factor.exp * _rate(factor.base, x)
+    rate = factor.diff(x) / factor
+    if rate.is_rational_function(x):
+        return sympy.cancel(rate)
+    return sympy.powsimp(sympy.factor_terms(rate))
+
+
+def _slope(y: Expr, x: Expr) -> Expr:
+    """y', where z^nu J_nu has the slope z^nu J_(nu-1) z', and z^nu J_(-nu) has -z^nu J_(1-nu) z'; with Y, I, K likewise."""
+    slope = y.diff(x)
+    for f in sorted(y.atoms(*_NEIGHBOURS), key=str):
+        nu, z = f.args
+        step = 1 if nu.is_positive else -1
+        other = _NEIGHBOURS[f.func](step, f.func(nu - step, z), 2 * nu / z * f)
+        slope = slope.xreplace({f.func(nu + step, z): other})
+    return changed_beside(slope.atoms(*_NEIGHBOURS), slope, sympy.expand_mul)
+
+
+# ----------------------------------------------------------------------------------- rational and algebraic solutions
 
 
 @dataclass(frozen=True)
@@ -170,7 +423,7 @@ def _polynomial(solution: Solution, gauge: RatFunc, factor: RatFunc, atoms: Atom
 
 def _coprime(fractions: list[RatFunc]) -> list[Poly]:
     """The multiples of rational functions that are polynomials without a common factor; over Q with coprime integers."""
-    found = over_one_denominator(fractions)
+    found = over_common_denominator(fractions)
     common = found[-1]
     for polynomial in found[:-1]:
         common = common.gcd(polynomial)

@@ -23,7 +23,6 @@ from kovacic.equation import eliminated
 from kovacic.errors import InputError, NotLinear
 from kovacic.general_solution.answer import ProblemAnswer
 from kovacic.general_solution.behaviour import value_at
-from kovacic.general_solution.conditions import Condition, ConditionReader, exact
 from kovacic.general_solution.constants import Outcome, Row, determine
 from kovacic.general_solution.first_order import (
     FirstOrderEquation,
@@ -32,6 +31,7 @@ from kovacic.general_solution.first_order import (
     is_unit,
     solved_linear,
 )
+from kovacic.general_solution.question import Condition, ConditionReader, exact
 from kovacic.general_solution.steps import JUMPING, in_steps, taken_apart
 from kovacic.general_solution.substitution import size, slope
 from kovacic.general_solution.textbook import in_book_form, sums

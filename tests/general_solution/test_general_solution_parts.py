@@ -20,9 +20,9 @@ from kovacic.general_solution.antiderivatives import antiderivative
 from kovacic.general_solution.behaviour import Approach, UnknownLimit, limit_at, values_at
 from kovacic.general_solution.check import is_finite
 from kovacic.general_solution.constants import Outcome, Row, determine
+from kovacic.general_solution.particular import DefiniteIntegral
 from kovacic.general_solution.substitution import finite_value
 from kovacic.general_solution.undetermined import undetermined
-from kovacic.general_solution.variation import DefiniteIntegral
 from kovacic.general_solution.waves import fractions_of_waves
 from kovacic.general_solution.zero import Zero, is_algebraic_zero, when_zero
 
