@@ -349,12 +349,12 @@ def _polynomial(leading: Callable[..., Expr]) -> tuple[Rule, Rule]:
 def _confluent(parameters: Sequence[Any], z: Expr) -> Expr | None:
     """1F1, z to +oo; 0F1, which is Bessel's I."""
     top, bottom = parameters
-    if not top and len(bottom) == 1:
-        (b,) = bottom
-        return gamma(b) / (2 * sqrt(pi)) * z ** ((1 - 2 * b) / 4) * exp(2 * sqrt(z))
-    if len(top) != 1 or len(bottom) != 1:
+    if len(top) > 1 or len(bottom) != 1:
         return None
-    (a,), (b,) = top, bottom
+    (b,) = bottom
+    if not top:
+        return gamma(b) / (2 * sqrt(pi)) * z ** ((1 - 2 * b) / 4) * exp(2 * sqrt(z))
+    (a,) = top
     if _is_natural(-a):
         return (-z) ** (-a) * gamma(b) / gamma(b - a)
     return gamma(b) / gamma(a) * exp(z) * z ** (a - b)
@@ -366,10 +366,7 @@ def _confluent_below(parameters: Sequence[Any], z: Expr) -> Expr | None:
     if not top and len(bottom) == 1:
         (b,) = bottom
         return gamma(b) / sqrt(pi) * z ** ((1 - 2 * b) / 4) * cos(2 * sqrt(z) - pi * (2 * b - 1) / 4)
-    if len(top) != 1 or len(bottom) != 1:
-        return None
-    (a,), (b,) = top, bottom
-    other = _confluent(((sympy.expand(b - a),), (b,)), z)
+    other = _confluent(([sympy.expand(b - a) for a in top for b in bottom], bottom), z)
     return None if other is None else sympy.powsimp(sympy.expand(exp(-z) * other))
 
 

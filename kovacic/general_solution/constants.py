@@ -113,7 +113,7 @@ def determine(
     """
     minor = _best_minor(rows, wronskian)
     if minor is None:
-        return _split(_of_rank_one(rows, names))._replace(rows=tuple(rows))
+        return _split(_of_rank_one(rows, names))
     # Cramer's rule for two of the rows; the others must be satisfied.
     first, second = minor.rows
     c1 = tidy((first.r * second.v - first.v * second.r) / minor.value)
@@ -122,7 +122,7 @@ def determine(
     found = _split(DeterminedConstants((c1, c2), [row.rest(c1, c2) for row in others]))
     if minor.when is Zero.SOMETIMES:
         found.particular.append(_where_minor_vanishes(rows, names, minor.value / scale))
-    return found._replace(rows=tuple(rows))
+    return found
 
 
 Values = tuple[Expr, Expr]
@@ -310,7 +310,7 @@ def constants_of(
     found = determine(rows, names, _wronskian(question, basis, rows, limits), scale)
     for symbol in sorted(exceptional, key=str):
         found.particular.append(ParameterCase((symbol,), Outcome.OPEN))
-    return found
+    return found._replace(rows=tuple(rows))
 
 
 def _wronskian(question: Question, basis: Basis, rows: Sequence[Row], limits: dict[Expr, Approach]) -> Expr | None:
