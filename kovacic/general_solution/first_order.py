@@ -30,7 +30,7 @@ from kovacic.general_solution.continuity import jumps
 from kovacic.general_solution.integrands import NUMBERS, radicands, ratfunc
 from kovacic.general_solution.particular import is_solution, starting_at
 from kovacic.general_solution.question import Condition, exact
-from kovacic.general_solution.steps import JUMPING, Apart, in_steps, taken_apart
+from kovacic.general_solution.steps import JUMPING, Apart, in_parts, in_steps
 from kovacic.general_solution.substitution import changed_beside
 from kovacic.general_solution.textbook import in_book_form, in_hyperbolic_functions, sums
 from kovacic.general_solution.zero import is_zero
@@ -304,10 +304,9 @@ def _exponential_of_integral(q: Expr, x: Expr, start: Expr | None, place: Expr |
         atoms = Atoms(x, at=place if is_known else None, own=lambda e: e.xreplace(own))
         h = display(product(rate), atoms).xreplace(NUMBERS | own)
         return h.replace(lambda e: e.is_Add, sympy.expand)  # as in p
-    apart = _apart(q, x)
-    if apart is None or apart.impulses:
+    if in_steps(q, x).has(sympy.DiracDelta):
         return sympy.exp(sympy.Integral(q, x))
-    return sympy.exp(_of_parts(apart, sympy.Integer(1), x, start))
+    return sympy.exp(_of_parts(in_parts(q, x), sympy.Integer(1), x, start))
 
 
 def _beside_value(h: Expr, x: Expr, start: Expr) -> Expr:
@@ -322,18 +321,10 @@ def _beside_value(h: Expr, x: Expr, start: Expr) -> Expr:
 
 def _particular(equation: FirstOrderEquation, h: Expr, start: Expr | None) -> Expr:
     """h int p/h dx."""
-    apart = _apart(equation.p, equation.x)
-    if apart is None and not equation.p.has(sympy.DiracDelta):  # |sin(x)|
-        apart = Apart(equation.p, (), ())
-    if apart is None or any(impulse.order for impulse in apart.impulses):
-        raise NotImplementedError(
-            "undecided: the right-hand side jumps at points that aren't constant, or too strongly"
-        )
+    apart = in_parts(equation.p, equation.x)
+    if any(impulse.order for impulse in apart.impulses):
+        raise NotImplementedError("undecided: the right-hand side jumps too strongly")
     return _of_parts(apart, h, equation.x, start)
-
-
-def _apart(e: Expr, x: Expr) -> Apart | None:
-    return taken_apart(in_steps(e, x), x) if e.has(*JUMPING) else Apart(e, (), ())
 
 
 def _of_parts(p: Apart, h: Expr, x: Expr, start: Expr | None) -> Expr:

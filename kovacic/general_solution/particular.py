@@ -49,7 +49,7 @@ from kovacic.general_solution.check import is_finite
 from kovacic.general_solution.constants import tidy
 from kovacic.general_solution.continuity import jumps
 from kovacic.general_solution.integrands import NUMBERS, ChangeOfIntegrand, prepared, ratfunc
-from kovacic.general_solution.steps import JUMPING, HeavisideTerm, taken_apart
+from kovacic.general_solution.steps import JUMPING, HeavisideTerm, in_parts
 from kovacic.general_solution.substitution import in_single_waves, size
 from kovacic.general_solution.textbook import is_constant
 from kovacic.general_solution.undetermined import undetermined
@@ -74,13 +74,7 @@ def particular_solution(basis: Basis, start: Expr | None) -> Expr:
     if right == 0:
         return sympy.Integer(0)
     solved = partial(_solved if basis.equation.change is None else _solved_in_t, basis)
-    if not right.has(DiracDelta, Heaviside):
-        return solved(right, start)
-    apart = taken_apart(right, basis.x)
-    if apart is None and right.has(DiracDelta):
-        raise NotImplementedError("undecided: an impulse times a jump at the same point, or at one that isn't known")
-    if apart is None:
-        return solved(right, start)
+    apart = in_parts(right, basis.x)
     total = [_step_response(step, basis, solved) for step in apart.steps]
     total += [_impulse_response(strengths, basis, a) for a, strengths in apart.strengths.items()]
     if apart.plain != 0:

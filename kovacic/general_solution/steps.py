@@ -162,6 +162,17 @@ def taken_apart(right: Expr, x: Expr) -> Apart | None:
     return Apart(plain, tuple(HeavisideTerm(a, g) for a, g in steps.items() if g != 0), tuple(impulses))
 
 
+def in_parts(right: Expr, x: Expr) -> Apart:
+    """The parts of a right-hand side; all of it is plain where its jumps aren't known, as of |sin(x)|.
+
+    Raises `NotImplementedError` where an impulse is among these.
+    """
+    found = taken_apart(in_steps(right, x), x) if right.has(*JUMPING) else None
+    if found is None and right.has(DiracDelta):
+        raise NotImplementedError("undecided: an impulse times a jump at the same point, or at one that isn't known")
+    return Apart(right, (), ()) if found is None else found
+
+
 def _impulses_beside_steps(g: Expr, delta: Expr, steps: Sequence[Expr], x: Expr) -> list[Impulse] | None:
     """g delta^(n) where all steps are 1, nothing where one is 0; None if that isn't known.
 
