@@ -25,8 +25,7 @@ from kovacic.closed_form.product import product
 from kovacic.errors import InputError, VerificationFailed
 from kovacic.general_solution.antiderivatives import antiderivative
 from kovacic.general_solution.behaviour import have_values, value_at
-from kovacic.general_solution.check import SolutionClaim, is_finite
-from kovacic.general_solution.continuity import jumps
+from kovacic.general_solution.check import SolutionClaim, is_finite, jumps
 from kovacic.general_solution.integrands import NUMBERS, radicands, ratfunc
 from kovacic.general_solution.particular import is_solution, starting_at
 from kovacic.general_solution.question import Condition, exact

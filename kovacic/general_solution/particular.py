@@ -45,9 +45,8 @@ from kovacic.errors import LimitExceeded
 from kovacic.general_solution.antiderivatives import antiderivative
 from kovacic.general_solution.basis import Basis
 from kovacic.general_solution.behaviour import have_values, value_at, values_at
-from kovacic.general_solution.check import is_finite
+from kovacic.general_solution.check import is_finite, jumps
 from kovacic.general_solution.constants import tidy
-from kovacic.general_solution.continuity import jumps
 from kovacic.general_solution.integrands import NUMBERS, ChangeOfIntegrand, prepared, ratfunc
 from kovacic.general_solution.steps import JUMPING, HeavisideTerm, in_parts
 from kovacic.general_solution.substitution import in_single_waves, size

@@ -77,8 +77,6 @@ def _wave_terms(A: Expr, B: Expr, angle: Expr) -> Expr:
         return expanded
     numerators = [sympy.cancel(part * common) for part in (A, -B)]
     shared = sympy.gcd(*numerators)
-    if shared == 0:
-        return expanded
     first, second = (sympy.cancel(part / shared) for part in numerators)
     joined = sympy.factor(shared / common) * (first * cos(angle) + second * sin(angle))
     return min(expanded, joined, key=size)

@@ -9,8 +9,7 @@ import sympy
 from build import parametrize
 
 import kovacic
-from kovacic.general_solution.check import check_answer
-from kovacic.general_solution.continuity import jumps
+from kovacic.general_solution.check import check_answer, jumps
 from kovacic.general_solution.question import read_question
 
 x = sympy.Symbol("x")
