@@ -111,18 +111,11 @@ def limit_points(question: Question) -> dict[Expr, Approach]:
 
 def _side(point: Expr, points: Sequence[Expr]) -> int:
     """1 or -1: on which side of the point the others are; 1 where that isn't known."""
-    sides = set()
-    for other in points:
-        distance = other - point
-        if distance.is_positive:
-            sides.add(1)
-        elif distance.is_negative:
-            sides.add(-1)
+    distances = [other - point for other in points]
+    sides = [1] * any(d.is_positive for d in distances) + [-1] * any(d.is_negative for d in distances)
     if len(sides) > 1:
         raise _apart_error(point, [other for other in points if other != point])
-    if not sides:
-        return 1
-    return sides.pop()
+    return sides[0] if sides else 1
 
 
 def _apart_error(point: Expr, points: Sequence[Expr]) -> InputError:
@@ -151,12 +144,6 @@ def start_of(question: Question, limits: dict[Expr, Approach]) -> Expr:
         return place.point + place.direction
     nearest = min(ends, key=lambda end: abs(end - place.point).evalf())  # half way to it there are no others
     return (place.point + nearest) / 2
-
-
-def _poles_between(question: Question, points: Sequence[Expr]) -> Iterator[tuple[Expr, bool]]:
-    """Those of `poles_between` for several points, if they are numbers."""
-    if len(points) > 1 and all(point.is_number for point in points):
-        yield from poles_between(question, sympy.Min(*points), sympy.Max(*points))
 
 
 def check_between(question: Question, solutions: Sequence[Expr]) -> None:
@@ -246,8 +233,11 @@ def _denominators(equation: Equation, with_right: bool) -> list[Poly]:
     return [quotient.den for part in parts if (quotient := part / equation.a).den.degree > 0]
 
 
-def poles_between(question: Question, first: Expr, last: Expr) -> Iterator[tuple[Expr, bool]]:
-    """Singular points between two numbers that `rational_poles` doesn't have; and True for removable ones of f/a."""
+def _poles_between(question: Question, points: Sequence[Expr]) -> Iterator[tuple[Expr, bool]]:
+    """Singular points between several numbers that `rational_poles` doesn't have; and True for removable ones of f/a."""
+    if len(points) < 2 or not all(point.is_number for point in points):
+        return
+    first, last = sympy.Min(*points), sympy.Max(*points)
     x = question.x
     equation = question.equation
     parts = [] if equation.h is None else [right_hand_side(equation)]
