@@ -265,9 +265,7 @@ class _ClosedFormSearch(ClosedForms):
         """The E at which the statement may hold: degrees (None without a choice) with irreducible polynomials in E."""
         for alternative in region.statement.alternatives:
             parts = alternative.conjuncts
-            is_readable = None not in map(_zero_where, parts)
-            self.complete = self.complete and is_readable
-            for number in self._numbers(region, parts) if is_readable else ():
+            for number in self._numbers(region, parts):
                 functions = [_function_for(part, number, self.constants) for part in parts]
                 if None in functions:
                     self.complete = False
@@ -479,10 +477,11 @@ def _zero_where(statement: Statement) -> Any:
 def _function_for(statement: Statement, number: int | None, constants: dict[Any, Any]) -> Any:
     """A function of E that vanishes where the statement holds for a number: Delta_d where the exponents give d for all E.
 
-    None if Delta_d is unknown.
+    None if Delta_d is unknown, and for other kinds of statements.
     """
-    if not isinstance(statement, Natural) or number is None:
-        return _zero_where(statement).subs(constants)
+    if not isinstance(statement, Natural) or number is None or not statement.factors:
+        function = _zero_where(statement)
+        return function and function.subs(constants)
     values = [factor.subs(_NUMBER, number) for factor in _factors_of(statement)]
     found = sympy.Mul(*filter(None, values))
     for determinant in statement.determinants(number) if 0 in values else ():

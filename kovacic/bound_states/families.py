@@ -70,22 +70,19 @@ def factor_at(frame: SingularFrame, c: Any) -> WaveProduct:
     """|t - c| on the domain."""
     original = frame.original
     half = original.theta / 2
-    two = sympy.Integer(2)
     # c isn't inside the domain: t is larger than c there, unless c is beyond the upper end
     low, high = frame.limits_of_t
     is_above = sympy.simplify(low - c).is_nonnegative or not sympy.simplify(c - high).is_nonnegative
-    match original.kind, c:
-        case "exp", 0:
-            return WaveProduct(powers={sympy.E: original.theta})
-        case "exp", -1:
-            return WaveProduct(two, {sympy.E: half, sympy.cosh(half): 1})
-        case "exp", 1:
-            return WaveProduct(two, {sympy.E: half, sympy.sinh(half if is_above else -half): 1})
-        case ("cosh" | "cos") as kind, 1:
-            return WaveProduct(two, {(sympy.sinh if kind == "cosh" else sympy.sin)(half): 2})
-        case ("cosh" | "cos") as kind, -1:
-            return WaveProduct(two, {getattr(sympy, kind)(half): 2})
-    return WaveProduct(powers={original.t - c if is_above else c - original.t: 1})
+    if (original.kind, c) == ("exp", 0):
+        return WaveProduct(powers={sympy.E: original.theta})
+    name = {1: "sin", -1: "cos"}.get(c)  # t - c by the half angle
+    if name is None or original.kind not in ("exp", "cosh", "cos"):
+        return WaveProduct(powers={original.t - c if is_above else c - original.t: 1})
+    function = getattr(sympy, name if original.kind == "cos" else f"{name}h")
+    powers = (
+        {sympy.E: half, function(half if is_above else -half): 1} if original.kind == "exp" else {function(half): 2}
+    )
+    return WaveProduct(sympy.Integer(2), powers)
 
 
 def as_product(frame: SingularFrame, expression: Any) -> WaveProduct:
