@@ -43,7 +43,7 @@ from kovacic.engine.places import Kind, Place, Problem, analyse
 from kovacic.engine.riccati import Form, singular_part
 from kovacic.errors import LimitExceeded
 from kovacic.limits import bounded_work, check_time, count_work
-from kovacic.parametric.claims import with_signed_root
+from kovacic.parametric.claims import signed_sums, with_signed_root
 from kovacic.parametric.functions import element, in_field, irreducible_factors, lifted, over_parameters
 
 #: Minors up to which all of them are computed.
@@ -446,23 +446,13 @@ class Numbers:
         """The polynomial over the base, or a multiple, whose roots are constant + sums of +- k times a root for these k."""
         squares = [k * k * root.square for k, root in zip(multiples, self.roots, strict=True) if k]
         total = self.base.poly([0, 1]) - self.constant
-        if self.field != self.base:
+        if self.field != self.base:  # a quadratic extension, in which the square at one point is conjugate to that at the other
             conjugate = [square for square in squares if any(square.parts[1:])]
             squares = [square.parts[0] for square in squares if square not in conjugate]
-            total = self._of_conjugates(conjugate) if conjugate else total
+            sums = signed_sums(conjugate, self.constant, self.field)
+            first, second = sums.parts
+            total = norm(sums) if second else first
         return reduce(with_signed_root, squares, total)
-
-    def _of_conjugates(self, squares: list[Poly]) -> Poly:
-        """The product for one or two squares over a quadratic extension.
-
-        N = +-sqrt(A) +- sqrt(B) are the roots of N^4 - 2 (A + B) N^2 + (A - B)^2.
-        """
-        N = self.field.poly([0, 1]) - self.constant
-        total = N * N - squares[0]
-        if len(squares) > 1:
-            total = N**4 - N * N * (2 * (squares[0] + squares[1])) + (squares[0] - squares[1]) ** 2
-        first, second = total.parts
-        return norm(total) if second else first
 
 
 def degrees_of_solutions(problem: Problem) -> Numbers | None:
