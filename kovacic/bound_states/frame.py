@@ -24,7 +24,6 @@ from kovacic.bound_states.question import SpectralProblem
 from kovacic.bound_states.signs import Signs, Uncovered
 from kovacic.engine.places import Kind, Problem, analyse
 from kovacic.limits import Budget
-from kovacic.parametric import riemann
 from kovacic.parametric.theorems import roots_of, symmetries
 from kovacic.reading.symbolic import written_expression
 
@@ -171,7 +170,7 @@ def _spots(problem: Problem, powers: Mapping[Any, Any], places: tuple[Any, ...],
             point = sympy.oo if c is None else signs.real(c)
             squares[point] = None
             if place.kind is Kind.REGULAR:
-                square = signs.real(riemann.difference_squared(place).to_sympy(x))
+                square = signs.real(place.difference_squared.to_sympy(x))
                 squares[point] = sympy.expand(square.xreplace({x: point}))
     powers = {**powers, sympy.oo: sympy.Integer(4) - sum(powers.values(), sympy.Integer(0))}
     for point, mu in powers.items():

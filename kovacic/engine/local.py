@@ -104,12 +104,8 @@ def degree_bound(problem: Problem) -> DegreeBound | Evidence:
         twice -= n * place.weight
         if delta is None:
             p = place.factor
-            if place.kind is not Kind.REGULAR:
-                square = irregular_difference_squared(place)
-            elif place.delta_squared is not None:
-                square = place.delta_squared
-            else:
-                square = (1 + 4 * place.near[0] * _leading_coefficient(place).inverse_modulo(p)) % p
+            is_regular = place.kind is Kind.REGULAR
+            square = place.difference_squared if is_regular else irregular_difference_squared(place)
             trace = trace_of_square_root(square, p)
             if trace is None:
                 return NecessaryCondition(Rule.NOT_A_SQUARE, (place.name,))

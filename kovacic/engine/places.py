@@ -100,6 +100,15 @@ class Place:
         b = top[bottom.degree] / bottom.lc
         return 4 * b + 1 if p.degree == 1 or top == bottom * b else None
 
+    @property
+    def difference_squared(self) -> Poly:
+        """Delta^2 in K[x]/p at a place that is regular or ordinary: a function of the root where it isn't the same at all."""
+        if self.delta_squared is not None:
+            return self.delta_squared
+        p = self.factor
+        (top, bottom) = self.near
+        return (1 + 4 * top * (p.derivative() ** 2 * bottom % p).inverse_modulo(p)) % p
+
     def unit(self, precision: int) -> Poly:
         """V modulo p^precision, for S = V/p^order."""
         power = self.factor**precision

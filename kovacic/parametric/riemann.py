@@ -30,7 +30,7 @@ from kovacic.algebra.function_field import FunctionField, FunctionPoly
 from kovacic.algebra.poly import Poly
 from kovacic.algebra.traces import characteristic_polynomial
 from kovacic.decision import Structure
-from kovacic.engine.places import Kind, Place, Problem, rational_square_root
+from kovacic.engine.places import Kind, Problem, rational_square_root
 from kovacic.parametric import prose
 from kovacic.parametric.assumptions import Assumptions
 from kovacic.parametric.exponents import singular_places
@@ -344,18 +344,9 @@ def squares_of_differences(problem: Problem) -> FunctionPoly:
     """The monic polynomial over Q(t) whose roots are the squares of the exponent differences, three at least."""
     cubic = problem.field.poly([1])
     for place in singular_places(problem):
-        cubic = cubic * characteristic_polynomial(difference_squared(place), place.factor)
+        cubic = cubic * characteristic_polynomial(place.difference_squared, place.factor)
     ordinary = max(3 - cubic.degree, 0)  # at which the difference is 1
     return over_parameters(cubic * problem.field.poly([-1, 1]) ** ordinary)
-
-
-def difference_squared(place: Place) -> Poly:
-    """1 + 4b in K[x]/p."""
-    if place.delta_squared is not None:
-        return place.delta_squared
-    p = place.factor
-    cofactor = p.derivative() ** 2 * (place.den // p**2) % p
-    return (1 + 4 * place.num * cofactor.inverse_modulo(p)) % p
 
 
 def verdict(problem: Problem, structure: Structure) -> RegionVerdict:

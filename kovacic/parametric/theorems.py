@@ -234,7 +234,7 @@ def _three_points(problem: Problem, x: Any) -> list[_SingularPoint] | None:
 
 def _points_of(place: Place, x: Any) -> list[_SingularPoint]:
     """One point, or the two roots of a quadratic factor, at which the square q x + r of the difference is conjugate, too."""
-    square = riemann.difference_squared(place)
+    square = place.difference_squared
     points = roots_of(place, x)
     if len(points) == 1:
         return [_SingularPoint(points[0], root(square))]
