@@ -446,7 +446,7 @@ class Numbers:
         """The polynomial over the base, or a multiple, whose roots are constant + sums of +- k times a root for these k."""
         squares = [k * k * root.square for k, root in zip(multiples, self.roots, strict=True) if k]
         total = self.base.poly([0, 1]) - self.constant
-        if self.field != self.base:  # a quadratic extension, in which the square at one point is conjugate to that at the other
+        if self.field != self.base:  # a quadratic extension: the square at one point is conjugate to that at the other
             conjugate = [square for square in squares if any(square.parts[1:])]
             squares = [square.parts[0] for square in squares if square not in conjugate]
             sums = signed_sums(conjugate, self.constant, self.field)
