@@ -16,7 +16,7 @@ from fractions import Fraction
 from itertools import count
 from typing import Any
 
-from flint import acb, arb, ctx, fmpq, fmpq_mat, fmpz, fmpz_poly
+from flint import acb, acb_poly, arb, ctx, fmpq, fmpq_mat, fmpz, fmpz_poly
 
 from kovacic.algebra.extension import AlgebraicField, ExtensionPoly
 from kovacic.algebra.poly import Poly
@@ -119,14 +119,8 @@ def enclosure(constant: Poly) -> Any:
 
 
 def _value_for_generator(constant: Poly, theta: Any) -> Any:
-    """The constant for this value of the generator, by Horner's rule."""
-    parts = constant.parts if isinstance(constant, ExtensionPoly) else (constant,)
-    total = acb(0)
-    for part in reversed(parts):
-        total *= theta
-        if part:
-            total += part.rational_coefficients()[0]
-    return total
+    """The constant for this value of the generator."""
+    return acb_poly([part.rep[0] for part in constant.parts])(theta)  # type: ignore[attr-defined]
 
 
 def principal_root(radicand: Poly, n: int) -> Any:
@@ -144,12 +138,8 @@ def vanishing_factor(equation: Poly, target: Any) -> Poly:
     if len(factors) == 1:
         return factors[0]
     with working_precision(_EMBEDDING_BITS):
-        sizes = []
-        for factor in factors:
-            total = acb(0)
-            for power in range(factor.degree, -1, -1):
-                total = total * target + approximation(factor[power])
-            sizes.append(float(abs(total).mid()))
+        values = [acb_poly([approximation(c) for c in factor])(target) for factor in factors]
+        sizes = [float(abs(value).mid()) for value in values]
     smallest, second = sorted(sizes)[:2]
     if smallest * 2.0**20 > second:
         raise AssertionError("the approximation doesn't tell the roots apart")
@@ -204,9 +194,8 @@ def _matrix(columns: list[list[Any]]) -> fmpq_mat:
 
 def substituted(constant: Poly, theta: Poly) -> Poly:
     """The element with its generator replaced by another field's element."""
-    parts = constant.parts if isinstance(constant, ExtensionPoly) else (constant,)
     total = theta.field.poly([])
-    for part in reversed(parts):
+    for part in reversed(constant.parts):
         total = total * theta + part
     return total
 
