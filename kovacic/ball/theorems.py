@@ -14,11 +14,14 @@ double root (powers of x - x1), or if l = 0, that is A1 = A3 (powers of D), omeg
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import Any
 
-import mpmath
 import sympy as sp
+from flint import acb, arb, fmpq
 
+from kovacic.algebra.precision import working_digits
 from kovacic.ball.body import A1, A3, InRoots, Rolling, X, exact, sign, x1, x2
+from kovacic.closed_form.jets import jet
 from kovacic.errors import InputError
 
 C1, C2 = sp.symbols("c1 c2")
@@ -66,28 +69,25 @@ class BallSolution:
     def solves(self, place: Rolling) -> bool:
         """True if omega, y, n and omega_3, as they are printed, satisfy (13) and the `linear_system`.
 
-        By substitution, to 30 digits, at one point and for one value of each symbol.
+        By substitution at one point and for one value of each symbol, to 30 digits in interval arithmetic.
 
         Parameters
         ----------
         place : Rolling
             The ball for which this solution was found.
         """
-        a1, a2, b1, b2 = place.linear_system
-        S = place.S
-        n = self.n
-        w = self.omega_3
-        y = self.y
-        residuals = [sp.diff(n, X) + a1 * n + a2 * w, sp.diff(w, X) + b1 * n + b2 * w, sp.diff(y, X, 2) - S * y]
-        residuals += [sp.diff(omega, X) + omega**2 - S for omega in self.omega]
-        values = {} if isinstance(place, InRoots) else dict(zip((x1, x2), place.roots, strict=False))
-        names = sorted(set().union(*(part.free_symbols for part in (n, w, y, *residuals))) - {X, *values}, key=str)
-        values |= {name: sp.Rational(7 * k + 9, 5 * k + 4) for k, name in enumerate(names)}
-        parts = [part.xreplace({z: sp.N(z, 70) for z in part.atoms(sp.CRootOf)}) for part in (n, w, y, *residuals)]
-        with mpmath.workdps(60):
-            at = [mpmath.mpmathify(sp.N(value, 70)) for value in (sp.Rational(2, 7), *values.values())]
-            found = sp.lambdify([X, *values], parts, "mpmath", cse=True)(*at)
-            return bool(max(map(abs, found[3:])) < 1e-30 * max(1, *map(abs, found[:3])))
+        roots = {} if isinstance(place, InRoots) else dict(zip((x1, x2), place.roots, strict=False))
+
+        def at(e: sp.Expr) -> tuple[Any, Any, Any]:
+            return jet(e.xreplace(roots), X, acb(fmpq(2, 7)))
+
+        with working_digits(70):
+            (n, dn, _), (w, dw, _), (y, _, ddy) = map(at, (self.n, self.omega_3, self.y))
+            a1, a2, b1, b2, S = (at(coefficient)[0] for coefficient in (*place.linear_system, place.S))
+            residuals = [dn + a1 * n + a2 * w, dw + b1 * n + b2 * w, ddy - S * y]
+            residuals += [slope + omega**2 - S for omega, slope, _ in map(at, self.omega)]
+            bound = arb(10) ** -30 * (1 + abs(n) + abs(w) + abs(y))
+            return all(abs(residual) < bound for residual in residuals)
 
 
 def closed_form(place: Rolling) -> BallSolution:

@@ -277,6 +277,15 @@ def test_a_wrong_ratio_in_a_closed_form_is_seen(name):
     assert not closed_form(wrong).solves(right)
 
 
+@pytest.mark.parametrize("body", [(m, R, a, A1, A3), (1, 1, a, "1/4", "1/3")], ids=str)
+def test_the_closed_form_of_a_ball_with_symbols_is_checked(body):
+    right, wrong = (
+        RollingBall(**dict(zip(("m", "R", "a", "A1", "A3"), body, strict=True))).on_sphere(r) for r in (2, 4)
+    )
+    assert closed_form(right).solves(right)
+    assert not closed_form(wrong).solves(right)
+
+
 @pytest.mark.parametrize("name", sorted(BALLS))
 def test_kinds_and_roots(name):
     sphere = ball(name).on_sphere(3)
