@@ -9,6 +9,7 @@ meant.  It is decided here once; the reasons are notes.
 from __future__ import annotations
 
 import re
+from bisect import bisect_left
 from collections import Counter
 from collections.abc import Callable, Collection, Iterator, Sequence
 from dataclasses import dataclass
@@ -29,7 +30,7 @@ from kovacic.reading.names import (
     unglued,
 )
 from kovacic.reading.notations import Sentence, pattern
-from kovacic.reading.parser import evaluate
+from kovacic.reading.parser import evaluate, shortened
 
 #: Names that stand for the variable where they are the only one; others might be parameters of an equation in x.
 USUAL_VARIABLES = frozenset("xtzsruXTZθφτξρζ") | {"theta", "phi", "tau", "xi", "rho", "zeta"}
@@ -157,7 +158,7 @@ class Vocabulary:
         for k in reversed(unknown):
             kind, piece, start, end = rows[k]
             name = piece.rstrip(PRIMES)
-            is_product = len(name) == 2 and name.isalpha() and {*name} & {x, y} and not is_letter(name)
+            is_product = len(name) == 2 and name.isalpha() and {*name} & {x, y}
             if not is_product or (name[0] == y and name[1] not in (x, y)):  # Ta: a product begins with its coefficient
                 raise self._unknown_name(tokens, unknown[0], x, y)
             if tokens.are(k - 1, "CIRCUMFLEX") or tokens.are(k - 2, "CIRCUMFLEX", "MINUS"):
@@ -208,7 +209,7 @@ def _guesses(tokens: Sentence) -> Iterator[str]:
     found = _ROOT.search(tokens.line)
     if found:
         yield "^1/{0} was read as (...)^1 divided by {0}; a root is written ^(1/{0})".format(found[1])
-    for opening, k in tokens.partners.items() if "HEAD" in tokens.kinds else ():
+    for opening, k in tokens.partners.items():
         head = opening - 1
         is_bare = tokens[k].start == tokens[k].end and tokens.kinds[head] == "HEAD"
         if is_bare and tokens.are(k + 1, "SLASH") and tokens[k - 1].end == tokens[k + 1].start:
@@ -257,16 +258,17 @@ def _with_factors(tokens: Sentence, x: str, y: str) -> tuple[Sentence, list[str]
     """
     alone = {*tokens.names, x} - {*FUNCTION_NAMES, *DERIVATIVES}
     rows = list(tokens)
-    notes = []
+    bare = [k for k, token in enumerate(tokens) if token[:2] == ("NAME", y)]
+    notes: list[str] = []
     for k, (kind, name, _, _) in enumerate(tokens[:-3]):
         is_applied = tokens.kinds[k + 2] in ("NAME", "NUMBER") and tokens.kinds[k + 3] == "RPAR"
         if kind != "HEAD" or name not in alone or is_applied:
             continue
         if name == y:
             end = tokens.partners.get(k + 1, k)
-            if ("NAME", y) not in (token[:2] for token in rows[k + 2 : end]):
+            if bisect_left(bare, k) == bisect_left(bare, end):
                 continue
-            notes.append(f"{tokens.piece(k, end + 1)} was read as a product")
+            notes = notes or [f"{shortened(tokens.piece(k, end + 1))} was read as a product"]
         rows[k] = rows[k]._replace(kind="NAME")
     return tokens.of(rows), notes
 

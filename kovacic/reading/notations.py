@@ -331,7 +331,7 @@ LATEX = (
 
 _LINE = r"(?:^|(?<=\n\x20)|(?<=\n\x20\x20))"
 _NO_INDEX = r"(?<!_\x20)(?<!_\x20\{\x20)"
-_NO_END = r"(?:(?!(?:==?|\\end) )\S+ +)"
+_NO_END = r"(?:(?!(?:==?|\\end|\\begin) )\S+ +)"
 _ARRAY = r"\\left \\\{ \\begin \{ array \} \{ [lcr ]+\}"
 _END_OF_ARRAY = r"\\end \{ array \} \\right \."
 _NO_NAME = rf"(?!(?:{'|'.join(FUNCTION_NAMES)}|\w) \}})"
