@@ -49,7 +49,6 @@ _STIFFNESS = pattern(r"(?:E (?:\* )?I|I (?:\* )?E)(?! \()")
 _EXPONENT = pattern(rf"e \^ (?:- )?[\d.]+~({_NAME})(?! \()"), "write e^({0}*{1}) or e^({0})*{1}"
 _POWER_OF_TEN = pattern(rf"[\d.]+~[eE]~[-+]~\d+~({_NAME})'*"), "write {0}*{1} for the decimal"
 _GLUED_INDEX = re.compile(rf"{LETTER}_\d+([^\W\d_]+)")
-_PRIMED = pattern(rf"({_NAME})'+")
 #: y'', diff(y, x), diff(y(x), x), and diff((y(x)), x) for d/dx(y(x)).
 _DIFFERENTIATED = pattern(
     rf"({_NAME})'+|(?:{'|'.join(DERIVATIVES)}) \((?:(?= ({_NAME}) [(,)])| \((?= ({_NAME}) \( {_NAME} \) \)))"
@@ -126,8 +125,7 @@ class Vocabulary:
             and OPERATOR in _single_letters(tokens, self.declared)
             and not any(piece.endswith("''") or piece in DERIVATIVES - {OPERATOR} for piece in tokens.pieces)
         )
-        y = self.unknown or _primed(tokens, self.declared)
-        y = y or next(iter(differentiated(tokens)), None) or _operand(tokens)
+        y = self.unknown or next(iter(differentiated(tokens, self.declared)), None) or _operand(tokens)
         if y is None:  # what the operator D is applied to
             usual = [name for name in tokens.names if name in _USUAL_UNKNOWNS]
             y = usual[-1] if has_operator and usual and UNKNOWN not in usual else UNKNOWN
@@ -273,16 +271,6 @@ def _with_factors(tokens: Sentence, x: str, y: str) -> tuple[Sentence, list[str]
     return tokens.of(rows), notes
 
 
-def _primed(tokens: Sentence, declared: Collection[str]) -> str | None:
-    """The first name that has primes; x'' for mx''."""
-    found = _PRIMED.search(tokens.line)
-    if found is None:
-        return None
-    name = found[1]
-    is_glued = len(name) == 2 and not is_letter(name) and name not in declared and name[1] in _USUAL_UNKNOWNS
-    return name[1] if is_glued else name
-
-
 def _operand(tokens: Sentence) -> str | None:
     """The name after the parentheses around an operator: y in (d^2/dx^2 - x) y."""
     depth = 0
@@ -293,10 +281,15 @@ def _operand(tokens: Sentence) -> str | None:
     return None
 
 
-def differentiated(tokens: Sentence) -> list[str]:
-    """The names that have primes, or are y in diff(y, x), diff(y(x), x) and diff(y)."""
-    names = (found[1] or found[2] or found[3] for found in _DIFFERENTIATED.finditer(tokens.line))
-    return [name for name in names if not is_function(name) and name not in DERIVATIVES]
+def differentiated(tokens: Sentence, declared: Collection[str] = ()) -> list[str]:
+    """The names that have primes, x for mx'', and then those that are y in diff(y, x), diff(y(x), x) and diff(y)."""
+    names = []
+    for found in sorted(_DIFFERENTIATED.finditer(tokens.line), key=lambda match: match[1] is None):
+        name = found[1] or found[2] or found[3]
+        is_glued = len(name) == 2 and not is_letter(name) and name not in declared and name[1] in _USUAL_UNKNOWNS
+        if not is_function(name) and (found[1] or name not in DERIVATIVES):
+            names.append(name[1] if is_glued else name)
+    return names
 
 
 def _equation_variable(tokens: Sentence, y: str, declared: Collection[str]) -> tuple[str, str | None]:

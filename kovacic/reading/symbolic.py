@@ -213,7 +213,7 @@ def read_equations(
     """
     paste = text if isinstance(text, Paste) else taken_apart(text)
     limits = replace(limits, exponent=min(limits.exponent, 1000), bits=min(limits.bits, 10_000))
-    unknowns = tuple(dict.fromkeys(name for tokens in paste.equations for name in differentiated(tokens)))
+    unknowns = tuple(dict.fromkeys(name for tokens in paste.equations for name in differentiated(tokens, names)))
     if not unknowns:
         raise InputError("these equations contain no derivative", hint="for example x' = y, y' = -x")
     arguments = (argument_of(tokens, unknown) for tokens in paste.equations for unknown in unknowns)
