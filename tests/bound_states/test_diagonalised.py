@@ -108,6 +108,7 @@ def test_there_are_sixty_potentials() -> None:
     assert len(WELLS) >= 60
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("V", ["x^2 - 3*x + 1"])
 def test_a_shifted_energy_is_noticed(V: str) -> None:
     matrix = eigenvalues(lambda x: x**2 - 3 * x + 1, (-inf, inf), -1.0, 10.0)

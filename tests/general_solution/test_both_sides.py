@@ -67,6 +67,7 @@ def test_the_solution_is_real_where_its_values_are(equation: str, point: str, va
     assert size(residual.subs(x, beside)) < 1e-15
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("point", [pytest.param("-1", marks=pytest.mark.long), "1/2"])
 def test_an_answer_left_of_a_root_has_the_right_slope_everywhere(point: str) -> None:
     """Compared with the proven values of the general route, three points further on."""
@@ -138,7 +139,7 @@ def test_values_hold_for_each_natural_number(equation: str, point: str) -> None:
         "x^2*y'' + x*y' + k*y = 0",
         "y'' + k*x*y = 0",
         pytest.param("x*y'' + k*y = 0", marks=pytest.mark.long),
-        "x^2*y'' + x*y' + (k*x^2 - 1/9)*y = 0",
+        pytest.param("x^2*y'' + x*y' + (k*x^2 - 1/9)*y = 0", marks=pytest.mark.long),
     ],
 )
 def test_a_pair_is_real_for_negative_letters(equation: str) -> None:

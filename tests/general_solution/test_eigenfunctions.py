@@ -97,6 +97,7 @@ def test_there_is_no_family_on_an_interval_with_a_singular_point(conditions):
         kovacic.dsolve("x^2*y''+x*y'+lambda*y=0", ics=conditions)
 
 
+@pytest.mark.long
 def test_the_command_writes_powers_in_notices_as_in_solutions() -> None:
     command = [sys.executable, "-m", "kovacic", "dsolve", "y'' + lambda*y = 0", "--ics", "y(0)=0, y(L)=0"]
     said = subprocess.run(command, capture_output=True, text=True, check=True, timeout=120).stderr

@@ -73,6 +73,7 @@ def test_the_case_of_the_equation_itself_agrees_with_the_engine(n: int, differen
     assert report.open == 0
 
 
+@pytest.mark.long
 def test_the_groups_over_the_quotient_split() -> None:
     """Half-integers at 0 and infinity: reducible over C(sqrt z); a tetrahedral group over C(z^(1/3)): the quaternions."""
     quadratic = kovacic.conditions(pulled_back(2, "p", "q", "r"), var="x")

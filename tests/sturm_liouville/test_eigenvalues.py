@@ -50,7 +50,13 @@ def test_quartic_oscillator_has_its_published_levels():
             ["5.783185962947", "30.471262343662", "74.887006790695"],
         ),
         ("y'' = lambda*y", "y(0)=0, y(1)=0", {}, ["-9.869604401089358", "-39.478417604357434"]),
-        ("-y'' + 2*y/x^2 = lambda*y", "y(0)=0, y(1)=0", {}, ["20.190728556427", "59.679515944109"]),  # zeros of j_1
+        pytest.param(
+            "-y'' + 2*y/x^2 = lambda*y",
+            "y(0)=0, y(1)=0",
+            {},
+            ["20.190728556427", "59.679515944109"],
+            marks=pytest.mark.long,
+        ),  # zeros of j_1
         # 10^4 (1/4 - k^2), tanh(k log(101)) = 2 k: 0 is regular, however close the singular point beyond it is
         ("(100*x + 1)^2*y'' + lambda*y = 0", "y'(0)=0, y(1)=0", {}, ["107.0560891491"]),
     ],
@@ -79,7 +85,7 @@ def test_coinciding_periodic_levels_are_a_pair():
 @pytest.mark.parametrize(
     ("V", "given", "published"),
     [
-        ("x^2", {}, ["1.0", "3.0"]),
+        pytest.param("x^2", {}, ["1.0", "3.0"], marks=pytest.mark.long),
         ("abs(x)", {}, ["1.018792971647471", "2.338107410459767"]),
         pytest.param(
             "-1/x", {"conditions": "y(0)=0", "domain": HALF_LINE}, ["-0.25", "-0.0625"], marks=pytest.mark.long
