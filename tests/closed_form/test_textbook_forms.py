@@ -193,7 +193,7 @@ ONE_FOR_EACH_RULE = [
 ]
 
 
-@parametrize("problem", BOOKS, ids=str, ordinary=2, long=4, always=ONE_FOR_EACH_RULE)
+@parametrize("problem", BOOKS, ids=str, ordinary=2, long=(7, 10, 20, 28), always=ONE_FOR_EACH_RULE)
 @pytest.mark.filterwarnings("ignore:this holds unless")
 def test_answers_of_books(problem: tuple[str, str, dict[str, Any], str]) -> None:
     _, equation, options, book = problem

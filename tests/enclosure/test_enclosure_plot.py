@@ -353,7 +353,7 @@ PICTURES: list[tuple[str, Any, Any, int | None]] = [
 ]
 
 
-@parametrize(("equation", "start", "stop", "count"), PICTURES, ordinary=(11, 22, 33), long=3)
+@parametrize(("equation", "start", "stop", "count"), PICTURES, ordinary=(11, 22, 33), long=(27, 32, 39, 40, 43, 44))
 def test_a_picture_shows_what_its_labels_say(equation: str, start: Any, stop: Any, count: int | None) -> None:
     """The title is the equation in the variable of the axis, each entry of the legend has the data of its line."""
     answer = kovacic.solve(equation)

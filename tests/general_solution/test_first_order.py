@@ -73,7 +73,7 @@ LINEAR: list[tuple[Any, Any, int, Any]] = [
 ]
 
 
-@parametrize("problem", LINEAR, ids=str, ordinary=(0, 3, 15, 18), long=4)
+@parametrize("problem", LINEAR, ids=str, ordinary=(0, 3, 15, 18), long=(1, 6, 12))
 @pytest.mark.filterwarnings("ignore:this holds unless n - 3")
 def test_linear_equations_with_values(problem: tuple[Any, Any, int, Any]) -> None:
     a, b, point, value = problem

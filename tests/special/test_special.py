@@ -272,7 +272,7 @@ POLYNOMIALS = [
 ]
 
 
-@parametrize(("equation", "first"), POLYNOMIALS, ids=[row[0] for row in POLYNOMIALS], ordinary=0, long=4)
+@parametrize(("equation", "first"), POLYNOMIALS, ids=[row[0] for row in POLYNOMIALS], ordinary=0, long=(0, 5, 8, 11))
 def test_polynomials_of_symbolic_degree(equation: str, first: str) -> None:
     answer = kovacic.solve(equation)
     symbols = {"n": n, "m": m}
