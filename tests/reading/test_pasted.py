@@ -714,6 +714,13 @@ def test_mutated_texts_are_read_or_refused(seed: int) -> None:
             source_of(equation, None, kovacic.Limits(), equation=True)
 
 
+def test_a_named_equation_beside_another_belongs_to_the_system() -> None:
+    """Only a command says which equations are meant."""
+    u, v = kovacic.dsolve("u' = v; de2 := v' = -u")
+    assert "cos" in str(u.rhs)
+    assert "sin" in str(v.rhs)
+
+
 @pytest.mark.parametrize(
     ("text", "said"),
     [
