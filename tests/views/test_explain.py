@@ -57,6 +57,13 @@ def test_bessel_is_explained() -> None:
         assert part in text
 
 
+def test_of_many_families_some_are_shown_and_the_others_counted() -> None:
+    """24 of the 44 for which d is a natural number."""
+    text = kovacic.solve("+".join(f"2/(x-{k})^2" for k in range(1, 7)) + "+1").explain()
+    assert "128 families of exponents, d is a natural number in 44 of them" in text
+    assert "and 20 more." in text
+
+
 def test_a_no_names_what_excludes_every_case() -> None:
     text = kovacic.solve("x").explain()
     assert text.count("Not case 3") == 3
