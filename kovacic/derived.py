@@ -96,10 +96,10 @@ def special(answer: Answer) -> SpecialFunctions:
 
     What was assumed about parameters is used: hermite(n, x) for natural n.  An exhausted limit is a value, `stopped`.
     """
-    from kovacic.special.search import Request, special_functions
+    from kovacic.special.search import Wanted, special_functions
 
     symbols = answer.known.symbols() if answer.known else {}
-    found = special_functions(Request(answer.S, answer.gauge, answer.variable, symbols), Budget(answer.limits))
+    found = special_functions(Wanted(answer.S, answer.gauge, answer.variable, symbols), Budget(answer.limits))
     pair = found.pair
     if pair is None:
         return found

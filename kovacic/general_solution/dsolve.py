@@ -216,20 +216,22 @@ def dsolve(
     return [answer.eq] if isinstance(eq, list | tuple) else answer.eq
 
 
-def _system(eq: Any, func: Any, ics: Any, parameters: Sequence[str], solver: Solver) -> SystemAnswer | None:
+def _system(
+    eq: Any, func: Any, ics: Any, names: Sequence[str], assume: Mapping[Any, Any], solver: Solver
+) -> SystemAnswer | None:
     """The answer for a list of several equations, or a text with several; None for anything else."""
     guesses: tuple[str, ...] = ()
     if isinstance(eq, str):
         paste = taken_apart(eq)
         if len(paste.scans("equation")) < 2:
             return None
-        reading = read_equations(paste, names=declared(parameters))
+        reading = read_equations(paste, names=names)
         eq, func, ics = reading.equations, func or reading.functions, ics or dict(reading.conditions)
         guesses = reading.guesses
     if not isinstance(eq, list | tuple) or len(eq) == 1:
         return None
-    found, notices = solved_system(read_system(eq, func), as_mapping(ics), solver)
-    return SystemAnswer(found, [*guesses, *notices])
+    answer = solved_system(read_system(eq, func), as_mapping(ics), assume, solver)
+    return replace(answer, notices=[*guesses, *answer.notices])
 
 
 def _single(given: Any, what: str) -> Any:
@@ -315,14 +317,14 @@ def answer_to(
     solver = partial(answer_to, limits=limits)
     with budget.watched():
         try:
-            system = _system(eq, func, ics, parameters, solver)
+            names = declared(parameters, about_letters(assume, var))
+            system = _system(eq, func, ics, names, assume or {}, solver)
             if system is not None:
                 return system
             eq, func = _single(eq, "equation"), _single(func, "function")
             try:
                 question = read_question(eq, func, ics, var, budget.limits, parameters, assume)
             except InputError as reason:
-                names = declared(parameters, about_letters(assume, var))
                 first_order = _first_order(eq, func, ics, var, budget.limits, names, assume or {}, solver)
                 if first_order is None:
                     raise reason from None

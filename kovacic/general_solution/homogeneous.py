@@ -29,7 +29,7 @@ from kovacic.reading.change_of_variable import function_of_x, is_power, real_val
 from kovacic.solution import Solution, solve
 from kovacic.special.choice import solutions
 from kovacic.special.mathieu import mathieu
-from kovacic.special.search import BySign, Request, by_sign, special_functions
+from kovacic.special.search import BySign, Wanted, by_sign, special_functions
 from kovacic.special.writer import WrittenPair
 
 Expr = Any  # SymPy publishes no types
@@ -137,7 +137,7 @@ def _in_special_functions(
     is_positive = bool(question.function.args[0].is_positive)
     is_positive = is_positive and all(point.is_positive for c in question.conditions for point in c.points)
     places = _real_places(question)
-    request = Request(
+    request = Wanted(
         solution.S, solution.gauge, solution.variable, question.parameters, joined=not is_positive, places=places
     )
     found = special_functions(request, budget)

@@ -21,7 +21,7 @@ from sympy.solvers.solveset import NonlinearError
 
 from kovacic.equation import eliminated
 from kovacic.errors import InputError, NotLinear
-from kovacic.general_solution.answer import ProblemAnswer
+from kovacic.general_solution.answer import ProblemAnswer, SystemAnswer
 from kovacic.general_solution.behaviour import value_at
 from kovacic.general_solution.constants import Outcome, Row, determine
 from kovacic.general_solution.first_order import (
@@ -31,7 +31,7 @@ from kovacic.general_solution.first_order import (
     is_unit,
     solved_linear,
 )
-from kovacic.general_solution.question import Condition, ConditionReader, exact
+from kovacic.general_solution.question import Condition, ConditionReader, exact, positive_variable, symbols_that_know
 from kovacic.general_solution.steps import JUMPING, in_steps, taken_apart
 from kovacic.general_solution.substitution import size, slope
 from kovacic.general_solution.textbook import in_book_form, sums
@@ -54,6 +54,16 @@ class LinearSystem:
     @property
     def t(self) -> Expr:
         return self.functions[0].args[0]
+
+    @property
+    def entries(self) -> tuple[Expr, ...]:
+        """Those of the matrix, and the right-hand sides."""
+        return (*self.matrix[0], *self.matrix[1], *self.right)
+
+    def in_symbols(self, others: Mapping[Expr, Expr]) -> LinearSystem:
+        """The system in other symbols."""
+        x, y, a, b, c, d, f, g = (e.xreplace(others) for e in (*self.functions, *self.entries))
+        return LinearSystem((x, y), ((a, b), (c, d)), (f, g))
 
     @property
     def swapped(self) -> LinearSystem:
@@ -132,16 +142,25 @@ def _unknowns(whole: Sequence[Expr], functions: Sequence[Any] | None) -> tuple[E
     return found[0], found[1]
 
 
-def solved_system(system: LinearSystem, ics: Mapping[Any, Any], solver: Solver) -> tuple[list[Expr], list[str]]:
+def solved_system(
+    system: LinearSystem, ics: Mapping[Any, Any], assume: Mapping[Any, Any], solver: Solver
+) -> SystemAnswer:
     """[Eq(x(t), ...), Eq(y(t), ...)], put into both equations and into the values, and what is to be said beside.
 
     Raises `InputError` for values that no solution has, and `NotImplementedError` where nothing is found.
     """
     functions = system.functions
-    if _is_swapped(system, _initial_values(_conditions(system, ics))):
-        system = system.swapped
     conditions = _conditions(system, ics)
-    given = [e for _, condition in conditions for e in (condition.value, *condition.points)]
+    values = [e for _, condition in conditions for e in (condition.value, *condition.points)]
+    known, assume = positive_variable(assume, system.t)
+    letters = sympy.Tuple(*system.entries, *values).free_symbols - {system.t}
+    known |= symbols_that_know(assume, {letter.name: letter for letter in letters})
+    system = system.in_symbols(known)
+    conditions = [(number, condition.in_symbols(known)) for number, condition in conditions]
+    if _is_swapped(system, _initial_values(conditions)):
+        system = system.swapped
+        conditions = [(1 - number, condition) for number, condition in conditions]
+    given = [e.xreplace(known) for e in values]
     start = _initial_values(conditions)
     (_, b), _ = system.matrix
     exceptions: list[Expr] = []
@@ -158,15 +177,16 @@ def solved_system(system: LinearSystem, ics: Mapping[Any, Any], solver: Solver) 
     if conditions:
         pair, others = _with_constants(system, pair, conditions)
         notices += others
-    entries = (*system.matrix[0], *system.matrix[1], *system.right)
-    own = sympy.Tuple(*entries, *given).free_symbols | {system.t}
+    own = sympy.Tuple(*system.entries, *given).free_symbols | {system.t}
     constants = sorted((pair[0].free_symbols | pair[1].free_symbols) - own, key=str)
     pair = _with_constants_apart(pair[0], constants, system.t), _with_constants_apart(pair[1], constants, system.t)
-    notices += exceptions_of(sympy.Tuple(*pair), system.t, entries, exceptions)
+    notices += exceptions_of(sympy.Tuple(*pair), system.t, system.entries, exceptions)
     for number, solution in enumerate(pair):
         notices += check_first_order(system.alone(number, pair[1 - number]), solution, ())
     found = dict(zip(system.functions, pair, strict=True))
-    return [sympy.Eq(f, found[f], evaluate=False) for f in functions], [*dict.fromkeys(notices)]
+    users = {symbol: user for user, symbol in known.items()}
+    eqs = [sympy.Eq(f, found[f.xreplace(known)].xreplace(users), evaluate=False) for f in functions]
+    return SystemAnswer(eqs, [*dict.fromkeys(notices)], known=known)
 
 
 def _with_constants_apart(value: Expr, constants: Sequence[Expr], t: Expr) -> Expr:

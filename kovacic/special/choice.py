@@ -43,7 +43,7 @@ from kovacic.limits import Budget, bounded_work, check_time
 from kovacic.numbers.numerals import as_text
 from kovacic.special.gauss import klein_pullback
 from kovacic.special.pullback import GaugeTransform, Pullback
-from kovacic.special.search import Request, find, find_transform
+from kovacic.special.search import Wanted, find, find_transform
 
 #: Units of work after which no pull-back is sought any more beside a form that is there.
 _SEARCH = 6000
@@ -158,8 +158,8 @@ class _Equation:
         return build(self.S, self.decision, self.gauge)
 
     @property
-    def _request(self) -> Request:
-        return Request(self.S, self.gauge, self.variable, joined=True)
+    def _request(self) -> Wanted:
+        return Wanted(self.S, self.gauge, self.variable, joined=True)
 
     @cached_property
     def _is_long(self) -> bool:

@@ -362,7 +362,7 @@ def _first(problem: Problem, equations: list[type[StandardEquation]], *, extende
 
 
 @dataclass(frozen=True)
-class Request:
+class Wanted:
     """The equation whose solutions are written, those of y'' = S y times exp(int gauge dx), and how.
 
     `symbols` are SymPy's symbols for the parameters by name; the expressions are in these, and what is assumed about them is
@@ -408,7 +408,7 @@ class Request:
         return pair.mapped(lambda e: e.xreplace(writer.own))
 
 
-def special_functions(request: Request, budget: Budget) -> SpecialFunctions:
+def special_functions(request: Wanted, budget: Budget) -> SpecialFunctions:
     """Solutions of the equation of a request.
 
     The pull-back is verified exactly, in rational functions; what is shown is checked at a point, to 50 digits.  Liouvillian
@@ -417,7 +417,7 @@ def special_functions(request: Request, budget: Budget) -> SpecialFunctions:
 
     >>> import kovacic
     >>> answer = kovacic.solve("x^2*y'' + x*y' + (x^2 - n^2)*y = 0")
-    >>> print(special_functions(Request(answer.S, answer.gauge, "x"), Budget()))
+    >>> print(special_functions(Wanted(answer.S, answer.gauge, "x"), Budget()))
     y1 = besselj(n, x)
     y2 = bessely(n, x)
     """
@@ -465,7 +465,7 @@ class BySign:
     negative: WrittenPair | None
 
 
-def by_sign(request: Request, budget: Budget) -> BySign | None:
+def by_sign(request: Wanted, budget: Budget) -> BySign | None:
     """Solutions by the sign of an integer: where polynomials have names, or where it tells which solutions are independent.
 
     None if the sign of no integer helps.
@@ -473,7 +473,7 @@ def by_sign(request: Request, budget: Budget) -> BySign | None:
     >>> import kovacic, sympy
     >>> n, l = sympy.symbols("n l", integer=True, positive=True)
     >>> answer = kovacic.solve("x^2*y'' + 2*x*y' + (2*x - x^2/n^2 - l*(l + 1))*y = 0", var="x")
-    >>> found = by_sign(Request(answer.S, answer.gauge, "x", {"n": n, "l": l}), Budget())
+    >>> found = by_sign(Wanted(answer.S, answer.gauge, "x", {"n": n, "l": l}), Budget())
     >>> print(found.integer, "|", found.natural.y1)
     -l + n - 1 | x**l*exp(-x/n)*assoc_laguerre(-l + n - 1, 2*l + 1, 2*x/n)
     """

@@ -318,6 +318,26 @@ def test_where_the_solutions_of_a_system_with_letters_are_real_and_independent()
     assert str(kovacic.validity(found)) == "-a**2 + 2*a*d - 4*b*c - d**2 >= 0, b != 0"
 
 
+@pytest.mark.parametrize(
+    ("text", "assume", "printed"),
+    [
+        ("x' = a*y, y' = b*x, x(0) = 1, y(0) = 0", {"a": "positive", "b": "negative"}, "cos(sqrt(a)*t*sqrt(-b))"),
+        (
+            "t*x' = y, t*y' = a*x",
+            {"t": "positive", "a": "negative"},
+            "C1*cos(sqrt(-a)*log(t)) + C2*sin(sqrt(-a)*log(t))",
+        ),
+    ],
+)
+def test_what_is_assumed_of_the_letters_of_a_system_is_used(text: str, assume: dict[str, str], printed: str) -> None:
+    answer = kovacic.answer_to(text, assume=assume)
+    assert str(answer.eq[0].rhs) == printed
+    assert str(answer.validity) == ""
+    assert all(symbol == sympy.Symbol(symbol.name) for eq in answer.eq for symbol in eq.free_symbols)
+    with pytest.raises(kovacic.InputError, match="q isn't a parameter"):
+        kovacic.answer_to(text, assume={"q": "positive"})
+
+
 def test_integrals_beside_a_value_begin_at_its_point() -> None:
     w = kovacic.dsolve("y' + tan(x)*y = cos(x)*log(cos(x)), y(0) = 1").rhs
     assert all(len(integral.limits[0]) == 3 for integral in w.atoms(sympy.Integral))
