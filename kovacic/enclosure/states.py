@@ -104,9 +104,9 @@ def _chosen(journey: Journey, problem: NumericProblem, ways: Ways, count: int, d
     S = problem.S
     size = S.num.degree + S.den.degree
     is_solved = problem.decision is not None
-    if not from_zero and (is_solved or (size <= _DEGREE and price >= prices.decided_from(size))):
+    if not from_zero and (is_solved or (size <= _DEGREE and price >= prices.decided_from(S))):
         foreseen = _rounded(min(_SOUGHT * prices.DEGREES * price, _UNKNOWN))
-        known = decided(problem, _UNKNOWN if is_solved else min(foreseen, _UNKNOWN))
+        known = decided(problem, _UNKNOWN if is_solved or prices.has_sure_solutions(S) else min(foreseen, _UNKNOWN))
         closed = None if known is None else closed_form_of(known)
         if closed is not None and closed.is_cheap and closed.price(digits) <= most:
             return closed, 0

@@ -25,7 +25,7 @@ from kovacic.general_solution.steps import JUMPING, in_steps
 from kovacic.limits import Limits
 from kovacic.numbers.exact import exact_real, exact_text, is_complex
 from kovacic.numbers.numerals import plain_text
-from kovacic.parametric.assumptions import Assumptions, read_assumptions
+from kovacic.parametric.assumptions import Assumptions, check_mapping, read_assumptions
 from kovacic.reading.change_of_variable import function_of_x
 from kovacic.reading.pieces import Paste, conditions_in, taken_apart
 from kovacic.reading.read import declared, read_input
@@ -243,7 +243,8 @@ def with_values(eq: Any, ics: Any, assume: Mapping[Any, Any] | None, limits: Lim
 
     Raises `InputError` for values beside an equation that is no text.
     """
-    values, others = values_among(assume) if isinstance(assume, Mapping) else ({}, assume)
+    check_mapping(assume)
+    values, others = values_among(assume or {})
     if not values:
         return eq, ics, others
     if not isinstance(eq, str) or not isinstance(ics or "", str):

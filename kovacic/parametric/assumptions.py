@@ -498,7 +498,7 @@ def read_assumptions(assume: Mapping[Any, str] | None, S: Any, names: tuple[str,
     for name, what in ((str(key), what) for key, what in (assume or {}).items()):
         if name not in names:
             hint = f"the parameters are {', '.join(names) or 'none'}"
-            raise InputError(f"{name} isn't a parameter of S", hint=hint)
+            raise InputError(f"{name} isn't a parameter of the equation", hint=hint)
         words[name] += _read_words(what)
     kept = {name: dict.fromkeys(word for word in said if word not in _SAY_NOTHING) for name, said in words.items()}
     known = [(name, Known(tuple(said))) for name, said in kept.items()]

@@ -125,7 +125,8 @@ def with_values(S: Any, parsed: Parsed, assume: Mapping[Any, Any] | None, limits
     names = parameters_of(parsed.S.field)
     for name in values:
         if name not in names:
-            raise InputError(f"{name} isn't a parameter of S", hint=f"the parameters are {', '.join(names) or 'none'}")
+            hint = f"the parameters are {', '.join(names) or 'none'}"
+            raise InputError(f"{name} isn't a parameter of the equation", hint=hint)
     texts = {name: value_text(value, name, parsed.variable, limits=limits) for name, value in values.items()}
     # The user's text, or one where S is none; in the user's variable where there is a change of it.
     change = None if parsed.equation is None else parsed.equation.change

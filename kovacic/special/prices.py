@@ -7,6 +7,10 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from kovacic.algebra.ratfunc import RatFunc
 
 
 @dataclass(frozen=True)
@@ -65,13 +69,19 @@ UNIT = 0.015
 """A unit of the work that the search for a pull-back counts."""
 
 
-def decided_from(size: int) -> float:
+def has_sure_solutions(S: RatFunc) -> bool:
+    """True where two exponentials or powers are certain: constant coefficients, and Euler's equation, S = c/(x - a)^2."""
+    den = S.den
+    is_euler = den.degree == 2 and den[1] * den[1] == 4 * den[0] * den[2]
+    return S.num.degree <= 0 and (den.degree == 0 or is_euler)
+
+
+def decided_from(S: RatFunc) -> float:
     """The price of Taylor's method from which it pays to decide the equation first.
 
-    Ten times that of a decision, which is in vain as often as not; four times where S is constant, with two exponentials for
-    certain.
+    Ten times that of a decision, which is in vain as often as not; four times where it isn't.
     """
-    return 4.0 if size == 0 else 12.0
+    return 4.0 if has_sure_solutions(S) else 12.0
 
 
 def sought_from(size: int) -> float:

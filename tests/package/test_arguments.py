@@ -157,6 +157,8 @@ UNUSED: dict[str, Callable[[], object]] = {
     "the variable of an equation": lambda: kovacic.solve(kovacic.solve("y'' = x*y").equation, var="t"),
     "parameters that don't occur": lambda: kovacic.evaluate("x", 1, params={"n": 3}, **START),
     "assumptions on what doesn't occur": lambda: kovacic.solve("x", assume={"n": "integer"}),
+    "no mapping": lambda: kovacic.solve("n*x", assume="n>0"),
+    "nor is a text in dsolve": lambda: kovacic.dsolve("y' = n*y", assume="n>0"),
     "a value of what doesn't occur": lambda: kovacic.solve("x", assume={"n": 3}),
     "two starts": lambda: kovacic.evaluate("-2/(9*x^2)", 1, which="regular", **START),
     "a slope that decays": lambda: kovacic.evaluate("x", 1, x0=0, y0=1, dy0=1, which="decaying"),
