@@ -26,7 +26,6 @@ from kovacic.algebra.rationals import QQ
 from kovacic.decision import NoInvariant, Structure
 from kovacic.engine.invariants import invariants
 from kovacic.engine.places import Problem, analyse
-from kovacic.equation import parameters_of
 from kovacic.errors import LimitExceeded
 from kovacic.limits import Budget
 from kovacic.parametric import prose
@@ -314,7 +313,7 @@ class Natural(Statement):
         has_zero = self.factors is None or distance in self.factors
         letters: list[str] = []
         for _ in squares:
-            letters.append(free_letter([self.letter, *parameters_of(problem.field), *letters], "jkmnl"))
+            letters.append(free_letter([self.letter, *self.setting.names, *letters], "jkmnl"))
         bounds = tuple(root.largest for root in numbers.roots)
         return DegreeBySum(self.letter, numbers.constant, squares, tuple(letters), bounds, has_zero, adjoined)
 

@@ -395,7 +395,8 @@ def setting_of(
     """How statements about these parameters are printed: nothing is solved for the constant among them, nor for pi and e."""
     fixed = (*constant.names, *transcendental(names, letters))
     values = tuple(zip(constant.names, constant.values, strict=True))
-    return Setting((variable, *names), fixed, (), constant, replace(assumptions, values=values))
+    taken = variable, *names, *own_parameters(names, letters)
+    return Setting(taken, fixed, (), constant, replace(assumptions, values=values))
 
 
 def nonzero(letters: Letters) -> list[str]:

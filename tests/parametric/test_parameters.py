@@ -254,6 +254,18 @@ def test_letters_are_the_users(S: str) -> None:
     assert answer.check(20)
 
 
+@pytest.mark.parametrize(
+    ("S", "said"),
+    [
+        ("x^2 + sqrt(n)*x + b", "b = (8*N + n + 4)/4 for an integer N: case 1"),
+        ("(-1)^n/x^2 + 1", "(-1)^n = N^2 + N for an integer N: case 1"),
+        ("n^(1/3)/x^2 + 1 + k/x", "n^(1/3) = (2*N - k)*(2*N - k + 2)/4 for an integer N: case 1"),
+    ],
+)
+def test_no_integer_is_called_like_a_parameter_inside_a_function(S: str, said: str) -> None:
+    assert said in str(kovacic.conditions(S))
+
+
 def test_a_value_that_makes_a_letter_transcendental_is_refused() -> None:
     with pytest.raises(kovacic.InputError, match=r"exp\(a/2\) is exp\(1/2\) there"):
         kovacic.conditions("exp(a)*x+1").case_at({"a": 1})
