@@ -125,7 +125,7 @@ def problem_of(question: Asked, limits: Limits) -> SpectralProblem:
     in_S = parameters_of(parsed.S.field)
     names = (*in_S, *sorted(question.letters - meanings - {*in_S}))
     own = own_parameters(names, parsed.letters)
-    known = read_assumptions(question.assumed or None, question.given, (*dict.fromkeys((*names, *own)),))
+    known = read_assumptions(question.assumed or None, question.given, own)
     known = _with_letters(known, parsed.letters, own)
     constants = constants_among(S, names)
     for constant in constants:

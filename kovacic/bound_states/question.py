@@ -16,13 +16,12 @@ from kovacic.errors import InputError
 from kovacic.general_solution.question import ConditionReader, as_mapping
 from kovacic.numbers.numerals import as_text
 from kovacic.parametric.assumptions import Assumptions
+from kovacic.parametric.integers import free_letter
 from kovacic.reading.read import read_input
 from kovacic.sturm_liouville.problem import Robin
 from kovacic.writing.formula import caret
 
 FRIEDRICHS = "friedrichs"
-#: Names for the number of a level: the first one that the user hasn't taken.
-_NUMBERS = ("n", "k", "j", "m", "n_")
 
 
 @dataclass(frozen=True)
@@ -147,7 +146,8 @@ class SpectralProblem(Asked):
         """In the user's terms: plain symbols of the same names, what letters stand for, n for the number of a level."""
         symbols = [s for s in expression.free_symbols if not isinstance(s, sympy.Dummy)]
         plain = {symbol: self.meanings.get(symbol.name, sympy.Symbol(symbol.name)) for symbol in symbols}
-        return expression.xreplace({**plain, self.signs.n: number_beside(*self.signs.symbols, self.variable)})
+        inside = {symbol.name for meaning in self.meanings.values() for symbol in meaning.free_symbols}
+        return expression.xreplace({**plain, self.signs.n: number_beside(*self.signs.symbols, self.variable, *inside)})
 
     def shown(self, expression: Any) -> str:
         """As text, in the user's terms."""
@@ -179,7 +179,7 @@ def read_boundary(boundary: str | None, ends: Sequence[Any], variable: str) -> B
 
 def number_beside(*taken: str) -> Any:
     """The symbol for the number of a level where these names are taken."""
-    return sympy.Symbol(next(name for name in _NUMBERS if name not in taken))
+    return sympy.Symbol(free_letter(taken, "nkjm"))
 
 
 def constants_among(expression: Any, names: Iterable[str]) -> dict[str, Any]:

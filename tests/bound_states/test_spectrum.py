@@ -1261,3 +1261,18 @@ def test_a_root_of_a_number_beside_a_letter() -> None:
 def test_an_odd_pole_has_another_sign_on_each_side(V: str, domain: tuple[object, object], falls: bool) -> None:
     found = kovacic.spectrum(V, domain=domain, max_degree=0)
     assert any("V -> -oo" in end for end in found.ends) == falls
+
+
+@pytest.mark.parametrize(
+    ("V", "levels"),
+    [
+        ("sqrt(n)*x^2", "E_k = 2*k*n^(1/4) + n^(1/4), k = 0, 1, 2, ..."),
+        ("exp(-2*x) - 2*sqrt(n)*exp(-x)", "E_k = -(2*k - 2*sqrt(n) + 1)^2/4, k = 0, 1, 2, ... with k < sqrt(n) - 1/2"),
+    ],
+)
+def test_no_level_is_counted_by_a_parameter_inside_a_function(V: str, levels: str) -> None:
+    """With n for both, Morse's potential had no eigenvalues, "proven"."""
+    assert levels in kovacic.spectrum(V, assume={"n": "positive"}).text()
+    with pytest.raises(kovacic.InputError, match="q isn't a parameter") as refused:
+        kovacic.spectrum(V, assume={"q": "positive"})
+    assert "sqrt_n" not in str(refused.value)
