@@ -19,7 +19,7 @@ from special_cases import KINDS, pull_backs
 
 from kovacic.limits import Budget, Limits
 from kovacic.reading.read import read_input
-from kovacic.special.search import Request, find, special_functions
+from kovacic.special.search import Wanted, find, special_functions
 
 
 def main(count: int, largest: int) -> None:
@@ -32,7 +32,7 @@ def main(count: int, largest: int) -> None:
                 start = time.process_time()
                 find(case.S, Budget(limits))
                 middle = time.process_time()
-                answer = special_functions(Request(case.S, case.S * 0, "x"), Budget(limits))
+                answer = special_functions(Wanted(case.S, case.S * 0, "x"), Budget(limits))
                 whole.append(time.process_time() - middle)
                 search.append(middle - start)
                 found[bool(answer)] += 1
@@ -50,7 +50,7 @@ def corpus() -> None:
         parsed = read_input(row["equation"], var="x")
         assert parsed.equation is not None
         start = time.process_time()
-        answer = special_functions(Request(parsed.S, parsed.equation.gauge, "x"), Budget(Limits(seconds=30)))
+        answer = special_functions(Wanted(parsed.S, parsed.equation.gauge, "x"), Budget(Limits(seconds=30)))
         times.append(time.process_time() - start)
         found["found" if answer else row.get("other", "not found")] += 1
     print(f"published: {dict(found)}; median {1000 * median(times):.1f} ms, slowest {1000 * max(times):.0f} ms")

@@ -79,7 +79,6 @@ def solve(
         return int(context.invoke(explain, equations=equations, no_solutions=no_solutions, **given))
     if ics:
         options.refuse({"assume", "full", "no_solutions"}, "with --ics")
-        del given["assume"]
         given |= {"as_json": form == "json", "as_formula": form == "formula", "ics": ", ".join(ics)}
         texts = (text if is_equation(text) else f"y'' = ({text.strip()})*y" for text in equations)
         return max(int(context.invoke(dsolve, equation=text, **given)) for text in texts)

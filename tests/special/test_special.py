@@ -24,7 +24,7 @@ from kovacic.numbers.numerals import as_latex
 from kovacic.special.airy import Airy
 from kovacic.special.gauss import Gauss
 from kovacic.special.pullback import Pullback
-from kovacic.special.search import EQUATIONS, Request, find, special_functions
+from kovacic.special.search import EQUATIONS, Wanted, find, special_functions
 from kovacic.special.whittaker import Whittaker
 from kovacic.special.writer import Writer
 
@@ -60,7 +60,7 @@ def solves(answer: Any, S: Any, gauge: Any = 0, **values: Any) -> bool:
 
 
 def special(S: RatFunc) -> Any:
-    return special_functions(Request(S, S * 0, "x"), Budget())
+    return special_functions(Wanted(S, S * 0, "x"), Budget())
 
 
 @parametrize("kind", KINDS, ordinary=2)
@@ -136,7 +136,7 @@ def test_what_other_systems_solve(part: int) -> None:
     for row in CORPUS[part::10]:
         parsed = read_input(row["equation"], var="x")
         assert parsed.equation is not None
-        found = special_functions(Request(parsed.S, parsed.equation.gauge, "x"), Budget())
+        found = special_functions(Wanted(parsed.S, parsed.equation.gauge, "x"), Budget())
         assert bool(found) is ("other" not in row), row
 
 
@@ -276,7 +276,7 @@ POLYNOMIALS = [
 def test_polynomials_of_symbolic_degree(equation: str, first: str) -> None:
     answer = kovacic.solve(equation)
     symbols = {"n": n, "m": m}
-    found = special_functions(Request(answer.S, answer.gauge, "x", symbols), Budget())
+    found = special_functions(Wanted(answer.S, answer.gauge, "x", symbols), Budget())
     assert str(found.y1) == first
     assert {n, m} >= found.y2.free_symbols - {x} - set(sympy.symbols("a b"))
     for degree in (0, 3):
@@ -298,7 +298,7 @@ def test_polynomials_of_symbolic_degree(equation: str, first: str) -> None:
 def test_solutions_stay_independent_for_integers_of_either_sign(equation: str) -> None:
     answer = kovacic.solve(equation)
     symbols = {name: sympy.Symbol(name, integer=True) for name in "nm"}
-    found = special_functions(Request(answer.S, answer.gauge, "x", symbols), Budget())
+    found = special_functions(Wanted(answer.S, answer.gauge, "x", symbols), Budget())
     for degree in (-3, 2):
         assert solves(found, answer.S, answer.gauge, n=degree, m=-2), degree
 
