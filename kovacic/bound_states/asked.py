@@ -282,7 +282,7 @@ def _between_decimals(value: Any) -> str:
 def _with_letters(known: Assumptions, letters: Letters, parameters: Iterable[str]) -> Assumptions:
     """With the signs of letters for exp(b), log(2), sqrt(a), and that a isn't negative, since sqrt(a) is real.
 
-    Raises `InputError` where it is known to be negative.
+    Raises `InputError` if it is known to be negative.
     """
     for _, meaning in letters:
         base, exponent = meaning.as_base_exp()

@@ -299,8 +299,8 @@ class CoefficientField:
         return _sizes(self.values(_box(centre, radius), analytic=True))
 
     def crowd(self, x: acb, e: int, steepest: float) -> float:
-        """How many discs a unit of length has at x, at least: the largest scale below 2^e whose bounds `jets` admits; NaN where
-        none is."""
+        """The least number of discs on a unit of length at x, by the largest scale up to 2^e whose bounds `jets` admits; NaN if
+        there is none."""
         with working_precision(_ROUGH):
             for k in range(_DOUBLINGS):
                 h = arb((1, e - k))

@@ -141,25 +141,35 @@ def taken_apart(right: Expr, x: Expr) -> Apart | None:
     for term in map(with_single_steps, terms):
         jumps = [factor for factor in sympy.Mul.make_args(term) if factor.has(*JUMPING) and factor.has(x)]
         deltas = [jump for jump in jumps if isinstance(jump, DiracDelta)]
-        places = [place_of(jump, x) if isinstance(jump, Heaviside | DiracDelta) else None for jump in jumps]
-        beside = zip(jumps, places, strict=True)
-        # H(s (x - a)) is H(x - a) for s > 0 alone
-        known = [place.a for jump, place in beside if place and (jump in deltas or place.slope.is_positive)]
-        # H H ... H begins with the last of the steps
-        last = next((a for a in known if all((a - other).is_nonnegative for other in known)), None)
+        begin = _begin(jumps, x)
         g = term / sympy.Mul(*jumps)
         if not jumps:
             plain += term
-        elif last is None or len(known) < len(jumps) or len(deltas) > 1:
+        elif begin is None or len(deltas) > 1:
             return None
         elif not deltas:
-            steps[last] += g
+            steps[begin] += g
         else:
             found = _impulses_beside_steps(g, deltas[0], [jump for jump in jumps if jump not in deltas], x)
             if found is None:
                 return None
             impulses += found
     return Apart(plain, tuple(HeavisideTerm(a, g) for a, g in steps.items() if g != 0), tuple(impulses))
+
+
+def _begin(jumps: Sequence[Expr], x: Expr) -> Expr | None:
+    """The last of the places of the jumps: H(x - a) H(x - b) = H(x - b) for a <= b.
+
+    None if one of them, or their order, isn't known.
+    """
+    places = []
+    for jump in jumps:
+        place = place_of(jump, x) if isinstance(jump, Heaviside | DiracDelta) else None
+        # H(s (x - a)) is H(x - a) for s > 0 alone.
+        if place is None or not (isinstance(jump, DiracDelta) or place.slope.is_positive):
+            return None
+        places.append(place.a)
+    return next((a for a in places if all((a - other).is_nonnegative for other in places)), None)
 
 
 def in_parts(right: Expr, x: Expr) -> Apart:
@@ -193,9 +203,6 @@ def _impulses_beside_steps(g: Expr, delta: Expr, steps: Sequence[Expr], x: Expr)
 
 
 # -------------------------------------------------------------------------------------------------- in terms of steps
-
-
-# ------------------------------------------------------------------------------------------------------ in terms of steps
 
 
 def in_steps(right: Expr, x: Expr) -> Expr:
@@ -375,7 +382,7 @@ def between(breaks: Sequence[Expr]) -> list[Expr]:
 
 
 def on_piece(expression: Expr, x: Expr, point: Expr) -> Expr:
-    """What an expression is near a rational point that is no break: without functions that jump there."""
+    """The expression near a rational point that is no break, without functions that jump there."""
 
     def near(jump: Expr) -> Expr:
         if isinstance(jump, DiracDelta):

@@ -59,7 +59,7 @@ class Validity:
 
 
 def needed_for(formulas: Iterable[Expr], x: Expr, exceptions: Iterable[Expr] = ()) -> Validity:
-    """What formulas need, part by part; `exceptions` are those of the pair of solutions in them."""
+    """The requirements of formulas, part by part; `exceptions` are those of the pair of solutions in them."""
     value, roots = _without_even_roots(sympy.Tuple(*formulas), x)
     # The bounds of an integral may be infinite; of a sum over roots SymPy can't tell.
     plain = value.xreplace({total: sympy.Dummy() for total in value.atoms(sympy.RootSum)})

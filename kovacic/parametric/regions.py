@@ -290,7 +290,7 @@ class ParameterRegion:
 
     @property
     def said(self) -> str:
-        """What holds in words: the case, or why none is known."""
+        """The verdict in words: the case, or why none is known."""
         return str(self.verdict) if self.defined else self.group
 
     @property

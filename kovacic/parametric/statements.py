@@ -138,7 +138,7 @@ class _Several(Several, Statement):
         return kind(tuple(part.claim for part in self.parts))
 
     def _of(self, parts: Iterable[Statement]) -> Statement:
-        """The same connective applied to other parts."""
+        """This connective applied to other parts."""
         return either(*parts) if self.decisive else all_of(parts)
 
     def rewritten(self, change: Callable[[FunctionPoly], FunctionPoly]) -> Statement:

@@ -125,7 +125,7 @@ class Sentence(Tokens):
         self.variable = variable
 
     def of(self, tokens: Iterable[Token]) -> Sentence:
-        """The same text with other tokens."""
+        """This text with other tokens."""
         return Sentence(tokens, self.text, self.variable)
 
     @cached_property

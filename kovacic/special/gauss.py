@@ -291,7 +291,7 @@ class _GaussForm:
         return None if found is None else sympy.Rational(found)
 
     def _at(self, x: Fraction) -> Fraction | float | None:
-        """f at a place, None where that has letters; not a number at a pole, and so neither above nor below one."""
+        """f at a place, None where that has letters; NaN at a pole, where f is neither above nor below 1."""
         den = self.f.den(x)
         return self.f.field.rational_value(self.f.num(x) / den) if den else nan
 

@@ -277,6 +277,15 @@ def test_small_values_in_a_disc_need_no_second_run(S: str, x: int) -> None:
     assert all(value.digits >= 200 and value.route.runs == 1 for value in values)
 
 
+@pytest.mark.parametrize(("S", "x0", "x"), [("20/(x + 1)^2", 0, "1/2"), ("30/(x + 2)^2", 0, "1/2")])
+def test_equations_with_sure_solutions_are_decided_first(S: str, x0: int, x: str) -> None:
+    """Euler's equation has powers for certain: the price of Taylor's method is below that from which others are decided."""
+    y = evaluate(S, x, x0=x0, y0=1, dy0="-5/3", digits=200)
+    assert y.route is not None
+    assert y.route.method == "closed form"
+    assert y.overlaps(evaluate(S, x, x0=x0, y0=1, dy0="-5/3", digits=200, method="taylor"))
+
+
 def test_a_target_where_two_discs_meet_needs_no_way_of_its_own(caplog: pytest.LogCaptureFixture) -> None:
     # y'' = -10^4 y: the discs are [0, 1], [1, 2], ..., and these targets are among their ends
     targets = [Fraction(k, 4) for k in range(1, 41)]
