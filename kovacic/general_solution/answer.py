@@ -157,11 +157,19 @@ class SecondOrderAnswer(ProblemAnswer):
         if self.determined is None:
             return self.basis.exceptions
         # With given values a constant that vanishes is a denominator of the answer, or a gamma function has a pole.
+        # Where one constant stays free, the solution that it multiplies vanishes with the Wronskian, as sin(k x) at k = 0.
         members = self.basis.y1.atoms(sympy.Function) | self.basis.y2.atoms(sympy.Function)
         occur = members & self.eq.xreplace(self.known).rhs.atoms(sympy.Function)
         found = map(self.question.own, self.basis.undefined) if occur else ()
-        poles = (e for e in self.basis.dependent if isinstance(1 / e, sympy.gamma) and self.eq.has(sympy.gamma))
-        return (*found, *poles)
+        solution = self.question.own(self.eq.xreplace(self.known).rhs)
+        free = [solution.diff(name) for name in self.names if solution.has(name)]
+        has_poles = self.eq.has(sympy.gamma)
+        zeros = (
+            e
+            for e in self.basis.dependent
+            if (has_poles and isinstance(1 / e, sympy.gamma)) or any(_vanishes_with(e, y) for y in free)
+        )
+        return (*found, *zeros)
 
     @cached_property
     def exceptions(self) -> tuple[Exceptional, ...]:
@@ -231,6 +239,11 @@ def _cases(zero: Expr) -> Iterator[Exceptional]:
                 yield Exceptional(f"{letter} = {value}", values={letter: value})
                 return
     yield Exceptional(str(ZeroSet(zero)))
+
+
+def _vanishes_with(zero: Expr, y: Expr) -> bool:
+    """False if y is seen not to be 0 for some letters where `zero` is 0."""
+    return all(y.subs(case.values).equals(0) is not False for case in _cases(zero) if case.values)
 
 
 def _integers(letter: Expr, *signs: str) -> Iterator[Exceptional]:

@@ -14,7 +14,15 @@ import sympy
 
 from kovacic.enclosure.request import Accuracy, digits_and_limits
 from kovacic.errors import InputError, LimitExceeded
-from kovacic.general_solution.question import Condition, ConditionReader, Question, apart, as_mapping, periodicity
+from kovacic.general_solution.question import (
+    Condition,
+    ConditionReader,
+    Question,
+    apart,
+    as_mapping,
+    free_constants,
+    periodicity,
+)
 from kovacic.limits import DEFAULT_LIMITS, Limits, limited
 from kovacic.numbers.exact import exact_text, whole
 from kovacic.reading.names import words_among
@@ -287,7 +295,7 @@ def eigenfunctions(question: Question) -> tuple[Expr, list[str]] | None:
     residues = (y.diff(x, 2) + B * y.diff(x) + (c0 + sign * found.value * c1) * y for y in found.functions)
     if any(sympy.simplify(residue) != 0 for residue in residues):
         return None
-    constants = sympy.symbols("C1 C2")
+    constants = free_constants(2, *others, c0, question.function)
     y = sympy.Add(*(constant * function for constant, function in zip(constants, found.functions, strict=False)))
     said = _said_of_eigenvalue(found, parameter, sign)
     if found.equation is not None and not taken - {x.name}:

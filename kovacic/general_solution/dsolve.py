@@ -18,7 +18,6 @@ from collections.abc import Collection, Mapping, Sequence
 from contextlib import suppress
 from dataclasses import replace
 from functools import partial
-from itertools import islice
 from typing import Any
 
 import sympy
@@ -55,6 +54,7 @@ from kovacic.general_solution.question import (
     about_letters,
     apart,
     as_mapping,
+    free_constants,
     has_floats,
     positive_variable,
     read_question,
@@ -411,10 +411,9 @@ def _general(question: Question, basis: Basis) -> SecondOrderAnswer:
 
 def _free_constants(question: Question, basis: Basis, particular: Expr) -> tuple[Expr, Expr]:
     """C1 and C2, or the next of these names that nothing else has."""
-    used = sympy.Tuple(basis.y1, basis.y2, particular).free_symbols
-    used = used.union(*(condition.free_symbols for condition in question.conditions))
-    excluded = [sympy.Symbol(name) for name in {*question.symbols, *(symbol.name for symbol in used)}]
-    c1, c2 = islice(sympy.numbered_symbols("C", start=1, exclude=excluded), 2)
+    given = (question.function, *map(sympy.Symbol, question.symbols))
+    of_conditions = (symbol for condition in question.conditions for symbol in condition.free_symbols)
+    c1, c2 = free_constants(2, basis.y1, basis.y2, particular, *given, *of_conditions)
     return c1, c2
 
 

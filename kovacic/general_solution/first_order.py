@@ -28,7 +28,7 @@ from kovacic.general_solution.behaviour import have_values, value_at
 from kovacic.general_solution.check import SolutionClaim, is_finite, jumps
 from kovacic.general_solution.integrands import NUMBERS, radicands, ratfunc
 from kovacic.general_solution.particular import is_solution, starting_at
-from kovacic.general_solution.question import Condition, exact
+from kovacic.general_solution.question import Condition, exact, free_constants
 from kovacic.general_solution.steps import JUMPING, Apart, in_parts, in_steps
 from kovacic.general_solution.substitution import changed_beside
 from kovacic.general_solution.textbook import in_book_form, in_hyperbolic_functions, sums
@@ -107,8 +107,7 @@ class FirstOrderEquation:
 
     def constant(self, taken: Set[Expr] = frozenset()) -> Expr:
         """C1, or the next of these names that is neither in the equation nor taken."""
-        own = set().union(*(e.free_symbols for e in self.parts), taken)
-        return next(sympy.numbered_symbols("C", start=1, exclude=[sympy.Symbol(symbol.name) for symbol in own]))
+        return free_constants(1, *self.parts, self.power, self.function, *taken)[0]
 
     @cached_property
     def place(self) -> Expr | None:
@@ -375,14 +374,15 @@ def _constant_through(equation: FirstOrderEquation, h: Expr, particular: Expr, v
 def check_first_order(equation: FirstOrderEquation, w: Expr, conditions: Sequence[Condition]) -> list[str]:
     """One sentence per check that could not be carried out.  Raises `VerificationFailed` where w is seen to be wrong.
 
-    w' - (q + r w^(n - 1)) w = p.  Raises `InputError` where w hasn't the value at a singular point, as no solution needs
-    to have it.
+    w' - (q + r w^(n - 1)) w = p, where w^(n - 1) is u^(k (n - 1)) for w = u^k: it holds for u > 0.
+
+    Raises `InputError` where w hasn't the value at a singular point, as no solution needs to have it.
     """
     value = value_of(conditions)
     p, q, r = equation.parts
-    claim = SolutionClaim(
-        equation.x, w, (_ZERO, Integer(1), -q - r * w ** (equation.power - 1), p), conditions, equation.reading
-    )
+    u, k = w.as_base_exp()
+    rate = q + r * u ** sympy.cancel(k * (equation.power - 1))
+    claim = SolutionClaim(equation.x, w, (_ZERO, Integer(1), -rate, p), conditions, equation.reading)
     try:
         return claim.check()
     except VerificationFailed:

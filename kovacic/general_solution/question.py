@@ -13,6 +13,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
+from itertools import islice
 from typing import Any
 
 import sympy
@@ -161,6 +162,14 @@ def read_question(
         has_floats=floats,
         guesses=read.guesses,
     )
+
+
+def free_constants(count: int, *parts: Expr) -> list[Expr]:
+    """C1, C2, ..., or the next of these names that neither symbols nor functions in the parts have."""
+    found = sympy.Tuple(*parts)
+    names = {symbol.name for symbol in found.free_symbols} | {f.func.__name__ for f in found.atoms(AppliedUndef)}
+    excluded = [sympy.Symbol(name) for name in names]
+    return [*islice(sympy.numbered_symbols("C", start=1, exclude=excluded), count)]
 
 
 def about_letters(assume: Mapping[Any, Any] | None, var: str | None) -> dict[Any, Any]:

@@ -47,7 +47,7 @@ from kovacic.general_solution.first_order import (
     value_of,
 )
 from kovacic.general_solution.integrands import NUMBERS, ratfunc
-from kovacic.general_solution.question import Condition
+from kovacic.general_solution.question import Condition, free_constants
 from kovacic.general_solution.substitution import changed_beside, size
 from kovacic.general_solution.textbook import in_book_form, over_one_denominator
 from kovacic.general_solution.waves import rational_in_waves
@@ -377,7 +377,7 @@ def solve_riccati(
     family = None
     if all_algebraic:  # w for u = y1 + C1 y2
         y1, y2 = solution.solutions
-        u = y1 + sympy.Symbol("C1") * y2
+        u = y1 + free_constants(1, y1, y2, factor)[0] * y2
         family = sympy.cancel(sympy.powsimp(sympy.expand(-u.diff(atoms.x) / (factor * u))))
     if group is not None and group.order in (1, 2):  # infinitely many are rational
         return RiccatiSolutions((), family, None, all_algebraic, solution)

@@ -31,7 +31,14 @@ from kovacic.general_solution.first_order import (
     is_unit,
     solved_linear,
 )
-from kovacic.general_solution.question import Condition, ConditionReader, exact, positive_variable, symbols_that_know
+from kovacic.general_solution.question import (
+    Condition,
+    ConditionReader,
+    exact,
+    free_constants,
+    positive_variable,
+    symbols_that_know,
+)
 from kovacic.general_solution.steps import JUMPING, in_steps, taken_apart
 from kovacic.general_solution.substitution import size, slope
 from kovacic.general_solution.textbook import in_book_form, sums
@@ -179,6 +186,8 @@ def solved_system(
         notices += others
     own = sympy.Tuple(*system.entries, *given).free_symbols | {system.t}
     constants = sorted((pair[0].free_symbols | pair[1].free_symbols) - own, key=str)
+    renamed = dict(zip(constants, free_constants(len(constants), *own, *functions), strict=True))
+    pair, constants = (pair[0].xreplace(renamed), pair[1].xreplace(renamed)), [*renamed.values()]
     pair = _with_constants_apart(pair[0], constants, system.t), _with_constants_apart(pair[1], constants, system.t)
     notices += exceptions_of(sympy.Tuple(*pair), system.t, system.entries, exceptions)
     for number, solution in enumerate(pair):
@@ -211,7 +220,8 @@ def _is_swapped(system: LinearSystem, start: tuple[Expr, Expr, Expr] | None) -> 
 
 def _triangular(system: LinearSystem) -> tuple[tuple[Expr, Expr], list[str]]:
     """First x from its own equation, then y, whose equation has the constant of x in it."""
-    first, notices = solved_linear(system.alone(0, sympy.Integer(0)), ())
+    letters = sympy.Tuple(*system.entries).free_symbols
+    first, notices = solved_linear(system.alone(0, sympy.Integer(0)), (), letters)
     second, others = solved_linear(system.alone(1, first.rhs), (), first.rhs.free_symbols)
     return (first.rhs, second.rhs), notices + others
 

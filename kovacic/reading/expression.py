@@ -135,7 +135,7 @@ class RationalReader:
                 return self._radical(value, ROOTS[name], site)
             case "root", [value, index]:
                 return self._radical(value, self._index(index), site)
-            case (("Integer" | "S"), [value]):
+            case (("Integer" | "S"), [value]) if self.arithmetic.number(value) is not None:
                 return value  # type: ignore[no-any-return]
             case "Rational", [_, _]:
                 return self.arithmetic.divide(*arguments)

@@ -130,7 +130,7 @@ def _waves(x: Expr, B: Expr, c0: Expr, c1: Expr, ends: tuple[Expr, Expr]) -> _Wa
     primitive, exponent = (sympy.integrate(sympy.simplify(e), X) for e in (root, -B / 2))
     if primitive.has(sympy.Integral) or exponent.has(sympy.Integral):
         return None
-    h = sympy.powsimp(sympy.simplify(f * sympy.exp(exponent)))
+    h = sympy.powsimp(sympy.simplify(f * sympy.exp(exponent))).as_independent(X, as_Add=False)[1]
     t = sympy.simplify(primitive - primitive.subs(X, bounds[0]))
     t, h, q = (e.xreplace(back) for e in (t, h, q))
     return _Waves(x, t, h, q, ends)

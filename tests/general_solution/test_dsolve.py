@@ -105,6 +105,24 @@ def test_undetermined_coefficients(text: str, expected: sympy.Expr) -> None:
     assert sympy.expand(dsolve(text).rhs.subs({C1: 0, C2: 0}) - expected) == 0
 
 
+@pytest.mark.parametrize(
+    ("text", "names"),
+    [
+        ("C1'' + C1 = 0", {"C2", "C3"}),
+        ("C1' = C2*C1 + 1", {"C2", "C3"}),
+        ("C1' = C1^2 + C2^2", {"C2", "C3"}),
+        ("C1' = -k*C1, C2' = k*C1", {"C3", "C4"}),
+        ("u' = v, v' = -u + C1", {"C1", "C2", "C3"}),
+        ("u' = u, v' = v + C1*u", {"C1", "C2", "C3"}),
+    ],
+)
+@pytest.mark.filterwarnings("ignore:this holds unless")
+def test_constants_have_no_name_of_the_equation(text: str, names: set[str]) -> None:
+    """Neither that of an unknown function, as of a concentration C1(t), nor that of a letter."""
+    equations = kovacic.answer_to(text).equations
+    assert {s.name for eq in equations for s in eq.rhs.free_symbols if s.name.startswith("C")} == names
+
+
 @pytest.mark.long
 def test_constants_and_variables_are_new() -> None:
     """Where the equation has a C1, the constants are C2 and C3; and no integral captures a parameter."""

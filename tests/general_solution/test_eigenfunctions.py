@@ -24,6 +24,7 @@ def answered(equation, conditions):
         ("y''+lambda*y=0", "y(0)=0, y(L)=0", "C1*sin(pi*n*x/L)", "lambda = pi**2*n**2/L**2 with n = 1, 2, 3"),
         ("y''+lambda*y=0", "y'(0)=0, y'(L)=0", "C1*cos(pi*n*x/L)", "lambda = pi**2*n**2/L**2 with n = 0, 1, 2"),
         ("y''+lambda*y=0", "y(0)=0, y'(L)=0", "C1*sin(pi*x*(2*n - 1)/(2*L))", "pi**2*(2*n - 1)**2/(4*L**2) with n = 1"),
+        ("y''+lambda*C1*y=0", "y(0)=0, y(1)=0", "C2*sin(pi*n*x)", "lambda = pi**2*n**2/C1 with n = 1, 2, 3"),
         ("y''+lambda*y=0", "y'(0)=0, y(L)=0", "C1*cos(pi*x*(2*n - 1)/(2*L))", "pi**2*(2*n - 1)**2/(4*L**2) with n = 1"),
         (
             "y''+lambda*y=0",

@@ -139,6 +139,15 @@ BERNOULLI: list[tuple[Any, Any, Any, int, Any]] = [
 ]
 
 
+@pytest.mark.filterwarnings("ignore:this holds unless")
+def test_the_power_in_bernoullis_equation_may_be_a_letter() -> None:
+    """On the side where u > 0 in w = u^(1/(1 - n)), as `validity` says."""
+    answer = kovacic.answer_to("y' = y + y^n")
+    u = sympy.sympify("C1*exp(x*(1 - n)) - 1")
+    assert answer.eq.rhs == u ** sympy.sympify("1/(1 - n)")
+    assert answer.validity.real == (u > 0,)
+
+
 @parametrize("problem", BERNOULLI, ids=str, ordinary=3)
 @pytest.mark.filterwarnings("ignore:this holds unless")
 def test_bernoulli_equations_with_values(problem: tuple[Any, Any, Any, int, Any]) -> None:

@@ -163,3 +163,25 @@ def test_with_values_the_answer_is_real_a_solution_and_has_them(text: str) -> No
                 (term,) = condition.terms
                 there = {**place, x: term.point + sympy.Rational(1, 10**20)}  # where a form may be 0/0
                 assert abs(_number(derivatives[term.order] - condition.value, there)) < 1e-15, (place, condition.text)
+
+
+ONE_VALUE = """
+y''-k^2*y=0, y(0)=1 | y''+a*y=0, y(0)=0 | y''+a*y'=exp(x), y(0)=1 | y''-(a+b)*y'+a*b*y=1, y(0)=1 | y''+k^2*y=0, y'(0)=0
+x^2*y''+x*y'-n^2*y=0, y(1)=1 | x^2*y''+a*x*y'=0, y(1)=1 | x*y''+2*y'+a^2*x*y=0, y(1)=0
+"""
+
+
+@parametrize("text", _equations(ONE_VALUE), ordinary=(1, 3, 5))
+def test_the_solution_that_one_value_leaves_is_nonzero_where_it_is_valid(text: str) -> None:
+    """At k = 0 both exp(k x) - exp(-k x) and sin(k x) are 0, and C1 x is missing."""
+    answer = kovacic.answer_to(text)
+    y, x = answer.eq.rhs, answer.eq.lhs.args[0]
+    (constant,) = set(answer.names) & y.free_symbols
+    letters = sorted(y.free_symbols - {x, constant}, key=str)
+    random = Random(text)
+    drawn = ({x: random.choice(POINTS[:2]), **{s: random.choice(LETTERS) for s in letters}} for _ in range(80))
+    places = [place for place in drawn if _holds(answer.validity, {**place, constant: 1})]
+    assert places
+    with mpmath.workdps(40):
+        for place in places:
+            assert abs(_number(y.diff(constant), place)) > 1e-20, (place, answer.validity)

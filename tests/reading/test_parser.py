@@ -397,6 +397,7 @@ REFUSED = [
     ("2 3", ParseError, 0, "operator is missing"),
     ("(x+1)2", ParseError, 4, "operator is missing"),
     ("x(x)", NotRational, 0, "write x*(x)"),
+    ("S(x)", NotRational, 0, "S(x) isn't a rational function"),
     ("x!", ParseError, 1, "unexpected character '!'"),
     ("3½x", ParseError, 1, "digits 0 to 9"),
     ("1,5*x", ParseError, 0, "point"),
