@@ -247,10 +247,10 @@ class _Pieces:
         if not have_values(rates, x, point):
             return False
         apart = taken_apart(in_steps(f, x), x)
-        if apart is None or any(impulse.order >= len(rates) for impulse in apart.impulses):
+        if apart is None or any(n >= len(rates) for here in apart.impulses.values() for n in here):
             return False
         at = ball(point)
-        here = apart.strengths.get(point, {})
+        here = apart.impulses.get(point, {})
         # that of y first: by the impulses of the highest order
         wanted = [jet(here.get(order, sympy.S.Zero), x, at)[0] for order in reversed(range(len(rates)))]
         if here and len(rates) == 2:

@@ -56,9 +56,8 @@ from kovacic.general_solution.question import (
     as_mapping,
     free_constants,
     has_floats,
-    positive_variable,
+    known_letters,
     read_question,
-    symbols_that_know,
     with_floats,
     with_values,
 )
@@ -353,9 +352,7 @@ def _first_order(
         return None
     reader = ConditionReader(found.function, str(found.function.func))
     conditions = tuple(reader.read(key, value) for key, value in as_mapping(ics).items())
-    known, assume = positive_variable(assume, found.x)
-    symbols = sympy.Tuple(*found.parts, *(c.value for c in conditions)).free_symbols - {found.x}
-    known |= symbols_that_know(assume, {symbol.name: symbol for symbol in symbols})
+    known = known_letters(assume, found.x, (*found.parts, found.power), conditions)
     equation, conditions = found.in_symbols(known), tuple(condition.in_symbols(known) for condition in conditions)
     if equation.is_linear:
         solution, notices = solved_linear(equation, conditions)

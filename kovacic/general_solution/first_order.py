@@ -320,7 +320,7 @@ def _beside_value(h: Expr, x: Expr, start: Expr) -> Expr:
 def _particular(equation: FirstOrderEquation, h: Expr, start: Expr | None) -> Expr:
     """h int p/h dx."""
     apart = in_parts(equation.p, equation.x)
-    if any(impulse.order for impulse in apart.impulses):
+    if any(max(strengths) > 0 for strengths in apart.impulses.values()):
         raise NotImplementedError("undecided: the right-hand side jumps too strongly")
     return _of_parts(apart, h, equation.x, start)
 
@@ -331,11 +331,11 @@ def _of_parts(p: Apart, h: Expr, x: Expr, start: Expr | None) -> Expr:
     g H(x - a) gives H(x - a) h int_a^x g/h, and s delta(x - a) gives H(x - a) s h(x)/h(a).
     """
     total = _integrated(p.plain, h, x, start)
-    for step in p.steps:
-        response = _integrated(step.g, h, x, step.a)
-        total += sympy.Heaviside(x - step.a) * (response - h * value_at(response / h, x, step.a))
-    for impulse in p.impulses:
-        total += sympy.Heaviside(x - impulse.a) * impulse.strength * h / value_at(h, x, impulse.a)
+    for a, g in p.steps.items():
+        response = _integrated(g, h, x, a)
+        total += sympy.Heaviside(x - a) * (response - h * value_at(response / h, x, a))
+    for a, strengths in p.impulses.items():
+        total += sympy.Heaviside(x - a) * strengths[0] * h / value_at(h, x, a)
     return total
 
 

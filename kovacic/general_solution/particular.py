@@ -48,7 +48,7 @@ from kovacic.general_solution.behaviour import have_values, value_at, values_at
 from kovacic.general_solution.check import is_finite, jumps
 from kovacic.general_solution.constants import tidy
 from kovacic.general_solution.integrands import NUMBERS, ChangeOfIntegrand, prepared, ratfunc
-from kovacic.general_solution.steps import JUMPING, HeavisideTerm, in_parts
+from kovacic.general_solution.steps import JUMPING, in_parts
 from kovacic.general_solution.substitution import in_single_waves, size
 from kovacic.general_solution.textbook import is_constant
 from kovacic.general_solution.undetermined import undetermined
@@ -74,8 +74,8 @@ def particular_solution(basis: Basis, start: Expr | None) -> Expr:
         return sympy.Integer(0)
     solved = partial(_solved if basis.equation.change is None else _solved_in_t, basis)
     apart = in_parts(right, basis.x)
-    total = [_step_response(step, basis, solved) for step in apart.steps]
-    total += [_impulse_response(strengths, basis, a) for a, strengths in apart.strengths.items()]
+    total = [_step_response(g, basis, a, solved) for a, g in apart.steps.items()]
+    total += [_impulse_response(strengths, basis, a) for a, strengths in apart.impulses.items()]
     if apart.plain != 0:
         total.append(solved(apart.plain, start))
     return sympy.Add(*total)
@@ -180,13 +180,12 @@ def _polynomial_solution(equation: Equation, right: RatFunc | None) -> Poly | No
     return sum((p * k for p, k in zip(powers, found, strict=True)), f * 0)
 
 
-def _step_response(step: HeavisideTerm, basis: Basis, solved: Callable[[Expr, Expr | None], Expr]) -> Expr:
+def _step_response(g: Expr, basis: Basis, a: Expr, solved: Callable[[Expr, Expr | None], Expr]) -> Expr:
     """By (2); where the equation is singular at the step with any solution p: H(x - a) p is one on each side."""
     x = basis.x
-    a = step.a
     if not have_values(basis.rates, x, a):
-        return Heaviside(x - a) * solved(step.g, None)
-    p = solved(step.g, a)
+        return Heaviside(x - a) * solved(g, None)
+    p = solved(g, a)
     return Heaviside(x - a) * _from_rest(p, basis, values_at(p, x, a), a)
 
 

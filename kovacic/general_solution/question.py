@@ -188,6 +188,15 @@ def positive_variable(assume: Mapping[Any, Any], x: Expr) -> tuple[dict[Expr, Ex
     return {x: sympy.Symbol(x.name, positive=True)} if said else {}, others
 
 
+def known_letters(
+    assume: Mapping[Any, Any], x: Expr, parts: Sequence[Expr], conditions: Sequence[Condition]
+) -> dict[Expr, Expr]:
+    """Symbols that know what is assumed, for x and for the letters in the parts of an equation and in its conditions."""
+    known, assume = positive_variable(assume, x)
+    letters = sympy.Tuple(*parts).free_symbols.union(*(condition.free_symbols for condition in conditions)) - {x}
+    return known | symbols_that_know(assume, {letter.name: letter for letter in letters})
+
+
 def _with_assumptions(
     assume: Mapping[Any, Any], equation: Equation, conditions: Sequence[Condition], symbols: Mapping[str, Expr]
 ) -> dict[Expr, Expr]:

@@ -20,8 +20,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, replace
-from fractions import Fraction
-from math import gcd, lcm
+from functools import reduce
 from typing import Any
 
 import sympy
@@ -80,15 +79,6 @@ def linear_equation(equation: FirstOrderEquation) -> tuple[Expr, Expr]:
     return sympy.Eq(u.diff(x, 2) - slope * u.diff(x) + sympy.cancel(equation.p * equation.r) * u, 0), u
 
 
-@dataclass(frozen=True)
-class _LinearSolution:
-    """u(x), of which these are the constants that are free, and what is to be said beside."""
-
-    u: Expr
-    constants: tuple[Expr, ...]
-    notices: list[str]
-
-
 def solved_riccati(
     equation: FirstOrderEquation,
     conditions: Sequence[Condition],
@@ -109,10 +99,8 @@ def solved_riccati(
     else:
         is_inverted = _is_inverted(equation, value)
         solved_for = equation.of_inverse if is_inverted else equation
-        found = _solved_linear(equation, solved_for, value, solver)
-        constants = found.constants
-        notices = found.notices
-        forms = [*_forms(found, solved_for)]
+        u, constants, notices = _solved_linear(equation, solved_for, value, solver)
+        forms = [*_forms(u, constants, solved_for)]
         if is_inverted:  # over one denominator, which doesn't divide by 1/w
             forms = [next(over_one_denominator(1 / w, x), 1 / w) for w in forms]
     forms += [*over_one_denominator(forms[0], x), sympy.signsimp(forms[0]), *rational_in_waves(forms[0])]
@@ -146,10 +134,11 @@ def _solved_linear(
     solved_for: FirstOrderEquation,
     value: GivenValue | None,
     solver: Callable[..., Any],
-) -> _LinearSolution:
-    """For a value at an ordinary point the solution with values of u and u'; else all of them, or those through the value.
+) -> tuple[Expr, tuple[Expr, ...], list[str]]:
+    """u, its free constants, and what is to be said beside.
 
-    Raises `NotImplementedError` where u1, u2, -u1'/r or -u2'/r has no value there that is found.
+    For a value at an ordinary point it is the solution with values of u and u'; else all of them, or those through the
+    value.  Raises `NotImplementedError` where u1, u2, -u1'/r or -u2'/r has no value there that is found.
     """
     x = equation.x
     linear, u = linear_equation(solved_for)
@@ -172,7 +161,7 @@ def _solved_linear(
         misses = [s - value.v * value_at(y, x, value.point) for s, y in zip(slopes, basis, strict=True)]
         if not all(map(is_zero, misses)):
             solution = misses[1] * basis[0] - misses[0] * basis[1]
-    return _LinearSolution(solution, constants, answer.notices)
+    return solution, constants, answer.notices
 
 
 def _is_inverted(equation: FirstOrderEquation, value: GivenValue | None) -> bool:
@@ -187,15 +176,14 @@ def _is_inverted(equation: FirstOrderEquation, value: GivenValue | None) -> bool
 # -------------------------------------------------------------------------------------------------------------- forms
 
 
-def _forms(found: _LinearSolution, equation: FirstOrderEquation) -> Iterator[Expr]:
+def _forms(u: Expr, constants: Sequence[Expr], equation: FirstOrderEquation) -> Iterator[Expr]:
     """w = -u'/(r u) as a sum over the factors of u, and by (2) for each solution with a rational omega."""
     x = equation.x
-    rate = _rate_of(found.u, found.constants, x)
-    yield _sum([-term / equation.r for term in sympy.Add.make_args(rate)], x)
-    if len(found.constants) < 2:
+    yield _sum([-term / equation.r for term in sympy.Add.make_args(_rate_of(u, constants, x))], x)
+    if len(constants) < 2:
         return
     slope = ratfunc(equation.q + equation.r.diff(x) / equation.r, x)
-    for u1 in map(found.u.diff, found.constants):
+    for u1 in map(u.diff, constants):
         omega = ratfunc(_rate(u1, x), x)
         if slope is None or omega is None or slope.field != omega.field:
             continue
@@ -207,22 +195,22 @@ def _forms(found: _LinearSolution, equation: FirstOrderEquation) -> Iterator[Exp
         # E is written before the quotient, too: an integral that stays has it in the same form
         V = sympy.Integral(E, x) if V is None else sympy.factor_terms(_sum(sympy.Add.make_args(V), x))
         rational = -Atoms(x).ratio(omega).xreplace(NUMBERS) / equation.r
-        yield _sum([rational, -E / (equation.r * (found.constants[0] + V))], x)
+        yield _sum([rational, -E / (equation.r * (constants[0] + V))], x)
 
 
 def _sum(terms: Sequence[Expr], x: Expr) -> Expr:
-    """The rational terms as one fraction, in factors or in partial fractions, and the others in lowest terms."""
-    rational = sympy.cancel(sympy.Add(*(term for term in terms if term.is_rational_function(x))))
-    others = (_reduced(term, x) for term in terms if not term.is_rational_function(x))
-    return sympy.Add(shortest([rational, sympy.factor(rational), sympy.apart(rational, x)]), *others)
+    """The rational terms as one fraction, in factors or in partial fractions; the others with theirs in lowest terms."""
 
+    def is_rational(e: Expr) -> bool:
+        return bool(e.is_rational_function(x))
 
-def _reduced(term: Expr, x: Expr) -> Expr:
-    """A product with its rational factors in lowest terms."""
-    rational, others = sympy.sift(
-        sympy.Mul.make_args(term), lambda factor: bool(factor.is_rational_function(x)), binary=True
-    )
-    return sympy.factor(sympy.Mul(*rational)) * sympy.Mul(*others)
+    rational, others = sympy.sift(terms, is_rational, binary=True)
+    total = sympy.cancel(sympy.Add(*rational))
+    reduced = [shortest([total, sympy.factor(total), sympy.apart(total, x)])]
+    for term in others:
+        rational, rest = sympy.sift(sympy.Mul.make_args(term), is_rational, binary=True)
+        reduced.append(sympy.factor(sympy.Mul(*rational)) * sympy.Mul(*rest))
+    return sympy.Add(*reduced)
 
 
 def _rate_of(u: Expr, constants: Sequence[Expr], x: Expr) -> Expr:
@@ -233,7 +221,7 @@ def _rate_of(u: Expr, constants: Sequence[Expr], x: Expr) -> Expr:
         u = u.subs(sympy.atan(c2 / c1), -c1).subs(c2, 1)
     if u.has(*_NEIGHBOURS) and size(u) <= _LONGEST:
         return sympy.powsimp(sympy.factor_terms(_slope(u, x)) / u)
-    return sympy.Add(*(_rate(factor, x) for factor in sympy.Mul.make_args(u)))
+    return _rate(u, x)
 
 
 def _single_wave(factor: Expr, x: Expr) -> Expr:
@@ -405,7 +393,10 @@ def _read_coefficients(p: Any, q: Any, r: Any, var: str | None, limits: Limits) 
 
 
 def _polynomial(solution: Solution, gauge: RatFunc, factor: RatFunc, atoms: Atoms) -> Any:
-    """The polynomial of omega = -r w - gauge in w, without a common factor; None if that for omega isn't known."""
+    """The polynomial of omega = -r w - gauge in w, without a common factor, over Q with coprime integers.
+
+    None if that for omega isn't known.
+    """
     if solution.riccati is None:
         return None
     field = solution.riccati.coefficients[0].field
@@ -413,28 +404,14 @@ def _polynomial(solution: Solution, gauge: RatFunc, factor: RatFunc, atoms: Atom
     by_powers: list[RatFunc] = []
     for c in reversed(solution.riccati.coefficients):  # Horner: q(w) (slope w + rest) + c
         check_time()
-        shifted = [rest * 0, *(a * slope for a in by_powers)]
+        shifted = [c, *(a * slope for a in by_powers)]
         low = [*(a * rest for a in by_powers), rest * 0]
         by_powers = [a + b for a, b in zip(shifted, low, strict=True)]
-        by_powers[0] = by_powers[0] + c
+    numerators = over_common_denominator(by_powers)
+    common = reduce(Poly.gcd, numerators)
     w = sympy.Symbol("w")
-    return sympy.Add(*(atoms.poly(a) * w**k for k, a in enumerate(_coprime(by_powers))))
-
-
-def _coprime(fractions: list[RatFunc]) -> list[Poly]:
-    """The multiples of rational functions that are polynomials without a common factor; over Q with coprime integers."""
-    found = over_common_denominator(fractions)
-    common = found[-1]
-    for polynomial in found[:-1]:
-        common = common.gcd(polynomial)
-    found = [polynomial // common for polynomial in found]
-    if found[0].field != QQ:
-        return found
-    contents = [polynomial.content() for polynomial in found if polynomial]
-    content = Fraction(gcd(*(top for top, _ in contents)), lcm(*(bottom for _, bottom in contents)))
-    if found[-1].rational_coefficients()[-1] < 0:
-        content = -content
-    return [polynomial * (1 / content) for polynomial in found]
+    found = sympy.Add(*(atoms.poly(a // common) * w**k for k, a in enumerate(numerators)))
+    return sympy.Poly(found, w, atoms.x).primitive()[1].eject(atoms.x).as_expr() if field == QQ else found
 
 
 def _rational_omegas(solution: Solution, atoms: Any) -> list[Any]:

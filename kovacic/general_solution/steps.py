@@ -14,11 +14,11 @@ Functions that jump, or whose slopes do, are sums of steps:
 from __future__ import annotations
 
 from collections import defaultdict
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from itertools import pairwise
 from math import comb
-from typing import Any
+from typing import Any, NamedTuple
 
 import sympy
 from sympy import DiracDelta, Heaviside, exp
@@ -65,42 +65,19 @@ _ANALYTIC = (
 
 
 @dataclass(frozen=True)
-class HeavisideTerm:
-    """g(x) H(x - a)."""
-
-    a: Expr
-    g: Expr
-
-
-@dataclass(frozen=True)
-class Impulse:
-    """strength * delta^(order)(x - a), with a constant strength."""
-
-    a: Expr
-    order: int
-    strength: Expr
-
-
-@dataclass(frozen=True)
 class Apart:
-    """A right-hand side as the sum of `plain`, which has no jumps, of steps and of impulses."""
+    """plain + sum of steps[a] H(x - a) + sum of impulses[a][n] delta^(n)(x - a); `plain` has no jumps."""
 
     plain: Expr
-    steps: tuple[HeavisideTerm, ...]
-    impulses: tuple[Impulse, ...]
+    steps: Mapping[Expr, Expr]
+    impulses: Mapping[Expr, Mapping[int, Expr]]
 
-    @property
-    def strengths(self) -> dict[Expr, dict[int, Expr]]:
-        """Those of the impulses at each point, by their orders."""
-        found: dict[Expr, dict[int, Expr]] = {impulse.a: {} for impulse in self.impulses}
-        for impulse in self.impulses:
-            here = found[impulse.a]
-            here[impulse.order] = here.get(impulse.order, _NOTHING) + impulse.strength
-        return found
+    def without_impulses(self, x: Expr) -> Expr:
+        """The sum of the other parts."""
+        return sympy.Add(self.plain, *(g * Heaviside(x - a) for a, g in self.steps.items()))
 
 
-@dataclass(frozen=True)
-class HeavisidePlace:
+class HeavisidePlace(NamedTuple):
     """Where s (x - a) is zero: a, and the slope s."""
 
     a: Expr
@@ -131,45 +108,43 @@ def with_single_steps(e: Expr) -> Expr:
 
 
 def taken_apart(right: Expr, x: Expr) -> Apart | None:
-    """The parts of a right-hand side; None if a jump isn't at a constant, or products of jumps aren't known."""
+    """The parts of a right-hand side; None if a jump isn't at a constant, or products of jumps aren't known.
+
+    H(x - a) H(x - b) = H(x - b) for a <= b; beside an impulse every step is 0 or 1, and
+
+    g delta^(n) = sum of (-1)^k C(n, k) g^(k)(a) delta^(n - k),    delta^(n)(s u) = delta^(n)(u)/(|s| s^n).
+    """
     terms = sympy.Add.make_args(sympy.expand(right))
     if len(terms) > _MOST_TERMS:
         return None
     plain = _NOTHING
     steps: defaultdict[Expr, Expr] = defaultdict(lambda: _NOTHING)
-    impulses: list[Impulse] = []
+    impulses: defaultdict[Expr, defaultdict[int, Expr]] = defaultdict(lambda: defaultdict(lambda: _NOTHING))
     for term in map(with_single_steps, terms):
         jumps = [factor for factor in sympy.Mul.make_args(term) if factor.has(*JUMPING) and factor.has(x)]
-        deltas = [jump for jump in jumps if isinstance(jump, DiracDelta)]
-        begin = _begin(jumps, x)
+        deltas, others = sympy.sift(jumps, lambda jump: isinstance(jump, DiracDelta), binary=True)
+        places = [place for delta in deltas if (place := place_of(delta, x)) is not None]
+        if len(deltas) > 1 or len(places) < len(deltas) or not all(_is_simple(step, x) for step in others):
+            return None
+        begins = [sympy.expand(x - step.args[0]) for step in others]
         g = term / sympy.Mul(*jumps)
         if not jumps:
             plain += term
-        elif begin is None or len(deltas) > 1:
-            return None
         elif not deltas:
-            steps[begin] += g
-        else:
-            found = _impulses_beside_steps(g, deltas[0], [jump for jump in jumps if jump not in deltas], x)
-            if found is None:
+            last = next((a for a in begins if all((a - other).is_nonnegative for other in begins)), None)
+            if last is None:
                 return None
-            impulses += found
-    return Apart(plain, tuple(HeavisideTerm(a, g) for a, g in steps.items() if g != 0), tuple(impulses))
-
-
-def _begin(jumps: Sequence[Expr], x: Expr) -> Expr | None:
-    """The last of the places of the jumps: H(x - a) H(x - b) = H(x - b) for a <= b.
-
-    None if one of them, or their order, isn't known.
-    """
-    places = []
-    for jump in jumps:
-        place = place_of(jump, x) if isinstance(jump, Heaviside | DiracDelta) else None
-        # H(s (x - a)) is H(x - a) for s > 0 alone.
-        if place is None or not (isinstance(jump, DiracDelta) or place.slope.is_positive):
-            return None
-        places.append(place.a)
-    return next((a for a in places if all((a - other).is_nonnegative for other in places)), None)
+            steps[last] += g
+        elif not any((places[0].a - begin).is_negative for begin in begins):
+            a, slope = places[0]
+            if not all((a - begin).is_positive for begin in begins):
+                return None
+            n = int(deltas[0].args[1]) if len(deltas[0].args) > 1 else 0  # DiracDelta(u) is DiracDelta(u, 0)
+            for k in range(n + 1):
+                strength = (-1) ** k * comb(n, k) * g.diff(x, k).subs(x, a) / (abs(slope) * slope**n)
+                if strength != 0:
+                    impulses[a][n - k] += strength
+    return Apart(plain, {a: g for a, g in steps.items() if g != 0}, impulses)
 
 
 def in_parts(right: Expr, x: Expr) -> Apart:
@@ -180,26 +155,7 @@ def in_parts(right: Expr, x: Expr) -> Apart:
     found = taken_apart(in_steps(right, x), x) if right.has(*JUMPING) else None
     if found is None and right.has(DiracDelta):
         raise NotImplementedError("undecided: an impulse times a jump at the same point, or at one that isn't known")
-    return Apart(right, (), ()) if found is None else found
-
-
-def _impulses_beside_steps(g: Expr, delta: Expr, steps: Sequence[Expr], x: Expr) -> list[Impulse] | None:
-    """g delta^(n) where all steps are 1, nothing where one is 0; None if that isn't known.
-
-    g delta^(n) = sum of (-1)^k C(n, k) g^(k)(a) delta^(n - k), and delta^(n)(s u) = delta^(n)(u)/(|s| s^n).
-    """
-    place = place_of(delta, x)
-    assert place is not None
-    a = place.a
-    distances = [step.args[0].subs(x, a) for step in steps]
-    if any(distance.is_negative for distance in distances):
-        return []
-    if not all(distance.is_positive for distance in distances):
-        return None
-    n = int(delta.args[1]) if len(delta.args) > 1 else 0  # DiracDelta(u) is DiracDelta(u, 0)
-    scale = abs(place.slope) * place.slope**n
-    strengths = ((-1) ** k * comb(n, k) * g.diff(x, k).subs(x, a) / scale for k in range(n + 1))
-    return [Impulse(a, n - k, strength) for k, strength in enumerate(strengths) if strength != 0]
+    return Apart(right, {}, {}) if found is None else found
 
 
 # -------------------------------------------------------------------------------------------------- in terms of steps
@@ -212,9 +168,13 @@ def in_steps(right: Expr, x: Expr) -> Expr:
     >>> in_steps(abs(x - 1), x)
     2*x*Heaviside(x - 1) - x - 2*Heaviside(x - 1) + 1
     """
-    found = right.replace(  # from the innermost ones outwards
-        lambda e: isinstance(e, JUMPING) and e.has(x) and not _is_simple(e, x), lambda e: _rewritten(e, x)
-    )
+
+    def rewritten(jump: Expr) -> Expr:
+        found = _at_points(_in_heavisides(jump, x), x)
+        return found if all(_is_simple(e, x) for e in found.atoms(*JUMPING) if e.has(x)) else jump
+
+    # from the innermost ones outwards
+    found = right.replace(lambda e: isinstance(e, JUMPING) and e.has(x) and not _is_simple(e, x), rewritten)
     if not found.has(*JUMPING):
         return found
     # sqrt(|x|) isn't analytic: sqrt(-x), which it is on one side, isn't real on the other
@@ -250,33 +210,16 @@ def _with_steps_outside(e: Expr, x: Expr) -> Expr:
     return e
 
 
-def _rewritten(jump: Expr, x: Expr) -> Expr:
-    """A function that jumps in terms of H(x - a) and impulses alone; the same where that isn't known.
-
-    Raises `InputError` where no case of one that is given by cases holds.
-    """
-    indicators = [_indicator(condition, x) for _, condition in jump.args] if isinstance(jump, sympy.Piecewise) else []
-    if indicators and None not in indicators:  # with parameters that is tried at one value of each
-        missing = _alone(indicators)[-1].subs(next(samples(jump.free_symbols - {x})))
-        has_gap = any(on_piece(missing, x, point) != 0 for point in between(break_points(missing, x)))
-        if has_gap or any(value is sympy.nan for value, _ in jump.args):
-            raise InputError(f"{jump} has no value where no case holds", hint="add a last case, such as (0, True)")
-    found = _at_points(jump, x)
-    return found if all(_is_simple(e, x) for e in found.atoms(*JUMPING) if e.has(x)) else jump
-
-
-def _at_points(jump: Expr, x: Expr) -> Expr:
-    """In terms of H(x - a), and of other steps H(u) where the zeros of u aren't known."""
-
-    def at_zeros(step: Expr) -> Expr:
-        on = above(step.args[0], x)
-        return step if on is None else on
-
-    return _in_heavisides(jump, x).replace(lambda e: isinstance(e, Heaviside) and e.has(x), at_zeros)
+def _at_points(e: Expr, x: Expr) -> Expr:
+    """With H(x - a) for other steps H(u), where the zeros of u are known."""
+    return e.replace(lambda e: isinstance(e, Heaviside) and e.has(x), lambda e: above(e.args[0], x))
 
 
 def _in_heavisides(e: Expr, x: Expr) -> Expr:
-    """A function that jumps in terms of H(u) and impulses; the same where that isn't known."""
+    """A function that jumps in terms of H(u) and impulses; the same where that isn't known.
+
+    Raises `InputError` where no case of one that is given by cases holds.
+    """
     u = e.args[0]
     if isinstance(e, sympy.Abs):
         return u * (2 * Heaviside(u) - 1)
@@ -292,8 +235,15 @@ def _in_heavisides(e: Expr, x: Expr) -> Expr:
         return DiracDelta(u - a, -1 - n) if n < 0 else (u - a) ** n * Heaviside(u - a)
     if isinstance(e, sympy.Piecewise):
         indicators = [_indicator(condition, x) for _, condition in e.args]
-        if None not in indicators:
-            return sympy.Add(*(value * on for (value, _), on in zip(e.args, _alone(indicators), strict=False)))
+        if None in indicators:
+            return e
+        *alone, missing = _alone(indicators)
+        # with parameters that is tried at one value of each
+        missing = missing.subs(next(samples(e.free_symbols - {x})))
+        has_gap = any(on_piece(missing, x, point) != 0 for point in between(break_points(missing, x)))
+        if has_gap or any(value is sympy.nan for value, _ in e.args):
+            raise InputError(f"{e} has no value where no case holds", hint="add a last case, such as (0, True)")
+        return sympy.Add(*(value * on for (value, _), on in zip(e.args, alone, strict=True)))
     return Heaviside(u) if isinstance(e, Heaviside) else e
 
 
@@ -311,18 +261,16 @@ def _indicator(condition: Expr, x: Expr) -> Expr | None:
     """1 where a condition holds, and 0 where it doesn't, but for single points; None if that isn't known."""
     if condition in (True, False):
         return sympy.Integer(bool(condition))
-    if not condition.has(x):
-        return None
     if isinstance(condition, And | Or):
         parts = [_indicator(part, x) for part in condition.args]
         if None in parts:
             return None
         return sympy.Mul(*parts) if isinstance(condition, And) else 1 - _alone(parts)[-1]
+    if not condition.has(x):
+        return sympy.Piecewise((1, condition), (0, True))
     if isinstance(condition, sympy.Eq | sympy.Ne):
         return sympy.Integer(isinstance(condition, sympy.Ne))
-    if isinstance(condition, sympy.core.relational.Relational):
-        return Heaviside(condition.gts - condition.lts)
-    return None
+    return Heaviside(condition.gts - condition.lts) if isinstance(condition, sympy.Rel) else None
 
 
 def _is_simple(e: Expr, x: Expr) -> bool:
@@ -332,30 +280,25 @@ def _is_simple(e: Expr, x: Expr) -> bool:
     return isinstance(e, Heaviside) and e.args[0].diff(x) == 1
 
 
-def above(u: Expr, x: Expr) -> Expr | None:
-    """1 where u > 0 and 0 where u < 0; None if the zeros of u aren't known.
+def above(u: Expr, x: Expr) -> Expr:
+    """1 where u > 0 and 0 where u < 0, as a sum of H(x - a); H(u) if the zeros of u aren't known.
 
     >>> x = sympy.Symbol("x")
     >>> above(4 - x**2, x)
     -Heaviside(x - 2) + Heaviside(x + 2)
     """
     u = sympy.expand(u)
-    if any(step.has(x) for step in u.atoms(Heaviside)):
-        pieces = _with_steps_outside(Heaviside(u), x)
-        known = {on: above(on.args[0], x) for on in pieces.atoms(Heaviside) if not _is_simple(on, x) and on.has(x)}
-        apart = None if None in known.values() else taken_apart(pieces.xreplace(known), x)
-        if apart is None:
-            return None
-        return sympy.Add(apart.plain, *(step.g * Heaviside(x - step.a) for step in apart.steps))
     slope = u.diff(x)
+    if any(step.has(x) for step in u.atoms(Heaviside)):
+        apart = taken_apart(_at_points(_with_steps_outside(Heaviside(u), x), x), x)
+        return Heaviside(u) if apart is None else apart.without_impulses(x)
     if not slope.has(x) and (slope.is_positive or slope.is_negative):
         step = Heaviside(x - sympy.expand(x - u / slope))
         return step if slope.is_positive else 1 - step
-    if not u.is_polynomial(x) or u.free_symbols != {x}:
-        return None
-    polynomial = sympy.Poly(u, x)
-    if not (polynomial.domain.is_QQ or polynomial.domain.is_ZZ) or polynomial.degree() > _LARGEST_DEGREE:
-        return None
+    polynomial: Any = sympy.Poly(u, x) if u.is_polynomial(x) else None
+    is_known = polynomial is not None and (polynomial.domain.is_QQ or polynomial.domain.is_ZZ)
+    if not is_known or polynomial.degree() > _LARGEST_DEGREE:
+        return Heaviside(u)
     beyond = {-sympy.oo: sympy.Integer(1), sympy.oo: sympy.Integer(0)}
     ends = ((end.start, end.end) for end in solve_poly_inequality(polynomial, ">"))
     steps = [beyond.get(a, Heaviside(x - a)) - beyond.get(b, Heaviside(x - b)) for a, b in ends]
@@ -367,7 +310,7 @@ def above(u: Expr, x: Expr) -> Expr | None:
 
 def break_points(expression: Expr, x: Expr) -> list[Expr]:
     """The points where functions of an expression jump, as far as they are known, from left to right."""
-    parts = sympy.Tuple(*(_at_points(e, x) for e in expression.atoms(*JUMPING) if e.has(x)))
+    parts = sympy.Tuple(*(_at_points(_in_heavisides(e, x), x) for e in expression.atoms(*JUMPING) if e.has(x)))
     numbers = [point for point in jump_points(parts, x) if point.is_number and point.is_real]
     return sorted(numbers, key=lambda point: float(point.evalf()))
 

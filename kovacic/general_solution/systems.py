@@ -31,14 +31,7 @@ from kovacic.general_solution.first_order import (
     is_unit,
     solved_linear,
 )
-from kovacic.general_solution.question import (
-    Condition,
-    ConditionReader,
-    exact,
-    free_constants,
-    positive_variable,
-    symbols_that_know,
-)
+from kovacic.general_solution.question import Condition, ConditionReader, exact, free_constants, known_letters
 from kovacic.general_solution.steps import JUMPING, in_steps, taken_apart
 from kovacic.general_solution.substitution import size, slope
 from kovacic.general_solution.textbook import in_book_form, sums
@@ -96,9 +89,9 @@ class LinearSystem:
         if apart is None:
             return y
         # H u has the slope H u' + u(a) delta, where u(a) is zero or what an impulse in f brings.
-        if not all(is_zero(strength) for here in apart.strengths.values() for strength in here.values()):
+        if not all(is_zero(strength) for here in apart.impulses.values() for strength in here.values()):
             return y
-        return apart.plain + sympy.Add(*(sympy.Heaviside(self.t - step.a) * step.g for step in apart.steps))
+        return apart.without_impulses(self.t)
 
     def alone(self, number: int, other: Expr) -> FirstOrderEquation:
         """The equation of one unknown where the other one is known."""
@@ -158,35 +151,37 @@ def solved_system(
     """
     functions = system.functions
     conditions = _conditions(system, ics)
-    values = [e for _, condition in conditions for e in (condition.value, *condition.points)]
-    known, assume = positive_variable(assume, system.t)
-    letters = sympy.Tuple(*system.entries, *values).free_symbols - {system.t}
-    known |= symbols_that_know(assume, {letter.name: letter for letter in letters})
+    known = known_letters(assume, system.t, system.entries, [condition for _, condition in conditions])
     system = system.in_symbols(known)
     conditions = [(number, condition.in_symbols(known)) for number, condition in conditions]
     if _is_swapped(system, _initial_values(conditions)):
         system = system.swapped
         conditions = [(1 - number, condition) for number, condition in conditions]
-    given = [e.xreplace(known) for e in values]
+    own = sympy.Tuple(*system.entries, system.t).free_symbols
+    given = own.union(*(condition.free_symbols for _, condition in conditions))
     start = _initial_values(conditions)
     (_, b), _ = system.matrix
     exceptions: list[Expr] = []
-    if b == 0:
-        pair, notices = _triangular(system)
+    if b == 0:  # first x from its own equation, then y, whose equation has the constant of x in it
+        first, notices = solved_linear(system.alone(0, sympy.Integer(0)), (), own)
+        second, others = solved_linear(system.alone(1, first.rhs), (), first.rhs.free_symbols)
+        pair = first.rhs, second.rhs
+        notices += others
     elif start is not None and is_unit(b, system.t, start[0]):
         pair, notices = _through_values(system, start, solver)
+        own = given
         conditions = []
     else:
         answer = solver(system.equation, system.functions[0], ics={})
         notices = answer.notices
         pair = answer.eq.rhs, system.second(answer.eq.rhs)
         exceptions = [e.xreplace(answer.own) for e in answer.pair_exceptions] if not conditions else []
-    if conditions:
-        pair, others = _with_constants(system, pair, conditions)
-        notices += others
-    own = sympy.Tuple(*system.entries, *given).free_symbols | {system.t}
     constants = sorted((pair[0].free_symbols | pair[1].free_symbols) - own, key=str)
-    renamed = dict(zip(constants, free_constants(len(constants), *own, *functions), strict=True))
+    if conditions:
+        pair, others = _with_constants(system, pair, constants, conditions)
+        notices += others
+    left = [constant for constant in constants if sympy.Tuple(*pair).has(constant)]
+    renamed = dict(zip(left, free_constants(len(left), *given, *functions), strict=True))
     pair, constants = (pair[0].xreplace(renamed), pair[1].xreplace(renamed)), [*renamed.values()]
     pair = _with_constants_apart(pair[0], constants, system.t), _with_constants_apart(pair[1], constants, system.t)
     notices += exceptions_of(sympy.Tuple(*pair), system.t, system.entries, exceptions)
@@ -200,7 +195,7 @@ def solved_system(
 
 def _with_constants_apart(value: Expr, constants: Sequence[Expr], t: Expr) -> Expr:
     """In a short form, the terms with free constants, in which it is linear, apart from the others."""
-    if not constants:
+    if not value.has(*constants):
         return in_book_form(value, t)
     homogeneous = sympy.Add(*(constant * value.diff(constant) for constant in constants))
     rest = value.subs(dict.fromkeys(constants, 0))
@@ -216,14 +211,6 @@ def _is_swapped(system: LinearSystem, start: tuple[Expr, Expr, Expr] | None) -> 
         return is_unit(c, system.t, start[0])
     is_rough, other_is_rough = (bool(r.has(AppliedUndef, *JUMPING)) for r in system.right)
     return is_rough > other_is_rough or (is_rough == other_is_rough and size(c) < size(b))
-
-
-def _triangular(system: LinearSystem) -> tuple[tuple[Expr, Expr], list[str]]:
-    """First x from its own equation, then y, whose equation has the constant of x in it."""
-    letters = sympy.Tuple(*system.entries).free_symbols
-    first, notices = solved_linear(system.alone(0, sympy.Integer(0)), (), letters)
-    second, others = solved_linear(system.alone(1, first.rhs), (), first.rhs.free_symbols)
-    return (first.rhs, second.rhs), notices + others
 
 
 def _through_values(
@@ -269,11 +256,13 @@ def _initial_values(conditions: Sequence[tuple[int, Condition]]) -> tuple[Expr, 
 
 
 def _with_constants(
-    system: LinearSystem, pair: tuple[Expr, Expr], conditions: Sequence[tuple[int, Condition]]
+    system: LinearSystem,
+    pair: tuple[Expr, Expr],
+    constants: Sequence[Expr],
+    conditions: Sequence[tuple[int, Condition]],
 ) -> tuple[tuple[Expr, Expr], list[str]]:
     """With the constants that the values determine, and for which values of the parameters that is otherwise."""
-    own = set().union(*(e.free_symbols for row in system.matrix for e in row), *(e.free_symbols for e in system.right))
-    c1, c2 = sorted((pair[0].free_symbols | pair[1].free_symbols) - own - {system.t}, key=str)
+    c1, c2 = constants
     rows = []
     for number, condition in conditions:
         there = value_at(pair[number], system.t, condition.points[0])
@@ -281,7 +270,7 @@ def _with_constants(
     generic, others, _ = determine(rows, (c1, c2))
     if generic.outcome is Outcome.NONE:
         raise InputError("there is no solution with these values: the conditions contradict one another")
-    values = dict(zip((c1, c2), generic.values, strict=True))
+    values = dict(zip(constants, generic.values, strict=True))
     cases = [case.where() for case in others if case.is_possible]
     notices = [f"this holds unless {where}: give such values for the solutions there" for where in cases]
     return (pair[0].subs(values, simultaneous=True), pair[1].subs(values, simultaneous=True)), notices

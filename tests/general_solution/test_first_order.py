@@ -548,6 +548,19 @@ def test_a_power_without_a_root_is_a_solution_on_one_side_alone(power: str, side
     assert holds == (side == 1)
 
 
+@pytest.mark.parametrize(
+    ("text", "assume", "printed"),
+    [
+        ("y' = y - y^m", {"m": "positive"}, "(C1*exp(x*(1 - m)) + 1)**(1/(1 - m))"),
+        ("y' = y, y(a) = 1", {"a": "positive"}, "exp(-a + x)"),
+    ],
+)
+def test_something_may_be_assumed_of_an_exponent_and_of_a_point(
+    text: str, assume: dict[str, str], printed: str
+) -> None:
+    assert str(kovacic.answer_to(text, assume=assume).eq.rhs) == printed
+
+
 def test_bernoulli_through_any_value() -> None:
     """The logistic equation: its formula doesn't divide by the value, and names no exception."""
     r, K, P = sympy.symbols("r K P")
