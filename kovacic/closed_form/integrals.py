@@ -38,7 +38,6 @@ from collections.abc import Iterable
 from dataclasses import dataclass, field, replace
 from fractions import Fraction
 from math import gcd, lcm
-from typing import Any
 
 import sympy
 from sympy import (
@@ -319,14 +318,13 @@ def elliptic(integral: CurveIntegral, atoms: Atoms) -> list[tuple[Expr, Expr]] |
     """
     if integral.g.degree not in (3, 4):
         return None
-    r, g, inner = _in_square(integral.integrand, integral.g)
-    quadratic = [p for p, _ in g.field.factor(g) if p.degree == 2]
+    curve = _Curve.of(integral.integrand, integral.g)
+    quadratic = [p for p, _ in curve.g.field.factor(curve.g) if p.degree == 2]
     real = [p for p in quadratic if atoms.constant(p[1] * p[1] - 4 * p[0]).is_positive]
     if len(real) == 1:
-        r, branch, inner = _over(AlgebraicField(g.field, real[0]), r, RatFunc(g), inner)
-        g = branch.num
-    by_roots = _by_sine if len(_roots(g)) == g.degree else _by_tangent
-    terms = by_roots(r, g, inner, atoms)
+        curve = curve.over(AlgebraicField(curve.g.field, real[0]))
+    is_split = len(curve.roots) == curve.g.degree
+    terms = _by_sine(curve, atoms) if is_split else _by_tangent(curve, atoms)
     if not terms:
         return None
     terms = [(c, e) for c, e in terms if c]
@@ -334,46 +332,75 @@ def elliptic(integral: CurveIntegral, atoms: Atoms) -> list[tuple[Expr, Expr]] |
     return [(atoms.constant(c * last), e) for c, e in terms]
 
 
-def _in_square(r: RatFunc, g: Poly) -> tuple[RatFunc, Poly, RatFunc | None]:
-    """r, g, and t where these are in u = t^2, t = x - c; None if there is no such t."""
-    x = RatFunc(g.field.poly([0, 1]))
-    centre = -g[g.degree - 1] / g.degree
-    moved, curve = _moved(r, RatFunc(g), x + centre)
-    if g.degree == 3 or curve[1] or moved(-x) != moved:
-        return r, g, None
-    return RatFunc(_of_square(moved.num), _of_square(moved.den)), _of_square(curve) * x.num, x - centre
+@dataclass(frozen=True)
+class _Curve:
+    """int r dt/sqrt(g) up to a constant factor, for a monic g, and a Moebius function t of x, or of `inner`^2."""
+
+    r: RatFunc
+    g: Poly
+    t: RatFunc
+    inner: RatFunc | None = None
+
+    @classmethod
+    def of(cls, r: RatFunc, g: Poly) -> _Curve:
+        """In t = (x - c)^2 if r, and g of degree 4, are even about c; else in x."""
+        x = RatFunc(g.field.poly([0, 1]))
+        centre = -g[g.degree - 1] / g.degree
+        moved, curve = r(x + centre), g(x.num + centre)
+        if g.degree == 3 or curve[1] or moved(-x) != moved:
+            return cls(r, g, x)
+        num, den, square = (
+            p.field.poly([p[k] for k in range(0, p.degree + 1, 2)]) for p in (moved.num, moved.den, curve)
+        )
+        return cls(RatFunc(num, den), square * x.num, x, x - centre)
+
+    def over(self, field: Field) -> _Curve:
+        """The curve over a larger field."""
+
+        def lifted(f: RatFunc) -> RatFunc:
+            return RatFunc(f.num.over(field), f.den.over(field), reduced=True)
+
+        return _Curve(lifted(self.r), self.g.over(field), lifted(self.t), self.inner and lifted(self.inner))
+
+    def moved(self, *points: Poly | None) -> _Curve:
+        """In the Moebius function that is 0, 1 and infinity at these points; None stands for infinity."""
+        t = RatFunc(self.g.field.poly([0, 1]))
+        (a, b), (c, d), (e, f) = ((t.num * 0 + 1, 0) if p is None else (p, 1) for p in points)
+        above, below = c * f - e * d, c * b - a * d
+        back = (e * below * -t + a * above) / (above * b - below * f * t)
+        g = (RatFunc(self.g)(back) / back.derivative() ** 2).num.monic()
+        forth = (self.t * b - a) * above / ((self.t * f - e) * below)
+        return _Curve(self.r(back), g, forth, self.inner)
+
+    @property
+    def roots(self) -> list[Poly]:
+        """Those of g in the field."""
+        return [-p[0] for p, _ in self.g.field.factor(self.g) if p.degree == 1]
+
+    def shown(self, atoms: Atoms) -> tuple[RatFunc, Expr]:
+        """t as a function of x, and its square root."""
+        if self.inner is None:
+            return self.t, sqrt(atoms.factored(self.t))
+        square = self.inner * self.inner
+        t = self.t(square)
+        return t, atoms.factored(self.inner) * sqrt(atoms.factored(t / square))
 
 
-def _moved(r: RatFunc, g: RatFunc, back: RatFunc) -> tuple[RatFunc, Poly]:
-    """r and a monic g for x = back(t), a Moebius function, up to a constant."""
-    return r(back), (g(back) / back.derivative() ** 2).num.monic()
-
-
-def _by_sine(r: RatFunc, g: Poly, inner: RatFunc | None, atoms: Atoms) -> list[tuple[Poly, Expr]]:
+def _by_sine(curve: _Curve, atoms: Atoms) -> list[tuple[Poly, Expr]]:
     """By (1), from all branch points."""
-    start, one, last = _ordered(_roots(g), inner is not None, atoms)
-    x = RatFunc(g.field.poly([0, 1]))
-    t = x - start
-    back = x + start
-    if last is not None:
-        t = (x - start) / (x - last)
-        back = (x * last - start) / (x - 1)
-    if one is not None:
-        scale = (t.num(one) / t.den(one)).inverse()
-        t = t * scale
-        back = back(x / scale)
-    r, g = _moved(r, RatFunc(g), back)
-    m = -(g[2] + 1).inverse()
-    done = integrate_on_curve(r, g)
+    curve = curve.moved(*_ordered(curve.roots, curve.inner is not None, atoms))
+    m = -(curve.g[2] + 1).inverse()
+    done = integrate_on_curve(curve.r, curve.g)
     if any(residue.factor.degree > 1 for residue in done.residues):
         return []
-    shown, root = _square_root(t, inner, atoms)
+    shown, root = curve.shown(atoms)
     phi = asin(root)
     modulus = atoms.constant(m)
     terms: list[tuple[Poly, Expr]] = []
     if done.exact:
         W = root * sqrt(atoms.factored(1 - shown)) * sqrt(atoms.factored(1 - shown * m))
-        terms.append((lead := done.exact.num.lc, atoms.factored(done.exact(shown) / (2 * lead)) * W))
+        leading = done.exact.num.lc
+        terms.append((leading, atoms.factored(done.exact(shown) / (2 * leading)) * W))
     terms.append((m * done.rest[0] + done.rest[1], elliptic_f(phi, modulus)))
     terms.append((-done.rest[1], elliptic_e(phi, modulus)))
     for residue in done.residues:
@@ -382,88 +409,57 @@ def _by_sine(r: RatFunc, g: Poly, inner: RatFunc | None, atoms: Atoms) -> list[t
     return terms
 
 
-@dataclass(frozen=True)
-class _Cubic:
-    """r and a cubic g with the root `a` in u = t(x); `negative` is the sign of A for it."""
-
-    r: RatFunc
-    g: Poly
-    t: RatFunc
-    inner: RatFunc | None
-    a: Poly
-    negative: bool = False
-
-    def over(self, field: Field) -> _Cubic:
-        """The cubic over a larger field."""
-        r, curve, t, inner = _over(field, self.r, RatFunc(self.g), self.t, self.inner)
-        return replace(self, r=r, g=curve.num, t=t, inner=inner)
-
-
-def _with_a_root(r: RatFunc, g: Poly, inner: RatFunc | None, atoms: Atoms) -> _Cubic | None:
-    """A cubic with a root in the field, or in a larger one; None without.  A root of a quartic goes to infinity."""
-    x = RatFunc(g.field.poly([0, 1]))
-    t = x
-    negative = False
-    roots = _roots(g)
-    if g.degree == 4:
+def _by_tangent(curve: _Curve, atoms: Atoms) -> list[tuple[Poly, Expr]]:
+    """By (2), from one branch point beside infinity: there goes a root of a quartic g; one of an irreducible cubic is adjoined."""
+    roots = curve.roots
+    is_negative = False
+    if curve.g.degree == 4:
         if not roots:
-            return None
-        pole = roots[0]
-        negative = atoms.is_negative(g.derivative()(pole))
-        t = 1 / (x - pole)
-        r, g = _moved(r, RatFunc(g), 1 / x + pole)
-        roots = _roots(g)
-    if roots:
-        return _Cubic(r, g, t, inner, roots[0], negative)
-    if g.field != QQ or len(sympy.real_roots(atoms.poly(g))) > 1:
-        return None
-    field = AlgebraicField(QQ, g)
-    return _Cubic(r, g, t, inner, field.generator, negative).over(field)
-
-
-def _by_tangent(r: RatFunc, g: Poly, inner: RatFunc | None, atoms: Atoms) -> list[tuple[Poly, Expr]]:
-    """By (2), from one branch point beside infinity."""
-    cubic = _with_a_root(r, g, inner, atoms)
-    if cubic is None:
-        return []
-    square = cubic.g.derivative()(cubic.a)
-    A = cubic.g.field.sqrt(square)
+            return []
+        is_negative = atoms.is_negative(curve.g.derivative()(roots[0]))
+        curve = curve.moved(None, roots[0] + 1, roots[0])
+        roots = curve.roots
+    if not roots:
+        if curve.g.field != QQ or len(sympy.real_roots(atoms.poly(curve.g))) > 1:
+            return []
+        field = AlgebraicField(QQ, curve.g)
+        curve = curve.over(field)
+        roots = [field.generator]
+    square = curve.g.derivative()(roots[0])
+    A = curve.g.field.sqrt(square)
     if A is None:
-        field = AlgebraicField(cubic.g.field, cubic.g.field.poly([-square, 0, 1]))
-        cubic = cubic.over(field)
+        field = AlgebraicField(curve.g.field, curve.g.field.poly([-square, 0, 1]))
+        curve = curve.over(field)
         A = field.generator
-    if cubic.negative != atoms.is_negative(A):
+    if is_negative != atoms.is_negative(A):
         A = -A
-    x = RatFunc(cubic.g.field.poly([0, 1]))
-    g = cubic.g(x.num * A + cubic.a).monic()
-    done = integrate_on_curve(cubic.r(x * A + cubic.a), g)
-    if any(residue.factor.degree > 1 or g.field.height > 1 for residue in done.residues):
+    curve = curve.moved(roots[0], roots[0] + A, None)
+    done = integrate_on_curve(curve.r, curve.g)
+    if any(residue.factor.degree > 1 or curve.g.field.height > 1 for residue in done.residues):
         return []
-    quadratic = g // x.num
-    shown, root = _square_root((cubic.t - cubic.a) / A, cubic.inner, atoms)
+    s, root = curve.shown(atoms)
+    x = RatFunc(curve.g.field.poly([0, 1]))
+    quadratic = curve.g // x.num
     # w as sqrt(s) (1 + s) sqrt(1 - m sin(phi)^2), for the branches of F and E where s < -1.
-    W = root * sqrt(atoms.factored(RatFunc(quadratic, (x.num + 1) ** 2)(shown)))
-    angle = _Angle(quadratic, shown, W, 2 * atan(root), (2 - g[2]) / 4)
+    w = root * sqrt(atoms.factored(RatFunc(quadratic, (x.num + 1) ** 2)(s)))
+    angle = _Angle(quadratic, s, w, 2 * atan(root), (2 - curve.g[2]) / 4)
     terms: list[tuple[Poly, Expr]] = []
     C = done.exact + done.rest[1] * 2 / (x + 1)
     if C:
         leading = C.num.lc
-        terms.append((leading, atoms.factored((C * (x + 1))(shown) / leading) * W))
+        terms.append((leading, atoms.factored((C * (x + 1))(s) / leading) * w))
     of_F = done.rest[0] + done.rest[1]
     for residue in done.residues:
-        tau = -residue.factor[0]
-        rho = residue.value[0]
-        # by the first of (2) where tau < 0, else by the second
-        is_first = atoms.is_negative(tau) and bool(1 + tau)
-        of_F += -rho / (1 + tau if is_first else 2 * tau)
-        terms += angle.terms_of_pole(tau, rho, atoms)
+        of_pole, others = angle.terms_of_pole(-residue.factor[0], residue.value[0], atoms)
+        of_F += of_pole
+        terms += others
     modulus = atoms.constant(angle.m)
     return [*terms, (of_F, elliptic_f(angle.phi, modulus)), (-done.rest[1] * 2, elliptic_e(angle.phi, modulus))]
 
 
 @dataclass(frozen=True)
 class _Angle:
-    """The curve w^2 = s quadratic(s); s and w as functions of x, the angle phi and the parameter m of (2)."""
+    """The curve w^2 = s quadratic(s); s and w/(1 + s) as functions of x, the angle phi and the parameter m of (2)."""
 
     quadratic: Poly
     s: RatFunc
@@ -471,57 +467,33 @@ class _Angle:
     phi: Expr
     m: Poly
 
-    def terms_of_pole(self, tau: Poly, rho: Poly, atoms: Atoms) -> list[tuple[Poly, Expr]]:
-        """Pi and the logarithm for it."""
+    def terms_of_pole(self, tau: Poly, rho: Poly, atoms: Atoms) -> tuple[Poly, list[tuple[Poly, Expr]]]:
+        """F's coefficient, and the terms with Pi and the logarithm: by the first of (2) where tau < 0, else by the second."""
         above = 1 + tau
         n = above * above / (4 * tau)
-        of_pi = rho / (2 * tau) * (tau - 1)
-        of_logarithm = -rho
         if atoms.is_negative(tau):
+            # at tau = -1 Pi's coefficient is infinite, and F's that of the second: the limit
+            of_F = -rho / (above or 2 * tau)
             z = atoms.factored(self.s / (self.s + 1) / tau) / self.w
         else:
+            of_F = -rho / (2 * tau)
             n = self.m / n
-            of_pi = -of_pi
-            of_logarithm = rho
+            rho = -rho
             # 2 w/Q, where w(tau) isn't a factor yet
             x = RatFunc(self.quadratic.field.poly([0, 1]))
             Q = (1 + tau) * tau * (1 - x.num) * self.quadratic
             Q = (Q - (tau - 1) * (x.num + 1) * x.num * self.quadratic(tau)) // (x.num * tau - 1)
             z = atoms.factored(((x + 1) * 2 / Q)(self.s)) * self.w
+        square = tau * self.quadratic(tau)  # w(tau)^2
+        if atoms.is_negative(square):
+            factor, inverse = atoms.sqrt(-square), atan
+        else:
+            factor, inverse = atoms.sqrt(square), atanh
         terms: list[tuple[Poly, Expr]] = []
         if above and tau != 1:
             Pi = elliptic_pi(atoms.constant(n), self.phi, atoms.constant(self.m))
-            terms.append((of_pi / above, Pi))
-        square = tau * self.quadratic(tau)  # w(tau)^2
-        if atoms.is_negative(square):
-            factor = atoms.sqrt(-square)
-            terms.append((of_logarithm, atan(factor * z) / factor))
-        else:
-            factor = atoms.sqrt(square)
-            terms.append((of_logarithm, atanh(factor * z) / factor))
-        return terms
-
-
-def _square_root(t: RatFunc, inner: RatFunc | None, atoms: Atoms) -> tuple[RatFunc, Expr]:
-    """t as a function of x, and its square root."""
-    if inner is None:
-        return t, sqrt(atoms.factored(t))
-    shown = t(inner * inner)
-    return shown, atoms.factored(inner) * sqrt(atoms.factored(shown / (inner * inner)))
-
-
-def _over(field: Field, *functions: Any) -> tuple[Any, ...]:
-    """The functions over a larger field; None stays."""
-    return tuple(f and RatFunc(f.num.over(field), f.den.over(field), reduced=True) for f in functions)
-
-
-def _roots(g: Poly) -> list[Poly]:
-    return [-p[0] for p, _ in g.field.factor(g) if p.degree == 1]
-
-
-def _of_square(p: Poly) -> Poly:
-    """q with q(x^2) = p."""
-    return p.field.poly([p[k] for k in range(0, p.degree + 1, 2)])
+            terms.append((rho * (tau - 1) / (2 * tau * above), Pi))
+        return of_F, [*terms, (-rho, inverse(factor * z) / factor)]
 
 
 def _ordered(roots: list[Poly], even: bool, atoms: Atoms) -> tuple[Poly, Poly | None, Poly | None]:

@@ -217,11 +217,10 @@ def incomplete_gamma(term: Expr, x: Expr) -> Expr | None:
         return None if s == -1 else K * line ** (s + 1) / (s + 1) / slope
     # exp(d + c t^m) for t = a x + b
     t = sympy.Dummy()
-    d, single = sympy.expand(exponent.subs(x, (t - line.subs(x, 0)) / slope)).as_independent(t, as_Add=True)
-    c, power = single.as_independent(t, as_Add=False)
-    base, m = power.as_base_exp()
-    if base != t or m.has(t) or m == 0:
+    parts = _single_power(exponent.subs(x, (t - line.subs(x, 0)) / slope), t)
+    if parts is None:
         return None
+    d, c, m = parts
     e = (s + 1) / m
     if e == sympy.S.Half:  # u = t^(s+1): t^s dt is du/(s + 1)
         function, root = (sympy.erf, sympy.sqrt(-c)) if is_seen_negative(c) else (sympy.erfi, sympy.sqrt(c))
@@ -251,11 +250,10 @@ def power_beside_wave(term: Expr, x: Expr) -> Expr | None:
     if wave.func not in (sin, cos):
         return None
     base, s = s.as_base_exp() if s != 1 else (x, sympy.S.Zero)
-    d, angle = sympy.expand(wave.args[0]).as_independent(x, as_Add=True)
-    c, power = angle.as_independent(x, as_Add=False)
-    variable, m = power.as_base_exp()
-    if base != x or variable != x or m.has(x) or s.has(x):
+    parts = _single_power(wave.args[0], x)
+    if base != x or s.has(x) or parts is None:
         return None
+    d, c, m = parts
     if wave.func is cos:  # sin(u + d) = sin(u) cos(d) + cos(u) sin(d)
         d += sympy.pi / 2
     e = (s + 1) / m
@@ -268,37 +266,12 @@ def power_beside_wave(term: Expr, x: Expr) -> Expr | None:
     return K * (cos(d) * of_sin + sin(d) * of_cos)
 
 
-def fresnel(R: Expr, wave: Expr, x: Expr) -> Expr | None:
-    """int R(x) sin(q(x)) dx, or of the cosine, for a quadratic q = a t^2 + d, t = x + b/(2a), and a sum R of powers of t."""
-    a, b, c = sympy.Poly(wave.args[0], x).all_coeffs()
-    t = sympy.Dummy()
-    phase = c - b**2 / (4 * a)
-    if wave.func is cos:  # the sine, an angle of pi/2 later
-        phase += sympy.pi / 2
-    in_t = sympy.apart(R.subs(x, t - b / (2 * a)), t)
-    total = sympy.S.Zero
-    for term in sympy.Add.make_args(in_t):
-        k, power = term.as_independent(t, as_Add=False)
-        base, n = power.as_base_exp()
-        if base not in (t, 1):
-            return None
-        total += k * _power_beside_sine(int(n) if base == t else 0, a, phase, t)
-    return sympy.expand(total).subs(t, x + b / (2 * a))
-
-
-def _power_beside_sine(n: int, a: Expr, d: Expr, t: Expr) -> Expr:
-    """int t^n sin(a t^2 + d) dt, by parts to n = 0, 1 or -1: Fresnel functions, an elementary one, Si and Ci."""
-    if n == 0:
-        z = t * sympy.sqrt(2 * a / sympy.pi)
-        return sympy.sqrt(sympy.pi / (2 * a)) * (cos(d) * sympy.fresnels(z) + sin(d) * sympy.fresnelc(z))
-    if n == -1:
-        return (cos(d) * sympy.Si(a * t**2) + sin(d) * sympy.Ci(a * t**2)) / 2
-    if n < 0:
-        return (t ** (n + 1) * sin(a * t**2 + d) - 2 * a * _power_beside_sine(n + 2, a, d + sympy.pi / 2, t)) / (n + 1)
-    by_parts = -(t ** (n - 1)) * cos(a * t**2 + d) / (2 * a)
-    if n == 1:
-        return by_parts
-    return by_parts + (n - 1) / (2 * a) * _power_beside_sine(n - 2, a, d + sympy.pi / 2, t)
+def _single_power(e: Expr, t: Expr) -> tuple[Expr, Expr, Expr] | None:
+    """d, c and m with e = d + c t^m."""
+    d, single = sympy.expand(e).as_independent(t, as_Add=True)
+    c, power = single.as_independent(t, as_Add=False)
+    base, m = power.as_base_exp()
+    return None if base != t or m.has(t) or m == 0 else (d, c, m)
 
 
 def dilogarithm(u: Expr, g: Expr, x: Expr) -> Expr | None:

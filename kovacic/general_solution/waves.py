@@ -17,7 +17,7 @@ import sympy
 from sympy import atan, cos, log, sin, tan
 from sympy.simplify.fu import TR2, TR2i
 
-from kovacic.general_solution.integrands import ChangeOfIntegrand, fresnel, integral_of_fraction, sum_of
+from kovacic.general_solution.integrands import ChangeOfIntegrand, integral_of_fraction, sum_of
 from kovacic.general_solution.substitution import in_single_waves
 from kovacic.general_solution.undetermined import undetermined
 
@@ -246,6 +246,7 @@ def beside_waves(term: Expr, x: Expr) -> Expr | None:
 
 
 def _beside_at_most_one_wave(term: Expr, x: Expr) -> Expr | None:
+    """The same for one term, by partial fractions k (x - c)^n, of which c is where a quadratic angle has no slope."""
     waves = [wave for wave in term.atoms(sin, cos) if wave.has(x)]
     wave = sympy.Mul(*waves)
     R = term / wave
@@ -254,13 +255,43 @@ def _beside_at_most_one_wave(term: Expr, x: Expr) -> Expr | None:
     if not waves:
         return integral_of_fraction(R, x)
     u = wave.args[0]
-    degree = sympy.degree(u, x) if u.is_polynomial(x) else 0
-    if degree == 2:
-        return fresnel(R, wave, x)
-    if degree != 1:
+    m = sympy.degree(u, x) if u.is_polynomial(x) else 0
+    if m not in (1, 2):
         return None
-    fractions = sympy.Add.make_args(sympy.apart(R, x))
-    return sum_of(by_coefficients(fraction * wave, x) or _at_a_pole(fraction, wave, x) for fraction in fractions)
+    middle = x - u.diff(x) / u.diff(x, 2) if m == 2 else sympy.S.Zero
+    total = sympy.S.Zero
+    for fraction in sympy.Add.make_args(sympy.apart(R.subs(x, x + middle), x)):
+        k, power = fraction.as_independent(x, as_Add=False)
+        line, n = (x, sympy.S.Zero) if power == 1 else power.as_base_exp()
+        slope = line.diff(x)
+        if slope.has(x):
+            return None
+        c = sympy.expand(middle + x - line / slope)
+        a, *others, d = map(sympy.expand, sympy.Poly(u.subs(x, x + c), x).all_coeffs())
+        if any(others):
+            return None
+        phase = d + sympy.pi / 2 if wave.func is cos else d
+        total += _power_beside_sine(k * slope**n, int(n), m, a, phase, x).subs(x, x - c)
+    return total
+
+
+def _power_beside_sine(k: Expr, n: int, m: int, a: Expr, d: Expr, t: Expr) -> Expr:
+    """int k t^n sin(a t^m + d) dt for m = 1 or 2, by parts to n = m - 1, -1 or 0: elementary, Si and Ci, Fresnel functions."""
+    u = a * t**m
+    if n == m - 1:
+        return -k / (m * a) * cos(u + d)
+    if n == -1:
+        return k / m * cos(d) * sympy.Si(u) + k / m * sin(d) * sympy.Ci(u)
+    if n == 0:
+        z = t * sympy.sqrt(2 * a / sympy.pi)
+        k *= sympy.sqrt(sympy.pi / (2 * a))
+        return k * cos(d) * sympy.fresnels(z) + k * sin(d) * sympy.fresnelc(z)
+    later = d + sympy.pi / 2  # the sine of which is a cosine
+    if n < 0:
+        k /= n + 1
+        return k * t ** (n + 1) * sin(u + d) + _power_beside_sine(-k * m * a, n + m, m, a, later, t)
+    k /= m * a
+    return -k * t ** (n + 1 - m) * cos(u + d) + _power_beside_sine(k * (n + 1 - m), n - m, m, a, later, t)
 
 
 def by_coefficients(term: Expr, x: Expr) -> Expr | None:
@@ -274,27 +305,3 @@ def by_coefficients(term: Expr, x: Expr) -> Expr | None:
     if found is None:
         return None
     return sympy.expand(found.diff(x))
-
-
-def _at_a_pole(fraction: Expr, wave: Expr, x: Expr) -> Expr | None:
-    """int f g/(x - c)^k dx for a constant f and a wave g: by parts down to k = 1, which is Si and Ci.
-
-    int sin(u + p)/(x - c) dx = cos(p) Si(u) + sin(p) Ci(u) with u = w (x - c), and p + pi/2 for the cosine.
-    """
-    base, exponent = fraction.as_independent(x, as_Add=False)[1].as_base_exp()
-    is_pole_of_line = exponent.is_Integer and exponent < 0 and not base.diff(x).has(x)
-    if not is_pole_of_line:
-        return None
-    c = sympy.expand(x - base / base.diff(x))
-    k = -int(exponent)
-    f = sympy.cancel(fraction * (x - c) ** k)
-    if k > 1:
-        lower = f / ((k - 1) * (x - c) ** (k - 1))
-        number, slope = wave.diff(x).as_independent(x, as_Add=False)
-        rest = _at_a_pole(number * lower, slope, x)
-        return None if rest is None else rest - lower * wave
-    u = wave.args[0].diff(x) * (x - c)
-    phase = sympy.expand(wave.args[0].subs(x, c))
-    if wave.func is cos:
-        phase += sympy.pi / 2
-    return f * (cos(phase) * sympy.Si(u) + sin(phase) * sympy.Ci(u))
