@@ -174,13 +174,20 @@ def _in_another_variable(
 
 
 def _arguments(term: Expr, x: Expr) -> Iterator[ChangeOfIntegrand]:
-    """To functions, their arguments u and bases u of powers, beside whose slope it is one of u; x = exp(u) for u = log(x)."""
+    """To functions, their arguments u and bases u of powers, beside whose slope it is one of u, or where x is one of u.
+
+    So it is for u = log(x), and for linear arguments with letters: a*asin(t) for asin(x/a), without a root of a^2.
+    """
     t = sympy.Dummy(real=True)
-    own = term.atoms(*_BY_PARTS) | {f.args[0] for f in term.atoms(sympy.Function) if f.args[0].has(exp, sin, cos, log)}
+    functions = term.atoms(*_BY_PARTS)
+    slopes = {f.args[0]: f.args[0].diff(x) for f in functions}
+    lines = {u: slope for u, slope in slopes.items() if slope.free_symbols and not slope.has(x)}
+    inverse = {u: (t - u.subs(x, 0)) / slope for u, slope in lines.items()} | {log(x): exp(t)}
+    own = functions | {*lines} | {f.args[0] for f in term.atoms(sympy.Function) if f.args[0].has(exp, sin, cos, log)}
     own |= {p.base for p in term.atoms(sympy.Pow) if p.exp.free_symbols and not p.exp.has(x)}
     for u in sorted((u for u in own if u.has(x) and u != x), key=str):
-        inner = (term / _slope(u, x)).subs(u, t)
-        yield ChangeOfIntegrand(prepared(inner.subs(x, exp(t))) if u == log(x) else inner, t, u)
+        inner = term / _slope(u, x)
+        yield ChangeOfIntegrand(prepared(inner.subs(x, inverse[u])) if u in inverse else inner.subs(u, t), t, u)
 
 
 def _exponentials(term: Expr, x: Expr) -> Iterator[ChangeOfIntegrand]:
@@ -260,19 +267,9 @@ def _by_parts(inverse: Expr, g: Expr, x: Expr) -> Expr | None:
 
 
 def _slope(function: Expr, x: Expr) -> Expr:
-    """1/sqrt(x^2 + 1) for log(x + sqrt(x^2 + 1)), and a/sqrt(b^2 - a^2 x^2) for asin(a x/sqrt(b^2))."""
+    """1/sqrt(x^2 + 1) for log(x + sqrt(x^2 + 1))."""
     slope = sympy.cancel(function.diff(x))
-    if slope.is_rational_function(x):
-        return slope
-    P, square = sympy.fraction(sympy.cancel(1 / slope**2))
-    c = sympy.powdenest(sympy.sqrt(square), force=True)
-    if (
-        len(slope.free_symbols) > 1
-        and P.is_polynomial(x)
-        and sympy.cancel(slope.subs(x, 0) * sympy.sqrt(P.subs(x, 0)) / c) == 1
-    ):
-        return c / sympy.sqrt(sympy.expand(P))
-    return sympy.powsimp(sympy.radsimp(slope))
+    return sympy.powsimp(sympy.radsimp(slope)) if isinstance(function, log) else slope
 
 
 def _beside_logarithm(logarithm: Expr, g: Expr, x: Expr) -> Expr | None:

@@ -262,9 +262,8 @@ def exceptions_of(w: Expr, x: Expr, coefficients: Sequence[Expr], of_pair: Itera
 def _constant_denominators(e: Expr, x: Expr) -> list[Expr]:
     """The denominators without x that may be zero, by their irreducible factors."""
     powers = (p for p in e.atoms(sympy.Pow) if p.exp.could_extract_minus_sign() and not p.base.has_free(x))
-    bases = dict.fromkeys(b for p in powers for b, _ in sympy.factor_list(p.base)[1])
-    bases = {b: None for b in bases if b.free_symbols and b.free_symbols <= e.free_symbols}  # no letter of integration
-    return [base for base in sorted(bases, key=str) if base.is_zero is not False]
+    bases = {base for p in powers for base in ZeroSet(p.base).factors}
+    return sorted((b for b in bases if b.free_symbols <= e.free_symbols), key=str)  # no letter of integration
 
 
 #: c and h with h'/h = c f(u) for these functions f.

@@ -221,7 +221,7 @@ def incomplete_gamma(term: Expr, x: Expr) -> Expr | None:
     if parts is None:
         return None
     d, c, m = parts
-    e = (s + 1) / m
+    e = sympy.cancel((s + 1) / m)
     if e == sympy.S.Half:  # u = t^(s+1): t^s dt is du/(s + 1)
         function, root = (sympy.erf, sympy.sqrt(-c)) if is_seen_negative(c) else (sympy.erfi, sympy.sqrt(c))
         found = sympy.sqrt(sympy.pi) * function(root * t ** (s + 1)) / (2 * root * (s + 1))
@@ -256,7 +256,7 @@ def power_beside_wave(term: Expr, x: Expr) -> Expr | None:
     d, c, m = parts
     if wave.func is cos:  # sin(u + d) = sin(u) cos(d) + cos(u) sin(d)
         d += sympy.pi / 2
-    e = (s + 1) / m
+    e = sympy.cancel((s + 1) / m)
     if any(value.is_Integer and not value.is_positive for value in (e / 2, (e + 1) / 2)):  # a logarithm
         return None
     z = -((c * x**m) ** 2) / 4

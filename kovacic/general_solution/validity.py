@@ -228,7 +228,7 @@ def _in_one_interval(relations: tuple[Expr, ...], x: Expr) -> tuple[Expr, ...] |
 
 
 def _is_over_Q(e: Expr, x: Expr) -> bool:
-    if not e.is_rational_function(x) or e.has(sympy.NumberSymbol, sympy.CRootOf):
+    if not e.is_rational_function(x) or e.has(sympy.I, sympy.NumberSymbol, sympy.CRootOf):
         return False
     return all(power.exp.is_Integer for power in e.atoms(sympy.Pow))
 

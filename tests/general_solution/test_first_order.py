@@ -174,6 +174,10 @@ def test_bernoulli_equations_with_values(problem: tuple[Any, Any, Any, int, Any]
         ("y' = y/(x*(L - x))", "C1*x**(1/L)/(L - x)**(1/L)"),
         ("y' = b*y/(x - a), y(1) = 2", "2*((a - x)/(a - 1))**b"),
         ("y' = 1/(3 - x)", "C1 - log(3 - x)"),
+        ("y' = asinh(x/a)", "C1 - a*sqrt(1 + x**2/a**2) + x*asinh(x/a)"),
+        ("y' = x*asin(x/a)", "C1 - a**2*asin(x/a)/4 + a*x*sqrt(1 - x**2/a**2)/4 + x**2*asin(x/a)/2"),
+        ("y' = log(x/a + 1)", "C1 + a*(1 + x/a)*log(1 + x/a) - a*(1 + x/a)"),
+        ("y' = x^a*exp(b*x^(2*a + 2))", "C1 + sqrt(pi)*erfi(sqrt(b)*x**(a + 1))/(2*sqrt(b)*(a + 1))"),
         ("(x^2 - 1)*y' + y = 1/(x - 1), y(0) = 0", "x/(1 - x)"),
     ],
 )
