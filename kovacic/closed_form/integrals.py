@@ -410,7 +410,7 @@ def _by_sine(curve: _Curve, atoms: Atoms) -> list[tuple[Poly, Expr]]:
 
 
 def _by_tangent(curve: _Curve, atoms: Atoms) -> list[tuple[Poly, Expr]]:
-    """By (2), from one branch point beside infinity: there goes a root of a quartic g; one of an irreducible cubic is adjoined."""
+    """By (2), from one branch point beside infinity: there goes a root of a quartic g; that of a cubic may be adjoined."""
     roots = curve.roots
     is_negative = False
     if curve.g.degree == 4:
