@@ -255,6 +255,6 @@ def eigenvalues(
                 deque(levels, maxlen=0)
         finally:
             found = problem.answer()
-            if found or problem.search.complete:
+            if found or problem.complete:
                 print(json_line({"schema": 1, "input": equation, **found.to_dict()}) if as_json else found)
     return DECIDED if len(found) == count or found.complete else UNDECIDED

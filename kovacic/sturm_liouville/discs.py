@@ -16,7 +16,7 @@ from operator import mul
 from typing import Any
 
 import sympy
-from flint import acb, acb_series, arb
+from flint import acb, acb_series, arb, ctx
 
 from kovacic.algebra.precision import series_length, working_precision
 from kovacic.closed_form.jets import BallEvaluator
@@ -105,11 +105,34 @@ def _sign_of_ball(value: Any) -> int:
     return int(value > 0) - int(value < 0)
 
 
+class germ(sympy.Function):  # type: ignore[misc]  # noqa: N801
+    """germ(D, t, k) = D/t^k for a function D of t with a zero of order k at t = 0: analytic there, as D is."""
+
+    def _eval_subs(self, old: Any, new: Any) -> Any:
+        D, t, k = self.args
+        return D.diff(t, k).subs(t, 0) / sympy.factorial(k) if (old, new) == (t, 0) else None
+
+
+class _GermEvaluator(BallEvaluator):
+    """With germs: D/t^k is a mean of D^(k)/k! between 0 and t, with the Taylor coefficients of D from the one of t^k on."""
+
+    def other(self, e: Any) -> Any:
+        if not isinstance(e, germ):
+            return super().other(e)
+        D, t, k = e.args
+        at = self.values[t]
+        if isinstance(at, acb_series):
+            with series_length(ctx.cap + int(k)):
+                return acb_series(list(BallEvaluator({t: acb_series([0, 1])})(D))[int(k) :])
+        mean = D.diff(t, k) / sympy.factorial(k) if at.contains(0) else D / t**k
+        return BallEvaluator(self.values, analytic=self.analytic)(mean)
+
+
 def coefficients(e: Expr, x: Expr, x0: Any, terms: int) -> list[Any]:
     """The Taylor coefficients of e about x0, without zeros at the end.  Raises `InputError` unless they are real."""
     with series_length(terms):
         try:
-            value = BallEvaluator({x: acb_series([acb(x0), 1])})(e)
+            value = _GermEvaluator({x: acb_series([acb(x0), 1])})(e)
         except (ValueError, ZeroDivisionError) as error:
             raise not_analytic(x, x0) from error
         found = list(value) if isinstance(value, acb_series) else [value]
@@ -134,7 +157,7 @@ def size(e: Expr, x: Expr, x0: Any, radius: Any) -> Any:
     Where one box isn't enough, as for 1/cosh(x), the upper half of the disc is in several: e(conj x) = conj e(x).
     """
     box = acb(x0 + arb(0, radius), arb(0, radius))
-    whole = abs(BallEvaluator({x: box}, analytic=True)(e)).upper()
+    whole = abs(_GermEvaluator({x: box}, analytic=True)(e)).upper()
     if whole.is_finite() or not e.has(*_UNBOUNDED_IN_BOXES):
         return whole
     half = radius / (2 * _COLUMNS)
@@ -143,7 +166,7 @@ def size(e: Expr, x: Expr, x0: Any, radius: Any) -> Any:
         for column in range(1, 2 * _COLUMNS, 2):
             centre = x0 + half * (2 * column - 2 * _COLUMNS)
             box = acb(centre + arb(0, 2 * half), half * row + arb(0, half))
-            largest = largest.max(abs(BallEvaluator({x: box}, analytic=True)(e)).upper())
+            largest = largest.max(abs(_GermEvaluator({x: box}, analytic=True)(e)).upper())
             if not largest.is_finite():
                 return largest
     return largest

@@ -28,12 +28,13 @@ import sympy
 from flint import acb, arb, ctx
 from mpmath.ctx_iv import MPIntervalContext
 from sympy.printing.pycode import MpmathPrinter
+from sympy.simplify.fu import TR1, TR2
 
 from kovacic.algebra.precision import working_precision
 from kovacic.closed_form.jets import BallEvaluator
 from kovacic.errors import InputError, LimitExceeded
-from kovacic.sturm_liouville.discs import coefficients, size
-from kovacic.sturm_liouville.problem import Robin, Span, Stretch, SturmProblem, Wish, ball, kept, plain
+from kovacic.sturm_liouville.discs import coefficients, germ, size
+from kovacic.sturm_liouville.problem import Robin, Span, Stretch, SturmProblem, Wish, ball, dyadic_midpoint, kept, plain
 
 _INFINITY = arb.pos_inf()
 #: Intervals whose ends may be infinite.
@@ -253,7 +254,7 @@ class CutEnd:
         Q, W = self.of_tau
         if self.threshold is None or W != 1:
             return -arb.pos_inf(), arb.pos_inf()
-        tau = _dyadic_midpoint((-self.inwards * x).lower())
+        tau = dyadic_midpoint((-self.inwards * x).lower())
         return lower_bound(Q, self.tau, tau), -lower_bound(-Q, self.tau, tau)
 
     def _name(self) -> str:
@@ -270,11 +271,11 @@ class CutEnd:
     def _positive_from(self, top: Any) -> Any:
         """A number from which on Q - top W > 0 is proven."""
         Q, W = self.of_tau
-        excess = Q - _dyadic_midpoint(top) * W
+        excess = Q - dyadic_midpoint(top) * W
         candidates = [self.origin + arb(2) ** k for k in range(-3, _REACH)]
         signs = [bool(self._S(tau, top) > 0) for tau in candidates]
         for k, tau in enumerate(candidates):
-            if all(signs[k : k + 12]) and lower_bound(excess, self.tau, _dyadic_midpoint(tau)) > 0:
+            if all(signs[k : k + 12]) and lower_bound(excess, self.tau, dyadic_midpoint(tau)) > 0:
                 return tau
         raise InputError(
             f"it isn't proven that the potential is above {top.str(6, radius=False)} towards {self._name()}"
@@ -320,14 +321,9 @@ def at_threshold(end: End, threshold: Expr) -> End | None:
     excess = sympy.expand((Q - threshold * W) * end.tau**2)
     for k in range(8):
         tau = (abs(end.origin) + arb(2) ** k).mid()
-        if lower_bound(excess, end.tau, _dyadic_midpoint(tau), derivatives=1) >= -arb(1) / 4:
+        if lower_bound(excess, end.tau, dyadic_midpoint(tau), derivatives=1) >= -arb(1) / 4:
             return ThresholdEnd(-end.inwards * tau, end.inwards)
     return None
-
-
-def _dyadic_midpoint(value: Any) -> Expr:
-    mantissa, exponent = value.mid().man_exp()
-    return sympy.Integer(int(mantissa)) * sympy.Integer(2) ** int(exponent)
 
 
 def end_of(problem: SturmProblem, side: int) -> End:
@@ -348,8 +344,7 @@ def end_of(problem: SturmProblem, side: int) -> End:
         slope = problem.slope(at) if wish.beta != 0 else 0
         return RegularEnd(at, wish.alpha - wish.beta * slope, wish.beta, inwards)
     t = sympy.Dummy("t", positive=True)
-    Q, W = (e.subs(problem.x, at + inwards * t) * t**2 for e in (piece.Q, piece.W))
-    Q, W = (plain(e, t) if e.is_rational_function(t) else sympy.expand(e) for e in (Q, W))
+    Q, W = (_times_square(e.subs(problem.x, at + inwards * t), t) for e in (piece.Q, piece.W))
     length = arb(1)  # a lower bound of the piece's; 1 for an infinite one
     if piece.low.is_finite and piece.high.is_finite:
         with working_precision(64):
@@ -364,6 +359,20 @@ def end_of(problem: SturmProblem, side: int) -> End:
         return found
     tau = sympy.Dummy("tau", positive=True)
     return CutEnd(problem.x, tau, at + inwards / tau, piece, inwards, None, (1 / length).upper())
+
+
+def _times_square(e: Expr, t: Expr) -> Expr:
+    """t^2 e, without removable singular points at t = 0: for a zero D of the denominator of order k, D is t^k germ(D)."""
+    if e.is_rational_function(t):
+        return plain(e * t**2, t)
+    num, den = sympy.fraction(sympy.together(TR2(TR1(e)).rewrite(_HYPERBOLIC, sympy.exp)))
+    power = sympy.Integer(2)
+    for base, exponent in (factor.as_base_exp() for factor in sympy.Mul.make_args(den)):
+        order = next((k for k in range(3) if base.diff(t, k).subs(t, 0) != 0), 0)
+        if order and exponent.is_Integer:
+            power -= order * exponent
+            num, den = num / germ(base, t, order) ** exponent, den / base**exponent
+    return t**power * num / den if power in (0, 1) else sympy.expand(e * t**2)
 
 
 def is_regular(piece: Stretch, problem: SturmProblem, at: Expr) -> bool:

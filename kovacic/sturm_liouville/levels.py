@@ -23,6 +23,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, field
 from functools import partial
+from itertools import accumulate
 from typing import Any, overload
 
 import sympy
@@ -75,12 +76,7 @@ class SeparatedCounter:
         total = sum(depths)
         if not total > 0:
             return points[int(_DEPTH_SAMPLES * _MATCH)]
-        so_far = arb(0)
-        for point, depth in zip(points, depths, strict=True):
-            so_far += depth
-            if so_far > total * _MATCH:
-                return point
-        return points[-1]
+        return next(p for p, so_far in zip(points, accumulate(depths), strict=True) if so_far > total * _MATCH)
 
     def at(self, E: Any, prec: int, *, high: bool = False) -> Reading:
         """The lower count, or the upper one if `high`."""

@@ -212,8 +212,12 @@ def point_between(low: Expr, high: Expr) -> Expr:
     width = ball(high) - ball(low)
     if not width > 0:
         raise InputError(f"the interval is empty: {low} isn't below {high}")
-    middle = (ball(low) + width * fmpq(3, 7)).mid()
-    mantissa, exponent = middle.man_exp()
+    return dyadic_midpoint(ball(low) + width * fmpq(3, 7))
+
+
+def dyadic_midpoint(value: Any) -> Expr:
+    """The midpoint of a ball, exactly."""
+    mantissa, exponent = value.mid().man_exp()
     return sympy.Integer(int(mantissa)) * sympy.Integer(2) ** int(exponent)
 
 

@@ -6,9 +6,9 @@ at its upper end the lower one at least k + 1.  So eigenvalue number k is inside
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
-from dataclasses import dataclass, field
-from functools import cached_property, partial
+from collections.abc import Iterator
+from dataclasses import dataclass, field, replace
+from functools import cached_property
 from typing import Any
 
 from flint import arb
@@ -39,6 +39,10 @@ _APPROACHES = 7
 _FREE_RADII = 16
 #: Where an interval is divided; the next share is taken if a count fails, as it does at an eigenvalue.
 _SHARES = tuple(arb(n) / 64 for n in (31, 37, 23, 41))
+#: Bits of the count at the bottom of the essential spectrum, which has to be one of few levels.
+_TOTAL_BITS = 128
+#: Pairs of periodic levels often coincide: twice the digits are tried, not more.
+_PERIODIC_SEPARATIONS = 2
 
 
 class _Near(Exception):
@@ -204,54 +208,78 @@ def _log2(value: Any) -> int:
     return int(mantissa).bit_length() - 1 + int(exponent)
 
 
-@dataclass(frozen=True)
-class Range:
-    """Two numbers: no eigenvalue is below the first, and at least `count` are below the second."""
-
-    low: Any
-    high: Any
-    count: int
+def _ball(low: Any, high: Any) -> Ball:
+    with working_precision(64 + 2 * max(low.bits(), high.bits())):
+        return finite_ball(low.union(high))
 
 
-class LevelSearch:
-    """The lowest levels of a problem, one after the other.
+@dataclass
+class Eigenproblem:
+    """A problem as read; `levels` computes its lowest levels, one after the other.
 
-    `counters(span, digits)` makes a counter; `threshold` is the bottom of the essential spectrum, or None, and
-    `total()` the number of levels below it, or None if that isn't known.
+    `complete`: these are all, as is proven; `exhausted`: others may be too near to the essential spectrum to be counted.
     """
 
-    def __init__(
-        self,
-        counters: Callable[[Span, int], Any],
-        scale: Any,
-        *,
-        threshold: Any = None,
-        total: Callable[[], int | None] = lambda: None,
-        separations: int = _SEPARATIONS,
-    ) -> None:
-        self.counters = counters
-        self.scale = scale
-        self.threshold = threshold
-        self.total = total
-        self.separations = separations
-        self.complete = False
-        self.exhausted = False
+    problem: SturmProblem
+    parameter: str
+    notes: tuple[str, ...] = ()
+    complete: bool = False
+    exhausted: bool = False
+    _found: list[Level] = field(default_factory=list)
+
+    @cached_property
+    def ends(self) -> tuple[End, End]:
+        """The ends of separated conditions.  Raises `InputError` for conditions that don't fit them."""
+        return end_of(self.problem, 0), end_of(self.problem, 1)
+
+    @cached_property
+    def threshold(self) -> Any:
+        """The bottom of the essential spectrum; None if there is none."""
+        if self.problem.wrap:
+            return None
+        finite = [end.threshold for end in self.ends if end.threshold is not None]
+        return min(finite, key=lambda e: float(ball(e).mid())) if finite else None
+
+    @cached_property
+    def scale(self) -> Any:
+        """An exact number of the size of the lowest levels, pi^2/(length^2 W), for a finite interval; else 1."""
+        low, high = self.problem.ends
+        if low.is_infinite or high.is_infinite:
+            return arb(1)
+        with working_precision(64):
+            middle = (ball(low) + (ball(high) - ball(low)) * 3 / 7).mid()
+            pieces = self.problem.pieces
+            piece = next((p for p in pieces if p.high.is_infinite or middle < ball(p.high)), pieces[-1])
+            weight = BallEvaluator({self.problem.x: middle})(piece.W).real
+            return (10 / ((ball(high) - ball(low)) ** 2 * weight)).mid()
+
+    @property
+    def total(self) -> int | None:
+        """The number of levels below the essential spectrum; None if it isn't proven."""
+        first, second = (at_threshold(end, self.threshold) for end in self.ends)
+        if first is None or second is None:
+            return None
+        with working_precision(_TOTAL_BITS):
+            bottom = ball(self.threshold)
+        counter = SeparatedCounter(self.problem, (first, second), Span(bottom.upper(), abs(bottom).upper()), digits=6)
+        return counter.at(bottom, _TOTAL_BITS, high=True).count
 
     def levels(self, count: int, digits: int) -> Iterator[Level]:
         """The lowest levels, `count` at most.  Raises `InputError` and `LimitExceeded`."""
-        found = self._range(count)
+        low, high, number = self._range(count)
         k = 0
-        while k < found.count:
-            for level in self._next(k, found, digits):
-                yield level
+        while k < number:
+            for level in self._next(k, low, high, digits):
+                found = level if self.problem.sign == 1 else replace(level, value=-level.value)
+                self._found.append(found)
+                yield found
                 k += 1
 
-    def _next(self, k: int, found: Range, digits: int) -> list[Level]:
+    def _next(self, k: int, low: Any, high: Any, digits: int) -> list[Level]:
         """Level k, or all that share its ball."""
-        for attempt in range(self.separations):
-            size = max(abs(found.low), abs(found.high))
-            searcher = self._searcher(found.high, size, digits, digits * 2**attempt)
-            below, above = searcher.range_with(found.low, found.high)
+        for attempt in range(_PERIODIC_SEPARATIONS if self.problem.wrap else _SEPARATIONS):
+            searcher = self._searcher(high, max(abs(low), abs(high)), digits, digits * 2**attempt)
+            below, above = searcher.range_with(low, high)
             ends = searcher.level(k, below, above)
             if ends is not None:
                 return [Level(_ball(*ends), searcher.counter.zeros(k))]
@@ -263,34 +291,36 @@ class LevelSearch:
     @kept
     def _searcher(self, high: Any, size: Any, digits: int, more: int) -> Searcher:
         """For |E| <= size and E <= high, balls with `digits` digits, and counts with `more`."""
-        return Searcher(self.counters(Span(high, size), more), digits)
+        span = Span(high, size)
+        if self.problem.wrap:
+            return Searcher(PeriodicCounter(self.problem, span, more), digits)
+        return Searcher(SeparatedCounter(self.problem, self.ends, span, more), digits)
 
-    def _range(self, count: int) -> Range:
-        """A range with the `count` lowest levels, or with all."""
-        low = self._free_of_levels()
+    def _range(self, count: int) -> tuple[Any, Any, int]:
+        """A number below all levels, one above the `count` lowest levels or above all, and how many are between."""
+        bottom = None if self.threshold is None else ball(self.threshold)
+        low = self._free_of_levels(bottom)
         total = None
-        for number in range(_RANGE_STEPS if self.threshold is None else _APPROACHES):
+        for number in range(_RANGE_STEPS if bottom is None else _APPROACHES):
             with working_precision(64):
-                if self.threshold is None:
-                    E = self._short(self.scale * arb(4) ** number * 15 / 16)
-                else:
-                    E = self._short(self.threshold - self.scale / arb(4) ** (number + 1))
+                power = arb(4) ** number
+                E = self._short(self.scale * power * 15 / 16 if bottom is None else bottom - self.scale / (4 * power))
             found = self._rough(E, low, high=False)
             if found.count >= count:
-                return Range(low, found.E, count)
-            if self.threshold is not None and number == 0:
-                total = self.total()
+                return low, found.E, count
+            if bottom is not None and number == 0:
+                total = self.total
             if found.count == total:
                 self.complete = True
-                return Range(low, found.E, total)
-        if self.threshold is None:
+                return low, found.E, found.count
+        if bottom is None:
             raise LimitExceeded(f"{count} levels weren't found", limit="unknown_degree")
         self.exhausted = True
-        return Range(low, found.E, found.count)
+        return low, found.E, found.count
 
-    def _free_of_levels(self) -> Any:
+    def _free_of_levels(self, bottom: Any) -> Any:
         """A number below all levels."""
-        start = -self.scale / 7 if self.threshold is None else self.threshold - self.scale
+        start = -self.scale / 7 if bottom is None else bottom - self.scale
         with working_precision(64):
             for number in range(_RANGE_STEPS):
                 E = self._short(start - self.scale * (arb(4) ** number - 1))
@@ -314,87 +344,10 @@ class LevelSearch:
                 continue
         raise LimitExceeded("levels weren't counted", limit="digits")
 
-
-def _ball(low: Any, high: Any) -> Ball:
-    with working_precision(64 + 2 * max(low.bits(), high.bits())):
-        return finite_ball(low.union(high))
-
-
-#: Bits of the count at the bottom of the essential spectrum, which has to be one of few levels.
-_TOTAL_BITS = 128
-#: Pairs of periodic levels often coincide: twice the digits are tried, not more.
-_PERIODIC_SEPARATIONS = 2
-
-
-@dataclass(frozen=True)
-class Eigenproblem:
-    """A problem as read; `levels` computes its lowest levels, one after the other."""
-
-    problem: SturmProblem
-    parameter: str
-    notes: tuple[str, ...] = ()
-    _found: list[Level] = field(default_factory=list, compare=False, repr=False)
-
-    @cached_property
-    def ends(self) -> tuple[End, End]:
-        """The ends of separated conditions.  Raises `InputError` for conditions that don't fit them."""
-        return end_of(self.problem, 0), end_of(self.problem, 1)
-
-    @cached_property
-    def threshold(self) -> Any:
-        """The bottom of the essential spectrum; None if there is none."""
-        if self.problem.wrap:
-            return None
-        finite = [end.threshold for end in self.ends if end.threshold is not None]
-        return min(finite, key=lambda e: float(ball(e).mid())) if finite else None
-
-    @cached_property
-    def search(self) -> LevelSearch:
-        """The search for the levels."""
-        if self.problem.wrap:
-            return LevelSearch(partial(PeriodicCounter, self.problem), self._scale(), separations=_PERIODIC_SEPARATIONS)
-        threshold = None if self.threshold is None else ball(self.threshold)
-        counter = partial(SeparatedCounter, self.problem, self.ends)
-        return LevelSearch(counter, self._scale(), threshold=threshold, total=self._total)
-
-    def _scale(self) -> Any:
-        """An exact number of the size of the lowest levels, pi^2/(length^2 W), for a finite interval; else 1."""
-        low, high = self.problem.ends
-        if low.is_infinite or high.is_infinite:
-            return arb(1)
-        with working_precision(64):
-            middle = (ball(low) + (ball(high) - ball(low)) * 3 / 7).mid()
-            pieces = self.problem.pieces
-            piece = next((p for p in pieces if p.high.is_infinite or middle < ball(p.high)), pieces[-1])
-            weight = BallEvaluator({self.problem.x: middle})(piece.W).real
-            return (10 / ((ball(high) - ball(low)) ** 2 * weight)).mid()
-
-    def _total(self) -> int | None:
-        """The number of levels below the essential spectrum; None if it isn't proven."""
-        ends = [at_threshold(end, self.threshold) for end in self.ends]
-        first, second = ends
-        if first is None or second is None:
-            return None
-        with working_precision(_TOTAL_BITS):
-            bottom = ball(self.threshold)
-        counter = SeparatedCounter(self.problem, (first, second), Span(bottom.upper(), abs(bottom).upper()), digits=6)
-        return counter.at(bottom, _TOTAL_BITS, high=True).count
-
-    def levels(self, count: int, digits: int) -> Iterator[Level]:
-        """The lowest levels, `count` at most.  Raises `InputError` and `LimitExceeded`."""
-        for level in self.search.levels(count, digits):
-            value = level.value if self.problem.sign == 1 else -level.value
-            found = Level(value, level.zeros, level.alone)
-            self._found.append(found)
-            yield found
-
     def answer(self, reason: str = "") -> Eigenvalues:
         """The levels found so far, with notes, and the reason why there aren't more."""
-        found = tuple(self._found)
-        if reason:
-            return Eigenvalues(found, False, self.parameter, (*self.notes, reason), self.problem)
-        notes = (*self.notes, *self._said())
-        return Eigenvalues(found, self.search.complete, self.parameter, notes, self.problem)
+        notes = (*self.notes, *([reason] if reason else self._said()))
+        return Eigenvalues(tuple(self._found), self.complete and not reason, self.parameter, notes, self.problem)
 
     def _said(self) -> Iterator[str]:
         """Notes on assumptions, and on claims that aren't proven."""
@@ -406,5 +359,5 @@ class Eigenproblem:
                     yield f"{said}: the smallest one is meant (Friedrichs)"
         if self.threshold is not None:
             yield f"the essential spectrum begins at {self.parameter} = {self.problem.sign * self.threshold}"
-            if self.search.exhausted and not self.search.complete:
+            if self.exhausted:
                 yield "whether there are others that are nearer to it isn't proven"

@@ -5,6 +5,7 @@ import pickle
 from fractions import Fraction
 
 import pytest
+import sympy
 
 import kovacic
 from kovacic import eigenvalues
@@ -179,6 +180,19 @@ def test_spectrum_has_numeric_levels_beside_formulas_or_without():
     assert str(falling).count("a boundary condition is needed") == 1
     with pytest.raises(kovacic.InputError, match="values of g"):
         kovacic.spectrum("g*x^4", levels=1)
+
+
+def test_levels_beside_simple_poles_of_a_sine():
+    """-1/sin(x) is even about pi/2, where sin(x) turns, and the level sin(x) (1 - sin(x))^(1/2) changes its sign."""
+    found = kovacic.spectrum("-1/sin(x)", domain=(0, "pi"), levels=2, digits=6)
+    (state,) = found.states()
+    assert found.numeric[state.number].value.contains(state.energy)
+    assert found.numeric[state.number].zeros == state.zeros == 1
+    x = sympy.Symbol("x")
+    assert sympy.simplify(state.wave.diff(x, 2) + (1 / sympy.sin(x) + state.energy) * state.wave) == 0
+    left, right = (complex(state.wave.subs(x, a)) for a in (1.25, 3.25 - 1.25))
+    assert left.imag == right.imag == 0
+    assert left.real * right.real < 0
 
 
 def test_the_command_prints_levels_and_reports_failure(capsys):
