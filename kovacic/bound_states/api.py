@@ -4,16 +4,14 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
 from contextlib import suppress
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from typing import Any
 
 import sympy
 
 from kovacic.bound_states.asked import asked, problem_of, unsolved
-from kovacic.bound_states.closed_forms import closed_forms, step
-from kovacic.bound_states.coordinates import RealPotential, check_poles, on_real_circle
-from kovacic.bound_states.ends import End, end_of, potential_in_t
-from kovacic.bound_states.energies import tidied
+from kovacic.bound_states.closed_forms import closed_forms, demand_at
+from kovacic.bound_states.ends import Examined, examined
 from kovacic.bound_states.families import (
     ExponentForm,
     bessel,
@@ -22,20 +20,21 @@ from kovacic.bound_states.families import (
     whittaker,
 )
 from kovacic.bound_states.frame import SingularFrame, frames
-from kovacic.bound_states.levels import Algebraic, BoundState, Levels, Spectrum
+from kovacic.bound_states.levels import Algebraic, Levels, Spectrum
 from kovacic.bound_states.numeric import check_first_levels, with_matching, with_numbers
-from kovacic.bound_states.question import FRIEDRICHS, Asked, SpectralProblem
+from kovacic.bound_states.question import Asked, SpectralProblem
 from kovacic.bound_states.signs import Uncovered
 from kovacic.bound_states.without_levels import NO_LEVELS, REASON, is_repulsive
 from kovacic.enclosure.request import Accuracy, digits_and_limits
+from kovacic.engine.places import analyse
 from kovacic.equation import ENERGY
 from kovacic.errors import InputError, LimitExceeded, NotRational
-from kovacic.limits import Budget, Limits, check_duration, limited
+from kovacic.limits import Budget, Limits, limited
 from kovacic.numbers.exact import whole
 from kovacic.parametric.api import DEFAULT_DEGREE
 from kovacic.parametric.assumptions import check_mapping
-from kovacic.parametric.restriction import own_parameters
-from kovacic.reading.read import declared
+from kovacic.parametric.partition import transformation
+from kovacic.reading.read import declared, read_input
 from kovacic.reading.symbolic import written_expression
 
 _STANDARD_FORMS: tuple[tuple[Callable[[SingularFrame, SpectralProblem], ExponentForm | None], str], ...] = (
@@ -45,8 +44,6 @@ _STANDARD_FORMS: tuple[tuple[Callable[[SingularFrame, SpectralProblem], Exponent
     (bessel, "Bessel's equation"),
 )
 _POLYNOMIAL = "each solution that is square integrable at both ends has a polynomial in it"
-#: Seconds that SymPy takes to expand a potential at the ends of its domain, over its terms to the power 3/2.
-_END_SECONDS = 4e-4
 
 
 @limited
@@ -161,108 +158,45 @@ def _schroedinger_spectrum(given: Asked, max_degree: int, limits: Limits) -> Spe
     budget = Budget(limits)
     with budget.watched():
         try:
-            examined = _examined(question)
+            _check_branch_point(question)
+            known = examined(question)
         except (Uncovered, LimitExceeded) as reason:
-            examined = _Examined(question)
-            found = examined.spectrum(reason=f"undecided: {reason}")
+            known = Examined(**vars(question))
+            found = known.spectrum(reason=f"undecided: {reason}")
         else:
-            found = _all_levels(examined, budget)
+            found = _all_levels(known, budget)
         if not (found.complete or found.needs_boundary_condition):
-            found = _with_closed_forms(found, examined, max_degree, limits)
+            found = _with_closed_forms(found, known, max_degree, limits)
     return found
 
 
-@dataclass(frozen=True)
-class _Examined:
-    """The question with V as a function of a real t, the ends, and where a boundary condition would be needed.
-
-    `real` is None, and there are no ends, where they can't be examined.
-    """
-
-    question: SpectralProblem
-    real: RealPotential | None = None
-    ends: tuple[End, ...] = ()
-    excluded: tuple[Any, ...] = ()
-
-    def spectrum(self, **found: Any) -> Spectrum:
-        """The answer, with what was `found`."""
-        question = self.question
-        parameters = own_parameters(question.parameters, tuple(question.meanings.items()))
-        return question.spectrum(
-            parameters,
-            question.known.without(question.meanings),
-            boundary=question.boundary.text or (FRIEDRICHS if question.friedrichs else None),
-            ends=tuple(end.sentence for end in self.ends),
-            excluded=tuple(relation for relation in map(question.plain, self.excluded) if relation != sympy.false),
-            **found,
-        )
-
-
-def _examined(question: SpectralProblem) -> _Examined:
-    """With Friedrichs' condition where one is needed and none was given, if the operator is bounded below.
-
-    Raises `Uncovered` where the ends can't be examined, or t isn't real, `InputError` for a pole inside the domain, and
-    `LimitExceeded` where it would take too long.
-    """
-    _check_branch_point(question)
-    original = question.original
-    terms = question.parsed.S.num.degree + question.parsed.S.den.degree
-    check_duration(_END_SECONDS * terms**1.5, f"examining a potential of {terms} terms at its ends")
-    real = on_real_circle(potential_in_t(question, original))
-    check_poles(real, question.domain, question.signs)
-    ends = []
-    for is_right, at in enumerate(question.domain):
-        ends.append(end_of(question, real, is_right=bool(is_right)))
-        wish = question.boundary.wishes[is_right]
-        if wish is not None and not (ends[-1].vanishes if wish.is_zero else ends[-1].is_regular):
-            raise InputError(
-                f"V isn't regular at {question.variable} = {at}: only Friedrichs' condition is known there"
-            )
-    found = _Examined(question, real, tuple(ends), _excluded(question, ends))
-    if found.excluded and not question.friedrichs and not any(end.oscillates for end in ends):
-        return replace(_examined(question.with_friedrichs_condition()), real=real)
-    return found
-
-
-def _excluded(question: SpectralProblem, ends: Sequence[End]) -> tuple[Any, ...]:
-    """The relations where both solutions are square integrable at an end and none of them is chosen."""
-    signs = question.signs
-    free = [end for end, wish in zip(ends, question.boundary.wishes, strict=True) if wish is None]
-    found = [end.oscillation if question.friedrichs and not end.oscillates else end.circle for end in free]
-    left = [circle for circle in found if signs.holds(circle) is not False]
-    return tuple(dict.fromkeys(relation for circle in left for relation in tidied([circle], signs) or (sympy.true,)))
-
-
-def _all_levels(examined: _Examined, budget: Budget) -> Spectrum:
+def _all_levels(question: Examined, budget: Budget) -> Spectrum:
     """All levels in one formula, or the reason why there is none."""
-    question = examined.question
-    assert examined.real is not None
-    oscillating = next((end for end in examined.ends if end.oscillates and end.is_limit_point), None)
+    oscillating = next((end for end in question.ends if end.oscillates and end.is_limit_point), None)
     if oscillating is not None:
         reason = f"no solution is square integrable at {oscillating.at}"
-        return replace(examined, excluded=()).spectrum(complete=True, reason=reason)
-    if sympy.true in examined.excluded:
+        return question.spectrum(excluded=(), complete=True, reason=reason)
+    if sympy.true in question.excluded:
         # Where solutions oscillate at an end, no boundary condition is distinguished, and none was given.
-        return replace(examined, excluded=(sympy.true,)).spectrum(reason="none is distinguished")
-    if examined.real.original.is_periodic and any(at.is_infinite for at in question.domain):
+        return question.spectrum(excluded=(sympy.true,), reason="none is distinguished")
+    if question.original.is_periodic and any(at.is_infinite for at in question.domain):
         if all(at.is_infinite for at in question.domain):
-            return examined.spectrum(complete=True, reason=NO_LEVELS)
+            return question.spectrum(complete=True, reason=NO_LEVELS)
         reason = "V is periodic, and no formula is known for its levels on a half line, which lie between the bands"
-        return examined.spectrum(reason=f"undecided: {reason}")
+        return question.spectrum(reason=f"undecided: {reason}")
     try:
         levels, name = _families(question, budget)
     except Uncovered:
-        is_settled = not examined.excluded and not question.boundary.is_mixed
-        if is_settled and is_repulsive(examined.real, examined.ends, question.signs):
-            return examined.spectrum(complete=True, reason=REASON)
-        return _transformed(examined, budget) or examined.spectrum(reason=_why_no_formula(examined))
-    return examined.spectrum(levels=levels, complete=True, reason=f"{name}: {_POLYNOMIAL}")
+        is_settled = not question.excluded and not question.boundary.is_mixed
+        if is_settled and is_repulsive(question):
+            return question.spectrum(complete=True, reason=REASON)
+        return _transformed(question, budget) or question.spectrum(reason=_why_no_formula(question))
+    return question.spectrum(levels=levels, complete=True, reason=f"{name}: {_POLYNOMIAL}")
 
 
-def _why_no_formula(examined: _Examined) -> str:
+def _why_no_formula(question: Examined) -> str:
     """What there is instead of a formula at an ordinary point; "" where there may be single levels."""
-    question = examined.question
-    wall = next((end.at for end in examined.ends if end.is_regular), None)
+    wall = next((end.at for end in question.ends if end.is_regular), None)
     if wall is None:
         return ""
     where = f"{question.variable} = {question.shown(wall)}"
@@ -273,51 +207,57 @@ def _why_no_formula(examined: _Examined) -> str:
     )
 
 
-def _with_closed_forms(found: Spectrum, examined: _Examined, max_degree: int, limits: Limits) -> Spectrum:
+def _with_closed_forms(found: Spectrum, question: Examined, max_degree: int, limits: Limits) -> Spectrum:
     """The spectrum with the levels that have a closed form, and what is proven about them."""
-    question = examined.question
-    forms = closed_forms(question, examined.ends, examined.real, max_degree, limits)
+    forms = closed_forms(question, max_degree, limits)
     reason = forms.reason if forms.complete else found.reason or forms.reason
     found = replace(found, algebraic=tuple(forms.levels), closed_forms_complete=forms.complete, reason=reason)
-    if forms.complete or forms.higher is None or not examined.ends:
+    if forms.complete or forms.higher is None or not question.ends:
         return found
     higher = f"there may be levels with a polynomial of degree {forms.higher}"
     return replace(found, hint=f"{higher}: max_degree={forms.higher}", shell=f"{higher}: --max-degree {forms.higher}")
 
 
-def _transformed(examined: _Examined, budget: Budget) -> Spectrum | None:
-    """By Darboux' transformation from a potential with fewer apparent singularities, or None."""
-    question = examined.question
-    found = step(question, examined.ends, budget)
-    if found is None:
+def _transformed(question: Examined, budget: Budget) -> Spectrum | None:
+    """By Darboux' transformation, which lowers the apparent singularities of a V in x (`closed_forms`), or None."""
+    if question.parsed.equation is not None or not all(end.is_limit_point for end in question.ends):
         return None
+    found = transformation(analyse(question.parsed.S, budget))
+    signs = question.signs
+    x, E = sympy.symbols([question.variable, question.energy])
+    if found is None or any(signs.sign(signs.real(f.to_sympy(x))) is None for f in found.exceptions):
+        return None
+    W, S, simpler = (f.num.to_sympy(x) / f.den.to_sympy(x) for f in (found.W, question.parsed.S, found.simpler))
+    E0 = question.plain(sympy.cancel(sympy.together((S.subs(E, 0) - W**2 - sympy.diff(W, x)) * question.kinetic)))
+    wave = sympy.exp(sympy.integrate(sympy.apart(W, x), x))
+    holds = [signs.holds(demand_at(end, signs.real(wave), question)) for end in question.ends]
+    parsed = read_input(simpler, var=question.variable, exponentials=True)
     try:
-        other = _examined(question.with_S(found.S))
-        simpler = _all_levels(other, budget)
+        other = examined(replace(question, S=simpler, parsed=parsed))
+        spectrum = _all_levels(other, budget)
     except (Uncovered, InputError):
         return None
     # E0 may be a level of the simpler potential, and isn't one of V then.
-    E0 = question.plain(found.energy)
-    gaps = (question.signs.real(one.energy - E0).xreplace({one.number: question.signs.n}) for one in simpler.levels)
-    are_kept = all(question.signs.sign(gap) is not None for gap in gaps)
-    if not (simpler.complete and are_kept and all(end.is_limit_point for end in other.ends)):
+    gaps = (signs.real(one.energy - E0).xreplace({one.number: signs.n}) for one in spectrum.levels)
+    are_kept = all(signs.sign(gap) is not None for gap in gaps)
+    if None in holds or not (spectrum.complete and are_kept and all(end.is_limit_point for end in other.ends)):
         return None
     # The levels of the simpler potential with y' + W y for y, whose norm^2 is (E - E0)/k times that of y; and E0 with y0.
-    W, k = question.plain(sympy.factor(found.W)), question.plain(question.kinetic)
-    x, E = sympy.symbols([question.variable, question.energy])
+    W, lowest = question.plain(sympy.factor(W)), question.plain(wave)
     levels = []
-    for one in simpler.levels:
-        wave = W * one.wave + sympy.Derivative(one.wave, x)
-        norm = None if one.norm is None else (one.energy - E0) / k * one.norm
-        levels.append(replace(one, wave=wave, zeros=one.zeros + int(found.is_level), norm=norm))
-    lowest = question.plain(found.wave)
-    states = () if question.parameters else (BoundState(0, E0, lowest),)
-    shown = question.shown(sympy.factor(question.kinetic * found.S.subs(question.E, 0)))
-    return examined.spectrum(
+    for one in spectrum.levels:
+        y = W * one.wave + sympy.Derivative(one.wave, x)
+        norm = None if one.norm is None else (one.energy - E0) / question.kinetic * one.norm
+        levels.append(replace(one, wave=y, zeros=one.zeros + int(all(holds)), norm=norm))
+    level = Algebraic(0, sympy.Integer(0), E - E0, lowest, P=sympy.Poly(1, x), range=question.interval)
+    if not question.parameters:
+        level = replace(level, states=tuple(level.states_at({}, question.energy)))
+    shown = question.shown(sympy.factor(question.kinetic * simpler.subs(E, 0)))
+    return question.spectrum(
         levels=tuple(levels),
-        algebraic=(Algebraic(0, sympy.Integer(0), E - E0, lowest, (), states),) if found.is_level else (),
+        algebraic=(level,) if all(holds) else (),
         complete=True,
-        reason=f"Darboux' transformation of V = {shown}; {simpler.reason}",
+        reason=f"Darboux' transformation of V = {shown}; {spectrum.reason}",
     )
 
 

@@ -89,7 +89,7 @@ def asked(
         V=potential,
         S=S,
         variable=x,
-        ends=(first, last),
+        interval=(first, last),
         energy=energy,
         boundary=read_boundary(boundary, (first, last), x),
         friedrichs=boundary == FRIEDRICHS,
@@ -101,16 +101,18 @@ def asked(
 
 
 def _with_named_roots(question: Asked) -> Asked:
-    """With letters for roots of numbers, where there are several or nested ones, or other letters."""
+    """With letters for roots of numbers, each between two decimals, if there are several or nested ones, or other letters."""
     S = question.S
-    powers = (power for power in S.atoms(sympy.Pow) if power.is_positive and not power.exp.is_Integer)
-    roots = sorted((power for power in powers if power.is_algebraic), key=sympy.default_sort_key)
+    roots = [p for p in S.atoms(sympy.Pow) if p.is_positive and p.is_algebraic and not p.exp.is_Integer]
     if len(roots) < 2 and not (question.letters or S.has(TrigonometricFunction)):
         return question
     outermost = [root for root in roots if not any(root is not other and other.has(root) for other in roots)]
     names = (name for name in map("root_{}".format, count(1)) if name not in names_of(S))
-    meanings = dict(zip(names, outermost, strict=False))
-    known = {name: _between_decimals(value) for name, value in meanings.items()}
+    meanings = dict(zip(names, sorted(outermost, key=sympy.default_sort_key), strict=False))
+    known = {}
+    for name, root in meanings.items():
+        below = sympy.floor(root * _STEPS)
+        known[name] = f">{sympy.Rational(below, _STEPS)} <{sympy.Rational(below + 1, _STEPS)}"
     in_letters = S.xreplace({root: sympy.Symbol(name) for name, root in meanings.items()})
     return replace(question, S=in_letters, roots=meanings, assumed={**question.assumed, **known})
 
@@ -131,7 +133,7 @@ def problem_of(question: Asked, limits: Limits) -> SpectralProblem:
     for constant in constants:
         known = known.also(constant, ("irrational", "positive"))
     signs = Signs(known, names)
-    first, last = (signs.real(end) for end in question.ends)
+    first, last = (signs.real(end) for end in question.interval)
     if signs.is_nonnegative(first - last) or first == sympy.oo or last == -sympy.oo:
         raise InputError(f"the domain is empty: {first} isn't below {last}")
     if signs.sign(signs.real(question.kinetic)) == -1:
@@ -147,7 +149,7 @@ def _in_one_piece(question: Asked) -> Any:
     S = question.S
     if not S.has(*STEPS):
         return S
-    pieces = () if question.letters else pieces_of(S, sympy.S.One, sympy.Symbol(question.variable), question.ends)
+    pieces = () if question.letters else pieces_of(S, sympy.S.One, sympy.Symbol(question.variable), question.interval)
     if len(pieces) != 1:
         shown = caret(as_text(question.V))
         raise NotRational(f"{shown} is a function in pieces, and its levels have no formula here")
@@ -158,11 +160,10 @@ def unsolved(question: Asked, reason: NotRational) -> Spectrum:
     """The problem alone, for a potential that no formulas are known for."""
     parameters = tuple(sorted(question.letters))
     known = read_assumptions(question.assumed or None, question.given, parameters)
-    is_open = any(
-        end.is_finite and wish is None for end, wish in zip(question.ends, question.boundary.wishes, strict=True)
-    )
-    boundary = question.boundary.text or (FRIEDRICHS if is_open or question.friedrichs else None)
-    return question.spectrum(parameters, known, boundary=boundary, reason=f"undecided: {reason.args[0]}")
+    ends = zip(question.interval, question.boundary.wishes, strict=True)
+    is_open = any(end.is_finite and wish is None for end, wish in ends)
+    question = replace(question, friedrichs=question.friedrichs or is_open)
+    return question.spectrum(parameters=parameters, assumptions=known, reason=f"undecided: {reason.args[0]}")
 
 
 @dataclass(frozen=True)
@@ -201,9 +202,10 @@ def _read(V: Any, var: str | None, energy: str, names: Sequence[str], limits: Li
         expression = given.xreplace({symbol: sympy.Symbol(symbol.name) for symbol in given.free_symbols})
     _check_real(expression, energy)
     x, notices = _variable_of(names_of(expression)) if var is None else (var, ())
-    return _PotentialAsRead(
-        expression, x, (*guesses, *notices, *_of_charges(V, expression), *_of_the_factor(expression))
-    )
+    notices = (*guesses, *notices, *_of_charges(V, expression))
+    if "hbar" in names_of(expression):  # hbar^2/(2 m) may have been meant as the factor of -y''
+        notices += ("-y'' + V y = E y is solved; give the whole equation for -hbar^2/(2*m)*psi''",)
+    return _PotentialAsRead(expression, x, notices)
 
 
 def _letters(text: str) -> list[str]:
@@ -217,12 +219,6 @@ def _of_charges(text: Any, V: Any) -> tuple[str, ...]:
     if isinstance(text, str) and is_power and "e" in _letters(text):
         return ("e is Euler's number; give a charge another name, q^2 for e^2",)
     return ()
-
-
-def _of_the_factor(V: Any) -> tuple[str, ...]:
-    """A note where hbar^2/(2 m) may have been meant as the factor of -y''."""
-    is_said = "hbar" in names_of(V)
-    return ("-y'' + V y = E y is solved; give the whole equation for -hbar^2/(2*m)*psi''",) if is_said else ()
 
 
 def _check_real(V: Any, energy: str) -> None:
@@ -271,12 +267,6 @@ def _schroedinger(text: str, var: str | None, energy: str, limits: Limits) -> _P
     V = sympy.expand_mul(sympy.Symbol(energy) - sympy.expand_mul(c) / slope)
     _check_real(V, energy)
     return _PotentialAsRead(V, source.variable, (*source.guesses, *_of_charges(text, V)), kinetic)
-
-
-def _between_decimals(value: Any) -> str:
-    """The assumption that a letter lies between two decimals."""
-    below = sympy.floor(value * _STEPS)
-    return f">{sympy.Rational(below, _STEPS)} <{sympy.Rational(below + 1, _STEPS)}"
 
 
 def _with_letters(known: Assumptions, letters: Letters, parameters: Iterable[str]) -> Assumptions:

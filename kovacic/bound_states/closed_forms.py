@@ -40,8 +40,8 @@ from typing import Any, NamedTuple
 
 import sympy
 
-from kovacic.bound_states.coordinates import RealPotential, circle_point
-from kovacic.bound_states.ends import End, leading
+from kovacic.bound_states.coordinates import Original, circle_point
+from kovacic.bound_states.ends import End, Examined, leading
 from kovacic.bound_states.energies import tidied
 from kovacic.bound_states.levels import NO_FORMULA, Algebraic
 from kovacic.bound_states.question import SpectralProblem
@@ -53,7 +53,6 @@ from kovacic.limits import Budget, Limits
 from kovacic.parametric.api import conditions_of
 from kovacic.parametric.natural import Natural
 from kovacic.parametric.parametric_answer import ParametricAnswer
-from kovacic.parametric.partition import transformation
 from kovacic.parametric.regions import ParameterRegion
 from kovacic.parametric.solutions import PolynomialSolution, jacobi, translated, weight_by_signs
 from kovacic.parametric.statements import Statement, Vanishes
@@ -101,9 +100,7 @@ class ClosedForms:
     higher: int | None = None
 
 
-def closed_forms(
-    question: SpectralProblem, ends: Sequence[End], real: RealPotential | None, max_degree: int, limits: Limits
-) -> ClosedForms:
+def closed_forms(question: Examined, max_degree: int, limits: Limits) -> ClosedForms:
     """Those of a potential; without `ends`, where it can't be told how solutions behave there, only that there are none."""
     conditions = _solvable_conditions(question, limits)
     if conditions is None:
@@ -111,15 +108,9 @@ def closed_forms(
     if not conditions.regions:
         why = f"the equation has no Liouvillian solution for any {question.energy}: {conditions.theory}"
         return ClosedForms(reason=why, complete=True)
-    window = _Window() if question.parameters else _Window.of(question, ends, real)
+    window = _Window() if question.parameters else _Window.of(question)
     search = _ClosedFormSearch(
-        question=question,
-        ends=ends,
-        real=real,
-        conditions=conditions,
-        window=window,
-        max_degree=max_degree,
-        complete=True,
+        question=question, conditions=conditions, window=window, max_degree=max_degree, complete=True
     )
     search.reason = search.with_parameters() if question.parameters else search.of_numbers()
     return search
@@ -149,9 +140,10 @@ class _Window(NamedTuple):
     high: Any = sympy.oo
 
     @classmethod
-    def of(cls, question: SpectralProblem, ends: Sequence[End], real: RealPotential | None) -> _Window:
+    def of(cls, question: Examined) -> _Window:
         """From the infimum of V, and the thresholds of the continuous spectrum."""
-        thresholds = [end.threshold for end in ends if end.threshold is not None and end.threshold.is_Rational]
+        real = question.real
+        thresholds = [end.threshold for end in question.ends if end.threshold is not None and end.threshold.is_Rational]
         high = min(thresholds, default=sympy.oo)
         if real is None or question.boundary.is_mixed:
             return cls(high=high)
@@ -202,9 +194,7 @@ def _number_below(V: Any, t: Any, bounds: tuple[Any, Any]) -> Any:
 class _ClosedFormSearch(ClosedForms):
     """Through the regions of the conditions: what was found, and `complete` as long as nothing may have been missed."""
 
-    question: SpectralProblem
-    ends: Sequence[End]
-    real: RealPotential | None
+    question: Examined
     conditions: ParametricAnswer
     window: _Window
     max_degree: int
@@ -234,10 +224,12 @@ class _ClosedFormSearch(ClosedForms):
                 if [True, False] in fits or [False, True] in fits:
                     excluded.append(polynomial)
                 elif not here:
-                    self.complete = self.complete and self._is_unsolvable(polynomial)
+                    energy = _only_zero(polynomial, self.E)
+                    case = 1 if energy is None else self.conditions.case_at({self.question.energy: energy})
+                    self.complete = self.complete and case is None
         theory = self.conditions.theory
         zeros = " or ".join(f"{self.question.shown(polynomial)} = 0" for polynomial in dict.fromkeys(excluded))
-        is_limit_point = all(end.is_limit_point for end in self.ends)
+        is_limit_point = all(end.is_limit_point for end in self.question.ends)
         verb = "is square integrable" if is_limit_point else "is the smaller one"
         others = zeros and f"at {zeros} the solution that {verb} at one end isn't at the other; "
         energies = f"any other real {self.question.energy}" if excluded else "the energy of a level"
@@ -246,11 +238,6 @@ class _ClosedFormSearch(ClosedForms):
         if self.levels:
             return f"{_NUMBERED}; {others}{theory}"
         return f"{others}the equation has no Liouvillian solution for {energies}: {theory}"
-
-    def _is_unsolvable(self, polynomial: Any) -> bool:
-        """True if there is no closed form at the only zero of a polynomial in E."""
-        energy = _only_zero(polynomial, self.E)
-        return energy is not None and self.conditions.case_at({self.question.energy: energy}) is None
 
     def _incomplete(self) -> str:
         """What is known where there may be other levels."""
@@ -292,7 +279,8 @@ class _ClosedFormSearch(ClosedForms):
     @property
     def _are_examined(self) -> bool:
         """True if exponents decide what is square integrable at the ends; at an ordinary point that is a condition on E."""
-        return bool(self.ends) and not any(end.is_regular for end in self.ends)
+        ends = self.question.ends
+        return bool(ends) and not any(end.is_regular for end in ends)
 
     def _solutions(self, region: ParameterRegion, number: int | None, polynomial: Any) -> Iterator[PolynomialSolution]:
         """The region's solutions of a degree at all zeros of a polynomial in E, if the ends are examined."""
@@ -332,7 +320,7 @@ class _ClosedFormSearch(ClosedForms):
         """
         roots = sympy.Poly(polynomial, self.E).real_roots()
         found: list[bool | None] = []
-        for end in self.ends:
+        for end in self.question.ends:
             demand = demand_at(end, solution.y, self.question)
             verdicts = {bool(demand.subs(self.question.E, root)) for root in roots}
             found.append(verdicts.pop() if len(verdicts) == 1 else None)
@@ -344,7 +332,8 @@ class _ClosedFormSearch(ClosedForms):
         exceptions: dict[str, None] = {}
         for region in self.conditions.regions if self._are_examined else ():
             parts = region.statement.conjuncts
-            functions = [_zero_where(part) for part in parts if isinstance(part, Vanishes)]
+            functions = [part.function.to_sympy(_NUMBER) for part in parts if isinstance(part, Vanishes)]
+            naturals = [part for part in parts if isinstance(part, Natural) and part.factors]
             is_closed, decays = self._ways_out(region)
             is_settled = is_settled and decays
             if is_closed:
@@ -353,11 +342,10 @@ class _ClosedFormSearch(ClosedForms):
             is_barred = is_barred and (bool(fixed) or region.case != 1)
             exceptions.update((f"{self.question.shown(function)} = 0", None) for function in fixed)
             numbers = self._numbers(region, parts)
-            if None in map(_zero_where, parts):
-                continue
-            zeros = [function.subs(self.constants) for function in functions]
-            for solution in chain.from_iterable(map(region.solution, numbers)):
-                self._add(self._under_conditions(solution, zeros))
+            if len(functions) + len(naturals) == len(parts):
+                zeros = [function.subs(self.constants) for function in functions]
+                for solution in chain.from_iterable(map(region.solution, numbers)):
+                    self._add(self._under_conditions(solution, zeros))
         self.complete = is_settled
         if self.levels or not is_barred:
             return self._incomplete()
@@ -387,11 +375,11 @@ class _ClosedFormSearch(ClosedForms):
             y = one.y * square ** (one.degree / 2) if region.naturals else one.y
             if y.has(jacobi, sympy.assoc_laguerre):
                 return False, False
-            demands = [demand_at(end, y, question) for end in self.ends]
+            demands = [demand_at(end, y, question) for end in self.question.ends]
             if sympy.false not in tidied([above(signs.real(one.degree), 0, strict=False), *demands], signs):
                 return False, False
             decays = (
-                end.is_limit_point and signs.holds(demand) for end, demand in zip(self.ends, demands, strict=True)
+                end.is_limit_point and signs.holds(demand) for end, demand in zip(question.ends, demands, strict=True)
             )
             is_settled = is_settled and any(decays)
         return bool(choices), is_settled
@@ -407,11 +395,12 @@ class _ClosedFormSearch(ClosedForms):
             polynomial = -polynomial
         signs = self.question.signs
         solution = self._at(solution, polynomial)
-        for constraint in _factors(others.pop()) if others else [sympy.Integer(0)]:
+        constraints = [f for other in others for f, _ in sympy.factor_list(other)[1]] if others else [sympy.Integer(0)]
+        for constraint in constraints:
             letters = sorted(constraint.free_symbols, key=lambda a: (sympy.degree(constraint, a), str(a)))
             there = self._with_remainders(solution, constraint, letters[0]) if letters else solution
             bounds = _bounds(sympy.expand(signs.real(constraint)), solution, signs)
-            conditions = [*bounds, *(demand_at(end, there.y, self.question) for end in self.ends)]
+            conditions = [*bounds, *(demand_at(end, there.y, self.question) for end in self.question.ends)]
             level = self._level(there if len(letters) == 1 else solution, polynomial, constraint, conditions)
             if sympy.false not in level.conditions:
                 yield level
@@ -422,17 +411,23 @@ class _ClosedFormSearch(ClosedForms):
         """With the energies, and which levels they are, where there are no parameters."""
         question = self.question
         parsed = question.parsed
+        x = sympy.Symbol(question.variable)
+        wave = question.plain(solution.y if parsed.equation is None else translated(solution.y, parsed.equation))
         # The factors of y that are polynomials in t, but for those that vanish at an end: they have the zeros of y.
         t = sympy.Symbol(parsed.variable)
-        bases = (
-            power.base if power.is_Pow else power for power in sympy.Mul.make_args(solution.y) if power.is_polynomial(t)
-        )
-        P = sympy.Mul(*bases)
-        limits = None if self.real is None else self.real.original.monotonic_range(question.domain, question.signs)
+        P = sympy.Mul(*(f.as_base_exp()[0] for f in sympy.Mul.make_args(solution.y) if f.is_polynomial(t)))
+        assert question.real is not None
+        original, domain, middle = question.real.original, question.domain, None
+        at = original.turning_point(domain, question.signs)
+        if at is not None:
+            domain = (at, domain[1])
+            smooth = wave.replace(*_root_about(at, original, question))
+            middle, wave = int(smooth != wave), smooth.as_independent(x, as_Add=False)[1]
+        limits = original.monotonic_range(domain, question.signs)
         if question.original.is_circular:
             P = sympy.numer(sympy.cancel(P.subs(t, circle_point(t))))
         P = sympy.Poly(question.plain(P), t)
-        for end in self.ends:
+        for end in self.question.ends:
             while end.point != sympy.oo and P(end.point) == 0:
                 P = P.quo(sympy.Poly(t - end.point, t))
         known = map(question.plain, tidied(conditions, question.signs))
@@ -440,21 +435,16 @@ class _ClosedFormSearch(ClosedForms):
             int(solution.degree),
             question.plain(constraint),
             question.plain(sympy.factor(polynomial)),
-            question.plain(solution.y if parsed.equation is None else translated(solution.y, parsed.equation)),
+            wave,
             tuple(condition for condition in known if condition != sympy.true),
             P=P,
             range=None if limits is None else tuple(map(question.plain, limits)),
+            middle=middle,
         )
         if question.parameters:
             return level
-        x = sympy.Symbol(question.variable)
         states = level.states_at({}, question.energy)
         return replace(level, states=tuple(replace(s, norm=norm_of(s.wave, x, question.domain)) for s in states))
-
-
-def _factors(function: Any) -> list[Any]:
-    """The irreducible factors of a polynomial."""
-    return [factor for factor, _ in sympy.factor_list(function)[1]]
 
 
 def _factors_of(natural: Natural) -> list[Any]:
@@ -467,21 +457,15 @@ def _only_zero(polynomial: Any, E: Any) -> Any:
     return sympy.solve(polynomial, E)[0] if sympy.degree(polynomial, E) == 1 else None
 
 
-def _zero_where(statement: Statement) -> Any:
-    """A function that vanishes where the statement holds for a number; None for other kinds of statements."""
-    if isinstance(statement, Natural) and statement.factors:
-        return sympy.Mul(*_factors_of(statement))
-    return statement.function.to_sympy(_NUMBER) if isinstance(statement, Vanishes) else None
-
-
 def _function_for(statement: Statement, number: int | None, constants: dict[Any, Any]) -> Any:
     """A function of E that vanishes where the statement holds for a number: Delta_d where the exponents give d for all E.
 
     None if Delta_d is unknown, and for other kinds of statements.
     """
+    if isinstance(statement, Vanishes):
+        return statement.function.to_sympy(_NUMBER).subs(constants)
     if not isinstance(statement, Natural) or number is None or not statement.factors:
-        function = _zero_where(statement)
-        return function and function.subs(constants)
+        return None
     values = [factor.subs(_NUMBER, number) for factor in _factors_of(statement)]
     found = sympy.Mul(*filter(None, values))
     for determinant in statement.determinants(number) if 0 in values else ():
@@ -516,6 +500,22 @@ def demand_at(end: End, v: Any, question: SpectralProblem) -> Any:
     return question.demand(int(end.is_right), sympy.Integer(end.mu), sympy.simplify(2 * exponent - 1))
 
 
+def _root_about(at: Any, original: Original, question: SpectralProblem) -> tuple[Any, Any]:
+    """For `replace`: odd powers of sqrt(t - c), t = c where t turns, as those of a multiple that changes its sign there.
+
+    cos(theta) - cos(c) is a multiple of sin((theta - c)/2)^2 for c = 0 or pi, that of cosh is one of sinh(theta/2)^2.
+    """
+    x = sympy.Symbol(question.variable)
+    distance = question.plain(original.t - original.value(original.theta_at(at, question.signs)))
+    half = question.plain(original.rate * (question.x - at) / 2)
+    root = sympy.sinh(half) if original.kind == "cosh" else sympy.sin(half)
+
+    def is_odd(e: Any) -> bool:
+        return bool(e.is_Pow and e.exp.is_Rational and e.exp.q == 2 and not sympy.cancel(e.base / distance).has(x))
+
+    return is_odd, lambda e: root ** (2 * e.exp)
+
+
 def _bounds(constraint: Any, solution: PolynomialSolution, signs: Signs) -> list[Any]:
     """The bounds of the parameter that the constraint determines, for its value; false among them if they exclude that value.
 
@@ -527,35 +527,3 @@ def _bounds(constraint: Any, solution: PolynomialSolution, signs: Signs) -> list
             value = sympy.factor(-constraint.coeff(symbol, 0) / constraint.coeff(symbol, 1))
             return signs.bounds_of(symbol.name, value)
     return [] if signs.sign(constraint) is None else [sympy.false]
-
-
-@dataclass(frozen=True)
-class DarbouxStep:
-    """W, the S of the other potential, E0, y0 in the user's variable, and whether it is square integrable; in real symbols."""
-
-    W: Any
-    S: Any
-    energy: Any
-    wave: Any
-    is_level: bool
-
-
-def step(question: SpectralProblem, ends: Sequence[End], budget: Budget) -> DarbouxStep | None:
-    """The transformation that lowers the apparent singularities of a V in x; None if none is known to apply."""
-    if question.parsed.equation is not None or not all(end.is_limit_point for end in ends):
-        return None
-    found = transformation(analyse(question.parsed.S, budget))
-    signs = question.signs
-    x = sympy.Symbol(question.variable)
-    if found is None or any(signs.sign(signs.real(f.to_sympy(x))) is None for f in found.exceptions):
-        return None
-    W = signs.real(found.W.num.to_sympy(x) / found.W.den.to_sympy(x))
-    S = signs.real(question.parsed.S.num.to_sympy(x) / question.parsed.S.den.to_sympy(x))
-    energy = sympy.cancel(sympy.together((S.subs(question.E, 0) - W**2 - sympy.diff(W, x)) * question.kinetic))
-    if energy.has(x):
-        return None
-    wave = sympy.exp(sympy.integrate(sympy.apart(W, x), x))
-    known = [signs.holds(demand_at(end, wave, question)) for end in ends]
-    if None in known:
-        return None
-    return DarbouxStep(W, sympy.cancel(sympy.together(S - 2 * sympy.diff(W, x))), energy, wave, all(known))

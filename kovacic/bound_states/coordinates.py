@@ -165,6 +165,14 @@ class Original:
         """The values of t where dt/dtheta = 0."""
         return _TURNING_VALUES.get(self.kind, ())
 
+    def turning_point(self, domain: tuple[Any, Any], signs: Signs) -> Any:
+        """The only x inside the domain where t turns, with one value at both ends; None if it isn't known to be like that."""
+        with suppress(Uncovered):
+            inside = self.points_inside(self.turning_values, domain, signs)
+            first, last = (self.at(end, signs) for end in domain)
+            return inside[0] if len(inside) == 1 and first == last else None
+        return None
+
     def x_at(self, theta: Any) -> Any:
         """The value of the user's variable for an argument."""
         return (theta - self.offset) / self.rate
@@ -234,9 +242,9 @@ def check_poles(real: RealPotential, domain: tuple[Any, Any], signs: Signs) -> N
         return
     inside = original.points_inside(poles, domain, signs)
     if inside:
-        largest = [point for point in inside if all(signs.is_nonnegative(point - other) for other in inside)]
+        largest = (point for point in inside if all(signs.is_nonnegative(point - other) for other in inside))
         message = f"V isn't regular at {original.x} = {caret(as_text(inside[0]))}, inside the domain"
-        raise _refused(message, "choose a domain without a pole inside", [(point, domain[1]) for point in largest])
+        raise _refused(message, "choose a domain without a pole inside", next(largest, None), domain[1])
 
 
 def _check_period(original: Original, poles: Sequence[Any], signs: Signs) -> None:
@@ -250,11 +258,11 @@ def _check_period(original: Original, poles: Sequence[Any], signs: Signs) -> Non
         # The least positive angle, and the one before it: they come back in each period.
         start = max((angle for angle in angles if not angle > 0), key=float)
         stop = min((angle for angle in angles if angle > 0), key=float)
-        neighbours = sympy.simplify(original.x_at(start)), sympy.simplify(original.x_at(stop))
-        place = caret(as_text(neighbours[1]))
+        start, stop = (sympy.simplify(original.x_at(angle)) for angle in (start, stop))
+        place = caret(as_text(stop))
         message = f"V has poles on the line, one at {original.x} = {place} and others in each period of it"
         hint = "choose the domain between two neighbouring poles"
-        raise _refused(message, hint, [neighbours] if len(place) <= _LONGEST else [])
+        raise _refused(message, hint, start if len(place) <= _LONGEST else None, stop)
 
 
 def _poles(real: RealPotential, signs: Signs) -> list[Any]:
@@ -268,13 +276,13 @@ def _poles(real: RealPotential, signs: Signs) -> list[Any]:
     return [*zeros, *([sympy.oo] if num.degree() > den.degree() else [])]
 
 
-def _refused(message: str, hint: str, proposed: list[tuple[Any, Any]]) -> InputError:
-    """The error with the first of the domains that are proposed, if there is one."""
-    for domain in proposed:
-        start, stop = map(_as_given, domain)
-        options = f"--from {start}" if domain[1] == sympy.oo else f"--from {start} --to {stop}"
-        return InputError(message, hint=f"{hint}: domain=({start}, {stop})", shell=f"{hint}: {options}")
-    return InputError(message, hint=hint)
+def _refused(message: str, hint: str, start: Any, stop: Any) -> InputError:
+    """The error, with a domain that is proposed if its start isn't None."""
+    if start is None:
+        return InputError(message, hint=hint)
+    first, last = map(_as_given, (start, stop))
+    options = f"--from {first}" if stop == sympy.oo else f"--from {first} --to {last}"
+    return InputError(message, hint=f"{hint}: domain=({first}, {last})", shell=f"{hint}: {options}")
 
 
 def _as_given(end: Any) -> str:

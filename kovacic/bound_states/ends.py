@@ -7,15 +7,26 @@ integrable if int |V|^(-1/2) dx is finite, which is mu < j + 2.  Everywhere else
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from typing import Any
 
 import sympy
 
-from kovacic.bound_states.coordinates import Original, RealPotential
+from kovacic.bound_states.coordinates import Original, RealPotential, check_poles, on_real_circle
 from kovacic.bound_states.energies import exact_root, tidied
+from kovacic.bound_states.levels import Spectrum
 from kovacic.bound_states.question import SpectralProblem
 from kovacic.bound_states.signs import Signs
+from kovacic.errors import InputError
+from kovacic.limits import check_duration
+from kovacic.parametric.restriction import own_parameters
+
+#: Seconds that SymPy takes to expand a potential at the ends of its domain, over its terms to the power 3/2.
+_END_SECONDS = 4e-4
+_FRIEDRICHS_NOTE = (
+    "a boundary condition is needed: Friedrichs' boundary condition is taken, the smaller solution at the end"
+)
 
 
 @dataclass(frozen=True)
@@ -47,6 +58,66 @@ class End:
     def is_limit_point(self) -> bool:
         """True if one solution at most is square integrable, for all parameters."""
         return bool(self.circle == sympy.false)
+
+
+@dataclass(frozen=True, kw_only=True)
+class Examined(SpectralProblem):
+    """The problem with V as a function of a real t, the ends, and where a boundary condition would be needed.
+
+    `real` is None, and there are no ends, where they can't be examined.
+    """
+
+    real: RealPotential | None = None
+    ends: tuple[End, ...] = ()
+    excluded: tuple[Any, ...] = ()
+
+    def spectrum(self, **found: Any) -> Spectrum:
+        """The answer, with what was `found`."""
+        excluded = (relation for relation in map(self.plain, self.excluded) if relation != sympy.false)
+        known = {
+            "parameters": own_parameters(self.parameters, tuple(self.meanings.items())),
+            "assumptions": self.known.without(self.meanings),
+            "ends": tuple(end.sentence for end in self.ends),
+            "excluded": tuple(excluded),
+        }
+        return super().spectrum(**{**known, **found})
+
+
+def examined(question: SpectralProblem) -> Examined:
+    """With Friedrichs' condition where one is needed and none was given, if the operator is bounded below.
+
+    Raises `Uncovered` where the ends can't be examined, or t isn't real, `InputError` for a pole inside the domain, and
+    `LimitExceeded` where it would take too long.
+    """
+    original = question.original
+    terms = question.parsed.S.num.degree + question.parsed.S.den.degree
+    check_duration(_END_SECONDS * terms**1.5, f"examining a potential of {terms} terms at its ends")
+    real = on_real_circle(potential_in_t(question, original))
+    check_poles(real, question.domain, question.signs)
+    ends: list[End] = []
+    for side, wish in enumerate(question.boundary.wishes):
+        end = end_of(question, real, is_right=bool(side))
+        ends.append(end)
+        if wish is not None and not (end.vanishes if wish.is_zero else end.is_regular):
+            raise InputError(
+                f"V isn't regular at {question.variable} = {end.at}: only Friedrichs' condition is known there"
+            )
+    excluded = _excluded(question, ends)
+    if excluded and not question.friedrichs and not any(end.oscillates for end in ends):
+        question = replace(question, friedrichs=True, notices=(*question.notices, _FRIEDRICHS_NOTE))
+        excluded = _excluded(question, ends)
+    return Examined(**{**vars(question), "real": real, "ends": tuple(ends), "excluded": excluded})
+
+
+def _excluded(question: SpectralProblem, ends: Sequence[End]) -> tuple[Any, ...]:
+    """The relations where both solutions are square integrable at an end and none of them is chosen."""
+    signs = question.signs
+    relations: dict[Any, None] = {}
+    for end, wish in zip(ends, question.boundary.wishes, strict=True):
+        circle = end.oscillation if question.friedrichs and not end.oscillates else end.circle
+        if wish is None and signs.holds(circle) is not False:
+            relations.update(dict.fromkeys(tidied([circle], signs) or (sympy.true,)))
+    return tuple(relations)
 
 
 def potential_in_t(question: SpectralProblem, original: Original) -> RealPotential:

@@ -102,8 +102,7 @@ def solved(equation: Any, roots: list[Root], E: Any) -> Iterator[Solved]:
     if len(unknown) > 2:
         raise Uncovered("more than two exponents depend on the energy")
     if not unknown:
-        if equation.has(E):
-            yield from (Solved(shortest(energy), {}) for energy in _zeros(equation, E))
+        yield from (Solved(shortest(energy), {}) for energy in _zeros(equation, E))
         return
     root, *others = unknown
     rho = root.value
@@ -140,9 +139,7 @@ def shortest(*forms: Any) -> Any:
     """The shortest of some ways to write what the forms are: as products, as sums, as partial fractions in n."""
     real = [_real_part(form) for form in forms if form.has(sympy.I)]
     known = [*(form for form in real if form is not None), *forms]
-    candidates = [*known]
-    for form in known:
-        candidates += _written(form)
+    candidates = [*known, *chain.from_iterable(map(_written, known))]
     texts = {form: str(form) for form in candidates}
     best = min(candidates, key=lambda form: (form.has(sympy.I), sympy.count_ops(form), len(texts[form]), texts[form]))
     return best.replace(_is_square_of_negative_terms, lambda e: (-e.base) ** 2)
@@ -173,11 +170,7 @@ def _real_part(form: Any) -> Any:
     if not all(symbol.is_real for symbol in form.free_symbols):
         return None
     real, imaginary = form.as_real_imag()
-    if real.has(sympy.re, sympy.im) or sympy.cancel(sympy.together(imaginary)) != 0:
-        return None
-    return real.replace(
-        lambda e: e.is_Pow and e.exp == 2 and e.base.could_extract_minus_sign(), lambda e: (-e.base) ** 2
-    )
+    return None if real.has(sympy.re, sympy.im) or sympy.cancel(sympy.together(imaginary)) != 0 else real
 
 
 def tidied(conditions: Iterable[Any], signs: Signs, radicals: Mapping[Any, Any] | None = None) -> tuple[Any, ...]:
@@ -197,10 +190,9 @@ def tidied(conditions: Iterable[Any], signs: Signs, radicals: Mapping[Any, Any] 
     squares = {
         symbol: square for symbol, square in squares.items() if square.is_rational_function(*square.free_symbols)
     }
-    left = [c for c in different if signs.holds(c) is not True]
     found = []
     implied = set()
-    for condition in _paired(left, signs):
+    for condition in _paired([c for c in different if signs.holds(c) is not True], signs):
         solved = _solved(condition, signs)
         if isinstance(solved, sympy.StrictLessThan | sympy.LessThan) and solved.lhs == signs.n:  # for n = 0
             least = _squared(_solved(sympy.Gt(solved.rhs, 0), signs), squares)
@@ -218,17 +210,14 @@ def tidied(conditions: Iterable[Any], signs: Signs, radicals: Mapping[Any, Any] 
 def _compared(conditions: list[Any], signs: Signs) -> tuple[Any, ...]:
     """Without lower bounds that others imply; (False,) where a lower bound excludes an upper one."""
     left = [*conditions]
-    for first, second in combinations(conditions, 2):
-        if sympy.false in (first, second) or first.lhs != second.lhs:
-            continue
-        sign = signs.sign(first.rhs - second.rhs)
-        match _is_lower_bound(first), _is_lower_bound(second):
-            case True, True if sign is not None:
-                left = [c for c in left if c is not (second if sign == 1 else first)]
-            case (True, False) if sign == 1:
-                return (sympy.false,)
-            case (False, True) if sign == -1:
-                return (sympy.false,)
+    for first, second in combinations(conditions, 2) if sympy.false not in conditions else ():
+        sign = signs.sign(first.rhs - second.rhs) if first.lhs == second.lhs else None
+        is_lower = _is_lower_bound(first)
+        if is_lower == _is_lower_bound(second):
+            implied = {1: second, -1: first}.get(sign or 0) if is_lower else None
+            left = [c for c in left if c is not implied]
+        elif sign == (1 if is_lower else -1):
+            return (sympy.false,)
     return tuple(left)
 
 

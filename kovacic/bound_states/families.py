@@ -118,38 +118,6 @@ def _ordered(frame: SingularFrame, roots: list[Root]) -> list[int]:
     return [*others, last]
 
 
-class _RegularPoint(NamedTuple):
-    """One of the points w = 1, -1, oo, with delta and its sign."""
-
-    spot: Spot
-    delta: Any
-
-
-@dataclass(frozen=True)
-class _JacobiForm:
-    """y = (1 - w)^e1 (1 + w)^e2 P_n^(d1, d2)(w) with the points w = 1, -1, oo in this order.
-
-    (dw/dx)^2 = `scale` (1 - w)^mu1 (1 + w)^mu2.
-    """
-
-    frame: SingularFrame
-    w: Any
-    points: tuple[_RegularPoint, _RegularPoint, _RegularPoint]
-    scale: Any
-    n: Any
-
-    @property
-    def exponents(self) -> tuple[Any, Any]:
-        """e1 and e2."""
-        first, second, _ = self.points
-        return first.spot.exponent(first.delta), second.spot.exponent(second.delta)
-
-    @property
-    def size(self) -> Any:
-        """|scale|; nan if it depends on z, so that the norm is unknown."""
-        return sympy.nan if self.scale.has(self.frame.z) else sympy.Abs(self.scale)
-
-
 class Wave(NamedTuple):
     """A solution y in the user's variable, up to a factor; `norm` is the integral of its square, None if unknown."""
 
@@ -157,31 +125,42 @@ class Wave(NamedTuple):
     norm: Any = None
 
 
+class _JacobiForm(NamedTuple):
+    """y = (1 - w)^e1 (1 + w)^e2 P_n^(d1, d2)(w), with the `points` w = 1, -1, oo and the `deltas` there.
+
+    (dw/dx)^2 = scale (1 - w)^mu1 (1 + w)^mu2, and `size` is |scale|; nan if that depends on z, so that the norm is unknown.
+    """
+
+    frame: SingularFrame
+    w: Any
+    points: list[Spot]
+    deltas: list[Any]
+    size: Any
+    n: Any
+
+
 def jacobi_wave(frame: SingularFrame, roots: list[Root], deltas: list[Any], signs: Signs) -> Wave:
     """The solution by Jacobi's polynomials."""
-    form = _jacobi_form(frame, roots, deltas, signs)
-    if form.w.has(sympy.I):
-        return _complex_pair(form)
-    first, second, _ = form.points
-    e1, e2 = form.exponents
-    whole = WaveProduct().times(as_product(frame, 1 - form.w), e1).times(as_product(frame, 1 + form.w), e2)
-    polynomial = jacobi(form.n, shortest(first.delta), shortest(second.delta), _argument(frame, form.w))
-    return Wave(whole.shown() * polynomial, _tidy(frame, _norm_between(form) / whole.constant**2))
-
-
-def _jacobi_form(frame: SingularFrame, roots: list[Root], deltas: list[Any], signs: Signs) -> _JacobiForm:
-    """With w of z for the points in their order."""
-    z = frame.z
+    z, n = frame.z, signs.n
     order = _ordered(frame, roots)
     w_of_z = moebius(z, *(frame.spots[k].point for k in order))
     if any(sympy.cancel(w_of_z + sympy.I * form) == 0 for form in (z, 1 / z)):  # w = -i z, or -i/z
         order[0], order[1] = order[1], order[0]
         w_of_z = moebius(z, *(frame.spots[k].point for k in order))
-    first, second, third = (_RegularPoint(frame.spots[k], deltas[k]) for k in order)
+    points, deltas = [frame.spots[k] for k in order], [deltas[k] for k in order]
     w = sympy.factor(w_of_z.xreplace({z: frame.coordinate}))
     slope = sympy.diff(w_of_z, z) ** 2 * frame.slope
-    scale = sympy.simplify(slope / ((1 - w_of_z) ** first.spot.mu * (1 + w_of_z) ** second.spot.mu))
-    return _JacobiForm(frame, w, (first, second, third), scale, signs.n)
+    scale = sympy.simplify(slope / ((1 - w_of_z) ** points[0].mu * (1 + w_of_z) ** points[1].mu))
+    form = _JacobiForm(frame, w, points, deltas, sympy.nan if scale.has(z) else sympy.Abs(scale), n)
+    e1, e2 = (points[k].exponent(deltas[k]) for k in (0, 1))
+    a, b = map(shortest, deltas[:2])
+    if w.has(sympy.I):
+        powers = _real_powers(form, e1)
+        y = powers.written * ((-sympy.I) ** n * jacobi(n, a, b, sympy.I * powers.r))
+        return Wave(y, _tidy(frame, -_norm_on_line(form, a, b) / powers.dropped))
+    whole = WaveProduct().times(as_product(frame, 1 - w), e1).times(as_product(frame, 1 + w), e2)
+    y = whole.shown() * jacobi(n, a, b, _argument(frame, w))
+    return Wave(y, _tidy(frame, _norm_between(form) / whole.constant**2))
 
 
 def _argument(frame: SingularFrame, w: Any) -> Any:
@@ -200,20 +179,6 @@ def _argument(frame: SingularFrame, w: Any) -> Any:
     return in_x.replace(lambda e: e.is_Pow and e.base.func is sympy.exp, lambda e: sympy.exp(e.base.exp * e.exp))
 
 
-def _complex_pair(form: _JacobiForm) -> Wave:
-    """w = i r with a real r: (1 - i r)^(p + i q) (1 + i r)^(p - i q) = (1 + r^2)^p exp(2 q atan(r))."""
-    first, second, _ = form.points
-    n = form.n
-    e1, _ = form.exponents
-    p = sympy.expand((e1 + conjugate(e1)) / 2)
-    q = sympy.expand((e1 - conjugate(e1)) / (2 * sympy.I))
-    powers = _real_powers(form, p, q)
-    a = shortest(first.delta)
-    b = shortest(second.delta)
-    y = powers.written * ((-sympy.I) ** n * jacobi(n, a, b, sympy.I * powers.r))
-    return Wave(y, _tidy(form.frame, -_norm_on_line(form, a, b) / powers.dropped))
-
-
 class _RealPowers(NamedTuple):
     """(1 + r^2)^p exp(2 q atan(r)) as written, without a constant whose square is `dropped`; and r in the variable."""
 
@@ -222,14 +187,18 @@ class _RealPowers(NamedTuple):
     dropped: Any = sympy.S.One
 
 
-def _real_powers(form: _JacobiForm, p: Any, q: Any) -> _RealPowers:
-    """With 1 + r^2 = cosh^2 for r = +-sinh, and = 1/sin^2 for r = +-cot, where atan(r) is an angle, too."""
-    original = form.frame.original
+def _real_powers(form: _JacobiForm, e1: Any) -> _RealPowers:
+    """For w = i r with a real r: (1 - i r)^(p + i q) (1 + i r)^(p - i q) = (1 + r^2)^p exp(2 q atan(r)), p + i q = e1.
+
+    1 + r^2 = cosh^2 for r = +-sinh, and = 1/sin^2 for r = +-cot, where atan(r) is an angle, too.
+    """
+    p = sympy.expand((e1 + conjugate(e1)) / 2)
+    q = sympy.expand((e1 - conjugate(e1)) / (2 * sympy.I))
+    original, t = form.frame.original, form.frame.t
     theta = original.theta
-    t = form.frame.t
     r_of_t = sympy.factor(form.w / sympy.I)
-    if original.kind == "tan" and sympy.cancel(r_of_t**2 - t**-2) == 0:
-        sign = 1 if sympy.cancel(r_of_t - 1 / t) == 0 else -1
+    sign = next((sign for sign in (1, -1) if sympy.cancel(r_of_t - sign / t) == 0), 0)
+    if original.kind == "tan" and sign:
         written = sympy.sin(theta) ** shortest(-2 * p) * sympy.exp(-2 * q * sign * theta)
         return _RealPowers(written, r=sign * sympy.cot(theta), dropped=sympy.exp(2 * sympy.pi * q * sign))
     r = r_of_t.xreplace({t: original.t})
@@ -241,26 +210,25 @@ def _real_powers(form: _JacobiForm, p: Any, q: Any) -> _RealPowers:
 
 def _norm_on_line(form: _JacobiForm, a: Any, b: Any) -> Any:
     """int y^2 dx for w = i r, up to its sign; nan if unknown, or if r doesn't run through the whole line."""
-    first, second, _ = form.points
-    n = form.n
-    if not any(len(spot.sides) == 2 for spot in form.frame.spots):
+    n, points = form.n, form.points
+    if not any(len(spot.sides) == 2 for spot in points):
         return sympy.nan
     middle = 2 * sympy.pi * sympy.gamma(-n - a - b) / (sympy.gamma(-n - a) * sympy.gamma(-n - b))
-    return _jacobi_integral(a, b, (1 - first.spot.mu, 1 - second.spot.mu), n, middle) / sympy.sqrt(form.size)
+    return _jacobi_integral(a, b, (1 - points[0].mu, 1 - points[1].mu), n, middle) / sympy.sqrt(form.size)
 
 
 def _jacobi_integral(a: Any, b: Any, shifts: tuple[Any, Any], n: Any, middle: Any) -> Any:
-    """int (1 - v)^(a + i) (1 + v)^(b + j) P_n^(a, b)(v)^2 dv over (-1, 1), shifts (i, j); nan if unknown.
+    """int (1 - v)^(a + i) (1 + v)^(b + j) P_n^(a, b)(v)^2 dv over (-1, 1), shifts (i, j) = (1 - mu1, 1 - mu2); nan if unknown.
 
-    With `middle` = Gamma(n + a + 1) Gamma(n + b + 1)/Gamma(n + a + b + 1) [Gradshteyn & Ryzhik 7.391; DLMF 18.3].  On the line
-    v = i r all of these have the same factor, 2 sin(pi a) sin(pi b)/sin(pi (a + b)), which is in another `middle`.
+    mu is 1, 1, 2 or 2, 2, 0 at the three points.  With `middle` = Gamma(n + a + 1) Gamma(n + b + 1)/Gamma(n + a + b + 1)
+    [Gradshteyn & Ryzhik 7.391; DLMF 18.3].  On the line v = i r all of these have the same factor,
+    2 sin(pi a) sin(pi b)/sin(pi (a + b)), which is in another `middle`.
     """
     common = 2 ** (a + b) * middle / sympy.factorial(n)
     plain = 2 * common / (2 * n + a + b + 1)
     left = common / a
     right = common / b
     half_sum, half_difference = shortest((a + b) / 2), shortest((a - b) / 2)
-    mean = (b**2 - a**2) / ((2 * n + a + b) * (2 * n + a + b + 2))
     known = {
         (0, 0): plain,
         (-1, 0): left,
@@ -268,8 +236,6 @@ def _jacobi_integral(a: Any, b: Any, shifts: tuple[Any, Any], n: Any, middle: An
         (-1, -1): common * half_sum / (half_sum**2 - half_difference**2),  # common (1/a + 1/b)/2
         (1, -1): 2 * right - plain,
         (-1, 1): 2 * left - plain,
-        (1, 0): plain * (1 - mean),
-        (0, 1): plain * (1 + mean),
     }
     return known.get(shifts, sympy.nan)
 
@@ -279,17 +245,17 @@ def _norm_between(form: _JacobiForm) -> Any:
 
     For oo: w = (3 - v)/(1 + v) runs from 1 to it for v from 1 to -1, and P_n^(a, b)(w) = (2/(1 + v))^n P_n^(a, c)(v).
     """
-    n, (first, second, third) = form.n, form.points
-    end, other = (first, second) if first.spot.sides else (second, first)  # w -> -w
-    scale, powers, last = form.size, sympy.S.Zero, other
-    if third.spot.sides:
-        last = third
-        scale *= 2 ** (end.spot.mu + 2 * other.spot.mu - 4)
-        powers = 2 * end.spot.exponent(end.delta) + 4 * other.spot.exponent(other.delta) + 2 * n
-    a, b = end.delta, last.delta
+    n, size, powers = form.n, form.size, sympy.S.Zero
+    k = 0 if form.points[0].sides else 1  # w -> -w
+    end, other, last = form.points[k], form.points[1 - k], 1 - k
+    if form.points[2].sides:
+        last = 2
+        size *= 2 ** (end.mu + 2 * other.mu - 4)
+        powers = 2 * end.exponent(form.deltas[k]) + 4 * other.exponent(form.deltas[1 - k]) + 2 * n
+    a, b = form.deltas[k], form.deltas[last]
     middle = sympy.gamma(n + a + 1) * sympy.gamma(n + b + 1) / sympy.gamma(n + a + b + 1)
-    integral = _jacobi_integral(a, b, (1 - end.spot.mu, 1 - last.spot.mu), n, middle)
-    return 2**powers * integral / sympy.sqrt(scale)
+    integral = _jacobi_integral(a, b, (1 - end.mu, 1 - form.points[last].mu), n, middle)
+    return 2**powers * integral / sympy.sqrt(size)
 
 
 def laguerre_wave(frame: SingularFrame, origin: Spot, values: list[Any], signs: Signs) -> Wave:
@@ -362,11 +328,15 @@ class ExponentForm:
         """The families of levels, for each choice of signs."""
         signs, plain = question.signs, question.plain
         radicals = dict(radical for root in self.roots for radical in root.radicals)
+        are_real = [
+            (sympy.Gt if root.positive else sympy.Ge)(root.square, 0)
+            for root in self.roots
+            if root.radicals and not root.square.has(sympy.I)
+        ]
         for signed in _choices(self.roots):
             for found in solved(sympy.expand(self.degree(signed) - signs.n), self.roots, question.E):
                 values = [root.xreplace(found.values) for root in signed]
-                conditions = [*_are_real(self.roots), *self._demands(values, question)]
-                known = tidied(conditions, signs, radicals)
+                known = tidied([*are_real, *self._demands(values, question)], signs, radicals)
                 if sympy.false not in known:
                     wave = self.wave(values)
                     found_levels = Levels(signs.n, found.energy, wave.y, known, self._zeros(values, signs.n), wave.norm)
@@ -431,8 +401,9 @@ def whittaker(frame: SingularFrame, question: SpectralProblem) -> ExponentForm:
 
 def oscillator(frame: SingularFrame, question: SpectralProblem) -> ExponentForm:
     """Equation (3): S = alpha x^2 + beta x + gamma on the whole line."""
-    is_quadratic = frame.S.is_polynomial(frame.z) and sympy.degree(frame.S, frame.z) == 2
-    if not (is_quadratic and frame.is_in_x and frame.domain == (-sympy.oo, sympy.oo)):
+    is_in_x = frame.original.kind == "x" and frame.coordinate == frame.t
+    is_on_line = is_in_x and frame.domain == (-sympy.oo, sympy.oo)
+    if not (is_on_line and _is_polynomial_of_degree(2, frame.S, frame.z)):
         raise Uncovered("the equation isn't that of the oscillator on the whole line")
     alpha, beta, gamma = sympy.Poly(frame.S, frame.z).all_coeffs()
     n = question.signs.n
@@ -450,12 +421,6 @@ def oscillator(frame: SingularFrame, question: SpectralProblem) -> ExponentForm:
         wave=wave,
         outwards=(1,),
     )
-
-
-def _are_real(roots: list[Root]) -> list[Any]:
-    """Conditions that the radicands are nonnegative, or positive."""
-    radicands = [root for root in roots if root.radicals and not root.square.has(sympy.I)]
-    return [(sympy.Gt if root.positive else sympy.Ge)(root.square, 0) for root in radicands]
 
 
 def _choices(roots: list[Root]) -> Iterator[list[Any]]:

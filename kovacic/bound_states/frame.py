@@ -79,11 +79,6 @@ class SingularFrame:
         sign = signs.known_sign(strength, f"the sign of z = {self.coordinate} isn't known")
         return int(sign * self.original.side_of(end, point, signs, is_right=bool(side)) ** abs(order))
 
-    @property
-    def is_in_x(self) -> bool:
-        """True for the user's own variable."""
-        return self.original.kind == "x" and self.coordinate == self.t
-
 
 def frames(question: SpectralProblem, budget: Budget) -> Iterator[SingularFrame]:
     """The equation as it was read, and in each coordinate that its symmetries give."""

@@ -8,7 +8,6 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator, Mapping
 from dataclasses import dataclass
-from fractions import Fraction
 from functools import cached_property
 from typing import TYPE_CHECKING, Any, cast
 
@@ -18,11 +17,12 @@ from sympy.core.relational import Relational
 from sympy.logic.boolalg import BooleanAtom
 
 from kovacic.algebra.precision import working_precision
+from kovacic.bound_states.signs import is_admitted
 from kovacic.closed_form.jets import BallEvaluator
 from kovacic.errors import InputError, needs, visible
 from kovacic.numbers.exact import exact_text, whole
 from kovacic.numbers.numerals import as_latex, as_text
-from kovacic.parametric.assumptions import NOTHING_ASSUMED, Assumptions, Known
+from kovacic.parametric.assumptions import NOTHING_ASSUMED, Assumptions
 from kovacic.reading.symbolic import read_expression
 from kovacic.writing.escaped import json_line, latex
 from kovacic.writing.formula import caret
@@ -159,7 +159,7 @@ class Algebraic:
     zeros of `polynomial`, in E; `wave` is a solution for each of them, with E for the energy, square integrable where the
     `conditions` hold.  `states` are the energies without parameters and the zeros of their functions inside the domain.  `P` is
     the polynomial in the solutions, in its own variable t, and `range` the least and the largest t on the domain, None if t
-    isn't known to be monotonic.
+    isn't known to be monotonic.  If t turns in the middle it is the range on one half, and `middle` is 1 or 0: the zeros there.
     """
 
     degree: int
@@ -170,6 +170,7 @@ class Algebraic:
     states: tuple[BoundState, ...] = ()
     P: Any = None
     range: tuple[Any, ...] | None = None
+    middle: int | None = None
 
     def states_at(self, values: Mapping[Any, Any], energy: str) -> Iterator[BoundState]:
         """The levels at rational values of the parameters: of each it is known how many zeros its function has."""
@@ -181,11 +182,10 @@ class Algebraic:
         P = sympy.Poly(self.P.as_expr().xreplace(values), self.P.gen)
         bounds = [end.xreplace(values) for end in self.range]
         polynomial = sympy.numer(sympy.together(self.polynomial.xreplace(values)))
-        if not {symbol.name for symbol in polynomial.free_symbols} <= {energy}:
-            return
         for value in real_roots(polynomial, E):
             number = zeros_inside(P, E, value, bounds)
             if number is not None:
+                number = number if self.middle is None else 2 * number + self.middle
                 yield BoundState(number, value, self.wave.xreplace(values).subs(E, value))
 
 
@@ -373,7 +373,7 @@ class Spectrum:
         for name, value in given.items():
             if value.is_real is False:
                 raise InputError(f"{name} = {_text(value)} isn't a real number")
-            if not _is_admitted(self.assumptions.of(name), value):
+            if not is_admitted(self.assumptions.of(name), value):
                 raise InputError(f"{name} = {_text(value)} contradicts the assumption: {self.assumptions}")
         return {sympy.Symbol(name): value for name, value in given.items()}
 
@@ -520,13 +520,6 @@ class Spectrum:
         True
         """
         return json_line(self.to_dict())
-
-
-def _is_admitted(known: Known, value: Any) -> bool:
-    """True unless a real number contradicts what is assumed."""
-    if value.is_Rational:
-        return known.admits_number(Fraction(int(value.p), int(value.q)))
-    return known.rational is not True and known.admits_ball(BallEvaluator({})(value))
 
 
 def _states_of(levels: Levels, at: Mapping[Any, Any], count: int) -> Iterator[BoundState]:

@@ -48,17 +48,16 @@ def with_numbers(found: Spectrum, levels: int | None, digits: int, limits: Limit
         raise InputError(f"numeric levels need values of {names}", hint=hint, shell=shell)
     if found.needs_boundary_condition:
         return replace(found, numeric=Eigenvalues((), False, found.energy, ("a boundary condition is needed",)))
-    problem = None
+    numeric = Eigenvalues((), False, found.energy)
     try:
         with Budget(limits).watched():
             problem = Eigenproblem(_sturm_problem(found), found.energy)
             for _ in problem.levels(count, wanted):
-                pass
-            return replace(found, numeric=problem.answer())
+                numeric = problem.answer()
+            numeric = problem.answer()
     except (InputError, LimitExceeded) as reason:
-        if problem is None:
-            return replace(found, numeric=Eigenvalues((), False, found.energy, (str(reason),)))
-        return replace(found, numeric=problem.answer(reason=str(reason)))
+        numeric = replace(numeric, complete=False, notes=(str(reason),))
+    return replace(found, numeric=numeric)
 
 
 def with_matching(found: Spectrum) -> Spectrum:

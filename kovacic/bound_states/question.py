@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, field
 from typing import Any
 
 import sympy
@@ -17,7 +17,6 @@ from kovacic.general_solution.question import ConditionReader, as_mapping
 from kovacic.numbers.numerals import as_text
 from kovacic.parametric.assumptions import Assumptions
 from kovacic.parametric.integers import free_letter
-from kovacic.reading.read import read_input
 from kovacic.sturm_liouville.problem import Robin
 from kovacic.writing.formula import caret
 
@@ -49,7 +48,7 @@ class Asked:
     V: Any
     S: Any
     variable: str
-    ends: tuple[Any, Any]
+    interval: tuple[Any, Any]
     energy: str
     boundary: Boundary
     friedrichs: bool
@@ -62,23 +61,14 @@ class Asked:
     @property
     def letters(self) -> set[str]:
         """The names in S and in the ends, but for the variable and the energy."""
-        used = {symbol.name for part in (self.S, *self.ends) for symbol in part.free_symbols}
+        used = {symbol.name for part in (self.S, *self.interval) for symbol in part.free_symbols}
         return used - {self.variable, self.energy}
 
-    def spectrum(self, parameters: tuple[str, ...], known: Assumptions, **found: Any) -> Spectrum:
+    def spectrum(self, **found: Any) -> Spectrum:
         """The answer, with what was `found`."""
-        return Spectrum(
-            self.V,
-            self.variable,
-            self.ends,
-            self.energy,
-            parameters,
-            known,
-            notices=self.notices,
-            kinetic=self.kinetic,
-            conditions=self.boundary.wishes,
-            **found,
-        )
+        boundary = self.boundary.text or (FRIEDRICHS if self.friedrichs else None)
+        given = {"notices": self.notices, "kinetic": self.kinetic, "conditions": self.boundary.wishes}
+        return Spectrum(self.V, self.variable, self.interval, self.energy, boundary=boundary, **given, **found)
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -113,13 +103,6 @@ class SpectralProblem(Asked):
         constants = {name for name, meaning in self.meanings.items() if meaning in (sympy.pi, sympy.E)}
         return tuple(name for name in self.signs.symbols if name not in (self.energy, *constants))
 
-    def with_friedrichs_condition(self) -> SpectralProblem:
-        """The problem with the boundary condition that wasn't given, and a note that says so."""
-        note = (
-            "a boundary condition is needed: Friedrichs' boundary condition is taken, the smaller solution at the end"
-        )
-        return replace(self, friedrichs=True, notices=(*self.notices, note))
-
     def demand(self, side: int, mu: Any, delta: Any) -> Any:
         """The condition for the solution with the exponent (1 + delta)/2 to be the one meant at an end, 0 left or 1 right.
 
@@ -136,11 +119,6 @@ class SpectralProblem(Asked):
             return above(delta, mu - 2, strict=True)
         # y ~ (x - a)^(1/2 + delta/(2 - mu)); at a limit point nu = delta/(2 - mu) is at least 1.
         return above(delta, 0 if self.friedrichs or wish is not None else 2 - mu, strict=False)
-
-    def with_S(self, S: Any) -> SpectralProblem:
-        """The problem for another S, in real symbols."""
-        plain = S.xreplace({symbol: sympy.Symbol(symbol.name) for symbol in S.free_symbols})
-        return replace(self, S=plain, parsed=read_input(plain, var=self.variable, exponentials=True))
 
     def plain(self, expression: Any) -> Any:
         """In the user's terms: plain symbols of the same names, what letters stand for, n for the number of a level."""

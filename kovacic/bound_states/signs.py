@@ -12,7 +12,8 @@ from typing import Any
 
 import sympy
 
-from kovacic.parametric.assumptions import Assumptions, Bound
+from kovacic.closed_form.jets import BallEvaluator
+from kovacic.parametric.assumptions import Assumptions, Bound, Known
 
 
 class Uncovered(Exception):
@@ -38,18 +39,18 @@ class Signs:
         of_parameters = [symbol for symbol in plain if symbol.name in self.symbols]
         return expression.xreplace({symbol: self.symbols[symbol.name] for symbol in of_parameters})
 
-    def bounds_of(self, name: str, expression: Any) -> list[Any]:
-        """The known bounds of the parameter, as relations for an expression that is its value; false if it can't be that."""
-        coset = self._known_of(name).coset
-        if coset is not None and expression.is_Rational:
-            is_admitted = coset.contains(Fraction(int(expression.p), int(expression.q)))
-        else:  # an integer, say
-            facts = self.symbols[name].assumptions0.items()
-            is_admitted = all(getattr(expression, f"is_{fact}", None) in (None, value) for fact, value in facts)
-        found = [] if is_admitted else [sympy.false]
-        for bound in self._bounds.get(name, ()):
+    def bounds_of(self, name: str, value: Any) -> list[Any]:
+        """The known bounds of the parameter, as relations for its value; false if it can't have that."""
+        known = self._known_of(name)
+        if value.is_number:
+            return [] if is_admitted(known, value) else [sympy.false]
+        facts = self.symbols[name].assumptions0.items()  # an integer, say
+        found = (
+            [] if all(getattr(value, f"is_{fact}", None) in (None, is_so) for fact, is_so in facts) else [sympy.false]
+        )
+        for bound in known.bounds:
             relation = sympy.Gt if bound.strict else sympy.Ge
-            found.append(relation(bound.sign * (expression - _end_of(bound)), 0))
+            found.append(relation(bound.sign * (value - sympy.Rational(bound.end)), 0))
         return found
 
     def holds(self, relation: Any) -> bool | None:
@@ -105,8 +106,11 @@ class Signs:
         return None
 
 
-def _end_of(bound: Bound) -> Any:
-    return sympy.Rational(bound.end.numerator, bound.end.denominator)
+def is_admitted(known: Known, value: Any) -> bool:
+    """True unless a real number contradicts what is assumed."""
+    if value.is_Rational:
+        return known.admits_number(Fraction(int(value.p), int(value.q)))
+    return known.rational is not True and known.admits_ball(BallEvaluator({})(value))
 
 
 def _beyond(bound: Bound, symbol: Any) -> Any:
@@ -114,7 +118,7 @@ def _beyond(bound: Bound, symbol: Any) -> Any:
     facts = {"positive": True} if bound.strict else {"nonnegative": True}
     if bound.end.denominator == 1 and symbol.is_integer:
         facts["integer"] = True
-    return _end_of(bound) + bound.sign * sympy.Dummy("s", **facts)
+    return sympy.Rational(bound.end) + bound.sign * sympy.Dummy("s", **facts)
 
 
 def above(delta: Any, least: Any, *, strict: bool) -> Any:

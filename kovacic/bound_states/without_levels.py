@@ -16,21 +16,21 @@ Reference: J. Weidmann, Bull. Amer. Math. Soc. 73 (1967) 452.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from typing import Any
 
 import sympy
 
-from kovacic.bound_states.coordinates import RealPotential
-from kovacic.bound_states.ends import End
+from kovacic.bound_states.ends import Examined
 from kovacic.bound_states.signs import Signs
 
 NO_LEVELS = "a periodic potential: what decays at one end grows at the other (Floquet), the spectrum consists of bands"
 REASON = "a repulsive potential, (x - c) V'(x) <= 0 for some c: no solution is square integrable (the virial theorem)"
 
 
-def is_repulsive(real: RealPotential, ends: Sequence[End], signs: Signs) -> bool:
+def is_repulsive(question: Examined) -> bool:
     """True if the theorem is proven to apply."""
+    real, ends, signs = question.real, question.ends, question.signs
+    assert real is not None
     original = real.original
     infinite = [end for end in ends if end.at.is_infinite]
     has_limits = all(end.threshold is not None for end in infinite)
