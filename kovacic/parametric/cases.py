@@ -67,7 +67,7 @@ def within(statement: Statement, charts: list[ParameterPoint]) -> list[Parameter
 def _where_possible(statement: Statement, chart: ParameterPoint) -> list[ParameterPoint]:
     """The points where a statement that isn't made of others holds."""
     if isinstance(statement, Vanishes):
-        return _where_zero(chart.at(statement.function), chart)
+        return _where_solvable(chart.at(statement.function), chart)
     if isinstance(statement, Congruence):
         equation = chart.at(statement.equation)
         return [] if statement.holds_for(equation) is False else _where_solvable(equation, chart)
@@ -79,20 +79,14 @@ def _where_possible(statement: Statement, chart: ParameterPoint) -> list[Paramet
 
 
 def _where_solvable(equation: Poly, chart: ParameterPoint) -> list[ParameterPoint]:
-    """Where an equation for a number can have a root: everywhere, if the number occurs in it on the chart."""
+    """Where an equation for a number can have a root: everywhere, if the number occurs in it; else where it vanishes."""
     if equation.degree > 0 or not equation:
-        return [chart]
-    return _where_zero(equation[0], chart)
-
-
-def _where_zero(value: Poly, chart: ParameterPoint) -> list[ParameterPoint]:
-    if not value:
         return [chart]
     if chart.field.ground == QQ:  # a number, and not 0
         return []
-    if isinstance(value, ExtensionPoly):  # over a number field, a function of further parameters
+    if isinstance(equation, ExtensionPoly):  # over a number field, a function of further parameters
         return [chart]
-    surfaces = [*map(hypersurface, irreducible_factors(value))]
+    surfaces = [*map(hypersurface, irreducible_factors(equation))]
     if any(surface.missed or surface.curve for surface in surfaces):
         return [chart]
     return [_on(surface, chart) for surface in surfaces]

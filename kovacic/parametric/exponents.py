@@ -86,9 +86,11 @@ def rank_conditions(images: Sequence[Poly], field: Field) -> RankConditions:
     """
     surface = None
     if isinstance(field, AlgebraicField):
-        surface = _Surface.of(field)
-        images = [lifted(image, surface.field) for image in images]
-        field = surface.field
+        assert isinstance(field.base, FunctionField)
+        larger = FunctionField((*field.base.names, field.name))
+        surface = over_parameters(in_field(field.modulus, larger)(larger.generator(field.name))).num
+        images = [lifted(image, larger) for image in images]
+        field = larger
     assert isinstance(field, FunctionField)
     try:
         with bounded_work(_WORK):
@@ -99,120 +101,62 @@ def rank_conditions(images: Sequence[Poly], field: Field) -> RankConditions:
         return OPEN
 
 
-def _conditions(images: Sequence[Poly], field: FunctionField, surface: _Surface | None) -> RankConditions:
-    """By the gcd of the minors where that says all, or else by all of them, if there aren't too many."""
-    matrix = _Matrix.of(images, field, surface)
-    if matrix.rank == 0:
-        return RankConditions(deficient=matrix.deficient)
-    has_one_parameter = surface is None and len(field.names) == 1
-    if matrix.is_square or has_one_parameter:
-        return matrix.common_factors()
-    # Columns are to be chosen, too, or rows in too many ways.
-    if matrix.rank < len(matrix.rows[0]) or comb(len(matrix.rows), matrix.rank) > _MINORS:
-        polynomials: tuple[FunctionPoly, ...] = ()
-        if surface is None:
-            polynomials = matrix.common_factors().polynomials
-        return RankConditions(polynomials, None, matrix.deficient)
-    minors = matrix.minors()
-    if surface is not None:
-        return RankConditions((), tuple(element(field, minor) for minor in minors), matrix.deficient)
-    return matrix.common_zeros(minors)
+def _conditions(images: Sequence[Poly], field: FunctionField, surface: Any) -> RankConditions:
+    """By all minors of the size of the rank, if there aren't too many, or else by two of them.
 
-
-@dataclass(frozen=True)
-class _Matrix:
-    """Rows over Z[t] without constant pivots, at a `point` modulo a prime, and whether the images are `deficient`.
-
-    The rank there is a lower bound, and the generic rank but for a probability of about 2**-60.
+    The rank at a random point is a lower bound, and the generic rank but for a probability of about 2**-60.
     """
-
-    field: FunctionField
-    rows: list[list[Any]]
-    point: _Point
-    rank: int
-    deficient: bool
-
-    @classmethod
-    def of(cls, images: Sequence[Poly], field: FunctionField, surface: _Surface | None) -> _Matrix:
-        """The matrix of the images, each row once, the shortest first."""
-        # By powers of x, without denominators.
-        smaller = without_constant_pivots([by_power(over_parameters(image).num, 0) for image in images])
-        different: dict[tuple[str, ...], list[Any]] = {}
-        for row in smaller.rows:  # with coprime coefficients, the leading one positive
-            sign = 1 if int(next(filter(None, row)).leading_coefficient()) > 0 else -1
-            normalised = [sign * entry for entry in _primitive(dict(enumerate(row))).values()]
-            different.setdefault(tuple(map(str, normalised)), normalised)
-        rows = sorted(different.values(), key=lambda row: sum(map(len, row)))
-        point = _random_point(field, surface and surface.equation)
-        rank = point.values(rows).rank() if rows else 0
-        return cls(field, rows, point, rank, deficient=smaller.eliminated + rank < len(images))
-
-    @property
-    def is_square(self) -> bool:
-        return len(self.rows) == len(self.rows[0]) == self.rank
-
-    def minors(self) -> list[Any]:
-        """Those of the size of the rank that don't vanish, for a rank that is the number of columns."""
-        found = []
-        for chosen in combinations(self.rows, self.rank):
-            minor = _determinant([[*row] for row in chosen])
-            if not minor.is_zero():
-                found.append(minor)
-        return found
-
-    def common_factors(self) -> RankConditions:
-        """The irreducible factors that all minors of the size of the rank have in common.
-
-        Those of one or two minors, at whose zeros the rank is smaller.
-        """
-        if self.is_square:
-            common = _determinant([[*row] for row in self.rows])
-            return RankConditions(tuple(irreducible_factors(element(self.field, common))), deficient=self.deficient)
-        common = self._minor(self.rows)
-        if not common.is_constant():
-            common = common.gcd(self._minor(self.rows[::-1]))
-        factors = irreducible_factors(element(self.field, common))
-        points = (_random_point(self.field, factor.num) for factor in factors)
-        dropping = [
-            one for one, point in zip(factors, points, strict=True) if point.values(self.rows).rank() < self.rank
-        ]
-        return RankConditions(tuple(dropping), deficient=self.deficient)
-
-    def _minor(self, rows: list[list[Any]]) -> Any:
-        """The minor of the first rows and columns that are independent at the point."""
-        chosen = [rows[i] for i in _pivots(self.point.values(rows).transpose())]
-        columns = _pivots(self.point.values(chosen))
-        return _determinant([[row[k] for k in columns] for row in chosen])
-
-    def common_zeros(self, minors: list[Any]) -> RankConditions:
-        """Common factors, and the system of what is left of the minors, without powers."""
-        common = reduce(lambda a, b: a.gcd(b), minors)
-        factors = tuple(irreducible_factors(element(self.field, common)))
-        products: dict[FunctionPoly, None] = {}
-        for minor in minors:
-            check_time()
-            parts = irreducible_factors(element(self.field, minor // common))
-            if not parts:
-                return RankConditions(factors, deficient=self.deficient)
-            products[reduce(mul, parts)] = None
-        shortest_first = sorted(products, key=lambda function: (len(function.num), str(function)))
-        return RankConditions(factors, tuple(shortest_first), self.deficient)
+    # By powers of x, without denominators.
+    smaller = without_constant_pivots([by_power(over_parameters(image).num, 0) for image in images])
+    # Each row once, the shortest first.
+    different: dict[tuple[str, ...], list[Any]] = {}
+    for row in smaller.rows:  # with coprime coefficients, the leading one positive
+        sign = 1 if int(next(filter(None, row)).leading_coefficient()) > 0 else -1
+        normalised = [sign * entry for entry in _primitive(dict(enumerate(row))).values()]
+        different.setdefault(tuple(map(str, normalised)), normalised)
+    rows = sorted(different.values(), key=lambda row: sum(map(len, row)))
+    point = _random_point(field, surface)
+    rank = point.values(rows).rank() if rows else 0
+    deficient = smaller.eliminated + rank < len(images)
+    if rank == 0:
+        return RankConditions(deficient=deficient)
+    has_one_parameter = surface is None and len(field.names) == 1
+    most = 1 if has_one_parameter else _MINORS
+    # Columns are to be chosen, too, or rows in too many ways.
+    if rank < len(rows[0]) or comb(len(rows), rank) > most:
+        polynomials = _common_factors(rows, rank, point, field) if surface is None else ()
+        return RankConditions(polynomials, () if has_one_parameter else None, deficient)
+    minors = [*filter(None, (_determinant([[*row] for row in chosen]) for chosen in combinations(rows, rank)))]
+    if surface is not None and len(minors) > 1:
+        return RankConditions((), tuple(element(field, minor) for minor in minors), deficient)
+    common = reduce(lambda a, b: a.gcd(b), minors)
+    factors = tuple(irreducible_factors(element(field, common)))
+    # The system of what is left of the minors, without powers.
+    products: dict[FunctionPoly, None] = {}
+    for minor in minors:
+        check_time()
+        parts = irreducible_factors(element(field, minor // common))
+        if not parts:
+            return RankConditions(factors, deficient=deficient)
+        products[reduce(mul, parts)] = None
+    shortest_first = sorted(products, key=lambda function: (len(function.num), str(function)))
+    return RankConditions(factors, tuple(shortest_first), deficient)
 
 
-@dataclass(frozen=True)
-class _Surface:
-    """A hypersurface: `field` has its algebraic parameter as the last one, and `equation` vanishes on it."""
+def _common_factors(rows: list[list[Any]], rank: int, point: _Point, field: FunctionField) -> tuple[FunctionPoly, ...]:
+    """The irreducible factors that all minors of this size have in common: those of two minors, where the rank is smaller."""
+    common = _minor(rows, point)
+    if not common.is_constant():
+        common = common.gcd(_minor(rows[::-1], point))
+    factors = irreducible_factors(element(field, common))
+    return tuple(factor for factor in factors if _random_point(field, factor.num).values(rows).rank() < rank)
 
-    field: FunctionField
-    equation: Any
 
-    @classmethod
-    def of(cls, field: AlgebraicField) -> _Surface:
-        base = field.base
-        assert isinstance(base, FunctionField)
-        larger = FunctionField((*base.names, field.name))
-        modulus = in_field(over_parameters(field.modulus), larger)
-        return cls(larger, over_parameters(modulus(larger.generator(field.name))).num)
+def _minor(rows: list[list[Any]], point: _Point) -> Any:
+    """The minor of the first rows and columns that are independent at the point."""
+    chosen = [rows[i] for i in _pivots(point.values(rows).transpose())]
+    columns = _pivots(point.values(chosen))
+    return _determinant([[row[k] for k in columns] for row in chosen])
 
 
 class _Point(NamedTuple):
@@ -276,31 +220,20 @@ def without_constant_pivots(columns: list[dict[int, Any]]) -> WithoutPivots:
                 row[k] = entry
     rows = [entries[i] for i in sorted(entries)]
     eliminated = 0
-    pivot = _constant_entry(rows)
-    while pivot is not None:
-        chosen = rows.pop(pivot.row)
-        rows = [_cleared(row, pivot.column, chosen) if pivot.column in row else row for row in rows]
+    while True:
+        weights = Counter(chain.from_iterable(rows))
+        constant = ((i, k) for i, row in enumerate(rows) for k, entry in row.items() if entry.is_constant())
+        pivot = min(((len(rows[i]) * weights[k], i, k) for i, k in constant), default=None)
+        if pivot is None:
+            break
+        _, i, k = pivot
+        chosen = rows.pop(i)
+        rows = [_cleared(row, k, chosen) if k in row else row for row in rows]
         eliminated += 1
-        pivot = _constant_entry(rows)
     left = [row for row in rows if row]
     numbers = sorted(set().union(*left))
     zero = 0 * next(iter(left[0].values())) if left else 0
     return WithoutPivots([[row.get(k, zero) for k in numbers] for row in left], eliminated)
-
-
-class _ConstantPivot(NamedTuple):
-    """A constant entry; those with the smallest `cost` come first."""
-
-    cost: int
-    row: int
-    column: int
-
-
-def _constant_entry(rows: Sequence[dict[int, Any]]) -> _ConstantPivot | None:
-    """The constant entry with the fewest others in its row times those in its column; None without any."""
-    weights = Counter(chain.from_iterable(rows))
-    constant = ((i, k) for i, row in enumerate(rows) for k, entry in row.items() if entry.is_constant())
-    return min((_ConstantPivot(len(rows[i]) * weights[k], i, k) for i, k in constant), default=None)
 
 
 def _cleared(row: dict[int, Any], k: int, chosen: dict[int, Any]) -> dict[int, Any]:

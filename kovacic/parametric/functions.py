@@ -24,8 +24,10 @@ def over_parameters(value: Poly) -> FunctionPoly:
     return value
 
 
-def in_field(function: FunctionPoly, field: FunctionField) -> FunctionPoly:
-    """The function over a field that contains its parameters."""
+def in_field(function: Poly, field: FunctionField) -> FunctionPoly:
+    """The function over a field that contains its parameters, if there are any."""
+    if not isinstance(function, FunctionPoly):
+        return over_parameters(function.over(field))
     return over_parameters(function.value_at([field.generator(name) for name in function.field.names], field))
 
 

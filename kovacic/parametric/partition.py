@@ -32,7 +32,7 @@ from contextlib import suppress
 from dataclasses import dataclass, replace
 from fractions import Fraction
 from functools import partial
-from itertools import chain
+from itertools import chain, islice
 
 import sympy
 
@@ -62,7 +62,6 @@ from kovacic.parametric.functions import (
     degrees,
     denominators,
     element,
-    in_field,
     irreducible_factors,
     over_parameters,
     powers_of,
@@ -158,36 +157,22 @@ def _energies(S: RatFunc) -> list[int]:
 
 
 def _rational_logarithmic_derivatives(problem: Problem, energies: list[int]) -> Iterator[tuple[FunctionPoly, RatFunc]]:
-    """`(E - E0, W)` with a W free of E, where the exponents give a P of small degree."""
+    """`(E - E0, W)` with a W free of E, where the exponents give a P of small degree: that of a solution for E = E0."""
+    field = problem.field
     equation = degree_equation(problem)
     if equation is None:
         return
-    for d in range(_DEGREE + 1):
-        for special in irreducible_factors(equation(Fraction(d))):
-            surfaces: list[Hypersurface] = []
-            for i in energies:
-                powers = powers_of(special, i)
-                is_linear = 1 in powers and powers.keys() <= {0, 1}
-                if is_linear and powers[1].num.is_constant():
-                    surfaces.append(hypersurface(special, i))
-            W = _logarithmic_derivative(problem, surfaces[0]) if surfaces else None
-            if W is not None:
-                yield special, W
-
-
-def _logarithmic_derivative(problem: Problem, surface: ParameterPoint) -> RatFunc | None:
-    """The rational one of a solution on a surface, with all parameters in its field, or None."""
-    riccati = decide(surface.restricted(problem.S), problem.budget).riccati
-    if riccati is None or riccati.degree > 1:
-        return None
-    W = -riccati.coefficients[0]
-    if W.field != surface.field:
-        return None
-    field = problem.field
-    assert isinstance(field, FunctionField)
-    if not isinstance(W.num, FunctionPoly):
-        return RatFunc(field.poly(W.num.rational_coefficients()), field.poly(W.den.rational_coefficients()))
-    return RatFunc(*(in_field(over_parameters(part), field) for part in W.cleared()))
+    for special in chain.from_iterable(irreducible_factors(equation(Fraction(d))) for d in range(_DEGREE + 1)):
+        terms = [(i, powers_of(special, i)) for i in energies]
+        linear = (i for i, powers in terms if 1 in powers and powers.keys() <= {0, 1} and powers[1].num.is_constant())
+        for i in islice(linear, 1):
+            surface = hypersurface(special, i)
+            riccati = decide(surface.restricted(problem.S), problem.budget).riccati
+            if riccati is None or riccati.degree > 1:
+                continue
+            W = -riccati.coefficients[0]
+            if W.field == surface.field:
+                yield special, RatFunc(*(surface.back(part, field) for part in W.cleared()))
 
 
 #: What is a formula in the name of a group.
@@ -455,31 +440,22 @@ def _missed(S: RatFunc, function: FunctionPoly, settings: Settings) -> list[Para
 
     There a second polynomial g vanishes, so that they are the zeros of the first one on g = 0, and those that are missed there.
     """
+    first = Vanishes(function)
     regions = list[ParameterRegion]()
     for other in hypersurface(function).missed:
+        surface = hypersurface(other)
         try:
-            restricted = hypersurface(other).restricted(S)
+            restricted = surface.restricted(S)
         except ZeroDivisionError:
-            statement = both(Vanishes(function), Vanishes(other))
-            regions.append(ParameterRegion(statement, _UNKNOWN, defined=False))
+            regions.append(ParameterRegion(both(first, Vanishes(other)), _UNKNOWN, defined=False))
             continue
-        regions += _also(_missed(S, other, settings), Vanishes(function))
-        regions += _on_both(S, restricted, function, other, settings)
-    return regions
-
-
-def _on_both(
-    S: RatFunc, restricted: RatFunc, function: FunctionPoly, other: FunctionPoly, settings: Settings
-) -> list[ParameterRegion]:
-    """Regions for the zeros of a polynomial among those of another one, on whose hypersurface S is the restricted one."""
-    first = Vanishes(function)
-    surface = hypersurface(other)
-    rest = surface.at(function)
-    if not isinstance(rest, FunctionPoly):
-        return _also(_inside(S, other, settings), first)
-    regions: list[ParameterRegion] = []
-    for factor in irreducible_factors(rest):
-        regions += _also(_pieces(restricted, factor, settings.on(surface)), first, Vanishes(other))
+        regions += _also(_missed(S, other, settings), first)
+        rest = surface.at(function)
+        if not isinstance(rest, FunctionPoly):
+            regions += _also(_inside(S, other, settings), first)
+            continue
+        for factor in irreducible_factors(rest):
+            regions += _also(_pieces(restricted, factor, settings.on(surface)), first, Vanishes(other))
     return regions
 
 

@@ -168,14 +168,14 @@ class Hypersurface(ParameterPoint):
     missed: tuple[FunctionPoly, ...] = ()
     curve: Curve | None = None
 
-    def back(self, function: FunctionPoly, field: FunctionField) -> FunctionPoly:
+    def back(self, function: Poly, field: FunctionField) -> FunctionPoly:
         """A function of fewer parameters, or of that of the curve, in the original ones, which are those of the field."""
         if self.curve is None:
             return in_field(function, field)
         values = {name: field.generator(name) for name in field.names}
         values[self.curve.name] = self.curve.value
-        chosen = [values[name] for name in function.field.names]
-        return over_parameters(function.value_at(chosen, field))
+        known = over_parameters(function)
+        return over_parameters(known.value_at([values[name] for name in known.field.names], field))
 
 
 def hypersurface(function: FunctionPoly, eliminated: int | None = None) -> Hypersurface:

@@ -40,14 +40,14 @@ from kovacic.parametric.functions import (
     common_multiple,
     irreducible_factors,
     normal_form,
+    on_zeros,
     over_parameters,
     roots,
 )
 from kovacic.parametric.integers import Congruence, at_integers, integer_roots, squares_of_roots, without_parameters
 from kovacic.parametric.prose import Words
 from kovacic.parametric.regions import RegionVerdict, borel, reducible
-from kovacic.parametric.restriction import Hypersurface, hypersurface, over_all
-from kovacic.parametric.statements import ALWAYS, NEVER, Statement, both, either
+from kovacic.parametric.statements import ALWAYS, NEVER, Statement, all_of, either
 from kovacic.writing.formula import Math, latex_text
 
 _F = Fraction
@@ -83,12 +83,17 @@ _SCHWARZ = {
 
 
 def kimura(differences: Sequence[Fraction | None]) -> Structure | None:
-    """The structure for three exponent differences (None, or missing: not rational) that aren't reducible.
+    """The structure for three exponent differences (None, or missing: not rational, or not reducible).
 
     >>> kimura((Fraction(1, 2), Fraction(1, 3), Fraction(1, 4)))
     <Structure.OCTAHEDRAL: 'octahedral'>
     """
     known = [difference for difference in differences if difference is not None]
+    if len(known) == 3:
+        first, second, third = known
+        sums = (first + sign * second + other * third for sign, other in product((1, -1), repeat=2))
+        if any(total % 2 == 1 for total in sums):
+            return Structure.REDUCIBLE
     if sum(difference.denominator == 2 for difference in known) >= 2:
         return Structure.IMPRIMITIVE
     if len(known) < 3 or any(d.denominator > LARGEST for d in known):
@@ -98,23 +103,19 @@ def kimura(differences: Sequence[Fraction | None]) -> Structure | None:
 
 @lru_cache(maxsize=1)
 def _table() -> dict[tuple[int, ...], Structure]:
-    """Schwarz's rows, for the exponent differences modulo 2 in sixtieths, sorted."""
-    table: dict[tuple[int, ...], Structure] = {}
-    for row in _SCHWARZ.values():
-        for integers in product((0, 1), repeat=3):
-            if row.is_even and sum(integers) % 2:
-                continue
-            values = [r + q for r, q in zip(row.differences, integers, strict=True)]
-            for signs in product((1, -1), repeat=3):
-                table[_difference_key([sign * value for sign, value in zip(signs, values, strict=True)])] = (
-                    row.structure
-                )
-    return table
+    """Schwarz's rows, for the exponent differences up to signs modulo 2 in sixtieths, sorted."""
+    return {
+        _difference_key([r + q for r, q in zip(row.differences, integers, strict=True)]): row.structure
+        for row in _SCHWARZ.values()
+        for integers in product((0, 1), repeat=3)
+        if not row.is_even or sum(integers) % 2 == 0
+    }
 
 
 def _sixtieths(difference: Fraction) -> int:
-    """The number modulo 2, where its denominator is one of the table."""
-    return int(60 * difference) % 120
+    """From 0 to 60: the number up to its sign modulo 2, where its denominator is one of the table."""
+    residue = int(60 * difference) % 120
+    return min(residue, 120 - residue)
 
 
 def _difference_key(differences: Sequence[Fraction]) -> tuple[int, ...]:
@@ -165,17 +166,9 @@ class Schwarz(Statement):
                 continue
             known = at_integers(difference, LARGEST, assumptions)
             if known is not None:
-                there = ((here, self._on(hypersurface(here.function))) for here, _ in known)
-                return either(*(both(*pair) for pair in there if pair[1] != NEVER))
+                there = ((here, on_zeros(self.cubic, here.function).monic()) for here, _ in known)
+                return either(*(all_of((here, _in_rows(cubic, self.structures))) for here, cubic in there))
         return self
-
-    def _on(self, surface: Hypersurface) -> Statement:
-        """The statement for fewer parameters, expressed in all of them."""
-        cubic = surface.at(self.cubic)
-        if not isinstance(cubic, FunctionPoly) or without_parameters(cubic) is not None:
-            is_there = kimura([*map(rational_square_root, roots(cubic))]) in self.structures
-            return ALWAYS if is_there else NEVER
-        return over_all(either(*(_in_table(cubic, structure) for structure in self.structures)), self.cubic.field)
 
     def sentence(self) -> Words:
         """Which differences are in which rows."""
@@ -260,10 +253,10 @@ class Differences:
     names: tuple[str, ...] | None
     #: Those of the names that aren't rational numbers.
     free: tuple[str, ...]
+    #: Those of the names that have parameters.
+    parametric: tuple[str, ...]
     #: Rational numbers, and None for irrational ones.
     constants: tuple[Fraction | None, ...]
-    #: The square of the one with parameters, if there is exactly one.
-    variable: Poly | None
 
     @property
     def two_half_integers(self) -> str:
@@ -285,41 +278,35 @@ class Differences:
 
     @property
     def imprimitive_group(self) -> str:
-        """Dicyclic or the infinite dihedral one, by the difference that stands beside two half-integers."""
-        halves: list[Fraction | None] = []
-        others: list[Fraction | None] = []
-        for constant in self.constants:
-            is_half = constant is not None and constant.denominator == 2
-            (halves if is_half else others).append(constant)
-        beside = [*others, *halves[2:]]
+        """Dicyclic or the infinite dihedral one, by the difference of three that stands beside two half-integers."""
+        halves = [constant for constant in self.constants if constant is not None and constant.denominator == 2]
+        beside = [*(constant for constant in self.constants if constant not in halves), *halves[2:]]
         if len(self.constants) >= 2 and beside:
             return "the infinite dihedral group" if beside[0] is None else "dicyclic"
-        third = "the third exponent difference"
-        if len(self.constants) == 2 and self.variable is not None:
-            third = f"`{root_written(self.variable)}`"
+        third = f"`{self.parametric[0]}`" if len(self.constants) == 2 else "the third exponent difference"
         return f"dicyclic where {third} is rational, else the infinite dihedral group"
 
 
 @lru_cache(maxsize=64)
 def differences(cubic: FunctionPoly) -> Differences:
     """By the factors of the cubic: those without parameters, and those with."""
-    names: list[str] | None = []
-    free: list[str] = []
+    names: list[str | None] = []
+    free: list[str | None] = []
+    parametric: list[str | None] = []
     constants: list[Fraction | None] = []
-    squares: list[Poly] = []
     for factor, k in cubic.field.factor(cubic):
+        roots = (_square_roots_of_roots(factor) or [None] * factor.degree) * k
         constant = None
+        names += roots
         if without_parameters(factor) is None:
-            squares += [factor] * k
+            parametric += roots
         else:
             constant = rational_square_root(-factor[0]) if factor.degree == 1 else None
-            constants += [constant] * (factor.degree * k)
-        roots = _square_roots_of_roots(factor)
-        names = None if names is None or roots is None else names + roots * k
-        if roots is not None and constant is None:
-            free += roots * k
-    variable = -squares[0][0] if len(squares) == 1 and squares[0].degree == 1 else None
-    return Differences(None if names is None else tuple(names), tuple(free), tuple(constants), variable)
+            constants += [constant] * len(roots)
+        if constant is None:
+            free += roots
+    known = [tuple(filter(None, several)) for several in (names, free, parametric)]
+    return Differences(None if None in names else known[0], known[1], known[2], tuple(constants))
 
 
 def _square_roots_of_roots(factor: Poly) -> list[str] | None:
@@ -416,31 +403,29 @@ def _is_possible(structure: Structure, constants: Sequence[Fraction | None]) -> 
     return any(residues <= {*row} for row in rows)
 
 
+def _in_rows(cubic: FunctionPoly, structures: Sequence[Structure]) -> Statement:
+    """The statement that the exponent differences are in the rows of one of the structures, also where all are numbers."""
+    if without_parameters(cubic) is None:
+        return either(*(_in_table(cubic, structure) for structure in structures))
+    return ALWAYS if kimura([*map(rational_square_root, roots(cubic))]) in structures else NEVER
+
+
 def _in_table(cubic: FunctionPoly, structure: Structure) -> Statement:
     """The statement that the exponent differences are in the rows of the structure, by one function where that says them."""
-    single = _one_function(cubic)
-    if single is not None:
-        return _classes(single, structure)
+    by_one_function = _by_one_function(cubic, structure)
+    if by_one_function is not None:
+        return by_one_function
     if structure is Structure.IMPRIMITIVE:
-        if any(d is not None and d.denominator == 2 for d in differences(cubic).constants):
-            return _half_integers(cubic, 1)
-        if any(multiplicity > 1 for _, multiplicity in cubic.field.factor(cubic)):
-            return _half_integers(cubic, 2)
+        powers = cubic.field.factor(cubic)
+        has_half_integer = any(d is not None and d.denominator == 2 for d in differences(cubic).constants)
+        if has_half_integer or any(multiplicity > 1 for _, multiplicity in powers):
+            # One with parameters, or two that are equal: the square is N^2/4 with an odd N.
+            free = [
+                factor for factor, k in powers if without_parameters(factor) is None and (has_half_integer or k > 1)
+            ]
+            squares = (over_parameters(factor(cubic.field.poly([0, 0, _F(1, 4)]))) for factor in free)
+            return either(*(integer_roots(square, [1], 2) for square in squares))
     return Schwarz(cubic, (structure,))
-
-
-def _half_integers(cubic: FunctionPoly, times: int) -> Statement:
-    """The statement that a parameter-dependent one, which is this many of the exponent differences, is a half-integer.
-
-    Its square is N^2/4 with an odd N.
-    """
-    field = cubic.field
-    found = []
-    for factor, multiplicity in field.factor(cubic):
-        if multiplicity >= times and without_parameters(factor) is None:
-            equation = over_parameters(factor(field.poly([0, 0, _F(1, 4)])))
-            found.append(integer_roots(equation, [1], 2))
-    return either(*found)
 
 
 def has_denominator(square: Poly, denominator: int) -> Statement:
@@ -460,48 +445,6 @@ class _DifferenceLine(NamedTuple):
         return self.slope * w + self.shift
 
 
-@dataclass(frozen=True)
-class _OneFunction:
-    """The exponent differences are the `lines` at w, w^2 = square; None is irrational.
-
-    `root` is w, where it is a rational function of the parameters.
-    """
-
-    square: FunctionPoly
-    root: FunctionPoly | None
-    lines: tuple[_DifferenceLine | None, ...]
-
-    def structure(self, w: Fraction) -> Structure | None:
-        """By Kimura's theorem, with this value of the function."""
-        differences = [line.at(w) for line in self.lines if line is not None]
-        if len(differences) == 3:
-            l, m, n = differences  # noqa: E741
-            if any(total % 2 == 1 for total in (l + m + n, l + m - n, l - m + n, l - m - n)):
-                return Structure.REDUCIBLE
-        return kimura(differences)
-
-
-def _one_function(cubic: FunctionPoly) -> _OneFunction | None:
-    """The exponent differences by one function of the parameters, where they are."""
-    squares = roots(cubic)
-    free = [over_parameters(square) for square in squares if cubic.field.rational_value(square) is None]
-    if not free or len(squares) < 3:
-        return None
-    first = free[0]
-    root = _rational_root(first)
-    lines: list[_DifferenceLine | None] = []
-    for square in squares:
-        if cubic.field.rational_value(square) is not None:
-            constant = rational_square_root(square)
-            lines.append(None if constant is None else _DifferenceLine(_F(0), constant))
-            continue
-        line = _difference_line(square, first, root)
-        if line is None:
-            return None
-        lines.append(line)
-    return _OneFunction(first, root, tuple(lines))
-
-
 def _rational_root(square: Poly) -> FunctionPoly | None:
     """The square root, where it is a rational function of the parameters."""
     root = square.field.sqrt(square)
@@ -512,38 +455,48 @@ def _rational_root(square: Poly) -> FunctionPoly | None:
 
 def _difference_line(square: Poly, first: FunctionPoly, root: FunctionPoly | None) -> _DifferenceLine | None:
     """sqrt(square), up to its sign, as a line in w, w^2 = first; the shift is 0 where w isn't rational (`root` is None)."""
+    if square.field.rational_value(square) is not None:
+        constant = rational_square_root(square)
+        return None if constant is None else _DifferenceLine(_F(0), constant)
     if root is None:
         ratio = rational_square_root(square / first)
-        if ratio is None:
-            return None
-        return _DifferenceLine(ratio, _F(0))
+        return None if ratio is None else _DifferenceLine(ratio, _F(0))
     own = _rational_root(square)
-    if own is None:
-        return None
-    form, scale, shift = normal_form(own)
+    form, scale, shift = normal_form(root if own is None else own)
     root_form, root_scale, root_shift = normal_form(root)
-    if form != root_form:
+    if own is None or form != root_form:
         return None
     slope = root_scale / scale
     return _DifferenceLine(slope, shift - slope * root_shift)
 
 
-def _classes(single: _OneFunction, structure: Structure) -> Statement:
-    """Where w gives the exponent differences this structure, and the equation isn't reducible."""
-    lines = {line for line in single.lines if line is not None and line.slope}
+def _by_one_function(cubic: FunctionPoly, structure: Structure) -> Statement | None:
+    """Where the equation has this structure, and isn't reducible, for differences that are lines in one w; else None.
+
+    w or its square is a rational function of the parameters.
+    """
+    squares = roots(cubic)
+    free = [over_parameters(square) for square in squares if cubic.field.rational_value(square) is None]
+    if not free or len(squares) < 3:
+        return None
+    first = free[0]
+    root = _rational_root(first)
+    differences = [_difference_line(square, first, root) for square in squares]
+    if any(line is None and square in free for line, square in zip(differences, squares, strict=True)):
+        return None
+    lines = {line for line in differences if line is not None and line.slope}
     period = reduce(common_multiple, (2 / abs(line.slope) for line in lines))
     # The w modulo the period with this structure: of those at which a line has a denominator of the table.
     tried = {w for line in lines for w in _numbers_in_table(line, period)}
-    admitted = [w for w in sorted(tried) if single.structure(w) is structure]
-    if admitted and single.root is not None:
-        equation = over_parameters(single.root.field.poly([0, 1]) - single.root)
-        return Congruence.make(equation, admitted, period)
+    admitted = [w for w in sorted(tried) if kimura([line and line.at(w) for line in differences]) is structure]
+    if admitted and root is not None:
+        return Congruence.make(over_parameters(cubic.field.poly([0, 1]) - root), admitted, period)
     # Only w^2 is known: w and -w are the same.
     statements: list[Statement] = []
     for denominator in sorted({w.denominator for w in admitted}):
         D = lcm(denominator, period.denominator)
         residues = [int(D * w) for w in admitted if w.denominator == denominator]
-        equation = over_parameters(single.square.field.poly([-(D**2) * single.square, 0, 1]))
+        equation = over_parameters(cubic.field.poly([-(D**2) * first, 0, 1]))
         statements.append(integer_roots(equation, residues, int(D * period)))
     return either(*statements)
 
