@@ -14,7 +14,7 @@ from collections.abc import Callable, Iterator, Sequence
 from contextlib import suppress
 from dataclasses import dataclass, field, replace
 from fractions import Fraction
-from functools import cached_property, lru_cache, partial
+from functools import cached_property, lru_cache
 from itertools import chain
 from random import Random
 from typing import NamedTuple
@@ -78,18 +78,6 @@ class Determinant:
     exponents: FunctionPoly
     factors: tuple[FunctionPoly, ...] | None = None
     system: tuple[FunctionPoly, ...] = ()
-
-    def rewritten(self, change: Callable[[FunctionPoly], FunctionPoly]) -> Determinant:
-        """With other functions in the place of the parameters."""
-        if self.factors is None:
-            return self
-        factors: list[FunctionPoly] = []
-        for factor in self.factors:
-            if factor:
-                factors += irreducible_factors(change(factor))
-            else:
-                factors.append(factor)
-        return replace(self, factors=tuple(factors), system=tuple(map(change, self.system)))
 
     @property
     def is_zero(self) -> bool:
@@ -336,13 +324,17 @@ def _determinants(statement: Natural, number: int) -> tuple[Determinant, ...]:
             found[Determinant(exponents)] = None
             continue
         for conditions in statement.conditions(analyse(S, Budget()), number):
-            determinant = Determinant(exponents, conditions.polynomials, conditions.system or ())
+            determinant = Determinant(exponents)
             if conditions.deficient and (statement.m == 1 or S.field.ground == QQ):
-                determinant = Determinant(exponents, (exponents - exponents,))
-            elif conditions.system is None:
-                determinant = Determinant(exponents)
-            determinant = determinant.rewritten(partial(surface.back, field=exponents.field))
-            found[determinant.rewritten(partial(in_lowest_powers, constant=statement.constant))] = None
+                determinant = Determinant(exponents, (0 * exponents,))
+            elif conditions.system is not None:  # in the parameters that were given
+                factors, system = (
+                    [in_lowest_powers(surface.back(one, exponents.field), statement.constant) for one in several]
+                    for several in (conditions.polynomials, conditions.system)
+                )
+                irreducible = tuple(chain.from_iterable(map(irreducible_factors, factors)))
+                determinant = Determinant(exponents, irreducible, tuple(system))
+            found[determinant] = None
     return tuple(found)
 
 

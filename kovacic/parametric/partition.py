@@ -159,6 +159,7 @@ def _energies(S: RatFunc) -> list[int]:
 def _rational_logarithmic_derivatives(problem: Problem, energies: list[int]) -> Iterator[tuple[FunctionPoly, RatFunc]]:
     """`(E - E0, W)` with a W free of E, where the exponents give a P of small degree: that of a solution for E = E0."""
     field = problem.field
+    assert isinstance(field, FunctionField)
     equation = degree_equation(problem)
     if equation is None:
         return
@@ -470,7 +471,7 @@ def _inside(S: RatFunc, function: FunctionPoly, settings: Settings) -> list[Para
     statement = Vanishes(function)
     surface = hypersurface(function)
     try:
-        restricted = surface.restricted(S)
+        restricted = _without_common_factors(surface.restricted(S), settings.assumptions)
     except ZeroDivisionError:
         return [ParameterRegion(statement, _UNKNOWN, defined=False)]
     inner = partition(restricted, settings.on(surface))

@@ -295,7 +295,8 @@ def differences(cubic: FunctionPoly) -> Differences:
     parametric: list[str | None] = []
     constants: list[Fraction | None] = []
     for factor, k in cubic.field.factor(cubic):
-        roots = (_square_roots_of_roots(factor) or [None] * factor.degree) * k
+        known = _square_roots_of_roots(factor)
+        roots = [*([None] * factor.degree if known is None else known)] * k
         constant = None
         names += roots
         if without_parameters(factor) is None:
@@ -305,8 +306,8 @@ def differences(cubic: FunctionPoly) -> Differences:
             constants += [constant] * len(roots)
         if constant is None:
             free += roots
-    known = [tuple(filter(None, several)) for several in (names, free, parametric)]
-    return Differences(None if None in names else known[0], known[1], known[2], tuple(constants))
+    written = [tuple(filter(None, several)) for several in (names, free, parametric)]
+    return Differences(None if None in names else written[0], written[1], written[2], tuple(constants))
 
 
 def _square_roots_of_roots(factor: Poly) -> list[str] | None:

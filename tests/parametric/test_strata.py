@@ -42,6 +42,7 @@ LISTS = [
     "a^2*(1-exp(-x))^2 - a*b*exp(-x)",
     "(a*x+b)/(x^2-2)^2 + c/x",
     "(a*x+b)/(x^2+k)^2 + x^2",
+    "(a*x+b)/(x^2+1)^2 + c/(x-1)^3",
 ]
 #: Equations whose singular points move into one another, or to infinity, at values of the parameters.
 FORMULAS = {
