@@ -115,9 +115,8 @@ def _fill(app: Any, name: str, source: list[str]) -> None:
 def setup(app: Any) -> None:
     """Sphinx calls this."""
     app.add_html_math_renderer("mathml", inline_renderers=(_inline, None), block_renderers=(_display, None))
-    if not tags.has("reference"):  # noqa: F821 - Sphinx gives it to this file; a test builds the reference alone
-        app.connect("config-inited", lambda app, _: _take_notebook(app))
-        app.connect("builder-inited", _draw)
+    app.connect("config-inited", lambda app, _: _take_notebook(app))
+    app.connect("builder-inited", _draw)
     app.connect("source-read", _fill)
     app.connect("autodoc-process-docstring", _one_by_one, priority=100)  # before napoleon
     app.connect("autodoc-process-docstring", _as_rst)

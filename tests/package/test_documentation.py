@@ -10,7 +10,6 @@ from collections.abc import Iterator
 from math import ceil
 from pathlib import Path
 
-import potentials
 import pytest
 from build import parametrize
 from documents import PAGES, ROOT, check_command, check_links, check_python, sessions
@@ -185,16 +184,6 @@ def test_figures_are_those_of_the_results() -> None:
 
 
 TABLES = runpy.run_path(str(ROOT / "docs" / "tables.py"))
-
-
-@pytest.mark.long
-def test_each_solvable_potential_has_a_section_with_its_levels() -> None:
-    sections = TABLES["filled"]((ROOT / "docs" / "howto" / "potentials.md").read_text("utf-8")).split("\n## ")[1:]
-    assert len(sections) == len(potentials.TABLE + potentials.MORE)
-    for row, section in zip(potentials.TABLE + potentials.MORE, sections, strict=True):
-        assert row.source in section
-        assert "  E_n = " in section
-        assert "proven to be all eigenvalues" in section
 
 
 def verdicts(results: str, system: str) -> Counter[str]:
