@@ -110,7 +110,7 @@ def test_a_square_root_beside_an_irrational_coefficient() -> None:
 
 
 @pytest.mark.long
-@generated(6)
+@generated(4)
 @given(strategies.over_number_fields("case 1", "case 2", "odd"))
 def test_closed_forms_over_a_number_field(example: Example) -> None:
     """Each is checked, exactly and to 50 digits, before it is returned."""

@@ -93,14 +93,14 @@ def test_dask_answers_in_order_and_limits_hold_there(cluster: Cluster) -> None:
 
 
 def test_every_line_of_a_mix_is_answered_once(cluster: Cluster) -> None:
-    runs = random_runs(11, 6_000)
+    runs = random_runs(11, 2_000)
     texts = [json.loads(line) if line.startswith("{") else {} for line in lines_of(runs)]
     records = kovacic.solve_many(texts, jobs=4, timeout=2, backend="dask", scheduler=cluster.address)
     assert [(record.number, record.label) for record in records] == answers_of(runs)
 
 
 def test_a_killed_worker_loses_nothing_and_repeats_nothing(cluster: Cluster) -> None:
-    count = 12 * CHUNK
+    count = 6 * CHUNK
     texts = [QUICK[k % 6] for k in range(count)]
     finished = []
     killed = False
@@ -130,21 +130,16 @@ def test_a_scheduler_that_is_not_there_is_an_error() -> None:
         list(kovacic.solve_many(["x"], backend="dask", scheduler=address))
 
 
-def test_a_scheduler_that_ends_is_named(tmp_path: Path) -> None:
+def test_a_scheduler_that_ends_is_named(cluster: Cluster, tmp_path: Path) -> None:
     """From the shell: the answers so far, one sentence, and nothing of the engine's own traces."""
-    cluster = Cluster(tmp_path)
     lines = tmp_path / "in.txt"
-    lines.write_text("\n".join(f"x^2 + {k}" for k in range(30 * CHUNK)))
+    lines.write_text("\n".join(f"x^2 + {k}" for k in range(10 * CHUNK)))
     run = ["batch", str(lines), "--backend", "dask", "--scheduler", cluster.address, "-q"]
     pipes = dict.fromkeys(("stdout", "stderr"), subprocess.PIPE)
-    try:
-        cluster.wait_for_workers()
-        with started([sys.executable, "-m", "kovacic", *run], **pipes) as process:
-            assert '"line": 1,' in process.stdout.readline()
-            cluster.scheduler.kill()
-            _, errors = process.communicate(timeout=240)
-    finally:
-        cluster.stop()
+    with started([sys.executable, "-m", "kovacic", *run], **pipes) as process:
+        assert '"line": 1,' in process.stdout.readline()
+        cluster.scheduler.kill()
+        _, errors = process.communicate(timeout=240)
     assert process.returncode == 4
     assert errors.startswith(f"kovacic: the dask scheduler at {cluster.address} has ended")
     assert len(errors.splitlines()) == 1

@@ -12,7 +12,7 @@ from pathlib import Path
 
 import pytest
 from batch_lines import KINDS, SLOW, Run, answers_of, lines_of, random_runs
-from build import generated, parametrize
+from build import generated
 from hypothesis import example, given
 from hypothesis import strategies as st
 from processes import finished
@@ -111,7 +111,8 @@ def test_a_named_pipe_is_answered_while_it_is_silent(tmp_path: Path) -> None:
         assert process.wait() == 0
 
 
-@parametrize("jobs", range(1, 9), ordinary=0, long=1)
+@pytest.mark.slow
+@pytest.mark.parametrize("jobs", range(1, 9))
 def test_a_hundred_thousand_lines_of_all_kinds(tmp_path: Path, jobs: int) -> None:
     """12,500 for each number of processes: a file, standard input, `solve_many`."""
     runs = random_runs(jobs, 12_500)

@@ -11,7 +11,7 @@ import pytest
 import strategies
 import sympy
 import transform
-from build import QQ, RatFunc, jet, parametrize, residual
+from build import QQ, RatFunc, generated, jet, parametrize, residual
 from flint import acb, arb
 from hypothesis import given, settings
 from sympy.abc import x
@@ -134,7 +134,7 @@ CASES = [
     "strategy", CASES, ids=["omega", "diagonal", "scalar", "apparent", "curve", "Q8", "dihedral"], ordinary=0, long=4
 )
 def test_random_equations_of_cases_1_and_2_have_exact_solutions(strategy: object) -> None:
-    @settings(max_examples=12)
+    @generated(8)
     @given(strategy)  # type: ignore[arg-type]
     def check(example: strategies.Example) -> None:
         if example.size > 40:

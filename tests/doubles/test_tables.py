@@ -156,8 +156,9 @@ def test_what_is_masked_stays_masked_and_is_not_looked_at() -> None:
     assert balls[1, 0] == kovacic.evaluate("x", [1, 2, "1/2"], **SINE)[1]
 
 
-@pytest.mark.long
-@pytest.mark.parametrize(("equation", "interval"), [("x", (-1000, 0)), ("-x^2", (0, 300)), ("-1", (0, 30_000))])
+@parametrize(
+    ("equation", "interval"), [("x", (-1000, 0)), ("-x^2", (0, 300)), ("-1", (0, 30_000))], ordinary=0, long=(0,)
+)
 def test_tables_may_have_tens_of_thousands_of_pieces(equation: str, interval: tuple[int, int]) -> None:
     table = kovacic.tabulate(equation, *interval, careful=False, **SINE)
     places = [interval[0] + (interval[1] - interval[0]) * share for share in (0.0, 0.13, 0.48, 0.97, 1.0)]

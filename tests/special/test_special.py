@@ -639,7 +639,7 @@ def test_derivatives_of_named_functions_are_written_by_such(S: str, transform: t
         assert abs(function(value, {"n": mpmath.mpf(3) / 7})(POINT)) < 1e-8
 
 
-@parametrize("degree", [1, 5, 0], ordinary=0)
+@parametrize("degree", [1, 5, 0], ordinary=0, long=(0, 2))
 def test_an_exponent_that_may_be_an_integer_is_an_exception_or_known_to_be_one(degree: int) -> None:
     """x y'' + (l + 1 - x) y' + N y = 0: x^-l 1F1(-N - l; 1 - l; x) has no value for l = 1, 2, ..., and is the other at 0.
 
