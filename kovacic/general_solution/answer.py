@@ -231,14 +231,14 @@ def _cases(zero: Expr) -> Iterator[Exceptional]:
             if letter.is_Symbol:
                 yield from _integers(letter, sign)
                 return
-    for is_known in (lambda slope: slope.is_number, lambda slope: not slope.is_Add):
-        for letter in sorted(zero.free_symbols, key=str):
-            slope = sympy.factor(zero.diff(letter))
-            if not slope.has(letter) and is_known(slope) and slope.is_zero is not True:
-                value = sympy.expand(letter - zero / slope)
-                yield Exceptional(f"{letter} = {value}", values={letter: value})
-                return
-    yield Exceptional(str(ZeroSet(zero)))
+    slopes = {letter: sympy.factor(zero.diff(letter)) for letter in sorted(zero.free_symbols, key=str)}
+    linear = [k for k, slope in slopes.items() if not slope.has(k) and not (slope.is_Add and slope.free_symbols)]
+    if not linear:
+        yield Exceptional(str(ZeroSet(zero)))
+        return
+    letter = min(linear, key=lambda k: not slopes[k].is_number)
+    value = sympy.expand(letter - zero / slopes[letter])
+    yield Exceptional(f"{letter} = {value}", values={letter: value})
 
 
 def _vanishes_with(zero: Expr, y: Expr) -> bool:

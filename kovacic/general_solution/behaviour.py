@@ -12,7 +12,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import suppress
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from itertools import islice, pairwise
 from typing import Any
 
@@ -49,6 +49,8 @@ _STAGES = (
 )
 _AROUND = (Rational(1), Rational(8, 7), Rational(17, 13))
 _DIGITS = 60
+#: Below this a value may be nothing but the error of what cancels.
+_LOST = arb(10) ** (-_DIGITS // 2)
 #: How many values of the letters are tried, and how many have to agree.
 _SAMPLES = 6
 _ENOUGH = 2
@@ -63,7 +65,7 @@ _KNOWN = (
 )
 
 
-class UnknownLimit(Exception):
+class UnknownLimit(NotImplementedError):
     """It isn't known how the expression behaves."""
 
 
@@ -79,10 +81,8 @@ class Approach:
         return self.point in (sympy.oo, -sympy.oo)
 
     def in_terms_of(self, t: Expr) -> Expr:
-        if self.point == sympy.oo:
-            return 1 / t
-        if self.point == -sympy.oo:
-            return -1 / t
+        if self.is_infinite:
+            return sympy.sign(self.point) / t
         return self.point + self.direction * t
 
 
@@ -108,27 +108,19 @@ def limit_at(expression: Expr, x: Expr, place: Approach) -> Expr:
     jumps = {jump: _near_the_point(jump, jump.args[0].subs(x, way), variable, towards) for jump in e.atoms(*_JUMPING)}
     if jumps:  # what cancels beyond them has no value that could be compared
         e = sympy.expand(e.xreplace(jumps))
-    inner = e.xreplace({x: way})
-    if not place.is_infinite:
-        found = _quotient_of_analytic_functions(e, x, place.point)
+    for found in _candidates(e, x, way, variable, towards):
         if found is not None and _is_confirmed(found, e, x, place):
             return found
-    leading = _with_leading_terms(inner, variable, towards)
-    found = _classified(_term_by_term(leading, variable, towards) if leading != inner else None)
-    if found is None:
-        found = _classified(_by_sympy(leading, variable, towards))
-    if found is None or not _is_confirmed(found, e, x, place):
-        raise UnknownLimit(f"the limit of {shown(e, 60)} isn't known")
-    return found
+    raise UnknownLimit(f"the limit of {shown(e, 60)} isn't known")
 
 
-def finite_limit(expression: Expr, x: Expr, place: Approach) -> Expr | None:
-    """The limit if it is a number; None if there is none, or it isn't known."""
-    try:
-        found = limit_at(expression, x, place)
-    except (UnknownLimit, NotImplementedError):
-        return None
-    return None if found in (sympy.oo, OSCILLATING) else found
+def _candidates(e: Expr, x: Expr, way: Expr, variable: Expr, towards: Expr) -> Iterator[Expr | None]:
+    """What the limit may be: by Taylor's series at a finite point, else by leading terms, from each summand or the whole."""
+    if towards == 0:
+        yield _quotient_of_analytic_functions(e, x, way.subs(variable, 0))
+    leading = _with_leading_terms(e.xreplace({x: way}), variable, towards)
+    yield _classified(_term_by_term(leading, variable, towards))
+    yield _classified(_by_sympy(leading, variable, towards))
 
 
 def _near_the_point(jump: Expr, argument: Expr, variable: Expr, towards: Expr) -> Expr:
@@ -171,22 +163,22 @@ def _by_sympy(e: Expr, variable: Expr, towards: Expr) -> Any:
         found = sympy.limit(rest.xreplace(rates), variable, towards)
     except (NotImplementedError, ValueError, TypeError, AttributeError, RecursionError, sympy.PoleError):
         return None
+    if found.has(sympy.Limit, sympy.nan, sympy.Order):  # it is left undone
+        return None
     return found if found.has(sympy.AccumBounds) else constant * found
 
 
 def _term_by_term(e: Expr, variable: Expr, towards: Expr) -> Any:
     """The limit of a sum from those of its terms; None if it isn't known, as where unbounded terms cancel."""
-    terms = sympy.Add.make_args(sympy.expand_mul(e))
-    limits = [_by_sympy(term, variable, towards) for term in terms]
-    if None in limits:
+    limits = {term: _by_sympy(term, variable, towards) for term in sympy.Add.make_args(sympy.expand_mul(e))}
+    if None in limits.values():
         return None
-    unbounded = [term for term, found in zip(terms, limits, strict=True) if found.has(sympy.oo, -sympy.oo)]
+    unbounded = [term for term, found in limits.items() if _classified(found) == sympy.oo]
     if not unbounded:
-        return sympy.Add(*limits)
-    ratios = [_by_sympy(sympy.powsimp(term / unbounded[0]), variable, towards) for term in unbounded[1:]]
-    if any(ratio is None or ratio.has(sympy.oo, -sympy.oo, sympy.AccumBounds) for ratio in ratios):
-        return None
-    return None if sympy.expand(sympy.Add(_ONE, *ratios)) == 0 else sympy.oo
+        return sympy.Add(*limits.values())
+    ratios = [_by_sympy(sympy.powsimp(term / unbounded[0]), variable, towards) for term in unbounded]
+    is_comparable = all(ratio is not None and not ratio.has(sympy.oo, -sympy.oo, sympy.AccumBounds) for ratio in ratios)
+    return sympy.oo if is_comparable and sympy.expand(sympy.Add(*ratios)) != 0 else None
 
 
 def _rates_with_signs(e: Expr, variable: Expr) -> dict[Expr, Expr]:
@@ -206,7 +198,7 @@ def _rates_with_signs(e: Expr, variable: Expr) -> dict[Expr, Expr]:
 
 def _classified(found: Expr | None) -> Expr | None:
     """A finite number, `oo` or `OSCILLATING`; None for anything else that SymPy may return."""
-    if found is None or found.has(sympy.Limit, sympy.nan, sympy.Order):
+    if found is None or found.has(sympy.nan):
         return None
     if isinstance(found, sympy.AccumBounds):
         return OSCILLATING
@@ -223,36 +215,30 @@ def _is_confirmed(found: Expr, e: Expr, x: Expr, place: Approach) -> bool:
 
     Not for all of them: what holds for generic letters needn't for small integers, as where 1/gamma(-m) is 0.
     """
-    difference = e - found if found not in (sympy.oo, OSCILLATING) else e
     confirming = 0
-    for sample in _letter_values(difference.free_symbols - {x}):
-        sizes = _sizes_near(difference.xreplace(sample), x, place)
+    for sizes in _sizes_near(e if found in (sympy.oo, OSCILLATING) else e - found, x, place, _SAMPLES):
         confirming += bool(sizes) and all(_is_nearer(found, far, near) for far, near in pairwise(sizes))
         if confirming == _ENOUGH:
             return True
     return False
 
 
-def _letter_values(symbols: set[Expr]) -> Iterator[dict[Expr, Expr]]:
-    """Values that fit what is assumed, of both signs where that is open."""
-    for k, sample in enumerate(islice(samples(symbols), 1, 1 + _SAMPLES)):
-        yield opposite(sample) if k % 2 else sample
-
-
 def is_refuted(value: Expr | None, y: Expr, x: Expr, place: Approach) -> bool:
     """True if values near the point show that y doesn't tend to the value (None: isn't bounded); False if they are lost."""
-    e = y if value is None else y - value
-    sizes = _sizes_near(e.xreplace(next(_letter_values(e.free_symbols - {x}))), x, place)
+    (sizes,) = _sizes_near(y if value is None else y - value, x, place, 1)
     return bool(sizes) and all(bool(near > far * 2) for far, near in pairwise(sizes))
 
 
-def _sizes_near(e: Expr, x: Expr, place: Approach) -> list[Any]:
-    """The size at three distances, from the largest on; none where the values are lost."""
-    for stages in _STAGES:
-        sizes = [_size_near(e, x, place, t) for t in stages]
-        if None not in sizes:
-            return sizes
-    return []
+def _sizes_near(e: Expr, x: Expr, place: Approach, count: int) -> Iterator[list[Any]]:
+    """The size at three distances, from the largest on; none where the values are lost.
+
+    For several values of the letters that fit what is assumed, of both signs where that is open.
+    """
+    for k, sample in enumerate(islice(samples((e.free_symbols | place.point.free_symbols) - {x}), 1, 1 + count)):
+        letters = opposite(sample) if k % 2 else sample
+        here = replace(place, point=place.point.xreplace(letters))
+        stages = ([_size_near(e.xreplace(letters), x, here, t) for t in stage] for stage in _STAGES)
+        yield next((sizes for sizes in stages if None not in sizes), [])
 
 
 def _is_nearer(found: Expr, far: Any, near: Any) -> bool:
@@ -261,141 +247,98 @@ def _is_nearer(found: Expr, far: Any, near: Any) -> bool:
         return bool(near > far * arb("1.02"))
     if found == OSCILLATING:
         return bool(near < far * 1000) and bool(near > far / 1000)
-    return bool(near < far / arb("1.02")) or bool(near < arb(10) ** (-_DIGITS // 2))
+    return bool(near < far / arb("1.02")) or bool(near < _LOST)
 
 
 def _size_near(e: Expr, x: Expr, place: Approach, t: Expr) -> Any:
     """The largest of some values about this distance; None if they aren't known well."""
-    largest = None
-    for factor in _AROUND:
-        at = place.in_terms_of(t * factor)
-        with working_digits(_DIGITS):
-            point = ball(at)
-            found = None if point is None else known_jet(e, x, point)
-            if found is None:
-                return None
-            value = abs(found[0])
-            if not value.is_finite() or (value.rel_accuracy_bits() < 10 and not value < arb(10) ** (-_DIGITS // 2)):
-                return None
-            largest = value if largest is None or value > largest else largest
-    return largest
+    with working_digits(_DIGITS):
+        points = [ball(place.in_terms_of(t * factor)) for factor in _AROUND]
+        found = [point and known_jet(e, x, point) for point in points]
+        values = [abs(jet[0]) for jet in found if jet]
+    is_known = [value.is_finite() and (value.rel_accuracy_bits() >= 10 or bool(value < _LOST)) for value in values]
+    return max(values) if is_known == [True] * len(_AROUND) else None
 
 
 # --------------------------------------------------------------------------------------------------- leading terms
 
 
+#: (parameters, distance) -> the leading term, with the distance z for z to +oo, 0 and complex infinity, -z for z to -oo,
+#: 1 - z and 1 + z for z to 1 and -1.
+Rule = Callable[..., Any]
+
+
 def _with_leading_terms(e: Expr, variable: Expr, towards: Expr) -> Expr:
     """Special functions replaced where their arguments tend to infinity, or to a point where they aren't analytic."""
-    known = {}
-    for f in e.atoms(*_AT_INFINITY, *_AT_ZERO, sympy.legendre):
-        if not f.args[-1].has(variable) or any(part.has(variable) for part in f.args[:-1]):
+    known: dict[Expr, Expr] = {}
+    for f in e.atoms(sympy.Function):
+        *parameters, z = f.args
+        rules = _LEADING.get((len(f.ap), len(f.bq)) if isinstance(f, sympy.hyper) else f.func)
+        if rules is None or not z.has(variable) or any(part.has(variable) for part in parameters):
             continue
-        leading = _leading(f, variable, towards)
-        if leading is not None:
-            known[f] = leading
-    if not known:
-        return e
-    return sympy.powsimp(sympy.expand_power_base(e.xreplace(known)))
+        end = _by_sympy(z, variable, towards)
+        if end in rules:
+            near = {sympy.oo: z, -sympy.oo: -z, _ONE: 1 - z, -_ONE: 1 + z}.get(end, z)
+            leading = rules[end](*parameters, sympy.expand(near))
+            known |= {} if leading is None else {f: leading}
+    return sympy.powsimp(sympy.expand_power_base(e.xreplace(known))) if known else e
 
 
-def _leading(f: Expr, variable: Expr, towards: Expr) -> Expr | None:
-    """The leading term of a function, None if SymPy has to know it."""
-    *parameters, z = f.args
-    end = _by_sympy(z, variable, towards)
-    if end == 0 and f.func in _AT_ZERO:
-        return _AT_ZERO[f.func](parameters, z)
-    if end == 1 and isinstance(f, sympy.hyper):
-        return _gauss_at_one(parameters, sympy.expand(1 - z))
-    if end == -1 and isinstance(f, sympy.legendre) and not parameters[0].is_integer:
-        return sin(pi * parameters[0]) / pi * log(sympy.expand(1 + z) / 2)
-    if isinstance(f, sympy.hyper) and (end == sympy.zoo or not end.is_finite) and len(f.ap) == 2 and not f.bq:
-        return _tricomi(parameters, z)  # in every direction
-    if end in (sympy.oo, -sympy.oo) and f.func in _AT_INFINITY:
-        at_plus, at_minus = _AT_INFINITY[f.func]
-        return at_plus(parameters, z) if end == sympy.oo else at_minus(parameters, sympy.expand(-z))
-    return None
+def _series(top: Sequence[Any], bottom: Sequence[Any], z: Expr) -> Expr:
+    """Of a hypergeometric function at 0; an asymptotic one of 2F0."""
+    rising = (sympy.Mul(*(rf(a, k) for a in top)) / sympy.Mul(*(rf(b, k) for b in bottom)) for k in range(_TERMS))
+    return sympy.Add(*(c * z**k / factorial(k) for k, c in enumerate(rising)))
 
 
-#: (parameters, z) -> the leading term; at minus infinity, and for Gauss' function at 1, z tends to +oo or 0 as well.
-Rule = Callable[[Sequence[Any], Expr], Any]
-
-
-def _none(_: Sequence[Any], z: Expr) -> None:
-    return None
-
-
-def _airy(constant: Expr, sign: int, power: Rational, wave: Any, shift: Expr) -> tuple[Rule, Rule]:
-    """Ai, Bi and their derivatives: constant e^(+-zeta) z^power/sqrt(pi) with zeta = 2 z^(3/2)/3, and waves of zeta."""
-
-    def zeta(z: Expr) -> Expr:
-        return 2 * z ** Rational(3, 2) / 3
-
-    return (
-        lambda _, z: constant * exp(sign * zeta(z)) * z**power / sqrt(pi),
-        lambda _, z: wave(zeta(z) + shift) * z**power / sqrt(pi),
-    )
-
-
-def _bessel_wave(wave: Any) -> tuple[Rule, Rule]:
-    """J and Y: waves with the amplitude sqrt(2/(pi z))."""
-    return lambda p, z: sqrt(2 / (pi * z)) * wave(z - p[0] * pi / 2 - pi / 4), _none
-
-
-def _polynomial(leading: Callable[..., Expr]) -> tuple[Rule, Rule]:
-    """A polynomial of the symbolic degree N: its leading coefficient, and (-1)^N of it at minus infinity."""
-    return lambda p, z: leading(*p) * z ** p[0], lambda p, z: leading(*p) * (-1) ** p[0] * z ** p[0]
-
-
-def _confluent(parameters: Sequence[Any], z: Expr) -> Expr | None:
-    """1F1, z to +oo; 0F1, which is Bessel's I."""
-    top, bottom = parameters
-    if len(top) > 1 or len(bottom) != 1:
-        return None
-    (b,) = bottom
-    if not top:
-        return gamma(b) / (2 * sqrt(pi)) * z ** ((1 - 2 * b) / 4) * exp(2 * sqrt(z))
-    (a,) = top
+def _confluent(top: Sequence[Any], bottom: Sequence[Any], z: Expr) -> Expr:
+    """1F1, z to +oo."""
+    (a,), (b,) = top, bottom
     if _is_natural(-a):
         return (-z) ** (-a) * gamma(b) / gamma(b - a)
     return gamma(b) / gamma(a) * exp(z) * z ** (a - b)
 
 
-def _confluent_below(parameters: Sequence[Any], z: Expr) -> Expr | None:
-    """1F1(-z) = exp(-z) 1F1(b - a; b; z); 0F1(-z), which is Bessel's J."""
-    top, bottom = parameters
-    if not top and len(bottom) == 1:
+def _confluent_below(top: Sequence[Any], bottom: Sequence[Any], z: Expr) -> Expr:
+    """1F1(-z) = exp(-z) 1F1(b - a; b; z)."""
+    return sympy.powsimp(sympy.expand(exp(-z) * _confluent([sympy.expand(bottom[0] - top[0])], bottom, z)))
+
+
+def _bessel_hyper(sign: int) -> Rule:
+    """0F1, which is I for z to +oo, and J for z to -oo."""
+
+    def rule(_: Sequence[Any], bottom: Sequence[Any], z: Expr) -> Expr:
         (b,) = bottom
-        return gamma(b) / sqrt(pi) * z ** ((1 - 2 * b) / 4) * cos(2 * sqrt(z) - pi * (2 * b - 1) / 4)
-    other = _confluent(([sympy.expand(b - a) for a in top for b in bottom], bottom), z)
-    return None if other is None else sympy.powsimp(sympy.expand(exp(-z) * other))
+        wave = exp(2 * sqrt(z)) / 2 if sign > 0 else cos(2 * sqrt(z) - pi * (2 * b - 1) / 4)
+        return gamma(b) / sqrt(pi) * z ** ((1 - 2 * b) / 4) * wave
+
+    return rule
 
 
-def _tricomi(parameters: Sequence[Any], z: Expr) -> Expr | None:
+def _tricomi(sign: int) -> Rule:
     """2F0(a, b; z) = w^a U(a, a - b + 1, w), w = -1/z to 0: the smaller of the powers w^a and w^b, by the sign of a - b."""
-    top, _ = parameters
-    a, b = top
-    c = sympy.expand(a - b)
-    w = -1 / z
-    if any(_is_natural(-v) for v in top):  # a polynomial
-        N, other = (-a, b) if _is_natural(-a) else (-b, a)
-        return rf(other, N) * (-z) ** N
-    if c == 0:
-        return -(w**a) * log(w) / gamma(a)
-    if c.is_negative:
-        return gamma(-c) / gamma(b) * w**a
-    return gamma(c) / gamma(a) * w**b if c.is_positive else None
+
+    def rule(top: Sequence[Any], _: Sequence[Any], z: Expr) -> Expr | None:
+        a, b = top
+        c = sympy.expand(a - b)
+        w = -sign / z
+        if any(_is_natural(-v) for v in top):  # a polynomial
+            N, other = (-a, b) if _is_natural(-a) else (-b, a)
+            return rf(other, N) / w**N
+        if c == 0:
+            return -(w**a) * log(w) / gamma(a)
+        if c.is_negative:
+            return gamma(-c) / gamma(b) * w**a
+        return gamma(c) / gamma(a) * w**b if c.is_positive else None
+
+    return rule
 
 
-def _gauss_at_one(parameters: Sequence[Any], w: Expr) -> Expr | None:
-    """2F1(a, b; c; 1 - w), by the sign of s = c - a - b; a polynomial is left."""
-    top, bottom = parameters
-    if len(top) != 2 or len(bottom) != 1:
-        return None
-    a, b = top
-    (c,) = bottom
-    for N, other in ((-a, b), (-b, a)):
+def _gauss_at_one(top: Sequence[Any], bottom: Sequence[Any], w: Expr) -> Expr | None:
+    """2F1(a, b; c; 1 - w), by the sign of s = c - a - b; (c - b)_N/(c)_N for a polynomial of degree N = -a."""
+    (a, b), (c,) = top, bottom
+    for N, other in ((-a, sympy.expand(c - b)), (-b, sympy.expand(c - a))):
         if _is_natural(N):
-            return _rising(sympy.expand(c - other), N) / _rising(c, N)
+            return _rising(other, N) / _rising(c, N)
     s = sympy.expand(c - a - b)
     if s == 0:
         psi = sympy.polygamma(0, a) + sympy.polygamma(0, b) + 2 * sympy.EulerGamma
@@ -416,68 +359,71 @@ def _is_natural(N: Expr) -> bool:
     return bool(N.is_integer and N.is_nonnegative)
 
 
-def _series(parameters: Sequence[Any], z: Expr) -> Expr:
-    """Of a hypergeometric function at 0; an asymptotic one of 2F0."""
-    top, bottom = parameters
-    terms = []
-    for k in range(_TERMS):
-        above = sympy.Mul(*(rf(a, k) for a in top))
-        below = sympy.Mul(*(rf(b, k) for b in bottom))
-        terms.append(above / below * z**k / factorial(k))
-    return sympy.Add(*terms)
+def _airy(constant: Expr, sign: int, power: Rational, wave: Any, shift: Expr) -> dict[Any, Rule]:
+    """Ai, Bi and their derivatives: constant e^(+-zeta) z^power/sqrt(pi) with zeta = 2 z^(3/2)/3, and waves of zeta."""
+
+    def zeta(z: Expr) -> Expr:
+        return 2 * z ** Rational(3, 2) / 3
+
+    return {
+        sympy.oo: lambda z: constant * exp(sign * zeta(z)) * z**power / sqrt(pi),
+        -sympy.oo: lambda z: wave(zeta(z) + shift) * z**power / sqrt(pi),
+    }
+
+
+def _polynomial(leading: Callable[..., Expr]) -> dict[Any, Rule]:
+    """A polynomial of the symbolic degree N: its leading coefficient, and (-1)^N of it at minus infinity."""
+    return {
+        sympy.oo: lambda N, *p: leading(N) * p[-1] ** N,
+        -sympy.oo: lambda N, *p: leading(N) * (-1) ** N * p[-1] ** N,
+    }
 
 
 def _first_kind(sign: int) -> Rule:
     """J and I at 0, of an order that isn't an integer known to SymPy."""
 
-    def rule(parameters: Sequence[Any], z: Expr) -> Expr | None:
-        (nu,) = parameters
-        if nu.is_Integer:
-            return None
-        return (z / 2) ** nu / gamma(nu + 1) * _series(((), (nu + 1,)), sign * z**2 / 4)
+    def rule(nu: Expr, z: Expr) -> Expr | None:
+        return None if nu.is_Integer else (z / 2) ** nu / gamma(nu + 1) * _series((), (nu + 1,), sign * z**2 / 4)
 
     return rule
 
 
-def _second_kind(constant: Expr, sign: int) -> Rule:
+def _second_kind(constant: Expr) -> Rule:
     """Y and K at 0: Gamma(nu)/2 (2/z)^nu times a constant, or the logarithm."""
 
-    def rule(parameters: Sequence[Any], z: Expr) -> Expr | None:
-        (nu,) = parameters
+    def rule(nu: Expr, z: Expr) -> Expr | None:
         if nu == 0:
             return -constant * (log(z / 2) + sympy.EulerGamma)
-        if nu.is_integer or not nu.is_number:
-            return constant * gamma(nu) / 2 * (2 / z) ** nu if nu.is_positive else None
-        first, other = _first_kind(sign)((nu,), z), _first_kind(sign)((-nu,), z)
-        if sign < 0:
-            return (cos(nu * pi) * first - other) / sin(nu * pi)
-        return pi / 2 * (other - first) / sin(nu * pi)
+        return constant * gamma(nu) / 2 * (2 / z) ** nu if nu.is_positive else None
 
     return rule
 
 
-#: What is taken where the argument tends to 0.
-_AT_ZERO: dict[Any, Rule] = {
-    sympy.besselj: _first_kind(-1),
-    sympy.besseli: _first_kind(1),
-    sympy.bessely: _second_kind(-2 / pi, -1),
-    sympy.besselk: _second_kind(_ONE, 1),
-    sympy.hyper: _series,
-}
-#: For arguments z and -z, z to +oo.
-_AT_INFINITY: dict[Any, tuple[Rule, Rule]] = {
+def _wave(wave: Any) -> Rule:
+    """J and Y at infinity: waves with the amplitude sqrt(2/(pi z))."""
+    return lambda nu, z: sqrt(2 / (pi * z)) * wave(z - nu * pi / 2 - pi / 4)
+
+
+#: By function, or by the numbers of parameters of a hypergeometric one: what is taken where the argument tends to a place.
+_LEADING: dict[Any, dict[Any, Rule]] = {
     sympy.airyai: _airy(sympy.S.Half, -1, -Rational(1, 4), cos, -pi / 4),
     sympy.airybi: _airy(_ONE, 1, -Rational(1, 4), cos, pi / 4),
     sympy.airyaiprime: _airy(-sympy.S.Half, -1, Rational(1, 4), sin, -pi / 4),
     sympy.airybiprime: _airy(_ONE, 1, Rational(1, 4), sin, pi / 4),
-    sympy.besselj: _bessel_wave(cos),
-    sympy.bessely: _bessel_wave(sin),
-    sympy.besseli: (lambda _, z: exp(z) / sqrt(2 * pi * z), _none),
-    sympy.besselk: (lambda _, z: exp(-z) * sqrt(pi / (2 * z)), _none),
-    sympy.hyper: (_confluent, _confluent_below),
+    sympy.besselj: {sympy.oo: _wave(cos), _ZERO: _first_kind(-1)},
+    sympy.bessely: {sympy.oo: _wave(sin), _ZERO: _second_kind(-2 / pi)},
+    sympy.besseli: {sympy.oo: lambda nu, z: exp(z) / sqrt(2 * pi * z), _ZERO: _first_kind(1)},
+    sympy.besselk: {sympy.oo: lambda nu, z: exp(-z) * sqrt(pi / (2 * z)), _ZERO: _second_kind(_ONE)},
     sympy.hermite: _polynomial(lambda N: 2**N),
     sympy.laguerre: _polynomial(lambda N: (-1) ** N / factorial(N)),
-    sympy.assoc_laguerre: _polynomial(lambda N, a: (-1) ** N / factorial(N)),
+    sympy.assoc_laguerre: _polynomial(lambda N: (-1) ** N / factorial(N)),
+    sympy.legendre: {-_ONE: lambda n, w: None if n.is_integer else sin(pi * n) / pi * log(w / 2)},
+    (0, 1): {_ZERO: _series, sympy.oo: _bessel_hyper(1), -sympy.oo: _bessel_hyper(-1)},
+    (1, 1): {_ZERO: _series, sympy.oo: _confluent, -sympy.oo: _confluent_below},
+    (2, 0): {_ZERO: _series, sympy.oo: _tricomi(1), sympy.zoo: _tricomi(1), -sympy.oo: _tricomi(-1)},
+    (2, 1): {_ZERO: _series, _ONE: _gauss_at_one},
+    (2, 2): {_ZERO: _series},
+    (1, 2): {_ZERO: _series},
 }
 
 
@@ -512,17 +458,13 @@ def value_at(expression: Expr, x: Expr, point: Expr, order: int = 0) -> Expr:
     value = finite_value(e, x, point)
     if value is not None:
         return value
-    for integral in e.atoms(sympy.Integral):  # nothing, from the point to x
-        letter = sympy.Dummy()
-        in_letter = e.xreplace({integral: letter})
-        if integral.limits[0][1:] == (point, x) and have_values([in_letter.diff(letter)], x, point):
-            e = in_letter.xreplace({letter: _ZERO})
     # The limit from the right, if it is that from the left: a closed form with roots may be another solution there.
-    right, left = (finite_limit(e, x, Approach(point, direction)) for direction in (1, -1))
-    if right is None or left is None or not agree(right, left):
-        said = f"the functions of the closed form are singular at {point}, where the solutions aren't"
-        raise NotImplementedError(f"{said}: kovacic.evaluate gives the values of this solution")
-    return right
+    with suppress(NotImplementedError):
+        right, left = (limit_at(e, x, Approach(point, direction)) for direction in (1, -1))
+        if {right, left}.isdisjoint((sympy.oo, OSCILLATING)) and agree(right, left):
+            return right
+    said = f"the functions of the closed form are singular at {point}, where the solutions aren't"
+    raise NotImplementedError(f"{said}: kovacic.evaluate gives the values of this solution")
 
 
 def _contiguous(e: Expr, x: Expr, point: Expr) -> Iterator[tuple[Expr, Expr]]:

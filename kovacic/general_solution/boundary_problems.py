@@ -131,15 +131,14 @@ def read_eigenproblem(
     limits: Limits = DEFAULT_LIMITS,
 ) -> Eigenproblem:
     """The problem of `eigenvalues`, whose levels can then be computed one by one.  Raises `InputError`."""
-    values = {str(name): read_expression(exact_text(value, str(name))) for name, value in (params or {}).items()}
+    values = {sympy.Symbol(str(k)): read_expression(exact_text(value, str(k))) for k, value in (params or {}).items()}
     equation, conditions = apart(equation, conditions)
     function, coefficients = _linear_in_parameter(equation, var, parameter, values, limits)
     x = function.args[0]
     if not isinstance(conditions, Mapping | str | None):
         raise InputError("conditions are a text or a mapping", hint='"y(0)=0, y(1)=0"')
     reader = ConditionReader(function, function.func.__name__)
-    named = {sympy.Symbol(name): value for name, value in values.items()}
-    given = [reader.read(key, value).in_symbols(named) for key, value in as_mapping(conditions).items()]
+    given = [reader.read(key, value).in_symbols(values) for key, value in as_mapping(conditions).items()]
     ends = _interval_ends(given, domain)
     wrap, wishes = wishes_of(given, ends)
     pieces, B, sign = normal_form(x, coefficients, ends)
@@ -152,13 +151,12 @@ def read_eigenproblem(
 
 
 def _linear_in_parameter(
-    equation: Any, var: str | None, parameter: str, values: Mapping[str, Expr], limits: Limits
+    equation: Any, var: str | None, parameter: str, values: Mapping[Expr, Expr], limits: Limits
 ) -> tuple[Expr, tuple[Expr, Expr, Expr, Expr]]:
     """y(x) and a, b, c0, c1 of an equation that is linear in the parameter.  Raises `InputError`."""
-    source = source_of(equation, var, limits, equation=True, names=words_among((parameter, *values)))
+    source = source_of(equation, var, limits, equation=True, names=words_among((parameter, *map(str, values))))
     parts, _ = parts_of(source, limits)
-    known = {sympy.Symbol(name): value for name, value in values.items()}
-    a, b, c, rest = (sympy.sympify(part).xreplace(known) for part in parts)
+    a, b, c, rest = (sympy.sympify(part).xreplace(values) for part in parts)
     x = sympy.Symbol(source.variable)
     symbol = _parameter_among(sympy.Tuple(a, b, c).free_symbols - {x}, parameter)
     c1 = sympy.simplify(c.diff(symbol))
@@ -207,12 +205,9 @@ def _interval_ends(conditions: Sequence[Condition], domain: Sequence[Any] | None
                 hint="params={...} gives values",
                 shell="--param NAME=NUMBER gives a value",
             )
-    if domain is not None:
-        ends = read_domain(domain)
-        if not points <= {*ends}:
-            raise InputError("the conditions are at points that aren't the ends of the domain")
-    else:
-        ends = [*points] or [-sympy.oo, sympy.oo]
+    ends = ([*points] or [-sympy.oo, sympy.oo]) if domain is None else read_domain(domain)
+    if not points <= {*ends}:
+        raise InputError("the conditions are at points that aren't the ends of the domain")
     if len(ends) != 2:
         raise InputError(
             f"the conditions name {len(ends)} points, and an interval has two ends", hint='domain=(0, "oo") gives both'
@@ -270,32 +265,31 @@ def wishes_of(conditions: Sequence[Condition], ends: tuple[Expr, Expr]) -> tuple
 
 def eigenfunctions(question: Question) -> tuple[Expr, list[str]] | None:
     """y, with a number n in it or lambda, and for which lambda it holds; None if that isn't the question."""
-    conditions = _conditions(question)
-    if conditions is None or question.given.f != 0 or question.given.h is not None:
+    conditions = _homogeneous_conditions(question)
+    if conditions is None:
         return None
+    ends, wrap, wishes = conditions
     x = question.x
-    a, b, c, _ = question.coefficients
-    B, c = sympy.simplify(b / a), sympy.simplify(c / a)
+    a, b, c, right = question.coefficients
     parameter = next((s for s in c.free_symbols if s.name in _PARAMETERS), None)
-    if parameter is None:
+    if parameter is None or right != 0:
         return None
+    B, c = sympy.simplify(b / a), sympy.simplify(c / a)
     c1 = sympy.simplify(c.diff(parameter))
-    ends, wishes = conditions
-    robins = () if isinstance(wishes, int) else wishes
-    others = [B, c1, *ends, *(e for robin in robins for e in (robin.alpha, robin.beta))]
-    if c1 == 0 or any(e.has(parameter) for e in others):
+    letters = sympy.Tuple(B, c1).free_symbols.union(*(condition.free_symbols for condition in question.conditions))
+    if c1 == 0 or parameter in letters:
         return None
     c0 = sympy.simplify(c - parameter * c1)
-    taken = {s.name for s in sympy.Add(*others, c0).free_symbols}
+    taken = {s.name for s in letters | c0.free_symbols}
     n = sympy.Symbol(next(name for name in _NUMBERS if name not in taken), integer=True)
     sign = -1 if _with_positive_symbols(c1).is_negative else 1
-    found = family(x, B, c0, sign * c1, sign * parameter, *conditions, n=n)
+    found = family(x, B, c0, sign * c1, sign * parameter, ends, wrap or wishes, n=n)
     if found is None:
         return None
     residues = (y.diff(x, 2) + B * y.diff(x) + (c0 + sign * found.value * c1) * y for y in found.functions)
     if any(sympy.simplify(residue) != 0 for residue in residues):
         return None
-    constants = free_constants(2, *others, c0, question.function)
+    constants = free_constants(2, *letters, c0, question.function)
     y = sympy.Add(*(constant * function for constant, function in zip(constants, found.functions, strict=False)))
     said = _said_of_eigenvalue(found, parameter, sign)
     if found.equation is not None and not taken - {x.name}:
@@ -307,20 +301,18 @@ def eigenfunctions(question: Question) -> tuple[Expr, list[str]] | None:
     return y, [f"{said}; for all other {parameter} {question.function} is 0"]
 
 
-def _conditions(question: Question) -> tuple[tuple[Expr, Expr], Any] | None:
-    """The two ends, and the conditions there, or 1 or -1 where they are periodic or antiperiodic; None for others."""
+def _homogeneous_conditions(question: Question) -> tuple[tuple[Expr, Expr], int, Any] | None:
+    """The two ends, and the conditions as of `wishes_of`; None for others."""
     given = question.conditions
     points = sorted({point for condition in given for point in condition.points}, key=sympy.default_sort_key)
     is_homogeneous = len(given) == 2 and all(condition.value == 0 for condition in given)
     if not is_homogeneous or len(points) != 2 or any(point.is_infinite for point in points):
         return None
     low, high = points
-    difference = _with_positive_symbols(high - low)
-    if difference.is_negative or difference.is_positive is False:
+    if _with_positive_symbols(high - low).is_nonpositive:
         low, high = high, low
     with suppress(InputError):  # other conditions
-        wrap, wishes = wishes_of(given, (low, high))
-        return (low, high), wrap or wishes
+        return (low, high), *wishes_of(given, (low, high))
     return None
 
 

@@ -130,9 +130,9 @@ class SolutionClaim:
         try:
             fails = is_wrong()
         except NOT_EVALUATED as reason:
-            said = "a part of it can't be evaluated"
-            if isinstance(reason, NotImplementedError):  # the messages of other errors are no help
-                said = str(reason)
+            # the messages of other errors are no help
+            is_said = isinstance(reason, NotImplementedError)
+            said = str(reason) if is_said else "a part of it can't be evaluated"
             return [f"the answer wasn't put into {what}, numerically: {said}"]
         if fails:
             raise self.failed(f"doesn't satisfy {what}")
@@ -171,18 +171,11 @@ def _numbers_for(claim: SolutionClaim, natural: Expr | None) -> dict[Expr, Expr]
 
     The answer has a value for them, if such are found: it is for generic ones, and a small integer needn't be generic.
     """
-    known = _symbols_of((claim.y, *claim.coefficients), claim.conditions)
+    known = set().union(*(part.free_symbols for part in (claim.y, *claim.coefficients, *claim.conditions)))
     special = {s for s in known if s.is_integer or s.is_negative or s.is_nonpositive}
     tried = islice(samples(special), 1, 1 + 2 * _SAMPLES)  # from the second on, which is less special
-    candidates = [numbers for numbers in tried if natural is None or not natural.xreplace(numbers).is_negative]
-    for numbers in candidates:
-        if is_finite(claim.y.xreplace(numbers)):
-            return numbers
-    return next(iter(candidates), {})
-
-
-def _symbols_of(parts: Sequence[Expr], conditions: Sequence[Condition] = ()) -> set[Expr]:
-    return set().union(*(part.free_symbols for part in (*parts, *conditions)))
+    candidates = (numbers for numbers in tried if natural is None or not natural.xreplace(numbers).is_negative)
+    return next((numbers for numbers in candidates if is_finite(claim.y.xreplace(numbers))), {})
 
 
 def is_finite(value: Expr) -> bool:
@@ -195,7 +188,8 @@ def is_finite(value: Expr) -> bool:
 def _is_wrong_at(claim: SolutionClaim, start: Expr | None) -> bool:
     """True if the residual is provably not zero at a point.  Raises one of `NOT_EVALUATED` if it can't be computed."""
     x = claim.x
-    definite = [integral for integral in _outer_integrals(claim.y) if not integral.has_free(x)]
+    letters = claim.y.free_symbols - {x}  # of integrals that aren't in the integrand of another one
+    definite = [integral for integral in claim.y.atoms(sympy.Integral) if integral.free_symbols <= letters]
     claim = claim.at(dict.fromkeys(definite, sympy.Integer(1)))  # they are factors of y1 and y2
     if any(e.has(*JUMPING, AppliedUndef) for e in claim.coefficients):
         pieces = _in_pieces(claim)
@@ -203,22 +197,9 @@ def _is_wrong_at(claim: SolutionClaim, start: Expr | None) -> bool:
             if any(pieces.is_wrong_at(point) for point in pieces.points):
                 return True
             return any(pieces.is_wrong_across(k) for k in range(len(pieces.breaks)))
-    base = acb(fmpq(23, 71), fmpq(41, 89))
-    if start is not None:
-        base = ball(start)
-        if base is None:
-            base = acb(fmpq(23, 71), fmpq(0))
+    base = acb(fmpq(23, 71), fmpq(41, 89)) if start is None else ball(start)
     with working_digits(DIGITS):
         return _is_large(Residual(x, claim.coefficients), claim.y, base + arb(_SAMPLE_STEP))
-
-
-def _outer_integrals(e: Expr) -> Iterator[Expr]:
-    """Those that aren't in the integrand of another one, whose variable they may have."""
-    if isinstance(e, sympy.Integral):
-        yield e
-        return
-    for argument in e.args:
-        yield from _outer_integrals(argument)
 
 
 @dataclass(frozen=True)
@@ -266,13 +247,11 @@ class _Pieces:
 
 def _in_pieces(claim: SolutionClaim) -> _Pieces:
     """At values of the parameters, and with exponential functions for those that are given by their names."""
-    whole = (claim.y, *claim.coefficients)
-    claim = claim.at(next(islice(samples(_symbols_of(whole) - {claim.x}), 1, None)))
-    functions = sorted({f.func for e in whole for f in e.atoms(AppliedUndef)}, key=str)
-    parts = [claim.y, *claim.coefficients]
-    for k, function in enumerate(functions):
-        parts = [e.replace(function, lambda u, k=k: sympy.exp(sympy.Rational(k + 1, 3) * u)) for e in parts]
-    y, a, b, c, f = (e.replace(sympy.Derivative, lambda *args: sympy.Derivative(*args).doit()) for e in parts)
+    whole = sympy.Tuple(claim.y, *claim.coefficients)
+    whole = whole.xreplace(next(islice(samples(whole.free_symbols - {claim.x}), 1, None)))
+    for k, function in enumerate(sorted({f.func for f in whole.atoms(AppliedUndef)}, key=str)):
+        whole = whole.replace(function, lambda u, k=k: sympy.exp(sympy.Rational(k + 1, 3) * u))
+    y, a, b, c, f = whole.replace(sympy.Derivative, lambda *args: sympy.Derivative(*args).doit())
     breaks = break_points(sympy.Tuple(y, f), claim.x)
     return _Pieces(replace(claim, y=y, coefficients=(a, b, c, f)), breaks, between(breaks))
 
@@ -303,10 +282,8 @@ def _is_violated(claim: SolutionClaim, condition: Condition, numbers: dict[Expr,
     assert condition.value is not None
     x = claim.x
     y = in_steps(claim.y, x) if claim.y.has(*_CORNERS) else claim.y  # |x| is -x just before 0
-    total = -condition.value
-    for term in condition.terms:
-        total += term.coefficient * value_at(y, x, term.point, term.order)
-    total = total.xreplace(numbers)
+    values = (term.coefficient * value_at(y, x, term.point, term.order) for term in condition.terms)
+    total = sympy.Add(-condition.value, *values).xreplace(numbers)
     unknown = [e for e in total.atoms(sympy.Integral) if e.limits[0][1:]]  # numbers that aren't known
     letters = {e: sympy.Symbol(f"integral_{k}") for k, e in enumerate(sorted(unknown, key=str))}
     total = total.xreplace(letters)

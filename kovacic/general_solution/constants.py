@@ -14,7 +14,7 @@ the larger one, r = lim y1/y2: then C2 + r C1 = 0, and y = C1 (y1 - r y2).  As (
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from enum import Enum
 from itertools import combinations
@@ -40,8 +40,6 @@ _ELEMENTARY = {exp, log, sin, cos, tan, sinh, cosh, tanh, atan, acos}
 _LONGEST = 200
 _ZERO = sympy.Integer(0)
 _ONE = sympy.Integer(1)
-#: The determinant of the rows for values of these orders at one point is W, or -W.
-_SIGNS: dict[tuple[int, ...], int] = {(0, 1): 1, (1, 0): -1}
 
 
 class Row(NamedTuple):
@@ -111,97 +109,66 @@ def determine(
     >>> generic.values, others[0].zeros, others[0].values
     ((0, 0), (sin(k),), (0, C2))
     """
-    minor = _best_minor(rows, wronskian)
+    minor: tuple[Expr, Zero, Sequence[Row]] | None
+    if wronskian is None:
+        pairs = combinations(rows, 2)
+        minor = _nonzero((first.u * second.v - first.v * second.u, (first, second)) for first, second in pairs)
+    else:
+        minor = wronskian, Zero.NEVER, rows[:2]
     if minor is None:
         return _split(_of_rank_one(rows, names))
     # Cramer's rule for two of the rows; the others must be satisfied.
-    first, second = minor.rows
-    c1 = tidy((first.r * second.v - first.v * second.r) / minor.value)
-    c2 = tidy((first.u * second.r - first.r * second.u) / minor.value)
+    value, when, (first, second) = minor
+    c1 = tidy((first.r * second.v - first.v * second.r) / value)
+    c2 = tidy((first.u * second.r - first.r * second.u) / value)
     others = [row for row in rows if row is not first and row is not second]
-    found = _split(DeterminedConstants((c1, c2), [row.rest(c1, c2) for row in others]))
-    if minor.when is Zero.SOMETIMES:
-        found.particular.append(_where_minor_vanishes(rows, names, minor.value / scale))
+    found = _split(_Solved((c1, c2), [row.rest(c1, c2) for row in others]))
+    if when is Zero.SOMETIMES:
+        found.particular.append(_where_minor_vanishes(rows, names, value / scale))
     return found
 
 
-Values = tuple[Expr, Expr]
-
-
-@dataclass(frozen=True)
-class DeterminedConstants:
+class _Solved(NamedTuple):
     """Values of the constants, all that must be zero for them to be a solution, and `pivot`, by which they are divided."""
 
-    values: Values
+    values: tuple[Expr, Expr]
     needed: Sequence[Expr]
     pivot: Expr = sympy.S.One
 
 
-@dataclass(frozen=True)
-class _Minor:
-    """The determinant of u and v in two rows, and when it is zero."""
-
-    value: Expr
-    rows: tuple[Row, Row]
-    when: Zero
-
-
-def _best_minor(rows: Sequence[Row], wronskian: Expr | None) -> _Minor | None:
-    """One that is never zero if there is one, else one that isn't always zero; None if all are."""
-    if wronskian is not None:
-        return _Minor(wronskian, (rows[0], rows[1]), Zero.NEVER)
-    sometimes: list[_Minor] = []
-    undecided: NotImplementedError | None = None
-    for first, second in combinations(rows, 2):
-        determinant = first.u * second.v - first.v * second.u
-        try:
-            minor = _Minor(determinant, (first, second), when_zero(determinant))
-        except NotImplementedError as reason:
-            undecided = reason
-            continue
-        if minor.when is Zero.NEVER:
-            return minor
-        if minor.when is Zero.SOMETIMES:
-            sometimes.append(minor)
-    if undecided is not None:
-        raise undecided
-    return next(iter(sometimes), None)
+def _nonzero(candidates: Iterable[tuple[Expr, Any]]) -> tuple[Expr, Zero, Any] | None:
+    """The first value that is never zero if there is one, else the first that isn't always zero; with what belongs to it."""
+    sometimes = None
+    for value, what in candidates:
+        when = when_zero(value)
+        if when is Zero.NEVER:
+            return value, when, what
+        if when is Zero.SOMETIMES:
+            sometimes = sometimes or (value, when, what)
+    return sometimes
 
 
-def _of_rank_one(rows: Sequence[Row], names: Values) -> DeterminedConstants:
+def _of_rank_one(rows: Sequence[Row], names: tuple[Expr, Expr]) -> _Solved:
     """One equation for both constants; all rows must be multiples of it.
 
     It is solved for a constant whose coefficient isn't zero, preferably never, and alone in the row.
     """
-    entries = [(row[k], k, row) for row in rows for k in (1, 0)]
-    whens = {entry: when_zero(entry) for entry, _, _ in entries}
-    nonzero = [found for found in entries if whens[found[0]] is not Zero.ALWAYS]
-    if not nonzero:
-        return DeterminedConstants(names, [row.r for row in rows])
-    pivot, k, row = min(nonzero, key=lambda found: (whens[found[0]] is not Zero.NEVER, 0 not in found[2][:2]))
+    entries = [(row[k], (k, row)) for row in rows for k in (1, 0)]
+    found = _nonzero(sorted(entries, key=lambda entry: 0 not in entry[1][1][:2]))
+    if found is None:
+        return _Solved(names, [row.r for row in rows])
+    pivot, when, (k, row) = found
     others = [other for other in rows if other is not row]
-    norm = _norm(row)
+    norm = None if when is Zero.NEVER else _norm(row)
     if norm is not None:
         # (C1, C2) = r (u, v)/(u^2 + v^2) + C (v, -u): the multiple of the row, and all that is orthogonal to it
         c1 = tidy(row.r * row.u / norm) + row.v * names[0]
         c2 = tidy(row.r * row.v / norm) - row.u * names[0]
-        return DeterminedConstants((c1, c2), [other.rest(c1, c2).subs(names[0], 0) for other in others])
+        return _Solved((c1, c2), [other.rest(c1, c2).subs(names[0], 0) for other in others])
     # C1 = r/u - v/u C2 with a free C2 for k = 0, C2 = r/v - u/v C1 with a free C1 for k = 1
     solved = tidy(row.r / pivot) - tidy(row[1 - k] / pivot) * names[1 - k]
     values = (names[0], solved) if k else (solved, names[1])
-    return DeterminedConstants(values, [other[k] * row.r - other.r * pivot for other in others], pivot)
-
-
-def _are_gammas_without_common_poles(row: Row) -> bool:
-    """True if u and v are multiples of 1/gamma(a) and 1/gamma(b), never zero together, since a - b isn't an integer."""
-    arguments = []
-    for entry in (row.u, row.v):
-        factors = [factor for factor in sympy.Mul.make_args(entry) if not is_nowhere_zero(factor)]
-        if len(factors) != 1 or not isinstance(1 / factors[0], sympy.gamma):
-            return False
-        arguments.append((1 / factors[0]).args[0])
-    difference = sympy.expand(arguments[0] - arguments[1])
-    return bool(difference.is_number and difference.is_integer is False)
+    return _Solved(values, [other[k] * row.r - other.r * pivot for other in others], pivot)
 
 
 def _norm(row: Row) -> Expr | None:
@@ -211,64 +178,59 @@ def _norm(row: Row) -> Expr | None:
     if row.r == 0 and _are_gammas_without_common_poles(row):
         return _ONE
     norm = sympy.factor_terms(in_single_waves(row.u**2 + row.v**2))
-    is_needed = Zero.NEVER not in (when_zero(row.u), when_zero(row.v))
-    return norm if is_needed and is_nowhere_zero(norm) else None
+    return norm if is_nowhere_zero(norm) else None
 
 
-def _split(found: DeterminedConstants) -> Determined:
+def _are_gammas_without_common_poles(row: Row) -> bool:
+    """True if u and v are multiples of 1/gamma(a) and 1/gamma(b), never zero together, since a - b isn't an integer."""
+    factors = (sympy.Mul.make_args(entry) for entry in (row.u, row.v))
+    u, v = (1 / sympy.Mul(*(factor for factor in entry if not is_nowhere_zero(factor))) for entry in factors)
+    if not isinstance(u, sympy.gamma) or not isinstance(v, sympy.gamma):
+        return False
+    difference = sympy.expand(u.args[0] - v.args[0])
+    return bool(difference.is_number and difference.is_integer is False)
+
+
+def _split(found: _Solved) -> Determined:
     """The generic case, and those of the parameters for which more is possible or less."""
-    particular = []
-    if when_zero(found.pivot) is Zero.SOMETIMES:
-        particular.append(ParameterCase((found.pivot,), Outcome.OPEN))
+    particular = [ParameterCase((found.pivot,), Outcome.OPEN)] if when_zero(found.pivot) is Zero.SOMETIMES else []
     whens = {value: when_zero(value) for value in found.needed}
+    sometimes = tuple(value for value, when in whens.items() if when is Zero.SOMETIMES)
+    generic = ParameterCase(sometimes, Outcome.SOLUTIONS, found.values)
+    none = ParameterCase((), Outcome.NONE)
     if Zero.NEVER in whens.values():
-        return Determined(ParameterCase((), Outcome.NONE), particular)
-    sometimes = tuple(value for value in found.needed if whens[value] is Zero.SOMETIMES)
-    if not sometimes:
-        return Determined(ParameterCase((), Outcome.SOLUTIONS, found.values), particular)
+        return Determined(none, particular)
     # generic parameters don't meet what only particular ones do
-    particular.insert(0, ParameterCase(sometimes, Outcome.SOLUTIONS, found.values))
-    return Determined(ParameterCase((), Outcome.NONE), particular)
+    return Determined(none, [generic, *particular]) if sometimes else Determined(generic, particular)
 
 
-def _where_minor_vanishes(rows: Sequence[Row], names: Values, minor: Expr) -> ParameterCase:
+def _where_minor_vanishes(rows: Sequence[Row], names: tuple[Expr, Expr], minor: Expr) -> ParameterCase:
     """The case of rank one, as far as it follows from the minor's being zero."""
     found = _of_rank_one(rows, names)
     if len(rows) > 2 or when_zero(found.pivot) is Zero.SOMETIMES:
         return ParameterCase((minor,), Outcome.OPEN)
-    split = _split(found)
-    if split.particular:
-        needed = split.particular[0].zeros
-        return ParameterCase((minor,), Outcome.SOLUTIONS, found.values, needed)
-    return ParameterCase((minor,), split.generic.outcome, found.values)
+    generic, particular, _ = _split(found)
+    case = particular[0] if particular else generic
+    return replace(case, zeros=(minor,), needed=case.zeros)
 
 
 def tidy(value: Any) -> Any:
     """A shorter form of a constant, where that is known at once."""
     check_time()
     value = sympy.sympify(value, strict=True)
-    if _is_left_alone(value):
-        return value
+    powers = value.atoms(sympy.Pow)
     functions = {f.func for f in value.atoms(sympy.Function)}
+    is_opaque = value.has(sympy.RootSum, sympy.Integral) or size(value) > _LONGEST
+    has_irrational_power = any(not power.exp.is_Rational and not power.base.is_Symbol for power in powers)
+    is_product_of_powers = not value.free_symbols and functions <= {exp, log} and not value.has(sympy.Add)
+    if value.is_Rational or is_opaque or has_irrational_power or is_product_of_powers:
+        return value
     if not functions:
         shorten = sympy.cancel if value.free_symbols or value.has(sympy.E) else sympy.expand
         return sympy.radsimp(shorten(value), symbolic=False)
     if not functions <= _ELEMENTARY:
         return min((value, sympy.expand(value), in_single_waves(value)), key=size)
-    shorter = sympy.cancel(value)
-    return min(map(TR2i, (value, shorter)), key=size)
-
-
-def _is_left_alone(value: Expr) -> bool:
-    """True for a rational number, a long expression, one with parts that aren't simplified, or a product of powers."""
-    if value.is_Rational or size(value) > _LONGEST:
-        return True
-    powers = value.atoms(sympy.Pow)
-    has_irrational_power = any(not power.exp.is_Rational and not power.base.is_Symbol for power in powers)
-    if value.has(sympy.RootSum, sympy.Integral) or has_irrational_power:
-        return True
-    functions = {f.func for f in value.atoms(sympy.Function)}
-    return not value.free_symbols and functions <= {exp, log} and not value.has(sympy.Add)
+    return min(map(TR2i, (value, sympy.cancel(value))), key=size)
 
 
 # ------------------------------------------------------------------------------------------- from conditions to rows
@@ -315,18 +277,16 @@ def constants_of(
 
 def _wronskian(question: Question, basis: Basis, rows: Sequence[Row], limits: dict[Expr, Approach]) -> Expr | None:
     """For y and y' at one point, given first: the determinant, which isn't zero, in a form that is short; else None."""
-    if not all(condition.is_value for condition in question.conditions[:2]):
+    first_two = question.conditions[:2]
+    if len(first_two) < 2 or not all(condition.is_value for condition in first_two):
         return None
-    terms = [condition.terms[0] for condition in question.conditions[:2]]
-    points = {term.point for term in terms}
-    sign = _SIGNS.get(tuple(term.order for term in terms))
-    if sign is None or len(points) != 1 or not points.isdisjoint(limits):
+    (first,), (second,) = (condition.terms for condition in first_two)
+    if first.point != second.point or first.order == second.order or first.point in limits:
         return None
     determinant = rows[0].u * rows[1].v - rows[0].v * rows[1].u
-    if determinant.is_Rational:
-        return determinant
-    W = finite_value(question.own(basis.wronskian), question.x, terms[0].point)
-    return determinant if W is None else sign * W
+    W = finite_value(question.own(basis.wronskian), question.x, first.point)
+    # of y and y' it is W, of y' and y it is -W
+    return determinant if W is None or determinant.is_Rational else (second.order - first.order) * W
 
 
 # ------------------------------------------------------------------------------------------------------------- limits
@@ -375,28 +335,23 @@ class _Limit:
         first, second, rest = (self.of(y) for y in (y1, y2, y0))
         if not self.is_allowed(rest):
             return self._with_a_large_particular(y1, y2, y0)
-        if self.is_allowed(first) and self.is_allowed(second):
-            return self._of_limits(first, second, rest)
-        if self.is_allowed(second):  # y1 is excluded
-            return [Row(_ONE, _ZERO, _ZERO), *self._of_limits(_ZERO, second, rest)]
-        if self.is_allowed(first):
-            return [Row(_ZERO, _ONE, _ZERO), *self._of_limits(first, _ZERO, rest)]
-        both = [Row(_ONE, _ZERO, _ZERO), Row(_ZERO, _ONE, _ZERO), *self._of_limits(_ZERO, _ZERO, rest)]
-        ratio = self.of(y1 / y2)
-        if ratio in (0, sympy.oo, OSCILLATING):  # of other sizes, or waves in other phases: no combination is smaller
-            return both
-        if self.order:
-            raise UnknownLimit("the slope of a combination of solutions of the same size isn't known")
-        smaller = self.of(self.W / y2.diff(self.x))  # the limit of y1 - r y2
-        if not self.is_allowed(smaller):
-            return both
-        return [_without_gammas(ratio), *self._of_limits(smaller, _ZERO, rest)]
-
-    def _of_limits(self, first: Expr, second: Expr, rest: Expr) -> list[Row]:
-        """For limits that are allowed."""
-        if self.condition.value is None:
-            return []
-        return [Row(first, second, self.condition.value - rest)]
+        found = []
+        if not self.is_allowed(first):
+            first = _ZERO
+            found.append(Row(_ONE, _ZERO, _ZERO))
+        if not self.is_allowed(second):
+            second = _ZERO
+            found.append(Row(_ZERO, _ONE, _ZERO))
+        ratio = self.of(y1 / y2) if len(found) == 2 else sympy.oo
+        # of other sizes, or waves in other phases, no combination is smaller
+        if ratio not in (0, sympy.oo, OSCILLATING):
+            if self.order:
+                raise UnknownLimit("the slope of a combination of solutions of the same size isn't known")
+            smaller = self.of(self.W / y2.diff(self.x))  # the limit of y1 - r y2
+            if self.is_allowed(smaller):
+                first, found = smaller, [_without_gammas(ratio)]
+        value = self.condition.value
+        return found if value is None else [*found, Row(first, second, value - rest)]
 
     def _with_a_large_particular(self, y1: Expr, y2: Expr, y0: Expr) -> list[Row]:
         """Where y0 isn't allowed: r = lim y0/y for the larger one of y1 and y2, and y0 - r y in its place."""
@@ -405,7 +360,7 @@ class _Limit:
             if ratio not in (0, sympy.oo, OSCILLATING):
                 shifted = self.rows(y1, y2, sympy.expand(y0 - ratio * y))  # with C + r in the place of C
                 return [row._replace(r=row.r - row[k] * ratio) for row in shifted]
-        if any(self.of(y) == OSCILLATING for y in (y1, y2)) and self.of(y0) == OSCILLATING:
+        if any(self.of(y) == self.of(y0) and self.of(y0 / y) == OSCILLATING for y in (y1, y2)):
             raise UnknownLimit("the particular solution oscillates as others do")
         return [Row(_ZERO, _ZERO, _ONE)]  # no solution
 

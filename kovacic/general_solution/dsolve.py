@@ -16,8 +16,8 @@ from __future__ import annotations
 
 from collections.abc import Collection, Mapping, Sequence
 from contextlib import suppress
-from dataclasses import replace
-from functools import partial
+from dataclasses import dataclass, replace
+from functools import cached_property, partial
 from typing import Any
 
 import sympy
@@ -35,7 +35,7 @@ from kovacic.general_solution.answer import (
 from kovacic.general_solution.basis import Basis
 from kovacic.general_solution.boundary_problems import eigenfunctions
 from kovacic.general_solution.check import check_answer
-from kovacic.general_solution.constants import Outcome, ParameterCase, constants_of
+from kovacic.general_solution.constants import Determined, Outcome, ParameterCase, constants_of
 from kovacic.general_solution.first_order import read_first_order, solved_linear
 from kovacic.general_solution.homogeneous import find_basis, no_solution
 from kovacic.general_solution.particular import particular_solution, right_hand_side
@@ -252,11 +252,10 @@ def in_special_functions(found: Any, eq: Any, func: Any = None, **given: Any) ->
     length = len(as_text(found.rhs))
     if length <= SCREEN:
         return None
+    other = None
     with suppress(NotImplementedError, InputError):
         other = answer_to(eq, func, special=True, **given).eq
-        if len(as_text(other.rhs)) < length / 2:
-            return other
-    return None
+    return other if other is not None and len(as_text(other.rhs)) < length / 2 else None
 
 
 @limited
@@ -379,6 +378,77 @@ def _solved(question: Question, budget: Budget, *, special: bool) -> ProblemAnsw
     return replace(answer, notices=notices + answer.notices, known=question.renamed)
 
 
+@dataclass(frozen=True)
+class _Family:
+    """c1 y1 + c2 y2 + y0."""
+
+    question: Question
+    basis: Basis
+    particular: Expr
+
+    @cached_property
+    def names(self) -> tuple[Expr, Expr]:
+        """C1 and C2, or the next of these names that nothing else has."""
+        given = (self.question.function, *map(sympy.Symbol, self.question.symbols))
+        of_conditions = (symbol for condition in self.question.conditions for symbol in condition.free_symbols)
+        c1, c2 = free_constants(2, self.basis.y1, self.basis.y2, self.particular, *given, *of_conditions)
+        return c1, c2
+
+    def member(self, constants: tuple[Expr, Expr]) -> Expr:
+        """That with these constants in the user's symbols, factors that y1 and y2 share before the sum."""
+        common: list[Expr] = []
+        if 0 not in constants:
+            others = sympy.Mul.make_args(self.basis.y2)
+            common = [factor for factor in sympy.Mul.make_args(self.basis.y1) if factor in others]
+        summands = []
+        for constant, y in zip(constants, (self.basis.y1, self.basis.y2), strict=True):
+            own = [factor for factor in sympy.Mul.make_args(y) if factor not in common]
+            summands.append(sympy.Mul(constant, *own))
+        general = sympy.Mul(*common, sympy.Add(*summands)) + self.particular
+        if self.question.conditions:
+            general = min(general, sympy.expand_mul(general, deep=False), key=size)
+        return self.question.own(general)
+
+    def answer(
+        self, value: Expr, notices: Sequence[str], unchecked: Sequence[str], determined: Determined | None = None
+    ) -> SecondOrderAnswer:
+        """The answer with this value, as the user writes it."""
+        rests_on = (self.question, self.basis, self.particular, self.names, determined)
+        by_sign = self._by_sign(is_general=determined is None)
+        return SecondOrderAnswer(
+            self.question.written(value), [*by_sign, *notices], *rests_on, unchecked=tuple(unchecked), ask=answer_to
+        )
+
+    def _by_sign(self, *, is_general: bool) -> list[str]:
+        """Where the solutions are those for a natural number: that, and the others, unless their constants are determined."""
+        if self.basis.natural is None:
+            return []
+        holds = f"this holds where {as_text(self.basis.natural)} >= 0"
+        if self.basis.otherwise is None or self.particular != 0 or not is_general:
+            return [f"{holds}: give such values for the solutions elsewhere"]
+        other = self.question.written(replace(self, basis=self.basis.otherwise).member(self.names))
+        return [f"{holds}; elsewhere, {other.lhs} = {other.rhs}"]
+
+    def said(self, case: ParameterCase, answer: Expr) -> str:
+        """The solutions for particular values of the parameters, of which the answer is the one for all others."""
+        where = case.where(answer)
+        if case.outcome is Outcome.NONE or not all(map(ZeroSet, case.needed)):
+            return f"{where}, where there is no solution"
+        if case.outcome is Outcome.OPEN:
+            return f"{where}: give such values for the solutions there"
+        value = self.member(case.values)
+        free = [name for name in self.names if value.has(name)]
+        value = in_book_form(value, self.question.x, free if len(free) == 2 else ())
+        if len(free) == 1:  # a number beside it goes into it
+            number = sympy.factor_terms(value.diff(free[0])).as_coeff_Mul()[0]
+            value = value.subs(free[0], free[0] / number)
+        found = self.question.written(value)
+        if not case.needed:
+            return f"{where}, where {found.lhs} = {found.rhs}"
+        needed = " and ".join(ZeroSet(zero).equation(answer) for zero in case.needed)
+        return f"{where}, where there is a solution only if {needed}: {found.lhs} = {found.rhs}"
+
+
 def _general(question: Question, basis: Basis) -> SecondOrderAnswer:
     """C1 y1 + C2 y2 + y0, checked."""
     right = right_hand_side(question.equation)
@@ -387,47 +457,20 @@ def _general(question: Question, basis: Basis) -> SecondOrderAnswer:
     is_free = question.equation.change is None and right != 0 and not cuts
     is_around_zero = is_free and not is_singular(question, sympy.S.Zero)
 
-    def place(arguments: Mapping[Expr, Expr]) -> Expr:
+    def place(*solutions: Expr) -> Expr:
         """Around 0 if the equation is regular there."""
+        arguments = arguments_with_cuts(sympy.Tuple(*solutions))
         return sympy.S.Zero if is_around_zero else common_place(basis.x, cuts, arguments, own=basis.own)
 
     if basis.place is None or right != 0:
-        basis = real_at(basis, place(arguments_with_cuts(sympy.Tuple(basis.y1, basis.y2))))
+        basis = real_at(basis, place(basis.y1, basis.y2))
     particular = particular_solution(basis, None)
     if particular != 0:
-        whole = sympy.Tuple(basis.y1, basis.y2, particular)
-        particular = real_particular(question, basis, particular, place(arguments_with_cuts(whole)))
-    particular = without_homogeneous(particular, basis.y1, basis.y2, basis.x)
-    constants = _free_constants(question, basis, particular)
-    value = in_book_form(_combination(question, basis, particular, constants), question.x, constants)
+        particular = real_particular(question, basis, particular, place(basis.y1, basis.y2, particular))
+    family = _Family(question, basis, without_homogeneous(particular, basis.y1, basis.y2, basis.x))
+    value = in_book_form(family.member(family.names), question.x, family.names)
     unchecked = check_answer(question, value, natural=basis.natural)
-    notices = _by_sign(question, basis, particular, constants) + unchecked
-    rests_on = (question, basis, particular, constants, None)
-    return SecondOrderAnswer(question.written(value), notices, *rests_on, unchecked=tuple(unchecked), ask=answer_to)
-
-
-def _free_constants(question: Question, basis: Basis, particular: Expr) -> tuple[Expr, Expr]:
-    """C1 and C2, or the next of these names that nothing else has."""
-    given = (question.function, *map(sympy.Symbol, question.symbols))
-    of_conditions = (symbol for condition in question.conditions for symbol in condition.free_symbols)
-    c1, c2 = free_constants(2, basis.y1, basis.y2, particular, *given, *of_conditions)
-    return c1, c2
-
-
-def _combination(question: Question, basis: Basis, particular: Expr, constants: tuple[Expr, Expr]) -> Expr:
-    """c1 y1 + c2 y2 + y0 in the user's symbols, factors that y1 and y2 share before the sum; in the variable of `basis`."""
-    common: list[Expr] = []
-    if 0 not in constants:
-        others = sympy.Mul.make_args(basis.y2)
-        common = [factor for factor in sympy.Mul.make_args(basis.y1) if factor in others]
-    summands = []
-    for constant, y in zip(constants, (basis.y1, basis.y2), strict=True):
-        own = [factor for factor in sympy.Mul.make_args(y) if factor not in common]
-        summands.append(sympy.Mul(constant, *own))
-    general = sympy.Mul(*common, sympy.Add(*summands)) + particular
-    if question.conditions:
-        general = min(general, sympy.expand_mul(general, deep=False), key=size)
-    return question.own(general)
+    return family.answer(value, unchecked, unchecked)
 
 
 def _determined(question: Question, basis: Basis) -> SecondOrderAnswer:
@@ -436,66 +479,19 @@ def _determined(question: Question, basis: Basis) -> SecondOrderAnswer:
     start = start_of(question, limits)
     basis = basis_from(question, basis, start)
     particular = real_particular(question, basis, particular_solution(basis, start), start)
-    names = _free_constants(question, basis, particular)
+    family = _Family(question, basis, particular)
     inside = ImpulsesInside.of(question)
-    determined = constants_of(question, basis, particular, names, limits, inside.values)
+    determined = constants_of(question, basis, particular, family.names, limits, inside.values)
     generic = determined.generic
-    value = _combination(question, basis, particular, generic.values)
-    value = in_book_form(value, question.x, names if value.has(*names) else ())
-    cases = [case for case in determined.particular if case.is_possible]
-    exceptions = [_said(question, basis, particular, names, case, value) for case in cases]
+    value = family.member(generic.values)
+    value = in_book_form(value, question.x, family.names if value.has(*family.names) else ())
+    exceptions = [family.said(case, value) for case in determined.particular if case.is_possible]
     if generic.outcome is Outcome.NONE:
-        raise _contradiction([point for point, place in limits.items() if not place.is_infinite], exceptions)
+        said = "there is no solution with these values: the conditions contradict one another"
+        singular = [str(point) for point, place in limits.items() if not place.is_infinite]
+        if singular:
+            said += f" ({' and '.join(singular)} is a singular point of the equation)"
+        raise InputError(said + (f", unless {'; or '.join(exceptions)}" if exceptions else ""))
     unchecked = check_answer(question, value, start, limits, natural=basis.natural, letters=inside.numbers)
-    notices = _by_sign(question, basis, particular, None) + inside.notices + unchecked
-    notices += [f"this holds unless {said}" for said in exceptions]
-    rests_on = (question, basis, particular, names, determined)
-    return SecondOrderAnswer(question.written(value), notices, *rests_on, unchecked=tuple(unchecked), ask=answer_to)
-
-
-def _contradiction(singular: Sequence[Expr], exceptions: Sequence[str]) -> InputError:
-    """No solution: the singular points among those of the conditions, and the particular cases in which there is one."""
-    said = "there is no solution with these values: the conditions contradict one another"
-    if singular:
-        said += f" ({' and '.join(map(str, singular))} is a singular point of the equation)"
-    if exceptions:
-        said += f", unless {'; or '.join(exceptions)}"
-    return InputError(said)
-
-
-def _by_sign(question: Question, basis: Basis, particular: Expr, names: tuple[Expr, Expr] | None) -> list[str]:
-    """Where the solutions are those for a natural number: that, and the others, unless their constants are determined."""
-    if basis.natural is None:
-        return []
-    holds = f"this holds where {as_text(basis.natural)} >= 0"
-    if basis.otherwise is None or names is None or particular != 0:
-        return [f"{holds}: give such values for the solutions elsewhere"]
-    other = question.written(_combination(question, basis.otherwise, particular, names))
-    return [f"{holds}; elsewhere, {other.lhs} = {other.rhs}"]
-
-
-def _said(
-    question: Question,
-    basis: Basis,
-    particular: Expr,
-    names: tuple[Expr, Expr],
-    case: ParameterCase,
-    answer: Expr,
-) -> str:
-    """The solutions for particular values of the parameters, of which the answer is the one for all others."""
-    where = case.where(answer)
-    if case.outcome is Outcome.NONE or not all(map(ZeroSet, case.needed)):
-        return f"{where}, where there is no solution"
-    if case.outcome is Outcome.OPEN:
-        return f"{where}: give such values for the solutions there"
-    value = _combination(question, basis, particular, case.values)
-    free = [name for name in names if value.has(name)]
-    value = in_book_form(value, question.x, free if len(free) == len(names) else ())
-    if len(free) == 1:  # a number beside it goes into it
-        number = sympy.factor_terms(value.diff(free[0])).as_coeff_Mul()[0]
-        value = value.subs(free[0], free[0] / number)
-    found = question.written(value)
-    if not case.needed:
-        return f"{where}, where {found.lhs} = {found.rhs}"
-    needed = " and ".join(ZeroSet(zero).equation(answer) for zero in case.needed)
-    return f"{where}, where there is a solution only if {needed}: {found.lhs} = {found.rhs}"
+    notices = [*inside.notices, *unchecked, *(f"this holds unless {said}" for said in exceptions)]
+    return family.answer(value, notices, unchecked, determined)

@@ -79,12 +79,9 @@ class ImpulsesInside:
 
     @property
     def notices(self) -> list[str]:
-        said = []
-        for place in self.places:
-            low = "" if (place - self.low).is_positive else f"{self.low} < "
-            high = "" if (self.high - place).is_positive else f" < {self.high}"
-            said.append(f"this holds for {low}{place}{high}")
-        return said
+        lows = ["" if (place - self.low).is_positive else f"{self.low} < " for place in self.places]
+        highs = ["" if (self.high - place).is_positive else f" < {self.high}" for place in self.places]
+        return [f"this holds for {low}{place}{high}" for low, place, high in zip(lows, self.places, highs, strict=True)]
 
     @property
     def numbers(self) -> dict[Expr, Expr]:
@@ -99,23 +96,17 @@ def limit_points(question: Question) -> dict[Expr, Approach]:
 
     Raises `InputError` where the others are on both sides.
     """
-    points = given_points(question)
-    found = {}
-    for point in points:
-        if point in _INFINITIES:
-            found[point] = Approach(point)
-        elif is_singular(question, point):
-            found[point] = Approach(point, _side(point, _points(question)))
-    return found
+    infinite = {point: Approach(point) for point in given_points(question) if point in _INFINITIES}
+    others = [point for point in given_points(question) if point not in infinite]
+    return infinite | {p: Approach(p, _side(p, _points(question))) for p in others if is_singular(question, p)}
 
 
 def _side(point: Expr, points: Sequence[Expr]) -> int:
     """1 or -1: on which side of the point the others are; 1 where that isn't known."""
-    distances = [other - point for other in points]
-    sides = [1] * any(d.is_positive for d in distances) + [-1] * any(d.is_negative for d in distances)
+    sides = {sign for other in points if (sign := sympy.sign(other - point)) in (1, -1)}
     if len(sides) > 1:
         raise _apart_error(point, [other for other in points if other != point])
-    return sides[0] if sides else 1
+    return int(next(iter(sides), 1))
 
 
 def _apart_error(point: Expr, points: Sequence[Expr]) -> InputError:
@@ -137,9 +128,8 @@ def start_of(question: Question, limits: dict[Expr, Approach]) -> Expr:
             return sympy.ceiling(sympy.Max(0, *poles)) + 1
         return sympy.floor(sympy.Min(0, *poles)) - 1
     place = finite[-1]
-    others = [approach.point for approach in finite if approach.point != place.point]
-    ahead = [pole for pole in poles if ((pole - place.point) * place.direction).is_positive]
-    ends = [*ahead, *others]
+    ends = [approach.point for approach in finite if approach.point != place.point]
+    ends += [pole for pole in poles if ((pole - place.point) * place.direction).is_positive]
     if not ends:
         return place.point + place.direction
     nearest = min(ends, key=lambda end: abs(end - place.point).evalf())  # half way to it there are no others
@@ -151,16 +141,16 @@ def check_between(question: Question, solutions: Sequence[Expr]) -> None:
 
     Solutions that are written with functions that are analytic on the whole line may be continued.
     """
-    points = [point for point in _points(question) if point.is_real and point not in _INFINITIES]
+    points = [point for point in _points(question) if point.is_extended_real]
     whole = sympy.Tuple(*map(question.own, solutions))
     if len(points) < 2 or (all(is_analytic(y, question.x) for y in whole) and not whole.has(sympy.Heaviside)):
         return
     for pole in rational_poles(question):
-        if len({sign for point in points if (sign := sympy.sign(point - pole)) in (1, -1)}) > 1:
+        if {1, -1} <= {sympy.sign(point - pole) for point in points}:
             raise _apart_error(pole, points)
-    for pole, is_removable in _poles_between(question, points):
-        if not is_removable:
-            raise _apart_error(pole, points)
+    finite = [point for point in points if point not in _INFINITIES]
+    for pole in (pole for pole, is_removable in _poles_between(question, finite) if not is_removable):
+        raise _apart_error(pole, points)
 
 
 def _points(question: Question) -> list[Expr]:
@@ -259,15 +249,13 @@ def rational_poles(question: Question) -> Iterator[Expr]:
     equation = question.equation
     if equation.change is not None:
         return
-    for den in _denominators(equation, True):
-        for factor, _ in den.field.factor(den):
-            polynomial = question.own(Atoms(question.x).poly(factor))
-            if polynomial.free_symbols != {question.x}:
-                continue
-            # an i, or roots of polynomials without a formula
-            with suppress(NotImplementedError, sympy.PolynomialError):
-                roots = dict.fromkeys(sympy.real_roots(sympy.Poly(polynomial, question.x, extension=True)))
-                yield from (root for root in roots if equation.h is None or is_singular(question, root))
+    factors = (factor for den in _denominators(equation, True) for factor, _ in den.field.factor(den))
+    for polynomial in (question.own(Atoms(question.x).poly(factor)) for factor in factors):
+        # an i, or roots of polynomials without a formula
+        with suppress(NotImplementedError, sympy.PolynomialError):
+            is_numeric = polynomial.free_symbols == {question.x}
+            roots = sympy.real_roots(sympy.Poly(polynomial, question.x, extension=True)) if is_numeric else ()
+            yield from (root for root in dict.fromkeys(roots) if equation.h is None or is_singular(question, root))
 
 
 def _below_the_line(e: Expr, x: Expr) -> list[Expr]:

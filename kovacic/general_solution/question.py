@@ -231,15 +231,13 @@ def _meanings(letters: Sequence[tuple[str, Expr]], symbols: Mapping[str, Expr]) 
     meanings = {}
     for name, meaning in letters:
         whole = meaning.xreplace(plain)
-        is_power = whole.is_Pow or isinstance(whole, sympy.exp)
-        is_principal_power = is_power and not whole.as_base_exp()[0].is_negative
+        is_principal_power = isinstance(whole, sympy.Pow | sympy.exp) and not whole.as_base_exp()[0].is_negative
         known = {
             "positive": whole.is_positive or is_principal_power,
             "negative": whole.is_negative,
             "real": whole.is_real,
         }
-        first = [word for word, holds in known.items() if holds][:1]
-        meanings[sympy.Symbol(name, **dict.fromkeys(first, True))] = whole
+        meanings[sympy.Symbol(name, **{word: True for word, holds in known.items() if holds})] = whole
     return meanings
 
 
@@ -314,21 +312,15 @@ class _Read:
 def _sought(func: Any) -> tuple[Any, Any]:
     """y(x) and y, each None if it isn't given.  Raises `InputError` for anything else."""
     if isinstance(func, str):
-        func = _named(func)
+        name, _, argument = func.replace(" ", "").removesuffix(")").partition("(")
+        if not name.isidentifier() or not (argument or "x").isidentifier():
+            raise InputError(f"{func!r} isn't a function", hint='give "y(x)" or "y"')
+        func = sympy.Function(name)(sympy.Symbol(argument)) if argument else sympy.Function(name)
     applied = func if isinstance(func, AppliedUndef) else None
     name = func if applied is None else func.func
     if name is not None and not isinstance(name, UndefinedFunction):
         raise InputError(f"{func!r} isn't a function", hint="give y(x), or y = Function('y')")
     return applied, name
-
-
-def _named(text: str) -> Any:
-    """The function that a text names: y(x), or y.  Raises `InputError`."""
-    name, _, argument = text.replace(" ", "").removesuffix(")").partition("(")
-    if not name.isidentifier() or (argument and not argument.isidentifier()):
-        raise InputError(f"{text!r} isn't a function", hint='give "y(x)" or "y"')
-    function = sympy.Function(name)
-    return function(sympy.Symbol(argument)) if argument else function
 
 
 def _read_equation(eq: Any, func: Any, var: str | None, limits: Limits, names: Sequence[str]) -> _Read:

@@ -81,11 +81,19 @@ def _substituted(e: Expr, x: Expr, point: Expr) -> Expr:
         raise _SingularError from None
     if value.has(sympy.hyper, sympy.Integral, *_ODD):
         value = _at_zero(value)
-    signs = {power: sign_of_root(power.exp) for power in value.atoms(sympy.Pow) if power.base == 0}
-    value = value.xreplace({power: _ZERO for power, sign in signs.items() if sign == 1})
-    if -1 in signs.values() or not _OPEN.isdisjoint(value.atoms()):
+    zeros = {power: sign_of_root(power.exp) for power in value.atoms(sympy.Pow) if power.base == 0}
+    value = value.xreplace(dict.fromkeys(zeros, _ZERO))
+    is_known = {1} >= {*zeros.values()} and not any(map(_may_diverge, value.atoms(sympy.hyper)))
+    if not is_known or not _OPEN.isdisjoint(value.atoms()):
         raise _SingularError
     return value
+
+
+def _may_diverge(f: Expr) -> bool:
+    """True for a hypergeometric function at 1, a singular point, unless its series is seen to converge there, or to end."""
+    excess = sympy.Add(*f.bq) - sympy.Add(*f.ap)
+    is_polynomial = any(a.is_integer and a.is_nonpositive for a in f.ap)
+    return f.argument == 1 and len(f.ap) == len(f.bq) + 1 and not (excess.is_positive or is_polynomial)
 
 
 def _at_zero(value: Expr) -> Expr:

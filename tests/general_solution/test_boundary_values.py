@@ -229,9 +229,10 @@ def test_values_are_those_of_an_integration(a2: str, a1: str, a0: str, f: str, i
         ("y'' = 1/(exp(2*x) - 3*exp(x) + 2)", "y(-1)=0, y(1/2)=1"),
         ("y'' = tan(3*x)", "y(0)=0, y(1)=1"),
         ("y'' + y = 1/(2*cos(x)^2 + 3*cos(x) - 2)", "y(0)=0, y(3)=1"),
+        ("(x-1)^2*y'' - 2*y = 0", "y(0)=1, y(oo)=0"),
     ],
-    ordinary=4,
-    always=[("(exp(x) - 2)*y'' + y = 0", "y(-1)=1, y(1)=0")],
+    ordinary=3,
+    always=[("(exp(x) - 2)*y'' + y = 0", "y(-1)=1, y(1)=0"), ("(x-1)^2*y'' - 2*y = 0", "y(0)=1, y(oo)=0")],
 )
 def test_two_sides_of_a_singular_point(text: str, values: str) -> None:
     with pytest.raises(kovacic.InputError, match="a singular point of the equation lies between"):
@@ -375,6 +376,20 @@ def test_limits_that_cannot_be() -> None:
         dsolve(D2 - w**2 * D0, ics={y(oo): 0, y(0): 1})
     with pytest.raises(kovacic.InputError, match="given apart"):
         dsolve("x*y'' + y' + x*y = 0", ics="y(0) - y(1) = 0")
+
+
+@pytest.mark.parametrize(
+    ("text", "values"),
+    [
+        ("x^2*y'' + (1-a-b)*x*y' + a*b*y = 0", "y(0)=bounded"),
+        ("x*y'' + (c-x)*y' - a*y = 0", "y(0)=bounded"),
+        ("x*(1-x)*y'' + (c-(a+b+1)*x)*y' - a*b*y = 0", "y(1)=bounded"),
+    ],
+)
+def test_a_power_of_zero_with_a_letter_is_no_limit(text: str, values: str) -> None:
+    """x^a is bounded at 0 for a >= 0 alone."""
+    with pytest.raises(NotImplementedError, match="assumptions may decide it"):
+        dsolve(text, ics=values)
 
 
 # -------------------------------------------------------------------------------------------- zero, rank and what leaves
