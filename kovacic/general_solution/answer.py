@@ -19,7 +19,7 @@ from kovacic.general_solution.validity import Validity, needed_for
 from kovacic.general_solution.zero_set import ZeroSet
 
 Expr = Any  # SymPy publishes no types
-#: Answers by their equations, and how many of them.
+#: Answers by their equations, of systems by the first, and how many of them.
 _GIVEN: dict[Expr, ProblemAnswer] = {}
 _MOST_GIVEN = 100
 
@@ -167,7 +167,7 @@ class SecondOrderAnswer(ProblemAnswer):
         zeros = (
             e
             for e in self.basis.dependent
-            if (has_poles and isinstance(1 / e, sympy.gamma)) or any(_vanishes_with(e, y) for y in free)
+            if (has_poles and isinstance(1 / e, sympy.gamma)) or any(vanishes_with(e, y) for y in free)
         )
         return (*found, *zeros)
 
@@ -176,19 +176,13 @@ class SecondOrderAnswer(ProblemAnswer):
         if self.determined is not None:
             return ()
         zeros = dict.fromkeys([*self.basis.dependent, *self.basis.exceptions])
-        cases = (case for zero in zeros for case in _cases(zero))
+        cases = (case for zero in zeros for case in exceptional_cases(zero))
         return tuple(replace(case, _ask=self._there) for case in cases)
 
     def _there(self, case: Exceptional) -> ProblemAnswer:
         """For particular values of letters, or with something more assumed of them."""
-        x = self.question.function.args[0].xreplace(self.own)
-        y = self.question.function.func(x)
-        a, b, c, f = (
-            self.question.own(e).xreplace({self.question.x: x, **self.own}) for e in self.question.coefficients
-        )
-        values = {letter.xreplace(self.own): value.xreplace(self.own) for letter, value in case.values.items()}
-        equation = a * y.diff(x, 2) + b * y.diff(x) + c * y - f
-        return self.ask(equation.subs(values), y, assume=case.assume)
+        equation, _ = self.question.at(case.values)
+        return self.ask(equation.xreplace(self.own), self.question.function.xreplace(self.own), assume=case.assume)
 
 
 @dataclass(frozen=True, repr=False)
@@ -211,16 +205,24 @@ class FirstOrderAnswer(ProblemAnswer):
 
 @dataclass(frozen=True, repr=False)
 class SystemAnswer(ProblemAnswer):
-    """The answer to a system of two equations, whose `eq` is a list: x(t) = ..., y(t) = ..."""
+    """The answer to a system of two equations, whose `eq` is a list: x(t) = ..., y(t) = ...
+
+    `exceptional` are the exceptions of the pair of which the first unknown consists.
+    """
 
     eq: list[Expr]
+    exceptional: tuple[Expr, ...] = field(default=(), kw_only=True)
+
+    @property
+    def pair_exceptions(self) -> tuple[Expr, ...]:
+        return self.exceptional
 
     @property
     def equations(self) -> Sequence[Expr]:
         return self.eq
 
 
-def _cases(zero: Expr) -> Iterator[Exceptional]:
+def exceptional_cases(zero: Expr) -> Iterator[Exceptional]:
     """Where an expression in letters is zero: a value of one of them, or integers, for sin(pi l) and 1/gamma(l)."""
     if isinstance(zero, sympy.sin) and (zero.args[0] / sympy.pi).is_Symbol:
         yield from _integers(zero.args[0] / sympy.pi, "positive", "nonpositive")
@@ -241,9 +243,10 @@ def _cases(zero: Expr) -> Iterator[Exceptional]:
     yield Exceptional(f"{letter} = {value}", values={letter: value})
 
 
-def _vanishes_with(zero: Expr, y: Expr) -> bool:
-    """False if y is seen not to be 0 for some letters where `zero` is 0."""
-    return all(y.subs(case.values).equals(0) is not False for case in _cases(zero) if case.values)
+def vanishes_with(zero: Expr, *functions: Expr) -> bool:
+    """False if one of the functions is seen not to be 0 for some letters where `zero` is 0."""
+    cases = [case.values for case in exceptional_cases(zero) if case.values]
+    return all(y.subs(values).equals(0) is not False for values in cases for y in functions)
 
 
 def _integers(letter: Expr, *signs: str) -> Iterator[Exceptional]:
@@ -255,7 +258,7 @@ def _integers(letter: Expr, *signs: str) -> Iterator[Exceptional]:
 
 def remember(answer: ProblemAnswer) -> None:
     """Keep an answer of which only the equation is returned, for `validity`."""
-    _GIVEN[answer.eq] = answer
+    _GIVEN[answer.equations[0]] = answer
     while len(_GIVEN) > _MOST_GIVEN:
         del _GIVEN[next(iter(_GIVEN))]
 

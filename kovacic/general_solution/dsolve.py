@@ -14,7 +14,7 @@ The steps, each in a module of this package:
 
 from __future__ import annotations
 
-from collections.abc import Collection, Mapping, Sequence
+from collections.abc import Collection, Iterator, Mapping, Sequence
 from contextlib import suppress
 from dataclasses import dataclass, replace
 from functools import cached_property, partial
@@ -30,6 +30,7 @@ from kovacic.general_solution.answer import (
     ProblemAnswer,
     SecondOrderAnswer,
     SystemAnswer,
+    exceptional_cases,
     remember,
 )
 from kovacic.general_solution.basis import Basis
@@ -209,9 +210,9 @@ def dsolve(
     answer = answer_to(eq, func, ics=ics, var=var, parameters=parameters, assume=assume, limits=limits)
     for notice in answer.notices:
         warn_user(notice)
+    remember(answer)
     if isinstance(answer, SystemAnswer):
         return answer.eq
-    remember(answer)
     return [answer.eq] if isinstance(eq, list | tuple) else answer.eq
 
 
@@ -429,13 +430,17 @@ class _Family:
         other = self.question.written(replace(self, basis=self.basis.otherwise).member(self.names))
         return [f"{holds}; elsewhere, {other.lhs} = {other.rhs}"]
 
-    def said(self, case: ParameterCase, answer: Expr) -> str:
+    def said(self, case: ParameterCase, answer: Expr) -> Iterator[str]:
         """The solutions for particular values of the parameters, of which the answer is the one for all others."""
+        if case.outcome is Outcome.OPEN:
+            yield from _said_of_open(self.question, case, answer)
+        else:
+            yield self._said_of_determined(case, answer)
+
+    def _said_of_determined(self, case: ParameterCase, answer: Expr) -> str:
         where = case.where(answer)
         if case.outcome is Outcome.NONE or not all(map(ZeroSet, case.needed)):
             return f"{where}, where there is no solution"
-        if case.outcome is Outcome.OPEN:
-            return f"{where}: give such values for the solutions there"
         value = self.member(case.values)
         free = [name for name in self.names if value.has(name)]
         value = in_book_form(value, self.question.x, free if len(free) == 2 else ())
@@ -447,6 +452,45 @@ class _Family:
             return f"{where}, where {found.lhs} = {found.rhs}"
         needed = " and ".join(ZeroSet(zero).equation(answer) for zero in case.needed)
         return f"{where}, where there is a solution only if {needed}: {found.lhs} = {found.rhs}"
+
+
+class _Contradiction(InputError):
+    """No solution has all of the given values."""
+
+
+def _are_same_family(one: Expr, other: Expr, names: Collection[Expr], x: Expr) -> bool:
+    """True for two equal expressions, and for p + C u and q + C v with a constant u/v and (p - q)/v."""
+    constants = {name for name in names if one.has(name) or other.has(name)}
+    if not constants:
+        return (one - other).equals(0) is True
+    (p, u), (q, v) = ((e.subs(dict.fromkeys(constants, 0)), sympy.Add(*map(e.diff, constants))) for e in (one, other))
+    if len(constants) > 1 or u == 0:
+        return False
+    return not any(sympy.simplify(quotient / v).has(x, sympy.nan, sympy.zoo) for quotient in (u, p - q))
+
+
+def _said_of_open(question: Question, case: ParameterCase, answer: Expr) -> Iterator[str]:
+    """What holds at the values of a letter that the conditions left open, where it isn't the answer; asked there."""
+    factors = ZeroSet(case.zeros[0]).factors if len(case.zeros) == 1 else ()
+    places = [place for factor in factors for place in exceptional_cases(factor)]
+    if not places or not all(place.values for place in places):
+        yield f"{case.where(answer)}: give such values for the solutions there"
+        return
+    x = question.function.args[0]
+    for place in places:
+        there = None
+        try:
+            equation, conditions = question.at(place.values)
+            there = answer_to(equation, question.function, ics=conditions)
+        except _Contradiction:
+            yield f"{place}, where there is no solution"
+            continue
+        except (InputError, NotImplementedError):
+            pass
+        if not isinstance(there, SecondOrderAnswer) or there.notices:
+            yield f"{place}: give such values for the solutions there"
+        elif not _are_same_family(answer.xreplace({question.x: x}).subs(place.values), there.eq.rhs, there.names, x):
+            yield f"{place}, where {there.eq.lhs} = {there.eq.rhs}"
 
 
 def _general(question: Question, basis: Basis) -> SecondOrderAnswer:
@@ -485,13 +529,14 @@ def _determined(question: Question, basis: Basis) -> SecondOrderAnswer:
     generic = determined.generic
     value = family.member(generic.values)
     value = in_book_form(value, question.x, family.names if value.has(*family.names) else ())
-    exceptions = [family.said(case, value) for case in determined.particular if case.is_possible]
+    cases = (case for case in determined.particular if case.is_possible)
+    exceptions = [said for case in cases for said in family.said(case, value)]
     if generic.outcome is Outcome.NONE:
         said = "there is no solution with these values: the conditions contradict one another"
         singular = [str(point) for point, place in limits.items() if not place.is_infinite]
         if singular:
             said += f" ({' and '.join(singular)} is a singular point of the equation)"
-        raise InputError(said + (f", unless {'; or '.join(exceptions)}" if exceptions else ""))
+        raise _Contradiction(said + (f", unless {'; or '.join(exceptions)}" if exceptions else ""))
     unchecked = check_answer(question, value, start, limits, natural=basis.natural, letters=inside.numbers)
     notices = [*inside.notices, *unchecked, *(f"this holds unless {said}" for said in exceptions)]
     return family.answer(value, notices, unchecked, determined)

@@ -95,6 +95,23 @@ class Question:
         """The expression in the user's symbols for the parameters, with what letters stand for."""
         return expression.xreplace(self._own) if self._own else expression
 
+    def at(self, values: Mapping[Expr, Expr]) -> tuple[Expr, dict[Expr, Any]]:
+        """The equation, an expression that is zero, and its conditions, as for `dsolve`, for particular values of letters.
+
+        Raises `InputError` where two of the conditions are on the same value then.
+        """
+        y, (x,) = self.function, self.function.args
+        a, b, c, f = (self.own(e).xreplace({self.x: x}).subs(values) for e in self.coefficients)
+        conditions = {}
+        for condition in self.conditions:
+            left = sympy.Add(*(t.coefficient * y.diff(x, t.order).subs(x, t.point) for t in condition.terms)).subs(
+                values
+            )
+            if left in conditions:
+                raise InputError(f"two values are given for {left}")
+            conditions[left] = BOUNDED if condition.value is None else condition.value.subs(values)
+        return a * y.diff(x, 2) + b * y.diff(x) + c * y - f, conditions
+
     def written(self, value: Expr) -> Expr:
         """Eq(y(x), value) with the user's symbols for the variable and for those with the names of numbers."""
         x = self.function.args[0]

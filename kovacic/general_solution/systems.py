@@ -21,7 +21,7 @@ from sympy.solvers.solveset import NonlinearError
 
 from kovacic.equation import eliminated
 from kovacic.errors import InputError, NotLinear
-from kovacic.general_solution.answer import ProblemAnswer, SystemAnswer
+from kovacic.general_solution.answer import ProblemAnswer, SystemAnswer, vanishes_with
 from kovacic.general_solution.behaviour import value_at
 from kovacic.general_solution.constants import Outcome, Row, determine
 from kovacic.general_solution.first_order import (
@@ -175,12 +175,15 @@ def solved_system(
         answer = solver(system.equation, system.functions[0], ics={})
         notices = answer.notices
         pair = answer.eq.rhs, system.second(answer.eq.rhs)
-        exceptions = [e.xreplace(answer.own) for e in answer.pair_exceptions] if not conditions else []
+        exceptions = [e.xreplace(answer.own) for e in answer.pair_exceptions]
     constants = sorted((pair[0].free_symbols | pair[1].free_symbols) - own, key=str)
     if conditions:
         pair, others = _with_constants(system, pair, constants, conditions)
         notices += others
     left = [constant for constant in constants if sympy.Tuple(*pair).has(constant)]
+    if conditions:  # a constant that is left stands before solutions that may vanish with the Wronskian
+        functions_left = [[solution.diff(constant) for solution in pair] for constant in left]
+        exceptions = [e for e in exceptions if any(vanishes_with(e, *solutions) for solutions in functions_left)]
     renamed = dict(zip(left, free_constants(len(left), *given, *functions), strict=True))
     pair, constants = (pair[0].xreplace(renamed), pair[1].xreplace(renamed)), [*renamed.values()]
     pair = _with_constants_apart(pair[0], constants, system.t), _with_constants_apart(pair[1], constants, system.t)
@@ -190,7 +193,7 @@ def solved_system(
     found = dict(zip(system.functions, pair, strict=True))
     users = {symbol: user for user, symbol in known.items()}
     eqs = [sympy.Eq(f, found[f.xreplace(known)].xreplace(users), evaluate=False) for f in functions]
-    return SystemAnswer(eqs, [*dict.fromkeys(notices)], known=known)
+    return SystemAnswer(eqs, [*dict.fromkeys(notices)], known=known, exceptional=tuple(exceptions))
 
 
 def _with_constants_apart(value: Expr, constants: Sequence[Expr], t: Expr) -> Expr:

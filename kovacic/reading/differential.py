@@ -216,7 +216,7 @@ class EquationReader(RationalReader):
                 return sympy.Function(head)(sympy.Symbol(self.variable))
             value = self.arithmetic.called(head, arguments)
             if value is None and is_given and is_letter(head):
-                unknown, either = f"{self.unknown}({self.variable})", f"for a product write {head}*(...)"
+                unknown, either = f"{self.unknown or UNKNOWN}({self.variable})", f"for a product write {head}*(...)"
                 raise NotRational(
                     f"{site.text()} isn't a rational function of {self.variable}",
                     hint=f'{either}; dsolve takes a given function {head} with func="{unknown}"',

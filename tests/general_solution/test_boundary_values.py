@@ -461,11 +461,28 @@ def test_a_zero_that_the_pair_alone_has_is_no_exception() -> None:
             marks=pytest.mark.long,
         ),
         ("y'' + k^2*y = x", "y(0)=0, y'(1)=0", "unless cos(k) = 0, where there is no solution"),
+        ("y'' + k^2*y = 0", "y'(0)=1", "unless k = 0, where y(x) = C1 + x"),
+        ("x^2*y'' + a*x*y' = 0", "y'(1)=1", "unless a = 1, where y(x) = C1 + log(x)"),
     ],
 )
-def test_exceptions_without_a_solution(equation: str, ics: str, said: str) -> None:
+def test_what_holds_in_exceptional_cases_is_said(equation: str, ics: str, said: str) -> None:
     with pytest.warns(UserWarning, match=re.escape(said)):
         kovacic.dsolve(equation, ics=ics)
+
+
+@parametrize(
+    ("equation", "ics"),
+    [
+        ("y'' - k^2*y = 0", "y'(1)=0"),
+        ("x^2*y'' + x*y' - n^2*y = 0", "y'(1)=0"),
+        ("x^2*y'' + 2*x*y' - n*(n+1)*y = 0", "y(R)=1, y(oo)=0"),
+    ],
+    ordinary=(0,),
+)
+def test_an_answer_that_holds_in_an_exceptional_case_has_none(equation: str, ics: str) -> None:
+    """The row of the condition is zero at k = 0, and the solutions there are C1 all the same."""
+    assume = {"n": "natural"} if "n" in equation else None
+    assert not kovacic.answer_to(equation, ics=ics, assume=assume).notices
 
 
 @parametrize(

@@ -328,7 +328,8 @@ def test_the_second_unknown_is_short(text: str, printed: str) -> None:
 def test_where_the_solutions_of_a_system_with_letters_are_real_and_independent() -> None:
     with pytest.warns(UserWarning, match=r"unless b = 0 or a\*\*2 - 2\*a\*d \+ 4\*b\*c \+ d\*\*2 = 0"):
         found = kovacic.dsolve("x' = a*x + b*y, y' = c*x + d*y")
-    assert str(kovacic.validity(found)) == "-a**2 + 2*a*d - 4*b*c - d**2 >= 0, b != 0"
+    assert str(kovacic.validity(found)) == "-a**2 + 2*a*d - 4*b*c - d**2 > 0, b != 0"
+    assert str(kovacic.answer_to("x' = y, y' = k*x, x(0) = 1").validity) == "k > 0"
 
 
 @pytest.mark.parametrize(
