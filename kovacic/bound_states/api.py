@@ -34,6 +34,7 @@ from kovacic.numbers.exact import whole
 from kovacic.parametric.api import DEFAULT_DEGREE
 from kovacic.parametric.assumptions import check_mapping
 from kovacic.parametric.partition import transformation
+from kovacic.parametric.solutions import derivative
 from kovacic.reading.read import declared, read_input
 from kovacic.reading.symbolic import written_expression
 
@@ -246,7 +247,12 @@ def _transformed(question: Examined, budget: Budget) -> Spectrum | None:
     W, lowest = question.plain(sympy.factor(W)), question.plain(wave)
     levels = []
     for one in spectrum.levels:
-        y = W * one.wave + sympy.Derivative(one.wave, x)
+        # As a weight times a sum of orthogonal polynomials with rational coefficients.
+        y = W * one.wave + derivative(one.wave, x)
+        polynomials = sorted(y.atoms(sympy.hermite, sympy.assoc_laguerre), key=sympy.default_sort_key)
+        weight = one.wave.xreplace(dict.fromkeys(polynomials, sympy.S.One))
+        quotient = sympy.expand(y / weight)
+        y = weight * sympy.Add(*(sympy.factor(quotient.coeff(P)) * P for P in polynomials))
         norm = None if one.norm is None else (one.energy - E0) / question.kinetic * one.norm
         levels.append(replace(one, wave=y, zeros=one.zeros + int(all(holds)), norm=norm))
     level = Algebraic(0, sympy.Integer(0), E - E0, lowest, P=sympy.Poly(1, x), range=question.interval)

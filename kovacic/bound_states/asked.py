@@ -126,7 +126,7 @@ def problem_of(question: Asked, limits: Limits) -> SpectralProblem:
     meanings = {symbol.name for _, meaning in parsed.letters for symbol in meaning.free_symbols}
     in_S = parameters_of(parsed.S.field)
     names = (*in_S, *sorted(question.letters - meanings - {*in_S}))
-    own = own_parameters(names, parsed.letters)
+    own = own_parameters([name for name in names if name != question.energy], parsed.letters)
     known = read_assumptions(question.assumed or None, question.given, own)
     known = _with_letters(known, parsed.letters, own)
     constants = constants_among(S, names)

@@ -468,6 +468,9 @@ class Spectrum:
             rows.append(rf"d = {algebraic.degree}\colon\quad & {as_latex(algebraic.polynomial)} = 0")
             if algebraic.constraint != 0:
                 rows.append(rf"& {as_latex(algebraic.constraint)} = 0")
+            rows.append(rf"& y = {as_latex(algebraic.wave)}")
+            if algebraic.conditions:
+                rows.append("&" + r",\; ".join(map(as_latex, algebraic.conditions)))
         rows += [rf"& {as_latex(equation)}" for equation in self.matching]
         if not rows:
             rows.append(rf"&\text{{{latex(' '.join(self._conclusion))}}}")

@@ -96,9 +96,21 @@ class laguerre(sympy.Function):  # type: ignore[misc]  # noqa: N801
         return (n + 1) / z * laguerre(n + 1, a - 1, z) + (1 - a / z) * laguerre(n, a, z)
 
 
+class hermite(sympy.Function):  # type: ignore[misc]  # noqa: N801
+    """SymPy's function of this name, with a derivative for n = 0, too."""
+
+    def fdiff(self, argindex: int = 2) -> Any:
+        """The derivative with respect to z by a polynomial of higher degree [DLMF 18.9.25, 18.9.1]."""
+        n, z = self.args
+        if argindex != 2:
+            raise sympy.core.function.ArgumentIndexError(self, argindex)
+        return 2 * z * hermite(n, z) - hermite(n + 1, z)
+
+
 def derivative(y: Any, x: Any) -> Any:
     """The derivative of a solution, with polynomials whose degrees are natural where that of the solution is."""
-    return y.replace(sympy.assoc_laguerre, laguerre).diff(x).replace(laguerre, sympy.assoc_laguerre)
+    own = y.replace(sympy.assoc_laguerre, laguerre).replace(sympy.hermite, hermite)
+    return own.diff(x).replace(laguerre, sympy.assoc_laguerre).replace(hermite, sympy.hermite)
 
 
 def _binomial(top: Any, k: Any) -> Any:
