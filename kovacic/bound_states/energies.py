@@ -85,16 +85,8 @@ def conjugate(value: Any) -> Any:
     return value.xreplace({sympy.I: -sympy.I})
 
 
-@dataclass(frozen=True)
-class Solved:
-    """The energy, and the roots that depend on it, as functions of n."""
-
-    energy: Any
-    values: dict[Any, Any]
-
-
-def solved(equation: Any, roots: list[Root], E: Any) -> Iterator[Solved]:
-    """All E with equation = 0 for some values of the unknown roots.
+def solved(equation: Any, roots: list[Root], E: Any) -> Iterator[tuple[Any, dict[Any, Any]]]:
+    """All E with equation = 0 for some values of the unknown roots, and these values, as functions of n.
 
     Raises `Uncovered` where that needs a polynomial equation of a degree above 2.
     """
@@ -102,7 +94,7 @@ def solved(equation: Any, roots: list[Root], E: Any) -> Iterator[Solved]:
     if len(unknown) > 2:
         raise Uncovered("more than two exponents depend on the energy")
     if not unknown:
-        yield from (Solved(shortest(energy), {}) for energy in _zeros(equation, E))
+        yield from ((shortest(energy), {}) for energy in _zeros(equation, E))
         return
     root, *others = unknown
     rho = root.value
@@ -115,7 +107,7 @@ def solved(equation: Any, roots: list[Root], E: Any) -> Iterator[Solved]:
     for value in _zeros(equation, rho):
         short = shortest(value)
         values = {rho: short, **{other.value: shortest(sigma_of_rho.subs(rho, value)) for other in others}}
-        yield Solved(shortest(E_of_rho.subs(rho, short), E_of_rho.subs(rho, value)), values)
+        yield shortest(E_of_rho.subs(rho, short), E_of_rho.subs(rho, value)), values
 
 
 def _only_zero(equation: Any, unknown: Any, otherwise: str) -> Any:

@@ -334,13 +334,13 @@ class ExponentForm:
             if root.radicals and not root.square.has(sympy.I)
         ]
         for signed in _choices(self.roots):
-            for found in solved(sympy.expand(self.degree(signed) - signs.n), self.roots, question.E):
-                values = [root.xreplace(found.values) for root in signed]
+            for energy, of_n in solved(sympy.expand(self.degree(signed) - signs.n), self.roots, question.E):
+                values = [root.xreplace(of_n) for root in signed]
                 known = tidied([*are_real, *self._demands(values, question)], signs, radicals)
                 if sympy.false not in known:
                     wave = self.wave(values)
-                    found_levels = Levels(signs.n, found.energy, wave.y, known, self._zeros(values, signs.n), wave.norm)
-                    yield found_levels.mapped(lambda part: plain(part.xreplace(radicals)))
+                    found = Levels(signs.n, energy, wave.y, known, self._zeros(values, signs.n), wave.norm)
+                    yield found.mapped(lambda part: plain(part.xreplace(radicals)))
 
     def _at_spots(self, values: list[Any]) -> Iterator[tuple[Spot, Any]]:
         """The spots with the signed exponent differences there."""

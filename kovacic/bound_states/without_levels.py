@@ -33,25 +33,19 @@ def is_repulsive(question: Examined) -> bool:
     assert real is not None
     original = real.original
     infinite = [end for end in ends if end.at.is_infinite]
-    has_limits = all(end.threshold is not None for end in infinite)
+    has_limits = bool(infinite) and all(end.threshold is not None for end in infinite)
     rate = signs.sign(original.rate)
-    if (
-        not infinite
-        or not has_limits
-        or original.kind not in ("x", "exp", "sinh")
-        or rate is None
-        or not real.V.has(real.t)
-    ):
+    if not has_limits or original.kind not in ("x", "exp", "sinh") or rate is None or not real.V.has(real.t):
         return False
     first, last = (end.at for end in ends)
     centre = next((at for at in (first, last) if at.is_finite), sympy.Integer(0))
     slope = sympy.factor(sympy.diff(real.V, real.t))
     # V increases on the left of the centre, and falls on the right; t grows with x for a positive rate.
-    for sign, half in ((rate, (first, centre)), (-rate, (centre, last))):
-        is_empty = half[0] == half[1]
-        if not is_empty and not _has_sign(slope, real.t, original.range_of(half, signs), sign, signs):
-            return False
-    return True
+    halves = ((rate, (first, centre)), (-rate, (centre, last)))
+    return all(
+        half[0] == half[1] or _has_sign(slope, real.t, original.range_of(half, signs), sign, signs)
+        for sign, half in halves
+    )
 
 
 def _has_sign(function: Any, t: Any, bounds: tuple[Any, Any], sign: int, signs: Signs) -> bool:

@@ -138,12 +138,10 @@ def _waves(x: Expr, B: Expr, c0: Expr, c1: Expr, ends: tuple[Expr, Expr]) -> _Wa
 
 def _wave_numbers(left: tuple[Expr, Expr], right: tuple[Expr, Expr], n: Expr) -> tuple[int, Expr] | None:
     """The first n, and k T; None if the equation for k is transcendental."""
-    kinds = [None if A != 0 and B != 0 else bool(B == 0) for A, B in (left, right)]
-    if None in kinds:
+    if 0 not in left or 0 not in right:
         return None
-    if kinds[0] != kinds[1]:
-        return 1, (2 * n - 1) * sympy.pi / 2
-    return (1 if kinds[0] else 0), n * sympy.pi
+    vanishes, other = left[1] == 0, right[1] == 0
+    return (int(vanishes), n * sympy.pi) if vanishes == other else (1, (2 * n - 1) * sympy.pi / 2)
 
 
 def _wave_equation(left: tuple[Expr, Expr], right: tuple[Expr, Expr], root: Expr, T: Expr) -> Expr:
@@ -198,14 +196,11 @@ class _LinearPiece:
         """(Y, Y') at the high end, from those at the low one."""
         Y, slope = start
         slope += self.delta * Y
-        if self.is_barrier:
-            k = sympy.sqrt(self.b)
-            cosine, sine = (f(k * (self.high - self.low)) for f in (sympy.cosh, sympy.sinh))
-            return Y * cosine + slope * sine / k, slope * cosine + k * Y * sine
         if self.a == 0:
-            k = sympy.sqrt(-self.b)
-            cosine, sine = (f(k * (self.high - self.low)) for f in (sympy.cos, sympy.sin))
-            return Y * cosine + slope * sine / k, slope * cosine - k * Y * sine
+            sign, functions = (1, (sympy.cosh, sympy.sinh)) if self.is_barrier else (-1, (sympy.cos, sympy.sin))
+            k = sympy.sqrt(sign * self.b)
+            cosine, sine = (f(k * (self.high - self.low)) for f in functions)
+            return Y * cosine + slope * sine / k, slope * cosine + sign * k * Y * sine
         Ai, dAi, c = self.airy(self.low, sympy.airyai, sympy.airyaiprime)
         Bi, dBi, _ = self.airy(self.low, sympy.airybi, sympy.airybiprime)
         first, second = Y * dBi - slope * Bi / c, slope * Ai / c - Y * dAi  # times 1/pi, the Wronskian of Ai and Bi
