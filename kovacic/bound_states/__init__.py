@@ -8,7 +8,7 @@ In goes V with real parameters and a domain, out comes a `Spectrum`.  Read `api`
    coordinates z(x) in which the equation may be a standard one;
 2. `families`: the standard equations, each with its levels for all n at once, and why these are all; `energies` solves for E
    and writes the conditions; `without_levels` are periodic and repulsive potentials;
-3. `closed_forms`: where no formula is known, the levels with a closed form, from the conditions on E, and are these all?
-   Darboux' transformation brings other potentials to the families;
+3. `darboux` brings other potentials to the families; `closed_forms`: where no formula is known, the levels with a closed form,
+   from the conditions on E, and are these all?
 4. `levels`: what is returned.
 """

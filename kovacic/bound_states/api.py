@@ -10,7 +10,8 @@ from typing import Any
 import sympy
 
 from kovacic.bound_states.asked import asked, problem_of, unsolved
-from kovacic.bound_states.closed_forms import closed_forms, demand_at
+from kovacic.bound_states.closed_forms import closed_forms
+from kovacic.bound_states.darboux import transformed
 from kovacic.bound_states.ends import Examined, examined
 from kovacic.bound_states.families import (
     ExponentForm,
@@ -20,22 +21,19 @@ from kovacic.bound_states.families import (
     whittaker,
 )
 from kovacic.bound_states.frame import SingularFrame, frames
-from kovacic.bound_states.levels import Algebraic, Levels, Spectrum
+from kovacic.bound_states.levels import Levels, Spectrum
 from kovacic.bound_states.numeric import check_first_levels, with_matching, with_numbers
 from kovacic.bound_states.question import Asked, SpectralProblem
 from kovacic.bound_states.signs import Uncovered
 from kovacic.bound_states.without_levels import NO_LEVELS, REASON, is_repulsive
 from kovacic.enclosure.request import Accuracy, digits_and_limits
-from kovacic.engine.places import analyse
 from kovacic.equation import ENERGY
 from kovacic.errors import InputError, LimitExceeded, NotRational
 from kovacic.limits import Budget, Limits, limited
 from kovacic.numbers.exact import whole
 from kovacic.parametric.api import DEFAULT_DEGREE
 from kovacic.parametric.assumptions import check_mapping
-from kovacic.parametric.partition import transformation
-from kovacic.parametric.solutions import derivative
-from kovacic.reading.read import declared, read_input
+from kovacic.reading.read import declared
 from kovacic.reading.symbolic import written_expression
 
 _STANDARD_FORMS: tuple[tuple[Callable[[SingularFrame, SpectralProblem], ExponentForm | None], str], ...] = (
@@ -191,7 +189,7 @@ def _all_levels(question: Examined, budget: Budget) -> Spectrum:
         is_settled = not question.excluded and not question.boundary.is_mixed
         if is_settled and is_repulsive(question):
             return question.spectrum(complete=True, reason=REASON)
-        return _transformed(question, budget) or question.spectrum(reason=_why_no_formula(question))
+        return transformed(question, budget, _all_levels) or question.spectrum(reason=_why_no_formula(question))
     return question.spectrum(levels=levels, complete=True, reason=f"{name}: {_POLYNOMIAL}")
 
 
@@ -217,54 +215,6 @@ def _with_closed_forms(found: Spectrum, question: Examined, max_degree: int, lim
         return found
     higher = f"there may be levels with a polynomial of degree {forms.higher}"
     return replace(found, hint=f"{higher}: max_degree={forms.higher}", shell=f"{higher}: --max-degree {forms.higher}")
-
-
-def _transformed(question: Examined, budget: Budget) -> Spectrum | None:
-    """By Darboux' transformation, which lowers the apparent singularities of a V in x (`closed_forms`), or None."""
-    if question.parsed.equation is not None or not all(end.is_limit_point for end in question.ends):
-        return None
-    found = transformation(analyse(question.parsed.S, budget))
-    signs = question.signs
-    x, E = sympy.symbols([question.variable, question.energy])
-    if found is None or any(signs.sign(signs.real(f.to_sympy(x))) is None for f in found.exceptions):
-        return None
-    W, S, simpler = (f.num.to_sympy(x) / f.den.to_sympy(x) for f in (found.W, question.parsed.S, found.simpler))
-    E0 = question.plain(sympy.cancel(sympy.together((S.subs(E, 0) - W**2 - sympy.diff(W, x)) * question.kinetic)))
-    wave = sympy.exp(sympy.integrate(sympy.apart(W, x), x))
-    holds = [signs.holds(demand_at(end, signs.real(wave), question)) for end in question.ends]
-    parsed = read_input(simpler, var=question.variable, exponentials=True)
-    try:
-        other = examined(replace(question, S=simpler, parsed=parsed))
-        spectrum = _all_levels(other, budget)
-    except (Uncovered, InputError):
-        return None
-    # E0 may be a level of the simpler potential, and isn't one of V then.
-    gaps = (signs.real(one.energy - E0).xreplace({one.number: signs.n}) for one in spectrum.levels)
-    are_kept = all(signs.sign(gap) is not None for gap in gaps)
-    if None in holds or not (spectrum.complete and are_kept and all(end.is_limit_point for end in other.ends)):
-        return None
-    # The levels of the simpler potential with y' + W y for y, whose norm^2 is (E - E0)/k times that of y; and E0 with y0.
-    W, lowest = question.plain(sympy.factor(W)), question.plain(wave)
-    levels = []
-    for one in spectrum.levels:
-        # As a weight times a sum of orthogonal polynomials with rational coefficients.
-        y = W * one.wave + derivative(one.wave, x)
-        polynomials = sorted(y.atoms(sympy.hermite, sympy.assoc_laguerre), key=sympy.default_sort_key)
-        weight = one.wave.xreplace(dict.fromkeys(polynomials, sympy.S.One))
-        quotient = sympy.expand(y / weight)
-        y = weight * sympy.Add(*(sympy.factor(quotient.coeff(P)) * P for P in polynomials))
-        norm = None if one.norm is None else (one.energy - E0) / question.kinetic * one.norm
-        levels.append(replace(one, wave=y, zeros=one.zeros + int(all(holds)), norm=norm))
-    level = Algebraic(0, sympy.Integer(0), E - E0, lowest, P=sympy.Poly(1, x), range=question.interval)
-    if not question.parameters:
-        level = replace(level, states=tuple(level.states_at({}, question.energy)))
-    shown = question.shown(sympy.factor(question.kinetic * simpler.subs(E, 0)))
-    return question.spectrum(
-        levels=tuple(levels),
-        algebraic=(level,) if all(holds) else (),
-        complete=True,
-        reason=f"Darboux' transformation of V = {shown}; {spectrum.reason}",
-    )
 
 
 def _check_branch_point(question: SpectralProblem) -> None:

@@ -13,21 +13,6 @@ Which level it is says Sturm's theorem: a square integrable solution with k zero
 
 References: A. V. Turbiner, Comm. Math. Phys. 118 (1988) 467; A. G. Ushveridze, Quasi-exactly Solvable Models (1994);
 M. Razavy, Amer. J. Phys. 48 (1980) 285; M. F. Manning, J. Chem. Phys. 3 (1935) 136.
-
-`step` is Darboux' transformation: a rational potential with apparent singularities as one without, all levels at once.  With a
-rational W, W' + W^2 = V - E0, the operator d/dx - W takes solutions for V to solutions for V - 2 W' with the same E,
-and d/dx + W takes them back, up to the factor E0 - E.  Where W has no residue 1 inside the domain y0 = exp(int W) has no zero,
-so that E0 isn't above the lowest level; it is this level exactly where y0 is square integrable.  At a regular end both
-operators take the smaller solution to the smaller one where nu >= 1 for V and for V - 2 W'; at an irregular end they keep the
-decaying one.  So the levels for V are those for V - 2 W', and E0 where y0 is square integrable; and
-
-    int ((d/dx + W) y)^2 dx = (E - E0) int y^2 dx.
-
-W comes from `kovacic.parametric`, which lowers apparent singularities by it for `conditions`; the one-step exceptional families
-(Hermite, Laguerre) are of this kind, with y0 = (a weight)/(a polynomial).
-
-References: D. Gomez-Ullate, N. Kamran & R. Milson, J. Math. Anal. Appl. 359 (2009) 352; C. Quesne, J. Phys. A 41 (2008) 392001;
-J. F. Carinena, A. M. Perelomov, M. F. Ranada & M. Santander, J. Phys. A 41 (2008) 085301.
 """
 
 from __future__ import annotations
