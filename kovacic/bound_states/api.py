@@ -190,7 +190,8 @@ def _all_levels(question: Examined, budget: Budget) -> Spectrum:
         if is_settled and is_repulsive(question):
             return question.spectrum(complete=True, reason=REASON)
         return transformed(question, budget, _all_levels) or question.spectrum(reason=_why_no_formula(question))
-    return question.spectrum(levels=levels, complete=True, reason=f"{name}: {_POLYNOMIAL}")
+    excluded = (*question.excluded, *dict.fromkeys(end.other for end in question.ends))
+    return replace(question, excluded=excluded).spectrum(levels=levels, complete=True, reason=f"{name}: {_POLYNOMIAL}")
 
 
 def _why_no_formula(question: Examined) -> str:

@@ -65,6 +65,7 @@ NO_FORMULA = "undecided: no formula for all levels is known"
 _MOST = 200
 #: Longer exact energies are drawn as decimals.
 _SHORT = 12
+_ANOTHER = "V is another potential, whose levels aren't those above"
 #: Up to this many n are listed individually.
 _LISTED = 6
 
@@ -212,7 +213,8 @@ class Spectrum:
     ends : tuple of str
         How the solutions behave at the ends.
     excluded : tuple
-        Where a boundary condition would be needed: relations between the parameters, or True.
+        Where a boundary condition would be needed: relations between the parameters, or True; an equation where V is another
+        potential, since the coefficient vanishes by which it is known at an end.
     boundary : str or None
         The boundary condition that was given.
     notices : tuple of str
@@ -291,7 +293,11 @@ class Spectrum:
         """
         count = whole(count, "count")
         at = self._symbols_at(values or {})
-        if any(_is_true(relation, at) for relation in self.excluded):
+        for relation in self.excluded:
+            if not _is_true(relation, at):
+                continue
+            if isinstance(relation, sympy.Eq):
+                raise InputError(f"where {_relation(relation)} V is another potential", hint="give V with this value")
             # Friedrichs' condition is taken where there is one: solutions oscillate.
             hint = "no boundary condition is distinguished"
             raise InputError("both solutions are square integrable at an end", hint=hint)
@@ -425,7 +431,8 @@ class Spectrum:
         lines = []
         for relation in self.excluded:
             where = "" if relation == sympy.true else f"where {_relation(relation)}: "
-            lines.append(f"{where}a boundary condition is needed, there is no spectrum without one")
+            said = "a boundary condition is needed, there is no spectrum without one"
+            lines.append(f"{where}{_ANOTHER if isinstance(relation, sympy.Eq) else said}")
         is_proven = self.complete or self.closed_forms_complete
         all_of_them, none = "eigenfunctions with a closed form", "no eigenfunction has a closed form"
         if self.complete:

@@ -434,6 +434,16 @@ def test_delta_functions_as_physicists_write_them(written: str) -> None:
     assert kovacic.spectrum("δ*x^2").parameters == ("δ",)
 
 
+def test_without_its_leading_term_a_potential_is_another_one() -> None:
+    """a exp(-2 x) - 3 exp(-x) falls without bound to the left where a = 0: that isn't a value without levels."""
+    found = kovacic.spectrum("a*exp(-2*x) - 3*exp(-x)")
+    assert [*map(str, found.excluded)] == ["a < 0", "Eq(a, 0)"]
+    assert "where a = 0: V is another potential" in found.text()
+    with pytest.raises(kovacic.InputError, match="another potential"):
+        found.states({"a": 0})
+    assert kovacic.spectrum("a*exp(-2*x) - 3*exp(-x)", assume={"a": "positive"}).excluded == ()
+
+
 def test_a_family_without_members_is_no_level() -> None:
     """n < sqrt(4 A + 1)/2 - 1/2 for no n where A < 0."""
     assert kovacic.spectrum("-A/cosh(x)^2", assume={"A": "negative"}).levels == ()
