@@ -18,6 +18,7 @@ M. Razavy, Amer. J. Phys. 48 (1980) 285; M. F. Manning, J. Chem. Phys. 3 (1935) 
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Sequence
+from contextlib import suppress
 from dataclasses import dataclass, field, replace
 from functools import partial, reduce
 from itertools import chain
@@ -30,7 +31,7 @@ from kovacic.bound_states.ends import End, Examined, leading
 from kovacic.bound_states.energies import tidied
 from kovacic.bound_states.levels import NO_FORMULA, Algebraic
 from kovacic.bound_states.question import SpectralProblem
-from kovacic.bound_states.signs import Signs, above
+from kovacic.bound_states.signs import Signs, Uncovered, above
 from kovacic.engine.places import analyse
 from kovacic.errors import LimitExceeded
 from kovacic.general_solution.antiderivatives import antiderivative
@@ -403,7 +404,9 @@ class _ClosedFormSearch(ClosedForms):
         P = sympy.Mul(*(f.as_base_exp()[0] for f in sympy.Mul.make_args(solution.y) if f.is_polynomial(t)))
         assert question.real is not None
         original, domain, middle = question.real.original, question.domain, None
-        at = original.turning_point(domain, question.signs)
+        at = None
+        with suppress(Uncovered):
+            at = original.middle(domain, question.signs)
         if at is not None:
             domain = (at, domain[1])
             smooth = wave.replace(*_root_about(at, original, question))

@@ -165,13 +165,19 @@ class Original:
         """The values of t where dt/dtheta = 0."""
         return _TURNING_VALUES.get(self.kind, ())
 
-    def turning_point(self, domain: tuple[Any, Any], signs: Signs) -> Any:
-        """The only x inside the domain where t turns, with one value at both ends; None if it isn't known to be like that."""
-        with suppress(Uncovered):
-            inside = self.points_inside(self.turning_values, domain, signs)
-            first, last = (self.at(end, signs) for end in domain)
-            return inside[0] if len(inside) == 1 and first == last else None
-        return None
+    def middle(self, domain: tuple[Any, Any], signs: Signs, values: Sequence[Any] = ()) -> Any:
+        """The only x inside the domain at which t turns, or has one of the values; None if there is none.
+
+        Raises `Uncovered` where there are several, or the domain isn't symmetric about it.
+        """
+        found = self.points_inside([*self.turning_values, *values], domain, signs)
+        if not found:
+            return None
+        first, last = domain
+        is_symmetric = (first, last) == (-sympy.oo, sympy.oo) or sympy.simplify(first + last - 2 * found[0]) == 0
+        if len(found) > 1 or not is_symmetric:
+            raise Uncovered(f"the domain isn't symmetric about {self.x} = {found[0]}, and the equation is")
+        return found[0]
 
     def x_at(self, theta: Any) -> Any:
         """The value of the user's variable for an argument."""

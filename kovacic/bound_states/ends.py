@@ -34,11 +34,11 @@ class End:
     """One end: where both solutions are square integrable (`circle`, a relation, true or false), and a sentence about it.
 
     `oscillates` says that V falls without bound there, so that no boundary condition is distinguished; `oscillation` is where
-    the solutions oscillate at a regular end, which has the same effect, and `other` where V isn't of the order that is assumed.
+    the solutions oscillate at a regular end, which has the same effect, and `other` where V isn't of the assumed order.
     `threshold` is where the continuous spectrum begins at an infinite end, None if it doesn't.  The end is t = `point`, with
-    (du/dx)^2 ~ u^mu for a local coordinate u of this `direction` inside the domain.  It `is_regular` where V has a value, so that
-    all solutions are analytic there; at a simple pole, which has the same exponents 0 and 1, all but the smaller one have a
-    logarithm.  y = 0 means the smaller solution where only that one `vanishes`.
+    (du/dx)^2 ~ u^mu for a local coordinate u of this `direction` inside the domain.  It `is_regular` where V has a value, so
+    that all solutions are analytic there; at a simple pole, which has the same exponents 0 and 1, all but the smaller one have
+    a logarithm.  y = 0 means the smaller solution where only that one `vanishes`.
     """
 
     at: Any

@@ -186,13 +186,9 @@ def _fold(original: Original, t: Any, base: Any, m: int, question: SpectralProbl
     """The only point inside the domain at which dz/dx vanishes, or None."""
     # Where dt/dx = 0, and where base = 0 for an even m.
     zeros = sympy.solve(sympy.numer(sympy.together(base)), t) if m % 2 == 0 else []
-    found = original.points_inside([*original.turning_values, *zeros], question.domain, question.signs)
-    if not found:
-        return None
-    middle = found[0]
-    first, last = question.domain
-    is_symmetric = (first, last) == (-sympy.oo, sympy.oo) or sympy.simplify(first + last - 2 * middle) == 0
-    on_y = {wish is None or wish.is_zero for wish in question.boundary.wishes}
-    if len(found) > 1 or not is_symmetric or len(on_y) > 1:
-        raise Uncovered(f"the domain isn't symmetric about {original.x} = {middle}, and the equation is")
+    middle = original.middle(question.domain, question.signs, zeros)
+    if middle is not None and len({wish is None or wish.is_zero for wish in question.boundary.wishes}) > 1:
+        raise Uncovered(
+            f"the conditions at the ends aren't symmetric about {original.x} = {middle}, and the equation is"
+        )
     return middle
