@@ -73,7 +73,7 @@ def differences(motion, found, times):
 
 
 @parametrize("place", ["outside", "inside", "plane"], ordinary=1, long=1)
-@parametrize("seed", range(20), ordinary=1, long=4)
+@parametrize("seed", range(20), ordinary=1, long=2)
 def test_newton_and_euler_agree_on_random_bodies(seed, place):
     """u, both spins, the contact point in space and on the ball, the attitude and the normal reaction."""
     generator = np.random.default_rng([seed, len(place)])

@@ -941,7 +941,7 @@ def test_powers_of_numbers_are_exponentials() -> None:
         assert sympy.simplify(levels.energy - expected) == 0
 
 
-@parametrize("nu", ["0", "1/4", "1/3", "1/2", "3/4", "1", "2"], ordinary=2, long=5)
+@parametrize("nu", ["0", "1/4", "1/3", "1/2", "3/4", "1", "2"], ordinary=2, long=2)
 @parametrize(("base", "domain"), [("x", HALF), ("(x - 3)", (3, "oo")), ("(2 - x)", ("-oo", 2))], ordinary=1, long=1)
 def test_two_solutions_at_an_end(nu: str, base: str, domain: tuple[object, object]) -> None:
     """They are sqrt(x) and sqrt(x)*log(x) where the exponents agree, real inside the domain, and solve the equation there."""

@@ -241,7 +241,7 @@ NUMBERS = [
 ]
 
 
-@parametrize("number", NUMBERS, ordinary=4)
+@parametrize("number", NUMBERS, ordinary=4, long=2)
 @pytest.mark.parametrize("right", ["{c}*exp(x)", "{c}*sqrt(x + 2)", "{c}*x", "exp({c}*x/5)"])
 @pytest.mark.parametrize("given", ["in the text", "a parameter"])
 def test_numbers_on_the_right_that_are_not_real(number: str, right: str, given: str) -> None:

@@ -240,7 +240,7 @@ def test_a_solution_of_the_package_starts_at_its_singular_point() -> None:
     assert isinstance(answer.at(3, x0=0, which="regular"), Ball)
 
 
-@parametrize("x", [2, -3, Fraction(1, 3), 30, 1 + 1j], ordinary=1)
+@parametrize("x", [2, -3, Fraction(1, 3), 30, 1 + 1j], ordinary=1, long=2)
 @pytest.mark.parametrize("digits", [10, 40])
 def test_decaying_solutions(x: Any, digits: int) -> None:
     """Ai, K_nu, the complementary error function, and Whittaker's W: each over its value at 1."""

@@ -5,8 +5,7 @@ from __future__ import annotations
 import random
 from typing import Any
 
-import pytest
-from build import bounded_work
+from build import bounded_work, parametrize
 
 import kovacic
 
@@ -30,8 +29,7 @@ def member(seed: int) -> str:
     return f"y'' + {rng.randint(-3, 3)}/3*({b})*y' + ({rng.randint(-5, 5)} + a*({c}))*y = {f}"
 
 
-@pytest.mark.long
-@pytest.mark.parametrize("first", range(0, 40, 10))
+@parametrize("first", range(0, 40, 10), ordinary=0, long=1)
 def test_values_through_a_change_of_variable(first: int) -> None:
     for seed in range(first, first + 10):
         rng = random.Random(-seed)

@@ -620,7 +620,7 @@ def test_names_of_sl2_with_scalars(n: int, name: str) -> None:
     assert (group.name, group.scalars, group.finite, group.order) == (name, n, False, None)
 
 
-@parametrize("N", [4, 6, 8, 12], ordinary=1)
+@parametrize("N", [4, 6, 8, 12], ordinary=1, long=1)
 @pytest.mark.parametrize("third", [Fraction(1, 2), Fraction(1, 3), Fraction(1, 4), Fraction(3, 2), Fraction(7, 3)])
 def test_orders_with_scalars_on_curves_of_positive_genus(third: Fraction, N: int) -> None:
     """A map with general branch points leaves the group in GL2 as it is, which is known on the line: by the residues there.

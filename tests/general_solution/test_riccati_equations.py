@@ -138,7 +138,7 @@ VANISHING = [
 
 
 @parametrize("start", ["0", "1", "-2/3"], ordinary=1, long=1)
-@parametrize("coefficients_as_text", VANISHING, ordinary=1, long=4, ids=str)
+@parametrize("coefficients_as_text", VANISHING, ordinary=1, long=2, ids=str)
 def test_a_value_where_the_square_has_no_coefficient(coefficients_as_text: tuple[str, str, str], start: str) -> None:
     """The linear equation is singular there, Riccati's isn't: one solution, that of an integration."""
     p, q, r = (read_expression(text) for text in coefficients_as_text)

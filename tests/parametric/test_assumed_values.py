@@ -80,7 +80,7 @@ def test_bounds_admit_the_numbers_between(what: str) -> None:
             answer.case_at({"n": value})
 
 
-@parametrize("what", INEQUALITIES, ordinary=1, long=20)
+@parametrize("what", INEQUALITIES, ordinary=1, long=5)
 @parametrize(
     "S", [BESSEL, "x^6 + n*x^2", "x^4 + n*x", "n*x^5 + x", "(n+2)*x^4 + x^2 + n*x", "x^2 + n"], ordinary=2, long=2
 )

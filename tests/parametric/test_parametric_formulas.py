@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+from functools import cache
 
 import pytest
 import sympy
@@ -30,8 +31,13 @@ SOME = [
 ALL = [name for name in FAMILIES if not name.startswith("heun_gen")]
 
 
+@cache
+def conditions_of(name: str) -> Conditions:
+    return kovacic.conditions(FAMILIES[name], var="x", max_degree=0)
+
+
 def solutions_are_right(name: str, points: int) -> None:
-    answer = kovacic.conditions(FAMILIES[name], var="x", max_degree=0)
+    answer = conditions_of(name)
     _, wrong = wrong_solutions(answer, equation_of(answer), x, points)
     assert not wrong, wrong[:3]
 
@@ -115,7 +121,7 @@ def test_solutions_are_those_of_the_equation_that_was_given(name: str) -> None:
 @parametrize("name", SOME, ordinary=2, long=4)
 def test_answers_are_read_back(name: str) -> None:
     """With everything that is printed of them."""
-    answer = kovacic.conditions(FAMILIES[name], var="x", max_degree=0)
+    answer = conditions_of(name)
     read = Conditions.from_json(answer.to_json())
     assert read == answer
     assert read.text(all=True) == answer.text(all=True)
@@ -137,7 +143,7 @@ def test_a_determinant_without_parameters_is_that_of_its_degree() -> None:
 
 
 def texts_say_what_is_meant(name: str, points: int) -> None:
-    _, wrong = misread(kovacic.conditions(FAMILIES[name], var="x", max_degree=0), points)
+    _, wrong = misread(conditions_of(name), points)
     assert not wrong, wrong[:3]
 
 
@@ -180,7 +186,7 @@ def test_an_invariant_of_degree_4_alone_shows_no_case_1() -> None:
 @pytest.mark.parametrize("name", EACH)
 def test_all_families_agree_with_the_engine(name: str) -> None:
     """Where a natural number is involved, statements are decided by ranks, and the engine by its own way."""
-    assert kovacic.conditions(FAMILIES[name], var="x", max_degree=0).check(40)
+    assert conditions_of(name).check(40)
 
 
 @parametrize("product", ["2*a*b", "a*b*c", "(a - 1)*b", "2*(a + b)*(a - c)", "a*(b + 1)^2"], ordinary=1)

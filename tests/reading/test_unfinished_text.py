@@ -6,7 +6,7 @@ from contextlib import suppress
 from itertools import product
 
 import pytest
-from build import read_input
+from build import parametrize, read_input
 
 from kovacic import InputError, LimitExceeded
 
@@ -35,8 +35,7 @@ def test_texts_that_break_off(text: str) -> None:
     assert all(is_read_or_refused(text[:k]) for k in range(len(text) + 1))
 
 
-@pytest.mark.long
-@pytest.mark.parametrize("first", TOKENS)
+@parametrize("first", TOKENS, ordinary=0, long=5)
 def test_tokens_in_any_order(first: str) -> None:
     for others in product(TOKENS, repeat=2):
         text = first + "".join(others)

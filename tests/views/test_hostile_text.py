@@ -108,8 +108,9 @@ def changed(equation: str, **changes: Any) -> dict[str, Any]:
 
 
 @pytest.mark.long
-@pytest.mark.parametrize("text", TOGETHER)
-@pytest.mark.parametrize("equation", ["x^2 + 3", "x^2*y'' + x*y' + (x^2 - 1/4)*y = 0"])
+@pytest.mark.parametrize(
+    ("equation", "text"), list(zip(["x^2 + 3", "x^2*y'' + x*y' + (x^2 - 1/4)*y = 0"], TOGETHER, strict=True))
+)
 def test_an_answer_that_was_changed_by_hand(equation: str, text: str) -> None:
     """Its notices are shown as they are; names and formulas are read, and refused where they aren't what was claimed."""
     answer = kovacic.Solution.from_json(changed(equation, notices=[text]))
