@@ -386,11 +386,11 @@ class _Translation:
         return True
 
     def primes(self, token: Token) -> bool:
-        """((1 - x^2) y')': what the parentheses enclose is differentiated; y(x)'' is y''(x)."""
+        """((1 - x^2) y')' and sin(x)': what stands before the primes is differentiated; y(x)'' is y''(x)."""
         if not self.found or self.found[-1][0] != "RPAR" or self.texts[self.k - 1] not in CLOSING:
             return False
         kind, name, start, end = self.found[max(0, self.closed - 1)]
-        if kind == "HEAD":
+        if kind == "HEAD" and not is_function(name):
             self.found[self.closed - 1] = Token(kind, name + primes_of(token.text), start, end)
             self.k += 1
             return True

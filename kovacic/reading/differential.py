@@ -78,7 +78,7 @@ class EquationReader(RationalReader):
     def parts(self, value: Any) -> dict[int, Any]:
         """The coefficients of the derivatives, and the rest.  Raises `NotLinear` for an operator without an operand."""
         if isinstance(value, DerivativeOperator):
-            hint = f"write what it is applied to: (D^2 + 1) {self.unknown} = 0"
+            hint = f"write what it is applied to: (D^2 + 1) {self.unknown or UNKNOWN} = 0"
             raise NotLinear(f"the operator d/d{self.variable} is applied to nothing", hint=hint)
         return {**value.parts} if isinstance(value, LinearForm) else {REST: value}
 
@@ -198,11 +198,8 @@ class EquationReader(RationalReader):
         if head.rstrip(PRIMES) == self.unknown:
             return self._call_of_unknown(head, arguments, site)
         if head in DERIVATIVES:
-            function, *by = arguments
-            order = differentiations(by, self._is_variable, self.arithmetic, self.variable)
-            if isinstance(function, tuple):
-                raise NotLinear("this isn't a derivative that can be read")
-            return self._derived(function, order)
+            order = differentiations(arguments, self._is_variable, self.arithmetic, self.variable)
+            return self._derived(arguments[0], order)
         if head in self.names:
             hint = f"for a product write {head}*({site.inside()})"
             raise ParseError(f"{head} is followed by a parenthesis like a function", hint=hint)

@@ -298,9 +298,12 @@ def check_order(order: int) -> None:
 
 
 def differentiations(
-    by: Sequence[Any], is_variable: Callable[[Any], bool], arithmetic: LinearArithmetic, variable: Any
+    arguments: Sequence[Any], is_variable: Callable[[Any], bool], arithmetic: LinearArithmetic, variable: Any
 ) -> int:
     """The order of a derivative by x; x, x; x, 2; or (x, 2), the arguments after the function; 1 without any."""
+    function, *by = arguments
+    if isinstance(function, tuple):
+        raise NotLinear("this isn't a derivative that can be read")
 
     def order_of(value: Any) -> int:
         number = arithmetic.number(value) if is_rational(value) else None

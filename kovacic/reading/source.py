@@ -161,7 +161,9 @@ def parts_of(source: Source, limits: Limits, order: int = 2) -> tuple[Sequence[A
     reader = EquationReader(source, limits, Symbols())  # type: ignore[arg-type]
     reader.arithmetic.coefficient = lambda expression: expression  # any one
     value = source.walk(reader)
-    parts = reader.parts(value) if source.unknown else {2: Monomial(1, 0), 0: reader.arithmetic.negate(value)}
+    parts = reader.parts(value)
+    if not source.unknown:  # S alone
+        parts = {2: Monomial(1, 0), 0: reader.arithmetic.negate(value)}
     found = {k: reader.arithmetic.expression(c) for k, c in parts.items()}
     if max(found, default=0) != order:
         raise NotLinear(f"a linear equation of order {order} is expected")

@@ -322,7 +322,7 @@ class EquationsReader(SymbolicReader):
 
     def call(self, head: str, arguments: list[Any], site: Site) -> Any:
         if head in DERIVATIVES:
-            order = differentiations(arguments[1:], self._is_variable, self.arithmetic, self.x)
+            order = differentiations(arguments, self._is_variable, self.arithmetic, self.x)
             return self.arithmetic.expression(arguments[0]).diff(self.x, order)
         if len(arguments) == 1 and self._is_variable(arguments[0]):
             if head.rstrip(PRIMES) in self.functions:

@@ -181,6 +181,7 @@ def test_equations_in_a_notation_mean_what_they_mean_there(name: str) -> None:
         ("$x^2+3$", "x", "x**2 + 3"),
         (r"\frac34 x^{-2}", "x", "3/(4*x**2)"),
         (r"\hbar x", "x", "hbar*x"),
+        ("Rational(1, 2)/x^2 + S(2)*Pow(x, 2)", "x", "(4*x**4 + 1)/(2*x**2)"),
         ("x^{2} + 1", "x", "x**2 + 1"),
         (r"\frac{1}{x} - \frac{3}{16x^2}", "x", "(16*x - 3)/(16*x**2)"),
     ],
@@ -264,6 +265,9 @@ def test_rewriting_takes_linear_time(piece: str) -> None:
         ("y'' + y = 0, y(0) = 1, y'(0) = 2", "2*sin(x) + cos(x)"),
         (r"\ddot{x} + 4 x = 0, x(0)=1, x'(0)=0", "cos(2*t)"),
         ("diff(y(x), x, 2) = y(x), y(0)=1, y'(0)=1", "exp(x)"),
+        ("desolve(diff(y,x,2)+y, y, ics=[0,1,2])", "2*sin(x) + cos(x)"),
+        ("eq = Eq(y(x).diff(x,2)+y(x),0); ic = {y(0):1}; dsolve(eq, y(x), ics=ic)", "C2*sin(x) + cos(x)"),
+        ("c1 = y(0)==1; c2 = Dy(0)==0; dsolve(diff(y,x,2)+y==0, [c1 c2])", "cos(x)"),
     ],
 )
 def test_values_behind_the_equation_are_taken(text: str, solution: str) -> None:
@@ -382,6 +386,10 @@ def test_riccati_equations_in_any_notation(text: str) -> None:
         (r"\frac{dN}{dt} = r N (1 - N/K)", "dN/dt = r*N*(1 - N/K)"),
         ("\"y'' = x*y\"", "y'' = x*y"),
         ("dsolve(y'' + y = 0, func=y)", "y'' + y = 0"),
+        (r"\frac{\mathrm d^2y}{\mathrm dx^2} + \sin\frac{x}{2} y = 0", "y'' + sin(x/2)*y = 0"),
+        (r"y'' = \cos\sqrt[3]{x} + \sin^{-1} x", "y'' = cos(x^(1/3)) + asin(x)"),
+        ("d^2y/dx^2(x) + y(x)'' = sin(x)'", "2*y'' = cos(x)"),
+        ("y'' + y = sin a + max(x, 1)", "y'' + y = sin(a) + 1 + (x - 1)*Heaviside(x - 1)"),
     ],
 )
 def test_notations_of_one_equation_have_one_solution(text: str, plain: str) -> None:
@@ -541,10 +549,22 @@ def test_values_of_a_function_with_a_greek_name_in_latex() -> None:
     )
 
 
-@pytest.mark.parametrize("text", ["(D + y) y = 0", "(D + 1) = 0", "y'' + (d/dx + x) = 0", "(d/dx + 1) y = dy/dt"])
-def test_operators_that_are_applied_to_nothing_are_refused(text: str) -> None:
-    with pytest.raises(kovacic.InputError):
-        kovacic.dsolve(text)
+@pytest.mark.parametrize(
+    ("text", "said"),
+    [
+        ("(D + y) y = 0", "a sum of an operator and a function"),
+        ("(D + 1) = 0", "applied to nothing"),
+        ("y'' + (d/dx + x) = 0", "a sum of an operator and a function"),
+        ("(d/dx + 1) y = dy/dt", "with respect to something else than x"),
+        ("x*d/dx + 1", "the operator d/dx is applied to nothing"),
+        ("y'' = diff((1, 2), x)", "isn't a derivative that can be read"),
+        ("y'' + y(x, t) = 0", "a function of x alone"),
+    ],
+)
+def test_derivatives_that_mean_nothing_are_refused(text: str, said: str) -> None:
+    for door in (kovacic.solve, kovacic.dsolve):
+        with pytest.raises(kovacic.InputError, match=said):
+            door(text)
 
 
 def test_eigenvalue_problems_take_their_conditions_from_the_text() -> None:
