@@ -142,11 +142,11 @@ def _steps(answer: SecondOrderAnswer) -> Iterator[Block]:
     if question.equation.change is None:
         B, C = map(own, answer.basis.rates)
         yield from _equation(y, (C, B, sympy.Integer(1)), F, question.conditions)
+        if solution.gauge:
+            yield Heading("Normal form")
+            yield from ExplanationWriter(solution).normal_form(y)
     else:
         yield say("Its coefficients are rational in ", of_sympy(function_of_x(question.equation)), ".")
-    if question.equation.change is None and solution.gauge:
-        yield Heading("Normal form")
-        yield from ExplanationWriter(solution).normal_form(y)
     yield Heading("Two solutions without the right-hand side" if F != 0 else "Two solutions")
     letters = ", ".join(parameters_of(solution.S.field))
     generic = f" for generic {letters}" if letters else ""
@@ -202,7 +202,7 @@ def _steps_of_first_order(answer: FirstOrderAnswer) -> Iterator[Block]:
     yield from _equation(name, (-equation.q, sympy.Integer(1)), equation.p + square, answer.conditions)
     if equation.is_linear:
         yield Heading("The integrating factor")
-        yield say(f"h = exp(int q), q the coefficient of {name}, solves the equation without its right-hand side p:")
+        yield say("The equation without its right-hand side p has the solution")
         yield _named("h", equation.homogeneous())
         if equation.p == 0:
             return

@@ -29,7 +29,7 @@ from kovacic.general_solution.check import SolutionClaim, is_finite, jumps
 from kovacic.general_solution.integrands import NUMBERS, radicands, ratfunc
 from kovacic.general_solution.particular import is_solution, starting_at
 from kovacic.general_solution.question import Condition, exact, free_constants
-from kovacic.general_solution.steps import JUMPING, Apart, in_parts, in_steps
+from kovacic.general_solution.steps import JUMPING, Apart, in_parts
 from kovacic.general_solution.substitution import changed_beside
 from kovacic.general_solution.textbook import in_book_form, in_hyperbolic_functions, sums
 from kovacic.general_solution.zero import is_zero
@@ -229,7 +229,7 @@ def solved_linear(
         h = starting_at(equation.real_at(place, h, _ZERO), x, start)
     if value is not None and equation.p == 0:
         h = _beside_value(h, x, start)
-    particular = _particular(equation, h, start)
+    particular = _of_parts(in_parts(equation.p, x), h, x, start)
     if place is not None:
         particular = equation.real_at(place, particular, equation.p)
         in_factors = with_roots_of_factors(particular, x, place) if radicands(particular) else particular
@@ -301,9 +301,10 @@ def _exponential_of_integral(q: Expr, x: Expr, start: Expr | None, place: Expr |
         atoms = Atoms(x, at=place if is_known else None, own=lambda e: e.xreplace(own))
         h = display(product(rate), atoms).xreplace(NUMBERS | own)
         return h.replace(lambda e: e.is_Add, sympy.expand)  # as in p
-    if in_steps(q, x).has(sympy.DiracDelta):
+    apart = in_parts(q, x)
+    if apart.impulses:
         return sympy.exp(sympy.Integral(q, x))
-    return sympy.exp(_of_parts(in_parts(q, x), sympy.Integer(1), x, start))
+    return sympy.exp(_of_parts(apart, sympy.Integer(1), x, start))
 
 
 def _beside_value(h: Expr, x: Expr, start: Expr) -> Expr:
@@ -316,19 +317,13 @@ def _beside_value(h: Expr, x: Expr, start: Expr) -> Expr:
     return h.replace(is_open, lambda e: (e.base / e.base.subs(x, start)) ** e.exp)
 
 
-def _particular(equation: FirstOrderEquation, h: Expr, start: Expr | None) -> Expr:
-    """h int p/h dx."""
-    apart = in_parts(equation.p, equation.x)
-    if any(max(strengths) > 0 for strengths in apart.impulses.values()):
-        raise NotImplementedError("undecided: the right-hand side jumps too strongly")
-    return _of_parts(apart, h, equation.x, start)
-
-
 def _of_parts(p: Apart, h: Expr, x: Expr, start: Expr | None) -> Expr:
     """h int p/h dx, where an integral that isn't known begins at `start`; steps and impulses in p are taken one by one.
 
     g H(x - a) gives H(x - a) h int_a^x g/h, and s delta(x - a) gives H(x - a) s h(x)/h(a).
     """
+    if any(max(strengths) > 0 for strengths in p.impulses.values()):
+        raise NotImplementedError("undecided: a derivative of an impulse in an equation of first order")
     total = _integrated(p.plain, h, x, start)
     for a, g in p.steps.items():
         response = _integrated(g, h, x, a)

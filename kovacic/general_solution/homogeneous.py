@@ -59,14 +59,12 @@ def find_basis(question: Question, budget: Budget, *, special: bool = False) -> 
         # under the assumptions on letters
         below = [question.own(b) for f in sympy.Tuple(*form).atoms(sympy.hyper) for b in f.bq]
         has_poles = any(b.is_integer and not b.is_positive for b in below)
-        special = has_poles or any(question.own(condition) == 0 for condition in form.undefined)
-    if solution.case is not None and not special:
-        known = None
-        if is_changed:  # in t, where the quotient has values at more points
-            known = partial(multiple_of, kernel(question.equation), form.y1, form.y2, form.variable)
-        pair = WrittenPair(form.y1, form.y2, known, form.undefined, form.place)
-        return replace(_basis(question, solution, pair), form=form)
-    found = _in_special_functions(question, solution, budget, special=special)
+        if not has_poles and not any(question.own(condition) == 0 for condition in form.undefined):
+            # in t the quotient has values at more points
+            in_t = partial(multiple_of, kernel(question.equation), form.y1, form.y2, form.variable)
+            pair = WrittenPair(form.y1, form.y2, in_t if is_changed else None, form.undefined, form.place)
+            return replace(_basis(question, solution, pair), form=form)
+    found = _in_special_functions(question, solution, budget)
     if not isinstance(found, BySign):
         return _basis(question, solution, found)
     basis = _basis(question, solution, found.natural)
@@ -127,15 +125,13 @@ def decide(question: Question, budget: Budget) -> Solution:
     return found
 
 
-def _in_special_functions(
-    question: Question, solution: Solution, budget: Budget, *, special: bool
-) -> WrittenPair | BySign:
+def _in_special_functions(question: Question, solution: Solution, budget: Budget) -> WrittenPair | BySign:
     """Special functions, or Mathieu's; analytic at ordinary points, where Bessel's functions of roots would jump.
 
     By the sign of an integer where that is what is known; or where it gives names, and these or their behaviour is asked for.
     """
-    is_positive = bool(question.function.args[0].is_positive)
-    is_positive = is_positive and all(point.is_positive for c in question.conditions for point in c.points)
+    places_of_values = [point for condition in question.conditions for point in condition.points]
+    is_positive = all(e.is_positive for e in (question.function.args[0], *places_of_values))
     places = _real_places(question)
     request = Wanted(
         solution.S, solution.gauge, solution.variable, question.parameters, joined=not is_positive, places=places
@@ -146,8 +142,8 @@ def _in_special_functions(
     if has_integers and question.conditions and not limit_points(question):
         of_any_letters = special_functions(replace(request, symbols={}), budget)
         pair = _without_exceptions(of_any_letters.pair, sympy.Symbol(solution.variable)) or pair
-    is_asked = not question.conditions or bool(limit_points(question))
-    is_asked = is_asked and question.equation.is_homogeneous  # no particular solution is asked for
+    # no particular solution is asked for
+    is_asked = question.equation.is_homogeneous and (not question.conditions or bool(limit_points(question)))
     if pair is None or is_asked:
         halves = by_sign(request, budget)
         if halves is not None:
@@ -160,7 +156,7 @@ def _in_special_functions(
         raise NothingKnown(reason, is_proven=solution.status is Status.NONE_EXISTS)
     if is_positive and is_asked:
         pair = _without_second_kind(pair)
-    if special and not are_independent(pair.y1, pair.y2, sympy.Symbol(solution.variable)):
+    if solution.case is not None and not are_independent(pair.y1, pair.y2, sympy.Symbol(solution.variable)):
         raise NotImplementedError(f"{no_solution(solution, question.assumptions)}; {found}")
     return pair
 

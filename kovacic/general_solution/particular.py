@@ -20,9 +20,8 @@ SymPy's rules know hardly any others, and take seconds to find that out.
 from __future__ import annotations
 
 from collections import defaultdict
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from contextlib import suppress
-from functools import partial
 from math import comb
 from typing import Any
 
@@ -72,12 +71,11 @@ def particular_solution(basis: Basis, start: Expr | None) -> Expr:
     right = right_hand_side(basis.equation)
     if right == 0:
         return sympy.Integer(0)
-    solved = partial(_solved if basis.equation.change is None else _solved_in_t, basis)
     apart = in_parts(right, basis.x)
-    total = [_step_response(g, basis, a, solved) for a, g in apart.steps.items()]
+    total = [_step_response(g, basis, a) for a, g in apart.steps.items()]
     total += [_impulse_response(strengths, basis, a) for a, strengths in apart.impulses.items()]
     if apart.plain != 0:
-        total.append(solved(apart.plain, start))
+        total.append(_solved(basis, apart.plain, start))
     return sympy.Add(*total)
 
 
@@ -103,7 +101,8 @@ def _solved(basis: Basis, right: Expr, start: Expr | None) -> Expr:
         found = _without_integrals(basis, right)
     if found is None:
         found = with_integrals(basis, right, start)
-    terms = sympy.Add.make_args(prepared(right)) if found.has(sympy.Integral) else ()
+    is_open = found.has(sympy.Integral) and basis.equation.change is None
+    terms = sympy.Add.make_args(prepared(right)) if is_open else ()
     # not exp(x)/x and 1/x apart, which aren't defined at 0, where the difference may be
     if not 1 < len(terms) <= _LARGEST_SUM or not (start is None or have_values(terms, basis.x, start)):
         return found
@@ -115,24 +114,20 @@ def _solved(basis: Basis, right: Expr, start: Expr | None) -> Expr:
     return sympy.Add(*known) if known else found
 
 
-def _solved_in_t(basis: Basis, right: Expr, start: Expr | None) -> Expr:
-    """A polynomial in the variable of the equation, where the whole right-hand side is rational in it; or with integrals."""
-    equation = basis.equation
-    if not equation.h:
-        with suppress(LimitExceeded):
-            polynomial = _polynomial_solution(equation, equation.f / equation.a)
-            if polynomial is not None:
-                t = Atoms(sympy.Symbol(equation.variable))
-                return in_x(equation, t.poly(polynomial).xreplace(NUMBERS))
-    return with_integrals(basis, right, start)
-
-
 def _without_integrals(basis: Basis, right: Expr) -> Expr | None:
-    """A polynomial, or a solution by undetermined coefficients: of an equation with constant coefficients, or of Euler's."""
+    """A polynomial in the variable of the equation, in which the whole right-hand side is rational.
+
+    Or by undetermined coefficients, of an equation in x with constant coefficients, or of Euler's.
+    """
     x = basis.x
-    polynomial = _polynomial_solution(basis.equation, ratfunc(right, x))
+    equation = basis.equation
+    in_t = None if equation.h else equation.f / equation.a
+    polynomial = _polynomial_solution(equation, ratfunc(right, x) if equation.change is None else in_t)
     if polynomial is not None:
-        return Atoms(x).poly(polynomial).xreplace(NUMBERS)
+        t = Atoms(sympy.Symbol(equation.variable))
+        return in_x(equation, t.poly(polynomial).xreplace(NUMBERS))
+    if equation.change is not None:
+        return None
     b, c = map(sympy.factor, basis.rates)
     if not (b.has(x) or c.has(x)):
         return undetermined(b, c, right, x)
@@ -180,12 +175,12 @@ def _polynomial_solution(equation: Equation, right: RatFunc | None) -> Poly | No
     return sum((p * k for p, k in zip(powers, found, strict=True)), f * 0)
 
 
-def _step_response(g: Expr, basis: Basis, a: Expr, solved: Callable[[Expr, Expr | None], Expr]) -> Expr:
+def _step_response(g: Expr, basis: Basis, a: Expr) -> Expr:
     """By (2); where the equation is singular at the step with any solution p: H(x - a) p is one on each side."""
     x = basis.x
     if not have_values(basis.rates, x, a):
-        return Heaviside(x - a) * solved(g, None)
-    p = solved(g, a)
+        return Heaviside(x - a) * _solved(basis, g, None)
+    p = _solved(basis, g, a)
     return Heaviside(x - a) * _from_rest(p, basis, values_at(p, x, a), a)
 
 
@@ -216,22 +211,13 @@ def _impulse_response(strengths: Mapping[int, Expr], basis: Basis, a: Expr) -> E
     singular = sympy.Integer(0)
     for order in range(max(rest), 1, -1):
         d = rest.pop(order, sympy.Integer(0))
-        j = order - 2
-        singular += d * DiracDelta(x - a, j)
-        for shares in (_at_impulse(B, d, j + 1, x, a), _at_impulse(C, d, j, x, a)):
-            for n, strength in shares.items():
-                rest[n] -= strength
+        singular += d * DiracDelta(x - a, order - 2)
+        for rate, n in ((B, order - 1), (C, order - 2)):
+            for k in range(n + 1):
+                rest[n - k] -= d * (-1) ** k * comb(n, k) * value_at(rate.diff(x, k), x, a)
     value = rest[1]
     slope = rest[0] - value_at(B, x, a) * value
     return Heaviside(x - a) * _from_rest(sympy.Integer(0), basis, (-tidy(value), -tidy(slope)), a) + singular
-
-
-def _at_impulse(rate: Expr, d: Expr, n: int, x: Expr, a: Expr) -> dict[int, Expr]:
-    """b d delta^(n), as at the head of this module: the strengths of delta^(n-k) by their orders."""
-    shares = {}
-    for k in range(n + 1):
-        shares[n - k] = d * (-1) ** k * comb(n, k) * value_at(rate.diff(x, k), x, a)
-    return shares
 
 
 # -------------------------------------------------------------------------------------------- variation of parameters

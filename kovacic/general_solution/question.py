@@ -211,7 +211,7 @@ def known_letters(
     """Symbols that know what is assumed, for x and for the letters in the parts of an equation and in its conditions."""
     known, assume = positive_variable(assume, x)
     letters = sympy.Tuple(*parts).free_symbols.union(*(condition.free_symbols for condition in conditions)) - {x}
-    return known | symbols_that_know(assume, {letter.name: letter for letter in letters})
+    return known | symbols_that_know(assume, {letter.name: letter for letter in sorted(letters, key=str)})
 
 
 def _with_assumptions(

@@ -199,14 +199,14 @@ def _forms(u: Expr, constants: Sequence[Expr], equation: FirstOrderEquation) -> 
 
 
 def _sum(terms: Sequence[Expr], x: Expr) -> Expr:
-    """The rational terms as one fraction, in factors or in partial fractions; the others with theirs in lowest terms."""
+    """The rational terms as one fraction or in partial fractions; the others with theirs in lowest terms."""
 
     def is_rational(e: Expr) -> bool:
         return bool(e.is_rational_function(x))
 
     rational, others = sympy.sift(terms, is_rational, binary=True)
     total = sympy.cancel(sympy.Add(*rational))
-    reduced = [shortest([total, sympy.factor(total), sympy.apart(total, x)])]
+    reduced = [shortest([total, sympy.apart(total, x)])]
     for term in others:
         rational, rest = sympy.sift(sympy.Mul.make_args(term), is_rational, binary=True)
         reduced.append(sympy.factor(sympy.Mul(*rational)) * sympy.Mul(*rest))

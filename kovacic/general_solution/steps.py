@@ -110,14 +110,13 @@ def with_single_steps(e: Expr) -> Expr:
 def taken_apart(right: Expr, x: Expr) -> Apart | None:
     """The parts of a right-hand side; None if a jump isn't at a constant, or products of jumps aren't known.
 
-    H(x - a) H(x - b) = H(x - b) for a <= b; beside an impulse every step is 0 or 1, and
+    H(x - a) H(x - b) = H(x - max(a, b)); beside an impulse every step is 0 or 1, and
 
     g delta^(n) = sum of (-1)^k C(n, k) g^(k)(a) delta^(n - k),    delta^(n)(s u) = delta^(n)(u)/(|s| s^n).
     """
     terms = sympy.Add.make_args(sympy.expand(right))
     if len(terms) > _MOST_TERMS:
         return None
-    plain = _NOTHING
     steps: defaultdict[Expr, Expr] = defaultdict(lambda: _NOTHING)
     impulses: defaultdict[Expr, defaultdict[int, Expr]] = defaultdict(lambda: defaultdict(lambda: _NOTHING))
     for term in map(with_single_steps, terms):
@@ -126,24 +125,21 @@ def taken_apart(right: Expr, x: Expr) -> Apart | None:
         places = [place for delta in deltas if (place := place_of(delta, x)) is not None]
         if len(deltas) > 1 or len(places) < len(deltas) or not all(_is_simple(step, x) for step in others):
             return None
-        begins = [sympy.expand(x - step.args[0]) for step in others]
+        begin = sympy.Max(*(sympy.expand(x - step.args[0]) for step in others))  # -oo without steps
         g = term / sympy.Mul(*jumps)
-        if not jumps:
-            plain += term
-        elif not deltas:
-            last = next((a for a in begins if all((a - other).is_nonnegative for other in begins)), None)
-            if last is None:
-                return None
-            steps[last] += g
-        elif not any((places[0].a - begin).is_negative for begin in begins):
-            a, slope = places[0]
-            if not all((a - begin).is_positive for begin in begins):
-                return None
-            n = int(deltas[0].args[1]) if len(deltas[0].args) > 1 else 0  # DiracDelta(u) is DiracDelta(u, 0)
-            for k in range(n + 1):
-                strength = (-1) ** k * comb(n, k) * g.diff(x, k).subs(x, a) / (abs(slope) * slope**n)
-                if strength != 0:
-                    impulses[a][n - k] += strength
+        if not deltas:
+            steps[begin] += g
+            continue
+        a, slope = places[0]
+        side = a - begin if others else sympy.S.One
+        if not (side.is_positive or side.is_negative):
+            return None
+        n = int(deltas[0].args[1]) if len(deltas[0].args) > 1 else 0  # DiracDelta(u) is DiracDelta(u, 0)
+        for k in range(n + 1):
+            strength = (-1) ** k * comb(n, k) * g.diff(x, k).subs(x, a) / (abs(slope) * slope**n)
+            if strength != 0 and side.is_positive:
+                impulses[a][n - k] += strength
+    plain = steps.pop(-sympy.oo, _NOTHING)
     return Apart(plain, {a: g for a, g in steps.items() if g != 0}, impulses)
 
 
@@ -234,10 +230,7 @@ def _in_heavisides(e: Expr, x: Expr) -> Expr:
         _, a, n = e.args
         return DiracDelta(u - a, -1 - n) if n < 0 else (u - a) ** n * Heaviside(u - a)
     if isinstance(e, sympy.Piecewise):
-        indicators = [_indicator(condition, x) for _, condition in e.args]
-        if None in indicators:
-            return e
-        *alone, missing = _alone(indicators)
+        *alone, missing = _alone([_indicator(condition, x) for _, condition in e.args])
         # with parameters that is tried at one value of each
         missing = missing.subs(next(samples(e.free_symbols - {x})))
         has_gap = any(on_piece(missing, x, point) != 0 for point in between(break_points(missing, x)))
@@ -257,20 +250,16 @@ def _alone(indicators: Sequence[Expr]) -> list[Expr]:
     return [*found, rest]
 
 
-def _indicator(condition: Expr, x: Expr) -> Expr | None:
-    """1 where a condition holds, and 0 where it doesn't, but for single points; None if that isn't known."""
-    if condition in (True, False):
-        return sympy.Integer(bool(condition))
+def _indicator(condition: Expr, x: Expr) -> Expr:
+    """1 where a condition holds, and 0 where it doesn't, but for single values of x."""
     if isinstance(condition, And | Or):
         parts = [_indicator(part, x) for part in condition.args]
-        if None in parts:
-            return None
         return sympy.Mul(*parts) if isinstance(condition, And) else 1 - _alone(parts)[-1]
-    if not condition.has(x):
+    if not isinstance(condition, sympy.Rel) or not condition.has(x):
         return sympy.Piecewise((1, condition), (0, True))
     if isinstance(condition, sympy.Eq | sympy.Ne):
         return sympy.Integer(isinstance(condition, sympy.Ne))
-    return Heaviside(condition.gts - condition.lts) if isinstance(condition, sympy.Rel) else None
+    return Heaviside(condition.gts - condition.lts)
 
 
 def _is_simple(e: Expr, x: Expr) -> bool:
@@ -295,12 +284,11 @@ def above(u: Expr, x: Expr) -> Expr:
     if not slope.has(x) and (slope.is_positive or slope.is_negative):
         step = Heaviside(x - sympy.expand(x - u / slope))
         return step if slope.is_positive else 1 - step
-    polynomial: Any = sympy.Poly(u, x) if u.is_polynomial(x) else None
-    is_known = polynomial is not None and (polynomial.domain.is_QQ or polynomial.domain.is_ZZ)
-    if not is_known or polynomial.degree() > _LARGEST_DEGREE:
+    domain = sympy.Poly(u, x).domain if u.is_polynomial(x) else None
+    if domain not in (sympy.ZZ, sympy.QQ) or sympy.degree(u, x) > _LARGEST_DEGREE:
         return Heaviside(u)
     beyond = {-sympy.oo: sympy.Integer(1), sympy.oo: sympy.Integer(0)}
-    ends = ((end.start, end.end) for end in solve_poly_inequality(polynomial, ">"))
+    ends = ((end.start, end.end) for end in solve_poly_inequality(sympy.Poly(u, x), ">"))
     steps = [beyond.get(a, Heaviside(x - a)) - beyond.get(b, Heaviside(x - b)) for a, b in ends]
     return sympy.Add(*steps)
 

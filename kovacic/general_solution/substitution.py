@@ -6,7 +6,7 @@ How much SymPy writes when it expands an expression is counted before, since it 
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Callable, Iterable
 from dataclasses import dataclass, replace
 from functools import reduce
 from operator import mul
@@ -31,17 +31,26 @@ _MANY = 10**4
 _MONOMIAL = 5
 
 
-class _SingularError(Exception):
-    """A subexpression isn't finite at the point."""
-
-
 def finite_value(expression: Expr, x: Expr, point: Expr) -> Expr | None:
-    """The value at a point; None if it isn't finite."""
+    """The value at a point, also of a series at 0, or of an integral from the point on; None if it isn't finite."""
     check_time()
+    totals = {}
+    # Beside the root alone: SymPy's substitution would compute rational sums exactly, without end.
+    for total in expression.atoms(sympy.RootSum):
+        term = finite_value(total.fun.expr, x, point)
+        if term is None:
+            return None
+        totals[total] = sympy.RootSum(total.poly, sympy.Lambda(total.fun.variables, term), auto=False)
     try:
-        return _substituted(expression, x, point)
-    except _SingularError:
+        value = expression.xreplace(totals).subs(x, point)
+    except TypeError:  # SymPy has compared a part that isn't a number
         return None
+    if value.has(sympy.hyper, sympy.Integral, *_ODD):
+        value = _at_zero(value)
+    zeros = {power: sign_of_root(power.exp) for power in value.atoms(sympy.Pow) if power.base == 0}
+    value = value.xreplace(dict.fromkeys(zeros, _ZERO))
+    is_known = {1} >= {*zeros.values()} and not any(map(_may_diverge, value.atoms(sympy.hyper)))
+    return value if is_known and _OPEN.isdisjoint(value.atoms()) else None
 
 
 def slope(expression: Expr, x: Expr) -> Expr:
@@ -67,26 +76,6 @@ def slope(expression: Expr, x: Expr) -> Expr:
         own = {dummy: symbol for symbol, dummy in real.items()}
         return expression.xreplace(real).diff(real.get(x, x)).xreplace(own)
     return expression.diff(x)
-
-
-def _substituted(e: Expr, x: Expr, point: Expr) -> Expr:
-    """The value of a function, of a series at 0, or of an integral from the point on."""
-    # Beside the root alone: SymPy's substitution would compute rational sums exactly, without end.
-    sums = e.atoms(sympy.RootSum)
-    terms = {r: sympy.Lambda(r.fun.variables, _substituted(r.fun.expr, x, point)) for r in sums}
-    e = e.xreplace({r: sympy.RootSum(r.poly, term, auto=False) for r, term in terms.items()})
-    try:
-        value = e.subs(x, point)
-    except TypeError:  # SymPy has compared a part that isn't a number
-        raise _SingularError from None
-    if value.has(sympy.hyper, sympy.Integral, *_ODD):
-        value = _at_zero(value)
-    zeros = {power: sign_of_root(power.exp) for power in value.atoms(sympy.Pow) if power.base == 0}
-    value = value.xreplace(dict.fromkeys(zeros, _ZERO))
-    is_known = {1} >= {*zeros.values()} and not any(map(_may_diverge, value.atoms(sympy.hyper)))
-    if not is_known or not _OPEN.isdisjoint(value.atoms()):
-        raise _SingularError
-    return value
 
 
 def _may_diverge(f: Expr) -> bool:
@@ -172,9 +161,9 @@ def _expression_size(expression: Expr, degree: float) -> _Size:
     if expression.is_Number:
         return _Size(1, 1, 0)
     inner = [_expression_size(part, degree) for part in expression.args]
+    parts = sum(one.parts for one in inner)
     if expression.is_Add:
-        terms = sum(one.terms for one in inner)
-        return _Size(terms, _parts_size(inner), max(one.degree for one in inner))
+        return _Size(sum(one.terms for one in inner), parts, max(one.degree for one in inner))
     if expression.is_Mul:
         return reduce(mul, sorted(inner, key=lambda part: part.degree))
     if expression.is_Pow and expression.exp.is_Rational and expression.exp >= 1:
@@ -182,8 +171,4 @@ def _expression_size(expression: Expr, degree: float) -> _Size:
         if expression.exp.is_Integer:
             return power
         return replace(power, degree=math.inf)  # u^(7/3) is expanded as u^2 u^(1/3)
-    return _Size(1, 1 + _parts_size(inner), math.inf)
-
-
-def _parts_size(sizes: Sequence[_Size]) -> float:
-    return sum(one.parts for one in sizes)
+    return _Size(1, 1 + parts, math.inf)

@@ -92,28 +92,28 @@ def _polynomials(right: Expr, x: Expr) -> dict[Rate, dict[int, Complex]] | None:
         return None
     result: dict[Rate, dict[int, Complex]] = {}
     for summand in summands:
-        constant, rest = summand.as_independent(x, as_Add=False)
-        coefficient: Complex = (constant, sympy.S.Zero)
+        number, rest = summand.as_independent(x, as_Add=False)
+        coefficient: Complex = (number, sympy.S.Zero)
         degree = 0
         rho = omega = sympy.Integer(0)
         for factor in sympy.Mul.make_args(rest):
             base, exponent = factor.as_base_exp()
             is_wave = factor.func in (sin, cos)
-            line = _line(factor.args[0] if is_wave else exponent, x)
+            constant, slope = _line(factor.args[0] if is_wave else exponent, x)
             if base == x and exponent.is_Integer and 0 <= exponent <= _LARGEST:
                 degree += int(exponent)
-            elif line is not None and is_wave and omega == 0:
-                phase, omega = line
+            elif slope.has(x):
+                return None
+            elif is_wave and omega == 0:
+                omega = slope
                 # the sine is the cosine of an angle that is pi/2 less
-                turned = (cos(phase), sin(phase)) if factor.func is cos else (sin(phase), -cos(phase))
-                coefficient = _product(coefficient, turned)
-            elif line is not None and not base.has(x):
-                coefficient = _product(coefficient, (base**line.constant, sympy.S.Zero))
-                rho += line.slope * sympy.log(base)
+                c, s = cos(constant), sin(constant)
+                coefficient = _product(coefficient, (c, s) if factor.func is cos else (s, -c))
+            elif not base.has(x):
+                coefficient = _product(coefficient, (base**constant, sympy.S.Zero))
+                rho += slope * sympy.log(base)
             else:
                 return None
-        if omega.could_extract_minus_sign():  # a number and its conjugate have the same real part
-            omega, coefficient = -omega, (coefficient[0], -coefficient[1])
         P = result.setdefault(Rate(rho, omega), defaultdict(lambda: _ZERO))
         P[degree] = (P[degree][0] + coefficient[0], P[degree][1] + coefficient[1])
     return result
@@ -131,18 +131,10 @@ def _summands(right: Expr, x: Expr) -> Sequence[Expr] | None:
     return summands if len(summands) <= _LARGEST else None
 
 
-class _Line(NamedTuple):
-    """constant + slope * x."""
-
-    constant: Expr
-    slope: Expr
-
-
-def _line(expression: Expr, x: Expr) -> _Line | None:
-    """An expression as a line; None for another one."""
-    rest, linear = sympy.expand(expression).as_independent(x, as_Add=True)
-    slope = sympy.Add(*(term / x for term in sympy.Add.make_args(linear)))
-    return None if slope.has(x) else _Line(rest, slope)
+def _line(expression: Expr, x: Expr) -> tuple[Expr, Expr]:
+    """p and q of p + q x, where q has x if the expression is no line."""
+    constant, linear = sympy.expand(expression).as_independent(x, as_Add=True)
+    return constant, sympy.Add(*(term / x for term in sympy.Add.make_args(linear)))
 
 
 def _solved(b: Expr, c: Expr, rate: Rate, P: dict[int, Complex]) -> dict[int, Complex] | None:

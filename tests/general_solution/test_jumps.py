@@ -201,10 +201,12 @@ AT_A_LETTER = [
     DiracDelta(x - A, 2),
     Piecewise((x, x < A), (1, True)),
     Piecewise((x, A > 1), (1, True)),
+    Heaviside(x - A) * Heaviside(x - 1),
+    sympy.sign(x - A) * sympy.sign(x - 1),
 ]
 
 
-@parametrize(("f", "left"), product(AT_A_LETTER, [(0, 1), (3, 2)]), ordinary=(0, 22), long=2)
+@parametrize(("f", "left"), product(AT_A_LETTER, [(0, 1), (3, 2)]), ordinary=(0, 22, 24), long=2)
 def test_a_step_at_a_parameter_beside_the_given_values(f: Any, left: tuple[Any, Any]) -> None:
     """At every value of a, before the given point, behind it and there, the answer with a is the one for that value."""
     b, c = map(sympy.sympify, left)
