@@ -37,6 +37,7 @@ from __future__ import annotations
 from collections.abc import Iterable
 from dataclasses import dataclass, field, replace
 from fractions import Fraction
+from functools import partial
 from math import gcd, lcm
 
 import sympy
@@ -222,14 +223,14 @@ def _curve_terms(integral: CurveIntegral, atoms: Atoms, *, alone: bool, exponent
             terms.notes = (f"integral left because {integral.reason}",)
         else:
             for u in integral.units:
-                _append_unit(u, root, atoms, terms, integral.g)
+                _append_unit(u, root, atoms, terms, integral.g, exponents=exponents)
         return terms
     if integral.rest:
         _append_rest(integral, atoms, terms, alone=alone, exponents=exponents)
     for residue in integral.residues:
         found = unit(integral.g, residue)
         if found is not None:
-            _append_unit(found, root, atoms, terms, integral.g)
+            _append_unit(found, root, atoms, terms, integral.g, exponents=exponents)
         else:
             terms.others.append(_root_sum(integral, residue, root, atoms))
     return terms
@@ -273,8 +274,10 @@ def _inverse_sine(g: Poly, atoms: Atoms, *, exponents: bool) -> Expr | None:
     return asinh(z)
 
 
-def _append_unit(u: Unit, root: Expr, atoms: Atoms, terms: _Terms, g: Poly) -> None:
+def _append_unit(u: Unit, root: Expr, atoms: Atoms, terms: _Terms, g: Poly, *, exponents: bool) -> None:
     """factor * log((A + B tau s)/sqrt(norm))/tau, or the arc tangent for tau^2 < 0."""
+    has_norm = exponents or u.p is None  # which is a power of kappa/tau
+    root_of = atoms.sqrt if has_norm else partial(atoms.sqrt_beside, g=g)
     factor = rational(u.factor)
     A = u.A
     B = u.B
@@ -282,12 +285,12 @@ def _append_unit(u: Unit, root: Expr, atoms: Atoms, terms: _Terms, g: Poly) -> N
     A = A / content
     B = B / content
     if atoms.is_negative(u.tau_squared):
-        eta = atoms.sqrt(-u.tau_squared)
+        eta = root_of(-u.tau_squared)
         a, top = atoms.primitive(A)
         b, bottom = atoms.primitive(B)
         terms.others.append(atan(Mul(atoms.constant(a / b) / eta, top, 1 / bottom, 1 / root)) * -factor / eta)
         return
-    tau = atoms.sqrt(u.tau_squared)
+    tau = root_of(u.tau_squared)
     argument = atoms.poly(A) + sympy.expand_mul(tau * atoms.poly(B)) * root
     if u.p is None:
         norm = u.norm(g)
