@@ -267,9 +267,16 @@ def _by_parts(inverse: Expr, g: Expr, x: Expr) -> Expr | None:
 
 
 def _slope(function: Expr, x: Expr) -> Expr:
-    """1/sqrt(x^2 + 1) for log(x + sqrt(x^2 + 1))."""
+    """1/sqrt(x^2 + 1) for log(x + sqrt(x^2 + 1)), and a/sqrt(b^2 - a^2 x^2) for asin(a x/sqrt(b^2))."""
     slope = sympy.cancel(function.diff(x))
-    return sympy.powsimp(sympy.radsimp(slope)) if isinstance(function, log) else slope
+    if isinstance(function, log):
+        return sympy.powsimp(sympy.radsimp(slope))
+    if slope.free_symbols == {x} or slope.is_rational_function(x):
+        return slope
+    P, square = sympy.fraction(sympy.cancel(1 / slope**2))
+    c = sympy.powdenest(sympy.sqrt(square), force=True)
+    is_right = P.is_polynomial(x) and sympy.cancel(slope.subs(x, 0) * sympy.sqrt(P.subs(x, 0)) / c) == 1
+    return c / sympy.sqrt(sympy.expand(P)) if is_right else slope
 
 
 def _beside_logarithm(logarithm: Expr, g: Expr, x: Expr) -> Expr | None:
