@@ -70,12 +70,15 @@ class ProblemAnswer:
         Why the answer couldn't be put into the equation, or into a condition; empty where it was.
     known : mapping
         Symbols that know what was assumed, for the user's own.
+    exceptional : tuple of sympy.Expr
+        Exceptions of the pair from which a system or a Riccati equation has its solutions.
     """
 
     eq: Expr
     notices: list[str]
     unchecked: tuple[str, ...] = field(default=(), kw_only=True)
     known: Mapping[Expr, Expr] = field(default_factory=dict, kw_only=True)
+    exceptional: tuple[Expr, ...] = field(default=(), kw_only=True)
 
     def __repr__(self) -> str:
         return f"<{type(self).__name__}: {self}>"
@@ -96,7 +99,7 @@ class ProblemAnswer:
     @property
     def pair_exceptions(self) -> tuple[Expr, ...]:
         """Where one of these is zero, the two solutions in the answer are dependent or undefined."""
-        return ()
+        return self.exceptional
 
     @property
     def exceptions(self) -> tuple[Exceptional, ...]:
@@ -205,17 +208,9 @@ class FirstOrderAnswer(ProblemAnswer):
 
 @dataclass(frozen=True, repr=False)
 class SystemAnswer(ProblemAnswer):
-    """The answer to a system of two equations, whose `eq` is a list: x(t) = ..., y(t) = ...
-
-    `exceptional` are the exceptions of the pair of which the first unknown consists.
-    """
+    """The answer to a system of two equations, whose `eq` is a list: x(t) = ..., y(t) = ..."""
 
     eq: list[Expr]
-    exceptional: tuple[Expr, ...] = field(default=(), kw_only=True)
-
-    @property
-    def pair_exceptions(self) -> tuple[Expr, ...]:
-        return self.exceptional
 
     @property
     def equations(self) -> Sequence[Expr]:

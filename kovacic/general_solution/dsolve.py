@@ -354,14 +354,16 @@ def _first_order(
     conditions = tuple(reader.read(key, value) for key, value in as_mapping(ics).items())
     known = known_letters(assume, found.x, (*found.parts, found.power), conditions)
     equation, conditions = found.in_symbols(known), tuple(condition.in_symbols(known) for condition in conditions)
+    exceptional: tuple[Expr, ...] = ()
     if equation.is_linear:
         solution, notices = solved_linear(equation, conditions)
     else:
-        solution, notices = solved_riccati(equation, conditions, solver)
+        solution, notices, exceptional = solved_riccati(equation, conditions, solver)
     solution = solution.xreplace({symbol: own for own, symbol in known.items()})
     if has_floats(eq, as_mapping(ics)):
         solution = sympy.Eq(solution.lhs, with_floats(solution.rhs), evaluate=False)
-    return FirstOrderAnswer(solution, [*equation.guesses, *notices], equation, conditions, known=known)
+    notices = [*equation.guesses, *notices]
+    return FirstOrderAnswer(solution, notices, equation, conditions, known=known, exceptional=exceptional)
 
 
 def _solved(question: Question, budget: Budget, *, special: bool) -> ProblemAnswer:

@@ -83,14 +83,17 @@ def solved_riccati(
     equation: FirstOrderEquation,
     conditions: Sequence[Condition],
     solver: Callable[..., Any],
-) -> tuple[Expr, list[str]]:
-    """w(x) = ..., checked, and what is to be said beside; `solver` is `answer_to`, for the linear equation.
+) -> tuple[Expr, list[str], tuple[Expr, ...]]:
+    """w(x) = ..., checked, what is to be said beside, and the exceptions of the pair in it.
+
+    `solver` is `answer_to`, for the linear equation.
 
     Raises `NotImplementedError` for a value at a point where neither linear equation is known to be regular.
     """
     value = value_of(conditions)
     x = equation.x
     constants: tuple[Expr, ...] = ()
+    exceptions: tuple[Expr, ...] = ()
     if equation.power != 2 or (equation.p == 0 and (value is None or equation.is_regular_at(value.point))):
         forms = _of_bernoulli(equation, conditions, value)
         notices = exceptions_of(sympy.Tuple(*forms), x, equation.parts)
@@ -99,7 +102,9 @@ def solved_riccati(
     else:
         is_inverted = _is_inverted(equation, value)
         solved_for = equation.of_inverse if is_inverted else equation
-        u, constants, notices = _solved_linear(equation, solved_for, value, solver)
+        u, constants, linear = _solved_linear(equation, solved_for, value, solver)
+        notices = linear.notices
+        exceptions = tuple(e.xreplace(linear.own) for e in linear.pair_exceptions)
         forms = [*_forms(u, constants, solved_for)]
         if is_inverted:  # over one denominator, which doesn't divide by 1/w
             forms = [next(over_one_denominator(1 / w, x), 1 / w) for w in forms]
@@ -109,7 +114,7 @@ def solved_riccati(
     if len(constants) < 2:
         w = in_book_form(w, x)
     unchecked = check_first_order(equation, w, conditions)
-    return sympy.Eq(equation.function, w, evaluate=False), notices + unchecked
+    return sympy.Eq(equation.function, w, evaluate=False), notices + unchecked, exceptions
 
 
 def _of_bernoulli(
@@ -134,8 +139,8 @@ def _solved_linear(
     solved_for: FirstOrderEquation,
     value: GivenValue | None,
     solver: Callable[..., Any],
-) -> tuple[Expr, tuple[Expr, ...], list[str]]:
-    """u, its free constants, and what is to be said beside.
+) -> tuple[Expr, tuple[Expr, ...], Any]:
+    """u, its free constants, and the answer of the solver.
 
     For a value at an ordinary point it is the solution with values of u and u'; else all of them, or those through the
     value.  Raises `NotImplementedError` where u1, u2, -u1'/r or -u2'/r has no value there that is found.
@@ -150,8 +155,8 @@ def _solved_linear(
             u_there, slope_there = value.v, equation.p.subs(here)
         start = {u.subs(here): u_there, u.diff().subs(here): slope_there}
     answer = solver(linear, u, ics=start)
-    # Letters of their own for C1 and C2, which may be symbols of r, or of the value, too.
-    own = sympy.Tuple(linear, *start.values()).free_symbols
+    # Letters of their own for C1 and C2, which may be symbols of r, of the value or of its point, too.
+    own = sympy.Tuple(linear, *start, *start.values()).free_symbols
     letters = {symbol: sympy.Dummy() for symbol in sorted(answer.eq.rhs.free_symbols - own, key=str)}
     solution = answer.eq.rhs.xreplace(letters)
     constants = tuple(letters.values())
@@ -161,7 +166,7 @@ def _solved_linear(
         misses = [s - value.v * value_at(y, x, value.point) for s, y in zip(slopes, basis, strict=True)]
         if not all(map(is_zero, misses)):
             solution = misses[1] * basis[0] - misses[0] * basis[1]
-    return solution, constants, answer.notices
+    return solution, constants, answer
 
 
 def _is_inverted(equation: FirstOrderEquation, value: GivenValue | None) -> bool:

@@ -274,3 +274,22 @@ def test_quotients_of_waves_are_reduced(text: str, point: Any) -> None:
     p, r = (sympy.sympify(part.replace("^", "**")) for part in text.partition("= ")[2].replace("*w^2", "").split(" - "))
     residual = found.diff(x) - p * found**2 + r
     assert size(residual.subs({x: sympy.Rational(3, 7), sympy.Symbol("C1"): 3})) < 1e-15
+
+
+@pytest.mark.parametrize(
+    ("text", "needed"),
+    [
+        ("y' = y^2 + k", "k > 0, cos(C1 + sqrt(k)*x) != 0"),
+        ("y' = y^2 - k^2", "C1*exp(2*k*x) + 1 != 0, k != 0"),
+        ("y' = y^2 + k*x", "k > 0, C1*airyai(-k**(1/3)*x) + airybi(-k**(1/3)*x) != 0"),
+    ],
+)
+def test_solutions_are_not_all_of_them_where_the_linear_pair_is_dependent(text: str, needed: str) -> None:
+    """At k = 0 the formulas are 0, and the solutions are 0 and 1/(C1 - x)."""
+    assert str(kovacic.answer_to(text).validity) == needed
+    assert str(kovacic.validity(kovacic.dsolve(text))) == needed
+
+
+def test_a_letter_may_stand_in_the_point_of_the_value_alone() -> None:
+    a, b, x = sympy.symbols("a b x")
+    assert kovacic.dsolve("y' = 1 + y^2, y(a) = b").rhs == sympy.tan(x - a + sympy.atan(b))
