@@ -259,6 +259,7 @@ def test_solutions_use_the_root_that_was_meant() -> None:
         ("x^6+2*sqrt(2)*x^4-5*x^2-E", 2, ["3*sqrt(2) + 4", "3*sqrt(2) - 4"]),
     ],
     ordinary=(2,),
+    long=1,
 )
 def test_degrees_that_only_an_algebraic_constant_makes_natural(S: str, degree: int, energies: list[str]) -> None:
     found = kovacic.conditions(S)

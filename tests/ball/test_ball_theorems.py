@@ -150,7 +150,7 @@ def test_theorem_2_formula_for_all_ratios_and_roots():
     assert satisfies(closed_form(InRoots(k)), InRoots(k), IN_ROOTS)
 
 
-@parametrize("part", ["omega", "y", "omega_3", "n"], ordinary=0, long=2)
+@parametrize("part", ["omega", "y", "omega_3", "n"], ordinary=0, long=1)
 def test_a_wrong_sign_in_a_closed_form_is_seen(part):
     for rho in (k, sp.Rational(3, 2)):
         good = closed_form(InRoots(rho))

@@ -80,7 +80,7 @@ WELLS = [
 ]
 
 
-@parametrize("well", WELLS, ordinary=0, long=2, ids=lambda well: f"{well.V} on {well.domain}")
+@parametrize("well", WELLS, ordinary=0, long=1, ids=lambda well: f"{well.V} on {well.domain}")
 def test_levels_are_those_of_the_matrix(well: Well) -> None:
     """A state with k zeros is the eigenvalue number k of the matrix; a formula for all gives each below its highest one."""
     given = {"domain": well.domain, "boundary": well.boundary}

@@ -53,7 +53,7 @@ LONG = [pytest.param("ball", 1, 4, marks=pytest.mark.slow)]
     ("command", "first", "last"),
     [*((name, 0, 1 if name == "ball" else None) for name in COMMANDS), *LONG],
     ordinary=0,
-    long=6,
+    long=(0, 7, 11),
 )
 def test_the_examples_run(
     command: str,

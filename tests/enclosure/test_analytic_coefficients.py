@@ -107,7 +107,7 @@ def odefun(b: Any, c: Any, x0: float, place: float) -> Any:
         ("y'' + (2 + cos(x) + sin(2*x))*y = 0", 0, 7, lambda t: 0, lambda t: 2 + mpmath.cos(t) + mpmath.sin(2 * t)),
     ],
     ordinary=0,
-    long=2,
+    long=1,
 )
 def test_trigonometric_equations_between_their_singular_points(
     equation: str, x0: Any, place: Any, b: Any, c: Any
@@ -170,7 +170,7 @@ KINK = ("y'' + asin(sin(x))*y = 0", 0, 3)
         KINK,
     ],
     ordinary=2,
-    long=4,
+    long=1,
     always=[KINK],
 )
 def test_no_singular_point_is_passed(equation: str, x0: Any, place: Any) -> None:
@@ -231,7 +231,7 @@ def test_waves_of_which_the_common_angle_is_small(text: str) -> None:
         ("y'' + (tan(20*x)*cos(20*x) + cot(x)*tan(x))*y = 0", 5),
     ],
     ordinary=0,
-    long=3,
+    long=1,
 )
 def test_quotients_of_waves_without_singular_points_are_on_the_way(text: str, stop: int) -> None:
     there = kovacic.evaluate(text, stop, x0=1, y0=1, dy0=0, derivative=True, digits=32)

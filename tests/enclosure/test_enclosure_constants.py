@@ -56,7 +56,7 @@ def test_a_transcendental_value_and_many_points() -> None:
             assert all(ball_to_flint(ball).real.overlaps(exact) for ball in others)
 
 
-@parametrize("n", ["3", "sqrt(3)", "-pi", "1/2"], ordinary=(2,))
+@parametrize("n", ["3", "sqrt(3)", "-pi", "1/2"], ordinary=(2,), long=1)
 def test_singular_points_and_exponents_that_arent_rational(n: str) -> None:
     # y = ((sqrt(2) - x)/sqrt(2))^n solves y'' = n (n - 1)/(x - sqrt(2))^2 y
     S = "n*(n - 1)/(x^2 - 2*sqrt(2)*x + 2)"

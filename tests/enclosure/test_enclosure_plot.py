@@ -182,6 +182,7 @@ def test_a_growing_solution_leaves_the_rest_to_be_seen() -> None:
         ("x^2*y'' + x*y' + x^2*y = 0", 60, {}),
     ],
     ordinary=1,
+    long=1,
 )
 def test_what_grows_evenly_is_drawn_whole_on_a_linear_axis(equation: str, stop: int, options: dict[str, Any]) -> None:
     axes = plot(equation, "1/10" if "x^2" in equation else 0, stop, **options).axes[0]
@@ -214,6 +215,7 @@ def test_the_plot_command_writes_a_picture(tmp_path: Path, capsys: pytest.Captur
         (["x^3+x", "--from", "-90", "--to", "90", "-o", "a.png", "--limit", "seconds=0.001"], 3, "time limit"),
     ],
     ordinary=3,
+    long=(1, 6),
 )
 def test_the_plot_command_refuses_wrong_input(
     arguments: list[str], status: int, words: str, capsys: pytest.CaptureFixture[str]

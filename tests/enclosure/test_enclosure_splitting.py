@@ -146,7 +146,7 @@ def random_system(rng: random.Random) -> System:
     return System.make(tuple(rng.choice([-9, -1, 0, 1, 4, 99]) for _ in range(rng.randint(0, 3))), tuple(den))
 
 
-@parametrize("seed", range(10), ordinary=1, long=5)
+@parametrize("seed", range(10), ordinary=1, long=(1, 2))
 def test_both_ways_agree_at_a_thousand_digits_with_end_points_of_any_length(seed: int) -> None:
     """Short ends (mirrored legs), decimal ones, and ones of a thousand digits; on the real axis, or beside it."""
     rng = random.Random(seed)

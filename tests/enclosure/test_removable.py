@@ -26,7 +26,7 @@ CASES: list[tuple[str, float, float, Callable[[float], float], float]] = [
 ]
 
 
-@parametrize(("coefficient", "x0", "x", "function", "limit"), CASES, ordinary=(0, 4))
+@parametrize(("coefficient", "x0", "x", "function", "limit"), CASES, ordinary=(0, 4), long=2)
 def test_removable_singularities_are_on_the_way(
     coefficient: str, x0: float, x: float, function: Callable[[float], float], limit: float
 ) -> None:
@@ -45,7 +45,7 @@ def test_removable_singularities_are_on_the_way(
     assert abs(sharper.to_mpmath() - balls[0].to_mpmath()) <= balls[0].radius
 
 
-@parametrize("coefficient", ["cos(x)/x", "sin(x)/x^2", "sqrt(x)/x", "x/sin(x)/(x - 1/2)"], ordinary=(2,))
+@parametrize("coefficient", ["cos(x)/x", "sin(x)/x^2", "sqrt(x)/x", "x/sin(x)/(x - 1/2)"], ordinary=(2,), long=1)
 def test_poles_stay_singular(coefficient: str) -> None:
     with pytest.raises(kovacic.InputError, match="analytic"):
         kovacic.evaluate(f"y'' + ({coefficient})*y = 0", 1, x0=-1, y0=1, dy0=0)

@@ -44,7 +44,7 @@ def integrands(count: int) -> Iterator[Any]:
         yield from sympy.Add.make_args(whole)
 
 
-@parametrize("claim", antiderivatives._RULES, ordinary=0, long=11)
+@parametrize("claim", antiderivatives._RULES, ordinary=0, long=(0, 2, 5, 7, 9))
 def test_each_rule_alone_finds_antiderivatives(claim: str, monkeypatch: pytest.MonkeyPatch) -> None:
     rule = antiderivatives._RULES[claim]
     monkeypatch.setattr(antiderivatives, "_RULES", {claim: rule})
@@ -110,7 +110,7 @@ def test_roots_that_are_real_on_an_interval_alone(term: Any) -> None:
         assert jet(found, x, point)[1].overlaps(jet(term, x, point)[0])
 
 
-@parametrize("c", ["I", "1+2*I", "sqrt(2)", "-1-sqrt(3)"], ordinary=2)
+@parametrize("c", ["I", "1+2*I", "sqrt(2)", "-1-sqrt(3)"], ordinary=2, long=1)
 def test_roots_of_numbers_before_an_integral_stay_roots(c: str) -> None:
     """1/sqrt(-i) stood before it as a power of `CRootOf(_Dummy**4 + 1, 2)`."""
     found = kovacic.dsolve(f"y'' + ({c})*y = log(x)").rhs

@@ -184,7 +184,7 @@ INTEGRATED = [
 ]
 
 
-@parametrize(("a2", "a1", "a0", "f", "interval"), INTEGRATED, ids=str, ordinary=0, long=8)
+@parametrize(("a2", "a1", "a0", "f", "interval"), INTEGRATED, ids=str, ordinary=0, long=(0, 2, 10))
 def test_values_are_those_of_an_integration(a2: str, a1: str, a0: str, f: str, interval: tuple[Any, Any]) -> None:
     """Generated points and values: the conditions hold, and between them the solution is that of Dormand and Prince."""
     random = Random(a2 + a1 + a0 + f)
@@ -260,7 +260,7 @@ POLES: list[Callable[[Any], Any]] = [
 
 
 @parametrize(
-    ("equation", "p"), [(equation, p) for equation in POLES for p in (1, sqrt(2), cbrt(5))], ordinary=(0, 15), long=4
+    ("equation", "p"), [(equation, p) for equation in POLES for p in (1, sqrt(2), cbrt(5))], ordinary=(0, 15), long=2
 )
 def test_values_on_two_sides_of_a_pole(equation: Callable[[Any], Any], p: Any) -> None:
     """The pole was found where coefficients were rational, or a logarithm changed its sign."""
@@ -341,7 +341,7 @@ def test_limits(left: Any, ics: dict[Any, Any], expected: Any) -> None:
         ("x^2*y'' + (2*v+1)*x*y' - k*y = 0", "y(1)=1, y(0)=0", POSITIVE, "x**(-v + sqrt(k + v**2))"),
     ],
     ordinary=(0,),
-    long=4,
+    long=(1, 7, 10),
     ids=str,
 )
 def test_limits_with_letters(text: str, ics: str | None, assume: dict[str, str], expected: str) -> None:

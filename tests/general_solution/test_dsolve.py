@@ -369,6 +369,7 @@ n = sympy.Symbol("n", integer=True, positive=True)
         x**2 * y(x).diff(x, 2) + 2 * x * y(x).diff(x) + (x**2 - n * (n + 1)) * y(x),
     ],
     ordinary=1,
+    long=(1, 3),
     ids=["Hermite", "Legendre", "Bessel", "spherical Bessel"],
 )
 def test_assumptions_are_part_of_what_is_proven(left: sympy.Expr) -> None:
@@ -735,7 +736,7 @@ def test_values_as_one_text() -> None:
         ("y'' = log(x)", "y(-1)=0, y(1)=0"),
     ],
     ordinary=0,
-    long=2,
+    long=1,
 )
 def test_values_on_both_sides_of_a_pole_on_the_right(text: str, values: str) -> None:
     """Integrals from one to the other would diverge, and logarithms have other branches."""
@@ -831,7 +832,7 @@ KLEIN_AT_ORDINARY_POINTS = [
     ("a", "c", "start"),
     [(a, c, start) for a, c in KLEIN_AT_ORDINARY_POINTS for start in (Rational(-1, 2), 0, Rational(1, 3))],
     ordinary=0,
-    long=3,
+    long=1,
     ids=str,
 )
 def test_klein_solutions_join_at_ordinary_points(a: sympy.Expr, c: sympy.Expr, start: Any) -> None:
@@ -976,7 +977,7 @@ def test_an_integral_beside_a_tangent_begins_at_the_initial_value() -> None:
         ("y'' = tanh(x)", 1),
     ],
     ordinary=0,
-    long=6,
+    long=3,
 )
 def test_right_hand_sides_beside_functions_of_x(equation: str, integrals: int) -> None:
     """Substituted between and beyond poles, an integral as a function with its integrand as the derivative."""

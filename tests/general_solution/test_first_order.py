@@ -297,7 +297,7 @@ def test_systems_with_values(problem: tuple[Any, Any, int, Any, Any]) -> None:
         assert abs(number(answer.rhs, start + 0.75, t) - value) < 1e-12 * (1 + abs(value))
 
 
-@parametrize("problem", SYSTEMS, ids=str, ordinary=(0, 15, 22), long=4)
+@parametrize("problem", SYSTEMS, ids=str, ordinary=(0, 15, 22), long=2)
 @pytest.mark.filterwarnings("ignore:this holds unless")
 def test_general_solutions_of_systems(problem: tuple[Any, Any, int, Any, Any]) -> None:
     first, second, start, *_ = problem
@@ -392,7 +392,7 @@ JUMPS = ["Heaviside(t - 1)", "Piecewise((1, t < 1), (0, True))", "abs(t - 1)"]
     ("system", "jump"),
     product(JUMPING, JUMPS),
     ordinary=(12,),
-    long=6,
+    long=2,
 )
 def test_the_unknowns_of_a_system_are_continuous_at_jumps(system: tuple[str, str], jump: str) -> None:
     first, second = system

@@ -84,7 +84,7 @@ def test_impulses_of_higher_order() -> None:
         sympy.Abs(sympy.Abs(x) - 1),
     ],
     ordinary=0,
-    long=4,
+    long=(0, 1),
 )
 def test_corners(f: Any) -> None:
     """The equation holds between the corners, and y and y' are continuous: the differences are those of a solution."""
@@ -206,7 +206,7 @@ AT_A_LETTER = [
 ]
 
 
-@parametrize(("f", "left"), product(AT_A_LETTER, [(0, 1), (3, 2)]), ordinary=(0, 22, 24), long=2)
+@parametrize(("f", "left"), product(AT_A_LETTER, [(0, 1), (3, 2)]), ordinary=(0, 22, 24), long=1)
 def test_a_step_at_a_parameter_beside_the_given_values(f: Any, left: tuple[Any, Any]) -> None:
     """At every value of a, before the given point, behind it and there, the answer with a is the one for that value."""
     b, c = map(sympy.sympify, left)
@@ -278,7 +278,7 @@ def test_green_functions_from_a_singular_point_to_infinity(left: str, below: Any
         sympy.exp(sympy.sin(sympy.sign(x))),
     ],
     ordinary=(6,),
-    long=3,
+    long=1,
 )
 def test_functions_of_steps_are_integrated_on_either_side(f: Any) -> None:
     """No integral is left; y = H u + (1 - H) v, checked at points on all sides."""
@@ -350,7 +350,7 @@ def test_a_shift_is_written_as_the_impulse_is() -> None:
 LOADS = [-Heaviside(x - A) * (x - A), -DiracDelta(x - A, 1), Heaviside(x - A) - Heaviside(x - A - 1), x - abs(x - A)]
 
 
-@parametrize(("f", "c"), product(LOADS, [0, 1]), ordinary=1, long=3)
+@parametrize(("f", "c"), product(LOADS, [0, 1]), ordinary=1, long=(1, 5))
 def test_a_load_between_two_ends_at_parameters(f: Any, c: int) -> None:
     """A beam or a string from 0 to L, the load before it, on it and behind it."""
     L = sympy.Symbol("L", real=True)
@@ -367,7 +367,10 @@ def test_a_load_between_two_ends_at_parameters(f: Any, c: int) -> None:
 
 
 @parametrize(
-    "n", [-3, -2, pytest.param(-1, marks=pytest.mark.filterwarnings("ignore:this holds for")), 0, 1, 2], ordinary=(0, 2)
+    "n",
+    [-3, -2, pytest.param(-1, marks=pytest.mark.filterwarnings("ignore:this holds for")), 0, 1, 2],
+    ordinary=(0, 2),
+    long=1,
 )
 def test_macaulays_brackets(n: int) -> None:
     """<x - a>^n begins at a, with n derivatives there, and is a point load, a moment, ... for negative n."""
@@ -387,7 +390,7 @@ PIECES: list[tuple[str, Any]] = [
 ]
 
 
-@parametrize(("order", "given"), product([1, 2], PIECES), ordinary=(2,))
+@parametrize(("order", "given"), product([1, 2], PIECES), ordinary=(2,), long=1)
 def test_pieces_in_a_text_are_those_of_sympy(order: int, given: tuple[str, Any]) -> None:
     text, pieces = given
     primes = "''"

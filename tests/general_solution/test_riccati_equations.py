@@ -46,7 +46,7 @@ def number(e: Any, at: Any = 1.25, constant: Any = 2) -> Any:
         return plain(mpmath.mpf(at), mpmath.mpf(constant), mpmath.mpf(2) / 3)
 
 
-@parametrize("problem", PROBLEMS, ids=lambda problem: str(problem[0]), ordinary=0, long=3)
+@parametrize("problem", PROBLEMS, ids=lambda problem: str(problem[0]), ordinary=0, long=1)
 def test_general_solution_and_values(problem: tuple[Any, Any, Any]) -> None:
     p, q, r = coefficients(*problem)
     equation = sympy.Eq(w(x).diff(x), p + q * w(x) + r * w(x) ** 2)
@@ -180,7 +180,7 @@ WITH_VALUES: list[tuple[Any, Any, Any, Any, Any]] = [
 ]
 
 
-@parametrize(("p", "q", "r", "point", "value"), WITH_VALUES, ordinary=1, long=4)
+@parametrize(("p", "q", "r", "point", "value"), WITH_VALUES, ordinary=1, long=2)
 def test_values_with_symbols(p: Any, q: Any, r: Any, point: Any, value: Any) -> None:
     """No symbol of the question is taken for a constant, and r may be 0 at the point."""
     found = kovacic.dsolve(sympy.Eq(w(x).diff(x), p + q * w(x) + r * w(x) ** 2), w(x), ics={w(point): value}).rhs
@@ -203,7 +203,7 @@ def test_signs_and_floats() -> None:
     assert not found.has(sympy.sqrt(2), Rational(1, 2))
 
 
-@parametrize("third", ["1/3", "1/5", "1/4", "6/5"], ordinary=(0,))
+@parametrize("third", ["1/3", "1/5", "1/4", "6/5"], ordinary=(0,), long=1)
 def test_polynomials_of_case_3_have_no_common_factor(third: str) -> None:
     """w' = S - w^2 for the hypergeometric equations with the exponent differences 1/2, 1/3 and this one."""
     c = sympy.Rational(third) ** 2

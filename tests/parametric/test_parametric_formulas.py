@@ -46,7 +46,7 @@ def solutions_are_right(name: str, points: int) -> None:
 EACH = [pytest.param(name, marks=pytest.mark.long if k % 36 == 6 else pytest.mark.slow) for k, name in enumerate(ALL)]
 
 
-@parametrize("name", SOME, ordinary=1, long=4)
+@parametrize("name", SOME, ordinary=1, long=1)
 def test_solutions_solve_the_equation(name: str) -> None:
     solutions_are_right(name, 3)
 
@@ -108,7 +108,7 @@ EQUATIONS = {
 }
 
 
-@parametrize("name", EQUATIONS, ordinary=0, long=5)
+@parametrize("name", EQUATIONS, ordinary=0, long=(0, 4))
 def test_solutions_are_those_of_the_equation_that_was_given(name: str) -> None:
     text, equation = EQUATIONS[name]
     answer = kovacic.conditions(text, var="x", max_degree=0)
@@ -118,7 +118,7 @@ def test_solutions_are_those_of_the_equation_that_was_given(name: str) -> None:
     assert Conditions.from_json(answer.to_json()) == answer
 
 
-@parametrize("name", SOME, ordinary=2, long=4)
+@parametrize("name", SOME, ordinary=2, long=(1, 6, 8))
 def test_answers_are_read_back(name: str) -> None:
     """With everything that is printed of them."""
     answer = conditions_of(name)
@@ -189,7 +189,7 @@ def test_all_families_agree_with_the_engine(name: str) -> None:
     assert conditions_of(name).check(40)
 
 
-@parametrize("product", ["2*a*b", "a*b*c", "(a - 1)*b", "2*(a + b)*(a - c)", "a*(b + 1)^2"], ordinary=1)
+@parametrize("product", ["2*a*b", "a*b*c", "(a - 1)*b", "2*(a + b)*(a - c)", "a*(b + 1)^2"], ordinary=1, long=2)
 def test_no_single_name_is_in_parentheses(product: str) -> None:
     """Where the spectrum has a pole, a product has to vanish: b*a = 0, not (b)*(a) = 0."""
     answer = kovacic.conditions(f"a*(a-1)/x^2 + {product}/x + g", var="x")

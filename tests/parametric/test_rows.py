@@ -41,7 +41,7 @@ def coefficients(text: str, values: dict[str, Any]) -> tuple[Any, Any, Any]:
     return a, b, c
 
 
-@parametrize("text", EQUATIONS, ordinary=(0,), long=3)
+@parametrize("text", EQUATIONS, ordinary=(0,), long=1)
 def test_each_integer_has_a_row_and_each_row_is_a_solution(text: str) -> None:
     solved, values = EQUATIONS[text]
     answer = kovacic.conditions(text, var="x", max_degree=0)

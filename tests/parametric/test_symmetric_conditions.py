@@ -63,7 +63,7 @@ def test_lame_on_the_lemniscatic_and_the_equianharmonic_curve() -> None:
         (6, ("1/3", "1/2", "r")),
     ],
     ordinary=1,
-    long=3,
+    long=1,
 )
 def test_the_case_of_the_equation_itself_agrees_with_the_engine(n: int, differences: tuple[str, str, str]) -> None:
     answer = kovacic.conditions(pulled_back(n, *differences), var="x")

@@ -74,7 +74,7 @@ def test_a_number_has_its_value(name: str) -> None:
     assert float(with_a.at(1, x0=0, y0=1, dy0=0, params={"a": 1})) == pytest.approx(float(sympy.cosh(k)))
 
 
-@parametrize("name", NUMBERS, ordinary=(0, 2, 7, 8, 9))
+@parametrize("name", NUMBERS, ordinary=(0, 2, 7, 8, 9), long=1)
 def test_a_number_is_no_parameter_of_conditions_and_spectra(name: str) -> None:
     k = NUMBERS[name]
     for given in (f"{name}*x^2 + a", k * x**2 + a):

@@ -481,7 +481,7 @@ def test_the_wall_clock_is_checked_between_operations() -> None:
     ("opening", "closing", "depth"),
     [("(", ")", 100_000), ("-(", ")", 10_000), ("(1+", ")", 10_000), ("-", "", 100_000), ("1/(", ")", 9_999)],
     ordinary=0,
-    long=3,
+    long=1,
 )
 def test_nesting_needs_no_recursion(opening: str, closing: str, depth: int) -> None:
     S = read_input(opening * depth + "x" + closing * depth).S

@@ -423,7 +423,7 @@ def parsed(printed: str) -> Any:
     return sympy.sympify(printed.replace("^", "**"))
 
 
-@parametrize("text", PROBLEMS, ordinary=3)
+@parametrize("text", PROBLEMS, ordinary=3, long=2)
 @pytest.mark.filterwarnings("ignore:this holds unless")
 def test_the_steps_to_a_solution_are_true(text: str) -> None:
     """What is printed for the pair, the Wronskian, the integrands, y0 and the constants is put into what it is said to be."""

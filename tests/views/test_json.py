@@ -90,7 +90,7 @@ def test_the_form_that_other_programs_rely_on() -> None:
     ]
 
 
-@parametrize("S", ["x^2+3", "2", "-3/(16*x^2)+1/x", "(-5*x**2 - 27)/(36*x**4 - 72*x**2 + 36)"], ordinary=2)
+@parametrize("S", ["x^2+3", "2", "-3/(16*x^2)+1/x", "(-5*x**2 - 27)/(36*x**4 - 72*x**2 + 36)"], ordinary=2, long=1)
 def test_sympy_reads_the_coefficients_and_they_solve_the_riccati_equation(S: str) -> None:
     """Independent of the package: dM/dx + (S - w^2) dM/dw = 0 modulo M, over Q(c)."""
     data = json.loads(kovacic.solve(S).to_json())
