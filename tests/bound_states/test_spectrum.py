@@ -587,6 +587,7 @@ def test_all_levels_of_a_sextic_potential_that_are_liouvillian(d: int) -> None:
         ("1/x", (0, 3)),
     ],
     ordinary=(3,),
+    long=2,
 )
 def test_an_end_at_an_ordinary_point_is_undecided(V: str, domain: tuple[object, object]) -> None:
     """The condition there is transcendental in E."""

@@ -321,7 +321,7 @@ UNDECIDED = '{"schema": 1, "proof": {"undecided": "a\\nb", "structure": null, "e
         ('{"schema": 1, "seconds": NaN}', 2, "unreadable: NaN is no number"),
     ],
     ordinary=1,
-    long=4,
+    long=2,
 )
 def test_the_command(stdin: str, status: int, said: str) -> None:
     done = run("-m", "kovacic", "check", "-", stdin=stdin + "\n")
@@ -359,7 +359,7 @@ def test_a_power_of_the_variable_may_be_high() -> None:
 # ------------------------------------------------------------------------------------------- right answers
 
 
-@parametrize("entry", PUBLISHED, ordinary=6, long=24, ids=lambda entry: entry.id)
+@parametrize("entry", PUBLISHED, ordinary=6, long=12, ids=lambda entry: entry.id)
 def test_published_answers_are_checked(entry: Published) -> None:
     said = checker.verdict(kovacic.solve(entry.S).to_json(full=True))
     assert said.startswith(("checked: ", *TOO_LARGE))
@@ -889,7 +889,7 @@ IN_FIELDS = {
 }  # fmt: skip
 
 
-@parametrize("text", IN_FIELDS.values(), ids=IN_FIELDS, ordinary=8, long=4, always=[IN_FIELDS["tetrahedral 4"]])
+@parametrize("text", IN_FIELDS.values(), ids=IN_FIELDS, ordinary=8, long=2, always=[IN_FIELDS["tetrahedral 4"]])
 def test_answers_over_number_fields_are_checked(text: str) -> None:
     """Case, omega and group, whatever the field is called."""
     answer = kovacic.solve(text)

@@ -205,7 +205,7 @@ def test_answers_of_books(problem: tuple[str, str, dict[str, Any], str]) -> None
     assert len(str(found)) <= 1.1 * len(str(wanted))
 
 
-@parametrize("problem", GENERAL, ids=str, ordinary=5, always=GENERAL[1:6])
+@parametrize("problem", GENERAL, ids=str, ordinary=5, long=(6, 7, 8, 11, 14, 17, 21, 23), always=GENERAL[1:6])
 def test_forms_of_general_solutions(problem: tuple[str, dict[str, Any], str]) -> None:
     equation, options, printed = problem
     assert str(kovacic.dsolve(equation, **options).rhs) == printed

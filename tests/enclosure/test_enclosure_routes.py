@@ -156,7 +156,7 @@ def routes_agree_on(seed: int) -> None:
         agree(S, x=x, x0=x0, path=path, digits=12)
 
 
-@parametrize("seed", range(12), ordinary=3)
+@parametrize("seed", range(12), ordinary=3, long=5)
 def test_the_routes_agree_on_random_problems(seed: int) -> None:
     routes_agree_on(seed)
 
@@ -395,6 +395,7 @@ NEARLY_DEPENDENT = [
     ("start", "problem", "digits"),
     product([{"y0": 1, "dy0": -1}, {"y0": 1, "which": "decaying"}], NEARLY_DEPENDENT, [15, 50]),
     ordinary=(0, 2),
+    long=2,
 )
 def test_functions_that_are_nearly_dependent_at_the_start(
     start: dict[str, Any], problem: tuple[str, int, Any], digits: int

@@ -38,7 +38,7 @@ def test_case_and_degree_are_as_published(entry: Published) -> None:
     assert answer.verified
 
 
-@parametrize("entry", [e for e in BY_ID if e.values[0].coefficients], ordinary=3)
+@parametrize("entry", [e for e in BY_ID if e.values[0].coefficients], ordinary=3, long=10)
 def test_normal_form_of_the_given_equation(entry: Published) -> None:
     """S is the normal form of `a y'' + b y' + c y = 0`: checked with SymPy, which the engine doesn't use."""
     sympy = pytest.importorskip("sympy")

@@ -168,6 +168,7 @@ def test_families_with_parameters() -> None:
         ("1/(x^2 - n)^2 + (x + sqrt(2))/(x^2 + n^2 + 1)", False),
     ],
     ordinary=2,
+    long=(1, 4, 9, 12),
 )
 def test_the_steps_agree_with_the_engine_over_larger_fields(text: str, tried: bool) -> None:
     """The first degree with a solution is that of omega, and omega = theta + P'/P solves the Riccati equation."""

@@ -44,7 +44,7 @@ def integrands(count: int) -> Iterator[Any]:
         yield from sympy.Add.make_args(whole)
 
 
-@parametrize("claim", antiderivatives._RULES, ordinary=0, long=(0, 2, 5, 7, 9))
+@parametrize("claim", antiderivatives._RULES, ordinary=0, long=(0, 5, 7, 9))
 def test_each_rule_alone_finds_antiderivatives(claim: str, monkeypatch: pytest.MonkeyPatch) -> None:
     rule = antiderivatives._RULES[claim]
     monkeypatch.setattr(antiderivatives, "_RULES", {claim: rule})

@@ -53,7 +53,7 @@ EQUATIONS = [
 ]
 
 
-@parametrize("left", EQUATIONS, ordinary=2, ids=str)
+@parametrize("left", EQUATIONS, ordinary=2, long=4, ids=str)
 def test_general_solutions(left: sympy.Expr) -> None:
     solution = dsolve(left)
     assert solution.lhs == y(x)
@@ -425,6 +425,7 @@ def test_floats_are_decimals(value: object) -> None:
         ("e*y'' - y = exp(exp(-1/2)*x)", {}),
     ],
     ordinary=1,
+    long=4,
 )
 def test_normal_forms_with_constant_coefficients(text: str, values: dict) -> None:
     """Undetermined coefficients for u with y = G u, and for Euler's equations: no integration."""
@@ -910,6 +911,7 @@ def test_resonance_at_any_two_points(frequency: Any, start: Any) -> None:
         ("y'' + y = sec(x)", set()),
     ],
     ordinary=1,
+    long=3,
 )
 def test_beside_tangents_only_what_is_not_elementary_stays(equation: str, integrals: set[str]) -> None:
     """And it is a solution, by SymPy's derivatives."""

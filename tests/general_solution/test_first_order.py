@@ -84,7 +84,7 @@ def test_linear_equations_with_values(problem: tuple[Any, Any, int, Any]) -> Non
     assert abs(number(found.rhs, point + 0.75) - wanted) < 1e-12 * (1 + abs(wanted))
 
 
-@parametrize("problem", LINEAR, ids=str, ordinary=4, long=30)
+@parametrize("problem", LINEAR, ids=str, ordinary=4, long=6)
 @pytest.mark.filterwarnings("ignore:this holds unless")
 def test_general_solutions_of_linear_equations(problem: tuple[Any, Any, int, Any]) -> None:
     a, b, point, _ = problem
@@ -224,6 +224,7 @@ def test_a_function_without_a_formula_in_a_system_is_refused() -> None:
         ["atan(x)/x", "sin(x)/x", "(exp(x)-1)/x", "log(1+x)/x", "(1-cos(x))/x^2"],
     ),
     ordinary=8,
+    long=(1, 4, 8, 16, 23),
 )
 def test_values_where_a_coefficient_has_only_a_limit(equation: str, f: str) -> None:
     """One formula, put into the equation and its values, that is real on both sides of 0."""
@@ -284,7 +285,7 @@ SYSTEMS: list[tuple[Any, Any, int, Any, Any]] = [
 ]
 
 
-@parametrize("problem", SYSTEMS, ids=str, ordinary=(0, 3, 15), long=12)
+@parametrize("problem", SYSTEMS, ids=str, ordinary=(0, 3, 15), long=4)
 @pytest.mark.filterwarnings("ignore:this holds unless")
 def test_systems_with_values(problem: tuple[Any, Any, int, Any, Any]) -> None:
     first, second, start, u0, v0 = problem
@@ -424,7 +425,8 @@ def test_given_functions_in_a_system() -> None:
         [(0, 1, -1, 0), (1, 1, 1, -1), (3, -4, 1, -1), (2, -1, 1, 2), (0, 1, -2, -3), (1, 0, 2, 1)],
         ["cos(t)", "sin(t) + 1", "exp(t)", "t*exp(2*t)", "1/t"],
     ),
-    ordinary=10,  # each matrix, each f
+    ordinary=10,
+    long=8,  # each matrix, each f
 )
 def test_free_constants_stand_in_terms_of_their_own(matrix: tuple[int, ...], f: str) -> None:
     """C1 and C2 are 0 in each term that has them, for none is collected with numbers."""

@@ -72,7 +72,7 @@ EXPANDED = [
 ]
 
 
-@parametrize(("e", "point"), EXPANDED, ordinary=2, long=15, ids=str)
+@parametrize(("e", "point"), EXPANDED, ordinary=2, long=(1, 9, 14, 17, 19, 26, 34), ids=str)
 def test_limits(e: Any, point: Any) -> None:
     """Against values by mpmath, near the point."""
     place = Approach(sympy.sympify(point))
@@ -118,7 +118,7 @@ def test_when_a_constant_is_zero() -> None:
     assert not is_algebraic_zero(sqrt(2) - Rational(1414213562373095048801688724209, 10**30))
 
 
-@parametrize("seed", range(40), ordinary=2, long=15)
+@parametrize("seed", range(40), ordinary=2, long=3)
 def test_ranks(seed: int) -> None:
     """Rows made of a rank and of solutions, with numbers that aren't recognised at sight."""
     random = Random(seed)
@@ -256,7 +256,7 @@ def test_other_right_hand_sides(right: sympy.Expr) -> None:
         (2 * exp(sympy.I * x) / ((exp(2 * sympy.I * x) + 4 * exp(sympy.I * x) + 1) * cos(x)), {sympy.log, sympy.atan}),
     ],
     ordinary=2,
-    long=25,
+    long=(1, 12, 23, 35, 46, 50),
 )
 def test_integrals_known_at_once(integrand: sympy.Expr, functions: set) -> None:
     found = antiderivative(integrand, x)
@@ -347,7 +347,7 @@ FACTORS = """
 """.replace("^", "**").split()
 
 
-@parametrize("seed", range(80), ordinary=2, long=15)
+@parametrize("seed", range(80), ordinary=2, long=5)
 def test_what_is_called_an_antiderivative_is_one(seed: int) -> None:
     """For sums of products of functions that were drawn by lot: the derivative at three points, in x alone; or None."""
     rng = random.Random(seed)

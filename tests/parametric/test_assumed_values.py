@@ -68,7 +68,7 @@ def test_a_parameter_must_be_left_for_conditions() -> None:
 INEQUALITIES = ["<0", "<=0", ">0", ">=0", ">=1/2", ">-3 <=5/3", "integer >0", "odd >=2 <7", ">=-1 >1 >=0"]
 
 
-@parametrize("what", INEQUALITIES, ordinary=1)
+@parametrize("what", INEQUALITIES, ordinary=1, long=3)
 def test_bounds_admit_the_numbers_between(what: str) -> None:
     answer = kovacic.conditions("x^2 + n*x^3", assume={"n": what}, var="x")
     relations = [word for word in what.split() if word[0] in "<>"]

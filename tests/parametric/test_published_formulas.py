@@ -216,7 +216,7 @@ TABLE = [
 ]
 
 
-@parametrize("entry", TABLE, ordinary=(11,), ids=lambda entry: entry.name)
+@parametrize("entry", TABLE, ordinary=(11,), long=4, ids=lambda entry: entry.name)
 def test_conditions_are_printed_as_in_the_literature(entry: Published) -> None:
     answer = kovacic.conditions(entry.S, var="x")
     assert answer.complete is True

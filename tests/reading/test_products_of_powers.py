@@ -36,7 +36,7 @@ EXPONENTS = [
 ]
 
 
-@parametrize("seed", range(12), ordinary=4)
+@parametrize("seed", range(12), ordinary=4, long=3)
 def test_a_product_is_the_same_up_to_a_constant(seed: int) -> None:
     random = Random(seed)
     factors = [random.choice(BASES) ** random.choice(EXPONENTS) for _ in range(5)]

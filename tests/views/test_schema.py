@@ -172,6 +172,7 @@ def test_lines_of_ball(
     "line",
     [{}, {"line": 1}, {"line": 1, "schema": 1, "input": "x", "status": "error"}, {"S": "x", "variable": "x"}, [], "x"],
     ordinary=1,
+    long=3,
     ids=str,
 )
 def test_other_lines_are_refused(line: object, validator: jsonschema.Draft202012Validator) -> None:

@@ -236,7 +236,7 @@ def printed_rows(answer: kovacic.Conditions) -> Iterator[tuple[str, list[int]]]:
         ("coulomb", FAMILIES["coulomb"], {"l": 1, "Z": 3, "b": 1}),
     ],
     ordinary=1,
-    long=2,
+    long=1,
 )
 def test_printed_solutions_solve_the_equation(name: str, S: str, values: dict[str, Any]) -> None:
     """For every choice of the signs for which the printed degree is natural, by derivatives to 30 digits."""
@@ -426,6 +426,7 @@ def test_theorems_are_printed_as_people_write_them(S: str, sentence: str) -> Non
         ),
     ],
     ordinary=2,
+    long=(1, 2, 5, 7, 8),
 )
 def test_the_identity_component_is_named(S: str, expected: str) -> None:
     answer = kovacic.conditions(S, var="x")
