@@ -16,6 +16,7 @@ from kovacic.general_solution.constants import Determined
 from kovacic.general_solution.first_order import FirstOrderEquation
 from kovacic.general_solution.question import Condition, Question, symbols_that_know
 from kovacic.general_solution.validity import Validity, needed_for
+from kovacic.general_solution.zero import differs_from_zero, samples
 from kovacic.general_solution.zero_set import ZeroSet
 
 Expr = Any  # SymPy publishes no types
@@ -34,12 +35,15 @@ class Exceptional:
         Which values: "c = 1", "c is a positive integer".
     values : mapping
         A letter and its value.
+    example : mapping
+        One of several values of a letter.
     assume : mapping
         What to assume of a letter, as for `dsolve`, where it is no single value.
     """
 
     where: str
     values: Mapping[Expr, Expr] = field(default_factory=dict)
+    example: Mapping[Expr, Expr] = field(default_factory=dict, kw_only=True)
     assume: Mapping[str, str] = field(default_factory=dict)
     _ask: Callable[[Exceptional], ProblemAnswer] | None = field(default=None, repr=False, compare=False)
 
@@ -239,16 +243,22 @@ def exceptional_cases(zero: Expr) -> Iterator[Exceptional]:
 
 
 def vanishes_with(zero: Expr, *functions: Expr) -> bool:
-    """False if one of the functions is seen not to be 0 for some letters where `zero` is 0."""
-    cases = [case.values for case in exceptional_cases(zero) if case.values]
-    return all(y.subs(values).equals(0) is not False for values in cases for y in functions)
+    """False if in each case in which `zero` is 0 one of the functions is seen not to be."""
+
+    def is_seen_nonzero(case: Exceptional) -> bool:
+        values = case.values or case.example
+        there = [y.subs(values) for y in functions if values]
+        return any(differs_from_zero(y, next(samples(y.free_symbols))) for y in there)
+
+    return not all(map(is_seen_nonzero, exceptional_cases(zero)))
 
 
 def _integers(letter: Expr, *signs: str) -> Iterator[Exceptional]:
     """The integers of these signs that a letter can be."""
     for sign in signs:
         if getattr(letter, f"is_{sign}") is not False:
-            yield Exceptional(f"{letter} is a {sign} integer", assume={letter.name: f"{sign} integer"})
+            example = {letter: sympy.Integer(sign == "positive")}
+            yield Exceptional(f"{letter} is a {sign} integer", assume={letter.name: f"{sign} integer"}, example=example)
 
 
 def remember(answer: ProblemAnswer) -> None:

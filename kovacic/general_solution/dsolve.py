@@ -39,7 +39,7 @@ from kovacic.general_solution.check import check_answer
 from kovacic.general_solution.constants import Determined, Outcome, ParameterCase, constants_of
 from kovacic.general_solution.first_order import read_first_order, solved_linear
 from kovacic.general_solution.homogeneous import find_basis, no_solution
-from kovacic.general_solution.particular import particular_solution, right_hand_side
+from kovacic.general_solution.particular import particular_solution, right_hand_side, with_letters_of_integration
 from kovacic.general_solution.places import (
     ImpulsesInside,
     basis_from,
@@ -410,7 +410,7 @@ class _Family:
         general = sympy.Mul(*common, sympy.Add(*summands)) + self.particular
         if self.question.conditions:
             general = min(general, sympy.expand_mul(general, deep=False), key=size)
-        return self.question.own(general)
+        return with_letters_of_integration(self.question.own(general))
 
     def answer(
         self, value: Expr, notices: Sequence[str], unchecked: Sequence[str], determined: Determined | None = None

@@ -27,7 +27,7 @@ from kovacic.general_solution.antiderivatives import antiderivative
 from kovacic.general_solution.behaviour import have_values, value_at
 from kovacic.general_solution.check import SolutionClaim, is_finite, jumps
 from kovacic.general_solution.integrands import NUMBERS, radicands, ratfunc
-from kovacic.general_solution.particular import is_solution, starting_at
+from kovacic.general_solution.particular import is_solution, starting_at, with_letters_of_integration
 from kovacic.general_solution.question import Condition, exact, free_constants
 from kovacic.general_solution.steps import JUMPING, Apart, in_parts
 from kovacic.general_solution.substitution import changed_beside
@@ -241,7 +241,7 @@ def solved_linear(
     whole = constant * h + particular
     w = shortest([*sums(whole, x), h * (constant + sympy.powsimp(particular / h))])
     if value is not None:
-        w = in_book_form(w, x)
+        w = with_letters_of_integration(in_book_form(w, x))
     notices = exceptions_of(w, x, (equation.p, equation.q))
     return sympy.Eq(equation.function, w, evaluate=False), notices + check_first_order(equation, w, conditions)
 

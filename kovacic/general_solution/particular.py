@@ -22,6 +22,7 @@ from __future__ import annotations
 from collections import defaultdict
 from collections.abc import Mapping, Sequence
 from contextlib import suppress
+from itertools import chain, count
 from math import comb
 from typing import Any
 
@@ -343,10 +344,29 @@ def _open(integrand: Expr, x: Expr, start: Expr | None) -> Expr:
     """The unevaluated integral, from `start` on with a variable that doesn't occur."""
     if start is None:
         return sympy.Integral(integrand, x)
-    taken = {symbol.name for symbol in integrand.atoms(sympy.Symbol) | start.free_symbols}
-    names = ("s", "t", "u", *(f"s{k}" for k in range(99)))
-    s = next(sympy.Symbol(name) for name in names if name not in taken)
+    s = _letter(integrand, start)
     return DefiniteIntegral(integrand.subs(x, s), (s, start, x))
+
+
+def _letter(*parts: Expr) -> Expr:
+    """A variable of integration that doesn't occur in the parts."""
+    taken = {symbol.name for symbol in sympy.Tuple(*parts).atoms(sympy.Symbol)}
+    return next(sympy.Symbol(name) for name in chain("st", map("s{}".format, count())) if name not in taken)
+
+
+def with_letters_of_integration(y: Expr) -> Expr:
+    """With variables of integration that no parameter of y has, as the value s in s exp(x) + Integral(.., (s, 0, x))."""
+    parameters = {symbol.name for symbol in y.free_symbols}
+
+    def renamed(integral: Expr) -> Expr:
+        s, *ends = integral.limits[0]
+        other = _letter(y)
+        return integral.func(integral.function.xreplace({s: other}), (other, *ends))
+
+    def is_confused(e: Expr) -> bool:
+        return isinstance(e, sympy.Integral) and len(e.limits[0]) > 1 and e.limits[0][0].name in parameters
+
+    return y.replace(is_confused, renamed)
 
 
 def is_solution(y: Expr, coefficients: tuple[Expr, ...], right: Expr, x: Expr) -> bool:

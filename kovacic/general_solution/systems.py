@@ -84,7 +84,11 @@ class LinearSystem:
     def second(self, x: Expr) -> Expr:
         """The second unknown where the first one is x, b not zero."""
         (a, b), _ = self.matrix
-        y = (slope(x, self.t) - a * x - self.right[0]) / b
+        y = sympy.expand_mul((slope(x, self.t) - a * x - self.right[0]) / b, deep=False)
+        integrals, plain = sympy.sift(sympy.Add.make_args(y), lambda term: term.has(sympy.Integral), binary=True)
+        if integrals:  # the integrands that are left of their slopes cancel: exp(t) exp(t^3 - t) is exp(t^3)
+            joined = sympy.powsimp(sympy.Add(*plain)).replace(sympy.exp, lambda power: sympy.exp(sympy.expand(power)))
+            y = sympy.Add(*integrals, joined)
         apart = taken_apart(y, self.t) if y.has(sympy.DiracDelta) else None
         if apart is None:
             return y

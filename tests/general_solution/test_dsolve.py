@@ -123,6 +123,24 @@ def test_constants_have_no_name_of_the_equation(text: str, names: set[str]) -> N
     assert {s.name for eq in equations for s in eq.rhs.free_symbols if s.name.startswith("C")} == names
 
 
+@pytest.mark.parametrize(
+    "text",
+    [
+        "y'' - y = exp(t*x^3), y(0) = s, y'(0) = u",
+        "y' = t*y + exp(x^2)/x, y(1) = s",
+        "u' = v + exp(t^3), v' = u, u(0) = s, v(0) = 1",
+    ],
+)
+def test_no_parameter_is_named_like_a_variable_of_integration(text: str) -> None:
+    """The value s beside exp(s^2)/s in an integral over s would have to be nonzero."""
+    answer = kovacic.answer_to(text)
+    assert not answer.notices
+    for eq in answer.equations:
+        bound = {symbol for integral in eq.rhs.atoms(sympy.Integral) for symbol in integral.bound_symbols}
+        assert bound
+        assert not bound & eq.rhs.free_symbols
+
+
 @pytest.mark.long
 def test_constants_and_variables_are_new() -> None:
     """Where the equation has a C1, the constants are C2 and C3; and no integral captures a parameter."""

@@ -321,6 +321,11 @@ def test_positive_products_of_roots_are_positive_letters(equation: str, needed: 
     assert str(kovacic.validity(kovacic.dsolve(equation, var="x"))) == needed
 
 
+def test_a_bounded_solution_needs_no_second_one() -> None:
+    """1F1(-a; 1; x) and U are dependent for natural a, where a polynomial is the bounded solution all the same."""
+    assert not kovacic.answer_to("x*y''+(1-x)*y'+a*y=0, y(0)=bounded").validity
+
+
 def test_what_has_no_sign_and_what_has_no_zero_need_nothing() -> None:
     """Conjugate logarithms of complex numbers; x^2 + 3 x + 5; x - r and r - x for one root r."""
     found = kovacic.validity(kovacic.dsolve("(x^2+3*x+5)*y'' + (x+1/3)*y' + 7*y = log(x^5+x^2-7*x+2)"))
