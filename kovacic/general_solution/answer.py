@@ -222,16 +222,14 @@ class SystemAnswer(ProblemAnswer):
 
 
 def exceptional_cases(zero: Expr) -> Iterator[Exceptional]:
-    """Where an expression in letters is zero: a value of one of them, or integers, for sin(pi l) and 1/gamma(l)."""
-    if isinstance(zero, sympy.sin) and (zero.args[0] / sympy.pi).is_Symbol:
-        yield from _integers(zero.args[0] / sympy.pi, "positive", "nonpositive")
+    """Where an expression in letters is zero: a value of one of them, or integers, for sin(pi l)."""
+    number = zero.args[0] / sympy.pi if isinstance(zero, sympy.sin) else zero
+    if number is not zero and number.is_Symbol:
+        signs = [sign for sign in ("positive", "nonpositive") if getattr(number, f"is_{sign}") is not False]
+        for sign in signs:
+            example = {number: sympy.Integer(sign == "positive")}
+            yield Exceptional(f"{number} is a {sign} integer", assume={number.name: f"{sign} integer"}, example=example)
         return
-    if isinstance(1 / zero, sympy.gamma):
-        number = (1 / zero).args[0]
-        for letter, sign in ((number, "nonpositive"), (-number, "nonnegative")):
-            if letter.is_Symbol:
-                yield from _integers(letter, sign)
-                return
     slopes = {letter: sympy.factor(zero.diff(letter)) for letter in sorted(zero.free_symbols, key=str)}
     linear = [k for k, slope in slopes.items() if not slope.has(k) and not (slope.is_Add and slope.free_symbols)]
     if not linear:
@@ -251,14 +249,6 @@ def vanishes_with(zero: Expr, *functions: Expr) -> bool:
         return any(differs_from_zero(y, next(samples(y.free_symbols))) for y in there)
 
     return not all(map(is_seen_nonzero, exceptional_cases(zero)))
-
-
-def _integers(letter: Expr, *signs: str) -> Iterator[Exceptional]:
-    """The integers of these signs that a letter can be."""
-    for sign in signs:
-        if getattr(letter, f"is_{sign}") is not False:
-            example = {letter: sympy.Integer(sign == "positive")}
-            yield Exceptional(f"{letter} is a {sign} integer", assume={letter.name: f"{sign} integer"}, example=example)
 
 
 def remember(answer: ProblemAnswer) -> None:

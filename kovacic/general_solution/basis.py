@@ -30,7 +30,7 @@ from kovacic.closed_form.way_back import in_x
 from kovacic.equation import Equation
 from kovacic.general_solution.integrands import NUMBERS, radicands
 from kovacic.general_solution.substitution import finite_value, in_single_waves, size, slope
-from kovacic.general_solution.zero import points, samples
+from kovacic.general_solution.zero import fitting_samples, points
 from kovacic.general_solution.zero_set import ZeroSet, without_implied
 from kovacic.limits import check_time
 from kovacic.reading.change_of_variable import function_of_x
@@ -121,9 +121,7 @@ class Basis:
     def _integers(self) -> dict[Expr, Expr]:
         """Values of the letters that stand for integers, for which the pair is meant."""
         letters = {s: self.own(s) for s in sympy.Tuple(self.y1, self.y2).free_symbols - {self.x}}
-        tried = samples({s for s in letters.values() if s.is_integer})
-        fits = (found for found in tried if self.natural is None or not self.natural.xreplace(found).is_negative)
-        values = next(islice(fits, 1, None))
+        values = next(fitting_samples({s for s in letters.values() if s.is_integer}, self.natural), {})
         return {plain: values[s] for plain, s in letters.items() if s in values}
 
     @property

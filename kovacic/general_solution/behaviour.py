@@ -277,6 +277,8 @@ def _with_leading_terms(e: Expr, variable: Expr, towards: Expr) -> Expr:
         if rules is None or not z.has(variable) or any(part.has(variable) for part in parameters):
             continue
         end = _by_sympy(z, variable, towards)
+        if end not in rules and end is not None and not end.is_finite:
+            end = sympy.zoo  # in another direction
         if end in rules:
             near = {sympy.oo: z, -sympy.oo: -z, _ONE: 1 - z, -_ONE: 1 + z}.get(end, z)
             leading = rules[end](*parameters, sympy.expand(near))
@@ -414,6 +416,8 @@ _LEADING: dict[Any, dict[Any, Rule]] = {
     sympy.bessely: {sympy.oo: _wave(sin), _ZERO: _second_kind(-2 / pi)},
     sympy.besseli: {sympy.oo: lambda nu, z: exp(z) / sqrt(2 * pi * z), _ZERO: _first_kind(1)},
     sympy.besselk: {sympy.oo: lambda nu, z: exp(-z) * sqrt(pi / (2 * z)), _ZERO: _second_kind(_ONE)},
+    sympy.jn: {_ZERO: lambda n, z: sqrt(pi / (2 * z)) * _first_kind(-1)(n + Rational(1, 2), z)},
+    sympy.yn: {_ZERO: lambda n, z: sqrt(pi / (2 * z)) * _second_kind(-2 / pi)(n + Rational(1, 2), z)},
     sympy.hermite: _polynomial(lambda N: 2**N),
     sympy.laguerre: _polynomial(lambda N: (-1) ** N / factorial(N)),
     sympy.assoc_laguerre: _polynomial(lambda N: (-1) ** N / factorial(N)),

@@ -22,19 +22,18 @@ from types import MappingProxyType
 from typing import Any
 
 import sympy
-from flint import acb, arb, fmpq, fmpz_poly
+from flint import acb, arb, fmpq
 from sympy.core.function import AppliedUndef
 
-from kovacic.algebra.embedding import complex_zeros
 from kovacic.algebra.precision import working_digits, working_precision
 from kovacic.closed_form.check import DIGITS
 from kovacic.closed_form.cuts import cut_of, cuts_of
 from kovacic.closed_form.jets import jet
 from kovacic.errors import VerificationFailed
-from kovacic.general_solution.behaviour import Approach, have_values, is_refuted, value_at
+from kovacic.general_solution.behaviour import Approach, have_values, is_refuted
 from kovacic.general_solution.question import Condition, Question
 from kovacic.general_solution.steps import JUMPING, between, break_points, in_steps, on_piece, taken_apart
-from kovacic.general_solution.zero import NOT_EVALUATED, Residual, ball, known_jet, opposite, samples
+from kovacic.general_solution.zero import NOT_EVALUATED, Residual, ball, fitting_samples, known_jet, opposite, samples
 from kovacic.limits import check_time
 
 Expr = Any  # SymPy publishes no types
@@ -173,9 +172,8 @@ def _numbers_for(claim: SolutionClaim, natural: Expr | None) -> dict[Expr, Expr]
     """
     known = set().union(*(part.free_symbols for part in (claim.y, *claim.coefficients, *claim.conditions)))
     special = {s for s in known if s.is_integer or s.is_negative or s.is_nonpositive}
-    tried = islice(samples(special), 1, 1 + 2 * _SAMPLES)  # from the second on, which is less special
-    candidates = (numbers for numbers in tried if natural is None or not natural.xreplace(numbers).is_negative)
-    return next((numbers for numbers in candidates if is_finite(claim.y.xreplace(numbers))), {})
+    tried = islice(fitting_samples(special, natural), _SAMPLES)
+    return next((numbers for numbers in tried if is_finite(claim.y.xreplace(numbers))), {})
 
 
 def is_finite(value: Expr) -> bool:
@@ -282,8 +280,7 @@ def _is_violated(claim: SolutionClaim, condition: Condition, numbers: dict[Expr,
     assert condition.value is not None
     x = claim.x
     y = in_steps(claim.y, x) if claim.y.has(*_CORNERS) else claim.y  # |x| is -x just before 0
-    values = (term.coefficient * value_at(y, x, term.point, term.order) for term in condition.terms)
-    total = sympy.Add(-condition.value, *values).xreplace(numbers)
+    total = (condition.of(y, x) - condition.value).xreplace(numbers)
     unknown = [e for e in total.atoms(sympy.Integral) if e.limits[0][1:]]  # numbers that aren't known
     letters = {e: sympy.Symbol(f"integral_{k}") for k, e in enumerate(sorted(unknown, key=str))}
     total = total.xreplace(letters)
@@ -352,8 +349,6 @@ class _Course:
 
     def jumps_somewhere(self) -> bool:
         """Between two of the points that the arguments of its functions suggest."""
-        if all(map(self._is_singular_on, self._cuts)):
-            return False
         for a, b in pairwise(self._points()):
             suspects = islice(self._suspects(a, b, _HALVINGS), _MOST_SUSPECTS)
             for left, right in suspects:
@@ -361,20 +356,6 @@ class _Course:
                 if is_ordinary and any(self._differ(left, right, order) for order in (0, 1)):
                     return True
         return False
-
-    def _is_singular_on(self, cut: Expr) -> bool:
-        """True if the equation is singular wherever a rational argument changes sign; elsewhere it stays off or along the cut.
-
-        An analytic function that satisfies the equation on a part of an interval without singular points does so on the whole.
-        """
-        if not cut.is_rational_function(self.x):
-            return False
-        polynomial = sympy.Poly(sympy.Mul(*cut.as_numer_denom()), self.x)  # zeros and poles
-        if not (polynomial.domain.is_ZZ or polynomial.domain.is_QQ):
-            return False
-        integers = polynomial.clear_denoms(convert=True)[1].all_coeffs()[::-1]
-        zeros = complex_zeros(fmpz_poly([int(c) for c in integers]))
-        return not any(self._is_ordinary(zero.real) for zero, _ in zeros if zero.imag == 0)
 
     def _points(self) -> list[Any]:
         """The grid, and points on both sides of each real x at which a linear argument is real, or a tangent has a pole."""

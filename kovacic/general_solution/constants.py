@@ -27,7 +27,7 @@ from sympy.simplify.fu import TR2i
 
 from kovacic.errors import InputError
 from kovacic.general_solution.basis import Basis
-from kovacic.general_solution.behaviour import OSCILLATING, Approach, UnknownLimit, limit_at, value_at
+from kovacic.general_solution.behaviour import OSCILLATING, Approach, UnknownLimit, limit_at
 from kovacic.general_solution.question import Condition, Question
 from kovacic.general_solution.substitution import finite_value, in_single_waves, size
 from kovacic.general_solution.zero import Zero, is_nowhere_zero, when_zero
@@ -256,10 +256,7 @@ def constants_of(
     for condition in question.conditions:
         place = _limit_place(condition, limits)
         if place is None:
-            terms = [(term.coefficient, term.point, term.order) for term in condition.terms]
-            u, v, of_particular = (
-                sympy.Add(*(c * value_at(y, question.x, point, order) for c, point, order in terms)) for y in solutions
-            )
+            u, v, of_particular = (condition.of(y, question.x) for y in solutions)
             rows.append(Row(u, v, condition.value - of_particular.xreplace(steps)))
         else:
             limit = _Limit(condition, place, question.own(basis.wronskian), question.x)
@@ -367,23 +364,23 @@ class _Limit:
 
 def _rows_of_limit(limit: _Limit, solutions: Sequence[Expr]) -> tuple[list[Row], set[Expr]]:
     """The rows, and symbols that were taken for positive where it is only known that they aren't negative."""
-    forms = [y.diff(limit.x, limit.order) for y in solutions]
-    symbols = set().union(*(y.free_symbols for y in forms))
+    parts = sympy.Tuple(*(y.diff(limit.x, limit.order) for y in solutions), limit.W)
+    symbols = sorted(parts.free_symbols - {limit.x}, key=str)
     perhaps_zero = [s for s in symbols if s.is_nonnegative and not s.is_positive]
     natural = {s: sympy.Dummy(s.name, integer=s.is_integer, positive=True) for s in perhaps_zero}
     for positive in ({}, natural):
+        *forms, W = parts.xreplace(positive)
+        back = {dummy: symbol for symbol, dummy in positive.items()}
         try:
-            own = replace(limit, W=limit.W.xreplace(positive))
-            rows = own.rows(*(y.xreplace(positive) for y in forms))
+            rows = replace(limit, W=W).rows(*forms)
         except UnknownLimit as unknown:
             reason = unknown
-            continue
-        back = {dummy: symbol for symbol, dummy in positive.items()}
-        return [Row(*(part.xreplace(back) for part in row)) for row in rows], {*positive}
+        else:
+            return [Row(*sympy.Tuple(*row).xreplace(back)) for row in rows], {*positive}
     said = f"undecided: the solutions' behaviour at {limit.place.point}: {reason}"
-    open_signs = sorted(str(s) for s in symbols - {limit.x} if s.is_positive is None and s.is_negative is None)
+    open_signs = [f"{s}=positive" for s in symbols if s.is_positive is None and s.is_negative is None]
     if open_signs:
-        said += f"; assumptions may decide it, as {', '.join(f'{name}=positive' for name in open_signs)}"
+        said += f"; assumptions may decide it, as {', '.join(open_signs)}"
     raise NotImplementedError(said)
 
 

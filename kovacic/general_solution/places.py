@@ -145,11 +145,8 @@ def check_between(question: Question, solutions: Sequence[Expr]) -> None:
     whole = sympy.Tuple(*map(question.own, solutions))
     if len(points) < 2 or (all(is_analytic(y, question.x) for y in whole) and not whole.has(sympy.Heaviside)):
         return
-    for pole in rational_poles(question):
-        if {1, -1} <= {sympy.sign(point - pole) for point in points}:
-            raise _apart_error(pole, points)
-    finite = [point for point in points if point not in _INFINITIES]
-    for pole in (pole for pole, is_removable in _poles_between(question, finite) if not is_removable):
+    pole = next((pole for pole, is_removable in _poles_between(question, points) if not is_removable), None)
+    if pole is not None:
         raise _apart_error(pole, points)
 
 
@@ -224,7 +221,11 @@ def _denominators(equation: Equation, with_right: bool) -> list[Poly]:
 
 
 def _poles_between(question: Question, points: Sequence[Expr]) -> Iterator[tuple[Expr, bool]]:
-    """Singular points between several numbers that `rational_poles` doesn't have; and True for removable ones of f/a."""
+    """Singular points with some of the points on either side, and True for removable ones of f/a."""
+    for pole in rational_poles(question):
+        if {1, -1} <= {sympy.sign(point - pole) for point in points}:
+            yield pole, False
+    points = [point for point in points if point not in _INFINITIES]
     if len(points) < 2 or not all(point.is_number for point in points):
         return
     first, last = sympy.Min(*points), sympy.Max(*points)

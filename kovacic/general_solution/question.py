@@ -22,6 +22,7 @@ from sympy.core.function import AppliedUndef, UndefinedFunction
 from kovacic.closed_form.atoms import Atoms
 from kovacic.equation import EULER, PI, Equation, parameters_of
 from kovacic.errors import InputError, NotLinear
+from kovacic.general_solution.behaviour import value_at
 from kovacic.general_solution.steps import JUMPING, in_steps
 from kovacic.limits import Limits
 from kovacic.numbers.exact import exact_real, exact_text, is_complex
@@ -422,6 +423,10 @@ class Condition:
         terms = (Term(t.point.xreplace(others), t.order, t.coefficient.xreplace(others)) for t in self.terms)
         value = None if self.value is None else self.value.xreplace(others)
         return Condition(tuple(terms), value, self.text)
+
+    def of(self, y: Expr, x: Expr) -> Expr:
+        """The sum of the terms for a function of x.  Raises `NotImplementedError` as `value_at` does."""
+        return sympy.Add(*(term.coefficient * value_at(y, x, term.point, term.order) for term in self.terms))
 
     @property
     def is_value(self) -> bool:

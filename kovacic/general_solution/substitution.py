@@ -47,7 +47,8 @@ def finite_value(expression: Expr, x: Expr, point: Expr) -> Expr | None:
         return None
     if value.has(sympy.hyper, sympy.Integral, *_ODD):
         value = _at_zero(value)
-    zeros = {power: sign_of_root(power.exp) for power in value.atoms(sympy.Pow) if power.base == 0}
+    powers = (power for power in value.atoms(sympy.Pow) if power.base == 0 and not power.exp.is_nonnegative)
+    zeros = {power: sign_of_root(power.exp) for power in powers}
     value = value.xreplace(dict.fromkeys(zeros, _ZERO))
     is_known = {1} >= {*zeros.values()} and not any(map(_may_diverge, value.atoms(sympy.hyper)))
     return value if is_known and _OPEN.isdisjoint(value.atoms()) else None

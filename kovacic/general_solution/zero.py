@@ -168,6 +168,12 @@ def samples(symbols: set[Expr]) -> Iterator[dict[Expr, Expr]]:
         yield {symbol: sample_value(symbol, k + 3 * position) for position, symbol in enumerate(turned)}
 
 
+def fitting_samples(symbols: set[Expr], natural: Expr | None) -> Iterator[dict[Expr, Expr]]:
+    """Those from the second on, which is less special, for which an integer, if there is one, isn't negative."""
+    later = islice(samples(symbols), 1, 1 + 4 * _SAMPLES)
+    return (sample for sample in later if natural is None or not natural.xreplace(sample).is_negative)
+
+
 def opposite(sample: dict[Expr, Expr]) -> dict[Expr, Expr]:
     """The values with the other sign, where nothing is assumed of it."""
     is_open = {s: s.is_nonnegative is None and s.is_nonpositive is None for s in sample}

@@ -333,6 +333,7 @@ def test_limits(left: Any, ics: dict[Any, Any], expected: Any) -> None:
         ("r^2*y'' + r*y' - m^2*y = 0", "y(0)=bounded", {"m": "natural"}, "C1*r**m"),
         ("r^2*y'' + r*y' - m^2*y = 0, y(0) = bounded", None, {"m": "positive"}, "C1*r**m"),
         ("(1-x^2)*y'' - 2*x*y' + n*(n+1)*y = 0", "y(1)=1", {"n": "natural"}, "legendre(n, x)"),
+        ("x^2*y'' + 2*x*y' + (x^2 - n*(n+1))*y = 0", "y(0)=bounded", {"n": "natural"}, "C1*jn(n, x)"),
         # U at infinity in an imaginary direction: Coulomb's regular wave function, eta = 1.
         ("y'' + (1 - 2/x)*y = 0", "y(0)=0, y'(0)=1", {}, "x*exp(-I*x)*hyper((1 - I,), (2,), 2*I*x)"),
         # The signs of both roots of a quadratic equation.
