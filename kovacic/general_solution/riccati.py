@@ -47,7 +47,7 @@ from kovacic.general_solution.first_order import (
 )
 from kovacic.general_solution.integrands import NUMBERS, ratfunc
 from kovacic.general_solution.question import Condition, free_constants
-from kovacic.general_solution.substitution import changed_beside, size
+from kovacic.general_solution.substitution import size
 from kovacic.general_solution.textbook import in_book_form, over_one_denominator
 from kovacic.general_solution.waves import rational_in_waves
 from kovacic.general_solution.zero import is_zero
@@ -259,10 +259,14 @@ def _slope(y: Expr, x: Expr) -> Expr:
     slope = y.diff(x)
     for f in sorted(y.atoms(*_NEIGHBOURS), key=str):
         nu, z = f.args
-        step = 1 if nu.is_positive else -1
+        is_negative = nu.could_extract_minus_sign() if nu.is_positive is None else not nu.is_positive
+        step = -1 if is_negative else 1
         other = _NEIGHBOURS[f.func](step, f.func(nu - step, z), 2 * nu / z * f)
         slope = slope.xreplace({f.func(nu + step, z): other})
-    return changed_beside(slope.atoms(*_NEIGHBOURS), slope, sympy.expand_mul)
+    letters = {f: sympy.Dummy() for f in slope.atoms(*_NEIGHBOURS) if f.has(x)}
+    linear = slope.xreplace(letters)
+    rest = linear.xreplace(dict.fromkeys(letters.values(), 0))
+    return sympy.Add(rest, *(sympy.powsimp(sympy.cancel(linear.diff(letter))) * f for f, letter in letters.items()))
 
 
 # ----------------------------------------------------------------------------------- rational and algebraic solutions

@@ -84,6 +84,12 @@ def test_known_forms() -> None:
         pytest.param("w' = 2*I*(w^2+1)/x", "I + 2*I/(4*C1*x**4 - 1)", marks=pytest.mark.long),
         ("v' = g - k*v^2, v(0) = 0", "sqrt(g*k)*tanh(x*sqrt(g*k))/k"),
         ("w' = 1 + w^2, w(0) = a", "tan(x + atan(a))"),
+        (
+            "w' = x^n + w^2",
+            "-x**(n/2)*(C1*besselj(-1 + 1/(n + 2), 2*x**(n/2 + 1)/(n + 2))"
+            " + bessely(-1 + 1/(n + 2), 2*x**(n/2 + 1)/(n + 2)))"
+            "/(C1*besselj(1/(n + 2), 2*x**(n/2 + 1)/(n + 2)) + bessely(1/(n + 2), 2*x**(n/2 + 1)/(n + 2)))",
+        ),
     ],
 )
 def test_the_forms_are_reduced(equation: str, printed: str) -> None:
