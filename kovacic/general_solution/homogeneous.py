@@ -204,18 +204,11 @@ def no_solution(solution: Solution, known: Assumptions = NOTHING_ASSUMED) -> str
         found = conditions_of(Parsed(solution.S, solution.variable), known, None, solution.limits)
     except LimitExceeded:
         return said
-    return said + _for_particular_values(found)
-
-
-def _for_particular_values(found: Any) -> str:
-    """The values of parameters for which there is a solution, the first of them; or that there are none."""
     is_complete = found.complete is True
     regions = [region for region in found.regions if region.case is not None and region.defined]
     if regions:
         listed = [f"{region.statement} (case {region.case})" for region in regions[:_MOST_REGIONS]]
         if not is_complete or len(regions) > _MOST_REGIONS:
             listed.append("...")
-        return f"\nthere is one where {'; '.join(listed)}: give such values"
-    if is_complete:
-        return f"; nor is there for any others ({found.theory})"
-    return ""
+        return f"{said}\nthere is one where {'; '.join(listed)}: give such values"
+    return f"{said}; nor is there for any others ({found.theory})" if is_complete else said

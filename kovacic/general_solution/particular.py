@@ -90,8 +90,6 @@ def right_hand_side(equation: Equation) -> Expr:
     h = sympy.sympify(equation.h or 0).xreplace(NUMBERS)
     if equation.change is None:
         return (f + h) / a
-    if f == 0:
-        return h
     return in_x(equation, sympy.factor(f / a * slope_squared(equation))) + h
 
 
@@ -249,15 +247,10 @@ def with_integrals(basis: Basis, right: Expr, start: Expr | None) -> Expr:
     for integrals in (known, [None, None]):
         pairs = zip(integrals, integrands, strict=True)
         opened = [_open(integrand, x, start) if found is None else found for found, integrand in pairs]
-        solution = starting_at(_from_integrals(basis, opened), x, start)
+        solution = starting_at(basis.y2 * opened[1] - basis.y1 * opened[0], x, start)
         if _is_right(basis, solution, right):
             break
     return solution
-
-
-def _from_integrals(basis: Basis, integrals: Sequence[Expr]) -> Expr:
-    """y2 int y1 f/(a W) dx - y1 int y2 f/(a W) dx, from the second and the first."""
-    return basis.y2 * integrals[1] - basis.y1 * integrals[0]
 
 
 def _known_integrals(basis: Basis, integrands: Sequence[Expr], start: Expr | None) -> list[Any]:
@@ -265,13 +258,11 @@ def _known_integrals(basis: Basis, integrands: Sequence[Expr], start: Expr | Non
 
     None of them with more than a few special functions of complex arguments, which are harder to read than an integral.
     """
-    known: list[Any] = [None for _ in integrands]
+    known: list[Any] = [None, None]
     with suppress(LimitExceeded):
         known = [_without_crossings(basis, antiderivative(integrand, basis.x, start)) for integrand in integrands]
     functions = set().union(*(integral.atoms(*_COMPLEX) for integral in known if integral is not None))
-    if sum(bool(f.has(sympy.I)) for f in functions) <= _MOST_COMPLEX:
-        return known
-    return [None for _ in integrands]
+    return known if sum(bool(f.has(sympy.I)) for f in functions) <= _MOST_COMPLEX else [None, None]
 
 
 def _without_crossings(basis: Basis, e: Expr | None) -> Expr | None:
@@ -289,7 +280,7 @@ def _without_crossings(basis: Basis, e: Expr | None) -> Expr | None:
 
 def _checked(basis: Basis, parts: Sequence[Any], right: Expr) -> Expr | None:
     """y2 times the second integral minus y1 times the first, in the shortest form, if that is a solution."""
-    whole = expand(_from_integrals(basis, parts))
+    whole = expand(basis.y2 * parts[1] - basis.y1 * parts[0])
     if any(power.exp.free_symbols - {basis.x} for power in whole.atoms(sympy.Pow)):  # x x^a
         whole = powsimp(whole)
     forms = [whole]

@@ -16,6 +16,7 @@ from __future__ import annotations
 from collections import defaultdict
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
+from functools import reduce
 from itertools import pairwise
 from math import comb
 from typing import Any, NamedTuple
@@ -180,13 +181,9 @@ def in_steps(right: Expr, x: Expr) -> Expr:
 
 def is_analytic(e: Expr, x: Expr) -> bool:
     """True if it is seen to be analytic on the whole line, on either side of its steps."""
-
-    def keeps_analytic(part: Expr) -> bool:
-        if part.is_Pow and part.exp.is_Integer:
-            return bool(part.exp.is_positive)
-        return part.is_Symbol or part.is_Add or part.is_Mul or isinstance(part, Heaviside) or _is_function(part)
-
-    return all(keeps_analytic(part) for part in sympy.preorder_traversal(e) if part.has(x))
+    parts = [part for part in sympy.preorder_traversal(e) if part.has(x)]
+    others = [p for p in parts if not (p.is_Symbol or p.is_Add or p.is_Mul or isinstance(p, Heaviside))]
+    return all(_is_function(p) or (p.is_Pow and p.exp.is_Integer and p.exp > 0) for p in others)
 
 
 def _is_function(e: Expr) -> bool:
@@ -222,10 +219,8 @@ def _in_heavisides(e: Expr, x: Expr) -> Expr:
     if isinstance(e, sympy.sign):
         return 2 * Heaviside(u) - 1
     if isinstance(e, sympy.Max | sympy.Min):
-        for other in e.args[1:]:
-            advantage = u - other if isinstance(e, sympy.Max) else other - u
-            u = other + (u - other) * Heaviside(advantage)
-        return u
+        sign = 1 if isinstance(e, sympy.Max) else -1
+        return reduce(lambda first, other: other + (first - other) * Heaviside(sign * (first - other)), e.args)
     if isinstance(e, sympy.SingularityFunction) and e.args[2].is_Integer:
         _, a, n = e.args
         return DiracDelta(u - a, -1 - n) if n < 0 else (u - a) ** n * Heaviside(u - a)

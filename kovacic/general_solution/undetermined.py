@@ -15,7 +15,7 @@ from __future__ import annotations
 from collections import defaultdict
 from collections.abc import Sequence
 from math import perm
-from typing import Any, NamedTuple
+from typing import Any
 
 import sympy
 from sympy import cos, cosh, sin, sinh
@@ -34,13 +34,6 @@ def _product(first: Complex, second: Complex) -> Complex:
     return a * u - b * v, a * v + b * u
 
 
-class Rate(NamedTuple):
-    """rho + i omega, of exp((rho + i omega) x)."""
-
-    rho: Expr
-    omega: Expr
-
-
 def undetermined(b: Expr, c: Expr, right: Expr, x: Expr) -> Expr | None:
     """A solution of y'' + b y' + c y = right for constants b and c; None if the right-hand side has another form.
 
@@ -52,12 +45,12 @@ def undetermined(b: Expr, c: Expr, right: Expr, x: Expr) -> Expr | None:
     if polynomials is None:
         return None
     total = []
-    for rate, P in polynomials.items():
-        Q = _solved(b, c, rate, P)
+    for (rho, omega), P in polynomials.items():
+        Q = _solved(b, c, (rho, omega), P)
         if Q is None:
             return None
         A, B = (sympy.Add(*(coefficient[part] * x**k for k, coefficient in Q.items())) for part in (0, 1))
-        total.append(sympy.powdenest(sympy.exp(rate.rho * x)) * _wave_terms(A, B, rate.omega * x))
+        total.append(sympy.powdenest(sympy.exp(rho * x)) * _wave_terms(A, B, omega * x))
     return sympy.Add(*total)
 
 
@@ -82,15 +75,15 @@ def _wave_terms(A: Expr, B: Expr, angle: Expr) -> Expr:
     return min(expanded, joined, key=size)
 
 
-def _polynomials(right: Expr, x: Expr) -> dict[Rate, dict[int, Complex]] | None:
-    """The coefficients of x^k in the P beside each exp((rho + i omega) x); a real part is meant.
+def _polynomials(right: Expr, x: Expr) -> dict[Complex, dict[int, Complex]] | None:
+    """By the rates (rho, omega) the coefficients of x^k in the P beside exp((rho + i omega) x); a real part is meant.
 
     None for another right-hand side.
     """
     summands = _summands(right, x)
     if summands is None:
         return None
-    result: dict[Rate, dict[int, Complex]] = {}
+    result: dict[Complex, dict[int, Complex]] = {}
     for summand in summands:
         number, rest = summand.as_independent(x, as_Add=False)
         coefficient: Complex = (number, sympy.S.Zero)
@@ -114,7 +107,7 @@ def _polynomials(right: Expr, x: Expr) -> dict[Rate, dict[int, Complex]] | None:
                 rho += slope * sympy.log(base)
             else:
                 return None
-        P = result.setdefault(Rate(rho, omega), defaultdict(lambda: _ZERO))
+        P = result.setdefault((rho, omega), defaultdict(lambda: _ZERO))
         P[degree] = (P[degree][0] + coefficient[0], P[degree][1] + coefficient[1])
     return result
 
@@ -137,7 +130,7 @@ def _line(expression: Expr, x: Expr) -> tuple[Expr, Expr]:
     return constant, sympy.Add(*(term / x for term in sympy.Add.make_args(linear)))
 
 
-def _solved(b: Expr, c: Expr, rate: Rate, P: dict[int, Complex]) -> dict[int, Complex] | None:
+def _solved(b: Expr, c: Expr, rate: Complex, P: dict[int, Complex]) -> dict[int, Complex] | None:
     """Q of equation (1); None if u^2 + v^2 = 0 for a factor u + i v other than 0."""
     rho, omega = rate
     squared = rho**2 - omega**2 + b * rho + c, (2 * rho + b) * omega
