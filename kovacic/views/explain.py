@@ -176,7 +176,8 @@ class ExplanationWriter:
         title = "Kovacic's algorithm"
         yield Heading(f"{title} for {about}" if len(about) <= _LONGEST_TITLE else title, 1)
         if answer.change is not None:
-            yield say(f"{answer.text}, which becomes an equation with rational coefficients:")
+            t = Math.of(answer.variable).equals(Math.of(answer.change.expression))
+            yield say(f"{answer.text}, which becomes an equation with rational coefficients in ", t, ":")
         yield Formula(equation_of(answer))
         if equation is not None and not equation.is_normal_form:
             y = equation.unknown

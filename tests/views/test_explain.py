@@ -73,6 +73,12 @@ def test_a_no_names_what_excludes_every_case() -> None:
     assert "y1 = airyai(x)" in text
 
 
+def test_a_change_of_variable_is_named_before_its_letter_is_used() -> None:
+    text = kovacic.solve("y'' = exp(2*x)*y").explain()
+    assert text.index("an equation with rational coefficients in t = exp(2*x):") < text.index("t*y'' + y'")
+    assert "The case and the group are those over C(exp(2*x))." in text
+
+
 def test_an_undecided_answer_says_why() -> None:
     answer = kovacic.solve("x^4 + x^2 + 42*x + 1/4", limits=kovacic.Limits(unknown_degree=5))
     assert "Undecided: " in answer.explain()
