@@ -175,7 +175,8 @@ def read_first_order(
         eq = eq.lhs - eq.rhs
     whole = exact(eq)
     function = func if isinstance(func, AppliedUndef) else function_of(whole)
-    if len(function.args) != 1 or not function.args[0].is_Symbol:
+    t = function.args[0]
+    if len(function.args) != 1 or not t.is_Symbol or str(var or t) != str(t):
         return None
     found = _in_powers(whole, function)
     return found and replace(found, guesses=guesses)
@@ -185,7 +186,7 @@ def _in_powers(whole: Expr, function: Expr) -> FirstOrderEquation | None:
     """From an expression that is zero: its numerator has w' times one power of w, and up to one power beside 1 and w."""
     slope, value = sympy.Dummy(), sympy.Dummy()
     plain = whole.subs(function.diff(function.args[0]), slope).subs(function, value)
-    if any(e.has(slope, value) for e in plain.atoms(sympy.Derivative, AppliedUndef)):
+    if any(e.has(slope, value, function.func) for e in plain.atoms(sympy.Derivative, AppliedUndef)):
         return None
     terms: dict[tuple[Expr, Expr], Expr] = defaultdict(sympy.Add)
     for term in sympy.Add.make_args(sympy.expand(sympy.numer(sympy.together(plain)))):

@@ -143,6 +143,11 @@ def _unknowns(whole: Sequence[Expr], functions: Sequence[Any] | None) -> tuple[E
         raise InputError("two unknown functions are expected", hint="give them as func=[x(t), y(t)]")
     if found[0].args != found[1].args:
         raise InputError(f"{found[0]} and {found[1]} have different variables")
+    kinds = {f.func for f in found}
+    others = {f for w in whole for f in w.atoms(AppliedUndef) if f.func in kinds} - {*found}
+    if others:
+        said = f"{min(others, key=str)} and {found[0]} have different arguments, as in a delay equation"
+        raise NotLinear(said)
     return found[0], found[1]
 
 

@@ -51,5 +51,12 @@ def test_two_functions_without_func_are_refused() -> None:
 
 @pytest.mark.parametrize("term", [y(x - 1), y(2 * x), y(-x)])
 def test_other_arguments_are_refused(term: Any) -> None:
-    with pytest.raises(kovacic.InputError, match="different arguments"):
-        kovacic.dsolve(D2 + term, y(x))
+    for problem in (D2 + term, D1 + term, [g(x).diff(x) - term, D1 - g(x)]):
+        with pytest.raises(kovacic.InputError, match="different arguments"):
+            kovacic.dsolve(problem, [g(x), y(x)] if isinstance(problem, list) else y(x))
+
+
+@pytest.mark.parametrize("left", [D1, D2])
+def test_another_variable_than_that_of_the_unknown_is_refused(left: Any) -> None:
+    with pytest.raises(kovacic.InputError, match="isn't a function of z"):
+        kovacic.dsolve(left + y(x), var="z")
