@@ -472,34 +472,27 @@ class ConditionReader:
     def __init__(self, function: Expr, unknown: str) -> None:
         self.function = function
         self.unknown = unknown
-        self._terms: dict[Expr, tuple[Expr, int]] = {}  # what stands for y(a), y'(a) in an expression
+        self._symbols: dict[tuple[Expr, int], Expr] = {}  # what stands for y(a), y'(a) in an expression
 
     def read(self, key: Any, value: Any) -> Condition:
         """One condition.  Raises `InputError`."""
-        self._terms = {}
-        left = self._side(key, is_key=True)
+        self._symbols = {}
+        whole = self._side(key, is_key=True)
         text = f"{plain_text(key)} = {plain_text(value)}"
-        if not self._terms:
+        if not self._symbols:
             raise self._no_condition(key)
-        if plain_text(value).strip() == BOUNDED:
-            return Condition(self._linear(left, key), None, text)
-        right = self._side(value, is_key=False)
-        whole = sympy.expand(left - right)
-        terms = self._linear(whole, key)
-        rest = whole.xreplace(dict.fromkeys(self._terms, sympy.Integer(0)))
-        return Condition(terms, -rest, text)
-
-    def _linear(self, whole: Expr, key: Any) -> tuple[Term, ...]:
-        terms = []
-        for symbol, (point, order) in self._terms.items():
-            coefficient = sympy.expand(whole.diff(symbol))
-            if coefficient.free_symbols & self._terms.keys():
-                raise InputError(f"the condition {key} isn't linear in {self.unknown}")
-            if coefficient != 0:
-                terms.append(Term(point, order, coefficient))
+        is_bounded = plain_text(value).strip() == BOUNDED
+        if not is_bounded:
+            whole = sympy.expand(whole - self._side(value, is_key=False))
+        slopes = {term: sympy.expand(whole.diff(symbol)) for term, symbol in self._symbols.items()}
+        symbols = {*self._symbols.values()}
+        if any(slope.free_symbols & symbols for slope in slopes.values()):
+            raise InputError(f"the condition {key} isn't linear in {self.unknown}")
+        terms = tuple(Term(point, order, slope) for (point, order), slope in slopes.items() if slope != 0)
         if not terms:
             raise self._no_condition(key)
-        return tuple(terms)
+        rest = whole.xreplace(dict.fromkeys(symbols, sympy.Integer(0)))
+        return Condition(terms, None if is_bounded else -rest, text)
 
     def _side(self, side: Any, *, is_key: bool) -> Expr:
         """One side, with symbols in the place of y(a) and y'(a)."""
@@ -535,11 +528,7 @@ class ConditionReader:
             raise self._no_condition(self.unknown + "'" * order + f"({point})")
         if point not in (sympy.oo, -sympy.oo):
             self._checked(point, point)
-        known = next((symbol for symbol, term in self._terms.items() if term == (point, order)), None)
-        if known is None:
-            known = sympy.Symbol(f"value_{len(self._terms)}_")
-            self._terms[known] = point, order
-        return known
+        return self._symbols.setdefault((point, order), sympy.Symbol(f"value_{len(self._symbols)}_"))
 
     def _checked(self, value: Expr, given: Any) -> Expr:
         """Refuses what is no constant."""
