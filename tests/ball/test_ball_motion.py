@@ -99,7 +99,7 @@ def test_the_reference_starts_with_the_rates_that_are_meant():
         assert abs(found["n"][0] - START.n) < 1e-14
 
 
-@parametrize("R1", [3, "2/3", -3], ordinary=1)
+@parametrize("R1", [3, "2/3", -3], ordinary=1, long=1)
 @parametrize(
     ("du", "dv", "n"),
     [

@@ -180,9 +180,8 @@ def test_the_formula_in_E_for_all_parameters():
     assert satisfies(form, sphere, chart)
 
 
-@pytest.mark.long
 @pytest.mark.parametrize("sign", [1, -1])
-@pytest.mark.parametrize("N", range(1, 7))
+@parametrize("N", range(1, 7), ordinary=0, long=4)
 def test_theorem_1_solutions_exactly(N, sign):
     """Both solutions, both omegas and both n, for all x1, x2; for 2R/R1 = N and -N."""
     rho = sp.Rational(sign * N, 2)

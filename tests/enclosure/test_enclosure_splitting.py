@@ -270,8 +270,7 @@ def test_five_thousand_digits_of_a_bessel_function_of_order_one_third() -> None:
         assert carried(matrix, J, J / 2 + slope).overlaps(end.sqrt() * end.bessel_j(nu))
 
 
-@pytest.mark.long
-@pytest.mark.parametrize("x", ["1/3", "0.3141592653589793"])
+@parametrize("x", ["1/3", "0.3141592653589793"], ordinary=0, long=1)
 def test_five_thousand_digits_of_a_legendre_function_of_order_one_third(x: str) -> None:
     assert is_split(LEGENDRE, 3 * DIGITS)
     matrix = connection_matrix(pair_of(LEGENDRE), [0, x], digits=DIGITS)

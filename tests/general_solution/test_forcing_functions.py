@@ -18,7 +18,7 @@ D2, D1, D0 = y(x).diff(x, 2), y(x).diff(x), y(x)
 PROBLEMS = [D2 + k**2 * D0 - g(x), D2 - 2 * D1 + D0 - exp(x) * g(x), x**2 * D2 + x * D1 - D0 - x * g(x) - x**3]
 
 
-@pytest.mark.parametrize("equation", PROBLEMS)
+@parametrize("equation", PROBLEMS, ordinary=0, long=2)
 @parametrize("func", [y(x), y], ordinary=0, long=1)
 def test_the_formula_holds_for_functions_that_are_put_in(equation: Any, func: Any) -> None:
     found = kovacic.dsolve(equation, func).rhs
