@@ -10,7 +10,7 @@ x'(t0) = a x + b y + f there; where b(t0) = 0 equation (1) is singular though th
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Collection, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
@@ -174,7 +174,7 @@ def solved_system(
     if b == 0:  # first x from its own equation, then y, whose equation has the constant of x in it
         first, notices = solved_linear(system.alone(0, sympy.Integer(0)), (), own)
         second, others = solved_linear(system.alone(1, first.rhs), (), first.rhs.free_symbols)
-        pair = first.rhs, second.rhs
+        pair = sympy.Tuple(first.rhs, second.rhs)
         notices += others
     elif start is not None and is_unit(b, system.t, start[0]):
         pair, notices = _through_values(system, start, solver)
@@ -183,20 +183,19 @@ def solved_system(
     else:
         answer = solver(system.equation, system.functions[0], ics={})
         notices = answer.notices
-        pair = answer.eq.rhs, system.second(answer.eq.rhs)
+        pair = sympy.Tuple(answer.eq.rhs, system.second(answer.eq.rhs))
         exceptions = [e.xreplace(answer.own) for e in answer.pair_exceptions]
-    constants = sorted((pair[0].free_symbols | pair[1].free_symbols) - own, key=str)
+    constants = sorted(pair.free_symbols - own, key=str)
     if conditions:
         pair, others = _with_constants(system, pair, constants, conditions)
         notices += others
-    left = [constant for constant in constants if sympy.Tuple(*pair).has(constant)]
+    left = [constant for constant in constants if pair.has(constant)]
     if conditions:  # a constant that is left stands before solutions that may vanish with the Wronskian
         functions_left = [[solution.diff(constant) for solution in pair] for constant in left]
         exceptions = [e for e in exceptions if any(vanishes_with(e, *solutions) for solutions in functions_left)]
     renamed = dict(zip(left, free_constants(len(left), *given, *functions), strict=True))
-    pair, constants = (pair[0].xreplace(renamed), pair[1].xreplace(renamed)), [*renamed.values()]
-    pair = _with_constants_apart(pair[0], constants, system.t), _with_constants_apart(pair[1], constants, system.t)
-    notices += exceptions_of(sympy.Tuple(*pair), system.t, system.entries, exceptions)
+    pair = sympy.Tuple(*(_with_constants_apart(e, renamed.values(), system.t) for e in pair.xreplace(renamed)))
+    notices += exceptions_of(pair, system.t, system.entries, exceptions)
     for number, solution in enumerate(pair):
         notices += check_first_order(system.alone(number, pair[1 - number]), solution, ())
     found = dict(zip(system.functions, pair, strict=True))
@@ -205,7 +204,7 @@ def solved_system(
     return SystemAnswer(eqs, [*dict.fromkeys(notices)], known=known, exceptional=tuple(exceptions))
 
 
-def _with_constants_apart(value: Expr, constants: Sequence[Expr], t: Expr) -> Expr:
+def _with_constants_apart(value: Expr, constants: Collection[Expr], t: Expr) -> Expr:
     """In a short form, the terms with free constants, in which it is linear, apart from the others."""
     if not value.has(*constants):
         return in_book_form(value, t)
@@ -225,9 +224,7 @@ def _is_swapped(system: LinearSystem, start: tuple[Expr, Expr, Expr] | None) -> 
     return is_rough > other_is_rough or (is_rough == other_is_rough and size(c) < size(b))
 
 
-def _through_values(
-    system: LinearSystem, start: tuple[Expr, Expr, Expr], solver: Solver
-) -> tuple[tuple[Expr, Expr], list[str]]:
+def _through_values(system: LinearSystem, start: tuple[Expr, Expr, Expr], solver: Solver) -> tuple[Expr, list[str]]:
     """The solution with x(t0) and y(t0), where b(t0) isn't zero."""
     point, first, second = start
     x, t = system.functions[0], system.t
@@ -237,7 +234,7 @@ def _through_values(
     ics = {x.subs(t, point): first, x.diff(t).subs(t, point): start_slope.xreplace(letters)}
     answer = solver(system.equation, x, ics=ics)
     solution = answer.eq.rhs.xreplace({letter: f for f, letter in letters.items()})
-    return (solution, system.second(solution)), answer.notices
+    return sympy.Tuple(solution, system.second(solution)), answer.notices
 
 
 # ------------------------------------------------------------------------------------------------------------- values
@@ -269,10 +266,10 @@ def _initial_values(conditions: Sequence[tuple[int, Condition]]) -> tuple[Expr, 
 
 def _with_constants(
     system: LinearSystem,
-    pair: tuple[Expr, Expr],
+    pair: Expr,
     constants: Sequence[Expr],
     conditions: Sequence[tuple[int, Condition]],
-) -> tuple[tuple[Expr, Expr], list[str]]:
+) -> tuple[Expr, list[str]]:
     """With the constants that the values determine, and for which values of the parameters that is otherwise."""
     c1, c2 = constants
     rows = []
@@ -285,4 +282,4 @@ def _with_constants(
     values = dict(zip(constants, generic.values, strict=True))
     cases = [case.where() for case in others if case.is_possible]
     notices = [f"this holds unless {where}: give such values for the solutions there" for where in cases]
-    return (pair[0].subs(values, simultaneous=True), pair[1].subs(values, simultaneous=True)), notices
+    return pair.subs(values, simultaneous=True), notices
