@@ -254,8 +254,8 @@ def _size_near(e: Expr, x: Expr, place: Approach, t: Expr) -> Any:
     """The largest of some values about this distance; None if they aren't known well."""
     with working_digits(_DIGITS):
         points = [ball(place.in_terms_of(t * factor)) for factor in _AROUND]
-        found = [point and known_jet(e, x, point) for point in points]
-        values = [abs(jet[0]) for jet in found if jet]
+        found = [known_jet(e, x, point) for point in points if point is not None]
+        values = [abs(jet[0]) for jet in found if jet is not None]
     is_known = [value.is_finite() and (value.rel_accuracy_bits() >= 10 or bool(value < _LOST)) for value in values]
     return max(values) if is_known == [True] * len(_AROUND) else None
 
