@@ -34,7 +34,7 @@ from kovacic.parametric.functions import over_parameters
 from kovacic.reading.lexer import PRIMES, SUPERSCRIPT_DIGITS
 from kovacic.reading.names import is_function
 from kovacic.reading.naming import Source
-from kovacic.writing.formula import Math, caret, latex_text
+from kovacic.writing.formula import Math, caret, latex_text, with_single_powers
 
 #: Terms up to which a quotient is written as a sum.
 _TERMS = 4
@@ -48,7 +48,7 @@ Power = tuple[Any, int]
 
 def shown(function: FunctionPoly | RatFunc, variable: str = "x") -> str:
     """In ordinary notation, with ^ for powers, as a quotient of expanded polynomials."""
-    return caret(function.to_str(variable))
+    return with_single_powers(caret(function.to_str(variable)))
 
 
 def shifted(text: str, value: Poly) -> str:

@@ -208,15 +208,19 @@ def rational_functions(generator: str) -> Math:
 
 #: A power of an exponential, of a root, and of a power in parentheses, with ^.
 _POWER_OF_POWER = re.compile(r"(exp|sqrt)\(([^()]*)\)\^(\d+)|\((\w+)\^(?:\(([^()]*)\)|(\w+))\)\^(\d+)")
+#: A power in parentheses that it doesn't need: they aren't those of a call, an exponent, a divisor or a base.
+_POWER_ALONE = re.compile(r"(?<![\w'^/])\((\w+|\(-\d+\))\^(\w+|\([^()]*\))\)(?!\^|\*\*)")
 #: A rational multiple of a monomial: 3*a*b/2.
 _MULTIPLE = re.compile(r"(-?)(?:(\d+)\*)?([^-+/\s]+)(?:/(\d+))?")
 
 
 def with_single_powers(text: str) -> str:
-    """Powers of powers as one: exp(a/2)^3 is exp(3*a/2), (2^(a/2))^2 is 2^a, sqrt(a)^4 is a^2.
+    """Powers of powers as one: exp(a/2)^3 is exp(3*a/2), (2^(a/2))^2 is 2^a, sqrt(a)^4 is a^2; others without parentheses.
 
     >>> print(with_single_powers("exp(a/2)^2*x^2 + b*(a^(1/3))^2 - sqrt(a + b)^2/exp(-a*b/4)^3"))
     exp(a)*x^2 + b*a^(2/3) - (a + b)/exp(-3*a*b/4)
+    >>> print(with_single_powers("x^2 + ((-1)^n) - (a^(1/3))*x/(b^n)"))
+    x^2 + (-1)^n - a^(1/3)*x/(b^n)
     """
 
     def single(match: re.Match[str]) -> str:
@@ -240,7 +244,7 @@ def with_single_powers(text: str) -> str:
             return base
         return f"{base}^{raised if raised.isalnum() else f'({raised})'}"
 
-    return _POWER_OF_POWER.sub(single, text)
+    return _POWER_ALONE.sub(r"\1^\2", _POWER_OF_POWER.sub(single, text))
 
 
 def caret(text: str) -> str:
