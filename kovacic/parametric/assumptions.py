@@ -188,11 +188,9 @@ class Known:
 
     def is_contradiction(self) -> bool:
         """True if no number is provably left: two kinds of numbers, or bounds, that exclude one another."""
-        if "irrational" in self.words and self.rational is True:
-            return True
-        if self.noninteger and any(numbers.are_covered_by(INTEGERS) for numbers in self.classes):
-            return True
-        if not all(first.meet(second) for first, second in combinations(self.classes, 2)):
+        is_integer = any(numbers.are_covered_by(INTEGERS) for numbers in self.classes)
+        are_apart = not all(first.meet(second) for first, second in combinations(self.classes, 2))
+        if are_apart or (self.noninteger and is_integer) or ("irrational" in self.words and self.rational is True):
             return True
         ends = {bound.sign: bound.end for bound in self.bounds}
         if len(ends) < 2:
@@ -200,14 +198,12 @@ class Known:
         low, high = ends[1], ends[-1]
         if low >= high:
             return low > high or not self.admits_number(low)
-        # x > sqrt(2) and x < sqrt(2), whose rational ends leave room
-        lower, upper = ({word[1:] for word in self.words if word.startswith(sign)} for sign in "><")
-        if lower & upper - {word for word in lower if word.startswith("=")}:
-            return True
-        steps = 0 if self.coset is None else (high - low) / self.coset.modulus
-        if self.coset is None or steps > _TRIED:
-            return False
-        return not any(self.admits_number(low + k * self.coset.modulus) for k in range(int(steps) + 1))
+        if self.coset is None:  # x > sqrt(2) and x < sqrt(2), whose rational ends leave room
+            return any(word.replace("<", ">") in self.words for word in self.words if re.match("<[^=]", word))
+        steps = (high - low) / self.coset.modulus
+        return steps <= _TRIED and not any(
+            self.admits_number(low + k * self.coset.modulus) for k in range(int(steps) + 1)
+        )
 
     def sympy_properties(self) -> list[str]:
         """What SymPy has names for; of bounds, what they say of the sign."""

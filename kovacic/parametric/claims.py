@@ -16,11 +16,11 @@ from itertools import chain, product
 from typing import ClassVar, NamedTuple
 
 from kovacic.algebra.extension import AlgebraicField, ExtensionPoly, norm
-from kovacic.algebra.function_field import FunctionPoly
+from kovacic.algebra.function_field import FunctionField, FunctionPoly
 from kovacic.algebra.poly import Field, Poly
 from kovacic.algebra.ratfunc import RatFunc
 from kovacic.algebra.rationals import QQ
-from kovacic.parametric.functions import NATURALS, Classes, ParameterPoint, over_parameters
+from kovacic.parametric.functions import NATURALS, Classes, ParameterPoint, lifted, over_parameters
 
 
 class Claim(ABC):
@@ -193,48 +193,79 @@ def with_signed_root(total: Poly, square: Poly) -> Poly:
 # ------------------------------------------------------------------------------- natural numbers that exponents allow
 
 
-class Adjoined(NamedTuple):
-    """One more parameter, a square root of a function of the others."""
+class ExponentRoot(NamedTuple):
+    """sqrt(square), of which multiples k occur with an integer k, |k| <= largest."""
 
-    name: str
-    square: FunctionPoly
+    square: Poly
+    largest: int
 
-    def at(self, point: ParameterPoint) -> ParameterPoint:
-        """The point with one of its two values."""
-        value = point.at(self.square)
-        root = point.field.sqrt(value)
-        if root is None:
-            root = AlgebraicField(point.field, point.field.poly([-value, 0, 1])).generator
-        values = [known.over(root.field) for known in point.values]
-        return ParameterPoint((*point.names, self.name), (*values, root), root.field)
+
+@dataclass(frozen=True)
+class Numbers:
+    """What the exponents allow as a degree of P, or as the number of zeros of a form: constant + sum of k times a root.
+
+    The roots are over the `field`, the `base` or a quadratic extension of it.  With `only_signs` each k is 1 or -1.
+    """
+
+    constant: Fraction
+    roots: tuple[ExponentRoot, ...]
+    field: Field
+    base: Field
+    only_signs: bool = False
+
+    @property
+    def choices(self) -> Iterator[tuple[int, ...]]:
+        """The k, up to their signs."""
+        if self.only_signs:
+            return iter([(1,) * len(self.roots)])
+        return product(*(range(root.largest + 1) for root in self.roots))
+
+    def equation(self, multiples: Sequence[int]) -> Poly:
+        """The polynomial over the base, or a multiple, whose roots are constant + sums of +- k times a root for these k."""
+        squares = [k * k * root.square for k, root in zip(multiples, self.roots, strict=True) if k]
+        total = self.base.poly([0, 1]) - self.constant
+        if self.field != self.base:  # the square at one point is conjugate to that at the other
+            conjugate = [square for square in squares if any(square.parts[1:])]
+            squares = [square.parts[0] for square in squares if square not in conjugate]
+            sums = signed_sums(conjugate, self.constant, self.field)
+            first, second = sums.parts
+            total = norm(sums) if second else first
+        return reduce(with_signed_root, squares, total)
+
+    def at(self, point: ParameterPoint, multiples: Sequence[int]) -> list[Fraction]:
+        """The rational ones for these k at a point."""
+        if self.field != self.base:
+            return rational_roots(point.at(over_parameters(self.equation(multiples))))
+        chosen = [(k, over_parameters(root.square)) for k, root in zip(multiples, self.roots, strict=True) if k]
+        return rational_roots(
+            signed_sums([k * k * point.at(square) for k, square in chosen], self.constant, point.field)
+        )
+
+    @property
+    def squares(self) -> list[FunctionPoly]:
+        """Those of the roots, in which that of the extension is one more parameter."""
+        squares = [root.square for root in self.roots]
+        if self.field != self.base:
+            assert isinstance(self.field, AlgebraicField)
+            assert isinstance(self.base, FunctionField)
+            name = "I" if self.field.name == "sqrt(-1)" else self.field.name
+            larger = FunctionField((*self.base.names, name))
+            squares = [lifted(square, larger) for square in squares]
+        return [*map(over_parameters, squares)]
 
 
 @dataclass(frozen=True)
 class DegreeBySum(ForInteger):
-    """d = constant + the sum of j times the root for integers j, from -bound to bound; `has_zero`: they can all be 0.
+    """d is one of the numbers; `has_zero`: all k can be 0.  The `names` are those of the k, without them each is 1 or -1."""
 
-    Without `names` for the integers, each of them is 1 or -1.  The squares contain maybe a root of the parameters.
-    """
-
-    constant: Fraction
-    squares: tuple[Poly, ...]
+    sums: Numbers
     names: tuple[str, ...] = ()
-    bounds: tuple[int, ...] = ()
     has_zero: bool = False
-    adjoined: Adjoined | None = None
 
     def numbers_at(self, point: ParameterPoint) -> Iterator[Fraction]:
-        if self.adjoined is not None:
-            point = self.adjoined.at(point)
-        squares = [point.at(over_parameters(square)) for square in self.squares]
-        choices: Iterable[tuple[int, ...]] = [(1,) * len(squares)]
-        if self.names:
-            choices = product(*(range(bound + 1) for bound in self.bounds))
-        for chosen in choices:
-            if any(chosen) or self.has_zero or not self.names:
-                multiples = [j * j * square for j, square in zip(chosen, squares, strict=True) if j]
-                roots = rational_roots(signed_sums(multiples, self.constant, point.field))
-                yield from filter(NATURALS.contains, roots)
+        for multiples in self.sums.choices:
+            if any(multiples) or self.has_zero or not self.names:
+                yield from filter(NATURALS.contains, self.sums.at(point, multiples))
 
 
 @dataclass(frozen=True)

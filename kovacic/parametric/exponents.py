@@ -17,7 +17,7 @@ is for the engine to say.  First the constant entries are used as pivots, which 
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Iterable, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 from functools import reduce
@@ -29,13 +29,12 @@ from typing import Any, NamedTuple
 
 from flint import nmod_mat, nmod_poly
 
-from kovacic.algebra.extension import AlgebraicField, adjoined_square_root, norm
+from kovacic.algebra.extension import AlgebraicField, adjoined_square_root
 from kovacic.algebra.function_field import FunctionField, FunctionPoly
 from kovacic.algebra.lifting import primes
 from kovacic.algebra.poly import Field, Poly
 from kovacic.algebra.ratfunc import RatFunc
 from kovacic.algebra.rationals import QQ
-from kovacic.algebra.recurrence import polynomial_solution
 from kovacic.algebra.sparse import by_power
 from kovacic.engine.invariants import bounds, least_valuation
 from kovacic.engine.local import irregular_difference_squared
@@ -43,7 +42,7 @@ from kovacic.engine.places import Kind, Place, Problem, analyse
 from kovacic.engine.riccati import Form, singular_part
 from kovacic.errors import LimitExceeded
 from kovacic.limits import bounded_work, check_time, count_work
-from kovacic.parametric.claims import signed_sums, with_signed_root
+from kovacic.parametric.claims import ExponentRoot, Numbers
 from kovacic.parametric.functions import element, in_field, irreducible_factors, lifted, over_parameters
 
 #: Minors up to which all of them are computed.
@@ -355,39 +354,6 @@ class Exponents:
         return rank_conditions(images, below)
 
 
-class ExponentRoot(NamedTuple):
-    """sqrt(square), of which multiples k occur with an integer k, |k| <= largest."""
-
-    square: Poly
-    largest: int
-
-
-@dataclass(frozen=True)
-class Numbers:
-    """What the exponents allow as a degree of P, or as the number of zeros of a form: constant + sum of k times a root.
-
-    The roots are over the `field`, maybe an extension of the `base`.  With `only_signs` each k is 1 or -1.
-    """
-
-    constant: Fraction
-    roots: tuple[ExponentRoot, ...]
-    field: Field
-    base: Field
-    only_signs: bool = False
-
-    def equation(self, multiples: Iterable[int]) -> Poly:
-        """The polynomial over the base, or a multiple, whose roots are constant + sums of +- k times a root for these k."""
-        squares = [k * k * root.square for k, root in zip(multiples, self.roots, strict=True) if k]
-        total = self.base.poly([0, 1]) - self.constant
-        if self.field != self.base:  # a quadratic extension: the square at one point is conjugate to that at the other
-            conjugate = [square for square in squares if any(square.parts[1:])]
-            squares = [square.parts[0] for square in squares if square not in conjugate]
-            sums = signed_sums(conjugate, self.constant, self.field)
-            first, second = sums.parts
-            total = norm(sums) if second else first
-        return reduce(with_signed_root, squares, total)
-
-
 def degrees_of_solutions(problem: Problem) -> Numbers | None:
     """The degrees of P in exp(int theta) P; None where different exponents at conjugate points need too large an extension."""
     apart = with_points_apart(problem)
@@ -445,12 +411,6 @@ def conditions_of_degree(problem: Problem, d: int) -> list[RankConditions]:
     return [OPEN] if chosen is None else [exponents.conditions(d, problem.field) for exponents in chosen]
 
 
-def has_solution(problem: Problem, d: int) -> bool | None:
-    """True if, over a field of numbers, a solution has a P of this degree.  None as in `choices_of_degree`."""
-    chosen = choices_of_degree(problem, d)
-    return None if chosen is None else any(polynomial_solution(*one.operator, d) is not None for one in chosen)
-
-
 @dataclass(frozen=True)
 class Places:
     """One or two choices at each singular point, rational over the field."""
@@ -498,23 +458,31 @@ def _with_rational_points(problem: Problem) -> Problem | None:
     """The problem over an extension over which its singular points are rational; None if that is too large."""
     base = problem.field
     while factor := next((place.factor for place in problem.finite_places if place.degree > 1), None):
-        if factor.degree == 2:
-            extension = _square_root(factor[1] * factor[1] - 4 * factor[0], problem.field).field
-        else:
-            extension = AlgebraicField(problem.field, factor, "point")
-        if _degree_over(extension, base) > _DEGREE:
+        if _degree_over(problem.field, base) * factor.degree > _DEGREE:
             return None
-        S = RatFunc(problem.S.num.over(extension), problem.S.den.over(extension), reduced=True)
-        problem = analyse(S, problem.budget)
+        problem = _with_root_of(factor, problem)
     return problem
 
 
+def _with_root_of(factor: Poly, problem: Problem) -> Problem:
+    """The problem over an extension in which an irreducible factor of its denominator has a root."""
+    if factor.degree == 2:
+        extension = _square_root(factor[1] * factor[1] - 4 * factor[0], problem.field).field
+    else:
+        extension = AlgebraicField(problem.field, factor, "point")
+    S = RatFunc(problem.S.num.over(extension), problem.S.den.over(extension), reduced=True)
+    return analyse(S, problem.budget)
+
+
 def with_points_apart(problem: Problem) -> Problem | None:
-    """The problem itself, or one with rational points where exponents differ at conjugate ones: None unless these are two."""
+    """The problem itself, or with two rational points where exponents differ at conjugate ones: None unless these are two.
+
+    Then its field is a quadratic extension.
+    """
     conjugate = [place for place in singular_places(problem) if place.degree > 1 and place.kind is not Kind.RAMIFIED]
     if all(_difference_squared(place) is not None for place in conjugate):
         return problem
-    return _with_rational_points(problem) if [place.degree for place in conjugate] == [2] else None
+    return _with_root_of(conjugate[0].factor, problem) if [place.degree for place in conjugate] == [2] else None
 
 
 def _degree_over(field: Field, base: Field) -> int:

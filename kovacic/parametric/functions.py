@@ -143,13 +143,11 @@ class NormalForm(NamedTuple):
 
 
 def normal_form(function: Poly) -> NormalForm:
-    """The function by a form, whose first coefficient is positive."""
+    """A function that isn't a number by a form, whose first coefficient is positive."""
     shift = constant_term(function)
     form = over_parameters(function - shift)
     above = [int(c) for c in form.num.coeffs()]
     below = [int(c) for c in form.den.coeffs()]
-    if not above:
-        return NormalForm(form, Fraction(1), shift)
     sign = 1 if above[0] > 0 else -1
     scale = Fraction(gcd(*below), gcd(*above) * sign)
     return NormalForm(over_parameters(form * scale), scale, shift)

@@ -65,7 +65,7 @@ from kovacic.parametric.functions import (
     over_parameters,
     powers_of,
 )
-from kovacic.parametric.restriction import everywhere
+from kovacic.parametric.restriction import everywhere, with_free_constant
 from kovacic.parametric.statements import ALWAYS, NEVER, Setting, Statement, Vanishes, all_of, both, either
 
 #: Weights of the lengths of f(n) and of the condition on n, and the cost of solving for a later parameter.
@@ -100,7 +100,7 @@ class SolvedCondition:
 
 
 def solve_for(name: str, equation: FunctionPoly) -> SolvedCondition | None:
-    """All solutions of a polynomial equation in n over Q(t) by values of one parameter.
+    """All solutions of an irreducible equation in n over Q(t) by values of one parameter.
 
     None if the parameter isn't linear in it, and where its coefficient vanishes at the n of an equation of higher degree.
     """
@@ -110,8 +110,6 @@ def solve_for(name: str, equation: FunctionPoly) -> SolvedCondition | None:
     parts = powers_of(equation, i)
     slope = parts[1]
     rest = parts.get(0, 0 * slope)
-    if not slope.num.gcd(rest.num).is_constant():
-        return None
     undefined = irreducible_factors(element(equation.field, equation.den))
     poles: list[Free] = []
     strata: list[Stratum] = []
@@ -173,13 +171,8 @@ def _spectrum(equation: FunctionPoly, numbers: Classes, letter: str, setting: Se
     vanishes = setting.assumptions.vanishes
     known = [replace(one, poles=tuple(pole for pole in one.poles if vanishes(pole.zero) is not False)) for one in known]
     if setting.constant.names:  # without the constant in denominators: sqrt(2), not 2/sqrt(2)
-        numbers_there = everywhere(equation.field, setting.constant)
-        values = [numbers_there.restricted(solved.value) for solved in known]
-        pairs = zip(known, values, strict=True)
-        known = [
-            replace(solved, value=RatFunc(lifted(value.num, equation.field), lifted(value.den, equation.field)))
-            for solved, value in pairs
-        ]
+        there = everywhere(equation.field, setting.constant)
+        known = [replace(one, value=with_free_constant(there.restricted(one.value)).shown) for one in known]
     energies = [solved for solved in known if solved.parameter == ENERGY]
     found: list[tuple[int, bool, IntegerCondition]] = []
     for k, solved in enumerate(energies or known):

@@ -17,27 +17,26 @@ from fractions import Fraction
 from functools import cached_property, lru_cache
 from itertools import chain
 from random import Random
-from typing import NamedTuple
 
 from kovacic.algebra.extension import AlgebraicField
 from kovacic.algebra.function_field import FunctionField, FunctionPoly
 from kovacic.algebra.ratfunc import RatFunc
 from kovacic.algebra.rationals import QQ
+from kovacic.algebra.recurrence import polynomial_solution
 from kovacic.decision import NoInvariant, Structure
 from kovacic.engine.invariants import invariants
-from kovacic.engine.places import Problem, analyse
+from kovacic.engine.places import analyse
 from kovacic.errors import LimitExceeded
 from kovacic.limits import Budget
 from kovacic.parametric import prose
 from kovacic.parametric.assumptions import Assumptions
-from kovacic.parametric.claims import Adjoined, Claim, DegreeBySum, DegreeExists, EquationFor, rational_roots
+from kovacic.parametric.claims import Claim, DegreeBySum, DegreeExists, EquationFor, rational_roots
 from kovacic.parametric.exponents import (
     RankConditions,
     choices_of_degree,
     conditions_of_degree,
     degrees_of_solutions,
     form_conditions,
-    has_solution,
     is_too_large,
     zeros_of_forms,
 )
@@ -49,7 +48,6 @@ from kovacic.parametric.functions import (
     ParameterPoint,
     degrees,
     irreducible_factors,
-    lifted,
     over_parameters,
     union,
 )
@@ -173,8 +171,8 @@ class Natural(Statement):
         """Delta for one natural number, for each way in which the exponents give it."""
         return _determinants(self, number)
 
-    def given(self, number: int) -> Iterator[_GivenBy]:
-        """Where the exponents give the number: on hypersurfaces, or for all values of the parameters, where 0 vanishes."""
+    def given(self, number: int) -> Iterator[tuple[FunctionPoly, Hypersurface, RatFunc]]:
+        """Where the exponents give the number, that is, a function vanishes: it, its zeros and S there; all values for 0."""
         equations = [over_parameters(factor(Fraction(number))) for factor in self.factors or ()]
         for exponents in union(irreducible_factors(value) if value else [value] for value in equations):
             surface = hypersurface(exponents) if exponents else everywhere(exponents.field, self.constant)
@@ -182,16 +180,7 @@ class Natural(Statement):
                 S = surface.restricted(self.S)
                 if isinstance(S.field, FunctionField) and S.field.names[-1:] == self.constant.names:
                     S = everywhere(S.field, self.constant).restricted(S)
-                yield _GivenBy(exponents, surface, S)
-
-    def conditions(self, problem: Problem, number: int) -> list[RankConditions]:
-        """One for each choice of exponents."""
-        if problem.field.ground == QQ:  # no parameter is left
-            exists = _has_form(problem.S, self.m) if self.m > 1 else _has_solution(problem.S, number)
-            return [RankConditions(deficient=exists)]
-        if self.m > 1:
-            return [form_conditions(problem, self.m)]
-        return conditions_of_degree(problem, number)
+                yield exponents, surface, S
 
     def solutions(self, variable: str, number: int | None) -> tuple[PolynomialSolution, ...]:
         """Solutions with a P of this degree, for each way in which the exponents give it and P can exist."""
@@ -284,34 +273,14 @@ class Natural(Statement):
         numbers = degrees_of_solutions(problem) if self.m == 1 else zeros_of_forms(problem, self.m)
         if numbers is None:
             return None
-        squares = tuple(root.square for root in numbers.roots)
-        adjoined = None
-        if numbers.field != problem.field:
-            extension = numbers.field
-            assert isinstance(extension, AlgebraicField)
-            if extension.base != problem.field or extension.dimension > 2:
-                return None
-            name = "I" if extension.name == "sqrt(-1)" else extension.name
-            larger = FunctionField((*self.field.names, name))
-            squares = tuple(lifted(square, larger) for square in squares)
-            adjoined = Adjoined(name, over_parameters(-extension.modulus[0]))
         if numbers.only_signs:
-            return DegreeBySum(self.letter, numbers.constant, squares, adjoined=adjoined)
+            return DegreeBySum(self.letter, numbers)
         distance = over_parameters(problem.field.poly([-numbers.constant, 1]))
         has_zero = self.factors is None or distance in self.factors
         letters: list[str] = []
-        for _ in squares:
+        for _ in numbers.roots:
             letters.append(free_letter([self.letter, *self.setting.names, *letters], "jkmnl"))
-        bounds = tuple(root.largest for root in numbers.roots)
-        return DegreeBySum(self.letter, numbers.constant, squares, tuple(letters), bounds, has_zero, adjoined)
-
-
-class _GivenBy(NamedTuple):
-    """The exponents give a number where a polynomial vanishes: that, its zeros, and S there."""
-
-    exponents: FunctionPoly
-    surface: Hypersurface
-    S: RatFunc
+        return DegreeBySum(self.letter, numbers, tuple(letters), has_zero)
 
 
 @lru_cache(maxsize=64)
@@ -323,7 +292,14 @@ def _determinants(statement: Natural, number: int) -> tuple[Determinant, ...]:
         if statement.m == 1 and (has_free_constant or is_too_large(S.field)):
             found[Determinant(exponents)] = None
             continue
-        for conditions in statement.conditions(analyse(S, Budget()), number):
+        if S.field.ground == QQ:  # no parameter is left
+            exists = _has_form(S, statement.m) if statement.m > 1 else _has_solution(S, number)
+            choices = [RankConditions(deficient=exists)]
+        elif statement.m > 1:
+            choices = [form_conditions(analyse(S, Budget()), statement.m)]
+        else:
+            choices = conditions_of_degree(analyse(S, Budget()), number)
+        for conditions in choices:
             determinant = Determinant(exponents)
             if conditions.deficient and (statement.m == 1 or S.field.ground == QQ):
                 determinant = Determinant(exponents, (0 * exponents,))
@@ -341,10 +317,10 @@ def _determinants(statement: Natural, number: int) -> tuple[Determinant, ...]:
 @lru_cache(maxsize=256)
 def _has_solution(S: RatFunc, number: int) -> bool:
     """True if there is a solution with a P of this degree; cached, for several statements need it."""
-    found = has_solution(analyse(S, Budget()), number)
-    if found is None:
+    chosen = choices_of_degree(analyse(S, Budget()), number)
+    if chosen is None:
         raise LimitExceeded(f"the exponents of y'' = ({S}) y need too large an extension", limit="degree")
-    return found
+    return any(polynomial_solution(*exponents.operator, number) is not None for exponents in chosen)
 
 
 @lru_cache(maxsize=256)

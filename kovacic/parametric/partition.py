@@ -581,16 +581,12 @@ def derived(
 
 def _distinct(regions: Iterable[ParameterRegion], constant: ParameterPoint, budget: Budget) -> list[ParameterRegion]:
     """The regions with statements about all parameters, each statement once, and without those that earlier ones cover."""
-    different: dict[Statement, ParameterRegion] = {}
-    for region in regions:
-        # With high powers of the constant replaced by means of its minimal polynomial.
-        reduced = region.statement.rewritten(partial(in_lowest_powers, constant=constant))
-        statement = without_implied(reduced)
-        different.setdefault(statement, replace(region, statement=statement))
-    distinct = [*different.values()]
+    # With high powers of the constant replaced by means of its minimal polynomial.
+    reduced = [(region, region.statement.rewritten(partial(in_lowest_powers, constant=constant))) for region in regions]
+    shortened = [replace(region, statement=without_implied(statement)) for region, statement in reduced]
     with budget.watched(), suppress(LimitExceeded):
-        distinct = without_empty(distinct)
-    return distinct
+        return without_empty(shortened)
+    return shortened
 
 
 def _under(assumptions: Assumptions, found: Partition, S: RatFunc, budget: Budget) -> Partition:

@@ -13,6 +13,7 @@ from typing import Any
 from kovacic.algebra.function_field import FunctionPoly
 from kovacic.algebra.poly import Poly
 from kovacic.algebra.ratfunc import RatFunc
+from kovacic.algebra.rationals import QQ
 from kovacic.parametric.claims import (
     AllOf,
     AnyOf,
@@ -32,6 +33,7 @@ from kovacic.parametric.formulas import (
     in_product,
     in_sum,
     root_written,
+    shifted,
     sides_of_equation,
     written,
 )
@@ -162,19 +164,14 @@ def is_named(numbers: Classes) -> bool:
 # ------------------------------------------------------------------------------- claims
 
 
-def equation(zero: FunctionPoly) -> Math:
-    """The equation that a function vanishes, solved for a parameter if that is simple."""
+def equation(zero: FunctionPoly, relation: str = "=") -> Math:
+    """The equation that a function vanishes, solved for a parameter if that is simple; or that it doesn't, with !=."""
     sides = sides_of_equation(zero)
-    return Math.of(f"{alone(sides.left)} = {sides.right}")
+    return Math.of(f"{alone(sides.left)} {relation} {sides.right}")
 
 
 def alternatives_of(formulas: Sequence[Math]) -> Words:
     return _joined([(one,) for one in formulas], " or ")
-
-
-def unequal(zero: FunctionPoly) -> Math:
-    left, right = sides_of_equation(zero)
-    return Math.of(f"{alone(left)} != {right}")
 
 
 def _modulo_integers(form: FunctionPoly) -> str:
@@ -405,16 +402,16 @@ def _have_a_center(f: RatFunc, g: RatFunc) -> bool:
 
 
 def _degree_by_sum(claim: DegreeBySum) -> Words:
+    constant = claim.sums.constant
     if not claim.names:  # d - constant = +-sqrt(b) +- c
-        roots = [in_sum(root_written(square)) for square in claim.squares]
-        shift = f" - {claim.constant}" if claim.constant > 0 else f" + {-claim.constant}"
-        d = claim.letter + (shift if claim.constant else "")
+        roots = [in_sum(root_written(square)) for square in claim.sums.squares]
+        d = shifted(claim.letter, QQ.poly([constant]))
         return (Math.of(f"{d} = +-{' +- '.join(roots)}"),)
-    terms = [str(claim.constant)]
+    terms = [str(constant)]
     bounds: list[Words] = []
-    for name, square, bound in zip(claim.names, claim.squares, claim.bounds, strict=True):
+    for name, square, root in zip(claim.names, claim.sums.squares, claim.sums.roots, strict=True):
         terms.append(in_sum(root_written(square, name)))
-        bounds.append((Math.of(name), f" from -{bound} to {bound}"))
+        bounds.append((Math.of(name), f" from -{root.largest} to {root.largest}"))
     said = (Math.of(f"{claim.letter} = {' + '.join(terms)}"), " for integers ", *_joined(bounds, ", "))
     if claim.has_zero:
         return said
@@ -430,7 +427,7 @@ def _degree_exists(claim: DegreeExists) -> Words:
 #: How each kind of claim is written; `riemann` adds its own.
 _WRITERS: dict[type, Callable[[Any], Words]] = {
     IsZero: lambda claim: (equation(claim.function),),
-    IsNonzero: lambda claim: (unequal(claim.function),),
+    IsNonzero: lambda claim: (equation(claim.function, "!="),),
     AllOf: _all_of,
     AnyOf: _any_of,
     InClasses: _in_classes,

@@ -14,7 +14,6 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 from dataclasses import dataclass, field
-from itertools import product
 from math import lcm, prod
 
 from kovacic.algebra.function_field import FunctionField, FunctionPoly
@@ -231,7 +230,7 @@ def degree_equation(problem: Problem) -> Poly | None:
     None if a solution has no rational omega, or the exponents differ at more than two conjugate points.
     """
     numbers = None if _is_ramified(problem) else degrees_of_solutions(problem)
-    return None if numbers is None else numbers.equation([1] * len(numbers.roots))
+    return None if numbers is None else numbers.equation(*numbers.choices)
 
 
 def _is_ramified(problem: Problem) -> bool:
@@ -304,13 +303,12 @@ def _equations_for_zeros(problem: Problem, m: int, findings: Findings) -> tuple[
     numbers = zeros_of_forms(problem, m)
     if numbers is None:
         return ()
-    multiples_of_roots = [range(root.largest + 1) for root in numbers.roots]
-    if prod(map(len, multiples_of_roots)) > _COMBINATIONS:
+    if prod(root.largest + 1 for root in numbers.roots) > _COMBINATIONS:
         return None
     factors: list[FunctionPoly] = []
     if not complete:
         factors.append(over_parameters(problem.field.poly([-numbers.constant, 1])))
-    for multiples in product(*multiples_of_roots):
+    for multiples in numbers.choices:
         if any(multiples):
             sums = numbers.equation(multiples)
             factors += [over_parameters(factor) for factor, _ in problem.field.factor(sums) if may_be_natural(factor)]

@@ -214,32 +214,29 @@ def jacobi_formula(problem: Problem, coordinate: Coordinate, variable: str) -> B
     return by_signs
 
 
-class _SingularPoint(NamedTuple):
-    """Where it is, None at infinity, and the exponent difference."""
-
-    c: Any
-    difference: Any
+#: A singular point, None at infinity, and its exponent difference.
+_Point = tuple[Any, Any]
 
 
-def _three_points(problem: Problem, x: Any) -> list[_SingularPoint] | None:
+def _three_points(problem: Problem, x: Any) -> list[_Point] | None:
     """The singular points, an ordinary infinity among them if there are two; None if they aren't three, or are conjugate."""
-    points: list[_SingularPoint] = []
+    points: list[_Point] = []
     for place in problem.places:
         if place.kind is not Kind.ORDINARY and place.degree <= 2:
             points += _points_of(place, x)
     if len(points) == 2 and problem.infinity.kind is Kind.ORDINARY:
-        points.append(_SingularPoint(None, sympy.Integer(1)))
+        points.append((None, sympy.Integer(1)))
     return points if len(points) == 3 else None
 
 
-def _points_of(place: Place, x: Any) -> list[_SingularPoint]:
+def _points_of(place: Place, x: Any) -> list[_Point]:
     """One point, or the two roots of a quadratic factor, at which the square q x + r of the difference is conjugate, too."""
     square = place.difference_squared
     points = roots_of(place, x)
     if len(points) == 1:
-        return [_SingularPoint(points[0], root(square))]
+        return [(points[0], root(square))]
     slope, constant = square[1].to_sympy(x), square[0].to_sympy(x)
-    return [_SingularPoint(c, _square_root(sympy.together(sympy.expand(slope * c) + constant))) for c in points]
+    return [(c, _square_root(sympy.together(sympy.expand(slope * c) + constant))) for c in points]
 
 
 def roots_of(place: Place, x: Any) -> list[Any]:

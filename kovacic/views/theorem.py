@@ -194,7 +194,7 @@ class _TheoremWriter:
             sentence += self._assumed(name)
         for region in filter(_is_unequal, self.left_out):
             assert isinstance(region.statement, Vanishes)
-            sentence += [", ", prose.unequal(region.statement.function)]
+            sentence += [", ", prose.equation(region.statement.function, "!=")]
         return [*sentence, ". "]
 
     def _exceptions(self) -> Iterator[Block]:
@@ -529,7 +529,7 @@ def _exclusions(others: Sequence[Statement]) -> list[str | Math]:
     found: list[str | Math] = []
     for other in others:
         if are_equations and isinstance(other, Vanishes):
-            found += [", and ", prose.unequal(other.function)]
+            found += [", and ", prose.equation(other.function, "!=")]
         else:
             found += [", and not: ", *_sentence_of(other)]
     return found

@@ -42,7 +42,6 @@ LISTS = [
     "a^2*(1-exp(-x))^2 - a*b*exp(-x)",
     "(a*x+b)/(x^2-2)^2 + c/x",
     "(a*x+b)/(x^2+k)^2 + x^2",
-    "(a*x+b)/(x^2+1)^2 + c/(x-1)^3",
 ]
 #: Equations whose singular points move into one another, or to infinity, at values of the parameters.
 FORMULAS = {
@@ -62,6 +61,14 @@ def test_lists_are_true_as_printed(S: str) -> None:
     tried, wrong = wrongly_printed(answer, 70 if len(answer.parameters) < 3 else 40)
     assert tried >= 20
     assert not wrong, wrong[:3]
+
+
+@pytest.mark.long
+@pytest.mark.parametrize("S", ["(a*x+b)/(x^2+1)^2 + c/(x-1)^3", "(1+b*x)/(x^2+1)^2 + 3*x^4/(x^2-2)^3"])
+def test_points_with_conjugate_exponents_beside_irregular_ones(S: str) -> None:
+    answer = kovacic.conditions(S, var="x", max_degree=0)
+    assert answer.complete is True
+    assert answer.check(10)
 
 
 def test_a_parameter_is_free_where_its_coefficient_vanishes() -> None:
