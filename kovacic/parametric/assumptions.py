@@ -11,7 +11,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterable, Mapping, Sequence
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, replace
 from fractions import Fraction
 from functools import cached_property, lru_cache, reduce
 from itertools import combinations, product
@@ -51,7 +51,7 @@ _RATIONAL = r"[+-]?\d{1,1000}(?:/0*[1-9]\d{0,999})?"
 _BOUND = re.compile(rf"(>=|<=|>|<)({_RATIONAL}|[^\s<>=]*[a-z(][^\s<>=]*)")
 _UNEQUAL = re.compile(rf"!=({_RATIONAL})")
 #: Bits of a rational number in the place of an end that isn't one.
-_BITS = 64
+_BITS = 256
 #: Bits of the balls that are compared.
 _PRECISION = 512
 #: Numbers of a class between two bounds that are tried one by one.
@@ -67,27 +67,22 @@ _NAMED = {*WORDS} - {*INEQUALITIES, "half-integer"}
 class Bound:
     """`sign * (value - end)` isn't negative, nor zero where the bound is strict.
 
-    For an end that isn't rational, sqrt(2), the bound is that at the real number in the `ball`, and `end` a rational number
-    on its other side, nearby.
+    For an end that isn't rational, sqrt(2), it is a rational number on the other side, nearby.
     """
 
     sign: int
     end: Fraction
     strict: bool
-    ball: Any = field(default=None, compare=False)
 
     def admits(self, number: Fraction) -> bool:
-        """True unless a number is provably beyond the bound."""
-        if self.ball is not None and self.excludes(_ball_of(number)):
-            return False
+        """True unless the number is beyond the bound."""
         distance = self.sign * (number - self.end)
         return distance > 0 or (distance == 0 and not self.strict)
 
     def excludes(self, value: Any) -> bool:
         """True if a real ball provably lies on the wrong side."""
         with working_precision(_PRECISION):
-            end = _ball_of(self.end) if self.ball is None else self.ball
-            return bool((value - end) * self.sign < 0)
+            return bool((value - arb(fmpq(self.end.numerator, self.end.denominator))) * self.sign < 0)
 
     def among(self, numbers: Classes) -> Bound:
         """The bound for numbers of a single class, by the nearest of them."""
@@ -110,7 +105,7 @@ class Known:
         """Those that contain it."""
         return tuple(_CLASSES[word] for word in self.words if word in _CLASSES)
 
-    @property
+    @cached_property
     def coset(self) -> Classes | None:
         """The smallest known class that contains it."""
         return max(self.classes, key=lambda numbers: numbers.modulus, default=None)
@@ -132,13 +127,13 @@ class Known:
         found = {Fraction(match[1]) for match in map(_UNEQUAL.fullmatch, self.words) if match}
         return frozenset(found | {Fraction(0)} if "nonzero" in self.words else found)
 
-    @property
+    @cached_property
     def inequalities(self) -> tuple[Bound, ...]:
-        """All of its bounds, which aren't kept here: balls can't be pickled."""
+        """All of its bounds."""
         relations = [INEQUALITIES.get(word, word) for word in self.words]
         return tuple(_stated_bound(word) for word in relations if _BOUND.fullmatch(word))
 
-    @property
+    @cached_property
     def bounds(self) -> tuple[Bound, ...]:
         """The strongest lower and upper bounds; those of a class of numbers are among the numbers."""
         strongest: dict[int, Bound] = {}
@@ -256,13 +251,7 @@ def _stated_bound(word: str) -> Bound:
         whole = (steps - sign).unique_fmpz()
     if whole is None:
         raise InputError("a bound is too large to be compared with")
-    return Bound(sign, Fraction(int(whole), 2**_BITS), strict=True, ball=ball.real)
-
-
-def _ball_of(number: Fraction) -> Any:
-    """A ball with a rational number, to compare with others."""
-    with working_precision(_PRECISION):
-        return arb(fmpq(number.numerator, number.denominator))
+    return Bound(sign, Fraction(int(whole), 2**_BITS), strict=True)
 
 
 #: Words that are taken, and not used.
