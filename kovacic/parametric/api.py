@@ -164,14 +164,13 @@ def _false_formulas(
     equation = normal_form(S, found.variable) if found.equation is None else equation_at(found.equation, point)
     if equation is None:
         return
+    formulas = region.formulas
+    if not isinstance(formulas, Carried):
+        return
     natural = [part for part in region.naturals if part.m == 1]
-    numbers: list[int | None] = [number for part in natural for number in part.numbers_at(point) if number <= _LARGEST]
-    if not natural:
-        numbers = [None]
-    for number in numbers:
-        formulas = region.formulas
-        if not isinstance(formulas, Carried):
-            return
+    listed = chain.from_iterable(part.numbers_at(point) for part in natural)
+    numbers: list[int | None] = [number for number in listed if number <= _LARGEST]
+    for number in numbers if natural else [None]:
         # Formulas that aren't meant at these values aren't even translated to the equation that was given.
         meant = [solution for solution in formulas.found(number) if solution.at(values) is not None]
         for solution in formulas.of(meant):

@@ -140,7 +140,7 @@ def without_implied(statement: Statement) -> Statement:
         others = Both(tuple(other for other in vanishing(parts) if other is not part))
         if len(others.parts) > 1 and covered(charts_of(others), [part]):
             parts.remove(part)
-    return Both(tuple(dict.fromkeys(part for part in parts if part != ALWAYS)))
+    return all_of(parts)
 
 
 def vanishing(statements: Iterable[Statement]) -> list[Vanishes]:

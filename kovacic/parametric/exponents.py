@@ -40,6 +40,7 @@ from kovacic.engine.invariants import bounds, least_valuation
 from kovacic.engine.local import irregular_difference_squared
 from kovacic.engine.places import Kind, Place, Problem, analyse
 from kovacic.engine.riccati import Form, singular_part
+from kovacic.equation import parameters_of
 from kovacic.errors import LimitExceeded
 from kovacic.limits import bounded_work, check_time, count_work
 from kovacic.parametric.claims import ExponentRoot, Numbers
@@ -85,28 +86,26 @@ def rank_conditions(images: Sequence[Poly], field: Field) -> RankConditions:
     """
     surface = None
     if isinstance(field, AlgebraicField):
-        assert isinstance(field.base, FunctionField)
-        larger = FunctionField((*field.base.names, field.name))
+        larger = FunctionField((*parameters_of(field.base), field.name))
         surface = over_parameters(in_field(field.modulus, larger)(larger.generator(field.name))).num
         images = [lifted(image, larger) for image in images]
-        field = larger
-    assert isinstance(field, FunctionField)
     try:
         with bounded_work(_WORK):
-            return _conditions(images, field, surface)
+            return _conditions([*map(over_parameters, images)], surface)
     except LimitExceeded as limit:
         if limit.limit != "work":
             raise
         return OPEN
 
 
-def _conditions(images: Sequence[Poly], field: FunctionField, surface: Any) -> RankConditions:
+def _conditions(images: Sequence[FunctionPoly], surface: Any) -> RankConditions:
     """By all minors of the size of the rank, if there aren't too many, or else by two of them.
 
     The rank at a random point is a lower bound, and the generic rank but for a probability of about 2**-60.
     """
     # By powers of x, without denominators.
-    smaller = without_constant_pivots([by_power(over_parameters(image).num, 0) for image in images])
+    smaller = without_constant_pivots([by_power(image.num, 0) for image in images])
+    field = images[0].field
     # Each row once, the shortest first.
     different: dict[tuple[str, ...], list[Any]] = {}
     for row in smaller.rows:  # with coprime coefficients, the leading one positive

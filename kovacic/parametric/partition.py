@@ -43,7 +43,7 @@ from kovacic.algebra.rationals import QQ
 from kovacic.decision import Structure
 from kovacic.engine.decide import decide
 from kovacic.engine.places import Kind, Problem, analyse
-from kovacic.equation import Equation
+from kovacic.equation import Equation, parameters_of
 from kovacic.errors import LimitExceeded
 from kovacic.galois import group_of
 from kovacic.limits import Budget, bounded_work, count_work
@@ -144,22 +144,18 @@ def _apparent(problem: Problem) -> int:
 
 def _energies(S: RatFunc) -> list[int]:
     """The numbers of the parameters E with S = V - c E, c a number and V free of E."""
-    field = S.field
-    assert isinstance(field, FunctionField)
     above, below = map(over_parameters, S.cleared())
     found = []
-    for i in range(len(field.names)):
-        if degrees(above)[i] == 1 and not degrees(below)[i]:
-            slope = RatFunc(powers_of(above, i)[1], below * element(field, above.den))
-            if slope.is_polynomial and slope.num.degree == 0 and field.rational_value(slope.num) is not None:
+    for i, (power, power_below) in enumerate(zip(degrees(above), degrees(below), strict=True)):
+        if power == 1 and not power_below:
+            slope = RatFunc(powers_of(above, i)[1], below * element(above.field, above.den))
+            if slope.is_polynomial and S.field.rational_value(slope.num) is not None:
                 found.append(i)
     return found
 
 
 def _rational_logarithmic_derivatives(problem: Problem, energies: list[int]) -> Iterator[tuple[FunctionPoly, RatFunc]]:
     """`(E - E0, W)` with a W free of E, where the exponents give a P of small degree: that of a solution for E = E0."""
-    field = problem.field
-    assert isinstance(field, FunctionField)
     equation = degree_equation(problem)
     if equation is None:
         return
@@ -173,7 +169,7 @@ def _rational_logarithmic_derivatives(problem: Problem, energies: list[int]) -> 
                 continue
             W = -riccati.coefficients[0]
             if W.field == surface.field:
-                yield special, RatFunc(*(surface.back(part, field) for part in W.cleared()))
+                yield special, RatFunc(*(surface.back(part, special.field) for part in W.cleared()))
 
 
 #: What is a formula in the name of a group.
@@ -563,14 +559,12 @@ def derived(
     settings = Settings(budget, variable, only_theorems=max_degree is None, assumptions=assumptions)
     with budget.watched(), bounded_work(_STRATA):
         found = partition(lifted, settings)
-    field = lifted.field.ground
-    assert isinstance(field, FunctionField)
     regions = _distinct(found.regions, constant, budget)
     result = _under(assumptions, replace(found, regions=tuple(regions)), S, budget)
     with budget.watched(), suppress(LimitExceeded):
         generic = result.generic if result.complete is True else None
         result = replace(result, regions=tuple(without_redundant(result.regions, generic)))
-    regions = settled(result.regions, setting_of(variable, field.names, constant, letters, assumptions))
+    regions = settled(result.regions, setting_of(variable, parameters_of(lifted.field), constant, letters, assumptions))
     own = equation or normal_form(lifted, variable)
     # In solutions the constant is SymPy's number.
     x = sympy.Symbol(variable)

@@ -241,8 +241,6 @@ def _unsolved(claim: EquationFor) -> Math:
 
 
 def _all_of(claim: AllOf) -> Words:
-    if len(claim.parts) == 1:
-        return sentence(claim.parts[0])
     said: list[Words] = []
     for part in claim.parts:
         # Alternatives are in parentheses, unless they are those of one value.

@@ -34,7 +34,7 @@ from kovacic.algebra.rationals import QQ
 from kovacic.algebra.traces import characteristic_polynomial
 from kovacic.answer import Answer
 from kovacic.engine.places import Kind, Problem, analyse
-from kovacic.equation import PI, Parsed
+from kovacic.equation import PI, Parsed, parameters_of
 from kovacic.errors import InputError
 from kovacic.limits import Budget
 from kovacic.numbers.numerals import as_text
@@ -288,16 +288,15 @@ def with_free_constant(S: RatFunc) -> WithFreeConstant:
     field = S.field
     if not isinstance(field, AlgebraicField):
         return WithFreeConstant(S, S, NO_CONSTANT)
-    base = field.base
-    assert isinstance(base, FunctionField)
+    names = parameters_of(field.base)
     name = field.name
-    while name in base.names:
+    while name in names:
         name += "_"
-    larger = FunctionField((*base.names, name))
+    larger = FunctionField((*names, name))
     factors = [lifted(S.den.lc, larger)]
     factors += [lifted(factor, larger) ** k for factor, k in field.factor(S.den)]
     num = lifted(S.num, larger)
-    modulus = QQ.poly([base.rational_value(c) or 0 for c in field.modulus])
+    modulus = QQ.poly([field.base.rational_value(c) or 0 for c in field.modulus])
     numbers = AlgebraicField(QQ, modulus, field.name, field.approximation)
     point = ParameterPoint((name,), (numbers.generator,), numbers)
     return WithFreeConstant(RatFunc(num, product(factors)), RatFunc(num, lifted(S.den, larger)), point)

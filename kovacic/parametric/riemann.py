@@ -456,9 +456,6 @@ def _rational_root(square: Poly) -> FunctionPoly | None:
 
 def _difference_line(square: Poly, first: FunctionPoly, root: FunctionPoly | None) -> _DifferenceLine | None:
     """sqrt(square), up to its sign, as a line in w, w^2 = first; the shift is 0 where w isn't rational (`root` is None)."""
-    if square.field.rational_value(square) is not None:
-        constant = rational_square_root(square)
-        return None if constant is None else _DifferenceLine(_F(0), constant)
     if root is None:
         ratio = rational_square_root(square / first)
         return None if ratio is None else _DifferenceLine(ratio, _F(0))
@@ -476,20 +473,19 @@ def _by_one_function(cubic: FunctionPoly, structure: Structure) -> Statement | N
 
     w or its square is a rational function of the parameters.
     """
-    squares = roots(cubic)
-    free = [over_parameters(square) for square in squares if cubic.field.rational_value(square) is None]
-    if not free or len(squares) < 3:
+    constants = differences(cubic).constants
+    free = [over_parameters(square) for square in roots(cubic) if without_parameters(square) is None]
+    if not free or len(free) + len(constants) < cubic.degree:
         return None
     first = free[0]
     root = _rational_root(first)
-    differences = [_difference_line(square, first, root) for square in squares]
-    if any(line is None and square in free for line, square in zip(differences, squares, strict=True)):
+    lines = [*filter(None, (_difference_line(square, first, root) for square in free))]
+    if len(lines) < len(free):
         return None
-    lines = {line for line in differences if line is not None and line.slope}
     period = reduce(common_multiple, (2 / abs(line.slope) for line in lines))
     # The w modulo the period with this structure: of those at which a line has a denominator of the table.
     tried = {w for line in lines for w in _numbers_in_table(line, period)}
-    admitted = [w for w in sorted(tried) if kimura([line and line.at(w) for line in differences]) is structure]
+    admitted = [w for w in sorted(tried) if kimura([*constants, *(line.at(w) for line in lines)]) is structure]
     if admitted and root is not None:
         return Congruence.make(over_parameters(cubic.field.poly([0, 1]) - root), admitted, period)
     # Only w^2 is known: w and -w are the same.
