@@ -30,7 +30,7 @@ from kovacic.errors import LimitExceeded
 from kovacic.limits import Budget
 from kovacic.parametric import prose
 from kovacic.parametric.assumptions import Assumptions
-from kovacic.parametric.claims import Claim, DegreeBySum, DegreeExists, EquationFor, rational_roots
+from kovacic.parametric.claims import AnyOf, Claim, DegreeBySum, DegreeExists, EquationFor, IsZero, rational_roots
 from kovacic.parametric.exponents import (
     RankConditions,
     choices_of_degree,
@@ -56,7 +56,6 @@ from kovacic.parametric.prose import Words
 from kovacic.parametric.restriction import Hypersurface, everywhere, hypersurface, in_lowest_powers
 from kovacic.parametric.solutions import PolynomialSolution, solution_of_degree
 from kovacic.parametric.statements import Setting, Statement
-from kovacic.writing.formula import Math
 
 #: The largest number that is tried for an example.
 _EXAMPLES = 2
@@ -204,7 +203,7 @@ class Natural(Statement):
 
         There is no equation where it is that for all values.  Where one Delta is 0, no other one says more.
         """
-        found: dict[str, dict[Math, None]] = {}
+        found: dict[str, dict[IsZero, None]] = {}
         determinants = self.determinants(number)
         where_zero = {one.exponents for one in determinants if one.is_zero}
         for determinant in determinants:
@@ -212,8 +211,8 @@ class Natural(Statement):
                 continue
             places = found.setdefault(str(determinant), {})
             if determinant.exponents:
-                places[prose.equation(determinant.exponents)] = None
-        return {value: prose.alternatives_of([*places]) for value, places in found.items()}
+                places[IsZero(determinant.exponents)] = None
+        return {value: prose.sentence(AnyOf(tuple(places))) for value, places in found.items()}
 
     def sample(self, random: Random) -> list[FunctionPoly]:
         if not self.factors:

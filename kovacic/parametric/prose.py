@@ -170,10 +170,6 @@ def equation(zero: FunctionPoly, relation: str = "=") -> Math:
     return Math.of(f"{alone(sides.left)} {relation} {sides.right}")
 
 
-def alternatives_of(formulas: Sequence[Math]) -> Words:
-    return _joined([(one,) for one in formulas], " or ")
-
-
 def _modulo_integers(form: FunctionPoly) -> str:
     """2*n - 1/2: of the constant term only what it is modulo 1."""
     constant = constant_term(form)
@@ -275,7 +271,7 @@ def _sides_of_one_value(parts: Sequence[Claim]) -> list[SidesOfEquation] | None:
     """For "n = 0 or -1": the equations, where all have the same left side; else None."""
     zeros = [part for part in parts if isinstance(part, IsZero)]
     sides = [sides_of_equation(zero.function) for zero in zeros]
-    is_one = len(zeros) == len(parts) and len({side.left for side in sides}) == 1
+    is_one = 1 < len(zeros) == len(parts) and len({side.left for side in sides}) == 1
     return sides if is_one else None
 
 

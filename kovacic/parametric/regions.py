@@ -251,7 +251,7 @@ class ParameterRegion:
                     value + f" where {prose.text_of(places)}" * (len(values) > 1 and len(places) > 0)
                     for value, places in values.items()
                 ]
-                text = ", ".join(said)
+                text = "; ".join(said)
                 if said:
                     found.append(f"Delta_{d} = {text[:_WRITTEN_OUT]}" + "..." * (len(text) > _WRITTEN_OUT))
                 else:

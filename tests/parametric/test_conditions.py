@@ -129,7 +129,7 @@ def test_sextic_oscillator() -> None:
     (region,) = answer.regions
     assert str(region.statement) == "a = +-(2*d + 3), d in N, and Delta_d = 0"
     assert region.case == 1
-    assert region.determinants[2] == "Delta_2 = b^2 - 8 where a = -7, b^2 + 8 where a = 7"
+    assert region.determinants[2] == "Delta_2 = b^2 - 8 where a = -7; b^2 + 8 where a = 7"
     assert len(region.determinants) == 4
     assert answer.case_at({"a": -7, "b": sympy.sqrt(8)}) == 1
     assert answer.case_at({"a": -7, "b": 1}) is None
@@ -1008,9 +1008,9 @@ def test_the_spectrum_of_a_homogeneous_potential_is_written_alike_for_all_names(
 def test_determinants_know_the_value_of_a_constant() -> None:
     """y = (x^2 + b) exp(x/(2 sqrt 2)) for a = 2, c = 1/8 and all b; y = exp(-x^4/4 - sqrt(2) x^2/4)."""
     simple_poles = kovacic.conditions("(a + sqrt(2)*x)/(x^2 + b) + c", var="x")
-    assert simple_poles.regions[-1].determinants[0] == "Delta_0 = a - 2 where c = 1/8, a^2 + 2*b where c = 1/2"
+    assert simple_poles.regions[-1].determinants[0] == "Delta_0 = a - 2 where c = 1/8; a^2 + 2*b where c = 1/2"
     sextic = kovacic.conditions("x^6 + sqrt(2)*x^4 + a*x^2 + b", var="x").regions[-1]
-    assert sextic.determinants[0] == "Delta_0 = 2*b + sqrt(2) where a = -5/2, 2*b - sqrt(2) where a = 7/2"
+    assert sextic.determinants[0] == "Delta_0 = 2*b + sqrt(2) where a = -5/2; 2*b - sqrt(2) where a = 7/2"
     assert str(sextic.solution(0)[0]).startswith("y = exp(-x^4/4 - sqrt(2)*x^2/4) where a = -5/2")
     # Where the exponents and the constant need one extension, nothing is claimed.
     both = kovacic.conditions("sqrt(2) + a/x + b/x^2 + c*x^2", var="x", max_degree=0).regions[-1]

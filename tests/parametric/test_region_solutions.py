@@ -64,9 +64,9 @@ def test_every_solution_with_a_natural_degree_solves_the_equation(S: str, values
         ("g*x^4 + b*x + c", 1, {"b": R(3, 2)}),
         ("l*(l+1)/x^2 + a*x^2 + c + x^6", 2, {"l": R(3, 7)}),
         (
-            "e^2/4 + A/x + B/(x-1) + (a^2-1)/(4*x^2) + (b^2-1)/(4*(x-1)^2)",
+            "k^2/4 + A/x + B/(x-1) + (a^2-1)/(4*x^2) + (b^2-1)/(4*(x-1)^2)",
             1,
-            {"a": R(1, 3), "b": R(2, 5), "e": R(3, 2)},
+            {"a": R(1, 3), "b": R(2, 5), "k": R(3, 2)},
         ),
     ],
     ordinary=0,
