@@ -620,18 +620,13 @@ def logarithms(residues: Iterable[Residue], atoms: Atoms, y: Product | None = No
             top, bottom = (atoms.primitive(residue.factor)[1] for residue in (first, opposite[0]))
             at_zero = first.factor.field.rational_value(first.factor[0] * opposite[0].factor[0])
             is_around_zero = at_zero is not None and at_zero < 0
-            if is_around_zero and (y is None or _are_real_before(_positive(first, opposite[0], atoms), y, atoms)):
+            positive = first if atoms.is_negative(first.factor[0]) else opposite[0]
+            if is_around_zero and (y is None or _are_real_before(-positive.factor[0], y, atoms)):
                 bottom = -bottom
             terms.append(atoms.constant(first.value) * sympy.log(top / bottom, evaluate=False))
         else:
             terms.append(atoms.log_sum(first))
     return terms[::-1]
-
-
-def _positive(first: Residue, other: Residue, atoms: Atoms) -> Poly:
-    """The positive one of two poles of different signs."""
-    a, b = -first.factor[0], -other.factor[0]
-    return b if atoms.is_negative(a) else a
 
 
 def _are_real_before(end: Poly, y: Product, atoms: Atoms) -> bool:

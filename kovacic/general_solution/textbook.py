@@ -46,7 +46,6 @@ _LARGEST = 400
 
 def in_book_form(value: Expr, x: Expr, free: Sequence[Expr] = ()) -> Expr:
     """The shortest form of an answer; the functions that the constants `free` of a general one belong to stay."""
-    is_small = _is_small(value)
     short = value
     if free and value.free_symbols <= {x, *free} and not any(p.is_number for p in value.atoms(sympy.Pow)):
         # numbers as factors stand with each term
@@ -56,11 +55,8 @@ def in_book_form(value: Expr, x: Expr, free: Sequence[Expr] = ()) -> Expr:
     exponents = {e: exp(sympy.expand(e.args[0])) for e in value.atoms(exp) if e.args[0].is_Add}
     value = shortest([value, short, value.xreplace(exponents)])
     for rule in _RULES_OF_GENERAL_SOLUTIONS if free else _SHAPE_RULES:
-        if not is_small:
-            break
-        found = shortest([value, *rule(value, x)])
-        if found != value:
-            value, is_small = found, _is_small(found)
+        if _is_small(value):
+            value = shortest([value, *rule(value, x)])
     return _with_equal_roots(_without_roots_of_squares(value, x, free))
 
 

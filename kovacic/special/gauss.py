@@ -132,7 +132,8 @@ class Gauss(StandardEquation):
             if even is not None:
                 return _by_parity(even)  # independent for all values of the letters
             for form in forms:  # P_nu and Q_nu beyond 1
-                if form.is_between and writer.has_letters(form.beta) and form.has_integers:
+                has_integers = writer.is_integer(form.alpha) and writer.is_integer(form.gamma)
+                if form.is_between and writer.has_letters(form.beta) and has_integers:
                     decaying = form.swapped if writer.is_negative(form.beta) else form.swapped.turned
                     return _at_two_points(form.regular, decaying)
         if any(writer.is_integer(form.degree) for form in first.signs):
@@ -229,11 +230,6 @@ class _GaussForm:
             yield _GaussForm(self.writer, self.f, s * self.alpha, t * self.beta, u * self.gamma)
 
     @property
-    def has_integers(self) -> bool:
-        """True if the exponent differences at the zeros and poles of f are integers."""
-        return self.writer.is_integer(self.alpha) and self.writer.is_integer(self.gamma)
-
-    @property
     def has_polynomial(self) -> bool:
         """True if a polynomial of symbolic degree has exponents that are known to be the larger ones, or no integers."""
         writer = self.writer
@@ -258,18 +254,7 @@ class _GaussForm:
         forms = [replace(self, beta=sign * self.beta) for sign in (1, -1)]
         return min(forms, key=lambda form: form.factor.size)
 
-    @property
-    def middle(self) -> Expr | None:
-        """The x with f = 1/2, where f is a polynomial of degree 1: between the points at which it is 0 and 1."""
-        return self._line_is(HALF)
-
-    @property
-    def aside(self) -> Expr | None:
-        """As `middle`, but the positive x with f = -1/2 where f is -c x."""
-        is_turned = not self.f.num[0] and self.writer.is_negative(self.f.num.lc)
-        return self._line_is(-HALF if is_turned else HALF)
-
-    def _line_is(self, value: Fraction) -> Expr | None:
+    def line_at(self, value: Fraction) -> Expr | None:
         """The x with f = value, where f is a polynomial of degree 1."""
         num = self.f.num
         if not self.f.is_polynomial or num.degree != 1:
@@ -297,11 +282,13 @@ class _GaussForm:
 
     @property
     def inside(self) -> Expr | None:
-        """`aside`, or a place at which 2F1(f) is real, with 0 < f < 1 if it can be; over Q alone."""
+        """A place over Q where 2F1(f) is real, with 0 < f < 1 if it can be; f = 1/2 of a line, but f = -1/2 of -c x."""
         import sympy
 
-        if self.aside is not None or self.f.field != QQ:
-            return self.aside
+        is_turned = not self.f.num[0] and self.writer.is_negative(self.f.num.lc)
+        place = self.line_at(-HALF if is_turned else HALF)
+        if place is not None or self.f.field != QQ:
+            return place
         below = (sympy.Rational(x) for x in PLACES if (self._at(x) or 0) < 0)
         return self.between or next(below, None)
 
@@ -418,7 +405,7 @@ def _at_two_points(form: _GaussForm, other: _GaussForm) -> WrittenPair:
         W = -sympy.gamma(1 - alpha) * sympy.gamma(1 - beta) / (sympy.gamma(a) * sympy.gamma(b))
         return first.bracket(second, W)
 
-    return writer.pair(first.term, second.term, bracket, (form.alpha,), real_at=form.middle or form.between)
+    return writer.pair(first.term, second.term, bracket, (form.alpha,), real_at=form.line_at(HALF) or form.between)
 
 
 def _reducible_pair(writer: Writer, forms: list[_GaussForm]) -> WrittenPair | None:
@@ -493,7 +480,7 @@ def _by_parity(form: _GaussForm) -> WrittenPair:
     """Both, with powers that are real between the two points, or at 0."""
     import sympy
 
-    return form.writer.pair(*_even_and_odd(form), form.bracket_of_parity, real_at=form.middle or sympy.S.Zero)
+    return form.writer.pair(*_even_and_odd(form), form.bracket_of_parity, real_at=form.line_at(HALF) or sympy.S.Zero)
 
 
 def _even_and_odd(form: _GaussForm) -> tuple[WrittenTerm, WrittenTerm]:

@@ -371,10 +371,8 @@ class Writer:
 
     def scale(self, f: RatFunc) -> Poly:
         """The constant beside the powers of f's monic factors, of those times -1 that are negative at the first place."""
-        return -f.num.lc if self._turns(f) % 2 else f.num.lc
-
-    def _turns(self, f: RatFunc) -> int:
-        return sum(k for p, k in f.multiplicities if k % 2 and self.places and self.real.is_turned(p))
+        turned = sum(k % 2 and self.real.is_turned(p) for p, k in f.multiplicities) if self.places else 0
+        return -f.num.lc if turned % 2 else f.num.lc
 
     def root_of(self, f: RatFunc) -> Expr:
         """A square root of a rational function, by factors, up to its sign."""
