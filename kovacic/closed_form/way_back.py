@@ -142,10 +142,15 @@ def _with_joined_powers(expression: Any, x: Any) -> Any:
     def is_power_of_exponential(e: Any) -> bool:
         return bool(e.is_Pow and e.base.func is sympy.exp)
 
+    def is_arc_tangent_of_wave(e: Any) -> bool:
+        return bool(e.func is sympy.atan and e.args[0].func is sympy.exp and not (e.args[0].exp / sympy.I).has(sympy.I))
+
     def is_of_waves(e: Any) -> bool:
         return bool(e.func is sympy.exp and any(inner.has(sympy.I) for inner in e.args[0].atoms(sympy.exp)))
 
     found = expression.replace(is_log_of_exponential, lambda e: e.args[0].exp)
+    # atan(exp(i w)) without pi/4: a solution stays one, as its continuations do
+    found = found.replace(is_arc_tangent_of_wave, lambda e: sympy.I / 4 * _log_of_sines(e.args[0].exp / sympy.I))
     found = found.replace(is_of_waves, lambda e: sympy.exp(sympy.expand(e.args[0].rewrite(sympy.cos))))
     found = found.replace(is_exponential_and_one, _by_half_angle)
     found = found.replace(is_product_with_x, lambda e: sympy.expand_power_base(e, force=True, deep=False))
@@ -165,6 +170,11 @@ def _by_halves(t: Any, power: Any) -> Any:
     function, sign = _SINES[t.func]
     factor = sympy.Integer(2 * sign if power.base == t - 1 else -2 * sign)
     return factor**power.exp * function(half) ** (2 * power.exp)
+
+
+def _log_of_sines(w: Any) -> Any:
+    """log((1 + sin(w))/(1 - sin(w))), whose slope is 2/cos(w)."""
+    return sympy.log((1 + sympy.sin(w)) / (1 - sympy.sin(w)))
 
 
 def _by_half_angle(e: Any) -> Any:

@@ -36,7 +36,7 @@ from kovacic.general_solution.integrands import (
     sum_of,
 )
 from kovacic.general_solution.substitution import size
-from kovacic.general_solution.waves import beside_waves, by_coefficients, common_factor, wave_changes
+from kovacic.general_solution.waves import beside_waves, by_coefficients, common_factor, in_waves, wave_changes
 from kovacic.general_solution.zero import ball, samples
 from kovacic.limits import check_time
 
@@ -226,12 +226,8 @@ def _roots(term: Expr, x: Expr) -> Iterator[ChangeOfIntegrand]:
 
 
 def _waves(term: Expr, x: Expr) -> Iterator[ChangeOfIntegrand]:
-    """To c, s or a tangent, with exp(i u) = cos(u) + i sin(u)."""
-    for e in term.atoms(exp):
-        angle = sympy.expand(e.args[0] / sympy.I)
-        if e.has(sympy.I) and not angle.has(sympy.I):
-            term = term.xreplace({e: cos(angle) + sympy.I * sin(angle)})
-    yield from wave_changes(term, x)
+    """To c, s or a tangent."""
+    yield from wave_changes(in_waves(term), x)
 
 
 # ------------------------------------------------------------------------------------------------------------ by parts

@@ -100,7 +100,7 @@ def integral_of_product(term: Expr, x: Expr) -> Expr | None:
     # sqrt(x^2 + a^2)/sqrt(a^2) for sqrt(x^2/a^2 + 1); one root of a linear function is left, as a new variable
     parts = {base: sympy.fraction(sympy.together(base)) for base in radicands(term) if base.has(x)}
     split = {base: (n, d) for base, (n, d) in parts.items() if d.free_symbols and not d.has(x)}
-    if len(parts) == 1 and any(not n.diff(x).has(x) for n, _ in split.values()):
+    if not functions and len(parts) == 1 and any(not n.diff(x).has(x) for n, _ in split.values()):
         return None
     for base, (n, d) in split.items():
         term = term.replace(lambda e: e.is_Pow and e.base == base, lambda e: n**e.exp * d**-e.exp)  # noqa: B023

@@ -28,7 +28,7 @@ from typing import Any
 
 import sympy
 from flint import arb
-from sympy import DiracDelta, Heaviside, cos, exp, expand, log, powsimp, sin
+from sympy import DiracDelta, Heaviside, cos, cosh, exp, expand, log, powsimp, sin, sinh
 from sympy.core.function import AppliedUndef
 
 from kovacic.algebra.factors import combination
@@ -52,7 +52,7 @@ from kovacic.general_solution.steps import JUMPING, in_parts
 from kovacic.general_solution.substitution import in_single_waves, size
 from kovacic.general_solution.textbook import is_constant
 from kovacic.general_solution.undetermined import undetermined
-from kovacic.general_solution.waves import fractions_of_waves
+from kovacic.general_solution.waves import fractions_of_waves, in_waves
 from kovacic.general_solution.zero import Residual, points
 from kovacic.reading.change_of_variable import slope_squared
 
@@ -124,7 +124,8 @@ def _without_integrals(basis: Basis, right: Expr) -> Expr | None:
     polynomial = _polynomial_solution(equation, ratfunc(right, x) if equation.change is None else in_t)
     if polynomial is not None:
         t = Atoms(sympy.Symbol(equation.variable))
-        return in_x(equation, t.poly(polynomial).xreplace(NUMBERS))
+        found = in_x(equation, t.poly(polynomial).xreplace(NUMBERS))
+        return _without_homogeneous(basis, expand(in_waves(found))) if found.has(sympy.I) else found
     if equation.change is not None:
         return None
     b, c = map(sympy.factor, basis.rates)
@@ -240,7 +241,7 @@ def with_integrals(basis: Basis, right: Expr, start: Expr | None) -> Expr:
     x = basis.x
     integrands = [powsimp(y * right / basis.wronskian) for y in (basis.y2, basis.y1)]
     known = _known_integrals(basis, integrands, start)
-    if None not in known and basis.equation.change is None:
+    if None not in known:
         whole = _checked(basis, known, right)
         if whole is not None:
             return starting_at(whole, x, start)
@@ -284,6 +285,10 @@ def _checked(basis: Basis, parts: Sequence[Any], right: Expr) -> Expr | None:
     if any(power.exp.free_symbols - {basis.x} for power in whole.atoms(sympy.Pow)):  # x x^a
         whole = powsimp(whole)
     forms = [whole]
+    if whole.has(sympy.I):
+        forms.append(expand(in_waves(whole)))
+    if whole.has(sinh, cosh):  # beside integrals, which are in exponentials
+        forms.append(expand(whole.rewrite((sinh, cosh), exp)))
     if whole.has(sin, cos):
         forms += [in_single_waves(whole), *fractions_of_waves(whole, basis.x)]
     candidates = [_without_homogeneous(basis, part) for form in forms for part in (form, _gathered(form, basis.x))]

@@ -110,6 +110,12 @@ def wave_changes(term: Expr, x: Expr) -> list[WaveChange]:
     return [] if slope.has(x) or slope == 0 else [*_changes(found, slope)]
 
 
+def in_waves(e: Expr) -> Expr:
+    """With exp(i u) = cos(u) + i sin(u)."""
+    angles = {f: sympy.expand(f.args[0] / sympy.I) for f in e.atoms(sympy.exp) if f.has(sympy.I)}
+    return e.xreplace({f: cos(u) + sympy.I * sin(u) for f, u in angles.items() if not u.has(sympy.I)})
+
+
 def common_factor(multiples: Sequence[Expr]) -> Expr | None:
     """The largest u of which all are integer multiples, or None."""
     ratios = [sympy.cancel(multiple / multiples[0]) for multiple in multiples]

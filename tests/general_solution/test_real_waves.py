@@ -45,9 +45,23 @@ def test_solutions_are_real_and_independent(text: str) -> None:
     assert not general.has(sympy.I)
 
 
-def test_the_answer_of_a_book() -> None:
-    """Solved in books by u = y cos(x); no value of x was in the domain of the former answer."""
-    assert str(kovacic.dsolve("y'' - 2*tan(x)*y' - 10*y = 0").rhs) == "(C1*cosh(3*x) + C2*sinh(3*x))/cos(x)"
+@parametrize(
+    ("text", "printed"),
+    [
+        # Solved in books by u = y cos(x); no value of x was in the domain of the former answer.
+        ("y'' - 2*tan(x)*y' - 10*y = 0", "(C1*cosh(3*x) + C2*sinh(3*x))/cos(x)"),
+        ("y'' + tan(x)*y' = 1/cos(x)", "C1 + C2*sin(x) - cos(x)"),
+        (
+            "y'' - tan(x)*y' = 1/cos(x)",
+            "C1 + C2*log((sin(x) + 1)/(1 - sin(x))) + x*log((sin(x) + 1)/(1 - sin(x)))/2"
+            " - Integral(log((sin(x) + 1)/(1 - sin(x)))/2, x)",
+        ),
+        ("y'' + tanh(x)*y' = 1", "C1 + C2*atan(sinh(x)) - x + log(exp(2*x) + 1)"),
+    ],
+    ordinary=4,
+)
+def test_the_answer_of_a_book(text: str, printed: str) -> None:
+    assert str(kovacic.dsolve(text).rhs) == printed
 
 
 @parametrize("seed", range(24), ordinary=1, long=1)
