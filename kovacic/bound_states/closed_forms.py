@@ -331,6 +331,12 @@ class _ClosedFormSearch(ClosedForms):
             if len(functions) + len(naturals) == len(parts):
                 zeros = [function.subs(self.constants) for function in functions]
                 for solution in chain.from_iterable(map(region.solution, numbers)):
+                    if any(
+                        atom.has(self.E) for f in solution.conditions for atom in f.atoms(sympy.Pow) if atom.exp.q == 2
+                    ):
+                        # With sqrt(-E) in a condition, of which one value is meant, there is no polynomial in E.
+                        self.complete, self.levels, self.higher = False, [], None
+                        return NO_FORMULA
                     self._add(self._under_conditions(solution, zeros))
         self.complete = is_settled
         if self.levels or not is_barred:
