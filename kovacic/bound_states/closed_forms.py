@@ -178,12 +178,16 @@ def _number_below(V: Any, t: Any, bounds: tuple[Any, Any]) -> Any:
 
 @dataclass(kw_only=True)
 class _ClosedFormSearch(ClosedForms):
-    """Through the regions of the conditions: what was found, and `complete` as long as nothing may have been missed."""
+    """Through the regions of the conditions: what was found, and `complete` as long as nothing may have been missed.
+
+    `are_all_listed` says that of the degrees that were tried; some levels need several equations for E and the parameters.
+    """
 
     question: Examined
     conditions: ParametricAnswer
     window: _Window
     max_degree: int
+    are_all_listed: bool = True
 
     @property
     def E(self) -> Any:
@@ -232,7 +236,8 @@ class _ClosedFormSearch(ClosedForms):
         others = "whether others are Liouvillian isn't known"
         if all(region.case == 1 for region in self.conditions.regions):
             others = f"each level with a closed form has a polynomial of some degree d: {self.conditions.theory}"
-        return f"the levels with a polynomial of degree d <= {self.max_degree}; {others}"
+        which = "the levels" if self.are_all_listed else "levels, perhaps not all,"
+        return f"{which} with a polynomial of degree d <= {self.max_degree}; {others}"
 
     def _listed(self, region: ParameterRegion) -> Iterator[tuple[int | None, Any]]:
         """The E at which the statement may hold: degrees (None without a choice) with irreducible polynomials in E."""
@@ -331,9 +336,7 @@ class _ClosedFormSearch(ClosedForms):
             if len(functions) + len(naturals) == len(parts):
                 zeros = [function.subs(self.constants) for function in functions]
                 for solution in chain.from_iterable(map(region.solution, numbers)):
-                    if any(
-                        atom.has(self.E) for f in solution.conditions for atom in f.atoms(sympy.Pow) if atom.exp.q == 2
-                    ):
+                    if not all(sympy.numer(sympy.together(f)).is_polynomial(self.E) for f in solution.conditions):
                         # With sqrt(-E) in a condition, of which one value is meant, there is no polynomial in E.
                         self.complete, self.levels, self.higher = False, [], None
                         return NO_FORMULA
@@ -381,11 +384,13 @@ class _ClosedFormSearch(ClosedForms):
         numerators = [sympy.numer(sympy.together(function)) for function in (*functions, *solution.conditions)]
         polynomial = reduce(sympy.gcd, (one for one in numerators if one.has(self.E)), sympy.Integer(0))
         others = {one for one in numerators if not one.has(self.E)}
+        signs = self.question.signs
         if not polynomial.has(self.E) or len(others) > 1:
+            is_false = any(signs.sign(signs.real(one)) is not None for one in others)
+            self.are_all_listed = self.are_all_listed and is_false
             return
         if sympy.LC(polynomial, self.E).could_extract_minus_sign():
             polynomial = -polynomial
-        signs = self.question.signs
         solution = self._at(solution, polynomial)
         constraints = [f for other in others for f, _ in sympy.factor_list(other)[1]] if others else [sympy.Integer(0)]
         for constraint in constraints:

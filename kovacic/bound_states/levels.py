@@ -177,13 +177,13 @@ class Algebraic:
         """The levels at rational values of the parameters: of each it is known how many zeros its function has."""
         if self.P is None or self.range is None or self.constraint.xreplace(values) != 0:
             return
-        if not all(_is_true(condition, values) for condition in self.conditions):
-            return
         E = sympy.Symbol(energy)
         P = sympy.Poly(self.P.as_expr().xreplace(values), self.P.gen)
         bounds = [end.xreplace(values) for end in self.range]
         polynomial = sympy.numer(sympy.together(self.polynomial.xreplace(values)))
         for value in real_roots(polynomial, E):
+            if not all(_is_true(condition, {**values, E: value}) for condition in self.conditions):
+                continue
             number = zeros_inside(P, E, value, bounds)
             if number is not None:
                 number = number if self.middle is None else 2 * number + self.middle

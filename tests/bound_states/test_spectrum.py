@@ -505,6 +505,9 @@ def test_states_of_a_family_that_is_solvable_for_some_values() -> None:
     assert [(s.number, s.energy) for s in found.states({"g": 1, "k": 1})] == [(0, -root), (2, root)]
     assert [(s.number, s.energy) for s in found.states({"g": 2, "k": 1})] == [(0, -4), (2, 4)]
     assert found.states({"g": 1, "k": "1/3"}) == ()
+    pole = kovacic.spectrum("a/x + b*x^2", domain=HALF, assume={"b": "positive"})
+    assert [(s.number, s.energy) for s in pole.states({"a": 0, "b": 1})] == [(0, 3)]  # where E > 0
+    assert pole.reason.startswith("levels, perhaps not all, with")  # a = 2, b = 1: E = 5
 
 
 @parametrize(
