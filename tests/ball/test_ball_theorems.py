@@ -208,8 +208,7 @@ def product_of(powers: dict[RatFunc, Fraction]) -> RatFunc:
     return prod((base ** int(e) for base, e in powers.items() if not e % 1), start=RatFunc(QQ.poly([1])))
 
 
-@pytest.mark.long
-@pytest.mark.parametrize("sign", [1, -1])
+@parametrize("sign", [1, -1], ordinary=0, long=1)
 def test_theorem_1_solutions_for_N_up_to_12(sign):
     """The same, over Q: x1 = 1, x2 = -1, to which an affine change of x carries any two roots."""
     for N in range(1, 13):

@@ -42,8 +42,8 @@ def solutions_are_right(name: str, points: int) -> None:
     assert not wrong, wrong[:3]
 
 
-#: One family of thirty-six in the long tests, each of them in the slow ones.
-EACH = [pytest.param(name, marks=pytest.mark.long if k % 36 == 6 else pytest.mark.slow) for k, name in enumerate(ALL)]
+#: One family of seventy-two in the long tests, each of them in the slow ones.
+EACH = [pytest.param(name, marks=pytest.mark.long if k % 72 == 6 else pytest.mark.slow) for k, name in enumerate(ALL)]
 
 
 @parametrize("name", SOME, ordinary=1, long=1)

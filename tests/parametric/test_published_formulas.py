@@ -260,8 +260,7 @@ def test_a_screen_of_regions() -> None:
     assert len(everything.splitlines()) >= len(str(answer).splitlines())
 
 
-@pytest.mark.long
-@pytest.mark.parametrize("S", ["(a*b*x^2 - a)/(x^2 - sqrt(2)*a)^2", "((a^2 - b^2)*x^2 + a)/(x^2 - I*b)^2"])
+@parametrize("S", ["(a*b*x^2 - a)/(x^2 - sqrt(2)*a)^2", "((a^2 - b^2)*x^2 + a)/(x^2 - I*b)^2"], ordinary=0, long=1)
 def test_a_denominator_that_is_a_square_because_of_a_constant(S: str) -> None:
     """x^4 - 2 a s x^2 + 2 a^2 is a square for s = sqrt(2) alone; the answer is complete, and s^2 is 2."""
     answer = kovacic.conditions(S, var="x")

@@ -14,7 +14,7 @@ import pytest
 import strategies
 import textbook
 import transform
-from build import QQ, AlgebraicField, Budget, Ground, Poly, RatFunc, analyse, generated, verify
+from build import QQ, AlgebraicField, Budget, Ground, Poly, RatFunc, analyse, generated, parametrize, verify
 from flint import nmod_poly
 from forged import (
     GroupClaim,
@@ -442,8 +442,9 @@ def paths(data: Any, prefix: tuple[Any, ...] = ()) -> Iterator[tuple[Any, ...]]:
 WRONG = [None, True, 3, -1, 0.5, "7", "x", "", [], {}, ["x"], 10**30, "1/0", "y'' + (", "infinity"]
 
 
-@pytest.mark.long
-@pytest.mark.parametrize("text", ["2", "x", "x^2 + 3", "1/x - 3/(16*x^2)", "sqrt(2)/x^2", "x^4 + 6*x"])
+@parametrize(
+    "text", ["2", "x", "x^2 + 3", "1/x - 3/(16*x^2)", "sqrt(2)/x^2", "x^4 + 6*x"], ordinary=0, long=(1, 2, 3, 5)
+)
 def test_a_field_of_another_type_or_value_fails_or_is_refused_or_says_the_same(text: str) -> None:
     """Another point, or a multiple of a form, may be right as well."""
 
