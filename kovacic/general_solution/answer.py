@@ -230,7 +230,8 @@ def exceptional_cases(zero: Expr) -> Iterator[Exceptional]:
             example = {number: sympy.Integer(sign == "positive")}
             yield Exceptional(f"{number} is a {sign} integer", assume={number.name: f"{sign} integer"}, example=example)
         return
-    slopes = {letter: sympy.factor(zero.diff(letter)) for letter in sorted(zero.free_symbols, key=str)}
+    letters = [letter for letter in sorted(zero.free_symbols, key=str) if zero.is_polynomial(letter)]
+    slopes = {letter: sympy.factor(zero.diff(letter)) for letter in letters}
     linear = [k for k, slope in slopes.items() if not slope.has(k) and not (slope.is_Add and slope.free_symbols)]
     if not linear:
         yield Exceptional(str(ZeroSet(zero)))
