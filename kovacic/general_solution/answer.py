@@ -222,13 +222,18 @@ class SystemAnswer(ProblemAnswer):
 
 
 def exceptional_cases(zero: Expr) -> Iterator[Exceptional]:
-    """Where an expression in letters is zero: a value of one of them, or integers, for sin(pi l)."""
-    number = zero.args[0] / sympy.pi if isinstance(zero, sympy.sin) else zero
-    if number is not zero and number.is_Symbol:
-        signs = [sign for sign in ("positive", "nonpositive") if getattr(number, f"is_{sign}") is not False]
-        for sign in signs:
+    """Where an expression in letters is zero: a value of one of them, or integers, for sin(pi l) and 1/gamma(l)."""
+    integers: list[tuple[Expr, str]] = []
+    if isinstance(zero, sympy.sin):
+        integers = [(zero.args[0] / sympy.pi, sign) for sign in ("positive", "nonpositive")]
+    elif isinstance(1 / zero, sympy.gamma):
+        integers = [((1 / zero).args[0], "nonpositive"), (-(1 / zero).args[0], "nonnegative")]
+    integers = [(number, sign) for number, sign in integers if number.is_Symbol]
+    for number, sign in integers:
+        if getattr(number, f"is_{sign}") is not False:
             example = {number: sympy.Integer(sign == "positive")}
             yield Exceptional(f"{number} is a {sign} integer", assume={number.name: f"{sign} integer"}, example=example)
+    if integers:
         return
     letters = [letter for letter in sorted(zero.free_symbols, key=str) if zero.is_polynomial(letter)]
     slopes = {letter: sympy.factor(zero.diff(letter)) for letter in letters}

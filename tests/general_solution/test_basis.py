@@ -120,6 +120,9 @@ def test_an_answer_knows_what_it_rests_on() -> None:
 def test_exceptions_at_poles_of_gamma_functions_are_said_in_integers() -> None:
     laguerre = kovacic.answer_to("x*y'' + (1 - x)*y' + n*y = 0")
     assert str(laguerre.validity) == "x > 0, n is none of 0, 1, 2, ..."
+    (case,) = laguerre.exceptions
+    assert str(case) == "n is a nonnegative integer"
+    assert case.answer.eq.has(sympy.laguerre)
 
 
 @pytest.mark.long
