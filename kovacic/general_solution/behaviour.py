@@ -462,6 +462,11 @@ def value_at(expression: Expr, x: Expr, point: Expr, order: int = 0) -> Expr:
     value = finite_value(e, x, point)
     if value is not None:
         return value
+    for integral in e.atoms(sympy.Integral):  # from the point to x it is 0 there, and so is a bounded multiple
+        letter = sympy.Dummy()
+        in_letter = e.xreplace({integral: letter})
+        if integral.limits[0][1:] == (point, x) and have_values([in_letter.diff(letter)], x, point):
+            e = in_letter.xreplace({letter: _ZERO})
     # The limit from the right, if it is that from the left: a closed form with roots may be another solution there.
     with suppress(NotImplementedError):
         right, left = (limit_at(e, x, Approach(point, direction)) for direction in (1, -1))
