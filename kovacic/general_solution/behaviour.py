@@ -283,7 +283,11 @@ def _with_leading_terms(e: Expr, variable: Expr, towards: Expr) -> Expr:
             near = {sympy.oo: z, -sympy.oo: -z, _ONE: 1 - z, -_ONE: 1 + z}.get(end, z)
             leading = rules[end](*parameters, sympy.expand(near))
             known |= {} if leading is None else {f: leading}
-    return sympy.powsimp(sympy.expand_power_base(e.xreplace(known))) if known else e
+    joined = sympy.powsimp(sympy.expand_power_base(e.xreplace(known))) if known else e
+    # s^(1/2 - p/(2 p + 4) - 1/(p + 2)) is 1
+    return joined.replace(
+        lambda u: u.is_Pow and u.exp.is_Add and bool(u.exp.free_symbols), lambda u: u.base ** sympy.cancel(u.exp)
+    )
 
 
 def _series(top: Sequence[Any], bottom: Sequence[Any], z: Expr) -> Expr:

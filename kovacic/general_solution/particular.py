@@ -90,6 +90,8 @@ def right_hand_side(equation: Equation) -> Expr:
     h = sympy.sympify(equation.h or 0).xreplace(NUMBERS)
     if equation.change is None:
         return (f + h) / a
+    if f == 0:  # and the slope needn't be a function of t: x^(5/2)
+        return h
     return in_x(equation, sympy.factor(f / a * slope_squared(equation))) + h
 
 
