@@ -541,6 +541,7 @@ def test_no_eigenvalues(V: str, domain: tuple[object, object]) -> None:
         ("1/x^4 - h/x^3", HALF),  # sqrt(-E) stands in the conditions
     ],
     ordinary=(0, 2, 3, 5),
+    long=(1,),
 )
 def test_what_is_not_covered_is_undecided(V: str, domain: tuple[object, object]) -> None:
     """Where the poles are isn't known, and whether E = 2 d + 1 has a closed form is known for each d alone."""
@@ -1234,7 +1235,7 @@ def test_a_norm_has_a_value_for_each_level(V: str, numbers: tuple[int, ...]) -> 
         ("6*tan(x)^2 + 2*tan(x)", ("pi/2", "3*pi/2"), (1.570797, 4.712388)),
     ],
     ordinary=2,
-    long=(1, 5),
+    long=(5,),
 )
 def test_functions_are_real_in_every_period(V: str, domain: Any, period: tuple[float, float]) -> None:
     """Powers of sin(x/2), which is negative in some of them, and of a distance on the left of 0; with the norm."""

@@ -617,7 +617,7 @@ def test_orders_modulo_primes_are_those_of_the_kernel() -> None:
     for S, data in lines_with_orders():
         known = data["group"].pop("orders")[0]
         decision = solve(S).decision
-        for p in (5, 7, 11, 13, 17, 19):
+        for p in (5, 11, 17):
             for k in range(1, 13):
                 claim = claimed(
                     GroupClaim("infinite dihedral", None, orders=((known["prime"], known["order"]), (p, k)))

@@ -211,6 +211,7 @@ def test_many_digits_and_the_same_digits_by_few() -> None:
         "y'' + sin(x/3)*y' + (sec(x/5 + 1/3) + cot(2*x))*y = 0",
     ],
     ordinary=1,
+    long=(1, 2),
 )
 def test_waves_of_which_the_common_angle_is_small(text: str) -> None:
     """Coefficients of high degree in exp(ix/45) are evaluated as they are written."""

@@ -773,7 +773,7 @@ def test_values_on_both_sides_of_a_pole_on_the_right(text: str, values: str) -> 
         "x*(x-1)*y'' + (3/2 - 2*x)*y' + 2*y = sin(x)",
     ],
     ordinary=0,
-    long=2,
+    long=(2,),
 )
 def test_integrals_that_are_left_between_singular_points(text: str) -> None:
     """Substituted with any antiderivatives: the Wronskian had another branch between 0 and 1, or beyond."""

@@ -49,7 +49,7 @@ def test_blocks_that_differ_stay_apart() -> None:
     assert "n = 2 or 0, and" not in text
 
 
-@pytest.mark.long
+@pytest.mark.slow
 def test_a_region_within_an_earlier_one_is_left_out() -> None:
     """Lame's equation with g2, g3: what holds on the cuspidal curve is said once, not again for n = 1/2."""
     S = "(n*(n+1)*x+B)/(4*x^3-g2*x-g3) - 3*(16*x^4+8*g2*x^2+32*g3*x+g2^2)/(16*(4*x^3-g2*x-g3)^2)"
