@@ -272,7 +272,7 @@ def _schroedinger(text: str, var: str | None, energy: str, limits: Limits) -> _P
 def _with_letters(known: Assumptions, letters: Letters, parameters: Iterable[str]) -> Assumptions:
     """With the signs of letters for exp(b), log(2), sqrt(a), and that a isn't negative, since sqrt(a) is real.
 
-    Raises `InputError` if it is known to be negative.
+    Raises `InputError` for an assumption that makes such an a negative.
     """
     for _, meaning in letters:
         base, exponent = meaning.as_base_exp()

@@ -159,8 +159,9 @@ class Algebraic:
     They exist where `constraint` vanishes (a function of the parameters; 0 where it does anyway), and their energies are the
     zeros of `polynomial`, in E; `wave` is a solution for each of them, with E for the energy, square integrable where the
     `conditions` hold.  `states` are the energies without parameters and the zeros of their functions inside the domain.  `P` is
-    the polynomial in the solutions, in its own variable t, and `range` the least and the largest t on the domain, None if t
-    isn't known to be monotonic.  If t turns in the middle it is the range on one half, and `middle` is 1 or 0: the zeros there.
+    the polynomial in the solutions, in its own variable t, and `range` the least and the largest t on the domain, or None if
+    the monotonicity of t is undecided.  If t turns in the middle it is the range on one half, and `middle` is 1 or 0: the
+    zeros there.
     """
 
     degree: int

@@ -115,7 +115,7 @@ def limit_at(expression: Expr, x: Expr, place: Approach) -> Expr:
 
 
 def _candidates(e: Expr, x: Expr, way: Expr, variable: Expr, towards: Expr) -> Iterator[Expr | None]:
-    """What the limit may be: by Taylor's series at a finite point, else by leading terms, from each summand or the whole."""
+    """Candidates for the limit: by Taylor series at a finite point, else by leading terms, of each summand or of the whole."""
     if towards == 0:
         yield _quotient_of_analytic_functions(e, x, way.subs(variable, 0))
     leading = _with_leading_terms(e.xreplace({x: way}), variable, towards)

@@ -66,6 +66,7 @@ from kovacic.general_solution.riccati import solved_riccati
 from kovacic.general_solution.substitution import size
 from kovacic.general_solution.systems import Solver, read_system, solved_system
 from kovacic.general_solution.textbook import in_book_form, without_homogeneous
+from kovacic.general_solution.zero import is_identically_zero
 from kovacic.general_solution.zero_set import ZeroSet
 from kovacic.limits import DEFAULT_LIMITS, Budget, Limits, limited
 from kovacic.numbers.numerals import as_text
@@ -377,7 +378,7 @@ def _solved(question: Question, budget: Budget, *, special: bool) -> ProblemAnsw
     assert solution is not None
     if solution.status is Status.UNDECIDED and not solution.known:
         notices.append(f"whether there is a Liouvillian solution is {no_solution(solution)}")
-    answer = _determined(question, basis) if question.conditions else _general(question, basis)
+    answer = _determined(question, basis, budget) if question.conditions else _general(question, basis)
     return replace(answer, notices=notices + answer.notices, known=question.renamed)
 
 
@@ -432,10 +433,10 @@ class _Family:
         other = self.question.written(replace(self, basis=self.basis.otherwise).member(self.names))
         return [f"{holds}; elsewhere, {other.lhs} = {other.rhs}"]
 
-    def said(self, case: ParameterCase, answer: Expr) -> Iterator[str]:
+    def said(self, case: ParameterCase, answer: Expr, budget: Budget) -> Iterator[str]:
         """The solutions for particular values of the parameters, of which the answer is the one for all others."""
         if case.outcome is Outcome.OPEN:
-            yield from _said_of_open(self.question, case, answer)
+            yield from _said_of_open(self.question, case, answer, budget)
         else:
             yield self._said_of_determined(case, answer)
 
@@ -464,15 +465,18 @@ def _are_same_family(one: Expr, other: Expr, names: Collection[Expr], x: Expr) -
     """True for two equal expressions, and for p + C u and q + C v with a constant u/v and (p - q)/v."""
     constants = {name for name in names if one.has(name) or other.has(name)}
     if not constants:
-        return (one - other).equals(0) is True
+        return is_identically_zero(one - other)
     (p, u), (q, v) = ((e.subs(dict.fromkeys(constants, 0)), sympy.Add(*map(e.diff, constants))) for e in (one, other))
     if len(constants) > 1 or u == 0:
         return False
     return not any(sympy.simplify(quotient / v).has(x, sympy.nan, sympy.zoo) for quotient in (u, p - q))
 
 
-def _said_of_open(question: Question, case: ParameterCase, answer: Expr) -> Iterator[str]:
-    """What holds at the values of a letter that the conditions left open, where it isn't the answer; asked there."""
+def _said_of_open(question: Question, case: ParameterCase, answer: Expr, budget: Budget) -> Iterator[str]:
+    """The solutions at the values of a letter that the conditions leave open, unless `answer` holds there as well.
+
+    The equation is solved for these values, each time in half of the remaining time, so that the answer is not lost.
+    """
     factors = ZeroSet(case.zeros[0]).factors if len(case.zeros) == 1 else ()
     places = [place for factor in factors for place in exceptional_cases(factor)]
     if not places or not all(place.values for place in places):
@@ -483,7 +487,7 @@ def _said_of_open(question: Question, case: ParameterCase, answer: Expr) -> Iter
         there = None
         try:
             equation, conditions = question.at(place.values)
-            there = answer_to(equation, question.function, ics=conditions)
+            there = answer_to(equation, question.function, ics=conditions, limits=budget.share(0.5).limits)
         except _Contradiction:
             yield f"{place}, where there is no solution"
             continue
@@ -519,7 +523,7 @@ def _general(question: Question, basis: Basis) -> SecondOrderAnswer:
     return family.answer(value, unchecked, unchecked)
 
 
-def _determined(question: Question, basis: Basis) -> SecondOrderAnswer:
+def _determined(question: Question, basis: Basis, budget: Budget) -> SecondOrderAnswer:
     """The answer with the constants that the conditions determine.  Raises `InputError` if they contradict one another."""
     limits = limit_points(question)
     start = start_of(question, limits)
@@ -532,7 +536,7 @@ def _determined(question: Question, basis: Basis) -> SecondOrderAnswer:
     value = family.member(generic.values)
     value = in_book_form(value, question.x, family.names if value.has(*family.names) else ())
     cases = (case for case in determined.particular if case.is_possible)
-    exceptions = [said for case in cases for said in family.said(case, value)]
+    exceptions = [said for case in cases for said in family.said(case, value, budget)]
     if generic.outcome is Outcome.NONE:
         said = "there is no solution with these values: the conditions contradict one another"
         singular = [str(point) for point, place in limits.items() if not place.is_infinite]

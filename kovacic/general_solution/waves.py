@@ -252,7 +252,7 @@ def beside_waves(term: Expr, x: Expr) -> Expr | None:
 
 
 def _beside_at_most_one_wave(term: Expr, x: Expr) -> Expr | None:
-    """The same for one term, by partial fractions k (x - c)^n, of which c is where a quadratic angle has no slope."""
+    """Integral of R times at most one wave, by partial fractions k (x - c)^n; c is the vertex of a quadratic angle."""
     waves = [wave for wave in term.atoms(sin, cos) if wave.has(x)]
     wave = sympy.Mul(*waves)
     R = term / wave

@@ -202,7 +202,7 @@ class ExponentRoot(NamedTuple):
 
 @dataclass(frozen=True)
 class Numbers:
-    """What the exponents allow as a degree of P, or as the number of zeros of a form: constant + sum of k times a root.
+    """The possible degrees of P, or numbers of zeros of a form, by the exponents: constant + sum of k times a root.
 
     The roots are over the `field`, the `base` or a quadratic extension of it.  With `only_signs` each k is 1 or -1.
     """

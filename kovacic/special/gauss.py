@@ -276,7 +276,7 @@ class _GaussForm:
         return None if found is None else sympy.Rational(found)
 
     def _at(self, x: Fraction) -> Fraction | float | None:
-        """f at a place, None where that has letters; NaN at a pole, where f is neither above nor below 1."""
+        """The value of f at a place, or None if it contains letters; NaN at a pole, which is neither above nor below 1."""
         den = self.f.den(x)
         return self.f.field.rational_value(self.f.num(x) / den) if den else nan
 

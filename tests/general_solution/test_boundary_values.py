@@ -6,12 +6,14 @@ import itertools
 import re
 import warnings
 from collections.abc import Callable, Iterator
+from contextlib import suppress
 from random import Random
 from typing import Any
 
 import pytest
 import sympy
 from build import parametrize, size
+from clocks import controlled
 from scipy.integrate import solve_ivp
 from sympy import E, Rational, Symbol, cbrt, cos, exp, log, oo, pi, sec, sin, sqrt, tan
 
@@ -485,6 +487,18 @@ def test_an_answer_that_holds_in_an_exceptional_case_has_none(equation: str, ics
     """The row of the condition is zero at k = 0, and the solutions there are C1 all the same."""
     assume = {"n": "natural"} if "n" in equation else None
     assert not kovacic.answer_to(equation, ics=ics, assume=assume).notices
+
+
+def test_the_answer_is_kept_where_an_exceptional_case_takes_too_long() -> None:
+    """At k = 0 the equation is solved once more, in a part of the time that is left."""
+    notices: set[str] = set()
+    for looks in range(1000):
+        with controlled(step=0.001), suppress(NotImplementedError):
+            limits = kovacic.Limits(seconds=0.2 + looks / 500)
+            notices |= {*kovacic.answer_to("y'' + k^2*y = 0", ics="y'(0)=1", limits=limits).notices}
+        if "this holds unless k = 0, where y(x) = C1 + x" in notices:
+            break
+    assert "this holds unless k = 0: give such values for the solutions there" in notices
 
 
 @parametrize(
