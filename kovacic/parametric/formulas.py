@@ -69,7 +69,7 @@ def shortest(function: FunctionPoly | RatFunc, letter: str) -> str:
     return _shortest(_written_forms(above, below), names)
 
 
-def written(function: FunctionPoly | RatFunc, letter: str = "x") -> str:
+def written(function: Poly | RatFunc, letter: str = "x") -> str:
     """The shortest of the usual forms, with its denominator in factors; `letter` is the name of the polynomial variable."""
     above, below, names = _as_quotient(function, letter)
     forms = [*_written_forms(above, below)]
@@ -183,7 +183,7 @@ class _Quotient(NamedTuple):
     names: tuple[str, ...]
 
 
-def _as_quotient(function: FunctionPoly | RatFunc, letter: str) -> _Quotient:
+def _as_quotient(function: Poly | RatFunc, letter: str) -> _Quotient:
     """A function as such a quotient; the polynomial variable comes first."""
     quotient = function if isinstance(function, RatFunc) else RatFunc(function)
     above, below = map(over_parameters, quotient.cleared())

@@ -179,7 +179,7 @@ def _spectrum(equation: FunctionPoly, numbers: Classes, letter: str, setting: Se
         strata = tuple(one for one in solved.strata if not setting.covers(one.zero))
         for family in _integer_choices(equation, solved, numbers, letter):
             text = shortest(family.value, family.letter)
-            said = prose.text_of(prose.numbers_of(family))
+            said = prose.text_of(prose.phrase(prose.numbers_of(family)))
             cost = _LATER * k + _STRATUM * len(strata) + _WEIGHT * len(text) + _WORDS * len(said)
             # Of n and -n that by which f(1) = 1, if there is one: n + k*n*(n - 1)/2, as Yoshida and Morales & Ramis have it.
             above, below = (part(Fraction(1)) for part in (family.value.num, family.value.den))

@@ -170,11 +170,11 @@ class Schwarz(Statement):
                 return either(*(all_of((here, _in_rows(cubic, self.structures))) for here, cubic in there))
         return self
 
-    def sentence(self) -> Words:
+    def line(self) -> str:
         """Which differences are in which rows."""
         known = differences(self.cubic)
         if self.structures == (Structure.IMPRIMITIVE,) and known.names is not None:
-            return prose.phrase(known.two_half_integers)
+            return known.two_half_integers
         rows = [number for number, row in _SCHWARZ.items() if row.structure in self.structures]
         which = "row 1 (two half-integers)"
         if rows:
@@ -182,7 +182,7 @@ class Schwarz(Statement):
         names = (
             (f"(the square roots of the roots of {shown(self.cubic, 'Z')})",) if known.names is None else known.names
         )
-        return prose.phrase(f"the exponent differences {_listed(names)} are in Schwarz's {which}")
+        return f"the exponent differences {_listed(names)} are in Schwarz's {which}"
 
     def resolved(self) -> ResolvedDifferences:
         """The classes modulo 1 or 2, up to signs, of two differences beside a constant one, with their names.
@@ -224,7 +224,7 @@ class Schwarz(Statement):
         return None
 
 
-prose.writes({Schwarz: Schwarz.sentence})
+prose.writes({Schwarz: Schwarz.line})
 
 
 class ResolvedDifferences(NamedTuple):

@@ -337,7 +337,7 @@ def _whittaker(beta_squared: Poly, delta_squared: Poly, n: int) -> RegionVerdict
         return reducible("`G_m`")
     if delta is not None and (delta.denominator > 1 or not delta):
         return borel()
-    where = f"`{written(over_parameters(beta_squared))} < {written(over_parameters(delta_squared))}`"
+    where = f"`{written(beta_squared)} < {written(delta_squared)}`"
     return borel(where if delta is not None else f"`{root_written(delta_squared / n**2)}` is an integer and {where}")
 
 

@@ -23,7 +23,7 @@ from kovacic.parametric import prose
 from kovacic.parametric.assumptions import WORDS
 from kovacic.parametric.cases import Case, charts_of, outside, solvable_cases, vanishing, within
 from kovacic.parametric.claims import IntegerFamily
-from kovacic.parametric.formulas import partial_fractions, unexpanded
+from kovacic.parametric.formulas import partial_fractions, unexpanded, written
 from kovacic.parametric.integers import free_letter
 from kovacic.parametric.natural import NO_FORMULA, Natural
 from kovacic.parametric.parametric_answer import ParametricAnswer
@@ -307,8 +307,7 @@ class _TheoremWriter:
             poles = prose.poles_of(families)
             if not poles:
                 return
-            first, *others = poles
-            yield say("For ", *first, *(piece for part in others for piece in (" or ", *part)), ":")
+            yield say(*prose.phrase(f"For {' or '.join(poles)}:"))
         if len(solutions) > _ONE_BY_ONE:
             together = general(region.formulas, self.signs)
             if together is not None:
@@ -321,12 +320,12 @@ class _TheoremWriter:
         n = family.letter
         start: list[str | Math] = []
         if are_several:
-            start = [prose.equals(family.parameter, family.value, n), ", "]
+            start = [Math.of(prose.equals(family.parameter, family.value, n)), ", "]
         for row in rows:
             progression, roots = row.numbers.without(pole.root for pole in family.poles)
             without: list[str | Math] = []
             for root in roots:
-                without += [", ", Math.of(f"{n} != {prose.function(root, n)}")]
+                without += [", ", Math.of(f"{n} != {written(root, n)}")]
             yield say("For ", *start, *progression.said(n), *without, ":")
             yield Formula(self._named_solution(row.solution))
 

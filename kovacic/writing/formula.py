@@ -265,7 +265,13 @@ def latex_text(text: str) -> str:
     \sin\left(\frac{x}{2}\right)^{n + 1}
     >>> print(latex_text("2*n in Z"), latex_text("n != +-1/2"))
     2 n \in \mathbb{Z} n \ne \pm \frac{1}{2}
+    >>> print(latex_text("n = 1, 2 mod 5"))
+    n \equiv 1, 2 \pmod{5}
     """
+    form, _, modulus = text.partition(" mod ")
+    if modulus:
+        congruence = latex_text(form).replace("=", r"\equiv")
+        return rf"{congruence} \pmod{{{latex_text(modulus)}}}"
     for pattern, replacement in _RELATIONS:
         text = pattern.sub(replacement, text)
     writer = _LatexWriter()
