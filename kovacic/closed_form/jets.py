@@ -20,6 +20,7 @@ from functools import lru_cache, partial, reduce
 from math import prod
 from operator import add, mul
 from typing import Any
+from zlib import crc32
 
 import sympy
 from flint import acb, acb_poly, acb_series, arb, ctx, fmpq, fmpz_poly
@@ -246,8 +247,11 @@ def jet(expression: Any, variable: Any, point: Acb) -> tuple[Acb, Acb, Acb]:
 
 
 def parameter_value(name: str) -> Acb:
-    """The value that a parameter takes in the check: a number that isn't special."""
-    return acb(1 + arb(fmpq(sum(ord(c) * 31**k for k, c in enumerate(name)) % 9973, 9967)))
+    """The value that a parameter takes in the check, between 1 and 2 and in no simple relation to those of other names.
+
+    With p = 1 + k/n and q = 1 + (k + 1)/n for the neighbours p and q, p/(p - q) would be an integer.
+    """
+    return acb(1 + arb(fmpq(crc32(name.encode()), 2**32 - 5)))
 
 
 class _Evaluator(BallEvaluator):

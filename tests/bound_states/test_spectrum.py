@@ -126,7 +126,7 @@ def test_levels_by_degree(V: str, domain: tuple[object, object], degree: int, pr
         ("-9/4*sech(x)^2 + tanh(x)/2", ("-oo", "oo"), 1),
     ],
     ordinary=0,
-    long=1,
+    long=(1,),
 )
 def test_as_many_levels_as_a_solution_has_zeros(V: str, domain: tuple[object, object], number: int) -> None:
     """Just below the continuous spectrum."""

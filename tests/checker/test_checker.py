@@ -579,7 +579,7 @@ def test_orders_modulo_primes_are_checked() -> None:
 
 @pytest.mark.long
 def test_orders_modulo_primes_are_checked_and_forged_ones_refuted() -> None:
-    for _, data in lines_with_orders():
+    for _, data in lines_with_orders(step=2):
         orders = data["group"]["orders"]
         assert len({entry["order"] for entry in orders}) == 2
         assert checker.verdict(json.dumps(data)).startswith(GROUP_TOO)
@@ -614,7 +614,7 @@ def test_an_order_modulo_primes_doesnt_make_a_finite_group_infinite() -> None:
 def test_orders_modulo_primes_are_those_of_the_kernel() -> None:
     """Linear algebra in the checker, Euclid's algorithm in the kernel: beside one right order every prime and order."""
     agreed = 0
-    for S, data in lines_with_orders():
+    for S, data in lines_with_orders(step=2):
         known = data["group"].pop("orders")[0]
         decision = solve(S).decision
         for p in (5, 11, 17):
@@ -627,7 +627,7 @@ def test_orders_modulo_primes_are_those_of_the_kernel() -> None:
                 verified = bool(verify(S, decision, claim))
                 assert verified == said.startswith(GROUP_TOO), (str(S), p, k, said)
                 agreed += verified
-    assert agreed > 6
+    assert agreed > 3
 
 
 def test_a_quaternion_group_with_irrational_constants_is_checked() -> None:

@@ -420,7 +420,7 @@ def test_floats_come_back() -> None:
     assert str(dsolve("y'' + 0.4*y' + 0.04*y = 0").rhs) == "(C1 + C2*x)*exp(-x/5)"
 
 
-@pytest.mark.long
+@pytest.mark.slow
 def test_long_constants_with_parameters_come_to_an_end() -> None:
     """Determinants that are too long to be factored, and a Wronskian whose terms cancel."""
     g = Symbol("g")

@@ -120,6 +120,13 @@ def test_equations_of_the_books(equation: str, first: str, second: str) -> None:
     assert solves(answer.special, answer.S, answer.gauge, **values)
 
 
+@pytest.mark.parametrize(("p", "q"), ["pq", pytest.param("b", "a", marks=pytest.mark.long)])
+def test_neighbours_in_the_alphabet_are_letters_as_others(p: str, q: str) -> None:
+    """The check took p = 1 + k/n and q = 1 + (k + 1)/n, where (p - 1)/(p - q), the third parameter, is an integer."""
+    answer = kovacic.solve(f"(x-{p})*(x-{q})*y'' + (x-1)*y' + c*y = 0")
+    assert str(answer.special.y1).startswith("hyper(")
+
+
 CORPUS = [
     json.loads(line)
     for line in (Path(__file__).parents[1] / "data" / "special.jsonl").read_text(encoding="utf-8").splitlines()

@@ -154,7 +154,7 @@ def test_answers_are_sequences_that_can_be_pickled():
     assert found.to_dict()["levels"][1]["zeros"] == 1
 
 
-@pytest.mark.long
+@pytest.mark.slow
 def test_close_pairs_of_a_double_well_are_told_apart():
     """Their distance is 1.03e-16: balls of 15 digits would contain both levels, and so would the numbers as printed."""
     found = schroedinger("x^4 - 20*x^2", count=2)
