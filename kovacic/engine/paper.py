@@ -144,7 +144,7 @@ def _may_succeed(family: Family, m: int) -> bool:
 
 def in_sympy(value: Any, x: Any) -> Any:
     """A number, or a polynomial in x, as a SymPy expression."""
-    return expand(value.to_sympy(x)) if isinstance(value, Poly) else sympify(value, strict=True)
+    return value.to_sympy(x) if isinstance(value, Poly) else sympify(value, strict=True)
 
 
 def _naturals(choices: Sequence[Sequence[Choice]], points: Sequence[SingularPoint], m: int) -> int | None:

@@ -9,8 +9,9 @@ from collections.abc import Iterator, Sequence
 from functools import cached_property
 from typing import Any
 
-from sympy import Add, Symbol
+from sympy import Add, Symbol, sqrt
 
+from kovacic.algebra.function_field import FunctionPoly
 from kovacic.answer import Answer
 from kovacic.decision import Status
 from kovacic.engine.families import SingularPoint, is_natural, natural
@@ -97,10 +98,11 @@ class Steps:
             return "-"
         if place.delta is not None:
             return as_text(place.delta)
-        if place.delta_squared is not None:
-            square = self.formulas.math(place.delta_squared)
-            return Math(f"sqrt({square.text})", rf"\sqrt{{{square.latex}}}")
-        return "not rational"
+        square = place.delta_squared
+        if square is None:
+            return "not rational"
+        outer, inner = square.square_part() if isinstance(square, FunctionPoly) else (1, square)
+        return of_sympy(in_sympy(outer, self.x) * sqrt(in_sympy(inner, self.x)))
 
     def necessary(self) -> Iterator[Block]:
         yield Heading("Kovacic's necessary conditions (section 2.1)")

@@ -283,6 +283,14 @@ def test_published_equations_are_explained_without_closed_forms(row: published.P
     assert "FAILED" not in text
 
 
+def test_exponents_are_fractions_in_the_letters() -> None:
+    """alpha = (1 +- Delta)/2 at x = p, with Delta = q/(p - q)."""
+    lines = kovacic.solve("(x-p)*(x-q)*y'' + x*y' + c*y = 0").explain(solutions=False).splitlines()
+    at_p = [line.split("  ") for line in lines if line.startswith("x = p ")]
+    assert at_p[0][-1].strip() == "q/(p - q)"
+    assert [cell.strip() for cell in at_p[-2] if cell][-2:] == ["p/(2*p - 2*q)", "(p - 2*q)/(2*p - 2*q)"]
+
+
 def test_the_bibliography_is_that_of_the_answer() -> None:
     def keys(text: str) -> set[str]:
         return set(re.findall(r"\[(\w+)\]", kovacic.solve(text).citation()))
