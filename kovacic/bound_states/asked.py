@@ -71,19 +71,18 @@ def asked(
     x = read.variable
     values, rest = values_among(assume or {})
     at = {sympy.Symbol(name): read_expression(value_text(v, name, x, limits=limits)) for name, v in values.items()}
-    known_names = sorted({symbol.name for part in (read.V, read.kinetic, *ends) for symbol in part.free_symbols} - {x})
-    for name in values:
-        if name not in known_names:
-            raise InputError(
-                f"{name} isn't a parameter of V", hint=f"the parameters are {', '.join(known_names) or 'none'}"
-            )
+    known_names = {*names_of(sympy.Tuple(read.V, read.kinetic, *ends))} - {x}
+    unknown = sorted({*values} - known_names)
+    if unknown:
+        known = ", ".join(sorted(known_names)) or "none"
+        raise InputError(f"{unknown[0]} isn't a parameter of V", hint=f"the parameters are {known}")
     potential, kinetic, first, last = (part.xreplace(at) for part in (read.V, read.kinetic, *ends))
     if {sympy.Symbol(x), sympy.Symbol(energy)} & (first.free_symbols | last.free_symbols):
         raise InputError(f"an end of the domain contains {x} or {energy}")
     S = potential - sympy.Symbol(energy)
     S = S if kinetic == 1 else sympy.expand_mul(S / kinetic)
-    letters = sorted({symbol.name for symbol in kinetic.free_symbols} - {*map(str, rest)})
-    notices = (f"{' and '.join(letters)} taken as positive",) if letters else ()
+    letters = sorted({*names_of(kinetic)} - {*map(str, rest)})
+    notices = [f"{' and '.join(letters)} taken as positive"] * bool(letters)
     return Asked(
         given=V,
         V=potential,
@@ -106,15 +105,18 @@ def _with_named_roots(question: Asked) -> Asked:
     roots = [p for p in S.atoms(sympy.Pow) if p.is_positive and p.is_algebraic and not p.exp.is_Integer]
     if len(roots) < 2 and not (question.letters or S.has(TrigonometricFunction)):
         return question
-    outermost = [root for root in roots if not any(root is not other and other.has(root) for other in roots)]
-    names = (name for name in map("root_{}".format, count(1)) if name not in names_of(S))
-    meanings = dict(zip(names, sorted(outermost, key=sympy.default_sort_key), strict=False))
+    taken = names_of(S)
+    names = filter(lambda name: name not in taken, map("root_{}".format, count(1)))
+    meanings: dict[str, Any] = {}
     known = {}
-    for name, root in meanings.items():
+    for root in sorted(roots, key=lambda root: (-root.count_ops(), sympy.default_sort_key(root))):
+        if not S.has(root):  # it occurred inside of another one
+            continue
+        name = next(names)
         below = sympy.floor(root * _STEPS)
         known[name] = f">{sympy.Rational(below, _STEPS)} <{sympy.Rational(below + 1, _STEPS)}"
-    in_letters = S.xreplace({root: sympy.Symbol(name) for name, root in meanings.items()})
-    return replace(question, S=in_letters, roots=meanings, assumed={**question.assumed, **known})
+        S, meanings[name] = S.xreplace({root: sympy.Symbol(name)}), root
+    return replace(question, S=S, roots=meanings, assumed={**question.assumed, **known})
 
 
 def problem_of(question: Asked, limits: Limits) -> SpectralProblem:
@@ -123,9 +125,9 @@ def problem_of(question: Asked, limits: Limits) -> SpectralProblem:
     S = _in_one_piece(question)
     parsed = read_input(S, var=question.variable, limits=limits, exponentials=True, names=question.names)
     # A shift, as b in 1/cosh(x - b)^2, doesn't occur in the equation in t.
-    meanings = {symbol.name for _, meaning in parsed.letters for symbol in meaning.free_symbols}
+    meanings = names_of(sympy.Tuple(*dict(parsed.letters).values()))
     in_S = parameters_of(parsed.S.field)
-    names = (*in_S, *sorted(question.letters - meanings - {*in_S}))
+    names = (*in_S, *sorted(question.letters - {*meanings, *in_S}))
     own = own_parameters([name for name in names if name != question.energy], parsed.letters)
     known = read_assumptions(question.assumed or None, question.given, own)
     known = _with_letters(known, parsed.letters, own)
@@ -133,8 +135,8 @@ def problem_of(question: Asked, limits: Limits) -> SpectralProblem:
     for constant in constants:
         known = known.also(constant, ("irrational", "positive"))
     signs = Signs(known, names)
-    first, last = (signs.real(end) for end in question.interval)
-    if signs.is_nonnegative(first - last) or first == sympy.oo or last == -sympy.oo:
+    first, last = map(signs.real, question.interval)
+    if signs.is_nonnegative(first - last) or sympy.oo in (first, -last):
         raise InputError(f"the domain is empty: {first} isn't below {last}")
     if signs.sign(signs.real(question.kinetic)) == -1:
         raise InputError(f"{question.kinetic}, the factor of -psi'', isn't positive")

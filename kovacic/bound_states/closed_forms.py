@@ -25,6 +25,7 @@ from itertools import chain
 from typing import Any, NamedTuple
 
 import sympy
+from sympy.utilities.iterables import sift
 
 from kovacic.bound_states.coordinates import Original, circle_point
 from kovacic.bound_states.ends import End, Examined, leading
@@ -68,6 +69,8 @@ def norm_of(wave: Any, x: Any, domain: tuple[Any, Any]) -> Any:
 _BOUNDS = 40
 #: The natural number in conditions.
 _NUMBER = sympy.Dummy("d")
+#: Of truth values.
+_ALL, _NONE = frozenset({True}), frozenset({False})
 _BARRED = "a solution with a polynomial that decays at one end doesn't at the other, whatever its degree"
 _NUMBERED = "a level with k zeros is number k (Sturm)"
 
@@ -81,7 +84,7 @@ class ClosedForms:
     """
 
     reason: str = NO_FORMULA
-    levels: list[Algebraic] = field(default_factory=list)
+    levels: dict[Any, Algebraic] = field(default_factory=dict)
     complete: bool = False
     higher: int | None = None
 
@@ -146,17 +149,16 @@ class _Window(NamedTuple):
     def last_number(self, function: Any, E: Any, d: Any) -> int | None:
         """A degree from which on no E with `function`(E, d) = 0 lies in the window, or None if none is known."""
         polynomial = sympy.Poly(function, E)
-        is_solved = polynomial.degree() == 1 and not any(end.is_infinite for end in self)
+        is_solved = polynomial.degree() == 1 and max(map(abs, self)).is_finite
         if not function.free_symbols <= {E, d} or not (is_solved or polynomial.is_ground):
             return None
         # Beyond the zeros of these, E(d) stays inside or outside, and a function of d alone has no zero.
-        parts = [function, polynomial.LC(), *(function.subs(E, end) for end in self if end.is_finite)]
-        roots = [root for part in parts if part.free_symbols == {d} for root in sympy.Poly(part, d).real_roots()]
-        last = max([0, *(int(sympy.floor(root)) + 1 for root in roots)])
-        if not is_solved:
-            return last
-        (energy,) = sympy.solve(function.subs(d, last), E)
-        return None if self.low < energy <= self.high else last
+        parts = filter(None, [polynomial.LC(), *(function.subs(E, end) for end in self)])
+        roots = sympy.Poly(sympy.Mul(*parts), d).real_roots()
+        last = int(max([-1, *map(sympy.floor, roots)])) + 1
+        if is_solved and self.low < sympy.solve(function.subs(d, last), E)[0] <= self.high:
+            return None
+        return last
 
 
 def _number_below(V: Any, t: Any, bounds: tuple[Any, Any]) -> Any:
@@ -204,19 +206,16 @@ class _ClosedFormSearch(ClosedForms):
         excluded: list[Any] = []
         for region in self.conditions.regions:
             for number, polynomial in self._listed(region):
-                if not self.window.has_zero_of(polynomial, self.E):
-                    continue
-                found = [self._at(one, polynomial) for one in self._solutions(region, number, polynomial)]
-                fits = [self._fits(one, polynomial) for one in found]
-                here = [one for one, fit in zip(found, fits, strict=True) if fit == [True, True]]
-                self._add(self._level(one, polynomial, sympy.Integer(0), []) for one in here)
+                by_fit: dict[Any, PolynomialSolution] = {}
+                for solution in self._solutions(region, number, polynomial):
+                    by_fit.setdefault(self._fits(solution, polynomial), solution)
+                if (_ALL, _ALL) in by_fit:
+                    self._add([self._level(by_fit[_ALL, _ALL], polynomial, sympy.Integer(0), [])])
                 # A solution that is meant at an end is the only one.
-                if [True, False] in fits or [False, True] in fits:
+                if (_ALL, _NONE) in by_fit or (_NONE, _ALL) in by_fit:
                     excluded.append(polynomial)
-                elif not here:
-                    energy = _only_zero(polynomial, self.E)
-                    case = 1 if energy is None else self.conditions.case_at({self.question.energy: energy})
-                    self.complete = self.complete and case is None
+                elif (_ALL, _ALL) not in by_fit:
+                    self.complete = self.complete and self._is_unsolvable(polynomial)
         theory = self.conditions.theory
         zeros = " or ".join(f"{self.question.shown(polynomial)} = 0" for polynomial in dict.fromkeys(excluded))
         is_limit_point = all(end.is_limit_point for end in self.question.ends)
@@ -240,7 +239,7 @@ class _ClosedFormSearch(ClosedForms):
         return f"{which} with a polynomial of degree d <= {self.max_degree}; {others}"
 
     def _listed(self, region: ParameterRegion) -> Iterator[tuple[int | None, Any]]:
-        """The E at which the statement may hold: degrees (None without a choice) with irreducible polynomials in E."""
+        """The E in the window at which the statement may hold: degrees, or None, with irreducible polynomials in E."""
         for alternative in region.statement.alternatives:
             parts = alternative.conjuncts
             for number in self._numbers(region, parts):
@@ -250,10 +249,10 @@ class _ClosedFormSearch(ClosedForms):
                     continue
                 together = reduce(sympy.gcd, (sympy.Poly(f, self.E, extension=True) for f in functions))
                 for factor, _ in together.factor_list()[1]:
-                    if factor.domain.is_QQ or factor.domain.is_ZZ:
-                        yield number, factor.monic().as_expr()
-                    else:
+                    if factor.domain not in (sympy.QQ, sympy.ZZ):
                         self.complete = False
+                    elif self.window.has_zero_of(factor.as_expr(), self.E):
+                        yield number, factor.monic().as_expr()
 
     def _numbers(self, region: ParameterRegion, parts: Sequence[Statement]) -> Sequence[int | None]:
         """The degrees to be tried: as far as E may be in the window, if that is known, else up to `max_degree`."""
@@ -274,10 +273,15 @@ class _ClosedFormSearch(ClosedForms):
         return bool(ends) and not any(end.is_regular for end in ends)
 
     def _solutions(self, region: ParameterRegion, number: int | None, polynomial: Any) -> Iterator[PolynomialSolution]:
-        """The region's solutions of a degree at all zeros of a polynomial in E, if the ends are examined."""
+        """The region's solutions of a degree, at all zeros of a polynomial in E, if the ends are examined."""
         for one in region.solution(number) if self._are_examined else ():
             if not any(sympy.rem(sympy.numer(sympy.together(f)), polynomial, self.E) for f in one.conditions):
-                yield one
+                yield self._at(one, polynomial)
+
+    def _is_unsolvable(self, polynomial: Any) -> bool:
+        """True if nothing is Liouvillian at the zero of a linear polynomial."""
+        energy = _only_zero(polynomial, self.E)
+        return energy is not None and self.conditions.case_at({self.question.energy: energy}) is None
 
     def _at(self, solution: PolynomialSolution, polynomial: Any) -> PolynomialSolution:
         """The solution at the zeros of a polynomial in E, with its value if there is one zero."""
@@ -300,90 +304,75 @@ class _ClosedFormSearch(ClosedForms):
     def _add(self, levels: Iterable[Algebraic]) -> None:
         """With those that aren't there by a polynomial of another degree: x P for the exponent 0 at x = 0 is P for 1."""
         for level in levels:
-            known = ((one.constraint, one.polynomial, one.conditions) for one in self.levels)
-            if (level.constraint, level.polynomial, level.conditions) not in known:
-                self.levels.append(level)
+            self.levels.setdefault((level.constraint, level.polynomial, level.conditions), level)
 
-    def _fits(self, solution: PolynomialSolution, polynomial: Any) -> list[bool | None]:
-        """Whether it is the square integrable solution at the left and at the right end, for all real zeros of the polynomial.
-
-        False if it isn't for any of them, None if that differs among them.
-        """
+    def _fits(self, solution: PolynomialSolution, polynomial: Any) -> tuple[Any, ...]:
+        """Whether it is the square integrable solution at each end, for the real zeros of the polynomial."""
         roots = sympy.Poly(polynomial, self.E).real_roots()
-        found: list[bool | None] = []
-        for end in self.question.ends:
-            demand = demand_at(end, solution.y, self.question)
-            verdicts = {bool(demand.subs(self.question.E, root)) for root in roots}
-            found.append(verdicts.pop() if len(verdicts) == 1 else None)
-        return found
+        demands = demands_of(solution.y, self.question)
+        return tuple(frozenset(bool(demand.subs(self.question.E, root)) for root in roots) for demand in demands)
 
     def with_parameters(self) -> str:
         """The levels with a polynomial of degree 0, 1, ..., `max_degree`; what is proven."""
         is_settled = is_barred = self._are_examined
         exceptions: dict[str, None] = {}
         for region in self.conditions.regions if self._are_examined else ():
+            ways = [*self._ways_out(region)] or [None]
+            is_settled = is_settled and all(ways)
+            if None not in ways:
+                continue
             parts = region.statement.conjuncts
             functions = [part.function.to_sympy(_NUMBER) for part in parts if isinstance(part, Vanishes)]
-            naturals = [part for part in parts if isinstance(part, Natural) and part.factors]
-            is_closed, decays = self._ways_out(region)
-            is_settled = is_settled and decays
-            if is_closed:
-                continue
             fixed = [function for function in functions if not function.has(self.E)]
             is_barred = is_barred and (bool(fixed) or region.case != 1)
             exceptions.update((f"{self.question.shown(function)} = 0", None) for function in fixed)
             numbers = self._numbers(region, parts)
-            if len(functions) + len(naturals) == len(parts):
-                zeros = [function.subs(self.constants) for function in functions]
-                for solution in chain.from_iterable(map(region.solution, numbers)):
-                    if not all(sympy.numer(sympy.together(f)).is_polynomial(self.E) for f in solution.conditions):
-                        # With sqrt(-E) in a condition, of which one value is meant, there is no polynomial in E.
-                        self.complete, self.levels, self.higher = False, [], None
-                        return NO_FORMULA
-                    self._add(self._under_conditions(solution, zeros))
+            if len(functions) + sum(bool(part.factors) for part in region.naturals) < len(parts):
+                continue
+            zeros = [function.subs(self.constants) for function in functions]
+            for solution in chain.from_iterable(map(region.solution, numbers)):
+                if not all(sympy.numer(sympy.together(f)).is_polynomial(self.E) for f in solution.conditions):
+                    # With sqrt(-E) in a condition, of which one value is meant, there is no polynomial in E.
+                    self.complete, self.levels, self.higher = False, {}, None
+                    return NO_FORMULA
+                self._add(self._under_conditions(solution, zeros))
         self.complete = is_settled
         if self.levels or not is_barred:
             return self._incomplete()
         unless = f", unless {' or '.join(exceptions)}" if exceptions else ""
         return f"{_BARRED}{unless}: {self.conditions.theory}" if is_settled else f"{NO_FORMULA}; {_BARRED}{unless}"
 
-    def _ways_out(self, region: ParameterRegion) -> tuple[bool, bool]:
-        """True if exponents exclude, for each degree, solutions with a polynomial at both ends; and True if they exclude all.
+    def _ways_out(self, region: ParameterRegion) -> Iterator[bool | None]:
+        """For each choice of exponents: None if a solution may be square integrable at both ends; else whether it decays.
 
         exp(-(1 + d) x) P(exp(x)) decays at one end and grows at the other; what decays at an end is the only one that does.
         """
         question, signs = self.question, self.question.signs
         variable = question.parsed.variable
-        choices: tuple[PolynomialSolution, ...] = ()
-        if region.case != 1:
-            return False, False
-        if all(isinstance(part, Vanishes) for part in region.statement.conjuncts):
-            choices = region.solution(0)
-        elif region.naturals:
-            weights = (weight_by_signs(analyse(part.S, Budget()), variable) for part in region.naturals)
-            choices = tuple(one for by_signs in weights if by_signs is not None for one in by_signs(None))
-        square = (
-            sympy.Symbol(variable) ** 2 + 2
-        )  # P has no zero at an end, |t| = 1 or t real, and its degree at infinity
-        is_settled = bool(choices)
-        for one in choices:
-            y = one.y * square ** (one.degree / 2) if region.naturals else one.y
+        are_zeros = all(isinstance(part, Vanishes) for part in region.statement.conjuncts)
+        weights = (weight_by_signs(analyse(part.S, Budget()), variable) for part in region.naturals)
+        choices = [*chain.from_iterable(by_signs(None) for by_signs in filter(None, weights))]
+        # P has no zero at an end, |t| = 1 or t real, and its degree at infinity
+        size = sympy.sqrt(sympy.Symbol(variable) ** 2 + 2)
+        functions = [(one.y * size**one.degree, one.degree) for one in choices]
+        if are_zeros:
+            functions = [(one.y, one.degree) for one in region.solution(0)]
+        for y, degree in functions if region.case == 1 else ():
             if y.has(jacobi, sympy.assoc_laguerre):
-                return False, False
-            demands = [demand_at(end, y, question) for end in self.question.ends]
-            if sympy.false not in tidied([above(signs.real(one.degree), 0, strict=False), *demands], signs):
-                return False, False
-            decays = (
-                end.is_limit_point and signs.holds(demand) for end, demand in zip(question.ends, demands, strict=True)
-            )
-            is_settled = is_settled and any(decays)
-        return bool(choices), is_settled
+                yield None
+                continue
+            demands = demands_of(y, question)
+            if sympy.false not in tidied([above(signs.real(degree), 0, strict=False), *demands], signs):
+                yield None
+                continue
+            ends = zip(question.ends, demands, strict=True)
+            yield any(end.is_limit_point and signs.holds(demand) for end, demand in ends)
 
     def _under_conditions(self, solution: PolynomialSolution, functions: list[Any]) -> Iterator[Algebraic]:
         """The levels where the functions and those in the conditions of the solution vanish, of which one may be free of E."""
         numerators = [sympy.numer(sympy.together(function)) for function in (*functions, *solution.conditions)]
-        polynomial = reduce(sympy.gcd, (one for one in numerators if one.has(self.E)), sympy.Integer(0))
-        others = {one for one in numerators if not one.has(self.E)}
+        in_E, others = sift(dict.fromkeys(numerators), lambda function: function.has(self.E), binary=True)
+        polynomial = reduce(sympy.gcd, in_E, sympy.Integer(0))
         signs = self.question.signs
         if not polynomial.has(self.E) or len(others) > 1:
             is_false = any(signs.sign(signs.real(one)) is not None for one in others)
@@ -392,12 +381,12 @@ class _ClosedFormSearch(ClosedForms):
         if sympy.LC(polynomial, self.E).could_extract_minus_sign():
             polynomial = -polynomial
         solution = self._at(solution, polynomial)
-        constraints = [f for other in others for f, _ in sympy.factor_list(other)[1]] if others else [sympy.Integer(0)]
-        for constraint in constraints:
+        _, constraints = sympy.factor_list(sympy.Mul(*others))
+        for constraint, _ in constraints or [(sympy.Integer(0), 1)]:
             letters = sorted(constraint.free_symbols, key=lambda a: (sympy.degree(constraint, a), str(a)))
             there = self._with_remainders(solution, constraint, letters[0]) if letters else solution
             bounds = _bounds(sympy.expand(signs.real(constraint)), solution, signs)
-            conditions = [*bounds, *(demand_at(end, there.y, self.question) for end in self.question.ends)]
+            conditions = [*bounds, *demands_of(there.y, self.question)]
             level = self._level(there if len(letters) == 1 else solution, polynomial, constraint, conditions)
             if sympy.false not in level.conditions:
                 yield level
@@ -426,9 +415,8 @@ class _ClosedFormSearch(ClosedForms):
         if question.original.is_circular:
             P = sympy.numer(sympy.cancel(P.subs(t, circle_point(t))))
         P = sympy.Poly(question.plain(P), t)
-        for end in self.question.ends:
-            while end.point != sympy.oo and P(end.point) == 0:
-                P = P.quo(sympy.Poly(t - end.point, t))
+        at_ends = sympy.Mul(*(t - end.point for end in question.ends if end.point != sympy.oo))
+        P = P.quo(sympy.gcd(P, sympy.Poly(at_ends, t) ** P.degree()))
         known = map(question.plain, tidied(conditions, question.signs))
         level = Algebraic(
             int(solution.degree),
@@ -442,7 +430,7 @@ class _ClosedFormSearch(ClosedForms):
         )
         if question.parameters:
             return level
-        states = level.states_at({}, question.energy)
+        states = level.states_at({}, self.E)
         return replace(level, states=tuple(replace(s, norm=norm_of(s.wave, x, question.domain)) for s in states))
 
 
@@ -477,6 +465,11 @@ def _function_for(statement: Statement, number: int | None, constants: dict[Any,
             system = (function.to_sympy(_NUMBER).subs(constants) for function in determinant.system)
             found *= reduce(partial(sympy.gcd, extension=True), system)
     return found.subs(constants)
+
+
+def demands_of(v: Any, question: Examined) -> list[Any]:
+    """`demand_at` both ends."""
+    return [demand_at(end, v, question) for end in question.ends]
 
 
 def demand_at(end: End, v: Any, question: SpectralProblem) -> Any:

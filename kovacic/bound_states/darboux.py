@@ -23,7 +23,7 @@ from dataclasses import replace
 
 import sympy
 
-from kovacic.bound_states.closed_forms import demand_at
+from kovacic.bound_states.closed_forms import demands_of
 from kovacic.bound_states.ends import Examined, examined
 from kovacic.bound_states.levels import Algebraic, Spectrum
 from kovacic.bound_states.signs import Uncovered
@@ -49,7 +49,7 @@ def transformed(
     W, S, simpler = (f.num.to_sympy(x) / f.den.to_sympy(x) for f in (found.W, question.parsed.S, found.simpler))
     E0 = question.plain(sympy.cancel(sympy.together((S.subs(E, 0) - W**2 - sympy.diff(W, x)) * question.kinetic)))
     wave = sympy.exp(sympy.integrate(sympy.apart(W, x), x))
-    holds = [signs.holds(demand_at(end, signs.real(wave), question)) for end in question.ends]
+    holds = [*map(signs.holds, demands_of(signs.real(wave), question))]
     parsed = read_input(simpler, var=question.variable, exponentials=True)
     try:
         other = examined(replace(question, S=simpler, parsed=parsed))
@@ -75,7 +75,7 @@ def transformed(
         levels.append(replace(one, wave=y, zeros=one.zeros + int(all(holds)), norm=norm))
     level = Algebraic(0, sympy.Integer(0), E - E0, lowest, P=sympy.Poly(1, x), range=question.interval)
     if not question.parameters:
-        level = replace(level, states=tuple(level.states_at({}, question.energy)))
+        level = replace(level, states=tuple(level.states_at({}, E)))
     shown = question.shown(sympy.factor(question.kinetic * simpler.subs(E, 0)))
     return question.spectrum(
         levels=tuple(levels),

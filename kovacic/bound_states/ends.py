@@ -225,9 +225,7 @@ def _less_than_1(square: Any, signs: Signs) -> Any:
     is_of_square = square.is_number or root is None or signs.holds(sympy.Lt(square, 1)) is not None
     if is_of_square:
         return sympy.Lt(square, 1)
-    sign = signs.sign(root)
-    size = sympy.Abs(root) if sign is None else sign * root
-    return tidied([sympy.Lt(size, 1)], signs)[0]
+    return tidied([sympy.Lt(signs.size(root), 1)], signs)[0]
 
 
 def _end_powers(distance: Any, square: Any, question: SpectralProblem) -> str:

@@ -8,14 +8,18 @@ unknowns with a sign, rho^2 = D(E), and E is eliminated: D is linear in E, and s
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from itertools import chain, combinations
+from types import MappingProxyType
 from typing import Any
 
 import sympy
 
-from kovacic.bound_states.signs import Signs, Uncovered
+from kovacic.bound_states.signs import Signs, Uncovered, above
+
+#: For the sign of a slope, and a strict relation.
+_RELATIONS = {(1, True): ">", (1, False): ">=", (-1, True): "<", (-1, False): "<="}
 
 
 @dataclass(frozen=True)
@@ -68,16 +72,14 @@ def exact_root(square: Any) -> Any:
             return sympy.sqrt(value)
         p = sympy.sqrtdenest(sympy.sqrt((sympy.sqrt(re**2 + im**2) + re) / 2))
         return p + sympy.I * sympy.radsimp(im / (2 * p))
+    symbols = square.free_symbols
     is_complex = square.has(sympy.I)
-    root = sympy.Integer(1)
-    for part, sign in zip(sympy.fraction(sympy.together(square)), (1, -1), strict=True):
-        constant, factors = sympy.factor_list(part, extension=sympy.I) if is_complex else sympy.factor_list(part)
-        if any(multiplicity % 2 for _, multiplicity in factors):
-            return None
-        root *= (sympy.sqrtdenest(sympy.sqrt(sympy.expand(constant))) if is_complex else sympy.sqrt(constant)) ** sign
-        for factor, multiplicity in factors:
-            root *= factor ** (sign * multiplicity // 2)
-    return sympy.expand(root) if root.has(sympy.I) else root
+    factored = sympy.factor(sympy.together(square), extension=sympy.I if is_complex else None)
+    constant, rest = factored.as_independent(*symbols, as_Add=False)
+    root = sympy.sqrtdenest(sympy.sqrt(sympy.expand(constant))) * sympy.powdenest(sympy.sqrt(rest), force=True)
+    if not root.is_rational_function(*symbols):
+        return None
+    return sympy.expand(root) if is_complex else root
 
 
 def conjugate(value: Any) -> Any:
@@ -165,66 +167,40 @@ def _real_part(form: Any) -> Any:
     return None if real.has(sympy.re, sympy.im) or sympy.cancel(sympy.together(imaginary)) != 0 else real
 
 
-def tidied(conditions: Iterable[Any], signs: Signs, radicals: Mapping[Any, Any] | None = None) -> tuple[Any, ...]:
+def tidied(
+    conditions: Iterable[Any], signs: Signs, radicals: Mapping[Any, Any] = MappingProxyType({})
+) -> tuple[Any, ...]:
     """The conditions that don't hold anyway, each solved for n, or for a parameter, where it is linear in it.
 
     (False,) where one of them, or the sum of two of them, is false for all values.  `radicals` are the square roots for which
     symbols stand: sqrt(a) >= 2 is written a >= 4, and then a >= 0 isn't.
     """
     different = [*dict.fromkeys(conditions)]
-    gaps = (c.gts - c.lts for c in different if c not in (sympy.true, sympy.false))
-    sums = (sympy.Ge(sympy.expand(first + second), 0) for first, second in combinations(gaps, 2))
-    if any(signs.holds(condition) is False for condition in chain(different, sums)):
+    if _are_contradictory(different, signs):
         return (sympy.false,)
-    meanings = dict(radicals or {})
-    squares = {symbol: sympy.expand(root**2) for symbol, root in meanings.items()}
     # Not those with a root of what depends on parameters.
-    squares = {
-        symbol: square for symbol, square in squares.items() if square.is_rational_function(*square.free_symbols)
-    }
-    found = []
-    implied = set()
-    for condition in _paired([c for c in different if signs.holds(c) is not True], signs):
-        solved = _solved(condition, signs)
-        if isinstance(solved, sympy.StrictLessThan | sympy.LessThan) and solved.lhs == signs.n:  # for n = 0
-            least = _squared(_solved(sympy.Gt(solved.rhs, 0), signs), squares)
-            if least is not None and signs.holds(least) is False:
-                return (sympy.false,)
-        squared = _squared(solved, squares)
-        if squared is None:
-            found.append(solved.xreplace(meanings))
-        else:
-            found.append(_solved(squared, signs))
-            implied |= {_solved(sympy.Ge(square, 0), signs) for square in squares.values()}
-    return _compared([c for c in dict.fromkeys(found) if c not in implied and signs.holds(c) is not True], signs)
+    rational = [symbol for symbol, root in radicals.items() if (root**2).is_rational_function(*root.free_symbols)]
+    squares = {symbol: sympy.expand(radicals[symbol] ** 2) for symbol in rational}
+    open_ones = _paired([c for c in different if signs.holds(c) is not True], signs)
+    found = [_solved(condition, signs, squares) for condition in open_ones]
+    # There is the level with n = 0, if there is one with n < c.
+    least = [_solved(sympy.Gt(c.rhs, 0), signs, squares) for c in found if getattr(c, "lts", None) == signs.n]
+    if _are_contradictory([*found, *least], signs):
+        return (sympy.false,)
+    found = [c.xreplace(radicals) for c in dict.fromkeys(found) if signs.holds(c) is not True]
+    return tuple(c for c in found if not any(signs.is_positive(_gap(c) - _gap(other)) for other in found))
 
 
-def _compared(conditions: list[Any], signs: Signs) -> tuple[Any, ...]:
-    """Without lower bounds that others imply; (False,) where a lower bound excludes an upper one."""
-    left = [*conditions]
-    for first, second in combinations(conditions, 2) if sympy.false not in conditions else ():
-        sign = signs.sign(first.rhs - second.rhs) if first.lhs == second.lhs else None
-        is_lower = _is_lower_bound(first)
-        if is_lower == _is_lower_bound(second):
-            implied = {1: second, -1: first}.get(sign or 0) if is_lower else None
-            left = [c for c in left if c is not implied]
-        elif sign == (1 if is_lower else -1):
-            return (sympy.false,)
-    return tuple(left)
+def _gap(condition: Any) -> Any:
+    """What is positive, or not negative, where the condition holds."""
+    return condition.gts - condition.lts
 
 
-def _is_lower_bound(condition: Any) -> bool:
-    return isinstance(condition, sympy.StrictGreaterThan | sympy.GreaterThan)
-
-
-def _squared(condition: Any, squares: Mapping[Any, Any]) -> Any:
-    """r > c, c >= 0 a number, as r^2 > c^2, r a symbol for a root with one of the squares; None for another condition."""
-    if not _is_lower_bound(condition) or condition.lhs not in squares:
-        return None
-    bound = condition.rhs
-    if not bound.is_number or bound.is_negative:
-        return None
-    return condition.func(squares[condition.lhs], bound**2)
+def _are_contradictory(conditions: Sequence[Any], signs: Signs) -> bool:
+    """True if one of the conditions, or the sum of two of them, is false for all values."""
+    gaps = [_gap(c) for c in conditions if c not in (sympy.true, sympy.false)]
+    sums = (sympy.Ge(sympy.expand(first + second), 0) for first, second in combinations(gaps, 2))
+    return any(signs.holds(condition) is False for condition in chain(conditions, sums))
 
 
 def _paired(conditions: list[Any], signs: Signs) -> list[Any]:
@@ -243,33 +219,28 @@ def _pair(first: Any, second: Any, signs: Signs) -> Any:
     None for other conditions.
     """
     n = signs.n
-    if not isinstance(first, sympy.StrictGreaterThan):
-        return None
-    total = first.gts - first.lts
-    difference = second.gts - second.lts
-    if not (total.has(n) and difference.has(n)):
+    total, difference = _gap(first), _gap(second)
+    if not (isinstance(first, sympy.StrictGreaterThan) and total.has(n) and difference.has(n)):
         return None
     s = sympy.simplify((total + difference) / 2)
     st = sympy.simplify(s * (total - difference) / 2)
     if st.has(n) or sympy.degree(sympy.numer(sympy.together(s)), n) != 1:
         return None
-    sign = signs.sign(st)
-    size = sympy.Abs(st) if sign is None else sign * st
-    return sympy.StrictGreaterThan(s, sympy.sqrt(sympy.factor(size)))
+    return sympy.StrictGreaterThan(s, sympy.sqrt(sympy.factor(signs.size(st))))
 
 
-def _solved(condition: Any, signs: Signs) -> Any:
-    """The condition for n, or else for a parameter, where it is linear in it; for (n + h)^2 where it is quadratic in n."""
+def _solved(condition: Any, signs: Signs, squares: Mapping[Any, Any] = MappingProxyType({})) -> Any:
+    """The condition for n, or else for a parameter, where it is linear in it; for (n + h)^2 where it is quadratic in n.
+
+    r > c for a number c >= 0 as r^2 > c^2, where r stands for a root of one of the `squares`.
+    """
     n = signs.n
-    if condition in (sympy.true, sympy.false):
-        return condition
-    if condition.has(sympy.Abs) and not condition.has(n):
+    if condition in (sympy.true, sympy.false) or (condition.has(sympy.Abs) and not condition.has(n)):
         return condition
     is_strict = isinstance(condition, sympy.StrictGreaterThan | sympy.StrictLessThan)
-    rest = sympy.Integer(1)  # with the signs in the place of factors whose signs are known
-    for factor in sympy.Mul.make_args(sympy.factor(sympy.together(condition.gts - condition.lts))):
-        rest *= signs.sign(factor) or factor
-    rest = sympy.expand(rest)
+    factors = sympy.Mul.make_args(sympy.factor(sympy.together(_gap(condition))))
+    # With the signs in the place of factors whose signs are known.
+    rest = sympy.expand(sympy.Mul(*(signs.sign(factor) or factor for factor in factors)))
     number, factor = rest.as_coeff_Mul()
     base, exponent = factor.as_base_exp()
     if is_strict and exponent == -1:  # c p in the place of c/p, which is positive where that is
@@ -277,8 +248,11 @@ def _solved(condition: Any, signs: Signs) -> Any:
     for unknown, slope, constant in _linear_forms(rest, n):
         sign = signs.sign(slope)
         if sign is not None:
-            return _unknown_beyond(unknown, shortest(sympy.factor(-constant / slope)), sign, is_strict=is_strict)
-    return _unknown_beyond(shortest(rest), 0, 1, is_strict=is_strict)
+            bound = shortest(sympy.factor(-constant / slope))
+            if sign == 1 and unknown in squares and bound.is_number and not bound.is_negative:
+                return _solved(above(squares[unknown], bound**2, strict=is_strict), signs)
+            return sympy.Rel(unknown, bound, _RELATIONS[sign, is_strict])
+    return above(shortest(rest), 0, strict=is_strict)
 
 
 def _linear_forms(rest: Any, n: Any) -> Iterator[tuple[Any, Any, Any]]:
@@ -294,8 +268,3 @@ def _linear_forms(rest: Any, n: Any) -> Iterator[tuple[Any, Any, Any]]:
 def _degree_in_unknown(expression: Any, unknown: Any) -> Any:
     """The degree as a polynomial in the unknown, None for anything else."""
     return sympy.degree(expression, unknown) if expression.is_polynomial(unknown) else None
-
-
-def _unknown_beyond(unknown: Any, bound: Any, sign: int, *, is_strict: bool) -> Any:
-    """unknown > bound for the sign 1, unknown < bound for -1; or >= and <=."""
-    return sympy.Rel(unknown, bound, (">" if sign == 1 else "<") + ("" if is_strict else "="))

@@ -329,7 +329,7 @@ class ExponentForm:
         signs, plain = question.signs, question.plain
         radicals = dict(radical for root in self.roots for radical in root.radicals)
         are_real = [
-            (sympy.Gt if root.positive else sympy.Ge)(root.square, 0)
+            above(root.square, 0, strict=root.positive)
             for root in self.roots
             if root.radicals and not root.square.has(sympy.I)
         ]

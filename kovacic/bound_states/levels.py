@@ -6,15 +6,14 @@ ball meets the real axis is real, since its conjugate is a root as well.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Iterator, Mapping
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
+from itertools import count, islice
 from typing import TYPE_CHECKING, Any, cast
 
 import sympy
 from flint import acb_poly, arb
-from sympy.core.relational import Relational
-from sympy.logic.boolalg import BooleanAtom
 
 from kovacic.algebra.precision import working_precision
 from kovacic.bound_states.signs import is_admitted
@@ -22,7 +21,7 @@ from kovacic.closed_form.jets import BallEvaluator
 from kovacic.errors import InputError, needs, visible
 from kovacic.numbers.exact import exact_text, whole
 from kovacic.numbers.numerals import as_latex, as_text
-from kovacic.parametric.assumptions import NOTHING_ASSUMED, Assumptions
+from kovacic.parametric.assumptions import NOTHING_ASSUMED, Assumptions, check_values
 from kovacic.reading.symbolic import read_expression
 from kovacic.writing.escaped import json_line, latex
 from kovacic.writing.formula import caret
@@ -42,8 +41,7 @@ def zeros_inside(P: Any, E: Any, value: Any, bounds: Any) -> int | None:
     """
     with working_precision(_PRECISION):
         number = BallEvaluator({E: BallEvaluator({})(value)})
-        coefficients = [number(c) for c in reversed(P.all_coeffs())]
-        found = acb_poly(coefficients).roots() if len(coefficients) > 1 else []
+        found = acb_poly([*map(number, reversed(P.all_coeffs()))]).roots()
         low, high = (number(end).real if end.is_finite else arb(float(end)) for end in bounds)
         real = [root.real for root in found if root.imag.contains(0)]
         inside = sum(low < root < high for root in real)
@@ -52,12 +50,11 @@ def zeros_inside(P: Any, E: Any, value: Any, bounds: Any) -> int | None:
 
 
 def real_roots(polynomial: Any, E: Any) -> list[Any]:
-    """The real zeros of a polynomial, each once, in order; with square roots where it is quadratic in E^2."""
-    squares, *inner = sympy.decompose(polynomial, E)
-    if inner != [E**2] or sympy.degree(squares, E) != 2:
+    """The real zeros of a polynomial, each once, in order; in square roots where all zeros are."""
+    found = sympy.roots(polynomial, E, cubics=False, quartics=False)
+    if sum(found.values()) < sympy.degree(polynomial, E):
         return [*dict.fromkeys(sympy.Poly(polynomial, E).real_roots())]
-    positive = [square for square in sympy.Poly(squares, E).real_roots() if not square.is_negative]
-    return sorted({sign * sympy.sqrt(square) for square in positive for sign in (1, -1)})
+    return sorted(root for root in found if root.is_real)
 
 
 NO_FORMULA = "undecided: no formula for all levels is known"
@@ -65,6 +62,7 @@ NO_FORMULA = "undecided: no formula for all levels is known"
 _MOST = 200
 #: Longer exact energies are drawn as decimals.
 _SHORT = 12
+_SMALLER = {"friedrichs": "the smaller solution at each end (Friedrichs)"}
 _ANOTHER = "V is another potential, whose levels aren't those above"
 #: Up to this many n are listed individually.
 _LISTED = 6
@@ -90,6 +88,13 @@ class BoundState:
 
     def __str__(self) -> str:
         return f"E_{self.number} {self.value}, y = {_text(self.wave)}"
+
+    @property
+    def said(self) -> str:
+        """ "= 3: 1 zero, norm^2 = sqrt(pi)"."""
+        zeros = "1 zero" if self.zeros == 1 else f"{self.zeros} zeros"
+        norm = "" if self.norm is None else f", norm^2 = {_text(self.norm)}"
+        return f"{self.value}: {zeros}{norm}"
 
     @property
     def value(self) -> str:
@@ -151,6 +156,41 @@ class Levels:
             return "0, 1, 2, ..."
         return ", ".join(map(str, known)) if len(known) <= _LISTED else f"0, 1, ..., {known[-1]}"
 
+    @property
+    def demands(self) -> tuple[Any, ...]:
+        """The conditions that are shown: not those with n in them where all n are listed."""
+        return self.conditions if self.numbers.endswith("...") else self.where
+
+    def states_at(self, values: Mapping[Any, Any], _energy: Any = None) -> Iterator[BoundState]:
+        """The levels of the numbers 0, 1, ... at values of the parameters, as far as the conditions hold."""
+        for n in count():
+            here = {**values, self.number: sympy.Integer(n)}
+            if not _are_true(self.conditions, here):
+                return
+            energy = sympy.simplify(self.energy.subs(here))
+            yield BoundState(int(self.zeros.subs(here)), energy, self.wave.subs(here).doit())
+
+    def lines(self, energy: str) -> list[str]:
+        """The energy with its conditions, the wave function, the zeros and the norm, as text."""
+        n = self.number
+        first = f"{energy}_{n} = {_text(self.energy)}, {n} = {self.numbers}"
+        above = [condition for condition in self.demands if condition.has(n)]
+        if above:
+            first += f" with {_joined(above)}"
+        if self.where:
+            first += f", where {_joined(self.where)}"
+        last = f"    {_text(self.zeros)} zeros"
+        if self.norm is not None:
+            last += f", norm^2 = {_text(self.norm)}"
+        return [first, f"    y_{n} = {_text(self.wave)}", last]
+
+    def rows(self, energy: str) -> list[str]:
+        """The energy, the wave function and the conditions, in LaTeX."""
+        n = as_latex(self.number)
+        numbers = self.numbers.replace("...", r"\ldots")
+        first = rf"{energy}_{{{n}}} &= {as_latex(self.energy)},\quad {n} = {numbers}"
+        return [first, rf"y_{{{n}}} &= {as_latex(self.wave)}", *_rows_of(self.demands)]
+
 
 @dataclass(frozen=True)
 class Algebraic:
@@ -174,19 +214,36 @@ class Algebraic:
     range: tuple[Any, ...] | None = None
     middle: int | None = None
 
-    def states_at(self, values: Mapping[Any, Any], energy: str) -> Iterator[BoundState]:
+    @property
+    def demands(self) -> tuple[Any, ...]:
+        """The constraint, if there is one, and the conditions."""
+        constraint = sympy.Eq(self.constraint, 0, evaluate=False)
+        return (constraint, *self.conditions) if self.constraint != 0 else self.conditions
+
+    def lines(self, energy: str) -> list[str]:
+        """The equation for the energies with its conditions, the wave function, and the levels that are known, as text."""
+        where = f" where {_joined(self.demands)}" if self.demands else ""
+        first = f"d = {self.degree}{where}: {_text(self.polynomial)} = 0"
+        return [first, f"    y = {_text(self.wave)}", *(f"    {energy} {state.said}" for state in self.states)]
+
+    def rows(self, _energy: str) -> list[str]:
+        """The equation for the energies, the wave function and the conditions, in LaTeX."""
+        first = rf"d = {self.degree}\colon\quad & {as_latex(self.polynomial)} = 0"
+        return [first, rf"& y = {as_latex(self.wave)}", *_rows_of(self.demands)]
+
+    def states_at(self, values: Mapping[Any, Any], E: Any) -> Iterator[BoundState]:
         """The levels at rational values of the parameters: of each it is known how many zeros its function has."""
+        if self.states:
+            yield from self.states
+            return
         if self.P is None or self.range is None or self.constraint.xreplace(values) != 0:
             return
-        E = sympy.Symbol(energy)
         P = sympy.Poly(self.P.as_expr().xreplace(values), self.P.gen)
         bounds = [end.xreplace(values) for end in self.range]
         polynomial = sympy.numer(sympy.together(self.polynomial.xreplace(values)))
         for value in real_roots(polynomial, E):
-            if not all(_is_true(condition, {**values, E: value}) for condition in self.conditions):
-                continue
             number = zeros_inside(P, E, value, bounds)
-            if number is not None:
+            if number is not None and _are_true(self.conditions, {**values, E: value}):
                 number = number if self.middle is None else 2 * number + self.middle
                 yield BoundState(number, value, self.wave.xreplace(values).subs(E, value))
 
@@ -257,6 +314,11 @@ class Spectrum:
     matching: tuple[Any, ...] = ()
 
     @property
+    def formulas(self) -> tuple[Levels | Algebraic, ...]:
+        """The levels of both kinds."""
+        return (*self.levels, *self.algebraic)
+
+    @property
     def needs_boundary_condition(self) -> bool:
         """True if both solutions are square integrable at an end, for all parameters, and no condition was given."""
         return sympy.true in self.excluded
@@ -264,9 +326,8 @@ class Spectrum:
     @property
     def is_decided(self) -> bool:
         """True if levels are known, or a complete list of some kind, or that a boundary condition is missing."""
-        is_proven = self.complete or self.closed_forms_complete
-        has_levels = bool(self.levels or self.algebraic or self.matching)
-        return is_proven or has_levels or self.needs_boundary_condition
+        known = (self.levels, self.algebraic, self.matching)
+        return any((*known, self.complete, self.closed_forms_complete, self.needs_boundary_condition))
 
     def states(self, values: Mapping[Any, Any] | None = None, count: int = 10) -> tuple[BoundState, ...]:
         """The lowest levels at exact values of the parameters, at most `count` of each formula, by their energies.
@@ -298,17 +359,14 @@ class Spectrum:
             if not _is_true(relation, at):
                 continue
             if isinstance(relation, sympy.Eq):
-                raise InputError(f"where {_relation(relation)} V is another potential", hint="give V with this value")
+                raise InputError(f"where {_text(relation)} V is another potential", hint="give V with this value")
             # Friedrichs' condition is taken where there is one: solutions oscillate.
             hint = "no boundary condition is distinguished"
             raise InputError("both solutions are square integrable at an end", hint=hint)
         found: dict[Any, BoundState] = {}
-        for levels in self.levels:
-            for state in _states_of(levels, at, count):
+        for one in self.formulas:
+            for state in islice(one.states_at(at, sympy.Symbol(self.energy)), count):
                 found.setdefault(state.energy, state)
-        for one in self.algebraic:
-            states = one.states_at(at, self.energy) if self.parameters else one.states
-            found.update((state.energy, state) for state in states)
         return tuple(sorted(found.values(), key=lambda state: state.energy))
 
     def plot(self, values: Mapping[Any, Any] | None = None, count: int = 5) -> Figure:
@@ -373,10 +431,7 @@ class Spectrum:
     def _symbols_at(self, values: Mapping[Any, Any]) -> dict[Any, Any]:
         """The values by symbols.  Raises `InputError` where one is missing, unknown, not real or not admitted."""
         given = {str(name): read_expression(exact_text(v, "the value of a parameter")) for name, v in values.items()}
-        if {*given} != {*self.parameters}:
-            missing = ", ".join(name for name in self.parameters if name not in given) or "none"
-            unknown = ", ".join(name for name in given if name not in self.parameters) or "none"
-            raise InputError("values are needed for the parameters", hint=f"missing: {missing}; unknown: {unknown}")
+        check_values(given, self.parameters)
         for name, value in given.items():
             if value.is_real is False:
                 raise InputError(f"{name} = {_text(value)} isn't a real number")
@@ -407,38 +462,36 @@ class Spectrum:
         first, last = map(_text, self.domain)
         known = f" ({self.assumptions})" if self.assumptions else ""
         lines = [f"{self._equation({})}, {first} < {self.variable} < {last}{known}"]
-        lines += [f"  note: {notice}" for notice in self.notices]
-        lines += [f"  {end}" for end in self.ends]
+        lines += [*map("note: {}".format, self.notices), *self.ends]
         if self.boundary:
-            shown = "the smaller solution at each end (Friedrichs)" if self.boundary == "friedrichs" else self.boundary
-            lines.append(f"  boundary condition: {shown}")
-        for levels in self.levels:
-            lines += _level_lines(levels, self.energy)
-        for algebraic in self.algebraic:
-            lines += _algebraic_lines(algebraic, self.energy)
-        which = ("the even levels solve", "the odd levels solve") if len(self.matching) == 2 else ("the levels solve",)
-        lines += [f"  {said} {_relation(one)}" for said, one in zip(which, self.matching, strict=False)]
-        lines += [f"  {line}" for line in self._conclusion]
+            lines.append(f"boundary condition: {_SMALLER.get(self.boundary, self.boundary)}")
+        for one in self.formulas:
+            lines += one.lines(self.energy)
+        which = ("the even levels solve", "the odd levels solve")[: len(self.matching)]
+        if len(self.matching) == 1:
+            which = ("the levels solve",)
+        lines += map("{} {}".format, which, map(_text, self.matching))
+        lines += self._conclusion
         if self.numeric != () and not self.needs_boundary_condition:  # which is said above
-            lines += [f"  {line}" for line in str(self.numeric).splitlines()]
+            lines += str(self.numeric).splitlines()
         hint = self.shell if shell else self.hint
         if hint:
-            lines.append(f"  hint: {hint}")
-        return visible("\n".join(lines))
+            lines.append(f"hint: {hint}")
+        return visible("\n  ".join(lines))
 
     @property
     def _conclusion(self) -> list[str]:
         """What holds of the list as a whole."""
         lines = []
         for relation in self.excluded:
-            where = "" if relation == sympy.true else f"where {_relation(relation)}: "
+            where = "" if relation == sympy.true else f"where {_text(relation)}: "
             said = "a boundary condition is needed, there is no spectrum without one"
             lines.append(f"{where}{_ANOTHER if isinstance(relation, sympy.Eq) else said}")
         is_proven = self.complete or self.closed_forms_complete
         all_of_them, none = "eigenfunctions with a closed form", "no eigenfunction has a closed form"
         if self.complete:
             all_of_them, none = "eigenvalues", "no eigenvalues"
-        if self.levels or self.algebraic:
+        if self.formulas:
             proven = f"proven to be all {all_of_them}; "
         else:
             proven = "proven; "
@@ -463,23 +516,10 @@ class Spectrum:
         >>> print(oscillator.latex().partition(r" \\ ")[0])
         \begin{aligned} E_{n} &= 2 n + 1,\quad n = 0, 1, 2, \ldots
         """
-        rows = []
-        for levels in self.levels:
-            n, numbers = as_latex(levels.number), levels.numbers
-            shown = numbers.replace("...", r"\ldots")
-            rows.append(rf"{self.energy}_{{{n}}} &= {as_latex(levels.energy)},\quad {n} = {shown}")
-            rows.append(rf"y_{{{n}}} &= {as_latex(levels.wave)}")
-            conditions = levels.conditions if numbers.endswith("...") else levels.where
-            if conditions:
-                rows.append("&" + r",\; ".join(map(as_latex, conditions)))
-        for algebraic in self.algebraic:
-            rows.append(rf"d = {algebraic.degree}\colon\quad & {as_latex(algebraic.polynomial)} = 0")
-            if algebraic.constraint != 0:
-                rows.append(rf"& {as_latex(algebraic.constraint)} = 0")
-            rows.append(rf"& y = {as_latex(algebraic.wave)}")
-            if algebraic.conditions:
-                rows.append("&" + r",\; ".join(map(as_latex, algebraic.conditions)))
-        rows += [rf"& {as_latex(equation)}" for equation in self.matching]
+        rows: list[str] = []
+        for one in self.formulas:
+            rows += one.rows(self.energy)
+        rows += map("& {}".format, map(as_latex, self.matching))
         if not rows:
             rows.append(rf"&\text{{{latex(' '.join(self._conclusion))}}}")
         return r"\begin{aligned} " + r" \\ ".join(rows) + r" \end{aligned}"
@@ -533,15 +573,9 @@ class Spectrum:
         return json_line(self.to_dict())
 
 
-def _states_of(levels: Levels, at: Mapping[Any, Any], count: int) -> Iterator[BoundState]:
-    """Those of the numbers 0, ..., count - 1 that exist where the parameters have these values."""
-    for n in range(count):
-        here = {**at, levels.number: sympy.Integer(n)}
-        if all(_is_true(condition, here) for condition in levels.conditions):
-            energy = sympy.simplify(levels.energy.subs(here))
-            yield BoundState(int(levels.zeros.subs(here)), energy, levels.wave.subs(here).doit())
-        elif levels.above:
-            return
+def _are_true(relations: Iterable[Any], values: Mapping[Any, Any]) -> bool:
+    """True if all of the relations hold at values."""
+    return all(_is_true(relation, values) for relation in relations)
 
 
 def _is_true(relation: Any, values: Mapping[Any, Any]) -> bool:
@@ -553,7 +587,7 @@ def _is_true(relation: Any, values: Mapping[Any, Any]) -> bool:
     if found not in (sympy.true, sympy.false):
         found = sympy.simplify(found)
     if found not in (sympy.true, sympy.false):
-        raise InputError(f"whether {_relation(found)} isn't known at these values", hint="give numbers")
+        raise InputError(f"whether {_text(found)} isn't known at these values", hint="give numbers")
     return bool(found)
 
 
@@ -567,60 +601,27 @@ _KEYS: dict[type, tuple[str, ...]] = {
 
 def _data(value: Any) -> Any:
     """For JSON: formulas and relations as text, levels by their fields, that of a state without a norm that is unknown."""
-    match value:
-        case None | int() | str():
-            return value
-        case tuple():
-            return [*map(_data, value)]
-        case Relational() | BooleanAtom():
-            return _relation(value)
-        case BoundState(norm=None):
-            return {"energy": _text(value.energy), "zeros": value.zeros}
-        case BoundState() | Levels() | Algebraic():
-            return {name: _data(getattr(value, name)) for name in _KEYS[type(value)]}
-    return _text(value)
-
-
-def _level_lines(levels: Levels, energy: str) -> list[str]:
-    """The energy with its conditions, the wave function, the zeros and the norm."""
-    n = levels.number
-    first = f"{energy}_{n} = {_text(levels.energy)}, {n} = {levels.numbers}"
-    if levels.above and levels.numbers.endswith("..."):
-        first += f" with {_joined(levels.above)}"
-    if levels.where:
-        first += f", where {_joined(levels.where)}"
-    last = f"{_text(levels.zeros)} zeros"
-    if levels.norm is not None:
-        last += f", norm^2 = {_text(levels.norm)}"
-    return [f"  {first}", f"      y_{n} = {_text(levels.wave)}", f"      {last}"]
+    if isinstance(value, tuple):
+        return [*map(_data, value)]
+    if type(value) in _KEYS:
+        found = {name: _data(getattr(value, name)) for name in _KEYS[type(value)]}
+        if isinstance(value, BoundState) and value.norm is None:
+            del found["norm"]
+        return found
+    return value if isinstance(value, int | str | None) else _text(value)
 
 
 def _joined(relations: Iterable[Any]) -> str:
-    return ", ".join(map(_relation, relations))
+    return ", ".join(map(_text, relations))
 
 
-def _algebraic_lines(algebraic: Algebraic, energy: str) -> list[str]:
-    """The equation for the energies with its conditions, the wave function, and the levels that are known."""
-    first = f"d = {algebraic.degree}"
-    demands = [*map(_relation, algebraic.conditions)]
-    if algebraic.constraint != 0:
-        demands.insert(0, f"{_text(algebraic.constraint)} = 0")
-    if demands:
-        first += f" where {', '.join(demands)}"
-    lines = [f"  {first}: {_text(algebraic.polynomial)} = 0", f"      y = {_text(algebraic.wave)}"]
-    for state in algebraic.states:
-        zeros = "1 zero" if state.zeros == 1 else f"{state.zeros} zeros"
-        norm = "" if state.norm is None else f", norm^2 = {_text(state.norm)}"
-        lines.append(f"      {energy} {state.value}: {zeros}{norm}")
-    return lines
-
-
-def _relation(relation: Any) -> str:
-    if relation in (sympy.true, sympy.false):
-        return str(relation)
-    sign = "=" if isinstance(relation, sympy.Eq) else relation.rel_op
-    return f"{_text(relation.lhs)} {sign} {_text(relation.rhs)}"
+def _rows_of(relations: Sequence[Any]) -> list[str]:
+    """The relations in a row of LaTeX, none for none."""
+    return ["&" + r",\; ".join(map(as_latex, relations))] if relations else []
 
 
 def _text(expression: Any) -> str:
+    """A formula or a relation."""
+    if isinstance(expression, sympy.Eq):
+        return f"{_text(expression.lhs)} = {_text(expression.rhs)}"
     return caret(as_text(expression))

@@ -17,6 +17,7 @@ from kovacic.general_solution.question import ConditionReader, as_mapping
 from kovacic.numbers.numerals import as_text
 from kovacic.parametric.assumptions import Assumptions
 from kovacic.parametric.integers import free_letter
+from kovacic.reading.symbolic import names_of
 from kovacic.sturm_liouville.problem import Robin
 from kovacic.writing.formula import caret
 
@@ -61,8 +62,7 @@ class Asked:
     @property
     def letters(self) -> set[str]:
         """The names in S and in the ends, but for the variable and the energy."""
-        used = {symbol.name for part in (self.S, *self.interval) for symbol in part.free_symbols}
-        return used - {self.variable, self.energy}
+        return {*names_of(sympy.Tuple(self.S, *self.interval))} - {self.variable, self.energy}
 
     def spectrum(self, **found: Any) -> Spectrum:
         """The answer, with what was `found`."""
@@ -122,9 +122,9 @@ class SpectralProblem(Asked):
 
     def plain(self, expression: Any) -> Any:
         """In the user's terms: plain symbols of the same names, what letters stand for, n for the number of a level."""
-        symbols = [s for s in expression.free_symbols if not isinstance(s, sympy.Dummy)]
+        symbols = expression.atoms(sympy.Symbol) - expression.atoms(sympy.Dummy)
         plain = {symbol: self.meanings.get(symbol.name, sympy.Symbol(symbol.name)) for symbol in symbols}
-        inside = {symbol.name for meaning in self.meanings.values() for symbol in meaning.free_symbols}
+        inside = names_of(sympy.Tuple(*self.meanings.values()))
         return expression.xreplace({**plain, self.signs.n: number_beside(*self.signs.symbols, self.variable, *inside)})
 
     def shown(self, expression: Any) -> str:
@@ -141,12 +141,11 @@ def read_boundary(boundary: str | None, ends: Sequence[Any], variable: str) -> B
         raise InputError(f"{boundary!r} isn't a boundary condition", hint=hint)
     reader = ConditionReader(sympy.Function("y")(sympy.Symbol(variable)), "y")
     wishes: dict[Any, Robin] = {}
-    finite = [end for end in ends if not end.is_infinite]
     for key, value in as_mapping(boundary).items():
         condition = reader.read(key, value)
         at, *others = {*condition.points}
         wish = Robin(*condition.by_order)
-        is_one_at_an_end = not others and at in finite and at not in wishes and condition.value == 0
+        is_one_at_an_end = not others and at.is_finite and at in ends and at not in wishes and condition.value == 0
         if not is_one_at_an_end or (wish.alpha.free_symbols | wish.beta.free_symbols):
             raise InputError(
                 f"{condition.text}: one condition alpha*y + beta*y' = 0, with numbers, at a finite end is expected"
@@ -162,6 +161,6 @@ def number_beside(*taken: str) -> Any:
 
 def constants_among(expression: Any, names: Iterable[str]) -> dict[str, Any]:
     """pi and e, which are parameters for the program, and aren't for users."""
-    symbols = {symbol.name for symbol in expression.free_symbols}
     meanings = {PI: sympy.pi, EULER: sympy.E}
-    return {name: value for name, value in meanings.items() if name in names and name not in symbols}
+    free = {*names} - {*names_of(expression)}
+    return {name: value for name, value in meanings.items() if name in free}

@@ -48,10 +48,8 @@ class Signs:
         found = (
             [] if all(getattr(value, f"is_{fact}", None) in (None, is_so) for fact, is_so in facts) else [sympy.false]
         )
-        for bound in known.bounds:
-            relation = sympy.Gt if bound.strict else sympy.Ge
-            found.append(relation(bound.sign * (value - sympy.Rational(bound.end)), 0))
-        return found
+        values = (above(b.sign * (value - sympy.Rational(b.end)), 0, strict=b.strict) for b in known.bounds)
+        return [*found, *values]
 
     def holds(self, relation: Any) -> bool | None:
         """True if a relation holds for all values, False if for none, None if neither is proven.
@@ -81,6 +79,11 @@ class Signs:
         if self.is_positive(-expression):
             return -1
         return None
+
+    def size(self, expression: Any) -> Any:
+        """The absolute value."""
+        sign = self.sign(expression)
+        return sympy.Abs(expression) if sign is None else sign * expression
 
     def known_sign(self, expression: Any, otherwise: str) -> int:
         """The sign for all values.  Raises `Uncovered`, as `otherwise` says, where it isn't known."""

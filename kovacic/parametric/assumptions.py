@@ -501,6 +501,15 @@ def check_mapping(assume: object) -> None:
         raise InputError(f"assumptions are a mapping, not {assume!r}", hint='assume={"n": "integer"}')
 
 
+def check_values(given: Mapping[str, Any], names: tuple[str, ...]) -> None:
+    """Raises `InputError` unless each of the parameters has a value, and nothing else."""
+    missing = ", ".join(name for name in names if name not in given)
+    unknown = ", ".join(name for name in given if name not in names)
+    if missing or unknown:
+        hint = f"missing: {missing or 'none'}; unknown: {unknown or 'none'}"
+        raise InputError(f"values are needed for {', '.join(names) or 'no parameter'}", hint=hint)
+
+
 def _read_words(what: object) -> list[str]:
     """The words of an assumption.  Raises `InputError` for others, and for bounds that aren't real numbers."""
     text = re.sub(r"([<>]=?|!=)\s+", r"\1", str(what))

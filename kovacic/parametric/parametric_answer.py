@@ -21,7 +21,7 @@ from kovacic.errors import InputError, LimitExceeded, VerificationFailed
 from kovacic.limits import DEFAULT_LIMITS, Budget, Limits, limited
 from kovacic.numbers.exact import whole
 from kovacic.parametric import prose
-from kovacic.parametric.assumptions import NOTHING_ASSUMED, Assumptions, read_assumptions
+from kovacic.parametric.assumptions import NOTHING_ASSUMED, Assumptions, check_values, read_assumptions
 from kovacic.parametric.functions import NO_CONSTANT, ParameterPoint
 from kovacic.parametric.natural import Determinant
 from kovacic.parametric.partition import derived
@@ -326,11 +326,7 @@ class ParametricAnswer:
         if isinstance(values, ParameterPoint):
             return values
         given = {str(name): value for name, value in values.items()}
-        missing = ", ".join(name for name in self.parameters if name not in given)
-        unknown = ", ".join(name for name in given if name not in self.parameters)
-        if missing or unknown:
-            hint = f"missing: {missing or 'none'}; unknown: {unknown or 'none'}"
-            raise InputError(f"values are needed for {', '.join(self.parameters)}", hint=hint)
+        check_values(given, self.parameters)
         for name, value in given.items():
             number = value if isinstance(value, Basic) else read_expression(number_text(value, self.limits))
             if not isinstance(number, Expr) or number.free_symbols:
