@@ -52,8 +52,9 @@ class ZeroSet:
     def guards(self) -> list[str]:
         """What keeps the expression defined: sin(k)/k is 1 at k = 0, where its factor sin(k) vanishes."""
         below = sympy.Mul.make_args(sympy.fraction(sympy.together(self.expression))[1])
-        bases = [factor.as_base_exp()[0] for factor in below]
-        return [f"{b} != 0" for b in bases if not b.is_number and sympy.Mul(*self.factors).subs(b, 0) == 0]
+        product = sympy.Mul(*self.factors)
+        guarding = (b for b in (factor.as_base_exp()[0] for factor in below) if _where_zero(product, b) == 0)
+        return [f"{sympy.Mul(*ZeroSet(base).factors)} != 0" for base in guarding]
 
     def equation(self, answer: Expr = sympy.S.Zero) -> str:
         """`k = 0`, with hyperbolic functions beside an answer in these."""
@@ -115,7 +116,17 @@ def _factored(zero: Expr) -> Expr:
         return zero
     above, below = sympy.fraction(sympy.together(zero))
     above /= sympy.Mul(*(f for f in sympy.Mul.make_args(below) if isinstance(f, gamma)))  # 0 at its poles
-    return min(map(sympy.factor, (above, in_single_waves(above))), key=size)
+    factored = min(map(sympy.factor, (above, in_single_waves(above))), key=size)
+    return sympy.powsimp(factored, deep=True, combine="exp") if factored.has(exp) else factored  # exp(a) exp(-b)
+
+
+def _where_zero(e: Expr, base: Expr) -> Expr:
+    """e where the base is zero: there a letter in which it is linear has another value."""
+    for letter in base.free_symbols:
+        slope = base.diff(letter)
+        if slope.is_number:
+            return e.subs(letter, sympy.expand(letter - base / slope))
+    return e.subs(base, 0)
 
 
 def _has_no_zero(factor: Expr) -> bool:

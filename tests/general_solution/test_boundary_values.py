@@ -461,10 +461,12 @@ def test_a_zero_that_the_pair_alone_has_is_no_exception() -> None:
         pytest.param(
             "y'' + a*y' + b*y = 0",
             "y(0)=0, y(1)=1",
-            "sin(sqrt(-a**2 + 4*b)/2) = 0 and -a**2 + 4*b != 0, where there is no solution",
+            "sin(sqrt(-a**2 + 4*b)/2) = 0 and a**2 - 4*b != 0, where there is no solution",
             marks=pytest.mark.long,
         ),
         ("y'' + k^2*y = x", "y(0)=0, y'(1)=0", "unless cos(k) = 0, where there is no solution"),
+        ("y'' - (a + b)*y' + a*b*y = 0", "y(0)=0, y(1)=1", "exp(a) - exp(b) = 0 and a - b != 0, where there is no"),
+        ("y'' + (a - b)*y' = 0", "y(0)=0, y(1)=1", "exp(-a + b) - 1 = 0 and a - b != 0, where there is no solution"),
         ("y'' + k^2*y = 0", "y'(0)=1", "unless k = 0, where y(x) = C1 + x"),
         ("x^2*y'' + a*x*y' = 0", "y'(1)=1", "unless a = 1, where y(x) = C1 + log(x)"),
     ],
