@@ -16,7 +16,7 @@ from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from fractions import Fraction
 from functools import lru_cache, reduce
-from itertools import chain, count, product
+from itertools import product
 from typing import Any, NamedTuple
 
 import sympy
@@ -42,11 +42,12 @@ from kovacic.parametric.claims import AllOf, AnyOf, Claim, IntegerFamily, IsNonz
 from kovacic.parametric.exponents import Exponents, places_of
 from kovacic.parametric.formulas import gathered, shorter_sum
 from kovacic.parametric.functions import element, irreducible_factors, over_parameters
+from kovacic.parametric.integers import free_letter
 from kovacic.parametric.prose import Words
 from kovacic.parametric.restriction import Letters
 from kovacic.reading.change_of_variable import is_power, user_variable
 from kovacic.reading.read import read_input
-from kovacic.writing.formula import Math, caret
+from kovacic.writing.formula import caret
 
 
 class jacobi(sympy.Function):  # type: ignore[misc]  # noqa: N801
@@ -85,32 +86,25 @@ class jacobi(sympy.Function):  # type: ignore[misc]  # noqa: N801
         return rf"P_{{{n}}}^{{\left({a}, {b}\right)}}\left({z}\right){power}"
 
 
-class laguerre(sympy.Function):  # type: ignore[misc]  # noqa: N801
-    """SymPy's `assoc_laguerre`, with a derivative that is right for n = 0, too, where SymPy's has no value."""
-
-    def fdiff(self, argindex: int = 3) -> Any:
-        """The derivative with respect to z by a polynomial of higher degree [DLMF 18.9.24]."""
-        n, a, z = self.args
-        if argindex != 3:
-            raise sympy.core.function.ArgumentIndexError(self, argindex)
-        return (n + 1) / z * laguerre(n + 1, a - 1, z) + (1 - a / z) * laguerre(n, a, z)
-
-
-class hermite(sympy.Function):  # type: ignore[misc]  # noqa: N801
-    """SymPy's function of this name, with a derivative for n = 0, too."""
-
-    def fdiff(self, argindex: int = 2) -> Any:
-        """The derivative with respect to z by a polynomial of higher degree [DLMF 18.9.25, 18.9.1]."""
-        n, z = self.args
-        if argindex != 2:
-            raise sympy.core.function.ArgumentIndexError(self, argindex)
-        return 2 * z * hermite(n, z) - hermite(n + 1, z)
+#: The derivatives of polynomials by others whose degrees are natural, too, for n = 0, where SymPy's have no value
+#: [DLMF 18.9.24, 18.9.25 and 18.9.1].
+_DERIVATIVES: dict[Any, Callable[..., Any]] = {
+    sympy.assoc_laguerre: lambda n, a, z: (
+        (n + 1) / z * sympy.assoc_laguerre(n + 1, a - 1, z) + (1 - a / z) * sympy.assoc_laguerre(n, a, z)
+    ),
+    sympy.hermite: lambda n, z: 2 * z * sympy.hermite(n, z) - sympy.hermite(n + 1, z),
+}
 
 
 def derivative(y: Any, x: Any) -> Any:
     """The derivative of a solution, with polynomials whose degrees are natural where that of the solution is."""
-    own = y.replace(sympy.assoc_laguerre, laguerre).replace(sympy.hermite, hermite)
-    return own.diff(x).replace(laguerre, sympy.assoc_laguerre).replace(hermite, sympy.hermite)
+    letters = {polynomial: sympy.Dummy() for polynomial in y.atoms(*_DERIVATIVES)}
+    plain = y.xreplace(letters)
+    terms = [plain.diff(x)]
+    for polynomial, letter in letters.items():
+        *_, z = polynomial.args
+        terms.append(plain.diff(letter) * _DERIVATIVES[polynomial.func](*polynomial.args) * z.diff(x))
+    return sympy.Add(*terms).xreplace({letter: polynomial for polynomial, letter in letters.items()})
 
 
 def _binomial(top: Any, k: Any) -> Any:
@@ -150,17 +144,13 @@ class PolynomialSolution:
 
     def __str__(self) -> str:
         """`y = x*exp(x^2/2)*assoc_laguerre(n, 1/2, -x^2) where n is a natural number`."""
-        where = self.where or self._degree_in_words()
-        return f"y = {caret(as_text(self.y))} where {where}"
-
-    def _degree_in_words(self) -> str:
         degree = caret(as_text(self.degree))
-        names = {symbol.name for symbol in self.y.free_symbols}
-        letter = next(letter for letter in chain("dDNM", map("d{}".format, count())) if letter not in names)
+        letter = free_letter({symbol.name for symbol in self.y.free_symbols}, "dDNM")
         exclusion = self.exclusion(letter)
         if exclusion and not self.degree.is_Symbol:
             degree = f"{letter} = {degree}"
-        return f"{degree} is a natural number{prose.text_of(exclusion)}"
+        where = self.where or f"{degree} is a natural number{prose.text_of(exclusion)}"
+        return f"y = {caret(as_text(self.y))} where {where}"
 
     def exclusion(self, d: str) -> Words:
         """Where y vanishes identically for the degree d; () where it never does."""
@@ -407,14 +397,12 @@ def _conditions(value: Poly) -> list[Poly]:
     if isinstance(value, FunctionPoly):
         return list(irreducible_factors(value))
     leaves = [over_parameters(leaf) for leaf in value.leaves() if leaf]
-    denominator = reduce(lambda m, leaf: m * (leaf.den // m.gcd(leaf.den)), leaves, leaves[0].den)
-    numerators = [leaf.num * (denominator // leaf.den) for leaf in leaves]
-    content = reduce(lambda a, b: a.gcd(b), numerators)
     field = leaves[0].field
-    factors: list[Poly] = list(irreducible_factors(element(field, content)))
-    rest = value * element(field, denominator) / element(field, content)
+    content = element(field, reduce(lambda a, b: a.gcd(b), (leaf.num for leaf in leaves)))
+    denominator = reduce(lambda m, leaf: m * (leaf.den // m.gcd(leaf.den)), leaves, field.context.constant(1))
+    factors: list[Poly] = [*irreducible_factors(content)]
     is_product_of_roots = len(leaves) == 1
-    return factors if is_product_of_roots else [*factors, rest]
+    return factors if is_product_of_roots else [*factors, value * element(field, denominator) / content]
 
 
 def root(square: Poly) -> Any:
@@ -453,15 +441,13 @@ class Progression:
                 left.append(value)
         return Progression(start, self.step), left
 
-    def said(self, letter: str) -> list[str | Math]:
-        """`even n >= 0`, `n <= -1`, or `n = 1, 4, 7, ...`."""
+    def said(self, letter: str) -> str:
+        """Even `n >= 0`, `n <= -1`, or `n = 1, 4, 7, ...`."""
         if abs(self.step) > 2:
-            listed = ", ".join(str(self.start + k * self.step) for k in range(3))
-            return [Math(f"{letter} = {listed}, ...", rf"{letter} = {listed}, \ldots")]
-        bound = Math.of(f"{letter} {'>=' if self.step > 0 else '<='} {self.start}")
-        if abs(self.step) == 1:
-            return [bound]
-        return ["odd " if self.start % 2 else "even ", bound]
+            listed = (str(self.start + k * self.step) for k in range(3))
+            return f"`{letter} = {', '.join(listed)}, ...`"
+        kind = ("even ", "odd ")[self.start % 2] if abs(self.step) == 2 else ""
+        return f"{kind}`{letter} {'>=' if self.step > 0 else '<='} {self.start}`"
 
 
 class SolutionRow(NamedTuple):
@@ -473,12 +459,11 @@ class SolutionRow(NamedTuple):
 
 def families_of(claim: Claim) -> list[IntegerFamily]:
     """The alternatives, where each is the parameter as a function of an integer, maybe beside what isn't 0; none for others."""
-    parts = claim.parts if isinstance(claim, AllOf) else (claim,)
-    parts = tuple(part for part in parts if not isinstance(part, IsNonzero))
-    if len(parts) == 1 and isinstance(parts[0], AnyOf):
-        parts = parts[0].parts
-    elif len(parts) != 1:
+    together = claim.parts if isinstance(claim, AllOf) else (claim,)
+    said = [part for part in together if not isinstance(part, IsNonzero)]
+    if len(said) != 1:
         return []
+    parts = said[0].parts if isinstance(said[0], AnyOf) else said
     families = [part for part in parts if isinstance(part, IntegerFamily)]
     return families if len(families) == len(parts) else []
 
@@ -515,11 +500,10 @@ def rows_of(solutions: Iterable[PolynomialSolution], family: IntegerFamily, lett
 
 def _progressions(degree: Any, n: Any, family: IntegerFamily) -> Iterator[Progression]:
     """The integers of the family for which the degree a n + b is natural; none for another degree."""
-    slope, constant = degree.coeff(n, 1), degree.coeff(n, 0)
-    is_linear = sympy.expand(degree - slope * n - constant) == 0
-    if not (is_linear and slope.is_Rational and constant.is_Rational) or slope == 0:
+    linear = degree.as_poly(n)
+    if linear is None or linear.degree() != 1 or not linear.domain.is_QQ | linear.domain.is_ZZ:
         return
-    a, b = (Fraction(int(number.p), int(number.q)) for number in (slope, constant))
+    a, b = (Fraction(int(number.p), int(number.q)) for number in linear.all_coeffs())
     # n = (d - b)/a for d = 0, 1, ...: in the classes again after `period` steps.
     period = (family.numbers.modulus * abs(a)).numerator
     for d in range(period):
@@ -530,15 +514,5 @@ def _progressions(degree: Any, n: Any, family: IntegerFamily) -> Iterator[Progre
 
 def _without_roots(expression: Any) -> Any:
     """The expression with polynomials in the place of square roots of squares; the sign of each is chosen anyway."""
-
-    def rooted(power: Any) -> Any:
-        outside: list[Any] = []
-        inside: list[Any] = []
-        for factor in sympy.Mul.make_args(sympy.factor(power.base)):
-            base, k = factor.as_base_exp()
-            is_square = k.is_Integer and k % 2 == 0 and not base.is_number
-            (outside if is_square else inside).append(base ** (k * power.exp) if is_square else factor)
-        return sympy.Mul(*outside) * sympy.Mul(*inside) ** power.exp
-
-    found = expression.replace(lambda e: e.is_Pow and e.exp.is_Rational and e.exp.q == 2, rooted)
+    found = with_roots_of_factors(expression, sympy.Dummy())
     return found.replace(lambda e: e.is_Pow and e.exp.has(sympy.Symbol), lambda e: e.base ** shorter_sum(e.exp))

@@ -318,15 +318,11 @@ class _TheoremWriter:
     def _in_rows(self, family: IntegerFamily, rows: list[SolutionRow], *, are_several: bool) -> Iterator[Block]:
         """A formula for each progression of integers."""
         n = family.letter
-        start: list[str | Math] = []
-        if are_several:
-            start = [Math.of(prose.equals(family.parameter, family.value, n)), ", "]
+        start = f"`{prose.equals(family.parameter, family.value, n)}`, " if are_several else ""
         for row in rows:
             progression, roots = row.numbers.without(pole.root for pole in family.poles)
-            without: list[str | Math] = []
-            for root in roots:
-                without += [", ", Math.of(f"{n} != {written(root, n)}")]
-            yield say("For ", *start, *progression.said(n), *without, ":")
+            without = "".join(f", `{n} != {written(root, n)}`" for root in roots)
+            yield say(*prose.phrase(f"For {start}{progression.said(n)}{without}:"))
             yield Formula(self._named_solution(row.solution))
 
     def _with_degree(self, solution: PolynomialSolution, case: Case) -> Iterator[Block]:

@@ -30,6 +30,7 @@ _RELATIONS = [
     (re.compile("!="), r"\\ne"),
     (re.compile(">="), r"\\ge"),
     (re.compile("<="), r"\\le"),
+    (re.compile(r"\.\.\."), r"\\ldots"),
 ]
 # Replacements for LaTeX, in this order.
 _REPLACEMENTS: list[tuple[re.Pattern[str], Any]] = [
