@@ -16,10 +16,9 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterable, Iterator, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from fractions import Fraction
 from itertools import combinations
-from math import prod
 from typing import Any, NamedTuple
 
 import sympy
@@ -27,10 +26,9 @@ import sympy
 from kovacic.algebra.function_field import FunctionPoly
 from kovacic.algebra.poly import Poly
 from kovacic.algebra.ratfunc import RatFunc
-from kovacic.algebra.rationals import square_part
 from kovacic.algebra.sparse import by_power, factorisation
 from kovacic.numbers.numerals import as_text, digits
-from kovacic.parametric.functions import over_parameters
+from kovacic.parametric.functions import element, over_parameters
 from kovacic.reading.lexer import PRIMES, SUPERSCRIPT_DIGITS
 from kovacic.reading.names import is_function
 from kovacic.reading.naming import Source
@@ -118,24 +116,15 @@ def sides_of_equation(function: FunctionPoly) -> SidesOfEquation:
     It is solved where it is linear, or a power is a product of linear factors; two terms have two sides.
     """
     above, _, names = _as_quotient(function, "x")
-    solved = _solved_for_a_power(above)
+    solved = _solved_for_a_power(above, names)
     if solved is not None:
-        return SidesOfEquation(_polynomial(solved.left, names), _shortest(solved.values, names))
+        return solved
     negative = {exponents: -int(c) for exponents, c in above.to_dict().items() if int(c) < 0}
-    if len(above) == 2 and len(negative) == 1:
-        right = above.context().from_dict(negative)
-        return SidesOfEquation(_polynomial(above + right, names), _polynomial(right, names))
-    return SidesOfEquation(_polynomial(above, names), "0")
+    right = above.context().from_dict(negative if len(above) == 2 and len(negative) == 1 else {})
+    return SidesOfEquation(_polynomial(above + right, names), _polynomial(right, names))
 
 
-class _SolvedFor(NamedTuple):
-    """A polynomial vanishes exactly where a power of a parameter, `left`, has a value: `values` are the forms of it."""
-
-    left: Any
-    values: Sequence[Sequence[_FormulaTerm]]
-
-
-def _solved_for_a_power(polynomial: Any) -> _SolvedFor | None:
+def _solved_for_a_power(polynomial: Any, names: Sequence[str]) -> SidesOfEquation | None:
     """t = f for a linear equation, with the coefficient 1 or -1 of t if there is one; else t^k = f, a product of linear forms.
 
     None if no power is alone.  Two terms of higher degree have two sides.
@@ -143,16 +132,17 @@ def _solved_for_a_power(polynomial: Any) -> _SolvedFor | None:
     is_linear = polynomial.total_degree() == 1
     if not is_linear and len(polynomial) <= 2:
         return None
-    found: list[tuple[bool, _SolvedFor]] = []
+    found: list[tuple[bool, SidesOfEquation]] = []
     for i, degree in enumerate(map(int, polynomial.degrees())):
         parts = by_power(polynomial, i)
-        if not degree or not parts.keys() <= {0, degree} or not parts[degree].is_constant():
+        if not parts.keys() <= {0, degree} or not parts[degree].is_constant():
             continue
         quotient = (-parts.get(0, 0 * polynomial), parts[degree])
         values = [*_written_forms(*quotient)] if is_linear else [[_factored(*quotient)]]
         if is_linear or all(factor.total_degree() == 1 for factor, _ in values[0][0].top):
             has_fractions = is_linear and abs(int(parts[degree].leading_coefficient())) != 1
-            found.append((has_fractions, _SolvedFor(polynomial.context().gen(i) ** degree, values)))
+            left = _polynomial(polynomial.context().gen(i) ** degree, names)
+            found.append((has_fractions, SidesOfEquation(left, _shortest(values, names))))
     return min(found, key=lambda one: one[0])[1] if found else None
 
 
@@ -163,16 +153,14 @@ def root_written(square: Poly, factor: str = "") -> str:
     """
     if not square:
         return "0"
-    above, below, names = _as_quotient(over_parameters(square), "x")
-    top = _without_squares(above)
-    bottom = _without_squares(below)
-    odd = top.odd
-    under = bottom.odd
+    field = over_parameters(square).field
+    above, below, names = _as_quotient(square, "x")
+    (top, odd), (bottom, under) = (
+        [part.num for part in element(field, whole).square_part()] for whole in (above, below)
+    )
     if int(odd.leading_coefficient()) < 0 and not under.is_constant():
-        odd = -odd
-        under = -under
-    number = Fraction(top.number, bottom.number)
-    return _sum([_FormulaTerm(number, top.factors, bottom.factors, root=odd, under=under, name=factor)], names)
+        odd, under = -odd, -under
+    return _sum([replace(_factored(top, bottom), root=odd, under=under, name=factor)], names)
 
 
 class _Quotient(NamedTuple):
@@ -204,24 +192,17 @@ class _FormulaTerm:
 
 def _written_forms(above: Any, below: Any) -> Iterator[list[_FormulaTerm]]:
     """Sums of terms that are equal to the quotient of two polynomials over Z; the last one is in factors, if it isn't 0."""
-    whole = [_FormulaTerm(Fraction(1), ((above, 1),), ((below, 1),))]
-    apart = []  # each of a few terms over a monomial
+    forms = [[_FormulaTerm(Fraction(1), ((above, 1),), ((below, 1),))]]
     most = 2 if below.is_constant() else _TERMS
-    if len(below) == 1 and 1 < len(above) <= most:
+    if len(below) == 1 and 1 < len(above) <= most:  # each of a few terms over a monomial
         single = [above.context().from_dict({exponents: c}) for exponents, c in above.to_dict().items()]
-        apart.append([_factored(term, below) for term in single])
-    if below.is_constant():
-        yield whole
-        yield from apart
-    else:
-        yield from apart
-        yield whole
+        forms.append([_factored(term, below) for term in single])
+    yield from forms if below.is_constant() else reversed(forms)
     if not above:
         return
-    for i, degree in enumerate(map(int, above.degrees())):
+    for i in range(1, len(above.degrees())):
         parts = by_power(above, i)
-        is_parameter = i > 0
-        if is_parameter and degree and len(parts) == 2:
+        if len(parts) == 2:
             generator = above.context().gen(i)
             yield [_factored(part * generator**power, below) for power, part in sorted(parts.items())]
     yield [_factored(above, below)]
@@ -233,23 +214,6 @@ def _factored(above: Any, below: Any) -> _FormulaTerm:
     number, top = factorisation(above // common)
     divisor, bottom = factorisation(below // common)
     return _FormulaTerm(Fraction(number, divisor), tuple(top), tuple(bottom))
-
-
-class _WithoutSquares(NamedTuple):
-    """(number * the product of `factors`)^2 * odd, with a squarefree `odd`."""
-
-    number: int
-    factors: tuple[Power, ...]
-    odd: Any
-
-
-def _without_squares(polynomial: Any) -> _WithoutSquares:
-    content, powers = factorisation(polynomial)
-    number, odd_number = square_part(Fraction(content))
-    odd_factors = [factor for factor, k in powers if k % 2]
-    odd = prod(odd_factors, start=polynomial.context().constant(odd_number))
-    factors = [(factor, k // 2) for factor, k in powers if k > 1]
-    return _WithoutSquares(int(number), tuple(factors), odd)
 
 
 def _sum(terms: Sequence[_FormulaTerm], names: Sequence[str]) -> str:
@@ -334,11 +298,45 @@ def in_product(text: str) -> str:
     return f"({text})" if is_sum else text
 
 
-class _ShownPower(NamedTuple):
-    """A base as it is shown, and its exponent."""
+class _Powers:
+    """Powers of polynomials in x, by their monic multiples: how the bases are shown, and the exponents."""
 
-    base: Any
-    exponent: Any
+    def __init__(self, x: Any) -> None:
+        self.x = x
+        self.bases: dict[Any, Any] = {}
+        self.exponents: dict[Any, Any] = {}
+
+    def key(self, polynomial: Any) -> Any:
+        return sympy.Poly(polynomial, self.x, domain="EX").monic().as_expr()
+
+    def multiply(self, polynomial: Any, exponent: Any) -> None:
+        key = self.key(polynomial)
+        self.bases.setdefault(key, polynomial)
+        self.exponents[key] = self.exponents.get(key, sympy.Integer(0)) + exponent
+
+    def multiply_factors(self, base: Any, e: Any) -> None:
+        """By the irreducible factors of a rational function, raised to a power."""
+        for part, sign in zip(sympy.fraction(sympy.together(base)), (1, -1), strict=True):
+            number, factors = sympy.factor_list(part)
+            factors = [(factor, k) for factor, k in factors if factor.has(self.x)]
+            for factor, k in factors:
+                is_turned = len(factors) == 1 and number.is_negative and k % 2 == 1
+                self.multiply(-factor if is_turned else factor, sign * k * e)
+
+    def join_conjugates(self) -> None:
+        """(x - i)^e (x + i)^f (x^2 + 1)^g with the exponents e + g and f + g; as one power of x^2 + 1 where these are equal."""
+        with_roots = [key for key in self.exponents if has_roots(key) and sympy.degree(key, self.x) == 1]
+        for first, second in combinations(with_roots, 2):
+            whole = sympy.expand(first * second)
+            if has_roots(whole) or not {first, second} <= self.exponents.keys():
+                continue
+            known = self.exponents.pop(self.key(whole), sympy.Integer(0))
+            parts = [self.exponents[key] + known for key in (first, second)]
+            if sympy.expand(parts[0] - parts[1]) == 0:
+                del self.exponents[first], self.exponents[second]
+                self.multiply(whole, parts[0])
+            else:
+                self.exponents |= dict(zip((first, second), parts, strict=True))
 
 
 def gathered(y: Any, x: Any) -> Any:
@@ -348,68 +346,33 @@ def gathered(y: Any, x: Any) -> Any:
     """
     if not isinstance(y, sympy.Mul | sympy.Pow):
         return y
-    powers: dict[Any, _ShownPower] = {}
+    powers = _Powers(x)
     others: list[Any] = []
     exponent = sympy.Integer(0)
     for factor in sympy.Mul.make_args(y):
         base, e = factor.as_base_exp()
         if base == sympy.E:
             exponent += e
-        elif isinstance(factor, sympy.Add) and not (has_roots(factor) and sympy.degree(factor, x) == 1):
-            others.append(factor)  # a polynomial P
-        elif not base.has(x) or not base.is_rational_function(x):
+            continue
+        is_polynomial = factor.is_Add and not (has_roots(factor) and sympy.degree(factor, x) == 1)
+        if is_polynomial or not base.has(x) or not base.is_rational_function(x):
             others.append(factor)
         else:
-            _add_factors(powers, base, e, x)
-    _join_conjugates(powers, x)
-    for k, other in enumerate(others):
-        key = _key(other, x) if isinstance(other, sympy.Add) and other.is_polynomial(x) else None
-        if key in powers:  # a polynomial P with a factor of the weight
-            powers[key] = _ShownPower(powers[key].base, powers[key].exponent + 1)
-            others[k] = sympy.Integer(1)
-    shown = [power.base ** shorter_sum(power.exponent) for power in powers.values()]
-    others = [other for other in others if other.has(x)]
-    return sympy.Mul(*shown, sympy.exp(shorter_sum(exponent)), *others)
-
-
-def _add_factors(powers: dict[Any, _ShownPower], base: Any, e: Any, x: Any) -> None:
-    """The irreducible factors of a rational function, raised to a power."""
-    for part, sign in zip(sympy.fraction(sympy.together(base)), (1, -1), strict=True):
-        if not part.has(x):
-            continue
-        number, factors = sympy.factor_list(part)
-        factors = [(factor, k) for factor, k in factors if factor.has(x)]
-        for factor, k in factors:
-            key = _key(factor, x)
-            is_turned = len(factors) == 1 and number.is_negative and k % 2 == 1
-            known = powers.get(key, _ShownPower(-factor if is_turned else factor, sympy.Integer(0)))
-            powers[key] = _ShownPower(known.base, known.exponent + sign * k * e)
-
-
-def _join_conjugates(powers: dict[Any, _ShownPower], x: Any) -> None:
-    """(x - i)^e (x + i)^f (x^2 + 1)^g with the exponents e + g and f + g; as one power of x^2 + 1 where these are equal."""
-    with_roots = [key for key in powers if has_roots(key) and sympy.degree(key, x) == 1]
-    for first, second in combinations(with_roots, 2):
-        whole = sympy.expand(first * second)
-        if has_roots(whole) or not {first, second} <= powers.keys():
-            continue
-        known = powers.pop(_key(whole, x), _ShownPower(whole, sympy.Integer(0)))
-        parts = [_ShownPower(powers[key].base, powers[key].exponent + known.exponent) for key in (first, second)]
-        if sympy.expand(parts[0].exponent - parts[1].exponent) == 0:
-            del powers[first], powers[second]
-            powers[_key(whole, x)] = _ShownPower(known.base, parts[0].exponent)
-        else:
-            powers |= dict(zip((first, second), parts, strict=True))
+            powers.multiply_factors(base, e)
+    powers.join_conjugates()
+    shown = []
+    for other in others:
+        if other.is_Add and other.is_polynomial(x) and powers.key(other) in powers.exponents:
+            powers.multiply(other, 1)  # a polynomial P with a factor of the weight
+        elif other.has(x):
+            shown.append(other)
+    shown += [powers.bases[key] ** shorter_sum(e) for key, e in powers.exponents.items()]
+    return sympy.Mul(*shown, sympy.exp(shorter_sum(exponent)))
 
 
 def has_roots(expression: Any) -> bool:
     """True if i, or a root of something else, occurs."""
     return expression.has(sympy.I) or any(not power.exp.is_Integer for power in expression.atoms(sympy.Pow))
-
-
-def _key(factor: Any, x: Any) -> Any:
-    """The monic multiple."""
-    return sympy.Poly(factor, x, domain="EX").monic().as_expr()
 
 
 def shorter_sum(exponent: Any) -> Any:
@@ -428,9 +391,9 @@ def shorter_sum(exponent: Any) -> Any:
 
 #: Characters of a text above which nobody prints it unexpanded.
 _LONGEST = 1000
-#: Last and first tokens of operands: two adjacent operands form a product.
-_ENDS = ("NUMBER", "NAME", "PRIMED", "RPAR", "SUPERSCRIPT")
-_BEGINNINGS = ("NUMBER", "NAME", "PRIMED", "HEAD", "LPAR")
+#: A gap between operands, which is a product; one around a sign between them, or any other.
+_PRODUCT = re.compile(r"(?<=[\w').]) (?=[\w(.])")
+_GAP = re.compile(r"(?<=[\w').]) ([-+=]) | ")
 #: A number, a name or a power of one in parentheses that aren't those of a call or of a base.
 _IN_PARENTHESES = re.compile(r"(?<![\w'])\((\w+'*|\w+\^\w+(?=\)(?!\^)))\)")
 #: A sign behind an operator, and the power of a power, which would need parentheses.
@@ -444,28 +407,17 @@ def unexpanded(source: Source) -> Math | None:
     """
     if source.tokens is None or len(source.text or "") > _LONGEST:
         return None
-    text = before = ""
-    depth = 0
-    is_sum = False
+    pieces: list[str] = []
     for kind, piece in zip(source.tokens.kinds, source.tokens.pieces, strict=True):
-        is_known = piece.rstrip(PRIMES) == source.unknown or (is_function(piece) and piece.isalpha())
-        if (
-            kind in ("COMMA", "OPERATOR")
-            or (kind == "HEAD" and not is_known)
-            or (kind == "NUMBER" and "e" in piece.lower())
-        ):
+        is_call = piece.rstrip(PRIMES) == source.unknown or (is_function(piece) and piece.isalpha())
+        is_exponential = kind == "NUMBER" and "e" in piece.lower()
+        if kind in ("COMMA", "OPERATOR") or is_exponential or (kind == "HEAD" and not is_call):
             return None
-        depth += {"LPAR": 1, "RPAR": -1}.get(kind, 0)
-        is_sign = kind in ("PLUS", "MINUS")
-        is_sum = is_sum or (is_sign and depth == 0)
-        if kind == "EQUAL" or (is_sign and before in _ENDS):
-            text += f" {piece} "
-        elif kind == "SUPERSCRIPT":
-            text += "^" + piece.translate(SUPERSCRIPT_DIGITS)
-        else:
-            is_product = before in _ENDS and kind in _BEGINNINGS
-            text += f"*{piece}" if is_product else caret(piece)
-        before = kind
+        raised = "^" if kind == "SUPERSCRIPT" else ""
+        pieces.append(raised + caret(piece).translate(SUPERSCRIPT_DIGITS) + ("" if kind == "HEAD" else " "))
+    text = _PRODUCT.sub("*", "".join(pieces))
+    text = _GAP.sub(lambda gap: f" {gap[1]} " if gap[1] else "", text)
+    is_sum = re.search("[-+]", outside(text)) is not None
     text = re.sub(r"\^(-\w+)", r"^(\1)", text)
     count = 1
     while count:
