@@ -176,14 +176,6 @@ class Both(_Several, AllOf):
     def conjuncts(self) -> tuple[Statement, ...]:
         return self.parts
 
-    def merged(self, other: Statement) -> Statement | None:
-        if not isinstance(other, Both) or other.parts[:-1] != self.parts[:-1]:
-            return None
-        last = self.parts[-1].merged(other.parts[-1])
-        if last is None:
-            return None
-        return replace(self, parts=(*self.parts[:-1], last))
-
     def sample(self, random: Random) -> list[FunctionPoly]:
         return list(chain.from_iterable(part.sample(random) for part in self.parts))
 
