@@ -129,15 +129,10 @@ def _conditions(images: Sequence[FunctionPoly], surface: Any) -> RankConditions:
         return RankConditions((), tuple(element(field, minor) for minor in minors), deficient)
     common = reduce(lambda a, b: a.gcd(b), minors)
     factors = tuple(irreducible_factors(element(field, common)))
-    # The system of what is left of the minors, without powers.
-    products: dict[FunctionPoly, None] = {}
-    for minor in minors:
-        check_time()
-        parts = irreducible_factors(element(field, minor // common))
-        if not parts:
-            return RankConditions(factors, deficient=deficient)
-        products[reduce(mul, parts)] = None
-    shortest_first = sorted(products, key=lambda function: (len(function.num), str(function)))
+    # The system of what is left of the minors, without powers, the shortest first.
+    rests = [irreducible_factors(element(field, minor // common)) for minor in minors]
+    system = {reduce(mul, parts) for parts in rests} if all(rests) else set()
+    shortest_first = sorted(system, key=lambda function: (len(function.num), str(function)))
     return RankConditions(factors, tuple(shortest_first), deficient)
 
 
@@ -426,11 +421,8 @@ def is_too_large(field: Field) -> bool:
 
 def places_of(problem: Problem) -> Places | None:
     """The choices differ by a root: the exponent difference, or the root of a leading coefficient."""
-    if is_too_large(problem.field):
-        return None
-    if sum(place.degree for place in singular_places(problem)) > _POINTS:
-        return None
-    split = _with_rational_points(problem)
+    points = sum(place.degree for place in singular_places(problem))
+    split = None if is_too_large(problem.field) or points > _POINTS else _with_rational_points(problem)
     if split is None:
         return None
     singular = singular_places(split)

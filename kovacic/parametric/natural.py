@@ -32,6 +32,7 @@ from kovacic.parametric import prose
 from kovacic.parametric.assumptions import Assumptions
 from kovacic.parametric.claims import AnyOf, Claim, DegreeBySum, DegreeExists, EquationFor, IsZero, rational_roots
 from kovacic.parametric.exponents import (
+    OPEN,
     RankConditions,
     choices_of_degree,
     conditions_of_degree,
@@ -155,9 +156,7 @@ class Natural(Statement):
     def _holds(self, point: ParameterPoint) -> bool:
         """Decided by the rank of the systems at the point."""
         numbers = self.numbers_at(point)
-        if self.factors is not None and not numbers:
-            return False
-        return self.exists(point, numbers)
+        return (self.factors is None or len(numbers) > 0) and self.exists(point, numbers)
 
     def exists(self, point: ParameterPoint, numbers: Sequence[int]) -> bool:
         """True if P has one of these degrees at the point, or an invariant of degree m exists there."""
@@ -221,12 +220,11 @@ class Natural(Statement):
         number = random.randint(0, _EXAMPLES)
         if not any(degrees(factor)):
             root = factor.field.rational_value(-factor[0] / factor[1]) if factor.degree == 1 else None
-            if root is None or root.denominator > 1 or root < 0:
+            if root is None or not NATURALS.contains(root):
                 return []
             number = int(root)
-        found = []
-        if self.m == 1:  # of invariants the numbers of zeros say enough
-            found = [one for one in self.determinants(number) if one.factors or one.system]
+        determinants = self.determinants(number) if self.m == 1 else ()  # of invariants the numbers of zeros say enough
+        found = [one for one in determinants if one.factors or one.system]
         if not found:
             return [*filter(None, [over_parameters(factor(Fraction(number)))])]
         chosen = random.choice(found)
@@ -234,9 +232,7 @@ class Natural(Statement):
         return [*filter(None, [chosen.exponents, *zeros])]
 
     def decided(self, assumptions: Assumptions) -> bool | None:
-        if self._possible(assumptions) == ():
-            return False
-        return None
+        return False if self._possible(assumptions) == () else None
 
     def narrowed(self, assumptions: Assumptions) -> Statement:
         return replace(self, factors=self._possible(assumptions))
@@ -289,9 +285,8 @@ def _determinants(statement: Natural, number: int) -> tuple[Determinant, ...]:
     for exponents, surface, S in statement.given(number):
         has_free_constant = bool(statement.constant.names and exponents) and isinstance(surface.field, AlgebraicField)
         if statement.m == 1 and (has_free_constant or is_too_large(S.field)):
-            found[Determinant(exponents)] = None
-            continue
-        if S.field.ground == QQ:  # no parameter is left
+            choices = [OPEN]
+        elif S.field.ground == QQ:  # no parameter is left
             exists = _has_form(S, statement.m) if statement.m > 1 else _has_solution(S, number)
             choices = [RankConditions(deficient=exists)]
         elif statement.m > 1:

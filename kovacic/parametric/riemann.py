@@ -63,22 +63,27 @@ class _SchwarzRow(NamedTuple):
     is_even: bool
 
 
-#: Schwarz's rows, by their numbers.
+#: Schwarz's rows: number, structure, differences, and what the sum of the integer parts is.
+_ROWS = """
+    2 tetrahedral 1/2 1/3 1/3 any
+    3 tetrahedral 2/3 1/3 1/3 even
+    4 octahedral 1/2 1/3 1/4 any
+    5 octahedral 2/3 1/4 1/4 even
+    6 icosahedral 1/2 1/3 1/5 any
+    7 icosahedral 2/5 1/3 1/3 even
+    8 icosahedral 2/3 1/5 1/5 even
+    9 icosahedral 1/2 2/5 1/5 even
+    10 icosahedral 3/5 1/3 1/5 even
+    11 icosahedral 2/5 2/5 2/5 even
+    12 icosahedral 2/3 1/3 1/5 even
+    13 icosahedral 4/5 1/5 1/5 even
+    14 icosahedral 1/2 2/5 1/3 even
+    15 icosahedral 3/5 2/5 1/3 even
+"""
+#: By their numbers.
 _SCHWARZ = {
-    2: _SchwarzRow(Structure.TETRAHEDRAL, (_F(1, 2), _F(1, 3), _F(1, 3)), False),
-    3: _SchwarzRow(Structure.TETRAHEDRAL, (_F(2, 3), _F(1, 3), _F(1, 3)), True),
-    4: _SchwarzRow(Structure.OCTAHEDRAL, (_F(1, 2), _F(1, 3), _F(1, 4)), False),
-    5: _SchwarzRow(Structure.OCTAHEDRAL, (_F(2, 3), _F(1, 4), _F(1, 4)), True),
-    6: _SchwarzRow(Structure.ICOSAHEDRAL, (_F(1, 2), _F(1, 3), _F(1, 5)), False),
-    7: _SchwarzRow(Structure.ICOSAHEDRAL, (_F(2, 5), _F(1, 3), _F(1, 3)), True),
-    8: _SchwarzRow(Structure.ICOSAHEDRAL, (_F(2, 3), _F(1, 5), _F(1, 5)), True),
-    9: _SchwarzRow(Structure.ICOSAHEDRAL, (_F(1, 2), _F(2, 5), _F(1, 5)), True),
-    10: _SchwarzRow(Structure.ICOSAHEDRAL, (_F(3, 5), _F(1, 3), _F(1, 5)), True),
-    11: _SchwarzRow(Structure.ICOSAHEDRAL, (_F(2, 5), _F(2, 5), _F(2, 5)), True),
-    12: _SchwarzRow(Structure.ICOSAHEDRAL, (_F(2, 3), _F(1, 3), _F(1, 5)), True),
-    13: _SchwarzRow(Structure.ICOSAHEDRAL, (_F(4, 5), _F(1, 5), _F(1, 5)), True),
-    14: _SchwarzRow(Structure.ICOSAHEDRAL, (_F(1, 2), _F(2, 5), _F(1, 3)), True),
-    15: _SchwarzRow(Structure.ICOSAHEDRAL, (_F(3, 5), _F(2, 5), _F(1, 3)), True),
+    int(number): _SchwarzRow(Structure(structure), (_F(first), _F(second), _F(third)), parity == "even")
+    for number, structure, first, second, third, parity in map(str.split, _ROWS.strip().splitlines())
 }
 
 
@@ -153,17 +158,14 @@ class Schwarz(Statement):
         if rows:
             values = [_F(k, 60) for k in random.choice(rows)]
         random.shuffle(values)
-        differences = map(_rational_root, dict.fromkeys(roots(self.cubic)))
-        known = [difference for difference in differences if difference is not None]
+        known = [*filter(None, map(_rational_root, dict.fromkeys(roots(self.cubic))))]
         if len(known) != 3:
             return []
         return [root - value for root, value in zip(known, values, strict=True)]
 
     def narrowed(self, assumptions: Assumptions) -> Statement:
         """At each value of an integer parameter for which its exponent difference has a denominator of the table."""
-        for difference in map(_rational_root, roots(self.cubic)):
-            if difference is None:
-                continue
+        for difference in filter(None, map(_rational_root, roots(self.cubic))):
             known = at_integers(difference, LARGEST, assumptions)
             if known is not None:
                 there = ((here, on_zeros(self.cubic, here.function).monic()) for here, _ in known)
@@ -176,12 +178,8 @@ class Schwarz(Statement):
         if self.structures == (Structure.IMPRIMITIVE,) and known.names is not None:
             return known.two_half_integers
         rows = [number for number, row in _SCHWARZ.items() if row.structure in self.structures]
-        which = "row 1 (two half-integers)"
-        if rows:
-            which = f"rows {rows[0]}-{rows[-1]}"
-        names = (
-            (f"(the square roots of the roots of {shown(self.cubic, 'Z')})",) if known.names is None else known.names
-        )
+        which = f"rows {rows[0]}-{rows[-1]}" if rows else "row 1 (two half-integers)"
+        names = known.names or (f"(the square roots of the roots of {shown(self.cubic, 'Z')})",)
         return f"the exponent differences {_listed(names)} are in Schwarz's {which}"
 
     def resolved(self) -> ResolvedDifferences:
@@ -202,14 +200,11 @@ class Schwarz(Statement):
 
     def _rows_beside(self, third: Fraction) -> list[tuple[Structure, list[Words]]]:
         """The classes of the other two differences, in sixtieths up to signs: modulo 2, or modulo 1 where these say it."""
-        found = []
-        for u, v in product(range(61), repeat=2):
-            structure = _table().get(tuple(sorted((u, v, _sixtieths(third)))))
-            if structure in self.structures:
-                found.append((structure, u, v))
-        pairs = {*found}
+        pairs = product(range(61), repeat=2)
+        table = ((_table().get(tuple(sorted((u, v, _sixtieths(third))))), u, v) for u, v in pairs)
+        found = [(structure, u, v) for structure, u, v in table if structure in self.structures]
         # The same structures for u and 1 - u, and for v and 1 - v: they are those of the differences modulo 1.
-        is_symmetric = pairs == {(s, 60 - u, v) for s, u, v in found} == {(s, u, 60 - v) for s, u, v in found}
+        is_symmetric = {*found} == {(s, 60 - u, v) for s, u, v in found} == {(s, u, 60 - v) for s, u, v in found}
         lattice = "Z" if is_symmetric else "2*Z"
         found.sort(key=lambda pair: (self.structures.index(pair[0]), pair[1], pair[2]))
         return [
@@ -395,13 +390,10 @@ def structures(problem: Problem) -> Iterator[tuple[Structure, Statement]]:
 def _is_possible(structure: Structure, constants: Sequence[Fraction | None]) -> bool:
     if structure is Structure.IMPRIMITIVE:
         return True
-    residues = set()
-    for difference in constants:
-        if difference is None or difference.denominator > LARGEST:
-            return False
-        residues.add(_sixtieths(difference))
-    rows = [row for row, known in _table().items() if known is structure]
-    return any(residues <= {*row} for row in rows)
+    known = [difference for difference in constants if difference is not None and difference.denominator <= LARGEST]
+    residues = {*map(_sixtieths, known)}
+    fits = any(residues <= {*row} for row, other in _table().items() if other is structure)
+    return fits and len(known) == len(constants)
 
 
 def _in_rows(cubic: FunctionPoly, structures: Sequence[Structure]) -> Statement:
@@ -417,13 +409,11 @@ def _in_table(cubic: FunctionPoly, structure: Structure) -> Statement:
     if by_one_function is not None:
         return by_one_function
     if structure is Structure.IMPRIMITIVE:
+        beside = sum(d is not None and d.denominator == 2 for d in differences(cubic).constants)
+        # One with parameters beside a half-integer, or two that are equal: the square is N^2/4 with an odd N.
         powers = cubic.field.factor(cubic)
-        has_half_integer = any(d is not None and d.denominator == 2 for d in differences(cubic).constants)
-        if has_half_integer or any(multiplicity > 1 for _, multiplicity in powers):
-            # One with parameters, or two that are equal: the square is N^2/4 with an odd N.
-            free = [
-                factor for factor, k in powers if without_parameters(factor) is None and (has_half_integer or k > 1)
-            ]
+        free = [factor for factor, k in powers if k + beside > 1 and without_parameters(factor) is None]
+        if free:
             squares = (over_parameters(factor(cubic.field.poly([0, 0, _F(1, 4)]))) for factor in free)
             return either(*(integer_roots(square, [1], 2) for square in squares))
     return Schwarz(cubic, (structure,))
@@ -460,9 +450,11 @@ def _difference_line(square: Poly, first: FunctionPoly, root: FunctionPoly | Non
         ratio = rational_square_root(square / first)
         return None if ratio is None else _DifferenceLine(ratio, _F(0))
     own = _rational_root(square)
-    form, scale, shift = normal_form(root if own is None else own)
+    if own is None:
+        return None
+    form, scale, shift = normal_form(own)
     root_form, root_scale, root_shift = normal_form(root)
-    if own is None or form != root_form:
+    if form != root_form:
         return None
     slope = root_scale / scale
     return _DifferenceLine(slope, shift - slope * root_shift)

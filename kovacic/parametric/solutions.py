@@ -298,14 +298,11 @@ def weight_by_signs(problem: Problem, variable: str) -> Signed | None:
         y = degree = sympy.Integer(1)
         left = list(signs)
         for choices in parts:
-            exponent = choices[0].exponent.to_sympy(x)
-            main = choices[0].main.to_sympy(x)
-            if len(choices) > 1:  # the first one for the sign 1, the other one for -1
-                sign = left.pop(0)
-                other = choices[-1].exponent.to_sympy(x)
-                exponent = sympy.factor((exponent + other) / 2) + sign * sympy.factor((exponent - other) / 2)
-                main *= sign
-            y *= _local_factor(choices[0].factor, exponent, main, x)
+            # The first one for the sign 1, the other one, if there is one, for -1.
+            sign = left.pop(0) if len(choices) > 1 else 1
+            first, other = (choice.exponent.to_sympy(x) for choice in (choices[0], choices[-1]))
+            exponent = sympy.factor((first + other) / 2) + sign * sympy.factor((first - other) / 2)
+            y *= _local_factor(choices[0].factor, exponent, sign * choices[0].main.to_sympy(x), x)
             degree -= exponent
         return PolynomialSolution(y, sympy.expand(degree))
 
