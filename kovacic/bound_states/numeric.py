@@ -19,7 +19,7 @@ from kovacic.bound_states.levels import Levels, Spectrum
 from kovacic.bound_states.question import number_beside
 from kovacic.bound_states.signs import Signs
 from kovacic.errors import InputError, LimitExceeded, VerificationFailed
-from kovacic.general_solution.zero import Residual
+from kovacic.general_solution.zero import residual
 from kovacic.limits import Budget, Limits
 from kovacic.numbers.exact import whole
 from kovacic.sturm_liouville.ends import is_regular
@@ -179,9 +179,9 @@ def _is_wave_false(y: Any, difference: Any, x: Any, ends: Sequence[Any]) -> bool
     """True if y'' = (V - E) y provably fails at a point between the ends."""
     if y.has(sympy.nan, sympy.zoo) or y.free_symbols - {x}:
         return False
-    residual = Residual(x, (sympy.S.One, sympy.S.Zero, -difference, sympy.S.Zero))
+    coefficients = (sympy.S.One, sympy.S.Zero, -difference, sympy.S.Zero)
     has_no_balls = suppress(InputError, NotImplementedError, ZeroDivisionError, ValueError, TypeError)
     with has_no_balls, working_precision(_PRECISION):
-        error, _ = residual.at(y, acb(ball(point_between(*ends))))
+        error, _ = residual(acb(ball(point_between(*ends))), x, y, coefficients)
         return not error.contains(0)
     return False

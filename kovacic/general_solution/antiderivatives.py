@@ -1,7 +1,7 @@
 """int g dx for the integrands that variation of parameters meets, at once, without SymPy's integration.
 
 - Products of powers and exponentials of rational functions (Ei, erf, gamma functions): `kovacic.closed_form.primitive`.
-- Logarithms, inverse and error functions, exponential integrals times these, by parts, and l^m l'.
+- Logarithms, inverse and error functions, exponential integrals, polynomials times others, by parts, and l^m l'.
 - Waves times rational functions: sine and cosine integrals, Fresnel functions, Ei and erf of complex arguments.
 - Tangents, cotangents, secants, ... times functions whose residues aren't constant: the rest, and an `Integral` that stays.
 - Polynomials times exponentials and waves in x or exp(k x): Y' for Y'' = g, by undetermined coefficients.
@@ -123,13 +123,12 @@ def _functions(expression: Expr) -> set[Any]:
 
 
 def _by_inverse_functions(integrand: Expr, x: Expr) -> dict[Expr, list[Expr]]:
-    """The terms, those with the same powers of functions that are to be differentiated together, of x beside waves."""
+    """The terms, those with the same powers of functions that are to be differentiated together, or of polynomials."""
     groups: dict[Expr, list[Expr]] = {}
     for term in sympy.Add.make_args(integrand):
         factors = [factor for factor in sympy.Mul.make_args(term) if factor.has(x)]
         powers = [factor for factor in factors if factor.as_base_exp()[0].func in _BY_PARTS]
-        if not powers and term.has(sin, cos):
-            powers = [factor for factor in factors if factor.is_polynomial(x)]
+        powers = powers or [factor for factor in factors if factor.is_polynomial(x)]
         groups.setdefault(sympy.Mul(*powers), []).append(term)
     return groups
 
@@ -146,14 +145,6 @@ def _of_term(term: Expr, x: Expr) -> Expr | None:
 # ------------------------------------------------------------------------------------------------ changes of variable
 
 
-def _known(integrand: Expr, t: Expr) -> Expr | None:
-    """As `antiderivative` in another variable: an `Integral` that stays would have that."""
-    found = _by_rules(integrand, t)
-    if found is None or found.has(sympy.Integral):
-        return None
-    return found
-
-
 def _in_another_variable(
     changes: Callable[[Expr, Expr], Iterable[ChangeOfIntegrand]], term: Expr, x: Expr
 ) -> Expr | None:
@@ -167,8 +158,8 @@ def _in_another_variable(
             continue
         integral = integral_of_fraction(g, t)
         if integral is None:
-            integral = _known(g, t)
-        if integral is not None:
+            integral = _by_rules(g, t)
+        if integral is not None and not integral.has(sympy.Integral):  # which would have another variable
             found.append(change.back(integral))
     return min(found, key=size, default=None)
 
@@ -234,7 +225,7 @@ def _waves(term: Expr, x: Expr) -> Iterator[ChangeOfIntegrand]:
 
 
 def _by_parts(inverse: Expr, g: Expr, x: Expr) -> Expr | None:
-    """int g l dx = G l - int G l' dx for a product l of inverse functions and the like, where G is simpler than these.
+    """int g l dx = G l - int G l' dx for a product l of inverse functions and the like, or of polynomials, if G is simpler.
 
     g = k l' + H' with a constant k gives k l^(m+1)/(m+1) + int H' l^m dx beside l^m.
     """
@@ -246,7 +237,7 @@ def _by_parts(inverse: Expr, g: Expr, x: Expr) -> Expr | None:
         if found is not None:
             return found
     G = _by_rules(g, x)
-    if G is None:
+    if G is None or G.has(sympy.Integral):
         return None
     if len(powers) == 1:
         ((function, m),) = powers
@@ -255,11 +246,15 @@ def _by_parts(inverse: Expr, g: Expr, x: Expr) -> Expr | None:
         if k != 0 and not k.has(x) and size(left) <= size(g):
             rest = _by_parts(inverse, left, x)
             return None if rest is None else k * function ** (m + 1) / (m + 1) + rest
-    if not _functions(G) <= _SIMPLE:
+    left = sympy.Add(*(m * _slope(function, x) * inverse / function * G for function, m in powers))
+    rest = None
+    if _functions(G) <= _SIMPLE:
+        rest = _by_rules(left, x)
+    elif inverse.is_polynomial(x):  # term by term: functions of G that go by parts would come back to it
+        rest = sum_of(_of_term(part, x) for part in sympy.Add.make_args(prepared(left)))
+    if rest is None or (inverse.is_polynomial(x) and rest.has(sympy.Integral)):
         return None
-    slopes = (m * _slope(function, x) * inverse / function * G for function, m in powers)
-    rest = _by_rules(sympy.Add(*slopes), x)
-    return None if rest is None else sympy.expand(G * inverse, deep=False) - rest
+    return sympy.Add(*(part * inverse for part in sympy.Add.make_args(G)), -rest)
 
 
 def _slope(function: Expr, x: Expr) -> Expr:
@@ -282,20 +277,6 @@ def _beside_logarithm(logarithm: Expr, g: Expr, x: Expr) -> Expr | None:
     if set(known.values()) == {None}:
         return None
     return sum_of(_by_parts(logarithm, f, x) if found is None else found for f, found in known.items())
-
-
-def _powers_by_parts(term: Expr, x: Expr) -> Expr | None:
-    """int P g dx = P G - int P' G dx, as for x/cos(x)^2, with a polynomial P beside functions that don't go by parts."""
-    P = sympy.Mul(*(factor for factor in sympy.Mul.make_args(term) if factor.is_polynomial(x)))
-    g = term / P
-    if not P.has(x) or not g.has(x) or not _functions(g) <= _SIMPLE:
-        return None
-    G = _known(g, x)
-    if G is None:
-        return None
-    # term by term: functions of G that go by parts would come back to P
-    rest = sum_of(_of_term(part, x) for part in sympy.Add.make_args(prepared(P.diff(x) * G)))
-    return None if rest is None or rest.has(sympy.Integral) else P * G - rest
 
 
 # ------------------------------------------------------------------------------------------------------------ tangents
@@ -331,7 +312,6 @@ _RULES: dict[str, Callable[[Expr, Expr], Expr | None]] = {
     "int R cos(u) dx: Si and Ci for linear u, Fresnel functions for quadratic u": beside_waves,
     "int q + (a + b s)/c dx where the second part isn't elementary": _beside_tangents,
     "int f(x, u^(1/q)) dx for u = a x + b: in t = u^(1/q)": partial(_in_another_variable, _roots),
-    "int P g dx = P G - int P' G dx": _powers_by_parts,
     "int x^s cos(c x^m) dx: 1F2": power_beside_wave,
     "int f(x) cos(u) dx: Ei, erf and gamma functions of complex arguments": in_complex_exponentials,
     "int x^s exp(c x^m) dx: incomplete gamma functions": incomplete_gamma,

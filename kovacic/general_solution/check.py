@@ -33,7 +33,7 @@ from kovacic.errors import VerificationFailed
 from kovacic.general_solution.behaviour import Approach, have_values, is_refuted
 from kovacic.general_solution.question import Condition, Question
 from kovacic.general_solution.steps import JUMPING, between, break_points, in_steps, on_piece, taken_apart
-from kovacic.general_solution.zero import NOT_EVALUATED, Residual, ball, fitting_samples, known_jet, opposite, samples
+from kovacic.general_solution.zero import NOT_EVALUATED, ball, fitting_samples, known_jet, opposite, residual, samples
 from kovacic.limits import check_time
 
 Expr = Any  # SymPy publishes no types
@@ -189,69 +189,54 @@ def _is_wrong_at(claim: SolutionClaim, start: Expr | None) -> bool:
     letters = claim.y.free_symbols - {x}  # of integrals that aren't in the integrand of another one
     definite = [integral for integral in claim.y.atoms(sympy.Integral) if integral.free_symbols <= letters]
     claim = claim.at(dict.fromkeys(definite, sympy.Integer(1)))  # they are factors of y1 and y2
-    if any(e.has(*JUMPING, AppliedUndef) for e in claim.coefficients):
-        pieces = _in_pieces(claim)
-        with working_digits(DIGITS):
-            if any(pieces.is_wrong_at(point) for point in pieces.points):
-                return True
-            return any(pieces.is_wrong_across(k) for k in range(len(pieces.breaks)))
-    base = acb(fmpq(23, 71), fmpq(41, 89)) if start is None else ball(start)
     with working_digits(DIGITS):
-        return _is_large(Residual(x, claim.coefficients), claim.y, base + arb(_SAMPLE_STEP))
+        if not any(e.has(*JUMPING, AppliedUndef) for e in claim.coefficients):
+            base = acb(fmpq(23, 71), fmpq(41, 89)) if start is None else ball(start)
+            return _is_large(claim, claim.y, base + arb(_SAMPLE_STEP))
+        claim = _sampled(claim)
+        breaks = break_points(sympy.Tuple(claim.y, claim.coefficients[-1]), x)
+        points = between(breaks)
+        y = _antiderivatives(claim.y, x)
+        for point in points:
+            here = replace(claim, coefficients=tuple(on_piece(part, x, point) for part in claim.coefficients))
+            if _is_large(here, on_piece(y, x, point), acb(fmpq(int(point.p), int(point.q)))):
+                return True
+        return any(_is_wrong_across(claim, *sides) for sides in zip(breaks, points, points[1:], strict=False))
 
 
-@dataclass(frozen=True)
-class _Pieces:
-    """A claim without letters, the breaks, and a rational point on each piece between them."""
+def _is_wrong_across(claim: SolutionClaim, point: Expr, *sides: Expr) -> bool:
+    """True if y, or y' for an equation of second order, jumps between two sides otherwise than the impulses demand.
 
-    claim: SolutionClaim
-    breaks: Sequence[Expr]
-    points: Sequence[Expr]
-
-    def is_wrong_at(self, point: Expr) -> bool:
-        """True if the residual isn't zero on the piece with this point."""
-        x = self.claim.x
-        parts = (_antiderivatives(self.claim.y, x), *self.claim.coefficients)
-        y, a, b, c, f = (on_piece(part, x, point) for part in parts)
-        return _is_large(Residual(x, (a, b, c, f)), y, acb(fmpq(int(point.p), int(point.q))))
-
-    def is_wrong_across(self, k: int) -> bool:
-        """True if y, or y' for an equation of second order, jumps at the k-th break otherwise than the impulses demand.
-
-        False at a singular point of the equation, where any jump is right, and where impulses are of higher order.
-        """
-        x = self.claim.x
-        *rates, f = self.claim.rates
-        point = self.breaks[k]
-        if not have_values(rates, x, point):
-            return False
-        apart = taken_apart(in_steps(f, x), x)
-        if apart is None or any(n >= len(rates) for here in apart.impulses.values() for n in here):
-            return False
-        at = ball(point)
-        here = apart.impulses.get(point, {})
-        # that of y first: by the impulses of the highest order
-        wanted = [jet(here.get(order, sympy.S.Zero), x, at)[0] for order in reversed(range(len(rates)))]
-        if here and len(rates) == 2:
-            wanted[1] -= jet(rates[0], x, at)[0] * wanted[0]
-        y = _antiderivatives(self.claim.y, x, point)
-        if any(e.has(*JUMPING) for e in y.atoms(sympy.Integral)):  # of which no value is known on either side
-            return False
-        before, after = (jet(on_piece(y, x, side), x, at)[: len(rates)] for side in self.points[k : k + 2])
-        scale = sum(map(abs, (*before, *after)), arb(1))
-        misses = (right - left - jump for left, right, jump in zip(before, after, wanted, strict=True))
-        return any(bool(abs(miss) > _SMALL * scale) for miss in misses)
+    False at a singular point of the equation, where any jump is right, and where impulses are of higher order.
+    """
+    x = claim.x
+    *rates, f = claim.rates
+    apart = taken_apart(in_steps(f, x), x) if have_values(rates, x, point) else None
+    if apart is None or any(n >= len(rates) for here in apart.impulses.values() for n in here):
+        return False
+    at = ball(point)
+    here = apart.impulses.get(point, {})
+    # that of y first: by the impulses of the highest order
+    wanted = [jet(here.get(order, sympy.S.Zero), x, at)[0] for order in reversed(range(len(rates)))]
+    if here and len(rates) == 2:
+        wanted[1] -= jet(rates[0], x, at)[0] * wanted[0]
+    y = _antiderivatives(claim.y, x, point)
+    if any(e.has(*JUMPING) for e in y.atoms(sympy.Integral)):  # of which no value is known on either side
+        return False
+    before, after = (jet(on_piece(y, x, side), x, at)[: len(rates)] for side in sides)
+    scale = sum(map(abs, (*before, *after)), arb(1))
+    misses = (right - left - jump for left, right, jump in zip(before, after, wanted, strict=True))
+    return any(bool(abs(miss) > _SMALL * scale) for miss in misses)
 
 
-def _in_pieces(claim: SolutionClaim) -> _Pieces:
-    """At values of the parameters, and with exponential functions for those that are given by their names."""
+def _sampled(claim: SolutionClaim) -> SolutionClaim:
+    """With values of the parameters, and with exponential functions for those that are given by their names."""
     whole = sympy.Tuple(claim.y, *claim.coefficients)
     whole = whole.xreplace(next(islice(samples(whole.free_symbols - {claim.x}), 1, None)))
     for k, function in enumerate(sorted({f.func for f in whole.atoms(AppliedUndef)}, key=str)):
         whole = whole.replace(function, lambda u, k=k: sympy.exp(sympy.Rational(k + 1, 3) * u))
     y, a, b, c, f = whole.replace(sympy.Derivative, lambda *args: sympy.Derivative(*args).doit())
-    breaks = break_points(sympy.Tuple(y, f), claim.x)
-    return _Pieces(replace(claim, y=y, coefficients=(a, b, c, f)), breaks, between(breaks))
+    return replace(claim, y=y, coefficients=(a, b, c, f))
 
 
 def _antiderivatives(value: Expr, x: Expr, start: Expr | None = None) -> Expr:
@@ -269,9 +254,9 @@ def _antiderivatives(value: Expr, x: Expr, start: Expr | None = None) -> Expr:
     )
 
 
-def _is_large(residual: Residual, y: Expr, point: Any) -> bool:
-    """True if the residual is seen not to be zero at a point."""
-    miss, scale = residual.at(y, point)
+def _is_large(claim: SolutionClaim, y: Expr, point: Any) -> bool:
+    """True if the residual of y is seen not to be zero at a point."""
+    miss, scale = residual(point, claim.x, y, claim.coefficients)
     return bool(miss > _SMALL * scale)
 
 

@@ -82,8 +82,7 @@ class ParameterCase:
 
     def where(self, answer: Expr = sympy.S.Zero) -> str:
         """The case in words, beside the answer for all other values."""
-        sets = [*map(ZeroSet, self.zeros)]
-        return " and ".join(said for zeros in sets for said in (zeros.equation(answer), *zeros.guards))
+        return " and ".join(ZeroSet(zero).said(answer) for zero in self.zeros)
 
 
 class Determined(NamedTuple):

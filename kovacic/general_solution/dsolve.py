@@ -353,7 +353,7 @@ def _first_order(
         return None
     reader = ConditionReader(found.function, str(found.function.func))
     conditions = tuple(reader.read(key, value) for key, value in as_mapping(ics).items())
-    known = known_letters(assume, found.x, (*found.parts, found.power), conditions)
+    known = known_letters(assume, found.x, found.letters, conditions)
     equation, conditions = found.in_symbols(known), tuple(condition.in_symbols(known) for condition in conditions)
     exceptional: tuple[Expr, ...] = ()
     if equation.is_linear:

@@ -20,14 +20,14 @@ from sympy import Integer, cosh, sinh
 from sympy.core.function import AppliedUndef
 
 from kovacic.closed_form.atoms import Atoms, display, is_seen_negative
-from kovacic.closed_form.cuts import all_turned, with_roots_of_factors
+from kovacic.closed_form.cuts import with_roots_of_factors
 from kovacic.closed_form.product import product
 from kovacic.errors import InputError, VerificationFailed
 from kovacic.general_solution.antiderivatives import antiderivative
 from kovacic.general_solution.behaviour import have_values, value_at
 from kovacic.general_solution.check import SolutionClaim, is_finite, jumps
 from kovacic.general_solution.integrands import NUMBERS, radicands, ratfunc
-from kovacic.general_solution.particular import is_solution, starting_at, with_letters_of_integration
+from kovacic.general_solution.particular import starting_at, turned_at, with_letters_of_integration
 from kovacic.general_solution.question import Condition, exact, free_constants
 from kovacic.general_solution.steps import JUMPING, Apart, in_parts
 from kovacic.general_solution.substitution import changed_beside
@@ -73,13 +73,14 @@ class FirstOrderEquation:
     def reading(self) -> str:
         """The reading in one line: y' = k*y, y(x), parameters k."""
         w = sympy.Symbol(self.function.func.__name__)
-        names = ", ".join(sorted(self.parameters))
+        names = ", ".join(sorted({*self.letters} - {self.x.name}))
         line = f"{w}' = {as_text(self.p + self.q * w + self.r * w**self.power)}, {self.function}".replace("**", "^")
         return f"{line}, parameters {names}" if names else line
 
     @property
-    def parameters(self) -> set[str]:
-        return {str(symbol) for symbol in sympy.Tuple(*self.parts, self.power).free_symbols} - {str(self.x)}
+    def letters(self) -> dict[str, Expr]:
+        """The symbols in the coefficients, by name."""
+        return {symbol.name: symbol for symbol in sympy.Tuple(*self.parts, self.power).free_symbols}
 
     @property
     def of_power(self) -> FirstOrderEquation:
@@ -99,11 +100,6 @@ class FirstOrderEquation:
     def homogeneous(self, start: Expr | None = None) -> Expr:
         """h with h'/h = q, real at the start, or at the `place`."""
         return _exponential_of_integral(self.q, self.x, start, self.place if start is None else start)
-
-    def real_at(self, point: Expr, w: Expr, right: Expr) -> Expr:
-        """A solution of w' = q w + right in which log(-u), (-u)^e stand for arguments u < 0, if it is one; else w."""
-        turned = all_turned(w, self.x, point)
-        return turned if is_solution(turned, (-self.q,), right, self.x) else w
 
     def constant(self, taken: Set[Expr] = frozenset()) -> Expr:
         """C1, or the next of these names that is neither in the equation nor taken."""
@@ -227,12 +223,12 @@ def solved_linear(
     place = equation.place if value is None else start
     h = equation.homogeneous(start)
     if place is not None:
-        h = starting_at(equation.real_at(place, h, _ZERO), x, start)
+        h = starting_at(turned_at(place, h, (-equation.q,), _ZERO, x), x, start)
     if value is not None and equation.p == 0:
         h = _beside_value(h, x, start)
     particular = _of_parts(in_parts(equation.p, x), h, x, start)
     if place is not None:
-        particular = equation.real_at(place, particular, equation.p)
+        particular = turned_at(place, particular, (-equation.q,), equation.p, x)
         in_factors = with_roots_of_factors(particular, x, place) if radicands(particular) else particular
         if in_factors != particular and in_factors.is_rational_function(x):
             particular = sympy.cancel(in_factors)

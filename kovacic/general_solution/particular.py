@@ -20,7 +20,7 @@ SymPy's rules know hardly any others, and take seconds to find that out.
 from __future__ import annotations
 
 from collections import defaultdict
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from contextlib import suppress
 from itertools import chain, count
 from math import comb
@@ -28,7 +28,7 @@ from typing import Any
 
 import sympy
 from flint import arb
-from sympy import DiracDelta, Heaviside, cos, cosh, exp, expand, log, powsimp, sin, sinh
+from sympy import DiracDelta, Heaviside, cos, cosh, exp, expand, log, powsimp, sin, sinh, sympify
 from sympy.core.function import AppliedUndef
 
 from kovacic.algebra.factors import combination
@@ -37,7 +37,7 @@ from kovacic.algebra.precision import working_digits
 from kovacic.algebra.ratfunc import RatFunc
 from kovacic.closed_form.atoms import Atoms, is_seen_negative
 from kovacic.closed_form.check import DIGITS
-from kovacic.closed_form.cuts import cuts_of
+from kovacic.closed_form.cuts import all_turned, cuts_of
 from kovacic.closed_form.form import one_exponential
 from kovacic.closed_form.way_back import in_x
 from kovacic.equation import Equation
@@ -49,11 +49,11 @@ from kovacic.general_solution.check import is_finite, jumps
 from kovacic.general_solution.constants import tidy
 from kovacic.general_solution.integrands import NUMBERS, ChangeOfIntegrand, prepared, ratfunc
 from kovacic.general_solution.steps import JUMPING, in_parts
-from kovacic.general_solution.substitution import in_single_waves, size
+from kovacic.general_solution.substitution import by_functions, in_single_waves, size
 from kovacic.general_solution.textbook import is_constant
 from kovacic.general_solution.undetermined import undetermined
 from kovacic.general_solution.waves import fractions_of_waves, in_waves
-from kovacic.general_solution.zero import Residual, points
+from kovacic.general_solution.zero import points, residual
 from kovacic.reading.change_of_variable import slope_squared
 
 Expr = Any  # SymPy publishes no types
@@ -318,17 +318,13 @@ def _without_homogeneous(basis: Basis, total: Expr) -> Expr:
 
 def _gathered(form: Expr, x: Expr) -> Expr:
     """The sum, with the rational functions that stand before the same function as one fraction."""
-    groups: dict[Expr, list[Expr]] = {}
-    for term in sympy.Add.make_args(form):
-        rest = sympy.Mul(*(factor for factor in sympy.Mul.make_args(term) if not factor.is_rational_function(x)))
-        groups.setdefault(rest, []).append(term / rest)
-    found = []
-    for rest, parts in groups.items():
-        fraction = sympy.Add(*parts)
-        if not fraction.is_polynomial(x) or (fraction.free_symbols and not fraction.has(x)):
-            fraction = sympy.factor(fraction)
-        found.append(rest * fraction)
-    return sympy.Add(*found)
+
+    def shortened(fraction: Expr) -> Expr:
+        is_whole = fraction.is_polynomial(x) and (fraction.has(x) or not fraction.free_symbols)
+        return fraction if is_whole else sympy.factor(fraction)
+
+    groups = by_functions(form, lambda factor: factor.is_rational_function(x))
+    return sympy.Add(*(rest * shortened(fraction) for rest, fraction in groups.items()))
 
 
 def starting_at(y: Expr, x: Expr, start: Expr | None) -> Expr:
@@ -367,6 +363,14 @@ def with_letters_of_integration(y: Expr) -> Expr:
     return y.replace(is_confused, renamed)
 
 
+def turned_at(
+    place: Expr, y: Expr, coefficients: tuple[Expr, ...], right: Expr, x: Expr, own: Callable[[Expr], Expr] = sympify
+) -> Expr:
+    """A solution in which log(-u), (-u)^e stand for arguments u < 0 at the place, if it is one; else the given one."""
+    turned = all_turned(y, x, place, own)
+    return turned if turned != y and is_solution(turned, coefficients, right, x) else y
+
+
 def is_solution(y: Expr, coefficients: tuple[Expr, ...], right: Expr, x: Expr) -> bool:
     """True if y satisfies an equation at points in each quadrant and on the axis, to 50 digits.
 
@@ -380,8 +384,7 @@ def is_solution(y: Expr, coefficients: tuple[Expr, ...], right: Expr, x: Expr) -
         y = y.xreplace(sample)
         right = right.xreplace(sample)
     a, b, c = (sympy.S.Zero,) * (2 - len(coefficients)) + (sympy.S.One, *coefficients)
-    residual = Residual(x, (a, b, c, right))
     with working_digits(DIGITS + 15), suppress(NotImplementedError):
-        found = (residual.at(y, point) for point in points())
+        found = (residual(point, x, y, (a, b, c, right)) for point in points())
         return all(bool(miss < arb(10) ** -DIGITS * (1 + scale)) for miss, scale in found)
     return False

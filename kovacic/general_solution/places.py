@@ -20,14 +20,13 @@ import sympy
 from kovacic.algebra.poly import Poly
 from kovacic.closed_form import cuts
 from kovacic.closed_form.atoms import Atoms
-from kovacic.closed_form.cuts import all_turned, arguments_with_cuts, negative_arguments
 from kovacic.closed_form.form import ClosedForm, pair_at
 from kovacic.equation import Equation
 from kovacic.errors import InputError
 from kovacic.general_solution.basis import Basis
 from kovacic.general_solution.behaviour import Approach, have_values
 from kovacic.general_solution.integrands import NUMBERS
-from kovacic.general_solution.particular import is_solution, right_hand_side, starting_at
+from kovacic.general_solution.particular import right_hand_side, starting_at, turned_at
 from kovacic.general_solution.question import Question
 from kovacic.general_solution.steps import is_analytic, jump_points
 from kovacic.general_solution.zero import is_zero
@@ -189,11 +188,9 @@ def real_particular(question: Question, basis: Basis, particular: Expr, place: E
     """
     check_between(question, (basis.y1, basis.y2, particular))
     x, equation = question.x, question.equation
-    is_settled = equation.change is not None or not place.is_real or particular.has(sympy.Integral, sympy.Heaviside)
-    if is_settled or not negative_arguments(arguments_with_cuts(particular), x, place, question.own):
+    if equation.change is not None or not place.is_real or particular.has(sympy.Integral, sympy.Heaviside):
         return particular
-    turned = all_turned(particular, x, place, question.own)
-    return turned if is_solution(turned, basis.rates, right_hand_side(equation), x) else particular
+    return turned_at(place, particular, basis.rates, right_hand_side(equation), x, question.own)
 
 
 # --------------------------------------------------------------------------------------- singular points between them

@@ -157,25 +157,29 @@ def read_question(
     reader = ConditionReader(read.function, read.equation.unknown)
     conditions = tuple(reader.read(key, value) for key, value in values.items())
     symbols = {symbol.name: symbol for symbol in getattr(eq, "free_symbols", ())}
-    positive, assume = positive_variable(assume or {}, read.function.args[0])
-    known = _with_assumptions(assume, read.equation, conditions, symbols)
+    letters = {name: sympy.Symbol(name) for name in parameters_of(read.equation.S.field)} | symbols
+    known = known_letters(assume or {}, read.function.args[0], letters, conditions)
+    for symbol in letters.values():
+        s: Expr = known.get(symbol, symbol)
+        if s.is_nonnegative and not s.is_positive and _is_excluded_at_zero(sympy.Symbol(s.name), read.equation):
+            known[symbol] = sympy.Symbol(s.name, integer=s.is_integer, positive=True)
     symbols |= {symbol.name: symbol for symbol in known.values()}
     conditions = tuple(condition.in_symbols(known) for condition in conditions)
     meanings = _meanings(read.letters, symbols)
     symbols |= {letter.name: letter for letter in meanings}
     names = parameters_of(read.equation.S.field)
-    about = {key: said for key, said in assume.items() if str(key) in names}
+    about = {key: said for key, said in (assume or {}).items() if str(key) in names}
     equation = read.equation
     if equation.h is not None and equation.h.has(*JUMPING):
         equation = replace(equation, h=in_steps(equation.h, sympy.Symbol(read.function.args[0].name)))
     return Question(
         equation=equation,
         given=read.equation,
-        function=read.function.xreplace(positive),
+        function=read.function.xreplace(known),
         conditions=conditions,
         symbols=symbols,
         meanings=meanings,
-        renamed=renamed | positive | known,
+        renamed=renamed | known,
         assumptions=read_assumptions(about, sympy.Tuple(*symbols.values()), names),
         has_floats=floats,
         guesses=read.guesses,
@@ -195,40 +199,22 @@ def about_letters(assume: Mapping[Any, Any] | None, var: str | None) -> dict[Any
     return {key: said for key, said in (assume or {}).items() if str(key) not in ("x", "t", var)}
 
 
-def positive_variable(assume: Mapping[Any, Any], x: Expr) -> tuple[dict[Expr, Expr], dict[Any, Any]]:
-    """A positive symbol for x, if x is assumed to be positive, and the assumptions about other names."""
-    others = {key: said for key, said in assume.items() if str(key) != x.name}
-    said = [str(assume[key]).replace(" ", "") for key in assume if key not in others]
+def known_letters(
+    assume: Mapping[Any, Any], x: Expr, letters: Mapping[str, Expr], conditions: Sequence[Condition]
+) -> dict[Expr, Expr]:
+    """Symbols that know what is assumed, for x and for the letters of an equation, by name, and of its conditions.
+
+    Raises `InputError` if something else is assumed of x than that it is positive.
+    """
+    said = [str(what).replace(" ", "") for key, what in assume.items() if str(key) == x.name]
     if said and said[0] not in ("positive", ">0"):
         raise InputError(
             f"of the variable {x} it can only be assumed that it is positive", hint='assume={"x": "positive"}'
         )
-    return {x: sympy.Symbol(x.name, positive=True)} if said else {}, others
-
-
-def known_letters(
-    assume: Mapping[Any, Any], x: Expr, parts: Sequence[Expr], conditions: Sequence[Condition]
-) -> dict[Expr, Expr]:
-    """Symbols that know what is assumed, for x and for the letters in the parts of an equation and in its conditions."""
-    known, assume = positive_variable(assume, x)
-    letters = sympy.Tuple(*parts).free_symbols.union(*(condition.free_symbols for condition in conditions)) - {x}
-    return known | symbols_that_know(assume, {letter.name: letter for letter in sorted(letters, key=str)})
-
-
-def _with_assumptions(
-    assume: Mapping[Any, Any], equation: Equation, conditions: Sequence[Condition], symbols: Mapping[str, Expr]
-) -> dict[Expr, Expr]:
-    """For the user's symbols of which something is assumed, symbols that know it."""
-    own = {symbol.name: symbol for condition in conditions for symbol in condition.free_symbols}
-    own |= {name: sympy.Symbol(name) for name in parameters_of(equation.S.field)} | dict(symbols)
-    own.pop(equation.variable, None)
-    known = symbols_that_know(assume, own)
-    # Positive ones for those that aren't negative, if the equation has no meaning where they are 0.
-    for symbol in own.values():
-        s = known.get(symbol, symbol)
-        if s.is_nonnegative and not s.is_positive and _is_excluded_at_zero(sympy.Symbol(s.name), equation):
-            known[symbol] = sympy.Symbol(s.name, integer=s.is_integer, positive=True)
-    return known
+    own = {symbol.name: symbol for condition in conditions for symbol in condition.free_symbols} | dict(letters)
+    own.pop(x.name, None)
+    known = symbols_that_know({key: what for key, what in assume.items() if str(key) != x.name}, own)
+    return known | ({x: sympy.Symbol(x.name, positive=True)} if said else {})
 
 
 def symbols_that_know(assume: Mapping[Any, Any], own: Mapping[str, Expr]) -> dict[Expr, Expr]:

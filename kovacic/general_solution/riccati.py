@@ -47,7 +47,7 @@ from kovacic.general_solution.first_order import (
 )
 from kovacic.general_solution.integrands import NUMBERS, ratfunc
 from kovacic.general_solution.question import Condition, free_constants
-from kovacic.general_solution.substitution import size
+from kovacic.general_solution.substitution import by_functions, size
 from kovacic.general_solution.textbook import in_book_form, over_one_denominator
 from kovacic.general_solution.waves import rational_in_waves
 from kovacic.general_solution.zero import is_zero
@@ -205,17 +205,10 @@ def _forms(u: Expr, constants: Sequence[Expr], equation: FirstOrderEquation) -> 
 
 def _sum(terms: Sequence[Expr], x: Expr) -> Expr:
     """The rational terms as one fraction or in partial fractions; the others with theirs in lowest terms."""
-
-    def is_rational(e: Expr) -> bool:
-        return bool(e.is_rational_function(x))
-
-    rational, others = sympy.sift(terms, is_rational, binary=True)
-    total = sympy.cancel(sympy.Add(*rational))
-    reduced = [shortest([total, sympy.apart(total, x)])]
-    for term in others:
-        rational, rest = sympy.sift(sympy.Mul.make_args(term), is_rational, binary=True)
-        reduced.append(sympy.factor(sympy.Mul(*rational)) * sympy.Mul(*rest))
-    return sympy.Add(*reduced)
+    parts = by_functions(sympy.Add(*terms), lambda factor: factor.is_rational_function(x))
+    total = sympy.cancel(parts.pop(sympy.S.One, sympy.S.Zero))
+    rest = (sympy.factor(rational) * function for function, rational in parts.items())
+    return sympy.Add(shortest([total, sympy.apart(total, x)]), *rest)
 
 
 def _rate_of(u: Expr, constants: Sequence[Expr], x: Expr) -> Expr:

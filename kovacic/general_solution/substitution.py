@@ -6,6 +6,7 @@ How much SymPy writes when it expands an expression is counted before, since it 
 from __future__ import annotations
 
 import math
+from collections import defaultdict
 from collections.abc import Callable, Iterable
 from dataclasses import dataclass, replace
 from functools import reduce
@@ -99,6 +100,15 @@ def _at_zero(value: Expr) -> Expr:
 def in_single_waves(e: Expr) -> Expr:
     """Expanded, with sums of waves for their products."""
     return sympy.expand(TR8(sympy.expand(e)))
+
+
+def by_functions(total: Expr, is_coefficient: Callable[[Expr], Any]) -> dict[Expr, Expr]:
+    """The coefficients in a sum of products by what they stand before, the other factors."""
+    found: dict[Expr, Expr] = defaultdict(lambda: _ZERO)
+    for term in sympy.Add.make_args(total):
+        own, others = sympy.sift(sympy.Mul.make_args(term), lambda factor: bool(is_coefficient(factor)), binary=True)
+        found[sympy.Mul(*others)] += sympy.Mul(*own)
+    return found
 
 
 def changed_beside(parts: Iterable[Expr], e: Expr, change: Callable[[Expr], Expr]) -> Expr:

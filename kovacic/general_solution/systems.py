@@ -60,6 +60,11 @@ class LinearSystem:
         """Those of the matrix, and the right-hand sides."""
         return (*self.matrix[0], *self.matrix[1], *self.right)
 
+    @property
+    def letters(self) -> dict[str, Expr]:
+        """The symbols in these, by name."""
+        return {symbol.name: symbol for symbol in sympy.Tuple(*self.entries).free_symbols}
+
     def in_symbols(self, others: Mapping[Expr, Expr]) -> LinearSystem:
         """The system in other symbols."""
         x, y, a, b, c, d, f, g = (e.xreplace(others) for e in (*self.functions, *self.entries))
@@ -160,7 +165,7 @@ def solved_system(
     """
     functions = system.functions
     conditions = _conditions(system, ics)
-    known = known_letters(assume, system.t, system.entries, [condition for _, condition in conditions])
+    known = known_letters(assume, system.t, system.letters, [condition for _, condition in conditions])
     system = system.in_symbols(known)
     conditions = [(number, condition.in_symbols(known)) for number, condition in conditions]
     if _is_swapped(system, _initial_values(conditions)):

@@ -33,7 +33,7 @@ from sympy.simplify.fu import TR2, TR5, TR6, TR2i, TR10i, hyper_as_trig
 from kovacic.closed_form.jets import jet
 from kovacic.general_solution.integrands import radicands
 from kovacic.general_solution.steps import place_of
-from kovacic.general_solution.substitution import changed_beside, expanded_size, in_single_waves
+from kovacic.general_solution.substitution import by_functions, changed_beside, expanded_size, in_single_waves
 from kovacic.general_solution.zero import is_positive_polynomial, is_zero, points
 from kovacic.special.choice import shortest
 
@@ -46,13 +46,8 @@ _LARGEST = 400
 
 def in_book_form(value: Expr, x: Expr, free: Sequence[Expr] = ()) -> Expr:
     """The shortest form of an answer; the functions that the constants `free` of a general one belong to stay."""
-    short = value
-    if free and value.free_symbols <= {x, *free} and not any(p.is_number for p in value.atoms(sympy.Pow)):
-        # numbers as factors stand with each term
-        short = sympy.Add(*(sympy.Mul(*term.as_coeff_Mul()) for term in sympy.Add.make_args(value)))
-    elif value.free_symbols != {x}:
-        short = _with_short_coefficients(value, x)
     exponents = {e: exp(sympy.expand(e.args[0])) for e in value.atoms(exp) if e.args[0].is_Add}
+    short = value if value.free_symbols == {x} else _with_short_coefficients(value, x)
     value = shortest([value, short, value.xreplace(exponents)])
     for rule in _RULES_OF_GENERAL_SOLUTIONS if free else _SHAPE_RULES:
         if _is_small(value):
@@ -377,11 +372,7 @@ def sums(value: Expr, x: Expr) -> Iterator[Expr]:
         yield from sums(TR2(value).xreplace(quotients), x)
     value = sympy.powsimp(value)
     expanded = sympy.powsimp(sympy.expand(value))
-    coefficients: dict[Expr, list[Expr]] = defaultdict(list)
-    for term in sympy.Add.make_args(expanded):
-        coefficient, function = term.as_independent(x, as_Add=False)
-        coefficients[function].append(coefficient)
-    totals = {f: sympy.Add(*parts) for f, parts in coefficients.items()}
+    totals = by_functions(expanded, lambda factor: not factor.has(x))
     by_function = sympy.Add(*(c * f if c.is_Rational else sympy.factor(sympy.cancel(c)) * f for f, c in totals.items()))
     yield from (value, expanded, by_function, _with_common_factors(by_function))
     if value.is_rational_function(x):

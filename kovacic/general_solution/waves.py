@@ -7,7 +7,6 @@ s = sin(theta) and c = cos(theta) for a linear theta = w x + phi.  A rational fu
 
 from __future__ import annotations
 
-from collections import defaultdict
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from functools import reduce
@@ -18,7 +17,7 @@ from sympy import atan, cos, log, sin, tan
 from sympy.simplify.fu import TR2, TR2i
 
 from kovacic.general_solution.integrands import ChangeOfIntegrand, integral_of_fraction, sum_of
-from kovacic.general_solution.substitution import in_single_waves
+from kovacic.general_solution.substitution import by_functions, in_single_waves
 from kovacic.general_solution.undetermined import undetermined
 
 Expr = Any  # SymPy publishes no types
@@ -153,12 +152,7 @@ def fractions_of_waves(e: Expr, x: Expr) -> list[Expr]:
     if found is None or found.R.is_polynomial(found.s, found.c):
         return []
     s, c, theta = found.s, found.c, found.theta
-    rational: dict[Expr, Expr] = defaultdict(lambda: sympy.S.Zero)
-    for term in sympy.Add.make_args(found.R):
-        others, factors = sympy.sift(
-            sympy.Mul.make_args(term), lambda f: f.has(x, *kept) or not f.is_rational_function(s, c), binary=True
-        )
-        rational[sympy.Mul(*others)] += sympy.Mul(*factors)
+    rational = by_functions(found.R, lambda f: f.is_rational_function(s, c) and not f.has(x, *kept))
     is_halved = any(wave.args[0] == 2 * theta for wave in masked.atoms(sin, cos))
     forms = [
         {other: _in_fractions(R, s, c, theta, k, doubled=doubled) for other, R in rational.items()}

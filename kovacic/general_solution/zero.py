@@ -11,8 +11,7 @@ A formula is put into an equation in the same way: at points, in balls.
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterator
-from dataclasses import dataclass
+from collections.abc import Callable, Iterator, Sequence
 from enum import Enum
 from itertools import islice
 from typing import Any
@@ -264,24 +263,17 @@ def is_algebraic_zero(value: Expr) -> bool:
     return bool(sympy.minimal_polynomial(value, x) == x)
 
 
-@dataclass(frozen=True)
-class Residual:
-    """a y'' + b y' + c y - f, for expressions a, b, c and f in x."""
+def residual(point: Any, x: Expr, y: Expr, coefficients: Sequence[Expr]) -> tuple[Any, Any]:
+    """|a y'' + b y' + c y - f| at a point, for expressions a, b, c and f in x, and the sum of the terms' absolute values.
 
-    x: Expr
-    coefficients: tuple[Expr, Expr, Expr, Expr]
-
-    def at(self, y: Expr, point: Any) -> tuple[Any, Any]:
-        """Its absolute value at a point, and the sum of those of its terms.
-
-        Raises `NotImplementedError` where a part can't be evaluated, or isn't finite.
-        """
-        a, b, c, f = (jet(e, self.x, point)[0] for e in self.coefficients)
-        value, first, second = jet(y, self.x, point)
-        terms = [a * second, b * first, c * value, -f]
-        if not all(term.is_finite() for term in terms):
-            raise NotImplementedError("a value isn't finite")
-        return abs(sum(terms)), sum(map(abs, terms), arb(0))
+    Raises `NotImplementedError` where a part can't be evaluated, or isn't finite.
+    """
+    a, b, c, f = (jet(e, x, point)[0] for e in coefficients)
+    value, first, second = jet(y, x, point)
+    terms = [a * second, b * first, c * value, -f]
+    if not all(term.is_finite() for term in terms):
+        raise NotImplementedError("a value isn't finite")
+    return abs(sum(terms)), sum(map(abs, terms), arb(0))
 
 
 def points() -> Iterator[Any]:

@@ -46,15 +46,14 @@ class ZeroSet:
         return bool(self.factors)
 
     def __str__(self) -> str:
-        return " and ".join([self.equation(), *self.guards])
+        return self.said()
 
-    @property
-    def guards(self) -> list[str]:
-        """What keeps the expression defined: sin(k)/k is 1 at k = 0, where its factor sin(k) vanishes."""
+    def said(self, answer: Expr = sympy.S.Zero) -> str:
+        """`equation` with what keeps the expression defined: sin(k)/k is 1 at k = 0, where its factor sin(k) vanishes."""
         below = sympy.Mul.make_args(sympy.fraction(sympy.together(self.expression))[1])
         product = sympy.Mul(*self.factors)
         guarding = (b for b in (factor.as_base_exp()[0] for factor in below) if _where_zero(product, b) == 0)
-        return [f"{sympy.Mul(*ZeroSet(base).factors)} != 0" for base in guarding]
+        return " and ".join([self.equation(answer), *(f"{sympy.Mul(*ZeroSet(b).factors)} != 0" for b in guarding)])
 
     def equation(self, answer: Expr = sympy.S.Zero) -> str:
         """`k = 0`, with hyperbolic functions beside an answer in these."""
