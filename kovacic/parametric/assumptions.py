@@ -23,13 +23,15 @@ from flint import arb, fmpq
 
 from kovacic.algebra.embedding import enclosure
 from kovacic.algebra.function_field import FunctionPoly
-from kovacic.algebra.poly import Field, Poly
+from kovacic.algebra.poly import Poly
 from kovacic.algebra.precision import working_precision
 from kovacic.algebra.rationals import QQ
 from kovacic.errors import InputError
 from kovacic.parametric.functions import (
     INTEGERS,
+    NO_CONSTANT,
     Classes,
+    ParameterPoint,
     common_divisor,
     degrees,
     element,
@@ -181,24 +183,31 @@ class Known:
         denominator = random.choice(_DENOMINATORS)
         return Fraction(random.randint(-6 * denominator, 6 * denominator), denominator)
 
-    def is_contradiction(self) -> bool:
-        """True if no number is provably left: two kinds of numbers, or bounds, that exclude one another."""
-        is_integer = any(numbers.are_covered_by(INTEGERS) for numbers in self.classes)
-        are_apart = not all(first.meet(second) for first, second in combinations(self.classes, 2))
-        if are_apart or (self.noninteger and is_integer) or ("irrational" in self.words and self.rational is True):
-            return True
+    def may_be_among(self, numbers: Classes) -> bool:
+        """False if it provably is none of these numbers."""
+        if not all(map(numbers.meet, self.classes)):
+            return False
+        if self.rational is False or (self.noninteger and numbers.are_covered_by(INTEGERS)):
+            return False
         ends = {bound.sign: bound.end for bound in self.bounds}
         if len(ends) < 2:
-            return False
-        low, high = ends[1], ends[-1]
-        if low >= high:
-            return low > high or not self.admits_number(low)
-        if self.coset is None:  # x > sqrt(2) and x < sqrt(2), whose rational ends leave room
-            return any(word.replace("<", ">") in self.words for word in self.words if re.match("<[^=]", word))
-        steps = (high - low) / self.coset.modulus
-        return steps <= _TRIED and not any(
-            self.admits_number(low + k * self.coset.modulus) for k in range(int(steps) + 1)
-        )
+            return True
+        first, last = ([(ends[sign] - residue) / numbers.modulus for residue in numbers.residues] for sign in (1, -1))
+        tried = [range(ceil(low), floor(high) + 1) for low, high in zip(first, last, strict=True)]
+        if sum(map(len, tried)) > _TRIED:
+            return True
+        pairs = zip(numbers.residues, tried, strict=True)
+        return any(self.admits_number(residue + k * numbers.modulus) for residue, steps in pairs for k in steps)
+
+    def is_contradiction(self) -> bool:
+        """True if no number is provably left: two kinds of numbers, or bounds, that exclude one another."""
+        if not all(map(self.may_be_among, self.classes)) or ("irrational" in self.words and self.rational is True):
+            return True
+        ends = {bound.sign: bound.end for bound in self.bounds}
+        if len(ends) == 2 and ends[1] >= ends[-1]:
+            return ends[1] > ends[-1] or not self.admits_number(ends[1])
+        # x > sqrt(2) and x < sqrt(2), whose rational ends leave room.
+        return any(word.replace("<", ">") in self.words for word in self.words if re.match("<[^=]", word))
 
     def sympy_properties(self) -> list[str]:
         """What SymPy has names for; of bounds, what they say of the sign."""
@@ -263,10 +272,10 @@ _NO_BOUND = Bound(1, Fraction(0), False)
 
 @dataclass(frozen=True)
 class Assumptions:
-    """What is known about the parameters, by name, and those that have a value (constants of one field)."""
+    """What is known about the parameters, by name, and the value of the algebraic constant among them, if there is one."""
 
     known: tuple[tuple[str, Known], ...] = ()
-    values: tuple[tuple[str, Poly], ...] = ()
+    constant: ParameterPoint = NO_CONSTANT
 
     def __bool__(self) -> bool:
         """True if anything is known."""
@@ -329,27 +338,12 @@ class Assumptions:
             if values.are_covered_by(numbers):
                 return True
             return None if values.meet(numbers) else False
-        if self._is_apart(form, numbers) or self.is_irrational(form):
-            return False
-        return None
-
-    def _is_apart(self, form: FunctionPoly, numbers: Classes) -> bool:
-        """True if the form is linear in one parameter, and no admissible value is known to bring the form into the classes."""
         linear = linear_of(form)
-        if linear is None or linear.parameter is None:
-            return False
-        known = self.of(linear.parameter)
-        solutions = linear.solutions(numbers)
-        if known.noninteger and solutions.are_covered_by(INTEGERS):
-            return True
-        if len(known.bounds) < 2:
-            return False
-        low = max(known.bounds, key=lambda bound: bound.sign)
-        for residue in solutions.residues:  # the first number of the class beyond the lower end, or the next one
-            first = residue + ceil((low.end - residue) / solutions.modulus) * solutions.modulus
-            if any(all(bound.admits(n) for bound in known.bounds) for n in (first, first + solutions.modulus)):
-                return False
-        return True
+        if linear is not None and linear.parameter is not None:
+            is_possible = self.of(linear.parameter).may_be_among(linear.solutions(numbers))
+        else:
+            is_possible = not self.is_irrational(form)
+        return None if is_possible else False
 
     def vanishes(self, function: FunctionPoly) -> bool | None:
         """Whether the function vanishes: True (always), False (never) or None."""
@@ -378,15 +372,12 @@ class Assumptions:
 
     def value_of(self, function: FunctionPoly) -> Poly | None:
         """The value of a polynomial in the parameters that have a value; None for any other."""
-        fixed = dict(self.values)
+        fixed = dict(zip(self.constant.names, self.constant.values, strict=True))
         below = element(function.field, function.den)
         used = {*parameters_of(function), *parameters_of(below)}
         if not used <= fixed.keys():
             return None
-        field: Field = QQ
-        if self.values:
-            field = self.values[0][1].field
-        return function.value_at([fixed.get(name, 0) for name in function.field.names], field)
+        return function.value_at([fixed.get(name, 0) for name in function.field.names], self.constant.field)
 
     def is_positive(self, form: FunctionPoly, *, or_zero: bool = False) -> bool:
         """True if a polynomial is provably positive, or nonnegative, everywhere.

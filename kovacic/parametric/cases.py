@@ -4,7 +4,7 @@ Regions without a Liouvillian solution, "a = 0: none", are no cases.  A later ca
 be said where the two exclude one another, or meet in values of an earlier case.
 
 A chart gives values of the parameters at which a statement can hold, as functions of fewer ones.  All tests on it are
-sufficient and exact: `within` contains every value at which a statement holds, and maybe more; `holds_on` is True only where a
+sufficient and exact: `within` contains every value at which a statement holds, and maybe more; `holds` is True only where a
 statement holds at all values of a chart.
 """
 
@@ -12,7 +12,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass, replace
-from functools import partial
+from functools import partial, reduce
 from itertools import chain, groupby, product
 
 from kovacic.algebra.extension import ExtensionPoly
@@ -22,6 +22,7 @@ from kovacic.algebra.ratfunc import RatFunc
 from kovacic.algebra.rationals import QQ
 from kovacic.equation import Equation
 from kovacic.limits import check_time
+from kovacic.parametric.claims import Claim
 from kovacic.parametric.functions import ParameterPoint, irreducible_factors, over_parameters, with_values
 from kovacic.parametric.integers import Congruence
 from kovacic.parametric.natural import Natural
@@ -32,6 +33,7 @@ from kovacic.parametric.statements import (
     ALWAYS,
     Both,
     Either,
+    Setting,
     Statement,
     Vanishes,
     all_of,
@@ -59,8 +61,6 @@ def within(statement: Statement, charts: list[ParameterPoint]) -> list[Parameter
             found += _where_possible(statement, one)
         except ZeroDivisionError:  # a statement doesn't hold where it isn't defined
             continue
-        except (TypeError, ValueError):  # no function of parameters
-            found.append(one)
     return found
 
 
@@ -103,27 +103,9 @@ def _union(parts: Iterable[list[ParameterPoint]], chart: ParameterPoint) -> list
     return [chart] if any(part is chart for part in found) else found
 
 
-def holds_on(statement: Statement, chart: ParameterPoint) -> bool:
-    """True if the statement provably holds at all values of the chart."""
-    if chart.field.ground == QQ:  # a point
-        return statement.holds(chart)
-    if isinstance(statement, Both):
-        return all(holds_on(part, chart) for part in statement.parts)
-    if isinstance(statement, Either):
-        return any(holds_on(part, chart) for part in statement.parts)
-    try:
-        if isinstance(statement, Vanishes):
-            return not chart.at(statement.function)
-        if isinstance(statement, Congruence):
-            return statement.holds_for(chart.at(statement.equation)) is True
-    except (ValueError, ZeroDivisionError):  # a function of other parameters, or not defined at these values
-        pass
-    return False
-
-
 def covered(charts: Iterable[ParameterPoint], statements: Sequence[Statement]) -> bool:
     """True if on each chart one of the statements provably holds."""
-    return all(any(holds_on(known, one) for known in statements) for one in charts)
+    return all(any(known.holds(one) for known in statements) for one in charts)
 
 
 def without_implied(statement: Statement) -> Statement:
@@ -148,6 +130,28 @@ def vanishing(statements: Iterable[Statement]) -> list[Vanishes]:
     return [statement for statement in statements if isinstance(statement, Vanishes)]
 
 
+def is_variety(statement: Statement) -> bool:
+    """True if nothing is said but that functions vanish."""
+    return all(isinstance(one, Vanishes) for part in statement.conjuncts for one in part.alternatives)
+
+
+def pieces_of(statement: Statement) -> list[tuple[FunctionPoly, ...]]:
+    """The common zeros of functions that make up a statement, whatever else is said in it."""
+    varieties = filter(is_variety, statement.conjuncts)
+    return [*product(*([one.function for one in vanishing(part.alternatives)] for part in varieties))]
+
+
+def settled(regions: Iterable[ParameterRegion], setting: Setting) -> list[ParameterRegion]:
+    """The regions in their order, so that each is printed for the values that belong to none before it, and none twice."""
+    found: dict[Claim, ParameterRegion] = {}
+    for region in regions:
+        statement = region.statement.avoiding(setting)
+        found.setdefault(statement.claim, replace(region, statement=statement))
+        if is_variety(statement):
+            setting = reduce(lambda known, zeros: known.also(*zeros), pieces_of(statement), setting)
+    return [*found.values()]
+
+
 # ------------------------------------------------------------------------------- the equation in a region
 
 
@@ -161,11 +165,7 @@ def equations_on(statement: Statement, equation: Equation) -> list[EquationThere
     At the zeros that make up a region, poles of b/a can merge or go to infinity, and the gauge for generic values, specialised,
     is another function.  Pieces that aren't given by functions of fewer parameters are left out.
     """
-    alternatives = [part.alternatives for part in statement.conjuncts]
-    zeros = [
-        [one.function for one in vanishing(parts)] for parts in alternatives if len(vanishing(parts)) == len(parts)
-    ]
-    pieces = [*product(*zeros)]
+    pieces = pieces_of(statement)
     found: list[EquationThere] = []
     for piece in pieces:
         generic = _generic_zero(piece) if piece else None
@@ -298,8 +298,7 @@ def _is_redundant(
     if not _is_known(region) or region.complete is not True:
         return False
     is_generic = generic is not None and generic.says_the_same(region.verdict)
-    is_variety = all(isinstance(part, Vanishes) for part in region.statement.conjuncts)
-    if not is_generic and not is_variety:
+    if not is_generic and not is_variety(region.statement):
         return False
     charts = charts_of(region.statement)
     if not charts:

@@ -27,7 +27,10 @@ class Claim(ABC):
     """A statement about the parameters, true exactly where a reader finds it true."""
 
     def holds(self, point: ParameterPoint) -> bool:
-        """True if it is true at the point; a formula that isn't defined there makes it false."""
+        """True if it is true at the point; a formula that isn't defined there makes it false.
+
+        Of a statement on a chart: True only if it provably holds at all values of the chart.
+        """
         try:
             return self._holds(point)
         except ZeroDivisionError:

@@ -66,7 +66,7 @@ from kovacic.parametric.functions import (
     powers_of,
 )
 from kovacic.parametric.restriction import everywhere, with_free_constant
-from kovacic.parametric.statements import ALWAYS, NEVER, Setting, Statement, Vanishes, all_of, both, either
+from kovacic.parametric.statements import ALWAYS, NEVER, Setting, Statement, Vanishes, all_of, decided, either
 
 #: Weights of the lengths of f(n) and of the condition on n, and the cost of solving for a later parameter.
 _WEIGHT = 3
@@ -94,9 +94,13 @@ class SolvedCondition:
     poles: tuple[Free, ...]
     strata: tuple[Stratum, ...]
 
-    def family(self, letter: str, numbers: Classes) -> IntegerFamily:
-        """The first stratum and the poles, for n among these numbers."""
-        return IntegerFamily(letter, self.parameter, self.value, numbers, possible(self.poles, numbers))
+    def family(self, letter: str, line: FunctionPoly, numbers: Classes) -> IntegerFamily:
+        """The first stratum and the poles, where the integer is line(n), and n among these numbers."""
+        roots = [over_parameters((pole.root - line[0]) / line[1]) for pole in self.poles]
+        moved = [Free(root, pole.zero) for root, pole in zip(roots, self.poles, strict=True)]
+        known = [(pole, rational(pole.root)) for pole in moved]
+        possible = tuple(pole for pole, number in known if number is None or numbers.contains(number))
+        return IntegerFamily(letter, self.parameter, self.value(RatFunc(line)), numbers, possible)
 
 
 def solve_for(name: str, equation: FunctionPoly) -> SolvedCondition | None:
@@ -127,12 +131,6 @@ def solve_for(name: str, equation: FunctionPoly) -> SolvedCondition | None:
     return SolvedCondition(name, -RatFunc(rest, slope), tuple(poles), tuple(strata))
 
 
-def possible(poles: Sequence[Free], numbers: Classes) -> tuple[Free, ...]:
-    """The poles at which n can be one of the numbers."""
-    known = [(pole, rational(pole.root)) for pole in poles]
-    return tuple(pole for pole, number in known if number is None or numbers.contains(number))
-
-
 def all_solved(equation: FunctionPoly, fixed: Collection[str] = ()) -> list[SolvedCondition]:
     """The equation solved for each parameter for which that is possible, but for the `fixed` ones."""
     names = [name for name in equation.field.names if name not in fixed]
@@ -157,21 +155,19 @@ def integer_condition(
 ) -> IntegerCondition:
     """The statement that one of the numbers is a root of a polynomial in N over Q(t): a spectrum, square roots, or both."""
     spectrum = _spectrum(equation, numbers, letter, setting)
-    roots = _roots(equation, numbers, setting.constant)
-    if roots is None:
-        return spectrum or IntegerCondition(EquationFor(letter, equation, numbers))
-    if spectrum is None:
-        return IntegerCondition(roots)
-    return IntegerCondition(roots) if len(roots.squares) > 1 and spectrum.strata else spectrum
+    roots = _roots(equation, numbers, setting.assumptions.constant)
+    if roots is None or (isinstance(spectrum.claim, IntegerFamily) and (len(roots.squares) < 2 or not spectrum.strata)):
+        return spectrum
+    return IntegerCondition(roots)
 
 
-def _spectrum(equation: FunctionPoly, numbers: Classes, letter: str, setting: Setting) -> IntegerCondition | None:
-    """A parameter as a function of n, by the cheapest way to choose n; None if no parameter is linear."""
+def _spectrum(equation: FunctionPoly, numbers: Classes, letter: str, setting: Setting) -> IntegerCondition:
+    """A parameter as a function of n, by the cheapest way to choose n; the equation itself if no parameter is linear."""
     known = all_solved(equation, setting.fixed)
     vanishes = setting.assumptions.vanishes
     known = [replace(one, poles=tuple(pole for pole in one.poles if vanishes(pole.zero) is not False)) for one in known]
-    if setting.constant.names:  # without the constant in denominators: sqrt(2), not 2/sqrt(2)
-        there = everywhere(equation.field, setting.constant)
+    if setting.assumptions.constant.names:  # without the constant in denominators: sqrt(2), not 2/sqrt(2)
+        there = everywhere(equation.field, setting.assumptions.constant)
         known = [replace(one, value=with_free_constant(there.restricted(one.value)).shown) for one in known]
     energies = [solved for solved in known if solved.parameter == ENERGY]
     found: list[tuple[int, bool, IntegerCondition]] = []
@@ -185,7 +181,8 @@ def _spectrum(equation: FunctionPoly, numbers: Classes, letter: str, setting: Se
             above, below = (part(Fraction(1)) for part in (family.value.num, family.value.den))
             is_numbered_otherwise = not below or above != below
             found.append((cost, is_numbered_otherwise, IntegerCondition(family, strata)))
-    return min(found, key=lambda one: one[:2])[2] if found else None
+    equation_for = IntegerCondition(EquationFor(letter, equation, numbers))
+    return min(found, key=lambda one: one[:2])[2] if found else equation_for
 
 
 def _integer_choices(
@@ -199,16 +196,13 @@ def _integer_choices(
     is_single = len(numbers.residues) == 1 or are_mirrored
     has_bound = numbers.least is not None
     if has_bound or equation.degree > 1 or not is_single:
-        yield solved.family(letter, numbers)
+        yield solved.family(letter, N, numbers)
     modulus = numbers.modulus
     if is_single and not has_bound and (modulus < 3 or not is_mirrored):
         # The residue and its neighbours for r, and both signs of s for the modulus 1.
         pairs = product((1, -1), (0, -1, 1)) if modulus == 1 else [(1, 0), (1, -1)]
         for sign, shift in pairs:
-            line = N * (sign * modulus) + first + modulus * shift
-            poles = tuple(Free(over_parameters((pole.root - line[0]) / line[1]), pole.zero) for pole in solved.poles)
-            value = solved.value(RatFunc(line))
-            yield IntegerFamily(letter, solved.parameter, value, INTEGERS, possible(poles, INTEGERS))
+            yield solved.family(letter, N * (sign * modulus) + first + modulus * shift, INTEGERS)
 
 
 def _roots(equation: FunctionPoly, numbers: Classes, constant: ParameterPoint) -> SumOfRoots | None:
@@ -271,8 +265,8 @@ def natural_root(equations: Sequence[FunctionPoly], letter: str, setting: Settin
     where: dict[FunctionPoly, list[FunctionPoly]] = {}
     for equation in equations:
         solved = _spectrum(equation, NATURALS, letter, setting)
-        parts.append(EquationFor(letter, equation, NATURALS) if solved is None else solved.claim)
-        for zero, rest in solved.strata if solved else ():
+        parts.append(solved.claim)
+        for zero, rest in solved.strata:
             possible_there = (one for one in irreducible_factors(rest) if one.degree > 0 and may_be_natural(one))
             where.setdefault(zero, []).extend(possible_there)
     parts += [AllOf((natural_root(rests, letter, setting), IsZero(zero))) for zero, rests in where.items() if rests]
@@ -357,7 +351,7 @@ class Congruence(Statement):
         return Classes(self.residues, self.modulus)
 
     def _holds(self, point: ParameterPoint) -> bool:
-        return self._has_one_of(rational_roots(point.at(self.equation)))
+        return self.holds_for(point.at(self.equation)) is True
 
     def _has_one_of(self, numbers: Iterable[Fraction]) -> bool:
         """True if one of the numbers lies in one of the classes."""
@@ -384,10 +378,10 @@ class Congruence(Statement):
         made = Congruence.make(self.equation, self.numbers.modulo(common) + other.numbers.modulo(common), common)
         return replace(made, setting=self.setting)
 
-    def decided(self, assumptions: Assumptions) -> bool | None:
+    def _decided(self, assumptions: Assumptions) -> bool | None:
         if self.form is not None:
             return assumptions.meets_classes(self.form, self.numbers)
-        if not assumptions and not assumptions.values:
+        if not assumptions and not assumptions.constant.names:
             return None
         at = assumptions.value_of(self.equation)
         if at is not None:
@@ -399,13 +393,14 @@ class Congruence(Statement):
         are_irrational = all(assumptions.is_irrational(f[0]) and without_parameters(f - f[0]) for f in factors)
         return False if are_irrational else None
 
-    def narrowed(self, assumptions: Assumptions) -> Statement:
+    def under(self, assumptions: Assumptions) -> Statement:
         """The values of an integer parameter t, of which only finitely many make (a t + b)/(c t + d) so integral."""
-        if self.form is None:
-            return self
+        known = decided(self._decided(assumptions), self)
+        if self.form is None or known is not self:
+            return known
         largest = lcm(self.modulus.denominator, *(residue.denominator for residue in self.residues))
-        known = at_integers(self.form, largest, assumptions)
-        return self if known is None else either(*(here for here, value in known if self._has_one_of([value])))
+        values = at_integers(self.form, largest, assumptions)
+        return self if values is None else either(*(here for here, value in values if self._has_one_of([value])))
 
     def avoiding(self, setting: Setting) -> Statement:
         return replace(self, setting=setting)
@@ -425,11 +420,11 @@ class Congruence(Statement):
     def _solved(self, equation: FunctionPoly, numbers: Classes) -> Claim:
         """An equation for an integer, with what holds where the parameter for which it was solved is free."""
         found = integer_condition(equation, numbers, self.letter, self.setting)
-        claims = [found.claim]
-        for zero, rest in found.strata:
-            there = integer_roots(rest, numbers.residues, numbers.modulus)
-            if there != NEVER:
-                claims.append(all_of(both(Vanishes(zero), there).parts).avoiding(self.setting).claim)
+        there = (
+            all_of((Vanishes(zero), integer_roots(rest, numbers.residues, numbers.modulus)))
+            for zero, rest in found.strata
+        )
+        claims = [found.claim, *(one.avoiding(self.setting).claim for one in there if one != NEVER)]
         said = claims[0] if len(claims) == 1 else AnyOf(tuple(claims))
         # Where a parameter was solved for, the denominators of the equation are gone.
         return self._where_defined(said, equation) if isinstance(found.claim, IntegerFamily) else said
@@ -485,7 +480,7 @@ def at_integers(form: FunctionPoly, largest: int, assumptions: Assumptions) -> l
     t = form.field.generator(form.field.names[k - 1])
     values = {n: Fraction(a * n + b, c * n + d) for n in range(-end, end + 1) if c * n + d}
     places = ((Vanishes(over_parameters(t - n)), value) for n, value in values.items() if value.denominator <= largest)
-    return [(here, value) for here, value in places if here.decided(assumptions) is not False]
+    return [(here, value) for here, value in places if here.under(assumptions) != NEVER]
 
 
 def free_letter(names: Collection[str], preferred: str = LETTERS) -> str:

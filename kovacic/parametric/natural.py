@@ -56,7 +56,7 @@ from kovacic.parametric.integers import LETTERS, free_letter, natural_root
 from kovacic.parametric.prose import Words
 from kovacic.parametric.restriction import Hypersurface, everywhere, hypersurface, in_lowest_powers
 from kovacic.parametric.solutions import PolynomialSolution, solution_of_degree
-from kovacic.parametric.statements import Setting, Statement
+from kovacic.parametric.statements import NEVER, Setting, Statement
 
 #: The largest number that is tried for an example.
 _EXAMPLES = 2
@@ -129,7 +129,7 @@ class Natural(Statement):
     constant: ParameterPoint = NO_CONSTANT
 
     def avoiding(self, setting: Setting) -> Statement:
-        return replace(self, setting=setting, constant=setting.constant)
+        return replace(self, setting=setting, constant=setting.assumptions.constant)
 
     @property
     def letter(self) -> str:
@@ -154,7 +154,9 @@ class Natural(Statement):
         return sorted(map(int, {*filter(NATURALS.contains, roots)}))
 
     def _holds(self, point: ParameterPoint) -> bool:
-        """Decided by the rank of the systems at the point."""
+        """Decided by the rank of the systems at a point."""
+        if point.field.ground != QQ:
+            return False
         numbers = self.numbers_at(point)
         return (self.factors is None or len(numbers) > 0) and self.exists(point, numbers)
 
@@ -231,16 +233,10 @@ class Natural(Statement):
         zeros = [random.choice(chosen.factors)] if chosen.factors else chosen.system
         return [*filter(None, [chosen.exponents, *zeros])]
 
-    def decided(self, assumptions: Assumptions) -> bool | None:
-        return False if self._possible(assumptions) == () else None
-
-    def narrowed(self, assumptions: Assumptions) -> Statement:
-        return replace(self, factors=self._possible(assumptions))
-
-    def _possible(self, assumptions: Assumptions) -> tuple[FunctionPoly, ...] | None:
-        """The equations for d that can have a natural root."""
+    def under(self, assumptions: Assumptions) -> Statement:
+        """With the equations for d that can have a natural root."""
         if self.factors is None:
-            return None
+            return self
         found: list[FunctionPoly] = []
         for factor in self.factors:
             if factor.degree == 1 and assumptions.meets_classes(-factor[0] / factor[1], INTEGERS) is False:
@@ -251,7 +247,7 @@ class Natural(Statement):
                 assumptions.is_positive(over_parameters(c), or_zero=True) for c in factor if c
             ):
                 found.append(factor)
-        return tuple(found)
+        return replace(self, factors=tuple(found)) if found else NEVER
 
     @cached_property
     def claim(self) -> Claim:

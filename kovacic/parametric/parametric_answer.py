@@ -22,6 +22,7 @@ from kovacic.limits import DEFAULT_LIMITS, Budget, Limits, limited
 from kovacic.numbers.exact import whole
 from kovacic.parametric import prose
 from kovacic.parametric.assumptions import NOTHING_ASSUMED, Assumptions, check_values, read_assumptions
+from kovacic.parametric.cases import settled
 from kovacic.parametric.functions import NO_CONSTANT, ParameterPoint
 from kovacic.parametric.natural import Determinant
 from kovacic.parametric.partition import derived
@@ -35,7 +36,7 @@ from kovacic.parametric.record import (
     verdict_data,
     verdict_from,
 )
-from kovacic.parametric.regions import Limited, ParameterRegion, RegionVerdict, Theory, settled
+from kovacic.parametric.regions import Limited, ParameterRegion, RegionVerdict, Theory
 from kovacic.parametric.restriction import Letters, everywhere, setting_of, values_of_letters
 from kovacic.parametric.solutions import Later, Origin
 from kovacic.parametric.statements import Statement

@@ -27,11 +27,11 @@ References: G. Darboux, C. R. Acad. Sci. 94 (1882) 1456; D. Gomez-Ullate, Y. Gra
 from __future__ import annotations
 
 import re
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Iterable, Iterator
 from contextlib import suppress
 from dataclasses import dataclass, replace
 from fractions import Fraction
-from functools import partial
+from functools import partial, reduce
 from itertools import chain, islice
 
 import sympy
@@ -40,7 +40,7 @@ from kovacic.algebra.extension import AlgebraicField
 from kovacic.algebra.function_field import FunctionField, FunctionPoly
 from kovacic.algebra.ratfunc import RatFunc
 from kovacic.algebra.rationals import QQ
-from kovacic.decision import Structure
+from kovacic.decision import Decision, Status, Structure
 from kovacic.engine.decide import decide
 from kovacic.engine.places import Kind, Problem, analyse
 from kovacic.equation import Equation, parameters_of
@@ -48,10 +48,11 @@ from kovacic.errors import LimitExceeded
 from kovacic.galois import group_of
 from kovacic.limits import Budget, bounded_work, count_work
 from kovacic.parametric import prose, restriction, riemann
-from kovacic.parametric.assumptions import NOTHING_ASSUMED, Assumptions
+from kovacic.parametric.assumptions import Assumptions
 from kovacic.parametric.cases import (
     equations_on,
     normal_form,
+    settled,
     vanishing,
     without_empty,
     without_implied,
@@ -69,7 +70,7 @@ from kovacic.parametric.functions import (
 )
 from kovacic.parametric.integers import without_parameters
 from kovacic.parametric.natural import Natural
-from kovacic.parametric.regions import Limited, ParameterRegion, RegionVerdict, Theorem, Theory, settled, verdict_of
+from kovacic.parametric.regions import Limited, ParameterRegion, RegionVerdict, Theorem, Theory, verdict_of
 from kovacic.parametric.restriction import (
     Hypersurface,
     Letters,
@@ -80,7 +81,7 @@ from kovacic.parametric.restriction import (
     undefined,
     with_free_constant,
 )
-from kovacic.parametric.search import Findings, all_half_integers, degree_equation, search
+from kovacic.parametric.search import Findings, degree_equation, search
 from kovacic.parametric.solutions import (
     Carried,
     PolynomialSolution,
@@ -88,7 +89,7 @@ from kovacic.parametric.solutions import (
     given,
     solutions_there,
 )
-from kovacic.parametric.statements import ALWAYS, NEVER, Statement, Vanishes, both
+from kovacic.parametric.statements import ALWAYS, NEVER, Setting, Vanishes, both
 from kovacic.parametric.theorems import kimura, martinet_ramis
 from kovacic.reading.change_of_variable import function_of_x, user_variable
 from kovacic.writing.formula import Math, caret
@@ -187,46 +188,29 @@ class Partition:
     regions: tuple[ParameterRegion, ...] = ()
 
 
-@dataclass(frozen=True)
-class Settings:
-    """The limits, and how far to go: `only_theorems` leaves everything else undecided.
-
-    The zeros of a function that lie in those of one that is `covered`, or that the assumptions exclude, aren't examined.
-    """
+@dataclass(frozen=True, kw_only=True)
+class Settings(Setting):
+    """The limits, and how far to go: `only_theorems` leaves everything else undecided.  What is covered isn't examined."""
 
     budget: Budget
     variable: str = "x"
     only_theorems: bool = False
-    covered: frozenset[FunctionPoly] = frozenset()
-    assumptions: Assumptions = NOTHING_ASSUMED
-
-    def covers(self, function: FunctionPoly) -> bool:
-        """True if what holds where it vanishes is known, or it vanishes nowhere."""
-        return function in self.covered or self.assumptions.vanishes(function) is False
-
-    def also(self, function: FunctionPoly) -> Settings:
-        """Behind the regions of the zeros of a function: what lies in these zeros needn't be examined again."""
-        return replace(self, covered=self.covered | {function})
-
-    def on(self, surface: Hypersurface) -> Settings:
-        """The settings on a hypersurface."""
-        values = map(surface.at, self.covered)
-        factors = [irreducible_factors(value) for value in values if isinstance(value, FunctionPoly) and value]
-        return replace(self, covered=frozenset(chain.from_iterable(factors)))
 
 
 def partition(S: RatFunc, settings: Settings) -> Partition:
-    """The partition for S over Q(t), or the single verdict for S over Q or Q(alpha)."""
+    """The partition for S over Q(t), or the single verdict for an S without parameters in it."""
     count_work(1)
     S = _without_common_factors(S, settings.assumptions)
     constants = S.field
-    decision = decide(S, settings.budget, certify=False)
-    verdict = verdict_of(decision)
-    if constants.ground == QQ:
-        return Partition(verdict, verdict.known or str(decision.undecided), Theory("the engine"))
+    numbers = _over_numbers(S)
+    if numbers is not None:
+        decision = decide(numbers, settings.budget)
+        complete = decision.status is not Status.UNDECIDED or str(decision.undecided)
+        return Partition(_with_group(numbers, decision), complete, Theory("the engine"))
+    verdict = verdict_of(decide(S, settings.budget, certify=False))
     if not isinstance(constants, FunctionField):
         # Functions on a hypersurface; see the head of this module for case 1.
-        if not _is_reducible(verdict) and not settings.assumptions.values and has_number(constants):
+        if not _is_reducible(verdict) and not settings.assumptions.constant.names and has_number(constants):
             return _beside_a_number(S, settings)
         return Partition(verdict, _is_reducible(verdict) or "for generic values only", Theory("the engine"))
     try:
@@ -237,20 +221,37 @@ def partition(S: RatFunc, settings: Settings) -> Partition:
 
 def _without_common_factors(S: RatFunc, assumptions: Assumptions) -> RatFunc:
     """S over Q(t, alpha) without those that numerator and denominator have where alpha is the number that is assumed."""
-    if not assumptions.values or not isinstance(S.field, FunctionField) or len(S.field.names) < 2:
+    number = assumptions.constant
+    if not isinstance(S.field, FunctionField) or len(S.field.names) < 2 or S.field.names[-1:] != number.names:
         return S
-    ((name, value),) = assumptions.values
-    if name != S.field.names[-1]:
-        return S
-    number = ParameterPoint((name,), (value,), value.field)
     return with_free_constant(restriction.everywhere(S.field, number).restricted(S)).S
+
+
+def _over_numbers(S: RatFunc) -> RatFunc | None:
+    """S, if it has no parameter in it: 0 for k (1 + g/x) at k = 0."""
+    if S.field.ground == QQ:
+        return S
+    num, den = map(without_parameters, (S.num, S.den))
+    return None if num is None or den is None else RatFunc(num, den)
+
+
+def _with_group(S: RatFunc, decision: Decision) -> RegionVerdict:
+    """What the engine's decision says, and the group."""
+    verdict = verdict_of(decision)
+    group = group_of(S, decision) if verdict.known and decision.structure is not None else None
+    if group is None:
+        return verdict
+    is_small = group.dimension is not None and group.dimension < 2
+    # What is a formula in the name of the group is one.
+    family = prose.phrase(_FORMULA.sub(r"`\g<0>`", group.name))
+    return replace(verdict, family=family, abelian=prose.ABELIAN if is_small else prose.NOT_ABELIAN)
 
 
 def _beside_a_number(S: RatFunc, settings: Settings) -> Partition:
     """The partition for S over Q(t)(alpha), alpha a number, by that over Q(t, alpha)."""
     lifted, _, number = with_free_constant(S)
-    known = replace(settings.assumptions, values=tuple(zip(number.names, number.values, strict=True)))
-    found = partition(lifted, replace(settings, covered=frozenset(), assumptions=known))
+    known = replace(settings.assumptions, constant=number)
+    found = partition(lifted, replace(settings, covered=(), assumptions=known))
     reduced = partial(in_lowest_powers, constant=number)
     regions = tuple(replace(region, statement=region.statement.rewritten(reduced)) for region in found.regions)
     return _under(known, replace(found, regions=regions), S, settings.budget)
@@ -285,7 +286,7 @@ def _by_theory(S: RatFunc, expected: RegionVerdict, settings: Settings) -> Parti
 
 def _by_theorem(problem: Problem, theorem: Theorem, expected: RegionVerdict, settings: Settings) -> Partition:
     """The regions up to the first that is everything, whose verdict is the generic one."""
-    regions = _degenerate(problem.S, theorem.exceptions, settings)
+    regions = [*_on_zeros(problem.S, theorem.exceptions, settings)]
     always = RegionVerdict(None)
     for region in theorem.regions:
         if region.statement == ALWAYS:
@@ -304,7 +305,7 @@ def _by_theorem(problem: Problem, theorem: Theorem, expected: RegionVerdict, set
 
 def _by_transformation(problem: Problem, found: Transformation, settings: Settings) -> Partition:
     """The regions of the simpler equation, behind those of the values at which the transformation isn't possible."""
-    regions = _degenerate(problem.S, found.exceptions, settings)
+    regions = [*_on_zeros(problem.S, found.exceptions, settings)]
     regions += _pieces(problem.S, found.special, settings)
     inner = partition(found.simpler, settings)
     back = partial(carried_back, found.W, settings.variable)
@@ -326,74 +327,35 @@ def _by_candidates(problem: Problem, expected: RegionVerdict, settings: Settings
     regions: list[ParameterRegion] = []
     findings = Findings(Theory("polynomial conditions"))
     complete: bool | str = True
-    half_integers: Statement = NEVER
     try:
-        regions = _degenerate(problem.S, restriction.structure_changes(problem), settings)
+        changes = restriction.structure_changes(problem)
+        regions.extend(_on_zeros(problem.S, changes, settings))
         findings = search(problem)
-        half_integers = all_half_integers(problem)
         if expected.structure is Structure.IMPRIMITIVE:
             findings.candidates += _discriminants(problem, settings)
         elif expected.structure is not None and expected.structure is not Structure.REDUCIBLE:
             findings.unproven.append("smaller groups than the generic one")
         if findings.unproven:
             complete = f"for generic values (not proven: {'; '.join(findings.unproven)})"
-        _add_special(regions, findings.candidates, problem, expected, settings)
+        elsewhere = reduce(Settings.also, changes, settings)
+        regions.extend(_on_zeros(problem.S, dict.fromkeys(findings.candidates), elsewhere, expected))
     except LimitExceeded as limit:
         complete = Limited.by(limit)
-    _add_natural(regions, findings, half_integers, problem, expected, settings)
-    if complete is True:
-        complete = together(regions)
-    return Partition(expected, complete, findings.theory, tuple(regions))
-
-
-def _add_special(
-    regions: list[ParameterRegion],
-    candidates: Sequence[FunctionPoly],
-    problem: Problem,
-    expected: RegionVerdict,
-    settings: Settings,
-) -> None:
-    """The regions where a candidate vanishes, if something there is other than expected, or isn't known."""
-    for region in regions:
-        if isinstance(region.statement, Vanishes):
-            settings = settings.also(region.statement.function)
-    for function in dict.fromkeys(candidates):
-        if settings.covers(function):
-            continue
-        settings.budget.check()
-        found = _pieces(problem.S, function, settings)
-        proven = [region.verdict.known and region.complete is True and region.case == expected.case for region in found]
-        if not all(proven):
-            regions += found
-            settings = settings.also(function)
-
-
-def _add_natural(
-    regions: list[ParameterRegion],
-    findings: Findings,
-    half_integers: Statement,
-    problem: Problem,
-    expected: RegionVerdict,
-    settings: Settings,
-) -> None:
-    """The regions with a natural number; those of four half-integers before the first that isn't reducible."""
-    is_without_solution = expected.structure is None
-    for statement in findings.natural:
-        structure = statement.structure
+    theory = findings.theory
+    for statement, structure in findings.conditions:
         is_reducible = structure is Structure.REDUCIBLE
-        if is_without_solution and half_integers != NEVER and not is_reducible:
-            regions.append(ParameterRegion(half_integers, RegionVerdict(Structure.IMPRIMITIVE)))
-            findings.theory = findings.theory.also("; half-integers: Treibich & Verdier", "TV90")
-            half_integers = NEVER
-        is_smaller = is_without_solution or is_reducible
-        if is_smaller and structure is not expected.structure:
-            verdict = RegionVerdict(structure)
-            if is_reducible:
-                verdict = riemann.verdict(problem, structure)
-            elif structure.case == 3:  # it leaves the group open
-                verdict = replace(verdict, family=("binary tetrahedral, octahedral or icosahedral",))
+        if structure is expected.structure or not (is_reducible or expected.structure is None):
+            continue  # it isn't smaller
+        verdict = riemann.verdict(problem, structure) if is_reducible else RegionVerdict(structure)
+        if structure.case == 3:  # it leaves the group open
+            verdict = replace(verdict, family=("binary tetrahedral, octahedral or icosahedral",))
+        origin = None
+        if isinstance(statement, Natural):
             origin = partial(statement.solutions, settings.variable)
-            regions.append(ParameterRegion(statement, verdict, origin=origin))
+        else:
+            theory = theory.also("; half-integers: Treibich & Verdier", "TV90")
+        regions.append(ParameterRegion(statement, verdict, origin=origin))
+    return Partition(expected, together(regions) if complete is True else complete, theory, tuple(regions))
 
 
 def _discriminants(problem: Problem, settings: Settings) -> list[FunctionPoly]:
@@ -408,18 +370,29 @@ def _discriminants(problem: Problem, settings: Settings) -> list[FunctionPoly]:
     return union(irreducible_factors(element) for element in elements)
 
 
-def _degenerate(S: RatFunc, functions: Iterable[FunctionPoly], settings: Settings) -> list[ParameterRegion]:
-    """Regions for the values at which the generic theory doesn't apply; what the limits don't allow is unknown."""
-    regions: list[ParameterRegion] = []
+def _on_zeros(
+    S: RatFunc, functions: Iterable[FunctionPoly], settings: Settings, expected: RegionVerdict | None = None
+) -> Iterator[ParameterRegion]:
+    """Regions for the zeros of functions: of all where the generic theory doesn't apply, and the limits may leave unknown ones.
+
+    Where a verdict is expected, these are the zeros at which something else holds, or isn't known.
+    """
     for function in functions:
         if settings.covers(function):
             continue
         try:
-            regions += _pieces(S, function, settings)
+            found = _pieces(S, function, settings)
         except LimitExceeded as limit:
-            regions.append(ParameterRegion(Vanishes(function), _UNKNOWN, Limited.by(limit)))
-        settings = settings.also(function)
-    return regions
+            if expected is not None:
+                raise
+            found = [ParameterRegion(Vanishes(function), _UNKNOWN, Limited.by(limit))]
+        if expected is None or not all(_is_proven(region, expected) for region in found):
+            yield from found
+            settings = settings.also(function)
+
+
+def _is_proven(region: ParameterRegion, expected: RegionVerdict) -> bool:
+    return region.verdict.known and region.complete is True and region.case == expected.case
 
 
 def _pieces(S: RatFunc, function: FunctionPoly, settings: Settings) -> list[ParameterRegion]:
@@ -487,9 +460,6 @@ def _rest(
     field = surface.field
     verdict = inner.generic
     complete = inner.complete
-    num, den = (part if field.ground == QQ else without_parameters(part) for part in (S.num, S.den))
-    if num is not None and den is not None:  # no parameter is left: 0 for k (1 + g/x) at k = 0
-        return _at_a_value(statement, RatFunc(num, den), verdict, complete, settings)
     if complete is not True:
         verdict = replace(verdict, known=False)
         if isinstance(field, AlgebraicField):  # no parameter can be eliminated
@@ -508,23 +478,6 @@ def _without_formulas(verdict: RegionVerdict) -> RegionVerdict:
     return replace(verdict, family=None) if has_formulas else verdict
 
 
-def _at_a_value(
-    statement: Vanishes, S: RatFunc, verdict: RegionVerdict, complete: bool | str, settings: Settings
-) -> ParameterRegion:
-    """The region of one value, or of conjugate ones, of the only parameter, with the group there."""
-    decision = decide(S, settings.budget)
-    if decision.structure is None or decision.undecided:
-        return ParameterRegion(statement, verdict, complete)
-    group = group_of(S, decision)
-    if group is not None:
-        is_small = group.dimension is not None and group.dimension < 2
-        # What is a formula in the name of the group is one.
-        family = prose.phrase(_FORMULA.sub(r"`\g<0>`", group.name))
-        verdict = replace(verdict, family=family, abelian=prose.ABELIAN if is_small else prose.NOT_ABELIAN)
-    origin = partial(solutions_there, S, settings.variable) if decision.case == 1 else None
-    return ParameterRegion(statement, verdict, complete, origin=origin)
-
-
 def _special(regions: Iterable[ParameterRegion], surface: Hypersurface) -> list[ParameterRegion]:
     """The regions on a hypersurface, in the original parameters, without those that it doesn't cover."""
     elsewhere = {str(factor) for factor in surface.leading}  # as texts: of fewer parameters, maybe
@@ -534,7 +487,7 @@ def _special(regions: Iterable[ParameterRegion], surface: Hypersurface) -> list[
         if isinstance(first, Vanishes) and str(first.function) in elsewhere:
             continue
         if surface.curve:  # without its parameter, which isn't one of the user's
-            statement = region.statement.rewritten(partial(surface.back, field=surface.curve.value.field))
+            statement = region.statement.rewritten(partial(surface.back, field=surface.curve[0][1].field))
             region = replace(region, statement=statement, verdict=_without_formulas(region.verdict), origin=None)
         special.append(region)
     return special
@@ -555,8 +508,8 @@ def derived(
 ) -> Partition:
     """The partition of parameter space for S; `max_degree` None: by theorems only, else Delta_d is shown up to this d."""
     lifted, _, constant = with_free_constant(S)
-    assumptions = replace(known, values=tuple(zip(constant.names, constant.values, strict=True)))
-    settings = Settings(budget, variable, only_theorems=max_degree is None, assumptions=assumptions)
+    assumptions = replace(known, constant=constant)
+    settings = Settings(budget=budget, variable=variable, only_theorems=max_degree is None, assumptions=assumptions)
     with budget.watched(), bounded_work(_STRATA):
         found = partition(lifted, settings)
     regions = _distinct(found.regions, constant, budget)
@@ -589,15 +542,14 @@ def _under(assumptions: Assumptions, found: Partition, S: RatFunc, budget: Budge
     complete = found.complete
     regions: list[ParameterRegion] = []
     for region in found.regions:
-        decided = region.statement.decided(assumptions)
-        if decided is True:
+        statement = region.statement.under(assumptions)
+        if statement == ALWAYS:
             generic = region.verdict
             if not generic.known:
                 generic = verdict_of(decide(S, budget, certify=False))
             complete = together([*regions, region])
             break
-        statement = region.statement.narrowed(assumptions)
-        if decided is None and statement.decided(assumptions) is not False:
+        if statement != NEVER:
             regions.append(replace(region, statement=statement))
     return Partition(generic, complete, found.theory, tuple(regions))
 

@@ -39,49 +39,42 @@ _LIMITS = Limits(degree=10**6, bits=10**8, digits=10**7, text_length=10**8, expo
 
 
 def statement_data(statement: Statement) -> dict[str, Any]:
-    if isinstance(statement, Vanishes):
-        return {"kind": "zero", "function": statement.function.to_str("x")}
-    if isinstance(statement, Congruence):
-        return _congruence_data(statement)
-    if isinstance(statement, Natural):
-        return _natural_data(statement)
-    if isinstance(statement, Schwarz):
-        structures = [structure.value for structure in statement.structures]
-        return {"kind": "schwarz", "unknown": "Z", "squares": statement.cubic.to_str("Z"), "structures": structures}
     if isinstance(statement, Both | Either):
         kind = "and" if isinstance(statement, Both) else "or"
         return {"kind": kind, "parts": [*map(statement_data, statement.parts)]}
-    raise TypeError(f"{type(statement).__name__} isn't a kind of statement that is written")
-
-
-def _congruence_data(statement: Congruence) -> dict[str, Any]:
-    form = statement.form
-    residues = [*map(_json_number, statement.residues)]
-    modulus = _json_number(statement.modulus)
-    if form is None:
-        equation = {"unknown": statement.letter, "equation": statement.equation.to_str(statement.letter)}
-        return {"kind": "integer root", **equation, "residues": residues, "modulus": modulus}
-    if len(residues) > 1:
-        return {"kind": "lattice", "form": form.to_str("x"), "modulus": modulus, "residues": residues}
-    form = over_parameters(form - statement.residues[0])
-    return {"kind": "lattice", "form": form.to_str("x"), "modulus": modulus}
-
-
-def _natural_data(statement: Natural) -> dict[str, Any]:
+    if isinstance(statement, Vanishes):
+        return {"kind": "zero", "function": statement.function.to_str("x")}
+    if isinstance(statement, Schwarz):
+        structures = [structure.value for structure in statement.structures]
+        return {"kind": "schwarz", "unknown": "Z", "squares": statement.cubic.to_str("Z"), "structures": structures}
+    if isinstance(statement, Congruence):
+        return _congruence_data(statement)
+    assert isinstance(statement, Natural)
     letter = statement.letter
-    equations = None
-    if statement.factors is not None:
-        equations = [factor.to_str(letter) for factor in statement.factors]
     x = free_letter(parameters_of(statement.S.field), "xzt")
     return {
         "kind": "natural number",
         "unknown": letter,
-        "equations": equations,
+        "equations": statement.factors and [factor.to_str(letter) for factor in statement.factors],
         "degree": statement.m,
         "structure": statement.structure.value,
         "variable": x,
         "S": statement.S.to_str(x),
     }
+
+
+def _congruence_data(statement: Congruence) -> dict[str, Any]:
+    """The residues of a form are left out where that is 0, after a shift."""
+    residues = statement.residues
+    numbers = {"modulus": _json_number(statement.modulus), "residues": [*map(_json_number, residues)]}
+    form = statement.form
+    if form is None:
+        letter = statement.letter
+        return {"kind": "integer root", "unknown": letter, "equation": statement.equation.to_str(letter), **numbers}
+    if len(residues) == 1:
+        form = over_parameters(form - residues[0])
+        del numbers["residues"]
+    return {"kind": "lattice", "form": form.to_str("x"), **numbers}
 
 
 def _json_number(value: Fraction) -> int | str:
@@ -188,7 +181,11 @@ class StatementReader:
                 equation = self.polynomial(data["equation"], data.get("unknown", "x"))
                 return Congruence(equation, _residues(data), fraction(data["modulus"]))
             case "natural number":
-                return self.natural(data)
+                letter = data.get("unknown", "x")
+                texts = data["equations"]
+                equations = texts and tuple(self.polynomial(text, letter) for text in texts)
+                S = self.function(data["S"], data["variable"])
+                return Natural(S, data["degree"], equations, Structure(data["structure"]))
             case "schwarz":
                 squares = self.polynomial(data["squares"], data.get("unknown", "x"))
                 return Schwarz(squares, tuple(map(Structure, data["structures"])))
@@ -202,14 +199,6 @@ class StatementReader:
             defined=data["defined"],
             shown_degree=len(data["determinants"]) - 1 if "determinants" in data else None,
         )
-
-    def natural(self, data: Mapping[str, Any]) -> Statement:
-        letter = data.get("unknown", "x")
-        equations = None
-        if data["equations"] is not None:
-            equations = tuple(self.polynomial(text, letter) for text in data["equations"])
-        S = self.function(data["S"], data["variable"])
-        return Natural(S, data["degree"], equations, Structure(data["structure"]))
 
 
 def _residues(data: Mapping[str, Any]) -> tuple[Fraction, ...]:

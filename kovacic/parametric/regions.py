@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable
 from contextlib import suppress
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, field
 from functools import cached_property
 
 from kovacic.algebra.function_field import FunctionPoly
@@ -12,16 +12,10 @@ from kovacic.decision import Decision, Status, Structure
 from kovacic.errors import LimitExceeded
 from kovacic.limits import DEFAULT_LIMITS, Budget, Limits
 from kovacic.parametric import prose
-from kovacic.parametric.claims import Claim
 from kovacic.parametric.natural import Natural
 from kovacic.parametric.prose import Words
 from kovacic.parametric.solutions import Later, Origin, PolynomialSolution
-from kovacic.parametric.statements import (
-    Setting,
-    Statement,
-    Vanishes,
-    all_of,
-)
+from kovacic.parametric.statements import Statement
 
 #: Characters of a determinant that are written.
 _WRITTEN_OUT = 300
@@ -92,9 +86,9 @@ class RegionVerdict:
     @property
     def group(self) -> str:
         """The family of the Galois group."""
-        if self.known and self.family is None and self.structure in _ADJECTIVES:
-            return f"{_ADJECTIVES[self.structure]}: {prose.text_of(self.group_in_words)}"
-        return prose.text_of(self.group_in_words)
+        said = prose.text_of(self.group_in_words)
+        adjective = _ADJECTIVES.get(self.structure) if self.known and self.family is None else None
+        return f"{adjective}: {said}" if adjective else said
 
     @property
     def group_in_words(self) -> Words:
@@ -108,11 +102,7 @@ class RegionVerdict:
         """A phrase that says whether the group's identity component is abelian, as integrability needs by Morales and Ramis."""
         if not self.known:
             return ("not determined",)
-        if self.structure is None:
-            return prose.NOT_ABELIAN
-        if self.structure is not Structure.REDUCIBLE:
-            return prose.ABELIAN
-        return self.abelian or ("abelian unless the group has dimension 2",)
+        return self.abelian or _COMPONENTS.get(self.structure, prose.ABELIAN)
 
     def says_the_same(self, other: RegionVerdict) -> bool:
         """True for the same structure, of the same group.
@@ -147,7 +137,11 @@ def verdict_of(decision: Decision) -> RegionVerdict:
     return RegionVerdict(decision.structure, decision.status is not Status.UNDECIDED)
 
 
-_ADJECTIVES = {Structure.REDUCIBLE: "reducible", Structure.IMPRIMITIVE: "imprimitive"}
+_COMPONENTS: dict[Structure | None, Words] = {
+    Structure.REDUCIBLE: ("abelian unless the group has dimension 2",),
+    None: prose.NOT_ABELIAN,
+}
+_ADJECTIVES: dict[Structure | None, str] = {Structure.REDUCIBLE: "reducible", Structure.IMPRIMITIVE: "imprimitive"}
 _GROUPS: dict[Structure | None, Words] = {
     Structure.REDUCIBLE: ("a subgroup of the triangular group",),
     Structure.IMPRIMITIVE: ("dicyclic, or the infinite dihedral group",),
@@ -261,10 +255,8 @@ class ParameterRegion:
     @property
     def why_no_solution(self) -> str:
         """A sentence where `solution()` is empty: why there is no formula in all of the parameters; "" where there is one."""
-        if not self.defined:
-            return f"nothing is solved where the answer is: {self.group}"
-        if self.case is None or not self.verdict.known:
-            return f"nothing is solved where the answer is: {self.verdict}"
+        if not self.defined or self.case is None or not self.verdict.known:
+            return f"nothing is solved where the answer is: {self.said}"
         if self.case > 1:
             degree = _DEGREES_OF_OMEGA[self.case]
             return (
@@ -311,21 +303,6 @@ class ParameterRegion:
             known = f" [{self.complete}]"
         first = f"{self.statement.text()}: {self.said}{known}"
         return "\n      ".join([first, *self.determinants])
-
-
-def settled(regions: Sequence[ParameterRegion], setting: Setting) -> list[ParameterRegion]:
-    """The regions in their order, so that each is printed for the values that belong to none before it, and none twice."""
-    covered: list[frozenset[FunctionPoly]] = []
-    found: dict[Claim, ParameterRegion] = {}
-    for region in regions:
-        statement = region.statement.avoiding(replace(setting, covered=tuple(covered)))
-        found.setdefault(statement.claim, replace(region, statement=statement))
-        for one in all_of(region.statement.conjuncts).alternatives:
-            parts = one.conjuncts
-            zeros = [part.function for part in parts if isinstance(part, Vanishes)]
-            if len(zeros) == len(parts):
-                covered.append(frozenset(zeros))
-    return [*found.values()]
 
 
 @dataclass(frozen=True)

@@ -18,8 +18,7 @@ from __future__ import annotations
 import re
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
-from fractions import Fraction
-from itertools import chain, combinations, count
+from itertools import combinations, count
 from math import gcd
 from typing import Any, NamedTuple
 
@@ -149,31 +148,24 @@ def _down(constant: Poly) -> FunctionPoly:
     return over_parameters(constant)
 
 
-class Curve(NamedTuple):
-    """The parameter of a curve: its name, and its value as a function of the original parameters."""
-
-    name: str
-    value: FunctionPoly
-
-
 @dataclass(frozen=True)
 class Hypersurface(ParameterPoint):
     """Where an irreducible polynomial in the parameters vanishes: their values over a field of fewer ones, or an extension.
 
     The zeros of the `leading` functions (of fewer parameters) aren't covered, and `missed` are functions of which one vanishes
-    at each zero that isn't covered.  On a curve with two terms `curve` is its parameter.
+    at each zero that isn't covered.  On a curve that is given by new parameters these are named in `curve`, with their values
+    as functions of the original ones.
     """
 
     leading: tuple[FunctionPoly, ...] = ()
     missed: tuple[FunctionPoly, ...] = ()
-    curve: Curve | None = None
+    curve: tuple[tuple[str, FunctionPoly], ...] = ()
 
     def back(self, function: Poly, field: FunctionField) -> FunctionPoly:
-        """A function of fewer parameters, or of that of the curve, in the original ones, which are those of the field."""
-        if self.curve is None:
+        """A function of fewer parameters, or of those of the curve, in the original ones, which are those of the field."""
+        if not self.curve:
             return in_field(function, field)
-        values = {name: field.generator(name) for name in field.names}
-        values[self.curve.name] = self.curve.value
+        values = {name: field.generator(name) for name in field.names} | dict(self.curve)
         known = over_parameters(function)
         return over_parameters(known.value_at([values[name] for name in known.field.names], field))
 
@@ -182,13 +174,9 @@ def hypersurface(function: FunctionPoly, eliminated: int | None = None) -> Hyper
     """Values of the parameters at which an irreducible polynomial vanishes.
 
     A parameter that occurs linearly is eliminated: the given one, or one with a constant coefficient if there is one; else one
-    becomes algebraic over the others: a number, if there are none, or such a number times a power of another one.  A linear one
-    with the coefficient A in A t + B misses the zeros of A; these are zeros of the polynomial only if there are two others,
-    since A and B are coprime.
+    becomes algebraic over the others, unless the zeros are a curve with a parameter.  A linear one with the coefficient A in
+    A t + B misses the zeros of A; these are zeros of the polynomial only if there are two others, since A and B are coprime.
     """
-    rational = None if eliminated is not None else _with_two_terms(function)
-    if rational is not None:
-        return rational
     names = function.field.names
     powers = degrees(function)
     leading = {i: functions.powers_of(function, i)[k] for i, k in enumerate(powers) if k}
@@ -198,6 +186,9 @@ def hypersurface(function: FunctionPoly, eliminated: int | None = None) -> Hyper
     elif linear:  # constants come first, then the shortest
         i = min(linear, key=lambda i: (not leading[i].num.is_constant(), len(leading[i].num)))
     else:
+        curve = _with_weights(function)
+        if curve is not None:
+            return curve
         i = min(leading, key=lambda i: powers[i])
     smaller, values = functions.without_parameter(i, names)
     coefficients = functions.coefficients_in(function, i, values, smaller)
@@ -205,64 +196,47 @@ def hypersurface(function: FunctionPoly, eliminated: int | None = None) -> Hyper
         values[i] = -coefficients[0] / coefficients[1]
         zeros = tuple(irreducible_factors(leading[i]))
         return Hypersurface(names, tuple(values), smaller, zeros, zeros if len(leading) > 2 else ())
-    letter = names[i]
-    unit: Poly = smaller.poly([1])
-    uncovered: tuple[FunctionPoly, ...] = ()
-    missed: tuple[FunctionPoly, ...] = ()
-    curve: Curve | None = None
-    others = [j for j in leading if j != i]
-    if len(others) == 1:
-        (j,) = others
-        weight = powers[j] // powers[i]
-        degrees_of_terms = {weight * int(term[1 + i]) + int(term[1 + j]) for term in function.num.to_dict()}
-        if len(degrees_of_terms) == 1:  # a form in t_i and t_j^weight, whose quotient is a number
-            assert isinstance(smaller, FunctionField)
-            letter = _free_name(names)
-            first, second = (function.field.generator(names[k]) for k in (i, j))
-            uncovered, missed = (smaller.generator(names[j]),), (second,)
-            unit = uncovered[0] ** weight
-            curve = Curve(letter, over_parameters(first / second**weight))
-    modulus = smaller.poly([c / (coefficients[-1] * unit ** (powers[i] - k)) for k, c in enumerate(coefficients)])
-    extension = AlgebraicField(smaller, modulus, letter)
-    values[i] = extension.generator * unit
-    return Hypersurface(names, tuple(value.over(extension) for value in values), extension, uncovered, missed, curve)
+    extension = AlgebraicField(smaller, smaller.poly(coefficients).monic(), names[i])
+    values[i] = extension.generator
+    return Hypersurface(names, tuple(value.over(extension) for value in values), extension)
 
 
-def _free_name(names: Sequence[str]) -> str:
-    """The first of T, T1, T2, ... that isn't one of the names."""
-    return next(name for name in chain(["T"], map("T{}".format, count(1))) if name not in names)
+def _with_weights(function: FunctionPoly) -> Hypersurface | None:
+    """u^p = theta v^q with coprime p and q, theta a number, by T, which isn't defined at u = v = 0; None for other functions.
 
-
-def _with_two_terms(function: FunctionPoly) -> Hypersurface | None:
-    """A u^p + B v^q = 0 with coprime p, q > 1, by T, which isn't defined at u = v = 0; None for any other function.
-
-    u = alpha T^q and v = beta T^p with A alpha^p + B beta^q = 0: alpha = A^r (-B)^s, beta = A^((1 + r p)/q) (-B)^((s p - 1)/q)
-    for s p = 1 modulo q, r = -s modulo q.  T is the monomial (u/alpha)^a/(v/beta)^((a q - 1)/p) with a q = 1 modulo p.
+    With d p = 1 + e q these are u = theta^d T^q and v = theta^e T^p, where T = v^d/u^e.
     """
     names = function.field.names
-    terms = [
-        ([(name, int(n)) for name, n in zip(("", *names), exponents, strict=True) if n], Fraction(int(coefficient)))
-        for exponents, coefficient in function.num.to_dict().items()
-    ]
-    if [len(powers) for powers, _ in terms] != [1, 1]:
+    used = [(name, n) for name, n in zip(names, degrees(function), strict=True) if n]
+    if len(used) != 2:
         return None
-    ([(u, p)], A), ([(v, q)], B) = terms
-    if u == v or gcd(p, q) > 1 or min(p, q) < 2:
+    (u, m), (v, n) = used
+    degree = gcd(m, n)
+    p, q = m // degree, n // degree
+    # The coefficients of u^i v^j by i, and q i + p j, which is the same for all terms.
+    first, second = (1 + names.index(name) for name, _ in used)
+    terms = {
+        int(term[first]): (c, q * int(term[first]) + p * int(term[second]))
+        for term, c in function.num.to_dict().items()
+    }
+    if any(weight != q * m for _, weight in terms.values()):
         return None
-    s = pow(p, -1, q)
-    r = -s % q
-    alpha = A**r * (-B) ** s
-    beta = A ** ((1 + r * p) // q) * (-B) ** ((s * p - 1) // q)
-    letter = _free_name(names)
+    free = (letter for letter in map("T{}".format, count()) if letter not in names)
+    letter, number = next(free), next(free)
     field = FunctionField((*(name for name in names if name not in (u, v)), letter))
     T = field.generator(letter)
+    modulus = field.poly([int(terms[p * k][0]) if p * k in terms else 0 for k in range(degree + 1)]).monic()
+    theta: Poly = -modulus[0]
+    if degree > 1:
+        theta = AlgebraicField(field, modulus, number).generator
+    d = pow(p, -1, q) if q > 1 else 1
+    e = (d * p - 1) // q
     values: dict[str, Poly] = {name: field.generator(name) for name in field.names}
-    values |= {u: T**q * alpha, v: T**p * beta}
-    first, second = map(function.field.generator, (u, v))
-    a = pow(q, -1, p)
-    curve = Curve(letter, (first / alpha) ** a / (second / beta) ** ((a * q - 1) // p))
-    missed = min(first, second, key=[*map(function.field.generator, names)].index)
-    return Hypersurface(names, tuple(values[name] for name in names), field, (T,), (missed,), curve)
+    values |= {u: theta**d * T**q, v: theta**e * T**p}
+    original = {name: function.field.generator(name) for name in (u, v)}
+    curve = ((letter, original[v] ** d / original[u] ** e), (number, original[u] ** p / original[v] ** q))
+    on_curve = tuple(values[name].over(theta.field) for name in names)
+    return Hypersurface(names, on_curve, theta.field, (T,), (original[u],), curve)
 
 
 class WithFreeConstant(NamedTuple):
@@ -393,9 +367,8 @@ def setting_of(
 ) -> Setting:
     """How statements about these parameters are printed: nothing is solved for the constant among them, nor for pi and e."""
     fixed = (*constant.names, *transcendental(names, letters))
-    values = tuple(zip(constant.names, constant.values, strict=True))
     taken = variable, *names, *own_parameters(names, letters)
-    return Setting(taken, fixed, (), constant, replace(assumptions, values=values))
+    return Setting(taken, fixed, assumptions=replace(assumptions, constant=constant))
 
 
 def nonzero(letters: Letters) -> list[str]:

@@ -28,6 +28,7 @@ from typing import NamedTuple
 
 from kovacic.algebra.function_field import FunctionField, FunctionPoly
 from kovacic.algebra.poly import Poly
+from kovacic.algebra.rationals import QQ
 from kovacic.algebra.traces import characteristic_polynomial
 from kovacic.decision import Structure
 from kovacic.engine.places import Kind, Problem, rational_square_root
@@ -142,6 +143,8 @@ class Schwarz(Statement):
     structures: tuple[Structure, ...]
 
     def _holds(self, point: ParameterPoint) -> bool:
+        if point.field.ground != QQ:
+            return False
         return kimura([*map(rational_square_root, roots(point.at(self.cubic)))]) in self.structures
 
     @property
@@ -163,7 +166,7 @@ class Schwarz(Statement):
             return []
         return [root - value for root, value in zip(known, values, strict=True)]
 
-    def narrowed(self, assumptions: Assumptions) -> Statement:
+    def under(self, assumptions: Assumptions) -> Statement:
         """At each value of an integer parameter for which its exponent difference has a denominator of the table."""
         for difference in filter(None, map(_rational_root, roots(self.cubic))):
             known = at_integers(difference, LARGEST, assumptions)

@@ -14,7 +14,9 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 from dataclasses import dataclass, field
+from itertools import groupby
 from math import lcm, prod
+from operator import itemgetter
 
 from kovacic.algebra.function_field import FunctionField, FunctionPoly
 from kovacic.algebra.poly import Poly
@@ -49,17 +51,17 @@ _SERIES = 8
 _HEUN = 4
 #: A rational form of this degree has a linear factor with a rational omega; one of degree 4 is that of case 2, maybe.
 _SHOWS_CASE_1 = 2
-#: Degrees of invariants, each with the structures of the groups that it is examined for.
-Degrees = dict[int, list[Structure]]
+#: Degrees of invariants, each with a structure of the groups that it is examined for.
+Degrees = list[tuple[int, Structure]]
 
 
 @dataclass
 class Findings:
-    """Candidates for special values, conditions with a natural number, and what limits completeness (sentences)."""
+    """Candidates for special values, conditions for structures, and what limits completeness (sentences)."""
 
     theory: Theory
     candidates: list[FunctionPoly] = field(default_factory=list)
-    natural: list[Natural] = field(default_factory=list)
+    conditions: list[tuple[Statement, Structure]] = field(default_factory=list)
     unproven: list[str] = field(default_factory=list)
 
     def add(self, found: RankConditions) -> bool:
@@ -68,23 +70,19 @@ class Findings:
         Where all functions of a system vanish, one of them does: its zeros are examined as a whole.
         """
         self.candidates += found.polynomials
-        if found.system is None:
-            return False
-        for function in found.system:
-            factors = irreducible_factors(function)
-            if _are_eliminated(factors):
-                self.candidates += factors
-                return True
-        return not found.system
+        examined = _examinable(found.system or ())
+        self.candidates += examined or []
+        return examined is not None or found.system == ()
 
 
-def _are_eliminated(functions: Iterable[FunctionPoly]) -> bool:
-    """True if the vanishing of each leaves rational functions of fewer parameters, so that everything on it is found."""
-    for function in functions:
-        leaves_numbers = sum(map(bool, degrees(function))) == 1  # one parameter occurs
-        if not leaves_numbers and not isinstance(hypersurface(function).field, FunctionField):
-            return False
-    return True
+def _examinable(functions: Iterable[FunctionPoly]) -> list[FunctionPoly] | None:
+    """The factors of the first function on whose zeros everything is found; None without one."""
+    return next((factors for factors in map(irreducible_factors, functions) if all(map(_is_eliminated, factors))), None)
+
+
+def _is_eliminated(function: FunctionPoly) -> bool:
+    """True if its vanishing leaves rational functions of fewer parameters, or numbers where one parameter occurs."""
+    return sum(map(bool, degrees(function))) == 1 or isinstance(hypersurface(function).field, FunctionField)
 
 
 def search(problem: Problem) -> Findings:
@@ -105,32 +103,27 @@ def search(problem: Problem) -> Findings:
     candidates = _where_a_logarithm_vanishes(problem) if wanted else None
     if candidates is not None:
         findings.candidates += candidates
-        wanted = {m: [Structure.REDUCIBLE] for m, structures in wanted.items() if Structure.REDUCIBLE in structures}
+        wanted = [(m, structure) for m, structure in wanted if structure is Structure.REDUCIBLE]
     #: The equations for the number of zeros, for each degree where there is anything to say.
     equations: dict[int, tuple[FunctionPoly, ...] | None] = {}
-    for m, structures in wanted.items():
+    for m, pairs in groupby(wanted, itemgetter(0)):
         factors = _equations_for_zeros(problem, m, findings)
         if factors == ():
             continue
         if with_points_apart(problem) is None:
-            findings.unproven.append(f"case {structures[0].case} where the exponents at conjugate points differ")
+            findings.unproven.append(f"case {next(pairs)[1].case} where the exponents at conjugate points differ")
         else:
             equations[m] = factors
-    # A reducible group has an invariant of degree m, which doesn't show that it is one.
-    if any(Structure.REDUCIBLE in wanted[m] and not _shows(m, Structure.REDUCIBLE, wanted) for m in equations):
+    known = [(m, structure) for m, structure in wanted if m in equations]
+    shown = [(m, structure) for m, structure in known if structure is not Structure.REDUCIBLE or m <= _SHOWS_CASE_1]
+    if len(shown) < len(known):  # a reducible group has an invariant of degree m, which doesn't show that it is one
         _add_reducible(problem, findings)
-    for structure in (Structure.REDUCIBLE, Structure.IMPRIMITIVE, Structure.TETRAHEDRAL):
-        for m, factors in equations.items():
-            if _shows(m, structure, wanted):
-                findings.natural.append(Natural(problem.S, m, factors, structure))
+    half_integers = _all_half_integers(problem)
+    if half_integers != NEVER:
+        findings.conditions.append((half_integers, Structure.IMPRIMITIVE))
+    findings.conditions += [(Natural(problem.S, m, equations[m], structure), structure) for m, structure in shown]
+    findings.conditions.sort(key=lambda condition: condition[1].case)
     return findings
-
-
-def _shows(m: int, structure: Structure, wanted: Degrees) -> bool:
-    """True if an invariant of degree m implies that the group has this structure."""
-    if structure not in wanted[m]:
-        return False
-    return structure is not Structure.REDUCIBLE or m <= _SHOWS_CASE_1
 
 
 def _degrees_that_decide(problem: Problem) -> Degrees | None:
@@ -144,19 +137,9 @@ def _degrees_that_decide(problem: Problem) -> Degrees | None:
     differences = [place.delta for place in places if place.delta is not None]
     if len(differences) < len(places):
         return None
-    found: Degrees = {}
-    if not _is_ramified(problem):
-        q = lcm(*(((1 + difference) / 2).denominator for difference in differences))
-        found = {2: [Structure.REDUCIBLE], q: [Structure.REDUCIBLE]}
-    for m, structures in _degrees_that_are_possible(problem).items():
-        found.setdefault(m, []).extend(structures)
-    return dict(sorted(found.items()))
-
-
-def _has_logarithms(problem: Problem) -> bool:
-    """True if there is a logarithm for all values, which leaves only case 1 or none."""
-    # A simple pole has one, and a double exponent.
-    return any(place.order == 1 or (place.order == 2 and place.delta == 0) for place in problem.places)
+    q = lcm(*(((1 + difference) / 2).denominator for difference in differences))
+    reducible = [] if _is_ramified(problem) else [(m, Structure.REDUCIBLE) for m in dict.fromkeys((2, q))]
+    return sorted([*reducible, *_degrees_that_are_possible(problem)], key=itemgetter(0))
 
 
 def _where_a_logarithm_vanishes(problem: Problem) -> list[FunctionPoly] | None:
@@ -165,13 +148,7 @@ def _where_a_logarithm_vanishes(problem: Problem) -> list[FunctionPoly] | None:
     Where an exponent difference is a positive integer, that is where the obstruction to a solution without one vanishes.
     None if the obstructions vanish everywhere, or their zeros can't be examined.
     """
-    for place in problem.places:
-        obstruction = _obstruction(place)
-        if obstruction:
-            factors = irreducible_factors(over_parameters(obstruction))
-            if _are_eliminated(factors):
-                return factors
-    return None
+    return _examinable(over_parameters(obstruction) for obstruction in map(_obstruction, problem.places) if obstruction)
 
 
 def _obstruction(place: Place) -> Poly | None:
@@ -199,29 +176,24 @@ def _obstruction(place: Place) -> Poly | None:
 
 def _degrees_that_are_possible(problem: Problem) -> Degrees:
     """4 where two places can be branch points of case 2 for some values of the parameters; 12 where case 3 isn't excluded."""
-    found: Degrees = {}
-    if _has_logarithms(problem):
-        return found
-    if _has_two_branch_points(problem):
-        found[4] = [Structure.IMPRIMITIVE]
+    # Where a logarithm is there for all values, that leaves only case 1 or none: a simple pole, and a double exponent.
+    if any(place.order == 1 or (place.order == 2 and place.delta == 0) for place in problem.places):
+        return []
+    found: Degrees = []
+    # The square root of an invariant needs two branch points.
+    if sum(place.degree for place in problem.places if _may_branch(place)) >= 2:
+        found.append((4, Structure.IMPRIMITIVE))
     # Each exponent difference may be one of Schwarz's table.
     are_possible = all(place.delta is None or place.delta.denominator <= riemann.LARGEST for place in problem.places)
     if riemann.is_fuchsian(problem) and are_possible:
-        found[12] = [Structure.TETRAHEDRAL]
+        found.append((12, Structure.TETRAHEDRAL))
     return found
 
 
-def _has_two_branch_points(problem: Problem) -> bool:
-    """True if two places can be branch points of case 2, which the square root of an invariant needs.
-
-    There an exponent difference is a half-integer, or not known.
-    """
-    points = 0
-    for place in problem.places:
-        is_half_integer = place.delta is None or place.delta.denominator == 2
-        if place.kind is Kind.RAMIFIED or (place.kind is Kind.REGULAR and is_half_integer):
-            points += place.degree
-    return points >= 2
+def _may_branch(place: Place) -> bool:
+    """True for a branch point in case 2, at which an exponent difference is a half-integer, or isn't known."""
+    is_half_integer = place.delta is None or place.delta.denominator == 2
+    return place.kind is Kind.RAMIFIED or (place.kind is Kind.REGULAR and is_half_integer)
 
 
 def degree_equation(problem: Problem) -> Poly | None:
@@ -256,10 +228,11 @@ def _add_reducible(problem: Problem, findings: Findings) -> None:
         if not all(are_complete):
             factors.append(over_parameters(factor))
     if factors:
-        findings.natural.append(Natural(problem.S, 1, tuple(factors), Structure.REDUCIBLE))
+        natural = Natural(problem.S, 1, tuple(factors), Structure.REDUCIBLE)
+        findings.conditions.append((natural, natural.structure))
 
 
-def all_half_integers(problem: Problem) -> Statement:
+def _all_half_integers(problem: Problem) -> Statement:
     """The statement that there are four regular singular points, and each exponent difference is half an odd integer.
 
     Then there is an invariant of degree 4 for every accessory parameter: the equation is that of the potential
@@ -269,10 +242,8 @@ def all_half_integers(problem: Problem) -> Statement:
     if not riemann.is_fuchsian(problem) or riemann.singular_points(problem) != _HEUN:
         return NEVER
     squares = [place.delta_squared for place in singular_places(problem)]
-    known = [square for square in squares if square is not None and square.degree <= 0]
-    if len(known) < len(squares):
-        return NEVER
-    return all_of([riemann.has_denominator(square, 2) for square in known])
+    known = [riemann.has_denominator(square, 2) for square in squares if square is not None and square.degree <= 0]
+    return all_of(known) if len(known) == len(squares) else NEVER
 
 
 def _is_excluded_by_symmetry(problem: Problem) -> bool:
@@ -285,13 +256,10 @@ def _is_excluded_by_symmetry(problem: Problem) -> bool:
     center = mean_of_singular_points(problem.S)  # the mean of the poles, or of the zeros of a polynomial
     if center is None or problem.S(2 * center - problem.field.poly([0, 1])) != problem.S:
         return False
-    changes = set()
-    for place in problem.places:
-        is_fixed = place.at_infinity or (place.degree == 1 and place.factor[0] == -center)
-        if place.kind is Kind.UNRAMIFIED and is_fixed:
-            # In the coordinate u at a fixed point u -> -u, the leading term is that of u^(-order/2) du.
-            changes.add(place.order // 2 % 2 == 0)
-    return len(changes) == 2
+    irregular = (place for place in problem.places if place.kind is Kind.UNRAMIFIED)
+    fixed = [one for one in irregular if one.at_infinity or (one.degree == 1 and one.factor[0] == -center)]
+    # In the coordinate u at a fixed point u -> -u, the leading term is that of u^(-order/2) du.
+    return len({place.order // 2 % 2 for place in fixed}) == 2
 
 
 def _equations_for_zeros(problem: Problem, m: int, findings: Findings) -> tuple[FunctionPoly, ...] | None:
@@ -305,11 +273,7 @@ def _equations_for_zeros(problem: Problem, m: int, findings: Findings) -> tuple[
         return ()
     if prod(root.largest + 1 for root in numbers.roots) > _COMBINATIONS:
         return None
-    factors: list[FunctionPoly] = []
-    if not complete:
-        factors.append(over_parameters(problem.field.poly([-numbers.constant, 1])))
-    for multiples in numbers.choices:
-        if any(multiples):
-            sums = numbers.equation(multiples)
-            factors += [over_parameters(factor) for factor, _ in problem.field.factor(sums) if may_be_natural(factor)]
-    return tuple(dict.fromkeys(factors))
+    factors = [] if complete else [problem.field.poly([-numbers.constant, 1])]
+    for sums in map(numbers.equation, filter(any, numbers.choices)):
+        factors += [factor for factor, _ in problem.field.factor(sums) if may_be_natural(factor)]
+    return tuple(map(over_parameters, dict.fromkeys(factors)))

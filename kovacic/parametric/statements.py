@@ -10,14 +10,15 @@ from abc import abstractmethod
 from collections.abc import Callable, Iterable
 from dataclasses import dataclass, replace
 from functools import cached_property
-from itertools import chain
+from itertools import chain, product
 from random import Random
+from typing import Self
 
 from kovacic.algebra.function_field import FunctionField, FunctionPoly
 from kovacic.parametric import prose
 from kovacic.parametric.assumptions import NOTHING_ASSUMED, Assumptions
 from kovacic.parametric.claims import AllOf, AnyOf, Claim, IsZero, Several
-from kovacic.parametric.functions import NO_CONSTANT, ParameterPoint, irreducible_factors, with_values
+from kovacic.parametric.functions import ParameterPoint, irreducible_factors, with_values
 
 
 @dataclass(frozen=True)
@@ -26,13 +27,12 @@ class Setting:
 
     No integer is called like one of the `names`; nothing is solved for one of the `fixed` ones, which are constants; nothing is
     said of the common zeros of functions that are `covered`, because they belong to earlier regions, or that the assumptions
-    exclude.  `constant` is the value of the algebraic number among the names, if there is one.
+    exclude.
     """
 
     names: tuple[str, ...] = ()
     fixed: tuple[str, ...] = ()
     covered: tuple[frozenset[FunctionPoly], ...] = ()
-    constant: ParameterPoint = NO_CONSTANT
     assumptions: Assumptions = NOTHING_ASSUMED
 
     def covers(self, *zeros: FunctionPoly) -> bool:
@@ -46,6 +46,17 @@ class Setting:
             if len(factors) == 1:
                 common.update(factors)
         return is_excluded or any(known <= common for known in self.covered)
+
+    def also(self, *zeros: FunctionPoly) -> Self:
+        """Behind the regions of the common zeros of functions: what lies in these zeros needn't be examined again."""
+        return replace(self, covered=(*self.covered, frozenset(zeros)))
+
+    def on(self, chart: ParameterPoint) -> Self:
+        """The setting in the parameters of a chart."""
+        values = [[*map(chart.at, zeros)] for zeros in self.covered]
+        are_functions = (several for several in values if all(isinstance(one, FunctionPoly) and one for one in several))
+        pieces = chain.from_iterable(product(*map(irreducible_factors, several)) for several in are_functions)
+        return replace(self, covered=tuple(dict.fromkeys(map(frozenset, pieces))))
 
 
 class Statement(Claim):
@@ -77,12 +88,8 @@ class Statement(Claim):
         """Both statements in one (either holds), where they are about the same function; else None."""
         return None
 
-    def decided(self, assumptions: Assumptions) -> bool | None:
-        """True or False where that follows from what is known about the parameters; None otherwise."""
-        return None
-
-    def narrowed(self, assumptions: Assumptions) -> Statement:
-        """What is left to say where the assumptions hold."""
+    def under(self, assumptions: Assumptions) -> Statement:
+        """What is left to say where the assumptions hold: ALWAYS or NEVER where it follows from them."""
         return self
 
     @property
@@ -118,8 +125,8 @@ class Vanishes(IsZero, Statement):
     def sample(self, random: Random) -> list[FunctionPoly]:
         return [self.function]
 
-    def decided(self, assumptions: Assumptions) -> bool | None:
-        return assumptions.vanishes(self.function)
+    def under(self, assumptions: Assumptions) -> Statement:
+        return decided(assumptions.vanishes(self.function), self)
 
 
 @dataclass(frozen=True)
@@ -147,19 +154,8 @@ class _Several(Several, Statement):
     def avoiding(self, setting: Setting) -> Statement:
         return replace(self, parts=tuple(part.avoiding(setting) for part in self.parts))
 
-    def decided(self, assumptions: Assumptions) -> bool | None:
-        decisions = {part.decided(assumptions) for part in self.parts}
-        if self.decisive in decisions:
-            return self.decisive
-        if None in decisions:
-            return None
-        return not self.decisive
-
-    def narrowed(self, assumptions: Assumptions) -> Statement:
-        """The parts that aren't the case anyway: false ones where one has to hold, true ones where all have to."""
-        narrower = [part.narrowed(assumptions) for part in self.parts]
-        left = [part for part in narrower if part.decided(assumptions) is not (not self.decisive)]
-        return self._of(left) if left else self
+    def under(self, assumptions: Assumptions) -> Statement:
+        return self._of(part.under(assumptions) for part in self.parts)
 
 
 class Either(_Several, AnyOf):
@@ -197,8 +193,16 @@ ALWAYS = Both(())
 NEVER = Either(())
 
 
+def decided(truth: bool | None, statement: Statement) -> Statement:
+    """ALWAYS or NEVER where it is known to be true or false, else the statement."""
+    known = {True: ALWAYS, False: NEVER}
+    return statement if truth is None else known[truth]
+
+
 def either(*statements: Statement) -> Statement:
     """One statement that says that at least one of them holds; those about one form are merged."""
+    if ALWAYS in statements:
+        return ALWAYS
     merged: list[Statement] = []
     for part in chain.from_iterable(one.alternatives for one in statements):
         unions = (known.merged(part) for known in merged)
