@@ -157,15 +157,11 @@ def _false_formulas(
     found: ParametricAnswer, region: ParameterRegion, point: ParameterPoint, S: RatFunc
 ) -> Iterator[str]:
     """The solutions of a region that provably don't solve the equation at a rational point."""
-    if point.field != QQ or found.letters:
-        return
     x = sympy.Dummy()
     values = {sympy.Symbol(name): value.to_sympy(x) for name, value in zip(point.names, point.values, strict=True)}
     equation = normal_form(S, found.variable) if found.equation is None else equation_at(found.equation, point)
-    if equation is None:
-        return
     formulas = region.formulas
-    if not isinstance(formulas, Carried):
+    if point.field != QQ or found.letters or equation is None or not isinstance(formulas, Carried):
         return
     natural = [part for part in region.naturals if part.m == 1]
     listed = chain.from_iterable(part.numbers_at(point) for part in natural)

@@ -14,7 +14,7 @@ from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from fractions import Fraction
 from functools import cached_property, lru_cache, reduce
-from itertools import combinations, product
+from itertools import chain, combinations, product
 from math import ceil, floor
 from random import Random
 from typing import Any
@@ -138,15 +138,9 @@ class Known:
     @cached_property
     def bounds(self) -> tuple[Bound, ...]:
         """The strongest lower and upper bounds; those of a class of numbers are among the numbers."""
-        strongest: dict[int, Bound] = {}
-        for one in self.inequalities:
-            bound = one if self.coset is None else one.among(self.coset)
-            known = strongest.get(bound.sign)
-            # The same end isn't stronger, unless both are strict.
-            distance = 0 if known is None else bound.sign * (bound.end - known.end)
-            if known is None or distance > 0 or (distance == 0 and bound.strict):
-                strongest[bound.sign] = bound
-        return tuple(strongest.values())
+        known = [one if self.coset is None else one.among(self.coset) for one in self.inequalities]
+        by_strength = sorted(known, key=lambda one: (one.sign * one.end, one.strict))
+        return tuple({one.sign: one for one in (*known, *by_strength)}.values())  # the last one of each sign
 
     @property
     def concerns_exponents(self) -> bool:
@@ -224,10 +218,8 @@ class Known:
 
 def words_of(symbol: Any) -> list[str]:
     """What SymPy knows of a symbol, without what follows from the rest: a kind of number, a sign, and that it isn't 0."""
-    kinds = (kind for kind in ("odd", "even", "integer", "irrational") if getattr(symbol, f"is_{kind}"))
-    words = [*kinds][:1]
-    if not words and symbol.is_rational:
-        words.append("rational")
+    kinds = ("odd", "even", "integer", "irrational", "rational")
+    words = [kind for kind in kinds if getattr(symbol, f"is_{kind}")][:1]
     if symbol.is_integer is False and "irrational" not in words:
         words.append("noninteger")
     words += [word for word in INEQUALITIES if getattr(symbol, f"is_{word}")][:1]
@@ -263,10 +255,8 @@ def _stated_bound(word: str) -> Bound:
     return Bound(sign, Fraction(int(whole), 2**_BITS), strict=True)
 
 
-#: Words that are taken, and not used.
-_SAY_NOTHING = ("real", "complex")
-#: Words for others.  A natural number can be 0: what holds then holds for those who begin with 1, too.
-_ABBREVIATIONS = {"natural": ("nonnegative", "integer")}
+#: Words for others, or for nothing that is used.  A natural number can be 0: what holds then holds for those who begin with 1.
+_ABBREVIATIONS: dict[str, tuple[str, ...]] = {"natural": ("nonnegative", "integer"), "real": (), "complex": ()}
 _NO_BOUND = Bound(1, Fraction(0), False)
 
 
@@ -476,8 +466,7 @@ def read_assumptions(assume: Mapping[Any, str] | None, S: Any, names: tuple[str,
             hint = f"the parameters are {', '.join(names) or 'none'}"
             raise InputError(f"{name} isn't a parameter of the equation", hint=hint)
         words[name] += _read_words(what)
-    kept = {name: dict.fromkeys(word for word in said if word not in _SAY_NOTHING) for name, said in words.items()}
-    known = [(name, Known(tuple(said))) for name, said in kept.items()]
+    known = [(name, Known(tuple(dict.fromkeys(said)))) for name, said in words.items()]
     for name, facts in known:
         if facts.is_contradiction():
             pairs = (pair for pair in combinations(facts.words, 2) if Known(pair).is_contradiction())
@@ -505,12 +494,10 @@ def _read_words(what: object) -> list[str]:
     """The words of an assumption.  Raises `InputError` for others, and for bounds that aren't real numbers."""
     text = re.sub(r"([<>]=?|!=)\s+", r"\1", str(what))
     text = re.sub(r"!=0(?![\d/])", "nonzero", text)
-    words: list[str] = []
-    for word in text.replace(",", " ").split():
-        words += _ABBREVIATIONS.get(word, (word,))
-    known = {*WORDS, *_SAY_NOTHING}
-    unknown = [word for word in words if word not in known and not is_relation(word)]
-    if unknown or not words:
+    given = text.replace(",", " ").split()
+    words = [*chain.from_iterable(_ABBREVIATIONS.get(word, (word,)) for word in given)]
+    unknown = [word for word in words if word not in WORDS and not is_relation(word)]
+    if unknown or not given:
         raise InputError(
             f"{' '.join(unknown) or what!r} isn't an assumption that is known",
             hint=f"known are {', '.join((*_ABBREVIATIONS, *WORDS))}, >=1/2, !=1, a value",

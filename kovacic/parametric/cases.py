@@ -251,7 +251,7 @@ def in_lines(regions: Sequence[ParameterRegion]) -> list[ParameterRegion]:
     return [replace(case.regions[0], statement=case.statement) for case in together]
 
 
-def without_empty(regions: Sequence[ParameterRegion]) -> list[ParameterRegion]:
+def without_empty(regions: Iterable[ParameterRegion]) -> tuple[ParameterRegion, ...]:
     """The regions without those that earlier ones cover, for example because they say the same and more."""
     kept: list[ParameterRegion] = []
     seen: list[set[Statement]] = []
@@ -265,10 +265,10 @@ def without_empty(regions: Sequence[ParameterRegion]) -> list[ParameterRegion]:
             continue
         seen.append(said)
         kept.append(region)
-    return kept
+    return tuple(kept)
 
 
-def without_redundant(regions: Sequence[ParameterRegion], generic: RegionVerdict | None) -> list[ParameterRegion]:
+def without_redundant(regions: Sequence[ParameterRegion], generic: RegionVerdict | None) -> tuple[ParameterRegion, ...]:
     """The regions without those of whose values the later ones say the same, and the generic verdict; None claims nothing.
 
     "l = 0: no Liouvillian solution" needn't be said where no later region with a solution meets l = 0.  Of very many regions
@@ -281,7 +281,7 @@ def without_redundant(regions: Sequence[ParameterRegion], generic: RegionVerdict
             del kept[k]
         elif len(regions) > _MANY:
             break
-    return kept
+    return tuple(kept)
 
 
 def _is_redundant(

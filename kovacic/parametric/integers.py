@@ -29,7 +29,6 @@ from kovacic.algebra.function_field import FunctionField, FunctionPoly
 from kovacic.algebra.poly import Poly
 from kovacic.algebra.ratfunc import RatFunc
 from kovacic.algebra.rationals import QQ
-from kovacic.algebra.sparse import by_power
 from kovacic.equation import ENERGY
 from kovacic.parametric import prose
 from kovacic.parametric.assumptions import Assumptions
@@ -468,11 +467,10 @@ def at_integers(form: FunctionPoly, largest: int, assumptions: Assumptions) -> l
     if form.degree > 0 or len(used) != 1 or not assumptions.is_integer(form.field.names[used[0] - 1]):
         return None
     (k,) = used
-    if int(form.den.degrees()[k]) != 1 or int(form.num.degrees()[k]) > 1:
+    above, below = ({int(e[k]): int(c) for e, c in part.to_dict().items()} for part in (form.num, form.den))
+    if max(below) != 1 or max(above) > 1:
         return None
-    parts = (by_power(part, k) for part in (form.num, form.den))
-    numbers = [[int(part[j].leading_coefficient()) if j in part else 0 for j in (0, 1)] for part in parts]
-    (b, a), (d, c) = numbers
+    a, b, c, d = (part.get(power, 0) for part in (above, below) for power in (1, 0))
     most = largest * abs(a * d - b * c)
     if most > _MOST_INTEGERS:
         return None

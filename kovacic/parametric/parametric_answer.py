@@ -488,11 +488,10 @@ def _point(names: tuple[str, ...], values: list[Any], constant: ParameterPoint, 
         raise InputError("the values of parameters are numbers")
     numbers = [read.num[k] for k in range(len(values))]
     field = read.field
-    together = (*names, *constant.names)
     if field == QQ:
-        numbers = [number.over(constant.field) for number in numbers]
-        return ParameterPoint(together, (*numbers, *constant.values), constant.field)
-    if isinstance(constant.field, AlgebraicField):
-        *numbers, root = with_root(numbers, field, constant.field, limits)
-        return ParameterPoint(together, (*numbers, root), root.field)
-    return ParameterPoint(together, (*numbers, *constant.values), field)
+        field = constant.field
+        numbers = [number.over(field) for number in (*numbers, *constant.values)]
+    elif isinstance(constant.field, AlgebraicField):
+        numbers = with_root(numbers, field, constant.field, limits)
+        field = numbers[-1].field
+    return ParameterPoint((*names, *constant.names), tuple(numbers), field)

@@ -27,12 +27,12 @@ References: G. Darboux, C. R. Acad. Sci. 94 (1882) 1456; D. Gomez-Ullate, Y. Gra
 from __future__ import annotations
 
 import re
-from collections.abc import Iterable, Iterator
+from collections.abc import Callable, Iterable, Iterator
 from contextlib import suppress
 from dataclasses import dataclass, replace
 from fractions import Fraction
 from functools import partial, reduce
-from itertools import chain, islice
+from itertools import chain, islice, takewhile
 
 import sympy
 
@@ -59,7 +59,6 @@ from kovacic.parametric.cases import (
     without_redundant,
 )
 from kovacic.parametric.functions import (
-    ParameterPoint,
     degrees,
     denominators,
     element,
@@ -72,11 +71,11 @@ from kovacic.parametric.integers import without_parameters
 from kovacic.parametric.natural import Natural
 from kovacic.parametric.regions import Limited, ParameterRegion, RegionVerdict, Theorem, Theory, verdict_of
 from kovacic.parametric.restriction import (
-    Hypersurface,
     Letters,
     has_number,
     hypersurface,
     in_lowest_powers,
+    over_all,
     setting_of,
     undefined,
     with_free_constant,
@@ -89,7 +88,7 @@ from kovacic.parametric.solutions import (
     given,
     solutions_there,
 )
-from kovacic.parametric.statements import ALWAYS, NEVER, Setting, Vanishes, both
+from kovacic.parametric.statements import ALWAYS, NEVER, Setting, Vanishes, all_of
 from kovacic.parametric.theorems import kimura, martinet_ramis
 from kovacic.reading.change_of_variable import function_of_x, user_variable
 from kovacic.writing.formula import Math, caret
@@ -187,6 +186,17 @@ class Partition:
     theory: Theory
     regions: tuple[ParameterRegion, ...] = ()
 
+    @classmethod
+    def of(
+        cls, theory: Theory, regions: Iterable[ParameterRegion], generic: RegionVerdict, complete: bool | str = True
+    ) -> Partition:
+        """The regions that hold somewhere, up to the first that is everything: in the end what is generic."""
+        held = [one for one in (*regions, ParameterRegion(ALWAYS, generic, complete)) if one.statement != NEVER]
+        kept = tuple(takewhile(lambda one: one.statement != ALWAYS, held))
+        rest = held[len(kept)]
+        unproven = (one.complete for one in (rest, *kept) if one.complete is not True)
+        return cls(rest.verdict, next(unproven, True), theory, kept)
+
 
 @dataclass(frozen=True, kw_only=True)
 class Settings(Setting):
@@ -211,7 +221,7 @@ def partition(S: RatFunc, settings: Settings) -> Partition:
     if not isinstance(constants, FunctionField):
         # Functions on a hypersurface; see the head of this module for case 1.
         if not _is_reducible(verdict) and not settings.assumptions.constant.names and has_number(constants):
-            return _beside_a_number(S, settings)
+            return _on_slice(S, settings)
         return Partition(verdict, _is_reducible(verdict) or "for generic values only", Theory("the engine"))
     try:
         return _by_theory(S, verdict, settings)
@@ -247,14 +257,19 @@ def _with_group(S: RatFunc, decision: Decision) -> RegionVerdict:
     return replace(verdict, family=family, abelian=prose.ABELIAN if is_small else prose.NOT_ABELIAN)
 
 
-def _beside_a_number(S: RatFunc, settings: Settings) -> Partition:
-    """The partition for S over Q(t)(alpha), alpha a number, by that over Q(t, alpha)."""
+def _on_slice(S: RatFunc, settings: Settings) -> Partition:
+    """The partition for S over Q(t)(alpha), alpha a number, by that over Q(t, alpha); over Q(t) it is S's own."""
     lifted, _, number = with_free_constant(S)
     known = replace(settings.assumptions, constant=number)
     found = partition(lifted, replace(settings, covered=(), assumptions=known))
-    reduced = partial(in_lowest_powers, constant=number)
-    regions = tuple(replace(region, statement=region.statement.rewritten(reduced)) for region in found.regions)
-    return _under(known, replace(found, regions=regions), S, settings.budget)
+    # With high powers of the constant replaced by means of its minimal polynomial.
+    statements = (one.statement.rewritten(partial(in_lowest_powers, constant=number)) for one in found.regions)
+    left = (without_implied(statement).under(known) for statement in statements)
+    regions = (replace(region, statement=statement) for region, statement in zip(found.regions, left, strict=True))
+    under = Partition.of(found.theory, regions, found.generic, found.complete)
+    if under.generic.known:
+        return under
+    return replace(under, generic=verdict_of(decide(S, settings.budget, certify=False)))
 
 
 def _is_reducible(verdict: RegionVerdict) -> bool:
@@ -286,21 +301,15 @@ def _by_theory(S: RatFunc, expected: RegionVerdict, settings: Settings) -> Parti
 
 def _by_theorem(problem: Problem, theorem: Theorem, expected: RegionVerdict, settings: Settings) -> Partition:
     """The regions up to the first that is everything, whose verdict is the generic one."""
-    regions = [*_on_zeros(problem.S, theorem.exceptions, settings)]
-    always = RegionVerdict(None)
-    for region in theorem.regions:
-        if region.statement == ALWAYS:
-            always = region.verdict
-            break
-        if region.statement != NEVER:
-            regions.append(region)
-    contradicts = expected.known and expected.case != always.case
-    if contradicts:
-        raise AssertionError(f"{theorem.name}: case {always.case} contradicts the generic answer, case {expected.case}")
-    is_case_1_everywhere = expected.case == 1 and always == expected
-    if is_case_1_everywhere:  # wherever S is defined
-        regions = [region for region in regions if not region.defined]
-    return Partition(always, together(regions), theorem.name, tuple(regions))
+    at_exceptions = _on_zeros(problem.S, theorem.exceptions, settings)
+    found = Partition.of(theorem.name, chain(at_exceptions, theorem.regions), RegionVerdict(None))
+    case = found.generic.case
+    if expected.known and expected.case != case:
+        raise AssertionError(f"{theorem.name}: case {case} contradicts the generic answer, case {expected.case}")
+    if case == 1 and found.generic == expected:  # wherever S is defined
+        undefined_there = (region for region in found.regions if not region.defined)
+        return Partition.of(theorem.name, undefined_there, found.generic)
+    return found
 
 
 def _by_transformation(problem: Problem, found: Transformation, settings: Settings) -> Partition:
@@ -312,14 +321,8 @@ def _by_transformation(problem: Problem, found: Transformation, settings: Settin
     for region in filter(lambda one: one.defined, inner.regions):
         origin = region.formulas and Carried(region.formulas, (back,))
         regions.append(replace(region, origin=origin))
-    complete = together(regions) if inner.complete is True else inner.complete
     theory = inner.theory.also(", after Darboux' transformation", "Dar82")
-    return Partition(inner.generic, complete, theory, tuple(regions))
-
-
-def together(regions: Iterable[ParameterRegion]) -> bool | str:
-    """True where everything is complete, else the first sentence that says what isn't."""
-    return next((region.complete for region in regions if region.complete is not True), True)
+    return Partition.of(theory, regions, inner.generic, inner.complete)
 
 
 def _by_candidates(problem: Problem, expected: RegionVerdict, settings: Settings) -> Partition:
@@ -355,7 +358,7 @@ def _by_candidates(problem: Problem, expected: RegionVerdict, settings: Settings
         else:
             theory = theory.also("; half-integers: Treibich & Verdier", "TV90")
         regions.append(ParameterRegion(statement, verdict, origin=origin))
-    return Partition(expected, together(regions) if complete is True else complete, theory, tuple(regions))
+    return Partition.of(theory, regions, expected, complete)
 
 
 def _discriminants(problem: Problem, settings: Settings) -> list[FunctionPoly]:
@@ -414,25 +417,24 @@ def _missed(S: RatFunc, function: FunctionPoly, settings: Settings) -> list[Para
     regions = list[ParameterRegion]()
     for other in hypersurface(function).missed:
         surface = hypersurface(other)
+        rest = surface.at(function)
         try:
             restricted = surface.restricted(S)
         except ZeroDivisionError:
-            regions.append(ParameterRegion(both(first, Vanishes(other)), _UNKNOWN, defined=False))
+            restricted = None
+        if restricted is None or not isinstance(rest, FunctionPoly):
+            regions += _also(_pieces(S, other, settings), first)
             continue
         regions += _also(_missed(S, other, settings), first)
-        rest = surface.at(function)
-        if not isinstance(rest, FunctionPoly):
-            regions += _also(_inside(S, other, settings), first)
-            continue
         for factor in irreducible_factors(rest):
             regions += _also(_pieces(restricted, factor, settings.on(surface)), first, Vanishes(other))
     return regions
 
 
-def _also(regions: list[ParameterRegion], *conditions: Vanishes) -> list[ParameterRegion]:
+def _also(regions: Iterable[ParameterRegion], *conditions: Vanishes) -> list[ParameterRegion]:
     """The parts of regions, of fewer parameters maybe, where more conditions hold."""
     field = conditions[0].function.field
-    return [replace(r, statement=both(*conditions, restriction.over_all(r.statement, field))) for r in regions]
+    return [replace(r, statement=all_of((*conditions, over_all(r.statement, field)))) for r in regions]
 
 
 def _inside(S: RatFunc, function: FunctionPoly, settings: Settings) -> list[ParameterRegion]:
@@ -444,53 +446,32 @@ def _inside(S: RatFunc, function: FunctionPoly, settings: Settings) -> list[Para
     except ZeroDivisionError:
         return [ParameterRegion(statement, _UNKNOWN, defined=False)]
     inner = partition(restricted, settings.on(surface))
-    rest = _rest(statement, surface, restricted, inner, settings)
-    special = _special(inner.regions, surface)
-    while special and special[-1].defined and special[-1].verdict == rest.verdict:
-        if special[-1].complete != rest.complete:
-            break
-        special.pop()  # it needn't be named
-    return [*_also(special, statement), rest]
-
-
-def _rest(
-    statement: Vanishes, surface: Hypersurface, S: RatFunc, inner: Partition, settings: Settings
-) -> ParameterRegion:
-    """The region of all values on a hypersurface for which nothing else is said; S is the one there."""
-    field = surface.field
-    verdict = inner.generic
-    complete = inner.complete
-    if complete is not True:
-        verdict = replace(verdict, known=False)
-        if isinstance(field, AlgebraicField):  # no parameter can be eliminated
-            complete = f"except for special values with {statement.text()}"
+    rest = ParameterRegion(ALWAYS, inner.generic, inner.complete)
+    if inner.complete is not True:
+        rest = replace(rest, verdict=replace(inner.generic, known=False))
+        if isinstance(surface.field, AlgebraicField):  # no parameter can be eliminated
+            rest = replace(rest, complete=f"except for special values with {statement.text()}")
+    elif rest.case == 1:
+        rest = replace(rest, origin=partial(solutions_there, restricted, settings.variable))
+    # Without those that the surface doesn't cover; as texts: of fewer parameters, maybe.
+    elsewhere = {str(factor) for factor in surface.leading}
+    firsts = ([str(zero.function) for zero in vanishing(one.statement.conjuncts[:1])] for one in inner.regions)
+    regions = [one for one, first in zip(inner.regions, firsts, strict=True) if elsewhere.isdisjoint(first)]
     if surface.curve:
-        verdict = _without_formulas(verdict)
-    origin = None
-    if verdict.known and verdict.case == 1 and not surface.curve:
-        origin = partial(solutions_there, S, settings.variable)
-    return ParameterRegion(statement, verdict, complete, origin=origin)
+        back = partial(surface.back, field=function.field)
+        *regions, rest = (_without_curve(region, back) for region in (*regions, rest))
+    said = rest.defined, rest.verdict, rest.complete
+    while regions and (regions[-1].defined, regions[-1].verdict, regions[-1].complete) == said:
+        regions.pop()  # it needn't be named
+    return _also([*regions, rest], statement)
 
 
-def _without_formulas(verdict: RegionVerdict) -> RegionVerdict:
-    """Without a family whose name has functions of the parameter of a curve in it, which isn't one of the user's."""
-    has_formulas = any(isinstance(part, Math) for part in verdict.family or ())
-    return replace(verdict, family=None) if has_formulas else verdict
-
-
-def _special(regions: Iterable[ParameterRegion], surface: Hypersurface) -> list[ParameterRegion]:
-    """The regions on a hypersurface, in the original parameters, without those that it doesn't cover."""
-    elsewhere = {str(factor) for factor in surface.leading}  # as texts: of fewer parameters, maybe
-    special: list[ParameterRegion] = []
-    for region in regions:
-        first = region.statement.conjuncts[0]
-        if isinstance(first, Vanishes) and str(first.function) in elsewhere:
-            continue
-        if surface.curve:  # without its parameter, which isn't one of the user's
-            statement = region.statement.rewritten(partial(surface.back, field=surface.curve[0][1].field))
-            region = replace(region, statement=statement, verdict=_without_formulas(region.verdict), origin=None)
-        special.append(region)
-    return special
+def _without_curve(region: ParameterRegion, back: Callable[[FunctionPoly], FunctionPoly]) -> ParameterRegion:
+    """The region in the original parameters, without formulas in those of a curve, which aren't the user's."""
+    verdict = region.verdict
+    if any(isinstance(part, Math) for part in verdict.family or ()):
+        verdict = replace(verdict, family=None)
+    return replace(region, statement=region.statement.rewritten(back), verdict=verdict, origin=None)
 
 
 #: Strata of parameter space up to which they are examined: Heun's general equation, in six parameters, has some hundreds.
@@ -507,51 +488,22 @@ def derived(
     letters: Letters = (),
 ) -> Partition:
     """The partition of parameter space for S; `max_degree` None: by theorems only, else Delta_d is shown up to this d."""
-    lifted, _, constant = with_free_constant(S)
-    assumptions = replace(known, constant=constant)
-    settings = Settings(budget=budget, variable=variable, only_theorems=max_degree is None, assumptions=assumptions)
+    settings = Settings(budget=budget, variable=variable, only_theorems=max_degree is None, assumptions=known)
     with budget.watched(), bounded_work(_STRATA):
-        found = partition(lifted, settings)
-    regions = _distinct(found.regions, constant, budget)
-    result = _under(assumptions, replace(found, regions=tuple(regions)), S, budget)
+        found = _on_slice(S, settings)
+    regions = found.regions
     with budget.watched(), suppress(LimitExceeded):
-        generic = result.generic if result.complete is True else None
-        result = replace(result, regions=tuple(without_redundant(result.regions, generic)))
-    regions = settled(result.regions, setting_of(variable, parameters_of(lifted.field), constant, letters, assumptions))
+        regions = without_empty(regions)
+        regions = without_redundant(regions, found.generic if found.complete is True else None)
+    lifted, _, constant = with_free_constant(S)
     own = equation or normal_form(lifted, variable)
     # In solutions the constant is SymPy's number.
     x = sympy.Symbol(variable)
     numbers = zip(constant.names, (value.to_sympy(x) for value in constant.values), strict=True)
-    letters = (*letters, *numbers)
-    return replace(result, regions=tuple([_finished(region, own, max_degree, budget, letters) for region in regions]))
-
-
-def _distinct(regions: Iterable[ParameterRegion], constant: ParameterPoint, budget: Budget) -> list[ParameterRegion]:
-    """The regions with statements about all parameters, each statement once, and without those that earlier ones cover."""
-    # With high powers of the constant replaced by means of its minimal polynomial.
-    reduced = [(region, region.statement.rewritten(partial(in_lowest_powers, constant=constant))) for region in regions]
-    shortened = [replace(region, statement=without_implied(statement)) for region, statement in reduced]
-    with budget.watched(), suppress(LimitExceeded):
-        return without_empty(shortened)
-    return shortened
-
-
-def _under(assumptions: Assumptions, found: Partition, S: RatFunc, budget: Budget) -> Partition:
-    """What is left to say where the assumptions hold."""
-    generic = found.generic
-    complete = found.complete
-    regions: list[ParameterRegion] = []
-    for region in found.regions:
-        statement = region.statement.under(assumptions)
-        if statement == ALWAYS:
-            generic = region.verdict
-            if not generic.known:
-                generic = verdict_of(decide(S, budget, certify=False))
-            complete = together([*regions, region])
-            break
-        if statement != NEVER:
-            regions.append(replace(region, statement=statement))
-    return Partition(generic, complete, found.theory, tuple(regions))
+    meanings = (*letters, *numbers)
+    setting = setting_of(variable, parameters_of(lifted.field), constant, letters, known)
+    finished = [_finished(region, own, max_degree, budget, meanings) for region in settled(regions, setting)]
+    return replace(found, regions=tuple(finished))
 
 
 def _finished(

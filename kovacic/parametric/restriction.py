@@ -18,6 +18,7 @@ from __future__ import annotations
 import re
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
+from functools import partial
 from itertools import combinations, count
 from math import gcd
 from typing import Any, NamedTuple
@@ -202,9 +203,9 @@ def hypersurface(function: FunctionPoly, eliminated: int | None = None) -> Hyper
 
 
 def _with_weights(function: FunctionPoly) -> Hypersurface | None:
-    """u^p = theta v^q with coprime p and q, theta a number, by T, which isn't defined at u = v = 0; None for other functions.
+    """v^q = theta u^p with coprime p and q, theta a number, by T, which isn't defined at u = v = 0; None for other functions.
 
-    With d p = 1 + e q these are u = theta^d T^q and v = theta^e T^p, where T = v^d/u^e.
+    With a q - b p = 1 these are u = theta^b T^q and v = theta^a T^p, where T = u^a/v^b.
     """
     names = function.field.names
     used = [(name, n) for name, n in zip(names, degrees(function), strict=True) if n]
@@ -213,11 +214,10 @@ def _with_weights(function: FunctionPoly) -> Hypersurface | None:
     (u, m), (v, n) = used
     degree = gcd(m, n)
     p, q = m // degree, n // degree
-    # The coefficients of u^i v^j by i, and q i + p j, which is the same for all terms.
+    # The coefficients of u^i v^j by j, and q i + p j, which is the same for all terms.
     first, second = (1 + names.index(name) for name, _ in used)
     terms = {
-        int(term[first]): (c, q * int(term[first]) + p * int(term[second]))
-        for term, c in function.num.to_dict().items()
+        int(k[second]): (int(c), q * int(k[first]) + p * int(k[second])) for k, c in function.num.to_dict().items()
     }
     if any(weight != q * m for _, weight in terms.values()):
         return None
@@ -225,18 +225,18 @@ def _with_weights(function: FunctionPoly) -> Hypersurface | None:
     letter, number = next(free), next(free)
     field = FunctionField((*(name for name in names if name not in (u, v)), letter))
     T = field.generator(letter)
-    modulus = field.poly([int(terms[p * k][0]) if p * k in terms else 0 for k in range(degree + 1)]).monic()
+    modulus = field.poly([terms.get(q * k, (0,))[0] for k in range(degree + 1)]).monic()
     theta: Poly = -modulus[0]
     if degree > 1:
         theta = AlgebraicField(field, modulus, number).generator
-    d = pow(p, -1, q) if q > 1 else 1
-    e = (d * p - 1) // q
+    a = pow(q, -1, p)
+    b = (a * q - 1) // p  # -1 for p = 1
     values: dict[str, Poly] = {name: field.generator(name) for name in field.names}
-    values |= {u: theta**d * T**q, v: theta**e * T**p}
-    original = {name: function.field.generator(name) for name in (u, v)}
-    curve = ((letter, original[v] ** d / original[u] ** e), (number, original[u] ** p / original[v] ** q))
+    values |= {u: theta ** (b + 1) * T**q / theta, v: theta**a * T**p}
+    x, y = map(function.field.generator, (u, v))
+    curve = ((letter, x**a * y if b < 0 else x**a / y**b), (number, y**q / x**p))
     on_curve = tuple(values[name].over(theta.field) for name in names)
-    return Hypersurface(names, on_curve, theta.field, (T,), (original[u],), curve)
+    return Hypersurface(names, on_curve, theta.field, (T,), (x,), curve)
 
 
 class WithFreeConstant(NamedTuple):
@@ -313,24 +313,20 @@ def spelled(parsed: Parsed) -> tuple[Parsed, Letters]:
     Beside an algebraic constant the letters stay.
     """
     field = parsed.S.field
-    if not isinstance(field, FunctionField):
+    if not isinstance(field, FunctionField) or not parsed.letters:
         return parsed, parsed.letters
-    if not parsed.letters:
-        return parsed, ()
     meanings = dict(parsed.letters)
-    letters = tuple((_spelling(meanings[name]), meanings[name]) for name in field.names if name in meanings)
-    larger = FunctionField(tuple(_spelling(meanings[name]) if name in meanings else name for name in field.names))
+    spellings = {name: _spelling(meaning) for name, meaning in parsed.letters}
+    letters = tuple((spellings[name], meanings[name]) for name in field.names if name in meanings)
+    renamed = partial(_in_other_names, field=FunctionField(tuple(spellings.get(name, name) for name in field.names)))
     equation = parsed.equation
     if equation is not None:
-        a, b, c, f = (_in_other_names(part, larger) for part in (equation.a, equation.b, equation.c, equation.f))
+        a, b, c, f = map(renamed, (equation.a, equation.b, equation.c, equation.f))
         equation = replace(equation, a=a, b=b, c=c, f=f)
-    said = tuple(f"{name} is " for name in meanings)
-    notices = [notice for notice in parsed.notices if not notice.startswith(said)]
-    for name, meaning in meanings.items():
-        own, spelling = re.compile(rf"\b{name}\b"), _spelling(meaning)
-        notices = [with_single_powers(own.sub(spelling, notice)) for notice in notices]
-    S = _in_other_names(parsed.S, larger)
-    return replace(parsed, S=S, equation=equation, notices=tuple(notices), letters=()), letters
+    own = re.compile(rf"\b({'|'.join(map(re.escape, spellings))})\b")
+    said = (notice for notice in parsed.notices if not notice.startswith(tuple(f"{name} is " for name in meanings)))
+    notices = tuple(with_single_powers(own.sub(lambda name: spellings[name[0]], notice)) for notice in said)
+    return replace(parsed, S=renamed(parsed.S), equation=equation, notices=notices, letters=()), letters
 
 
 def _spelling(meaning: Any) -> str:
