@@ -172,6 +172,8 @@ def _rational_logarithmic_derivatives(problem: Problem, energies: list[int]) -> 
                 yield special, RatFunc(*(surface.back(part, special.field) for part in W.cleared()))
 
 
+#: Strata of parameter space up to which they are examined: Heun's general equation, in six parameters, has some hundreds.
+_STRATA = 4000
 #: What is a formula in the name of a group.
 _FORMULA = re.compile(r"\w+_\w+|\w+\(\w\)|\{.*\}")
 _UNKNOWN = RegionVerdict(None, known=False)
@@ -261,7 +263,8 @@ def _on_slice(S: RatFunc, settings: Settings) -> Partition:
     """The partition for S over Q(t)(alpha), alpha a number, by that over Q(t, alpha); over Q(t) it is S's own."""
     lifted, _, number = with_free_constant(S)
     known = replace(settings.assumptions, constant=number)
-    found = partition(lifted, replace(settings, covered=(), assumptions=known))
+    with settings.budget.watched(), bounded_work(_STRATA):
+        found = partition(lifted, replace(settings, covered=(), assumptions=known))
     # With high powers of the constant replaced by means of its minimal polynomial.
     statements = (one.statement.rewritten(partial(in_lowest_powers, constant=number)) for one in found.regions)
     left = (without_implied(statement).under(known) for statement in statements)
@@ -474,10 +477,6 @@ def _without_curve(region: ParameterRegion, back: Callable[[FunctionPoly], Funct
     return replace(region, statement=region.statement.rewritten(back), verdict=verdict, origin=None)
 
 
-#: Strata of parameter space up to which they are examined: Heun's general equation, in six parameters, has some hundreds.
-_STRATA = 4000
-
-
 def derived(
     S: RatFunc,
     variable: str,
@@ -489,8 +488,7 @@ def derived(
 ) -> Partition:
     """The partition of parameter space for S; `max_degree` None: by theorems only, else Delta_d is shown up to this d."""
     settings = Settings(budget=budget, variable=variable, only_theorems=max_degree is None, assumptions=known)
-    with budget.watched(), bounded_work(_STRATA):
-        found = _on_slice(S, settings)
+    found = _on_slice(S, settings)
     regions = found.regions
     with budget.watched(), suppress(LimitExceeded):
         regions = without_empty(regions)
