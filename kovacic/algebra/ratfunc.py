@@ -181,6 +181,10 @@ class RatFunc(Immutable):
         num, den = self.cleared()
         return num.to_sympy(Symbol("x")) / den.to_sympy(Symbol("x"))
 
+    def to_sympy(self, variable: Any) -> Any:
+        """A SymPy expression in this symbol, and in those that `to_str` prints."""
+        return self.num.to_sympy(variable) / self.den.to_sympy(variable)
+
     def cleared(self) -> tuple[Poly, Poly]:
         """Numerator and denominator without denominators and common factors in their coefficients."""
         return self.field.ground.cleared(self.num, self.den)

@@ -33,8 +33,8 @@ from kovacic.limits import Budget, Limits, limited
 from kovacic.numbers.exact import whole
 from kovacic.parametric.api import DEFAULT_DEGREE
 from kovacic.parametric.assumptions import check_mapping
+from kovacic.reading.change_of_variable import function_of_x
 from kovacic.reading.read import declared
-from kovacic.reading.symbolic import written_expression
 
 _STANDARD_FORMS: tuple[tuple[Callable[[SingularFrame, SpectralProblem], ExponentForm | None], str], ...] = (
     (oscillator, "Hermite's polynomials"),
@@ -171,15 +171,16 @@ def _schroedinger_spectrum(given: Asked, max_degree: int, limits: Limits) -> Spe
 
 def _all_levels(question: Examined, budget: Budget) -> Spectrum:
     """All levels in one formula, or the reason why there is none."""
-    oscillating = next((end for end in question.ends if end.oscillates and end.is_limit_point), None)
-    if oscillating is not None:
-        reason = f"no solution is square integrable at {oscillating.at}"
-        return question.spectrum(excluded=(), complete=True, reason=reason)
+    for end in question.ends:
+        if end.oscillates and end.is_limit_point:
+            reason = f"no solution is square integrable at {end.at}"
+            return question.spectrum(excluded=(), complete=True, reason=reason)
     if sympy.true in question.excluded:
         # Where solutions oscillate at an end, no boundary condition is distinguished, and none was given.
         return question.spectrum(excluded=(sympy.true,), reason="none is distinguished")
-    if question.original.is_periodic and any(at.is_infinite for at in question.domain):
-        if all(at.is_infinite for at in question.domain):
+    infinite = [at.is_infinite for at in question.domain]
+    if question.original.is_periodic and any(infinite):
+        if all(infinite):
             return question.spectrum(complete=True, reason=NO_LEVELS)
         reason = "V is periodic, and no formula is known for its levels on a half line, which lie between the bands"
         return question.spectrum(reason=f"undecided: {reason}")
@@ -220,13 +221,10 @@ def _with_closed_forms(found: Spectrum, question: Examined, max_degree: int, lim
 
 def _check_branch_point(question: SpectralProblem) -> None:
     """Raises `InputError` where V has a root of x, and the domain isn't known to be right of 0."""
-    equation = question.parsed.equation
-    if equation is None or equation.change is None:
-        return
-    t = written_expression(equation.change.expression)
-    is_root = t.is_Pow and t.base == sympy.Symbol(question.variable)
+    x = sympy.Symbol(question.variable)
+    t = x if question.parsed.equation is None else function_of_x(question.parsed.equation)
     start = question.domain[0]
-    if is_root and (start.is_infinite or not question.signs.is_nonnegative(start)):
+    if t.is_Pow and t.base == x and (start.is_infinite or not question.signs.is_nonnegative(start)):
         hint = "choose a domain on the right of it"
         raise InputError(
             f"the potential has a branch point at {question.variable} = 0, which may be inside the domain",

@@ -27,7 +27,7 @@ from typing import Any, NamedTuple
 import sympy
 from sympy.utilities.iterables import sift
 
-from kovacic.bound_states.coordinates import Original, circle_point
+from kovacic.bound_states.coordinates import Original, circle_point, near
 from kovacic.bound_states.ends import End, Examined, leading
 from kovacic.bound_states.energies import tidied
 from kovacic.bound_states.levels import NO_FORMULA, Algebraic
@@ -482,8 +482,10 @@ def demand_at(end: End, v: Any, question: SpectralProblem) -> Any:
         on_circle = circle_point(t)
         slope = sympy.diff(on_circle, t)
         rate = rate.subs(t, on_circle) * slope - sympy.diff(slope, t) / slope / 2
-    is_far = end.point == sympy.oo
-    local = 1 / u - rate.subs(t, 1 / u) / u**2 if is_far else rate.subs(t, end.point + u)  # of u v(1/u), of v(c + u)
+    there = near(end.point, u)
+    local = rate.subs(t, there) * sympy.diff(there, u)
+    if end.point == sympy.oo:  # of u v(1/u)
+        local += 1 / u
     order, strength = leading(signs.real(sympy.together(local)), u)
     if order < -1:  # v ~ exp(-strength/(k u^k)) with k = -order - 1
         decay = strength * end.direction ** (-order - 1)

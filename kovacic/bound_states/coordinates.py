@@ -11,6 +11,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterable, Sequence
 from contextlib import suppress
 from dataclasses import dataclass, replace
+from itertools import pairwise
 from typing import Any
 
 import sympy
@@ -53,7 +54,7 @@ class Original:
     @classmethod
     def of(cls, equation: Equation | None, x: Any, signs: Signs) -> Original:
         """The one that the reader has chosen."""
-        if equation is None or equation.change is None:
+        if equation is None:
             return cls(x)
         t = signs.real(function_of_x(equation)).xreplace({sympy.Symbol(x.name): x})
         if t.func not in SQUARES:
@@ -210,6 +211,11 @@ class RealPotential:
     t: Any
 
 
+def near(point: Any, u: Any) -> Any:
+    """t by a local coordinate u at a point, which may be oo."""
+    return 1 / u if point == sympy.oo else point + u
+
+
 def circle_point(u: Any) -> Any:
     """exp(i theta) for u = tan(theta/2)."""
     return (1 + sympy.I * u) / (1 - sympy.I * u)
@@ -258,13 +264,10 @@ def _check_period(original: Original, poles: Sequence[Any], signs: Signs) -> Non
     period = _PERIODS[original.kind]
     angle = replace(original, rate=sympy.S.One, offset=sympy.S.Zero)
     angles = angle.points_inside(poles, (-2 * period, 2 * period), signs)
-    if not all(angle.is_number for angle in angles):
-        raise Uncovered(_UNLOCATED)
     if angles:
         # The least positive angle, and the one before it: they come back in each period.
-        start = max((angle for angle in angles if not angle > 0), key=float)
-        stop = min((angle for angle in angles if angle > 0), key=float)
-        start, stop = (sympy.simplify(original.x_at(angle)) for angle in (start, stop))
+        ends = next(pair for pair in pairwise(sorted(angles, key=float)) if pair[1] > 0)
+        start, stop = map(sympy.simplify, map(original.x_at, ends))
         place = caret(as_text(stop))
         message = f"V has poles on the line, one at {original.x} = {place} and others in each period of it"
         hint = "choose the domain between two neighbouring poles"

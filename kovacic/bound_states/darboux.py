@@ -46,7 +46,7 @@ def transformed(
     x, E = sympy.symbols([question.variable, question.energy])
     if found is None or any(signs.sign(signs.real(f.to_sympy(x))) is None for f in found.exceptions):
         return None
-    W, S, simpler = (f.num.to_sympy(x) / f.den.to_sympy(x) for f in (found.W, question.parsed.S, found.simpler))
+    W, S, simpler = (f.to_sympy(x) for f in (found.W, question.parsed.S, found.simpler))
     E0 = question.plain(sympy.cancel(sympy.together((S.subs(E, 0) - W**2 - sympy.diff(W, x)) * question.kinetic)))
     wave = sympy.exp(sympy.integrate(sympy.apart(W, x), x))
     holds = [*map(signs.holds, demands_of(signs.real(wave), question))]

@@ -13,7 +13,7 @@ from typing import Any
 
 import sympy
 
-from kovacic.bound_states.coordinates import Original, RealPotential, check_poles, on_real_circle
+from kovacic.bound_states.coordinates import Original, RealPotential, check_poles, near, on_real_circle
 from kovacic.bound_states.energies import exact_root, tidied
 from kovacic.bound_states.levels import Spectrum
 from kovacic.bound_states.question import SpectralProblem
@@ -27,6 +27,13 @@ _END_SECONDS = 4e-4
 _FRIEDRICHS_NOTE = (
     "a boundary condition is needed: Friedrichs' boundary condition is taken, the smaller solution at the end"
 )
+#: What is said where V isn't bounded, by the sign of V, and whether both solutions are square integrable if V -> -oo.
+_UNBOUNDED: dict[tuple[int | None, bool], str] = {
+    **dict.fromkeys(((1, True), (1, False)), "V -> oo, one solution decays"),
+    (-1, True): "V -> -oo so fast that both solutions are square integrable (limit circle)",
+    (-1, False): "V -> -oo, no solution is square integrable",
+    (None, False): "at most one solution is square integrable",
+}
 
 
 @dataclass(frozen=True)
@@ -123,16 +130,10 @@ def _excluded(question: SpectralProblem, ends: Sequence[End]) -> tuple[Any, ...]
 
 def potential_in_t(question: SpectralProblem, original: Original) -> RealPotential:
     """V/kinetic as a function of t, which may be complex here."""
-    signs = question.signs
     parsed = question.parsed
-    equation = parsed.equation
     t = sympy.Symbol(parsed.variable)
-    if equation is None or equation.change is None:
-        S = signs.real(parsed.S.num.to_sympy(t) / parsed.S.den.to_sympy(t))
-        return RealPotential(sympy.cancel(S.subs(question.E, 0)), original, t)
-    quotient = equation.c / equation.a
-    c = signs.real(quotient.num.to_sympy(t) / quotient.den.to_sympy(t))
-    V = -original.slope_squared(t) * c.subs(question.E, 0)
+    S = parsed.S if parsed.equation is None else -parsed.equation.c / parsed.equation.a  # (V - E)/(dt/dx)^2
+    V = original.slope_squared(t) * question.signs.real(S.to_sympy(t)).subs(question.E, 0)
     return RealPotential(sympy.cancel(V), original, t)
 
 
@@ -144,11 +145,11 @@ def end_of(question: SpectralProblem, real: RealPotential, *, is_right: bool) ->
         return End(at, f"{question.variable} -> {at}: V is periodic, at most one solution decays")
     point = original.at(at, signs)
     u = sympy.Dummy("u")
-    t, dt_du_squared = (1 / u, u**-4) if point == sympy.oo else (point + u, sympy.Integer(1))
-    mu, C = leading(sympy.cancel(original.slope_squared(t) / dt_du_squared), u)
+    t = near(point, u)
+    mu, C = leading(sympy.cancel(original.slope_squared(t) / sympy.diff(t, u) ** 2), u)
     order, strength = leading(sympy.cancel(real.V.xreplace({real.t: t})), u)
     direction = original.side_of(at, point, signs, is_right=is_right)
-    where = f"{question.variable} -> {at if at.is_infinite else question.shown(at)}: "
+    where = f"{question.variable} -> {question.shown(at)}: "
     is_regular = at.is_finite and order >= 0
     end = End(at, where, is_right=is_right, point=point, mu=mu, direction=direction, is_regular=is_regular)
     inside = strength * direction ** abs(order)
@@ -180,24 +181,14 @@ def _unbounded(end: End, pole: int, strength: Any, question: SpectralProblem) ->
     """Where V ~ strength |u|^(-pole); for V -> -oo int |V|^(-1/2) dx may be finite, at a finite end or where V falls fast."""
     sign = question.signs.sign(strength)
     is_fast = end.at.is_finite or end.mu < pole + 2
-    circle: Any = sympy.false
-    match sign, is_fast:
-        case 1, _:
-            said = "V -> oo, one solution decays"
-        case -1, True:
-            circle, said = sympy.true, "V -> -oo so fast that both solutions are square integrable (limit circle)"
-        case -1, False:
-            said = "V -> -oo, no solution is square integrable"
-        case _, True:
-            shown = question.shown(sympy.factor(question.kinetic * strength))
-            circle, said = sympy.Lt(strength, 0), f"one solution decays where {shown} > 0"
-        case _:
-            said = "at most one solution is square integrable"
-    oscillates = sign == -1 or circle != sympy.false
-    other = sympy.Eq(strength, 0) if sign is None and is_fast else sympy.false
-    return replace(
-        end, circle=circle, sentence=end.sentence + said, oscillates=oscillates, other=other, vanishes=sign == 1
-    )
+    end = replace(end, oscillates=sign == -1, vanishes=sign == 1)
+    if sign is None and is_fast:
+        said = f"one solution decays where {question.shown(sympy.factor(question.kinetic * strength))} > 0"
+        end = replace(end, oscillates=True, circle=sympy.Lt(strength, 0), other=sympy.Eq(strength, 0))
+    else:
+        said = _UNBOUNDED[sign, is_fast]
+        end = replace(end, circle=sympy.true if sign == -1 and is_fast else sympy.false)
+    return replace(end, sentence=end.sentence + said)
 
 
 def _finite(end: End, square: Any, question: SpectralProblem) -> End:

@@ -24,16 +24,17 @@ _RELATIONS = {(1, True): ">", (1, False): ">=", (-1, True): "<", (-1, False): "<
 
 @dataclass(frozen=True)
 class Root:
-    """sqrt(square), up to its sign: an unknown where it depends on E, else a `value`; `positive` if 0 isn't admitted.
+    """sqrt(square), up to its sign: an unknown where it depends on E, else a `value`.
 
-    What is no function without radicals is a symbol there, or p + i q with two of them, and `radicals` says what they are.
+    What is no function without radicals is a symbol there, or p + i q with two of them; `radicals` says what they are, and
+    `reality` where that is real.
     """
 
     square: Any
     value: Any
     unknown: bool = False
     radicals: tuple[tuple[Any, Any], ...] = ()
-    positive: bool = False
+    reality: Any = sympy.true
 
     @property
     def signed(self) -> list[Any]:
@@ -42,6 +43,7 @@ class Root:
 
     @classmethod
     def of(cls, square: Any, E: Any, *, positive: bool = False) -> Root:
+        """With the sign of the square in `reality`, and not 0 if it has to be `positive`."""
         if square.has(E):
             return cls(square, sympy.Dummy("rho", real=True), unknown=True)
         root = exact_root(square)
@@ -49,7 +51,8 @@ class Root:
             return cls(square, root)
         if not square.has(sympy.I):
             symbol = sympy.Dummy("r", positive=True)
-            return cls(square, symbol, radicals=((symbol, sympy.sqrt(sympy.factor(square))),), positive=positive)
+            radical = symbol, sympy.sqrt(sympy.factor(square))
+            return cls(square, symbol, radicals=(radical,), reality=above(square, 0, strict=positive))
         # sqrt(re + i im) = p + i q with p = sqrt((size + re)/2) and q = im/(2 p)
         expanded = sympy.expand(square)
         re, im = sympy.factor(sympy.re(expanded)), sympy.factor(sympy.im(expanded))

@@ -32,7 +32,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, field
-from itertools import product
+from itertools import chain, product
 from typing import Any, NamedTuple
 
 import sympy
@@ -66,23 +66,33 @@ class WaveProduct:
         return sympy.Mul(*(base ** sympy.factor_terms(power) for base, power in short.items())) * sympy.exp(exponent)
 
 
+#: The function of theta/2 by which t - c is written.
+_OF_HALF_ANGLE = {
+    ("exp", 1): sympy.sinh,
+    ("exp", -1): sympy.cosh,
+    ("cosh", 1): sympy.sinh,
+    ("cosh", -1): sympy.cosh,
+    ("cos", 1): sympy.sin,
+    ("cos", -1): sympy.cos,
+}
+
+
 def factor_at(frame: SingularFrame, c: Any) -> WaveProduct:
     """|t - c| on the domain."""
     original = frame.original
     half = original.theta / 2
+    if (original.kind, c) == ("exp", 0):
+        return WaveProduct(powers={sympy.E: original.theta})
     # c isn't inside the domain: t is larger than c there, unless c is beyond the upper end
     low, high = frame.limits_of_t
     is_above = sympy.simplify(low - c).is_nonnegative or not sympy.simplify(c - high).is_nonnegative
-    if (original.kind, c) == ("exp", 0):
-        return WaveProduct(powers={sympy.E: original.theta})
-    name = {1: "sin", -1: "cos"}.get(c)  # t - c by the half angle
-    if name is None or original.kind not in ("exp", "cosh", "cos"):
-        return WaveProduct(powers={original.t - c if is_above else c - original.t: 1})
-    function = getattr(sympy, name if original.kind == "cos" else f"{name}h")
-    powers = (
-        {sympy.E: half, function(half if is_above else -half): 1} if original.kind == "exp" else {function(half): 2}
-    )
-    return WaveProduct(sympy.Integer(2), powers)
+    sign = 1 if is_above else -1
+    function = _OF_HALF_ANGLE.get((original.kind, c))
+    if function is None:
+        return WaveProduct(powers={sign * (original.t - c): 1})
+    if original.kind == "exp":
+        return WaveProduct(sympy.Integer(2), {sympy.E: half, function(sign * half): 1})
+    return WaveProduct(sympy.Integer(2), {function(half): 2})
 
 
 def as_product(frame: SingularFrame, expression: Any) -> WaveProduct:
@@ -107,15 +117,12 @@ def moebius(z: Any, first: Any, second: Any, third: Any) -> Any:
 def _ordered(frame: SingularFrame, roots: list[Root]) -> list[int]:
     """Which points are 1, -1 and oo: of the first two the right end, and then the other one, come first.
 
-    The last one doesn't depend on E as the two others do; else it is the first that is no end, or the last one.
+    The last one doesn't depend on E as the two others do; else it is the first that is no end.
     """
     depend = [root.unknown for root in roots]
-    alone = [k for k in range(3) if depend.count(depend[k]) == 1]
-    unused = [k for k, spot in enumerate(frame.spots) if not spot.sides]
-    last = (alone or unused or [2])[0]
-    others = [k for k in range(3) if k != last]
-    others.sort(key=lambda k: (1 not in frame.spots[k].sides, not frame.spots[k].sides))
-    return [*others, last]
+    sides = [spot.sides for spot in frame.spots]
+    last = min(range(3), key=lambda k: (depend.count(depend[k]) != 1, sides[k] != ()))
+    return sorted(range(3), key=lambda k: (k == last, 1 not in sides[k], sides[k] == ()))
 
 
 class Wave(NamedTuple):
@@ -146,7 +153,7 @@ def jacobi_wave(frame: SingularFrame, roots: list[Root], deltas: list[Any], sign
     w_of_z = moebius(z, *(frame.spots[k].point for k in order))
     if any(sympy.cancel(w_of_z + sympy.I * form) == 0 for form in (z, 1 / z)):  # w = -i z, or -i/z
         order[0], order[1] = order[1], order[0]
-        w_of_z = moebius(z, *(frame.spots[k].point for k in order))
+        w_of_z = -w_of_z
     points, deltas = [frame.spots[k] for k in order], [deltas[k] for k in order]
     w = sympy.factor(w_of_z.xreplace({z: frame.coordinate}))
     slope = sympy.diff(w_of_z, z) ** 2 * frame.slope
@@ -170,12 +177,11 @@ def _argument(frame: SingularFrame, w: Any) -> Any:
     in_x = sympy.expand(sympy.apart(w, t)).xreplace({t: original.t})
     if original.kind != "exp":
         return in_x
-    half = original.theta / 2
-    known = {(t - 1) / (t + 1): sympy.tanh(half), (t + 1) / (t - 1): sympy.coth(half)}
-    for form, written in known.items():
-        for sign in (1, -1):
-            if sympy.cancel(w - sign * form) == 0:
-                return sign * written
+    quotient, tanh = (t - 1) / (t + 1), sympy.tanh(original.theta / 2)
+    coth = sympy.coth(original.theta / 2)
+    for form, written in (quotient, tanh), (-quotient, -tanh), (1 / quotient, coth), (-1 / quotient, -coth):
+        if sympy.cancel(w - form) == 0:
+            return written
     return in_x.replace(lambda e: e.is_Pow and e.base.func is sympy.exp, lambda e: sympy.exp(e.base.exp * e.exp))
 
 
@@ -327,12 +333,8 @@ class ExponentForm:
     def levels(self, question: SpectralProblem) -> Iterator[Levels]:
         """The families of levels, for each choice of signs."""
         signs, plain = question.signs, question.plain
-        radicals = dict(radical for root in self.roots for radical in root.radicals)
-        are_real = [
-            above(root.square, 0, strict=root.positive)
-            for root in self.roots
-            if root.radicals and not root.square.has(sympy.I)
-        ]
+        radicals = dict(chain.from_iterable(root.radicals for root in self.roots))
+        are_real = [root.reality for root in self.roots]
         for signed in _choices(self.roots):
             for energy, of_n in solved(sympy.expand(self.degree(signed) - signs.n), self.roots, question.E):
                 values = [root.xreplace(of_n) for root in signed]
@@ -380,12 +382,11 @@ def three_regular_points(frame: SingularFrame, question: SpectralProblem) -> Exp
 
 def whittaker(frame: SingularFrame, question: SpectralProblem) -> ExponentForm:
     """Equation (2), from S_z = q + r/z + b/z^2."""
-    z, signs = frame.z, question.signs
-    square = sympy.cancel(frame.S * z**2)
-    if not _is_polynomial_of_degree(2, square, z) or not frame.S.has(z):
-        raise Uncovered("the equation isn't Whittaker's")
+    signs = question.signs
+    q, r, b = _coefficients(frame.S * frame.z**2, frame, 2)
+    if not frame.S.has(frame.z):
+        raise Uncovered("S is constant")
     _check_ends(frame)
-    q, r, b = sympy.Poly(square, z).all_coeffs()
     ordinary = Spot(sympy.Integer(0), 1 + 4 * b, 0)
     origin = next((spot for spot in frame.spots if spot.point == 0), ordinary)
     infinity = next(spot for spot in frame.spots if spot.point == sympy.oo)
@@ -401,11 +402,9 @@ def whittaker(frame: SingularFrame, question: SpectralProblem) -> ExponentForm:
 
 def oscillator(frame: SingularFrame, question: SpectralProblem) -> ExponentForm:
     """Equation (3): S = alpha x^2 + beta x + gamma on the whole line."""
-    is_in_x = frame.original.kind == "x" and frame.coordinate == frame.t
-    is_on_line = is_in_x and frame.domain == (-sympy.oo, sympy.oo)
-    if not (is_on_line and _is_polynomial_of_degree(2, frame.S, frame.z)):
-        raise Uncovered("the equation isn't that of the oscillator on the whole line")
-    alpha, beta, gamma = sympy.Poly(frame.S, frame.z).all_coeffs()
+    alpha, beta, gamma = _coefficients(frame.S, frame, 2)
+    if (frame.original.kind, frame.coordinate, *frame.domain) != ("x", frame.t, -sympy.oo, sympy.oo):
+        raise Uncovered("the equation isn't one in x on the whole line")
     n = question.signs.n
     shifted = question.x + sympy.factor(beta / (2 * alpha))
 
@@ -428,18 +427,16 @@ def _choices(roots: list[Root]) -> Iterator[list[Any]]:
 
     A pair of complex conjugate roots has one sign, since n is real.
     """
-    are_complex = [k for k, root in enumerate(roots) if not root.unknown and root.value.has(sympy.I)]
+    are_complex = [k for k, root in enumerate(roots) if root.value.has(sympy.I)]
+    signs = [root.signed for root in roots]
     if len(are_complex) == 1:
         return  # n isn't real
     if len(are_complex) == 3:
         raise Uncovered("no exponent is real")
-    for choice in map(list, product(*(root.signed for root in roots))):
-        if are_complex:
-            first, second = are_complex
-            if choice[second] != roots[second].value:  # each pair once
-                continue
-            choice[second] = conjugate(choice[first])
-        yield choice
+    for second in are_complex[1:]:  # nan is the conjugate of the first one there
+        signs[second] = [sympy.nan]
+    for choice in product(*signs):
+        yield [conjugate(choice[are_complex[0]]) if value is sympy.nan else value for value in choice]
 
 
 def _check_ends(frame: SingularFrame) -> None:
@@ -451,11 +448,12 @@ def _check_ends(frame: SingularFrame) -> None:
         raise Uncovered("an end of the domain is an ordinary point of the equation")
 
 
-def _is_polynomial_of_degree(k: int, quotient: Any, z: Any) -> bool:
-    """True for a quotient in lowest terms that is a polynomial in z of this degree."""
-    if sympy.denom(quotient).has(z):
-        return False
-    return bool(sympy.degree(sympy.numer(quotient), z) == k)
+def _coefficients(function: Any, frame: SingularFrame, degree: int) -> list[Any]:
+    """Those of a polynomial of this degree in z.  Raises `Uncovered` for another function."""
+    quotient = sympy.cancel(function)
+    if sympy.denom(quotient).has(frame.z) or sympy.degree(sympy.numer(quotient), frame.z) != degree:
+        raise Uncovered("the equation isn't the standard one")
+    return list(sympy.Poly(quotient, frame.z).all_coeffs())
 
 
 def bessel(frame: SingularFrame, question: SpectralProblem) -> None:
@@ -464,9 +462,7 @@ def bessel(frame: SingularFrame, question: SpectralProblem) -> None:
     Where z^(-e) y is entire and y decays like exp(-2 sqrt(r z)), which holds for |arg z| < 3 pi [Martinet & Ramis], it is
     bounded everywhere and tends to 0: y = 0.
     """
-    z = frame.z
-    square = sympy.cancel(frame.S * z**2)
+    r, _ = _coefficients(frame.S * frame.z**2, frame, 1)
     points = {spot.point for spot in frame.spots if spot.sides}
-    is_bessel = _is_polynomial_of_degree(1, square, z) and points == {0, sympy.oo} and frame.fold is None
-    if not is_bessel or sympy.diff(square, z).has(question.E):
-        raise Uncovered("the equation isn't Bessel's")
+    if points != {0, sympy.oo} or frame.fold is not None or r.has(question.E):
+        raise Uncovered("the domain isn't from 0 to oo")

@@ -18,7 +18,7 @@ from typing import Any
 
 import sympy
 
-from kovacic.bound_states.coordinates import Original
+from kovacic.bound_states.coordinates import Original, near
 from kovacic.bound_states.ends import leading
 from kovacic.bound_states.question import SpectralProblem
 from kovacic.bound_states.signs import Signs, Uncovered
@@ -75,7 +75,7 @@ class SingularFrame:
             return 1
         u, end = sympy.Dummy("u"), self.domain[side]
         point = self.original.at(end, signs)
-        order, strength = leading(self.coordinate.xreplace({self.t: 1 / u if point == sympy.oo else point + u}), u)
+        order, strength = leading(self.coordinate.xreplace({self.t: near(point, u)}), u)
         sign = signs.known_sign(strength, f"the sign of z = {self.coordinate} isn't known")
         return int(sign * self.original.side_of(end, point, signs, is_right=bool(side)) ** abs(order))
 
@@ -108,7 +108,7 @@ def _frame(question: SpectralProblem, original: Original, t: Any, base: Any, m: 
         original,
         t,
         base**m,
-        S=signs.real(sympy.sympify(problem.S.num.to_sympy(z) / problem.S.den.to_sympy(z), strict=True)),
+        S=signs.real(sympy.S.One * problem.S.to_sympy(z)),
         z=z,
         slope=constant * sympy.Mul(*((z - c) ** mu for c, mu in powers.items())),
         spots=tuple(_spots(problem, powers, places, signs)),
@@ -121,7 +121,7 @@ def _frame(question: SpectralProblem, original: Original, t: Any, base: Any, m: 
 def _value(function: Any, t: Any, point: Any) -> Any:
     """The value of a rational function on the sphere, at a number or oo: at a pole it is oo, whatever the sign."""
     u = sympy.Dummy("u")
-    local = sympy.cancel(sympy.together(function.xreplace({t: 1 / u if point == sympy.oo else point + u})))
+    local = sympy.cancel(sympy.together(function.xreplace({t: near(point, u)})))
     num, den = (sympy.simplify(part.xreplace({u: sympy.S.Zero})) for part in sympy.fraction(local))
     return sympy.oo if den == 0 else sympy.simplify(num / den)
 

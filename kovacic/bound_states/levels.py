@@ -542,17 +542,11 @@ class Spectrum:
         >>> oscillator.to_dict()["levels"][0]["energy"]
         '2*n + 1'
         """
-        more_keys = {} if self.numeric == () else {"numeric": self.numeric.to_dict()}
-        if self.matching:
-            more_keys["matching"] = _data(self.matching)
-        names = ("potential", "kinetic", "variable", "domain", "energy", "parameters")
-        more = ("boundary", "ends", "excluded", "levels", "algebraic", "complete", "closed_forms_complete", "reason")
-        return {
-            **{name: _data(getattr(self, name)) for name in names},
-            "assumptions": self.assumptions.to_dict(),
-            **{name: _data(getattr(self, name)) for name in (*more, "notices", "hint")},
-            **more_keys,
-        }
+        found = _data(self)
+        for name in ("numeric", "matching"):
+            if getattr(self, name) != ():
+                found[name] = _data(getattr(self, name))
+        return cast(dict[str, Any], found)
 
     def to_json(self) -> str:
         """One line of JSON.
@@ -596,6 +590,10 @@ _KEYS: dict[type, tuple[str, ...]] = {
     BoundState: ("energy", "zeros", "norm"),
     Levels: ("number", "energy", "wave", "conditions", "zeros", "norm"),
     Algebraic: ("degree", "constraint", "polynomial", "wave", "conditions", "states"),
+    Spectrum: (
+        *("potential", "kinetic", "variable", "domain", "energy", "parameters", "assumptions", "boundary", "ends"),
+        *("excluded", "levels", "algebraic", "complete", "closed_forms_complete", "reason", "notices", "hint"),
+    ),
 }
 
 
@@ -608,6 +606,8 @@ def _data(value: Any) -> Any:
         if isinstance(value, BoundState) and value.norm is None:
             del found["norm"]
         return found
+    if hasattr(value, "to_dict"):
+        return value.to_dict()
     return value if isinstance(value, int | str | None) else _text(value)
 
 

@@ -46,9 +46,9 @@ def with_numbers(found: Spectrum, levels: int | None, digits: int, limits: Limit
         hint = f"assume={dict.fromkeys(found.parameters, 2)}, for instance"
         shell = " ".join(f"--assume {name}=2" for name in found.parameters) + ", for instance"
         raise InputError(f"numeric levels need values of {names}", hint=hint, shell=shell)
-    if found.needs_boundary_condition:
-        return replace(found, numeric=Eigenvalues((), False, found.energy, ("a boundary condition is needed",)))
     numeric = Eigenvalues((), False, found.energy)
+    if found.needs_boundary_condition:
+        return replace(found, numeric=replace(numeric, notes=("a boundary condition is needed",)))
     try:
         with Budget(limits).watched():
             problem = Eigenproblem(_sturm_problem(found), found.energy)
@@ -67,9 +67,8 @@ def with_matching(found: Spectrum) -> Spectrum:
     """
     x, E = sympy.symbols([found.variable, found.energy])
     V = found.potential / found.kinetic
-    is_known = found.complete or found.levels or found.algebraic or found.needs_boundary_condition
-    is_linear = V.is_polynomial(x) and sympy.degree(V, x) <= 1
-    if is_known or not (is_linear or V.has(*STEPS)):
+    is_known = any((found.complete, found.formulas, found.needs_boundary_condition))
+    if is_known or not (V.has(*STEPS) or (V.is_polynomial(x) and sympy.degree(V, x) <= 1)):
         return found
     real = Signs(found.assumptions, found.parameters).symbols
     assumed = {sympy.Symbol(name): symbol for name, symbol in real.items()}

@@ -110,8 +110,7 @@ class Transformation:
 def carried_back(W: RatFunc, variable: str, solution: PolynomialSolution) -> PolynomialSolution:
     """A solution v of the simpler equation as y = v' + W v."""
     x = sympy.Symbol(variable)
-    quotient = W.num.to_sympy(x) / W.den.to_sympy(x)
-    return replace(solution, y=derivative(solution.y, x) + sympy.factor(quotient) * solution.y)
+    return replace(solution, y=derivative(solution.y, x) + sympy.factor(W.to_sympy(x)) * solution.y)
 
 
 def transformation(problem: Problem) -> Transformation | None:

@@ -471,7 +471,7 @@ def rows_of(solutions: Iterable[PolynomialSolution], family: IntegerFamily, lett
     The letters stand for others in the solutions, and are replaced in the family.
     """
     n = sympy.Symbol(family.letter)
-    value = family.value.num.to_sympy(n) / family.value.den.to_sympy(n)
+    value = family.value.to_sympy(n)
     meanings = {sympy.Symbol(name): meaning for name, meaning in letters}
     values = {sympy.Symbol(family.parameter): value.xreplace(meanings)}
     rows: list[SolutionRow] = []
