@@ -14,9 +14,9 @@ from __future__ import annotations
 import re
 from collections.abc import Iterable, Mapping, Sequence
 from contextlib import suppress
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from itertools import count
-from typing import Any
+from typing import Any, NamedTuple
 
 import sympy
 from sympy.functions.elementary.trigonometric import TrigonometricFunction
@@ -49,6 +49,15 @@ _STEPS = 10**6
 _LEFT_SIDE = re.compile(r"\s*[VU]\s*(?:\(\s*(\w+)\s*\))?\s*=(?!=)")
 
 
+class _Read(NamedTuple):
+    """V and the kinetic factor of -kinetic psi'' + V psi = E psi, and what was guessed when a text was read."""
+
+    V: Any
+    variable: str
+    notices: tuple[str, ...]
+    kinetic: Any = sympy.S.One
+
+
 def asked(
     V: Any,
     *,
@@ -67,16 +76,15 @@ def asked(
     if not isinstance(energy, str) or not energy.isidentifier():
         raise InputError(f"{energy!r} can't be the name of the energy")
     ends = read_domain(domain)
-    read = _read(V, None if var is None else str(var), energy, names, limits)
-    x = read.variable
+    potential, x, guesses, kinetic = _read(V, None if var is None else str(var), energy, names, limits)
     values, rest = values_among(assume or {})
     at = {sympy.Symbol(name): read_expression(value_text(v, name, x, limits=limits)) for name, v in values.items()}
-    known_names = {*names_of(sympy.Tuple(read.V, read.kinetic, *ends))} - {x}
+    known_names = {*names_of(sympy.Tuple(potential, kinetic, *ends))} - {x}
     unknown = sorted({*values} - known_names)
     if unknown:
         known = ", ".join(sorted(known_names)) or "none"
         raise InputError(f"{unknown[0]} isn't a parameter of V", hint=f"the parameters are {known}")
-    potential, kinetic, first, last = (part.xreplace(at) for part in (read.V, read.kinetic, *ends))
+    potential, kinetic, first, last = (part.xreplace(at) for part in (potential, kinetic, *ends))
     if {sympy.Symbol(x), sympy.Symbol(energy)} & (first.free_symbols | last.free_symbols):
         raise InputError(f"an end of the domain contains {x} or {energy}")
     S = potential - sympy.Symbol(energy)
@@ -95,7 +103,7 @@ def asked(
         assumed={**dict.fromkeys(letters, "positive"), **rest},
         kinetic=kinetic,
         names=names,
-        notices=(*read.notices, *notices),
+        notices=(*guesses, *notices),
     )
 
 
@@ -168,17 +176,7 @@ def unsolved(question: Asked, reason: NotRational) -> Spectrum:
     return question.spectrum(parameters=parameters, assumptions=known, reason=f"undecided: {reason.args[0]}")
 
 
-@dataclass(frozen=True)
-class _PotentialAsRead:
-    """V and the kinetic factor of -kinetic psi'' + V psi = E psi, and what was guessed when a text was read."""
-
-    V: Any
-    variable: str
-    notices: tuple[str, ...]
-    kinetic: Any = sympy.S.One
-
-
-def _read(V: Any, var: str | None, energy: str, names: Sequence[str], limits: Limits) -> _PotentialAsRead:
+def _read(V: Any, var: str | None, energy: str, names: Sequence[str], limits: Limits) -> _Read:
     """A text or an expression.  Raises `InputError` for what is no real potential, and no equation of Schroedinger's."""
     guesses: tuple[str, ...] = ()
     if isinstance(V, str):
@@ -207,7 +205,7 @@ def _read(V: Any, var: str | None, energy: str, names: Sequence[str], limits: Li
     notices = (*guesses, *notices, *_of_charges(V, expression))
     if "hbar" in names_of(expression):  # hbar^2/(2 m) may have been meant as the factor of -y''
         notices += ("-y'' + V y = E y is solved; give the whole equation for -hbar^2/(2*m)*psi''",)
-    return _PotentialAsRead(expression, x, notices)
+    return _Read(expression, x, notices)
 
 
 def _letters(text: str) -> list[str]:
@@ -252,7 +250,7 @@ def _variable_of(names: Sequence[str]) -> tuple[str, tuple[str, ...]]:
     return DEFAULT_VARIABLE, (f"{DEFAULT_VARIABLE} is the variable, {only} a parameter",)
 
 
-def _schroedinger(text: str, var: str | None, energy: str, limits: Limits) -> _PotentialAsRead:
+def _schroedinger(text: str, var: str | None, energy: str, limits: Limits) -> _Read:
     """The equation in a text.  Raises `InputError` for one that isn't Schroedinger's."""
     source = source_of(text, var, limits, equation=True)
     whole = expression_of(source, limits)
@@ -268,7 +266,7 @@ def _schroedinger(text: str, var: str | None, energy: str, limits: Limits) -> _P
         raise InputError(f"the factor of psi'' over that of {energy}, {kinetic}, isn't a positive constant")
     V = sympy.expand_mul(sympy.Symbol(energy) - sympy.expand_mul(c) / slope)
     _check_real(V, energy)
-    return _PotentialAsRead(V, source.variable, (*source.guesses, *_of_charges(text, V)), kinetic)
+    return _Read(V, source.variable, (*source.guesses, *_of_charges(text, V)), kinetic)
 
 
 def _with_letters(known: Assumptions, letters: Letters, parameters: Iterable[str]) -> Assumptions:

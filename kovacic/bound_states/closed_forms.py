@@ -111,15 +111,14 @@ def _solvable_conditions(question: SpectralProblem, limits: Limits) -> Parametri
     The equation is that in t, so that solutions are functions of t.  With several conjugate pairs of poles it may take minutes.
     """
     parsed = question.parsed
-    try:
-        degrees = sorted(factor.degree for factor, _ in parsed.S.field.factor(parsed.S.den))
-        if degrees and (degrees[-1] > 2 or degrees.count(2) > 1):
+    with suppress(LimitExceeded):
+        degrees = [factor.degree for factor, _ in parsed.S.field.factor(parsed.S.den)]
+        if sum(degrees) > degrees.count(1) + 2:
             return None
         conditions = conditions_of(replace(parsed, equation=None), question.known, 0, limits)
-    except LimitExceeded:
-        return None
-    is_proven = conditions.complete is True and conditions.generic.known
-    return conditions if is_proven and conditions.generic.case is None else None
+        if conditions.complete is True and conditions.generic.known and conditions.generic.case is None:
+            return conditions
+    return None
 
 
 class _Window(NamedTuple):

@@ -164,8 +164,6 @@ def _written(form: Any) -> Iterator[Any]:
 
 def _real_part(form: Any) -> Any:
     """The form without I if the imaginary part vanishes, as for an energy with two conjugate roots; else None."""
-    if not all(symbol.is_real for symbol in form.free_symbols):
-        return None
     real, imaginary = form.as_real_imag()
     return None if real.has(sympy.re, sympy.im) or sympy.cancel(sympy.together(imaginary)) != 0 else real
 

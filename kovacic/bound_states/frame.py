@@ -155,7 +155,10 @@ def _slope(original: Original, t: Any, base: Any, m: int) -> tuple[Any, dict[Any
 
 
 def _spots(problem: Problem, powers: Mapping[Any, Any], places: tuple[Any, ...], signs: Signs) -> Iterator[Spot]:
-    """The singular points, those of the change of variable, and the `places` of the ends, or of the middle and an end."""
+    """The singular points, with the `places` of the ends, or of the middle and an end.
+
+    Where mu > 0 there is one: E (z - c)^(-mu) occurs in S_z.
+    """
     x = sympy.Dummy("x")
     squares: dict[Any, Any] = {}
     for place in problem.places:
@@ -168,9 +171,6 @@ def _spots(problem: Problem, powers: Mapping[Any, Any], places: tuple[Any, ...],
                 square = signs.real(place.difference_squared.to_sympy(x))
                 squares[point] = sympy.expand(square.xreplace({x: point}))
     powers = {**powers, sympy.oo: sympy.Integer(4) - sum(powers.values(), sympy.Integer(0))}
-    for point, mu in powers.items():
-        if (mu or point in places) and not any(_is_same(point, other) for other in squares):
-            squares[point] = sympy.Integer(1)
     for point, square in squares.items():
         sides = tuple(side for side, place in enumerate(places) if _is_same(point, place))
         yield Spot(point, square, powers.get(point, sympy.Integer(0)), sides)

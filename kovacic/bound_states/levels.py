@@ -412,16 +412,13 @@ class Spectrum:
         for state in states:
             exact = _text(state.energy)
             shown = exact if len(exact) <= _SHORT else f"{float(state.energy):.6g}"
-            label = f"{self.energy}_{state.number} = {shown}"
-            levels.append(DrawnLevel(float(state.energy), function(state.wave), label))
-        levels += [
-            DrawnLevel(float(level.value), self.numeric.wave(k), f"{self.energy}_{k} = {level.value}")
-            for k, level in enumerate(self.numeric[:count])
-        ]
+            levels.append((state.number, state.energy, function(state.wave), shown))
+        levels += [(k, one.value, self.numeric.wave(k), str(one.value)) for k, one in enumerate(self.numeric[:count])]
+        drawn = [DrawnLevel(float(value), wave, f"{self.energy}_{k} = {shown}") for k, value, wave, shown in levels]
         first, last = (float(end.xreplace(at)) for end in self.domain)
         title = self._equation(at)
         plain = self.potential.replace(sympy.DiracDelta, lambda *_: sympy.S.Zero)
-        return draw_levels(function(plain), levels, (first, last), variable=self.variable, title=title)
+        return draw_levels(function(plain), drawn, (first, last), variable=self.variable, title=title)
 
     def _equation(self, at: Mapping[Any, Any]) -> str:
         """Schroedinger's, and what V is."""
