@@ -54,7 +54,7 @@ class Original:
     @classmethod
     def of(cls, equation: Equation | None, x: Any, signs: Signs) -> Original:
         """The one that the reader has chosen."""
-        if equation is None:
+        if equation is None or equation.change is None:
             return cls(x)
         t = signs.real(function_of_x(equation)).xreplace({sympy.Symbol(x.name): x})
         if t.func not in SQUARES:

@@ -33,7 +33,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, field
 from itertools import chain, product
-from typing import Any, NamedTuple
+from typing import Any
 
 import sympy
 
@@ -125,25 +125,8 @@ def _ordered(frame: SingularFrame, roots: list[Root]) -> list[int]:
     return sorted(range(3), key=lambda k: (k == last, 1 not in sides[k], sides[k] == ()))
 
 
-class Wave(NamedTuple):
-    """A solution y in the user's variable, up to a factor; `norm` is the integral of its square, None if unknown."""
-
-    y: Any
-    norm: Any = None
-
-
-class _JacobiForm(NamedTuple):
-    """y = (1 - w)^e1 (1 + w)^e2 P_n^(d1, d2)(w), with the `points` w = 1, -1, oo and the `deltas` there.
-
-    (dw/dx)^2 = scale (1 - w)^mu1 (1 + w)^mu2, and `size` is |scale|; nan if that depends on z, so that the norm is unknown.
-    """
-
-    frame: SingularFrame
-    w: Any
-    points: list[Spot]
-    deltas: list[Any]
-    size: Any
-    n: Any
+#: A solution y in the user's variable, up to a factor, and the integral of its square, None if unknown.
+Wave = tuple[Any, Any]
 
 
 def jacobi_wave(frame: SingularFrame, roots: list[Root], deltas: list[Any], signs: Signs) -> Wave:
@@ -154,20 +137,25 @@ def jacobi_wave(frame: SingularFrame, roots: list[Root], deltas: list[Any], sign
     if any(sympy.cancel(w_of_z + sympy.I * form) == 0 for form in (z, 1 / z)):  # w = -i z, or -i/z
         order[0], order[1] = order[1], order[0]
         w_of_z = -w_of_z
-    points, deltas = [frame.spots[k] for k in order], [deltas[k] for k in order]
+    points = [(frame.spots[k], deltas[k]) for k in order]
+    (first, d1), (second, d2), _ = points
     w = sympy.factor(w_of_z.xreplace({z: frame.coordinate}))
+    # (dw/dx)^2 = scale (1 - w)^mu1 (1 + w)^mu2
     slope = sympy.diff(w_of_z, z) ** 2 * frame.slope
-    scale = sympy.simplify(slope / ((1 - w_of_z) ** points[0].mu * (1 + w_of_z) ** points[1].mu))
-    form = _JacobiForm(frame, w, points, deltas, sympy.nan if scale.has(z) else sympy.Abs(scale), n)
-    e1, e2 = (points[k].exponent(deltas[k]) for k in (0, 1))
-    a, b = map(shortest, deltas[:2])
+    scale = sympy.simplify(slope / ((1 - w_of_z) ** first.mu * (1 + w_of_z) ** second.mu))
+    size = sympy.nan if scale.has(z) else sympy.Abs(scale)  # nan if the norm is unknown
+    a, b = shortest(d1), shortest(d2)
     if w.has(sympy.I):
-        powers = _real_powers(form, e1)
-        y = powers.written * ((-sympy.I) ** n * jacobi(n, a, b, sympy.I * powers.r))
-        return Wave(y, _tidy(frame, -_norm_on_line(form, a, b) / powers.dropped))
-    whole = WaveProduct().times(as_product(frame, 1 - w), e1).times(as_product(frame, 1 + w), e2)
-    y = whole.shown() * jacobi(n, a, b, _argument(frame, w))
-    return Wave(y, _tidy(frame, _norm_between(form) / whole.constant**2))
+        powers, r, dropped = _real_powers(frame, sympy.factor(w / sympy.I), first.exponent(d1))
+        y = powers * ((-sympy.I) ** n * jacobi(n, a, b, sympy.I * r))
+        middle = 2 * sympy.pi * sympy.gamma(-n - a - b) / (sympy.gamma(-n - a) * sympy.gamma(-n - b))
+        norm = -_jacobi_integral((first, a), (second, b), n, middle) / dropped
+    else:
+        whole = WaveProduct().times(as_product(frame, 1 - w), first.exponent(d1))
+        whole = whole.times(as_product(frame, 1 + w), second.exponent(d2))
+        y = whole.shown() * jacobi(n, a, b, _argument(frame, w))
+        norm = _norm_between(points, n) / whole.constant**2
+    return y, _tidy(frame, norm / sympy.sqrt(size))
 
 
 def _argument(frame: SingularFrame, w: Any) -> Any:
@@ -185,51 +173,35 @@ def _argument(frame: SingularFrame, w: Any) -> Any:
     return in_x.replace(lambda e: e.is_Pow and e.base.func is sympy.exp, lambda e: sympy.exp(e.base.exp * e.exp))
 
 
-class _RealPowers(NamedTuple):
-    """(1 + r^2)^p exp(2 q atan(r)) as written, without a constant whose square is `dropped`; and r in the variable."""
-
-    written: Any
-    r: Any
-    dropped: Any = sympy.S.One
-
-
-def _real_powers(form: _JacobiForm, e1: Any) -> _RealPowers:
+def _real_powers(frame: SingularFrame, r: Any, e1: Any) -> tuple[Any, Any, Any]:
     """For w = i r with a real r: (1 - i r)^(p + i q) (1 + i r)^(p - i q) = (1 + r^2)^p exp(2 q atan(r)), p + i q = e1.
 
     1 + r^2 = cosh^2 for r = +-sinh, and = 1/sin^2 for r = +-cot, where atan(r) is an angle, too.
+    So this is written, without a constant; with r in the user's variable, and the square of the constant.
     """
     p = sympy.expand((e1 + conjugate(e1)) / 2)
     q = sympy.expand((e1 - conjugate(e1)) / (2 * sympy.I))
-    original, t = form.frame.original, form.frame.t
+    original, t = frame.original, frame.t
     theta = original.theta
-    r_of_t = sympy.factor(form.w / sympy.I)
-    sign = next((sign for sign in (1, -1) if sympy.cancel(r_of_t - sign / t) == 0), 0)
-    if original.kind == "tan" and sign:
-        written = sympy.sin(theta) ** shortest(-2 * p) * sympy.exp(-2 * q * sign * theta)
-        return _RealPowers(written, r=sign * sympy.cot(theta), dropped=sympy.exp(2 * sympy.pi * q * sign))
-    r = r_of_t.xreplace({t: original.t})
-    rest = sympy.exp(2 * q * sympy.atan(r))
-    if original.kind == "sinh" and sympy.expand(r_of_t**2 - t**2) == 0:
-        return _RealPowers(sympy.cosh(theta) ** shortest(2 * p) * rest, r)
-    return _RealPowers((1 + r**2) ** p * rest, r)
+    for sign in (1, -1):
+        if original.kind == "tan" and sympy.cancel(r - sign / t) == 0:
+            powers = sympy.sin(theta) ** shortest(-2 * p) * sympy.exp(-2 * q * sign * theta)
+            return powers, sign * sympy.cot(theta), sympy.exp(2 * sympy.pi * q * sign)
+    in_x = r.xreplace({t: original.t})
+    root = 1 + in_x**2, p
+    if original.kind == "sinh" and sympy.expand(r**2 - t**2) == 0:
+        root = sympy.cosh(theta), shortest(2 * p)
+    return sympy.Pow(*root) * sympy.exp(2 * q * sympy.atan(in_x)), in_x, sympy.S.One
 
 
-def _norm_on_line(form: _JacobiForm, a: Any, b: Any) -> Any:
-    """int y^2 dx for w = i r, up to its sign; nan if unknown, or if r doesn't run through the whole line."""
-    n, points = form.n, form.points
-    if not any(len(spot.sides) == 2 for spot in points):
-        return sympy.nan
-    middle = 2 * sympy.pi * sympy.gamma(-n - a - b) / (sympy.gamma(-n - a) * sympy.gamma(-n - b))
-    return _jacobi_integral(a, b, (1 - points[0].mu, 1 - points[1].mu), n, middle) / sympy.sqrt(form.size)
-
-
-def _jacobi_integral(a: Any, b: Any, shifts: tuple[Any, Any], n: Any, middle: Any) -> Any:
-    """int (1 - v)^(a + i) (1 + v)^(b + j) P_n^(a, b)(v)^2 dv over (-1, 1), shifts (i, j) = (1 - mu1, 1 - mu2); nan if unknown.
+def _jacobi_integral(first: tuple[Spot, Any], second: tuple[Spot, Any], n: Any, middle: Any) -> Any:
+    """int (1 - v)^(a + i) (1 + v)^(b + j) P_n^(a, b)(v)^2 dv over (-1, 1), (i, j) = (1 - mu1, 1 - mu2); nan if unknown.
 
     mu is 1, 1, 2 or 2, 2, 0 at the three points.  With `middle` = Gamma(n + a + 1) Gamma(n + b + 1)/Gamma(n + a + b + 1)
     [Gradshteyn & Ryzhik 7.391; DLMF 18.3].  On the line v = i r all of these have the same factor,
     2 sin(pi a) sin(pi b)/sin(pi (a + b)), which is in another `middle`.
     """
+    (left_end, a), (right_end, b) = first, second
     common = 2 ** (a + b) * middle / sympy.factorial(n)
     plain = 2 * common / (2 * n + a + b + 1)
     left = common / a
@@ -243,25 +215,23 @@ def _jacobi_integral(a: Any, b: Any, shifts: tuple[Any, Any], n: Any, middle: An
         (1, -1): 2 * right - plain,
         (-1, 1): 2 * left - plain,
     }
-    return known.get(shifts, sympy.nan)
+    return known.get((1 - left_end.mu, 1 - right_end.mu), sympy.nan)
 
 
-def _norm_between(form: _JacobiForm) -> Any:
-    """int y^2 dx between two of the points w = 1, -1, oo, or nan if unknown.
+def _norm_between(points: Sequence[tuple[Spot, Any]], n: Any) -> Any:
+    """int y^2 dx between two of the points w = 1, -1, oo, with the size of (dw/dx)^2 apart, or nan if unknown.
 
     For oo: w = (3 - v)/(1 + v) runs from 1 to it for v from 1 to -1, and P_n^(a, b)(w) = (2/(1 + v))^n P_n^(a, c)(v).
     """
-    n, size, powers = form.n, form.size, sympy.S.Zero
-    k = 0 if form.points[0].sides else 1  # w -> -w
-    end, other, last = form.points[k], form.points[1 - k], 1 - k
-    if form.points[2].sides:
-        last = 2
-        size *= 2 ** (end.mu + 2 * other.mu - 4)
-        powers = 2 * end.exponent(form.deltas[k]) + 4 * other.exponent(form.deltas[1 - k]) + 2 * n
-    a, b = form.deltas[k], form.deltas[last]
+    *ends, third = points
+    ends.sort(key=lambda point: not point[0].sides)  # w -> -w
+    (end, a), (other, b) = ends
+    powers = sympy.S.Zero
+    if third[0].sides:
+        powers = 2 * end.exponent(a) + 4 * other.exponent(b) + 2 * n - (end.mu + 2 * other.mu - 4) / 2
+        ends[1], b = third, third[1]
     middle = sympy.gamma(n + a + 1) * sympy.gamma(n + b + 1) / sympy.gamma(n + a + b + 1)
-    integral = _jacobi_integral(a, b, (1 - end.mu, 1 - form.points[last].mu), n, middle)
-    return 2**powers * integral / sympy.sqrt(size)
+    return 2**powers * _jacobi_integral(ends[0], ends[1], n, middle)
 
 
 def laguerre_wave(frame: SingularFrame, origin: Spot, values: list[Any], signs: Signs) -> Wave:
@@ -277,12 +247,11 @@ def laguerre_wave(frame: SingularFrame, origin: Spot, values: list[Any], signs: 
     scale = sympy.simplify(frame.slope / z**origin.mu)
     weight = sympy.gamma(n + delta + 1) / sympy.factorial(n)
     known = {0: 1, 1: 2 * n + delta + 1, -1: 1 / delta}
-    if scale.has(z):
-        scale = sympy.nan  # the norm is unknown
+    size = sympy.nan if scale.has(z) else sympy.Abs(scale)  # nan if the norm is unknown
     if signs.sign(kappa) == -1:  # where z is negative
         rate = -rate
     integral = rate ** (origin.mu - 2 - delta) * weight * known.get(1 - origin.mu, sympy.nan)
-    return Wave(y, _tidy(frame, integral / sympy.sqrt(sympy.Abs(scale)) / whole.constant**2))
+    return y, _tidy(frame, integral / sympy.sqrt(size) / whole.constant**2)
 
 
 def _tidy(frame: SingularFrame, norm: Any) -> Any:
@@ -340,8 +309,8 @@ class ExponentForm:
                 values = [root.xreplace(of_n) for root in signed]
                 known = tidied([*are_real, *self._demands(values, question)], signs, radicals)
                 if sympy.false not in known:
-                    wave = self.wave(values)
-                    found = Levels(signs.n, energy, wave.y, known, self._zeros(values, signs.n), wave.norm)
+                    y, norm = self.wave(values)
+                    found = Levels(signs.n, energy, y, known, self._zeros(values, signs.n), norm)
                     yield found.mapped(lambda part: plain(part.xreplace(radicals)))
 
     def _at_spots(self, values: list[Any]) -> Iterator[tuple[Spot, Any]]:
@@ -411,7 +380,7 @@ def oscillator(frame: SingularFrame, question: SpectralProblem) -> ExponentForm:
     def wave(values: list[Any]) -> Wave:
         (kappa,) = values
         y = sympy.exp(-kappa * shifted**2 / 2) * sympy.hermite(n, sympy.sqrt(kappa) * shifted)
-        return Wave(y, 2**n * sympy.factorial(n) * sympy.sqrt(sympy.pi / kappa))
+        return y, 2**n * sympy.factorial(n) * sympy.sqrt(sympy.pi / kappa)
 
     return ExponentForm(
         frame,
