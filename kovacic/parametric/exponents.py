@@ -205,13 +205,7 @@ def without_constant_pivots(columns: list[dict[int, Any]]) -> WithoutPivots:
     among them the one that touches the fewest entries is chosen [Markowitz 1957].  A matrix for a polynomial P is banded,
     so that this is the elimination of its coefficients by their recurrence.
     """
-    entries: dict[int, dict[int, Any]] = {}
-    for k, column in enumerate(columns):
-        for i, entry in column.items():
-            row = entries.setdefault(i, {})
-            if entry:
-                row[k] = entry
-    rows = [entries[i] for i in sorted(entries)]
+    rows = [{k: column[i] for k, column in enumerate(columns) if column.get(i)} for i in sorted(set().union(*columns))]
     eliminated = 0
     while True:
         weights = Counter(chain.from_iterable(rows))
@@ -329,22 +323,16 @@ class Exponents:
     def conditions(self, d: int, below: Field) -> RankConditions:
         """The condition for a polynomial P of this degree, over the field below.
 
-        The map is one over that field, from the basis of the extension times 1, x, ...; the coordinates of an image are put
-        into one polynomial, one behind the other for each power.
+        The map is one over each field below, from the basis of the extension times 1, x, ...; the coordinates of an image are
+        put into one polynomial, one behind the other for each power.
         """
-        basis = [self.field.poly([1])]  # products of powers of the generators
+        images = self.images(d)
         level = self.field
         while level != below:
             assert isinstance(level, AlgebraicField)
-            basis = [member * level.generator**k for k in range(level.dimension) for member in basis]
+            members = [image * level.generator**k for image in images for k in range(level.dimension)]
             level = level.base
-        images = []
-        for image, member in product(self.images(d), basis):
-            parts = [image * member]
-            while parts[0].field != below:
-                parts = [*chain.from_iterable(part.parts for part in parts)]
-            size = max(part.degree for part in parts) + 1
-            images.append(below.poly([part[k] for k in range(size) for part in parts]))
+            images = [level.poly([part[k] for k in range(one.degree + 1) for part in one.parts]) for one in members]
         return rank_conditions(images, below)
 
 

@@ -262,8 +262,7 @@ def _pieces(number: int, factors: tuple[Power, ...], root: Any, names: Sequence[
     """The factors of a product, none for 1; sums are in parentheses."""
     pieces = [digits(number)] if number != 1 else []
     for factor, k in factors:
-        is_one = factor.is_constant() and factor.is_one()
-        if not is_one:
+        if factor != 1:
             text = _polynomial(factor, names)
             text = f"({text})" if k > 1 and "*" in text else in_product(text)
             pieces.append(text if k == 1 else f"{text}^{k}")
@@ -294,8 +293,7 @@ def in_sum(text: str) -> str:
 
 def in_product(text: str) -> str:
     """A factor of a product: sums and what begins with a minus in parentheses."""
-    is_sum = " + " in text or " - " in text or text.startswith("-")
-    return f"({text})" if is_sum else text
+    return f"({text})" if text.startswith("-") else in_sum(text)
 
 
 class _Powers:

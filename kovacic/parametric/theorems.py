@@ -64,7 +64,7 @@ from kovacic.decision import Structure
 from kovacic.engine.places import Kind, Place, Problem, analyse, rational_square_root
 from kovacic.parametric import restriction, riemann
 from kovacic.parametric.claims import signed_sums
-from kovacic.parametric.formulas import has_roots, root_written, shifted, shorter_sum, written
+from kovacic.parametric.formulas import has_roots, in_sum, root_written, shifted, shorter_sum, written
 from kovacic.parametric.functions import irreducible_factors, over_parameters
 from kovacic.parametric.integers import integer_roots
 from kovacic.parametric.regions import ParameterRegion, RegionVerdict, Theorem, Theory, borel, reducible
@@ -117,15 +117,13 @@ def symmetries(problem: Problem, variable: str) -> Iterator[Symmetric]:
         center = mean_of_singular_points(S)
         if center is None:
             continue
-        if center:
-            S = S(x + center)
-        square = S * x * x
+        square = S(x + center) * x * x
         parts = (square.num, square.den)
         n = gcd(*(i for part in parts for i, coefficient in enumerate(part) if coefficient))  # powers that occur
         base, weight = variable, "1"
         if pole is not None:
             weight = shifted(variable, pole)
-            base = f"1/({weight})" if pole else f"1/{variable}"
+            base = f"1/{in_sum(weight)}"
         coordinate = Coordinate(shifted(base, center), n, weight)
         # As polynomials in s^n; numbers for n = 0.
         num, den = (problem.field.poly([part[i] for i in range(0, part.degree + 1, n or 1)]) for part in parts)
@@ -172,10 +170,7 @@ def structures(problem: Problem, n: int, origin: Origin) -> Iterator[ParameterRe
         verdict = riemann.verdict(problem, structure)
         if structure is Structure.OCTAHEDRAL and n % 2 == 0:
             verdict = replace(verdict, family=("binary tetrahedral, or octahedral",))
-        solutions = None
-        if structure is Structure.REDUCIBLE:
-            solutions = origin
-        yield ParameterRegion(statement, verdict, origin=solutions)
+        yield ParameterRegion(statement, verdict, origin=origin if structure is Structure.REDUCIBLE else None)
 
 
 def jacobi_formula(problem: Problem, coordinate: Coordinate, variable: str) -> BySigns | None:
@@ -270,7 +265,7 @@ def _with_denominators(problem: Problem, denominators: tuple[int, ...]) -> State
     """When the exponent differences at 0, at infinity and at the third point have these denominators."""
     squares = [problem.field.poly([1])] * 3
     for place in problem.places:
-        if place.kind is not Kind.ORDINARY and place.delta_squared is not None:
+        if place.delta_squared is not None:
             third = 2 if place.factor[0] else 0
             squares[1 if place.at_infinity else third] = place.delta_squared
     return all_of([riemann.has_denominator(*pair) for pair in zip(squares, denominators, strict=False)])
