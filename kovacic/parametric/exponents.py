@@ -70,12 +70,9 @@ class RankConditions:
     system: tuple[FunctionPoly, ...] | None = ()
     deficient: bool = False
 
-    @property
-    def happen_nowhere(self) -> bool:
-        return not self.polynomials and self.system == () and not self.deficient
 
-
-#: Those that weren't computed.
+#: Nowhere, and those that weren't computed.
+NOWHERE = RankConditions()
 OPEN = RankConditions(system=None)
 
 

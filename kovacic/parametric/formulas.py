@@ -111,39 +111,29 @@ class SidesOfEquation(NamedTuple):
 
 
 def sides_of_equation(function: FunctionPoly) -> SidesOfEquation:
-    """The equation that a function vanishes.
+    """The equation that a function vanishes, solved for a power of a parameter if one is alone.
 
-    It is solved where it is linear, or a power is a product of linear factors; two terms have two sides.
+    That is t = f for a linear equation, with the coefficient 1 or -1 of t if there is one; else t^k = f, a product of linear
+    factors.  Two terms of higher degree have two sides.
     """
     above, _, names = _as_quotient(function, "x")
-    solved = _solved_for_a_power(above, names)
-    if solved is not None:
-        return solved
-    negative = {exponents: -int(c) for exponents, c in above.to_dict().items() if int(c) < 0}
-    right = above.context().from_dict(negative if len(above) == 2 and len(negative) == 1 else {})
-    return SidesOfEquation(_polynomial(above + right, names), _polynomial(right, names))
-
-
-def _solved_for_a_power(polynomial: Any, names: Sequence[str]) -> SidesOfEquation | None:
-    """t = f for a linear equation, with the coefficient 1 or -1 of t if there is one; else t^k = f, a product of linear forms.
-
-    None if no power is alone.  Two terms of higher degree have two sides.
-    """
-    is_linear = polynomial.total_degree() == 1
-    if not is_linear and len(polynomial) <= 2:
-        return None
-    found: list[tuple[bool, SidesOfEquation]] = []
-    for i, degree in enumerate(map(int, polynomial.degrees())):
-        parts = by_power(polynomial, i)
+    is_linear = above.total_degree() == 1
+    solved: list[tuple[bool, SidesOfEquation]] = []
+    for i, degree in enumerate(map(int, above.degrees()) if is_linear or len(above) > 2 else ()):
+        parts = by_power(above, i)
         if not parts.keys() <= {0, degree} or not parts[degree].is_constant():
             continue
-        quotient = (-parts.get(0, 0 * polynomial), parts[degree])
+        quotient = (-parts.get(0, 0 * above), parts[degree])
         values = [*_written_forms(*quotient)] if is_linear else [[_factored(*quotient)]]
         if is_linear or all(factor.total_degree() == 1 for factor, _ in values[0][0].top):
             has_fractions = is_linear and abs(int(parts[degree].leading_coefficient())) != 1
-            left = _polynomial(polynomial.context().gen(i) ** degree, names)
-            found.append((has_fractions, SidesOfEquation(left, _shortest(values, names))))
-    return min(found, key=lambda one: one[0])[1] if found else None
+            left = _polynomial(above.context().gen(i) ** degree, names)
+            solved.append((has_fractions, SidesOfEquation(left, _shortest(values, names))))
+    if solved:
+        return min(solved, key=lambda one: one[0])[1]
+    negative = {exponents: -int(c) for exponents, c in above.to_dict().items() if int(c) < 0}
+    right = above.context().from_dict(negative if len(above) == 2 and len(negative) == 1 else {})
+    return SidesOfEquation(_polynomial(above + right, names), _polynomial(right, names))
 
 
 def root_written(square: Poly, factor: str = "") -> str:

@@ -32,6 +32,7 @@ from kovacic.parametric import prose
 from kovacic.parametric.assumptions import Assumptions
 from kovacic.parametric.claims import AnyOf, Claim, DegreeBySum, DegreeExists, EquationFor, IsZero, rational_roots
 from kovacic.parametric.exponents import (
+    NOWHERE,
     OPEN,
     RankConditions,
     choices_of_degree,
@@ -192,7 +193,7 @@ class Natural(Statement):
                 continue
             for choice in choices_of_degree(analyse(S, Budget()), number) or ():
                 # One has equations for P that exclude one another: b = 6 and b = 9/2.
-                if S.field.ground != QQ and choice.conditions(number, S.field).happen_nowhere:
+                if S.field.ground != QQ and choice.conditions(number, S.field) == NOWHERE:
                     continue
                 solution = solution_of_degree(choice, number, variable, exponents)
                 if solution is not None:

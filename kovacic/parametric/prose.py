@@ -6,7 +6,7 @@ formulas, `Math`, which has its LaTeX beside its text; every format is made from
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Sequence
 from functools import lru_cache
 from typing import Any
 
@@ -90,7 +90,7 @@ def sentence(claim: Claim) -> Words:
 
 def _line(claim: Claim) -> str:
     """By the writer of its kind."""
-    return next(_WRITERS[kind](claim) for kind in type(claim).__mro__ if kind in _WRITERS)
+    return next(WRITERS[kind](claim) for kind in type(claim).__mro__ if kind in WRITERS)
 
 
 # ------------------------------------------------------------------------------- integers
@@ -371,7 +371,7 @@ def _degree_exists(claim: DegreeExists) -> str:
 
 
 #: How each kind of claim is written; `riemann` adds its own.
-_WRITERS: dict[type, Callable[[Any], str]] = {
+WRITERS: dict[type, Callable[[Any], str]] = {
     IsZero: _equation,
     IsNonzero: _equation,
     AllOf: _all_of,
@@ -383,8 +383,3 @@ _WRITERS: dict[type, Callable[[Any], str]] = {
     DegreeBySum: _degree_by_sum,
     DegreeExists: _degree_exists,
 }
-
-
-def writes(kinds: Mapping[type, Callable[[Any], str]]) -> None:
-    """Further kinds of claims."""
-    _WRITERS.update(kinds)

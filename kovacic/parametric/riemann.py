@@ -222,7 +222,7 @@ class Schwarz(Statement):
         return None
 
 
-prose.writes({Schwarz: Schwarz.line})
+prose.WRITERS[Schwarz] = Schwarz.line
 
 
 class ResolvedDifferences(NamedTuple):
@@ -429,16 +429,6 @@ def has_denominator(square: Poly, denominator: int) -> Statement:
     return integer_roots(over_parameters(equation), coprime, denominator)
 
 
-class _DifferenceLine(NamedTuple):
-    """slope * w + shift."""
-
-    slope: Fraction
-    shift: Fraction
-
-    def at(self, w: Fraction) -> Fraction:
-        return self.slope * w + self.shift
-
-
 def _rational_root(square: Poly) -> FunctionPoly | None:
     """The square root, where it is a rational function of the parameters."""
     root = square.field.sqrt(square)
@@ -447,53 +437,33 @@ def _rational_root(square: Poly) -> FunctionPoly | None:
     return over_parameters(root)
 
 
-def _difference_line(square: Poly, first: FunctionPoly, root: FunctionPoly | None) -> _DifferenceLine | None:
-    """sqrt(square), up to its sign, as a line in w, w^2 = first; the shift is 0 where w isn't rational (`root` is None)."""
-    if root is None:
-        ratio = rational_square_root(square / first)
-        return None if ratio is None else _DifferenceLine(ratio, _F(0))
-    own = _rational_root(square)
-    if own is None:
-        return None
-    form, scale, shift = normal_form(own)
-    root_form, root_scale, root_shift = normal_form(root)
-    if form != root_form:
-        return None
-    slope = root_scale / scale
-    return _DifferenceLine(slope, shift - slope * root_shift)
-
-
 def _by_one_function(cubic: FunctionPoly, structure: Structure) -> Statement | None:
-    """Where the equation has this structure, and isn't reducible, for differences that are lines in one w; else None.
+    """Where the equation has this structure, and isn't reducible, for differences that are lines a w + b in one w; else None.
 
     w or its square is a rational function of the parameters.
     """
     constants = differences(cubic).constants
     free = [over_parameters(square) for square in roots(cubic) if without_parameters(square) is None]
-    if not free or len(free) + len(constants) < cubic.degree:
+    rational = [normal_form(one) for one in filter(None, map(_rational_root, free))]
+    lines = [(1 / scale, shift) for form, scale, shift in rational if form == rational[0].form]
+    if not rational:
+        ratios = (rational_square_root(square / free[0]) for square in free)
+        lines = [(ratio, _F(0)) for ratio in ratios if ratio is not None]
+    if not len(free) == len(lines) > 0 or len(free) + len(constants) < cubic.degree:
         return None
-    first = free[0]
-    root = _rational_root(first)
-    lines = [*filter(None, (_difference_line(square, first, root) for square in free))]
-    if len(lines) < len(free):
-        return None
-    period = reduce(common_multiple, (2 / abs(line.slope) for line in lines))
+    period = reduce(common_multiple, (2 / abs(slope) for slope, _ in lines))
     # The w modulo the period with this structure: of those at which a line has a denominator of the table.
-    tried = {w for line in lines for w in _numbers_in_table(line, period)}
-    admitted = [w for w in sorted(tried) if kimura([*constants, *(line.at(w) for line in lines)]) is structure]
-    if admitted and root is not None:
-        return Congruence.make(over_parameters(cubic.field.poly([0, 1]) - root), admitted, period)
+    values = [_F(k, 60) for k in range(int(60 * period * max(abs(slope) for slope, _ in lines)))]
+    known = [value for value in values if value.denominator <= LARGEST]
+    tried = {(value - shift) / slope % period for slope, shift in lines for value in known}
+    admitted = [w for w in sorted(tried) if kimura([*constants, *(a * w + b for a, b in lines)]) is structure]
+    if admitted and rational:
+        return Congruence.make(over_parameters(cubic.field.poly([0, 1]) - rational[0].form), admitted, period)
     # Only w^2 is known: w and -w are the same.
     statements: list[Statement] = []
     for denominator in sorted({w.denominator for w in admitted}):
         D = lcm(denominator, period.denominator)
         residues = [int(D * w) for w in admitted if w.denominator == denominator]
-        equation = over_parameters(cubic.field.poly([-(D**2) * first, 0, 1]))
+        equation = over_parameters(cubic.field.poly([-(D**2) * free[0], 0, 1]))
         statements.append(integer_roots(equation, residues, int(D * period)))
     return either(*statements)
-
-
-def _numbers_in_table(line: _DifferenceLine, period: Fraction) -> set[Fraction]:
-    """The w modulo a period at which the line has a denominator of the table: modulo 2, one of its values."""
-    sixtieths = range(int(60 * period * abs(line.slope)))
-    return {(_F(k, 60) - line.shift) / line.slope % period for k in sixtieths if _F(k, 60).denominator <= LARGEST}
