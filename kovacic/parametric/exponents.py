@@ -18,7 +18,7 @@ from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from fractions import Fraction
 from functools import reduce
 from itertools import chain, combinations, product
@@ -516,4 +516,4 @@ def form_conditions(problem: Problem, m: int) -> RankConditions:
     x = problem.field.poly([0, 1])
     R0 = singular_part(problem, valuations[:-1])
     images = [Form(m, R0, x**j).numerators(problem)[-1] for j in range(N + 1)]
-    return rank_conditions(images, problem.field)
+    return replace(rank_conditions(images, problem.field), deficient=False)

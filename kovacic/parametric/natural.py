@@ -83,30 +83,12 @@ class Determinant:
         """True if P exists wherever d is its degree."""
         return self.factors is not None and not all(self.factors)
 
-    def holds(self, point: ParameterPoint) -> bool:
-        """True if d is the degree at the point, and P exists there.
-
-        Parameters
-        ----------
-        point : ParameterPoint
-            What `Conditions.point` returned.
-
-        Returns
-        -------
-        bool
-            True where both hold.
-        """
-        if self.factors is None or point.at(self.exponents):
-            return False
-        in_system = bool(self.system) and not any(point.at(function) for function in self.system)
-        return in_system or any(not point.at(factor) for factor in self.factors)
-
     def __str__(self) -> str:
         if self.factors is None:
             return NO_FORMULA
         parts = sorted(map(shown, self.factors), key=len)
         if len(parts) > 1 or self.system:
-            parts = [in_sum(part) for part in parts]
+            parts = [*map(in_sum, parts)]
         if self.system:
             parts.append(f"({', '.join(map(shown, self.system))})")
         return "*".join(parts) or "1"
@@ -243,10 +225,8 @@ class Natural(Statement):
             if factor.degree == 1 and assumptions.meets_classes(-factor[0] / factor[1], INTEGERS) is False:
                 continue
             # A polynomial with a positive constant term and no negative coefficient is positive for all d >= 0.
-            is_positive = assumptions.is_positive(over_parameters(factor[0]))
-            if not is_positive or not all(
-                assumptions.is_positive(over_parameters(c), or_zero=True) for c in factor if c
-            ):
+            coefficients = enumerate(map(over_parameters, factor))
+            if not all(assumptions.is_positive(c, or_zero=k > 0) for k, c in coefficients):
                 found.append(factor)
         return replace(self, factors=tuple(found)) if found else NEVER
 
@@ -265,12 +245,10 @@ class Natural(Statement):
         numbers = degrees_of_solutions(problem) if self.m == 1 else zeros_of_forms(problem, self.m)
         if numbers is None:
             return None
-        if numbers.only_signs:
-            return DegreeBySum(self.letter, numbers)
         distance = over_parameters(problem.field.poly([-numbers.constant, 1]))
         has_zero = self.factors is None or distance in self.factors
         letters: list[str] = []
-        for _ in numbers.roots:
+        for _ in () if numbers.only_signs else numbers.roots:
             letters.append(free_letter([self.letter, *self.setting.names, *letters], "jkmnl"))
         return DegreeBySum(self.letter, numbers, tuple(letters), has_zero)
 
@@ -292,7 +270,7 @@ def _determinants(statement: Natural, number: int) -> tuple[Determinant, ...]:
             choices = conditions_of_degree(analyse(S, Budget()), number)
         for conditions in choices:
             determinant = Determinant(exponents)
-            if conditions.deficient and (statement.m == 1 or S.field.ground == QQ):
+            if conditions.deficient:
                 determinant = Determinant(exponents, (0 * exponents,))
             elif conditions.system is not None:  # in the parameters that were given
                 factors, system = (

@@ -102,30 +102,26 @@ def kimura(differences: Sequence[Fraction | None]) -> Structure | None:
             return Structure.REDUCIBLE
     if sum(difference.denominator == 2 for difference in known) >= 2:
         return Structure.IMPRIMITIVE
-    if len(known) < 3 or any(d.denominator > LARGEST for d in known):
-        return None
-    return _table().get(_difference_key(known))
+    return _TABLE.get(_difference_key(known))
 
 
-@lru_cache(maxsize=1)
-def _table() -> dict[tuple[int, ...], Structure]:
-    """Schwarz's rows, for the exponent differences up to signs modulo 2 in sixtieths, sorted."""
-    return {
-        _difference_key([r + q for r, q in zip(row.differences, integers, strict=True)]): row.structure
-        for row in _SCHWARZ.values()
-        for integers in product((0, 1), repeat=3)
-        if not row.is_even or sum(integers) % 2 == 0
-    }
-
-
-def _sixtieths(difference: Fraction) -> int:
-    """From 0 to 60: the number up to its sign modulo 2, where its denominator is one of the table."""
-    residue = int(60 * difference) % 120
+def _sixtieths(difference: Fraction) -> Fraction:
+    """From 0 to 60, an integer where the denominator is one of the table: the number up to its sign modulo 2."""
+    residue = 60 * difference % 120
     return min(residue, 120 - residue)
 
 
-def _difference_key(differences: Sequence[Fraction]) -> tuple[int, ...]:
+def _difference_key(differences: Sequence[Fraction]) -> tuple[Fraction, ...]:
     return tuple(sorted(map(_sixtieths, differences)))
+
+
+#: Schwarz's rows, for the exponent differences up to signs modulo 2 in sixtieths, sorted.
+_TABLE = {
+    _difference_key([r + q for r, q in zip(row.differences, integers, strict=True)]): row.structure
+    for row in _SCHWARZ.values()
+    for integers in product((0, 1), repeat=3)
+    if not row.is_even or sum(integers) % 2 == 0
+}
 
 
 #: The group where all exponents are rational, and a solution has a rational omega.
@@ -156,7 +152,7 @@ class Schwarz(Statement):
 
     def sample(self, random: Random) -> list[FunctionPoly]:
         """Equations that give the exponent differences values from a row of the table; [] where they aren't rational in t."""
-        rows = [key for key, structure in _table().items() if structure in self.structures]
+        rows = [key for key, structure in _TABLE.items() if structure in self.structures]
         values = [_F(1, 2), _F(3, 2), _F(random.randint(1, 9), random.randint(2, 9))]  # two half-integers
         if rows:
             values = [_F(k, 60) for k in random.choice(rows)]
@@ -192,7 +188,7 @@ class Schwarz(Statement):
         """
         known = differences(self.cubic)
         third = known.constants[0] if len(known.constants) == 1 else None
-        if known.names is not None and len(known.free) == 2 and third is not None:
+        if known.names is not None and third is not None:
             return ResolvedDifferences([*known.free], self._rows_beside(third))
         rows: list[tuple[Structure, list[Words]]] = []
         for row in _SCHWARZ.values():
@@ -204,7 +200,7 @@ class Schwarz(Statement):
     def _rows_beside(self, third: Fraction) -> list[tuple[Structure, list[Words]]]:
         """The classes of the other two differences, in sixtieths up to signs: modulo 2, or modulo 1 where these say it."""
         pairs = product(range(61), repeat=2)
-        table = ((_table().get(tuple(sorted((u, v, _sixtieths(third))))), u, v) for u, v in pairs)
+        table = ((_TABLE.get(_difference_key([_F(u, 60), _F(v, 60), third])), u, v) for u, v in pairs)
         found = [(structure, u, v) for structure, u, v in table if structure in self.structures]
         # The same structures for u and 1 - u, and for v and 1 - v: they are those of the differences modulo 1.
         is_symmetric = {*found} == {(s, 60 - u, v) for s, u, v in found} == {(s, u, 60 - v) for s, u, v in found}
@@ -385,18 +381,12 @@ def structures(problem: Problem) -> Iterator[tuple[Structure, Statement]]:
     if always is not None:
         yield always, ALWAYS
         return
-    for structure in (Structure.IMPRIMITIVE, Structure.TETRAHEDRAL, Structure.OCTAHEDRAL, Structure.ICOSAHEDRAL):
-        if len(constants) < 3 and _is_possible(structure, constants):
-            yield structure, _in_table(cubic, structure)
-
-
-def _is_possible(structure: Structure, constants: Sequence[Fraction | None]) -> bool:
-    if structure is Structure.IMPRIMITIVE:
-        return True
-    known = [difference for difference in constants if difference is not None and difference.denominator <= LARGEST]
+    known = [constant for constant in constants if constant is not None]
     residues = {*map(_sixtieths, known)}
-    fits = any(residues <= {*row} for row, other in _table().items() if other is structure)
-    return fits and len(known) == len(constants)
+    possible = {structure for row, structure in _TABLE.items() if residues <= {*row} and len(known) == len(constants)}
+    for structure in (Structure.IMPRIMITIVE, Structure.TETRAHEDRAL, Structure.OCTAHEDRAL, Structure.ICOSAHEDRAL):
+        if len(constants) < 3 and structure in {Structure.IMPRIMITIVE, *possible}:
+            yield structure, _in_table(cubic, structure)
 
 
 def _in_rows(cubic: FunctionPoly, structures: Sequence[Structure]) -> Statement:

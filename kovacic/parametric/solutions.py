@@ -289,7 +289,7 @@ def weight_by_signs(problem: Problem, variable: str) -> Signed | None:
     None if the exponents need too large an extension, or other roots than square roots.
     """
     places = places_of(problem)
-    if places is None or not places.parts or not has_radicals(places.field):
+    if places is None or not has_radicals(places.field):
         return None
     parts = places.parts
     x = sympy.Symbol(variable)
@@ -319,9 +319,8 @@ def solution_of_degree(exponents: Exponents, d: int, variable: str, given: Funct
     found = descended(*exponents.operator, d)
     if found is None or found.free is not None:
         return None
-    alternatives = [_conditions(coefficient) for coefficient in found.rest if coefficient]
-    exists_nowhere = [] in alternatives
-    if exists_nowhere:
+    alternatives = [*map(_conditions, filter(None, found.rest))]
+    if [] in alternatives:  # it exists nowhere
         return None
     x = sympy.Symbol(variable)
     y = found.P.to_sympy(x)
