@@ -20,7 +20,7 @@ from kovacic.algebra import splitting
 from kovacic.algebra.homomorphism import BadPrimeError, Collector, Homomorphism
 from kovacic.algebra.lifting import Lifter, inverse_by_primes, lifted
 from kovacic.algebra.poly import Field, Poly, Scalar
-from kovacic.algebra.rationals import QQ, RationalPoly, square_part
+from kovacic.algebra.rationals import QQ, RationalPoly
 from kovacic.algebra.traces import characteristic_polynomial, coefficients_from_traces, power_sums
 from kovacic.limits import check_time
 from kovacic.numbers.exact import radical
@@ -353,12 +353,12 @@ def norm(polynomial: Poly) -> Poly:
 def adjoined_square_root(field: Field, value: Poly, *, as_radical: bool = False) -> Poly:
     """A square root of a non-zero constant: in the field if it has one, else in K(c) with c^2 the simplified radicand.
 
-    c is called `sqrt(...)`, and written so, if it is wanted `as_radical`.
+    c is called `sqrt(...)`, and written so, if it is wanted `as_radical`, without squares of parameters in the radicand.
     """
     root = field.sqrt(value)
     if root is not None:
         return root
-    factor, radicand = square_part(value.constant()) if isinstance(value, RationalPoly) else (1, value)
+    factor, radicand = value.square_part() if as_radical or isinstance(value, RationalPoly) else (1, value)
     modulus = field.poly([-radicand, 0, 1])
     adjoined = AlgebraicField(field, modulus, f"sqrt({radicand})") if as_radical else AlgebraicField(field, modulus)
     return adjoined.generator * factor

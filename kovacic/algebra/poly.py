@@ -86,6 +86,10 @@ class Poly(Immutable):
     def inverse(self) -> Self:
         """The inverse of a non-zero constant."""
 
+    def square_part(self) -> tuple[Any, Any]:
+        """(c, d) for a constant other than 0: it is c^2 d, d without squares that are seen."""
+        return 1, self
+
     @abstractmethod
     def rational_coefficients(self) -> tuple[Any, ...]:
         """All rational coordinates of all coefficients, as flint rationals: what decides about sizes and denominators."""

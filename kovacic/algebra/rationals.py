@@ -236,6 +236,9 @@ class RationalPoly(Poly):
         """The coefficients from low to high."""
         return tuple(to_fraction(c) for c in self.rep.coeffs())
 
+    def square_part(self) -> tuple[Fraction, int]:
+        return square_part(self.constant())
+
     def rational_coefficients(self) -> tuple[Any, ...]:
         return tuple(self.rep.coeffs())
 

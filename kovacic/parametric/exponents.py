@@ -416,7 +416,7 @@ def places_of(problem: Problem) -> Places | None:
     for place in singular:
         square = place.delta_squared if place.kind is Kind.REGULAR else _at_infinity(place, split.S).lc
         assert square is not None  # at a single point
-        root = _square_root(square.over(field), field)
+        root = adjoined_square_root(field, square.over(field), as_radical=True)
         field = root.field
         if _degree_over(field, problem.field) > _DEGREE:
             return None
@@ -443,7 +443,8 @@ def _with_rational_points(problem: Problem) -> Problem | None:
 def _with_root_of(factor: Poly, problem: Problem) -> Problem:
     """The problem over an extension in which an irreducible factor of its denominator has a root."""
     if factor.degree == 2:
-        extension = _square_root(factor[1] * factor[1] - 4 * factor[0], problem.field).field
+        square = factor[1] * factor[1] - 4 * factor[0]
+        extension = adjoined_square_root(problem.field, square, as_radical=True).field
     else:
         extension = AlgebraicField(problem.field, factor, "point")
     S = RatFunc(problem.S.num.over(extension), problem.S.den.over(extension), reduced=True)
@@ -463,20 +464,6 @@ def with_points_apart(problem: Problem) -> Problem | None:
 
 def _degree_over(field: Field, base: Field) -> int:
     return field.absolute_degree // base.absolute_degree
-
-
-def _square_root(square: Poly, field: Field) -> Poly:
-    """A square root of a constant; one that has to be adjoined is called so that it is written as a radical."""
-    root = field.sqrt(square)
-    if root is not None:
-        return root
-    if field.ground == field and not isinstance(square, FunctionPoly):
-        return adjoined_square_root(field, square, as_radical=True)
-    outer = field.poly([1])
-    inner = square
-    if isinstance(square, FunctionPoly):
-        outer, inner = square.square_part()
-    return AlgebraicField(field, field.poly([-inner, 0, 1]), f"sqrt({inner.to_str()})").generator * outer
 
 
 def _at_infinity(place: Place, S: RatFunc) -> Poly:
