@@ -15,6 +15,7 @@ from kovacic.general_solution.basis import Basis
 from kovacic.general_solution.constants import Determined
 from kovacic.general_solution.first_order import FirstOrderEquation
 from kovacic.general_solution.question import Condition, Question, symbols_that_know
+from kovacic.general_solution.substitution import size
 from kovacic.general_solution.validity import Validity, needed_for
 from kovacic.general_solution.zero import differs_from_zero, samples
 from kovacic.general_solution.zero_set import ZeroSet
@@ -188,8 +189,8 @@ class SecondOrderAnswer(ProblemAnswer):
 
     def _there(self, case: Exceptional) -> ProblemAnswer:
         """For particular values of letters, or with something more assumed of them."""
-        equation, _ = self.question.at(case.values)
-        return self.ask(equation.xreplace(self.own), self.question.function.xreplace(self.own), assume=case.assume)
+        equation, function, _ = self.question.at(case.values)
+        return self.ask(equation.xreplace(self.own), function.xreplace(self.own), assume=case.assume)
 
 
 @dataclass(frozen=True, repr=False)
@@ -242,7 +243,8 @@ def exceptional_cases(zero: Expr) -> Iterator[Exceptional]:
         yield Exceptional(str(ZeroSet(zero)))
         return
     letter = min(linear, key=lambda k: not slopes[k].is_number)
-    value = sympy.expand(letter - zero / slopes[letter])
+    value = letter - zero / slopes[letter]
+    value = min((sympy.expand(value), sympy.factor(value)), key=size)
     yield Exceptional(f"{letter} = {value}", values={letter: value})
 
 

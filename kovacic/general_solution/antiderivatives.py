@@ -22,6 +22,7 @@ import sympy
 from sympy import atan, cos, exp, log, sin
 
 from kovacic.closed_form.cuts import cuts_of
+from kovacic.equation import EULER
 from kovacic.general_solution.behaviour import have_values
 from kovacic.general_solution.integrands import (
     ChangeOfIntegrand,
@@ -63,7 +64,11 @@ def antiderivative(integrand: Expr, x: Expr, start: Expr | None = None) -> Expr 
     """
     own = {sympy.Symbol(symbol.name): symbol for symbol in integrand.free_symbols | {x}}
     plain = {symbol: letter for letter, symbol in own.items()}
-    found = _by_rules(integrand.xreplace(plain), plain[x])
+    # e exp(e x) is exp(e x + 1) for SymPy, which hides the factor: Euler's number gets a letter.
+    euler = sympy.Symbol(f"{EULER}_")
+    powers = {power: euler**power.exp for power in integrand.atoms(exp) if power.exp.is_Integer}
+    found = _by_rules(integrand.xreplace(plain | powers | {sympy.E: euler}), plain[x])
+    own[euler] = sympy.E
     if found is None:
         return None
     found = found.xreplace(own)

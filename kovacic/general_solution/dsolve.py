@@ -14,7 +14,7 @@ The steps, each in a module of this package:
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterator, Mapping, Sequence
+from collections.abc import Callable, Collection, Iterable, Iterator, Mapping, Sequence
 from contextlib import suppress
 from dataclasses import dataclass, replace
 from functools import cached_property, partial
@@ -26,6 +26,7 @@ from kovacic.closed_form.cuts import arguments_with_cuts, common_place
 from kovacic.decision import Status
 from kovacic.errors import InputError, LimitExceeded, warn_user
 from kovacic.general_solution.answer import (
+    Exceptional,
     FirstOrderAnswer,
     ProblemAnswer,
     SecondOrderAnswer,
@@ -55,6 +56,7 @@ from kovacic.general_solution.question import (
     about_letters,
     apart,
     as_mapping,
+    conditions_at,
     free_constants,
     has_floats,
     known_letters,
@@ -64,7 +66,7 @@ from kovacic.general_solution.question import (
 )
 from kovacic.general_solution.riccati import solved_riccati
 from kovacic.general_solution.substitution import size
-from kovacic.general_solution.systems import Solver, read_system, solved_system
+from kovacic.general_solution.systems import Solver, There, read_system, solved_system
 from kovacic.general_solution.textbook import in_book_form, without_homogeneous
 from kovacic.general_solution.zero import is_identically_zero
 from kovacic.general_solution.zero_set import ZeroSet
@@ -75,6 +77,8 @@ from kovacic.reading.read import declared
 from kovacic.reading.symbolic import read_equations
 
 Expr = Any  # SymPy publishes no types
+#: The most exceptional cases in which an equation is solved.
+_MOST_CASES = 2
 #: Names of the one method.
 _HINTS = ("default", "best", "kovacic")
 #: Characters; beside a longer formula another one is offered.
@@ -218,7 +222,7 @@ def dsolve(
 
 
 def _system(
-    eq: Any, func: Any, ics: Any, names: Sequence[str], assume: Mapping[Any, Any], solver: Solver
+    eq: Any, func: Any, ics: Any, names: Sequence[str], assume: Mapping[Any, Any], solver: Solver, there: There
 ) -> SystemAnswer | None:
     """The answer for a list of several equations, or a text with several; None for anything else."""
     guesses: tuple[str, ...] = ()
@@ -231,7 +235,7 @@ def _system(
         guesses = reading.guesses
     if not isinstance(eq, list | tuple) or len(eq) == 1:
         return None
-    answer = solved_system(read_system(eq, func), as_mapping(ics), assume, solver)
+    answer = solved_system(read_system(eq, func), as_mapping(ics), assume, solver, there)
     return replace(answer, notices=[*guesses, *answer.notices])
 
 
@@ -312,24 +316,41 @@ def answer_to(
     c is a positive integer | C1*hyper((a,), (c,), x) + C2*hyper((a, a - c + 1), (), -1/x)/x**a
     c is a nonpositive integer | C1*x**(1 - c)*hyper((a - c + 1,), (2 - c,), x) + C2*hyper((a, a - c + 1), (), -1/x)/x**a
     """
+    return _answered(eq, func, ics, var, parameters, assume, limits=limits, special=special)
+
+
+def _answered(
+    eq: Any,
+    func: Any = None,
+    ics: Any = None,
+    var: str | None = None,
+    parameters: Sequence[str] = (),
+    assume: Mapping[Any, Any] | None = None,
+    *,
+    limits: Limits,
+    special: bool = False,
+    is_exceptional: bool = False,
+) -> ProblemAnswer:
+    """The answer; where it is that in an exceptional case of another one, its own such cases aren't solved."""
     eq, ics, assume = with_values(eq, ics, assume, limits)
     budget = Budget(limits)
-    solver = partial(answer_to, limits=limits)
+    solver = partial(_answered, limits=limits, is_exceptional=is_exceptional)
+    there = _WhereZero(None if is_exceptional else budget)
     with budget.watched():
         try:
             names = declared(parameters, about_letters(assume, var))
-            system = _system(eq, func, ics, names, assume or {}, solver)
+            system = _system(eq, func, ics, names, assume or {}, solver, there)
             if system is not None:
                 return system
             eq, func = _single(eq, "equation"), _single(func, "function")
             try:
                 question = read_question(eq, func, ics, var, budget.limits, parameters, assume)
             except InputError as reason:
-                first_order = _first_order(eq, func, ics, var, budget.limits, names, assume or {}, solver)
+                first_order = _first_order(eq, func, ics, var, budget, names, assume or {}, solver, there)
                 if first_order is None:
                     raise reason from None
                 return first_order
-            return _solved(question, budget, special=special)
+            return _solved(question, budget, there, special=special)
         except LimitExceeded as limit:
             raise NotImplementedError(f"undecided: {limit}") from None
 
@@ -339,35 +360,38 @@ def _first_order(
     func: Any,
     ics: Any,
     var: str | None,
-    limits: Limits,
+    budget: Budget,
     names: Collection[str],
     assume: Mapping[Any, Any],
     solver: Solver,
+    there: There,
 ) -> FirstOrderAnswer | None:
     """The answer for an equation of first order; None if it isn't one, or can't be read."""
     eq, ics = apart(eq, ics)
     found = None
     with suppress(InputError):
-        found = read_first_order(eq, func, var, limits, names)
+        found = read_first_order(eq, func, var, budget.limits, names)
     if found is None:
         return None
     reader = ConditionReader(found.function, str(found.function.func))
     conditions = tuple(reader.read(key, value) for key, value in as_mapping(ics).items())
     known = known_letters(assume, found.x, found.letters, conditions)
     equation, conditions = found.in_symbols(known), tuple(condition.in_symbols(known) for condition in conditions)
-    exceptional: tuple[Expr, ...] = ()
-    if equation.is_linear:
-        solution, notices = solved_linear(equation, conditions)
-    else:
-        solution, notices, exceptional = solved_riccati(equation, conditions, solver)
-    solution = solution.xreplace({symbol: own for own, symbol in known.items()})
+    solved = solved_linear(equation, conditions) if equation.is_linear else solved_riccati(equation, conditions, solver)
+
+    def at(values: Mapping[Expr, Expr]) -> tuple[Expr, Expr, dict[Expr, Any]]:
+        given = ((equation.function, condition) for condition in conditions)
+        return equation.at(values), equation.function, conditions_at(values, given)
+
+    exceptions = (f"this holds unless {said}" for said in there(solved.zeros, at, [solved.eq]))
+    notices = [*equation.guesses, *exceptions, *solved.notices]
+    solution = solved.eq.xreplace({symbol: own for own, symbol in known.items()})
     if has_floats(eq, as_mapping(ics)):
         solution = sympy.Eq(solution.lhs, with_floats(solution.rhs), evaluate=False)
-    notices = [*equation.guesses, *notices]
-    return FirstOrderAnswer(solution, notices, equation, conditions, known=known, exceptional=exceptional)
+    return FirstOrderAnswer(solution, notices, equation, conditions, known=known, exceptional=solved.of_pair)
 
 
-def _solved(question: Question, budget: Budget, *, special: bool) -> ProblemAnswer:
+def _solved(question: Question, budget: Budget, there: There, *, special: bool) -> ProblemAnswer:
     """The steps of the head of this module, after the first."""
     notices = [*question.guesses]
     family = eigenfunctions(question)
@@ -378,7 +402,7 @@ def _solved(question: Question, budget: Budget, *, special: bool) -> ProblemAnsw
     assert solution is not None
     if solution.status is Status.UNDECIDED and not solution.known:
         notices.append(f"whether there is a Liouvillian solution is {no_solution(solution)}")
-    answer = _determined(question, basis, budget) if question.conditions else _general(question, basis)
+    answer = _determined(question, basis, there) if question.conditions else _general(question, basis)
     return replace(answer, notices=notices + answer.notices, known=question.renamed)
 
 
@@ -433,15 +457,15 @@ class _Family:
         other = self.question.written(replace(self, basis=self.basis.otherwise).member(self.names))
         return [f"{holds}; elsewhere, {other.lhs} = {other.rhs}"]
 
-    def said(self, case: ParameterCase, answer: Expr, budget: Budget) -> Iterator[str]:
+    def said(self, case: ParameterCase, answer: Expr, there: There) -> Iterable[str]:
         """The solutions for particular values of the parameters, of which the answer is the one for all others."""
-        if case.outcome is Outcome.OPEN:
-            yield from _said_of_open(self.question, case, answer, budget)
-        else:
-            yield self._said_of_determined(case, answer)
-
-    def _said_of_determined(self, case: ParameterCase, answer: Expr) -> str:
         where = case.where(answer)
+        if case.outcome is Outcome.OPEN:
+            formula = self.question.written(answer).xreplace(self.question.renamed)
+            return there(case.zeros, self.question.at, [formula], where)
+        return [self._said_of_determined(case, answer, where)]
+
+    def _said_of_determined(self, case: ParameterCase, answer: Expr, where: str) -> str:
         if case.outcome is Outcome.NONE or not all(map(ZeroSet, case.needed)):
             return f"{where}, where there is no solution"
         value = self.member(case.values)
@@ -461,42 +485,76 @@ class _Contradiction(InputError):
     """No solution has all of the given values."""
 
 
-def _are_same_family(one: Expr, other: Expr, names: Collection[Expr], x: Expr) -> bool:
-    """True for two equal expressions, and for p + C u and q + C v with a constant u/v and (p - q)/v."""
-    constants = {name for name in names if one.has(name) or other.has(name)}
-    if not constants:
-        return is_identically_zero(one - other)
-    (p, u), (q, v) = ((e.subs(dict.fromkeys(constants, 0)), sympy.Add(*map(e.diff, constants))) for e in (one, other))
-    if len(constants) > 1 or u == 0:
-        return False
-    return not any(sympy.simplify(quotient / v).has(x, sympy.nan, sympy.zoo) for quotient in (u, p - q))
+def _are_same(formulas: Sequence[Expr], others: Sequence[Expr], letters: Collection[Expr]) -> bool:
+    """True for equal formulas, and for families p + C u and q + C v of one function, with a constant u/v and (p - q)/v.
 
-
-def _said_of_open(question: Question, case: ParameterCase, answer: Expr, budget: Budget) -> Iterator[str]:
-    """The solutions at the values of a letter that the conditions leave open, unless `answer` holds there as well.
-
-    The equation is solved for these values, each time in half of the remaining time, so that the answer is not lost.
+    All symbols but the letters and the variable are constants of the families.
     """
-    factors = ZeroSet(case.zeros[0]).factors if len(case.zeros) == 1 else ()
-    places = [place for factor in factors for place in exceptional_cases(factor)]
-    if not places or not all(place.values for place in places):
-        yield f"{case.where(answer)}: give such values for the solutions there"
-        return
-    x = question.function.args[0]
-    for place in places:
-        there = None
+    pairs = [(one.rhs, other.rhs) for one, other in zip(formulas, others, strict=True)]
+    x = formulas[0].lhs.args[0]
+    constants = {symbol for pair in pairs for e in pair for symbol in e.free_symbols} - {*letters, x}
+    if not constants:
+        return all(is_identically_zero(one - other) for one, other in pairs)
+    if len(constants) > 1 or len(pairs) > 1:
+        return False
+    (p, u), (q, v) = ((e.subs(dict.fromkeys(constants, 0)), sympy.Add(*map(e.diff, constants))) for e in pairs[0])
+    return u != 0 and not any(sympy.simplify(quotient / v).has(x, sympy.nan, sympy.zoo) for quotient in (u, p - q))
+
+
+@dataclass(frozen=True)
+class _WhereZero:
+    """What holds in exceptional cases; without a budget nothing is solved for it."""
+
+    budget: Budget | None
+
+    def __call__(
+        self,
+        zeros: Iterable[Expr],
+        at: Callable[[Mapping[Expr, Expr]], tuple[Any, Any, dict[Expr, Any]]],
+        formulas: Sequence[Expr],
+        where: str = "",
+    ) -> Iterator[str]:
+        """The solutions where a letter makes one of `zeros` zero, in words `where`, unless the `formulas` hold there as well.
+
+        `at` gives equation, function and conditions, as for `answer_to`, for values of letters.
+        """
+        sets = [*map(ZeroSet, zeros)]
+        places = [(place, factor) for zero in sets for factor in zero.factors for place in exceptional_cases(factor)]
+        # With more of them the solutions in one case have the others for exceptions.
+        if self.budget is None or len(places) > _MOST_CASES or not all(place.values for place, _ in places):
+            left = [where or " or ".join(map(str, sets))] if sets else []
+        else:
+            left = []
+            for place, factor in places:
+                said = self._said_at(place, at, formulas, self.budget)
+                if said is None:
+                    left.append(str(ZeroSet(factor)))
+                elif said:
+                    yield f"{place}, where {said}"
+        if left:
+            yield f"{' or '.join(left)}: give such values for the solutions there"
+
+    def _said_at(
+        self, place: Exceptional, at: Callable[..., Any], formulas: Sequence[Expr], budget: Budget
+    ) -> str | None:
+        """What the solutions are, found in half of the remaining time, so that the answer is not lost; None if they aren't.
+
+        Nothing is said where the formulas hold.
+        """
         try:
-            equation, conditions = question.at(place.values)
-            there = answer_to(equation, question.function, ics=conditions, limits=budget.share(0.5).limits)
+            equation, function, conditions = at(place.values)
+            there = _answered(equation, function, conditions, limits=budget.share(0.5).limits, is_exceptional=True)
         except _Contradiction:
-            yield f"{place}, where there is no solution"
-            continue
+            return "there is no solution"
         except (InputError, NotImplementedError):
-            pass
-        if not isinstance(there, SecondOrderAnswer) or there.notices:
-            yield f"{place}: give such values for the solutions there"
-        elif not _are_same_family(answer.xreplace({question.x: x}).subs(place.values), there.eq.rhs, there.names, x):
-            yield f"{place}, where {there.eq.lhs} = {there.eq.rhs}"
+            return None
+        if there.notices:
+            return None
+        here = [sympy.Eq(eq.lhs, eq.rhs.subs(place.values), evaluate=False) for eq in formulas]
+        letters = sympy.Tuple(equation, *conditions.items()).free_symbols
+        if _are_same(here, there.equations, letters):
+            return ""
+        return ", ".join(f"{eq.lhs} = {eq.rhs}" for eq in there.equations)
 
 
 def _general(question: Question, basis: Basis) -> SecondOrderAnswer:
@@ -523,7 +581,7 @@ def _general(question: Question, basis: Basis) -> SecondOrderAnswer:
     return family.answer(value, unchecked, unchecked)
 
 
-def _determined(question: Question, basis: Basis, budget: Budget) -> SecondOrderAnswer:
+def _determined(question: Question, basis: Basis, there: There) -> SecondOrderAnswer:
     """The answer with the constants that the conditions determine.  Raises `InputError` if they contradict one another."""
     limits = limit_points(question)
     start = start_of(question, limits)
@@ -536,7 +594,7 @@ def _determined(question: Question, basis: Basis, budget: Budget) -> SecondOrder
     value = family.member(generic.values)
     value = in_book_form(value, question.x, family.names if value.has(*family.names) else ())
     cases = (case for case in determined.particular if case.is_possible)
-    exceptions = [said for case in cases for said in family.said(case, value, budget)]
+    exceptions = [said for case in cases for said in family.said(case, value, there)]
     if generic.outcome is Outcome.NONE:
         said = "there is no solution with these values: the conditions contradict one another"
         singular = [str(point) for point, place in limits.items() if not place.is_infinite]

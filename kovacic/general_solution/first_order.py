@@ -61,6 +61,12 @@ class FirstOrderEquation:
         function, p, q, r, n = (e.xreplace(others) for e in (self.function, *self.parts, self.power))
         return FirstOrderEquation(function, p, q, r, self.guesses, n)
 
+    def at(self, values: Mapping[Expr, Expr]) -> Expr:
+        """The equation for particular values of letters, as an expression that is zero."""
+        w = self.function
+        p, q, r, n = (e.subs(values) for e in (*self.parts, self.power))
+        return w.diff(self.x) - p - q * w - r * w**n
+
     @property
     def x(self) -> Expr:
         return self.function.args[0]
@@ -210,10 +216,19 @@ def _quotient_by_terms(numerator: Expr, denominator: Expr) -> Expr:
 # ------------------------------------------------------------------------------------------------------------ solving
 
 
+class Solved(NamedTuple):
+    """w(x) = ..., checked; what is to be said beside, zeros of its denominators, and the exceptions of the pair in it."""
+
+    eq: Expr
+    notices: list[str]
+    zeros: list[Expr]
+    of_pair: tuple[Expr, ...] = ()
+
+
 def solved_linear(
     equation: FirstOrderEquation, conditions: Sequence[Condition], taken: Set[Expr] = frozenset()
-) -> tuple[Expr, list[str]]:
-    """w(x) = ... by (1), checked, and what is to be said beside; the constant isn't one of the symbols `taken`.
+) -> Solved:
+    """The solution by (1); its constant isn't one of the symbols `taken`.
 
     Raises `InputError` for a value that no solution has, and `NotImplementedError` where a question isn't decided.
     """
@@ -239,21 +254,18 @@ def solved_linear(
     w = shortest([*sums(whole, x), h * (constant + sympy.powsimp(particular / h))])
     if value is not None:
         w = with_letters_of_integration(in_book_form(w, x))
-    notices = exceptions_of(w, x, (equation.p, equation.q))
-    return sympy.Eq(equation.function, w, evaluate=False), notices + check_first_order(equation, w, conditions)
+    eq = sympy.Eq(equation.function, w, evaluate=False)
+    return Solved(eq, check_first_order(equation, w, conditions), zeros_of(w, x, (equation.p, equation.q)))
 
 
-def exceptions_of(w: Expr, x: Expr, coefficients: Sequence[Expr], of_pair: Iterable[Expr] = ()) -> list[str]:
-    """One sentence if denominators without x may vanish for values of parameters at which the equation has no pole.
+def zeros_of(w: Expr, x: Expr, coefficients: Sequence[Expr], of_pair: Iterable[Expr] = ()) -> list[Expr]:
+    """Denominators without x that may vanish for values of parameters at which the equation has no pole.
 
-    It also says where one of `of_pair` vanishes: there the two solutions in w are dependent.
+    So may `of_pair`: where one of these vanishes, the two solutions in w are dependent.
     """
     given = _constant_denominators(sympy.Tuple(*coefficients), x)
     others = dict.fromkeys([*_constant_denominators(w, x), *of_pair])
-    zeros = [str(ZeroSet(factor)) for factor in others if factor not in given and -factor not in given]
-    if not zeros:
-        return []
-    return [f"this holds unless {' or '.join(zeros)}: give such values for the solutions there"]
+    return [factor for factor in others if factor not in given and -factor not in given]
 
 
 def _constant_denominators(e: Expr, x: Expr) -> list[Expr]:

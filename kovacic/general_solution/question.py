@@ -10,7 +10,7 @@ y(a) = "bounded" that it stays bounded.
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
 from itertools import islice
@@ -96,22 +96,15 @@ class Question:
         """The expression in the user's symbols for the parameters, with what letters stand for."""
         return expression.xreplace(self._own) if self._own else expression
 
-    def at(self, values: Mapping[Expr, Expr]) -> tuple[Expr, dict[Expr, Any]]:
-        """The equation, an expression that is zero, and its conditions, as for `dsolve`, for particular values of letters.
+    def at(self, values: Mapping[Expr, Expr]) -> tuple[Expr, Expr, dict[Expr, Any]]:
+        """The equation, an expression that is zero, y(x), and the conditions, as for `dsolve`, for values of letters.
 
         Raises `InputError` where two of the conditions are on the same value then.
         """
         y, (x,) = self.function, self.function.args
         a, b, c, f = (self.own(e).xreplace({self.x: x}).subs(values) for e in self.coefficients)
-        conditions = {}
-        for condition in self.conditions:
-            left = sympy.Add(*(t.coefficient * y.diff(x, t.order).subs(x, t.point) for t in condition.terms)).subs(
-                values
-            )
-            if left in conditions:
-                raise InputError(f"two values are given for {left}")
-            conditions[left] = BOUNDED if condition.value is None else condition.value.subs(values)
-        return a * y.diff(x, 2) + b * y.diff(x) + c * y - f, conditions
+        equation = a * y.diff(x, 2) + b * y.diff(x) + c * y - f
+        return equation, y, conditions_at(values, ((y, condition) for condition in self.conditions))
 
     def written(self, value: Expr) -> Expr:
         """Eq(y(x), value) with the user's symbols for the variable and for those with the names of numbers."""
@@ -426,6 +419,18 @@ class Condition:
         for term in self.terms:
             parts[term.order] += term.coefficient
         return parts[0], parts[1]
+
+
+def conditions_at(values: Mapping[Expr, Expr], conditions: Iterable[tuple[Expr, Condition]]) -> dict[Expr, Any]:
+    """Conditions on functions, as for `dsolve`, for particular values of letters.  Raises `InputError` for two on one value."""
+    found: dict[Expr, Any] = {}
+    for y, condition in conditions:
+        x = y.args[0]
+        left = sympy.Add(*(t.coefficient * y.diff(x, t.order).subs(x, t.point) for t in condition.terms)).subs(values)
+        if left in found:
+            raise InputError(f"two values are given for {left}")
+        found[left] = BOUNDED if condition.value is None else condition.value.subs(values)
+    return found
 
 
 def periodicity(conditions: Sequence[Condition], ends: tuple[Expr, Expr]) -> int:

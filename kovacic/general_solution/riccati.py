@@ -38,12 +38,13 @@ from kovacic.general_solution.behaviour import value_at
 from kovacic.general_solution.first_order import (
     FirstOrderEquation,
     GivenValue,
+    Solved,
     check_first_order,
-    exceptions_of,
     is_unit,
     read_first_order,
     solved_linear,
     value_of,
+    zeros_of,
 )
 from kovacic.general_solution.integrands import NUMBERS, ratfunc
 from kovacic.general_solution.question import Condition, free_constants
@@ -83,10 +84,8 @@ def solved_riccati(
     equation: FirstOrderEquation,
     conditions: Sequence[Condition],
     solver: Callable[..., Any],
-) -> tuple[Expr, list[str], tuple[Expr, ...]]:
-    """w(x) = ..., checked, what is to be said beside, and the exceptions of the pair in it.
-
-    `solver` is `answer_to`, for the linear equation.
+) -> Solved:
+    """The solution; `solver` is `answer_to`, for the linear equation.
 
     Raises `NotImplementedError` for a value at a point where neither linear equation is known to be regular.
     """
@@ -94,9 +93,11 @@ def solved_riccati(
     x = equation.x
     constants: tuple[Expr, ...] = ()
     exceptions: tuple[Expr, ...] = ()
+    zeros: list[Expr] = []
+    notices: list[str] = []
     if equation.power != 2 or (equation.p == 0 and (value is None or equation.is_regular_at(value.point))):
         forms = _of_bernoulli(equation, conditions, value)
-        notices = exceptions_of(sympy.Tuple(*forms), x, equation.parts)
+        zeros = zeros_of(sympy.Tuple(*forms), x, equation.parts)
         if value is None and equation.power.is_odd:
             notices.append(f"-{equation.function} is a solution, too")
     else:
@@ -114,7 +115,7 @@ def solved_riccati(
     if len(constants) < 2:
         w = in_book_form(w, x)
     unchecked = check_first_order(equation, w, conditions)
-    return sympy.Eq(equation.function, w, evaluate=False), notices + unchecked, exceptions
+    return Solved(sympy.Eq(equation.function, w, evaluate=False), notices + unchecked, zeros, exceptions)
 
 
 def _of_bernoulli(
@@ -123,13 +124,13 @@ def _of_bernoulli(
     """Forms of w for w' = q w + r w^n, by u = w^(1 - n); w = 0 through 0, for n > 1."""
     m = 1 - equation.power
     if value is None:
-        return [solved_linear(equation.of_power, ())[0].rhs ** (1 / m)]
+        return [solved_linear(equation.of_power, ()).eq.rhs ** (1 / m)]
     if value.v == 0:
         if not m.is_negative:
             raise NotImplementedError("undecided: more than one solution may have the value 0")
         return [sympy.S.Zero]
     given = [replace(condition, value=value.v**m) for condition in conditions]
-    u = solved_linear(equation.of_power, given)[0].rhs / value.v**m
+    u = solved_linear(equation.of_power, given).eq.rhs / value.v**m
     u = next(over_one_denominator(u, equation.x), u)  # which doesn't divide by v
     return [value.v * sympy.powsimp(u) ** (1 / m)]  # the branch with the sign of v
 

@@ -10,7 +10,7 @@ x'(t0) = a x + b y + f there; where b(t0) = 0 equation (1) is singular though th
 
 from __future__ import annotations
 
-from collections.abc import Callable, Collection, Mapping, Sequence
+from collections.abc import Callable, Collection, Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
@@ -27,20 +27,30 @@ from kovacic.general_solution.constants import Outcome, Row, determine
 from kovacic.general_solution.first_order import (
     FirstOrderEquation,
     check_first_order,
-    exceptions_of,
     is_unit,
     solved_linear,
+    zeros_of,
 )
-from kovacic.general_solution.question import Condition, ConditionReader, exact, free_constants, known_letters
+from kovacic.general_solution.question import (
+    Condition,
+    ConditionReader,
+    conditions_at,
+    exact,
+    free_constants,
+    known_letters,
+)
 from kovacic.general_solution.steps import JUMPING, in_steps, taken_apart
 from kovacic.general_solution.substitution import size, slope
 from kovacic.general_solution.textbook import in_book_form, sums
 from kovacic.general_solution.zero import is_zero
+from kovacic.general_solution.zero_set import ZeroSet
 from kovacic.special.choice import shortest
 
 Expr = Any  # SymPy publishes no types
 #: `answer_to`, for one equation.
 Solver = Callable[..., ProblemAnswer]
+#: What holds where one of some expressions is zero; takes these, the problem for values of letters, and the formulas.
+There = Callable[..., Iterable[str]]
 
 
 @dataclass(frozen=True)
@@ -69,6 +79,12 @@ class LinearSystem:
         """The system in other symbols."""
         x, y, a, b, c, d, f, g = (e.xreplace(others) for e in (*self.functions, *self.entries))
         return LinearSystem((x, y), ((a, b), (c, d)), (f, g))
+
+    def at(self, values: Mapping[Expr, Expr]) -> tuple[Expr, ...]:
+        """The equations for particular values of letters, as expressions that are zero."""
+        unknowns = zip(self.functions, self.matrix, self.right, strict=True)
+        x, y = self.functions
+        return tuple(u.diff(self.t) - (a * x + b * y + f).subs(values) for u, (a, b), f in unknowns)
 
     @property
     def swapped(self) -> LinearSystem:
@@ -157,7 +173,7 @@ def _unknowns(whole: Sequence[Expr], functions: Sequence[Any] | None) -> tuple[E
 
 
 def solved_system(
-    system: LinearSystem, ics: Mapping[Any, Any], assume: Mapping[Any, Any], solver: Solver
+    system: LinearSystem, ics: Mapping[Any, Any], assume: Mapping[Any, Any], solver: Solver, there: There
 ) -> SystemAnswer:
     """[Eq(x(t), ...), Eq(y(t), ...)], put into both equations and into the values, and what is to be said beside.
 
@@ -173,14 +189,22 @@ def solved_system(
         conditions = [(1 - number, condition) for number, condition in conditions]
     own = sympy.Tuple(*system.entries, system.t).free_symbols
     given = own.union(*(condition.free_symbols for _, condition in conditions))
+    asked = [(system.functions[number], condition) for number, condition in conditions]
     start = _initial_values(conditions)
     (_, b), _ = system.matrix
     exceptions: list[Expr] = []
-    if b == 0:  # first x from its own equation, then y, whose equation has the constant of x in it
-        first, notices = solved_linear(system.alone(0, sympy.Integer(0)), (), own)
-        second, others = solved_linear(system.alone(1, first.rhs), (), first.rhs.free_symbols)
-        pair = sympy.Tuple(first.rhs, second.rhs)
-        notices += others
+    of_values: list[Expr] = []
+    if b == 0:  # first x from its own equation and value, then y, whose equation has what is left of x in it
+        of_first, of_second = ([condition for k, condition in conditions if k == number] for number in (0, 1))
+        if len(of_second) > 1:  # these determine x
+            of_first, of_second = [], []
+        else:
+            own = given
+            conditions = []
+        first = solved_linear(system.alone(0, sympy.Integer(0)), of_first, own)
+        second = solved_linear(system.alone(1, first.eq.rhs), of_second, own | first.eq.rhs.free_symbols)
+        pair = sympy.Tuple(first.eq.rhs, second.eq.rhs)
+        notices = [*first.notices, *second.notices]
     elif start is not None and is_unit(b, system.t, start[0]):
         pair, notices = _through_values(system, start, solver)
         own = given
@@ -192,15 +216,21 @@ def solved_system(
         exceptions = [e.xreplace(answer.own) for e in answer.pair_exceptions]
     constants = sorted(pair.free_symbols - own, key=str)
     if conditions:
-        pair, others = _with_constants(system, pair, constants, conditions)
-        notices += others
+        pair, of_values = _with_constants(system, pair, constants, conditions)
     left = [constant for constant in constants if pair.has(constant)]
     if conditions:  # a constant that is left stands before solutions that may vanish with the Wronskian
         functions_left = [[solution.diff(constant) for solution in pair] for constant in left]
         exceptions = [e for e in exceptions if any(vanishes_with(e, *solutions) for solutions in functions_left)]
     renamed = dict(zip(left, free_constants(len(left), *given, *functions), strict=True))
     pair = sympy.Tuple(*(_with_constants_apart(e, renamed.values(), system.t) for e in pair.xreplace(renamed)))
-    notices += exceptions_of(pair, system.t, system.entries, exceptions)
+    eqs = [sympy.Eq(f, solution, evaluate=False) for f, solution in zip(system.functions, pair, strict=True)]
+
+    def at(values: Mapping[Expr, Expr]) -> tuple[tuple[Expr, ...], tuple[Expr, Expr], dict[Expr, Any]]:
+        return system.at(values), system.functions, conditions_at(values, asked)
+
+    zeros = zeros_of(pair, system.t, system.entries, exceptions)
+    zeros += [zero for zero in of_values if not {*ZeroSet(zero).factors} <= {*zeros}]
+    notices += [f"this holds unless {said}" for said in there(zeros, at, eqs)]
     for number, solution in enumerate(pair):
         notices += check_first_order(system.alone(number, pair[1 - number]), solution, ())
     found = dict(zip(system.functions, pair, strict=True))
@@ -274,8 +304,8 @@ def _with_constants(
     pair: Expr,
     constants: Sequence[Expr],
     conditions: Sequence[tuple[int, Condition]],
-) -> tuple[Expr, list[str]]:
-    """With the constants that the values determine, and for which values of the parameters that is otherwise."""
+) -> tuple[Expr, list[Expr]]:
+    """With the constants that the values determine, and expressions in parameters that are zero where that is otherwise."""
     c1, c2 = constants
     rows = []
     for number, condition in conditions:
@@ -285,6 +315,5 @@ def _with_constants(
     if generic.outcome is Outcome.NONE:
         raise InputError("there is no solution with these values: the conditions contradict one another")
     values = dict(zip(constants, generic.values, strict=True))
-    cases = [case.where() for case in others if case.is_possible]
-    notices = [f"this holds unless {where}: give such values for the solutions there" for where in cases]
-    return pair.subs(values, simultaneous=True), notices
+    zeros = [zero for case in others if case.is_possible for zero in case.zeros]
+    return pair.subs(values, simultaneous=True), zeros
