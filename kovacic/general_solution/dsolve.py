@@ -24,6 +24,7 @@ import sympy
 
 from kovacic.closed_form.cuts import arguments_with_cuts, common_place
 from kovacic.decision import Status
+from kovacic.equation import EULER
 from kovacic.errors import InputError, LimitExceeded, warn_user
 from kovacic.general_solution.answer import (
     Exceptional,
@@ -72,6 +73,7 @@ from kovacic.general_solution.zero import is_identically_zero
 from kovacic.general_solution.zero_set import ZeroSet
 from kovacic.limits import DEFAULT_LIMITS, Budget, Limits, limited
 from kovacic.numbers.numerals import as_text
+from kovacic.reading.notations import Sentence
 from kovacic.reading.pieces import taken_apart
 from kovacic.reading.read import declared
 from kovacic.reading.symbolic import read_equations
@@ -316,7 +318,22 @@ def answer_to(
     c is a positive integer | C1*hyper((a,), (c,), x) + C2*hyper((a, a - c + 1), (), -1/x)/x**a
     c is a nonpositive integer | C1*x**(1 - c)*hyper((a - c + 1,), (2 - c,), x) + C2*hyper((a, a - c + 1), (), -1/x)/x**a
     """
-    return _answered(eq, func, ics, var, parameters, assume, limits=limits, special=special)
+    answer = _answered(eq, func, ics, var, parameters, assume, limits=limits, special=special)
+    if isinstance(eq, str) and any(_has_euler(tokens) for tokens in taken_apart(eq).equations):
+        return replace(answer, notices=[f"{EULER} is Euler's number", *answer.notices])
+    return answer
+
+
+def _has_euler(tokens: Sentence) -> bool:
+    """True for e alone, or with a number for its exponent, as an author may write it for a parameter."""
+    powers = ("^", "**")
+    triples = zip(tokens, [*tokens[1:], None], [*tokens[2:], None, None], strict=False)
+    return any(
+        token[:2] == ("NAME", EULER)
+        and after
+        and (after.text not in powers or (exponent and exponent.kind == "NUMBER"))
+        for token, after, exponent in triples
+    )
 
 
 def _answered(
@@ -339,6 +356,8 @@ def _answered(
     with budget.watched():
         try:
             names = declared(parameters, about_letters(assume, var))
+            if isinstance(eq, str) and EULER in names:
+                raise InputError(f"{EULER} is Euler's number, and no name of a parameter", hint="take another letter")
             system = _system(eq, func, ics, names, assume or {}, solver, there)
             if system is not None:
                 return system

@@ -267,11 +267,14 @@ def test_what_holds_where_a_denominator_vanishes_is_said(text: str, said: list[s
 @pytest.mark.parametrize("text", ["y' = e*y + 1", "y' = y/e + 1", "y' = e^2*x*y + x", "y' = y/(x - e) + 1"])
 def test_eulers_number_in_a_coefficient(text: str) -> None:
     """For SymPy e exp(e x) is exp(e x + 1); the integral mixed e with a letter for it."""
-    found = kovacic.dsolve(text)
-    right = sympy.sympify(
-        text.partition(" = ")[2].replace("^", "**"), {"e": sympy.E, "y": found.rhs, "x": found.lhs.args[0]}
-    )
-    assert sympy.simplify(found.rhs.diff(found.lhs.args[0]) - right) == 0
+    answer = kovacic.answer_to(text)
+    assert answer.notices == ["e is Euler's number"]
+    w, argument = answer.eq.rhs, answer.eq.lhs.args[0]
+    right = sympy.sympify(text.partition(" = ")[2].replace("^", "**"), {"e": sympy.E, "y": w, "x": argument})
+    assert sympy.simplify(w.diff(argument) - right) == 0
+    assert not kovacic.answer_to("y' = y + e^x").notices
+    with pytest.raises(kovacic.InputError, match="e is Euler's number, and no name of a parameter"):
+        kovacic.answer_to(text, parameters=["e"])
 
 
 #: The right-hand sides of u' and v', the point and the values: constant, triangular, diagonal, variable matrices.
