@@ -414,7 +414,7 @@ def say_reading(equation: str, var: str | None, names: Sequence[str] = ()) -> No
             from kovacic.general_solution.first_order import read_first_order
 
             parsed = read_first_order(paste, None, var, DEFAULT_LIMITS, names)
-            parameters = parsed.parameters if parsed else set()
+            parameters = {*parsed.letters} - {parsed.x.name} if parsed else set()
         if parsed and parsed.reading and (parsed.guesses or not parameters <= {*names}):
             click.echo(f"kovacic: read as {parsed.reading}", err=True)
 

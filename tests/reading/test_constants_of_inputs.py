@@ -58,6 +58,7 @@ DOORS: dict[str, Callable[[Any], list[Any]]] = {"solve": solutions_of, "JSON": f
 @parametrize(
     ("door", "name"), product(DOORS, NUMBERS), ordinary=11, long=(1, 3, 4, 6, 9, 12, 15, 18, 22, 25, 28)
 )  # each door, each number
+@pytest.mark.filterwarnings("ignore:e is Euler's number")
 def test_a_number_is_a_number_in_solutions(door: str, name: str) -> None:
     k = NUMBERS[name]
     for given in (equation(k), f"y'' = ({name})^2*y"):
