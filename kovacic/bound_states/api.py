@@ -36,7 +36,7 @@ from kovacic.parametric.assumptions import check_mapping
 from kovacic.reading.change_of_variable import function_of_x
 from kovacic.reading.read import declared
 
-_STANDARD_FORMS: tuple[tuple[Callable[[SingularFrame, SpectralProblem], ExponentForm | None], str], ...] = (
+_STANDARD_FORMS: tuple[tuple[Callable[[SingularFrame], ExponentForm | None], str], ...] = (
     (oscillator, "Hermite's polynomials"),
     (whittaker, "Whittaker's equation"),
     (three_regular_points, "three regular singular points"),
@@ -238,7 +238,7 @@ def _families(question: SpectralProblem, budget: Budget) -> tuple[tuple[Levels, 
     for frame in frames(question, budget) if not question.original.is_circular else ():
         for standard_form, name in _STANDARD_FORMS:
             with suppress(Uncovered):
-                form = standard_form(frame, question)
-                found = () if form is None else form.levels(question)
+                form = standard_form(frame)
+                found = () if form is None else form.levels()
                 return tuple(levels for levels in found if not levels.is_empty), name
     raise Uncovered("no formula is known")

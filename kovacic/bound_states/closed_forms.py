@@ -135,8 +135,8 @@ class _Window(NamedTuple):
         high = min(thresholds, default=sympy.oo)
         if real is None or question.boundary.is_mixed:
             return cls(high=high)
-        bounds = real.original.monotonic_range(question.domain, question.signs)
-        if bounds is None:
+        bounds = real.original.monotonic_range
+        if not bounds:
             return cls(high=high)
         low = question.kinetic * _number_below(real.V, real.t, bounds)
         return cls(low if low.is_Rational else -sympy.oo, high)
@@ -160,7 +160,7 @@ class _Window(NamedTuple):
         return last
 
 
-def _number_below(V: Any, t: Any, bounds: tuple[Any, Any]) -> Any:
+def _number_below(V: Any, t: Any, bounds: tuple[Any, ...]) -> Any:
     """A lower bound of a rational function over Q on an interval where it has no pole, or -oo if none is found.
 
     It is a number below one of the values, that isn't a value itself.
@@ -402,15 +402,13 @@ class _ClosedFormSearch(ClosedForms):
         t = sympy.Symbol(parsed.variable)
         P = sympy.Mul(*(f.as_base_exp()[0] for f in sympy.Mul.make_args(solution.y) if f.is_polynomial(t)))
         assert question.real is not None
-        original, domain, middle = question.real.original, question.domain, None
-        at = None
+        original, at, middle = question.real.original, None, None
         with suppress(Uncovered):
-            at = original.middle(domain, question.signs)
+            at = original.middle()
         if at is not None:
-            domain = (at, domain[1])
             smooth = wave.replace(*_root_about(at, original, question))
             middle, wave = int(smooth != wave), smooth.as_independent(x, as_Add=False)[1]
-        limits = original.monotonic_range(domain, question.signs)
+            original = original.on(at, question.domain[1])
         if question.original.is_circular:
             P = sympy.numer(sympy.cancel(P.subs(t, circle_point(t))))
         P = sympy.Poly(question.plain(P), t)
@@ -424,7 +422,7 @@ class _ClosedFormSearch(ClosedForms):
             wave,
             tuple(condition for condition in known if condition != sympy.true),
             P=P,
-            range=None if limits is None else tuple(map(question.plain, limits)),
+            range=tuple(map(question.plain, original.monotonic_range)),
             middle=middle,
         )
         if question.parameters:
@@ -490,7 +488,7 @@ def demand_at(end: End, v: Any, question: SpectralProblem) -> Any:
         decay = strength * end.direction ** (-order - 1)
         return above(decay, 0, strict=True)
     exponent = strength if order == -1 else sympy.Integer(0)
-    return question.demand(int(end.is_right), sympy.Integer(end.mu), sympy.simplify(2 * exponent - 1))
+    return question.demand(end.side, sympy.Integer(end.mu), sympy.simplify(2 * exponent - 1))
 
 
 def _root_about(at: Any, original: Original, question: SpectralProblem) -> tuple[Any, Any]:
@@ -499,7 +497,7 @@ def _root_about(at: Any, original: Original, question: SpectralProblem) -> tuple
     cos(theta) - cos(c) is a multiple of sin((theta - c)/2)^2 for c = 0 or pi, that of cosh is one of sinh(theta/2)^2.
     """
     x = sympy.Symbol(question.variable)
-    distance = question.plain(original.t - original.value(original.theta_at(at, question.signs)))
+    distance = question.plain(original.t - original.value(original.theta_at(at)))
     half = question.plain(original.rate * (question.x - at) / 2)
     root = sympy.sinh(half) if original.kind == "cosh" else sympy.sin(half)
 

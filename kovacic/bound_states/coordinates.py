@@ -44,25 +44,27 @@ _LONGEST = 30
 
 @dataclass(frozen=True)
 class Original:
-    """t as a function of the user's variable: the function's name, and its argument theta = rate * x + offset."""
+    """t as a function of the user's variable on a domain: the function's name, and its argument theta = rate * x + offset."""
 
     x: Any
+    domain: tuple[Any, Any]
+    signs: Signs
     kind: str = "x"
     rate: Any = sympy.S.One
     offset: Any = sympy.S.Zero
 
     @classmethod
-    def of(cls, equation: Equation | None, x: Any, signs: Signs) -> Original:
-        """The one that the reader has chosen."""
+    def of(cls, equation: Equation | None, x: Any, domain: tuple[Any, Any], signs: Signs) -> Original:
+        """The one that the reader has chosen, by which y'' = S y became the equation in t."""
         if equation is None or equation.change is None:
-            return cls(x)
+            return cls(x, domain, signs)
         t = signs.real(function_of_x(equation)).xreplace({sympy.Symbol(x.name): x})
         if t.func not in SQUARES:
             raise Uncovered(f"no formula is known for potentials in {caret(str(t))}")
         theta = sympy.expand(t.args[0])
-        return cls(x, t.func.__name__, theta.coeff(x, 1), theta.coeff(x, 0))
+        return cls(x, domain, signs, t.func.__name__, theta.coeff(x, 1), theta.coeff(x, 0))._in_first_period()
 
-    def about(self, domain: tuple[Any, Any], signs: Signs) -> Original:
+    def _in_first_period(self) -> Original:
         """The function t with theta in its first period on the domain, and positive there if t is even.
 
         So sin(theta/2), cos(theta/2) and sinh(theta/2) are positive, of which waves have powers, and atan(cot(theta)) is
@@ -70,7 +72,7 @@ class Original:
         """
         if self.kind not in ("cos", "cosh", "tan"):
             return self
-        twice = sum(self.theta_at(end, signs) for end in domain)
+        twice = sum(map(self.theta_at, self.domain))
         if not twice.is_number or twice is sympy.nan:
             return self
         shifted = self
@@ -82,6 +84,11 @@ class Original:
         if self.kind != "tan" and twice < 0:
             return replace(shifted, rate=-shifted.rate, offset=-shifted.offset)
         return shifted
+
+    def on(self, *domain: Any) -> Original:
+        """The function on another domain."""
+        first, last = domain
+        return replace(self, domain=(first, last))
 
     @property
     def is_circular(self) -> bool:
@@ -110,47 +117,48 @@ class Original:
             return sympy.Integer(1)
         return SQUARES[getattr(sympy, self.kind)](t) * self.rate**2
 
-    def theta_at(self, end: Any, signs: Signs) -> Any:
+    def theta_at(self, end: Any) -> Any:
         """The argument at an end of the domain."""
-        return self._direction(signs) * end if end.is_infinite else sympy.simplify(self.rate * end + self.offset)
+        return self._direction * end if end.is_infinite else sympy.simplify(self.rate * end + self.offset)
 
-    def _direction(self, signs: Signs) -> int:
+    @property
+    def _direction(self) -> int:
         """The sign of the rate."""
-        return signs.known_sign(self.rate, f"the sign of {self.rate} isn't known: assume that it is positive")
+        return self.signs.known_sign(self.rate, f"the sign of {self.rate} isn't known: assume that it is positive")
 
-    def at(self, end: Any, signs: Signs) -> Any:
-        """t at an end of the domain, a number or oo (both of its ends are one point)."""
-        theta = self.theta_at(end, signs)
+    def at(self, side: int) -> Any:
+        """t at the left or the right end of the domain, 0 or 1, a number or oo (both of its ends are one point)."""
+        theta = self.theta_at(self.domain[side])
         if theta.is_infinite and self.kind in _PERIODS:
-            raise Uncovered(f"V is periodic: no solution is square integrable at {self.x} = {end}")
+            raise Uncovered(f"V is periodic: no solution is square integrable at {self.x} = {self.domain[side]}")
         value = self.value(theta) if self.kind == "x" else sympy.simplify(self.value(theta))
         return sympy.oo if value.is_infinite else value  # -oo, and the pole of a tangent
 
-    def side_of(self, end: Any, point: Any, signs: Signs, *, is_right: bool) -> int:
-        """The sign inside the domain of t - point, or of 1/t for oo, near an end of it.
+    def side_of(self, side: int) -> int:
+        """The sign inside the domain of t - c, c = t at an end, near this end, or of 1/t for oo.
 
         It is that of the first derivative at the end that isn't zero.
         """
-        theta = self.theta_at(end, signs)
+        end = self.domain[side]
+        theta = self.theta_at(end)
         if theta.is_infinite:
             return -1 if theta == -sympy.oo and self.kind in ("x", "sinh") else 1
-        inwards = self._direction(signs) * (-1 if is_right else 1)
         angle = sympy.Dummy("theta")
         t = self.value(angle)
-        u = 1 / t if point == sympy.oo else t
+        u = 1 / t if self.at(side) == sympy.oo else t
         for order in (1, 2):
             slope = sympy.simplify(sympy.simplify(u.diff(angle, order)).subs(angle, theta))
             if slope != 0:
                 otherwise = f"the end {end} isn't a multiple of {sympy.pi / self.rate}"
-                return signs.known_sign(slope, otherwise) * inwards**order
+                return self.signs.known_sign(slope, otherwise) * (self._direction * (1 - 2 * side)) ** order
         raise Uncovered(f"the end {end} isn't a point where t changes")
 
-    def points_inside(self, values: Iterable[Any], domain: tuple[Any, Any], signs: Signs) -> list[Any]:
+    def points_inside(self, values: Iterable[Any]) -> list[Any]:
         """The x strictly inside the domain at which t has one of the values, each once; it may be infinite at poles of t.
 
         Raises `Uncovered` if they can't be located.
         """
-        first, last = (self.theta_at(end, signs) for end in domain)
+        first, last = map(self.theta_at, self.domain)
         angles = [angle for value in values for angle in _ANGLES[self.kind](value) if angle.is_real is not False]
         if angles and self.kind in _PERIODS:
             if not (first.is_number and last.is_number):
@@ -159,23 +167,25 @@ class Original:
             lowest = sympy.floor(min(first, last) / period) - 1
             number = int(sympy.ceiling(abs(last - first) / period)) + 3
             angles = [angle + period * (lowest + k) for angle in angles for k in range(number)]
-        return [self.x_at(angle) for angle in dict.fromkeys(angles) if is_between(angle, first, last, signs)]
+        return [self.x_at(angle) for angle in dict.fromkeys(angles) if self._is_between(angle, first, last)]
 
-    @property
-    def turning_values(self) -> tuple[Any, ...]:
-        """The values of t where dt/dtheta = 0."""
-        return _TURNING_VALUES.get(self.kind, ())
+    def _is_between(self, value: Any, first: Any, last: Any) -> bool:
+        """True for a point strictly between two others.  Raises `Uncovered` if its position can't be determined."""
+        differences = [*map(sympy.simplify, (value - first, last - value))]
+        if 0 in differences:
+            return False
+        otherwise = f"whether {value} lies between {first} and {last} isn't known"
+        return len({self.signs.known_sign(difference, otherwise) for difference in differences}) == 1
 
-    def middle(self, domain: tuple[Any, Any], signs: Signs, values: Sequence[Any] = ()) -> Any:
+    def middle(self, values: Sequence[Any] = ()) -> Any:
         """The only x inside the domain at which t turns, or has one of the values; None if there is none.
 
         Raises `Uncovered` where there are several, or the domain isn't symmetric about it.
         """
-        found = self.points_inside([*self.turning_values, *values], domain, signs)
+        found = self.points_inside([*_TURNING_VALUES.get(self.kind, ()), *values])
         if not found:
             return None
-        first, last = domain
-        is_symmetric = (first, last) == (-sympy.oo, sympy.oo) or sympy.simplify(first + last - 2 * found[0]) == 0
+        is_symmetric = self.domain == (-sympy.oo, sympy.oo) or sympy.simplify(sum(self.domain) - 2 * found[0]) == 0
         if len(found) > 1 or not is_symmetric:
             raise Uncovered(f"the domain isn't symmetric about {self.x} = {found[0]}, and the equation is")
         return found[0]
@@ -184,19 +194,21 @@ class Original:
         """The value of the user's variable for an argument."""
         return (theta - self.offset) / self.rate
 
-    def monotonic_range(self, domain: tuple[Any, Any], signs: Signs) -> tuple[Any, Any] | None:
-        """The range of t on the domain; None unless t is proven to be monotonic there, but for a pole if it is all values."""
+    @property
+    def monotonic_range(self) -> tuple[Any, ...]:
+        """The range of t; () unless t is proven to be monotonic, but for a pole if it is all values."""
         with suppress(Uncovered):
-            breaks = [*self.turning_values, *_POLES.get(self.kind, ())]
-            is_period = self.kind == "tan" and self.at(domain[0], signs) == self.at(domain[1], signs)
-            if is_period or not (self.is_circular or self.points_inside(breaks, domain, signs)):
-                return self.range_of(domain, signs)
-        return None
+            breaks = [*_TURNING_VALUES.get(self.kind, ()), *_POLES.get(self.kind, ())]
+            is_period = self.kind == "tan" and self.at(0) == self.at(1)
+            if is_period or not (self.is_circular or self.points_inside(breaks)):
+                return self.range
+        return ()
 
-    def range_of(self, half: tuple[Any, Any], signs: Signs) -> tuple[Any, Any]:
+    @property
+    def range(self) -> tuple[Any, Any]:
         """The range of t where it is monotonic; infinite for a tangent with a pole."""
-        first, last = (self.value(self.theta_at(end, signs)) for end in half)
-        if sympy.zoo in (first, last) or self.points_inside(_POLES.get(self.kind, ()), half, signs):
+        first, last = map(self.value, map(self.theta_at, self.domain))
+        if sympy.zoo in (first, last) or self.points_inside(_POLES.get(self.kind, ())):
             return -sympy.oo, sympy.oo
         is_increasing = sympy.simplify(last - first).is_positive or last == sympy.oo or first == -sympy.oo
         return (first, last) if is_increasing else (last, first)
@@ -234,36 +246,27 @@ def on_real_circle(real: RealPotential) -> RealPotential:
     num, den = sympy.fraction(sympy.together(V))
     scale = sympy.Poly(den, t).LC()
     V = sympy.expand(sympy.expand(num / scale)) / sympy.expand(sympy.expand(den / scale))
-    return RealPotential(V, Original(original.x, "tan", rate / 2, offset / 2), t)
+    return RealPotential(V, replace(original, kind="tan", rate=rate / 2, offset=offset / 2), t)
 
 
-def is_between(value: Any, first: Any, last: Any, signs: Signs) -> bool:
-    """True for a point strictly between the ends.  Raises `Uncovered` if its position can't be determined."""
-    from_first, to_last = (sympy.simplify(difference) for difference in (value - first, last - value))
-    if 0 in (from_first, to_last):
-        return False
-    otherwise = f"whether {value} lies between {first} and {last} isn't known"
-    return signs.known_sign(from_first, otherwise) == signs.known_sign(to_last, otherwise)
-
-
-def check_poles(real: RealPotential, domain: tuple[Any, Any], signs: Signs) -> None:
+def check_poles(real: RealPotential) -> None:
     """Raises `InputError` where V has a pole inside the domain, with a domain without, and `Uncovered` where it isn't known."""
-    original, poles = real.original, _poles(real, signs)
-    if original.is_periodic and any(end.is_infinite for end in domain):
-        _check_period(original, poles, signs)
+    original, poles = real.original, _poles(real)
+    if original.is_periodic and any(end.is_infinite for end in original.domain):
+        _check_period(original, poles)
         return
-    inside = original.points_inside(poles, domain, signs)
+    inside = original.points_inside(poles)
     if inside:
-        largest = (point for point in inside if all(signs.is_nonnegative(point - other) for other in inside))
+        is_nonnegative = original.signs.is_nonnegative
+        largest = (point for point in inside if all(is_nonnegative(point - other) for other in inside))
         message = f"V isn't regular at {original.x} = {caret(as_text(inside[0]))}, inside the domain"
-        raise _refused(message, "choose a domain without a pole inside", next(largest, None), domain[1])
+        raise _refused(message, "choose a domain without a pole inside", next(largest, None), original.domain[1])
 
 
-def _check_period(original: Original, poles: Sequence[Any], signs: Signs) -> None:
+def _check_period(original: Original, poles: Sequence[Any]) -> None:
     """Raise `InputError` if a periodic V has poles, which recur in each period, on a domain that ends at infinity."""
     period = _PERIODS[original.kind]
-    angle = replace(original, rate=sympy.S.One, offset=sympy.S.Zero)
-    angles = angle.points_inside(poles, (-2 * period, 2 * period), signs)
+    angles = replace(original.on(-2 * period, 2 * period), rate=sympy.S.One, offset=sympy.S.Zero).points_inside(poles)
     if angles:
         # The least positive angle, and the one before it: they come back in each period.
         ends = next(pair for pair in pairwise(sorted(angles, key=float)) if pair[1] > 0)
@@ -274,15 +277,16 @@ def _check_period(original: Original, poles: Sequence[Any], signs: Signs) -> Non
         raise _refused(message, hint, start if len(place) <= _LONGEST else None, stop)
 
 
-def _poles(real: RealPotential, signs: Signs) -> list[Any]:
+def _poles(real: RealPotential) -> list[Any]:
     """The real poles t of V, and oo for a tangent.  Raises `Uncovered` if they can't be determined."""
+    signs = real.original.signs
     num, den = (sympy.Poly(part, real.t) for part in sympy.fraction(sympy.cancel(real.V)))
     zeros = _real_zeros(den, signs)
     if real.original.kind != "tan":
         return zeros
     if signs.sign(den.LC()) is None:  # where it vanishes there is a pole of V at the tangent's
         raise Uncovered(_UNLOCATED)
-    return [*zeros, *([sympy.oo] if num.degree() > den.degree() else [])]
+    return [*zeros, sympy.oo] if num.degree() > den.degree() else zeros
 
 
 def _refused(message: str, hint: str, start: Any, stop: Any) -> InputError:

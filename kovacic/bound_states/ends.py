@@ -55,7 +55,7 @@ class End:
     oscillation: Any = sympy.false
     other: Any = sympy.false
     threshold: Any = None
-    is_right: bool = True
+    side: int = 1
     point: Any = sympy.oo
     mu: int = 4
     direction: int = 1
@@ -101,10 +101,10 @@ def examined(question: SpectralProblem) -> Examined:
     terms = question.parsed.S.num.degree + question.parsed.S.den.degree
     check_duration(_END_SECONDS * terms**1.5, f"examining a potential of {terms} terms at its ends")
     real = on_real_circle(potential_in_t(question, original))
-    check_poles(real, question.domain, question.signs)
+    check_poles(real)
     ends: list[End] = []
     for side, wish in enumerate(question.boundary.wishes):
-        end = end_of(question, real, is_right=bool(side))
+        end = end_of(question, real, side)
         ends.append(end)
         if wish is not None and not (end.vanishes if wish.is_zero else end.is_regular):
             raise InputError(
@@ -137,21 +137,21 @@ def potential_in_t(question: SpectralProblem, original: Original) -> RealPotenti
     return RealPotential(sympy.cancel(V), original, t)
 
 
-def end_of(question: SpectralProblem, real: RealPotential, *, is_right: bool) -> End:
+def end_of(question: SpectralProblem, real: RealPotential, side: int) -> End:
     """An end of the domain, with the local coordinate u: t = point + u, or 1/u."""
-    signs, original = question.signs, real.original
-    at = question.domain[int(is_right)]
+    original = real.original
+    at = question.domain[side]
     if original.is_periodic and at.is_infinite:
         return End(at, f"{question.variable} -> {at}: V is periodic, at most one solution decays")
-    point = original.at(at, signs)
+    point = original.at(side)
     u = sympy.Dummy("u")
     t = near(point, u)
     mu, C = leading(sympy.cancel(original.slope_squared(t) / sympy.diff(t, u) ** 2), u)
     order, strength = leading(sympy.cancel(real.V.xreplace({real.t: t})), u)
-    direction = original.side_of(at, point, signs, is_right=is_right)
+    direction = original.side_of(side)
     where = f"{question.variable} -> {question.shown(at)}: "
     is_regular = at.is_finite and order >= 0
-    end = End(at, where, is_right=is_right, point=point, mu=mu, direction=direction, is_regular=is_regular)
+    end = End(at, where, side=side, point=point, mu=mu, direction=direction, is_regular=is_regular)
     inside = strength * direction ** abs(order)
     if at.is_infinite and order >= 0:
         threshold = sympy.factor(question.kinetic * inside) if order == 0 else sympy.Integer(0)
@@ -196,7 +196,7 @@ def _finite(end: End, square: Any, question: SpectralProblem) -> End:
     signs = question.signs
     end = replace(end, vanishes=signs.is_nonnegative(square - sympy.Rational(1, 4)) is True)
     circle = _less_than_1(square, signs)
-    distance = end.at - question.x if end.is_right else question.x - end.at
+    distance = end.at - question.x if end.side else question.x - end.at
     powers = f"y ~ {_end_powers(distance, square, question)}"
     if signs.holds(circle) is False:
         return replace(end, sentence=f"{end.sentence}{powers}, the smaller one is square integrable")

@@ -40,8 +40,7 @@ import sympy
 from kovacic.bound_states.energies import Root, conjugate, shortest, solved, tidied
 from kovacic.bound_states.frame import SingularFrame, Spot, linear_factors
 from kovacic.bound_states.levels import Levels
-from kovacic.bound_states.question import SpectralProblem
-from kovacic.bound_states.signs import Signs, Uncovered, above
+from kovacic.bound_states.signs import Uncovered, above
 from kovacic.parametric.solutions import jacobi
 
 
@@ -129,9 +128,9 @@ def _ordered(frame: SingularFrame, roots: list[Root]) -> list[int]:
 Wave = tuple[Any, Any]
 
 
-def jacobi_wave(frame: SingularFrame, roots: list[Root], deltas: list[Any], signs: Signs) -> Wave:
+def jacobi_wave(frame: SingularFrame, roots: list[Root], deltas: list[Any]) -> Wave:
     """The solution by Jacobi's polynomials."""
-    z, n = frame.z, signs.n
+    z, n = frame.z, frame.question.signs.n
     order = _ordered(frame, roots)
     w_of_z = moebius(z, *(frame.spots[k].point for k in order))
     if any(sympy.cancel(w_of_z + sympy.I * form) == 0 for form in (z, 1 / z)):  # w = -i z, or -i/z
@@ -234,11 +233,11 @@ def _norm_between(points: Sequence[tuple[Spot, Any]], n: Any) -> Any:
     return 2**powers * _jacobi_integral(ends[0], ends[1], n, middle)
 
 
-def laguerre_wave(frame: SingularFrame, origin: Spot, values: list[Any], signs: Signs) -> Wave:
+def laguerre_wave(frame: SingularFrame, origin: Spot, values: list[Any]) -> Wave:
     """The solution by Laguerre's polynomials, for kappa and delta."""
     kappa, delta = values
+    signs, z = frame.question.signs, frame.z
     n = signs.n
-    z = frame.z
     whole = WaveProduct().times(as_product(frame, frame.coordinate), origin.exponent(delta))
     base, m = frame.coordinate.as_base_exp()
     in_x = _argument(frame, base) ** m
@@ -299,15 +298,16 @@ class ExponentForm:
     spots: Sequence[Spot] = ()
     outwards: Sequence[int] = ()
 
-    def levels(self, question: SpectralProblem) -> Iterator[Levels]:
+    def levels(self) -> Iterator[Levels]:
         """The families of levels, for each choice of signs."""
+        question = self.frame.question
         signs, plain = question.signs, question.plain
         radicals = dict(chain.from_iterable(root.radicals for root in self.roots))
         are_real = [root.reality for root in self.roots]
         for signed in _choices(self.roots):
             for energy, of_n in solved(sympy.expand(self.degree(signed) - signs.n), self.roots, question.E):
                 values = [root.xreplace(of_n) for root in signed]
-                known = tidied([*are_real, *self._demands(values, question)], signs, radicals)
+                known = tidied([*are_real, *self._demands(values)], signs, radicals)
                 if sympy.false not in known:
                     y, norm = self.wave(values)
                     found = Levels(signs.n, energy, y, known, self._zeros(values, signs.n), norm)
@@ -317,13 +317,13 @@ class ExponentForm:
         """The spots with the signed exponent differences there."""
         return zip(self.spots, values[len(values) - len(self.spots) :], strict=True)
 
-    def _demands(self, values: list[Any], question: SpectralProblem) -> Iterator[Any]:
+    def _demands(self, values: list[Any]) -> Iterator[Any]:
         """The conditions for the solution to be square integrable at the ends, beside those for the roots to be real."""
         for direction in self.outwards:
             yield above(direction * values[0], 0, strict=True)
         for spot, delta in self._at_spots(values):
             for side in self.frame.ends_at(spot):
-                yield question.demand(side, spot.mu, delta)
+                yield self.frame.question.demand(side, spot.mu, delta)
 
     def _zeros(self, values: list[Any], n: Any) -> Any:
         """Their number inside the domain: n; twice as many about the middle, and one there for an odd solution."""
@@ -333,25 +333,25 @@ class ExponentForm:
         return n
 
 
-def three_regular_points(frame: SingularFrame, question: SpectralProblem) -> ExponentForm:
+def three_regular_points(frame: SingularFrame) -> ExponentForm:
     """Equation (1)."""
-    spots, signs = frame.spots, question.signs
+    spots = frame.spots
     if len(spots) != 3 or any(spot.square is None for spot in spots):
         raise Uncovered("the equation hasn't three singular points, all of them regular")
     _check_ends(frame)
-    roots = [Root.of(spot.square, question.E) for spot in spots]
+    roots = [Root.of(spot.square, frame.question.E) for spot in spots]
     return ExponentForm(
         frame,
         roots,
         degree=lambda deltas: (-1 - sympy.Add(*deltas)) / 2,
-        wave=lambda deltas: jacobi_wave(frame, roots, deltas, signs),
+        wave=lambda deltas: jacobi_wave(frame, roots, deltas),
         spots=spots,
     )
 
 
-def whittaker(frame: SingularFrame, question: SpectralProblem) -> ExponentForm:
+def whittaker(frame: SingularFrame) -> ExponentForm:
     """Equation (2), from S_z = q + r/z + b/z^2."""
-    signs = question.signs
+    E = frame.question.E
     q, r, b = _coefficients(frame.S * frame.z**2, frame, 2)
     if not frame.S.has(frame.z):
         raise Uncovered("S is constant")
@@ -361,19 +361,20 @@ def whittaker(frame: SingularFrame, question: SpectralProblem) -> ExponentForm:
     infinity = next(spot for spot in frame.spots if spot.point == sympy.oo)
     return ExponentForm(
         frame,
-        [Root.of(sympy.factor(q), question.E, positive=True), Root.of(sympy.factor(1 + 4 * b), question.E)],
+        [Root.of(sympy.factor(q), E, positive=True), Root.of(sympy.factor(1 + 4 * b), E)],
         degree=lambda values: -r / (2 * values[0]) - (1 + values[1]) / 2,
-        wave=lambda values: laguerre_wave(frame, origin, values, signs),
+        wave=lambda values: laguerre_wave(frame, origin, values),
         spots=(origin,),
-        outwards=[frame.direction(side, signs) for side in frame.ends_at(infinity)],
+        outwards=[frame.direction(side) for side in frame.ends_at(infinity)],
     )
 
 
-def oscillator(frame: SingularFrame, question: SpectralProblem) -> ExponentForm:
+def oscillator(frame: SingularFrame) -> ExponentForm:
     """Equation (3): S = alpha x^2 + beta x + gamma on the whole line."""
     alpha, beta, gamma = _coefficients(frame.S, frame, 2)
-    if (frame.original.kind, frame.coordinate, *frame.domain) != ("x", frame.t, -sympy.oo, sympy.oo):
+    if (frame.original.kind, frame.coordinate, *frame.original.domain) != ("x", frame.t, -sympy.oo, sympy.oo):
         raise Uncovered("the equation isn't one in x on the whole line")
+    question = frame.question
     n = question.signs.n
     shifted = question.x + sympy.factor(beta / (2 * alpha))
 
@@ -425,7 +426,7 @@ def _coefficients(function: Any, frame: SingularFrame, degree: int) -> list[Any]
     return list(sympy.Poly(quotient, frame.z).all_coeffs())
 
 
-def bessel(frame: SingularFrame, question: SpectralProblem) -> None:
+def bessel(frame: SingularFrame) -> None:
     """S_z = r/z + b/z^2 between 0 and oo: no solution is square integrable at both ends.
 
     Where z^(-e) y is entire and y decays like exp(-2 sqrt(r z)), which holds for |arg z| < 3 pi [Martinet & Ramis], it is
@@ -433,5 +434,5 @@ def bessel(frame: SingularFrame, question: SpectralProblem) -> None:
     """
     r, _ = _coefficients(frame.S * frame.z**2, frame, 1)
     points = {spot.point for spot in frame.spots if spot.sides}
-    if points != {0, sympy.oo} or frame.fold is not None or r.has(question.E):
+    if points != {0, sympy.oo} or frame.fold is not None or r.has(frame.question.E):
         raise Uncovered("the domain isn't from 0 to oo")

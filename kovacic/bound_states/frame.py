@@ -54,6 +54,7 @@ class SingularFrame:
     half; None if z is a coordinate.  `limits_of_t` are the least and the largest value of t on this half.
     """
 
+    question: SpectralProblem
     original: Original
     t: Any
     coordinate: Any
@@ -61,7 +62,6 @@ class SingularFrame:
     z: Any
     slope: Any
     spots: tuple[Spot, ...]
-    domain: tuple[Any, Any]
     fold: Any
     limits_of_t: tuple[Any, Any]
 
@@ -69,15 +69,15 @@ class SingularFrame:
         """The sides of the spot that are ends of the domain."""
         return tuple(side for side in spot.sides if side == 1 or self.fold is None)
 
-    def direction(self, side: int, signs: Signs) -> int:
+    def direction(self, side: int) -> int:
         """The sign of z near an end at which it is infinite."""
         if self.coordinate.is_Pow and self.coordinate.exp % 2 == 0:
             return 1
-        u, end = sympy.Dummy("u"), self.domain[side]
-        point = self.original.at(end, signs)
+        u = sympy.Dummy("u")
+        point = self.original.at(side)
         order, strength = leading(self.coordinate.xreplace({self.t: near(point, u)}), u)
-        sign = signs.known_sign(strength, f"the sign of z = {self.coordinate} isn't known")
-        return int(sign * self.original.side_of(end, point, signs, is_right=bool(side)) ** abs(order))
+        sign = self.original.signs.known_sign(strength, f"the sign of z = {self.coordinate} isn't known")
+        return int(sign * self.original.side_of(side) ** abs(order))
 
 
 def frames(question: SpectralProblem, budget: Budget) -> Iterator[SingularFrame]:
@@ -102,9 +102,10 @@ def _frame(question: SpectralProblem, original: Original, t: Any, base: Any, m: 
     z = sympy.Dummy("Z")
     constant, powers = _slope(original, t, base, m)
     fold = _fold(original, t, base, m, question)
-    half = question.domain if fold is None else (fold, question.domain[1])
-    places = tuple(_value(base**m, t, original.at(end, signs)) for end in half)
+    half = original if fold is None else original.on(fold, question.domain[1])
+    places = tuple(_value(base**m, t, half.at(side)) for side in (0, 1))
     return SingularFrame(
+        question,
         original,
         t,
         base**m,
@@ -112,9 +113,8 @@ def _frame(question: SpectralProblem, original: Original, t: Any, base: Any, m: 
         z=z,
         slope=constant * sympy.Mul(*((z - c) ** mu for c, mu in powers.items())),
         spots=tuple(_spots(problem, powers, places, signs)),
-        domain=question.domain,
         fold=fold,
-        limits_of_t=original.range_of(half, signs),
+        limits_of_t=half.range,
     )
 
 
@@ -186,7 +186,7 @@ def _fold(original: Original, t: Any, base: Any, m: int, question: SpectralProbl
     """The only point inside the domain at which dz/dx vanishes, or None."""
     # Where dt/dx = 0, and where base = 0 for an even m.
     zeros = sympy.solve(sympy.numer(sympy.together(base)), t) if m % 2 == 0 else []
-    middle = original.middle(question.domain, question.signs, zeros)
+    middle = original.middle(zeros)
     if middle is not None and len({wish is None or wish.is_zero for wish in question.boundary.wishes}) > 1:
         raise Uncovered(
             f"the conditions at the ends aren't symmetric about {original.x} = {middle}, and the equation is"

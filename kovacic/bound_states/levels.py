@@ -63,6 +63,8 @@ _MOST = 200
 #: Longer exact energies are drawn as decimals.
 _SHORT = 12
 _SMALLER = {"friedrichs": "the smaller solution at each end (Friedrichs)"}
+#: Before none, one or two equations.
+_SOLVING: tuple[tuple[str, ...], ...] = ((), ("the levels solve",), ("the even levels solve", "the odd levels solve"))
 _ANOTHER = "V is another potential, whose levels aren't those above"
 #: Up to this many n are listed individually.
 _LISTED = 6
@@ -199,7 +201,7 @@ class Algebraic:
     They exist where `constraint` vanishes (a function of the parameters; 0 where it does anyway), and their energies are the
     zeros of `polynomial`, in E; `wave` is a solution for each of them, with E for the energy, square integrable where the
     `conditions` hold.  `states` are the energies without parameters and the zeros of their functions inside the domain.  `P` is
-    the polynomial in the solutions, in its own variable t, and `range` the least and the largest t on the domain, or None if
+    the polynomial in the solutions, in its own variable t, and `range` the least and the largest t on the domain, or () if
     the monotonicity of t is undecided.  If t turns in the middle it is the range on one half, and `middle` is 1 or 0: the
     zeros there.
     """
@@ -211,7 +213,7 @@ class Algebraic:
     conditions: tuple[Any, ...] = ()
     states: tuple[BoundState, ...] = ()
     P: Any = None
-    range: tuple[Any, ...] | None = None
+    range: tuple[Any, ...] = ()
     middle: int | None = None
 
     @property
@@ -236,7 +238,7 @@ class Algebraic:
         if self.states:
             yield from self.states
             return
-        if self.P is None or self.range is None or self.constraint.xreplace(values) != 0:
+        if not self.range or self.constraint.xreplace(values) != 0:
             return
         P = sympy.Poly(self.P.as_expr().xreplace(values), self.P.gen)
         bounds = [end.xreplace(values) for end in self.range]
@@ -464,10 +466,7 @@ class Spectrum:
             lines.append(f"boundary condition: {_SMALLER.get(self.boundary, self.boundary)}")
         for one in self.formulas:
             lines += one.lines(self.energy)
-        which = ("the even levels solve", "the odd levels solve")[: len(self.matching)]
-        if len(self.matching) == 1:
-            which = ("the levels solve",)
-        lines += map("{} {}".format, which, map(_text, self.matching))
+        lines += map("{} {}".format, _SOLVING[len(self.matching)], map(_text, self.matching))
         lines += self._conclusion
         if self.numeric != () and not self.needs_boundary_condition:  # which is said above
             lines += str(self.numeric).splitlines()

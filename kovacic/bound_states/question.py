@@ -91,7 +91,7 @@ class SpectralProblem(Asked):
     @property
     def original(self) -> Original:
         """The function t of x in which V was read as a rational one.  Raises `Uncovered` for others than those known here."""
-        return Original.of(self.parsed.equation, self.x, self.signs).about(self.domain, self.signs)
+        return Original.of(self.parsed.equation, self.x, self.domain, self.signs)
 
     @property
     def E(self) -> Any:

@@ -43,8 +43,7 @@ def is_repulsive(question: Examined) -> bool:
     # V increases on the left of the centre, and falls on the right; t grows with x for a positive rate.
     halves = ((rate, (first, centre)), (-rate, (centre, last)))
     return all(
-        half[0] == half[1] or _has_sign(slope, real.t, original.range_of(half, signs), sign, signs)
-        for sign, half in halves
+        half[0] == half[1] or _has_sign(slope, real.t, original.on(*half).range, sign, signs) for sign, half in halves
     )
 
 
