@@ -213,7 +213,7 @@ def _with_closed_forms(found: Spectrum, question: Examined, max_degree: int, lim
     forms = closed_forms(question, max_degree, limits)
     reason = forms.reason if forms.complete else found.reason or forms.reason
     found = replace(found, algebraic=tuple(forms.levels.values()), closed_forms_complete=forms.complete, reason=reason)
-    if forms.complete or forms.higher is None or not question.ends:
+    if forms.complete or forms.higher is None:
         return found
     higher = f"there may be levels with a polynomial of degree {forms.higher}"
     return replace(found, hint=f"{higher}: max_degree={forms.higher}", shell=f"{higher}: --max-degree {forms.higher}")

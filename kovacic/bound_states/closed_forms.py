@@ -217,8 +217,7 @@ class _ClosedFormSearch(ClosedForms):
                     self.complete = self.complete and self._is_unsolvable(polynomial)
         theory = self.conditions.theory
         zeros = " or ".join(f"{self.question.shown(polynomial)} = 0" for polynomial in dict.fromkeys(excluded))
-        is_limit_point = all(end.is_limit_point for end in self.question.ends)
-        verb = "is square integrable" if is_limit_point else "is the smaller one"
+        verb = "is square integrable" if self.question.is_limit_point else "is the smaller one"
         others = zeros and f"at {zeros} the solution that {verb} at one end isn't at the other; "
         energies = f"any other real {self.question.energy}" if excluded else "the energy of a level"
         if not self.complete:

@@ -39,12 +39,12 @@ def transformed(
     question: Examined, budget: Budget, all_levels: Callable[[Examined, Budget], Spectrum]
 ) -> Spectrum | None:
     """The levels of a V in x with apparent singularities, from `all_levels` of a potential with fewer of them, or None."""
-    if question.parsed.equation is not None or not all(end.is_limit_point for end in question.ends):
+    if question.parsed.equation is not None or not question.is_limit_point:
         return None
     found = transformation(analyse(question.parsed.S, budget))
     signs = question.signs
     x, E = sympy.symbols([question.variable, question.energy])
-    if found is None or any(signs.sign(signs.real(f.to_sympy(x))) is None for f in found.exceptions):
+    if found is None or None in [signs.sign(signs.real(f.to_sympy(x))) for f in found.exceptions]:
         return None
     W, S, simpler = (f.to_sympy(x) for f in (found.W, question.parsed.S, found.simpler))
     E0 = question.plain(sympy.cancel(sympy.together((S.subs(E, 0) - W**2 - sympy.diff(W, x)) * question.kinetic)))
@@ -58,8 +58,7 @@ def transformed(
         return None
     # E0 may be a level of the simpler potential, and isn't one of V then.
     gaps = (signs.real(one.energy - E0).xreplace({one.number: signs.n}) for one in spectrum.levels)
-    are_kept = all(signs.sign(gap) is not None for gap in gaps)
-    if None in holds or not (spectrum.complete and are_kept and all(end.is_limit_point for end in other.ends)):
+    if None in (*holds, *map(signs.sign, gaps)) or not (spectrum.complete and other.is_limit_point):
         return None
     # The levels of the simpler potential with y' + W y for y, whose norm^2 is (E - E0)/k times that of y; and E0 with y0.
     W, lowest = question.plain(sympy.factor(W)), question.plain(wave)

@@ -79,6 +79,11 @@ class Examined(SpectralProblem):
     ends: tuple[End, ...] = ()
     excluded: tuple[Any, ...] = ()
 
+    @property
+    def is_limit_point(self) -> bool:
+        """True if one solution at most is square integrable at each end, for all parameters."""
+        return all(end.is_limit_point for end in self.ends)
+
     def spectrum(self, **found: Any) -> Spectrum:
         """The answer, with what was `found`."""
         excluded = (relation for relation in map(self.plain, self.excluded) if relation != sympy.false)
@@ -206,7 +211,7 @@ def _finite(end: End, square: Any, question: SpectralProblem) -> End:
         return replace(end, circle=sympy.true, sentence=end.sentence + said, oscillates=True)
     said = f"{powers}, both are square integrable (limit circle)"
     for condition in tidied([circle], signs):
-        said += f" where {question.shown(condition.lhs)} {condition.rel_op} {question.shown(condition.rhs)}"
+        said += f" where {question.shown(condition)}"
     return replace(end, circle=circle, sentence=end.sentence + said, oscillation=sympy.Lt(square, 0))
 
 

@@ -103,11 +103,11 @@ def solved(equation: Any, roots: list[Root], E: Any) -> Iterator[tuple[Any, dict
         return
     root, *others = unknown
     rho = root.value
-    E_of_rho = _only_zero(root.square - rho**2, E, "an exponent isn't the root of a linear function of the energy")
+    E_of_rho = _only_zero(root.square - rho**2, E)
     equation = equation.subs(E, E_of_rho)
     sigma_of_rho: Any = None
     for other in others:  # sigma = sigma(rho) for the other root, whose square is D(E(rho))
-        sigma_of_rho = _only_zero(equation, other.value, "the exponents satisfy no linear equation")
+        sigma_of_rho = _only_zero(equation, other.value)
         equation = other.square.subs(E, E_of_rho) - sigma_of_rho**2
     for value in _zeros(equation, rho):
         short = shortest(value)
@@ -115,11 +115,11 @@ def solved(equation: Any, roots: list[Root], E: Any) -> Iterator[tuple[Any, dict
         yield shortest(E_of_rho.subs(rho, short), E_of_rho.subs(rho, value)), values
 
 
-def _only_zero(equation: Any, unknown: Any, otherwise: str) -> Any:
-    """The zero of a function with one.  Raises `Uncovered`, as `otherwise` says, for others."""
+def _only_zero(equation: Any, unknown: Any) -> Any:
+    """The zero of a function with one.  Raises `Uncovered` for others."""
     zeros = _zeros(equation, unknown)
     if len(zeros) != 1:
-        raise Uncovered(otherwise)
+        raise Uncovered("the exponents satisfy no linear equation")
     return zeros[0]
 
 

@@ -12,8 +12,10 @@ At z = oo the coordinate is 1/z, and the sum of all mu is 4.
 
 from __future__ import annotations
 
+from collections import defaultdict
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
+from itertools import compress
 from typing import Any
 
 import sympy
@@ -109,7 +111,7 @@ def _frame(question: SpectralProblem, original: Original, t: Any, base: Any, m: 
         original,
         t,
         base**m,
-        S=signs.real(sympy.S.One * problem.S.to_sympy(z)),
+        S=signs.real(problem.S.to_sympy(z)),
         z=z,
         slope=constant * sympy.Mul(*((z - c) ** mu for c, mu in powers.items())),
         spots=tuple(_spots(problem, powers, places, signs)),
@@ -129,7 +131,7 @@ def _value(function: Any, t: Any, point: Any) -> Any:
 def linear_factors(expression: Any, z: Any) -> tuple[Any, dict[Any, Any]]:
     """The constant, and the exponents of z - c by c, of a product of powers of polynomials."""
     constant = sympy.Integer(1)
-    found = dict[Any, Any]()
+    found = defaultdict[Any, Any](int)
     for factor in sympy.Mul.make_args(sympy.factor(expression)):
         base, exponent = factor.as_base_exp()
         if not base.has(z):
@@ -138,7 +140,7 @@ def linear_factors(expression: Any, z: Any) -> tuple[Any, dict[Any, Any]]:
         polynomial = sympy.Poly(base, z)
         constant *= polynomial.LC() ** exponent
         for root, multiplicity in sympy.roots(polynomial).items():
-            found[root] = found.get(root, 0) + multiplicity * exponent
+            found[root] += multiplicity * exponent
     return constant, found
 
 
@@ -148,9 +150,9 @@ def _slope(original: Original, t: Any, base: Any, m: int) -> tuple[Any, dict[Any
     t_of_s = sympy.solve(base - s, t)[0]
     ds_dx_squared = (sympy.diff(base, t) ** 2 * original.slope_squared(t)).xreplace({t: t_of_s})
     constant, exponents = linear_factors(m**2 * s ** (2 * m - 2) * ds_dx_squared, s)
-    powers = dict[Any, Any]()
+    powers = defaultdict[Any, Any](int)
     for root, exponent in exponents.items():
-        powers[root**m] = powers.get(root**m, 0) + sympy.sympify(exponent, strict=True) / m  # m roots s for one z
+        powers[root**m] += sympy.S.One * exponent / m  # m roots s for one z
     return constant, powers
 
 
@@ -170,16 +172,10 @@ def _spots(problem: Problem, powers: Mapping[Any, Any], places: tuple[Any, ...],
             if place.kind is Kind.REGULAR:
                 square = signs.real(place.difference_squared.to_sympy(x))
                 squares[point] = sympy.expand(square.xreplace({x: point}))
-    powers = {**powers, sympy.oo: sympy.Integer(4) - sum(powers.values(), sympy.Integer(0))}
+    powers = {**powers, sympy.oo: sympy.Integer(4) - sum(powers.values())}
     for point, square in squares.items():
-        sides = tuple(side for side, place in enumerate(places) if _is_same(point, place))
-        yield Spot(point, square, powers.get(point, sympy.Integer(0)), sides)
-
-
-def _is_same(first: Any, second: Any) -> bool:
-    if sympy.oo in (first, second):
-        return bool(first == second)
-    return bool(sympy.simplify(first - second) == 0)
+        is_there = (place == point or sympy.simplify(place - point) == 0 for place in places)
+        yield Spot(point, square, powers.get(point, sympy.S.Zero), tuple(compress((0, 1), is_there)))
 
 
 def _fold(original: Original, t: Any, base: Any, m: int, question: SpectralProblem) -> Any:

@@ -117,5 +117,5 @@ def _window(levels: Sequence[DrawnLevel], domain: tuple[float, float]) -> tuple[
 
 def _visible(x: Any, sizes: Sequence[Any], tail: float) -> tuple[float, float]:
     """The ends of the part in which one of the functions exceeds a part of its maximum."""
-    visible = [x[size > tail * size.max()] for size in sizes]
-    return min(part[0] for part in visible if part.size), max(part[-1] for part in visible if part.size)
+    visible = x[np.any([size > tail * size.max() for size in sizes], axis=0)]
+    return visible[0], visible[-1]

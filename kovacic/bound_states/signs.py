@@ -58,11 +58,8 @@ class Signs:
         """
         if relation in (sympy.true, sympy.false):
             return bool(relation)
-        difference = relation.gts - relation.lts
         is_strict = relation.func in (sympy.StrictGreaterThan, sympy.StrictLessThan)
-        if is_strict:
-            return self.is_positive(difference)
-        return self.is_nonnegative(difference)
+        return self._known(relation.gts - relation.lts, "is_positive" if is_strict else "is_nonnegative")
 
     def is_positive(self, expression: Any) -> bool | None:
         return self._known(expression, "is_positive")
