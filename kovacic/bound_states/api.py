@@ -28,12 +28,11 @@ from kovacic.bound_states.signs import Uncovered
 from kovacic.bound_states.without_levels import NO_LEVELS, REASON, is_repulsive
 from kovacic.enclosure.request import Accuracy, digits_and_limits
 from kovacic.equation import ENERGY
-from kovacic.errors import InputError, LimitExceeded, NotRational
+from kovacic.errors import LimitExceeded, NotRational
 from kovacic.limits import Budget, Limits, limited
 from kovacic.numbers.exact import whole
 from kovacic.parametric.api import DEFAULT_DEGREE
 from kovacic.parametric.assumptions import check_mapping
-from kovacic.reading.change_of_variable import function_of_x
 from kovacic.reading.read import declared
 
 _STANDARD_FORMS: tuple[tuple[Callable[[SingularFrame], ExponentForm | None], str], ...] = (
@@ -145,7 +144,8 @@ def spectrum(
             python, shell = f"{hint}: levels=5", f"{hint}: --levels 5"
             if not (found.matching or found.complete):
                 raise NotRational(str(unread), hint=python, shell=shell) from None
-            found = found if found.parameters or found.complete else replace(found, hint=python, shell=shell)
+            if not (found.parameters or found.complete):
+                found = replace(found, hint=python, shell=shell)
     with Budget(limits).watched(), suppress(LimitExceeded):  # as far as time allows
         check_first_levels(found)
     return with_numbers(found, levels, digits, limits)
@@ -157,7 +157,6 @@ def _schroedinger_spectrum(given: Asked, max_degree: int, limits: Limits) -> Spe
     budget = Budget(limits)
     with budget.watched():
         try:
-            _check_branch_point(question)
             known = examined(question)
         except (Uncovered, LimitExceeded) as reason:
             known = Examined(**vars(question))
@@ -217,20 +216,6 @@ def _with_closed_forms(found: Spectrum, question: Examined, max_degree: int, lim
         return found
     higher = f"there may be levels with a polynomial of degree {forms.higher}"
     return replace(found, hint=f"{higher}: max_degree={forms.higher}", shell=f"{higher}: --max-degree {forms.higher}")
-
-
-def _check_branch_point(question: SpectralProblem) -> None:
-    """Raises `InputError` where V has a root of x, and the domain isn't known to be right of 0."""
-    x = sympy.Symbol(question.variable)
-    t = x if question.parsed.equation is None else function_of_x(question.parsed.equation)
-    start = question.domain[0]
-    if t.is_Pow and t.base == x and (start.is_infinite or not question.signs.is_nonnegative(start)):
-        hint = "choose a domain on the right of it"
-        raise InputError(
-            f"the potential has a branch point at {question.variable} = 0, which may be inside the domain",
-            hint=f'{hint}: domain=(0, "oo")',
-            shell=f"{hint}: --from 0",
-        )
 
 
 def _families(question: SpectralProblem, budget: Budget) -> tuple[tuple[Levels, ...], str]:

@@ -57,7 +57,7 @@ def norm_of(wave: Any, x: Any, domain: tuple[Any, Any]) -> Any:
     1/2
     """
     found = antiderivative(wave**2, x)
-    if found is None or not all(isinstance(f, _WITH_LIMITS) for f in found.atoms(sympy.Function)):
+    if found is None or found.atoms(sympy.Function) - found.atoms(*_WITH_LIMITS):
         return None
     first, last = domain
     total = sympy.limit(found, x, last, "-") - sympy.limit(found, x, first, "+")
@@ -131,7 +131,7 @@ class _Window(NamedTuple):
     def of(cls, question: Examined) -> _Window:
         """From the infimum of V, and the thresholds of the continuous spectrum."""
         real = question.real
-        thresholds = [end.threshold for end in question.ends if end.threshold is not None and end.threshold.is_Rational]
+        thresholds = [end.threshold for end in question.ends if isinstance(end.threshold, sympy.Rational)]
         high = min(thresholds, default=sympy.oo)
         if real is None or question.boundary.is_mixed:
             return cls(high=high)
@@ -167,7 +167,7 @@ def _number_below(V: Any, t: Any, bounds: tuple[Any, ...]) -> Any:
     """
     low, high = bounds
     num, den = (sympy.Poly(part, t) for part in sympy.fraction(sympy.cancel(V)))
-    if not all(c.is_Rational for c in (*num.all_coeffs(), *den.all_coeffs())):
+    if not {num.domain, den.domain} <= {sympy.QQ, sympy.ZZ}:
         return -sympy.oo
     number = sympy.floor(V.subs(t, point_between(low, high)))
     for k in range(_BOUNDS):

@@ -55,10 +55,18 @@ class Original:
 
     @classmethod
     def of(cls, equation: Equation | None, x: Any, domain: tuple[Any, Any], signs: Signs) -> Original:
-        """The one that the reader has chosen, by which y'' = S y became the equation in t."""
+        """The one that the reader has chosen.  Raises `InputError` for a root of x where x may be negative."""
         if equation is None or equation.change is None:
             return cls(x, domain, signs)
         t = signs.real(function_of_x(equation)).xreplace({sympy.Symbol(x.name): x})
+        is_right = domain[0].is_finite and signs.is_nonnegative(domain[0])
+        if t.is_Pow and t.base == x and not is_right:
+            hint = "choose a domain on the right of it"
+            raise InputError(
+                f"the potential has a branch point at {x} = 0, which may be inside the domain",
+                hint=f'{hint}: domain=(0, "oo")',
+                shell=f"{hint}: --from 0",
+            )
         if t.func not in SQUARES:
             raise Uncovered(f"no formula is known for potentials in {caret(str(t))}")
         theta = sympy.expand(t.args[0])
@@ -307,7 +315,7 @@ def _as_given(end: Any) -> str:
 
 def _real_zeros(polynomial: Any, signs: Signs) -> list[Any]:
     """Each once.  Raises `Uncovered` where it isn't known which zeros are real."""
-    if all(c.is_Rational for c in polynomial.coeffs()):
+    if polynomial.domain in (sympy.QQ, sympy.ZZ):
         return [*dict.fromkeys(polynomial.real_roots())]
     at_a_real_point = polynomial.as_expr().xreplace({polynomial.gen: sympy.Dummy("t", real=True)})
     if signs.sign(at_a_real_point) is not None:

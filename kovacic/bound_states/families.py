@@ -299,7 +299,13 @@ class ExponentForm:
     outwards: Sequence[int] = ()
 
     def levels(self) -> Iterator[Levels]:
-        """The families of levels, for each choice of signs."""
+        """The families of levels, for each choice of signs.
+
+        Both ends are singular points in z, or one and the middle of the domain, for even and odd solutions.  V is regular at
+        the middle, as at all points inside: `check_poles`.
+        """
+        if sorted(chain.from_iterable(spot.sides for spot in self.frame.spots)) != [0, 1]:
+            raise Uncovered("an end of the domain is an ordinary point of the equation")
         question = self.frame.question
         signs, plain = question.signs, question.plain
         radicals = dict(chain.from_iterable(root.radicals for root in self.roots))
@@ -338,7 +344,6 @@ def three_regular_points(frame: SingularFrame) -> ExponentForm:
     spots = frame.spots
     if len(spots) != 3 or any(spot.square is None for spot in spots):
         raise Uncovered("the equation hasn't three singular points, all of them regular")
-    _check_ends(frame)
     roots = [Root.of(spot.square, frame.question.E) for spot in spots]
     return ExponentForm(
         frame,
@@ -355,7 +360,6 @@ def whittaker(frame: SingularFrame) -> ExponentForm:
     q, r, b = _coefficients(frame.S * frame.z**2, frame, 2)
     if not frame.S.has(frame.z):
         raise Uncovered("S is constant")
-    _check_ends(frame)
     ordinary = Spot(sympy.Integer(0), 1 + 4 * b, 0)
     origin = next((spot for spot in frame.spots if spot.point == 0), ordinary)
     infinity = next(spot for spot in frame.spots if spot.point == sympy.oo)
@@ -407,15 +411,6 @@ def _choices(roots: list[Root]) -> Iterator[list[Any]]:
         signs[second] = [sympy.nan]
     for choice in product(*signs):
         yield [conjugate(choice[are_complex[0]]) if value is sympy.nan else value for value in choice]
-
-
-def _check_ends(frame: SingularFrame) -> None:
-    """Both ends are singular points in z, or one and the middle of the domain, for even and odd solutions.
-
-    V is regular at the middle, as at all points inside: `check_poles`.
-    """
-    if sorted(side for spot in frame.spots for side in spot.sides) != [0, 1]:
-        raise Uncovered("an end of the domain is an ordinary point of the equation")
 
 
 def _coefficients(function: Any, frame: SingularFrame, degree: int) -> list[Any]:

@@ -2,20 +2,18 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Sequence
 from contextlib import suppress
 from dataclasses import replace
 from fractions import Fraction
 from itertools import islice, product
-from types import MappingProxyType
 from typing import Any
 
 import sympy
 from flint import acb
 
 from kovacic.algebra.precision import working_precision
-from kovacic.algebra.rationals import QQ
-from kovacic.bound_states.levels import Levels, Spectrum
+from kovacic.bound_states.levels import BoundState, Levels, Spectrum
 from kovacic.bound_states.question import number_beside
 from kovacic.bound_states.signs import Signs
 from kovacic.errors import InputError, LimitExceeded, VerificationFailed
@@ -71,10 +69,9 @@ def with_matching(found: Spectrum) -> Spectrum:
     if is_known or not (V.has(*STEPS) or (V.is_polynomial(x) and sympy.degree(V, x) <= 1)):
         return found
     real = Signs(found.assumptions, found.parameters).symbols
-    assumed = {sympy.Symbol(name): symbol for name, symbol in real.items()}
-    plain = {symbol: name for name, symbol in assumed.items()}
+    plain = {symbol: sympy.Symbol(name) for name, symbol in real.items()}
     with suppress(InputError, NotImplementedError):
-        problem = _sturm_problem(found, assumed)
+        problem = _sturm_problem(found)
         n = number_beside(*found.parameters, found.variable)
         one = _waves(problem, E, n) or _decaying(problem, E, n)
         if one is not None:
@@ -116,15 +113,14 @@ def _decaying(problem: SturmProblem, E: Any, n: Any) -> Levels | None:
     return Levels(n, energy, sympy.exp(-rate * distance), conditions, n, sides / (2 * rate))
 
 
-def _sturm_problem(found: Spectrum, assumed: Mapping[Any, Any] = MappingProxyType({})) -> SturmProblem:
+def _sturm_problem(found: Spectrum) -> SturmProblem:
     """With the conditions that were given, and y = 0 at other regular ends, which the Friedrichs condition is there.
 
-    Its letters are the `assumed` symbols.
+    Its letters are symbols of which it is known what is assumed.
     """
     x = sympy.Symbol(found.variable)
-    V, weight, *ends = (
-        e.xreplace(assumed) for e in (found.potential / found.kinetic, 1 / found.kinetic, *found.domain)
-    )
+    real = Signs(found.assumptions, found.parameters).real
+    V, weight, *ends = map(real, (found.potential / found.kinetic, 1 / found.kinetic, *found.domain))
     pieces = tuple(replace(piece, W=weight) for piece in pieces_of(V, sympy.S.One, x, (ends[0], ends[1])))
     problem = SturmProblem(x, pieces)
     wishes: list[Wish] = [None, None]
@@ -146,15 +142,16 @@ def check_first_levels(found: Spectrum) -> None:
     """Raises `VerificationFailed` if y'' = (V - E_0) y provably doesn't hold for the first level of a family."""
     x = sympy.Symbol(found.variable)
     for levels in found.levels:
-        for values in _admissible(found):
-            at = {sympy.Symbol(name): sympy.Rational(value) for name, value in values.items()}
-            try:
-                states = replace(found, levels=(levels,), algebraic=()).states(values, count=1)
-            except InputError:  # not known whether the level exists
-                continue
+        alone = replace(found, levels=(levels,), algebraic=())
+        for chosen in islice(product(_VALUES, repeat=len(found.parameters)), _CHOICES):
+            values = dict(zip(found.parameters, chosen, strict=True))
+            states: Sequence[BoundState] = ()
+            with suppress(InputError):  # a value isn't admitted, or it isn't known whether the level exists
+                states = alone.states(values, count=1)
             if not states:
                 continue
             (state,) = states
+            at = {sympy.Symbol(name): sympy.Rational(value) for name, value in values.items()}
             difference = ((found.potential - state.energy) / found.kinetic).xreplace(at)
             if _is_wave_false(state.wave, difference, x, [end.xreplace(at) for end in found.domain]):
                 said = "".join(f", {name} = {value}" for name, value in values.items())
@@ -162,14 +159,6 @@ def check_first_levels(found: Spectrum) -> None:
                     f"a spectrum failed its own check at n = 0{said}: E = {state.energy}; please report it"
                 )
             break
-
-
-def _admissible(found: Spectrum) -> Iterator[dict[str, Fraction]]:
-    """Values of the parameters that the assumptions admit."""
-    for values in islice(product(_VALUES, repeat=len(found.parameters)), _CHOICES):
-        chosen = dict(zip(found.parameters, values, strict=True))
-        if found.assumptions.admits((name, QQ.poly([value])) for name, value in chosen.items()):
-            yield chosen
 
 
 def _is_wave_false(y: Any, difference: Any, x: Any, ends: Sequence[Any]) -> bool:
