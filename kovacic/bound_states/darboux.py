@@ -66,10 +66,9 @@ def transformed(
     for one in spectrum.levels:
         # As a weight times a sum of orthogonal polynomials with rational coefficients.
         y = W * one.wave + derivative(one.wave, x)
-        polynomials = sorted(y.atoms(sympy.hermite, sympy.assoc_laguerre), key=sympy.default_sort_key)
+        polynomials = y.atoms(sympy.hermite, sympy.assoc_laguerre)
         weight = one.wave.xreplace(dict.fromkeys(polynomials, sympy.S.One))
-        quotient = sympy.expand(y / weight)
-        y = weight * sympy.Add(*(sympy.factor(quotient.coeff(P)) * P for P in polynomials))
+        y = weight * sympy.collect(sympy.expand(y / weight), polynomials, sympy.factor)
         norm = None if one.norm is None else (one.energy - E0) / question.kinetic * one.norm
         levels.append(replace(one, wave=y, zeros=one.zeros + int(all(holds)), norm=norm))
     level = Algebraic(0, sympy.Integer(0), E - E0, lowest, P=sympy.Poly(1, x), range=question.interval)

@@ -134,8 +134,7 @@ def _zeros(equation: Any, unknown: Any) -> list[Any]:
 
 def shortest(*forms: Any) -> Any:
     """The shortest of some ways to write what the forms are: as products, as sums, as partial fractions in n."""
-    real = [_real_part(form) for form in forms if form.has(sympy.I)]
-    known = [*(form for form in real if form is not None), *forms]
+    known = [*chain.from_iterable(map(_without_I, forms)), *forms]
     candidates = [*known, *chain.from_iterable(map(_written, known))]
     texts = {form: str(form) for form in candidates}
     best = min(candidates, key=lambda form: (form.has(sympy.I), sympy.count_ops(form), len(texts[form]), texts[form]))
@@ -162,10 +161,13 @@ def _written(form: Any) -> Iterator[Any]:
         yield sympy.Add(*(sympy.factor(part) if part.has(n) else part for part in fractions))
 
 
-def _real_part(form: Any) -> Any:
-    """The form without I if the imaginary part vanishes, as for an energy with two conjugate roots; else None."""
+def _without_I(form: Any) -> list[Any]:
+    """The form without I if the imaginary part vanishes, as for an energy with two conjugate roots; else nothing."""
+    if not form.has(sympy.I):
+        return []
     real, imaginary = form.as_real_imag()
-    return None if real.has(sympy.re, sympy.im) or sympy.cancel(sympy.together(imaginary)) != 0 else real
+    is_real = sympy.cancel(sympy.together(imaginary)) == 0 and not real.has(sympy.re, sympy.im)
+    return [real] * is_real
 
 
 def tidied(

@@ -264,9 +264,9 @@ def _tidy(frame: SingularFrame, norm: Any) -> Any:
     simplified = sympy.gammasimp(norm).replace(
         lambda e: e.func == sympy.gamma and e.args[0].is_integer, lambda e: sympy.factorial(e.args[0] - 1)
     )
-    forms = [_shortened(norm)] if simplified.has(sympy.sin) else [_shortened(norm), _shortened(simplified)]
-    shortest_form = min(forms, key=lambda e: len(str(e)))
-    return shortest_form if frame.fold is None else 2 * shortest_form
+    forms = [norm] if simplified.has(sympy.sin) else [norm, simplified]
+    written = min(map(_shortened, forms), key=lambda e: len(str(e)))
+    return written if frame.fold is None else 2 * written
 
 
 def _shortened(norm: Any) -> Any:

@@ -45,11 +45,9 @@ class Signs:
         if value.is_number:
             return [] if is_admitted(known, value) else [sympy.false]
         facts = self.symbols[name].assumptions0.items()  # an integer, say
-        found = (
-            [] if all(getattr(value, f"is_{fact}", None) in (None, is_so) for fact, is_so in facts) else [sympy.false]
-        )
-        values = (above(b.sign * (value - sympy.Rational(b.end)), 0, strict=b.strict) for b in known.bounds)
-        return [*found, *values]
+        if any(getattr(value, f"is_{fact}", None) is (not is_so) for fact, is_so in facts):
+            return [sympy.false]
+        return [above(b.sign * (value - sympy.Rational(b.end)), 0, strict=b.strict) for b in known.bounds]
 
     def holds(self, relation: Any) -> bool | None:
         """True if a relation holds for all values, False if for none, None if neither is proven.
