@@ -9,7 +9,6 @@ with powers of cosh(x), cos(x), ... for tanh(x), tan(x), ... in q; the others ar
 
 from __future__ import annotations
 
-from collections import defaultdict
 from collections.abc import Callable, Collection, Iterable, Mapping, Sequence, Set
 from dataclasses import dataclass, replace
 from functools import cached_property
@@ -30,7 +29,7 @@ from kovacic.general_solution.integrands import NUMBERS, radicands, ratfunc
 from kovacic.general_solution.particular import starting_at, turned_at, with_letters_of_integration
 from kovacic.general_solution.question import Condition, exact, free_constants
 from kovacic.general_solution.steps import JUMPING, Apart, in_parts
-from kovacic.general_solution.substitution import changed_beside
+from kovacic.general_solution.substitution import by_functions, changed_beside
 from kovacic.general_solution.textbook import in_book_form, in_hyperbolic_functions, sums
 from kovacic.general_solution.zero import is_zero
 from kovacic.general_solution.zero_set import ZeroSet
@@ -186,26 +185,24 @@ def read_first_order(
 
 def _in_powers(whole: Expr, function: Expr) -> FirstOrderEquation | None:
     """From an expression that is zero: its numerator has w' times one power of w, and up to one power beside 1 and w."""
-    slope, value = sympy.Dummy(), sympy.Dummy()
-    plain = whole.subs(function.diff(function.args[0]), slope).subs(function, value)
-    if any(e.has(slope, value, function.func) for e in plain.atoms(sympy.Derivative, AppliedUndef)):
+    x = function.args[0]
+    slope, w = sympy.Dummy(), sympy.Dummy()
+    plain = whole.subs(function.diff(x), slope).subs(function, w)
+    if any(e.has(slope, w, function.func) for e in plain.atoms(sympy.Derivative, AppliedUndef)):
         return None
-    terms: dict[tuple[Expr, Expr], Expr] = defaultdict(sympy.Add)
-    for term in sympy.Add.make_args(sympy.expand(sympy.numer(sympy.together(plain)))):
-        exponents = tuple(sympy.cancel(u * term.diff(u) / term) for u in (slope, value))
-        if any(e.has(slope, value, function.args[0]) for e in exponents):
-            return None
-        terms[exponents] += term.xreplace({slope: sympy.S.One, value: sympy.S.One})
-    below = [e for m, e in terms if m == 1]
-    if len(below) != 1 or not {m for m, _ in terms} <= {0, 1}:
+    plain = sympy.expand(sympy.numer(sympy.together(plain)))
+    plain = plain.replace(lambda e: e.is_Pow and e.base.has(w), lambda e: sympy.expand_power_base(e, force=True))
+    leading, others = (by_functions(e, lambda f: not f.has(w)) for e in (plain.diff(slope), plain.subs(slope, 0)))
+    if not plain.has(slope) or plain.diff(slope).has(slope) or len(leading) > 1:
         return None
-    leading = terms.pop((sympy.S.One, below[0]))
-    right = {sympy.cancel(e - below[0]): _quotient_by_terms(-c, leading) for (_, e), c in terms.items()}
-    p, q = (right.pop(sympy.Integer(k), _ZERO) for k in (0, 1))
-    power, r = next(iter(right.items()), (_TWO, _ZERO))
-    if len(right) > 1 or (power != 2 and p != 0):
+    ((below, a),) = leading.items()
+    right = {f / below: _quotient_by_terms(-c, a) for f, c in others.items()}
+    p, q = (right.pop(f, _ZERO) for f in (sympy.S.One, w))
+    f, r = next(iter(right.items()), (w**2, _ZERO))
+    base, power = f.as_base_exp()
+    if len(right) > 1 or base != w or power.has(x, w) or (power != 2 and p != 0):
         return None
-    return FirstOrderEquation(function, p, q, r, (), power)
+    return FirstOrderEquation(function, p, q, r, (), sympy.cancel(power))
 
 
 def _quotient_by_terms(numerator: Expr, denominator: Expr) -> Expr:

@@ -200,7 +200,8 @@ def _hyperbolic(value: Expr, x: Expr) -> Iterator[Expr]:
     is_in_sum = any(part.has(exp) for part in value.atoms(sympy.Add))
     if not is_in_sum and all(e.has(x) for e in value.atoms(exp)):  # a product has one exponential, and keeps it
         return
-    exponents = {e: _rates(e.as_base_exp()[1]) for e in value.atoms(exp, type(sympy.E))}
+    powers = {e: sympy.expand(e.as_base_exp()[1]) for e in value.atoms(exp, type(sympy.E))}
+    exponents = {e: by_functions(exponent, lambda factor: factor.is_Number) for e, exponent in powers.items()}
     numbers = [(rate, number) for rates in exponents.values() for rate, number in rates.items()]
     if not all(number.is_Rational for _, number in numbers):
         return
@@ -217,12 +218,6 @@ def _hyperbolic(value: Expr, x: Expr) -> Iterator[Expr]:
     scale = exp(sympy.expand(m - n)) / bottom
     yield scale * top
     yield sympy.Add(*(scale * term for term in sympy.Add.make_args(sympy.expand(top))))
-
-
-def _rates(exponent: Expr) -> dict[Expr, Expr]:
-    """The terms of an exponent without their numerical factors, and these."""
-    terms = (term.as_coeff_Mul() for term in sympy.Add.make_args(sympy.expand(exponent)))
-    return {rate: number for number, rate in terms}
 
 
 def _symmetric_product(polynomial: Expr, rate_of: Mapping[Expr, Expr]) -> tuple[Expr, Expr | None]:
