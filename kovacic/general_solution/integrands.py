@@ -22,7 +22,7 @@ from kovacic.closed_form.integrals import integral, logarithms
 from kovacic.closed_form.product import product
 from kovacic.equation import EULER, PI
 from kovacic.errors import InputError
-from kovacic.general_solution.substitution import expanded_size, size
+from kovacic.general_solution.substitution import changed_beside, expanded_size, size
 from kovacic.limits import check_duration
 from kovacic.reading.read import read_input
 
@@ -70,11 +70,12 @@ def prepared(integrand: Expr) -> Expr:
     quotients = [f for f in integrand.atoms(log) if f.args[0].is_Mul and sympy.denom(f.args[0]).is_Add]
     sums = [power for power in integrand.atoms(sympy.Pow) if power.base.is_Add and power.exp.is_Rational]
     powers = (power for power in sums if power.exp < -1 and not power.exp.is_Integer)
-    kept = {part: sympy.Dummy() for part in (*quotients, *powers)}
-    back = {letter: power for power, letter in kept.items()}
-    rest = integrand.xreplace(kept)
-    check_duration(_PART_SECONDS * expanded_size(rest), "expanding an integrand")
-    return sympy.expand(rest, power_exp=False).xreplace(back)
+
+    def expanded(rest: Expr) -> Expr:
+        check_duration(_PART_SECONDS * expanded_size(rest), "expanding an integrand")
+        return sympy.expand(rest, power_exp=False)
+
+    return changed_beside((*quotients, *powers), integrand, expanded)
 
 
 def sum_of(integrals: Iterable[Expr | None]) -> Expr | None:

@@ -52,7 +52,8 @@ class ZeroSet:
         """`equation` with what keeps the expression defined: sin(k)/k is 1 at k = 0, where its factor sin(k) vanishes."""
         below = sympy.Mul.make_args(sympy.fraction(sympy.together(self.expression))[1])
         product = sympy.Mul(*self.factors)
-        guarding = (b for b in (factor.as_base_exp()[0] for factor in below) if _where_zero(product, b) == 0)
+        bases = (factor.as_base_exp()[0] for factor in below)
+        guarding = (b for b in bases if b.free_symbols and _where_zero(product, b) == 0)
         return " and ".join([self.equation(answer), *(f"{sympy.Mul(*ZeroSet(b).factors)} != 0" for b in guarding)])
 
     def equation(self, answer: Expr = sympy.S.Zero) -> str:

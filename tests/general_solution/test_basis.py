@@ -123,6 +123,8 @@ def test_exceptions_at_poles_of_gamma_functions_are_said_in_integers() -> None:
     (case,) = laguerre.exceptions
     assert str(case) == "n is a nonnegative integer"
     assert case.answer.eq.has(sympy.laguerre)
+    (periodic,) = kovacic.answer_to("y'' + (a*x^(2*n) + b*x^(n - 1))*y = 0").exceptions
+    assert str(periodic) == "sin(pi/(n + 1)) = 0"
 
 
 @pytest.mark.long
