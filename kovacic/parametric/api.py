@@ -33,21 +33,13 @@ from kovacic.equation import Equation, Parsed, over, parameters_of
 from kovacic.errors import InputError, LimitExceeded, VerificationFailed
 from kovacic.limits import Budget, Limits
 from kovacic.numbers.exact import whole
-from kovacic.parametric import prose
 from kovacic.parametric.assumptions import Assumptions, read_assumptions
 from kovacic.parametric.cases import equation_at, normal_form
 from kovacic.parametric.claims import Claim, DegreeExists, IntegerFamily, Several
-from kovacic.parametric.functions import (
-    ParameterPoint,
-    coefficients_in,
-    degrees,
-    irreducible_factors,
-    over_parameters,
-)
+from kovacic.parametric.functions import ParameterPoint, coefficients_in, degrees, irreducible_factors, over_parameters
 from kovacic.parametric.parametric_answer import ParametricAnswer
 from kovacic.parametric.partition import derived
-from kovacic.parametric.prose import ABELIAN, NOT_ABELIAN
-from kovacic.parametric.regions import ParameterRegion, verdict_of
+from kovacic.parametric.regions import ABELIAN, NOT_ABELIAN, ParameterRegion, verdict_of
 from kovacic.parametric.restriction import Letters, nonzero, own_parameters, spelled, transcendental, with_free_constant
 from kovacic.parametric.solutions import Carried
 from kovacic.parametric.statements import ALWAYS, Statement, Vanishes
@@ -147,7 +139,7 @@ def contradictions(found: ParametricAnswer, point: ParameterPoint) -> Iterator[s
     said = predicted.abelian
     known = group(answer) if said in (ABELIAN, NOT_ABELIAN) else None
     if known is not None and known.dimension is not None and (known.dimension < 2) is not (said == ABELIAN):
-        yield f"the identity component is printed as {prose.text_of(said or ())}, and the group is {known}"
+        yield f"the identity component is printed as {said}, and the group is {known}"
     inside = found.region_at(point)
     if inside is not None and inside.case == 1:
         yield from _false_formulas(found, inside, point, answer.S)

@@ -52,8 +52,6 @@ WORDS = (*_CLASSES, "rational", "irrational", "noninteger", "nonzero", *INEQUALI
 _RATIONAL = r"[+-]?\d{1,1000}(?:/0*[1-9]\d{0,999})?"
 _BOUND = re.compile(rf"(>=|<=|>|<)({_RATIONAL}|[^\s<>=]*[a-z(][^\s<>=]*)")
 _UNEQUAL = re.compile(rf"!=({_RATIONAL})")
-#: Bits of a rational number in the place of an end that isn't one.
-_BITS = 256
 #: Bits of the balls that are compared.
 _PRECISION = 512
 #: Numbers of a class between two bounds that are tried one by one.
@@ -247,12 +245,8 @@ def _stated_bound(word: str) -> Bound:
     if ball is None or not ball.imag.contains(0):
         raise InputError(f"{match[2]!r} isn't a real number", hint="bounds are numbers, such as 1/2 and sqrt(2)")
     with working_precision(_PRECISION):
-        scaled = ball.real * 2**_BITS
-        steps = scaled.floor() if sign > 0 else scaled.ceil()
-        whole = (steps - sign).unique_fmpz()
-    if whole is None:
-        raise InputError("a bound is too large to be compared with")
-    return Bound(sign, Fraction(int(whole), 2**_BITS), strict=True)
+        end = (ball.real.lower() if sign > 0 else ball.real.upper()).fmpq()
+    return Bound(sign, Fraction(int(end.p), int(end.q)), strict=True)
 
 
 #: Words for others, or for nothing that is used.  A natural number can be 0: what holds then holds for those who begin with 1.

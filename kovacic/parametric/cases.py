@@ -29,16 +29,7 @@ from kovacic.parametric.natural import Natural
 from kovacic.parametric.regions import ParameterRegion, RegionVerdict
 from kovacic.parametric.restriction import Hypersurface, hypersurface, with_free_constant
 from kovacic.parametric.riemann import Schwarz
-from kovacic.parametric.statements import (
-    ALWAYS,
-    Both,
-    Either,
-    Setting,
-    Statement,
-    Vanishes,
-    all_of,
-    either,
-)
+from kovacic.parametric.statements import ALWAYS, Both, Either, Setting, Statement, Vanishes, all_of, either
 
 
 def charts_of(statement: Statement) -> list[ParameterPoint]:

@@ -9,7 +9,7 @@ from __future__ import annotations
 
 from abc import ABC, abstractmethod
 from collections.abc import Callable, Iterable, Iterator, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from fractions import Fraction
 from functools import reduce
 from itertools import chain, product
@@ -20,7 +20,7 @@ from kovacic.algebra.function_field import FunctionField, FunctionPoly
 from kovacic.algebra.poly import Field, Poly
 from kovacic.algebra.ratfunc import RatFunc
 from kovacic.algebra.rationals import QQ
-from kovacic.parametric.functions import NATURALS, Classes, ParameterPoint, lifted, over_parameters
+from kovacic.parametric.functions import NATURALS, Classes, ParameterPoint, lifted, over_parameters, roots
 
 
 class Claim(ABC):
@@ -137,6 +137,14 @@ class IntegerFamily(ForInteger):
     numbers: Classes
     poles: tuple[Free, ...] = ()
 
+    def along(self, line: FunctionPoly, numbers: Classes) -> IntegerFamily:
+        """The same with line(n) in the place of n, for an n among other numbers, and the poles that are possible there."""
+        roots = (over_parameters((pole.root - line[0]) / line[1]) for pole in self.poles)
+        moved = [Free(root, pole.zero) for root, pole in zip(roots, self.poles, strict=True)]
+        known = [(pole, rational(pole.root)) for pole in moved]
+        possible = tuple(pole for pole, number in known if number is None or numbers.contains(number))
+        return replace(self, value=self.value(RatFunc(line)), numbers=numbers, poles=possible)
+
     def numbers_at(self, point: ParameterPoint) -> Iterator[Fraction]:
         """The poles named in messages are among them."""
         for zero in self.poles:
@@ -172,12 +180,7 @@ def rational_roots(polynomial: Poly) -> list[Fraction]:
         common = reduce(lambda a, b: a.gcd(b), common.parts)
     if common.degree < 1:
         return []
-    found: list[Fraction] = []
-    for factor, _ in QQ.factor(common):
-        root = QQ.rational_value(-factor[0]) if factor.degree == 1 else None
-        if root is not None:
-            found.append(root)
-    return found
+    return [*dict.fromkeys(number for number in map(QQ.rational_value, roots(common)) if number is not None)]
 
 
 def signed_sums(squares: Sequence[Poly], constant: Poly | Fraction, field: Field) -> Poly:

@@ -63,6 +63,7 @@ from kovacic.parametric.functions import (
     on_zeros,
     over_parameters,
     powers_of,
+    roots,
 )
 from kovacic.parametric.restriction import everywhere, with_free_constant
 from kovacic.parametric.statements import ALWAYS, NEVER, Setting, Statement, Vanishes, all_of, decided, either
@@ -84,25 +85,18 @@ class Stratum(NamedTuple):
     rest: FunctionPoly
 
 
-@dataclass(frozen=True)
-class SolvedCondition:
-    """f(n; t) = 0 for `parameter` t: it is `value`, or free at one of the `poles` or on one of the `strata`."""
+class IntegerCondition(NamedTuple):
+    """A claim, and the strata on which the same has to be said of another equation."""
 
-    parameter: str
-    value: RatFunc
-    poles: tuple[Free, ...]
-    strata: tuple[Stratum, ...]
-
-    def family(self, letter: str, line: FunctionPoly, numbers: Classes) -> IntegerFamily:
-        """The first stratum and the poles, where the integer is line(n), and n among these numbers."""
-        roots = [over_parameters((pole.root - line[0]) / line[1]) for pole in self.poles]
-        moved = [Free(root, pole.zero) for root, pole in zip(roots, self.poles, strict=True)]
-        known = [(pole, rational(pole.root)) for pole in moved]
-        possible = tuple(pole for pole, number in known if number is None or numbers.contains(number))
-        return IntegerFamily(letter, self.parameter, self.value(RatFunc(line)), numbers, possible)
+    claim: Claim
+    strata: tuple[Stratum, ...] = ()
 
 
-def solve_for(name: str, equation: FunctionPoly) -> SolvedCondition | None:
+#: f(n; t) = 0 for a parameter t: it is a function of n, or free at one of the family's poles or on one of the strata.
+Solved = tuple[IntegerFamily, tuple[Stratum, ...]]
+
+
+def solve_for(name: str, equation: FunctionPoly, letter: str) -> Solved | None:
     """All solutions of an irreducible equation in n over Q(t) by values of one parameter.
 
     None if the parameter isn't linear in it, and where its coefficient vanishes at the n of an equation of higher degree.
@@ -127,23 +121,24 @@ def solve_for(name: str, equation: FunctionPoly) -> SolvedCondition | None:
         elif factor not in undefined:
             strata.append(Stratum(factor, on_zeros(rest, factor)))
     poles.sort(key=lambda pole: str(pole.root))
-    return SolvedCondition(name, -RatFunc(rest, slope), tuple(poles), tuple(strata))
+    return IntegerFamily(letter, name, -RatFunc(rest, slope), INTEGERS, tuple(poles)), tuple(strata)
 
 
-def all_solved(equation: FunctionPoly, fixed: Collection[str] = ()) -> list[SolvedCondition]:
-    """The equation solved for each parameter for which that is possible, but for the `fixed` ones."""
-    names = [name for name in equation.field.names if name not in fixed]
-    return [solved for solved in (solve_for(name, equation) for name in names) if solved is not None]
+def all_solved(equation: FunctionPoly, letter: str, setting: Setting) -> list[Solved]:
+    """The equation solved for each parameter for which that is possible, but for the fixed ones: what is left to say."""
+    names = [name for name in equation.field.names if name not in setting.fixed]
+    found: list[Solved] = []
+    for family, strata in filter(None, (solve_for(name, equation, letter) for name in names)):
+        poles = tuple(pole for pole in family.poles if setting.assumptions.vanishes(pole.zero) is not False)
+        value = family.value
+        if setting.assumptions.constant.names:  # without the constant in denominators: sqrt(2), not 2/sqrt(2)
+            value = with_free_constant(everywhere(equation.field, setting.assumptions.constant).restricted(value)).shown
+        left = tuple(stratum for stratum in strata if not setting.covers(stratum.zero))
+        found.append((replace(family, value=value, poles=poles), left))
+    return found
 
 
 # ------------------------------------------------------------------------------- an equation for an integer
-
-
-class IntegerCondition(NamedTuple):
-    """A claim, and the strata on which the same has to be said of another equation."""
-
-    claim: Claim
-    strata: tuple[Stratum, ...] = ()
 
 
 def integer_condition(
@@ -154,25 +149,19 @@ def integer_condition(
 ) -> IntegerCondition:
     """The statement that one of the numbers is a root of a polynomial in N over Q(t): a spectrum, square roots, or both."""
     spectrum = _spectrum(equation, numbers, letter, setting)
-    roots = _roots(equation, numbers, setting.assumptions.constant)
-    if roots is None or (isinstance(spectrum.claim, IntegerFamily) and (len(roots.squares) < 2 or not spectrum.strata)):
+    sums = _roots(equation, numbers, setting.assumptions.constant)
+    if sums is None or (isinstance(spectrum.claim, IntegerFamily) and (len(sums.squares) < 2 or not spectrum.strata)):
         return spectrum
-    return IntegerCondition(roots)
+    return IntegerCondition(sums)
 
 
 def _spectrum(equation: FunctionPoly, numbers: Classes, letter: str, setting: Setting) -> IntegerCondition:
     """A parameter as a function of n, by the cheapest way to choose n; the equation itself if no parameter is linear."""
-    known = all_solved(equation, setting.fixed)
-    vanishes = setting.assumptions.vanishes
-    known = [replace(one, poles=tuple(pole for pole in one.poles if vanishes(pole.zero) is not False)) for one in known]
-    if setting.assumptions.constant.names:  # without the constant in denominators: sqrt(2), not 2/sqrt(2)
-        there = everywhere(equation.field, setting.assumptions.constant)
-        known = [replace(one, value=with_free_constant(there.restricted(one.value)).shown) for one in known]
-    energies = [solved for solved in known if solved.parameter == ENERGY]
+    known = all_solved(equation, letter, setting)
+    energies = [solved for solved in known if solved[0].parameter == ENERGY]
     found: list[tuple[int, bool, IntegerCondition]] = []
-    for k, solved in enumerate(energies or known):
-        strata = tuple(one for one in solved.strata if not setting.covers(one.zero))
-        for family in _integer_choices(equation, solved, numbers, letter):
+    for k, (solved, strata) in enumerate(energies or known):
+        for family in _integer_choices(equation, solved, numbers):
             text = shortest(family.value, family.letter)
             said = prose.text_of(prose.phrase(prose.numbers_of(family)))
             cost = _LATER * k + _STRATUM * len(strata) + _WEIGHT * len(text) + _WORDS * len(said)
@@ -184,9 +173,7 @@ def _spectrum(equation: FunctionPoly, numbers: Classes, letter: str, setting: Se
     return min(found, key=lambda one: one[:2])[2] if found else equation_for
 
 
-def _integer_choices(
-    equation: FunctionPoly, solved: SolvedCondition, numbers: Classes, letter: str
-) -> Iterator[IntegerFamily]:
+def _integer_choices(equation: FunctionPoly, family: IntegerFamily, numbers: Classes) -> Iterator[IntegerFamily]:
     """f(N) with N = n; and with N = s n + r, n an integer."""
     N = equation.field.poly([0, 1])
     is_mirrored = equation(-N) == (-1) ** equation.degree * equation
@@ -195,13 +182,13 @@ def _integer_choices(
     is_single = len(numbers.residues) == 1 or are_mirrored
     has_bound = numbers.least is not None
     if has_bound or equation.degree > 1 or not is_single:
-        yield solved.family(letter, N, numbers)
+        yield family.along(N, numbers)
     modulus = numbers.modulus
     if is_single and not has_bound and (modulus < 3 or not is_mirrored):
         # The residue and its neighbours for r, and both signs of s for the modulus 1.
         pairs = product((1, -1), (0, -1, 1)) if modulus == 1 else [(1, 0), (1, -1)]
         for sign, shift in pairs:
-            yield solved.family(letter, N * (sign * modulus) + first + modulus * shift, INTEGERS)
+            yield family.along(N * (sign * modulus) + first + modulus * shift, INTEGERS)
 
 
 def _roots(equation: FunctionPoly, numbers: Classes, constant: ParameterPoint) -> SumOfRoots | None:
@@ -245,10 +232,7 @@ def _three_squares(shifted: Poly) -> list[Poly] | None:
     s3 = (16 * s1 * s2 - 4 * s1**3 - shifted[2]) / 64
     if shifted[0] != (s1 * s1 - 4 * s2) ** 2:
         return None
-    squares: list[Poly] = []
-    for factor, multiplicity in shifted.field.factor(shifted.field.poly([-s3, s2, -s1, 1])):
-        if factor.degree == 1:
-            squares += [-factor[0]] * multiplicity
+    squares = roots(shifted.field.poly([-s3, s2, -s1, 1]))
     return squares if len(squares) == 3 else None
 
 
@@ -380,17 +364,13 @@ class Congruence(Statement):
     def _decided(self, assumptions: Assumptions) -> bool | None:
         if self.form is not None:
             return assumptions.meets_classes(self.form, self.numbers)
-        if not assumptions and not assumptions.constant.names:
-            return None
-        at = assumptions.value_of(self.equation)
-        if at is not None:
-            return self.holds_for(at)
-        factors = [factor for factor, _ in self.equation.field.factor(self.equation)]
-        if any(f.degree == 1 and assumptions.meets_classes(over_parameters(-f[0]), self.numbers) for f in factors):
-            return True
+        value = assumptions.value_of(self.equation)
+        if value is not None:
+            return self.holds_for(value)
         # f(0) is irrational, and f(n) - f(0) rational.
-        are_irrational = all(assumptions.is_irrational(f[0]) and without_parameters(f - f[0]) for f in factors)
-        return False if are_irrational else None
+        start = self.equation[0]
+        is_irrational = assumptions.is_irrational(start) and without_parameters(self.equation - start) is not None
+        return False if is_irrational else None
 
     def under(self, assumptions: Assumptions) -> Statement:
         """The values of an integer parameter t, of which only finitely many make (a t + b)/(c t + d) so integral."""
@@ -431,12 +411,11 @@ class Congruence(Statement):
     def _where_defined(self, said: Claim, equation: FunctionPoly) -> Claim:
         """With the denominators of the equation, which solving it cleared, where no earlier region has their zeros."""
         above = numerator(equation)
-        guards = []
-        for factor in irreducible_factors(element(equation.field, equation.den)):
-            there = irreducible_factors(on_zeros(above, factor))
-            if not all(self.setting.covers(factor, zero) for zero in there):
-                guards.append(IsNonzero(factor))
-        return AllOf((said, *guards)) if guards else said
+        below = irreducible_factors(element(equation.field, equation.den))
+        zeros = [(factor, zero) for factor in below for zero in irreducible_factors(on_zeros(above, factor))]
+        uncovered = dict.fromkeys(factor for factor, zero in zeros if not self.setting.covers(factor, zero))
+        guards = map(IsNonzero, uncovered)
+        return AllOf((said, *guards)) if uncovered else said
 
     def _one_class(self, form: FunctionPoly) -> Claim:
         """The claim that a form is congruent to one number."""
@@ -452,7 +431,7 @@ class Congruence(Statement):
         scale = lcm(residue.denominator, below)
         equation = over_parameters(form * scale - form.field.poly([0, 1]))
         has_several_parameters = sum(map(bool, degrees(equation))) > 1
-        if has_several_parameters and all_solved(equation, self.setting.fixed):
+        if has_several_parameters and all_solved(equation, self.letter, self.setting):
             return self._solved(equation, Classes.of([residue * scale], modulus * scale))
         return InClasses(form, self.numbers)
 
@@ -489,14 +468,8 @@ def free_letter(names: Collection[str], preferred: str = LETTERS) -> str:
 def integer_roots(equation: FunctionPoly, residues: Iterable[Fraction | int], modulus: Fraction | int) -> Statement:
     """The condition that a polynomial in N over Q(t) has a rational root in these classes (integer unless the degree is 1)."""
     classes = {r % modulus for r in residues}
-    is_symmetric = classes == {-r % modulus for r in classes}  # and then the signs of N say the same
     statements: list[Statement] = []
-    seen: list[Poly] = []
-    field = equation.field
-    for factor, _ in field.factor(equation):
-        if is_symmetric and factor(field.poly([0, -1])).monic() in seen:
-            continue
-        seen.append(factor)
+    for factor, _ in equation.field.factor(equation):
         numbers = without_parameters(factor)
         if numbers is None:
             statements.append(Congruence.make(over_parameters(factor), classes, modulus))

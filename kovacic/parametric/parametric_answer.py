@@ -20,7 +20,6 @@ from kovacic.equation import Equation, parameters_of
 from kovacic.errors import InputError, LimitExceeded, VerificationFailed
 from kovacic.limits import DEFAULT_LIMITS, Budget, Limits, limited
 from kovacic.numbers.exact import whole
-from kovacic.parametric import prose
 from kovacic.parametric.assumptions import NOTHING_ASSUMED, Assumptions, check_values, read_assumptions
 from kovacic.parametric.cases import settled
 from kovacic.parametric.functions import NO_CONSTANT, ParameterPoint
@@ -382,7 +381,7 @@ class ParametricAnswer:
             "regions": [*map(region_data, self.regions)],
             "complete": self.complete,
             "theory": str(self.theory),
-            "theorem": {"said": prose.marked(self.theory.words), "sources": list(self.theory.sources)},
+            "theorem": {"said": self.theory.literal, "sources": list(self.theory.sources)},
             "notices": list(self.notices),
             "equation": equation_data(self.equation),
             **({"given": self.given} if self.given else {}),

@@ -26,7 +26,6 @@ References: G. Darboux, C. R. Acad. Sci. 94 (1882) 1456; D. Gomez-Ullate, Y. Gra
 
 from __future__ import annotations
 
-import re
 from collections.abc import Callable, Iterable, Iterator
 from contextlib import suppress
 from dataclasses import dataclass, replace
@@ -40,14 +39,14 @@ from kovacic.algebra.extension import AlgebraicField
 from kovacic.algebra.function_field import FunctionField, FunctionPoly
 from kovacic.algebra.ratfunc import RatFunc
 from kovacic.algebra.rationals import QQ
-from kovacic.decision import Decision, Status, Structure
+from kovacic.decision import Status, Structure
 from kovacic.engine.decide import decide
 from kovacic.engine.places import Kind, Problem, analyse
 from kovacic.equation import Equation, parameters_of
 from kovacic.errors import LimitExceeded
 from kovacic.galois import group_of
 from kovacic.limits import Budget, bounded_work, count_work
-from kovacic.parametric import prose, restriction, riemann
+from kovacic.parametric import restriction, riemann
 from kovacic.parametric.assumptions import Assumptions
 from kovacic.parametric.cases import (
     equations_on,
@@ -62,6 +61,7 @@ from kovacic.parametric.functions import (
     degrees,
     denominators,
     element,
+    in_field,
     irreducible_factors,
     over_parameters,
     powers_of,
@@ -72,26 +72,18 @@ from kovacic.parametric.natural import Natural
 from kovacic.parametric.regions import Limited, ParameterRegion, RegionVerdict, Theorem, Theory, verdict_of
 from kovacic.parametric.restriction import (
     Letters,
-    has_number,
     hypersurface,
     in_lowest_powers,
-    over_all,
     setting_of,
     undefined,
     with_free_constant,
 )
 from kovacic.parametric.search import Findings, degree_equation, search
-from kovacic.parametric.solutions import (
-    Carried,
-    PolynomialSolution,
-    derivative,
-    given,
-    solutions_there,
-)
+from kovacic.parametric.solutions import Carried, PolynomialSolution, derivative, given, solutions_there
 from kovacic.parametric.statements import ALWAYS, NEVER, Setting, Vanishes, all_of
 from kovacic.parametric.theorems import kimura, martinet_ramis
 from kovacic.reading.change_of_variable import function_of_x, user_variable
-from kovacic.writing.formula import Math, caret
+from kovacic.writing.formula import caret
 
 #: Degrees of P up to which an E0 is looked for.
 _DEGREE = 4
@@ -130,27 +122,17 @@ def transformation(problem: Problem) -> Transformation | None:
 
 def _apparent(problem: Problem) -> int:
     """The sum of m (m + 1) over the poles with constant exponents -m, m + 1."""
-    total = 0
-    for place in problem.finite_places:
-        difference = place.delta  # 2 m + 1
-        if place.kind is not Kind.REGULAR or difference is None:
-            continue
-        is_odd = difference.denominator == 1 and difference % 2 == 1
-        if is_odd:
-            total += int(difference**2 - 1) // 4 * place.degree
-    return total
+    differences = [(place.delta, place.degree) for place in problem.finite_places if place.kind is Kind.REGULAR]
+    # An odd integer is 2 m + 1.
+    return sum(int(d * d - 1) // 4 * degree for d, degree in differences if d is not None and d % 2 == 1)
 
 
 def _energies(S: RatFunc) -> list[int]:
     """The numbers of the parameters E with S = V - c E, c a number and V free of E."""
     above, below = map(over_parameters, S.cleared())
-    found = []
-    for i, (power, power_below) in enumerate(zip(degrees(above), degrees(below), strict=True)):
-        if power == 1 and not power_below:
-            slope = RatFunc(powers_of(above, i)[1], below * element(above.field, above.den))
-            if slope.is_polynomial and S.field.rational_value(slope.num) is not None:
-                found.append(i)
-    return found
+    linear = (i for i, powers in enumerate(zip(degrees(above), degrees(below), strict=True)) if powers == (1, 0))
+    slopes = ((i, RatFunc(powers_of(above, i)[1], below * element(above.field, above.den))) for i in linear)
+    return [i for i, c in slopes if c.is_polynomial and S.field.rational_value(c.num) is not None]
 
 
 def _rational_logarithmic_derivatives(problem: Problem, energies: list[int]) -> Iterator[tuple[FunctionPoly, RatFunc]]:
@@ -173,8 +155,6 @@ def _rational_logarithmic_derivatives(problem: Problem, energies: list[int]) -> 
 
 #: Strata of parameter space up to which they are examined: Heun's general equation, in six parameters, has some hundreds.
 _STRATA = 4000
-#: What is a formula in the name of a group.
-_FORMULA = re.compile(r"\w+_\w+|\w+\(\w\)|\{.*\}")
 _UNKNOWN = RegionVerdict(None, known=False)
 
 
@@ -216,14 +196,17 @@ def partition(S: RatFunc, settings: Settings) -> Partition:
     numbers = _over_numbers(S)
     if numbers is not None:
         decision = decide(numbers, settings.budget)
+        group = None if decision.structure is None else group_of(numbers, decision)
         complete = decision.status is not Status.UNDECIDED or str(decision.undecided)
-        return Partition(_with_group(numbers, decision), complete, Theory("the engine"))
+        return Partition(verdict_of(decision, group), complete, Theory("the engine"))
     verdict = verdict_of(decide(S, settings.budget, certify=False))
-    if not isinstance(constants, FunctionField):
+    if isinstance(constants, AlgebraicField):
         # Functions on a hypersurface; see the head of this module for case 1.
-        if not _is_reducible(verdict) and not settings.assumptions.constant.names and has_number(constants):
+        is_reducible = _is_reducible(verdict)
+        has_number = isinstance(constants.base, FunctionField) and without_parameters(constants.modulus) is not None
+        if has_number and not is_reducible and not settings.assumptions.constant.names:
             return _on_slice(S, settings)
-        return Partition(verdict, _is_reducible(verdict) or "for generic values only", Theory("the engine"))
+        return Partition(verdict, is_reducible or "for generic values only", Theory("the engine"))
     try:
         return _by_theory(S, verdict, settings)
     except LimitExceeded as limit:
@@ -244,18 +227,6 @@ def _over_numbers(S: RatFunc) -> RatFunc | None:
         return S
     num, den = map(without_parameters, (S.num, S.den))
     return None if num is None or den is None else RatFunc(num, den)
-
-
-def _with_group(S: RatFunc, decision: Decision) -> RegionVerdict:
-    """What the engine's decision says, and the group."""
-    verdict = verdict_of(decision)
-    group = group_of(S, decision) if verdict.known and decision.structure is not None else None
-    if group is None:
-        return verdict
-    is_small = group.dimension is not None and group.dimension < 2
-    # What is a formula in the name of the group is one.
-    family = prose.phrase(_FORMULA.sub(r"`\g<0>`", group.name))
-    return replace(verdict, family=family, abelian=prose.ABELIAN if is_small else prose.NOT_ABELIAN)
 
 
 def _on_slice(S: RatFunc, settings: Settings) -> Partition:
@@ -353,7 +324,7 @@ def _by_candidates(problem: Problem, expected: RegionVerdict, settings: Settings
             continue  # it isn't smaller
         verdict = riemann.verdict(problem, structure) if is_reducible else RegionVerdict(structure)
         if structure.case == 3:  # it leaves the group open
-            verdict = replace(verdict, family=("binary tetrahedral, octahedral or icosahedral",))
+            verdict = replace(verdict, family="binary tetrahedral, octahedral or icosahedral")
         origin = None
         if isinstance(statement, Natural):
             origin = partial(statement.solutions, settings.variable)
@@ -435,8 +406,8 @@ def _missed(S: RatFunc, function: FunctionPoly, settings: Settings) -> list[Para
 
 def _also(regions: Iterable[ParameterRegion], *conditions: Vanishes) -> list[ParameterRegion]:
     """The parts of regions, of fewer parameters maybe, where more conditions hold."""
-    field = conditions[0].function.field
-    return [replace(r, statement=all_of((*conditions, over_all(r.statement, field)))) for r in regions]
+    lift = partial(in_field, field=conditions[0].function.field)
+    return [replace(r, statement=all_of((*conditions, r.statement.rewritten(lift)))) for r in regions]
 
 
 def _inside(S: RatFunc, function: FunctionPoly, settings: Settings) -> list[ParameterRegion]:
@@ -471,7 +442,7 @@ def _inside(S: RatFunc, function: FunctionPoly, settings: Settings) -> list[Para
 def _without_curve(region: ParameterRegion, back: Callable[[FunctionPoly], FunctionPoly]) -> ParameterRegion:
     """The region in the original parameters, without formulas in those of a curve, which aren't the user's."""
     verdict = region.verdict
-    if any(isinstance(part, Math) for part in verdict.family or ()):
+    if verdict.family and "`" in verdict.family:
         verdict = replace(verdict, family=None)
     return replace(region, statement=region.statement.rewritten(back), verdict=verdict, origin=None)
 
@@ -509,8 +480,8 @@ def _finished(
     """With solutions of the equation that was given, and the degree up to which determinants are shown."""
     statement = region.statement
     if not region.defined and equation.change and _is_constant(equation, vanishing(statement.conjuncts)):
-        t = Math.of(f"{equation.variable} = {caret(equation.change.expression)}")
-        region = replace(region, verdict=replace(region.verdict, family=(t, " is constant there: assume this value")))
+        family = f"`{equation.variable} = {caret(equation.change.expression)}` is constant there: assume this value"
+        region = replace(region, verdict=replace(region.verdict, family=family))
     if region.formulas is not None:
         pieces = tuple(partial(given, *piece) for piece in equations_on(region.statement, equation))
         # With an algebraic constant the statement knows its value; the origin is about all values.

@@ -51,20 +51,10 @@ from kovacic.writing.formula import Math
 Words = tuple[str | Math, ...]
 
 
-#: Of the identity component of a group.
-ABELIAN: Words = ("abelian",)
-NOT_ABELIAN: Words = ("not abelian",)
-
-
 def phrase(literal: str) -> Words:
     """Words and formulas, written in one line: formulas stand between backquotes."""
     pieces = enumerate(literal.split("`"))
     return tuple(Math.of(piece) if k % 2 else piece for k, piece in pieces if piece)
-
-
-def marked(words: Words) -> str:
-    """The line from which `phrase` makes the same."""
-    return "".join(f"`{part.text}`" if isinstance(part, Math) else part for part in words)
 
 
 def text(claim: Claim) -> str:

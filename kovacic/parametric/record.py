@@ -22,7 +22,6 @@ from kovacic.equation import Change, Equation, parameters_of
 from kovacic.errors import InputError
 from kovacic.limits import Limits
 from kovacic.numbers.numerals import as_text, for_json, fraction
-from kovacic.parametric import prose
 from kovacic.parametric.functions import NO_CONSTANT, ParameterPoint, over_parameters
 from kovacic.parametric.integers import Congruence, free_letter
 from kovacic.parametric.natural import Natural
@@ -83,14 +82,13 @@ def _json_number(value: Fraction) -> int | str:
 
 def verdict_data(verdict: RegionVerdict) -> dict[str, Any]:
     structure = verdict.structure and verdict.structure.value
-    data = {"structure": structure, "known": verdict.known, "family": verdict.family and prose.marked(verdict.family)}
-    return data if verdict.abelian is None else data | {"abelian": prose.marked(verdict.abelian)}
+    data = {"structure": structure, "known": verdict.known, "family": verdict.family}
+    return data if verdict.abelian is None else data | {"abelian": verdict.abelian}
 
 
 def verdict_from(data: Mapping[str, Any]) -> RegionVerdict:
     structure = None if data["structure"] is None else Structure(data["structure"])
-    family, abelian = (said and prose.phrase(said) for said in (data["family"], data.get("abelian")))
-    return RegionVerdict(structure, data["known"], family, abelian)
+    return RegionVerdict(structure, data["known"], data["family"], data.get("abelian"))
 
 
 def region_data(region: ParameterRegion) -> dict[str, Any]:

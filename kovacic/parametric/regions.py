@@ -2,14 +2,16 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterable
 from contextlib import suppress
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from functools import cached_property
 
 from kovacic.algebra.function_field import FunctionPoly
 from kovacic.decision import Decision, Status, Structure
 from kovacic.errors import LimitExceeded
+from kovacic.galois.group import Group
 from kovacic.limits import DEFAULT_LIMITS, Budget, Limits
 from kovacic.parametric import prose
 from kovacic.parametric.natural import Natural
@@ -32,20 +34,19 @@ class Limited(str):
 class Theory(str):
     """By which theorems something is proven, in a sentence; formulas stand between backquotes where it is made."""
 
-    words: Words
+    literal: str
     #: The keys of the publications.
     sources: tuple[str, ...]
 
     def __new__(cls, literal: str, *sources: str) -> Theory:
-        words = prose.phrase(literal)
-        self = super().__new__(cls, prose.text_of(words))
-        self.words = words
+        self = super().__new__(cls, prose.text_of(prose.phrase(literal)))
+        self.literal = literal
         self.sources = sources
         return self
 
     def also(self, literal: str, *sources: str) -> Theory:
         """With another theorem, each said once."""
-        said = prose.marked(self.words)
+        said = self.literal
         return self if said.endswith(literal) else Theory(f"{said}{literal}", *self.sources, *sources)
 
 
@@ -59,11 +60,11 @@ class RegionVerdict:
         The structure of the group; None without a Liouvillian solution.
     known : bool
         Is anything claimed?
-    family : tuple or None
-        More about the group than the structure says, in words and formulas.
-    abelian : tuple or None
-        Whether the identity component of a reducible group is abelian, in words and formulas, if more than the structure is
-        known: `identity_component` has it for every group.
+    family : str or None
+        More about the group than the structure says, with formulas between backquotes.
+    abelian : str or None
+        Whether the identity component of a reducible group is abelian, likewise, if more than the structure is known:
+        `identity_component` has it for every group.
 
     Examples
     --------
@@ -75,8 +76,8 @@ class RegionVerdict:
 
     structure: Structure | None
     known: bool = True
-    family: Words | None = field(default=None, compare=False)
-    abelian: Words | None = field(default=None, compare=False)
+    family: str | None = field(default=None, compare=False)
+    abelian: str | None = field(default=None, compare=False)
 
     @property
     def case(self) -> int | None:
@@ -93,16 +94,13 @@ class RegionVerdict:
     @property
     def group_in_words(self) -> Words:
         """The same with its formulas, without the structure."""
-        if not self.known:
-            return ("not determined",)
-        return self.family or _GROUPS[self.structure]
+        return prose.phrase((self.family or _GROUPS[self.structure]) if self.known else "not determined")
 
     @property
     def identity_component(self) -> Words:
         """A phrase that says whether the group's identity component is abelian, as integrability needs by Morales and Ramis."""
-        if not self.known:
-            return ("not determined",)
-        return self.abelian or _COMPONENTS.get(self.structure, prose.ABELIAN)
+        said = self.abelian or _COMPONENTS.get(self.structure, ABELIAN)
+        return prose.phrase(said if self.known else "not determined")
 
     def says_the_same(self, other: RegionVerdict) -> bool:
         """True for the same structure, of the same group.
@@ -120,35 +118,46 @@ class RegionVerdict:
         return "no Liouvillian solution" if self.case is None else f"case {self.case}"
 
 
-def reducible(family: str, component: str = "abelian") -> RegionVerdict:
+#: Of the identity component of a group.
+ABELIAN = "abelian"
+NOT_ABELIAN = "not abelian"
+
+
+def reducible(family: str, component: str = ABELIAN) -> RegionVerdict:
     """That of a reducible group, by its name and what its identity component is; formulas stand between backquotes."""
-    return RegionVerdict(Structure.REDUCIBLE, family=prose.phrase(family), abelian=prose.phrase(component))
+    return RegionVerdict(Structure.REDUCIBLE, family=family, abelian=component)
 
 
 def borel(diagonal: str = "") -> RegionVerdict:
     """That of Borel's group, or G_m where a phrase says so."""
     if not diagonal:
-        return reducible("the Borel group", "not abelian")
+        return reducible("the Borel group", NOT_ABELIAN)
     return reducible(f"the Borel group, or `G_m` where {diagonal}", f"abelian exactly where {diagonal}")
 
 
-def verdict_of(decision: Decision) -> RegionVerdict:
-    """What the engine's decision says."""
-    return RegionVerdict(decision.structure, decision.status is not Status.UNDECIDED)
+#: What is a formula in the name of a group.
+_FORMULA = re.compile(r"\w+_\w+|\w+\(\w\)|\{.*\}")
 
 
-_COMPONENTS: dict[Structure | None, Words] = {
-    Structure.REDUCIBLE: ("abelian unless the group has dimension 2",),
-    None: prose.NOT_ABELIAN,
-}
+def verdict_of(decision: Decision, group: Group | None = None) -> RegionVerdict:
+    """What the engine's decision says, and the group if it is known."""
+    verdict = RegionVerdict(decision.structure, decision.status is not Status.UNDECIDED)
+    if group is None:
+        return verdict
+    is_small = group.dimension is not None and group.dimension < 2
+    family = _FORMULA.sub(r"`\g<0>`", group.name)
+    return replace(verdict, family=family, abelian=ABELIAN if is_small else NOT_ABELIAN)
+
+
+_COMPONENTS = {Structure.REDUCIBLE: "abelian unless the group has dimension 2", None: NOT_ABELIAN}
 _ADJECTIVES: dict[Structure | None, str] = {Structure.REDUCIBLE: "reducible", Structure.IMPRIMITIVE: "imprimitive"}
-_GROUPS: dict[Structure | None, Words] = {
-    Structure.REDUCIBLE: ("a subgroup of the triangular group",),
-    Structure.IMPRIMITIVE: ("dicyclic, or the infinite dihedral group",),
-    Structure.TETRAHEDRAL: ("binary tetrahedral, order 24",),
-    Structure.OCTAHEDRAL: ("binary octahedral, order 48",),
-    Structure.ICOSAHEDRAL: ("binary icosahedral, order 120",),
-    None: prose.phrase("`SL2(C)`"),
+_GROUPS = {
+    Structure.REDUCIBLE: "a subgroup of the triangular group",
+    Structure.IMPRIMITIVE: "dicyclic, or the infinite dihedral group",
+    Structure.TETRAHEDRAL: "binary tetrahedral, order 24",
+    Structure.OCTAHEDRAL: "binary octahedral, order 48",
+    Structure.ICOSAHEDRAL: "binary icosahedral, order 120",
+    None: "`SL2(C)`",
 }
 
 
@@ -278,7 +287,9 @@ class ParameterRegion:
     @property
     def group(self) -> str:
         """The family of the Galois group, in words."""
-        return self.verdict.group if self.defined else prose.text_of(self.verdict.family or ("S isn't defined",))
+        if self.defined:
+            return self.verdict.group
+        return prose.text_of(prose.phrase(self.verdict.family or "S isn't defined"))
 
     @property
     def said(self) -> str:

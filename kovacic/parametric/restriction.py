@@ -28,7 +28,7 @@ import sympy
 from kovacic.algebra.extension import AlgebraicField, ExtensionPoly, norm
 from kovacic.algebra.factors import product
 from kovacic.algebra.function_field import FunctionField, FunctionPoly
-from kovacic.algebra.poly import Field, Poly
+from kovacic.algebra.poly import Poly
 from kovacic.algebra.ratfunc import RatFunc
 from kovacic.algebra.rationals import QQ
 from kovacic.algebra.traces import characteristic_polynomial
@@ -52,7 +52,7 @@ from kovacic.parametric.functions import (
     over_parameters,
     union,
 )
-from kovacic.parametric.statements import Setting, Statement
+from kovacic.parametric.statements import Setting
 from kovacic.writing.formula import caret, with_single_powers
 
 
@@ -250,13 +250,6 @@ class WithFreeConstant(NamedTuple):
     constant: ParameterPoint
 
 
-def has_number(field: Field) -> bool:
-    """True for a field Q(t)(alpha) with an algebraic number alpha."""
-    if not isinstance(field, AlgebraicField) or not isinstance(field.base, FunctionField):
-        return False
-    return all(field.base.rational_value(coefficient) is not None for coefficient in field.modulus)
-
-
 def with_free_constant(S: RatFunc) -> WithFreeConstant:
     """For S over Q(t), where the point is empty, or over Q(t)(alpha) with a number alpha."""
     field = S.field
@@ -274,11 +267,6 @@ def with_free_constant(S: RatFunc) -> WithFreeConstant:
     numbers = AlgebraicField(QQ, modulus, field.name, field.approximation)
     point = ParameterPoint((name,), (numbers.generator,), numbers)
     return WithFreeConstant(RatFunc(num, product(factors)), RatFunc(num, lifted(S.den, larger)), point)
-
-
-def over_all(statement: Statement, field: FunctionField) -> Statement:
-    """The statement with functions of all parameters, those on hypersurfaces among them."""
-    return statement.rewritten(lambda function: function if function.field == field else in_field(function, field))
 
 
 def in_lowest_powers(function: FunctionPoly, constant: ParameterPoint) -> FunctionPoly:

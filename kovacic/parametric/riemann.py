@@ -353,7 +353,7 @@ def verdict(problem: Problem, structure: Structure) -> RegionVerdict:
     cubic = squares_of_differences(problem)
     known = differences(cubic)
     if structure is Structure.IMPRIMITIVE:
-        return RegionVerdict(structure, family=prose.phrase(known.imprimitive_group))
+        return RegionVerdict(structure, family=known.imprimitive_group)
     if structure is not Structure.REDUCIBLE:
         return RegionVerdict(structure)
     if len(known.constants) >= cubic.degree - 1 and None not in known.constants:

@@ -165,11 +165,11 @@ def structures(problem: Problem, n: int, origin: Origin) -> Iterator[ParameterRe
         if structure is Structure.IMPRIMITIVE and n % 2 == 0:
             yield ParameterRegion(_with_denominators(problem, (2, 2)), RegionVerdict(Structure.REDUCIBLE))
         if structure is Structure.TETRAHEDRAL and n % 3 == 0:
-            quaternion = RegionVerdict(Structure.IMPRIMITIVE, family=("the quaternion group",))
+            quaternion = RegionVerdict(Structure.IMPRIMITIVE, family="the quaternion group")
             yield ParameterRegion(_with_denominators(problem, (3, 3, 2)), quaternion)
         verdict = riemann.verdict(problem, structure)
         if structure is Structure.OCTAHEDRAL and n % 2 == 0:
-            verdict = replace(verdict, family=("binary tetrahedral, or octahedral",))
+            verdict = replace(verdict, family="binary tetrahedral, or octahedral")
         yield ParameterRegion(statement, verdict, origin=origin if structure is Structure.REDUCIBLE else None)
 
 
@@ -316,7 +316,7 @@ def martinet_ramis(problem: Problem, variable: str) -> Theorem | None:
     # N = +-beta +- Delta is n modulo 2n; for q = 0, N = 2 Delta.
     delta_squared = 1 + 4 * form.b
     squares = [form.r * form.r / form.q, delta_squared] if form.q else [4 * delta_squared]
-    verdict = RegionVerdict(Structure.IMPRIMITIVE, family=("the infinite dihedral group",))
+    verdict = RegionVerdict(Structure.IMPRIMITIVE, family="the infinite dihedral group")
     if form.q:
         verdict = _whittaker(squares[0], delta_squared, form.coordinate.n)
     equation = signed_sums(squares, Fraction(0), form.b.field)

@@ -448,9 +448,9 @@ class _TheoremWriter:
         answer = self.answer
         yield _PROOF_HEADING
         if answer.complete is True:
-            yield say("The list is complete (", *answer.theory.words, ").")
+            yield say("The list is complete (", *prose.phrase(answer.theory.literal), ").")
         else:
-            yield say(f"The list is complete {answer.complete} (", *answer.theory.words, ").")
+            yield say(f"The list is complete {answer.complete} (", *prose.phrase(answer.theory.literal), ").")
         for notice in answer.notices:
             if not notice.startswith(f"in {answer.variable} = "):
                 yield say(f"Note: {notice}.")
