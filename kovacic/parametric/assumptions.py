@@ -240,8 +240,8 @@ def _stated_bound(word: str) -> Bound:
     if re.fullmatch(_RATIONAL, match[2]):
         return Bound(sign, Fraction(match[2]), strict="=" not in word)
     number = read_input(match[2], var="x_").S
-    is_constant = number.num.degree <= 0 and number.den.degree <= 0
-    ball = enclosure(number.num[0] / number.den[0]) if is_constant and number and number.field.ground == QQ else None
+    is_number = number.is_polynomial and number.num.degree == 0 and number.field.ground == QQ
+    ball = enclosure(number.num[0]) if is_number else None
     if ball is None or not ball.imag.contains(0):
         raise InputError(f"{match[2]!r} isn't a real number", hint="bounds are numbers, such as 1/2 and sqrt(2)")
     with working_precision(_PRECISION):
@@ -318,16 +318,13 @@ class Assumptions:
             number = value.field.rational_value(value)
             return number is not None and numbers.contains(number)
         values = self._class_of(form)
-        if values is not None:
-            if values.are_covered_by(numbers):
-                return True
-            return None if values.meet(numbers) else False
+        if values is not None and values.are_covered_by(numbers):
+            return True
+        is_apart = self.is_irrational(form) or (values is not None and not values.meet(numbers))
         linear = linear_of(form)
         if linear is not None and linear.parameter is not None:
-            is_possible = self.of(linear.parameter).may_be_among(linear.solutions(numbers))
-        else:
-            is_possible = not self.is_irrational(form)
-        return None if is_possible else False
+            is_apart = is_apart or not self.of(linear.parameter).may_be_among(linear.solutions(numbers))
+        return False if is_apart else None
 
     def vanishes(self, function: FunctionPoly) -> bool | None:
         """Whether the function vanishes: True (always), False (never) or None."""
@@ -452,9 +449,7 @@ def read_assumptions(assume: Mapping[Any, str] | None, S: Any, names: tuple[str,
     """
     check_mapping(assume)
     words: dict[str, list[str]] = {name: [] for name in names}
-    for symbol in getattr(S, "free_symbols", ()):
-        if symbol.name in words:
-            words[symbol.name] = words_of(symbol)
+    words |= {symbol.name: words_of(symbol) for symbol in getattr(S, "free_symbols", ()) if symbol.name in words}
     for name, what in ((str(key), what) for key, what in (assume or {}).items()):
         if name not in names:
             hint = f"the parameters are {', '.join(names) or 'none'}"

@@ -286,7 +286,7 @@ def _is_redundant(
     One that says the same of all of its values is enough.  Without one, those that say another thing may have no value in
     common with this one, but for values that are in one before, and the generic verdict has to be the same.
     """
-    if not _is_known(region) or region.complete is not True:
+    if not _is_known(region):
         return False
     is_generic = generic is not None and generic.says_the_same(region.verdict)
     if not is_generic and not is_variety(region.statement):
@@ -296,7 +296,7 @@ def _is_redundant(
         return False
     known = [one.statement for one in before]
     for other in after:
-        says_the_same = other.defined and other.complete is True and _is_same_region(other, region)
+        says_the_same = other.defined and _is_same_region(other, region)
         if says_the_same and covered(charts, [other.statement]):
             return True
         # The other one has a solution at all of its values, where this one has none.

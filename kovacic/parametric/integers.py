@@ -336,16 +336,10 @@ class Congruence(Statement):
     def _holds(self, point: ParameterPoint) -> bool:
         return self.holds_for(point.at(self.equation)) is True
 
-    def _has_one_of(self, numbers: Iterable[Fraction]) -> bool:
-        """True if one of the numbers lies in one of the classes."""
-        return any(map(self.numbers.contains, numbers))
-
     def holds_for(self, equation: Poly) -> bool | None:
         """True if the equation has one of the roots, False if not; None if it contains parameters."""
-        numbers = equation if equation.field.ground == QQ else without_parameters(equation)
-        if numbers is None:
-            return None
-        return self._has_one_of(rational_roots(numbers))
+        numbers = without_parameters(equation)
+        return None if numbers is None else any(map(self.numbers.contains, rational_roots(numbers)))
 
     def rewritten(self, change: Callable[[FunctionPoly], FunctionPoly]) -> Statement:
         return integer_roots(change(self.equation), self.residues, self.modulus).avoiding(self.setting)
@@ -379,7 +373,7 @@ class Congruence(Statement):
             return known
         largest = lcm(self.modulus.denominator, *(residue.denominator for residue in self.residues))
         values = at_integers(self.form, largest, assumptions)
-        return self if values is None else either(*(here for here, value in values if self._has_one_of([value])))
+        return self if values is None else either(*(here for here, value in values if self.numbers.contains(value)))
 
     def avoiding(self, setting: Setting) -> Statement:
         return replace(self, setting=setting)
@@ -479,7 +473,9 @@ def integer_roots(equation: FunctionPoly, residues: Iterable[Fraction | int], mo
 
 
 def without_parameters(polynomial: Poly) -> Poly | None:
-    """The polynomial over Q; None if a coefficient has parameters."""
+    """The polynomial over Q, or over its number field; None if a coefficient has parameters."""
+    if polynomial.field.ground == QQ:
+        return polynomial
     values = [rational(coefficient) for coefficient in polynomial]
     known = [value for value in values if value is not None]
     return QQ.poly(known) if len(known) == len(values) else None

@@ -38,7 +38,6 @@ import sympy
 from kovacic.algebra.extension import AlgebraicField
 from kovacic.algebra.function_field import FunctionField, FunctionPoly
 from kovacic.algebra.ratfunc import RatFunc
-from kovacic.algebra.rationals import QQ
 from kovacic.decision import Status, Structure
 from kovacic.engine.decide import decide
 from kovacic.engine.places import Kind, Problem, analyse
@@ -141,8 +140,7 @@ def _rational_logarithmic_derivatives(problem: Problem, energies: list[int]) -> 
     if equation is None:
         return
     for special in chain.from_iterable(irreducible_factors(equation(Fraction(d))) for d in range(_DEGREE + 1)):
-        terms = [(i, powers_of(special, i)) for i in energies]
-        linear = (i for i, powers in terms if 1 in powers and powers.keys() <= {0, 1} and powers[1].num.is_constant())
+        linear = (i for i in energies if degrees(special)[i] == 1 and powers_of(special, i)[1].num.is_constant())
         for i in islice(linear, 1):
             surface = hypersurface(special, i)
             riccati = decide(surface.restricted(problem.S), problem.budget).riccati
@@ -223,8 +221,6 @@ def _without_common_factors(S: RatFunc, assumptions: Assumptions) -> RatFunc:
 
 def _over_numbers(S: RatFunc) -> RatFunc | None:
     """S, if it has no parameter in it: 0 for k (1 + g/x) at k = 0."""
-    if S.field.ground == QQ:
-        return S
     num, den = map(without_parameters, (S.num, S.den))
     return None if num is None or den is None else RatFunc(num, den)
 
@@ -362,13 +358,9 @@ def _on_zeros(
             if expected is not None:
                 raise
             found = [ParameterRegion(Vanishes(function), _UNKNOWN, Limited.by(limit))]
-        if expected is None or not all(_is_proven(region, expected) for region in found):
+        if expected is None or not all(one.verdict.known and one.case == expected.case for one in found):
             yield from found
             settings = settings.also(function)
-
-
-def _is_proven(region: ParameterRegion, expected: RegionVerdict) -> bool:
-    return region.verdict.known and region.complete is True and region.case == expected.case
 
 
 def _pieces(S: RatFunc, function: FunctionPoly, settings: Settings) -> list[ParameterRegion]:

@@ -176,7 +176,8 @@ class ParameterRegion:
     verdict : RegionVerdict
         What holds there.
     complete : bool or str
-        True where it is proven that the statement describes all such values and nothing else, else what isn't proven.
+        True where it is proven that the statement describes all such values and nothing else, else what isn't proven, and the
+        verdict isn't known.
     defined : bool
         False where S isn't defined.
     shown_degree : int or None
@@ -299,8 +300,7 @@ class ParameterRegion:
     @property
     def plain(self) -> bool:
         """True if there is nothing to say but the statement and the case."""
-        is_proven = self.complete is True and self.verdict.known
-        return self.defined and is_proven and self.shown_degree is None
+        return self.defined and self.verdict.known and self.shown_degree is None
 
     def __repr__(self) -> str:
         return f"<ParameterRegion {self.statement.text()}: {self.said}>"

@@ -214,18 +214,16 @@ def _with_weights(function: FunctionPoly) -> Hypersurface | None:
     (u, m), (v, n) = used
     degree = gcd(m, n)
     p, q = m // degree, n // degree
-    # The coefficients of u^i v^j by j, and q i + p j, which is the same for all terms.
+    # The coefficients of u^i v^j, with the same q i + p j in all terms.
     first, second = (1 + names.index(name) for name, _ in used)
-    terms = {
-        int(k[second]): (int(c), q * int(k[first]) + p * int(k[second])) for k, c in function.num.to_dict().items()
-    }
-    if any(weight != q * m for _, weight in terms.values()):
+    terms = {(int(k[first]), int(k[second])): int(c) for k, c in function.num.to_dict().items()}
+    if any(q * i + p * j != q * m for i, j in terms):
         return None
     free = (letter for letter in map("T{}".format, count()) if letter not in names)
     letter, number = next(free), next(free)
     field = FunctionField((*(name for name in names if name not in (u, v)), letter))
     T = field.generator(letter)
-    modulus = field.poly([terms.get(q * k, (0,))[0] for k in range(degree + 1)]).monic()
+    modulus = field.poly([terms.get((p * (degree - k), q * k), 0) for k in range(degree + 1)]).monic()
     theta: Poly = -modulus[0]
     if degree > 1:
         theta = AlgebraicField(field, modulus, number).generator

@@ -21,7 +21,8 @@ from kovacic.parametric.claims import (
     IsZero,
     SumOfRoots,
 )
-from kovacic.parametric.prose import marked, sentence
+from kovacic.parametric.prose import sentence
+from kovacic.writing.formula import Math
 
 #: The integers that are tried.
 RANGE = range(-90, 91)
@@ -34,7 +35,7 @@ class NotReadError(Exception):
 
 def written(claim: Claim) -> str:
     """What is printed, with formulas between backquotes."""
-    return marked(sentence(claim))
+    return "".join(f"`{part.text}`" if isinstance(part, Math) else part for part in sentence(claim))
 
 
 def says(claim: Claim, values: Values) -> bool:
