@@ -331,9 +331,7 @@ class Assumptions:
         value = self.value_of(function)
         if value is not None:
             return not value
-        if self._is_nowhere_zero(function):
-            return False
-        return None
+        return False if self._is_nowhere_zero(function) else None
 
     def _is_nowhere_zero(self, function: FunctionPoly) -> bool:
         """True if this follows from classes, a root that isn't admitted, factors, irrationality or a sign."""
@@ -499,14 +497,11 @@ def _read_words(what: object) -> list[str]:
 def _is_positive_beyond(bounds: Sequence[Bound], form: FunctionPoly, *, or_zero: bool) -> bool:
     """True if no coefficient is negative in the s with t = end + sign s, and one monomial is positive."""
     field = form.field
-    values = []
-    for name, bound in zip(field.names, bounds, strict=True):
-        s = field.generator(name)
-        values.append(s * bound.sign + bound.end)
+    values = [field.generator(name) * one.sign + one.end for name, one in zip(field.names, bounds, strict=True)]
     terms = over_parameters(form.value_at(values, field)).num.to_dict()
-    if not all(coefficient > 0 for coefficient in terms.values()):
+    if any(coefficient < 0 for coefficient in terms.values()):
         return False
-    if or_zero:
-        return True
     # A monomial is positive where each of its parameters is strictly beyond the bound.
-    return any(all(bound.strict for bound, k in zip(bounds, powers[1:], strict=True) if k) for powers in terms)
+    return or_zero or any(
+        all(bound.strict for bound, k in zip(bounds, powers[1:], strict=True) if k) for powers in terms
+    )

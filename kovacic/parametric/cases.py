@@ -11,6 +11,7 @@ statement holds at all values of a chart.
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator, Sequence
+from contextlib import suppress
 from dataclasses import dataclass, replace
 from functools import partial, reduce
 from itertools import chain, groupby, product
@@ -28,7 +29,6 @@ from kovacic.parametric.integers import Congruence
 from kovacic.parametric.natural import Natural
 from kovacic.parametric.regions import ParameterRegion, RegionVerdict
 from kovacic.parametric.restriction import Hypersurface, hypersurface, with_free_constant
-from kovacic.parametric.riemann import Schwarz
 from kovacic.parametric.statements import ALWAYS, Both, Either, Setting, Statement, Vanishes, all_of, either
 
 
@@ -39,31 +39,24 @@ def charts_of(statement: Statement) -> list[ParameterPoint]:
 
 def within(statement: Statement, charts: list[ParameterPoint]) -> list[ParameterPoint]:
     """Parts of the charts that contain all of their values at which the statement holds."""
-    if isinstance(statement, Both):
-        for part in statement.parts:
-            charts = within(part, charts)
-        return charts
     found: list[ParameterPoint] = []
     for one in charts:
-        if isinstance(statement, Either):
-            found += _union((within(part, [one]) for part in statement.parts), one)
-            continue
-        try:
+        with suppress(ZeroDivisionError):  # a statement doesn't hold where it isn't defined
             found += _where_possible(statement, one)
-        except ZeroDivisionError:  # a statement doesn't hold where it isn't defined
-            continue
     return found
 
 
 def _where_possible(statement: Statement, chart: ParameterPoint) -> list[ParameterPoint]:
-    """The points where a statement that isn't made of others holds."""
+    """The same for one chart."""
+    if isinstance(statement, Both):
+        return reduce(lambda charts, part: within(part, charts), statement.parts, [chart])
+    if isinstance(statement, Either):
+        return _union((within(part, [chart]) for part in statement.parts), chart)
     if isinstance(statement, Vanishes):
         return _where_solvable(chart.at(statement.function), chart)
     if isinstance(statement, Congruence):
         equation = chart.at(statement.equation)
         return [] if statement.holds_for(equation) is False else _where_solvable(equation, chart)
-    if isinstance(statement, Schwarz):
-        chart.at(statement.cubic)  # is it defined there?
     if isinstance(statement, Natural) and statement.factors is not None:
         return _union((_where_solvable(chart.at(factor), chart) for factor in statement.factors), chart)
     return [chart]
@@ -100,20 +93,12 @@ def covered(charts: Iterable[ParameterPoint], statements: Sequence[Statement]) -
 
 
 def without_implied(statement: Statement) -> Statement:
-    """The statement without an equation that follows from the others: g2 = g3 = 0 implies g2^3 = 27 g3^2.
+    """The statement without an equation that follows from the values of parameters: g2 = g3 = 0 implies g2^3 = 27 g3^2.
 
-    Those beside the value of a parameter are said with the value.
+    Others are said with the values.
     """
-    if not isinstance(statement, Both):
-        return statement
-    zeros = [zero.function for zero in vanishing(statement.parts)]
-    valued = partial(with_values, zeros=zeros)
-    parts = [part.rewritten(valued) if isinstance(part, Vanishes) else part for part in statement.parts]
-    for part in vanishing(parts):
-        others = Both(tuple(other for other in vanishing(parts) if other is not part))
-        if len(others.parts) > 1 and covered(charts_of(others), [part]):
-            parts.remove(part)
-    return all_of(parts)
+    valued = partial(with_values, zeros=[zero.function for zero in vanishing(statement.conjuncts)])
+    return all_of(part.rewritten(valued) if isinstance(part, Vanishes) else part for part in statement.conjuncts)
 
 
 def vanishing(statements: Iterable[Statement]) -> list[Vanishes]:
@@ -157,17 +142,14 @@ def equations_on(statement: Statement, equation: Equation) -> list[EquationThere
     is another function.  Pieces that aren't given by functions of fewer parameters are left out.
     """
     pieces = pieces_of(statement)
-    found: list[EquationThere] = []
-    for piece in pieces:
-        generic = _generic_zero(piece) if piece else None
-        there = equation_at(equation, generic) if generic else equation
-        if there is not None and (generic or not piece):
-            found.append((there, piece if len(pieces) > 1 else ()))
-    return found
+    there = ((_on_piece(equation, piece), piece) for piece in pieces)
+    return [(one, piece if len(pieces) > 1 else ()) for one, piece in there if one is not None]
 
 
-def _generic_zero(functions: Sequence[FunctionPoly]) -> ParameterPoint | None:
-    """The generic point of the common zeros; None if these aren't one piece."""
+def _on_piece(equation: Equation, functions: Sequence[FunctionPoly]) -> Equation | None:
+    """The equation at the generic point of the common zeros; None if these aren't one piece."""
+    if not functions:
+        return equation
     point = ParameterPoint.generic(functions[0].field)
     try:
         for function in functions:
@@ -177,7 +159,7 @@ def _generic_zero(functions: Sequence[FunctionPoly]) -> ParameterPoint | None:
             point = _on(hypersurface(factors[0]), point)
     except (TypeError, ZeroDivisionError):  # a function on a hypersurface, or one that isn't defined at these values
         return None
-    return point
+    return equation_at(equation, point)
 
 
 def normal_form(S: RatFunc, variable: str) -> Equation:
@@ -346,11 +328,11 @@ def _together(last: Case, case: Case, is_same: Likeness) -> Case | None:
         return None
     if not is_same(last.regions[-1], case.regions[0]):
         return None
-    statement = last.statement.merged(case.statement)
-    kinds = {type(part) for one in (last, case) for part in one.statement.alternatives}
-    if statement is None and (len(kinds) > 1 or kinds == {Both}):
+    statement = either(last.statement, case.statement)
+    kinds = {type(part) for part in statement.alternatives}
+    if len(kinds) > 1 or kinds == {Both}:
         return None
-    return Case(statement or either(last.statement, case.statement), (*last.regions, *case.regions), case.without)
+    return Case(statement, (*last.regions, *case.regions), case.without)
 
 
 def _mirrored(cases: Iterable[Case], is_same: Likeness) -> list[Case]:

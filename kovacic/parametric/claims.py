@@ -139,8 +139,7 @@ class IntegerFamily(ForInteger):
 
     def along(self, line: FunctionPoly, numbers: Classes) -> IntegerFamily:
         """The same with line(n) in the place of n, for an n among other numbers, and the poles that are possible there."""
-        roots = (over_parameters((pole.root - line[0]) / line[1]) for pole in self.poles)
-        moved = [Free(root, pole.zero) for root, pole in zip(roots, self.poles, strict=True)]
+        moved = [replace(pole, root=over_parameters((pole.root - line[0]) / line[1])) for pole in self.poles]
         known = [(pole, rational(pole.root)) for pole in moved]
         possible = tuple(pole for pole, number in known if number is None or numbers.contains(number))
         return replace(self, value=self.value(RatFunc(line)), numbers=numbers, poles=possible)

@@ -38,7 +38,7 @@ import sympy
 from kovacic.algebra.extension import AlgebraicField
 from kovacic.algebra.function_field import FunctionField, FunctionPoly
 from kovacic.algebra.ratfunc import RatFunc
-from kovacic.decision import Status, Structure
+from kovacic.decision import Structure
 from kovacic.engine.decide import decide
 from kovacic.engine.places import Kind, Problem, analyse
 from kovacic.equation import Equation, parameters_of
@@ -182,26 +182,24 @@ class Settings(Setting):
     """The limits, and how far to go: `only_theorems` leaves everything else undecided.  What is covered isn't examined."""
 
     budget: Budget
-    variable: str = "x"
+    variable: str
     only_theorems: bool = False
 
 
 def partition(S: RatFunc, settings: Settings) -> Partition:
     """The partition for S over Q(t), or the single verdict for an S without parameters in it."""
     count_work(1)
-    S = _without_common_factors(S, settings.assumptions)
-    constants = S.field
-    numbers = _over_numbers(S)
-    if numbers is not None:
+    num, den = map(without_parameters, (S.num, S.den))
+    if num is not None and den is not None:  # no parameter is left: 0 for k (1 + g/x) at k = 0
+        numbers = RatFunc(num, den)
         decision = decide(numbers, settings.budget)
-        group = None if decision.structure is None else group_of(numbers, decision)
-        complete = decision.status is not Status.UNDECIDED or str(decision.undecided)
-        return Partition(verdict_of(decision, group), complete, Theory("the engine"))
+        verdict = verdict_of(decision, group_of(numbers, decision) if decision.structure else None)
+        return Partition(verdict, verdict.known or str(decision.undecided), Theory("the engine"))
     verdict = verdict_of(decide(S, settings.budget, certify=False))
-    if isinstance(constants, AlgebraicField):
+    if isinstance(S.field, AlgebraicField):
         # Functions on a hypersurface; see the head of this module for case 1.
-        is_reducible = _is_reducible(verdict)
-        has_number = isinstance(constants.base, FunctionField) and without_parameters(constants.modulus) is not None
+        is_reducible = verdict.structure is Structure.REDUCIBLE
+        has_number = isinstance(S.field.base, FunctionField) and without_parameters(S.field.modulus) is not None
         if has_number and not is_reducible and not settings.assumptions.constant.names:
             return _on_slice(S, settings)
         return Partition(verdict, is_reducible or "for generic values only", Theory("the engine"))
@@ -219,12 +217,6 @@ def _without_common_factors(S: RatFunc, assumptions: Assumptions) -> RatFunc:
     return with_free_constant(restriction.everywhere(S.field, number).restricted(S)).S
 
 
-def _over_numbers(S: RatFunc) -> RatFunc | None:
-    """S, if it has no parameter in it: 0 for k (1 + g/x) at k = 0."""
-    num, den = map(without_parameters, (S.num, S.den))
-    return None if num is None or den is None else RatFunc(num, den)
-
-
 def _on_slice(S: RatFunc, settings: Settings) -> Partition:
     """The partition for S over Q(t)(alpha), alpha a number, by that over Q(t, alpha); over Q(t) it is S's own."""
     lifted, _, number = with_free_constant(S)
@@ -232,22 +224,18 @@ def _on_slice(S: RatFunc, settings: Settings) -> Partition:
     with settings.budget.watched(), bounded_work(_STRATA):
         found = partition(lifted, replace(settings, covered=(), assumptions=known))
     # With high powers of the constant replaced by means of its minimal polynomial.
-    statements = (one.statement.rewritten(partial(in_lowest_powers, constant=number)) for one in found.regions)
-    left = (without_implied(statement).under(known) for statement in statements)
-    regions = (replace(region, statement=statement) for region, statement in zip(found.regions, left, strict=True))
+    reduced = partial(in_lowest_powers, constant=number)
+    left = (without_implied(one.statement.rewritten(reduced)).under(known) for one in found.regions)
+    regions = (replace(one, statement=statement) for one, statement in zip(found.regions, left, strict=True))
     under = Partition.of(found.theory, regions, found.generic, found.complete)
     if under.generic.known:
         return under
     return replace(under, generic=verdict_of(decide(S, settings.budget, certify=False)))
 
 
-def _is_reducible(verdict: RegionVerdict) -> bool:
-    return verdict.known and verdict.structure is Structure.REDUCIBLE
-
-
 def _by_theory(S: RatFunc, expected: RegionVerdict, settings: Settings) -> Partition:
     problem = analyse(S, settings.budget)
-    if _is_reducible(expected):  # where S is defined: see the head of this module
+    if expected.structure is Structure.REDUCIBLE:  # where S is defined: see the head of this module
         is_constant = problem.S.is_polynomial and problem.S.num.degree <= 0
         is_simple = is_constant or riemann.is_fuchsian(problem)  # orders of poles don't matter
         changes = restriction.confluence if is_simple else restriction.structure_changes
@@ -287,9 +275,8 @@ def _by_transformation(problem: Problem, found: Transformation, settings: Settin
     regions += _pieces(problem.S, found.special, settings)
     inner = partition(found.simpler, settings)
     back = partial(carried_back, found.W, settings.variable)
-    for region in filter(lambda one: one.defined, inner.regions):
-        origin = region.formulas and Carried(region.formulas, (back,))
-        regions.append(replace(region, origin=origin))
+    origins = ((one, one.formulas and Carried(one.formulas, (back,))) for one in inner.regions if one.defined)
+    regions += [replace(region, origin=origin) for region, origin in origins]
     theory = inner.theory.also(", after Darboux' transformation", "Dar82")
     return Partition.of(theory, regions, inner.generic, inner.complete)
 
@@ -305,7 +292,7 @@ def _by_candidates(problem: Problem, expected: RegionVerdict, settings: Settings
         findings = search(problem)
         if expected.structure is Structure.IMPRIMITIVE:
             findings.candidates += _discriminants(problem, settings)
-        elif expected.structure is not None and expected.structure is not Structure.REDUCIBLE:
+        elif expected.structure is not None:
             findings.unproven.append("smaller groups than the generic one")
         if findings.unproven:
             complete = f"for generic values (not proven: {'; '.join(findings.unproven)})"
@@ -316,7 +303,7 @@ def _by_candidates(problem: Problem, expected: RegionVerdict, settings: Settings
     theory = findings.theory
     for statement, structure in findings.conditions:
         is_reducible = structure is Structure.REDUCIBLE
-        if structure is expected.structure or not (is_reducible or expected.structure is None):
+        if expected.structure is not None and not is_reducible:
             continue  # it isn't smaller
         verdict = riemann.verdict(problem, structure) if is_reducible else RegionVerdict(structure)
         if structure.case == 3:  # it leaves the group open
@@ -481,9 +468,8 @@ def _finished(
         if isinstance(statement, Natural) and statement.constant.names:
             origin = partial(statement.solutions, equation.variable)
         region = replace(region, origin=Carried(origin, pieces, letters) if pieces else None)
-    if max_degree is None or not isinstance(statement, Natural) or statement.m > 1:
-        return region
-    return replace(region, shown_degree=max_degree, limits=budget.limits)
+    has_determinants = isinstance(statement, Natural) and statement.m == 1
+    return replace(region, shown_degree=max_degree if has_determinants else None, limits=budget.limits)
 
 
 def _is_constant(equation: Equation, zeros: Iterable[Vanishes]) -> bool:

@@ -157,9 +157,7 @@ def _obstruction(place: Place) -> Poly | None:
     None unless the place is a rational pole of order 2, and Delta a small positive integer.
     """
     delta = place.delta
-    if place.order != 2 or place.degree > 1 or delta is None:
-        return None
-    if delta.denominator > 1 or not 0 < delta <= _SERIES:
+    if delta is None or delta not in range(1, _SERIES + 1) or place.order != 2 or place.degree > 1:
         return None
     field = place.factor.field
     t = field.poly([0, 1]) - place.factor[0]

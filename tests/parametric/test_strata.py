@@ -103,7 +103,7 @@ PLANTED: dict[str, tuple[str, str, Callable[..., Any]]] = {
     ),
     "a group is too small": ("k*(1+g/x)", "kovacic.parametric.theorems.borel", lambda *_, **__: G_M),
 }
-G_M = RegionVerdict(Structure.REDUCIBLE, family=("G_m",), abelian=("abelian",))
+G_M = RegionVerdict(Structure.REDUCIBLE, family="G_m", abelian="abelian")
 
 
 @pytest.mark.parametrize("fault", PLANTED)
