@@ -29,6 +29,7 @@ from kovacic.parametric.integers import Congruence
 from kovacic.parametric.natural import Natural
 from kovacic.parametric.regions import ParameterRegion, RegionVerdict
 from kovacic.parametric.restriction import Hypersurface, hypersurface, with_free_constant
+from kovacic.parametric.riemann import Schwarz
 from kovacic.parametric.statements import ALWAYS, Both, Either, Setting, Statement, Vanishes, all_of, either
 
 
@@ -57,6 +58,8 @@ def _where_possible(statement: Statement, chart: ParameterPoint) -> list[Paramet
     if isinstance(statement, Congruence):
         equation = chart.at(statement.equation)
         return [] if statement.holds_for(equation) is False else _where_solvable(equation, chart)
+    if isinstance(statement, Schwarz):
+        chart.at(statement.cubic)  # is it defined there?
     if isinstance(statement, Natural) and statement.factors is not None:
         return _union((_where_solvable(chart.at(factor), chart) for factor in statement.factors), chart)
     return [chart]
