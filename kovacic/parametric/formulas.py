@@ -61,12 +61,6 @@ def shifted(text: str, value: Poly) -> str:
     return f"{text} - {amount}"
 
 
-def shortest(function: FunctionPoly | RatFunc, letter: str) -> str:
-    """The shortest among the usual forms."""
-    above, below, names = _as_quotient(function, letter)
-    return _shortest(_written_forms(above, below), names)
-
-
 def written(function: Poly | RatFunc, letter: str = "x") -> str:
     """The shortest of the usual forms, with its denominator in factors; `letter` is the name of the polynomial variable."""
     above, below, names = _as_quotient(function, letter)
@@ -94,14 +88,12 @@ def partial_fractions(S: RatFunc, variable: str) -> str:
     for factor, k in S.field.factor(S.den):
         power = factor**k
         above = rest * (S.den // power).inverse_modulo(power) % power
-        digits_of_it = []
-        for _ in range(k):  # above/factor^k = d_1/factor + d_2/factor^2 + ..., d_k first
+        start = len(terms)
+        for j in range(k, 0, -1):  # above/factor^k = d_1/factor + d_2/factor^2 + ..., d_k first
             above, digit = divmod(above, factor)
-            digits_of_it.append(digit)
-        for j, digit in enumerate(reversed(digits_of_it), 1):
             if digit:
                 top, bottom, names = _as_quotient(RatFunc(digit, factor**j), variable)
-                terms.append(_sum([_factored(top, bottom)], names))
+                terms.insert(start, _sum([_factored(top, bottom)], names))
     return _joined(terms)
 
 
@@ -242,10 +234,7 @@ def _term(term: _FormulaTerm, names: Sequence[str]) -> str:
         below = "*".join(bottom)
         is_closed = "*" not in outside(below)
         return f"{sign}{above}/{below if is_closed else f'({below})'}"
-    if sign or len(top) != 1:
-        return sign + above
-    is_sum = above.startswith("(") and above.endswith(")")
-    return above[1:-1] if is_sum else above
+    return sign + above if sign else alone(above)
 
 
 def _pieces(number: int, factors: tuple[Power, ...], root: Any, names: Sequence[str]) -> list[str]:
@@ -253,8 +242,7 @@ def _pieces(number: int, factors: tuple[Power, ...], root: Any, names: Sequence[
     pieces = [digits(number)] if number != 1 else []
     for factor, k in factors:
         if factor != 1:
-            text = _polynomial(factor, names)
-            text = f"({text})" if k > 1 and "*" in text else in_product(text)
+            text = in_product(_polynomial(factor, names))
             pieces.append(text if k == 1 else f"{text}^{k}")
     if root != 1:
         text = alone(_polynomial(root, names))

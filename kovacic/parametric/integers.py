@@ -46,7 +46,7 @@ from kovacic.parametric.claims import (
     rational,
     rational_roots,
 )
-from kovacic.parametric.formulas import shortest
+from kovacic.parametric.formulas import written
 from kovacic.parametric.functions import (
     INTEGERS,
     NATURALS,
@@ -162,7 +162,7 @@ def _spectrum(equation: FunctionPoly, numbers: Classes, letter: str, setting: Se
     found: list[tuple[int, bool, IntegerCondition]] = []
     for k, (solved, strata) in enumerate(energies or known):
         for family in _integer_choices(equation, solved, numbers):
-            text = shortest(family.value, family.letter)
+            text = written(family.value, family.letter)
             said = prose.text_of(prose.phrase(prose.numbers_of(family)))
             cost = _LATER * k + _STRATUM * len(strata) + _WEIGHT * len(text) + _WORDS * len(said)
             # Of n and -n that by which f(1) = 1, if there is one: n + k*n*(n - 1)/2, as Yoshida and Morales & Ramis have it.
