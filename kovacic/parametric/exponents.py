@@ -104,11 +104,8 @@ def _conditions(images: Sequence[FunctionPoly], surface: Any) -> RankConditions:
     smaller = without_constant_pivots([by_power(image.num, 0) for image in images])
     field = images[0].field
     # Each row once, the shortest first.
-    different: dict[tuple[str, ...], list[Any]] = {}
-    for row in smaller.rows:  # with coprime coefficients, the leading one positive
-        sign = 1 if int(next(filter(None, row)).leading_coefficient()) > 0 else -1
-        normalised = [sign * entry for entry in _primitive(dict(enumerate(row))).values()]
-        different.setdefault(tuple(map(str, normalised)), normalised)
+    normalised = ([*_primitive(dict(enumerate(row))).values()] for row in smaller.rows)
+    different = {tuple(map(str, row)): row for row in normalised}
     rows = sorted(different.values(), key=lambda row: sum(map(len, row)))
     point = _random_point(field, surface)
     rank = point.values(rows).rank() if rows else 0
@@ -238,13 +235,10 @@ def _cleared(row: dict[int, Any], k: int, chosen: dict[int, Any]) -> dict[int, A
 
 
 def _primitive(row: dict[int, Any]) -> dict[int, Any]:
-    """A multiple with coprime coefficients: otherwise pivots would grow exponentially."""
-    content = 0
-    for entry in row.values():
-        content = gcd(content, *map(int, entry.coeffs()))
-    if content <= 1:
-        return row
-    return {j: entry // content for j, entry in row.items()}
+    """A multiple with coprime coefficients, the first one positive: otherwise pivots would grow exponentially."""
+    coefficients = [int(c) for entry in row.values() for c in entry.coeffs()]
+    content = -gcd(*coefficients) if coefficients[:1] < [0] else gcd(*coefficients)
+    return row if content in (0, 1) else {j: entry // content for j, entry in row.items()}
 
 
 def _determinant(rows: list[list[Any]]) -> Any:

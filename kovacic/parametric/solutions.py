@@ -154,7 +154,7 @@ class PolynomialSolution:
 
     def exclusion(self, d: str) -> Words:
         """Where y vanishes identically for the degree d; () where it never does."""
-        if not self.jacobi or any(a.is_number and not (a.is_Integer and a < 0) for a in self.jacobi):
+        if not self.jacobi or any(a.is_number and natural(-a - 1) is None for a in self.jacobi):
             return ()
         a, b = (caret(as_text(parameter)) for parameter in self.jacobi)
         name = str(self.degree) if self.degree.is_Symbol else d
@@ -197,7 +197,7 @@ class Signed:
         if by_signs is None:
             return ()
         found = map(by_signs, product((1, -1), repeat=self.signs))
-        possible = [one for one in found if one.degree.free_symbols or (one.degree.is_Integer and one.degree >= 0)]
+        possible = (one for one in found if one.degree.free_symbols or natural(one.degree) is not None)
         return tuple(dict.fromkeys(possible))
 
     def general(self, signs: Sequence[Any]) -> PolynomialSolution | None:

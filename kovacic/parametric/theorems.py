@@ -198,11 +198,7 @@ def jacobi_formula(problem: Problem, coordinate: Coordinate, variable: str) -> B
         e = sympy.expand((1 + f * first) / 2)
         e1 = sympy.expand((1 + g * second) / 2)
         own = -sympy.Rational(n - 1, 2)
-        first_power = _positive(z, c) ** e * base**own
-        if c == 0:
-            first_power = base ** sympy.expand(n * e + own)
-        powers = first_power * _positive(z, c1) ** e1
-        powers *= last ** sympy.expand(1 - e - e1)
+        powers = base**own * _positive(z, c) ** e * _positive(z, c1) ** e1 * last ** sympy.expand(1 - e - e1)
         y = weight * powers * jacobi(degree, f * first, g * second, argument)
         return PolynomialSolution(y, degree, jacobi=(f * first, g * second))
 
@@ -338,12 +334,9 @@ def _whittaker(beta_squared: Poly, delta_squared: Poly, n: int) -> RegionVerdict
 
 def _confluent(problem: Problem, variable: str) -> Confluent | None:
     """The first coordinate in which s^2 S is a polynomial of degree 1 or 2; without r, in the root of z."""
-    for coordinate, num, den in symmetries(problem, variable):
-        if den.degree > 0 or num.degree not in (1, 2):
-            continue
-        b = num[0] / den[0]
-        r = num[1] / den[0]
-        q = num[2] / den[0]
+    fitting = (one for one in symmetries(problem, variable) if one.den.degree == 0 and one.num.degree in (1, 2))
+    for coordinate, num, den in fitting:
+        b, r, q = (num[k] / den[0] for k in range(3))
         if not q and coordinate.n % 2 == 0:
             return Confluent(replace(coordinate, n=coordinate.n // 2), b, q, r)
         return Confluent(coordinate, b, r, q)
