@@ -54,11 +54,7 @@ def shifted(text: str, value: Poly) -> str:
     if not value:
         return text
     amount = shown(value) if isinstance(value, FunctionPoly) else caret(as_text(value.to_sympy(sympy.Symbol("x"))))
-    if in_sum(amount) != amount:
-        return f"{text} - ({amount})"
-    if amount.startswith("-"):
-        return f"{text} + {amount[1:]}"
-    return f"{text} - {amount}"
+    return f"{text} - {in_sum(amount)}".replace("- -", "+ ")
 
 
 def written(function: Poly | RatFunc, letter: str = "x") -> str:
@@ -67,12 +63,8 @@ def written(function: Poly | RatFunc, letter: str = "x") -> str:
     forms = [*_written_forms(above, below)]
     best = _shortest(forms, names)
     has_sum_below = re.search(r"/\([^()]* [+-] [^()]*\)", best) is not None
-    if not has_sum_below:
-        return best
     in_factors = _sum(forms[-1], names)
-    if len(in_factors) > len(best) + _FOR_FACTORS:
-        return best
-    return in_factors
+    return in_factors if has_sum_below and len(in_factors) <= len(best) + _FOR_FACTORS else best
 
 
 def _shortest(forms: Iterable[Sequence[_FormulaTerm]], names: Sequence[str]) -> str:

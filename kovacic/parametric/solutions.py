@@ -254,16 +254,13 @@ def given(equation: Equation, zeros: tuple[FunctionPoly, ...], solution: Polynom
     y = translated(solution.y, equation)
     degree = solution.degree
     conditions = solution.conditions
-    where = solution.where
     if is_power(equation):
         x = user_variable(equation)
         degree = with_roots_of_factors(degree, x)
         conditions = tuple(with_roots_of_factors(condition, x) for condition in conditions)
-    if zeros:
-        x = sympy.Symbol(equation.variable)
-        conditions = (*conditions, *(zero.to_sympy(x) for zero in zeros))
-        on_piece = [prose.equation(zero).text for zero in zeros]
-        where = ", ".join([*filter(None, [where]), *on_piece])
+    x = sympy.Symbol(equation.variable)
+    conditions = (*conditions, *(zero.to_sympy(x) for zero in zeros))
+    where = ", ".join(filter(None, [solution.where, *(prose.equation(zero).text for zero in zeros)]))
     return replace(solution, y=y, degree=degree, conditions=conditions, where=where)
 
 
@@ -273,8 +270,7 @@ def translated(y: Any, equation: Equation) -> Any:
     if equation.gauge:
         y = y * display(product_of_powers(equation.gauge), Atoms(variable))
     y = solution_in_x(equation, gathered(y, variable))
-    x = user_variable(equation) if equation.change else variable
-    return y.as_independent(x, as_Add=False)[1]  # a constant factor says nothing
+    return y.as_independent(user_variable(equation), as_Add=False)[1]  # a constant factor says nothing
 
 
 def general(origin: Origin | None, signs: Sequence[Any]) -> PolynomialSolution | None:

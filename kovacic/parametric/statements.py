@@ -205,10 +205,11 @@ def either(*statements: Statement) -> Statement:
         return ALWAYS
     merged: list[Statement] = []
     for part in chain.from_iterable(one.alternatives for one in statements):
-        unions = (known.merged(part) for known in merged)
-        k, union = next(((k, union) for k, union in enumerate(unions) if union is not None), (0, None))
-        if union is not None:
-            merged[k] = union
-        elif part not in merged:
+        for k, known in enumerate(merged):
+            union = part if part == known else known.merged(part)
+            if union is not None:
+                merged[k] = union
+                break
+        else:
             merged.append(part)
     return merged[0] if len(merged) == 1 else Either(tuple(merged))
