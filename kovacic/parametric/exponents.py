@@ -168,9 +168,8 @@ def _random_point(field: FunctionField, equation: Any = None) -> _Point:
             return _Point(p, point)
         last = max(k for k, degree in enumerate(equation.degrees()) if degree)
         parts = by_power(equation, last)
-        coefficients = [0] * (max(parts) + 1)  # of the equation for the last parameter that occurs
-        for k, part in parts.items():
-            coefficients[k] = int(part(0, *point)) % p
+        # Of the equation for the last parameter that occurs.
+        coefficients = [int(parts.get(k, 0 * equation)(0, *point)) % p for k in range(max(parts) + 1)]
         found = nmod_poly(coefficients, p).roots()
         if found:
             point[last - 1] = int(found[0][0])
@@ -220,18 +219,12 @@ def without_constant_pivots(columns: list[dict[int, Any]]) -> WithoutPivots:
 def _cleared(row: dict[int, Any], k: int, chosen: dict[int, Any]) -> dict[int, Any]:
     """The row with its entry in column k cleared by the chosen one, without its content."""
     check_time()
-    pivot = chosen[k]
-    factor = row[k]
-    combined: dict[int, Any] = {}
-    for j in row.keys() | chosen.keys():
-        if j == k:
-            continue
-        entry = _product(pivot, row[j]) if j in row else 0
-        if j in chosen:
-            entry = entry - _product(factor, chosen[j])
-        if entry:
-            combined[j] = entry
-    return _primitive(combined)
+    pivot, factor = chosen[k], row[k]
+    zero = 0 * pivot
+    combined = {
+        j: _product(pivot, row.get(j, zero)) - _product(factor, chosen.get(j, zero)) for j in row.keys() | chosen.keys()
+    }
+    return _primitive({j: entry for j, entry in combined.items() if entry})
 
 
 def _primitive(row: dict[int, Any]) -> dict[int, Any]:

@@ -386,8 +386,6 @@ def _conditions(value: Poly) -> list[Poly]:
     """
     if value.field.ground == QQ:
         return []
-    if isinstance(value, FunctionPoly):
-        return list(irreducible_factors(value))
     leaves = [over_parameters(leaf) for leaf in value.leaves() if leaf]
     field = leaves[0].field
     content = element(field, reduce(lambda a, b: a.gcd(b), (leaf.num for leaf in leaves)))
@@ -417,9 +415,9 @@ class Progression:
     start: int
     step: int
 
-    def contains(self, number: int) -> bool:
-        index = Fraction(number - self.start, self.step)
-        return index.denominator == 1 and index >= 0
+    def contains(self, number: Fraction | int) -> bool:
+        distance = number - self.start
+        return distance % self.step == 0 and distance * self.step >= 0
 
     def without(self, values: Iterable[FunctionPoly]) -> tuple[Progression, list[FunctionPoly]]:
         """The progression without those at its beginning, and the others that may belong to it."""
@@ -429,7 +427,7 @@ class Progression:
             number = value.field.rational_value(value)
             if number == start:
                 start += self.step
-            elif number is None or (number.denominator == 1 and self.contains(int(number))):
+            elif number is None or self.contains(number):
                 left.append(value)
         return Progression(start, self.step), left
 
