@@ -328,9 +328,7 @@ def degrees_of_solutions(problem: Problem) -> Numbers | None:
     roots: list[ExponentRoot] = []
     singular = singular_places(apart)
     for place in singular:
-        square = _difference_squared(place)
-        assert square is not None  # of points that aren't apart the same
-        roots += [ExponentRoot(square / 4, 1)] * place.degree
+        roots += [ExponentRoot(_difference_squared(place) / 4, 1)] * place.degree
     weights = sum(place.weight * place.degree for place in singular)
     return Numbers(1 - Fraction(weights) / 2, tuple(roots), apart.field, problem.field, only_signs=True)
 
@@ -343,10 +341,9 @@ def zeros_of_forms(problem: Problem, m: int) -> Numbers | None:
     if apart is None:
         return None
     for place in apart.places:
-        square = place.delta_squared if place.kind is Kind.REGULAR else None
-        if square is not None and square.field.rational_value(square) is None:
+        if place.kind is Kind.REGULAR and apart.field.rational_value(place.difference_squared) is None:
             largest = m // 2 * place.degree
-            roots.append(ExponentRoot(square, largest))
+            roots.append(ExponentRoot(place.difference_squared, largest))
             room -= largest
             continue
         valuation = least_valuation(place, m, logarithms=False)
@@ -356,10 +353,9 @@ def zeros_of_forms(problem: Problem, m: int) -> Numbers | None:
     return Numbers(Fraction(room), tuple(roots), apart.field, problem.field)
 
 
-def _difference_squared(place: Place) -> Poly | None:
-    """The square of the exponent difference at a singular place; None where it isn't the same at conjugate points."""
-    square = place.delta_squared if place.kind is Kind.REGULAR else irregular_difference_squared(place)
-    return None if square is None or square.degree > 0 else square
+def _difference_squared(place: Place) -> Poly:
+    """The square of the exponent difference at a singular place: a constant where it is the same at conjugate points."""
+    return place.difference_squared if place.kind is Kind.REGULAR else irregular_difference_squared(place)
 
 
 def choices_of_degree(problem: Problem, d: int) -> list[Exponents] | None:
@@ -401,8 +397,7 @@ def places_of(problem: Problem) -> Places | None:
     field = split.field
     roots: list[Poly] = []
     for place in singular:
-        square = place.delta_squared if place.kind is Kind.REGULAR else _at_infinity(place, split.S).lc
-        assert square is not None  # at a single point
+        square = place.difference_squared if place.kind is Kind.REGULAR else _at_infinity(place, split.S).lc
         root = adjoined_square_root(field, square.over(field), as_radical=True)
         field = root.field
         if _degree_over(field, problem.field) > _DEGREE:
@@ -444,7 +439,7 @@ def with_points_apart(problem: Problem) -> Problem | None:
     Then its field is a quadratic extension.
     """
     conjugate = [place for place in singular_places(problem) if place.degree > 1 and place.kind is not Kind.RAMIFIED]
-    if all(_difference_squared(place) is not None for place in conjugate):
+    if all(_difference_squared(place).degree <= 0 for place in conjugate):
         return problem
     return _with_root_of(conjugate[0].factor, problem) if [place.degree for place in conjugate] == [2] else None
 

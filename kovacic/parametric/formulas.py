@@ -204,8 +204,9 @@ def _polynomial(polynomial: Any, names: Sequence[str]) -> str:
 
     def written_power(match: re.Match[str]) -> str:
         name, k = names[1 + int(match[1] or -1)], int(match[2] or 1)
-        if name.startswith("sqrt(") and name.endswith(")") and k > 1:  # sqrt(a)^3 is a*sqrt(a)
-            inside = in_product(name.removeprefix("sqrt(").removesuffix(")"))
+        root = re.fullmatch(r"sqrt\((.*)\)", name)
+        if root and k > 1:  # sqrt(a)^3 is a*sqrt(a)
+            inside = in_product(root[1])
             whole = inside if k < 4 else f"{inside}^{k // 2}"
             return f"{whole}*{name}" if k % 2 else whole
         return name if k == 1 else f"{name}^{k}"

@@ -87,11 +87,9 @@ class Determinant:
         if self.factors is None:
             return NO_FORMULA
         parts = sorted(map(shown, self.factors), key=len)
-        if len(parts) > 1 or self.system:
-            parts = [*map(in_sum, parts)]
         if self.system:
             parts.append(f"({', '.join(map(shown, self.system))})")
-        return "*".join(parts) or "1"
+        return "*".join(map(in_sum, parts) if len(parts) > 1 else parts) or "1"
 
 
 @dataclass(frozen=True)

@@ -23,6 +23,7 @@ from fractions import Fraction
 from functools import lru_cache, reduce
 from itertools import product
 from math import gcd, lcm
+from operator import mul
 from random import Random
 from typing import NamedTuple
 
@@ -95,11 +96,9 @@ def kimura(differences: Sequence[Fraction | None]) -> Structure | None:
     <Structure.OCTAHEDRAL: 'octahedral'>
     """
     known = [difference for difference in differences if difference is not None]
-    if len(known) == 3:
-        first, second, third = known
-        sums = (first + sign * second + other * third for sign, other in product((1, -1), repeat=2))
-        if any(total % 2 == 1 for total in sums):
-            return Structure.REDUCIBLE
+    sums = (sum(map(mul, signs, known)) for signs in product((1, -1), repeat=len(known)))
+    if len(known) == 3 and any(total % 2 == 1 for total in sums):
+        return Structure.REDUCIBLE
     if sum(difference.denominator == 2 for difference in known) >= 2:
         return Structure.IMPRIMITIVE
     return _TABLE.get(_difference_key(known))

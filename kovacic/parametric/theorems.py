@@ -64,6 +64,7 @@ from kovacic.decision import Structure
 from kovacic.engine.places import Kind, Place, Problem, analyse, rational_square_root
 from kovacic.parametric import restriction, riemann
 from kovacic.parametric.claims import signed_sums
+from kovacic.parametric.exponents import singular_places
 from kovacic.parametric.formulas import has_roots, in_sum, root_written, shifted, shorter_sum, written
 from kovacic.parametric.functions import irreducible_factors, over_parameters
 from kovacic.parametric.integers import integer_roots
@@ -111,19 +112,17 @@ def symmetries(problem: Problem, variable: str) -> Iterator[Symmetric]:
     x = RatFunc(problem.field.poly([0, 1]))
     rational_poles = [-place.factor[0] for place in problem.finite_places if place.degree == 1]
     for pole in (None, *rational_poles):
-        S = problem.S
+        S, base, weight = problem.S, variable, "1"
         if pole is not None:
             S = S(1 / x + pole) / x**4
+            weight = shifted(variable, pole)
+            base = f"1/{in_sum(weight)}"
         center = mean_of_singular_points(S)
         if center is None:
             continue
         square = S(x + center) * x * x
         parts = (square.num, square.den)
         n = gcd(*(i for part in parts for i, coefficient in enumerate(part) if coefficient))  # powers that occur
-        base, weight = variable, "1"
-        if pole is not None:
-            weight = shifted(variable, pole)
-            base = f"1/{in_sum(weight)}"
         coordinate = Coordinate(shifted(base, center), n, weight)
         # As polynomials in s^n; numbers for n = 0.
         num, den = (problem.field.poly([part[i] for i in range(0, part.degree + 1, n or 1)]) for part in parts)
@@ -212,8 +211,8 @@ _Point = tuple[Any, Any]
 def _three_points(problem: Problem, x: Any) -> list[_Point] | None:
     """The singular points, an ordinary infinity among them if there are two; None if they aren't three, or are conjugate."""
     points: list[_Point] = []
-    for place in problem.places:
-        if place.kind is not Kind.ORDINARY and place.degree <= 2:
+    for place in singular_places(problem):
+        if place.degree <= 2:
             points += _points_of(place, x)
     if len(points) == 2 and problem.infinity.kind is Kind.ORDINARY:
         points.append((None, sympy.Integer(1)))
