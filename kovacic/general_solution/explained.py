@@ -5,7 +5,7 @@ They are read from what `dsolve` found: the pair, its Wronskian, a particular so
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Collection, Iterator, Mapping, Sequence
 from typing import Any
 
 import sympy
@@ -100,7 +100,17 @@ def is_problem(text: str) -> bool:
 
 
 def _named(name: str, value: Expr) -> Formula:
-    return Formula(of_sympy(sympy.Symbol(name)).equals(of_sympy(value)))
+    return Formula(_name(name).equals(of_sympy(value)))
+
+
+def _name(name: str) -> Math:
+    return of_sympy(sympy.Symbol(name))
+
+
+def _free(taken: Collection[Expr], *candidates: str) -> str:
+    """The first name that isn't one of the user's letters, as F may be of a force and y0 of a value."""
+    letters = {str(letter) for letter in taken}
+    return next((name for name in candidates if name not in letters), candidates[0] + "_")
 
 
 def _equation(
@@ -148,36 +158,46 @@ def _steps(answer: SecondOrderAnswer) -> Iterator[Block]:
     else:
         yield say("Its coefficients are rational in ", of_sympy(function_of_x(question.equation)), ".")
     yield Heading("Two solutions without the right-hand side" if F != 0 else "Two solutions")
-    letters = ", ".join(parameters_of(solution.S.field))
-    generic = f" for generic {letters}" if letters else ""
+    parameters = ", ".join(parameters_of(solution.S.field))
+    generic = f" for generic {parameters}" if parameters else ""
     source = f"There is no Liouvillian solution{generic}, so these are special functions"
     if solution.case is not None:
         source = f"By case {solution.case} of Kovacic's algorithm"
     yield say(f"{source}:")
-    pair = {"y1": own(answer.basis.y1), "y2": own(answer.basis.y2)}
+    letters = sympy.Tuple(*map(question.own, question.coefficients)).free_symbols
+    taken = letters.union(*(condition.free_symbols for condition in question.conditions))
+    u, v = ("y1", "y2") if _free(taken, "y1") == "y1" and _free(taken, "y2") == "y2" else ("u1", "u2")
+    f, w, particular = (_free(taken, *names) for names in (("F", "R", "G"), ("W", "D"), ("y0", "y_p", "u_p")))
+    pair = {u: own(answer.basis.y1), v: own(answer.basis.y2)}
     yield from (_named(name, value) for name, value in pair.items())
     W = own(answer.basis.wronskian)
-    yield say("Their Wronskian ", Math("y1 y2' - y1' y2", "y_1 y_2' - y_1' y_2"), " is")
-    yield _named("W", W)
+    latex_of = {name: _name(name).latex for name in (u, v, f, w, particular)}
+    product = Math(f"{u} {v}' - {u}' {v}", "{0} {1}' - {0}' {1}".format(latex_of[u], latex_of[v]))
+    yield say("Their Wronskian ", product, " is")
+    yield _named(w, W)
     if F != 0:
         yield Heading("Variation of parameters")
-        yield say("A solution with the right-hand side F is")
+        yield say("A solution with the right-hand side ", _name(f), " is")
         d = rf"d{latex_text(question.x.name)}"
-        latex = rf"y_0 = -y_1 \int \frac{{y_2 F}}{{W}} {d} + y_2 \int \frac{{y_1 F}}{{W}} {d}"
-        yield Formula(Math(f"y0 = -y1 int y2 F/W d{question.x} + y2 int y1 F/W d{question.x}", latex))
+        integrals = {name: rf"\int \frac{{{latex_of[name]} {latex_of[f]}}}{{{latex_of[w]}}} {d}" for name in pair}
+        latex = f"{latex_of[particular]} = -{latex_of[u]} {integrals[v]} + {latex_of[v]} {integrals[u]}"
+        text = f"{particular} = -{u} int {v} {f}/{w} d{question.x} + {v} int {u} {f}/{w} d{question.x}"
+        yield Formula(Math(text, latex))
         yield say("with")
-        for name in ("y2", "y1"):
+        for name in (v, u):
             integrand = shortest([*sums(pair[name] * F / W, question.x)])
-            yield Formula(Math(f"{name} F/W", rf"\frac{{y_{name[1]} F}}{{W}}").equals(of_sympy(integrand)))
-        yield say("Up to multiples of y1 and y2 it is")
-        yield _named("y0", own(answer.particular))
+            quotient = Math(f"{name} {f}/{w}", rf"\frac{{{latex_of[name]} {latex_of[f]}}}{{{latex_of[w]}}}")
+            yield Formula(quotient.equals(of_sympy(integrand)))
+        yield say("Up to multiples of ", _name(u), " and ", _name(v), " it is")
+        yield _named(particular, own(answer.particular))
     if answer.determined is not None:
         yield Heading("The constants")
-        rest = "+ y0" if F != 0 else ""
-        whole = Math(
-            f"{y} = C1 y1 + C2 y2 {rest}".rstrip(), f"{latex_text(y)} = C_1 y_1 + C_2 y_2 {rest.replace('y0', 'y_0')}"
+        parts = [(str(c), name) for c, name in zip(answer.names, pair, strict=True)]
+        text, latex = (
+            " + ".join([*(f"{shown(c)} {shown(name)}" for c, name in parts), *([shown(particular)] if F != 0 else [])])
+            for shown in (str, lambda name: _name(name).latex)
         )
-        yield say(whole, " has the given values where")
+        yield say(Math(f"{y} = {text}", f"{latex_text(y)} = {latex}"), " has the given values where")
         yield from dict.fromkeys(_constants(answer, answer.determined))
 
 
@@ -197,26 +217,35 @@ def _steps_of_first_order(answer: FirstOrderAnswer) -> Iterator[Block]:
     equation = answer.equation
     w, x = equation.function, equation.x
     name = str(w.func)
+    taken = {name, *equation.letters, *(s for condition in answer.conditions for s in condition.free_symbols)}
+    p, h, c = (_free(taken, *names) for names in (("p", "f", "g", "R"), ("h", "H"), ("c", "v", "z")))
     square = equation.r * sympy.Symbol(name) ** equation.power
     yield Heading("The equation")
     yield from _equation(name, (-equation.q, sympy.Integer(1)), equation.p + square, answer.conditions)
     if equation.is_linear:
         yield Heading("The integrating factor")
-        yield say("The equation without its right-hand side p has the solution")
-        yield _named("h", equation.homogeneous())
+        yield say("The equation without its right-hand side ", _name(p), " has the solution")
+        yield _named(h, equation.homogeneous())
         if equation.p == 0:
             return
-        yield say(f"With {name} = h c it says that c' = p/h, so {name} = h (C1 + int p/h), where")
-        yield Formula(Math("p/h", "p/h").equals(of_sympy(shortest([*sums(equation.p / equation.homogeneous(), x)]))))
+        constant = equation.constant(sympy.Tuple(*map(sympy.Symbol, map(str, taken))).free_symbols)
+        yield say(
+            f"With {name} = {h} {c} it says that {c}' = {p}/{h}, so {name} = {h} ({constant} + int {p}/{h}), where"
+        )
+        quotient = shortest([*sums(equation.p / equation.homogeneous(), x)])
+        yield Formula(Math(f"{p}/{h}", f"{_name(p).latex}/{_name(h).latex}").equals(of_sympy(quotient)))
         return
     yield Heading("The linear equation")
+    z = _free(taken, "u", "z", "v")
     if equation.power != 2:
         linear_one = equation.of_power
-        yield say(f"u = {name}^m makes it linear, where")
-        yield _named("m", 1 - equation.power)
-        yield from _equation("u", (-linear_one.q, sympy.Integer(1)), linear_one.p)
+        m = _free(taken, "m", "k", "s")
+        yield say(f"{z} = {name}^{m} makes it linear, where")
+        yield _named(m, 1 - equation.power)
+        yield from _equation(z, (-linear_one.q, sympy.Integer(1)), linear_one.p)
         return
     linear, u = linear_equation(equation)
-    yield say(f"{name} = -u'/(r u), r the coefficient of {name}^2, makes it linear:")
-    yield from _equation("u", [linear.lhs.coeff(u.diff(x, k) if k else u) for k in range(3)], sympy.Integer(0))
-    yield say("Of the two constants of u only their quotient matters.")
+    r = _free(taken, "r", "q", "R")
+    yield say(f"{name} = -{z}'/({r} {z}), {r} the coefficient of {name}^2, makes it linear:")
+    yield from _equation(z, [linear.lhs.coeff(u.diff(x, k) if k else u) for k in range(3)], sympy.Integer(0))
+    yield say(f"Of the two constants of {z} only their quotient matters.")

@@ -475,6 +475,23 @@ def test_the_steps_in_each_format(format: str) -> None:
         kovacic.explain("y' = y", format="pdf")
 
 
+@pytest.mark.parametrize(
+    ("text", "steps"),
+    [
+        ("y'' + W^2*y = F", ["    D = W", "A solution with the right-hand side R is", "    y1 R/D = F*cos(W*x)/W"]),
+        (
+            "y'' + y = x, y(0) = y1, y'(0) = y0",
+            ["    u1 = cos(x)", "y = C1 u1 + C2 u2 + y_p has the given values where"],
+        ),
+        ("h' + p*h = C1", ["    H = exp(-p*x)", "With h = H c it says that c' = f/H, so h = H (C2 + int f/H), where"]),
+        ("u' = u^2 + r*x", ["u = -z'/(q z), q the coefficient of u^2, makes it linear:"]),
+    ],
+)
+def test_names_in_the_steps_are_none_of_the_users_letters(text: str, steps: list[str]) -> None:
+    lines = kovacic.explain(text).splitlines()
+    assert [line for line in lines if line in steps] == steps
+
+
 def test_the_command_explains_problems(capsys: pytest.CaptureFixture[str]) -> None:
     assert run(["explain", "y'' + y = x, y(0) = 0, y'(0) = 0"]) == 0
     printed = capsys.readouterr().out
