@@ -5,7 +5,7 @@ They are read from what `dsolve` found: the pair, its Wronskian, a particular so
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterator, Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from typing import Any
 
 import sympy
@@ -26,7 +26,7 @@ from kovacic.reading.read import read_input
 from kovacic.special.choice import shortest
 from kovacic.views.explain import ExplanationWriter
 from kovacic.writing.document import Block, Formula, Heading, format_of, say
-from kovacic.writing.formula import Math, caret, latex_text, of_sympy, shortened
+from kovacic.writing.formula import Math, caret, free_name, latex_text, of_sympy, shortened
 
 Expr = Any  # SymPy publishes no types
 
@@ -107,12 +107,6 @@ def _name(name: str) -> Math:
     return of_sympy(sympy.Symbol(name))
 
 
-def _free(taken: Collection[Expr], *candidates: str) -> str:
-    """The first name that isn't one of the user's letters, as F may be of a force and y0 of a value."""
-    letters = {str(letter) for letter in taken}
-    return next((name for name in candidates if name not in letters), candidates[0] + "_")
-
-
 def _equation(
     name: str, coefficients: Sequence[Expr], right: Expr, conditions: Sequence[Condition] = ()
 ) -> Iterator[Block]:
@@ -154,7 +148,7 @@ def _steps(answer: SecondOrderAnswer) -> Iterator[Block]:
         yield from _equation(y, (C, B, sympy.Integer(1)), F, question.conditions)
         if solution.gauge:
             yield Heading("Normal form")
-            yield from ExplanationWriter(solution).normal_form(y)
+            yield from ExplanationWriter(solution).normal_form(y)[1]
     else:
         yield say("Its coefficients are rational in ", of_sympy(function_of_x(question.equation)), ".")
     yield Heading("Two solutions without the right-hand side" if F != 0 else "Two solutions")
@@ -166,8 +160,8 @@ def _steps(answer: SecondOrderAnswer) -> Iterator[Block]:
     yield say(f"{source}:")
     letters = sympy.Tuple(*map(question.own, question.coefficients)).free_symbols
     taken = letters.union(*(condition.free_symbols for condition in question.conditions))
-    u, v = ("y1", "y2") if _free(taken, "y1") == "y1" and _free(taken, "y2") == "y2" else ("u1", "u2")
-    f, w, particular = (_free(taken, *names) for names in (("F", "R", "G"), ("W", "D"), ("y0", "y_p", "u_p")))
+    u, v = ("y1", "y2") if free_name(taken, "y1") == "y1" and free_name(taken, "y2") == "y2" else ("u1", "u2")
+    f, w, particular = (free_name(taken, *names) for names in (("F", "R", "G"), ("W", "D"), ("y0", "y_p", "u_p")))
     pair = {u: own(answer.basis.y1), v: own(answer.basis.y2)}
     yield from (_named(name, value) for name, value in pair.items())
     W = own(answer.basis.wronskian)
@@ -218,7 +212,7 @@ def _steps_of_first_order(answer: FirstOrderAnswer) -> Iterator[Block]:
     w, x = equation.function, equation.x
     name = str(w.func)
     taken = {name, *equation.letters, *(s for condition in answer.conditions for s in condition.free_symbols)}
-    p, h, c = (_free(taken, *names) for names in (("p", "f", "g", "R"), ("h", "H"), ("c", "v", "z")))
+    p, h, c = (free_name(taken, *names) for names in (("p", "f", "g", "R"), ("h", "H"), ("c", "v", "z")))
     square = equation.r * sympy.Symbol(name) ** equation.power
     yield Heading("The equation")
     yield from _equation(name, (-equation.q, sympy.Integer(1)), equation.p + square, answer.conditions)
@@ -236,16 +230,16 @@ def _steps_of_first_order(answer: FirstOrderAnswer) -> Iterator[Block]:
         yield Formula(Math(f"{p}/{h}", f"{_name(p).latex}/{_name(h).latex}").equals(of_sympy(quotient)))
         return
     yield Heading("The linear equation")
-    z = _free(taken, "u", "z", "v")
+    z = free_name(taken, "u", "z", "v")
     if equation.power != 2:
         linear_one = equation.of_power
-        m = _free(taken, "m", "k", "s")
+        m = free_name(taken, "m", "k", "s")
         yield say(f"{z} = {name}^{m} makes it linear, where")
         yield _named(m, 1 - equation.power)
         yield from _equation(z, (-linear_one.q, sympy.Integer(1)), linear_one.p)
         return
     linear, u = linear_equation(equation)
-    r = _free(taken, "r", "q", "R")
+    r = free_name(taken, "r", "q", "R")
     yield say(f"{name} = -{z}'/({r} {z}), {r} the coefficient of {name}^2, makes it linear:")
     yield from _equation(z, [linear.lhs.coeff(u.diff(x, k) if k else u) for k in range(3)], sympy.Integer(0))
     yield say(f"Of the two constants of {z} only their quotient matters.")

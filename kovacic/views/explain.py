@@ -18,6 +18,7 @@ from kovacic.answer import Answer
 from kovacic.decision import Exclusion, NoInvariant, NoRationalOmega, SemiInvariant, Status, Structure
 from kovacic.engine.places import Problem
 from kovacic.engine.riccati import residue
+from kovacic.equation import parameters_of
 from kovacic.errors import KovacicError, LimitExceeded
 from kovacic.limits import bounded_work
 from kovacic.numbers.numerals import digits
@@ -45,7 +46,7 @@ from kovacic.writing.document import (
     format_of,
     say,
 )
-from kovacic.writing.formula import Math, caret, latex_text, rational_functions, shortened
+from kovacic.writing.formula import Math, caret, free_name, latex_text, rational_functions, shortened
 
 _CASES = {
     Structure.REDUCIBLE: "case 1 (the group is reducible, omega rational)",
@@ -181,25 +182,32 @@ class ExplanationWriter:
         yield Formula(equation_of(answer))
         if equation is not None and not equation.is_normal_form:
             y = equation.unknown
-            yield from self.normal_form(y)
+            v, blocks = self.normal_form(y)
+            yield from blocks
             yield say(
-                f"Cases, omega and the group below are those of the normal form, with y for {'v' if y != 'v' else 'u'}; "
-                f"the solutions {y}1 and {y}2 are those of the equation as given."
+                f"Cases, omega and the group below are those of the normal form, with y for {v}; the "
+                f"solutions {y}1 and {y}2 are those of the equation as given."
             )
         yield from (say(f"Note: {notice}.") for notice in answer.notices)
         if answer.change is not None:
             yield say("The case and the group are those over ", rational_functions(answer.change.expression), ".")
 
-    def normal_form(self, y: str) -> Iterator[Block]:
-        """The substitution that leads to it, and the normal form."""
+    def normal_form(self, y: str) -> tuple[str, list[Block]]:
+        """The name of the unknown in the normal form, and the substitution that leads to it, and the form itself."""
         answer = self.answer
-        v = "v" if y != "v" else "u"
         x = answer.variable
+        taken = {x, y, *parameters_of(answer.S.field)}
+        v = free_name(taken, "v", "u", "z")
+        a, b = ("a", "b") if not {"a", "b"} & taken else ("A", "B")
+        meaning = "" if a == "a" else f", {a} and {b} the coefficients of {y}'' and {y}'"
         substitution = Math(f"{y} = {v} exp(int gamma d{x})", rf"{y} = {v} \exp \int \gamma \, d{latex_text(x)}")
-        gamma = Math("gamma = -b/(2a)", r"\gamma = -\frac{b}{2a}")
-        yield say("With ", substitution, ", ", gamma, f", it becomes its normal form for {v}:")
-        yield Formula(self.formulas.named("gamma", r"\gamma", answer.gauge))
-        yield Formula(normal_form(answer, v))
+        gamma = Math(f"gamma = -{b}/(2{a})", rf"\gamma = -\frac{{{b}}}{{2{a}}}")
+        blocks: list[Block] = [
+            say("With ", substitution, ", ", gamma, f"{meaning}, it becomes its normal form for {v}:"),
+            Formula(self.formulas.named("gamma", r"\gamma", answer.gauge)),
+            Formula(normal_form(answer, v)),
+        ]
+        return v, blocks
 
     def verdict(self, *, solutions: bool) -> Iterator[Block]:
         """The answer in short."""

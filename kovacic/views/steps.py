@@ -22,7 +22,7 @@ from kovacic.limits import Budget, check_time
 from kovacic.numbers.numerals import as_text
 from kovacic.views.sentences import formulas_of
 from kovacic.writing.document import Block, Formula, Heading, Sentence, Table, say
-from kovacic.writing.formula import Math, latex_text, of_sympy
+from kovacic.writing.formula import Math, free_name, latex_text, of_sympy
 
 # d from the chosen exponents, and what P has to satisfy, by case [Kovacic 1986, sections 3.1, 4.1 and 5.1].
 DEGREE = {
@@ -75,12 +75,14 @@ class Steps:
 
     def local_data(self) -> Iterator[Block]:
         yield Heading("Poles and local exponents")
-        x = latex_text(self.answer.variable)
+        x = self.answer.variable
+        taken = {x, *parameters_of(self.answer.S.field)}
+        b, c = (free_name(taken, *names) for names in (("b", "s", "r"), ("c", "p", "q")))
         yield say(
             "At a pole of order 2, ",
-            Math(f"S = b/({self.answer.variable} - c)^2 + ...", rf"S = \frac{{b}}{{({x} - c)^2}} + \dots"),
+            Math(f"S = {b}/({x} - {c})^2 + ...", rf"S = \frac{{{b}}}{{({latex_text(x)} - {c})^2}} + \dots"),
             ", the local solutions have exponents with the difference ",
-            Math("Delta = sqrt(1 + 4b)", r"\Delta = \sqrt{1 + 4 b}"),
+            Math(f"Delta = sqrt(1 + 4{b})", rf"\Delta = \sqrt{{1 + 4 {b}}}"),
             ". Conjugate poles stay together.",
         )
         rows: list[list[Sentence]] = []

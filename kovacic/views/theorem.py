@@ -45,7 +45,7 @@ from kovacic.reading.read import read_input
 from kovacic.reading.source import source_of
 from kovacic.views.bibliography import literature
 from kovacic.writing.document import FORMATS, Block, Formula, Heading, Sentence, Table, format_of, say
-from kovacic.writing.formula import Formulas, Math, latex_text, of_sympy, rational_functions
+from kovacic.writing.formula import Formulas, Math, free_name, latex_text, of_sympy, rational_functions
 
 #: What the signs in a solution are called, those that aren't parameters.
 _SIGN_LETTERS = ("epsilon", "zeta", "eta", "kappa", "iota", "tau", "upsilon", "chi")
@@ -181,7 +181,7 @@ class _TheoremWriter:
         equation = self.answer.equation
         if equation is None or equation.is_normal_form:
             return "y"
-        return "v" if equation.unknown != "v" else "u"
+        return free_name({equation.unknown, *self.answer.parameters}, "v", "u", "z")
 
     def _about_parameters(self) -> list[str | Math]:
         """`Let a and b be complex numbers, b > 0, a != 1. `; nothing where there are no parameters."""

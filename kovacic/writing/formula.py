@@ -6,6 +6,7 @@ Text has ^ for powers.  LaTeX is made from the exact data, each quotient as one 
 from __future__ import annotations
 
 import re
+from collections.abc import Collection
 from dataclasses import dataclass
 from fractions import Fraction
 from functools import cached_property
@@ -169,6 +170,12 @@ class Formulas:
         if root is None or x in root or " " in root:
             return Math(f"{caret(factor)} = 0", f"{latex_text(factor)} = 0")
         return Math.of(f"{x} = {root}")
+
+
+def free_name(taken: Collection[object], *candidates: str) -> str:
+    """The first of the names that isn't one of the user's letters, as F may be of a force and y0 of a value."""
+    letters = {*map(str, taken)}
+    return next((name for name in candidates if name not in letters), candidates[0] + "_")
 
 
 def shortened(text: str) -> str:

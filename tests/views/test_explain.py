@@ -492,6 +492,17 @@ def test_names_in_the_steps_are_none_of_the_users_letters(text: str, steps: list
     assert [line for line in lines if line in steps] == steps
 
 
+def test_names_in_the_algorithm_are_none_of_the_parameters() -> None:
+    document = kovacic.solve("y'' + v*y' + b/x^2*y = 0").explain(solutions=False)
+    assert (
+        "With y = u exp(int gamma dx), gamma = -B/(2A), A and B the coefficients of y'' and y', it becomes" in document
+    )
+    assert (
+        "S = s/(x - c)^2 + ..., the local solutions have exponents with the difference Delta = sqrt(1 + 4s)" in document
+    )
+    assert "becomes, with y = u exp(int (" in kovacic.conditions("x*y'' + (v - x)*y' + n*y = 0").theorem()
+
+
 def test_the_command_explains_problems(capsys: pytest.CaptureFixture[str]) -> None:
     assert run(["explain", "y'' + y = x, y(0) = 0, y'(0) = 0"]) == 0
     printed = capsys.readouterr().out
