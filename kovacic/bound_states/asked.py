@@ -16,7 +16,7 @@ from collections.abc import Iterable, Mapping, Sequence
 from contextlib import suppress
 from dataclasses import replace
 from itertools import count
-from typing import Any, NamedTuple
+from typing import Any
 
 import sympy
 from sympy.functions.elementary.trigonometric import TrigonometricFunction
@@ -49,13 +49,8 @@ _STEPS = 10**6
 _LEFT_SIDE = re.compile(r"\s*[VU]\s*(?:\(\s*(\w+)\s*\))?\s*=(?!=)")
 
 
-class _Read(NamedTuple):
-    """V and the kinetic factor of -kinetic psi'' + V psi = E psi, and what was guessed when a text was read."""
-
-    V: Any
-    variable: str
-    notices: tuple[str, ...]
-    kinetic: Any = sympy.S.One
+#: V, the variable, what was guessed when a text was read, and the kinetic factor k of -k psi'' + V psi = E psi.
+_Read = tuple[Any, str, tuple[str, ...], Any]
 
 
 def asked(
@@ -205,7 +200,7 @@ def _read(V: Any, var: str | None, energy: str, names: Sequence[str], limits: Li
     notices = (*guesses, *notices, *_of_charges(V, expression))
     if "hbar" in names_of(expression):  # hbar^2/(2 m) may have been meant as the factor of -y''
         notices += ("-y'' + V y = E y is solved; give the whole equation for -hbar^2/(2*m)*psi''",)
-    return _Read(expression, x, notices)
+    return expression, x, notices, sympy.S.One
 
 
 def _letters(text: str) -> list[str]:
@@ -258,15 +253,16 @@ def _schroedinger(text: str, var: str | None, energy: str, limits: Limits) -> _R
     a, b, c, rest = map(sympy.sympify, parts)
     if rest != 0 or sympy.simplify(b) != 0:
         raise InputError("an equation -k*psi'' + V*psi = E*psi is expected, without a first derivative")
-    slope = sympy.cancel(c.diff(sympy.Symbol(energy)))
-    if slope == 0 or slope.has(sympy.Symbol(energy)):
+    E = sympy.Symbol(energy)
+    slope = sympy.cancel(c.diff(E))
+    if slope == 0 or slope.has(E):
         raise InputError(f"the equation has no energy {energy}", hint="energy= gives it another name")
     kinetic = sympy.cancel(a / slope)
     if kinetic.has(sympy.Symbol(source.variable)) or kinetic.is_negative:
         raise InputError(f"the factor of psi'' over that of {energy}, {kinetic}, isn't a positive constant")
-    V = sympy.expand_mul(sympy.Symbol(energy) - sympy.expand_mul(c) / slope)
+    V = sympy.expand_mul(E - sympy.expand_mul(c) / slope)
     _check_real(V, energy)
-    return _Read(V, source.variable, (*source.guesses, *_of_charges(text, V)), kinetic)
+    return V, source.variable, (*source.guesses, *_of_charges(text, V)), kinetic
 
 
 def _with_letters(known: Assumptions, letters: Letters, parameters: Iterable[str]) -> Assumptions:

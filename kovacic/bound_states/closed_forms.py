@@ -290,7 +290,7 @@ class _ClosedFormSearch(ClosedForms):
 
     def _with_remainders(self, solution: PolynomialSolution, function: Any, unknown: Any) -> PolynomialSolution:
         """The solution where a polynomial in an unknown vanishes: coefficients of its polynomials are remainders by it."""
-        t = sympy.Symbol(self.question.parsed.variable)
+        t = self.question.t
         y = sympy.Integer(1)
         for factor in sympy.Mul.make_args(solution.y):
             if factor.is_polynomial(t):
@@ -346,12 +346,11 @@ class _ClosedFormSearch(ClosedForms):
         exp(-(1 + d) x) P(exp(x)) decays at one end and grows at the other; what decays at an end is the only one that does.
         """
         question, signs = self.question, self.question.signs
-        variable = question.parsed.variable
         are_zeros = all(isinstance(part, Vanishes) for part in region.statement.conjuncts)
-        weights = (weight_by_signs(analyse(part.S, Budget()), variable) for part in region.naturals)
+        weights = (weight_by_signs(analyse(part.S, Budget()), question.parsed.variable) for part in region.naturals)
         choices = [*chain.from_iterable(by_signs(None) for by_signs in filter(None, weights))]
         # P has no zero at an end, |t| = 1 or t real, and its degree at infinity
-        size = sympy.sqrt(sympy.Symbol(variable) ** 2 + 2)
+        size = sympy.sqrt(question.t**2 + 2)
         functions = [(one.y * size**one.degree, one.degree) for one in choices]
         if are_zeros:
             functions = [(one.y, one.degree) for one in region.solution(0)]
@@ -394,11 +393,10 @@ class _ClosedFormSearch(ClosedForms):
     ) -> Algebraic:
         """With the energies, and which levels they are, where there are no parameters."""
         question = self.question
-        parsed = question.parsed
-        x = sympy.Symbol(question.variable)
-        wave = question.plain(solution.y if parsed.equation is None else translated(solution.y, parsed.equation))
+        x, t = sympy.Symbol(question.variable), question.t
+        equation = question.parsed.equation
+        wave = question.plain(solution.y if equation is None else translated(solution.y, equation))
         # The factors of y that are polynomials in t, but for those that vanish at an end: they have the zeros of y.
-        t = sympy.Symbol(parsed.variable)
         P = sympy.Mul(*(f.as_base_exp()[0] for f in sympy.Mul.make_args(solution.y) if f.is_polynomial(t)))
         assert question.real is not None
         original, at, middle = question.real.original, None, None
@@ -470,9 +468,7 @@ def demands_of(v: Any, question: Examined) -> list[Any]:
 
 def demand_at(end: End, v: Any, question: SpectralProblem) -> Any:
     """When a function v of t, whose v'/v is rational, is the square integrable one at an end, in real symbols."""
-    signs = question.signs
-    t = sympy.Symbol(question.parsed.variable)
-    u = sympy.Dummy("u")
+    t, u = question.t, sympy.Dummy("u")
     rate = sympy.cancel(sympy.together(sympy.diff(v, t) / v))
     if question.original.is_circular:  # v sqrt(du/dt) as a function of the real u
         on_circle = circle_point(t)
@@ -482,7 +478,7 @@ def demand_at(end: End, v: Any, question: SpectralProblem) -> Any:
     local = rate.subs(t, there) * sympy.diff(there, u)
     if end.point == sympy.oo:  # of u v(1/u)
         local += 1 / u
-    order, strength = leading(signs.real(sympy.together(local)), u)
+    order, strength = leading(question.signs.real(sympy.together(local)), u)
     if order < -1:  # v ~ exp(-strength/(k u^k)) with k = -order - 1
         decay = strength * end.direction ** (-order - 1)
         return above(decay, 0, strict=True)

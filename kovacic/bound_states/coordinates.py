@@ -308,7 +308,7 @@ def _refused(message: str, hint: str, start: Any, stop: Any) -> InputError:
 
 def _as_given(end: Any) -> str:
     """An integer, or anything else as text in quotes."""
-    shown = end if end.is_infinite else sympy.simplify(end)
+    shown = sympy.simplify(end)
     text = caret(as_text(shown))
     return text if shown.is_Integer else f'"{text}"'
 

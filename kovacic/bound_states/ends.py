@@ -135,8 +135,7 @@ def _excluded(question: SpectralProblem, ends: Sequence[End]) -> tuple[Any, ...]
 
 def potential_in_t(question: SpectralProblem, original: Original) -> RealPotential:
     """V/kinetic as a function of t, which may be complex here."""
-    parsed = question.parsed
-    t = sympy.Symbol(parsed.variable)
+    parsed, t = question.parsed, question.t
     S = parsed.S if parsed.equation is None else -parsed.equation.c / parsed.equation.a  # (V - E)/(dt/dx)^2
     V = original.slope_squared(t) * question.signs.real(S.to_sympy(t)).subs(question.E, 0)
     return RealPotential(sympy.cancel(V), original, t)

@@ -260,14 +260,11 @@ def _solved(condition: Any, signs: Signs, squares: Mapping[Any, Any] = MappingPr
 
 def _linear_forms(rest: Any, n: Any) -> Iterator[tuple[Any, Any, Any]]:
     """The quantity in which it is linear (n, a parameter or a square (n + h)^2), with the slope and the constant."""
-    for unknown in (n, *sorted(rest.free_symbols - {n}, key=str)):
-        if _degree_in_unknown(rest, unknown) == 1:
-            yield unknown, rest.coeff(unknown, 1), rest.coeff(unknown, 0)
-    if _degree_in_unknown(rest, n) == 2:
-        c, b, k = (rest.coeff(n, power) for power in (2, 1, 0))
+    unknowns = [n, *sorted(rest.free_symbols - {n}, key=str)]
+    forms = {one: sympy.Poly(rest, one).all_coeffs() for one in unknowns if rest.is_polynomial(one)}
+    for unknown, coefficients in forms.items():
+        if len(coefficients) == 2:
+            yield unknown, *coefficients
+    if len(forms.get(n, ())) == 3:
+        c, b, k = forms[n]
         yield (n + shortest(sympy.factor(b / (2 * c)))) ** 2, c, k - b**2 / (4 * c)
-
-
-def _degree_in_unknown(expression: Any, unknown: Any) -> Any:
-    """The degree as a polynomial in the unknown, None for anything else."""
-    return sympy.degree(expression, unknown) if expression.is_polynomial(unknown) else None

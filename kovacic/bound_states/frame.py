@@ -85,14 +85,12 @@ class SingularFrame:
 def frames(question: SpectralProblem, budget: Budget) -> Iterator[SingularFrame]:
     """The equation as it was read, and in each coordinate that its symmetries give."""
     signs = question.signs
-    variable = question.parsed.variable
-    original = question.original
+    original, t = question.original, question.t
     problem = analyse(question.parsed.S, budget)
-    t = sympy.Symbol(variable)
     yield _frame(question, original, t, t, 1, problem)
-    for symmetric in symmetries(problem, variable):
+    for symmetric in symmetries(problem, t.name):
         coordinate = symmetric.coordinate
-        is_another = coordinate.n % 2 == 0 or (coordinate.n == 1 and coordinate.base != variable)
+        is_another = coordinate.n % 2 == 0 or (coordinate.n == 1 and coordinate.base != t.name)
         base = signs.real(written_expression(coordinate.base))
         if is_another and not base.has(question.E):
             yield _frame(question, original, t, base, coordinate.n, symmetric.quotient(problem))

@@ -98,21 +98,20 @@ def _values(function: Function, x: Any) -> Any:
 def _window(levels: Sequence[DrawnLevel], domain: tuple[float, float]) -> tuple[float, float]:
     """The part of the domain outside of which no wave function is visible."""
     first, last = domain
-    centre = first if np.isfinite(first) else (last if np.isfinite(last) else 0.0)
-    distance = 1.0
-    while True:
+    centre = next(end for end in (first, last, 0.0) if np.isfinite(end))
+    distance, is_inside = 0.5, False
+    while not is_inside and distance < _LARGEST_REACH:
+        distance *= 2
         low, high = max(first, centre - distance), min(last, centre + distance)
         x = np.linspace(low, high, 4 * _POINTS)[1:-1]
         sizes = [np.nan_to_num(np.abs(_values(level.wave, x))) for level in levels]
         wide, narrow = (_visible(x, sizes, tail) for tail in _TAILS)
         step = (high - low) / 50
         is_inside = (wide[0] > low + step or low == first) and (wide[1] < high - step or high == last)
-        if is_inside or distance >= _LARGEST_REACH:
-            is_long = wide[1] - wide[0] > _LONG * (narrow[1] - narrow[0])
-            left, right = narrow if is_long else wide
-            margin = 0.15 * (right - left)
-            return max(left - margin, first), min(right + margin, last)
-        distance *= 2
+    is_long = wide[1] - wide[0] > _LONG * (narrow[1] - narrow[0])
+    left, right = narrow if is_long else wide
+    margin = 0.15 * (right - left)
+    return max(left - margin, first), min(right + margin, last)
 
 
 def _visible(x: Any, sizes: Sequence[Any], tail: float) -> tuple[float, float]:

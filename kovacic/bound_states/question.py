@@ -89,6 +89,11 @@ class SpectralProblem(Asked):
         return sympy.Symbol(self.variable, real=True)
 
     @property
+    def t(self) -> Any:
+        """The variable of the equation that was read, a function of x."""
+        return sympy.Symbol(self.parsed.variable)
+
+    @property
     def original(self) -> Original:
         """The function t of x in which V was read as a rational one.  Raises `Uncovered` for others than those known here."""
         return Original.of(self.parsed.equation, self.x, self.domain, self.signs)
@@ -100,8 +105,8 @@ class SpectralProblem(Asked):
     @property
     def parameters(self) -> tuple[str, ...]:
         """The names of what the levels depend on: parameters, and letters for anything but pi and e."""
-        constants = {name for name, meaning in self.meanings.items() if meaning in (sympy.pi, sympy.E)}
-        return tuple(name for name in self.signs.symbols if name not in (self.energy, *constants))
+        names = (name for name in self.signs.symbols if self.meanings.get(name) not in (sympy.pi, sympy.E))
+        return tuple(name for name in names if name != self.energy)
 
     def demand(self, side: int, mu: Any, delta: Any) -> Any:
         """The condition for the solution with the exponent (1 + delta)/2 to be the one meant at an end, 0 left or 1 right.

@@ -28,6 +28,7 @@ class Signs:
         self._known_of = known.of
         facts = {name: symbol.assumptions0 for name, symbol in found.items()}
         self.symbols = {name: sympy.Symbol(name, **{**facts.get(name, {}), "real": True}) for name in names}
+        self._by_plain = {sympy.Symbol(name): symbol for name, symbol in self.symbols.items()}
         #: The number of a level.
         self.n = sympy.Dummy("n", integer=True, nonnegative=True)
         bounds = {name: known.of(name).bounds for name in self.symbols}
@@ -35,9 +36,7 @@ class Signs:
 
     def real(self, expression: Any) -> Any:
         """The expression in the real symbols, in the place of plain ones of the same names."""
-        plain = (symbol for symbol in expression.free_symbols if not isinstance(symbol, sympy.Dummy))
-        of_parameters = [symbol for symbol in plain if symbol.name in self.symbols]
-        return expression.xreplace({symbol: self.symbols[symbol.name] for symbol in of_parameters})
+        return expression.xreplace(self._by_plain)
 
     def bounds_of(self, name: str, value: Any) -> list[Any]:
         """The known bounds of the parameter, as relations for its value; false if it can't have that."""

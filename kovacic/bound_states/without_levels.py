@@ -29,15 +29,16 @@ REASON = "a repulsive potential, (x - c) V'(x) <= 0 for some c: no solution is s
 
 def is_repulsive(question: Examined) -> bool:
     """True if the theorem is proven to apply."""
-    real, ends, signs = question.real, question.ends, question.signs
+    real, signs = question.real, question.signs
     assert real is not None
     original = real.original
-    infinite = [end for end in ends if end.at.is_infinite]
-    has_limits = bool(infinite) and all(end.threshold is not None for end in infinite)
+    thresholds = [end.threshold for end in question.ends if end.at.is_infinite]
     rate = signs.sign(original.rate)
-    if not has_limits or original.kind not in ("x", "exp", "sinh") or rate is None or not real.V.has(real.t):
+    if rate is None or not thresholds or None in thresholds:  # V has no limit
         return False
-    first, last = (end.at for end in ends)
+    if original.kind not in ("x", "exp", "sinh") or not real.V.has(real.t):
+        return False
+    first, last = original.domain
     centre = next((at for at in (first, last) if at.is_finite), sympy.Integer(0))
     slope = sympy.factor(sympy.diff(real.V, real.t))
     # V increases on the left of the centre, and falls on the right; t grows with x for a positive rate.

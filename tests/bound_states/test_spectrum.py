@@ -913,10 +913,11 @@ def test_the_conditions_of_one_family_may_have_no_value_where_those_of_another_h
 
 @pytest.mark.long
 def test_the_sign_of_a_quotient_is_that_of_its_denominator() -> None:
-    """The Coulomb potential without a condition on l: l + n + 1 > 0, not 1/(l + n + 1) > 0."""
+    """The Coulomb potential without a condition on l: l + n + 1 > 0, not 1/(l + n + 1) > 0, and that follows from l >= -1/2."""
     answer = kovacic.spectrum("l*(l+1)/x^2 - Z/x", domain=(0, "oo"), assume={"Z": "positive"})
-    n, l = sympy.symbols("n l")  # noqa: E741
-    assert [levels.above for levels in answer.levels] == [(n > -l - 1,), (n > l,)]
+    l = sympy.Symbol("l")  # noqa: E741
+    half = sympy.Rational(1, 2)
+    assert [levels.conditions for levels in answer.levels] == [(l >= -half,), (l <= -half,)]
 
 
 @parametrize(
