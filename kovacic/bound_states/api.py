@@ -35,12 +35,12 @@ from kovacic.parametric.api import DEFAULT_DEGREE
 from kovacic.parametric.assumptions import check_mapping
 from kovacic.reading.read import declared
 
-_STANDARD_FORMS: tuple[tuple[Callable[[SingularFrame], ExponentForm | None], str], ...] = (
-    (oscillator, "Hermite's polynomials"),
-    (whittaker, "Whittaker's equation"),
-    (three_regular_points, "three regular singular points"),
-    (bessel, "Bessel's equation"),
-)
+_STANDARD_FORMS: dict[str, Callable[[SingularFrame], ExponentForm | None]] = {
+    "Hermite's polynomials": oscillator,
+    "Whittaker's equation": whittaker,
+    "three regular singular points": three_regular_points,
+    "Bessel's equation": bessel,
+}
 _POLYNOMIAL = "each solution that is square integrable at both ends has a polynomial in it"
 
 
@@ -221,7 +221,7 @@ def _with_closed_forms(found: Spectrum, question: Examined, max_degree: int, lim
 def _families(question: SpectralProblem, budget: Budget) -> tuple[tuple[Levels, ...], str]:
     """Those of the first coordinate and standard equation that fit, and its name."""
     for frame in frames(question, budget) if not question.original.is_circular else ():
-        for standard_form, name in _STANDARD_FORMS:
+        for name, standard_form in _STANDARD_FORMS.items():
             with suppress(Uncovered):
                 form = standard_form(frame)
                 found = () if form is None else form.levels()

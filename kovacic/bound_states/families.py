@@ -360,16 +360,15 @@ def whittaker(frame: SingularFrame) -> ExponentForm:
     q, r, b = _coefficients(frame.S * frame.z**2, frame, 2)
     if not frame.S.has(frame.z):
         raise Uncovered("S is constant")
-    ordinary = Spot(sympy.Integer(0), 1 + 4 * b, 0)
-    origin = next((spot for spot in frame.spots if spot.point == 0), ordinary)
-    infinity = next(spot for spot in frame.spots if spot.point == sympy.oo)
+    spots = {spot.point: spot for spot in frame.spots}
+    origin = spots.get(0, Spot(sympy.Integer(0), 1 + 4 * b, 0))
     return ExponentForm(
         frame,
         [Root.of(sympy.factor(q), E, positive=True), Root.of(sympy.factor(1 + 4 * b), E)],
         degree=lambda values: -r / (2 * values[0]) - (1 + values[1]) / 2,
         wave=lambda values: laguerre_wave(frame, origin, values),
         spots=(origin,),
-        outwards=[frame.direction(side) for side in frame.ends_at(infinity)],
+        outwards=[frame.direction(side) for side in frame.ends_at(spots[sympy.oo])],
     )
 
 

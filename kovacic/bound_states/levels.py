@@ -7,6 +7,7 @@ ball meets the real axis is real, since its conjugate is a root as well.
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from contextlib import suppress
 from dataclasses import dataclass
 from functools import cached_property
 from itertools import count, islice
@@ -570,15 +571,12 @@ def _are_true(relations: Iterable[Any], values: Mapping[Any, Any]) -> bool:
 
 def _is_true(relation: Any, values: Mapping[Any, Any]) -> bool:
     """A relation at values; raises `InputError` where that can't be decided, as for values that aren't real."""
-    try:
-        found = relation.subs(values)
-    except TypeError:  # a side is infinite, or a root of a negative number
-        return False
-    if found not in (sympy.true, sympy.false):
-        found = sympy.simplify(found)
-    if found not in (sympy.true, sympy.false):
-        raise InputError(f"whether {_text(found)} isn't known at these values", hint="give numbers")
-    return bool(found)
+    with suppress(TypeError):  # a side is infinite, or a root of a negative number
+        found = sympy.simplify(relation.subs(values))
+        if found not in (sympy.true, sympy.false):
+            raise InputError(f"whether {_text(found)} isn't known at these values", hint="give numbers")
+        return bool(found)
+    return False
 
 
 #: What JSON has of an object.
