@@ -75,14 +75,16 @@ def exact_root(square: Any) -> Any:
             return sympy.sqrt(value)
         p = sympy.sqrtdenest(sympy.sqrt((sympy.sqrt(re**2 + im**2) + re) / 2))
         return p + sympy.I * sympy.radsimp(im / (2 * p))
-    symbols = square.free_symbols
     is_complex = square.has(sympy.I)
-    factored = sympy.factor(sympy.together(square), extension=sympy.I if is_complex else None)
-    constant, rest = factored.as_independent(*symbols, as_Add=False)
-    root = sympy.sqrtdenest(sympy.sqrt(sympy.expand(constant))) * sympy.powdenest(sympy.sqrt(rest), force=True)
-    if not root.is_rational_function(*symbols):
-        return None
-    return sympy.expand(root) if is_complex else root
+    root = sympy.Integer(1)
+    for part, sign in zip(sympy.fraction(sympy.together(square)), (1, -1), strict=True):
+        constant, factors = sympy.factor_list(part, extension=sympy.I) if is_complex else sympy.factor_list(part)
+        if any(multiplicity % 2 for _, multiplicity in factors):
+            return None
+        root *= (sympy.sqrtdenest(sympy.sqrt(sympy.expand(constant))) if is_complex else sympy.sqrt(constant)) ** sign
+        for factor, multiplicity in factors:
+            root *= factor ** (sign * multiplicity // 2)
+    return sympy.expand(root) if root.has(sympy.I) else root
 
 
 def conjugate(value: Any) -> Any:
