@@ -404,7 +404,7 @@ class Spectrum:
             from kovacic.bound_states.picture import DrawnLevel, draw_levels
         states = () if self.numeric else self.states(values, count)[:count]
         if not states and not self.numeric:
-            raise InputError("no level is known that could be drawn")
+            raise InputError("no level is known that could be drawn", hint="levels=5 encloses the lowest ones")
         at = self._symbols_at(values or {})
         x = sympy.Symbol(self.variable)
 
@@ -420,8 +420,14 @@ class Spectrum:
         drawn = [DrawnLevel(float(value), wave, f"{self.energy}_{k} = {shown}") for k, value, wave, shown in levels]
         first, last = (float(end.xreplace(at)) for end in self.domain)
         title = self._equation(at)
-        plain = self.potential.replace(sympy.DiracDelta, lambda *_: sympy.S.Zero)
-        return draw_levels(function(plain), drawn, (first, last), variable=self.variable, title=title)
+        whole = sympy.expand(self.potential.xreplace(at))
+        impulses = []
+        for delta in whole.atoms(sympy.DiracDelta):
+            line = delta.args[0]
+            slope = line.diff(x)
+            impulses.append((float(x - line / slope), float(whole.coeff(delta) / abs(slope))))
+        plain = function(self.potential.replace(sympy.DiracDelta, lambda *_: sympy.S.Zero))
+        return draw_levels(plain, drawn, (first, last), variable=self.variable, title=title, impulses=impulses)
 
     def _equation(self, at: Mapping[Any, Any]) -> str:
         """Schroedinger's, and what V is."""

@@ -40,6 +40,7 @@ def draw_levels(
     *,
     variable: str = "x",
     title: str = "",
+    impulses: Sequence[tuple[float, float]] = (),
 ) -> Figure:
     """The potential and the levels, lowest first, where the wave functions are visible.
 
@@ -53,6 +54,8 @@ def draw_levels(
         Its ends, -inf and inf among them.
     variable, title : str
         For the axis, and above the picture.
+    impulses : sequence of pairs of floats
+        The place and the strength of each delta function in V: an arrow, upwards where the strength is positive.
 
     Returns
     -------
@@ -83,8 +86,13 @@ def draw_levels(
     for place in (V, V[[0, -1]]):  # a barrier, or the begin of the continuous spectrum
         if np.nanmax(place) <= highest + 3 * spread:
             top = max(top, float(np.nanmax(place)) + 0.3 * spread)
-    axes.set(xlabel=variable, ylabel="energy", xlim=(first, last), ylim=(bottom, top), title=title)
-    axes.legend(loc="best", fontsize=9)
+    for place, strength in impulses:
+        end = top if strength > 0 else bottom
+        foot = float(np.interp(place, x, np.nan_to_num(V)))
+        axes.annotate("", (place, end), (place, foot), arrowprops={"arrowstyle": "-|>", "color": "black", "shrinkA": 0})
+    axes.set(xlabel=variable, ylabel="energy", xlim=(first, last), ylim=(bottom, top))
+    axes.set_title(title, wrap=True)
+    figure.legend(loc="outside lower center", fontsize=9, ncols=2)
     return figure
 
 

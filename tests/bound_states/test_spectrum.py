@@ -1139,6 +1139,19 @@ def test_pictures_show_each_level_at_its_height(V: str, options: Any, values: An
         assert abs(b - float(found.potential.subs(at).subs(x, a))) < 1e-9 * (1 + abs(b))
 
 
+def test_an_impulse_is_an_arrow_and_the_legend_hides_nothing() -> None:
+    """Upwards for a positive strength, at the place of the impulse; -3 delta(2 x - 1) is -(3/2) delta(x - 1/2)."""
+    for V, place, sign in (("-3*DiracDelta(2*x - 1)", 0.5, -1), ("x^2 + DiracDelta(x)", 0, 1)):
+        figure = kovacic.spectrum(V, levels=1).plot()
+        (arrow,) = figure.axes[0].texts
+        assert arrow.xyann[0] == arrow.xy[0] == place
+        assert (arrow.xy[1] > arrow.xyann[1]) is (sign > 0)
+        assert figure.axes[0].get_legend() is None
+        assert len(figure.legends) == 1
+    with pytest.raises(kovacic.InputError, match="hint: levels=5 encloses the lowest ones"):
+        kovacic.spectrum("abs(x)").plot()
+
+
 def test_a_long_tail_does_not_hide_the_well() -> None:
     """y = exp(-1/x)/x falls as 1/x; V has its minimum between 1/4 and 1/2, and its maximum at 2."""
     axes = kovacic.spectrum("2/x^2 - 4/x^3 + 1/x^4", domain=HALF).plot().axes[0]
