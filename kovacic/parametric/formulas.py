@@ -75,8 +75,8 @@ def _shortest(forms: Iterable[Sequence[_FormulaTerm]], names: Sequence[str]) -> 
 def partial_fractions(S: RatFunc, variable: str) -> str:
     """S, not zero, as a polynomial in the variable and fractions with powers of the irreducible factors of its denominator."""
     whole, rest = divmod(S.num, S.den)
-    powers = [over_parameters(S.field.poly([0] * k + [whole[k]])) for k in range(whole.degree, -1, -1) if whole[k]]
-    terms = [written(power, variable) for power in powers]
+    degrees = filter(whole.__getitem__, range(whole.degree, -1, -1))
+    terms = [written(S.field.poly([0] * k + [whole[k]]), variable) for k in degrees]
     for factor, k in S.field.factor(S.den):
         power = factor**k
         above = rest * (S.den // power).inverse_modulo(power) % power
@@ -258,8 +258,7 @@ def alone(text: str) -> str:
 
 def in_sum(text: str) -> str:
     """A term behind a sign: a sum in parentheses, where it isn't within some."""
-    is_sum = " + " in outside(text) or " - " in outside(text)
-    return f"({text})" if is_sum else text
+    return f"({text})" if re.search(" [+-] ", outside(text)) else text
 
 
 def in_product(text: str) -> str:

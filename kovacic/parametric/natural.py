@@ -167,18 +167,17 @@ class Natural(Statement):
         """Solutions with a P of this degree, for each way in which the exponents give it and P can exist."""
         if number is None or self.m > 1:
             return ()
-        found: dict[PolynomialSolution, None] = {}
+        found: list[PolynomialSolution | None] = []
         for exponents, surface, S in self.given(number):
             if surface.curve or is_too_large(S.field):
                 continue
-            for choice in choices_of_degree(analyse(S, Budget()), number) or ():
+            found += [
+                solution_of_degree(choice, number, variable, exponents)
+                for choice in choices_of_degree(analyse(S, Budget()), number) or ()
                 # One has equations for P that exclude one another: b = 6 and b = 9/2.
-                if S.field.ground != QQ and choice.conditions(number, S.field) == NOWHERE:
-                    continue
-                solution = solution_of_degree(choice, number, variable, exponents)
-                if solution is not None:
-                    found[solution] = None
-        return tuple(found)
+                if S.field.ground == QQ or choice.conditions(number, S.field) != NOWHERE
+            ]
+        return tuple(dict.fromkeys(filter(None, found)))
 
     def values(self, number: int) -> dict[str, Words]:
         """What Delta is for a number, in the parameters, each with the equations for the exponents where it is that.

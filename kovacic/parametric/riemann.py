@@ -21,7 +21,7 @@ from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass, replace
 from fractions import Fraction
 from functools import lru_cache, reduce
-from itertools import product
+from itertools import product, repeat
 from math import gcd, lcm
 from operator import mul
 from random import Random
@@ -246,8 +246,6 @@ class Differences:
     names: tuple[str, ...] | None
     #: Those of the names that aren't rational numbers.
     free: tuple[str, ...]
-    #: Those of the names that have parameters.
-    parametric: tuple[str, ...]
     #: Rational numbers, and None for irrational ones.
     constants: tuple[Fraction | None, ...]
 
@@ -276,7 +274,7 @@ class Differences:
         beside = [*(constant for constant in self.constants if constant not in halves), *halves[2:]]
         if len(self.constants) >= 2 and beside:
             return "the infinite dihedral group" if beside[0] is None else "dicyclic"
-        third = f"`{self.parametric[0]}`" if len(self.constants) == 2 else "the third exponent difference"
+        third = f"`{self.free[0]}`" if len(self.constants) == 2 else "the third exponent difference"
         return f"dicyclic where {third} is rational, else the infinite dihedral group"
 
 
@@ -285,22 +283,18 @@ def differences(cubic: FunctionPoly) -> Differences:
     """By the factors of the cubic: those without parameters, and those with."""
     names: list[str | None] = []
     free: list[str | None] = []
-    parametric: list[str | None] = []
     constants: list[Fraction | None] = []
     for factor, k in cubic.field.factor(cubic):
-        known = _square_roots_of_roots(factor)
-        roots = [*([None] * factor.degree if known is None else known)] * k
+        roots = [*(_square_roots_of_roots(factor) or repeat(None, factor.degree))] * k
         constant = None
         names += roots
-        if without_parameters(factor) is None:
-            parametric += roots
-        else:
+        if without_parameters(factor) is not None:
             constant = rational_square_root(-factor[0]) if factor.degree == 1 else None
             constants += [constant] * len(roots)
         if constant is None:
             free += roots
-    written = [tuple(filter(None, several)) for several in (names, free, parametric)]
-    return Differences(None if None in names else written[0], written[1], written[2], tuple(constants))
+    known, unknown = (tuple(filter(None, several)) for several in (names, free))
+    return Differences(None if None in names else known, unknown, tuple(constants))
 
 
 def _square_roots_of_roots(factor: Poly) -> list[str] | None:
@@ -421,9 +415,7 @@ def has_denominator(square: Poly, denominator: int) -> Statement:
 def _rational_root(square: Poly) -> FunctionPoly | None:
     """The square root, where it is a rational function of the parameters."""
     root = square.field.sqrt(square)
-    if root is None:
-        return None
-    return over_parameters(root)
+    return None if root is None else over_parameters(root)
 
 
 def _by_one_function(cubic: FunctionPoly, structure: Structure) -> Statement | None:

@@ -129,7 +129,7 @@ class PolynomialSolution:
 
     def at(self, values: Mapping[Any, Any]) -> Any:
         """y at values of the parameters, by symbol; None if it isn't one of the solutions there, or vanishes identically."""
-        degree = natural(sympy.sympify(self.degree, strict=True).xreplace(values))
+        degree = natural(self.degree.xreplace(values))
         if degree is None or any(condition.xreplace(values) != 0 for condition in self.conditions):
             return None
         y = self.y.xreplace({self.degree: degree}).xreplace(values)
@@ -139,7 +139,7 @@ class PolynomialSolution:
         """The solution with other expressions in the place of the parameters, by symbol."""
         conditions = tuple(condition.xreplace(values) for condition in self.conditions)
         parameters = tuple(parameter.xreplace(values) for parameter in self.jacobi)
-        y, degree = self.y.xreplace(values), sympy.sympify(self.degree, strict=True).xreplace(values)
+        y, degree = self.y.xreplace(values), self.degree.xreplace(values)
         return replace(self, y=y, degree=degree, conditions=conditions, jacobi=parameters)
 
     def __str__(self) -> str:
