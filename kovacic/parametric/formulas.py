@@ -75,7 +75,7 @@ def _shortest(forms: Iterable[Sequence[_FormulaTerm]], names: Sequence[str]) -> 
 def partial_fractions(S: RatFunc, variable: str) -> str:
     """S, not zero, as a polynomial in the variable and fractions with powers of the irreducible factors of its denominator."""
     whole, rest = divmod(S.num, S.den)
-    degrees = filter(whole.__getitem__, range(whole.degree, -1, -1))
+    degrees = (k for k in range(whole.degree, -1, -1) if whole[k])
     terms = [written(S.field.poly([0] * k + [whole[k]]), variable) for k in degrees]
     for factor, k in S.field.factor(S.den):
         power = factor**k

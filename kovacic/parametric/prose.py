@@ -349,9 +349,8 @@ def _degree_by_sum(claim: DegreeBySum) -> str:
     terms = [in_sum(root_written(square, name)) for square, name in zip(sums.squares, claim.names, strict=True)]
     bounds = (f"`{k}` from -{root.largest} to {root.largest}" for k, root in zip(claim.names, sums.roots, strict=True))
     said = f"`{claim.letter} = {' + '.join([str(sums.constant), *terms])}` for integers {', '.join(bounds)}"
-    if claim.has_zero:
-        return said
-    return said + (", not 0" if len(claim.names) == 1 else ", not all 0")
+    not_zero = ", not 0" if len(claim.names) == 1 else ", not all 0"
+    return said if claim.has_zero else said + not_zero
 
 
 def _degree_exists(claim: DegreeExists) -> str:
