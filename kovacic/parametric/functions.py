@@ -28,7 +28,7 @@ def in_field(function: Poly, field: FunctionField) -> FunctionPoly:
     """The function over a field that contains its parameters, if there are any."""
     if not isinstance(function, FunctionPoly):
         return over_parameters(function.over(field))
-    return over_parameters(function.value_at([field.generator(name) for name in function.field.names], field))
+    return over_parameters(function.value_at([*map(field.generator, function.field.names)], field))
 
 
 def lifted(polynomial: Poly, larger: FunctionField) -> FunctionPoly:
@@ -81,11 +81,10 @@ def on_zeros(function: FunctionPoly, zero: FunctionPoly) -> FunctionPoly:
     field = function.field
     for i, power in enumerate(degrees(zero)):
         parts = powers_of(zero, i)
-        if power != 1 or not parts[1].num.is_constant():
-            continue
-        values = [field.generator(name) for name in field.names]
-        values[i] = -parts.get(0, 0 * parts[1]) / parts[1]
-        return over_parameters(numerator(function).value_at(values, field))
+        if power == 1 and parts[1].num.is_constant():
+            values = [*map(field.generator, field.names)]
+            values[i] = -parts.get(0, 0 * parts[1]) / parts[1]
+            return over_parameters(numerator(function).value_at(values, field))
     return function
 
 
@@ -109,10 +108,7 @@ def roots(polynomial: Poly) -> list[Poly]:
 def coefficients_in(function: FunctionPoly, i: int, values: Sequence[Poly], field: Field) -> list[Poly]:
     """Those of the powers of parameter number i, low to high, in the numerator; the others have these values."""
     parts = powers_of(function, i)
-    found = [field.poly([])] * (max(parts) + 1)
-    for k, part in parts.items():
-        found[k] = part.value_at(values, field)
-    return found
+    return [parts.get(k, 0 * function).value_at(values, field) for k in range(max(parts) + 1)]
 
 
 def without_parameter(i: int, names: Sequence[str]) -> tuple[Field, list[Poly]]:
@@ -121,7 +117,7 @@ def without_parameter(i: int, names: Sequence[str]) -> tuple[Field, list[Poly]]:
     if not others:
         return QQ, [QQ.poly([0])]
     field = FunctionField(others)
-    values: list[Poly] = [field.generator(name) for name in others]
+    values: list[Poly] = [*map(field.generator, others)]
     values.insert(i, field.poly([0]))
     return field, values
 
@@ -146,8 +142,7 @@ def normal_form(function: Poly) -> NormalForm:
     """A function that isn't a number by a form, whose first coefficient is positive."""
     shift = constant_term(function)
     form = over_parameters(function - shift)
-    above = [int(c) for c in form.num.coeffs()]
-    below = [int(c) for c in form.den.coeffs()]
+    above, below = ([*map(int, part.coeffs())] for part in (form.num, form.den))
     sign = 1 if above[0] > 0 else -1
     scale = Fraction(gcd(*below), gcd(*above) * sign)
     return NormalForm(over_parameters(form * scale), scale, shift)
