@@ -141,10 +141,6 @@ class Known:
         return tuple({one.sign: one for one in (*known, *by_strength)}.values())  # the last one of each sign
 
     @property
-    def concerns_exponents(self) -> bool:
-        return bool(self.classes) or self.rational is False or self.noninteger
-
-    @property
     def nonzero(self) -> bool:
         return not self.admits_number(Fraction(0))
 
@@ -267,15 +263,11 @@ class Assumptions:
 
     @property
     def concerns_exponents(self) -> bool:
-        return any(known.concerns_exponents for _, known in self.known)
+        return any(known.classes or known.rational is False or known.noninteger for _, known in self.known)
 
     def of(self, name: str) -> Known:
         """What is known about the parameter of this name."""
         return dict(self.known).get(name, Known())
-
-    def is_integer(self, name: str) -> bool:
-        numbers = self.of(name).coset
-        return numbers is not None and numbers.are_covered_by(INTEGERS)
 
     def also(self, name: str, words: tuple[str, ...]) -> Assumptions:
         """The assumptions with more words about one parameter."""

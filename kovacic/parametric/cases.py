@@ -349,13 +349,13 @@ def _mirrored(cases: Iterable[Case], is_same: Likeness) -> list[Case]:
         inner = [replace(case, statement=Both(case.statement.conjuncts[1:])) for case in group]
         if any(case.statement.conjuncts for case in inner):
             inner = _mirrored(inner, is_same)
+        firsts = [first]
         if blocks and _exclude_one_another(blocks[-1][0][-1], first) and _say_the_same(blocks[-1][1], inner, is_same):
-            firsts, known = blocks.pop()
+            before, known = blocks.pop()
+            firsts = [*before, first]
             pairs = zip(known, inner, strict=True)
             inner = [replace(one, regions=(*one.regions, *other.regions)) for one, other in pairs]
-            blocks.append(([*firsts, first], inner))
-        else:
-            blocks.append(([first], inner))
+        blocks.append((firsts, inner))
     return [
         replace(case, statement=all_of((either(*firsts), *case.statement.conjuncts)))
         for firsts, inner in blocks

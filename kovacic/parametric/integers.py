@@ -342,7 +342,7 @@ class Congruence(Statement):
         return None if numbers is None else any(map(self.numbers.contains, rational_roots(numbers)))
 
     def rewritten(self, change: Callable[[FunctionPoly], FunctionPoly]) -> Statement:
-        return integer_roots(change(self.equation), self.residues, self.modulus).avoiding(self.setting)
+        return integer_roots(change(self.equation), self.residues, self.modulus)
 
     def sample(self, random: Random) -> list[FunctionPoly]:
         N = random.choice(self.residues) + random.randint(-4, 4) * self.modulus
@@ -437,9 +437,12 @@ def at_integers(form: FunctionPoly, largest: int, assumptions: Assumptions) -> l
     divisor of a d - b c.
     """
     used = [k for k, degree in enumerate(map(int, (form.num * form.den).degrees())) if degree]
-    if form.degree > 0 or len(used) != 1 or not assumptions.is_integer(form.field.names[used[0] - 1]):
+    if form.degree > 0 or len(used) != 1:
         return None
     (k,) = used
+    t = form.field.generator(form.field.names[k - 1])
+    if not assumptions.meets_classes(t, INTEGERS):
+        return None
     above, below = ({int(e[k]): int(c) for e, c in part.to_dict().items()} for part in (form.num, form.den))
     if max(below) != 1 or max(above) > 1:
         return None
@@ -448,7 +451,6 @@ def at_integers(form: FunctionPoly, largest: int, assumptions: Assumptions) -> l
     if most > _MOST_INTEGERS:
         return None
     end = (most + abs(d)) // abs(c)
-    t = form.field.generator(form.field.names[k - 1])
     values = {n: Fraction(a * n + b, c * n + d) for n in range(-end, end + 1) if c * n + d}
     places = ((Vanishes(over_parameters(t - n)), value) for n, value in values.items() if value.denominator <= largest)
     return [(here, value) for here, value in places if here.under(assumptions) != NEVER]

@@ -354,10 +354,8 @@ def _pieces(S: RatFunc, function: FunctionPoly, settings: Settings) -> list[Para
     """The regions that make up the zeros of a polynomial, in their order."""
     settings.budget.check()
     regions = _inside(S, function, settings)
-    is_defined = regions[-1].defined
-    if not is_defined:
-        return regions
-    return [*_missed(S, function, settings), *regions]
+    missed = _missed(S, function, settings) if regions[-1].defined else []
+    return [*missed, *regions]
 
 
 def _missed(S: RatFunc, function: FunctionPoly, settings: Settings) -> list[ParameterRegion]:
@@ -405,10 +403,7 @@ def _inside(S: RatFunc, function: FunctionPoly, settings: Settings) -> list[Para
             rest = replace(rest, complete=f"except for special values with {statement.text()}")
     elif rest.case == 1:
         rest = replace(rest, origin=partial(solutions_there, restricted, settings.variable))
-    # Without those that the surface doesn't cover; as texts: of fewer parameters, maybe.
-    elsewhere = {str(factor) for factor in surface.leading}
-    firsts = ([str(zero.function) for zero in vanishing(one.statement.conjuncts[:1])] for one in inner.regions)
-    regions = [one for one, first in zip(inner.regions, firsts, strict=True) if elsewhere.isdisjoint(first)]
+    regions = list(inner.regions)
     if surface.curve:
         back = partial(surface.back, field=function.field)
         *regions, rest = (_without_curve(region, back) for region in (*regions, rest))

@@ -19,7 +19,7 @@ import re
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import partial
-from itertools import combinations, count
+from itertools import chain, combinations, count
 from math import gcd
 from typing import Any, NamedTuple
 
@@ -123,8 +123,7 @@ def generic_conditions(answer: Answer) -> GenericConditions:
     defining = [] if riccati is None else [riccati.P, riccati.D, *riccati.numerators]
     if series is not None:
         defining = [series.theta.num, series.theta.den, series.centre]
-    for polynomial in defining:
-        changes += [irreducible_factors(_down(d)) for d in functions.denominators(polynomial)]
+    changes += [irreducible_factors(_down(d)) for part in defining for d in functions.denominators(part)]
     constants = answer.constants
     if constants is not None:
         changes.append(_common_zeros(constants, constants.derivative()))
@@ -181,10 +180,8 @@ def hypersurface(function: FunctionPoly, eliminated: int | None = None) -> Hyper
     names = function.field.names
     powers = degrees(function)
     leading = {i: functions.powers_of(function, i)[k] for i, k in enumerate(powers) if k}
-    linear = [i for i in leading if powers[i] == 1]
-    if eliminated is not None:
-        i = eliminated
-    elif linear:  # constants come first, then the shortest
+    linear = [i for i in leading if powers[i] == 1 and eliminated in (None, i)]
+    if linear:  # constants come first, then the shortest
         i = min(linear, key=lambda i: (not leading[i].num.is_constant(), len(leading[i].num)))
     else:
         curve = _with_weights(function)
@@ -331,11 +328,8 @@ def _in_other_names(function: RatFunc, field: FunctionField) -> RatFunc:
 def own_parameters(names: Sequence[str], letters: Letters) -> tuple[str, ...]:
     """The user's parameters: those in what letters stand for, in the place of the letters."""
     meanings = dict(letters)
-    found: dict[str, None] = {}
-    for name in names:
-        symbols = sorted(symbol.name for symbol in meanings[name].free_symbols) if name in meanings else [name]
-        found.update(dict.fromkeys(symbols))
-    return tuple(found)
+    symbols = (meanings[name].free_symbols if name in meanings else [sympy.Symbol(name)] for name in names)
+    return tuple(dict.fromkeys(chain.from_iterable(sorted(one.name for one in several) for several in symbols)))
 
 
 def transcendental(names: Sequence[str], letters: Letters) -> list[str]:
@@ -355,12 +349,8 @@ def setting_of(
 
 def nonzero(letters: Letters) -> list[str]:
     """The letters for exponentials, and powers of numbers, which have no zeros."""
-    found = []
-    for name, meaning in letters:
-        base, _ = meaning.as_base_exp()
-        if isinstance(meaning, sympy.exp) or (base.is_number and base.is_nonzero):
-            found.append(name)
-    return found
+    bases = [(name, meaning, meaning.as_base_exp()[0]) for name, meaning in letters]
+    return [name for name, c, base in bases if isinstance(c, sympy.exp) or (base.is_number and base.is_nonzero)]
 
 
 def values_of_letters(values: Mapping[str, Any], letters: Letters) -> dict[str, Any]:

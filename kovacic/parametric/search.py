@@ -134,10 +134,10 @@ def _degrees_that_decide(problem: Problem) -> Degrees | None:
     exponent difference isn't a rational number.
     """
     places = [place for place in problem.places if place.kind in (Kind.REGULAR, Kind.UNRAMIFIED)]
-    differences = [place.delta for place in places if place.delta is not None]
-    if len(differences) < len(places):
+    exponents = [(1 + place.delta) / 2 for place in places if place.delta is not None]
+    if len(exponents) < len(places):
         return None
-    q = lcm(*(((1 + difference) / 2).denominator for difference in differences))
+    q = lcm(*(exponent.denominator for exponent in exponents))
     reducible = [] if _is_ramified(problem) else [(m, Structure.REDUCIBLE) for m in dict.fromkeys((2, q))]
     return sorted([*reducible, *_degrees_that_are_possible(problem)], key=itemgetter(0))
 
