@@ -123,8 +123,9 @@ def _strata(claim: Claim) -> Iterator[FunctionPoly]:
 
 def contradictions(found: ParametricAnswer, point: ParameterPoint) -> Iterator[str]:
     """What is printed falsely at a point, in a sentence each."""
+    inside = found.region_at(point)
     for region in found.regions:
-        holds = region.statement.holds(point)
+        holds = region is inside
         if region.statement.claim.holds(point) is not holds:
             yield f"{region.statement} is printed, and {'holds' if holds else 'does not hold'} there"
         if holds:
@@ -140,7 +141,6 @@ def contradictions(found: ParametricAnswer, point: ParameterPoint) -> Iterator[s
     known = group(answer) if said in (ABELIAN, NOT_ABELIAN) else None
     if known is not None and known.dimension is not None and (known.dimension < 2) is not (said == ABELIAN):
         yield f"the identity component is printed as {said}, and the group is {known}"
-    inside = found.region_at(point)
     if inside is not None and inside.case == 1:
         yield from _false_formulas(found, inside, point, answer.S)
 

@@ -271,12 +271,9 @@ def _is_redundant(
     One that says the same of all of its values is enough.  Without one, those that say another thing may have no value in
     common with this one, but for values that are in one before, and the generic verdict has to be the same.
     """
-    if not _is_known(region):
-        return False
     is_generic = generic is not None and generic.says_the_same(region.verdict)
-    if not is_generic and not is_variety(region.statement):
-        return False
-    charts = charts_of(region.statement)
+    is_candidate = _is_known(region) and (is_generic or is_variety(region.statement))
+    charts = charts_of(region.statement) if is_candidate else []
     if not charts:
         return False
     known = [one.statement for one in before]

@@ -221,9 +221,7 @@ class Numbers:
     @property
     def choices(self) -> Iterator[tuple[int, ...]]:
         """The k, up to their signs."""
-        if self.only_signs:
-            return iter([(1,) * len(self.roots)])
-        return product(*(range(root.largest + 1) for root in self.roots))
+        return product(*(range(int(self.only_signs), root.largest + 1) for root in self.roots))
 
     def equation(self, multiples: Sequence[int]) -> Poly:
         """The polynomial over the base, or a multiple, whose roots are constant + sums of +- k times a root for these k."""

@@ -180,11 +180,11 @@ def _integer_choices(equation: FunctionPoly, family: IntegerFamily, numbers: Cla
     first = numbers.residues[0]
     are_mirrored = is_mirrored and {*numbers.residues} == {first, -first % numbers.modulus}  # r and -r say the same
     is_single = len(numbers.residues) == 1 or are_mirrored
-    has_bound = numbers.least is not None
-    if has_bound or equation.degree > 1 or not is_single:
+    is_line = is_single and numbers.least is None
+    if equation.degree > 1 or not is_line:
         yield family.along(N, numbers)
     modulus = numbers.modulus
-    if is_single and not has_bound and (modulus < 3 or not is_mirrored):
+    if is_line and (modulus < 3 or not is_mirrored):
         # The residue and its neighbours for r, and both signs of s for the modulus 1.
         pairs = product((1, -1), (0, -1, 1)) if modulus == 1 else [(1, 0), (1, -1)]
         for sign, shift in pairs:

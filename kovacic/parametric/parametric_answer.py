@@ -20,21 +20,12 @@ from kovacic.equation import Equation, parameters_of
 from kovacic.errors import InputError, LimitExceeded, VerificationFailed
 from kovacic.limits import DEFAULT_LIMITS, Budget, Limits, limited
 from kovacic.numbers.exact import whole
+from kovacic.parametric import record
 from kovacic.parametric.assumptions import NOTHING_ASSUMED, Assumptions, check_values, read_assumptions
 from kovacic.parametric.cases import settled
 from kovacic.parametric.functions import NO_CONSTANT, ParameterPoint
 from kovacic.parametric.natural import Determinant
 from kovacic.parametric.partition import derived
-from kovacic.parametric.record import (
-    StatementReader,
-    constant_data,
-    constant_from,
-    equation_data,
-    equation_from,
-    region_data,
-    verdict_data,
-    verdict_from,
-)
 from kovacic.parametric.regions import Limited, ParameterRegion, RegionVerdict, Theory
 from kovacic.parametric.restriction import Letters, everywhere, setting_of, values_of_letters
 from kovacic.parametric.solutions import Later, Origin
@@ -377,17 +368,21 @@ class ParametricAnswer:
             "variable": self.variable,
             "parameters": list(self.parameters),
             "assumptions": self.assumptions.to_dict(),
-            "generic": {"case": self.generic.case, "group": self.generic.group, "verdict": verdict_data(self.generic)},
-            "regions": [*map(region_data, self.regions)],
+            "generic": {
+                "case": self.generic.case,
+                "group": self.generic.group,
+                "verdict": record.verdict_data(self.generic),
+            },
+            "regions": [*map(record.region_data, self.regions)],
             "complete": self.complete,
             "theory": str(self.theory),
             "theorem": {"said": self.theory.literal, "sources": list(self.theory.sources)},
             "notices": list(self.notices),
-            "equation": equation_data(self.equation),
+            "equation": record.equation_data(self.equation),
             **({"given": self.given} if self.given else {}),
             **({} if self.within_limits else {"within_limits": False}),
             **({"names": list(self.names)} if self.letters else {}),
-            **constant_data(self.constant),
+            **record.constant_data(self.constant),
         }
 
     @classmethod
@@ -424,13 +419,13 @@ class ParametricAnswer:
             names = tuple(data.get("names", parameters))
             variable = data["variable"]
             theorem = data.get("theorem", {"said": data["theory"], "sources": ()})
-            constant = constant_from(data)
+            constant = record.constant_from(data)
             # Names that are no parameters of the user's are formulas, and numbers.
             letters = tuple((name, read_expression(name)) for name in names if name not in parameters)
             if not all(name.isidentifier() for name in (*parameters, variable)):
                 raise ValueError("a parameter or the variable isn't a name")
             field = FunctionField((*names, *constant.names))
-            reader = StatementReader(field)
+            reader = record.StatementReader(field)
             read = [*map(reader.region, data["regions"])]
             assumptions = read_assumptions(data["assumptions"] or None, None, names)
             regions = settled(read, setting_of(variable, field.names, constant, letters, assumptions))
@@ -439,14 +434,14 @@ class ParametricAnswer:
                 parameters=parameters,
                 letters=letters,
                 regions=tuple(regions),
-                generic=verdict_from(data["generic"]["verdict"]),
+                generic=record.verdict_from(data["generic"]["verdict"]),
                 complete=data["complete"] if data.get("within_limits", True) else Limited(data["complete"]),
                 theory=Theory(theorem["said"], *theorem["sources"]),
                 assumptions=assumptions,
                 S=reader.function(data["S"], variable),
                 notices=tuple(data["notices"]),
                 constant=constant,
-                equation=equation_from(data.get("equation"), variable, names, constant),
+                equation=record.equation_from(data.get("equation"), variable, names, constant),
                 given=str(data.get("given", "")),
             )
         except (KeyError, TypeError, ValueError, AttributeError, IndexError, RecursionError) as error:

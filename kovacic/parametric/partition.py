@@ -45,17 +45,8 @@ from kovacic.equation import Equation, parameters_of
 from kovacic.errors import LimitExceeded
 from kovacic.galois import group_of
 from kovacic.limits import Budget, bounded_work, count_work
-from kovacic.parametric import restriction, riemann
+from kovacic.parametric import cases, restriction, riemann
 from kovacic.parametric.assumptions import Assumptions
-from kovacic.parametric.cases import (
-    equations_on,
-    normal_form,
-    settled,
-    vanishing,
-    without_empty,
-    without_implied,
-    without_redundant,
-)
 from kovacic.parametric.functions import (
     degrees,
     denominators,
@@ -69,14 +60,6 @@ from kovacic.parametric.functions import (
 from kovacic.parametric.integers import without_parameters
 from kovacic.parametric.natural import Natural
 from kovacic.parametric.regions import Limited, ParameterRegion, RegionVerdict, Theorem, Theory, verdict_of
-from kovacic.parametric.restriction import (
-    Letters,
-    hypersurface,
-    in_lowest_powers,
-    setting_of,
-    undefined,
-    with_free_constant,
-)
 from kovacic.parametric.search import Findings, degree_equation, search
 from kovacic.parametric.solutions import Carried, PolynomialSolution, derivative, given, solutions_there
 from kovacic.parametric.statements import ALWAYS, NEVER, Setting, Vanishes, all_of
@@ -114,7 +97,8 @@ def transformation(problem: Problem) -> Transformation | None:
         simpler = problem.S - 2 * W.derivative()
         after = analyse(simpler, problem.budget)
         if _apparent(after) < before:
-            exceptions = [undefined(problem), irreducible_factors(W.cleared()[1].lc), undefined(after)]
+            own, others = map(restriction.undefined, (problem, after))
+            exceptions = [own, irreducible_factors(W.cleared()[1].lc), others]
             return Transformation(special, W, simpler, tuple(union(exceptions)))
     return None
 
@@ -142,7 +126,7 @@ def _rational_logarithmic_derivatives(problem: Problem, energies: list[int]) -> 
     for special in chain.from_iterable(irreducible_factors(equation(Fraction(d))) for d in range(_DEGREE + 1)):
         linear = (i for i in energies if degrees(special)[i] == 1 and powers_of(special, i)[1].num.is_constant())
         for i in islice(linear, 1):
-            surface = hypersurface(special, i)
+            surface = restriction.hypersurface(special, i)
             riccati = decide(surface.restricted(problem.S), problem.budget).riccati
             if riccati is None or riccati.degree > 1:
                 continue
@@ -214,18 +198,18 @@ def _without_common_factors(S: RatFunc, assumptions: Assumptions) -> RatFunc:
     number = assumptions.constant
     if not isinstance(S.field, FunctionField) or len(S.field.names) < 2 or S.field.names[-1:] != number.names:
         return S
-    return with_free_constant(restriction.everywhere(S.field, number).restricted(S)).S
+    return restriction.with_free_constant(restriction.everywhere(S.field, number).restricted(S)).S
 
 
 def _on_slice(S: RatFunc, settings: Settings) -> Partition:
     """The partition for S over Q(t)(alpha), alpha a number, by that over Q(t, alpha); over Q(t) it is S's own."""
-    lifted, _, number = with_free_constant(S)
+    lifted, _, number = restriction.with_free_constant(S)
     known = replace(settings.assumptions, constant=number)
     with settings.budget.watched(), bounded_work(_STRATA):
         found = partition(lifted, replace(settings, covered=(), assumptions=known))
     # With high powers of the constant replaced by means of its minimal polynomial.
-    reduced = partial(in_lowest_powers, constant=number)
-    left = (without_implied(one.statement.rewritten(reduced)).under(known) for one in found.regions)
+    reduced = partial(restriction.in_lowest_powers, constant=number)
+    left = (cases.without_implied(one.statement.rewritten(reduced)).under(known) for one in found.regions)
     regions = (replace(one, statement=statement) for one, statement in zip(found.regions, left, strict=True))
     under = Partition.of(found.theory, regions, found.generic, found.complete)
     if under.generic.known:
@@ -365,8 +349,8 @@ def _missed(S: RatFunc, function: FunctionPoly, settings: Settings) -> list[Para
     """
     first = Vanishes(function)
     regions = list[ParameterRegion]()
-    for other in hypersurface(function).missed:
-        surface = hypersurface(other)
+    for other in restriction.hypersurface(function).missed:
+        surface = restriction.hypersurface(other)
         rest = surface.at(function)
         try:
             restricted = surface.restricted(S)
@@ -390,7 +374,7 @@ def _also(regions: Iterable[ParameterRegion], *conditions: Vanishes) -> list[Par
 def _inside(S: RatFunc, function: FunctionPoly, settings: Settings) -> list[ParameterRegion]:
     """The regions where a polynomial vanishes, except for the points that `missed` is about; the last one is all the rest."""
     statement = Vanishes(function)
-    surface = hypersurface(function)
+    surface = restriction.hypersurface(function)
     try:
         restricted = _without_common_factors(surface.restricted(S), settings.assumptions)
     except ZeroDivisionError:
@@ -428,36 +412,36 @@ def derived(
     known: Assumptions,
     budget: Budget,
     max_degree: int | None,
-    letters: Letters = (),
+    letters: restriction.Letters = (),
 ) -> Partition:
     """The partition of parameter space for S; `max_degree` None: by theorems only, else Delta_d is shown up to this d."""
     settings = Settings(budget=budget, variable=variable, only_theorems=max_degree is None, assumptions=known)
     found = _on_slice(S, settings)
     regions = found.regions
     with budget.watched(), suppress(LimitExceeded):
-        regions = without_empty(regions)
-        regions = without_redundant(regions, found.generic if found.complete is True else None)
-    lifted, _, constant = with_free_constant(S)
-    own = equation or normal_form(lifted, variable)
+        regions = cases.without_empty(regions)
+        regions = cases.without_redundant(regions, found.generic if found.complete is True else None)
+    lifted, _, constant = restriction.with_free_constant(S)
+    own = equation or cases.normal_form(lifted, variable)
     # In solutions the constant is SymPy's number.
     x = sympy.Symbol(variable)
     numbers = zip(constant.names, (value.to_sympy(x) for value in constant.values), strict=True)
     meanings = (*letters, *numbers)
-    setting = setting_of(variable, parameters_of(lifted.field), constant, letters, known)
-    finished = [_finished(region, own, max_degree, budget, meanings) for region in settled(regions, setting)]
+    setting = restriction.setting_of(variable, parameters_of(lifted.field), constant, letters, known)
+    finished = [_finished(region, own, max_degree, budget, meanings) for region in cases.settled(regions, setting)]
     return replace(found, regions=tuple(finished))
 
 
 def _finished(
-    region: ParameterRegion, equation: Equation, max_degree: int | None, budget: Budget, letters: Letters
+    region: ParameterRegion, equation: Equation, max_degree: int | None, budget: Budget, letters: restriction.Letters
 ) -> ParameterRegion:
     """With solutions of the equation that was given, and the degree up to which determinants are shown."""
     statement = region.statement
-    if not region.defined and equation.change and _is_constant(equation, vanishing(statement.conjuncts)):
+    if not region.defined and equation.change and _is_constant(equation, cases.vanishing(statement.conjuncts)):
         family = f"`{equation.variable} = {caret(equation.change.expression)}` is constant there: assume this value"
         region = replace(region, verdict=replace(region.verdict, family=family))
     if region.formulas is not None:
-        pieces = tuple(partial(given, *piece) for piece in equations_on(region.statement, equation))
+        pieces = tuple(partial(given, *piece) for piece in cases.equations_on(region.statement, equation))
         # With an algebraic constant the statement knows its value; the origin is about all values.
         origin = region.formulas
         if isinstance(statement, Natural) and statement.constant.names:

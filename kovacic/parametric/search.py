@@ -24,17 +24,7 @@ from kovacic.algebra.recurrence import FieldSeries
 from kovacic.decision import Structure
 from kovacic.engine.places import Kind, Place, Problem
 from kovacic.limits import check_time
-from kovacic.parametric import riemann
-from kovacic.parametric.exponents import (
-    OPEN,
-    RankConditions,
-    conditions_of_degree,
-    degrees_of_solutions,
-    form_conditions,
-    singular_places,
-    with_points_apart,
-    zeros_of_forms,
-)
+from kovacic.parametric import exponents, riemann
 from kovacic.parametric.functions import degrees, irreducible_factors, over_parameters
 from kovacic.parametric.integers import may_be_natural
 from kovacic.parametric.natural import Natural
@@ -64,7 +54,7 @@ class Findings:
     conditions: list[tuple[Statement, Structure]] = field(default_factory=list)
     unproven: list[str] = field(default_factory=list)
 
-    def add(self, found: RankConditions) -> bool:
+    def add(self, found: exponents.RankConditions) -> bool:
         """The candidates that a matrix gives; False where there can be more special values.
 
         Where all functions of a system vanish, one of them does: its zeros are examined as a whole.
@@ -110,7 +100,7 @@ def search(problem: Problem) -> Findings:
         factors = _equations_for_zeros(problem, m, findings)
         if factors == ():
             continue
-        if with_points_apart(problem) is None:
+        if exponents.with_points_apart(problem) is None:
             findings.unproven.append(f"case {next(pairs)[1].case} where the exponents at conjugate points differ")
         else:
             equations[m] = factors
@@ -134,10 +124,10 @@ def _degrees_that_decide(problem: Problem) -> Degrees | None:
     exponent difference isn't a rational number.
     """
     places = [place for place in problem.places if place.kind in (Kind.REGULAR, Kind.UNRAMIFIED)]
-    exponents = [(1 + place.delta) / 2 for place in places if place.delta is not None]
-    if len(exponents) < len(places):
+    known = [(1 + place.delta) / 2 for place in places if place.delta is not None]
+    if len(known) < len(places):
         return None
-    q = lcm(*(exponent.denominator for exponent in exponents))
+    q = lcm(*(exponent.denominator for exponent in known))
     reducible = [] if _is_ramified(problem) else [(m, Structure.REDUCIBLE) for m in dict.fromkeys((2, q))]
     return sorted([*reducible, *_degrees_that_are_possible(problem)], key=itemgetter(0))
 
@@ -199,7 +189,7 @@ def degree_equation(problem: Problem) -> Poly | None:
 
     None if a solution has no rational omega, or the exponents differ at more than two conjugate points.
     """
-    numbers = None if _is_ramified(problem) else degrees_of_solutions(problem)
+    numbers = None if _is_ramified(problem) else exponents.degrees_of_solutions(problem)
     return None if numbers is None else numbers.equation(*numbers.choices)
 
 
@@ -221,7 +211,7 @@ def _add_reducible(problem: Problem, findings: Findings) -> None:
             continue
         # Of a degree that is a number nothing is left to say where the candidates are the only special values.
         number = problem.field.rational_value(-factor[0]) if factor.degree == 1 else None
-        found = [OPEN] if number is None else conditions_of_degree(problem, int(number))
+        found = [exponents.OPEN] if number is None else exponents.conditions_of_degree(problem, int(number))
         are_complete = [findings.add(conditions) for conditions in found]
         if not all(are_complete):
             factors.append(over_parameters(factor))
@@ -239,7 +229,7 @@ def _all_half_integers(problem: Problem) -> Statement:
     """
     if not riemann.is_fuchsian(problem) or riemann.singular_points(problem) != _HEUN:
         return NEVER
-    squares = [place.delta_squared for place in singular_places(problem)]
+    squares = [place.delta_squared for place in exponents.singular_places(problem)]
     known = [riemann.has_denominator(square, 2) for square in squares if square is not None and square.degree <= 0]
     return all_of(known) if len(known) == len(squares) else NEVER
 
@@ -265,8 +255,8 @@ def _equations_for_zeros(problem: Problem, m: int, findings: Findings) -> tuple[
 
     The constant number is left out where the candidates that are added for it are all that is special.
     """
-    complete = findings.add(form_conditions(problem, m))
-    numbers = zeros_of_forms(problem, m)
+    complete = findings.add(exponents.form_conditions(problem, m))
+    numbers = exponents.zeros_of_forms(problem, m)
     if numbers is None:
         return ()
     if prod(root.largest + 1 for root in numbers.roots) > _COMBINATIONS:
