@@ -33,7 +33,7 @@ from kovacic.views.sentences import (
     solutions_of,
     verdict_of,
 )
-from kovacic.views.steps import DEGREE, Steps
+from kovacic.views.steps import Steps
 from kovacic.writing.document import (
     FORMATS,
     Block,
@@ -260,20 +260,26 @@ class ExplanationWriter:
         case = self.answer.case
         assert form is not None
         assert case is not None
-        yield Heading("theta and P of the answer")
+        P = self.steps.P
+        yield Heading(f"theta and {P} of the answer")
         theta = Math("theta", r"\theta")
-        P = Math("P", "P")
-        yield say(DEGREE[case], f" = {form.P.degree}, and with ", theta, " and ", P, ":")
+        yield say(self.steps.degree(case), f" = {form.P.degree}, and with ", theta, " and ", Math.of(P), ":")
         yield Formula(self.formulas.named("theta", r"\theta", form.theta))
-        yield Formula(self.formulas.named("P", "P", form.P))
+        yield Formula(self.formulas.named(P, P, form.P))
 
     def series(self) -> Iterator[Block]:
         """theta, and the P that isn't listed."""
         series = self.answer.series
         assert series is not None
-        yield Heading("theta and P of the answer")
+        P = self.steps.P
+        yield Heading(f"theta and {P} of the answer")
         yield say(
-            DEGREE[1], " is the degree of ", Math("P", "P"), ", which is of ", *powers_in(series, self.formulas), "."
+            self.steps.degree(1),
+            " is the degree of ",
+            Math.of(P),
+            ", which is of ",
+            *powers_in(series, self.formulas),
+            ".",
         )
         yield Formula(self.formulas.named("theta", r"\theta", series.theta))
         yield from self._constants()
@@ -284,7 +290,9 @@ class ExplanationWriter:
         omega = omega_math(riccati, self.formulas)
         yield Heading("omega = y'/y")
         if riccati.degree == 1:
-            yield Formula(Math("omega = theta + P'/P", r"\omega = \theta + \frac{P'}{P}").equals(omega))
+            P = self.steps.P
+            sum_of_two = Math(f"omega = theta + {P}'/{P}", rf"\omega = \theta + \frac{{{P}'}}{{{P}}}")
+            yield Formula(sum_of_two.equals(omega))
         else:
             yield say(
                 f"omega is a root {self.formulas.unknown} of the irreducible polynomial of degree {riccati.degree}"

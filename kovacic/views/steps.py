@@ -25,10 +25,10 @@ from kovacic.writing.document import Block, Formula, Heading, Sentence, Table, s
 from kovacic.writing.formula import Math, free_name, latex_text, of_sympy
 
 # d from the chosen exponents, and what P has to satisfy, by case [Kovacic 1986, sections 3.1, 4.1 and 5.1].
-DEGREE = {
-    1: Math("d = alpha_inf - sum alpha_c", r"d = \alpha_\infty - \sum_c \alpha_c"),
-    2: Math("d = (e_inf - sum e_c)/2", r"d = \tfrac{1}{2}\left(e_\infty - \sum_c e_c\right)"),
-    3: Math("d = n/12 (e_inf - sum e_c)", r"d = \tfrac{n}{12}\left(e_\infty - \sum_c e_c\right)"),
+_DEGREE = {
+    1: Math("alpha_inf - sum alpha_c", r"\alpha_\infty - \sum_c \alpha_c"),
+    2: Math("(e_inf - sum e_c)/2", r"\tfrac{1}{2}\left(e_\infty - \sum_c e_c\right)"),
+    3: Math("n/12 (e_inf - sum e_c)", r"\tfrac{n}{12}\left(e_\infty - \sum_c e_c\right)"),
 }
 _EQUATIONS = {
     1: [Math("P'' + 2 theta P' + (theta' + theta^2 - S) P = 0",
@@ -171,12 +171,12 @@ class Steps:
         """Step 2: how many families of exponents there are, and in how many of them d is a natural number."""
         said = f"{search.total} family of exponents" if search.total == 1 else f"{search.total} families of exponents"
         if search.natural is not None:
-            said += f", d is a natural number in {search.natural or 'none'} of them"
+            said += f", {self.d} is a natural number in {search.natural or 'none'} of them"
             if case == 2:
                 said += " (with an odd e)"
         if parameters_of(self.formulas.field):
             said += " for generic parameters"
-        return say("Step 2: ", DEGREE[case], f"; {said}.")
+        return say("Step 2: ", self.degree(case), f"; {said}.")
 
     def _families(self, search: Search, families: Sequence[Family]) -> Iterator[Block]:
         """The exponents of each, d, and P where there is one."""
@@ -194,7 +194,7 @@ class Steps:
             values = [self._shown(choice.value) for choice in family.choices]
             rows.append([*values, self._shown(family.d), outcome])
         if rows:
-            head = [*map(self._point, search.points), Math("d", "d"), Math("P", "P")]
+            head = [*map(self._point, search.points), Math.of(self.d), Math.of(self.P)]
             yield Table(head, rows)
         if len(families) > _MOST_SHOWN:
             yield say(f"and {len(families) - _MOST_SHOWN} more.")
@@ -205,14 +205,28 @@ class Steps:
         if search.natural and not tried:
             yield say("Step 3 isn't written out: it would take too long, or too many square roots at once.")
         if tried:
-            yield say("Step 3: P of degree d, with")
-            yield from map(Formula, _EQUATIONS[case])
+            yield say(f"Step 3: {self.P} of degree {self.d}, with")
+            for said in _EQUATIONS[case]:
+                yield Formula(Math(said.text.replace("P", self.P), said.latex.replace("P", self.P)))
         for family in tried[-_MOST_SHOWN:]:
             yield from self._trial(family)
 
     @property
     def x(self) -> Any:
         return Symbol(self.answer.variable)
+
+    @property
+    def d(self) -> str:
+        """Kovacic's d, under another name where this is a parameter; likewise `P`."""
+        return free_name(parameters_of(self.answer.S.field), "d", "N", "M")
+
+    @property
+    def P(self) -> str:
+        return free_name(parameters_of(self.answer.S.field), "P", "Q", "R")
+
+    def degree(self, case: int) -> Math:
+        """d = ..., from the chosen exponents."""
+        return Math.of(self.d).equals(_DEGREE[case])
 
     def _shown(self, value: Any) -> Math:
         check_time()
@@ -231,17 +245,23 @@ class Steps:
         impossible = next((value for value in family.conditions if not unknowns & value.free_symbols), None)
         conditions = [self._shown(condition) for condition in family.conditions[:6]]
         if family.P is not None:
-            yield say(f"d = {d}: ", Math("P", "P").equals(self._shown(family.P)), " is a solution.")
+            yield say(f"{self.d} = {d}: ", Math.of(self.P).equals(self._shown(family.P)), " is a solution.")
         elif impossible is not None:
-            yield say(f"d = {d}: no solution, for a coefficient is ", self._shown(impossible), ", which isn't 0.")
+            yield say(
+                f"{self.d} = {d}: no solution, for a coefficient is ", self._shown(impossible), ", which isn't 0."
+            )
         elif conditions:
             noun = "coefficients" if d > 1 else "coefficient"
             names = f"{noun} {', '.join(map(str, family.unknowns))}"
             text = ", ".join(f"{value.text} = 0" for value in conditions)
             latex = r",\; ".join(f"{value.latex} = 0" for value in conditions)
-            yield say(f"d = {d}: no solution, for the lower {names} of P would satisfy ", Math(text, latex), ".")
+            yield say(
+                f"{self.d} = {d}: no solution, for the lower {names} of {self.P} would satisfy ", Math(text, latex), "."
+            )
         else:
-            yield say(f"d = {d}: no solution, for the linear system for its {d + 1} coefficients has rank {d + 1}.")
+            yield say(
+                f"{self.d} = {d}: no solution, for the linear system for its {d + 1} coefficients has rank {d + 1}."
+            )
 
 
 def _allowed(case: int, places: Sequence[Place]) -> bool:

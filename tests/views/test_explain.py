@@ -500,6 +500,9 @@ def test_names_in_the_algorithm_are_none_of_the_parameters() -> None:
     assert (
         "S = s/(x - c)^2 + ..., the local solutions have exponents with the difference Delta = sqrt(1 + 4s)" in document
     )
+    document = kovacic.solve("(d*(d + 1) + P)/x^2 + 1").explain(solutions=False)
+    assert "Step 2: N = alpha_inf - sum alpha_c; 4 families of exponents, N is a natural number in none" in document
+    assert "theta and Q of the answer" in kovacic.solve("2/x^2 + P^2").explain()
     assert "becomes, with y = u exp(int (" in kovacic.conditions("x*y'' + (v - x)*y' + n*y = 0").theorem()
 
 
