@@ -53,7 +53,7 @@ from kovacic.parametric.functions import (
     over_parameters,
     union,
 )
-from kovacic.parametric.integers import LETTERS, free_letter, natural_root
+from kovacic.parametric.integers import free_letter, natural_root
 from kovacic.parametric.prose import Words
 from kovacic.parametric.restriction import Hypersurface, everywhere, hypersurface, in_lowest_powers
 from kovacic.parametric.solutions import PolynomialSolution, solution_of_degree
@@ -114,7 +114,7 @@ class Natural(Statement):
 
     @property
     def letter(self) -> str:
-        return free_letter(self.setting.names, f"d{LETTERS}")
+        return free_letter(self.setting.names, "dnmkjl")  # no N, the set
 
     @property
     def field(self) -> FunctionField:

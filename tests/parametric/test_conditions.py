@@ -816,6 +816,7 @@ def test_natural_numbers_at_a_point() -> None:
     assert pickle.loads(pickle.dumps(answer)) == answer
     data = json.loads(answer.to_json())
     assert data["regions"][0]["determinants"][0] == "Delta_0 = a^2 - 4*c"
+    assert "d = +-(2*m + 2), m in N, and" in str(kovacic.conditions("x^4 + n*x^2 + d*x + k"))  # not N in N
 
 
 @parametrize(
