@@ -29,7 +29,6 @@ from kovacic.general_solution.integrands import (
     dilogarithm,
     in_complex_exponentials,
     incomplete_gamma,
-    integral_of_fraction,
     integral_of_product,
     power_beside_wave,
     prepared,
@@ -161,9 +160,7 @@ def _in_another_variable(
         leads_back = change.u.has(exp) and any(not (f.args[0] / t).has(t) for f in g.atoms(log))
         if g.has(x) or leads_back:
             continue
-        integral = integral_of_fraction(g, t)
-        if integral is None:
-            integral = _by_rules(g, t)
+        integral = _by_rules(g, t)
         if integral is not None and not integral.has(sympy.Integral):  # which would have another variable
             found.append(change.back(integral))
     return min(found, key=size, default=None)
@@ -242,7 +239,7 @@ def _by_parts(inverse: Expr, g: Expr, x: Expr) -> Expr | None:
         if found is not None:
             return found
     G = _by_rules(g, x)
-    if G is None or G.has(sympy.Integral):
+    if G is None or G.has(sympy.Integral, sympy.RootSum):
         return None
     if len(powers) == 1:
         ((function, m),) = powers

@@ -24,11 +24,13 @@ from typing import Any
 import sympy
 from flint import acb, arb, fmpq
 from sympy.core.function import AppliedUndef
+from sympy.functions.special.bessel import AiryBase, BesselBase
+from sympy.functions.special.polynomials import OrthogonalPolynomial
 
 from kovacic.algebra.precision import working_digits, working_precision
 from kovacic.closed_form.check import DIGITS
 from kovacic.closed_form.cuts import cut_of, cuts_of
-from kovacic.closed_form.jets import jet
+from kovacic.closed_form.jets import ANTIDERIVATIVES, MATHIEU, jet
 from kovacic.errors import VerificationFailed
 from kovacic.general_solution.behaviour import Approach, have_values, is_refuted
 from kovacic.general_solution.question import Condition, Question
@@ -60,11 +62,8 @@ _MOST_SUSPECTS = 8
 
 #: What stands for entire functions here: integrals that are left, and the functions of which pairs of solutions are made.
 _OPAQUE = (
-    *(sympy.Integral, sympy.hyper, sympy.besselj, sympy.bessely, sympy.besseli, sympy.besselk, sympy.jn, sympy.yn),
-    *(sympy.airyai, sympy.airybi, sympy.airyaiprime, sympy.airybiprime, sympy.legendre, sympy.assoc_legendre),
-    *(sympy.gegenbauer, sympy.jacobi, sympy.hermite, sympy.laguerre, sympy.assoc_laguerre, sympy.elliptic_k),
-    *(sympy.elliptic_e, sympy.elliptic_f, sympy.elliptic_pi, sympy.mathieuc, sympy.mathieus, sympy.mathieucprime),
-    *(sympy.mathieusprime, AppliedUndef),
+    *(*ANTIDERIVATIVES, *MATHIEU, BesselBase, AiryBase, OrthogonalPolynomial),
+    *(sympy.hyper, sympy.assoc_legendre, sympy.elliptic_k, AppliedUndef),
 )
 
 

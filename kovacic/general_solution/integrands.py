@@ -12,7 +12,9 @@ from dataclasses import dataclass
 from typing import Any
 
 import sympy
-from sympy import cos, cosh, cot, coth, csc, csch, exp, log, sec, sech, sin, sinh, tan, tanh
+from sympy import cos, cot, csc, exp, log, sec, sin, tan
+from sympy.functions.elementary.hyperbolic import HyperbolicFunction
+from sympy.simplify.fu import TR1, TR2
 
 from kovacic.algebra.partial_fractions import decompose
 from kovacic.algebra.ratfunc import RatFunc
@@ -62,10 +64,9 @@ class ChangeOfIntegrand:
 
 def prepared(integrand: Expr) -> Expr:
     """Expanded, in sines, cosines and exponentials."""
-    integrand = integrand.rewrite((sinh, cosh, tanh, coth, sech, csch), exp)
+    integrand = integrand.rewrite(HyperbolicFunction, exp)
     if integrand.has(tan, cot, sec, csc):
-        integrand = integrand.replace(tan, lambda a: sin(a) / cos(a)).replace(cot, lambda a: cos(a) / sin(a))
-        integrand = integrand.replace(sec, lambda a: 1 / cos(a)).replace(csc, lambda a: 1 / sin(a))
+        integrand = TR2(TR1(integrand))
     # SymPy would multiply (x + 1)^(-3/2) out, in the denominator, and write log(x/(1 - x) + 1/(1 - x)).
     quotients = [f for f in integrand.atoms(log) if f.args[0].is_Mul and sympy.denom(f.args[0]).is_Add]
     sums = [power for power in integrand.atoms(sympy.Pow) if power.base.is_Add and power.exp.is_Rational]

@@ -49,7 +49,7 @@ from kovacic.general_solution.check import is_finite, jumps
 from kovacic.general_solution.constants import tidy
 from kovacic.general_solution.integrands import NUMBERS, ChangeOfIntegrand, prepared, ratfunc
 from kovacic.general_solution.steps import JUMPING, in_parts
-from kovacic.general_solution.substitution import by_functions, in_single_waves, size
+from kovacic.general_solution.substitution import by_functions, size
 from kovacic.general_solution.textbook import is_constant
 from kovacic.general_solution.undetermined import undetermined
 from kovacic.general_solution.waves import fractions_of_waves, in_waves
@@ -292,7 +292,7 @@ def _checked(basis: Basis, parts: Sequence[Any], right: Expr) -> Expr | None:
     if whole.has(sinh, cosh):  # beside integrals, which are in exponentials
         forms.append(expand(whole.rewrite((sinh, cosh), exp)))
     if whole.has(sin, cos):
-        forms += [in_single_waves(whole), *fractions_of_waves(whole, basis.x)]
+        forms += fractions_of_waves(whole, basis.x)
     candidates = [_without_homogeneous(basis, part) for form in forms for part in (form, _gathered(form, basis.x))]
     found = one_exponential(min(candidates, key=size))
     return found if _is_right(basis, found, right) else None
