@@ -318,10 +318,10 @@ def answer_to(
     c is a positive integer | C1*hyper((a,), (c,), x) + C2*hyper((a, a - c + 1), (), -1/x)/x**a
     c is a nonpositive integer | C1*x**(1 - c)*hyper((a - c + 1,), (2 - c,), x) + C2*hyper((a, a - c + 1), (), -1/x)/x**a
     """
+    # before the time is used up, which the answer may take
+    is_of_euler = isinstance(eq, str) and any(_has_euler(tokens) for tokens in taken_apart(eq).equations)
     answer = _answered(eq, func, ics, var, parameters, assume, limits=limits, special=special)
-    if isinstance(eq, str) and any(_has_euler(tokens) for tokens in taken_apart(eq).equations):
-        return replace(answer, notices=[f"{EULER} is Euler's number", *answer.notices])
-    return answer
+    return replace(answer, notices=[f"{EULER} is Euler's number", *answer.notices]) if is_of_euler else answer
 
 
 def _has_euler(tokens: Sentence) -> bool:
