@@ -29,6 +29,7 @@ from kovacic.general_solution.integrands import (
     dilogarithm,
     in_complex_exponentials,
     incomplete_gamma,
+    integral_of_fraction,
     integral_of_product,
     power_beside_wave,
     prepared,
@@ -160,7 +161,9 @@ def _in_another_variable(
         leads_back = change.u.has(exp) and any(not (f.args[0] / t).has(t) for f in g.atoms(log))
         if g.has(x) or leads_back:
             continue
-        integral = _by_rules(g, t)
+        integral = integral_of_fraction(g, t)
+        if integral is None:
+            integral = _by_rules(g, t)
         if integral is not None and not integral.has(sympy.Integral):  # which would have another variable
             found.append(change.back(integral))
     return min(found, key=size, default=None)
