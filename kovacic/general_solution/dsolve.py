@@ -47,6 +47,7 @@ from kovacic.general_solution.places import (
     basis_from,
     is_singular,
     limit_points,
+    one_sided,
     real_at,
     real_particular,
     start_of,
@@ -412,7 +413,8 @@ def _first_order(
 
 def _solved(question: Question, budget: Budget, there: There, *, special: bool) -> ProblemAnswer:
     """The steps of the head of this module, after the first."""
-    notices = [*question.guesses]
+    question, sides = one_sided(question)
+    notices = [*question.guesses, *sides]
     family = eigenfunctions(question)
     if family is not None:
         return ProblemAnswer(question.written(family[0]), notices + family[1], known=question.renamed)

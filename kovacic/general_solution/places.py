@@ -28,7 +28,7 @@ from kovacic.general_solution.behaviour import Approach, have_values
 from kovacic.general_solution.integrands import NUMBERS
 from kovacic.general_solution.particular import right_hand_side, starting_at, turned_at
 from kovacic.general_solution.question import Question
-from kovacic.general_solution.steps import is_analytic, jump_points
+from kovacic.general_solution.steps import is_analytic, jump_points, place_of
 from kovacic.general_solution.zero import is_zero
 from kovacic.limits import check_time
 from kovacic.reading.change_of_variable import function_of_x, is_of_a_line, is_power, user_variable
@@ -194,6 +194,28 @@ def real_particular(question: Question, basis: Basis, particular: Expr, place: E
 
 
 # --------------------------------------------------------------------------------------- singular points between them
+
+
+def one_sided(question: Question) -> tuple[Question, list[str]]:
+    """The question on the side of a singular point on which values lie, else on the right, and what is said of it.
+
+    This is for steps at such a point in a root or a denominator, where one formula doesn't hold on both sides: |x|^n is
+    x^n for x > 0.
+    """
+    h, x, said = question.equation.h, question.x, []
+    parts = () if h is None else h.atoms(sympy.Pow, sympy.Function) - h.atoms(sympy.Heaviside, sympy.DiracDelta)
+    steps = {step for part in parts for step in part.atoms(sympy.Heaviside) if step.has(x)}
+    points = [point for condition in question.conditions for point in condition.points]
+    for step in sorted(steps, key=str):
+        place = place_of(step, x)
+        if place is None or place.slope.is_positive is None or not is_singular(question, place.a):
+            continue
+        is_left = bool(points) and (points[0] - place.a).is_negative is True
+        h = h.xreplace({step: sympy.Integer(place.slope.is_positive is not is_left)})  # H(s (x - a)) on this side
+        said.append(f"this holds for {x} {'<' if is_left else '>'} {place.a}: the equation is singular there")
+    if not said:
+        return question, []
+    return replace(question, equation=replace(question.equation, h=h), given=replace(question.given, h=h)), said
 
 
 def is_singular(question: Question, point: Expr) -> bool:

@@ -408,3 +408,29 @@ def test_pieces_in_a_text_are_those_of_sympy(order: int, given: tuple[str, Any])
 def test_other_comparisons_are_refused(text: str) -> None:
     with pytest.raises(kovacic.errors.InputError):
         kovacic.dsolve(f"y'' + y = {text}")
+
+
+@parametrize(
+    ("text", "coefficients", "side", "point", "plain"),
+    [
+        ("x^2*y'' - 2*y = abs(x)^n, y(-1) = 0, y'(-1) = 0", "x**2, 0, -2", "x < 0", "-3/2", "(-x)**n"),
+        ("x^2*y'' + y = 1/abs(x)", "x**2, 0, 1", "x > 0", "3/2", "1/x"),
+        ("(x-1)^2*y'' - 2*y = log(abs(x-1))", "(x - 1)**2, 0, -2", "x > 1", "5/2", "log(x - 1)"),
+        ("(x-1)^2*y'' - 2*y = log(abs(x-1)), y(0) = 0, y'(0) = 1", "(x - 1)**2, 0, -2", "x < 1", "1/2", "log(1 - x)"),
+        ("x*y'' + y' = max(x, 0)^n", "x, 1, 0", "x > 0", "3/2", "x**n"),
+    ],
+    ordinary=2,
+    long=2,
+)
+def test_beside_a_singular_point_a_modulus_has_one_sign(
+    text: str, coefficients: str, side: str, point: str, plain: str
+) -> None:
+    """Both signs were tried, on one formula that holds for one of them: the check failed."""
+    answer = kovacic.answer_to(text)
+    assert answer.notices == [f"this holds for {side}: the equation is singular there"]
+    t = answer.eq.lhs.args[0]
+    y = answer.eq.rhs
+    a, b, c, f = sympy.sympify(f"{coefficients}, {plain}", {"x": t})
+    rest = a * y.diff(t, 2) + b * y.diff(t) + c * y - f
+    rest = rest.subs({symbol: sympy.Rational(2, 7) for symbol in rest.free_symbols - {t}})
+    assert abs(sympy.N(rest.subs(t, sympy.Rational(point)), 30)) < 1e-20
