@@ -52,7 +52,16 @@ def in_book_form(value: Expr, x: Expr, free: Sequence[Expr] = ()) -> Expr:
     for rule in _RULES_OF_GENERAL_SOLUTIONS if free else _SHAPE_RULES:
         if _is_small(value):
             value = shortest([value, *rule(value, x)])
-    return _with_equal_roots(_without_roots_of_squares(value, x, free))
+    return _with_moduli(_with_equal_roots(_without_roots_of_squares(value, x, free)), x)
+
+
+def _with_moduli(value: Expr, x: Expr) -> Expr:
+    """|x| for 2 x H(x) - x in functions and powers, as in log|x|, also of a letter of integration."""
+    inside = {
+        e.args[0] for e in value.atoms(sympy.Pow, sympy.Function) if e.args[0].is_Add and e.args[0].has(Heaviside)
+    }
+    variables = {x, *(s for integral in value.atoms(sympy.Integral) for s in integral.bound_symbols)}
+    return value.xreplace({u: modulus for u in inside for s in variables for modulus in _absolute(u, s)})
 
 
 def _without_roots_of_squares(value: Expr, x: Expr, free: Sequence[Expr]) -> Expr:

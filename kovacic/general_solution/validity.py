@@ -311,11 +311,11 @@ def _of_power(e: Expr) -> Expr:
 def _comparison(relation: Any, u: Expr) -> Expr:
     """u > 0 or u >= 0, unevaluated where it is false, or where u isn't real and SymPy refuses to compare it.
 
-    For u = v^2 it is v != 0, or nothing.
+    For u = v^2 and |v| it is v != 0, or nothing.
     """
     short = _of_the_same_sign(u)
-    if short.is_Pow and short.exp.is_even and short.base.is_Symbol:
-        return sympy.Ne(short.base, 0) if relation is sympy.StrictGreaterThan else sympy.true
+    if isinstance(short, sympy.Abs) or (short.is_Pow and short.exp.is_even and short.base.is_Symbol):
+        return sympy.Ne(short.args[0], 0) if relation is sympy.StrictGreaterThan else sympy.true
     holds = short.is_extended_real is not False and relation(short, 0) == sympy.true
     return sympy.true if holds else relation(short, 0, evaluate=False)
 

@@ -434,3 +434,11 @@ def test_beside_a_singular_point_a_modulus_has_one_sign(
     rest = a * y.diff(t, 2) + b * y.diff(t) + c * y - f
     rest = rest.subs({symbol: sympy.Rational(2, 7) for symbol in rest.free_symbols - {t}})
     assert abs(sympy.N(rest.subs(t, sympy.Rational(point)), 30)) < 1e-20
+
+
+def test_a_modulus_in_a_function_is_written_as_one() -> None:
+    """And not as 2 x Heaviside(x) - x, of which it was said that it mustn't be negative."""
+    answer = kovacic.answer_to("y'' + y = sqrt(abs(x)), y(0) = 0, y'(0) = 0")
+    assert str(answer.eq.rhs).startswith("sin(x)*Integral(cos(s)*sqrt(Abs(s)), (s, 0, x)) - ")
+    assert not answer.validity
+    assert str(kovacic.answer_to("y' + y = log(abs(x - 1))").validity) == "x - 1 != 0"
