@@ -14,7 +14,7 @@ from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from fractions import Fraction
 from functools import cached_property, lru_cache, reduce
-from itertools import chain, combinations, product
+from itertools import chain, combinations, compress, filterfalse, product
 from math import ceil, floor
 from random import Random
 from typing import Any
@@ -272,8 +272,7 @@ class Assumptions:
     def also(self, name: str, words: tuple[str, ...]) -> Assumptions:
         """The assumptions with more words about one parameter."""
         together = dict.fromkeys((*self.of(name).words, *words))
-        others = tuple((other, known) for other, known in self.known if other != name)
-        return replace(self, known=(*others, (name, Known(tuple(together)))))
+        return replace(self, known=(*self.without([name]).known, (name, Known(tuple(together)))))
 
     def without(self, names: Iterable[str]) -> Assumptions:
         left_out = {*names}
@@ -290,11 +289,8 @@ class Assumptions:
         """`m positive integer, n > 1/2`."""
         parts: list[str] = []
         for name, known in self.known:  # the words together, and each relation
-            others = [word for word in known.words if not is_relation(word)]
-            if others:
-                parts.append(f"{name} {' '.join(others)}")
-            relations = filter(is_relation, known.words)
-            parts += [re.sub("^([<>]=?|!=)", rf"{name} \1 ", word) for word in relations]
+            said = (" ".join(filterfalse(is_relation, known.words)), *filter(is_relation, known.words))
+            parts += [f"{name} " + re.sub("^([<>]=?|!=)", r"\1 ", text) for text in filter(None, said)]
         return ", ".join(parts)
 
     def symbols(self) -> dict[str, Any]:
@@ -362,10 +358,10 @@ class Assumptions:
         return any(_is_positive_beyond(bounds, form, or_zero=or_zero) for bounds in product(*choices.values()))
 
     def _class_of(self, form: FunctionPoly) -> Classes | None:
-        """A class that contains all values of a polynomial; None if it has no parameters, or a class isn't known."""
+        """A class that contains all values of a function that isn't a number; None if a class isn't known."""
         known = {name: self.of(name).coset for name in parameters_of(form)}
         classes = {name: numbers for name, numbers in known.items() if numbers is not None}
-        if not known or len(classes) < len(known):
+        if len(classes) < len(known):
             return None
         linear = linear_of(form)
         if linear is not None:
@@ -415,15 +411,9 @@ def linear_of(form: FunctionPoly) -> LinearCombination | None:
     if not form.den.is_constant() or form.num.total_degree() > 1:
         return None
     den = int(form.den.leading_coefficient())
-    constant = Fraction(0)
-    factors = {}
-    for exponents, coefficient in form.num.to_dict().items():
-        value = Fraction(int(coefficient), den)
-        if any(exponents[1:]):
-            factors[form.field.names[exponents.index(1) - 1]] = value
-        else:
-            constant = value
-    return LinearCombination(constant, factors)
+    terms = form.num.to_dict().items()
+    factors = {next(compress(form.field.names, powers[1:]), ""): Fraction(int(c), den) for powers, c in terms}
+    return LinearCombination(factors.pop("", Fraction(0)), factors)
 
 
 def parameters_of(form: FunctionPoly) -> list[str]:
@@ -440,7 +430,8 @@ def read_assumptions(assume: Mapping[Any, str] | None, S: Any, names: tuple[str,
     check_mapping(assume)
     words: dict[str, list[str]] = {name: [] for name in names}
     words |= {symbol.name: words_of(symbol) for symbol in getattr(S, "free_symbols", ()) if symbol.name in words}
-    for name, what in ((str(key), what) for key, what in (assume or {}).items()):
+    for key, what in (assume or {}).items():
+        name = str(key)
         if name not in names:
             hint = f"the parameters are {', '.join(names) or 'none'}"
             raise InputError(f"{name} isn't a parameter of the equation", hint=hint)

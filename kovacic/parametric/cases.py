@@ -194,18 +194,14 @@ class Case:
 
 def outside(regions: Iterable[ParameterRegion]) -> Iterator[ParameterRegion]:
     """The regions of which a theorem doesn't speak: S isn't defined there, or nothing is known."""
-    return (region for region in regions if not _is_known(region))
-
-
-def _is_known(region: ParameterRegion) -> bool:
-    return region.defined and region.verdict.known
+    return (region for region in regions if not region.verdict.known)
 
 
 def solvable_cases(regions: Sequence[ParameterRegion]) -> list[Case]:
     """The cases in which there are Liouvillian solutions, in the order of the regions; neighbours that say the same in one."""
     found: list[Case] = []
     unsolvable: list[Statement] = []
-    for region in filter(_is_known, regions):
+    for region in filter(lambda one: one.verdict.known, regions):
         if region.case is None:
             unsolvable.append(region.statement)
         elif _proves_a_solution(region):
@@ -272,13 +268,12 @@ def _is_redundant(
     common with this one, but for values that are in one before, and the generic verdict has to be the same.
     """
     is_generic = generic is not None and generic.says_the_same(region.verdict)
-    is_candidate = _is_known(region) and (is_generic or is_variety(region.statement))
-    charts = charts_of(region.statement) if is_candidate else []
-    if not charts:
+    if not region.verdict.known or not (is_generic or is_variety(region.statement)):
         return False
+    charts = charts_of(region.statement)
     known = [one.statement for one in before]
     for other in after:
-        says_the_same = other.defined and _is_same_region(other, region)
+        says_the_same = _is_same_region(other, region)
         if says_the_same and covered(charts, [other.statement]):
             return True
         # The other one has a solution at all of its values, where this one has none.
@@ -369,11 +364,12 @@ def _exclude_one_another(first: Statement, second: Statement) -> bool:
 
 def _say_the_same(cases: list[Case], others: list[Case], is_same: Likeness) -> bool:
     """True for the same statements and verdicts, whatever the solutions are."""
-    if [(case.statement, case.without) for case in cases] != [(other.statement, other.without) for other in others]:
-        return False
-    for case, other in zip(cases, others, strict=True):
-        own, new = case.regions[0], other.regions[0]
-        is_alike = replace(own, statement=ALWAYS, verdict=new.verdict) == replace(new, statement=ALWAYS)
-        if not is_alike or not is_same(own, new):
-            return False
-    return True
+    pairs = zip(cases, others, strict=False)
+    is_alike = [*map(_but_for_verdict, cases)] == [*map(_but_for_verdict, others)]
+    return is_alike and all(is_same(case.regions[0], other.regions[0]) for case, other in pairs)
+
+
+def _but_for_verdict(case: Case) -> Case:
+    """What is said in it besides: of the first region, whose verdict stands for that of all."""
+    plain = replace(case.regions[0], statement=ALWAYS, verdict=RegionVerdict(None))
+    return replace(case, regions=(plain,))

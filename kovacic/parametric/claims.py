@@ -20,6 +20,7 @@ from kovacic.algebra.function_field import FunctionField, FunctionPoly
 from kovacic.algebra.poly import Field, Poly
 from kovacic.algebra.ratfunc import RatFunc
 from kovacic.algebra.rationals import QQ
+from kovacic.equation import parameters_of
 from kovacic.parametric.functions import NATURALS, Classes, ParameterPoint, lifted, over_parameters, roots
 
 
@@ -140,9 +141,8 @@ class IntegerFamily(ForInteger):
     def along(self, line: FunctionPoly, numbers: Classes) -> IntegerFamily:
         """The same with line(n) in the place of n, for an n among other numbers, and the poles that are possible there."""
         moved = [replace(pole, root=over_parameters((pole.root - line[0]) / line[1])) for pole in self.poles]
-        known = [(pole, rational(pole.root)) for pole in moved]
-        possible = tuple(pole for pole, number in known if number is None or numbers.contains(number))
-        return replace(self, value=self.value(RatFunc(line)), numbers=numbers, poles=possible)
+        possible = (p for p in moved if (number := rational(p.root)) is None or numbers.contains(number))
+        return replace(self, value=self.value(RatFunc(line)), numbers=numbers, poles=tuple(possible))
 
     def numbers_at(self, point: ParameterPoint) -> Iterator[Fraction]:
         """The poles named in messages are among them."""
@@ -250,9 +250,8 @@ class Numbers:
         squares = [root.square for root in self.roots]
         if self.field != self.base:
             assert isinstance(self.field, AlgebraicField)
-            assert isinstance(self.base, FunctionField)
             name = "I" if self.field.name == "sqrt(-1)" else self.field.name
-            larger = FunctionField((*self.base.names, name))
+            larger = FunctionField((*parameters_of(self.base), name))
             squares = [lifted(square, larger) for square in squares]
         return [*map(over_parameters, squares)]
 
@@ -267,7 +266,7 @@ class DegreeBySum(ForInteger):
 
     def numbers_at(self, point: ParameterPoint) -> Iterator[Fraction]:
         for multiples in self.sums.choices:
-            if any(multiples) or self.has_zero or not self.names:
+            if any(multiples) or self.has_zero:
                 yield from filter(NATURALS.contains, self.sums.at(point, multiples))
 
 

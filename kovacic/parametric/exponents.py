@@ -104,8 +104,7 @@ def _conditions(images: Sequence[FunctionPoly], surface: Any) -> RankConditions:
     smaller = without_constant_pivots([by_power(image.num, 0) for image in images])
     field = images[0].field
     # Each row once, the shortest first.
-    normalised = ([*_primitive(dict(enumerate(row))).values()] for row in smaller.rows)
-    different = {tuple(map(str, row)): row for row in normalised}
+    different = {tuple(map(str, row)): row for row in smaller.rows}
     rows = sorted(different.values(), key=lambda row: sum(map(len, row)))
     point = _random_point(field, surface)
     rank = point.values(rows).rank() if rows else 0
@@ -213,7 +212,7 @@ def without_constant_pivots(columns: list[dict[int, Any]]) -> WithoutPivots:
     left = [row for row in rows if row]
     numbers = sorted(set().union(*left))
     zero = 0 * next(iter(left[0].values())) if left else 0
-    return WithoutPivots([[row.get(k, zero) for k in numbers] for row in left], eliminated)
+    return WithoutPivots([[*_primitive({k: row.get(k, zero) for k in numbers}).values()] for row in left], eliminated)
 
 
 def _cleared(row: dict[int, Any], k: int, chosen: dict[int, Any]) -> dict[int, Any]:

@@ -57,8 +57,7 @@ def irreducible_factors(function: Poly) -> list[FunctionPoly]:
 
 def denominators(polynomial: Poly) -> list[FunctionPoly]:
     """The denominators of the coordinates of a polynomial over an extension of Q(t), as elements of Q(t)."""
-    leaves = [leaf for leaf in polynomial.leaves() if isinstance(leaf, FunctionPoly) and not leaf.den.is_one()]
-    return [element(leaf.field, leaf.den) for leaf in leaves]
+    return [element(leaf.field, leaf.den) for leaf in polynomial.leaves() if isinstance(leaf, FunctionPoly)]
 
 
 def union(lists: Iterable[Iterable[FunctionPoly]]) -> list[FunctionPoly]:
@@ -113,7 +112,7 @@ def coefficients_in(function: FunctionPoly, i: int, values: Sequence[Poly], fiel
 
 def without_parameter(i: int, names: Sequence[str]) -> tuple[Field, list[Poly]]:
     """The field of the other parameters, Q if there are none, and all of them as its elements: 0 for number i."""
-    others = tuple(name for name in names if name != names[i])
+    others = (*names[:i], *names[i + 1 :])
     if not others:
         return QQ, [QQ.poly([0])]
     field = FunctionField(others)

@@ -286,7 +286,7 @@ class Congruence(Statement):
         lies in (-1, 0], and the classes are symmetric about it if the equation is.  Equations that differ by N -> +-N + b with
         an integer b become the same.
         """
-        classes = {Fraction(r) for r in residues}
+        classes = {*map(Fraction, residues)}
         m = Fraction(modulus)
         k = equation.degree
         if k == 1:
@@ -437,7 +437,7 @@ def at_integers(form: FunctionPoly, largest: int, assumptions: Assumptions) -> l
     divisor of a d - b c.
     """
     used = [k for k, degree in enumerate(map(int, (form.num * form.den).degrees())) if degree]
-    if form.degree > 0 or len(used) != 1:
+    if len(used) != 1:
         return None
     (k,) = used
     t = form.field.generator(form.field.names[k - 1])

@@ -143,10 +143,7 @@ class Natural(Statement):
 
     def exists(self, point: ParameterPoint, numbers: Sequence[int]) -> bool:
         """True if P has one of these degrees at the point, or an invariant of degree m exists there."""
-        S = point.restricted(self.S)
-        if self.m > 1:
-            return _has_form(S, self.m)
-        return any(_has_solution(S, number) for number in numbers)
+        return _exists(point.restricted(self.S), self.m, numbers)
 
     def determinants(self, number: int) -> tuple[Determinant, ...]:
         """Delta for one natural number, for each way in which the exponents give it."""
@@ -259,8 +256,7 @@ def _determinants(statement: Natural, number: int) -> tuple[Determinant, ...]:
         if statement.m == 1 and (has_free_constant or is_too_large(S.field)):
             choices = [OPEN]
         elif S.field.ground == QQ:  # no parameter is left
-            exists = _has_form(S, statement.m) if statement.m > 1 else _has_solution(S, number)
-            choices = [RankConditions(deficient=exists)]
+            choices = [RankConditions(deficient=_exists(S, statement.m, [number]))]
         elif statement.m > 1:
             choices = [form_conditions(analyse(S, Budget()), statement.m)]
         else:
@@ -278,6 +274,10 @@ def _determinants(statement: Natural, number: int) -> tuple[Determinant, ...]:
                 determinant = Determinant(exponents, irreducible, tuple(system))
             found[determinant] = None
     return tuple(found)
+
+
+def _exists(S: RatFunc, m: int, numbers: Sequence[int]) -> bool:
+    return _has_form(S, m) if m > 1 else any(_has_solution(S, number) for number in numbers)
 
 
 @lru_cache(maxsize=256)

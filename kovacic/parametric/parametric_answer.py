@@ -23,7 +23,7 @@ from kovacic.numbers.exact import whole
 from kovacic.parametric import record
 from kovacic.parametric.assumptions import NOTHING_ASSUMED, Assumptions, check_values, read_assumptions
 from kovacic.parametric.cases import settled
-from kovacic.parametric.functions import NO_CONSTANT, ParameterPoint
+from kovacic.parametric.functions import NO_CONSTANT, ParameterPoint, over_parameters
 from kovacic.parametric.natural import Determinant
 from kovacic.parametric.partition import derived
 from kovacic.parametric.regions import Limited, ParameterRegion, RegionVerdict, Theory
@@ -458,9 +458,8 @@ class ParametricAnswer:
 @lru_cache(maxsize=16)
 def _origins(answer: ParametricAnswer) -> dict[Statement, Origin | None]:
     """The solutions of the regions, by their statements, found from S."""
-    S = answer.S
-    if isinstance(S.field, FunctionField):  # an algebraic constant isn't a parameter there
-        S = everywhere(S.field, answer.constant).restricted(S)
+    # An algebraic constant isn't a parameter there.
+    S = everywhere(over_parameters(answer.S.num).field, answer.constant).restricted(answer.S)
     found = derived(S, answer.variable, answer.equation, answer.assumptions, Budget(answer.limits), 0, answer.letters)
     return {region.statement: region.formulas for region in found.regions}
 

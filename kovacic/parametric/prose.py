@@ -123,7 +123,7 @@ def _kind(numbers: Classes, letter: str = "") -> str:
     name = f" `{letter}`" if letter else ""
     if numbers in _PROSE_OF_KIND:
         return noun + name
-    if len(residues) > 1 and residues == tuple(range(1, int(numbers.modulus))):
+    if residues == tuple(range(1, int(numbers.modulus))):
         return f"{noun}{name} not divisible by {numbers.modulus}"
     return f"{noun} `{_congruent(letter, numbers)}`"
 

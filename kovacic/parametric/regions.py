@@ -179,7 +179,7 @@ class ParameterRegion:
         True where it is proven that the statement describes all such values and nothing else, else what isn't proven, and the
         verdict isn't known.
     defined : bool
-        False where S isn't defined.
+        False where S isn't defined, and the verdict isn't known.
     shown_degree : int or None
         For a statement with a natural number d: `determinants` has those up to this d.
     limits : Limits
@@ -265,7 +265,7 @@ class ParameterRegion:
     @property
     def why_no_solution(self) -> str:
         """A sentence where `solution()` is empty: why there is no formula in all of the parameters; "" where there is one."""
-        if not self.defined or self.case is None or not self.verdict.known:
+        if self.case is None or not self.verdict.known:
             return f"nothing is solved where the answer is: {self.said}"
         if self.case > 1:
             degree = _DEGREES_OF_OMEGA[self.case]
@@ -300,7 +300,7 @@ class ParameterRegion:
     @property
     def plain(self) -> bool:
         """True if there is nothing to say but the statement and the case."""
-        return self.defined and self.verdict.known and self.shown_degree is None
+        return self.verdict.known and self.shown_degree is None
 
     def __repr__(self) -> str:
         return f"<ParameterRegion {self.statement.text()}: {self.said}>"
@@ -310,7 +310,7 @@ class ParameterRegion:
 
     def __str__(self) -> str:
         known = ""
-        if self.defined and self.complete is not True:
+        if self.complete is not True:
             known = f" [{self.complete}]"
         first = f"{self.statement.text()}: {self.said}{known}"
         return "\n      ".join([first, *self.determinants])

@@ -229,8 +229,8 @@ def _all_half_integers(problem: Problem) -> Statement:
     """
     if not riemann.is_fuchsian(problem) or riemann.singular_points(problem) != _HEUN:
         return NEVER
-    squares = [place.delta_squared for place in exponents.singular_places(problem)]
-    known = [riemann.has_denominator(square, 2) for square in squares if square is not None and square.degree <= 0]
+    squares = [place.difference_squared for place in exponents.singular_places(problem)]
+    known = [riemann.has_denominator(square, 2) for square in squares if square.degree <= 0]
     return all_of(known) if len(known) == len(squares) else NEVER
 
 

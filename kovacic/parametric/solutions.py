@@ -347,15 +347,16 @@ def solutions_there(S: RatFunc, variable: str, _: int | None = None) -> tuple[Po
     y = product_of_powers(omega)
     if y.roots:
         return ()
-    if omega.field != S.field:  # an extension by a square root is written, unless its number is long
+    found = [y]
+    if omega.field == S.field:
+        structure = build(S, decision, 0 * S)
+        if isinstance(structure, Diagonal):
+            found += [one for one in (structure.first, structure.second) if one.logarithmic_derivative != omega]
+    else:  # an extension by a square root is written, unless its number is long
         assert isinstance(omega.field, AlgebraicField)
         is_quadratic = omega.field.base == S.field and omega.field.dimension == 2
         if not is_quadratic or has_long_numbers(atoms.generator(omega.field)):
             return ()
-    structure = build(S, decision, 0 * S) if omega.field == S.field else None
-    found = [y]
-    if isinstance(structure, Diagonal):
-        found += [one for one in (structure.first, structure.second) if one.logarithmic_derivative != omega]
     degree = sympy.Integer(max(riccati.P.degree, 0))
     where = "the region's statement holds"
     return tuple(PolynomialSolution(display(one, atoms), degree, (), where) for one in found)
@@ -469,8 +470,6 @@ def rows_of(solutions: Iterable[PolynomialSolution], family: IntegerFamily, lett
     values = {sympy.Symbol(family.parameter): value.xreplace(meanings)}
     rows: list[SolutionRow] = []
     for solution in solutions:
-        if solution.conditions:
-            return []
         there = solution.with_values(values)
         written = _without_roots(there.degree)
         degree = sympy.expand(written)

@@ -176,16 +176,12 @@ class Both(_Several, AllOf):
         return list(chain.from_iterable(part.sample(random) for part in self.parts))
 
 
-def both(*statements: Statement) -> Both:
-    return Both(tuple(chain.from_iterable(one.conjuncts for one in statements)))
-
-
 def all_of(statements: Iterable[Statement]) -> Statement:
     """The statement that all of them hold, without repetitions; a single one is returned as it is."""
-    different = dict.fromkeys(one for one in statements if one != ALWAYS)
+    different = dict.fromkeys(chain.from_iterable(one.conjuncts for one in statements))
     if NEVER in different:
         return NEVER
-    return next(iter(different)) if len(different) == 1 else both(*different)
+    return next(iter(different)) if len(different) == 1 else Both(tuple(different))
 
 
 #: What is true everywhere, and nowhere.

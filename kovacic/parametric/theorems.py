@@ -145,7 +145,7 @@ def kimura(problem: Problem, variable: str) -> Theorem | None:
         (one.coordinate, one.quotient(problem)) for one in symmetries(problem, variable) if one.coordinate.n > 1
     )
     for coordinate, equation in chain([(Coordinate(variable), problem)], quotients):
-        if not riemann.is_fuchsian(equation) or riemann.singular_points(equation) > 3:
+        if riemann.singular_points(equation) > 3:
             continue
         points = "singular points" if coordinate.n == 1 else f"singular points in `{coordinate}`"
         origin = Signed(partial(jacobi_formula, equation, coordinate, variable), 3)
@@ -246,7 +246,7 @@ def _square_root(square: Any) -> Any:
     if not square.has(sympy.I) or not square.is_polynomial():
         return sympy.sqrt(square)
     constant, factors = sympy.factor_list(square, extension=sympy.I)
-    if not factors or any(k % 2 for _, k in factors):
+    if any(k % 2 for _, k in factors):
         return sympy.sqrt(square)
     return sympy.sqrt(constant) * sympy.prod(factor ** (k // 2) for factor, k in factors)
 
@@ -259,10 +259,9 @@ def _positive(z: Any, c: Any) -> Any:
 def _with_denominators(problem: Problem, denominators: tuple[int, ...]) -> Statement:
     """When the exponent differences at 0, at infinity and at the third point have these denominators."""
     squares = [problem.field.poly([1])] * 3
-    for place in problem.places:
-        if place.delta_squared is not None:
-            third = 2 if place.factor[0] else 0
-            squares[1 if place.at_infinity else third] = place.delta_squared
+    for place in singular_places(problem):
+        third = 2 if place.factor[0] else 0
+        squares[1 if place.at_infinity else third] = place.difference_squared
     return all_of([riemann.has_denominator(*pair) for pair in zip(squares, denominators, strict=False)])
 
 

@@ -29,7 +29,7 @@ from kovacic.parametric.integers import Congruence, natural_root
 from kovacic.parametric.regions import ParameterRegion, RegionVerdict
 from kovacic.parametric.restriction import hypersurface
 from kovacic.parametric.riemann import kimura
-from kovacic.parametric.statements import Setting, Statement, Vanishes, both
+from kovacic.parametric.statements import Setting, Statement, Vanishes, all_of
 
 F = Fraction
 
@@ -101,9 +101,9 @@ def test_what_earlier_regions_cover() -> None:
     squares = root(N**2 - q)
     assert kept(squares, root(N**2 - 4 * q), squares) == [0, 1]
     # On the curve p^2 = q^3, q is the square of p/q, which needn't be an integer.
-    assert kept(squares, both(Vanishes(p**2 - q**3), Vanishes(r))) == [0, 1]
-    assert kept(Vanishes(p * q - r), both(Vanishes(p - 2), Vanishes(r - 2 * q))) == [0]
-    assert kept(Vanishes(p * q - r), both(Vanishes(p - 2), Vanishes(r - 3 * q))) == [0, 1]
+    assert kept(squares, all_of((Vanishes(p**2 - q**3), Vanishes(r)))) == [0, 1]
+    assert kept(Vanishes(p * q - r), all_of((Vanishes(p - 2), Vanishes(r - 2 * q)))) == [0]
+    assert kept(Vanishes(p * q - r), all_of((Vanishes(p - 2), Vanishes(r - 3 * q)))) == [0, 1]
 
 
 @pytest.mark.long
