@@ -28,7 +28,7 @@ import sympy
 from sympy.utilities.iterables import sift
 
 from kovacic.bound_states.coordinates import Original, circle_point, near
-from kovacic.bound_states.ends import End, Examined, leading
+from kovacic.bound_states.ends import Examined, leading
 from kovacic.bound_states.energies import tidied
 from kovacic.bound_states.levels import NO_FORMULA, Algebraic
 from kovacic.bound_states.question import SpectralProblem
@@ -358,7 +358,7 @@ class _ClosedFormSearch(ClosedForms):
             if y.has(jacobi, sympy.assoc_laguerre):
                 yield None
                 continue
-            demands = demands_of(y, question)
+            demands = [*demands_of(y, question)]
             if sympy.false not in tidied([above(signs.real(degree), 0, strict=False), *demands], signs):
                 yield None
                 continue
@@ -461,29 +461,25 @@ def _function_for(statement: Statement, number: int | None, constants: dict[Any,
     return found.subs(constants)
 
 
-def demands_of(v: Any, question: Examined) -> list[Any]:
-    """`demand_at` both ends."""
-    return [demand_at(end, v, question) for end in question.ends]
-
-
-def demand_at(end: End, v: Any, question: SpectralProblem) -> Any:
-    """When a function v of t, whose v'/v is rational, is the square integrable one at an end, in real symbols."""
+def demands_of(v: Any, question: Examined) -> Iterator[Any]:
+    """When a function v of t, whose v'/v is rational, is the square integrable one at each end, in real symbols."""
     t, u = question.t, sympy.Dummy("u")
     rate = sympy.cancel(sympy.together(sympy.diff(v, t) / v))
     if question.original.is_circular:  # v sqrt(du/dt) as a function of the real u
         on_circle = circle_point(t)
         slope = sympy.diff(on_circle, t)
         rate = rate.subs(t, on_circle) * slope - sympy.diff(slope, t) / slope / 2
-    there = near(end.point, u)
-    local = rate.subs(t, there) * sympy.diff(there, u)
-    if end.point == sympy.oo:  # of u v(1/u)
-        local += 1 / u
-    order, strength = leading(question.signs.real(sympy.together(local)), u)
-    if order < -1:  # v ~ exp(-strength/(k u^k)) with k = -order - 1
-        decay = strength * end.direction ** (-order - 1)
-        return above(decay, 0, strict=True)
-    exponent = strength if order == -1 else sympy.Integer(0)
-    return question.demand(end.side, sympy.Integer(end.mu), sympy.simplify(2 * exponent - 1))
+    for end in question.ends:
+        there = near(end.point, u)
+        local = rate.subs(t, there) * sympy.diff(there, u)
+        if end.point == sympy.oo:  # of u v(1/u)
+            local += 1 / u
+        order, strength = leading(question.signs.real(sympy.together(local)), u)
+        if order < -1:  # v ~ exp(-strength/(k u^k)) with k = -order - 1
+            yield above(strength * end.direction ** (-order - 1), 0, strict=True)
+        else:
+            exponent = strength if order == -1 else sympy.Integer(0)
+            yield question.demand(end.side, sympy.Integer(end.mu), sympy.simplify(2 * exponent - 1))
 
 
 def _root_about(at: Any, original: Original, question: SpectralProblem) -> tuple[Any, Any]:

@@ -157,9 +157,9 @@ class Original:
         for order in (1, 2):
             slope = sympy.simplify(sympy.simplify(u.diff(angle, order)).subs(angle, theta))
             if slope != 0:
-                otherwise = f"the end {end} isn't a multiple of {sympy.pi / self.rate}"
-                return self.signs.known_sign(slope, otherwise) * (self._direction * (1 - 2 * side)) ** order
-        raise Uncovered(f"the end {end} isn't a point where t changes")
+                break
+        otherwise = f"the end {end} isn't a multiple of {sympy.pi / self.rate}"
+        return self.signs.known_sign(slope, otherwise) * (self._direction * (1 - 2 * side)) ** order
 
     def points_inside(self, values: Iterable[Any]) -> list[Any]:
         """The x strictly inside the domain at which t has one of the values, each once; it may be infinite at poles of t.

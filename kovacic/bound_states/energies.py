@@ -16,7 +16,7 @@ from typing import Any
 
 import sympy
 
-from kovacic.bound_states.signs import Signs, Uncovered, above
+from kovacic.bound_states.signs import Signs, above
 
 #: For the sign of a slope, and a strict relation.
 _RELATIONS = {(1, True): ">", (1, False): ">=", (-1, True): "<", (-1, False): "<="}
@@ -75,13 +75,12 @@ def exact_root(square: Any) -> Any:
             return sympy.sqrt(value)
         p = sympy.sqrtdenest(sympy.sqrt((sympy.sqrt(re**2 + im**2) + re) / 2))
         return p + sympy.I * sympy.radsimp(im / (2 * p))
-    is_complex = square.has(sympy.I)
     root = sympy.Integer(1)
     for part, sign in zip(sympy.fraction(sympy.together(square)), (1, -1), strict=True):
-        constant, factors = sympy.factor_list(part, extension=sympy.I) if is_complex else sympy.factor_list(part)
+        constant, factors = sympy.factor_list(part, gaussian=square.has(sympy.I))
         if any(multiplicity % 2 for _, multiplicity in factors):
             return None
-        root *= (sympy.sqrtdenest(sympy.sqrt(sympy.expand(constant))) if is_complex else sympy.sqrt(constant)) ** sign
+        root *= sympy.sqrtdenest(sympy.sqrt(sympy.expand(constant))) ** sign
         for factor, multiplicity in factors:
             root *= factor ** (sign * multiplicity // 2)
     return sympy.expand(root) if root.has(sympy.I) else root
@@ -95,21 +94,19 @@ def conjugate(value: Any) -> Any:
 def solved(equation: Any, roots: list[Root], E: Any) -> Iterator[tuple[Any, dict[Any, Any]]]:
     """All E with equation = 0 for some values of the unknown roots, and these values, as functions of n.
 
-    Raises `Uncovered` where that needs a polynomial equation of a degree above 2.
+    An exponent depends on E where mu >= 2.  The sum of all mu is 4, so that there are two unknown roots at most.
     """
     unknown = [root for root in roots if root.unknown and equation.has(root.value)]
-    if len(unknown) > 2:
-        raise Uncovered("more than two exponents depend on the energy")
     if not unknown:
         yield from ((shortest(energy), {}) for energy in _zeros(equation, E))
         return
     root, *others = unknown
     rho = root.value
-    E_of_rho = _only_zero(root.square - rho**2, E)
+    (E_of_rho,) = _zeros(root.square - rho**2, E)
     equation = equation.subs(E, E_of_rho)
     sigma_of_rho: Any = None
     for other in others:  # sigma = sigma(rho) for the other root, whose square is D(E(rho))
-        sigma_of_rho = _only_zero(equation, other.value)
+        (sigma_of_rho,) = _zeros(equation, other.value)
         equation = other.square.subs(E, E_of_rho) - sigma_of_rho**2
     for value in _zeros(equation, rho):
         short = shortest(value)
@@ -117,21 +114,10 @@ def solved(equation: Any, roots: list[Root], E: Any) -> Iterator[tuple[Any, dict
         yield shortest(E_of_rho.subs(rho, short), E_of_rho.subs(rho, value)), values
 
 
-def _only_zero(equation: Any, unknown: Any) -> Any:
-    """The zero of a function with one.  Raises `Uncovered` for others."""
-    zeros = _zeros(equation, unknown)
-    if len(zeros) != 1:
-        raise Uncovered("the exponents satisfy no linear equation")
-    return zeros[0]
-
-
 def _zeros(equation: Any, unknown: Any) -> list[Any]:
-    """The zeros of a function whose numerator has at most degree 2."""
+    """The zeros of a function whose numerator has at most degree 2, none for a constant."""
     numerator = sympy.Poly(sympy.numer(sympy.together(equation)), unknown)
-    degree = numerator.degree()
-    if degree > 2:
-        raise Uncovered(f"the energies are roots of an equation of degree {degree}")
-    return [] if degree < 1 else list(sympy.roots(numerator))
+    return [] if numerator.is_ground else [*sympy.roots(numerator)]
 
 
 def shortest(*forms: Any) -> Any:

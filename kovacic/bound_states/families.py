@@ -37,6 +37,7 @@ from typing import Any
 
 import sympy
 
+from kovacic.bound_states.ends import leading
 from kovacic.bound_states.energies import Root, conjugate, shortest, solved, tidied
 from kovacic.bound_states.frame import SingularFrame, Spot, linear_factors
 from kovacic.bound_states.levels import Levels
@@ -83,7 +84,7 @@ def factor_at(frame: SingularFrame, c: Any) -> WaveProduct:
     if (original.kind, c) == ("exp", 0):
         return WaveProduct(powers={sympy.E: original.theta})
     # c isn't inside the domain: t is larger than c there, unless c is beyond the upper end
-    low, high = frame.limits_of_t
+    low, high = original.range
     is_above = sympy.simplify(low - c).is_nonnegative or not sympy.simplify(c - high).is_nonnegative
     sign = 1 if is_above else -1
     function = _OF_HALF_ANGLE.get((original.kind, c))
@@ -96,7 +97,7 @@ def factor_at(frame: SingularFrame, c: Any) -> WaveProduct:
 
 def as_product(frame: SingularFrame, expression: Any) -> WaveProduct:
     """|expression|, a rational function of t, up to its sign."""
-    constant, exponents = linear_factors(expression, frame.t)
+    constant, exponents = linear_factors(expression, frame.question.t)
     found = WaveProduct(sympy.Abs(constant))
     for root, exponent in exponents.items():
         found = found.times(factor_at(frame, root), exponent)
@@ -141,8 +142,7 @@ def jacobi_wave(frame: SingularFrame, roots: list[Root], deltas: list[Any]) -> W
     w = sympy.factor(w_of_z.xreplace({z: frame.coordinate}))
     # (dw/dx)^2 = scale (1 - w)^mu1 (1 + w)^mu2
     slope = sympy.diff(w_of_z, z) ** 2 * frame.slope
-    scale = sympy.simplify(slope / ((1 - w_of_z) ** first.mu * (1 + w_of_z) ** second.mu))
-    size = sympy.nan if scale.has(z) else sympy.Abs(scale)  # nan if the norm is unknown
+    _, scale = leading(slope / ((1 - w_of_z) ** first.mu * (1 + w_of_z) ** second.mu), z)
     a, b = shortest(d1), shortest(d2)
     if w.has(sympy.I):
         powers, r, dropped = _real_powers(frame, sympy.factor(w / sympy.I), first.exponent(d1))
@@ -154,13 +154,13 @@ def jacobi_wave(frame: SingularFrame, roots: list[Root], deltas: list[Any]) -> W
         whole = whole.times(as_product(frame, 1 + w), second.exponent(d2))
         y = whole.shown() * jacobi(n, a, b, _argument(frame, w))
         norm = _norm_between(points, n) / whole.constant**2
-    return y, _tidy(frame, norm / sympy.sqrt(size))
+    return y, _tidy(frame, norm / sympy.sqrt(sympy.Abs(scale)))
 
 
 def _argument(frame: SingularFrame, w: Any) -> Any:
     """w in the user's variable."""
     original = frame.original
-    t = frame.t
+    t = frame.question.t
     in_x = sympy.expand(sympy.apart(w, t)).xreplace({t: original.t})
     if original.kind != "exp":
         return in_x
@@ -180,7 +180,7 @@ def _real_powers(frame: SingularFrame, r: Any, e1: Any) -> tuple[Any, Any, Any]:
     """
     p = sympy.expand((e1 + conjugate(e1)) / 2)
     q = sympy.expand((e1 - conjugate(e1)) / (2 * sympy.I))
-    original, t = frame.original, frame.t
+    original, t = frame.original, frame.question.t
     theta = original.theta
     for sign in (1, -1):
         if original.kind == "tan" and sympy.cancel(r - sign / t) == 0:
@@ -194,7 +194,7 @@ def _real_powers(frame: SingularFrame, r: Any, e1: Any) -> tuple[Any, Any, Any]:
 
 
 def _jacobi_integral(first: tuple[Spot, Any], second: tuple[Spot, Any], n: Any, middle: Any) -> Any:
-    """int (1 - v)^(a + i) (1 + v)^(b + j) P_n^(a, b)(v)^2 dv over (-1, 1), (i, j) = (1 - mu1, 1 - mu2); nan if unknown.
+    """int (1 - v)^(a + i) (1 + v)^(b + j) P_n^(a, b)(v)^2 dv over (-1, 1), (i, j) = (1 - mu1, 1 - mu2).
 
     mu is 1, 1, 2 or 2, 2, 0 at the three points.  With `middle` = Gamma(n + a + 1) Gamma(n + b + 1)/Gamma(n + a + b + 1)
     [Gradshteyn & Ryzhik 7.391; DLMF 18.3].  On the line v = i r all of these have the same factor,
@@ -214,11 +214,11 @@ def _jacobi_integral(first: tuple[Spot, Any], second: tuple[Spot, Any], n: Any, 
         (1, -1): 2 * right - plain,
         (-1, 1): 2 * left - plain,
     }
-    return known.get((1 - left_end.mu, 1 - right_end.mu), sympy.nan)
+    return known[1 - left_end.mu, 1 - right_end.mu]
 
 
 def _norm_between(points: Sequence[tuple[Spot, Any]], n: Any) -> Any:
-    """int y^2 dx between two of the points w = 1, -1, oo, with the size of (dw/dx)^2 apart, or nan if unknown.
+    """int y^2 dx between two of the points w = 1, -1, oo, with the size of (dw/dx)^2 apart.
 
     For oo: w = (3 - v)/(1 + v) runs from 1 to it for v from 1 to -1, and P_n^(a, b)(w) = (2/(1 + v))^n P_n^(a, c)(v).
     """
@@ -243,24 +243,22 @@ def laguerre_wave(frame: SingularFrame, origin: Spot, values: list[Any]) -> Wave
     in_x = _argument(frame, base) ** m
     rate = shortest(2 * kappa)
     y = whole.shown() * sympy.exp(-rate * in_x / 2) * sympy.assoc_laguerre(n, shortest(delta), rate * in_x)
-    scale = sympy.simplify(frame.slope / z**origin.mu)
+    # (dz/dx)^2 = scale z^mu with mu = 0, 1, 2, as E z^(-mu) occurs in S_z
+    scale = frame.slope / z**origin.mu
     weight = sympy.gamma(n + delta + 1) / sympy.factorial(n)
     known = {0: 1, 1: 2 * n + delta + 1, -1: 1 / delta}
-    size = sympy.nan if scale.has(z) else sympy.Abs(scale)  # nan if the norm is unknown
     if signs.sign(kappa) == -1:  # where z is negative
         rate = -rate
-    integral = rate ** (origin.mu - 2 - delta) * weight * known.get(1 - origin.mu, sympy.nan)
-    return y, _tidy(frame, integral / sympy.sqrt(size) / whole.constant**2)
+    integral = rate ** (origin.mu - 2 - delta) * weight * known[1 - origin.mu]
+    return y, _tidy(frame, integral / sympy.sqrt(sympy.Abs(scale)) / whole.constant**2)
 
 
 def _tidy(frame: SingularFrame, norm: Any) -> Any:
     """The norm or its form with simplified quotients of Gamma functions, the shorter; doubled on half of a domain.
 
-    None for nan.  A sine from the reflection formula may be 0 where a Gamma function is infinite: such a form has no value at
+    A sine from the reflection formula may be 0 where a Gamma function is infinite: such a form has no value at
     integers.
     """
-    if norm is sympy.nan:
-        return None
     simplified = sympy.gammasimp(norm).replace(
         lambda e: e.func == sympy.gamma and e.args[0].is_integer, lambda e: sympy.factorial(e.args[0] - 1)
     )
@@ -375,7 +373,7 @@ def whittaker(frame: SingularFrame) -> ExponentForm:
 def oscillator(frame: SingularFrame) -> ExponentForm:
     """Equation (3): S = alpha x^2 + beta x + gamma on the whole line."""
     alpha, beta, gamma = _coefficients(frame.S, frame, 2)
-    if (frame.original.kind, frame.coordinate, *frame.original.domain) != ("x", frame.t, -sympy.oo, sympy.oo):
+    if (frame.original.kind, frame.coordinate, *frame.original.domain) != ("x", frame.question.t, -sympy.oo, sympy.oo):
         raise Uncovered("the equation isn't one in x on the whole line")
     question = frame.question
     n = question.signs.n
@@ -404,8 +402,6 @@ def _choices(roots: list[Root]) -> Iterator[list[Any]]:
     signs = [root.signed for root in roots]
     if len(are_complex) == 1:
         return  # n isn't real
-    if len(are_complex) == 3:
-        raise Uncovered("no exponent is real")
     for second in are_complex[1:]:  # nan is the conjugate of the first one there
         signs[second] = [sympy.nan]
     for choice in product(*signs):

@@ -53,19 +53,17 @@ class SingularFrame:
 
     `coordinate` is z = s^m as a function of t, S and `slope` are functions of the symbol `z`.  `fold` is the x about which the
     domain and the equation are symmetric, where z doesn't tell x from its mirror image, and the problem is that on the right
-    half; None if z is a coordinate.  `limits_of_t` are the least and the largest value of t on this half.
+    half; None if z is a coordinate.  `original` is t on this half.
     """
 
     question: SpectralProblem
     original: Original
-    t: Any
     coordinate: Any
     S: Any
     z: Any
     slope: Any
     spots: tuple[Spot, ...]
     fold: Any
-    limits_of_t: tuple[Any, Any]
 
     def ends_at(self, spot: Spot) -> tuple[int, ...]:
         """The sides of the spot that are ends of the domain."""
@@ -77,44 +75,41 @@ class SingularFrame:
             return 1
         u = sympy.Dummy("u")
         point = self.original.at(side)
-        order, strength = leading(self.coordinate.xreplace({self.t: near(point, u)}), u)
+        order, strength = leading(self.coordinate.xreplace({self.question.t: near(point, u)}), u)
         sign = self.original.signs.known_sign(strength, f"the sign of z = {self.coordinate} isn't known")
         return int(sign * self.original.side_of(side) ** abs(order))
 
 
 def frames(question: SpectralProblem, budget: Budget) -> Iterator[SingularFrame]:
     """The equation as it was read, and in each coordinate that its symmetries give."""
-    signs = question.signs
-    original, t = question.original, question.t
+    t = question.t
     problem = analyse(question.parsed.S, budget)
-    yield _frame(question, original, t, t, 1, problem)
+    yield _frame(question, t, 1, problem)
     for symmetric in symmetries(problem, t.name):
         coordinate = symmetric.coordinate
         is_another = coordinate.n % 2 == 0 or (coordinate.n == 1 and coordinate.base != t.name)
-        base = signs.real(written_expression(coordinate.base))
+        base = question.signs.real(written_expression(coordinate.base))
         if is_another and not base.has(question.E):
-            yield _frame(question, original, t, base, coordinate.n, symmetric.quotient(problem))
+            yield _frame(question, base, coordinate.n, symmetric.quotient(problem))
 
 
-def _frame(question: SpectralProblem, original: Original, t: Any, base: Any, m: int, problem: Problem) -> SingularFrame:
+def _frame(question: SpectralProblem, base: Any, m: int, problem: Problem) -> SingularFrame:
     """The problem v'' = S_z v in z = base^m."""
     signs = question.signs
     z = sympy.Dummy("Z")
-    constant, powers = _slope(original, t, base, m)
-    fold = _fold(original, t, base, m, question)
-    half = original if fold is None else original.on(fold, question.domain[1])
-    places = tuple(_value(base**m, t, half.at(side)) for side in (0, 1))
+    constant, powers = _slope(question, base, m)
+    fold = _fold(question, base, m)
+    original = question.original if fold is None else question.original.on(fold, question.domain[1])
+    places = tuple(_value(base**m, question.t, original.at(side)) for side in (0, 1))
     return SingularFrame(
         question,
         original,
-        t,
         base**m,
         S=signs.real(problem.S.to_sympy(z)),
         z=z,
         slope=constant * sympy.Mul(*((z - c) ** mu for c, mu in powers.items())),
         spots=tuple(_spots(problem, powers, places, signs)),
         fold=fold,
-        limits_of_t=half.range,
     )
 
 
@@ -142,11 +137,11 @@ def linear_factors(expression: Any, z: Any) -> tuple[Any, dict[Any, Any]]:
     return constant, found
 
 
-def _slope(original: Original, t: Any, base: Any, m: int) -> tuple[Any, dict[Any, Any]]:
+def _slope(question: SpectralProblem, base: Any, m: int) -> tuple[Any, dict[Any, Any]]:
     """C and the mu_c in (dz/dx)^2 = C prod (z - c)^mu_c, from the same in s, z = s^m."""
-    s = sympy.Dummy("s")
+    t, s = question.t, sympy.Dummy("s")
     t_of_s = sympy.solve(base - s, t)[0]
-    ds_dx_squared = (sympy.diff(base, t) ** 2 * original.slope_squared(t)).xreplace({t: t_of_s})
+    ds_dx_squared = (sympy.diff(base, t) ** 2 * question.original.slope_squared(t)).xreplace({t: t_of_s})
     constant, exponents = linear_factors(m**2 * s ** (2 * m - 2) * ds_dx_squared, s)
     powers = defaultdict[Any, Any](int)
     for root, exponent in exponents.items():
@@ -176,13 +171,13 @@ def _spots(problem: Problem, powers: Mapping[Any, Any], places: tuple[Any, ...],
         yield Spot(point, square, powers.get(point, sympy.S.Zero), tuple(compress((0, 1), is_there)))
 
 
-def _fold(original: Original, t: Any, base: Any, m: int, question: SpectralProblem) -> Any:
+def _fold(question: SpectralProblem, base: Any, m: int) -> Any:
     """The only point inside the domain at which dz/dx vanishes, or None."""
     # Where dt/dx = 0, and where base = 0 for an even m.
-    zeros = sympy.solve(sympy.numer(sympy.together(base)), t) if m % 2 == 0 else []
-    middle = original.middle(zeros)
+    zeros = sympy.solve(sympy.numer(sympy.together(base)), question.t) if m % 2 == 0 else []
+    middle = question.original.middle(zeros)
     if middle is not None and len({wish is None or wish.is_zero for wish in question.boundary.wishes}) > 1:
         raise Uncovered(
-            f"the conditions at the ends aren't symmetric about {original.x} = {middle}, and the equation is"
+            f"the conditions at the ends aren't symmetric about {question.x} = {middle}, and the equation is"
         )
     return middle

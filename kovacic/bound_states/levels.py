@@ -146,7 +146,7 @@ class Levels:
     @cached_property
     def members(self) -> tuple[int, ...] | None:
         """The n of finitely many levels without parameters; None for infinitely many, and where parameters decide."""
-        if not self.above or any(c.free_symbols != {self.number} for c in self.conditions):
+        if any(c.free_symbols != {self.number} for c in self.conditions):
             return None
         found = [n for n in range(_MOST) if all(c.subs(self.number, n) == sympy.true for c in self.conditions)]
         return None if _MOST - 1 in found else tuple(found)

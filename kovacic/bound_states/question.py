@@ -54,9 +54,9 @@ class Asked:
     boundary: Boundary
     friedrichs: bool
     assumed: Mapping[Any, Any]
-    kinetic: Any = sympy.S.One
-    names: Sequence[str] = ()
-    notices: tuple[str, ...] = ()
+    kinetic: Any
+    names: Sequence[str]
+    notices: tuple[str, ...]
     roots: Mapping[str, Any] = field(default_factory=dict)
 
     @property
