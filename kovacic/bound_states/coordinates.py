@@ -81,7 +81,7 @@ class Original:
         if self.kind not in ("cos", "cosh", "tan"):
             return self
         twice = sum(map(self.theta_at, self.domain))
-        if not twice.is_number or twice is sympy.nan:
+        if not twice.is_comparable:
             return self
         shifted = self
         if self.is_periodic and twice.is_finite:
@@ -139,7 +139,7 @@ class Original:
         theta = self.theta_at(self.domain[side])
         if theta.is_infinite and self.kind in _PERIODS:
             raise Uncovered(f"V is periodic: no solution is square integrable at {self.x} = {self.domain[side]}")
-        value = self.value(theta) if self.kind == "x" else sympy.simplify(self.value(theta))
+        value = sympy.simplify(self.value(theta))
         return sympy.oo if value.is_infinite else value  # -oo, and the pole of a tangent
 
     def side_of(self, side: int) -> int:

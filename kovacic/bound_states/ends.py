@@ -217,8 +217,7 @@ def _finite(end: End, square: Any, question: SpectralProblem) -> End:
 def _less_than_1(square: Any, signs: Signs) -> Any:
     """square < 1, for nu where that is no radical and has a sign."""
     root = exact_root(square)
-    is_of_square = square.is_number or root is None or signs.holds(sympy.Lt(square, 1)) is not None
-    if is_of_square:
+    if root is None or signs.holds(sympy.Lt(square, 1)) is not None:
         return sympy.Lt(square, 1)
     return tidied([sympy.Lt(signs.size(root), 1)], signs)[0]
 
@@ -226,8 +225,6 @@ def _less_than_1(square: Any, signs: Signs) -> Any:
 def _end_powers(distance: Any, square: Any, question: SpectralProblem) -> str:
     """How the two solutions behave at a distance from an end where the exponents are 1/2 +- nu."""
     shown = question.shown(distance)
-    if square == sympy.Rational(1, 4):
-        return f"{shown} or 1"
     root = exact_root(square)
     nu = sympy.sqrt(square) if root is None else root
     larger, smaller = (sympy.factor(sympy.expand(sympy.Rational(1, 2) + s * nu)) for s in (1, -1))

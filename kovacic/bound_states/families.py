@@ -84,9 +84,8 @@ def factor_at(frame: SingularFrame, c: Any) -> WaveProduct:
     if (original.kind, c) == ("exp", 0):
         return WaveProduct(powers={sympy.E: original.theta})
     # c isn't inside the domain: t is larger than c there, unless c is beyond the upper end
-    low, high = original.range
-    is_above = sympy.simplify(low - c).is_nonnegative or not sympy.simplify(c - high).is_nonnegative
-    sign = 1 if is_above else -1
+    _, high = original.range
+    sign = -1 if sympy.simplify(c - high).is_nonnegative else 1
     function = _OF_HALF_ANGLE.get((original.kind, c))
     if function is None:
         return WaveProduct(powers={sign * (original.t - c): 1})
@@ -164,11 +163,11 @@ def _argument(frame: SingularFrame, w: Any) -> Any:
     in_x = sympy.expand(sympy.apart(w, t)).xreplace({t: original.t})
     if original.kind != "exp":
         return in_x
-    quotient, tanh = (t - 1) / (t + 1), sympy.tanh(original.theta / 2)
-    coth = sympy.coth(original.theta / 2)
-    for form, written in (quotient, tanh), (-quotient, -tanh), (1 / quotient, coth), (-1 / quotient, -coth):
-        if sympy.cancel(w - form) == 0:
-            return written
+    quotient = (t - 1) / (t + 1)
+    for form, function in (quotient, sympy.tanh), (1 / quotient, sympy.coth):
+        sign = sympy.cancel(w / form)
+        if sign in (1, -1):
+            return sign * function(original.theta / 2)
     return in_x.replace(lambda e: e.is_Pow and e.base.func is sympy.exp, lambda e: sympy.exp(e.base.exp * e.exp))
 
 
@@ -182,10 +181,10 @@ def _real_powers(frame: SingularFrame, r: Any, e1: Any) -> tuple[Any, Any, Any]:
     q = sympy.expand((e1 - conjugate(e1)) / (2 * sympy.I))
     original, t = frame.original, frame.question.t
     theta = original.theta
-    for sign in (1, -1):
-        if original.kind == "tan" and sympy.cancel(r - sign / t) == 0:
-            powers = sympy.sin(theta) ** shortest(-2 * p) * sympy.exp(-2 * q * sign * theta)
-            return powers, sign * sympy.cot(theta), sympy.exp(2 * sympy.pi * q * sign)
+    sign = sympy.cancel(r * t)
+    if original.kind == "tan" and sign in (1, -1):
+        powers = sympy.sin(theta) ** shortest(-2 * p) * sympy.exp(-2 * q * sign * theta)
+        return powers, sign * sympy.cot(theta), sympy.exp(2 * sympy.pi * q * sign)
     in_x = r.xreplace({t: original.t})
     root = 1 + in_x**2, p
     if original.kind == "sinh" and sympy.expand(r**2 - t**2) == 0:

@@ -71,8 +71,6 @@ class SingularFrame:
 
     def direction(self, side: int) -> int:
         """The sign of z near an end at which it is infinite."""
-        if self.coordinate.is_Pow and self.coordinate.exp % 2 == 0:
-            return 1
         u = sympy.Dummy("u")
         point = self.original.at(side)
         order, strength = leading(self.coordinate.xreplace({self.question.t: near(point, u)}), u)
