@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from contextlib import suppress
 from dataclasses import replace
 from typing import Any
@@ -13,17 +13,10 @@ from kovacic.bound_states.asked import asked, problem_of, unsolved
 from kovacic.bound_states.closed_forms import closed_forms
 from kovacic.bound_states.darboux import transformed
 from kovacic.bound_states.ends import Examined, examined
-from kovacic.bound_states.families import (
-    ExponentForm,
-    bessel,
-    oscillator,
-    three_regular_points,
-    whittaker,
-)
-from kovacic.bound_states.frame import SingularFrame, frames
-from kovacic.bound_states.levels import Levels, Spectrum
+from kovacic.bound_states.families import families
+from kovacic.bound_states.levels import Spectrum
 from kovacic.bound_states.numeric import check_first_levels, with_matching, with_numbers
-from kovacic.bound_states.question import Asked, SpectralProblem
+from kovacic.bound_states.question import Asked
 from kovacic.bound_states.signs import Uncovered
 from kovacic.bound_states.without_levels import NO_LEVELS, REASON, is_repulsive
 from kovacic.enclosure.request import Accuracy, digits_and_limits
@@ -35,12 +28,6 @@ from kovacic.parametric.api import DEFAULT_DEGREE
 from kovacic.parametric.assumptions import check_mapping
 from kovacic.reading.read import declared
 
-_STANDARD_FORMS: dict[str, Callable[[SingularFrame], ExponentForm | None]] = {
-    "Hermite's polynomials": oscillator,
-    "Whittaker's equation": whittaker,
-    "three regular singular points": three_regular_points,
-    "Bessel's equation": bessel,
-}
 _POLYNOMIAL = "each solution that is square integrable at both ends has a polynomial in it"
 
 
@@ -184,7 +171,7 @@ def _all_levels(question: Examined, budget: Budget) -> Spectrum:
         reason = "V is periodic, and no formula is known for its levels on a half line, which lie between the bands"
         return question.spectrum(reason=f"undecided: {reason}")
     try:
-        levels, name = _families(question, budget)
+        levels, name = families(question, budget)
     except Uncovered:
         is_settled = not question.excluded and not question.boundary.is_mixed
         if is_settled and is_repulsive(question):
@@ -216,14 +203,3 @@ def _with_closed_forms(found: Spectrum, question: Examined, max_degree: int, lim
         return found
     higher = f"there may be levels with a polynomial of degree {forms.higher}"
     return replace(found, hint=f"{higher}: max_degree={forms.higher}", shell=f"{higher}: --max-degree {forms.higher}")
-
-
-def _families(question: SpectralProblem, budget: Budget) -> tuple[tuple[Levels, ...], str]:
-    """Those of the first coordinate and standard equation that fit, and its name."""
-    for frame in frames(question, budget) if not question.original.is_circular else ():
-        for name, standard_form in _STANDARD_FORMS.items():
-            with suppress(Uncovered):
-                form = standard_form(frame)
-                found = () if form is None else form.levels()
-                return tuple(levels for levels in found if not levels.is_empty), name
-    raise Uncovered("no formula is known")

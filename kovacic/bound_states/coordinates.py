@@ -93,9 +93,8 @@ class Original:
             return replace(shifted, rate=-shifted.rate, offset=-shifted.offset)
         return shifted
 
-    def on(self, *domain: Any) -> Original:
+    def on(self, first: Any, last: Any) -> Original:
         """The function on another domain."""
-        first, last = domain
         return replace(self, domain=(first, last))
 
     @property

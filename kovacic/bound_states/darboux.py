@@ -69,7 +69,7 @@ def transformed(
         polynomials = y.atoms(sympy.hermite, sympy.assoc_laguerre)
         weight = one.wave.xreplace(dict.fromkeys(polynomials, sympy.S.One))
         y = weight * sympy.collect(sympy.expand(y / weight), polynomials, sympy.factor)
-        norm = None if one.norm is None else (one.energy - E0) / question.kinetic * one.norm
+        norm = (one.energy - E0) / question.kinetic * one.norm
         levels.append(replace(one, wave=y, zeros=one.zeros + int(all(holds)), norm=norm))
     level = Algebraic(0, sympy.Integer(0), E - E0, lowest, P=sympy.Poly(1, x), range=question.interval)
     if not question.parameters:

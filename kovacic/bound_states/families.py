@@ -31,6 +31,7 @@ on; constant factors are dropped, and the norm, a product of Gamma functions, is
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Sequence
+from contextlib import suppress
 from dataclasses import dataclass, field
 from itertools import chain, product
 from typing import Any
@@ -39,9 +40,11 @@ import sympy
 
 from kovacic.bound_states.ends import leading
 from kovacic.bound_states.energies import Root, conjugate, shortest, solved, tidied
-from kovacic.bound_states.frame import SingularFrame, Spot, linear_factors
+from kovacic.bound_states.frame import SingularFrame, Spot, frames, linear_factors
 from kovacic.bound_states.levels import Levels
+from kovacic.bound_states.question import SpectralProblem
 from kovacic.bound_states.signs import Uncovered, above
+from kovacic.limits import Budget
 from kovacic.parametric.solutions import jacobi
 
 
@@ -124,7 +127,7 @@ def _ordered(frame: SingularFrame, roots: list[Root]) -> list[int]:
     return sorted(range(3), key=lambda k: (k == last, 1 not in sides[k], sides[k] == ()))
 
 
-#: A solution y in the user's variable, up to a factor, and the integral of its square, None if unknown.
+#: A solution y in the user's variable, up to a factor, and the integral of its square.
 Wave = tuple[Any, Any]
 
 
@@ -415,8 +418,8 @@ def _coefficients(function: Any, frame: SingularFrame, degree: int) -> list[Any]
     return list(sympy.Poly(quotient, frame.z).all_coeffs())
 
 
-def bessel(frame: SingularFrame) -> None:
-    """S_z = r/z + b/z^2 between 0 and oo: no solution is square integrable at both ends.
+def bessel(frame: SingularFrame) -> ExponentForm:
+    """S_z = r/z + b/z^2 between 0 and oo: no solution is square integrable at both ends, and there is no degree.
 
     Where z^(-e) y is entire and y decays like exp(-2 sqrt(r z)), which holds for |arg z| < 3 pi [Martinet & Ramis], it is
     bounded everywhere and tends to 0: y = 0.
@@ -425,3 +428,22 @@ def bessel(frame: SingularFrame) -> None:
     points = {spot.point for spot in frame.spots if spot.sides}
     if points != {0, sympy.oo} or frame.fold is not None or r.has(frame.question.E):
         raise Uncovered("the domain isn't from 0 to oo")
+    return ExponentForm(frame, [], degree=lambda _: -sympy.S.One, wave=lambda _: (0, 1))
+
+
+_STANDARD_FORMS: dict[str, Callable[[SingularFrame], ExponentForm]] = {
+    "Hermite's polynomials": oscillator,
+    "Whittaker's equation": whittaker,
+    "three regular singular points": three_regular_points,
+    "Bessel's equation": bessel,
+}
+
+
+def families(question: SpectralProblem, budget: Budget) -> tuple[tuple[Levels, ...], str]:
+    """Those of the first coordinate and standard equation that fit, and its name.  Raises `Uncovered` if none does."""
+    for frame in frames(question, budget) if not question.original.is_circular else ():
+        for name, standard_form in _STANDARD_FORMS.items():
+            with suppress(Uncovered):
+                found = standard_form(frame).levels()
+                return tuple(levels for levels in found if not levels.is_empty), name
+    raise Uncovered("no formula is known")

@@ -45,8 +45,6 @@ def with_numbers(found: Spectrum, levels: int | None, digits: int, limits: Limit
         shell = " ".join(f"--assume {name}=2" for name in found.parameters) + ", for instance"
         raise InputError(f"numeric levels need values of {names}", hint=hint, shell=shell)
     numeric = Eigenvalues((), False, found.energy)
-    if found.needs_boundary_condition:
-        return replace(found, numeric=replace(numeric, notes=("a boundary condition is needed",)))
     try:
         with Budget(limits).watched():
             problem = Eigenproblem(_sturm_problem(found), found.energy)
