@@ -48,6 +48,7 @@ _CLASSES = {
 }
 #: Words for signs, as the relations that they abbreviate.
 INEQUALITIES = {"positive": ">0", "negative": "<0", "nonnegative": ">=0", "nonpositive": "<=0"}
+_RELATIONS = {"nonzero": "!=0", **INEQUALITIES}
 WORDS = (*_CLASSES, "rational", "irrational", "noninteger", "nonzero", *INEQUALITIES)
 _RATIONAL = r"[+-]?\d{1,1000}(?:/0*[1-9]\d{0,999})?"
 _BOUND = re.compile(rf"(>=|<=|>|<)({_RATIONAL}|[^\s<>=]*[a-z(][^\s<>=]*)")
@@ -124,14 +125,17 @@ class Known:
     @cached_property
     def excluded(self) -> frozenset[Fraction]:
         """Single numbers that it isn't."""
-        found = {Fraction(match[1]) for match in map(_UNEQUAL.fullmatch, self.words) if match}
-        return frozenset(found | {Fraction(0)} if "nonzero" in self.words else found)
+        return frozenset(Fraction(match[1]) for match in map(_UNEQUAL.fullmatch, self.relations) if match)
+
+    @cached_property
+    def relations(self) -> tuple[str, ...]:
+        """The words, relations in the place of those that abbreviate one."""
+        return tuple(_RELATIONS.get(word, word) for word in self.words)
 
     @cached_property
     def inequalities(self) -> tuple[Bound, ...]:
         """All of its bounds."""
-        relations = [INEQUALITIES.get(word, word) for word in self.words]
-        return tuple(_stated_bound(word) for word in relations if _BOUND.fullmatch(word))
+        return tuple(map(_stated_bound, filter(_BOUND.fullmatch, self.relations)))
 
     @cached_property
     def bounds(self) -> tuple[Bound, ...]:

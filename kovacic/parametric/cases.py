@@ -26,10 +26,8 @@ from kovacic.limits import check_time
 from kovacic.parametric.claims import Claim
 from kovacic.parametric.functions import ParameterPoint, irreducible_factors, over_parameters, with_values
 from kovacic.parametric.integers import Congruence
-from kovacic.parametric.natural import Natural
 from kovacic.parametric.regions import ParameterRegion, RegionVerdict
 from kovacic.parametric.restriction import Hypersurface, hypersurface, with_free_constant
-from kovacic.parametric.riemann import Schwarz
 from kovacic.parametric.statements import ALWAYS, Both, Either, Setting, Statement, Vanishes, all_of, either
 
 
@@ -53,16 +51,9 @@ def _where_possible(statement: Statement, chart: ParameterPoint) -> list[Paramet
         return reduce(lambda charts, part: within(part, charts), statement.parts, [chart])
     if isinstance(statement, Either):
         return _union((within(part, [chart]) for part in statement.parts), chart)
-    if isinstance(statement, Vanishes):
-        return _where_solvable(chart.at(statement.function), chart)
-    if isinstance(statement, Congruence):
-        equation = chart.at(statement.equation)
-        return [] if statement.holds_for(equation) is False else _where_solvable(equation, chart)
-    if isinstance(statement, Schwarz):
-        chart.at(statement.cubic)  # is it defined there?
-    if isinstance(statement, Natural) and statement.factors is not None:
-        return _union((_where_solvable(chart.at(factor), chart) for factor in statement.factors), chart)
-    return [chart]
+    if isinstance(statement, Congruence) and statement.holds_for(chart.at(statement.equation)) is False:
+        return []
+    return _union((_where_solvable(chart.at(equation), chart) for equation in statement.equations), chart)
 
 
 def _where_solvable(equation: Poly, chart: ParameterPoint) -> list[ParameterPoint]:

@@ -340,15 +340,17 @@ def gathered(y: Any, x: Any) -> Any:
 
 def has_roots(expression: Any) -> bool:
     """True if i, or a root of something else, occurs."""
-    return expression.has(sympy.I) or any(not power.exp.is_Integer for power in expression.atoms(sympy.Pow))
+    return expression.has(sympy.I) or _has_radicals(expression)
+
+
+def _has_radicals(expression: Any) -> bool:
+    return any(not power.exp.is_Integer for power in expression.atoms(sympy.Pow))
 
 
 def shorter_sum(exponent: Any) -> Any:
     """A sum without terms that cancel; its rational part is one fraction where that is shorter."""
     terms = sympy.expand(exponent)
-    roots, rational = sympy.sift(
-        sympy.Add.make_args(terms), lambda term: any(not e.exp.is_Integer for e in term.atoms(sympy.Pow)), binary=True
-    )
+    roots, rational = sympy.sift(sympy.Add.make_args(terms), _has_radicals, binary=True)
     if all(sympy.denom(term).is_number for term in rational):  # a polynomial already
         return terms
     fraction = sympy.cancel(sympy.Add(*rational))

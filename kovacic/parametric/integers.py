@@ -25,7 +25,7 @@ from operator import mul
 from random import Random
 from typing import NamedTuple
 
-from kovacic.algebra.function_field import FunctionField, FunctionPoly
+from kovacic.algebra.function_field import FunctionPoly
 from kovacic.algebra.poly import Poly
 from kovacic.algebra.ratfunc import RatFunc
 from kovacic.algebra.rationals import QQ
@@ -320,8 +320,8 @@ class Congruence(Statement):
         return cls(equation, tuple(sorted(known)), modulus)
 
     @property
-    def field(self) -> FunctionField:
-        return self.equation.field
+    def equations(self) -> tuple[FunctionPoly, ...]:
+        return (self.equation,)
 
     @property
     def form(self) -> FunctionPoly | None:

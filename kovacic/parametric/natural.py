@@ -117,6 +117,11 @@ class Natural(Statement):
         return free_letter(self.setting.names, "dnmkjl")  # no N, the set
 
     @property
+    def equations(self) -> tuple[FunctionPoly, ...]:
+        """A number of zeros may be anything where they aren't listed: 0 stands for that."""
+        return (0 * over_parameters(self.S.num),) if self.factors is None else self.factors
+
+    @property
     def field(self) -> FunctionField:
         return over_parameters(self.S.num).field
 

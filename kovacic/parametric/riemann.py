@@ -27,7 +27,7 @@ from operator import mul
 from random import Random
 from typing import NamedTuple
 
-from kovacic.algebra.function_field import FunctionField, FunctionPoly
+from kovacic.algebra.function_field import FunctionPoly
 from kovacic.algebra.poly import Poly
 from kovacic.algebra.rationals import QQ
 from kovacic.algebra.traces import characteristic_polynomial
@@ -143,8 +143,8 @@ class Schwarz(Statement):
         return kimura([*map(rational_square_root, roots(point.at(self.cubic)))]) in self.structures
 
     @property
-    def field(self) -> FunctionField:
-        return self.cubic.field
+    def equations(self) -> tuple[FunctionPoly, ...]:
+        return (self.cubic,)
 
     def rewritten(self, change: Callable[[FunctionPoly], FunctionPoly]) -> Statement:
         return replace(self, cubic=change(self.cubic))
@@ -261,10 +261,14 @@ class Differences:
 
     @property
     def rational(self) -> str:
-        """ "They are rational", said of those that aren't numbers."""
+        """ "They are rational", said of those that aren't numbers, and where a solution has a rational omega.
+
+        A sum of +- all of them is an integer there, so that a single one with a root is rational where the others are.
+        """
         if self.names is None:
             return "the exponent differences are rational"
-        free = [*dict.fromkeys(self.free)]
+        roots = [name for name in self.free if "sqrt" in name]
+        free = [*dict.fromkeys(name for name in self.free if [name] != roots)] or roots
         return f"{_listed(free)} {'is' if len(free) == 1 else 'are'} rational"
 
     @property

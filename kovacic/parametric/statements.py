@@ -93,9 +93,14 @@ class Statement(Claim):
         return self
 
     @property
-    @abstractmethod
+    def equations(self) -> tuple[FunctionPoly, ...]:
+        """Functions of which one vanishes, or equations for a number of which one has a root, where the statement holds."""
+        return ()
+
+    @property
     def field(self) -> FunctionField | None:
         """The field of its functions, or None without any."""
+        return next((one.field for one in self.equations), None)
 
     @abstractmethod
     def rewritten(self, change: Callable[[FunctionPoly], FunctionPoly]) -> Statement:
@@ -115,8 +120,8 @@ class Statement(Claim):
 
 class Vanishes(IsZero, Statement):
     @property
-    def field(self) -> FunctionField:
-        return self.function.field
+    def equations(self) -> tuple[FunctionPoly, ...]:
+        return (self.function,)
 
     def rewritten(self, change: Callable[[FunctionPoly], FunctionPoly]) -> Statement:
         changed = change(self.function)

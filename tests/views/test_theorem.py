@@ -424,9 +424,11 @@ def test_theorems_are_printed_as_people_write_them(S: str, sentence: str) -> Non
             hypergeometric(("l", "m", "1/3")),
             "abelian where l, m are rational; elsewhere exactly where the group is G_m",
         ),
+        # The sum of +-sqrt(...)/(2*k), 1/k and 1/2 is an integer.
+        (HOMOGENEOUS, "abelian where 1/k is rational; elsewhere exactly where the group is G_m"),
     ],
-    ordinary=2,
-    long=(1, 2, 5, 7, 8),
+    ordinary=(0, 4),
+    long=(1, 2, 5, 7, 8, 9),
 )
 def test_the_identity_component_is_named(S: str, expected: str) -> None:
     answer = kovacic.conditions(S, var="x")
