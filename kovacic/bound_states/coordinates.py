@@ -273,7 +273,7 @@ def check_poles(real: RealPotential) -> None:
 def _check_period(original: Original, poles: Sequence[Any]) -> None:
     """Raise `InputError` if a periodic V has poles, which recur in each period, on a domain that ends at infinity."""
     period = _PERIODS[original.kind]
-    angles = replace(original.on(-2 * period, 2 * period), rate=sympy.S.One, offset=sympy.S.Zero).points_inside(poles)
+    angles = Original(original.x, (-2 * period, 2 * period), original.signs, original.kind).points_inside(poles)
     if angles:
         # The least positive angle, and the one before it: they come back in each period.
         ends = next(pair for pair in pairwise(sorted(angles, key=float)) if pair[1] > 0)

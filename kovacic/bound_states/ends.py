@@ -224,9 +224,8 @@ def _less_than_1(square: Any, signs: Signs) -> Any:
 
 def _end_powers(distance: Any, square: Any, question: SpectralProblem) -> str:
     """How the two solutions behave at a distance from an end where the exponents are 1/2 +- nu."""
-    shown = question.shown(distance)
     root = exact_root(square)
     nu = sympy.sqrt(square) if root is None else root
     larger, smaller = (sympy.factor(sympy.expand(sympy.Rational(1, 2) + s * nu)) for s in (1, -1))
-    logarithm = f"*log({shown})" if square == 0 else ""
+    logarithm = f"*log({question.shown(distance)})" if square == 0 else ""
     return f"{question.shown(distance**larger)} or {question.shown(distance**smaller)}{logarithm}"

@@ -72,8 +72,8 @@ class SingularFrame:
     def direction(self, side: int) -> int:
         """The sign of z near an end at which it is infinite."""
         u = sympy.Dummy("u")
-        point = self.original.at(side)
-        order, strength = leading(self.coordinate.xreplace({self.question.t: near(point, u)}), u)
+        local = near(self.original.at(side), u)
+        order, strength = leading(self.coordinate.xreplace({self.question.t: local}), u)
         sign = self.original.signs.known_sign(strength, f"the sign of z = {self.coordinate} isn't known")
         return int(sign * self.original.side_of(side) ** abs(order))
 

@@ -129,11 +129,6 @@ class Levels:
         return Levels(number, energy, wave, conditions, zeros, None if self.norm is None else change(self.norm))
 
     @property
-    def above(self) -> tuple[Any, ...]:
-        """The conditions with n in them: none where there are infinitely many levels."""
-        return tuple(c for c in self.conditions if c.has(self.number))
-
-    @property
     def where(self) -> tuple[Any, ...]:
         """The conditions on the parameters alone."""
         return tuple(c for c in self.conditions if not c.has(self.number))

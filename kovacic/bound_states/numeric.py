@@ -152,9 +152,9 @@ def check_first_levels(found: Spectrum) -> None:
             at = {sympy.Symbol(name): sympy.Rational(value) for name, value in values.items()}
             difference = ((found.potential - state.energy) / found.kinetic).xreplace(at)
             if _is_wave_false(state.wave, difference, x, [end.xreplace(at) for end in found.domain]):
-                said = "".join(f", {name} = {value}" for name, value in values.items())
+                V = found.potential.xreplace(at)
                 raise VerificationFailed(
-                    f"a spectrum failed its own check at n = 0{said}: E = {state.energy}; please report it"
+                    f"a spectrum failed its own check at n = 0, V = {V}: E = {state.energy}; please report it"
                 )
             break
 
