@@ -182,7 +182,24 @@ class RatFunc(Immutable):
         return num.to_sympy(Symbol("x")) / den.to_sympy(Symbol("x"))
 
     def to_sympy(self, variable: Any) -> Any:
-        """A SymPy expression in this symbol, and in those that `to_str` prints."""
+        """The function as a SymPy expression.
+
+        Parameters
+        ----------
+        variable : sympy.Symbol
+            Stands for the variable; parameters are symbols of the names that `to_str` prints.
+
+        Returns
+        -------
+        sympy.Expr
+            Numerator over denominator.
+
+        Examples
+        --------
+        >>> import kovacic, sympy
+        >>> kovacic.solve("x/(x^2 + a)").S.to_sympy(sympy.Symbol("t"))
+        t/(a + t**2)
+        """
         return self.num.to_sympy(variable) / self.den.to_sympy(variable)
 
     def cleared(self) -> tuple[Poly, Poly]:

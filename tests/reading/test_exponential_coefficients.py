@@ -538,6 +538,7 @@ def test_numbers_on_the_right_that_are_not_algebraic_are_read(coefficient: str, 
 
 
 @parametrize("right", NOT_ALGEBRAIC, ordinary=0, long=(0, 5, 10))
+@pytest.mark.filterwarnings("ignore:e is Euler's number")
 def test_solutions_with_numbers_on_the_right_that_are_not_algebraic(right: str) -> None:
     found = kovacic.dsolve(f"y'' - y' + exp(2*x)*y = {right}").rhs
     values = {"C1": 2, "C2": 3, "a": sympy.Rational(1, 4)}
