@@ -183,7 +183,7 @@ def tidied(
 
 
 def _gap(condition: Any) -> Any:
-    """What is positive, or not negative, where the condition holds."""
+    """The expression that a condition demands to be positive, or not negative."""
     return condition.gts - condition.lts
 
 

@@ -524,7 +524,7 @@ def _are_same(formulas: Sequence[Expr], others: Sequence[Expr], letters: Collect
 
 @dataclass(frozen=True)
 class _WhereZero:
-    """What holds in exceptional cases; without a budget nothing is solved for it."""
+    """Finds the solutions in exceptional cases; without a budget such cases are only named."""
 
     budget: Budget | None
 
@@ -558,7 +558,7 @@ class _WhereZero:
     def _said_at(
         self, place: Exceptional, at: Callable[..., Any], formulas: Sequence[Expr], budget: Budget
     ) -> str | None:
-        """What the solutions are, found in half of the remaining time, so that the answer is not lost; None if they aren't.
+        """The solutions in one case, sought in half of the remaining time, so that the answer isn't lost; None if not found.
 
         Nothing is said where the formulas hold.
         """

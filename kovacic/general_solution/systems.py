@@ -10,7 +10,7 @@ x'(t0) = a x + b y + f there; where b(t0) = 0 equation (1) is singular though th
 
 from __future__ import annotations
 
-from collections.abc import Callable, Collection, Iterable, Mapping, Sequence
+from collections.abc import Callable, Collection, Iterable, Mapping, Sequence, Set
 from dataclasses import dataclass
 from typing import Any
 
@@ -194,17 +194,12 @@ def solved_system(
     (_, b), _ = system.matrix
     exceptions: list[Expr] = []
     of_values: list[Expr] = []
-    if b == 0:  # first x from its own equation and value, then y, whose equation has what is left of x in it
-        of_first, of_second = ([condition for k, condition in conditions if k == number] for number in (0, 1))
-        if len(of_second) > 1:  # these determine x
-            of_first, of_second = [], []
-        else:
-            own = given
-            conditions = []
-        first = solved_linear(system.alone(0, sympy.Integer(0)), of_first, own)
-        second = solved_linear(system.alone(1, first.eq.rhs), of_second, own | first.eq.rhs.free_symbols)
-        pair = sympy.Tuple(first.eq.rhs, second.eq.rhs)
-        notices = [*first.notices, *second.notices]
+    if b == 0 and sum(number for number, _ in conditions) > 1:  # two values of y determine x
+        pair, notices = _one_after_the_other(system, [], own)
+    elif b == 0:
+        pair, notices = _one_after_the_other(system, conditions, given)
+        own = given
+        conditions = []
     elif start is not None and is_unit(b, system.t, start[0]):
         pair, notices = _through_values(system, start, solver)
         own = given
@@ -237,6 +232,17 @@ def solved_system(
     users = {symbol: user for user, symbol in known.items()}
     eqs = [sympy.Eq(f, found[f.xreplace(known)].xreplace(users), evaluate=False) for f in functions]
     return SystemAnswer(eqs, [*dict.fromkeys(notices)], known=known, exceptional=tuple(exceptions))
+
+
+def _one_after_the_other(
+    system: LinearSystem, conditions: Sequence[tuple[int, Condition]], taken: Set[Expr]
+) -> tuple[Expr, list[str]]:
+    """For b = 0: x from its own equation and value, then y, whose equation has what is left of x in it."""
+    of_x, of_y = ([condition for k, condition in conditions if k == number] for number in (0, 1))
+    first = solved_linear(system.alone(0, sympy.Integer(0)), of_x, taken)
+    x = first.eq.rhs
+    second = solved_linear(system.alone(1, x), of_y, taken | x.free_symbols)
+    return sympy.Tuple(x, second.eq.rhs), [*first.notices, *second.notices]
 
 
 def _with_constants_apart(value: Expr, constants: Collection[Expr], t: Expr) -> Expr:

@@ -256,7 +256,7 @@ _NO_BOUND = Bound(1, Fraction(0), False)
 
 @dataclass(frozen=True)
 class Assumptions:
-    """What is known about the parameters, by name, and the value of the algebraic constant among them, if there is one."""
+    """The assumptions on the parameters, by name, and the value of the algebraic constant among these, if there is one."""
 
     known: tuple[tuple[str, Known], ...] = ()
     constant: ParameterPoint = NO_CONSTANT

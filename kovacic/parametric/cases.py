@@ -46,7 +46,7 @@ def within(statement: Statement, charts: list[ParameterPoint]) -> list[Parameter
 
 
 def _where_possible(statement: Statement, chart: ParameterPoint) -> list[ParameterPoint]:
-    """The same for one chart."""
+    """The parts of one chart on which the statement may hold."""
     if isinstance(statement, Both):
         return reduce(lambda charts, part: within(part, charts), statement.parts, [chart])
     if isinstance(statement, Either):
@@ -361,6 +361,6 @@ def _say_the_same(cases: list[Case], others: list[Case], is_same: Likeness) -> b
 
 
 def _but_for_verdict(case: Case) -> Case:
-    """What is said in it besides: of the first region, whose verdict stands for that of all."""
+    """The case without its verdict, represented by its first region."""
     plain = replace(case.regions[0], statement=ALWAYS, verdict=RegionVerdict(None))
     return replace(case, regions=(plain,))

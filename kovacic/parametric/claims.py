@@ -139,7 +139,7 @@ class IntegerFamily(ForInteger):
     poles: tuple[Free, ...] = ()
 
     def along(self, line: FunctionPoly, numbers: Classes) -> IntegerFamily:
-        """The same with line(n) in the place of n, for an n among other numbers, and the poles that are possible there."""
+        """The family after the substitution of line(n) for n, n among other numbers, with the poles that may occur then."""
         moved = [replace(pole, root=over_parameters((pole.root - line[0]) / line[1])) for pole in self.poles]
         possible = (p for p in moved if (number := rational(p.root)) is None or numbers.contains(number))
         return replace(self, value=self.value(RatFunc(line)), numbers=numbers, poles=tuple(possible))

@@ -74,7 +74,7 @@ def text_of(words: Words) -> str:
 
 @lru_cache(maxsize=1024)
 def sentence(claim: Claim) -> Words:
-    """What is said."""
+    """The claim in words and formulas."""
     return phrase(_line(claim))
 
 

@@ -140,7 +140,7 @@ _FORMULA = re.compile(r"\w+_\w+|\w+\(\w\)|\{.*\}")
 
 
 def verdict_of(decision: Decision, group: Group | None = None) -> RegionVerdict:
-    """What the engine's decision says, and the group if it is known."""
+    """The verdict of the engine's decision, and the group if it is known."""
     verdict = RegionVerdict(decision.structure, decision.status is not Status.UNDECIDED)
     if group is None:
         return verdict

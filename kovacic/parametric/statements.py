@@ -89,7 +89,7 @@ class Statement(Claim):
         return None
 
     def under(self, assumptions: Assumptions) -> Statement:
-        """What is left to say where the assumptions hold: ALWAYS or NEVER where it follows from them."""
+        """The statement reduced by the assumptions: ALWAYS or NEVER where they decide it."""
         return self
 
     @property
