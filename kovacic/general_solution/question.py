@@ -20,7 +20,7 @@ import sympy
 from sympy.core.function import AppliedUndef, UndefinedFunction
 
 from kovacic.closed_form.atoms import Atoms
-from kovacic.equation import EULER, PI, Equation, parameters_of
+from kovacic.equation import EULER, PI, Equation, Parsed, parameters_of
 from kovacic.errors import InputError, NotLinear
 from kovacic.general_solution.behaviour import value_at
 from kovacic.general_solution.steps import JUMPING, in_steps
@@ -144,38 +144,38 @@ def read_question(
         eq = exact(eq)
     eq, func = _in_symbols(eq, renamed), _in_symbols(func, renamed)
     values = {_in_symbols(key, renamed): _in_symbols(value, renamed) for key, value in values.items()}
-    read = _read_equation(eq, func, var, limits, declared(parameters, about_letters(assume, var)))
-    if read.equation.variable in (PI, EULER):
-        raise InputError(f"{read.equation.variable} is a number", hint="take another name for the variable")
-    reader = ConditionReader(read.function, read.equation.unknown)
+    names = declared(parameters, about_letters(assume, var))
+    parsed, given, function = _read_equation(eq, func, var, limits, names)
+    if given.variable in (PI, EULER):
+        raise InputError(f"{given.variable} is a number", hint="take another name for the variable")
+    reader = ConditionReader(function, given.unknown)
     conditions = tuple(reader.read(key, value) for key, value in values.items())
     symbols = {symbol.name: symbol for symbol in getattr(eq, "free_symbols", ())}
-    letters = {name: sympy.Symbol(name) for name in parameters_of(read.equation.S.field)} | symbols
-    known = known_letters(assume or {}, read.function.args[0], letters, conditions)
+    own_names = parameters_of(given.S.field)
+    letters = {name: sympy.Symbol(name) for name in own_names} | symbols
+    known = known_letters(assume or {}, function.args[0], letters, conditions)
     for symbol in letters.values():
         s: Expr = known.get(symbol, symbol)
-        if s.is_nonnegative and not s.is_positive and _is_excluded_at_zero(sympy.Symbol(s.name), read.equation):
+        if s.is_nonnegative and not s.is_positive and _is_excluded_at_zero(sympy.Symbol(s.name), given):
             known[symbol] = sympy.Symbol(s.name, integer=s.is_integer, positive=True)
     symbols |= {symbol.name: symbol for symbol in known.values()}
-    conditions = tuple(condition.in_symbols(known) for condition in conditions)
-    meanings = _meanings(read.letters, symbols)
+    meanings = _meanings(parsed.letters, symbols)
     symbols |= {letter.name: letter for letter in meanings}
-    names = parameters_of(read.equation.S.field)
-    about = {key: said for key, said in (assume or {}).items() if str(key) in names}
-    equation = read.equation
-    if equation.h is not None and equation.h.has(*JUMPING):
-        equation = replace(equation, h=in_steps(equation.h, sympy.Symbol(read.function.args[0].name)))
+    about = {key: said for key, said in (assume or {}).items() if str(key) in own_names}
+    equation = given
+    if given.h is not None and given.h.has(*JUMPING):
+        equation = replace(given, h=in_steps(given.h, sympy.Symbol(function.args[0].name)))
     return Question(
         equation=equation,
-        given=read.equation,
-        function=read.function.xreplace(known),
-        conditions=conditions,
+        given=given,
+        function=function.xreplace(known),
+        conditions=tuple(condition.in_symbols(known) for condition in conditions),
         symbols=symbols,
         meanings=meanings,
         renamed=renamed | known,
-        assumptions=read_assumptions(about, sympy.Tuple(*symbols.values()), names),
+        assumptions=read_assumptions(about, sympy.Tuple(*symbols.values()), own_names),
         has_floats=floats,
-        guesses=read.guesses,
+        guesses=parsed.guesses,
     )
 
 
@@ -229,12 +229,9 @@ def _meanings(letters: Sequence[tuple[str, Expr]], symbols: Mapping[str, Expr]) 
     for name, meaning in letters:
         whole = meaning.xreplace(plain)
         is_principal_power = isinstance(whole, sympy.Pow | sympy.exp) and not whole.as_base_exp()[0].is_negative
-        known = {
-            "positive": whole.is_positive or is_principal_power,
-            "negative": whole.is_negative,
-            "real": whole.is_real,
-        }
-        meanings[sympy.Symbol(name, **{word: True for word, holds in known.items() if holds})] = whole
+        words = [word for word in ("positive", "negative", "real") if getattr(whole, f"is_{word}")]
+        words = ["positive"] if is_principal_power else words
+        meanings[sympy.Symbol(name, **dict.fromkeys(words, True))] = whole
     return meanings
 
 
@@ -283,27 +280,14 @@ def with_floats(e: Expr) -> Expr:
     if e.is_Integer or e.is_Symbol or isinstance(e, sympy.Integral):
         return e
     if e.is_number and not e.has(sympy.Integral):
-        value = e.evalf(_DIGITS)
-        if e.is_real:  # to as many digits as are given back; complex numbers as SymPy writes them
-            return sympy.Float(str(value), _DIGITS)
-        return value
-    is_power = e.is_Pow and not isinstance(e, sympy.exp)
-    if is_power and e.exp.is_Rational and e.exp.q <= 2:
+        value = e.evalf(_DIGITS)  # to as many digits as are given back; complex numbers as SymPy writes them
+        return sympy.Float(str(value), _DIGITS) if e.is_real else value
+    if e.is_Pow and e.exp.is_Rational and e.exp.q <= 2:
         return with_floats(e.base) ** e.exp
     if e.is_Function and len(e.args) > 1:
         *parameters, argument = e.args
         return e.func(*parameters, with_floats(argument), evaluate=False)
     return e.func(*map(with_floats, e.args))
-
-
-@dataclass(frozen=True)
-class _Read:
-    """An equation, the unknown function as the user writes it, and letters for constants with what they stand for."""
-
-    equation: Equation
-    function: Expr
-    letters: tuple[tuple[str, Expr], ...] = ()
-    guesses: tuple[str, ...] = ()
 
 
 def _sought(func: Any) -> tuple[Any, Any]:
@@ -320,11 +304,11 @@ def _sought(func: Any) -> tuple[Any, Any]:
     return applied, name
 
 
-def _read_equation(eq: Any, func: Any, var: str | None, limits: Limits, names: Sequence[str]) -> _Read:
-    """An equation that has been read, a text, or a SymPy equation.  Raises `InputError` for anything else."""
+def _read_equation(
+    eq: Any, func: Any, var: str | None, limits: Limits, names: Sequence[str]
+) -> tuple[Parsed, Equation, Expr]:
+    """What was read, its equation, and the unknown function as the user writes it.  Raises `InputError`."""
     applied, name = _sought(func)
-    if isinstance(eq, Equation):
-        return _Read(eq, applied or (name or sympy.Function(eq.unknown))(sympy.Symbol(eq.variable)))
     unknown: Any = None
     if isinstance(eq, str | Paste):
         var = var if applied is None else str(applied.args[0])
@@ -332,14 +316,13 @@ def _read_equation(eq: Any, func: Any, var: str | None, limits: Limits, names: S
     elif hasattr(eq, "free_symbols"):
         names = ()
         applied = unknown = applied or (_only_function(eq) if name is None else _applied_in(eq, name))
-    else:
-        raise InputError(f"{type(eq).__name__!r} isn't an equation", hint="give text or a SymPy equation")
     parsed = read_input(eq, var=var, limits=limits, exponentials=True, unknown=unknown, equation=True, names=names)
     equation = parsed.equation
-    assert equation is not None
+    if equation is None:
+        raise InputError(f"{type(eq).__name__!r} isn't an equation", hint="give text or a SymPy equation")
     variable = equation.variable if equation.change is None else equation.change.variable
     function = applied or (name or sympy.Function(equation.unknown))(sympy.Symbol(variable))
-    return _Read(equation, function, parsed.letters, parsed.guesses)
+    return parsed, equation, function
 
 
 def _only_function(eq: Expr) -> Expr:
@@ -394,8 +377,8 @@ class Condition:
     @property
     def free_symbols(self) -> set[Expr]:
         """Those of its points, coefficients and value."""
-        parts = [part for term in self.terms for part in (term.point, term.coefficient)]
-        return set().union(*(part.free_symbols for part in parts), getattr(self.value, "free_symbols", ()))
+        parts = ((term.point, term.coefficient) for term in self.terms)
+        return sympy.Tuple(*parts, self.value or 0).free_symbols  # type: ignore[no-any-return]
 
     def in_symbols(self, others: Mapping[Expr, Expr]) -> Condition:
         """The condition in other symbols."""
@@ -468,13 +451,13 @@ class ConditionReader:
     def read(self, key: Any, value: Any) -> Condition:
         """One condition.  Raises `InputError`."""
         self._symbols = {}
-        whole = self._side(key, is_key=True)
+        whole = self._side(key)
         text = f"{plain_text(key)} = {plain_text(value)}"
         if not self._symbols:
             raise self._no_condition(key)
         is_bounded = plain_text(value).strip() == BOUNDED
         if not is_bounded:
-            whole = sympy.expand(whole - self._side(value, is_key=False))
+            whole = sympy.expand(whole - self._side(value))
         slopes = {term: sympy.expand(whole.diff(symbol)) for term, symbol in self._symbols.items()}
         symbols = {*self._symbols.values()}
         if any(slope.free_symbols & symbols for slope in slopes.values()):
@@ -485,19 +468,12 @@ class ConditionReader:
         rest = whole.xreplace(dict.fromkeys(symbols, sympy.Integer(0)))
         return Condition(terms, None if is_bounded else -rest, text)
 
-    def _side(self, side: Any, *, is_key: bool) -> Expr:
-        """One side, with symbols in the place of y(a) and y'(a)."""
+    def _side(self, side: Any) -> Expr:
+        """One side with symbols for y(a), and for y(x).diff(x).subs(x, a) in either form that SymPy gives it."""
         if isinstance(side, str):  # `y(0)`, `y'(0) - h*y(0)`, or a constant
             value = read_expression(side, what="the initial value", values={self.unknown: self._symbol})
-        elif is_key and not isinstance(side, sympy.Basic):
-            raise self._no_condition(side)
-        else:
-            value = self._expression(side)
-        return self._checked(value, side)
-
-    def _expression(self, given: Any) -> Expr:
-        """With symbols for y(a), y(x).diff(x).subs(x, a) in either form that SymPy gives it."""
-        value = _exact(given)
+            return self._checked(value, side)
+        value = _exact(side)
         for e in value.atoms(sympy.Subs):
             value = value.xreplace({e: self._derivative(e.expr, e.point[0])})
         for e in value.atoms(sympy.Derivative):
@@ -505,7 +481,7 @@ class ConditionReader:
         for e in sorted(value.atoms(AppliedUndef), key=str):
             if e.func == self.function.func and len(e.args) == 1:
                 value = value.xreplace({e: self._symbol(e.args[0], 0)})
-        return value
+        return self._checked(value, side)
 
     def _derivative(self, derivative: Expr, point: Expr) -> Expr:
         orders = [int(count) for _, count in getattr(derivative, "variable_count", ())]
@@ -546,12 +522,7 @@ def _exact(given: Any) -> Expr:
         return exact(given)
     if is_complex(given):
         return _exact(given.real) + sympy.I * _exact(given.imag)
-    try:
-        value = exact_real(exact_text(given, "the value"), "the value")
-    except (TypeError, ValueError):
-        said = f"the value {plain_text(given)[:60]!r} can't be read"
-        raise InputError(said, hint="give a number, or text such as 'sqrt(2)'") from None
-    return sympy.Rational(value.numerator, value.denominator)
+    return sympy.Rational(exact_real(exact_text(given, "the value"), "the value"))
 
 
 def exact(expression: Expr) -> Expr:

@@ -8,17 +8,18 @@ Functions that jump, or whose slopes do, are sums of steps:
 - A function given by cases is the sum of its cases times their indicators.
 - For a linear u, or a polynomial over Q, H(u) is a sum of H(x - a) over its zeros.
 
-`_in_heavisides` has these identities.  What holds at single points doesn't matter.  x is real.
+`_IDENTITIES` has most of these.  What holds at single points doesn't matter.  x is real.
 """
 
 from __future__ import annotations
 
 from collections import defaultdict
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from functools import reduce
 from itertools import pairwise
 from math import comb
+from operator import mul
 from typing import Any, NamedTuple
 
 import sympy
@@ -30,17 +31,19 @@ from kovacic.errors import InputError
 from kovacic.general_solution.zero import samples
 
 Expr = Any  # SymPy publishes no types
-#: The functions that jump, or whose slopes do.
-JUMPING = (
-    sympy.Piecewise,
-    sympy.Max,
-    sympy.Min,
-    sympy.Abs,
-    sympy.sign,
-    sympy.SingularityFunction,
-    Heaviside,
-    DiracDelta,
-)
+#: Functions that jump, or whose slopes do, of their arguments.
+_IDENTITIES: dict[Any, Callable[..., Expr]] = {
+    sympy.Abs: lambda u: u * (2 * Heaviside(u) - 1),
+    sympy.sign: lambda u: 2 * Heaviside(u) - 1,
+    sympy.Max: lambda *parts: reduce(lambda u, v: v + (u - v) * Heaviside(u - v), parts),
+    sympy.Min: lambda *parts: reduce(lambda u, v: v + (u - v) * Heaviside(v - u), parts),
+    sympy.SingularityFunction: lambda u, a, n: (
+        DiracDelta(u - a, -1 - n) if n.is_negative else (u - a) ** n * Heaviside(u - a)
+    ),
+    Heaviside: lambda u, *_: Heaviside(u),
+    DiracDelta: DiracDelta,
+}
+JUMPING = (*_IDENTITIES, sympy.Piecewise)
 #: The most terms that are treated.
 _MOST_TERMS = 200
 _NOTHING = sympy.Integer(0)
@@ -48,20 +51,8 @@ _NOTHING = sympy.Integer(0)
 _LARGEST_DEGREE = 8
 #: Functions without singular points on the real line.
 _ANALYTIC = (
-    exp,
-    sympy.sin,
-    sympy.cos,
-    sympy.sinh,
-    sympy.cosh,
-    sympy.tanh,
-    sympy.sech,
-    sympy.atan,
-    sympy.asinh,
-    sympy.erf,
-    sympy.erfi,
-    sympy.Si,
-    sympy.airyai,
-    sympy.airybi,
+    *(exp, sympy.sin, sympy.cos, sympy.sinh, sympy.cosh, sympy.tanh, sympy.sech, sympy.atan, sympy.asinh),
+    *(sympy.erf, sympy.erfi, sympy.Si, sympy.airyai, sympy.airybi),
 )
 
 
@@ -123,19 +114,19 @@ def taken_apart(right: Expr, x: Expr) -> Apart | None:
     for term in map(with_single_steps, terms):
         jumps = [factor for factor in sympy.Mul.make_args(term) if factor.has(*JUMPING) and factor.has(x)]
         deltas, others = sympy.sift(jumps, lambda jump: isinstance(jump, DiracDelta), binary=True)
-        places = [place for delta in deltas if (place := place_of(delta, x)) is not None]
-        if len(deltas) > 1 or len(places) < len(deltas) or not all(_is_simple(step, x) for step in others):
+        places = [place_of(delta, x) for delta in deltas]
+        if len(places) > 1 or None in places or not all(_is_simple(step, x) for step in others):
             return None
         begin = sympy.Max(*(sympy.expand(x - step.args[0]) for step in others))  # -oo without steps
         g = term / sympy.Mul(*jumps)
         if not deltas:
             steps[begin] += g
             continue
-        a, slope = places[0]
+        a, slope = places[0]  # type: ignore[misc]
         side = a - begin if others else sympy.S.One
         if not (side.is_positive or side.is_negative):
             return None
-        n = int(deltas[0].args[1]) if len(deltas[0].args) > 1 else 0  # DiracDelta(u) is DiracDelta(u, 0)
+        n = int((*deltas[0].args, 0)[1])  # DiracDelta(u) is DiracDelta(u, 0)
         for k in range(n + 1):
             strength = (-1) ** k * comb(n, k) * g.diff(x, k).subs(x, a) / (abs(slope) * slope**n)
             if strength != 0 and side.is_positive:
@@ -195,11 +186,9 @@ def _is_function(e: Expr) -> bool:
 
 def _with_steps_outside(e: Expr, x: Expr) -> Expr:
     """F(H) = F(0) + (F(1) - F(0)) H, for one step after the other."""
-    for step in sorted(e.atoms(Heaviside), key=str):
-        if step.has(x):
-            before = e.xreplace({step: sympy.Integer(0)})
-            after = e.xreplace({step: sympy.Integer(1)})
-            e = before + (after - before) * step
+    for step in sorted((step for step in e.atoms(Heaviside) if step.has(x)), key=str):
+        before, after = (e.xreplace({step: sympy.Integer(k)}) for k in (0, 1))
+        e = before + (after - before) * step
     return e
 
 
@@ -209,30 +198,20 @@ def _at_points(e: Expr, x: Expr) -> Expr:
 
 
 def _in_heavisides(e: Expr, x: Expr) -> Expr:
-    """A function that jumps in terms of H(u) and impulses; the same where that isn't known.
+    """A function that jumps in terms of H(u) and impulses.
 
     Raises `InputError` where no case of one that is given by cases holds.
     """
-    u = e.args[0]
-    if isinstance(e, sympy.Abs):
-        return u * (2 * Heaviside(u) - 1)
-    if isinstance(e, sympy.sign):
-        return 2 * Heaviside(u) - 1
-    if isinstance(e, sympy.Max | sympy.Min):
-        sign = 1 if isinstance(e, sympy.Max) else -1
-        return reduce(lambda first, other: other + (first - other) * Heaviside(sign * (first - other)), e.args)
-    if isinstance(e, sympy.SingularityFunction) and e.args[2].is_Integer:
-        _, a, n = e.args
-        return DiracDelta(u - a, -1 - n) if n < 0 else (u - a) ** n * Heaviside(u - a)
-    if isinstance(e, sympy.Piecewise):
-        *alone, missing = _alone([_indicator(condition, x) for _, condition in e.args])
-        # with parameters that is tried at one value of each
-        missing = missing.subs(next(samples(e.free_symbols - {x})))
-        has_gap = any(on_piece(missing, x, point) != 0 for point in between(break_points(missing, x)))
-        if has_gap or any(value is sympy.nan for value, _ in e.args):
-            raise InputError(f"{e} has no value where no case holds", hint="add a last case, such as (0, True)")
-        return sympy.Add(*(value * on for (value, _), on in zip(e.args, alone, strict=True)))
-    return Heaviside(u) if isinstance(e, Heaviside) else e
+    if not isinstance(e, sympy.Piecewise):
+        return _IDENTITIES[e.func](*e.args)
+    values, conditions = zip(*e.args, strict=True)
+    *alone, missing = _alone([_indicator(condition, x) for condition in conditions])
+    # with parameters that is tried at one value of each
+    missing = missing.subs(next(samples(e.free_symbols - {x})))
+    has_gap = any(on_piece(missing, x, point) != 0 for point in between(break_points(missing, x)))
+    if has_gap or sympy.nan in values:
+        raise InputError(f"{e} has no value where no case holds", hint="add a last case, such as (0, True)")
+    return sympy.Add(*map(mul, values, alone))
 
 
 def _alone(indicators: Sequence[Expr]) -> list[Expr]:
@@ -259,9 +238,7 @@ def _indicator(condition: Expr, x: Expr) -> Expr:
 
 def _is_simple(e: Expr, x: Expr) -> bool:
     """True for H(x - a) and delta^(n)(x - a)."""
-    if isinstance(e, DiracDelta):
-        return True
-    return isinstance(e, Heaviside) and e.args[0].diff(x) == 1
+    return isinstance(e, DiracDelta) or (isinstance(e, Heaviside) and e.args[0].diff(x) == 1)
 
 
 def above(u: Expr, x: Expr) -> Expr:
@@ -315,7 +292,6 @@ def on_piece(expression: Expr, x: Expr, point: Expr) -> Expr:
             return sympy.Integer(0)
         if isinstance(jump, Heaviside):
             return (1 + sympy.sign(jump.args[0].subs(x, point))) / 2
-        plain = _in_heavisides(jump, x)
-        return jump if plain == jump else on_piece(plain, x, point)
+        return on_piece(_in_heavisides(jump, x), x, point)
 
     return expression.replace(lambda e: isinstance(e, JUMPING) and e.has(x), near)
