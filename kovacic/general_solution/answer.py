@@ -14,7 +14,7 @@ from kovacic.errors import InputError
 from kovacic.general_solution.basis import Basis
 from kovacic.general_solution.constants import Determined
 from kovacic.general_solution.first_order import FirstOrderEquation
-from kovacic.general_solution.question import Condition, Question, symbols_that_know
+from kovacic.general_solution.question import Question, symbols_that_know
 from kovacic.general_solution.substitution import size
 from kovacic.general_solution.validity import Validity, needed_for
 from kovacic.general_solution.zero import differs_from_zero, samples
@@ -198,7 +198,6 @@ class FirstOrderAnswer(ProblemAnswer):
     """The answer to an equation of first order, linear or Riccati's, which is stored with its conditions."""
 
     equation: FirstOrderEquation
-    conditions: Sequence[Condition]
 
     def relations_beside(self, eq: Expr) -> tuple[Expr, ...]:
         """u >= 0 for the w = u^k, k = 1/(1 - n) an integer, that solves Bernoulli's equation where w^(1/k) is u."""

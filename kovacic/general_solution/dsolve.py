@@ -16,8 +16,8 @@ from __future__ import annotations
 
 from collections.abc import Callable, Collection, Iterable, Iterator, Mapping, Sequence
 from contextlib import suppress
-from dataclasses import dataclass, replace
-from functools import cached_property, partial
+from dataclasses import dataclass, field, replace
+from functools import cached_property
 from typing import Any
 
 import sympy
@@ -39,7 +39,7 @@ from kovacic.general_solution.basis import Basis
 from kovacic.general_solution.boundary_problems import eigenfunctions
 from kovacic.general_solution.check import check_answer
 from kovacic.general_solution.constants import Determined, Outcome, ParameterCase, constants_of
-from kovacic.general_solution.first_order import read_first_order, solved_linear
+from kovacic.general_solution.first_order import FirstOrderEquation, read_first_order, solved_linear
 from kovacic.general_solution.homogeneous import find_basis, no_solution
 from kovacic.general_solution.particular import particular_solution, right_hand_side, with_letters_of_integration
 from kovacic.general_solution.places import (
@@ -53,12 +53,10 @@ from kovacic.general_solution.places import (
     start_of,
 )
 from kovacic.general_solution.question import (
-    ConditionReader,
     Question,
     about_letters,
     apart,
     as_mapping,
-    conditions_at,
     free_constants,
     has_floats,
     known_letters,
@@ -68,7 +66,7 @@ from kovacic.general_solution.question import (
 )
 from kovacic.general_solution.riccati import solved_riccati
 from kovacic.general_solution.substitution import size
-from kovacic.general_solution.systems import Solver, There, read_system, solved_system
+from kovacic.general_solution.systems import LinearSystem, read_system, solved_system
 from kovacic.general_solution.textbook import in_book_form, without_homogeneous
 from kovacic.general_solution.zero import is_identically_zero
 from kovacic.general_solution.zero_set import ZeroSet
@@ -224,35 +222,6 @@ def dsolve(
     return [answer.eq] if isinstance(eq, list | tuple) else answer.eq
 
 
-def _system(
-    eq: Any, func: Any, ics: Any, names: Sequence[str], assume: Mapping[Any, Any], solver: Solver, there: There
-) -> SystemAnswer | None:
-    """The answer for a list of several equations, or a text with several; None for anything else."""
-    guesses: tuple[str, ...] = ()
-    if isinstance(eq, str):
-        paste = taken_apart(eq)
-        if len(paste.scans("equation")) < 2:
-            return None
-        reading = read_equations(paste, names=names)
-        eq, func, ics = reading.equations, func or reading.functions, ics or dict(reading.conditions)
-        guesses = reading.guesses
-    if not isinstance(eq, list | tuple) or len(eq) == 1:
-        return None
-    answer = solved_system(read_system(eq, func), as_mapping(ics), assume, solver, there)
-    return replace(answer, notices=[*guesses, *answer.notices])
-
-
-def _single(given: Any, what: str) -> Any:
-    """The equation or function that stands alone in a list."""
-    if not isinstance(given, list | tuple):
-        return given
-    if len(given) != 1:
-        raise InputError(
-            f"one {what} is expected, and there are {len(given)}", hint="for larger systems call sympy.dsolve"
-        )
-    return given[0]
-
-
 def in_special_functions(found: Any, eq: Any, func: Any = None, **given: Any) -> Any:
     """What `dsolve` has `found`, in special functions: where that is more than a screen, and they take less than half of it.
 
@@ -321,7 +290,8 @@ def answer_to(
     """
     # before the time is used up, which the answer may take
     is_of_euler = isinstance(eq, str) and any(_has_euler(tokens) for tokens in taken_apart(eq).equations)
-    answer = _answered(eq, func, ics, var, parameters, assume, limits=limits, special=special)
+    eq, ics, assume = with_values(eq, ics, assume, limits)
+    answer = _Asked(limits, var, parameters, assume, special).answer(eq, func, ics)
     return replace(answer, notices=[f"{EULER} is Euler's number", *answer.notices]) if is_of_euler else answer
 
 
@@ -337,94 +307,144 @@ def _has_euler(tokens: Sentence) -> bool:
     )
 
 
-def _answered(
-    eq: Any,
-    func: Any = None,
-    ics: Any = None,
-    var: str | None = None,
-    parameters: Sequence[str] = (),
-    assume: Mapping[Any, Any] | None = None,
-    *,
-    limits: Limits,
-    special: bool = False,
-    is_exceptional: bool = False,
-) -> ProblemAnswer:
-    """The answer; where it is that in an exceptional case of another one, its own such cases aren't solved."""
-    eq, ics, assume = with_values(eq, ics, assume, limits)
-    budget = Budget(limits)
-    solver = partial(_answered, limits=limits, is_exceptional=is_exceptional)
-    there = _WhereZero(None if is_exceptional else budget)
-    with budget.watched():
-        try:
-            names = declared(parameters, about_letters(assume, var))
-            if isinstance(eq, str) and EULER in names:
-                raise InputError(f"{EULER} is Euler's number, and no name of a parameter", hint="take another letter")
-            system = _system(eq, func, ics, names, assume or {}, solver, there)
-            if system is not None:
-                return system
-            eq, func = _single(eq, "equation"), _single(func, "function")
+@dataclass(frozen=True)
+class _Asked:
+    """How something is asked: with these bounds, of these names; `special` functions only, or in an exceptional case.
+
+    Where an answer is that in an exceptional case of another one, its own such cases are only named.
+    """
+
+    limits: Limits
+    var: str | None = None
+    parameters: Sequence[str] = ()
+    assume: Mapping[Any, Any] = field(default_factory=dict)
+    special: bool = False
+    is_exceptional: bool = False
+
+    @cached_property
+    def budget(self) -> Budget:
+        return Budget(self.limits)
+
+    def answer(self, eq: Any, func: Any = None, ics: Any = None) -> ProblemAnswer:
+        """The answer for an equation of first or second order, or a system of two equations: a list, or a text with several."""
+        with self.budget.watched():
             try:
-                question = read_question(eq, func, ics, var, budget.limits, parameters, assume)
-            except InputError as reason:
-                first_order = _first_order(eq, func, ics, var, budget, names, assume or {}, solver, there)
-                if first_order is None:
-                    raise reason from None
-                return first_order
-            return _solved(question, budget, there, special=special)
-        except LimitExceeded as limit:
-            raise NotImplementedError(f"undecided: {limit}") from None
+                return self._answer(eq, func, ics)
+            except LimitExceeded as limit:
+                raise NotImplementedError(f"undecided: {limit}") from None
 
+    def _answer(self, eq: Any, func: Any, ics: Any) -> ProblemAnswer:
+        names = declared(self.parameters, about_letters(self.assume, self.var))
+        guesses: tuple[str, ...] = ()
+        if isinstance(eq, str):
+            if EULER in names:
+                raise InputError(f"{EULER} is Euler's number, and no name of a parameter", hint="take another letter")
+            paste = taken_apart(eq)
+            if len(paste.scans("equation")) > 1:
+                reading = read_equations(paste, names=names)
+                eq, func, ics = reading.equations, func or reading.functions, ics or dict(reading.conditions)
+                guesses = reading.guesses
+        if isinstance(eq, list | tuple) and len(eq) != 1:
+            return self._of_first_order(replace(read_system(eq, func), guesses=guesses), eq, ics)
+        if isinstance(func, list | tuple) and len(func) != 1:
+            said = f"one function is expected, and there are {len(func)}"
+            raise InputError(said, hint="for larger systems call sympy.dsolve")
+        eq, func = (given[0] if isinstance(given, list | tuple) else given for given in (eq, func))
+        try:
+            question = read_question(eq, func, ics, self.var, self.limits, self.parameters, self.assume)
+        except InputError as reason:
+            eq, ics = apart(eq, ics)
+            found = None
+            with suppress(InputError):
+                found = read_first_order(eq, func, self.var, self.limits, names)
+            if found is None:
+                raise reason from None
+            return self._of_first_order(found, eq, ics)
+        return self._of_second_order(question)
 
-def _first_order(
-    eq: Any,
-    func: Any,
-    ics: Any,
-    var: str | None,
-    budget: Budget,
-    names: Collection[str],
-    assume: Mapping[Any, Any],
-    solver: Solver,
-    there: There,
-) -> FirstOrderAnswer | None:
-    """The answer for an equation of first order; None if it isn't one, or can't be read."""
-    eq, ics = apart(eq, ics)
-    found = None
-    with suppress(InputError):
-        found = read_first_order(eq, func, var, budget.limits, names)
-    if found is None:
-        return None
-    reader = ConditionReader(found.function, str(found.function.func))
-    conditions = tuple(reader.read(key, value) for key, value in as_mapping(ics).items())
-    known = known_letters(assume, found.x, found.letters, conditions)
-    equation, conditions = found.in_symbols(known), tuple(condition.in_symbols(known) for condition in conditions)
-    solved = solved_linear(equation, conditions) if equation.is_linear else solved_riccati(equation, conditions, solver)
+    def _of_first_order(self, problem: FirstOrderEquation | LinearSystem, eq: Any, ics: Any) -> ProblemAnswer:
+        """The answer for one equation, or for two; `eq` is what was given."""
+        values = as_mapping(ics)
+        problem = problem.with_values(values)
+        known = known_letters(self.assume, problem.x, problem.letters, problem.conditions)
+        problem = problem.in_symbols(known)
+        solver = replace(self, var=None, parameters=(), assume={}, special=False).answer
+        if isinstance(problem, LinearSystem):
+            solved = solved_system(problem, solver)
+        else:
+            solved = solved_linear(problem) if problem.is_linear else solved_riccati(problem, solver)
+        eqs = [sympy.Eq(f, w, evaluate=False) for f, w in zip(problem.functions, solved.values, strict=True)]
+        exceptions = (f"this holds unless {said}" for said in self.where_zero(solved.zeros, problem.at, eqs))
+        notices = [*dict.fromkeys([*problem.guesses, *exceptions, *solved.notices])]
+        eqs = [eq.xreplace({symbol: own for own, symbol in known.items()}) for eq in eqs]
+        if isinstance(problem, LinearSystem):
+            return SystemAnswer(eqs, notices, known=known, exceptional=solved.of_pair)
+        (found,) = eqs
+        if has_floats(eq, values):
+            found = sympy.Eq(found.lhs, with_floats(found.rhs), evaluate=False)
+        return FirstOrderAnswer(found, notices, problem, known=known, exceptional=solved.of_pair)
 
-    def at(values: Mapping[Expr, Expr]) -> tuple[Expr, Expr, dict[Expr, Any]]:
-        given = ((equation.function, condition) for condition in conditions)
-        return equation.at(values), equation.function, conditions_at(values, given)
+    def _of_second_order(self, question: Question) -> ProblemAnswer:
+        """The steps of the head of this module, after the first."""
+        question, sides = one_sided(question)
+        notices = [*question.guesses, *sides]
+        family = eigenfunctions(question)
+        if family is not None:
+            return ProblemAnswer(question.written(family[0]), notices + family[1], known=question.renamed)
+        basis = find_basis(question, self.budget, special=self.special)
+        solution = basis.solution
+        assert solution is not None
+        if solution.status is Status.UNDECIDED and not solution.known:
+            notices.append(f"whether there is a Liouvillian solution is {no_solution(solution)}")
+        answer = _determined(question, basis, self) if question.conditions else _general(question, basis)
+        return replace(answer, notices=notices + answer.notices, known=question.renamed)
 
-    exceptions = (f"this holds unless {said}" for said in there(solved.zeros, at, [solved.eq]))
-    notices = [*equation.guesses, *exceptions, *solved.notices]
-    solution = solved.eq.xreplace({symbol: own for own, symbol in known.items()})
-    if has_floats(eq, as_mapping(ics)):
-        solution = sympy.Eq(solution.lhs, with_floats(solution.rhs), evaluate=False)
-    return FirstOrderAnswer(solution, notices, equation, conditions, known=known, exceptional=solved.of_pair)
+    def where_zero(
+        self,
+        zeros: Iterable[Expr],
+        at: Callable[[Mapping[Expr, Expr]], tuple[Any, Any, dict[Expr, Any]]],
+        formulas: Sequence[Expr],
+        where: str = "",
+    ) -> Iterator[str]:
+        """The solutions where a letter makes one of `zeros` zero, in words `where`, unless the `formulas` hold there as well.
 
+        `at` gives equation, function and conditions, as for `answer_to`, for values of letters.
+        """
+        sets = [*map(ZeroSet, zeros)]
+        places = [(place, factor) for zero in sets for factor in zero.factors for place in exceptional_cases(factor)]
+        # With more of them the solutions in one case have the others for exceptions.
+        if self.is_exceptional or len(places) > _MOST_CASES or not all(place.values for place, _ in places):
+            left = [where or " or ".join(map(str, sets))] if sets else []
+        else:
+            left = []
+            for place, factor in places:
+                said = self._said_at(place, at, formulas)
+                if said is None:
+                    left.append(str(ZeroSet(factor)))
+                elif said:
+                    yield f"{place}, where {said}"
+        if left:
+            yield f"{' or '.join(left)}: give such values for the solutions there"
 
-def _solved(question: Question, budget: Budget, there: There, *, special: bool) -> ProblemAnswer:
-    """The steps of the head of this module, after the first."""
-    question, sides = one_sided(question)
-    notices = [*question.guesses, *sides]
-    family = eigenfunctions(question)
-    if family is not None:
-        return ProblemAnswer(question.written(family[0]), notices + family[1], known=question.renamed)
-    basis = find_basis(question, budget, special=special)
-    solution = basis.solution
-    assert solution is not None
-    if solution.status is Status.UNDECIDED and not solution.known:
-        notices.append(f"whether there is a Liouvillian solution is {no_solution(solution)}")
-    answer = _determined(question, basis, there) if question.conditions else _general(question, basis)
-    return replace(answer, notices=notices + answer.notices, known=question.renamed)
+    def _said_at(self, place: Exceptional, at: Callable[..., Any], formulas: Sequence[Expr]) -> str | None:
+        """The solutions in one case, sought in half of the remaining time, so that the answer isn't lost; None if not found.
+
+        Nothing is said where the formulas hold.
+        """
+        try:
+            equation, function, conditions = at(place.values)
+            there = _Asked(self.budget.share(0.5).limits, is_exceptional=True).answer(equation, function, conditions)
+        except _Contradiction:
+            return "there is no solution"
+        except (InputError, NotImplementedError):
+            return None
+        if there.notices:
+            return None
+        here = [sympy.Eq(eq.lhs, eq.rhs.subs(place.values), evaluate=False) for eq in formulas]
+        letters = sympy.Tuple(equation, *conditions.items()).free_symbols
+        if _are_same(here, there.equations, letters):
+            return ""
+        return ", ".join(f"{eq.lhs} = {eq.rhs}" for eq in there.equations)
 
 
 @dataclass(frozen=True)
@@ -478,12 +498,12 @@ class _Family:
         other = self.question.written(replace(self, basis=self.basis.otherwise).member(self.names))
         return [f"{holds}; elsewhere, {other.lhs} = {other.rhs}"]
 
-    def said(self, case: ParameterCase, answer: Expr, there: There) -> Iterable[str]:
+    def said(self, case: ParameterCase, answer: Expr, asked: _Asked) -> Iterable[str]:
         """The solutions for particular values of the parameters, of which the answer is the one for all others."""
         where = case.where(answer)
         if case.outcome is Outcome.OPEN:
             formula = self.question.written(answer).xreplace(self.question.renamed)
-            return there(case.zeros, self.question.at, [formula], where)
+            return asked.where_zero(case.zeros, self.question.at, [formula], where)
         return [self._said_of_determined(case, answer, where)]
 
     def _said_of_determined(self, case: ParameterCase, answer: Expr, where: str) -> str:
@@ -522,62 +542,6 @@ def _are_same(formulas: Sequence[Expr], others: Sequence[Expr], letters: Collect
     return u != 0 and not any(sympy.simplify(quotient / v).has(x, sympy.nan, sympy.zoo) for quotient in (u, p - q))
 
 
-@dataclass(frozen=True)
-class _WhereZero:
-    """Finds the solutions in exceptional cases; without a budget such cases are only named."""
-
-    budget: Budget | None
-
-    def __call__(
-        self,
-        zeros: Iterable[Expr],
-        at: Callable[[Mapping[Expr, Expr]], tuple[Any, Any, dict[Expr, Any]]],
-        formulas: Sequence[Expr],
-        where: str = "",
-    ) -> Iterator[str]:
-        """The solutions where a letter makes one of `zeros` zero, in words `where`, unless the `formulas` hold there as well.
-
-        `at` gives equation, function and conditions, as for `answer_to`, for values of letters.
-        """
-        sets = [*map(ZeroSet, zeros)]
-        places = [(place, factor) for zero in sets for factor in zero.factors for place in exceptional_cases(factor)]
-        # With more of them the solutions in one case have the others for exceptions.
-        if self.budget is None or len(places) > _MOST_CASES or not all(place.values for place, _ in places):
-            left = [where or " or ".join(map(str, sets))] if sets else []
-        else:
-            left = []
-            for place, factor in places:
-                said = self._said_at(place, at, formulas, self.budget)
-                if said is None:
-                    left.append(str(ZeroSet(factor)))
-                elif said:
-                    yield f"{place}, where {said}"
-        if left:
-            yield f"{' or '.join(left)}: give such values for the solutions there"
-
-    def _said_at(
-        self, place: Exceptional, at: Callable[..., Any], formulas: Sequence[Expr], budget: Budget
-    ) -> str | None:
-        """The solutions in one case, sought in half of the remaining time, so that the answer isn't lost; None if not found.
-
-        Nothing is said where the formulas hold.
-        """
-        try:
-            equation, function, conditions = at(place.values)
-            there = _answered(equation, function, conditions, limits=budget.share(0.5).limits, is_exceptional=True)
-        except _Contradiction:
-            return "there is no solution"
-        except (InputError, NotImplementedError):
-            return None
-        if there.notices:
-            return None
-        here = [sympy.Eq(eq.lhs, eq.rhs.subs(place.values), evaluate=False) for eq in formulas]
-        letters = sympy.Tuple(equation, *conditions.items()).free_symbols
-        if _are_same(here, there.equations, letters):
-            return ""
-        return ", ".join(f"{eq.lhs} = {eq.rhs}" for eq in there.equations)
-
-
 def _general(question: Question, basis: Basis) -> SecondOrderAnswer:
     """C1 y1 + C2 y2 + y0, checked."""
     right = right_hand_side(question.equation)
@@ -602,7 +566,7 @@ def _general(question: Question, basis: Basis) -> SecondOrderAnswer:
     return family.answer(value, unchecked, unchecked)
 
 
-def _determined(question: Question, basis: Basis, there: There) -> SecondOrderAnswer:
+def _determined(question: Question, basis: Basis, asked: _Asked) -> SecondOrderAnswer:
     """The answer with the constants that the conditions determine.  Raises `InputError` if they contradict one another."""
     limits = limit_points(question)
     start = start_of(question, limits)
@@ -615,7 +579,7 @@ def _determined(question: Question, basis: Basis, there: There) -> SecondOrderAn
     value = family.member(generic.values)
     value = in_book_form(value, question.x, family.names if value.has(*family.names) else ())
     cases = (case for case in determined.particular if case.is_possible)
-    exceptions = [said for case in cases for said in family.said(case, value, there)]
+    exceptions = [said for case in cases for said in family.said(case, value, asked)]
     if generic.outcome is Outcome.NONE:
         said = "there is no solution with these values: the conditions contradict one another"
         singular = [str(point) for point, place in limits.items() if not place.is_infinite]

@@ -211,11 +211,11 @@ def _steps_of_first_order(answer: FirstOrderAnswer) -> Iterator[Block]:
     equation = answer.equation
     w, x = equation.function, equation.x
     name = str(w.func)
-    taken = {name, *equation.letters, *(s for condition in answer.conditions for s in condition.free_symbols)}
+    taken = {name, *equation.letters, *(s for condition in equation.conditions for s in condition.free_symbols)}
     p, h, c = (free_name(taken, *names) for names in (("p", "f", "g", "R"), ("h", "H"), ("c", "v", "z")))
     square = equation.r * sympy.Symbol(name) ** equation.power
     yield Heading("The equation")
-    yield from _equation(name, (-equation.q, sympy.Integer(1)), equation.p + square, answer.conditions)
+    yield from _equation(name, (-equation.q, sympy.Integer(1)), equation.p + square, equation.conditions)
     if equation.is_linear:
         yield Heading("The integrating factor")
         yield say("The equation without its right-hand side ", _name(p), " has the solution")

@@ -12,7 +12,7 @@ from __future__ import annotations
 from collections.abc import Callable, Collection, Iterable, Mapping, Sequence, Set
 from dataclasses import dataclass, replace
 from functools import cached_property
-from typing import Any, NamedTuple
+from typing import Any, NamedTuple, Self
 
 import sympy
 from sympy import Integer, cosh, sinh
@@ -27,7 +27,7 @@ from kovacic.general_solution.behaviour import have_values, value_at
 from kovacic.general_solution.check import SolutionClaim, is_finite, jumps
 from kovacic.general_solution.integrands import NUMBERS, radicands, ratfunc
 from kovacic.general_solution.particular import starting_at, turned_at, with_letters_of_integration
-from kovacic.general_solution.question import Condition, exact, free_constants
+from kovacic.general_solution.question import Condition, ConditionReader, conditions_at, exact, free_constants
 from kovacic.general_solution.steps import JUMPING, Apart, in_parts
 from kovacic.general_solution.substitution import by_functions, changed_beside
 from kovacic.general_solution.textbook import in_book_form, in_hyperbolic_functions, sums
@@ -42,37 +42,80 @@ from kovacic.special.choice import shortest
 
 Expr = Any  # SymPy publishes no types
 _ZERO, _TWO = Integer(0), Integer(2)
+#: r and n of a linear equation.
+LINEAR = (_ZERO, _TWO)
+#: Answers an equation of second order for a function, with conditions.
+Solver = Callable[[Expr, Expr, Mapping[Expr, Expr]], Any]
 
 
 @dataclass(frozen=True)
-class FirstOrderEquation:
-    """w' = p + q w + r w^n, n = `power`; `function` is w(x), `guesses` say what was guessed when a text was read."""
+class OfFirstOrder:
+    """One equation of first order, or two.
 
-    function: Expr
-    p: Expr
-    q: Expr
-    r: Expr
+    `entries` are the coefficients, `asked` the conditions, each with the function that it is on; `guesses` say what was guessed
+    when a text was read.
+    """
+
+    functions: tuple[Expr, ...]
+    entries: tuple[Expr, ...]
+    asked: tuple[tuple[Expr, Condition], ...] = ()
     guesses: tuple[str, ...] = ()
-    power: Expr = _TWO
 
-    def in_symbols(self, others: Mapping[Expr, Expr]) -> FirstOrderEquation:
-        """The equation in other symbols."""
-        function, p, q, r, n = (e.xreplace(others) for e in (self.function, *self.parts, self.power))
-        return FirstOrderEquation(function, p, q, r, self.guesses, n)
+    def slopes(self) -> tuple[Expr, ...]:
+        """The right-hand sides."""
+        raise NotImplementedError
 
-    def at(self, values: Mapping[Expr, Expr]) -> Expr:
-        """The equation for particular values of letters, as an expression that is zero."""
-        w = self.function
-        p, q, r, n = (e.subs(values) for e in (*self.parts, self.power))
-        return w.diff(self.x) - p - q * w - r * w**n
+    def in_symbols(self, others: Mapping[Expr, Expr]) -> Self:
+        """The equations in other symbols."""
+        functions, entries = (tuple(e.xreplace(others) for e in part) for part in (self.functions, self.entries))
+        asked = tuple((f.xreplace(others), condition.in_symbols(others)) for f, condition in self.asked)
+        return replace(self, functions=functions, entries=entries, asked=asked)
+
+    def with_values(self, ics: Mapping[Any, Any]) -> Self:
+        """With conditions.  Raises `InputError` for one that isn't on one of several functions."""
+        names = [str(f.func) for f in self.functions]
+        asked = []
+        for key, value in ics.items():
+            name = str(key.func) if isinstance(key, AppliedUndef) else str(key).partition("(")[0].strip()
+            if len(names) > 1 and name not in names:
+                raise InputError(
+                    f"{key} isn't a value of an unknown", hint=f"write {names[0]}(0) = 1, {names[1]}(0) = 0"
+                )
+            f = self.functions[names.index(name) if len(names) > 1 else 0]
+            asked.append((f, ConditionReader(f, str(f.func)).read(key, value)))
+        return replace(self, asked=tuple(asked))
+
+    def at(self, values: Mapping[Expr, Expr]) -> tuple[tuple[Expr, ...], tuple[Expr, ...], dict[Expr, Any]]:
+        """Equations, functions and conditions, as for `dsolve`, for particular values of letters."""
+        pairs = zip(self.functions, self.slopes(), strict=True)
+        equations = tuple(f.diff(self.x) - slope.subs(values) for f, slope in pairs)
+        return equations, self.functions, conditions_at(values, self.asked)
 
     @property
     def x(self) -> Expr:
-        return self.function.args[0]
+        return self.functions[0].args[0]
 
     @property
-    def parts(self) -> tuple[Expr, Expr, Expr]:
-        return self.p, self.q, self.r
+    def letters(self) -> dict[str, Expr]:
+        """The symbols in the coefficients, by name."""
+        return {symbol.name: symbol for symbol in sympy.Tuple(*self.entries).free_symbols}
+
+    @property
+    def conditions(self) -> list[Condition]:
+        return [condition for _, condition in self.asked]
+
+
+class FirstOrderEquation(OfFirstOrder):
+    """w' = p + q w + r w^n, n = `power`: these are the entries."""
+
+    p = property(lambda self: self.entries[0])
+    q = property(lambda self: self.entries[1])
+    r = property(lambda self: self.entries[2])
+    power = property(lambda self: self.entries[3])
+    function = property(lambda self: self.functions[0])
+
+    def slopes(self) -> tuple[Expr, ...]:
+        return (self.p + self.q * self.function + self.r * self.function**self.power,)
 
     @property
     def reading(self) -> str:
@@ -82,21 +125,29 @@ class FirstOrderEquation:
         line = f"{w}' = {as_text(self.p + self.q * w + self.r * w**self.power)}, {self.function}".replace("**", "^")
         return f"{line}, parameters {names}" if names else line
 
-    @property
-    def letters(self) -> dict[str, Expr]:
-        """The symbols in the coefficients, by name."""
-        return {symbol.name: symbol for symbol in sympy.Tuple(*self.parts, self.power).free_symbols}
+    @cached_property
+    def value(self) -> tuple[Any, Any]:
+        """a and v for w(a) = v, None and None without.  Raises `InputError` for other conditions, and for more than one."""
+        if not self.asked:
+            return None, None
+        condition = self.conditions[0]
+        if len(self.asked) > 1 or not condition.is_value or condition.terms[0].order:
+            raise InputError("an equation of first order has one value, at one point", hint='write "w(0)=1"')
+        if condition.points[0] in (sympy.oo, -sympy.oo):
+            raise InputError(f"{condition.text}: a value determines a solution at a finite point")
+        return condition.points[0], condition.value
 
     @property
     def of_power(self) -> FirstOrderEquation:
-        """The equation of u = w^(1 - n) for p = 0, u' = (1 - n) (r + q u)."""
+        """The equation of u = w^(1 - n) for p = 0, u' = (1 - n) (r + q u), and its value."""
         m = 1 - self.power
-        return FirstOrderEquation(self.function, m * self.r, m * self.q, _ZERO)
+        asked = tuple((w, replace(condition, value=condition.value**m)) for w, condition in self.asked)
+        return FirstOrderEquation(self.functions, (m * self.r, m * self.q, *LINEAR), asked)
 
     @property
     def of_inverse(self) -> FirstOrderEquation:
         """The equation of z = 1/w, z' = -r - q z - p z^2."""
-        return FirstOrderEquation(self.function, -self.r, -self.q, -self.p)
+        return FirstOrderEquation(self.functions, (-self.r, -self.q, -self.p, _TWO))
 
     @property
     def is_linear(self) -> bool:
@@ -108,7 +159,7 @@ class FirstOrderEquation:
 
     def constant(self, taken: Set[Expr] = frozenset()) -> Expr:
         """C1, or the next of these names that is neither in the equation nor taken."""
-        return free_constants(1, *self.parts, self.power, self.function, *taken)[0]
+        return free_constants(1, *self.entries, self.function, *taken)[0]
 
     @cached_property
     def place(self) -> Expr | None:
@@ -124,33 +175,12 @@ class FirstOrderEquation:
 
     def is_regular_at(self, point: Expr) -> bool:
         """True if the coefficients have values at the point, so that one of w determines one solution."""
-        return have_values(self.parts, self.x, point)
+        return have_values(self.entries, self.x, point)
 
 
 def is_unit(coefficient: Expr, x: Expr, point: Expr) -> bool:
     """True if the value at the point is finite, and not always zero."""
     return have_values([coefficient], x, point) and not is_zero(value_at(coefficient, x, point))
-
-
-class GivenValue(NamedTuple):
-    """w(point) = v."""
-
-    point: Expr
-    v: Expr
-
-
-def value_of(conditions: Sequence[Condition]) -> GivenValue | None:
-    """The given value, None without one.  Raises `InputError` for other conditions, and for more than one."""
-    if not conditions:
-        return None
-    condition = conditions[0]
-    is_one = len(conditions) == 1 and condition.is_value
-    if not is_one or condition.terms[0].order:
-        raise InputError("an equation of first order has one value, at one point", hint='write "w(0)=1"')
-    assert condition.value is not None
-    if condition.points[0] in (sympy.oo, -sympy.oo):
-        raise InputError(f"{condition.text}: a value determines a solution at a finite point")
-    return GivenValue(condition.points[0], condition.value)
 
 
 # ------------------------------------------------------------------------------------------------------------ reading
@@ -168,7 +198,8 @@ def read_first_order(
         if source.tokens is not None and "OPERATOR" in source.tokens.kinds:  # (D + 2) y = 0
             (b, c, rest), _ = parts_of(source, limits, order=1)
             function = sympy.Function(source.unknown)(sympy.Symbol(source.variable))
-            return FirstOrderEquation(function, _quotient_by_terms(-rest, b), _quotient_by_terms(-c, b), _ZERO, guesses)
+            entries = (_quotient_by_terms(-rest, b), _quotient_by_terms(-c, b), *LINEAR)
+            return FirstOrderEquation((function,), entries, (), guesses)
         eq = expression_of(source, limits)
     if not isinstance(eq, sympy.Basic):
         return None
@@ -202,7 +233,7 @@ def _in_powers(whole: Expr, function: Expr) -> FirstOrderEquation | None:
     base, power = f.as_base_exp()
     if len(right) > 1 or base != w or power.has(x, w) or (power != 2 and p != 0):
         return None
-    return FirstOrderEquation(function, p, q, r, (), sympy.cancel(power))
+    return FirstOrderEquation((function,), (p, q, r, sympy.cancel(power)))
 
 
 def _quotient_by_terms(numerator: Expr, denominator: Expr) -> Expr:
@@ -214,45 +245,45 @@ def _quotient_by_terms(numerator: Expr, denominator: Expr) -> Expr:
 
 
 class Solved(NamedTuple):
-    """w(x) = ..., checked; what is to be said beside, zeros of its denominators, and the exceptions of the pair in it."""
+    """w(x), or x(t) and y(t), checked; what is to be said beside, zeros of denominators, and exceptions of the pair in it."""
 
-    eq: Expr
+    values: tuple[Expr, ...]
     notices: list[str]
     zeros: list[Expr]
     of_pair: tuple[Expr, ...] = ()
 
 
-def solved_linear(
-    equation: FirstOrderEquation, conditions: Sequence[Condition], taken: Set[Expr] = frozenset()
-) -> Solved:
+def solved_linear(equation: FirstOrderEquation, taken: Set[Expr] = frozenset()) -> Solved:
     """The solution by (1); its constant isn't one of the symbols `taken`.
 
     Raises `InputError` for a value that no solution has, and `NotImplementedError` where a question isn't decided.
     """
-    value = value_of(conditions)
-    x = equation.x
-    start = None if value is None else value.point
-    place = equation.place if value is None else start
+    p, q, x = equation.p, equation.q, equation.x
+    start, _ = equation.value
+    place = equation.place if start is None else start
     h = equation.homogeneous(start)
     if place is not None:
-        h = starting_at(turned_at(place, h, (-equation.q,), _ZERO, x), x, start)
-    if value is not None and equation.p == 0:
+        h = starting_at(turned_at(place, h, (-q,), _ZERO, x), x, start)
+    if start is not None and p == 0:
         h = _beside_value(h, x, start)
-    particular = _of_parts(in_parts(equation.p, x), h, x, start)
+    particular = _of_parts(in_parts(p, x), h, x, start)
     if place is not None:
-        particular = turned_at(place, particular, (-equation.q,), equation.p, x)
+        particular = turned_at(place, particular, (-q,), p, x)
         in_factors = with_roots_of_factors(particular, x, place) if radicands(particular) else particular
         if in_factors != particular and in_factors.is_rational_function(x):
             particular = sympy.cancel(in_factors)
-    constant = equation.constant(taken)
-    if value is not None:
-        constant = _constant_through(equation, h, particular, value, constant)
+    constant = _constant_through(equation, h, particular, equation.constant(taken))
     whole = constant * h + particular
     w = shortest([*sums(whole, x), h * (constant + sympy.powsimp(particular / h))])
-    if value is not None:
+    if start is not None:
         w = with_letters_of_integration(in_book_form(w, x))
-    eq = sympy.Eq(equation.function, w, evaluate=False)
-    return Solved(eq, check_first_order(equation, w, conditions), zeros_of(w, x, (equation.p, equation.q)))
+    return Solved((w,), check_first_order(equation, w), zeros_of(w, x, (p, q)))
+
+
+def with_letters(answer: Any, own: Set[Expr]) -> tuple[Expr, tuple[Expr, ...]]:
+    """A solution with letters for C1 and C2, which may be symbols of a value or of its point, too; and these letters."""
+    letters = {symbol: sympy.Dummy(symbol.name) for symbol in sorted(answer.eq.rhs.free_symbols - own, key=str)}
+    return answer.eq.rhs.xreplace(letters), tuple(letters.values())
 
 
 def zeros_of(w: Expr, x: Expr, coefficients: Sequence[Expr], of_pair: Iterable[Expr] = ()) -> list[Expr]:
@@ -351,41 +382,47 @@ def _integrated(p: Expr, h: Expr, x: Expr, start: Expr | None) -> Expr:
     return starting_at(h * sympy.Integral(sympy.powsimp(sympy.expand(p / h)), x), x, start)
 
 
-def _constant_through(equation: FirstOrderEquation, h: Expr, particular: Expr, value: GivenValue, free: Expr) -> Expr:
-    """C with C h(a) + particular(a) = v; `free` where every C gives it, at a singular point a."""
+def _constant_through(equation: FirstOrderEquation, h: Expr, particular: Expr, free: Expr) -> Expr:
+    """C with C h(a) + particular(a) = v; `free` where every C gives it, at a singular point a, and without a value."""
     x = equation.x
-    is_infinite = not equation.is_regular_at(value.point) and not is_finite(h.subs(x, value.point))
-    if is_infinite:
-        there = particular.subs(x, value.point)
-        if not is_finite(there) or not is_zero(value.v - value_at(particular, x, value.point)):
-            raise InputError(f"at most one solution is finite at {value.point}, a singular point of the equation")
-        return _ZERO
-    rest = value.v - value_at(particular, x, value.point)
-    if not equation.is_regular_at(value.point) and is_zero(value_at(h, x, value.point)):
-        if not is_zero(rest):
-            raise InputError(f"there is no solution with this value at {value.point}, a singular point of the equation")
+    a, v = equation.value
+    if a is None:
         return free
-    return sympy.powsimp(rest / value_at(h, x, value.point))
+    is_regular = equation.is_regular_at(a)
+    if not is_regular and not is_finite(h.subs(x, a)):
+        if not is_finite(particular.subs(x, a)) or not is_zero(v - value_at(particular, x, a)):
+            raise InputError(f"at most one solution is finite at {a}, a singular point of the equation")
+        return _ZERO
+    rest = v - value_at(particular, x, a)
+    there = value_at(h, x, a)
+    if not is_regular and is_zero(there):
+        if not is_zero(rest):
+            raise _without_value(a)
+        return free
+    return sympy.powsimp(rest / there)
+
+
+def _without_value(a: Expr) -> InputError:
+    return InputError(f"there is no solution with this value at {a}, a singular point of the equation")
 
 
 # ------------------------------------------------------------------------------------------------------------- check
 
 
-def check_first_order(equation: FirstOrderEquation, w: Expr, conditions: Sequence[Condition]) -> list[str]:
+def check_first_order(equation: FirstOrderEquation, w: Expr) -> list[str]:
     """One sentence per check that could not be carried out.  Raises `VerificationFailed` where w is seen to be wrong.
 
     w' - (q + r w^(n - 1)) w = p, where w^(n - 1) is u^(k (n - 1)) for w = u^k: it holds for u > 0.
 
     Raises `InputError` where w hasn't the value at a singular point, as no solution needs to have it.
     """
-    value = value_of(conditions)
-    p, q, r = equation.parts
+    a, _ = equation.value
     u, k = w.as_base_exp()
-    rate = q + r * u ** sympy.cancel(k * (equation.power - 1))
-    claim = SolutionClaim(equation.x, w, (_ZERO, Integer(1), -rate, p), conditions, equation.reading)
+    rate = equation.q + equation.r * u ** sympy.cancel(k * (equation.power - 1))
+    coefficients = (_ZERO, Integer(1), -rate, equation.p)
     try:
-        return claim.check()
+        return SolutionClaim(equation.x, w, coefficients, equation.conditions, equation.reading).check()
     except VerificationFailed:
-        if value is None or equation.is_regular_at(value.point):
+        if a is None or equation.is_regular_at(a):
             raise
-    raise InputError(f"there is no solution with this value at {value.point}, a singular point of the equation")
+    raise _without_value(a)

@@ -19,7 +19,7 @@ a rational solution and a term that the constant moves.  Bernoulli's equations, 
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from functools import reduce
 from typing import Any
 
@@ -37,17 +37,17 @@ from kovacic.general_solution.antiderivatives import antiderivative
 from kovacic.general_solution.behaviour import value_at
 from kovacic.general_solution.first_order import (
     FirstOrderEquation,
-    GivenValue,
     Solved,
+    Solver,
     check_first_order,
     is_unit,
     read_first_order,
     solved_linear,
-    value_of,
+    with_letters,
     zeros_of,
 )
 from kovacic.general_solution.integrands import NUMBERS, ratfunc
-from kovacic.general_solution.question import Condition, free_constants
+from kovacic.general_solution.question import free_constants
 from kovacic.general_solution.substitution import by_functions, size
 from kovacic.general_solution.textbook import in_book_form, over_one_denominator
 from kovacic.general_solution.waves import rational_in_waves
@@ -80,30 +80,26 @@ def linear_equation(equation: FirstOrderEquation) -> tuple[Expr, Expr]:
     return sympy.Eq(u.diff(x, 2) - slope * u.diff(x) + sympy.cancel(equation.p * equation.r) * u, 0), u
 
 
-def solved_riccati(
-    equation: FirstOrderEquation,
-    conditions: Sequence[Condition],
-    solver: Callable[..., Any],
-) -> Solved:
+def solved_riccati(equation: FirstOrderEquation, solver: Solver) -> Solved:
     """The solution; `solver` is `answer_to`, for the linear equation.
 
     Raises `NotImplementedError` for a value at a point where neither linear equation is known to be regular.
     """
-    value = value_of(conditions)
     x = equation.x
+    start, _ = equation.value
     constants: tuple[Expr, ...] = ()
     exceptions: tuple[Expr, ...] = ()
     zeros: list[Expr] = []
     notices: list[str] = []
-    if equation.power != 2 or (equation.p == 0 and (value is None or equation.is_regular_at(value.point))):
-        forms = _of_bernoulli(equation, conditions, value)
-        zeros = zeros_of(sympy.Tuple(*forms), x, equation.parts)
-        if value is None and equation.power.is_odd:
+    if equation.power != 2 or (equation.p == 0 and (start is None or equation.is_regular_at(start))):
+        forms = [_of_bernoulli(equation)]
+        zeros = zeros_of(forms[0], x, equation.entries)
+        if start is None and equation.power.is_odd:
             notices.append(f"-{equation.function} is a solution, too")
     else:
-        is_inverted = _is_inverted(equation, value)
+        is_inverted = _is_inverted(equation)
         solved_for = equation.of_inverse if is_inverted else equation
-        u, constants, linear = _solved_linear(equation, solved_for, value, solver)
+        u, constants, linear = _solved_linear(equation, solved_for, solver)
         notices = linear.notices
         exceptions = tuple(e.xreplace(linear.own) for e in linear.pair_exceptions)
         forms = [*_forms(u, constants, solved_for)]
@@ -114,32 +110,27 @@ def solved_riccati(
     w = shortest(forms).xreplace(dict.fromkeys(constants, equation.constant()))
     if len(constants) < 2:
         w = in_book_form(w, x)
-    unchecked = check_first_order(equation, w, conditions)
-    return Solved(sympy.Eq(equation.function, w, evaluate=False), notices + unchecked, zeros, exceptions)
+    return Solved((w,), notices + check_first_order(equation, w), zeros, exceptions)
 
 
-def _of_bernoulli(
-    equation: FirstOrderEquation, conditions: Sequence[Condition], value: GivenValue | None
-) -> list[Expr]:
-    """Forms of w for w' = q w + r w^n, by u = w^(1 - n); w = 0 through 0, for n > 1."""
+def _of_bernoulli(equation: FirstOrderEquation) -> Expr:
+    """w for w' = q w + r w^n, by u = w^(1 - n); w = 0 through 0, for n > 1."""
     m = 1 - equation.power
-    if value is None:
-        return [solved_linear(equation.of_power, ()).eq.rhs ** (1 / m)]
-    if value.v == 0:
+    start, v = equation.value
+    if v == 0:
         if not m.is_negative:
             raise NotImplementedError("undecided: more than one solution may have the value 0")
-        return [sympy.S.Zero]
-    given = [replace(condition, value=value.v**m) for condition in conditions]
-    u = solved_linear(equation.of_power, given).eq.rhs / value.v**m
+        return sympy.S.Zero
+    (u,) = solved_linear(equation.of_power).values
+    if start is None:
+        return u ** (1 / m)
+    u /= v**m
     u = next(over_one_denominator(u, equation.x), u)  # which doesn't divide by v
-    return [value.v * sympy.powsimp(u) ** (1 / m)]  # the branch with the sign of v
+    return v * sympy.powsimp(u) ** (1 / m)  # the branch with the sign of v
 
 
 def _solved_linear(
-    equation: FirstOrderEquation,
-    solved_for: FirstOrderEquation,
-    value: GivenValue | None,
-    solver: Callable[..., Any],
+    equation: FirstOrderEquation, solved_for: FirstOrderEquation, solver: Solver
 ) -> tuple[Expr, tuple[Expr, ...], Any]:
     """u, its free constants, and the answer of the solver.
 
@@ -147,36 +138,29 @@ def _solved_linear(
     value.  Raises `NotImplementedError` where u1, u2, -u1'/r or -u2'/r has no value there that is found.
     """
     x = equation.x
+    a, v = equation.value
     linear, u = linear_equation(solved_for)
     start: dict[Expr, Expr] = {}
-    if value is not None and is_unit(solved_for.r, x, value.point):
-        here = {x: value.point}
-        u_there, slope_there = sympy.S.One, -(equation.r * value.v).subs(here)
-        if solved_for is not equation:
-            u_there, slope_there = value.v, equation.p.subs(here)
-        start = {u.subs(here): u_there, u.diff().subs(here): slope_there}
-    answer = solver(linear, u, ics=start)
-    # Letters of their own for C1 and C2, which may be symbols of r, of the value or of its point, too.
-    own = sympy.Tuple(linear, *start, *start.values()).free_symbols
-    letters = {symbol: sympy.Dummy() for symbol in sorted(answer.eq.rhs.free_symbols - own, key=str)}
-    solution = answer.eq.rhs.xreplace(letters)
-    constants = tuple(letters.values())
-    if value is not None and not start:  # those of C1 u1 + C2 u2 for which -u'/r is v u at a: one, or all
+    if a is not None and is_unit(solved_for.r, x, a):
+        there = (v, equation.p) if solved_for is not equation else (sympy.S.One, -equation.r * v)
+        start = {e.subs(x, a): value.subs(x, a) for e, value in zip((u, u.diff()), there, strict=True)}
+    answer = solver(linear, u, start)
+    solution, constants = with_letters(answer, sympy.Tuple(linear, *start.items()).free_symbols)
+    if a is not None and not start:  # those of C1 u1 + C2 u2 for which -u'/r is v u at a: one, or all
         basis = [solution.diff(constant) for constant in constants]
-        slopes = [value_at(-y.diff(x) / equation.r, x, value.point) for y in basis]
-        misses = [s - value.v * value_at(y, x, value.point) for s, y in zip(slopes, basis, strict=True)]
-        if not all(map(is_zero, misses)):
-            solution = misses[1] * basis[0] - misses[0] * basis[1]
+        first, second = (value_at(-y.diff(x) / equation.r, x, a) - v * value_at(y, x, a) for y in basis)
+        if not (is_zero(first) and is_zero(second)):
+            solution = second * basis[0] - first * basis[1]
     return solution, constants, answer
 
 
-def _is_inverted(equation: FirstOrderEquation, value: GivenValue | None) -> bool:
+def _is_inverted(equation: FirstOrderEquation) -> bool:
     """True if the linear equation for 1/w, (1), is solved: if only that is regular, or has the simpler coefficients."""
-    x = equation.x
-    if value is None:
-        is_constant = equation.p != 0 and not equation.p.has(x)
-        return is_constant and equation.r.has(x)
-    return not is_unit(equation.r, x, value.point) and is_unit(equation.p, x, value.point)
+    p, r, x = equation.p, equation.r, equation.x
+    start, _ = equation.value
+    if start is None:
+        return bool(p != 0 and not p.has(x) and r.has(x))
+    return not is_unit(r, x, start) and is_unit(p, x, start)
 
 
 # -------------------------------------------------------------------------------------------------------------- forms

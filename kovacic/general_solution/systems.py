@@ -10,8 +10,8 @@ x'(t0) = a x + b y + f there; where b(t0) = 0 equation (1) is singular though th
 
 from __future__ import annotations
 
-from collections.abc import Callable, Collection, Iterable, Mapping, Sequence, Set
-from dataclasses import dataclass
+from collections.abc import Collection, Sequence, Set
+from dataclasses import replace
 from typing import Any
 
 import sympy
@@ -21,24 +21,22 @@ from sympy.solvers.solveset import NonlinearError
 
 from kovacic.equation import eliminated
 from kovacic.errors import InputError, NotLinear
-from kovacic.general_solution.answer import ProblemAnswer, SystemAnswer, vanishes_with
+from kovacic.general_solution.answer import vanishes_with
 from kovacic.general_solution.behaviour import value_at
 from kovacic.general_solution.constants import Outcome, Row, determine
 from kovacic.general_solution.first_order import (
+    LINEAR,
     FirstOrderEquation,
+    OfFirstOrder,
+    Solved,
+    Solver,
     check_first_order,
     is_unit,
     solved_linear,
+    with_letters,
     zeros_of,
 )
-from kovacic.general_solution.question import (
-    Condition,
-    ConditionReader,
-    conditions_at,
-    exact,
-    free_constants,
-    known_letters,
-)
+from kovacic.general_solution.question import exact, free_constants
 from kovacic.general_solution.steps import JUMPING, in_steps, taken_apart
 from kovacic.general_solution.substitution import size, slope
 from kovacic.general_solution.textbook import in_book_form, sums
@@ -47,82 +45,62 @@ from kovacic.general_solution.zero_set import ZeroSet
 from kovacic.special.choice import shortest
 
 Expr = Any  # SymPy publishes no types
-#: `answer_to`, for one equation.
-Solver = Callable[..., ProblemAnswer]
-#: What holds where one of some expressions is zero; takes these, the problem for values of letters, and the formulas.
-There = Callable[..., Iterable[str]]
 
 
-@dataclass(frozen=True)
-class LinearSystem:
-    """u' = A u + r: `functions` is (x(t), y(t)), `matrix` ((a, b), (c, d)), `right` (f, g)."""
+class LinearSystem(OfFirstOrder):
+    """x' = a x + b y + f, y' = c x + d y + g: `functions` is (x(t), y(t)), `entries` are a, b, c, d, f, g."""
 
-    functions: tuple[Expr, Expr]
-    matrix: tuple[tuple[Expr, Expr], tuple[Expr, Expr]]
-    right: tuple[Expr, Expr]
-
-    @property
-    def t(self) -> Expr:
-        return self.functions[0].args[0]
-
-    @property
-    def entries(self) -> tuple[Expr, ...]:
-        """Those of the matrix, and the right-hand sides."""
-        return (*self.matrix[0], *self.matrix[1], *self.right)
-
-    @property
-    def letters(self) -> dict[str, Expr]:
-        """The symbols in these, by name."""
-        return {symbol.name: symbol for symbol in sympy.Tuple(*self.entries).free_symbols}
-
-    def in_symbols(self, others: Mapping[Expr, Expr]) -> LinearSystem:
-        """The system in other symbols."""
-        x, y, a, b, c, d, f, g = (e.xreplace(others) for e in (*self.functions, *self.entries))
-        return LinearSystem((x, y), ((a, b), (c, d)), (f, g))
-
-    def at(self, values: Mapping[Expr, Expr]) -> tuple[Expr, ...]:
-        """The equations for particular values of letters, as expressions that are zero."""
-        unknowns = zip(self.functions, self.matrix, self.right, strict=True)
+    def slopes(self) -> tuple[Expr, ...]:
+        a, b, c, d, f, g = self.entries
         x, y = self.functions
-        return tuple(u.diff(self.t) - (a * x + b * y + f).subs(values) for u, (a, b), f in unknowns)
+        return a * x + b * y + f, c * x + d * y + g
 
     @property
     def swapped(self) -> LinearSystem:
         """The system with y before x."""
-        (a, b), (c, d) = self.matrix
-        return LinearSystem(self.functions[::-1], ((d, c), (b, a)), self.right[::-1])
+        a, b, c, d, f, g = self.entries
+        return replace(self, functions=self.functions[::-1], entries=(d, c, b, a, g, f))
 
     @property
     def equation(self) -> Expr:
         """Equation (1) for the first unknown, b not zero."""
-        (_, b), (_, d) = self.matrix
-        f, g = self.right
-        x, t = self.functions[0], self.t
-        first, zeroth = map(sympy.cancel, eliminated(self.matrix, t))
+        a, b, c, d, f, g = self.entries
+        x, t = self.functions[0], self.x
+        first, zeroth = map(sympy.cancel, eliminated(((a, b), (c, d)), t))
         right = f.diff(t) + b * g - (d + sympy.cancel(b.diff(t) / b)) * f
         return sympy.Eq(x.diff(t, 2) + first * x.diff(t) + zeroth * x, right)
 
     def second(self, x: Expr) -> Expr:
         """The second unknown where the first one is x, b not zero."""
-        (a, b), _ = self.matrix
-        y = sympy.expand_mul((slope(x, self.t) - a * x - self.right[0]) / b, deep=False)
+        a, b, _, _, f, _ = self.entries
+        y = sympy.expand_mul((slope(x, self.x) - a * x - f) / b, deep=False)
         integrals, plain = sympy.sift(sympy.Add.make_args(y), lambda term: term.has(sympy.Integral), binary=True)
         if integrals:  # the integrands that are left of their slopes cancel: exp(t) exp(t^3 - t) is exp(t^3)
             joined = sympy.powsimp(sympy.Add(*plain)).replace(sympy.exp, lambda power: sympy.exp(sympy.expand(power)))
             y = sympy.Add(*integrals, joined)
-        apart = taken_apart(y, self.t) if y.has(sympy.DiracDelta) else None
+        apart = taken_apart(y, self.x) if y.has(sympy.DiracDelta) else None
         if apart is None:
             return y
         # H u has the slope H u' + u(a) delta, where u(a) is zero or what an impulse in f brings.
         if not all(is_zero(strength) for here in apart.impulses.values() for strength in here.values()):
             return y
-        return apart.without_impulses(self.t)
+        return apart.without_impulses(self.x)
 
-    def alone(self, number: int, other: Expr) -> FirstOrderEquation:
-        """The equation of one unknown where the other one is known."""
-        row = self.matrix[number]
-        rest = sympy.expand(row[1 - number] * other + self.right[number])
-        return FirstOrderEquation(self.functions[number], rest, row[number], sympy.Integer(0))
+    def alone(self, other: Expr) -> FirstOrderEquation:
+        """The equation of the first unknown, with its conditions, where the second one is known."""
+        a, b, _, _, f, _ = self.entries
+        x = self.functions[0]
+        of_x = tuple((function, condition) for function, condition in self.asked if function == x)
+        return FirstOrderEquation((x,), (sympy.expand(b * other + f), a, *LINEAR), of_x)
+
+    @property
+    def values(self) -> tuple[Expr, Expr, Expr] | None:
+        """t0, x(t0) and y(t0), if these are given."""
+        values = {f: (condition.points[0], condition.value) for f, condition in self.asked}
+        if len(self.asked) != 2 or len(values) != 2:
+            return None
+        (point, first), (other, second) = (values[f] for f in self.functions)
+        return (point, first, second) if point == other else None
 
 
 def read_system(equations: Sequence[Any], functions: Sequence[Any] | None) -> LinearSystem:
@@ -151,9 +129,8 @@ def read_system(equations: Sequence[Any], functions: Sequence[Any] | None) -> Li
     if determinant == 0:
         raise InputError("the equations don't determine both derivatives", hint="for such systems call sympy.dsolve")
     inverse = mass.adjugate() / determinant
-    (first, second), right = (inverse * A).applyfunc(sympy.cancel).tolist(), (inverse * b).applyfunc(sympy.cancel)
-    f, g = (in_steps(e, t) for e in right)
-    return LinearSystem((x, y), ((first[0], first[1]), (second[0], second[1])), (f, g))
+    matrix, right = ((inverse * part).applyfunc(sympy.cancel) for part in (A, b))
+    return LinearSystem((x, y), (*matrix, *(in_steps(e, t) for e in right)))
 
 
 def _unknowns(whole: Sequence[Expr], functions: Sequence[Any] | None) -> tuple[Expr, Expr]:
@@ -172,77 +149,54 @@ def _unknowns(whole: Sequence[Expr], functions: Sequence[Any] | None) -> tuple[E
     return found[0], found[1]
 
 
-def solved_system(
-    system: LinearSystem, ics: Mapping[Any, Any], assume: Mapping[Any, Any], solver: Solver, there: There
-) -> SystemAnswer:
-    """[Eq(x(t), ...), Eq(y(t), ...)], put into both equations and into the values, and what is to be said beside.
+def solved_system(given: LinearSystem, solver: Solver) -> Solved:
+    """x(t) and y(t), put into both equations and into the values.
 
     Raises `InputError` for values that no solution has, and `NotImplementedError` where nothing is found.
     """
-    functions = system.functions
-    conditions = _conditions(system, ics)
-    known = known_letters(assume, system.t, system.letters, [condition for _, condition in conditions])
-    system = system.in_symbols(known)
-    conditions = [(number, condition.in_symbols(known)) for number, condition in conditions]
-    if _is_swapped(system, _initial_values(conditions)):
-        system = system.swapped
-        conditions = [(1 - number, condition) for number, condition in conditions]
-    own = sympy.Tuple(*system.entries, system.t).free_symbols
-    given = own.union(*(condition.free_symbols for _, condition in conditions))
-    asked = [(system.functions[number], condition) for number, condition in conditions]
-    start = _initial_values(conditions)
-    (_, b), _ = system.matrix
+    for condition in given.conditions:
+        if not condition.is_value or condition.terms[0].order:
+            raise InputError(f"{condition.text}: a system has values of its unknowns")
+    is_swapped = _is_swapped(given)
+    system = given.swapped if is_swapped else given
+    t, b, values = system.x, system.entries[1], system.values
+    taken = sympy.Tuple(t, *system.entries).free_symbols.union(*(c.free_symbols for c in system.conditions))
+    is_open = bool(system.asked)  # the values aren't put in yet
     exceptions: list[Expr] = []
-    of_values: list[Expr] = []
-    if b == 0 and sum(number for number, _ in conditions) > 1:  # two values of y determine x
-        pair, notices = _one_after_the_other(system, [], own)
-    elif b == 0:
-        pair, notices = _one_after_the_other(system, conditions, given)
-        own = given
-        conditions = []
-    elif start is not None and is_unit(b, system.t, start[0]):
-        pair, notices = _through_values(system, start, solver)
-        own = given
-        conditions = []
+    zeros: list[Expr] = []
+    if b == 0:
+        is_open = len(system.swapped.alone(sympy.S.Zero).asked) > 1  # two values of y determine x
+        pair, notices = _one_after_the_other(replace(system, asked=()) if is_open else system, taken)
+    elif values is not None and is_unit(b, t, values[0]):
+        is_open = False
+        pair, notices = _through_values(system, values, solver)
     else:
-        answer = solver(system.equation, system.functions[0], ics={})
+        answer = solver(system.equation, system.functions[0], {})
         notices = answer.notices
-        pair = sympy.Tuple(answer.eq.rhs, system.second(answer.eq.rhs))
+        x, _ = with_letters(answer, taken)
+        pair = sympy.Tuple(x, system.second(x))
         exceptions = [e.xreplace(answer.own) for e in answer.pair_exceptions]
-    constants = sorted(pair.free_symbols - own, key=str)
-    if conditions:
-        pair, of_values = _with_constants(system, pair, constants, conditions)
+    constants = sorted(pair.free_symbols - taken, key=str)
+    if is_open:
+        pair, zeros = _with_constants(system, pair, constants)
     left = [constant for constant in constants if pair.has(constant)]
-    if conditions:  # a constant that is left stands before solutions that may vanish with the Wronskian
+    if is_open:  # a constant that is left stands before solutions that may vanish with the Wronskian
         functions_left = [[solution.diff(constant) for solution in pair] for constant in left]
         exceptions = [e for e in exceptions if any(vanishes_with(e, *solutions) for solutions in functions_left)]
-    renamed = dict(zip(left, free_constants(len(left), *given, *functions), strict=True))
-    pair = sympy.Tuple(*(_with_constants_apart(e, renamed.values(), system.t) for e in pair.xreplace(renamed)))
-    eqs = [sympy.Eq(f, solution, evaluate=False) for f, solution in zip(system.functions, pair, strict=True)]
-
-    def at(values: Mapping[Expr, Expr]) -> tuple[tuple[Expr, ...], tuple[Expr, Expr], dict[Expr, Any]]:
-        return system.at(values), system.functions, conditions_at(values, asked)
-
-    zeros = zeros_of(pair, system.t, system.entries, exceptions)
-    zeros += [zero for zero in of_values if not {*ZeroSet(zero).factors} <= {*zeros}]
-    notices += [f"this holds unless {said}" for said in there(zeros, at, eqs)]
-    for number, solution in enumerate(pair):
-        notices += check_first_order(system.alone(number, pair[1 - number]), solution, ())
-    found = dict(zip(system.functions, pair, strict=True))
-    users = {symbol: user for user, symbol in known.items()}
-    eqs = [sympy.Eq(f, found[f.xreplace(known)].xreplace(users), evaluate=False) for f in functions]
-    return SystemAnswer(eqs, [*dict.fromkeys(notices)], known=known, exceptional=tuple(exceptions))
+    renamed = dict(zip(left, free_constants(len(left), *taken, *system.functions), strict=True))
+    x, y = (_with_constants_apart(e, renamed.values(), t) for e in pair.xreplace(renamed))
+    found = zeros_of(sympy.Tuple(x, y), t, system.entries, exceptions)
+    found += [zero for zero in zeros if not {*ZeroSet(zero).factors} <= {*found}]
+    plain = replace(system, asked=())
+    unchecked = check_first_order(plain.alone(y), x) + check_first_order(plain.swapped.alone(x), y)
+    return Solved((y, x) if is_swapped else (x, y), notices + unchecked, found, tuple(exceptions))
 
 
-def _one_after_the_other(
-    system: LinearSystem, conditions: Sequence[tuple[int, Condition]], taken: Set[Expr]
-) -> tuple[Expr, list[str]]:
+def _one_after_the_other(system: LinearSystem, taken: Set[Expr]) -> tuple[Expr, list[str]]:
     """For b = 0: x from its own equation and value, then y, whose equation has what is left of x in it."""
-    of_x, of_y = ([condition for k, condition in conditions if k == number] for number in (0, 1))
-    first = solved_linear(system.alone(0, sympy.Integer(0)), of_x, taken)
-    x = first.eq.rhs
-    second = solved_linear(system.alone(1, x), of_y, taken | x.free_symbols)
-    return sympy.Tuple(x, second.eq.rhs), [*first.notices, *second.notices]
+    first = solved_linear(system.alone(sympy.S.Zero), taken)
+    second = solved_linear(system.swapped.alone(*first.values), taken | first.values[0].free_symbols)
+    return sympy.Tuple(*first.values, *second.values), first.notices + second.notices
 
 
 def _with_constants_apart(value: Expr, constants: Collection[Expr], t: Expr) -> Expr:
@@ -254,68 +208,38 @@ def _with_constants_apart(value: Expr, constants: Collection[Expr], t: Expr) -> 
     return sympy.Add(*(shortest([*sums(part, t)]) for part in (homogeneous, rest)))
 
 
-def _is_swapped(system: LinearSystem, start: tuple[Expr, Expr, Expr] | None) -> bool:
+def _is_swapped(system: LinearSystem) -> bool:
     """True if x is eliminated instead: if b is zero there, if f jumps or isn't known and g is, or if c is simpler than b."""
-    (_, b), (c, _) = system.matrix
+    _, b, c, _, *right = system.entries
     if b == 0 or c == 0:
         return bool(b != 0)  # the unknown whose equation stands alone comes first
-    if start is not None and is_unit(b, system.t, start[0]) != is_unit(c, system.t, start[0]):
-        return is_unit(c, system.t, start[0])
-    is_rough, other_is_rough = (bool(r.has(AppliedUndef, *JUMPING)) for r in system.right)
+    if system.values is not None:
+        of_y, of_x = (is_unit(e, system.x, system.values[0]) for e in (b, c))
+        if of_y != of_x:
+            return of_x
+    is_rough, other_is_rough = (bool(r.has(AppliedUndef, *JUMPING)) for r in right)
     return is_rough > other_is_rough or (is_rough == other_is_rough and size(c) < size(b))
 
 
-def _through_values(system: LinearSystem, start: tuple[Expr, Expr, Expr], solver: Solver) -> tuple[Expr, list[str]]:
+def _through_values(system: LinearSystem, values: tuple[Expr, Expr, Expr], solver: Solver) -> tuple[Expr, list[str]]:
     """The solution with x(t0) and y(t0), where b(t0) isn't zero."""
-    point, first, second = start
-    x, t = system.functions[0], system.t
-    (a, b), _ = system.matrix
-    start_slope = (a * first + b * second + system.right[0]).subs(t, point)
-    letters = {f: sympy.Dummy() for f in start_slope.atoms(AppliedUndef)}  # g(t0), for a given function g
-    ics = {x.subs(t, point): first, x.diff(t).subs(t, point): start_slope.xreplace(letters)}
-    answer = solver(system.equation, x, ics=ics)
+    point, first, second = values
+    x, y = system.functions
+    slope_there = system.slopes()[0].xreplace({x: first, y: second}).subs(system.x, point)
+    letters = {f: sympy.Dummy() for f in slope_there.atoms(AppliedUndef)}  # g(t0), for a given function g
+    ics = {x.subs(system.x, point): first, x.diff().subs(system.x, point): slope_there.xreplace(letters)}
+    answer = solver(system.equation, x, ics)
     solution = answer.eq.rhs.xreplace({letter: f for f, letter in letters.items()})
     return sympy.Tuple(solution, system.second(solution)), answer.notices
 
 
-# ------------------------------------------------------------------------------------------------------------- values
-
-
-def _conditions(system: LinearSystem, ics: Mapping[Any, Any]) -> list[tuple[int, Condition]]:
-    """Each with the number of the unknown that it is about.  Raises `InputError` for conditions that aren't values."""
-    found = []
-    for key, value in ics.items():
-        name = str(key.func) if isinstance(key, AppliedUndef) else str(key).partition("(")[0].strip()
-        names = [str(f.func) for f in system.functions]
-        if name not in names:
-            raise InputError(f"{key} isn't a value of an unknown", hint=f"write {names[0]}(0) = 1, {names[1]}(0) = 0")
-        number = names.index(name)
-        condition = ConditionReader(system.functions[number], name).read(key, value)
-        if not condition.is_value or condition.terms[0].order:
-            raise InputError(f"{condition.text}: a system has values of its unknowns")
-        found.append((number, condition))
-    return found
-
-
-def _initial_values(conditions: Sequence[tuple[int, Condition]]) -> tuple[Expr, Expr, Expr] | None:
-    """t0, x(t0) and y(t0), if these are given."""
-    values = {number: (condition.points[0], condition.value) for number, condition in conditions}
-    if len(conditions) != 2 or len(values) != 2 or values[0][0] != values[1][0]:
-        return None
-    return values[0][0], values[0][1], values[1][1]
-
-
-def _with_constants(
-    system: LinearSystem,
-    pair: Expr,
-    constants: Sequence[Expr],
-    conditions: Sequence[tuple[int, Condition]],
-) -> tuple[Expr, list[Expr]]:
+def _with_constants(system: LinearSystem, pair: Expr, constants: Sequence[Expr]) -> tuple[Expr, list[Expr]]:
     """With the constants that the values determine, and expressions in parameters that are zero where that is otherwise."""
     c1, c2 = constants
+    solutions = dict(zip(system.functions, pair, strict=True))
     rows = []
-    for number, condition in conditions:
-        there = value_at(pair[number], system.t, condition.points[0])
+    for f, condition in system.asked:
+        there = value_at(solutions[f], system.x, condition.points[0])
         rows.append(Row(there.diff(c1), there.diff(c2), condition.value - there.subs({c1: 0, c2: 0})))
     generic, others, _ = determine(rows, (c1, c2))
     if generic.outcome is Outcome.NONE:
