@@ -81,43 +81,23 @@ class Constants:
         value = self._number(radicand)
         if value is None:
             return radicand.field.sqrt(radicand) if n == 2 else None
-        if n == 2 and radicand.field == QQ and radicand.height_bits() > PRINTED_BITS:  # too long for a name
-            root = QQ.sqrt(radicand)
-            if root is None:
-                said = f"a root of a number of {radicand.height_bits()} bits, above the limit of {PRINTED_BITS}"
-                raise LimitExceeded(said, limit="bits")
-            return root.over(self.field)
+        rational = self.numbers.rational_value(value)
         if not value:
             return self._with_parameters(value)
-        rational = self.numbers.rational_value(value)
-        if rational is None:
-            return self._with_parameters(self._pure_root(value, n, label))
-        if n == 2:
-            return self._with_parameters(self._square_root(rational))
-        return self._with_parameters(self._rational_root(rational, n, label))
-
-    def _square_root(self, radicand: Fraction) -> Poly:
-        """outer sqrt(rest), so that sqrt(8) and sqrt(2) are in one field; rest is an integer.
-
-        It has no square factors, unless it is too long to be factored.
-        """
-        outer, rest = square_part(radicand)
-        if rest == 1:
-            return self.numbers.poly([1]) * outer
-        label = "I" if rest == -1 else f"sqrt({rest})"
-        return self._rational_root(Fraction(rest), 2, label) * outer
-
-    def _rational_root(self, radicand: Fraction, n: int, label: str) -> Poly:
-        """The principal root of a rational number, which is kept among the known ones."""
-        for known in self.radicals:
-            if known.n == n and known.radicand == radicand:
-                return known.root
-        return self._pure_root(self.numbers.poly([radicand]), n, label, (radicand, n))
-
-    def _pure_root(self, value: Poly, n: int, label: str, radical: tuple[Fraction, int] | None = None) -> Poly:
-        """The principal root of X^n - value, over the number field."""
-        equation = self.numbers.poly([-value, *[0] * (n - 1), 1])
-        return self._root(equation, principal_root(value, n), label, radical)
+        outer, radical = Fraction(1), None
+        if rational is not None:
+            if n == 2:  # so that sqrt(8) and sqrt(2) are in one field
+                outer, rest = square_part(rational)
+                if rest.bit_length() > PRINTED_BITS:  # too long for a name
+                    said = f"a root of a number of {rest.bit_length()} bits, above the limit of {PRINTED_BITS}"
+                    raise LimitExceeded(said, limit="bits")
+                rational, label = Fraction(rest), "I" if rest == -1 else f"sqrt({rest})"
+            radical = rational, n
+        root = next((known.root for known in self.radicals if radical == known[:2]), None)
+        if root is None:
+            equation = self.numbers.poly([-value if rational is None else -rational, *[0] * (n - 1), 1])
+            root = self._root(equation, principal_root(-equation[0], n), label, radical)
+        return self._with_parameters(root * outer)
 
     def algebraic(self, node: Any) -> Poly | None:
         """An algebraic number that SymPy has in any other form, through its minimal polynomial; None if it finds none."""
@@ -172,16 +152,11 @@ class Constants:
         """A constant that doesn't depend on parameters, as an element of the number field."""
         if value.field in (self.numbers, QQ):
             return value.over(self.numbers)
-        coefficients = []
-        for part in getattr(value, "parts", (value,)):
-            number = part.field.rational_value(part)
-            if number is None:
-                return None
-            coefficients.append(number)
-        constant = QQ.poly(coefficients)
-        if isinstance(self.numbers, AlgebraicField):
-            return self.numbers.element(constant)
-        return constant
+        numbers: list[Any] = [part.field.rational_value(part) for part in getattr(value, "parts", (value,))]
+        if None in numbers:
+            return None
+        constant = QQ.poly(numbers)
+        return self.numbers.element(constant) if isinstance(self.numbers, AlgebraicField) else constant
 
     def embedded(self, function: RatFunc) -> RatFunc:
         """The rational function over the whole field, or over Q if it lies there."""

@@ -49,7 +49,7 @@ _SIGN_KINDS = {
     **dict.fromkeys(")]}", "RPAR"),
     ",": "COMMA",
     **dict.fromkeys(("=", "=="), "EQUAL"),
-    **dict.fromkeys(("<", ">", "<=", ">=", "≤", "≥"), "COMPARISON"),
+    **dict.fromkeys(("<", ">", "<=", ">="), "COMPARISON"),
 }
 #: The condition of the last of several pieces.
 _OTHERWISE = ("True", "otherwise")

@@ -14,6 +14,7 @@ Within an equation the unknown function may follow a coefficient without a sign:
 from __future__ import annotations
 
 from collections.abc import Mapping
+from contextlib import suppress
 from dataclasses import dataclass
 from types import SimpleNamespace
 from typing import Any
@@ -22,10 +23,10 @@ from kovacic.algebra.extension import AlgebraicField
 from kovacic.algebra.poly import Field, Poly
 from kovacic.algebra.ratfunc import RatFunc
 from kovacic.equation import ENERGY, EULER, PI, UNKNOWN, Equation, over
-from kovacic.errors import NotLinear, NotRational, ParseError
+from kovacic.errors import NotLinear, NotRational
 from kovacic.limits import Limits
 from kovacic.numbers.numerals import as_text
-from kovacic.reading.arithmetic import VARIABLE, Arithmetic, Monomial, NotAnInteger, Value
+from kovacic.reading.arithmetic import VARIABLE, Arithmetic, Monomial, Value
 from kovacic.reading.constants import Constants, read_with_constants
 from kovacic.reading.dialects import tokenize
 from kovacic.reading.expression import OperationPlace, RationalReader, parse_with
@@ -96,32 +97,30 @@ class EquationReader(RationalReader):
             position = None if text is None else 0
             raise NotLinear(said, hint=hint, text=text, position=position, length=len(text or ""))
         h = None
-        if not is_rational(rest):
-            rest, h = self._rational_part(rest)
+        if not is_rational(rest):  # its rational terms, and h, minus the sum of its other ones
+            from kovacic.reading.symbolic import walked
+
+            values = {term: walked(term, self) for term in rest.as_ordered_terms()}
+            h = -sum(term for term, value in values.items() if not is_rational(value)) or None
+            rest = self.arithmetic.sum([zero, *filter(is_rational, values.values())])
         coefficients[REST] = self.arithmetic.rational(rest)
         nothing = self.arithmetic.rational(zero)
         r, c, b, a = (over(coefficients.get(k, nothing), self.constants.field) for k in (REST, 0, 1, 2))
         return Equation(a, b, c, -r, h, self.variable, self.unknown)
 
-    def _rational_part(self, rest: Any) -> tuple[Any, Any]:
-        """The rational terms of a SymPy expression, and minus the sum of its other ones, h, or None."""
-        from kovacic.reading.symbolic import walked
-
-        values = {term: walked(term, self) for term in rest.as_ordered_terms()}
-        rational = [value for value in values.values() if is_rational(value)]
-        others = [term for term, value in values.items() if not is_rational(value)]
-        return self.arithmetic.sum([Monomial(0, 0), *rational]), -sum(others) or None
-
     def other_leaf(self, node: Any) -> Any:
         """The unknown function, or a derivative; on the right-hand side a function that isn't rational."""
-        if node.is_Derivative:
-            return self._derivative_node(node)
-        if self._is_unknown(node):
-            return _derivative_of_unknown(0)
         from sympy import Symbol
 
-        from kovacic.reading.symbolic import functions_in
+        from kovacic.reading.symbolic import functions_in, walked
 
+        if node.is_Derivative:
+            for symbol, count in node.variable_count:
+                if symbol.name != self.variable or not getattr(count, "is_Integer", False):
+                    raise NotLinear(f"{node} isn't a derivative with respect to {self.variable}")
+            return self._derived(walked(node.expr, self), int(node.derivative_count))
+        if [str(node.func), *map(str, node.args)] == [self.unknown, self.variable]:
+            return _derivative_of_unknown(0)
         plain = node.xreplace({symbol: Symbol(symbol.name) for symbol in node.free_symbols})
         if node.func.__name__ == self.unknown:
             said = f"{plain} and {self.unknown}({self.variable}) have different arguments, as in a delay equation"
@@ -129,23 +128,6 @@ class EquationReader(RationalReader):
         if any(f.func.__name__ == self.unknown for f in functions_in(plain)):
             raise NotLinear(f"{self.unknown}({self.variable}) within {plain}: the equation isn't linear")
         return plain
-
-    def _derivative_node(self, node: Any) -> Any:
-        """SymPy's derivative of the unknown function, or of an expression with it."""
-        from kovacic.reading.symbolic import walked
-
-        for symbol, count in node.variable_count:
-            if symbol.name != self.variable or not getattr(count, "is_Integer", False):
-                raise NotLinear(f"{node} isn't a derivative with respect to {self.variable}")
-        order = int(node.derivative_count)
-        if self._is_unknown(node.expr):
-            return _derivative_of_unknown(order)
-        return self._derived(walked(node.expr, self), order)
-
-    def _is_unknown(self, node: Any) -> bool:
-        if node.func.__name__ != self.unknown or len(node.args) != 1:
-            return False
-        return bool(node.args[0].is_Symbol and node.args[0].name == self.variable)
 
     def name(self, name: str) -> Any:
         if name == self.unknown:
@@ -180,15 +162,9 @@ class EquationReader(RationalReader):
         """A coefficient may stand before the unknown function without a sign."""
         return name.rstrip(PRIMES) == self.unknown or name in DERIVATIVES
 
-    def power(self, base: Any, exponent: Any, place: OperationPlace) -> Any:
-        try:
-            return self.arithmetic.power(base, exponent)
-        except NotAnInteger:
-            pass
-        try:
-            return self._rational_power(base, exponent, place)
-        except NotRational:
-            pass
+    def other_power(self, base: Any, exponent: Any, place: OperationPlace) -> Any:
+        with suppress(NotRational):
+            return super().other_power(base, exponent, place)
         if ENERGY in self.constants.parameters and self.arithmetic.closed(base) == self.constants.parameter(ENERGY):
             hint = f"write exp(...) or e^x for the exponential function; {ENERGY} is the energy"
             raise NotLinear(f"a power of {ENERGY}, which is a parameter", hint=hint)
@@ -198,15 +174,13 @@ class EquationReader(RationalReader):
         if head.rstrip(PRIMES) == self.unknown:
             return self._call_of_unknown(head, arguments, site)
         if head in DERIVATIVES:
-            order = differentiations(arguments, self._is_variable, self.arithmetic, self.variable)
+            order = differentiations(arguments, self)
             return self._derived(arguments[0], order)
-        if head in self.names:
-            hint = f"for a product write {head}*({site.inside()})"
-            raise ParseError(f"{head} is followed by a parenthesis like a function", hint=hint)
         try:
             return super().call(head, arguments, site)
         except NotRational:
-            is_given = head.isidentifier() and len(arguments) == 1 and self._is_variable(arguments[0])
+            is_name = head.isidentifier() and head != self.variable
+            is_given = is_name and len(arguments) == 1 and self.is_variable(arguments[0])
             if is_given and self.source.has_functions:
                 import sympy
 
@@ -228,15 +202,15 @@ class EquationReader(RationalReader):
         if len(arguments) != 1:
             raise NotLinear(f"{y} is a function of {self.variable} alone")
         (argument,) = arguments
-        if self._is_variable(argument):
+        if self.is_variable(argument):
             return _derivative_of_unknown(len(head) - len(y))
-        is_value = is_rational(argument) and self.arithmetic.number(argument) is not None
+        is_value = self.arithmetic.number(argument) is not None
         values = f"values follow the equation after commas: {y}'' + {y} = 0, {y}(0) = 1"
         hint = values if is_value else f"for a product write {y}*(...)"
         said = f"{site.text()} and {y}({self.variable}) have different arguments, as in a delay equation"
         raise NotLinear(said, hint=hint)
 
-    def _is_variable(self, value: Any) -> bool:
+    def is_variable(self, value: Any) -> bool:
         return is_rational(value) and bool(self.arithmetic.closed(value) == self.arithmetic.closed(VARIABLE))
 
     def _derived(self, value: Any, order: int) -> Any:

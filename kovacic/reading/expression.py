@@ -124,7 +124,7 @@ class RationalReader:
         try:
             return self.arithmetic.power(base, exponent)
         except NotAnInteger:
-            return self._rational_power(base, exponent, place)
+            return self.other_power(base, exponent, place)
 
     def call(self, head: str, arguments: list[Any], site: Site) -> Value:
         """A call of a name, with primes or not; a pair among the arguments is a tuple."""
@@ -175,7 +175,7 @@ class RationalReader:
             raise NotRational(f"{place.text()} isn't rational in the parameters", hint=hint)
         return root
 
-    def _rational_power(self, base: Value, exponent: Value, place: OperationPlace) -> Value:
+    def other_power(self, base: Value, exponent: Value, place: OperationPlace) -> Value:
         """`base ** exponent` for an exponent that isn't an integer: a power of a root of a number, or an error."""
         power = self.arithmetic.closed(exponent)
         if not isinstance(power, Poly) or not power.is_constant:

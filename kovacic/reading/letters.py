@@ -76,22 +76,15 @@ def without_shifts(part: Expr, x: Expr) -> Expr:
     """
     inner, shift = sympy.symbols("inner shift", cls=sympy.Dummy)
 
-    def is_power_of_constant(e: Expr) -> bool:
-        return bool(e.is_Pow and e.base is not sympy.E and e.exp.has(x) and not e.base.has(x))
-
-    def as_exponential(power: Expr) -> Expr:
-        return sympy.exp(sympy.log(power.base) * power.exp, evaluate=False)
-
     def apart(e: Expr) -> Expr:
         constant, rest = e.args[0].expand().as_independent(x, as_Add=True)
-        if constant == 0:
-            return e
         return sympy.expand(e.func(inner + shift), trig=True).xreplace({inner: rest, shift: constant})
 
-    def has_line(e: Expr) -> bool:
-        return isinstance(e, sympy.exp | TrigonometricFunction | HyperbolicFunction) and bool(e.has(x))
-
-    return part.replace(is_power_of_constant, as_exponential).replace(has_line, apart)
+    bases = {p: sympy.log(p.base) * p.exp for p in part.atoms(sympy.Pow) if p.exp.has(x) and not p.base.has(x)}
+    part = part.xreplace({power: sympy.exp(exponent, evaluate=False) for power, exponent in bases.items()})
+    return part.replace(
+        lambda e: isinstance(e, sympy.exp | TrigonometricFunction | HyperbolicFunction) and e.has(x), apart
+    )
 
 
 def _kernels(e: Expr, x: Expr, *, e_is_known: bool) -> list[Expr]:
@@ -107,9 +100,7 @@ def _kernels(e: Expr, x: Expr, *, e_is_known: bool) -> list[Expr]:
     is_algebraic = e.is_number and e.is_algebraic and not is_power_of_e
     if is_constant and (e.is_Symbol or e is sympy.pi or is_algebraic):
         return []
-    arguments = [
-        argument for argument in e.args if isinstance(argument, sympy.Expr)
-    ]  # a derivative has a pair beside f(t)
+    arguments = [each for each in e.args if isinstance(each, sympy.Expr)]  # a derivative has a pair beside f(t)
     inner = [kernel for argument in arguments for kernel in _kernels(argument, x, e_is_known=e_is_known)]
     is_rational = e.is_Add or e.is_Mul or (e.is_Pow and exponent.is_Integer and not is_power_of_e)
     return [e] if is_constant and not inner and not is_rational else inner
@@ -187,11 +178,8 @@ class _LetterTable:
 
 def _monomials(power: Expr) -> dict[Expr, Expr]:
     """The exponent as a sum of rational numbers times monomials."""
-    found: dict[Expr, Expr] = {}
-    for term in sympy.Add.make_args(sympy.expand(power.as_base_exp()[1])):
-        rate, monomial = term.as_coeff_Mul(rational=True)
-        found[monomial] = found.get(monomial, sympy.S.Zero) + rate
-    return found
+    terms = sympy.Add.make_args(sympy.expand(power.as_base_exp()[1]))
+    return {monomial: rate for rate, monomial in (term.as_coeff_Mul(rational=True) for term in terms)}
 
 
 def _line_in_symbol(base: Expr, known: Meanings) -> tuple[Expr, Expr, Expr] | None:
@@ -213,34 +201,26 @@ _WAVE_QUOTIENTS = {"tan": (1, -1), "cot": (-1, 1), "sec": (0, -1), "csc": (-1, 0
 
 def _by_others(kernel: Expr, kernels: Sequence[Expr]) -> Expr:
     """A constant in terms of the others, where it depends on them in a known way; else itself."""
-    for kind in _WAVE_KINDS:
+    for kind, (sine, cosine, _) in _WAVE_KINDS.items():
         if isinstance(kernel, kind):
-            has_exponentials = any(isinstance(other, sympy.exp) for other in kernels)
-            if kind is HyperbolicFunction and has_exponentials:
+            if kind is HyperbolicFunction and any(isinstance(other, sympy.exp) for other in kernels):
                 return kernel.rewrite(sympy.exp)
-            return _by_waves(kernel, [other for other in kernels if isinstance(other, kind)], kind)
-    if isinstance(kernel, sympy.log):  # log(12) = 2 log(2) + log(3)
-        number = kernel.args[0]
-        return (
-            sympy.expand_log(kernel, factor=True) if number.is_Rational and abs(number) < _LARGEST_FACTORED else kernel
-        )
-    base, exponent = kernel.as_base_exp()
-    if base.is_Rational and 1 / sympy.Integer(_LARGEST_FACTORED) < base < _LARGEST_FACTORED:  # 12^a = 2^(2 a) 3^a
-        return sympy.Mul(*(prime ** (k * exponent) for prime, k in sympy.factorrat(base).items()))
-    return kernel
-
-
-def _by_waves(kernel: Expr, waves: Sequence[Expr], kind: Any) -> Expr:
-    """A wave by those of a part of its argument, or by sine and cosine where other waves have the same argument."""
-    sine, cosine, _ = _WAVE_KINDS[kind]
-    (argument,) = kernel.args
-    if any(argument != wave.args[0] and (argument / wave.args[0]).is_Integer for wave in waves):
-        return sympy.expand_trig(kernel)
-    has_others_beside = any(wave.args == kernel.args and wave != kernel for wave in waves)
-    if not has_others_beside or isinstance(kernel, (sine, cosine)):
+            (argument,) = kernel.args
+            ratios = [argument / other.args[0] for other in kernels if isinstance(other, kind) and other != kernel]
+            if any(ratio.is_Integer and ratio != 1 for ratio in ratios):
+                return sympy.expand_trig(kernel)
+            if 1 not in ratios or isinstance(kernel, (sine, cosine)):
+                return kernel
+            of_sine, of_cosine = _WAVE_QUOTIENTS[kernel.func.__name__.removesuffix("h")]
+            return sine(argument) ** of_sine * cosine(argument) ** of_cosine
+    is_logarithm = isinstance(kernel, sympy.log)
+    base, exponent = (kernel.args[0], 1) if is_logarithm else kernel.as_base_exp()
+    if not (base.is_Rational and max(abs(base), 1 / abs(base)) < _LARGEST_FACTORED):
         return kernel
-    of_sine, of_cosine = _WAVE_QUOTIENTS[kernel.func.__name__.removesuffix("h")]
-    return sine(argument) ** of_sine * cosine(argument) ** of_cosine
+    if is_logarithm:  # log(12) = 2 log(2) + log(3)
+        return sympy.expand_log(kernel, factor=True)
+    # 12^a = 2^(2 a) 3^a
+    return sympy.Mul(*(prime ** (k * exponent) for prime, k in sympy.factorrat(base).items()))
 
 
 def _without_squared_waves(part: Expr, kernels: Sequence[Expr]) -> Expr:

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
 from fractions import Fraction
+from itertools import pairwise
 from typing import Any
 
 from kovacic.algebra.embedding import real_root_index
@@ -32,7 +33,6 @@ LINEAR_HINT = "the equation is a y'' + b y' + c y = f, where a, b, c and f depen
 _RATIONAL_VALUES = (Monomial, Poly, RatFunc)
 
 _ARGUMENTS_HINT = "for example max(x, 0), Piecewise((1, 0 <= x < 5), (0, True))"
-_RELATION_SIGNS = {"≤": "<=", "≥": ">="}
 
 #: The key of the part r of a linear form.
 REST = -1
@@ -82,18 +82,11 @@ class LinearArithmetic(Arithmetic):
         if not is_rational(value):
             return value
         x = sympy.Symbol(self.variable)
-        if isinstance(value, Monomial):
-            return sympy.Rational(value.coefficient) * x**value.power
         function = self.rational(value)
-        if not function:
-            return sympy.Rational(0)
         function = over(function, (function.num * function.den).field)  # they may be over different fields: a/x^2
         bits = max(function.num.height_bits(), function.den.height_bits())
         if bits > PRINTED_BITS:  # too long to be printed
             raise LimitExceeded(f"coefficients of {bits} bits, above the limit of {PRINTED_BITS}", limit="bits")
-        number = self.number(value)
-        if number is not None:
-            return sympy.Rational(number)
         parts = ([c.to_sympy(x) * x**k for k, c in enumerate(part) if c] for part in function.cleared())
         num, den = (sympy.Add(*terms) for terms in parts)
         field = function.field
@@ -124,8 +117,7 @@ class LinearArithmetic(Arithmetic):
             return super().sum(rational)
         from sympy import Add
 
-        if rational:
-            others.append(self.expression(super().sum(rational)))
+        others.append(self.expression(super().sum([Monomial(0, 0), *rational])))
         return self._checked(Add(*others))  # at once: one by one, a sum of n terms is taken apart n times
 
     def _sum_of_forms(self, terms: Sequence[Any]) -> LinearForm:
@@ -200,7 +192,7 @@ class LinearArithmetic(Arithmetic):
             raise NotRational("a condition is missing behind a piece", hint=_ARGUMENTS_HINT)
         values = [self.expression(value) for value in case.values]
         relations = zip(values, values[1:], case.signs, strict=False)
-        return sympy.And(*(sympy.Rel(left, right, _RELATION_SIGNS.get(sign, sign)) for left, right, sign in relations))
+        return sympy.And(*(sympy.Rel(left, right, sign) for left, right, sign in relations))
 
     def _coefficient_of(self, factor: Any) -> Any:
         """A value free of the unknown function, as a coefficient of it."""
@@ -285,11 +277,6 @@ class LinearArithmetic(Arithmetic):
 
         return value.diff(Symbol(self.variable))
 
-    def rational(self, value: Any) -> RatFunc:
-        if not is_rational(value):
-            raise NotRational(f"this isn't a rational function of {self.variable}")
-        return super().rational(value)
-
 
 def check_order(order: int) -> None:
     """Raise `NotLinear` for a derivative or an operator of a higher order than any that is read."""
@@ -297,32 +284,24 @@ def check_order(order: int) -> None:
         raise NotLinear(f"a derivative of order {order}, above the limit of {_HIGHEST_ORDER}", hint=LINEAR_HINT)
 
 
-def differentiations(
-    arguments: Sequence[Any], is_variable: Callable[[Any], bool], arithmetic: LinearArithmetic, variable: Any
-) -> int:
+def differentiations(arguments: Sequence[Any], reader: Any) -> int:
     """The order of a derivative by x; x, x; x, 2; or (x, 2), the arguments after the function; 1 without any."""
-    function, *by = arguments
+    function, *pairs = arguments
     if isinstance(function, tuple):
         raise NotLinear("this isn't a derivative that can be read")
-
-    def order_of(value: Any) -> int:
-        number = arithmetic.number(value) if is_rational(value) else None
-        if number is None or number.denominator != 1 or number < 0:
-            raise NotLinear("the order of a derivative is a number 0, 1, 2, ...", hint="for example diff(y, x, 2)")
-        return number.numerator
-
+    by = [value for pair in pairs for value in (pair if isinstance(pair, tuple) else (pair,))]
     order = 0 if by else 1
-    follows_variable = False
-    for argument in by:
-        is_pair = isinstance(argument, tuple)
-        if is_variable(argument[0] if is_pair else argument):
-            order += order_of(argument[1]) if is_pair else 1
-        elif follows_variable and not is_pair:
-            order += order_of(argument) - 1
-        else:
+    for before, value in pairwise([None, *by]):
+        number = reader.arithmetic.number(value)
+        if reader.is_variable(value):
+            order += 1
+        elif not reader.is_variable(before):
             hint = "the unknown function has one variable; a partial differential equation isn't read"
-            raise NotLinear(f"a derivative with respect to something else than {variable}", hint=hint)
-        follows_variable = not is_pair and is_variable(argument)
+            raise NotLinear(f"a derivative with respect to something else than {reader.variable}", hint=hint)
+        elif number is None or number.denominator != 1 or number < 0:
+            raise NotLinear("the order of a derivative is a number 0, 1, 2, ...", hint="for example diff(y, x, 2)")
+        else:
+            order += number.numerator - 1
     check_order(order)
     return order
 

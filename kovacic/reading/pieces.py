@@ -51,7 +51,7 @@ _ASSIGNS = ("=", "==", ":=")
 _WHOLE = frozenset({"Eq", "Equality"})
 _BEGINNINGS = ("WORD", "COMMAND", "NEWLINE", "TEXT", "NUMBER")
 _DISPLAYS = ("\\displaystyle", "\\boxed")
-_INEQUALITIES = frozenset({*"<>≤≥≠", "<=", ">="})
+_INEQUALITIES = frozenset({*"<>≠", "<=", ">="})
 _NAMED_POINTS = frozenset({"oo", "inf", "infty", "infinity", "Infinity", "pi", "\\pi"})
 
 
@@ -179,8 +179,8 @@ SURROUNDINGS = (
     rule("the number behind an equation", ") ]", r"(?<=[^-+*/^=,:.\s]\x20\x20)OPEN \d+(?:\.\d+)? CLOSE$", kind="label"),
     rule(
         "a remark behind an equation",
-        "PROSE < > ≤ ≥ ≠",
-        r"(?:(?<=\x200\x20\x20)|\n ?)\( (?:WORD(?: \S+){0,5}|\S+ [<>≤≥≠] \S+) \)$",
+        "PROSE < > <= >= ≠",
+        r"(?:(?<=\x200\x20\x20)|\n ?)\( (?:WORD(?: \S+){0,5}|\S+ (?:[<>]=?|≠) \S+) \)$",
         kind="prose",
     ),
     rule("the end of a sentence", ". : ,", r"[.:,](?: [.:,])*$"),

@@ -12,6 +12,7 @@ coefficients in exp(c u), read by `exponentials`.  x is positive.
 from __future__ import annotations
 
 from collections.abc import Sequence
+from contextlib import suppress
 from dataclasses import replace
 from typing import Any
 
@@ -38,19 +39,14 @@ def in_powers(source: Source, limits: Limits) -> Parsed | None:
     x = sympy.Symbol(source.variable)
     (a, b, c, rest), notices = parts_of(source, limits)
     # Without functions, what isn't rational is a constant.
-    if (
-        a == 0
-        or any(part.has(AppliedUndef) for part in (a, b, c))
-        or all((part / a).is_rational_function(x) for part in (b, c))
-    ):
+    if a == 0 or (a + b + c).has(AppliedUndef) or (b / a + c / a).is_rational_function(x):
         return None
     P, Q = sympy.expand(x * b / a) - 1, sympy.expand(x**2 * c / a)
-    waves = [wave for wave in (b / a).atoms(*_WAVE_FUNCTIONS) | (c / a).atoms(*_WAVE_FUNCTIONS) if wave.has(x)]
-    try:
+    waves = [wave for wave in sympy.Tuple(b / a, c / a).atoms(*_WAVE_FUNCTIONS) if wave.has(x)]
+    found = None
+    with suppress(NotRational):
         found = _of_waves(P, Q, waves, source, limits) if waves else _in_one_power(P, Q, source, limits)
-    except NotRational:
-        return None
-    if found is None or found.equation is None or found.equation.change is None:
+    if found is None:
         return None
     equation = replace(found.equation, h=sympy.expand(-rest / a) if rest != 0 else found.equation.h)
     said = f"in {equation.variable} = {found.equation.change.expression.replace('**', '^')}: {equation}"
@@ -60,27 +56,26 @@ def in_powers(source: Source, limits: Limits) -> Parsed | None:
 _WAVE_FUNCTIONS = (sympy.exp, sympy.sin, sympy.cos, sympy.tan, sympy.sinh, sympy.cosh, sympy.tanh)
 
 
-def _in_one_power(P: Expr, Q: Expr, source: Source, limits: Limits) -> Parsed | None:
+def _in_one_power(P: Expr, Q: Expr, source: Source, limits: Limits) -> Any:
     """theta^2 y + P theta y + Q y = 0 in T = x^k: with x = exp(s) powers of x are exponentials of s, and T is exp(k s)."""
     x, s, T = sympy.Symbol(source.variable), sympy.Dummy("s"), sympy.Dummy("T")
 
-    def in_logarithm(part: Expr) -> Expr:
-        powers = {p: sympy.exp(sympy.expand(p.exp * s)) for p in part.atoms(sympy.Pow) if p.base == x}
-        return sympy.powsimp(part.xreplace(powers).xreplace({x: sympy.exp(s)}), combine="exp")
-
-    P, Q = in_logarithm(P), in_logarithm(Q)
-    exponentials = {e for e in P.atoms(sympy.exp) | Q.atoms(sympy.exp) if e.has(s)}
-    if not exponentials or P.has(sympy.log) or Q.has(sympy.log):
+    both = sympy.Tuple(P, Q)
+    powers = {p: sympy.exp(sympy.expand(p.exp * s)) for p in both.atoms(sympy.Pow) if p.base == x}
+    both = both.xreplace(powers).xreplace({x: sympy.exp(s)})
+    both = sympy.Tuple(*(sympy.powsimp(part, combine="exp") for part in both))
+    exponentials = {e for e in both.atoms(sympy.exp) if e.has(s)}
+    if not exponentials or both.has(sympy.log):
         return None
     k, offset, powers = common_power(exponentials, s, T)
-    P, Q = P.xreplace(powers), Q.xreplace(powers)
-    if offset != 0 or P.has(s) or Q.has(s):
+    P, Q = both = both.xreplace(powers)
+    if offset != 0 or both.has(s):
         return None
     left = (k**2 * T**2, (k**2 + k * P) * T, Q, sympy.S.Zero)
     return _with_change(read_in(T, left, source, limits), source, x**k)
 
 
-def _of_waves(P: Expr, Q: Expr, waves: Sequence[Expr], source: Source, limits: Limits) -> Parsed | None:
+def _of_waves(P: Expr, Q: Expr, waves: Sequence[Expr], source: Source, limits: Limits) -> Any:
     """In u = x^m, and then in exp(c u)."""
     x = sympy.Symbol(source.variable)
     m = _power_in(waves, x)
@@ -93,27 +88,21 @@ def _of_waves(P: Expr, Q: Expr, waves: Sequence[Expr], source: Source, limits: L
     zeroth = sympy.cancel(Q / (m**2 * T**2))
     monic = [sympy.S.One, first.xreplace({T: u}), zeroth.xreplace({T: u}), sympy.S.Zero]
     renamed = source._replace(variable=u.name, unknown=source.unknown or UNKNOWN)
-    found = in_exponentials(source_of_parts(monic, renamed), limits)
-    if found is None or found.equation is None or found.equation.change is None:
+    found: Any = in_exponentials(source_of_parts(monic, renamed), limits)
+    if found is None or found.equation.change is None:
         return None
     return _with_change(replace(found, notices=found.notices[1:]), source, function_of_x(found.equation).subs(u, x**m))
 
 
-def _with_change(read: Parsed, source: Source, value: Expr) -> Parsed | None:
+def _with_change(read: Any, source: Source, value: Expr) -> Any:
     """With a variable that is this function of the user's."""
-    if read.equation is None:
-        return None
     change = Change(source.variable, as_text(value))
     return replace(read, equation=replace(read.equation, unknown=source.unknown or UNKNOWN, change=change))
 
 
 def _power_in(waves: Sequence[Expr], x: Expr) -> Expr | None:
     """m, where the arguments of all waves contain x in x^m alone; None elsewhere."""
-    exponents: set[Expr] = set()
-    for wave in waves:
-        powers = [p for p in wave.args[-1].atoms(sympy.Pow) if p.base == x]
-        exponents.update(p.exp for p in powers)
-        if wave.args[-1].subs(dict.fromkeys(powers, 0)).has(x):
-            return None
-    m = exponents.pop() if len(exponents) == 1 else x
-    return None if m.has(x) else m
+    arguments = sympy.Tuple(*(wave.args[-1] for wave in waves))
+    powers = {p for p in arguments.atoms(sympy.Pow) if p.base == x}
+    rest = arguments.subs(dict.fromkeys(powers, 0))
+    return None if len(powers) != 1 or rest.has(x) else powers.pop().exp

@@ -25,7 +25,7 @@ from sympy.core.function import AppliedUndef
 from kovacic.errors import InputError, LimitExceeded, NotLinear, NotRational, ParseError
 from kovacic.limits import DEFAULT_LIMITS, Limits
 from kovacic.numbers.numerals import as_text
-from kovacic.reading.arithmetic import VARIABLE, Monomial, NotAnInteger
+from kovacic.reading.arithmetic import VARIABLE, Monomial
 from kovacic.reading.dialects import tokenize
 from kovacic.reading.expression import OperationPlace, RationalReader
 from kovacic.reading.lexer import DERIVATIVES, PRIMES, check_length
@@ -273,11 +273,8 @@ class SymbolicReader(RationalReader):
     def equation(self, left: Any, right: Any) -> Any:
         raise InputError(f"{self.what} is an expression, not an equation")
 
-    def power(self, base: Any, exponent: Any, place: OperationPlace) -> Any:
-        try:
-            return self.arithmetic.power(base, exponent)
-        except NotAnInteger:
-            return self.arithmetic.symbolic_power(base, exponent)
+    def other_power(self, base: Any, exponent: Any, _: OperationPlace) -> Any:
+        return self.arithmetic.symbolic_power(base, exponent)
 
     def call(self, head: str, arguments: list[Any], site: Site) -> Any:
         name = head.rstrip(PRIMES)
@@ -301,6 +298,7 @@ class EquationsReader(SymbolicReader):
         self, variable: str, unknowns: Collection[str], limits: Limits, what: str, *, has_functions: bool
     ) -> None:
         super().__init__(None, what, limits, {})
+        self.variable = variable
         self.x = sympy.Symbol(variable)
         self.functions = {name: sympy.Function(name)(self.x) for name in unknowns}
         self.has_functions = has_functions
@@ -322,14 +320,14 @@ class EquationsReader(SymbolicReader):
 
     def call(self, head: str, arguments: list[Any], site: Site) -> Any:
         if head in DERIVATIVES:
-            order = differentiations(arguments, self._is_variable, self.arithmetic, self.x)
+            order = differentiations(arguments, self)
             return self.arithmetic.expression(arguments[0]).diff(self.x, order)
-        if len(arguments) == 1 and self._is_variable(arguments[0]):
+        if len(arguments) == 1 and self.is_variable(arguments[0]):
             if head.rstrip(PRIMES) in self.functions:
                 return self.derivative(head)
             if self.has_functions and not is_function(head):
                 return sympy.Function(head)(self.x)
         return super().call(head, arguments, site)
 
-    def _is_variable(self, value: Any) -> bool:
+    def is_variable(self, value: Any) -> bool:
         return bool(value == self.x)
