@@ -25,12 +25,13 @@ Reference: R. Debeerst, M. van Hoeij, W. Koepf, ISSAC 2008, 39-46; M. van Hoeij,
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
+from contextlib import suppress
 from dataclasses import dataclass, field, replace
 from fractions import Fraction
 from itertools import product, zip_longest
 from typing import TYPE_CHECKING, Any
 
-from flint import fmpq_mat, nmod_mat
+from flint import nmod_mat
 
 from kovacic.algebra.factors import dependence
 from kovacic.algebra.homomorphism import BadPrimeError
@@ -58,23 +59,28 @@ _UNKNOWNS = 125
 _WITH_PARAMETERS = 20
 
 
-def transforms(problem: Problem) -> Iterator[GaugeTransform]:
-    """Those that are found, the likely ones first."""
+def _candidates(
+    problem: Problem, equations: list[type[StandardEquation]], *, extended: bool, shifted: bool = False
+) -> Iterator[Pullback]:
+    """Raises `LimitExceeded` in the end where a limit on constants kept one of the equations from being sought."""
+    stopped: LimitExceeded | None = None
+    for equation in equations:
+        try:
+            for pullback in equation.candidates(problem, extended=extended, shifted=shifted):
+                problem.budget.check()
+                yield pullback
+        except LimitExceeded as limit:
+            if limit.limit != "constants":
+                raise
+            stopped = limit
+    if stopped is not None:
+        raise stopped
+
+
+def _equations(problem: Problem) -> list[type[StandardEquation]]:
+    """Those whose pull-backs have irregular singular points, or those whose haven't."""
     irregular = bool(irregular_places(problem))
-    tried = {problem.S}
-    for equation in EQUATIONS:
-        if equation.irregular != irregular:
-            continue
-        for pullback in equation.candidates(problem, extended=False, shifted=True):
-            T = pullback.S
-            if T in tried:
-                continue
-            tried.add(T)
-            problem.budget.check()
-            count_work(TRIAL)
-            found = _transformation(problem, analyse(T, problem.budget))
-            if found is not None:
-                yield GaugeTransform(pullback, *found)
+    return [equation for equation in EQUATIONS if equation.irregular == irregular]
 
 
 # ------------------------------------------------------------------------------------------ orders of b
@@ -114,68 +120,39 @@ def _orders(first: Place, second: Place) -> list[_Order]:
 
 def _shifts(first: Place, second: Place) -> list[int]:
     """By which integers exponents of y and v differ: at a regular place |Delta_S -+ Delta_T|, else twice the residues'."""
-    if max(first.order, second.order) > 2:
-        if first.order != second.order:
-            return []
-        return [0] if first.order % 2 else _shifts_of_residues(first, second)
+    squares: list[Poly] = []
     A, B = first.delta_squared, second.delta_squared
-    if A is None or B is None:
-        return [0] if A is B else []
-    # n^2 = A + B -+ 2 sqrt(A B), whether the roots of A and B lie in the field or not
-    root = A.field.sqrt(A * B) if A * B else A * B
-    squares = [] if root is None else [A + B - 2 * root, A + B + 2 * root]
+    if max(first.order, second.order) > 2:
+        if first.order == second.order:
+            squares = [first.factor * 0] if first.order % 2 else _squares_of_residues(first, second)
+    elif A is not None and B is not None:
+        # n^2 = A + B -+ 2 sqrt(A B), whether the roots of A and B lie in the field or not
+        root = A.field.sqrt(A * B) if A * B else A * B
+        squares = [] if root is None else [A + B - 2 * root, A + B + 2 * root]
+    elif A is B:
+        squares = [first.factor * 0]
     return [int(n) for square in squares if (n := rational_square_root(square)) is not None and n.denominator == 1]
 
 
-def _shifts_of_residues(first: Place, second: Place) -> list[int]:
+def _squares_of_residues(first: Place, second: Place) -> list[Poly]:
+    """The square of twice the difference of those of sqrt(S) and sqrt(T), if both have one polar part."""
     for q in scales([second], lambda place: place.unit(1), 2):
         own = integral_of_square_root(first, q)
         other = integral_of_square_root(second, q)
-        if own is None or other is None:
-            continue
-        if own.part not in (other.part, -other.part):
-            return []
-        sign = 1 if own.part == other.part else -1
-        difference = own.residue - other.residue * sign
-        n = rational_square_root(4 * q * difference * difference)
-        return [int(n)] if n is not None and n.denominator == 1 else []
+        for sign in (1, -1):
+            if own is not None and other is not None and own.part == other.part * sign:
+                return [4 * q * (own.residue - other.residue * sign) ** 2]
     return []
 
 
 # ------------------------------------------------------------------------------------------ a and b
 
-
-@dataclass(frozen=True)
-class _Operator:
-    """u (c_0 B + c_1 B' + ...), for a function u with the rate u'/u."""
-
-    coefficients: list[RatFunc]
-    rate: RatFunc
-
-    def __mul__(self, factor: RatFunc | int) -> _Operator:
-        return replace(self, coefficients=[c * factor for c in self.coefficients])
-
-    def __add__(self, other: _Operator) -> _Operator:
-        pairs = zip_longest(self.coefficients, other.coefficients, fillvalue=self.rate * 0)
-        return replace(self, coefficients=[c + d for c, d in pairs])
-
-    @property
-    def derived(self) -> _Operator:
-        """The derivative."""
-        moved = replace(self, coefficients=[self.rate * 0, *self.coefficients])
-        return moved + replace(self, coefficients=[c.derivative() + c * self.rate for c in self.coefficients])
-
-    def __call__(self, B: Poly) -> RatFunc:
-        """c_0 B + c_1 B' + ..."""
-        total = self.rate * 0
-        for c in self.coefficients:
-            total = total + c * B
-            B = B.derivative()
-        return total
+_Operator = list[RatFunc]
+"""c_0 B + c_1 B' + ..., times a function u."""
 
 
 def _solved(S: RatFunc, T: RatFunc, orders: Sequence[_Order]) -> tuple[Poly, RatFunc, RatFunc] | None:
-    """m, a and b by (2), for b = u B with u = sqrt(m) R and a polynomial B."""
+    """m, a and b by (2), for b = u B with u = sqrt(m) R and a polynomial B of bounded degree."""
     one = S.field.poly([1])
     m = one
     R = RatFunc(one)
@@ -194,29 +171,37 @@ def _solved(S: RatFunc, T: RatFunc, orders: Sequence[_Order]) -> tuple[Poly, Rat
     size += degree + 1
     if degree < 0 or size > (_UNKNOWNS if S.field == QQ else _WITH_PARAMETERS):
         return None
+    zero = RatFunc(one * 0)
+    rate = half_rate(m) + R.derivative() / R  # u'/u
+
+    def derived(operator: _Operator) -> _Operator:
+        pairs = zip([*operator, zero], [zero, *operator], strict=True)
+        return [c.derivative() + c * rate + before for c, before in pairs]
+
+    def combined(*terms: tuple[RatFunc | int, _Operator]) -> _Operator:
+        scaled = ([c * factor for c in operator] for factor, operator in terms)
+        return [sum(column, zero) for column in zip_longest(*scaled, fillvalue=zero)]
+
     D = S - T
-    b = _Operator([RatFunc(one)], half_rate(m) + R.derivative() / R)
-    slope = b.derived
-    double_slope = b * D + slope.derived * -1  # 2 a'
-    a = (double_slope.derived + slope * (4 * T) + b * (2 * T.derivative())) * (1 / (2 * D))
-    B = _bounded_polynomial_solution(a.derived * 2 + double_slope * -1, degree)
-    return None if B is None else (m, R * a(B), R * B)
+    b = [RatFunc(one)]
+    slope = derived(b)
+    double_slope = combined((D, b), (-1, derived(slope)))  # 2 a'
+    a = combined((1 / (2 * D), derived(double_slope)), (2 * T / D, slope), (T.derivative() / D, b))
+    condition = over_one_denominator(combined((2, derived(a)), (-1, double_slope)))
+    vector = _null_vector([_applied(condition, S.field.poly([0, 1]) ** i) for i in range(degree + 1)])
+    if vector is None:
+        return None
+    B = S.field.poly(vector)
+    return m, R * _applied(a, B), R * B
 
 
-def _bounded_polynomial_solution(operator: _Operator, degree: int) -> Poly | None:
-    """A polynomial of this degree at most, not 0, that the operator takes to 0."""
-    x = operator.rate.field.poly([0, 1])
-    cleared = over_one_denominator(operator.coefficients)
-    columns = []
-    for i in range(degree + 1):
-        column = x * 0
-        falling = 1  # i (i - 1) ... (i - k + 1)
-        for k, coefficient in enumerate(cleared[: i + 1]):
-            column = column + coefficient * falling * x ** (i - k)
-            falling *= i - k
-        columns.append(column)
-    vector = _null_vector(columns)
-    return None if vector is None else x.field.poly(vector)
+def _applied(operator: Sequence[Any], B: Poly) -> Any:
+    """c_0 B + c_1 B' + ..."""
+    total = operator[0] * 0
+    for c in operator:
+        total = total + c * B
+        B = B.derivative()
+    return total
 
 
 def _null_vector(columns: list[Poly]) -> list[Poly] | None:
@@ -232,12 +217,7 @@ def _null_vector(columns: list[Poly]) -> list[Poly] | None:
         if nmod_mat(len(columns), height, entries, h.p).rank() == len(columns):
             return None
         break
-    if field != QQ:
-        return dependence(columns)
-    rows = [[*c.rational_coefficients(), *[0] * (height - 1 - c.degree)] for c in columns]
-    matrix = fmpq_mat(height, len(columns), [row[j] for j in range(height) for row in rows])
-    basis, nullity = matrix.numer_denom()[0].nullspace()
-    return [field.poly([Fraction(int(basis[i, 0]))]) for i in range(len(columns))] if nullity else None
+    return dependence(columns)
 
 
 #: What is sought where none of them is found.
@@ -335,30 +315,12 @@ def find(S: RatFunc, budget: Budget, *, extended: bool = True) -> SpecialFunctio
     try:
         with budget.watched():
             problem = analyse(S, budget)
-            irregular = bool(irregular_places(problem))
-            equations = [equation for equation in EQUATIONS if equation.irregular == irregular]
+            equations = _equations(problem)
             searched = tuple(equation.searched for equation in equations)
-            return SpecialFunctions(_first(problem, equations, extended=extended), searched)
+            found = (pullback for pullback in _candidates(problem, equations, extended=extended) if pullback.gives(S))
+            return SpecialFunctions(next(found, None), searched)
     except LimitExceeded as limit:
         return SpecialFunctions(None, searched, str(limit))
-
-
-def _first(problem: Problem, equations: list[type[StandardEquation]], *, extended: bool) -> Pullback | None:
-    """Raises `LimitExceeded` in the end where a limit on constants kept one of the equations from being sought."""
-    stopped: LimitExceeded | None = None
-    for equation in equations:
-        try:
-            for pullback in equation.candidates(problem, extended=extended):
-                problem.budget.check()
-                if pullback.gives(problem.S):
-                    return pullback
-        except LimitExceeded as limit:
-            if limit.limit != "constants":
-                raise
-            stopped = limit
-    if stopped is not None:
-        raise stopped
-    return None
 
 
 @dataclass(frozen=True)
@@ -423,21 +385,21 @@ def special_functions(request: Wanted, budget: Budget) -> SpecialFunctions:
     """
     search = find(request.S, budget)
     source: Pullback | GaugeTransform | None = search.pullback
-    searched = search.searched
     if source is None and search.stopped is None:
         source = find_transform(request.S, budget)
-        searched = (*searched, GAUGED)
+        search = replace(search, searched=(*search.searched, GAUGED))
     if source is None:
-        return replace(search, searched=searched)
+        return search
+    said = "the assumptions don't tell which solutions are independent"
+    pair = None
     try:
         with budget.watched():
-            found = request.pair(source)
+            pair = request.pair(source)
     except LimitExceeded as limit:
-        return SpecialFunctions(None, searched, str(limit))
-    if found is None:
-        said = "the assumptions don't tell which solutions are independent"
-        return SpecialFunctions(None, searched, said)
-    return SpecialFunctions(source.pullback, searched, None, found, source.transform)
+        said = str(limit)
+    if pair is None:
+        return SpecialFunctions(None, search.searched, said)
+    return SpecialFunctions(source.pullback, search.searched, None, pair, source.transform)
 
 
 def find_transform(S: RatFunc, budget: Budget) -> GaugeTransform | None:
@@ -449,11 +411,20 @@ def find_transform(S: RatFunc, budget: Budget) -> GaugeTransform | None:
     >>> print(found.pullback.equation.name, found.pullback.f, found.m, found.a)
     Airy's x x 0
     """
-    try:
-        with budget.watched(), bounded_work(_TRANSFORM_WORK):
-            return next((found for found in transforms(analyse(S, budget)) if found.gives(S)), None)
-    except LimitExceeded:
-        return None
+    tried = {S}
+    with suppress(LimitExceeded), budget.watched(), bounded_work(_TRANSFORM_WORK):
+        problem = analyse(S, budget)
+        for pullback in _candidates(problem, _equations(problem), extended=False, shifted=True):
+            T = pullback.S
+            if T in tried:
+                continue
+            tried.add(T)
+            count_work(TRIAL)
+            found = _transformation(problem, analyse(T, budget))
+            transform = None if found is None else GaugeTransform(pullback, *found)
+            if transform is not None and transform.gives(S):
+                return transform
+    return None
 
 
 @dataclass(frozen=True)
