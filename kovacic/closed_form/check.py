@@ -7,12 +7,15 @@ from contextlib import suppress
 from typing import Any
 
 from flint import acb, acb_poly, arb, fmpq
+from sympy import Dummy
 
 from kovacic.algebra.poly import Poly
 from kovacic.algebra.precision import working_digits
 from kovacic.algebra.ratfunc import RatFunc
 from kovacic.algebra.rationals import RationalPoly
+from kovacic.closed_form.atoms import Atoms
 from kovacic.closed_form.curve import CurveIntegral
+from kovacic.closed_form.jets import jet
 from kovacic.closed_form.primitive import OpenPrimitive, Primitive
 from kovacic.closed_form.product import Product
 from kovacic.closed_form.structure import (
@@ -44,14 +47,11 @@ def is_exact_solution(form: ClosedStructure, S: RatFunc, gauge: RatFunc) -> bool
         omega = _without(gauge, form.first)
         same = omega == form.bare.logarithmic_derivative
         return same and _is_riccati_solution(omega, S) and _is_inverse_square(form.primitive, form.bare)
-    if isinstance(form, Conjugate | OnCurve):
-        u, square = _mean_and_square(form)
-        u = u - gauge
-        solves = u.derivative() + u * u + square == S and not square.derivative() + 4 * u * square
-        if not square or not solves:
-            return False
-        return isinstance(form, Conjugate) or _is_complete(form.integral)
-    raise TypeError("the solutions of case 3 are pull-backs of Gauss' equation")
+    assert isinstance(form, Conjugate | OnCurve)
+    u, square = _mean_and_square(form)
+    u = u - gauge
+    solves = u.derivative() + u * u + square == S and not square.derivative() + 4 * u * square
+    return bool(square) and solves and (isinstance(form, Conjugate) or _is_complete(form.integral))
 
 
 def _without(gauge: RatFunc, y: Product) -> RatFunc:
@@ -109,8 +109,6 @@ def residual(expression: Any, variable: Any, S: RatFunc, gauge: RatFunc, point: 
 
     With `inner` the equation is one in t = inner(x), x the variable of the expression and of the point.
     """
-    from kovacic.closed_form.jets import jet  # SymPy, which the exact check does without
-
     y, first, second = jet(expression, variable, point)
     if inner is not None:
         point, slope, curvature = jet(inner, variable, point)
@@ -133,8 +131,6 @@ def are_independent(y1: Any, y2: Any, variable: Any) -> bool:
 
 def independent(pairs: Sequence[tuple[Any, Any]], variable: Any) -> tuple[Any, Any] | None:
     """A pair of which this is proven; one that takes few digits comes first."""
-    from kovacic.closed_form.jets import jet
-
     # Where both solutions grow alike, y z' and y' z agree in many digits although W isn't 0.
     for digits in (DIGITS + 15, 4 * DIGITS, 10 * DIGITS):
         for pair in pairs:
@@ -148,8 +144,6 @@ def independent(pairs: Sequence[tuple[Any, Any]], variable: Any) -> tuple[Any, A
 
 def is_nonzero(expression: Any, variable: Any) -> bool:
     """True if this is proven at the point of `is_numerical_solution`."""
-    from kovacic.closed_form.jets import jet
-
     with working_digits(DIGITS), suppress(NotImplementedError):
         value = jet(expression, variable, check_point())[0]
         return bool(value.is_finite() and not value.contains(0))
@@ -191,11 +185,6 @@ def value_at(r: RatFunc, point: Any) -> Any:
 def _polynomial_value(polynomial: Poly, point: Any) -> Any:
     if isinstance(polynomial, RationalPoly):
         return acb_poly(polynomial.rep)(point)
-    from sympy import Dummy
-
-    from kovacic.closed_form.atoms import Atoms
-    from kovacic.closed_form.jets import jet
-
     # The constants as in what is shown.
     variable = Dummy()
     constants = (jet(c, variable, acb(0))[0] for c in Atoms(variable).coefficients(polynomial))

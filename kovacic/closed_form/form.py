@@ -114,9 +114,8 @@ def expressions(form: ClosedStructure, atoms: Atoms) -> tuple[Expr, Expr, tuple[
         return *written(form, atoms), ()
     if isinstance(form, Triangular):
         return triangular(form, atoms)
-    if isinstance(form, OnCurve):
-        return exponentials(form, atoms)
-    raise TypeError("the solutions of case 3 are pull-backs of Gauss' equation")
+    assert isinstance(form, OnCurve)  # the solutions of case 3 are pull-backs of Gauss' equation
+    return exponentials(form, atoms)
 
 
 def one_exponential(y: Expr) -> Expr:

@@ -14,7 +14,7 @@ Reference: DLMF 10.2, 10.6, 10.25, 10.29 (Bessel), 13.6, 16.3 (hypergeometric), 
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Mapping
 from contextlib import suppress
 from functools import lru_cache, partial, reduce
 from math import prod
@@ -51,26 +51,13 @@ _MEROMORPHIC = """
 _INVERSE = "asin acos atan asinh acosh atanh"
 _NAMES = {getattr(sympy, name): name for name in (_MEROMORPHIC + _INVERSE).split()}
 _CUT = {getattr(sympy, name) for name in _INVERSE.split()}
-#: Of power series flint has fewer functions: others are quotients,
-_QUOTIENT_FUNCTIONS: dict[str, Callable[[Any], Any]] = {
-    "cot": lambda s: _quotient(s.cos(), s.sin()),
-    "sec": lambda s: _quotient(1, s.cos()),
-    "csc": lambda s: _quotient(1, s.sin()),
-    "sinh": lambda s: (s.exp() - (-s).exp()) / 2,
-    "cosh": lambda s: (s.exp() + (-s).exp()) / 2,
-    "tanh": lambda s: 1 - _quotient(2, (2 * s).exp() + 1),
-    "coth": lambda s: 1 + _quotient(2, (2 * s).exp() - 1),
-    "sech": lambda s: _quotient(2, s.exp() + (-s).exp()),
-    "csch": lambda s: _quotient(2, s.exp() - (-s).exp()),
+#: Of power series flint has fewer functions: others are written by these.
+_REWRITTEN = {
+    **dict.fromkeys((sympy.cot, sympy.csc), sympy.sin),
+    sympy.sec: sympy.cos,
+    **dict.fromkeys((sympy.sinh, sympy.cosh, sympy.tanh, sympy.coth, sympy.sech, sympy.csch), sympy.exp),
 }
-#: or have a derivative that it knows, on their principal branches.
-_SLOPES: dict[str, Callable[[Any], Any]] = {
-    "asin": lambda s: (1 - s * s).rsqrt(),
-    "acos": lambda s: -(1 - s * s).rsqrt(),
-    "asinh": lambda s: (1 + s * s).rsqrt(),
-    "acosh": lambda s: (s - 1).rsqrt() * (s + 1).rsqrt(),
-    "atanh": lambda s: _quotient(1, 1 - s * s),
-}
+_U = sympy.Dummy("u")
 
 
 class BallEvaluator:
@@ -150,10 +137,11 @@ class BallEvaluator:
                 return acb(real)
         if hasattr(value, name):
             return getattr(value, name)()
-        if name in _QUOTIENT_FUNCTIONS:
-            return _QUOTIENT_FUNCTIONS[name](value)
-        if name in _SLOPES:
-            return (_SLOPES[name](value) * value.derivative()).integral() + getattr(value[0], name)()
+        if e.func in _REWRITTEN:
+            return self(_rewritten(e))
+        if e.func in _CUT:  # on the principal branch
+            slope = type(self)({_U: value})(e.func(_U).fdiff())
+            return (slope * value.derivative()).integral() + getattr(value[0], name)()
         return self.other(e)
 
     def other(self, e: Any) -> BallValue:
@@ -183,6 +171,11 @@ def _number(e: Any) -> acb | None:
         integers = e.poly.clear_denoms()[1].all_coeffs()[::-1]
         return root_near(fmpz_poly([int(c) for c in integers]), acb(_coarse_value(e)))
     return None
+
+
+@lru_cache(maxsize=256)
+def _rewritten(e: Any) -> Any:
+    return e.rewrite(_REWRITTEN[e.func])
 
 
 @lru_cache(maxsize=256)
@@ -288,9 +281,9 @@ class _Evaluator(BallEvaluator):
             z = _lifted(self(e.argument))
             return _taylor(z, _hypergeometric(e, self, z[0]))
         if (rule := _DERIVATIVES.get(e.func)) is not None:
-            *parameters, last = map(self, e.args)
+            parameter, last = map(self, e.args)
             z = _lifted(last)
-            return _taylor(z, rule(parameters, z[0]))
+            return _taylor(z, rule(parameter, z[0]))
         if isinstance(e, MATHIEU):
             return self._of_mathieu(e)
         if not e.free_symbols:
@@ -365,9 +358,8 @@ def _taylor(z: BallValue, values: list[Acb]) -> BallValue:
 # ------------------------------------------------------------------------------------------ special functions
 
 
-def _bessel(name: str, parameters: Sequence[Acb], z: Acb) -> list[Acb]:
+def _bessel(name: str, nu: Acb, z: Acb) -> list[Acb]:
     """C, C' = +-C_(nu-1) - (nu/z) C, with - for K, and C'' by Bessel's equation, modified for I and K."""
-    (nu,) = parameters
     function = getattr(acb, name)
     C = function(z, nu)
     below = function(z, nu - 1)
@@ -378,33 +370,16 @@ def _bessel(name: str, parameters: Sequence[Acb], z: Acb) -> list[Acb]:
     return [C, slope, (sign + (nu / z) ** 2) * C - slope / z]
 
 
-def _polylog(parameters: Sequence[Acb], z: Acb) -> list[Acb]:
-    """Li_s' = Li_(s-1)/z [DLMF 25.12.10]."""
-    (s,) = parameters
-    value, first, second = (z.polylog(s - k) for k in range(3))
-    return [value, first / z, (second - first) / z**2]
-
-
-def _exponential_integral(parameters: Sequence[Acb], z: Acb) -> list[Acb]:
-    """E_s' = -E_(s-1) [DLMF 8.19.13]."""
-    (s,) = parameters
-    return [z.expint(s), -z.expint(s - 1), z.expint(s - 2)]
-
-
-def _hermite(parameters: Sequence[Acb], z: Acb) -> list[Acb]:
-    (n,) = parameters
-    return [2**k * prod((n - i for i in range(k)), start=acb(1)) * z.hermite_h(n - k) for k in range(3)]
-
-
-#: (parameters, z) -> the function and its first two derivatives.
-_DERIVATIVES: dict[Any, Callable[[Sequence[Acb], Acb], list[Acb]]] = {
+#: (parameter, z) -> the function and its first two derivatives.
+_DERIVATIVES: dict[Any, Callable[[Acb, Acb], list[Acb]]] = {
     sympy.besselj: partial(_bessel, "bessel_j"),
     sympy.bessely: partial(_bessel, "bessel_y"),
     sympy.besseli: partial(_bessel, "bessel_i"),
     sympy.besselk: partial(_bessel, "bessel_k"),
-    sympy.expint: _exponential_integral,
-    sympy.hermite: _hermite,
-    sympy.polylog: _polylog,
+    # E_s' = -E_(s-1) [DLMF 8.19.13], H_n' = 2 n H_(n-1) [18.9.25], Li_s' = Li_(s-1)/z [25.12.10]
+    sympy.expint: lambda s, z: [z.expint(s), -z.expint(s - 1), z.expint(s - 2)],
+    sympy.hermite: lambda n, z: [z.hermite_h(n), 2 * n * z.hermite_h(n - 1), 4 * n * (n - 1) * z.hermite_h(n - 2)],
+    sympy.polylog: lambda s, z: [z.polylog(s), z.polylog(s - 1) / z, (z.polylog(s - 2) - z.polylog(s - 1)) / z**2],
 }
 
 

@@ -324,56 +324,50 @@ def _integral_or_reason(h: Product) -> Primitive | str:
         if exponent.denominator == 1:
             rational = rational * RatFunc(power.base) ** int(exponent)
         else:
-            fractional.append(_Root(power.base, exponent))
+            fractional.append((power.base, exponent))
     E = h.exponential
     if E.is_polynomial and E.num.degree <= 0:
         return _without_exponential(rational, fractional)
     return _with_exponential(rational, fractional, E)
 
 
-@dataclass(frozen=True)
-class _Root:
-    """p^alpha for a polynomial p and a fraction alpha."""
-
-    p: Poly
-    alpha: Fraction
+_Root = tuple[Poly, Fraction]
+"""p^alpha for a polynomial p and a fraction alpha."""
 
 
 def _without_exponential(rational: RatFunc, fractional: list[_Root]) -> Primitive | str:
     """int r k dx for a product k of roots, or why it is left."""
     if not fractional:
         return RationalPrimitive(decompose(rational))
-    if all(root.alpha.denominator == 2 for root in fractional):
+    if all(alpha.denominator == 2 for _, alpha in fractional):
         g = rational.field.poly([1])  # on s^2 = g, g the product of what is under the roots
-        for root in fractional:
-            g = g * root.p
-            rational = rational * RatFunc(root.p) ** int(root.alpha + Fraction(1, 2))
+        for p, alpha in fractional:
+            g = g * p
+            rational = rational * RatFunc(p) ** int(alpha + Fraction(1, 2))
         return completed(integrate_on_curve(rational, g))
-    if all(root.p.degree == 1 for root in fractional) and len(fractional) <= 2:
-        alone = _Root(rational.field.poly([1]), -fractional[0].alpha)
-        first, second = (*fractional, alone)[:2]
-        if (first.alpha + second.alpha).denominator == 1:
+    if all(p.degree == 1 for p, _ in fractional) and len(fractional) <= 2:
+        first, second = (*fractional, (rational.field.poly([1]), -fractional[0][1]))[:2]
+        if (first[1] + second[1]).denominator == 1:
             return _with_a_quotient(rational, first, second)
     return "it is an incomplete beta integral, with fractional powers of several factors"
 
 
 def _with_a_quotient(rational: RatFunc, first: _Root, second: _Root) -> Primitive | str:
     """int r p^alpha q^beta dx for p = x + c, q = x + d or 1, and an integer alpha + beta, by t = p/q."""
-    p = first.p
-    q = second.p
+    (p, alpha), (q, beta) = first, second
     x = RatFunc(p.field.poly([-p[0], q[0]]), p.field.poly([1, -q[1]]))  # t (q_1 x + q_0) = x + p_0
-    r = rational(x) * RatFunc(q)(x) ** int(first.alpha + second.alpha) * x.derivative()
-    shift = first.alpha.numerator // first.alpha.denominator + 1  # to an exponent between -1 and 0
+    r = rational(x) * RatFunc(q)(x) ** int(alpha + beta) * x.derivative()
+    shift = alpha.numerator // alpha.denominator + 1  # to an exponent between -1 and 0
     t = RatFunc(p.field.poly([0, 1]))
-    found = integrate_exponential(r * t**shift, r * 0, first.alpha - shift)
+    found = integrate_exponential(r * t**shift, r * 0, alpha - shift)
     return found if isinstance(found, str) else replace(found, t=RatFunc(p, q))
 
 
 def _with_exponential(r: RatFunc, fractional: list[_Root], E: RatFunc) -> Primitive | str:
     """int r k exp(E) dx for at most one root k of a linear polynomial, or why it is left: in x less a centre."""
-    if len(fractional) > 1 or any(root.p.degree > 1 for root in fractional):
+    if len(fractional) > 1 or any(p.degree > 1 for p, _ in fractional):
         return "the integrand has an exponential and fractional powers of several factors"
-    alpha = fractional[0].alpha if fractional else Fraction(0)
+    alpha = fractional[0][1] if fractional else Fraction(0)
     centre = _centre(fractional, E)
     moved = RatFunc(r.field.poly([centre[0], 1]))
     if not fractional and monomial(E(moved)) is None:
@@ -388,7 +382,7 @@ def _centre(fractional: list[_Root], E: RatFunc) -> Poly:
     """The zero of the root, else the mean of the poles, or of the zeros of a polynomial; 0 for a linear one."""
     below = E.den
     if fractional:
-        below = fractional[0].p
+        below = fractional[0][0]
     elif E.is_polynomial:
         below = E.num
         if below.degree == 1:

@@ -8,7 +8,7 @@ written form and not from omega.
 from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, is_dataclass
 from fractions import Fraction
 
 from kovacic.algebra.partial_fractions import Residue, decompose
@@ -59,12 +59,7 @@ class Product:
     @property
     def length(self) -> int:
         """About how many characters it takes, without writing it with SymPy."""
-        factors: list[object] = [self.exponential.num, self.exponential.den]
-        for power in self.powers:
-            factors += [power.base, power.exponent]
-        for residue in self.roots:
-            factors += [residue.factor, residue.value]
-        return written_length(factors)
+        return written_length(self.powers, self.roots, self.exponential)
 
     def to_power(self, n: int) -> Product:
         powers = tuple(Power(power.base, power.exponent * n) for power in self.powers)
@@ -72,15 +67,22 @@ class Product:
         return Product(powers, roots, self.exponential * n)
 
 
-def written_length(parts: Iterable[object]) -> int:
-    """About how many characters these polynomials and rational functions take; none for 0 and 1, and a sign beside others."""
+def written_length(*parts: object) -> int:
+    """About how many characters these polynomials and rational functions take, and those that other objects consist of.
+
+    There are none for 0 and 1, and a sign beside others.
+    """
     length = 0
     for part in parts:
         if isinstance(part, RatFunc):
-            length += written_length((part.num, part.den))
-            continue
-        text = str(part.rep) if isinstance(part, RationalPoly) else str(part)  # FLINT's own text is the fastest
-        length += 0 if text in ("0", "1") else len(text) + 3
+            length += written_length(part.num, part.den)
+        elif isinstance(part, Poly):
+            text = str(part.rep) if isinstance(part, RationalPoly) else str(part)  # FLINT's own text is the fastest
+            length += 0 if text in ("0", "1") else len(text) + 3
+        elif isinstance(part, tuple):
+            length += written_length(*part)
+        elif is_dataclass(part):
+            length += written_length(*vars(part).values())
     return length
 
 

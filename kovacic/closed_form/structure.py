@@ -25,12 +25,11 @@ J.-A. Weil, ISSAC 2005.
 
 from __future__ import annotations
 
-from collections.abc import Iterable
 from dataclasses import dataclass
 from fractions import Fraction
 
 from kovacic.algebra.extension import AlgebraicField
-from kovacic.algebra.partial_fractions import Decomposition, Residue, decompose
+from kovacic.algebra.partial_fractions import Decomposition, decompose
 from kovacic.algebra.poly import Poly
 from kovacic.algebra.ratfunc import RatFunc
 from kovacic.closed_form.curve import CurveIntegral, Unit, completed, gathered_zeros, integrate_on_curve
@@ -66,11 +65,6 @@ class Covariants:
     H: Form
     T: Form
     J: RatFunc
-
-    @property
-    def length(self) -> int:
-        """About how many characters two solutions take, as for all structures."""
-        return 4 * written_length([self.J])
 
 
 def covariants(S: RatFunc, structure: Structure, invariant: SemiInvariant) -> Covariants:
@@ -116,8 +110,7 @@ class Conjugate:
     @property
     def length(self) -> int:
         # Each solution is (A cos V + B sin V) times the common factor.
-        phase = written_length([self.phase.exact, *_residue_parts(self.phase.residues)])
-        return 2 * (self.common.length + written_length([self.A, self.B]) + 2 * phase)
+        return 2 * (self.common.length + written_length(self.A, self.B) + 2 * written_length(self.phase))
 
 
 @dataclass(frozen=True)
@@ -130,19 +123,22 @@ class Triangular:
 
     @property
     def length(self) -> int:
-        if isinstance(self.primitive, OpenPrimitive):
-            return 2 * self.first.length + self.bare.length
-        parts = primitive_parts(self.primitive)
-        length = self.first.length + written_length(parts)
+        first = self.first.length
+        primitive = self.primitive
+        if isinstance(primitive, OpenPrimitive):
+            return 2 * first + self.bare.length
         # y1 stands before each logarithm, error function, ...; the denominator of the rational part cancels with it.
-        if isinstance(self.primitive, RationalPrimitive):
-            exact, residues = self.primitive.parts.exact, self.primitive.parts.residues
-            logarithms = len({str(residue.value * residue.value) for residue in residues})  # c log u - c log v is one
-            return length + self.first.length * logarithms - written_length([exact.den])
-        if isinstance(self.primitive, ExponentialPrimitive):
-            functions = len(self.primitive.terms) + len(self.primitive.poles)
-            return length + self.first.length * functions - written_length([self.primitive.W.den])
-        return length + self.first.length * len(parts)
+        exact: RatFunc | None = None
+        if isinstance(primitive, RationalPrimitive):
+            exact = primitive.parts.exact
+            # c log u - c log v is one
+            functions = len({str(residue.value * residue.value) for residue in primitive.parts.residues})
+        elif isinstance(primitive, ExponentialPrimitive):
+            exact = primitive.W
+            functions = len(primitive.terms) + len(primitive.poles)
+        else:
+            functions = 3 + 2 * len(primitive.residues)
+        return first * (1 + functions) + written_length(primitive) - written_length(exact and exact.den)
 
 
 @dataclass(frozen=True)
@@ -159,38 +155,18 @@ class OnCurve:
 
     @property
     def length(self) -> int:
-        units = (*self.integral.units, *([] if self.zeros is None else [self.zeros]))
-        parts: list[object] = [part for unit in units for part in (unit.A, unit.B, self.integral.g)]
-        return 2 * (self.common.length + written_length([*parts, *primitive_parts(self.integral)]))
+        g = self.integral.g
+        return 2 * (self.common.length + written_length(self.integral, self.zeros, (g,) * len(self.integral.units)))
 
 
 ClosedStructure = Diagonal | Conjugate | Triangular | OnCurve | Covariants
-
-
-def _residue_parts(residues: Iterable[Residue]) -> list[object]:
-    return [part for residue in residues for part in (residue.factor, residue.value)]
-
-
-def primitive_parts(primitive: Primitive) -> list[object]:
-    """The polynomials and rational functions that an integral is written with."""
-    if isinstance(primitive, RationalPrimitive):
-        return [primitive.parts.exact, *_residue_parts(primitive.parts.residues)]
-    if isinstance(primitive, CurveIntegral):
-        return [primitive.exact, primitive.rest, primitive.g, *_residue_parts(primitive.residues)]
-    if isinstance(primitive, ExponentialPrimitive):
-        terms = [part for term in primitive.terms for part in (term.coefficient, term.q, term.b)]
-        return [primitive.W, *terms, *_residue_parts(primitive.poles)]
-    return []
 
 
 def build(S: RatFunc, decision: Decision, gauge: RatFunc) -> ClosedStructure:
     """The closed forms that belong to a decision with Liouvillian solutions."""
     semi = decision.semi_invariant
     structure = decision.structure
-    if decision.series is not None:
-        raise ValueError("P is known by its recurrence alone")
-    if semi is None or structure is None:
-        raise ValueError("there is no Liouvillian solution")
+    assert semi is not None
     if structure is Structure.REDUCIBLE:
         return _reducible(semi, decision.invariant, gauge)
     if structure is Structure.IMPRIMITIVE:
@@ -203,8 +179,8 @@ def build(S: RatFunc, decision: Decision, gauge: RatFunc) -> ClosedStructure:
             common = common - logarithmic_derivative(zeros.p // semi.P) * Fraction(1, 2)
             r = r - zeros.integrand(g)
         return OnCurve(product(common), kappa_squared, completed(integrate_on_curve(r, g)), zeros)
-    if decision.invariant is None:
-        raise ValueError("the decision was made without its certificate")
+    assert structure is not None
+    assert decision.invariant is not None
     return covariants(S, structure, decision.invariant)
 
 
@@ -226,8 +202,7 @@ def _reducible(semi: SemiInvariant, invariant: SemiInvariant | None, gauge: RatF
 def _conjugate(semi: SemiInvariant, gauge: RatFunc) -> Conjugate:
     """omega = u + sqrt(delta) v, from omega over K(c), c^2 + b c + e = 0, sqrt(delta) = c + b/2."""
     field = semi.theta.field
-    if not isinstance(field, AlgebraicField) or field.dimension != 2:
-        raise AssertionError("two conjugate omegas lie over a quadratic extension")
+    assert isinstance(field, AlgebraicField)
     half = field.modulus[1] * Fraction(1, 2)
     delta = half * half - field.modulus[0]
 
@@ -252,17 +227,12 @@ def curve_of(S: RatFunc, semi: SemiInvariant) -> tuple[Poly, RatFunc, Poly]:
     g = field.poly([1])
     h = RatFunc(semi.P)
     for residue in decompose(semi.theta * 2).residues:
-        exponent = residue.rational
-        if exponent is None or exponent.denominator != 1:
-            raise AssertionError("the square of y1 y2 is rational")
-        h = h * RatFunc(residue.factor) ** (int(exponent) // 2)
-        if int(exponent) % 2:
+        exponent = int(residue.rational or 0)
+        h = h * RatFunc(residue.factor) ** (exponent // 2)
+        if exponent % 2:
             g = g * residue.factor
-    constant = square * RatFunc(g) * h * h
     # r = 1/h has h' numerator and denominator monic, so that kappa alone carries the constant.
-    if not constant.is_polynomial or constant.num.degree > 0:
-        raise AssertionError("the squared Wronskian is a constant")
-    return g, 1 / h, constant.num
+    return g, 1 / h, (square * RatFunc(g) * h * h).num
 
 
 def logarithmic_derivative(polynomial: Poly) -> RatFunc:

@@ -6,6 +6,7 @@ each other cancel, and roots of t + 1 and t - 1 join.  Every function serves whe
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from typing import Any
 
 import sympy
@@ -130,32 +131,33 @@ def with_roots_of_factors(expression: Any, x: Any) -> Any:
 def _with_joined_powers(expression: Any, x: Any) -> Any:
     """One exponential function in each product, hyperbolic functions for exp(k x) + 1, no logarithm of an exponential."""
 
-    def is_log_of_exponential(e: Any) -> bool:
-        return e.func is sympy.log and e.args[0].func is sympy.exp
-
-    def is_exponential_and_one(e: Any) -> bool:
-        return bool(e.is_Add and len(e.args) == 2 and e.args[0] in (1, -1) and e.args[1].func is sympy.exp)
-
-    def is_product_with_x(e: Any) -> bool:
-        return bool(e.is_Pow and e.base.is_Mul and e.base.has(x))
-
-    def is_power_of_exponential(e: Any) -> bool:
-        return bool(e.is_Pow and e.base.func is sympy.exp)
-
-    def is_arc_tangent_of_wave(e: Any) -> bool:
-        return bool(e.func is sympy.atan and e.args[0].func is sympy.exp and not (e.args[0].exp / sympy.I).has(sympy.I))
-
-    def is_of_waves(e: Any) -> bool:
-        return bool(e.func is sympy.exp and any(inner.has(sympy.I) for inner in e.args[0].atoms(sympy.exp)))
-
-    found = expression.replace(is_log_of_exponential, lambda e: e.args[0].exp)
-    # atan(exp(i w)) without pi/4: a solution stays one, as its continuations do
-    found = found.replace(is_arc_tangent_of_wave, lambda e: sympy.I / 4 * _log_of_sines(e.args[0].exp / sympy.I))
-    found = found.replace(is_of_waves, lambda e: sympy.exp(sympy.expand(e.args[0].rewrite(sympy.cos))))
-    found = found.replace(is_exponential_and_one, _by_half_angle)
-    found = found.replace(is_product_with_x, lambda e: sympy.expand_power_base(e, force=True, deep=False))
-    found = found.replace(is_power_of_exponential, lambda e: sympy.exp(e.base.exp * e.exp))
-    return sympy.powsimp(found, combine="exp")
+    rules: list[tuple[Callable[[Any], bool], Callable[[Any], Any]]] = [
+        (lambda e: e.func is sympy.log and e.args[0].func is sympy.exp, lambda e: e.args[0].exp),
+        # atan(exp(i w)) without pi/4: a solution stays one, as its continuations do
+        (
+            lambda e: (
+                e.func is sympy.atan and e.args[0].func is sympy.exp and not (e.args[0].exp / sympy.I).has(sympy.I)
+            ),
+            lambda e: sympy.I / 4 * _log_of_sines(e.args[0].exp / sympy.I),
+        ),
+        # exponentials of waves
+        (
+            lambda e: e.func is sympy.exp and any(inner.has(sympy.I) for inner in e.args[0].atoms(sympy.exp)),
+            lambda e: sympy.exp(sympy.expand(e.args[0].rewrite(sympy.cos))),
+        ),
+        (
+            lambda e: e.is_Add and len(e.args) == 2 and e.args[0] in (1, -1) and e.args[1].func is sympy.exp,
+            _by_half_angle,
+        ),
+        (
+            lambda e: e.is_Pow and e.base.is_Mul and e.base.has(x),
+            lambda e: sympy.expand_power_base(e, force=True, deep=False),
+        ),
+        (lambda e: e.is_Pow and e.base.func is sympy.exp, lambda e: sympy.exp(e.base.exp * e.exp)),
+    ]
+    for applies, image in rules:
+        expression = expression.replace(applies, image)
+    return sympy.powsimp(expression, combine="exp")
 
 
 #: The function s with t - 1 = 2 sign s(w/2)^2 for t = cos(w) or cosh(w), and the sign.

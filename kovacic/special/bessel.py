@@ -104,7 +104,7 @@ class Bessel(StandardEquation):
             n = -n
             r = -r
         nu = square_root(4 * rational(self.M) + 1)
-        return standard_form(n, d, nu / 2, values(-r, nu, squared=False))
+        return standard_form(n, d, -r, nu / 2, squared=False)
 
 
 # ------------------------------------------------------------------------------------------ found by zeros
@@ -192,17 +192,6 @@ def sign_of(n: Any, d: Any) -> int:
     return int(d != 0 and bool(acb(n / d).real < 0))
 
 
-def standard_form(
-    n: fmpq_poly, d: fmpq_poly, mu: Any, found: tuple[StandardSolution, StandardSolution, Any]
-) -> StandardForm:
-    """With the exponents 1/2 +- mu at 0, two solutions, and the factor of the slit of the second, which then is of the second
-    kind."""
-    first, second, slit = found
-    half = fmpq(1, 2)
-    lower = half - mu if slit is None else half
-    return StandardForm(n, d, ((half + mu, 0), (lower, 0)), each(first, second), (slit, None))
-
-
 def _0f1(argument: Any, c: Any) -> Any:
     """0F1(; c; argument), where FLINT sums the power series with its middle, and with more bits.
 
@@ -227,8 +216,13 @@ def _0f1(argument: Any, c: Any) -> Any:
     return acb(arb(middle.real.mid(), middle.real.rad() + error), arb(middle.imag.mid(), middle.imag.rad() + off_axis))
 
 
-def values(factor: Any, order: Any, *, squared: bool) -> tuple[StandardSolution, StandardSolution, Any]:
-    """0F1(; 1 +- order; argument), the argument factor z or, `squared`, factor z^2/4; and the factor of the slit."""
+def standard_form(n: fmpq_poly, d: fmpq_poly, factor: Any, mu: Any, *, squared: bool) -> StandardForm:
+    """The exponents 1/2 +- mu at 0, and 0F1(; 1 +- order; argument): the argument is factor z or, `squared`, factor z^2/4.
+
+    For an integer order the second solution is sqrt(z) times one of the second kind.
+    """
+    half = fmpq(1, 2)
+    order = mu if squared else 2 * mu
 
     def first(order: Any) -> StandardSolution:
         c = 1 + order
@@ -240,7 +234,7 @@ def values(factor: Any, order: Any, *, squared: bool) -> tuple[StandardSolution,
         return value
 
     if not is_integer(order):
-        return first(order), first(-order), None
+        return StandardForm(n, d, ((half + mu, 0), (half - mu, 0)), each(first(order), first(-order)))
     nu = acb(order)
     root = acb(abs(factor)).sqrt()
 
@@ -251,4 +245,4 @@ def values(factor: Any, order: Any, *, squared: bool) -> tuple[StandardSolution,
         above = kind(nu + 1)
         return value, (nu / w * value - above) * slope
 
-    return first(order), second, 1
+    return StandardForm(n, d, ((half + mu, 0), (half, 0)), each(first(order), second), (1, None))

@@ -180,31 +180,31 @@ class _Equation:
         found = best(forms)
         if not is_first and (found.kind != FormKind.ELEMENTARY or found.length > SHORT):
             forms += self._special_forms()
-        chosen, pair = self._written_best(forms)
-        if chosen.length <= _ALWAYS_STABLE or self._is_stable(pair):
-            return pair
-        others = [form for form in forms if form is not chosen and form.length <= 2 * chosen.length]
-        while others:
-            other, other_pair = self._written_best(others)
-            if self._is_stable(other_pair):
-                return other_pair
-            others = [form for form in others if form is not other]  # the last one is out already
-        return replace(pair, notes=(*pair.notes, UNSTABLE))
+        chosen, first = self._written_best(forms)
+        most = 2 * chosen.length
+        pair = first
+        while chosen.length > _ALWAYS_STABLE and not self._is_stable(pair):
+            forms = [form for form in forms if form is not chosen and form.length <= most]
+            if not forms:
+                return replace(first, notes=(*first.notes, UNSTABLE))
+            chosen, pair = self._written_best(forms)
+        return pair
 
     def _with_a_long_polynomial(self, series: TerminatingSeries) -> ClosedForm:
         """exp(int theta) P and a second solution; two special functions, if they are found, where theta isn't over K."""
-        make = partial(build, self.S, self.decision, self.gauge)
-        if series.theta.field != self.S.field:
-            source = self._source()
-            found = None
-            with suppress(LimitExceeded):
-                found = source and self._request.pair(source)
-            if found and found.wronskian is not None and is_nonzero(found.wronskian, Symbol(self.variable)):
-                x = Symbol(self.variable)
-                return ClosedForm(found.y1, found.y2, x, self.gauge, EXACT, place=found.place, build=make)
+        source = None if series.theta.field == self.S.field else self._source()
+        with suppress(LimitExceeded):
+            found = source and self._in_special_functions(source)
+            if found:
+                return found
         atoms = Atoms(Symbol(self.variable))
         pair = hypergeometric_pair(series, self.S, self.gauge, atoms)
-        return ClosedForm(*pair, atoms.x, self.gauge, EXACT, (*atoms.notes,), build=make)
+        return self._form(pair, notes=(*atoms.notes,))
+
+    def _form(self, pair: tuple[Any, Any], **known: Any) -> ClosedForm:
+        """A pair of which more may be known than that it was checked."""
+        made = partial(build, self.S, self.decision, self.gauge)
+        return ClosedForm(*pair, Symbol(self.variable), self.gauge, EXACT, build=made, **known)
 
     def _own_forms(self) -> list[PairForm]:
         """The forms of the structure itself, and y1 times an unevaluated integral beside a long evaluated one."""
@@ -214,7 +214,7 @@ class _Equation:
             pullback = klein_pullback(structure)
             if not pullback.gives(self.S):
                 raise VerificationFailed(f"Klein's invariant of S = {self.S} isn't right; please report the equation")
-            return [PairForm(FormKind.SPECIAL, structure.length, partial(self._in_special_functions, pullback))]
+            return [self._special_form(pullback)]
         is_left = isinstance(structure, Triangular) and isinstance(structure.primitive, OpenPrimitive)
         kind = FormKind.INTEGRAL if is_left else FormKind.ELEMENTARY
         length = structure.length
@@ -238,10 +238,11 @@ class _Equation:
     def _special_forms(self) -> list[PairForm]:
         """The solutions of that standard equation."""
         source = self._source()
-        if source is None:
-            return []
-        parts: list[object] = [source.f] if isinstance(source, Pullback) else [source.pullback.f, source.a, source.b]
-        return [PairForm(FormKind.SPECIAL, 4 * written_length(parts), partial(self._in_special_functions, source))]
+        return [] if source is None else [self._special_form(source)]
+
+    def _special_form(self, source: Pullback | GaugeTransform) -> PairForm:
+        parts = (source.f,) if isinstance(source, Pullback) else (source.pullback.f, source.a, source.b)
+        return PairForm(FormKind.SPECIAL, 4 * written_length(parts), partial(self._in_special_functions, source))
 
     def _in_special_functions(self, source: Pullback | GaugeTransform) -> ClosedForm | None:
         """With y1 as it is where that is elementary and short; None if the two aren't known to be independent."""
@@ -251,20 +252,21 @@ class _Equation:
         pair = found.y1, found.y2
         pairs = [pair]
         x = Symbol(self.variable)
-        if self.decision.case == 1 and not self._is_long and isinstance(self.structure, Triangular):
+        is_short = self.decision.series is None and not self._is_long
+        if self.decision.case == 1 and is_short and isinstance(self.structure, Triangular):
             y1 = one_exponential(display(self.structure.first, Atoms(x), around_zero=True))
-            is_short = _length(y1) <= max(map(_length, pair))
-            if is_short and is_numerical_solution(y1, x, self.S, self.gauge):
+            if _length(y1) <= max(map(_length, pair)) and is_numerical_solution(y1, x, self.S, self.gauge):
                 pairs = [*((y1, y2) for y2 in pair), pair]
         # In an irreducible equation what differs by its exponents is independent.
-        chosen = pair if self.decision.case != 1 else independent(pairs, x)
-        if chosen is None and found.wronskian is not None and is_nonzero(found.wronskian, x):
+        W = found.wronskian if self.decision.case == 1 else None
+        is_sure = self.decision.case != 1 or (W is not None and is_nonzero(W, x))
+        chosen = None if is_sure and len(pairs) == 1 else independent(pairs, x)
+        if chosen is None and is_sure:
             chosen = pair
-        made = partial(build, self.S, self.decision, self.gauge)
         if chosen is None:
             return None
         place = found.place if chosen == pair else None
-        return ClosedForm(*chosen, x, self.gauge, EXACT, (), found.undefined, place, build=made)
+        return self._form(chosen, undefined=found.undefined, place=place)
 
     def _written_best(self, forms: list[PairForm]) -> tuple[PairForm, ClosedForm]:
         """The preferred one, written: its true length, and whether an integral is left, may be other than was thought.
@@ -273,14 +275,13 @@ class _Equation:
         """
         while True:
             chosen = best(forms)
-            least = chosen if chosen.length <= SHORT else min(forms, key=lambda other: other.length)
-            form = least if chosen.pair is not None else chosen
+            form = chosen
+            if chosen.pair is not None and chosen.length > SHORT:
+                form = min(forms, key=lambda other: other.length)
             if chosen.pair is not None and form.pair is not None:
                 return chosen, chosen.pair
             forms.remove(form)
             pair = form.write()
-            if pair is not None and not forms:
-                return form, pair
             if pair is not None:
                 kind = FormKind.INTEGRAL if any(y.has(Integral) for y in pair) else form.kind
                 forms.append(PairForm(kind, sum(map(_length, pair)), form.write, pair))
@@ -307,13 +308,9 @@ def _length(y: Any) -> int:
 
 def _middle_of_the_domain(den: RationalPoly) -> Any:
     """Beside the middle of the longest of the intervals between real singular points; beside 1 to the right of a single one."""
-    real = sorted((zero.real for zero, _ in complex_zeros(den.rep.numer()) if zero.imag == 0), key=float)
-    if len(real) > 1:
-        left, right = max(pairwise(real), key=lambda ends: float(ends[1] - ends[0]))
-    elif real:
-        left, right = real[0], real[0] + 2
-    else:
-        left, right = arb(0), arb(2)
+    real = sorted((zero.real for zero, _ in complex_zeros(den.rep.numer()) if zero.imag == 0), key=float) or [arb(0)]
+    intervals = [*pairwise(real)] or [(real[0], real[0] + 2)]
+    left, right = max(intervals, key=lambda ends: float(ends[1] - ends[0]))
     width = right - left
     # Off the axis, where the cuts of roots and logarithms often lie.
     return acb((left + right) / 2 + width * fmpq(1, 37), width * fmpq(1, 41)).mid()

@@ -50,7 +50,6 @@ from kovacic.closed_form.structure import PLACES, Covariants
 from kovacic.compatibility import cached_property
 from kovacic.decision import Structure
 from kovacic.engine.places import Problem, analyse, rational_square_root
-from kovacic.limits import Budget
 from kovacic.special import prices
 from kovacic.special.maps import HALF, Number, Point, coverings, regular_points
 from kovacic.special.pullback import (
@@ -115,10 +114,9 @@ class Gauss(StandardEquation):
             return
         points, apparent = (regular_points(problem, apparent=flag) for flag in (False, True))
         if shifted:
-            yield from _shifted(points, apparent, problem.budget)
+            yield from _shifted(points, apparent)
             return
-        for covering in coverings(points, apparent, problem.budget):
-            yield Pullback(Gauss(covering.zeros, covering.ones, covering.poles), covering.f)
+        yield from (Pullback(Gauss(*squares), f) for f, *squares in coverings(points, apparent))
 
     def written(self, writer: Writer, f: RatFunc) -> WrittenPair | None:
         forms = sorted(_GaussForm.of(self, writer, f).arranged, key=lambda form: form.cost)
@@ -127,7 +125,7 @@ class Gauss(StandardEquation):
             signed_forms = [signed for form in forms for signed in form.signs]
             polynomial = next((form for form in signed_forms if form.has_polynomial), None)
             if polynomial is not None:
-                return _jacobi(polynomial)
+                return _with_polynomial(polynomial)
             even = next((form for form in signed_forms if form.alpha == form.beta and form.is_between), None)
             if even is not None:
                 return _by_parity(even)  # independent for all values of the letters
@@ -175,19 +173,19 @@ def klein_pullback(found: Covariants) -> Pullback:
     return Pullback(Gauss(*squares), found.J)
 
 
-def _shifted(points: list[Point], apparent: list[Point], budget: Budget) -> Iterator[Pullback]:
+def _shifted(points: list[Point], apparent: list[Point]) -> Iterator[Pullback]:
     """For exponent differences that are the same up to signs and integers: those between 0 and 1, and those of S."""
     choices = islice(product(*map(_reduced_differences, points)), _MOST_CHOICES)
     hidden = min(sum(point.degree for point in apparent), _HIDDEN)
     for chosen in dict.fromkeys([*choices, tuple(points)]):
-        for covering in coverings(list(chosen), [], budget, hidden):
-            found = Gauss(covering.zeros, covering.ones, covering.poles)
-            yield Pullback(found, covering.f)
+        for f, *squares in coverings(list(chosen), [], hidden):
+            yield Pullback(Gauss(*squares), f)
             # Contiguous functions have sums of all three that differ by even integers.
-            for name, square in (("A", found.A), ("B", found.B), ("C", found.C)):
+            for k, square in enumerate(squares):
                 root = square.field.sqrt(square) if square else square
                 if root is not None:
-                    yield Pullback(replace(found, **{name: (root - 1) ** 2}), covering.f)
+                    moved = [*squares[:k], (root - 1) ** 2, *squares[k + 1 :]]
+                    yield Pullback(Gauss(*moved), f)
 
 
 def _reduced_differences(point: Point) -> list[Point]:
@@ -250,7 +248,9 @@ class _GaussForm:
 
     @property
     def shorter(self) -> _GaussForm:
-        """The same solution u with the sign of beta that leaves fewer factors [DLMF 15.8.1]."""
+        """The same solution u with the sign of beta that leaves fewer factors [DLMF 15.8.1], unless it is a polynomial."""
+        if self.has_polynomial:
+            return self
         forms = [replace(self, beta=sign * self.beta) for sign in (1, -1)]
         return min(forms, key=lambda form: form.factor.size)
 
@@ -286,11 +286,8 @@ class _GaussForm:
         import sympy
 
         is_turned = not self.f.num[0] and self.writer.is_negative(self.f.num.lc)
-        place = self.line_at(-HALF if is_turned else HALF)
-        if place is not None or self.f.field != QQ:
-            return place
         below = (sympy.Rational(x) for x in PLACES if (self._at(x) or 0) < 0)
-        return self.between or next(below, None)
+        return self.line_at(-HALF if is_turned else HALF) or self.between or next(below, None)
 
     @property
     def term(self) -> WrittenTerm:
@@ -364,10 +361,16 @@ class _GaussForm:
 
 
 def _named(form: _GaussForm) -> tuple[Expr, Expr]:
-    """c and c 2F1, where it has a name: the complete elliptic integrals K, E and Legendre's P_nu, if SymPy keeps it."""
+    """c and c 2F1, where it has a name: Jacobi's polynomials, K and E, and Legendre's P_nu, if SymPy keeps it."""
     import sympy
 
     writer = form.writer
+    # For b = -a SymPy would write an associated Legendre function of the order -a, which needn't be an integer.
+    if form.has_polynomial and form.alpha not in (form.beta, -form.beta):
+        N, a, b = (writer.constant(value) for value in (form.degree, -form.alpha, -form.beta))
+        whole = sympy.jacobi(N, a, b, writer.argument(1 - 2 * form.f))
+        shown = whole.as_independent(writer.atoms.x, as_Add=False)[1]  # P_N(-z) is (-1)^N times another one
+        return sympy.gamma(N + a + 1) / (sympy.gamma(N + 1) * sympy.gamma(a + 1)) * shown / whole, shown
     top = form.upper
     a, b, c = (writer.constant(value) for value in (*top, 1 - form.alpha))
     z = writer.argument(form.f)
@@ -424,28 +427,15 @@ def _reducible_pair(writer: Writer, forms: list[_GaussForm]) -> WrittenPair | No
     return None
 
 
-def _jacobi(form: _GaussForm) -> WrittenPair:
+def _with_polynomial(form: _GaussForm) -> WrittenPair:
     """P_N^(a,b)(1 - 2 f) with a = -alpha, b = -beta, and a second solution."""
-    import sympy
-
     writer = form.writer
     if form.alpha == form.beta:
         return _gegenbauer(form)
-    f = form.f
-    N, a, b = (writer.constant(value) for value in (form.degree, -form.alpha, -form.beta))
-    t = writer.argument(1 - 2 * f)
-    # For b = -a SymPy would write an associated Legendre function of the order -a, which needn't be an integer.
-    multiple, polynomial = _named(form)
-    if form.alpha != -form.beta:
-        whole = sympy.jacobi(N, a, b, t)
-        polynomial = whole.as_independent(writer.atoms.x, as_Add=False)[1]  # P_N(-z) is (-1)^N times another one
-        multiple = sympy.gamma(N + a + 1) / (sympy.gamma(N + 1) * sympy.gamma(a + 1)) * polynomial / whole
-    first = form.factor, polynomial
     if writer.is_integer(form.alpha):  # at infinity the polynomial has the exponent -N, and this one N + 1 + a + b
-        return writer.pair(first, _GaussForm(writer, 1 / f, -form.gamma, form.beta, form.alpha).shorter.term)
-    second = form.turned.shorter
-    W = multiple / _named(form)[0] * writer.constant(form.alpha)
-    return writer.pair(first, second.term, partial(form.bracket, second, W), (form.alpha,))
+        second = _GaussForm(writer, 1 / form.f, -form.gamma, form.beta, form.alpha).shorter
+        return writer.pair(form.term, second.term)
+    return _at_one_point(form)
 
 
 def _gegenbauer(form: _GaussForm) -> WrittenPair:
@@ -465,7 +455,7 @@ def _gegenbauer(form: _GaussForm) -> WrittenPair:
     slope = 2 * sympy.gamma(index + (N + 1) / 2) / sympy.gamma((N + 1) / 2)
     bracket = form.bracket_of_parity(writer.wronskian_by_parity(N, even_value, slope) / sympy.gamma(index))
     before = form.factor
-    polynomial = sympy.gegenbauer(N, index, t) if a else sympy.legendre(N, t)
+    polynomial = sympy.gegenbauer(N, index, t)
     if a and writer.is_natural(-form.alpha):
         # P_(N+m)^m = (-1)^m (2 m)!/(2^m m!) (1 - t^2)^(m/2) C_N^(m + 1/2)  [DLMF 14.6.1, 18.9.19]
         polynomial = sympy.assoc_legendre(sympy.expand(N + a), a, t)

@@ -48,7 +48,7 @@ from kovacic.algebra.rationals import QQ
 from kovacic.compatibility import cached_property
 from kovacic.engine.places import Kind, Place, Problem, rational_square_root
 from kovacic.errors import LimitExceeded
-from kovacic.limits import Budget, check_time, count_work
+from kovacic.limits import check_time, count_work
 
 HALF = Fraction(1, 2)
 
@@ -298,27 +298,27 @@ _WITH_APPARENT = 7
 _TRIALS = 1000
 
 
-@dataclass(frozen=True)
-class Covering:
-    """f with the squares of the exponent differences at its zeros, at its ones and at its poles."""
+def coverings(
+    points: list[Point], apparent: list[Point], hidden: int = 0
+) -> Iterator[tuple[RatFunc, Poly, Poly, Poly]]:
+    """f with the squares of the exponent differences at its zeros, at its ones and at its poles.
 
-    f: RatFunc
-    zeros: Poly
-    ones: Poly
-    poles: Poly
-
-
-def coverings(points: list[Point], apparent: list[Point], budget: Budget, hidden: int = 0) -> Iterator[Covering]:
-    """Those that are possible for these singular points, of small degree first.
-
-    Apparent ones may lie anywhere; up to `hidden` ramification points may lie at places that S doesn't show.
+    Those that are possible for these singular points, of small degree first.  Apparent ones may lie anywhere; up to `hidden`
+    ramification points may lie at places that S doesn't show.  Raises `LimitExceeded` for too many functions.
     """
     if len(points) > _PLACES:
         return
-    for zeros, poles, f in _pullback_functions(_Distribution(points, apparent, budget, hidden)):
-        ones = _difference_at_ones(f, zeros.degree, [*points, *apparent])
-        if ones is not None:
-            yield Covering(f, zeros.square, ones, poles.square)
+    number = 0
+    for zeros, poles, rest in _distributed(points, apparent, hidden):
+        f = RatFunc(zeros.polynomial, poles.polynomial)
+        # the multiples of f that are 1 at the points of the rest, or have 1 for a critical value
+        values = dict.fromkeys(value_at(f, point) for point in rest[:1] or unseen_points(f))
+        for g in [f / value for value in values if value]:
+            number += 1
+            count_work(_TRIAL)
+            if number > _TRIALS:
+                raise LimitExceeded(f"there are more than {_TRIALS} functions f to try", limit="degree")
+            yield g, zeros.square, _difference_at_ones(g, zeros.degree, [*points, *apparent]), poles.square
 
 
 # ------------------------------------------------------------------------------------------ places to fibres
@@ -356,55 +356,29 @@ class Fibre:
         return result
 
 
-@dataclass(frozen=True)
-class _Distribution:
-    points: list[Point]
-    apparent: list[Point]
-    budget: Budget
-    hidden: int
-
-    @property
-    def among(self) -> list[Point]:
-        """The points that are distributed."""
-        found = [*self.points, *self.apparent]
-        return found if len(found) <= _WITH_APPARENT else self.points
-
-
-def _pullback_functions(search: _Distribution) -> Iterator[tuple[Fibre, Fibre, RatFunc]]:
-    """The functions f, each once, with their zeros and poles.  Raises `LimitExceeded` for too many of them."""
-    tried = set()
-    for zeros, poles, rest in _distributed(search):
-        for f in _scaled_to_one(zeros.polynomial, poles.polynomial, rest):
-            if f in tried:
-                continue
-            tried.add(f)
-            count_work(_TRIAL)
-            if len(tried) > _TRIALS:
-                raise LimitExceeded(f"there are more than {_TRIALS} functions f to try", limit="degree")
-            yield zeros, poles, f
-
-
-def _distributed(search: _Distribution) -> Iterator[tuple[Fibre, Fibre, list[Point]]]:
+def _distributed(points: list[Point], apparent: list[Point], hidden: int) -> Iterator[tuple[Fibre, Fibre, list[Point]]]:
     """Fibres over 0 and infinity of one degree n that have no point in common, and the points that are left over 1."""
-    among = search.among
+    among = [*points, *apparent]
+    if len(among) > _WITH_APPARENT:
+        among = points
     by_degree: dict[int, list[Fibre]] = {}
     # n + 2 points lie over 0, 1 and infinity, and as many more as there is ramification elsewhere
-    elsewhere = sum(int(rational_square_root(point.square) or 1) * point.degree for point in search.apparent)
-    least_degree = _count(search.points) - 2 - elsewhere - search.hidden
+    elsewhere = sum(int(rational_square_root(point.square) or 1) * point.degree for point in apparent)
+    least_degree = _count(points) - 2 - elsewhere - hidden
     for fibre in fibres(among, 2 * _count(among) - 4):
-        search.budget.check()
+        check_time()
         count_work(1)
         if fibre.degree >= least_degree:
             by_degree.setdefault(fibre.degree, []).append(fibre)
     for n, found in sorted(by_degree.items()):
         found.sort(key=lambda fibre: not fibre.is_at_infinity)  # polynomials f first
         for zeros, poles in combinations(found, 2):
-            search.budget.check()
+            check_time()
             count_work(1)
             if zeros.mask & poles.mask:
                 continue
             used = zeros.mask | poles.mask
-            rest = [point for point in search.points if not used >> among.index(point) & 1]
+            rest = [point for point in points if not used >> among.index(point) & 1]
             over_one = _count(rest)
             multiple = (n - over_one) // 2  # at most: S doesn't show these
             if zeros.points + poles.points + over_one + multiple >= n + 2:
@@ -458,21 +432,12 @@ def _ratio(point: Point, other: Point) -> Fraction | None:
 # ------------------------------------------------------------------------------------------ fibres to f
 
 
-def _scaled_to_one(zeros: Poly, poles: Poly, rest: list[Point]) -> Iterator[RatFunc]:
-    """The multiples of zeros/poles that are 1 at the points of the rest, or have 1 for a critical value."""
-    f = RatFunc(zeros, poles)
-    values = [value_at(f, point) for point in rest[:1] or unseen_points(f)]
-    yield from (f / value for value in values if value)
-
-
-def _difference_at_ones(f: RatFunc, degree: int, points: list[Point]) -> Poly | None:
-    """The square of the exponent difference over 1, from that and the multiplicity of one point there; None if f is 1.
+def _difference_at_ones(f: RatFunc, degree: int, points: list[Point]) -> Poly:
+    """The square of the exponent difference over 1, from that and the multiplicity of one point there.
 
     A point that isn't singular has the exponent difference 1.
     """
     over_one = f.num - f.den
-    if over_one.degree < 0:
-        return None
     m = degree - over_one.degree  # at infinity
     if m:
         found = [point.square for point in points if point.at_infinity]

@@ -143,14 +143,31 @@ class Whittaker(StandardEquation):
             r = -r
         mu = square_root(M + fmpq(1, 4))
         if r == 0:
-            return bessel.standard_form(n, d, mu, bessel.values(q, mu, squared=True))
-        first, second, slit = _values(q, r, mu)
+            return bessel.standard_form(n, d, q, mu, squared=True)
+        rho = square_root(q)
+        kappa = r / (2 * rho)
         half = fmpq(1, 2)
+
+        def solution(mu: Any, *, is_tricomi: bool) -> StandardSolution:
+            a = acb(half + mu - kappa)
+            b = acb(1 + 2 * mu)
+            # 1F1' and U' are multiples of 1F1 and U with a + 1 and b + 1
+            function, multiple = (acb.hypgeom_u, -a) if is_tricomi else (acb.hypgeom_1f1, a / b)
+
+            def value(z: acb) -> ValueAndSlope:
+                decay = (-(rho * z)).exp()
+                w = 2 * rho * z
+                F = function(w, a, b)
+                return decay * F, decay * rho * (2 * multiple * function(w, a + 1, b + 1) - F)
+
+            return value
+
         upper = (half + mu, 0)
-        if slit is None:
-            return StandardForm(n, d, (upper, (half - mu, 0)), each(first, second))
-        independent = not ends(half + mu - r / (2 * slit))
-        return StandardForm(n, d, (upper, upper), each(first, second), (slit, None), independent)
+        first = solution(mu, is_tricomi=False)
+        if not is_integer(2 * mu):
+            return StandardForm(n, d, (upper, (half - mu, 0)), each(first, solution(-mu, is_tricomi=False)))
+        second = solution(mu, is_tricomi=True)
+        return StandardForm(n, d, (upper, upper), each(first, second), (rho, None), not ends(half + mu - kappa))
 
 
 def _near_zero(q: Poly, r: Poly) -> list[Poly]:
@@ -291,46 +308,16 @@ def _laguerre(form: _WhittakerForm) -> WrittenPair | None:
         integer = writer.is_integer(2 * mu)
         if not writer.is_natural(degree) or (integer and not writer.is_natural(2 * mu)):
             continue
-        N = writer.constant(degree)
-        a = writer.constant(2 * mu)
-        if writer.is_degree(degree):
-            polynomial = sympy.assoc_laguerre(N, a, form.z) if a else sympy.laguerre(N, form.z)
-            first = form.factor(mu + HALF), polynomial
-            if integer:  # (-z)^N/N! exp(-z/2) and exp(z/2) at infinity
-                bracket = partial(mul, (-form.z) ** N / sympy.factorial(N), form.slope)
-                return writer.pair(first, form.turned.tricomi, bracket)
+        N, a = map(writer.constant, (degree, 2 * mu))
+        is_named = writer.is_degree(degree)
+        first = form.kummer(mu)
+        if is_named:
+            first = first[0], sympy.assoc_laguerre(N, a, form.z)
+        if integer:  # (-z)^N/N! exp(-z/2) and exp(z/2) at infinity; L_N(0) = (a + 1)_N/N!
+            # a product of N factors is left as it is where N is a number, too large for a degree
+            scale = sympy.factorial(N) if is_named else sympy.rf(a + 1, N, evaluate=not N.is_Number)
+            return writer.pair(first, form.turned.tricomi, partial(mul, (-form.z) ** N / scale, form.slope))
+        if is_named:
             multiple = sympy.gamma(N + a + 1) / sympy.gamma(N + 1) / sympy.gamma(a + 1)
             return writer.pair(first, form.kummer(-mu), partial(form.bracket, mu, multiple), (2 * mu,))
-        if integer:  # the same less L_N(0) = (a + 1)_N/N!
-            # a product of N factors is left as it is where N is a number, too large for a degree
-            bracket = partial(mul, (-form.z) ** N / sympy.rf(a + 1, N, evaluate=not N.is_Number), form.slope)
-            return writer.pair(form.kummer(mu), form.turned.tricomi, bracket)
     return None
-
-
-# ------------------------------------------------------------------------------------------ values
-
-
-def _values(q: Any, r: Any, mu: Any) -> tuple[StandardSolution, StandardSolution, Any]:
-    """Two solutions, and the factor of the slit of the second where that is U."""
-    rho = square_root(q)
-    kappa = r / (2 * rho)
-
-    def solution(mu: Any, *, is_tricomi: bool) -> StandardSolution:
-        a = acb(fmpq(1, 2) + mu - kappa)
-        b = acb(1 + 2 * mu)
-        # 1F1' and U' are multiples of 1F1 and U with a + 1 and b + 1
-        function, multiple = (acb.hypgeom_u, -a) if is_tricomi else (acb.hypgeom_1f1, a / b)
-
-        def value(z: acb) -> ValueAndSlope:
-            decay = (-(rho * z)).exp()
-            w = 2 * rho * z
-            F = function(w, a, b)
-            return decay * F, decay * rho * (2 * multiple * function(w, a + 1, b + 1) - F)
-
-        return value
-
-    first = solution(mu, is_tricomi=False)
-    if is_integer(2 * mu):
-        return first, solution(mu, is_tricomi=True), rho
-    return first, solution(-mu, is_tricomi=False), None

@@ -11,7 +11,7 @@ from dataclasses import dataclass, field
 from fractions import Fraction
 from functools import partial, reduce
 from operator import mul
-from typing import Any, Protocol
+from typing import TYPE_CHECKING, Any
 
 import sympy
 from sympy import Mul, exp
@@ -27,6 +27,9 @@ from kovacic.closed_form.product import Power, Product, product
 from kovacic.compatibility import cached_property
 from kovacic.numbers.exact import radical
 from kovacic.special.maps import HALF, Number, half_rate
+
+if TYPE_CHECKING:
+    from kovacic.special.pullback import GaugeTransform
 
 
 @dataclass(frozen=True)
@@ -96,22 +99,6 @@ class WrittenPair:
         return WrittenPair(function(self.y1), function(self.y2), wronskian, undefined, self.place)
 
 
-class Combined(Protocol):
-    """sqrt(m) (a v + b v'): what a `pullback.GaugeTransform` makes of v."""
-
-    @property
-    def m(self) -> Poly: ...
-
-    @property
-    def a(self) -> RatFunc: ...
-
-    @property
-    def b(self) -> RatFunc: ...
-
-    @property
-    def factor(self) -> RatFunc: ...
-
-
 #: Powers and exponentials, and the special function that they are multiplied with.
 WrittenTerm = tuple[WrittenFactor, Expr]
 
@@ -129,7 +116,7 @@ class Writer:
         gauge: RatFunc,
         x: Any,
         symbols: Mapping[str, Any],
-        transform: Combined | None = None,
+        transform: GaugeTransform | None = None,
         places: Sequence[Fraction] = (),
         singular: Poly | None = None,
     ) -> None:
@@ -240,7 +227,7 @@ class Writer:
         return powers * function, powers
 
     def _combined(
-        self, transform: Combined, before: WrittenFactor, function: Expr, atoms: Atoms
+        self, transform: GaugeTransform, before: WrittenFactor, function: Expr, atoms: Atoms
     ) -> tuple[Expr, Expr | None]:
         """P sqrt(m) ((a + b P'/P) F + b F') over a constant c for v = P F, F' = s F + t F1, F1 another function; P sqrt(m)/c.
 
