@@ -40,6 +40,7 @@ Reference: J. H. Davenport, On the Integration of Algebraic Functions (1981).
 
 from __future__ import annotations
 
+from collections import Counter
 from dataclasses import dataclass, replace
 from fractions import Fraction
 
@@ -265,10 +266,9 @@ def _logarithms_of_pieces(integral: CurveIntegral, f: CurveFunction, kappa_squar
     c = f.h.field.sqrt((f.h.lc / kappa_squared[0]) / g.lc)
     if c is None:
         return UNDECIDED
-    exponents: dict[tuple[Poly, Poly], int] = {}
+    exponents: Counter[tuple[Poly, Poly]] = Counter()
     for piece in f.pieces:
-        pair = (piece.a, piece.b)
-        exponents[pair] = exponents.get(pair, 0) + piece.exponent
+        exponents[piece.a, piece.b] += piece.exponent
     for sign in (c, -c):
         found = tuple(
             Unit(a, b * sign, None, kappa_squared, Fraction(e, 2 * f.multiple)) for (a, b), e in exponents.items()

@@ -71,15 +71,16 @@ def arguments_with_cuts(y: Expr) -> dict[Expr, Expr]:
     """The functions and powers with cuts in an expression: these lie where the argument, or 1 - z in pFq, is negative."""
     found = {}
     for e in iterargs(y):
-        if not (e.is_Pow or e.is_Function):
-            continue
+        cut = None
         if isinstance(e, _TURNED):
-            found[e] = cut_of(e)
+            cut = cut_of(e)
         elif isinstance(e, BesselBase):
-            found[e] = e.args[-1]
-        elif isinstance(e, sympy.hyper):
-            found[e] = 1 - e.argument if len(e.ap) > len(e.bq) else None
-    return {e: cut for e, cut in found.items() if cut is not None and cut.free_symbols}
+            cut = e.args[-1]
+        elif isinstance(e, sympy.hyper) and len(e.ap) > len(e.bq):
+            cut = 1 - e.argument
+        if cut is not None and cut.free_symbols:
+            found[e] = cut
+    return found
 
 
 def all_turned(y: Expr, x: Expr, point: Expr, own: Own = sympy.sympify) -> Expr:

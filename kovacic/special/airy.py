@@ -29,7 +29,6 @@ from kovacic.special.pullback import (
     StandardEquation,
     StandardForm,
     ValueAndSlope,
-    rational,
     standard_part,
     variable,
 )
@@ -78,7 +77,7 @@ class Airy(StandardEquation):
         return []
 
     def form(self, n: fmpq_poly, d: fmpq_poly, coordinate: int) -> StandardForm:
-        q = rational(self.q)
+        (q,) = self.constants
         size = acb(1) if abs(q) == 1 else acb(arb(abs(q)).root(3))
         c = size if q > 0 else -size
 

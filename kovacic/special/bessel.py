@@ -50,7 +50,6 @@ from kovacic.special.pullback import (
     ValueAndSlope,
     each,
     is_integer,
-    rational,
     square_root,
     variable,
 )
@@ -93,18 +92,17 @@ class Bessel(StandardEquation):
 
     @property
     def parameters(self) -> list[fmpq]:
-        return [4 * rational(self.M) + 1]
+        return [4 * self.constants[1] + 1]
 
     def coordinate(self, n: Any, d: Any) -> int:
         return sign_of(n, d)
 
     def form(self, n: fmpq_poly, d: fmpq_poly, coordinate: int) -> StandardForm:
-        r = rational(self.r)
+        r, M = self.constants
         if coordinate:  # the symmetry z -> -z
             n = -n
             r = -r
-        nu = square_root(4 * rational(self.M) + 1)
-        return standard_form(n, d, -r, nu / 2, squared=False)
+        return standard_form(n, d, -r, square_root(4 * M + 1) / 2, squared=False)
 
 
 # ------------------------------------------------------------------------------------------ found by zeros

@@ -61,7 +61,6 @@ from kovacic.special.pullback import (
     each,
     ends,
     is_integer,
-    rational,
     square_root,
     variable,
 )
@@ -149,7 +148,7 @@ class Gauss(StandardEquation):
 
     @property
     def parameters(self) -> list[fmpq]:
-        return [rational(v) for v in (self.A, self.B, self.C)]
+        return self.constants
 
     @property
     def cost(self) -> prices.Cost:
@@ -263,17 +262,17 @@ class _GaussForm:
 
     @cached_property
     def between(self) -> Expr | None:
-        """A rational x with 0 < f < 1: one of the `PLACES`, or near one with f = 1/2; None without, and over other fields."""
+        """An x with 0 < f < 1: f = 1/2 of a line, else one of `PLACES` or near one with f = 1/2; None over other fields."""
         import sympy
 
+        place = self.line_at(HALF)
         middle = 2 * self.f.num - self.f.den
-        if not isinstance(middle, RationalPoly):
-            return None
+        if place is not None or not isinstance(middle, RationalPoly):
+            return place
         halves = [zero.real for zero, _ in complex_zeros(middle.rep.numer()) if zero.imag == 0]
         near = (Fraction(float(zero)).limit_denominator(most) for zero in halves for most in _DENOMINATORS)
-        inside = (x for x in chain(PLACES, near) if 0 < (self._at(x) or 0) < 1)
-        found = next(inside, None)
-        return None if found is None else sympy.Rational(found)
+        inside = (sympy.Rational(x) for x in chain(PLACES, near) if 0 < (self._at(x) or 0) < 1)
+        return next(inside, None)
 
     def _at(self, x: Fraction) -> Fraction | float | None:
         """The value of f at a place, or None if it contains letters; NaN at a pole, which is neither above nor below 1."""
@@ -287,7 +286,7 @@ class _GaussForm:
 
         is_turned = not self.f.num[0] and self.writer.is_negative(self.f.num.lc)
         below = (sympy.Rational(x) for x in PLACES if (self._at(x) or 0) < 0)
-        return self.line_at(-HALF if is_turned else HALF) or self.between or next(below, None)
+        return (self.line_at(-HALF) if is_turned else None) or self.between or next(below, None)
 
     @property
     def term(self) -> WrittenTerm:
@@ -408,7 +407,7 @@ def _at_two_points(form: _GaussForm, other: _GaussForm) -> WrittenPair:
         W = -sympy.gamma(1 - alpha) * sympy.gamma(1 - beta) / (sympy.gamma(a) * sympy.gamma(b))
         return first.bracket(second, W)
 
-    return writer.pair(first.term, second.term, bracket, (form.alpha,), real_at=form.line_at(HALF) or form.between)
+    return writer.pair(first.term, second.term, bracket, (form.alpha,), real_at=form.between)
 
 
 def _reducible_pair(writer: Writer, forms: list[_GaussForm]) -> WrittenPair | None:
@@ -445,15 +444,16 @@ def _gegenbauer(form: _GaussForm) -> WrittenPair:
     writer = form.writer
     N, a = (writer.constant(value) for value in (form.degree, -form.alpha))
     t = writer.argument(1 - 2 * form.f)
-    even, odd = _even_and_odd(form)
-    second = form.factor, writer.by_parity(N, odd[1], even[1])
-    if writer.is_natural(form.alpha - HALF):  # Gegenbauer's polynomials of an index 0, -1, ... are 0
-        return writer.pair((form.factor, _named(form)[1]), second)
     # C(0) = cos(pi N/2) gamma(l + N/2)/(gamma(l) gamma(N/2 + 1)), C'(0) = 2 l C_(N-1)^(l+1)(0)  [DLMF 18.5.10, 18.9.19]
     index = a + sympy.S.Half
     even_value = sympy.gamma(index + N / 2) / sympy.gamma(N / 2 + 1)
     slope = 2 * sympy.gamma(index + (N + 1) / 2) / sympy.gamma((N + 1) / 2)
-    bracket = form.bracket_of_parity(writer.wronskian_by_parity(N, even_value, slope) / sympy.gamma(index))
+    (_, even), (_, odd) = _even_and_odd(form)
+    other, W = writer.by_parity(N, even, odd, even_value, slope)
+    second = form.factor, other
+    if writer.is_natural(form.alpha - HALF):  # Gegenbauer's polynomials of an index 0, -1, ... are 0
+        return writer.pair(form.term, second)
+    bracket = form.bracket_of_parity(W / sympy.gamma(index))
     before = form.factor
     polynomial = sympy.gegenbauer(N, index, t)
     if a and writer.is_natural(-form.alpha):
@@ -479,8 +479,7 @@ def _even_and_odd(form: _GaussForm) -> tuple[WrittenTerm, WrittenTerm]:
     t = writer.argument(1 - 2 * form.f)
     N = writer.constant(form.degree)
     index = writer.constant(HALF - form.alpha)
-    even = writer.even((-N / 2, N / 2 + index), t**2)
-    odd = writer.odd(((1 - N) / 2, (1 + N) / 2 + index), t, t**2)
+    even, odd = writer.even_and_odd((-N / 2, N / 2 + index), ((1 - N) / 2, (1 + N) / 2 + index), t, t**2)
     return (form.factor, even), (form.factor, odd)
 
 

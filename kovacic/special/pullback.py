@@ -27,7 +27,6 @@ from flint.utils.flint_exceptions import DomainError
 
 from kovacic.algebra.poly import Field, Poly
 from kovacic.algebra.ratfunc import RatFunc
-from kovacic.algebra.rationals import RationalPoly
 from kovacic.compatibility import cached_property
 from kovacic.engine.places import Problem
 from kovacic.limits import count_work
@@ -76,23 +75,13 @@ class StandardForm:
 
 
 def each(*solutions: StandardSolution) -> StandardSolutions:
-    """The values of either."""
+    """The values of either; (0, 0) for those that aren't needed."""
 
     def values(z: acb, needed: Sequence[bool]) -> list[ValueAndSlope]:
-        """(0, 0) for those that aren't needed."""
-        found = []
-        for solution, is_needed in zip(solutions, needed, strict=True):
-            value = solution(z) if is_needed else (acb(0), acb(0))
-            found.append(value)
-        return found
+        pairs = zip(solutions, needed, strict=True)
+        return [solution(z) if is_needed else (acb(0), acb(0)) for solution, is_needed in pairs]
 
     return values
-
-
-def rational(constant: Any) -> Any:
-    """A constant of Q as FLINT's rational."""
-    assert isinstance(constant, RationalPoly)
-    return constant.rep[0]
 
 
 def square_root(number: Any) -> Any:
@@ -160,6 +149,11 @@ class StandardEquation(ABC):
         yield from ()
 
     # ----------------------------------------------------------------------------------------- values, over the rationals
+
+    @property
+    def constants(self) -> list[fmpq]:
+        """The coefficients of the equation."""
+        return [constant.rep[0] for constant in vars(self).values()]
 
     @property
     @abstractmethod

@@ -56,7 +56,6 @@ from kovacic.special.pullback import (
     each,
     ends,
     is_integer,
-    rational,
     square_root,
     variable,
 )
@@ -121,7 +120,7 @@ class Whittaker(StandardEquation):
 
     @property
     def parameters(self) -> list[fmpq]:
-        q, r, M = (rational(v) for v in (self.q, self.r, self.M))
+        q, r, M = self.constants
         return [4 * M + 1, r * r / q]
 
     @property
@@ -137,7 +136,7 @@ class Whittaker(StandardEquation):
         return bessel.sign_of(n, d)
 
     def form(self, n: fmpq_poly, d: fmpq_poly, coordinate: int) -> StandardForm:
-        q, r, M = (rational(v) for v in (self.q, self.r, self.M))
+        q, r, M = self.constants
         if coordinate:  # the symmetry z -> -z
             n = -n
             r = -r
@@ -289,14 +288,13 @@ def _hermite(form: _WhittakerForm) -> WrittenPair | None:
         return None
     N = writer.constant(degree)
     root = writer.root_of(form.f * form.q.part * 2)
-    even = writer.even((-N / 2,), form.z)
-    odd = writer.odd(((1 - N) / 2,), root, form.z)
+    even, odd = writer.even_and_odd((-N / 2,), ((1 - N) / 2,), root, form.z)
     before = form.factor(form.mu)
     # H_N = 2^N cos(pi N/2) gamma((N+1)/2)/sqrt(pi) even + 2^(N+1) sin(pi N/2) gamma(N/2+1)/sqrt(pi) odd [DLMF 18.5.13]
     scale = 2**N / sympy.sqrt(sympy.pi)
-    W = writer.wronskian_by_parity(N, scale * sympy.gamma((N + 1) / 2), 2 * scale * sympy.gamma(N / 2 + 1))
+    other, W = writer.by_parity(N, even, odd, scale * sympy.gamma((N + 1) / 2), 2 * scale * sympy.gamma(N / 2 + 1))
     bracket = W * sympy.exp(form.z) * root.diff(writer.atoms.x)
-    return writer.pair((before, sympy.hermite(N, root)), (before, writer.by_parity(N, odd, even)), lambda: bracket)
+    return writer.pair((before, sympy.hermite(N, root)), (before, other), lambda: bracket)
 
 
 def _laguerre(form: _WhittakerForm) -> WrittenPair | None:

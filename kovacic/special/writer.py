@@ -131,7 +131,6 @@ class Writer:
         self._squares: list[Poly] = []
         self._shown: dict[Number | Poly, Expr] = {}
         self._natural: dict[Number, bool] = {}
-        self._lower: dict[Expr, Expr] = {}
 
     @property
     def own(self) -> dict[Expr, Expr]:
@@ -310,10 +309,9 @@ class Writer:
         """Of an expression in the user's symbols: a positive integer n is n' + 1 with a natural n'."""
         if (value.free_symbols and not self.knows_integers) or not value.is_integer:
             return False
-        for symbol in value.free_symbols - self._lower.keys():
-            if symbol.is_integer and symbol.is_positive:
-                self._lower[symbol] = sympy.Dummy(symbol.name, integer=True, nonnegative=True) + 1
-        return bool(sympy.expand(value.xreplace(self._lower)).is_nonnegative)
+        positive = [symbol for symbol in value.free_symbols if symbol.is_integer and symbol.is_positive]
+        lower = {symbol: sympy.Dummy(integer=True, nonnegative=True) + 1 for symbol in positive}
+        return bool(sympy.expand(value.xreplace(lower)).is_nonnegative)
 
     @property
     def knows_integers(self) -> bool:
@@ -372,21 +370,20 @@ class Writer:
         above, below = (tuple(self.constant(value) for value in values) for values in (top, bottom))
         return hypergeometric(above, below, z)
 
-    def even(self, top: Sequence[Expr], z: Expr) -> Expr:
-        """The hypergeometric function with the lower parameter 1/2: even in a square root of z."""
-        return hypergeometric(tuple(top), (sympy.S.Half,), z)
+    @staticmethod
+    def even_and_odd(top: tuple[Expr, ...], odd_top: tuple[Expr, ...], root: Expr, z: Expr) -> tuple[Expr, Expr]:
+        """The hypergeometric functions with the lower parameters 1/2, even in a square root of z, and 3/2, times this root."""
+        return hypergeometric(top, (sympy.S.Half,), z), root * hypergeometric(odd_top, (sympy.Rational(3, 2),), z)
 
-    def odd(self, top: Sequence[Expr], root: Expr, z: Expr) -> Expr:
-        """With the lower parameter 3/2, times this square root of z."""
-        return root * hypergeometric(tuple(top), (sympy.Rational(3, 2),), z)
+    @staticmethod
+    def by_parity(N: Expr, even: Expr, odd: Expr, value: Expr, slope: Expr) -> tuple[Expr, Expr]:
+        """For a polynomial of degree N that is even or odd as N is: the solution of the other parity, and their Wronskian.
 
-    def by_parity(self, N: Expr, odd: Expr, even: Expr) -> Expr:
-        """For a polynomial of degree N that is even or odd as N is: the solution of the other parity."""
-        return sympy.cos(sympy.pi * N / 2) * odd + sympy.sin(sympy.pi * N / 2) * even
-
-    def wronskian_by_parity(self, N: Expr, even: Expr, odd: Expr) -> Expr:
-        """The Wronskian of cos(pi N/2) even E + sin(pi N/2) odd O with `by_parity`; E, O have 1, 0 and 0, 1 in the middle."""
-        return even * sympy.cos(sympy.pi * N / 2) ** 2 - odd * sympy.sin(sympy.pi * N / 2) ** 2
+        The polynomial is cos(pi N/2) value even + sin(pi N/2) slope odd, where even and odd have 1, 0 and 0, 1 in the middle.
+        """
+        c = sympy.cos(sympy.pi * N / 2)
+        s = sympy.sin(sympy.pi * N / 2)
+        return c * odd + s * even, value * c**2 - slope * s**2
 
 
 def _by_rationality(product: Expr, x: Any) -> tuple[Expr, Expr]:
