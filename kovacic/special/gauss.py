@@ -286,7 +286,8 @@ class _GaussForm:
 
         is_turned = not self.f.num[0] and self.writer.is_negative(self.f.num.lc)
         below = (sympy.Rational(x) for x in PLACES if (self._at(x) or 0) < 0)
-        return (self.line_at(-HALF) if is_turned else None) or self.between or next(below, None)
+        turned = self.line_at(-HALF) if is_turned else None
+        return next((place for place in (turned, self.between, *below) if place is not None), None)
 
     @property
     def term(self) -> WrittenTerm:
