@@ -29,6 +29,7 @@ from kovacic.general_solution.integrands import NUMBERS
 from kovacic.general_solution.particular import right_hand_side, starting_at, turned_at
 from kovacic.general_solution.question import Question
 from kovacic.general_solution.steps import is_analytic, jump_points, place_of
+from kovacic.general_solution.validity import needs_of
 from kovacic.general_solution.zero import is_zero
 from kovacic.limits import check_time
 from kovacic.reading.change_of_variable import function_of_x, is_of_a_line, is_power, user_variable
@@ -258,8 +259,9 @@ def _poles_between(question: Question, points: Sequence[Expr]) -> Iterator[tuple
             raise NotImplementedError("undecided: whether a singular point lies between the points that are given")
         a, b, c, f = map(question.own, question.coefficients)
         parts = [b / a, c / a, f / a]
-    for below in {base: None for part in parts for base in _below_the_line(part, x)}:
-        for point in _zeros(below, x, first, last):
+    needs = {need for part in parts for need in needs_of(part) if not isinstance(need, sympy.GreaterThan)}
+    for zero in sorted({need.lhs for need in needs if need.free_symbols == {x}}, key=str):
+        for point in _zeros(zero, x, first, last):
             if point.is_number and first < point < last:
                 yield point, have_values(parts, x, point)
 
@@ -276,15 +278,6 @@ def rational_poles(question: Question) -> Iterator[Expr]:
             is_numeric = polynomial.free_symbols == {question.x}
             roots = sympy.real_roots(sympy.Poly(polynomial, question.x, extension=True)) if is_numeric else ()
             yield from (root for root in dict.fromkeys(roots) if equation.h is None or is_singular(question, root))
-
-
-def _below_the_line(e: Expr, x: Expr) -> list[Expr]:
-    """Functions whose zeros are singular points: bases of powers, cosines of tangents, arguments of logarithms."""
-    powers = [power for power in e.atoms(sympy.Pow) if power.exp.is_Rational and power.exp < 0]
-    found = [power.base for power in powers] + [f.args[0] for f in e.atoms(sympy.log)]
-    found += [sympy.cos(f.args[0]) for f in e.atoms(sympy.tan, sympy.sec)]
-    found += [sympy.sin(f.args[0]) for f in e.atoms(sympy.cot, sympy.csc)]
-    return sorted({base for base in found if base.free_symbols == {x}}, key=str)
 
 
 def _zeros(e: Expr, x: Expr, first: Expr, last: Expr) -> Iterator[Expr]:

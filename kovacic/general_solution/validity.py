@@ -11,7 +11,7 @@ Reference: DLMF 4.2, 4.23, 4.37 (logarithms, inverse functions), 6.4 (Ei, Ci), 8
 
 from __future__ import annotations
 
-from collections.abc import Callable, Collection, Iterable, Iterator, Sequence
+from collections.abc import Callable, Collection, Iterable, Iterator
 from dataclasses import dataclass
 from functools import partial
 from typing import Any
@@ -67,68 +67,69 @@ def needed_for(formulas: Iterable[Expr], x: Expr, exceptions: Iterable[Expr] = (
     has_real_numbers = all(number.is_extended_real for number in numbers)
     # Of an imaginary root they have cuts.
     squares = (e.args[0].xreplace(roots) ** 2 for e in value.atoms(sympy.atan, sympy.asinh) if e.has(*roots))
-    cuts = (_positive(1 + square) for square in squares)
-    needs = [*needs_of(value), *(relation for relation in cuts if relation != sympy.true)]
-    found = _without_what_holds([r.xreplace(roots) for r in needs], x, exceptions, has_real_parts=has_real_numbers)
+    needs = [need.xreplace(roots) for need in (*needs_of(value), *(_positive(1 + square) for square in squares))]
+    found = _without_what_holds(needs, x, exceptions, has_real_parts=has_real_numbers)
     if found is None:  # no x and letters make all parts real: it is a solution between the branch points
-        inequalities, comparisons = sympy.sift(needs, lambda need: isinstance(need, sympy.Ne), binary=True)
-        apart = [*inequalities, *(_nonzero(need.lhs) for need in comparisons if need != sympy.false)]
-        apart = [relation.xreplace(roots) for relation in apart]
+        relations = (need for need in needs if not isinstance(need, BooleanAtom))
+        apart = [need if isinstance(need, sympy.Ne) else _nonzero(need.lhs) for need in relations]
         found = _without_what_holds(apart, x, exceptions, has_real_parts=False)
     assert found is not None
     return found
 
 
 def _without_what_holds(
-    relations: Sequence[Expr], x: Expr, exceptions: Iterable[Expr], *, has_real_parts: bool
+    relations: Iterable[Expr], x: Expr, exceptions: Iterable[Expr], *, has_real_parts: bool
 ) -> Validity | None:
     """The relations that need to be stated; None if one is false, by the assumptions on letters or beside the others."""
-    relations = [*dict.fromkeys(relations)]
-    if any(_is_false(relation) for relation in relations):
+    truths = {relation: _truth(relation) for relation in relations}
+    if False in truths.values():
         return None
-    of_letters, others = sympy.sift(relations, lambda r: isinstance(r, sympy.Ne) and not r.has(x), binary=True)
+    relations = [relation for relation, is_true in truths.items() if not is_true]
+    of_letters, on_x = sympy.sift(relations, lambda r: isinstance(r, sympy.Ne) and not r.has(x), binary=True)
     nonzero = [factor for relation in of_letters for factor in ZeroSet(relation.lhs).factors]
     nonzero += [e for e in exceptions if not is_nowhere_zero(e)]
     if has_real_parts:
         nonzero = [factor for e in nonzero for factor in _beside_real_roots(e)]
-    on_x = [relation for relation in others if not _holds_for_real_symbols(relation)]
-    for _ in range(2):  # k > 0 from k sqrt(h k) > 0, and then h > 0 from h k > 0
-        known = {r.lhs for r in on_x if not isinstance(r, sympy.Ne)}
-        on_x = [part for relation in on_x for part in _of_factors(relation, known) if not _holds_for_real_symbols(part)]
-    if sympy.false in on_x:
-        return None
     said = _nonzero_beside(on_x)
-    real = _in_one_interval(_joined(on_x, {*nonzero}), x)
-    return (
-        None if real is None else Validity(real, without_implied(e for e in nonzero if e not in said), has_real_parts)
-    )
+    for _ in range(2):  # k > 0 from k sqrt(h k) > 0, and then h > 0 from h k > 0
+        on_x = [part for relation in on_x for part in _parts(relation, on_x, nonzero) if not _truth(part)]
+        if sympy.false in on_x:
+            return None
+    # x != 0 follows from a x > 0, but not from x >= 0
+    implied = {sympy.Ne: _nonzero_beside(on_x), sympy.GreaterThan: _positive_among(on_x)}
+    shorter = [_of_cosine(r) for r in on_x if r.lhs not in implied.get(r.func, ())]
+    real = _in_one_interval({(r.func, sympy.expand(r.lhs)): r for r in shorter}.values(), x)
+    exceptions = without_implied(e for e in nonzero if e not in said)
+    return None if real is None else Validity(real, exceptions, has_real_parts)
 
 
-def _joined(relations: Iterable[Expr], nonzero: set[Expr]) -> tuple[Expr, ...]:
-    """u >= 0 beside u != 0 as u > 0, also by factors, and without what follows: x != 0 from a x > 0, but not x >= 0.
+def _parts(relation: Expr, beside: Collection[Expr], nonzero: Collection[Expr]) -> list[Expr]:
+    """Shorter relations in the place of one, beside others and beside what isn't zero; roots and powers are real.
 
-    Without factors of which it is said that they are positive: h >= 0 for h k >= 0 beside k > 0.
+    k > 0 and x > 0 for sqrt(k)*sqrt(x)*exp(x/2) > 0, and for k*x > 0 beside k >= 0; x - a != 0 for a - x != 0; u > 0 for
+    u >= 0 beside u != 0, also by factors, and h >= 0 for h*k >= 0 beside k > 0.
     """
-    strict = []
-    for relation in relations:
-        factors = ZeroSet(relation.lhs).factors
-        is_nonzero = bool(factors) and {*factors} <= nonzero
-        strict.append(relation.lhs > 0 if isinstance(relation, sympy.GreaterThan) and is_nonzero else relation)
-    positive = {r.lhs for r in strict if isinstance(r, sympy.StrictGreaterThan)}
-    for k, relation in enumerate(strict):
-        others = [f for f in sympy.Mul.make_args(relation.lhs) if f not in positive]
-        if isinstance(relation, sympy.GreaterThan):
-            strict[k] = sympy.GreaterThan(sympy.Mul(*others), 0)
-    strict = [relation for relation in strict if relation != sympy.true]
-    weaker = {sympy.Ne: _nonzero_beside(strict), sympy.GreaterThan: positive, sympy.StrictGreaterThan: set()}
-    found = [_of_cosine(r) for r in strict if r.lhs not in weaker[r.func]]
-    return tuple({(r.func, sympy.expand(r.lhs)): r for r in found}.values())
+    u = relation.lhs
+    if isinstance(relation, sympy.Ne):
+        return [sympy.Ne(-u, 0) if u.could_extract_minus_sign() else relation]
+    factors, positive = sympy.Mul.make_args(u), _positive_among(beside)
+    if isinstance(relation, sympy.GreaterThan) and not ({*ZeroSet(u).factors} or {u}) <= {*nonzero}:
+        return [sympy.GreaterThan(sympy.Mul(*(f for f in factors if f not in positive)), 0)]
+    known = {r.lhs for r in beside if not isinstance(r, sympy.Ne)}
+    factors = [f for f in factors if not _truth(f > 0)]
+    bases = {f: f.base if f.is_Pow and not f.exp.is_Integer else f for f in factors}
+    apart = [base for f, base in bases.items() if base in known or (f != base and f.exp.is_Rational)]
+    rest = sympy.Mul(*(f for f, base in bases.items() if base not in apart))
+    return [_positive(base) if base.is_Pow else base > 0 for base in (*apart, rest) if base != 1]
+
+
+def _positive_among(relations: Iterable[Expr]) -> set[Expr]:
+    return {relation.lhs for relation in relations if isinstance(relation, sympy.StrictGreaterThan)}
 
 
 def _nonzero_beside(relations: Iterable[Expr]) -> set[Expr]:
     """What isn't zero where something is positive: that, and its factors, with both signs."""
-    positive = [relation.lhs for relation in relations if isinstance(relation, sympy.StrictGreaterThan)]
-    parts = [u for e in positive for u in (e, *sympy.Mul.make_args(e), *ZeroSet(e).factors)]
+    parts = [u for e in _positive_among(relations) for u in (e, *sympy.Mul.make_args(e), *ZeroSet(e).factors)]
     return {sign * u for u in parts for sign in (1, -1)}
 
 
@@ -168,57 +169,45 @@ def _are_equal(e: Expr, other: Expr) -> bool:
     return all(agree(u, v) for u, v in zip(e.xreplace(sample), other.xreplace(sample), strict=True))
 
 
-def _in_real_symbols(e: Expr) -> Expr:
-    return e.xreplace({symbol: sympy.Dummy(real=True) for symbol in e.free_symbols if symbol.is_real is None})
+def _truth(relation: Expr) -> bool | None:
+    """False for what holds for no real values of the letters, or compares what isn't real; None if that isn't seen.
+
+    True for exp(x) + 1 != 0, x^2 - x + 1 > 0 and x + sqrt(x^2 + 1) > 0: nothing has to be said then.
+    """
+    if isinstance(relation, BooleanAtom):
+        return bool(relation)
+    e = relation.lhs.xreplace({s: sympy.Dummy(real=True) for s in relation.free_symbols if s.is_real is None})
+    is_inequality = isinstance(relation, sympy.Ne)
+    if e.is_extended_real is False and not is_inequality:
+        return False
+    value = relation.func(e, 0)
+    if isinstance(value, BooleanAtom):
+        return bool(value)
+    if e.has(sympy.I):
+        return any(part.is_nonzero for part in sympy.expand(e).as_real_imag()) or None
+    signed = (e, -e) if is_inequality else (e,)
+    if any(is_positive_polynomial(p, or_zero=isinstance(relation, sympy.GreaterThan)) for p in signed):
+        return True
+    roots, others = sympy.sift(sympy.Add.make_args(e), lambda part: part.is_Pow, binary=True)
+    if len(roots) != 1 or roots[0].exp != sympy.S.Half:
+        return None
+    return sympy.expand(roots[0].base - sympy.Add(*others) ** 2).is_positive or None  # sqrt(g) > |f|
 
 
-def _is_false(relation: Expr) -> bool:
-    """True if an inequality holds for no real values of the symbols, or isn't one between real numbers."""
-    if isinstance(relation, BooleanAtom | sympy.Ne):
-        return bool(relation == sympy.false)
-    e = _in_real_symbols(relation.lhs)
-    return bool(e.is_extended_real is False or e.is_negative or (e.is_zero and relation.func is sympy.Gt))
-
-
-def _holds_for_real_symbols(relation: Expr) -> bool:
-    """As exp(x) + 1 != 0, x^2 - x + 1 > 0 and x + sqrt(x^2 + 1) > 0 do; nothing has to be said then."""
-    try:
-        relation = _in_real_symbols(relation)
-        if isinstance(relation, BooleanAtom):
-            return bool(relation)
-        e = relation.lhs
-        if e.has(sympy.I):  # a complex number isn't compared; the sum with its conjugate, which is real, needs nothing
-            return not isinstance(relation, sympy.Ne) or any(p.is_nonzero for p in sympy.expand(e).as_real_imag())
-        if e.has(sympy.tanh):  # 1 - tanh(x)^2 = 4 exp(2 x)/(exp(2 x) + 1)^2
-            e = sympy.factor(sympy.together(sympy.expand(e.rewrite(sympy.exp))))
-            if isinstance(relation.func(e, 0), BooleanAtom):
-                return bool(relation.func(e, 0))
-        if e.free_symbols and e.is_polynomial() and sympy.Poly(e, *e.free_symbols).domain in (sympy.ZZ, sympy.QQ):
-            signed = (e, -e) if isinstance(relation, sympy.Ne) else (e,)
-            or_zero = isinstance(relation, sympy.GreaterThan)
-            return any(is_positive_polynomial(sympy.expand(p), or_zero=or_zero) for p in signed)
-        roots, others = sympy.sift(sympy.Add.make_args(e), lambda part: part.is_Pow, binary=True)
-        if len(roots) != 1 or roots[0].exp != sympy.S.Half:
-            return False
-        return bool(sympy.expand(roots[0].base - sympy.Add(*others) ** 2).is_positive)  # sqrt(g) > |f|
-    except TypeError:  # what is complex has no sign, by its i or by what is assumed of letters
-        return bool(relation.has(sympy.I))
-
-
-def _in_one_interval(relations: tuple[Expr, ...], x: Expr) -> tuple[Expr, ...] | None:
+def _in_one_interval(relations: Collection[Expr], x: Expr) -> tuple[Expr, ...] | None:
     """x > 0 for x != 0, 1 + 1/x > 0, x + 1 > 0, leaving out what holds there; None if no interval satisfies all of them."""
-    rational, others = sympy.sift(relations, lambda r: r.free_symbols == {x} and _is_over_Q(r.lhs, x), binary=True)
+    rational, others = sympy.sift(relations, lambda r: _is_over_Q(r.lhs, x), binary=True)
     if len(relations) == 1 or not rational:
-        return relations
+        return tuple(relations)
     t = sympy.Dummy(real=True)
     where = reduce_rational_inequalities([[r.xreplace({x: t}) for r in rational]], t, relational=False)
     if where.is_empty or isinstance(where, sympy.FiniteSet):
         return None
-    if not isinstance(where, sympy.Interval) or where == sympy.S.Reals or where.has(sympy.CRootOf):
-        return relations
+    if not isinstance(where, sympy.Interval) or where.has(sympy.CRootOf):
+        return tuple(relations)
     a, b = where.start, where.end
-    bounds = [x > a if where.left_open else x >= a] * (a != -sympy.oo)
-    bounds += [x < b if where.right_open else x <= b] * (b != sympy.oo)
+    bounds = [t > a if where.left_open else t >= a, t < b if where.right_open else t <= b]
+    bounds = [bound.xreplace({t: x}) for bound in bounds if bound != sympy.true]
     bounds = [bound for bound in bounds if bound != sympy.true]  # of an x that is assumed to be positive
     p = sympy.Dummy(positive=True)
     inside = a + p if b == sympy.oo else b - p if a == -sympy.oo else (a + b * p) / (1 + p)
@@ -228,25 +217,9 @@ def _in_one_interval(relations: tuple[Expr, ...], x: Expr) -> tuple[Expr, ...] |
 
 
 def _is_over_Q(e: Expr, x: Expr) -> bool:
-    if not e.is_rational_function(x) or e.has(sympy.I, sympy.NumberSymbol, sympy.CRootOf):
-        return False
-    return all(power.exp.is_Integer for power in e.atoms(sympy.Pow))
-
-
-def _of_factors(relation: Expr, known: Collection[Expr]) -> list[Expr]:
-    """k > 0 and x > 0 for sqrt(k)*sqrt(x)*exp(x/2) > 0, and for k*x > 0 beside k >= 0; x - a != 0 for a - x != 0.
-
-    `known` are those of which it is said that they aren't negative; roots and powers are real.
-    """
-    if isinstance(relation, sympy.Ne) and relation.lhs.could_extract_minus_sign():
-        return [sympy.Ne(-relation.lhs, 0)]
-    if not isinstance(relation, sympy.StrictGreaterThan):
-        return [relation]
-    factors = [f for f in sympy.Mul.make_args(relation.lhs) if not _holds_for_real_symbols(f > 0)]
-    bases = {f: f.base if f.is_Pow and not f.exp.is_Integer else f for f in factors}
-    apart = [base for f, base in bases.items() if base in known or (f != base and f.exp.is_Rational)]
-    rest = sympy.Mul(*(f for f, base in bases.items() if base not in apart))
-    return [_positive(base) if base.is_Pow else base > 0 for base in (*apart, rest) if base != 1]
+    """True for a rational function of x alone with rational coefficients."""
+    parts = sympy.preorder_traversal(e)
+    return bool(e.is_rational_function(x)) and all(part.is_Rational or part.has(x) for part in parts)
 
 
 def _of_cosine(relation: Expr) -> Expr:
@@ -284,38 +257,31 @@ def needs_of(e: Expr) -> Iterator[Expr]:
         return
     for argument in e.args:
         yield from needs_of(argument)
-    need = sympy.true
-    if e.is_Pow and not isinstance(e, sympy.exp):
-        need = _of_power(e)
-    elif e.func in _OF_FUNCTIONS:
-        need = _OF_FUNCTIONS[e.func](e, e.args[-1])
-    yield from (relation for relation in sympy.And.make_args(need) if relation != sympy.true)
+    if e.func in _NEEDS:
+        yield from sympy.And.make_args(_NEEDS[e.func](e, e.args[-1]))
 
 
-def _of_power(e: Expr) -> Expr:
+def _of_power(e: Expr, exponent: Expr) -> Expr:
     """What a power needs whose base and exponent are real and finite."""
-    if e.base.is_number:
+    if e.base.is_number or (exponent.is_nonnegative and exponent.is_integer):
         return sympy.true
-    if e.exp.is_nonnegative and e.exp.is_integer:
-        return sympy.true
-    if e.exp.is_integer:
+    if exponent.is_integer:
         return sympy.Ne(e.base, 0)
-    if e.exp.is_Rational and e.exp > 0:
-        return sympy.true if e.base.has(sympy.I) else _not_negative(e.base)
-    return _off_the_cut(e.base)
+    return (_not_negative if exponent.is_Rational and exponent > 0 else _positive)(e.base)
 
 
 # ----------------------------------------------------------------------------------------------------------- relations
 
 
 def _comparison(relation: Any, u: Expr) -> Expr:
-    """u > 0 or u >= 0, unevaluated where it is false, or where u isn't real and SymPy refuses to compare it.
+    """u > 0, for a cut from 0 to -oo, or u >= 0: unevaluated where it is false, or where u isn't real.
 
-    For u = v^2 and |v| it is v != 0, or nothing.
+    For u = v^2 and |v| it is v != 0, or nothing; of an argument with an i it is said that it isn't the branch point.
     """
     short = _of_the_same_sign(u)
-    if isinstance(short, sympy.Abs) or (short.is_Pow and short.exp.is_even and short.base.is_Symbol):
-        return sympy.Ne(short.args[0], 0) if relation is sympy.StrictGreaterThan else sympy.true
+    is_even = isinstance(short, sympy.Abs) or (short.is_Pow and short.exp.is_even and short.base.is_Symbol)
+    if is_even or u.has(sympy.I):
+        return _nonzero(short.args[0] if is_even else u) if relation is sympy.StrictGreaterThan else sympy.true
     holds = short.is_extended_real is not False and relation(short, 0) == sympy.true
     return sympy.true if holds else relation(short, 0, evaluate=False)
 
@@ -329,14 +295,14 @@ def _of_the_same_sign(u: Expr) -> Expr:
 
     A sum with a letter that stands for a root is left: its square may be negative.
     """
+    if u.has(sympy.tanh):  # 1 - tanh(x)^2 = 4 exp(2 x)/(exp(2 x) + 1)^2
+        u = sympy.factor(sympy.together(sympy.expand(u.rewrite(sympy.exp))))
     is_plain = u.is_Add and u.is_rational_function() and not u.atoms(sympy.Dummy)
     if is_plain and any(p.exp.is_negative for p in u.atoms(sympy.Pow)):
         u = sympy.factor_terms(sympy.together(u))
     factors = sympy.Mul.make_args(u.as_content_primitive()[1])
-    below = [p for p in factors if p.is_Pow and p.exp.is_integer and p.exp.is_negative]
-    same = {p: p.base for p in below if p.exp.is_odd} | {
-        p: 1 for p in below if p.exp.is_even and not p.atoms(sympy.Dummy)
-    }
+    inverse = [p for p in factors if p.is_Pow and p.exp.is_integer and p.exp.is_negative]
+    same = {p: p.base ** (p.exp % 2) for p in inverse if p.exp.is_odd or not p.atoms(sympy.Dummy)}
     short = sympy.Mul(*(same.get(factor, factor) for factor in factors))
     is_odd_power = short.is_Pow and short.exp.is_Rational and not short.exp.is_even
     return short.base if is_odd_power else short
@@ -346,13 +312,6 @@ def _nonzero(u: Expr) -> Expr:
     """u != 0, said without factors that are numbers, and without the denominator, which needs something itself."""
     factors = sympy.Mul.make_args(sympy.numer(u).as_content_primitive()[1])
     return sympy.Ne(sympy.Mul(*(factor for factor in factors if not factor.is_number)), 0)
-
-
-def _off_the_cut(u: Expr) -> Expr:
-    """u > 0 for a cut from 0 to -oo; of an argument with an i it is said that it isn't 0."""
-    if u.has(sympy.I):
-        return _nonzero(u)
-    return _positive(u)
 
 
 # ----------------------------------------------------------------------------------------------------------- functions
@@ -367,7 +326,7 @@ def _of_elliptic_integral(e: Expr, last: Expr) -> Expr:
     """F, E and Pi up to phi, or pi/2: there 1 - m sin(phi)^2, and 1 - n sin(phi)^2, have no zero."""
     moduli = [last] + [e.args[0]] * isinstance(e, sympy.elliptic_pi)
     square = sympy.sin(e.args[-2]) ** 2 if len(e.args) > len(moduli) else sympy.S.One
-    return sympy.And(*(_off_the_cut(1 - m * square) for m in moduli))
+    return sympy.And(*(_positive(1 - m * square) for m in moduli))
 
 
 def _of_hypergeometric(e: Expr, u: Expr) -> Expr:
@@ -378,11 +337,12 @@ def _of_hypergeometric(e: Expr, u: Expr) -> Expr:
     defined = (sympy.Ne(1 / sympy.gamma(c), 0) for c in e.bq if c.free_symbols)
     is_polynomial = any(a.is_integer and a.is_nonpositive for a in e.ap)
     cut = 1 - u if len(e.ap) == len(e.bq) + 1 else -u
-    return sympy.And(_unless(is_polynomial or len(e.ap) <= len(e.bq), _off_the_cut(cut)), *defined)
+    return sympy.And(_unless(is_polynomial or len(e.ap) <= len(e.bq), _positive(cut)), *defined)
 
 
-#: What a function e needs, with the last argument u.
-_OF_FUNCTIONS: dict[Any, Callable[[Expr, Expr], Expr]] = {
+#: What a power or a function e needs, with the last argument u.
+_NEEDS: dict[Any, Callable[[Expr, Expr], Expr]] = {
+    sympy.Pow: _of_power,
     # inverse functions, and those with poles
     **dict.fromkeys((sympy.asin, sympy.acos), lambda e, u: _not_negative(1 - u**2)),
     sympy.acosh: lambda e, u: _not_negative(u - 1),
@@ -391,23 +351,19 @@ _OF_FUNCTIONS: dict[Any, Callable[[Expr, Expr], Expr]] = {
     **dict.fromkeys((sympy.cot, sympy.csc), lambda e, u: _nonzero(sympy.sin(u))),
     **dict.fromkeys((sympy.coth, sympy.csch, sympy.Ei), lambda e, u: _nonzero(u)),
     # with a cut from 0 to -oo
-    **dict.fromkeys(
-        (sympy.log, sympy.Ci, sympy.expint, sympy.uppergamma, sympy.lowergamma), lambda e, u: _off_the_cut(u)
-    ),
-    sympy.polylog: lambda e, u: _off_the_cut(1 - u),
+    **dict.fromkeys((sympy.log, sympy.Ci, sympy.expint, sympy.uppergamma, sympy.lowergamma), lambda e, u: _positive(u)),
+    sympy.polylog: lambda e, u: _positive(1 - u),
     **dict.fromkeys((sympy.elliptic_k, sympy.elliptic_e, sympy.elliptic_f, sympy.elliptic_pi), _of_elliptic_integral),
     # J_n(u) is (u/2)^n times an entire function; y_n(u) is rational in u beside waves for an integer n
-    **dict.fromkeys(
-        (sympy.besselj, sympy.besseli, sympy.jn), lambda e, u: _unless(e.args[0].is_integer, _off_the_cut(u))
-    ),
+    **dict.fromkeys((sympy.besselj, sympy.besseli, sympy.jn), lambda e, u: _unless(e.args[0].is_integer, _positive(u))),
     **dict.fromkeys((sympy.bessely, sympy.besselk), lambda e, u: _positive(u)),
-    sympy.yn: lambda e, u: _nonzero(u) if e.args[0].is_integer else _off_the_cut(u),
+    sympy.yn: lambda e, u: _nonzero(u) if e.args[0].is_integer else _positive(u),
     # polynomials for an integer n; else u > -1
     **dict.fromkeys(
         (sympy.legendre, sympy.gegenbauer, sympy.jacobi, sympy.chebyshevt, sympy.chebyshevu),
-        lambda e, u: _unless(e.args[0].is_integer, _off_the_cut(u + 1)),
+        lambda e, u: _unless(e.args[0].is_integer, _positive(u + 1)),
     ),
     # P_n^m(u) = (1 - u^2)^(m/2) times a polynomial for integers n and m
-    sympy.assoc_legendre: lambda e, u: _unless(e.args[0].is_integer and e.args[1].is_even, _off_the_cut(1 - u**2)),
+    sympy.assoc_legendre: lambda e, u: _unless(e.args[0].is_integer and e.args[1].is_even, _positive(1 - u**2)),
     sympy.hyper: _of_hypergeometric,
 }

@@ -99,7 +99,7 @@ def _is_nonzero(factor: Expr) -> bool:
 
 
 def is_positive_polynomial(p: Expr, *, or_zero: bool = False) -> bool:
-    """True if a polynomial in real letters is seen to be positive, or never negative, wherever they are.
+    """True if that is a polynomial in real letters over Q, seen to be positive, or never negative, wherever they are.
 
     a v^2 + b v + c is if a and 4 a c - b^2 are; in one letter it is if it has no real root and is positive at 0.
 
@@ -109,7 +109,9 @@ def is_positive_polynomial(p: Expr, *, or_zero: bool = False) -> bool:
     """
     letters = sorted(p.free_symbols, key=str)
     if not letters:
-        return bool(p >= 0 if or_zero else p > 0)
+        return bool(p.is_nonnegative if or_zero else p.is_positive)
+    if not p.is_polynomial() or sympy.Poly(p, *letters).domain not in (sympy.ZZ, sympy.QQ):
+        return False
     for v in letters:
         coefficients = sympy.Poly(p, v).all_coeffs()
         if len(coefficients) == 3:
