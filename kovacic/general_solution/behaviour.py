@@ -13,6 +13,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import suppress
 from dataclasses import dataclass, replace
+from functools import partial
 from itertools import islice, pairwise
 from typing import Any
 
@@ -26,7 +27,7 @@ from kovacic.closed_form.atoms import sign_of_root
 from kovacic.closed_form.jets import ANTIDERIVATIVES
 from kovacic.general_solution.steps import place_of
 from kovacic.general_solution.substitution import finite_value, size, slope
-from kovacic.general_solution.zero import agree, ball, is_zero, known_jet, opposite, samples
+from kovacic.general_solution.zero import NOT_EVALUATED, agree, ball, is_zero, known_jet, opposite, samples
 from kovacic.limits import check_time
 from kovacic.reading.parser import shown
 
@@ -159,10 +160,9 @@ def _by_sympy(e: Expr, variable: Expr, towards: Expr) -> Any:
         return None
     constant, rest = e.as_independent(variable, as_Add=False)
     rates = _rates_with_signs(rest, variable)
-    try:
+    found = sympy.nan
+    with suppress(*NOT_EVALUATED, RecursionError, sympy.PoleError):
         found = sympy.limit(rest.xreplace(rates), variable, towards)
-    except (NotImplementedError, ValueError, TypeError, AttributeError, RecursionError, sympy.PoleError):
-        return None
     if found.has(sympy.Limit, sympy.nan, sympy.Order):  # it is left undone
         return None
     return found if found.has(sympy.AccumBounds) else constant * found
@@ -309,34 +309,24 @@ def _confluent_below(top: Sequence[Any], bottom: Sequence[Any], z: Expr) -> Expr
     return sympy.powsimp(sympy.expand(exp(-z) * _confluent([sympy.expand(bottom[0] - top[0])], bottom, z)))
 
 
-def _bessel_hyper(sign: int) -> Rule:
+def _bessel_hyper(sign: int, _: Sequence[Any], bottom: Sequence[Any], z: Expr) -> Expr:
     """0F1, which is I for z to +oo, and J for z to -oo."""
-
-    def rule(_: Sequence[Any], bottom: Sequence[Any], z: Expr) -> Expr:
-        (b,) = bottom
-        wave = exp(2 * sqrt(z)) / 2 if sign > 0 else cos(2 * sqrt(z) - pi * (2 * b - 1) / 4)
-        return gamma(b) / sqrt(pi) * z ** ((1 - 2 * b) / 4) * wave
-
-    return rule
+    (b,) = bottom
+    wave = exp(2 * sqrt(z)) / 2 if sign > 0 else cos(2 * sqrt(z) - pi * (2 * b - 1) / 4)
+    return gamma(b) / sqrt(pi) * z ** ((1 - 2 * b) / 4) * wave
 
 
-def _tricomi(sign: int) -> Rule:
+def _tricomi(sign: int, top: Sequence[Any], _: Sequence[Any], z: Expr) -> Expr | None:
     """2F0(a, b; z) = w^a U(a, a - b + 1, w), w = -1/z to 0: the smaller of the powers w^a and w^b, by the sign of a - b."""
-
-    def rule(top: Sequence[Any], _: Sequence[Any], z: Expr) -> Expr | None:
-        a, b = top
+    w = -sign / z
+    top = sorted(top, key=lambda a: not _is_natural(-a))
+    for a, b in (top, top[::-1]):
         c = sympy.expand(a - b)
-        w = -sign / z
-        if any(_is_natural(-v) for v in top):  # a polynomial
-            N, other = (-a, b) if _is_natural(-a) else (-b, a)
-            return rf(other, N) / w**N
-        if c == 0:
-            return -(w**a) * log(w) / gamma(a)
+        if _is_natural(-a):  # a polynomial
+            return rf(b, -a) * w**a
         if c.is_negative:
             return gamma(-c) / gamma(b) * w**a
-        return gamma(c) / gamma(a) * w**b if c.is_positive else None
-
-    return rule
+    return -(w**a) * log(w) / gamma(a) if c == 0 else None
 
 
 def _gauss_at_one(top: Sequence[Any], bottom: Sequence[Any], w: Expr) -> Expr | None:
@@ -367,13 +357,9 @@ def _is_natural(N: Expr) -> bool:
 
 def _airy(constant: Expr, sign: int, power: Rational, wave: Any, shift: Expr) -> dict[Any, Rule]:
     """Ai, Bi and their derivatives: constant e^(+-zeta) z^power/sqrt(pi) with zeta = 2 z^(3/2)/3, and waves of zeta."""
-
-    def zeta(z: Expr) -> Expr:
-        return 2 * z ** Rational(3, 2) / 3
-
     return {
-        sympy.oo: lambda z: constant * exp(sign * zeta(z)) * z**power / sqrt(pi),
-        -sympy.oo: lambda z: wave(zeta(z) + shift) * z**power / sqrt(pi),
+        sympy.oo: lambda z: constant * exp(sign * 2 * z ** Rational(3, 2) / 3) * z**power / sqrt(pi),
+        -sympy.oo: lambda z: wave(2 * z ** Rational(3, 2) / 3 + shift) * z**power / sqrt(pi),
     }
 
 
@@ -385,29 +371,21 @@ def _polynomial(leading: Callable[..., Expr]) -> dict[Any, Rule]:
     }
 
 
-def _first_kind(sign: int) -> Rule:
+def _first_kind(sign: int, nu: Expr, z: Expr) -> Expr | None:
     """J and I at 0, of an order that isn't an integer known to SymPy."""
-
-    def rule(nu: Expr, z: Expr) -> Expr | None:
-        return None if nu.is_Integer else (z / 2) ** nu / gamma(nu + 1) * _series((), (nu + 1,), sign * z**2 / 4)
-
-    return rule
+    return None if nu.is_Integer else (z / 2) ** nu / gamma(nu + 1) * _series((), (nu + 1,), sign * z**2 / 4)
 
 
-def _second_kind(constant: Expr) -> Rule:
+def _second_kind(constant: Expr, nu: Expr, z: Expr) -> Expr | None:
     """Y and K at 0: Gamma(nu)/2 (2/z)^nu times a constant, or the logarithm."""
-
-    def rule(nu: Expr, z: Expr) -> Expr | None:
-        if nu == 0:
-            return -constant * (log(z / 2) + sympy.EulerGamma)
-        return constant * gamma(nu) / 2 * (2 / z) ** nu if nu.is_positive else None
-
-    return rule
+    if nu == 0:
+        return -constant * (log(z / 2) + sympy.EulerGamma)
+    return constant * gamma(nu) / 2 * (2 / z) ** nu if nu.is_positive else None
 
 
-def _wave(wave: Any) -> Rule:
+def _wave(wave: Any, nu: Expr, z: Expr) -> Expr:
     """J and Y at infinity: waves with the amplitude sqrt(2/(pi z))."""
-    return lambda nu, z: sqrt(2 / (pi * z)) * wave(z - nu * pi / 2 - pi / 4)
+    return sqrt(2 / (pi * z)) * wave(z - nu * pi / 2 - pi / 4)
 
 
 #: By function, or by the numbers of parameters of a hypergeometric one: what is taken where the argument tends to a place.
@@ -416,19 +394,24 @@ _LEADING: dict[Any, dict[Any, Rule]] = {
     sympy.airybi: _airy(_ONE, 1, -Rational(1, 4), cos, pi / 4),
     sympy.airyaiprime: _airy(-sympy.S.Half, -1, Rational(1, 4), sin, -pi / 4),
     sympy.airybiprime: _airy(_ONE, 1, Rational(1, 4), sin, pi / 4),
-    sympy.besselj: {sympy.oo: _wave(cos), _ZERO: _first_kind(-1)},
-    sympy.bessely: {sympy.oo: _wave(sin), _ZERO: _second_kind(-2 / pi)},
-    sympy.besseli: {sympy.oo: lambda nu, z: exp(z) / sqrt(2 * pi * z), _ZERO: _first_kind(1)},
-    sympy.besselk: {sympy.oo: lambda nu, z: exp(-z) * sqrt(pi / (2 * z)), _ZERO: _second_kind(_ONE)},
-    sympy.jn: {_ZERO: lambda n, z: sqrt(pi / (2 * z)) * _first_kind(-1)(n + Rational(1, 2), z)},
-    sympy.yn: {_ZERO: lambda n, z: sqrt(pi / (2 * z)) * _second_kind(-2 / pi)(n + Rational(1, 2), z)},
+    sympy.besselj: {sympy.oo: partial(_wave, cos), _ZERO: partial(_first_kind, -1)},
+    sympy.bessely: {sympy.oo: partial(_wave, sin), _ZERO: partial(_second_kind, -2 / pi)},
+    sympy.besseli: {sympy.oo: lambda nu, z: exp(z) / sqrt(2 * pi * z), _ZERO: partial(_first_kind, 1)},
+    sympy.besselk: {sympy.oo: lambda nu, z: exp(-z) * sqrt(pi / (2 * z)), _ZERO: partial(_second_kind, _ONE)},
+    sympy.jn: {_ZERO: lambda n, z: sqrt(pi / (2 * z)) * _first_kind(-1, n + Rational(1, 2), z)},
+    sympy.yn: {_ZERO: lambda n, z: sqrt(pi / (2 * z)) * _second_kind(-2 / pi, n + Rational(1, 2), z)},
     sympy.hermite: _polynomial(lambda N: 2**N),
     sympy.laguerre: _polynomial(lambda N: (-1) ** N / factorial(N)),
     sympy.assoc_laguerre: _polynomial(lambda N: (-1) ** N / factorial(N)),
     sympy.legendre: {-_ONE: lambda n, w: None if n.is_integer else sin(pi * n) / pi * log(w / 2)},
-    (0, 1): {_ZERO: _series, sympy.oo: _bessel_hyper(1), -sympy.oo: _bessel_hyper(-1)},
+    (0, 1): {_ZERO: _series, sympy.oo: partial(_bessel_hyper, 1), -sympy.oo: partial(_bessel_hyper, -1)},
     (1, 1): {_ZERO: _series, sympy.oo: _confluent, -sympy.oo: _confluent_below},
-    (2, 0): {_ZERO: _series, sympy.oo: _tricomi(1), sympy.zoo: _tricomi(1), -sympy.oo: _tricomi(-1)},
+    (2, 0): {
+        _ZERO: _series,
+        sympy.oo: partial(_tricomi, 1),
+        sympy.zoo: partial(_tricomi, 1),
+        -sympy.oo: partial(_tricomi, -1),
+    },
     (2, 1): {_ZERO: _series, _ONE: _gauss_at_one},
     (2, 2): {_ZERO: _series},
     (1, 2): {_ZERO: _series},
@@ -500,22 +483,15 @@ def _just_before(e: Expr, jump: Expr, x: Expr, point: Expr, order: int) -> Expr:
     """The value of a step or an impulse just before the point; as H(u, 0) where parameters may put the point on the step."""
     if isinstance(jump, sympy.DiracDelta):
         return _ZERO
-    u = sympy.expand(jump.args[0].subs(x, point))
     place = place_of(jump, x)
-    at_the_jump = _ZERO
-    if place is not None and place.slope.is_negative:  # H(s (x - a)) is 1 before a
-        at_the_jump = sympy.Integer(1)
-    if u == 0:
-        return at_the_jump
-    step = sympy.Heaviside(u)
-    if not isinstance(step, sympy.Heaviside):
+    is_one_before = place is not None and bool(place.slope.is_negative)  # H(s (x - a)) is 1 before a
+    step = sympy.Heaviside(sympy.expand(jump.args[0].subs(x, point)), int(is_one_before))
+    if place is None or not isinstance(step, sympy.Heaviside):
         return step
-    if place is not None:  # neither the function nor its slope may jump where the step does
-        across = (e.xreplace({jump: sympy.Integer(1)}) - e.xreplace({jump: _ZERO})).diff(x, order)
-        value = finite_value(across, x, place.a)
-        if value is not None and is_zero(value):
-            return step
-    return sympy.Heaviside(u, at_the_jump)
+    # Neither the function nor its slope may jump where the step does.
+    across = (e.xreplace({jump: _ONE}) - e.xreplace({jump: _ZERO})).diff(x, order)
+    value = finite_value(across, x, place.a)
+    return sympy.Heaviside(step.args[0]) if value is not None and is_zero(value) else step
 
 
 def have_values(expressions: Sequence[Expr], x: Expr, point: Expr) -> bool:
@@ -525,9 +501,6 @@ def have_values(expressions: Sequence[Expr], x: Expr, point: Expr) -> bool:
     >>> have_values([x, 1 / x], x, sympy.Integer(0))
     False
     """
-    try:
-        for expression in expressions:
-            value_at(expression, x, point)
-    except NotImplementedError:
-        return False
-    return True
+    with suppress(NotImplementedError):
+        return all(value_at(expression, x, point) is not None for expression in expressions)
+    return False

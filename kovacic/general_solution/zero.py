@@ -12,6 +12,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Iterator, Sequence
+from contextlib import suppress
 from enum import Enum
 from itertools import islice
 from typing import Any
@@ -210,10 +211,9 @@ def ball(value: Expr, sample: dict[Expr, Expr] | None = None) -> Any:
 
 def known_jet(e: Expr, x: Expr, point: Any) -> Any:
     """The value and two slopes of an expression at a ball; None if a part can't be evaluated there."""
-    try:
+    with suppress(*NOT_EVALUATED):
         return jet(e, x, point)
-    except NOT_EVALUATED:
-        return None
+    return None
 
 
 def differs_from_zero(value: Expr, sample: dict[Expr, Expr]) -> bool:
