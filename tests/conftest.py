@@ -10,6 +10,7 @@ import gc
 import os
 import signal
 import sys
+from pathlib import Path
 
 import pytest
 from hypothesis import HealthCheck, Phase, settings
@@ -51,6 +52,9 @@ QUICK = {
     "test_written_solutions",
 }
 
+#: Tests that take a while, and whose branches other tests execute in less time: benchmarks/ordinary_suite.py writes the list.
+LONG = Path(os.environ.get("KOVACIC_LONG_TESTS", Path(__file__).parent / "data/long_tests.txt"))
+
 # These are about shells, terminals and signals as POSIX has them.
 collect_ignore = (
     ["batch/test_batch.py", "batch/test_batch_dask.py", "batch/test_batch_mixes.py", "cli/test_cli.py"]
@@ -70,7 +74,10 @@ def pytest_collection_finish() -> None:
 
 
 def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
+    long = set(LONG.read_text(encoding="utf-8").splitlines())
     for item in items:
+        if item.nodeid in long:
+            item.add_marker(pytest.mark.long)
         named = item.path.stem in QUICK or isinstance(item, pytest.DoctestItem)
         if item.get_closest_marker("slow") or PROFILE == "fuzz":
             item.add_marker(pytest.mark.timeout(6 * 3600))

@@ -1,0 +1,105 @@
+"""Choose the tests of the ordinary suite: few seconds that execute every branch that all its tests execute.
+
+    python benchmarks/ordinary_suite.py                  # of all tests not marked `long` or `slow` by hand, in 10 to 20 minutes
+    python benchmarks/ordinary_suite.py tests/galois     # of some: arguments for pytest
+
+Needs pytest-cov.  Writes tests/data/long_tests.txt: the tests of SECONDS or more whose branches others execute in less time.
+`tests/conftest.py` marks them `long`, so that .ci/run has them.  A test that isn't listed is ordinary.
+
+Method: V. Chvatal, "A greedy heuristic for the set-covering problem", Mathematics of Operations Research 4 (1979).
+"""
+
+from __future__ import annotations
+
+import heapq
+import json
+import os
+import sqlite3
+import subprocess
+import sys
+import tempfile
+import time
+from collections import defaultdict
+from collections.abc import Iterator
+from pathlib import Path
+
+import pytest
+
+ROOT = Path(__file__).resolve().parent.parent
+LISTED = ROOT / "tests/data/long_tests.txt"
+#: Of processor time: shorter tests cost less than a list of them is worth.
+SECONDS = 0.1
+#: What each test costs beside its own time: its collection, its set-up.
+OVERHEAD = 0.003
+
+
+@pytest.hookimpl(wrapper=True)
+def pytest_runtest_protocol(item: pytest.Item) -> Iterator[None]:
+    """As a plugin of the run: the processor time of each test, a line each, in a file for each process."""
+    start = time.process_time()
+    result = yield
+    line = json.dumps([item.nodeid, time.process_time() - start])
+    with Path(os.environ["SECONDS_OF_TESTS"], f"{os.getpid()}.jsonl").open("a", encoding="utf-8") as file:
+        print(line, file=file)
+    return result
+
+
+def measured(arguments: list[str]) -> tuple[dict[str, float], dict[str, set[int]]]:
+    """The seconds of each test, and the branches that it executes, by numbers."""
+    with tempfile.TemporaryDirectory() as folder:
+        added = {
+            "COVERAGE_FILE": f"{folder}/coverage",
+            "KOVACIC_LONG_TESTS": os.devnull,
+            "PYTHONPATH": os.pathsep.join([str(ROOT / "benchmarks"), os.environ.get("PYTHONPATH", "")]),
+            "SECONDS_OF_TESTS": folder,
+        }
+        options = ["--cov=kovacic", "--cov-branch", "--cov-context=test", "--cov-report="]
+        command = [sys.executable, "-m", "pytest", "--quiet", "-n", "auto", "-p", "ordinary_suite", *options]
+        if subprocess.run([*command, *arguments], cwd=ROOT, env=os.environ | added, check=False).returncode:
+            raise SystemExit("a test fails")
+        files = Path(folder).glob("*.jsonl")
+        seconds: dict[str, float] = dict(json.loads(line) for f in files for line in f.read_text().splitlines())
+        branches, numbers = defaultdict[str, set[int]](set), dict[tuple[int, int, int], int]()
+        with sqlite3.connect(f"{folder}/coverage") as store:  # coverage.readthedocs.io/en/latest/dbschema.html
+            rows = store.execute(
+                "select context, file_id, fromno, tono from arc join context on context.id = context_id"
+            )
+            for context, *arc in rows:
+                number = numbers.setdefault((arc[0], arc[1], arc[2]), len(numbers))
+                branches[context.rpartition("|")[0]].add(number)
+        return seconds, {test: branches[test] for test in seconds}
+
+
+def covering(seconds: dict[str, float], branches: dict[str, set[int]]) -> set[str]:
+    """Tests that execute all branches: again and again the one with the most new branches in a second."""
+    left = set[int]().union(*branches.values())
+
+    def rate(test: str) -> float:
+        return -len(branches[test] & left) / (seconds[test] + OVERHEAD)
+
+    queue = sorted((rate(test), test) for test in seconds)
+    chosen = set[str]()
+    while left:
+        # Rates only fall as branches are covered: a test that is still the first with its present rate is the best.
+        test = heapq.heappop(queue)[1]
+        if queue and (now := rate(test)) > queue[0][0]:
+            heapq.heappush(queue, (now, test))
+        else:
+            chosen.add(test)
+            left -= branches[test]
+    return chosen
+
+
+def main() -> None:
+    """Write the list, and print what it saves."""
+    seconds, branches = measured(sys.argv[1:])
+    chosen = covering(seconds, branches)
+    # .ci/run looks for long tests in tests/; docstrings are tested where they stand.
+    listed = [t for t in seconds if t not in chosen and seconds[t] >= SECONDS and t.startswith("tests/")]
+    LISTED.write_text("".join(f"{test}\n" for test in sorted(listed)), encoding="utf-8")
+    saved = sum(seconds[test] for test in listed)
+    print(f"{len(listed)} of {len(seconds)} tests are long, with {saved:.0f} of {sum(seconds.values()):.0f} s")
+
+
+if __name__ == "__main__":
+    main()
