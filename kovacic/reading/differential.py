@@ -23,7 +23,7 @@ from kovacic.algebra.extension import AlgebraicField
 from kovacic.algebra.poly import Field, Poly
 from kovacic.algebra.ratfunc import RatFunc
 from kovacic.equation import ENERGY, EULER, PI, UNKNOWN, Equation, over
-from kovacic.errors import NotLinear, NotRational
+from kovacic.errors import NotLinear, NotRational, ParseError
 from kovacic.limits import Limits
 from kovacic.numbers.numerals import as_text
 from kovacic.reading.arithmetic import VARIABLE, Arithmetic, Monomial, Value
@@ -176,11 +176,13 @@ class EquationReader(RationalReader):
         if head in DERIVATIVES:
             order = differentiations(arguments, self)
             return self._derived(arguments[0], order)
+        if head in self.names:
+            hint = f"for a product write {head}*({site.inside()})"
+            raise ParseError(f"{head} is followed by a parenthesis like a function", hint=hint)
         try:
             return super().call(head, arguments, site)
         except NotRational:
-            is_name = head.isidentifier() and head != self.variable
-            is_given = is_name and len(arguments) == 1 and self.is_variable(arguments[0])
+            is_given = head.isidentifier() and len(arguments) == 1 and self.is_variable(arguments[0])
             if is_given and self.source.has_functions:
                 import sympy
 
