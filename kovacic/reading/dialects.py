@@ -11,8 +11,7 @@ read is kept in `closers` until then.  Linear time, no recursion; every token ke
 from __future__ import annotations
 
 import re
-from collections.abc import Callable, Sequence
-from string import ascii_letters, digits
+from collections.abc import Callable
 
 from kovacic.errors import ParseError
 from kovacic.limits import check_time
@@ -146,10 +145,6 @@ class _Latex:
         r"""\mathrm{d}, \operatorname{sech}, \text{eff}: a name, of which the braces are no parentheses."""
         following = self.scan[self.k] if self.k < len(self.scan) else command
         if following.kind == "WORD":  # \mathrm dt
-            self.k += 1
-            first = following.start + 1
-            self.found.append(Token("WORD", following.text[0], command.start, first))
-            self.letters(Token("WORD", following.text[1:], first, following.end))
             return
         group = self.group()
         name = "".join(token.text for token in group)
@@ -232,9 +227,7 @@ class _Translation:
         #: What is written before a token.
         self.closers: dict[int, list[tuple[str, str]]] = {}
         self.skipped: set[int] = set()
-        self.partner = scan.partners
-        self.bars = _bars(scan)
-        self.enclosed = self.partner | self.bars
+        self.partner = {k: last for k, last in scan.partners.items() if self.texts[k] != "|"}
 
     def tokens(self) -> Sentence:
         while self.k < len(self.scan):
@@ -289,8 +282,8 @@ class _Translation:
         text = self.texts[k]
         if depth > _DEEPEST:
             return None
-        if k in self.enclosed:
-            return self.enclosed[k] + 1
+        if k in self.scan.partners:
+            return self.scan.partners[k] + 1
         if text in FRACTIONS:
             middle = self.operand_end(k + 1, depth + 1)
             return middle and self.operand_end(middle, depth + 1)
@@ -581,9 +574,9 @@ class _Translation:
             raise error_at(self.text, said, [token, self.scan[end - is_product]], hint)
 
     def bar(self, token: Token) -> bool:
-        if self.k in self.bars:
+        if self.k in self.scan.partners:
             self.head("abs", token)
-        elif self.k in self.bars.values():
+        elif self.k in self.scan.partners.values():
             self.write("RPAR", ")", token)
         else:
             return False
@@ -618,23 +611,6 @@ _TOKEN_RULES: dict[str, tuple[_TokenRule, ...]] = {
 }
 
 
-def _bars(scan: Sequence[Token]) -> dict[int, int]:
-    """The number of the bar that closes |x|, by that of the one that opens; a bar is closed within the same brackets."""
-    found: dict[int, int] = {}
-    opened: list[int | None] = [None]
-    for k, token in enumerate(scan):
-        if token.text in OPENING:
-            opened.append(None)
-        elif token.text in CLOSING and len(opened) > 1:
-            opened.pop()
-        elif token.text == "|" and opened[-1] is None:
-            opened[-1] = k
-        elif token.text == "|":
-            found[opened[-1]] = k  # type: ignore[index]
-            opened[-1] = None
-    return found
-
-
 #: This package's own notation alone: whole numbers, single letters with their primes, signs.  Not numbers of lists and
 #: equations, "2) y''", "(2) y''", "y'' = y (2)", nor what may begin a comment.
 _PLAIN_TEXT = re.compile(
@@ -645,18 +621,9 @@ _PLAIN_TEXT = re.compile(
     """,
     re.VERBOSE | re.ASCII,
 )
-_PLAIN_TOKEN = re.compile(r"[0-9]+|[A-Za-z]'*|\*\*|[^ ]")
-_PLAIN_CALL = re.compile(r"[A-Za-z'] *\(")
-
-
-class _PlainKinds(dict[str, str]):
-    """The kind of every piece of a plain text: signs, letters and digits are in the table, longer pieces are not."""
-
-    def __missing__(self, piece: str) -> str:
-        return "NUMBER" if piece.isdecimal() else "PRIMED"
-
-
-_PLAIN_KINDS = _PlainKinds({**_SIGN_KINDS, **dict.fromkeys(ascii_letters, "NAME"), **dict.fromkeys(digits, "NUMBER")})
+_PLAIN_TOKEN = re.compile(
+    r"(?P<HEAD>[A-Za-z]'*(?=\ *\())|(?P<NUMBER>[0-9]+)|(?P<PRIMED>[A-Za-z]'+)|(?P<NAME>[A-Za-z])|\*\*|[^ ]"
+)
 
 
 def plain_tokens(text: str) -> Sentence | None:
@@ -667,10 +634,10 @@ def plain_tokens(text: str) -> Sentence | None:
     """
     if _PLAIN_TEXT.fullmatch(text) is None or text.isspace():
         return None
-    found = [Token(_PLAIN_KINDS[match[0]], match[0], *match.span()) for match in _PLAIN_TOKEN.finditer(text)]
-    for k, token in enumerate(found if _PLAIN_CALL.search(text) else ()):
-        if token.text == "(" and k and found[k - 1].kind in ("NAME", "PRIMED"):
-            found[k - 1] = found[k - 1]._replace(kind="HEAD")
+    found = [
+        Token(match.lastgroup or _SIGN_KINDS[match[0]], match[0], *match.span())
+        for match in _PLAIN_TOKEN.finditer(text)
+    ]
     return Sentence([*found, Token("$END", "", len(text), len(text))], text)
 
 

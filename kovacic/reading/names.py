@@ -38,6 +38,7 @@ SEVERAL_ARGUMENTS |= {"max": "Max", "min": "Min"}
 #: What to write for functions that have other names here, some of which may be products: tg is tan, or t g.
 INSTEAD = {"tg": "tan(...)", "ctg": "cot(...)", "cotg": "cot(...)", "arctg": "atan(...)", "arcctg": "acot(...)"}
 INSTEAD |= {"sen": "sin(...)", "cosec": "csc(...)", "sh": "sinh(...)", "ch": "cosh(...)", "th": "tanh(...)"}
+INSTEAD |= dict.fromkeys(("EI", "IE"), "one letter for a stiffness, such as B")
 INSTEAD |= dict.fromkeys(("log2", "log10", "lg", "log_2", "log_10"), "log(x)/log(b) for the logarithm to the base b")
 #: Powers as calls: of C, SymPy and Mathematica, of spreadsheets.
 POWER_CALLS = frozenset({"pow", "Pow", "Power", "POWER"})
@@ -77,11 +78,11 @@ def words_among(names: Iterable[object]) -> tuple[str, ...]:
     return tuple(name for name in names if isinstance(name, str) and (name in NUMBERS or not is_letter(name)))
 
 
-_FUNCTIONS = frozenset({*FUNCTION_NAMES, "sqrt", "cbrt", "root", *SEVERAL_ARGUMENTS})
+FUNCTIONS = frozenset({*FUNCTION_NAMES, "sqrt", "cbrt", "root", *SEVERAL_ARGUMENTS})
 
 
 def is_function(name: str) -> bool:
-    return name in _FUNCTIONS
+    return name in FUNCTIONS
 
 
 #: The parts of a word that was glued together: functions, Greek letters, letters with an index, digits; no ell, as in hello.

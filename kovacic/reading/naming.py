@@ -44,10 +44,24 @@ _NO_VARIABLES = frozenset({*NUMBER_NAMES, ENERGY, "e", "D"})
 OPERATOR = "D"
 _NAME = r"[^\W\d]\w*"
 _ROOT = pattern(r"\^ 1 / (\d+)")
-_STIFFNESS = pattern(r"(?:E (?:\* )?I|I (?:\* )?E)(?! \()")
-#: e^2x, which is e^(2x) or e^2 x, and 1e-3y, which is 0.001 y or e - 3 y; what to write.
-_EXPONENT = pattern(rf"e \^ (?:- )?[\d.]+~({_NAME})(?! \()"), "write e^({0}*{1}) or e^({0})*{1}"
-_POWER_OF_TEN = pattern(rf"[\d.]+~[eE]~[-+]~\d+~({_NAME})'*"), "write {0}*{1} for the decimal"
+#: What has two readings, with what to write: e^2x is e^(2x) or e^2 x, 1e-3y is 0.001 y or e - 3 y.
+_EXPONENT = (
+    r"e \^ ((?:- )?[\d.]+)~(NAME)(?! \()",
+    "{0} can be read in two ways",
+    "write e^({1}*{2}) or e^({1})*{2}",
+)
+_POWER_OF_TEN = r"([\d.]+~[eE]~[-+]~\d+)~(NAME'*)", "{0} can be read in two ways", "write {1}*{2} for the decimal"
+_DECIMAL = (
+    r"([\d.]+)({x})([-+]?)(\d+)",
+    "{0} can be read as a decimal or as {1}*{2}{3}{4}, the variable being {2}",
+    "write decimals without an exponent, and products with *",
+)
+_STIFFNESS = (
+    r"(E (?:\* )?I|I (?:\* )?E)(?! \()",
+    "E I may be a stiffness, or an energy times the imaginary unit",
+    "take one letter for a stiffness, such as B; or declare I as a parameter: ",
+    ("parameters=['I']", "--names I"),
+)
 _GLUED_INDEX = re.compile(rf"{LETTER}_\d+([^\W\d_]+)")
 #: y'', diff(y, x), diff(y(x), x), and diff((y(x)), x) for d/dx(y(x)).
 _DIFFERENTIATED = pattern(
@@ -86,19 +100,19 @@ class Vocabulary:
         The `notes` say what was left out around it.
         """
         y, has_operator = self._unknown_of(tokens) if is_equation else ("", False)
-        if is_equation:
-            _check_stiffness(tokens, self.declared)
-        _check_two_readings(tokens, *_POWER_OF_TEN)
+        if is_equation and "I" not in self.declared:
+            _check_readings(tokens, *_STIFFNESS)
+        _check_readings(tokens, *_POWER_OF_TEN)
         choose = _equation_variable if is_equation else _variable_of_S
         x, why = (self.variable, None) if self.variable else choose(tokens, y, self.declared)
         if x == y:
             said = f"{y} is the unknown function, and can't be the variable"
             raise InputError(said, hint="name another variable: var='x'", shell="name another variable: --var x")
         if x in ("e", "E"):
-            _check_decimals(tokens, x)
+            _check_readings(tokens, _DECIMAL[0].replace("{x}", x), *_DECIMAL[1:])
         split, products = self._with_products(tokens, x, y)
         if x != "e":
-            _check_two_readings(split, *_EXPONENT, unknown=y)
+            _check_readings(split, *_EXPONENT, unknown=y)
         reasons = [why] if why else []
         named, factors = _with_factors(split, x, y) if "HEAD" in split.kinds else (split, [])
         guesses = [*_guesses(tokens), *products, *factors, *self._imaginary_unit(split, x, y)]
@@ -156,8 +170,8 @@ class Vocabulary:
         for k in reversed(unknown):
             kind, piece, start, end = rows[k]
             name = piece.rstrip(PRIMES)
-            is_product = len(name) == 2 and name.isalpha() and {*name} & {x, y}
-            if not is_product or (name[0] == y and name[1] not in (x, y)):  # Ta: a product begins with its coefficient
+            # A product begins with its coefficient.
+            if len(name) != 2 or not name.isalpha() or not (name[0] == x or name[1] in (x, y)):
                 raise self._unknown_name(tokens, unknown[0], x, y)
             if tokens.are(k - 1, "CIRCUMFLEX") or tokens.are(k - 2, "CIRCUMFLEX", "MINUS"):
                 hint = f"write ({name[0]}*{name[1]}) for the product"
@@ -186,8 +200,6 @@ class Vocabulary:
         bare = name.rstrip(digits)
         if name in INSTEAD:
             meant = f"write {INSTEAD[name]}"
-        elif {*name} == {"E", "I"}:
-            meant = "write one letter for a stiffness, such as B"
         elif bare in (x, y):
             number = name[len(bare) :]
             meant = f"write {bare}^{number} or {number}*{bare}"
@@ -215,38 +227,17 @@ def _guesses(tokens: Sentence) -> Iterator[str]:
             yield f"{function}/{below} was read as ({function})/{below}"
 
 
-def _check_stiffness(tokens: Sentence, declared: Collection[str]) -> None:
-    """Raises `ParseError` for E I, which may be a stiffness, or the energy times the imaginary unit."""
-    has_both = {"E", "I"} <= tokens.names.keys() and "I" not in declared
-    found = _STIFFNESS.search(tokens.spaced) if has_both else None
-    if found is None:
-        return
-    hint = "take one letter for a stiffness, such as B; or declare I as a parameter: "
-    said = "E I may be a stiffness, or an energy times the imaginary unit"
-    raise tokens.error(ParseError, said, *tokens.span(found), hint=f"{hint}parameters=['I']", shell=f"{hint}--names I")
-
-
-def _check_decimals(tokens: Sentence, variable: str) -> None:
-    """Raises `ParseError` for 2e-3 with the variable e: it is 0.002, or 2*e - 3."""
-    for k, text in enumerate(tokens.pieces):
-        if tokens.kinds[k] != "NUMBER" or variable not in text:
-            continue
-        mantissa, _, rest = text.partition(variable)
-        sign = f" {rest[0]} " if rest[0] in "+-" else ""
-        other = f"{mantissa}*{variable}{sign}{rest.lstrip('+-')}"
-        message = f"{text} can be read as a decimal or as {other}, the variable being {variable}"
-        hint = "write decimals without an exponent, and products with *"
-        raise tokens.error(ParseError, message, k, k + 1, hint=hint)
-
-
-def _check_two_readings(tokens: Sentence, readings: re.Pattern[str], hint: str, unknown: str = "") -> None:
-    """Raises `ParseError` for a name, other than the unknown, that may belong to the number before it."""
-    for found in readings.finditer(tokens.spaced) if {"e", "E"} & tokens.names.keys() else ():
-        begin, behind = tokens.span(found)
-        if found[1] != unknown:
-            said = hint.format(tokens.piece(begin, behind - 1).rpartition("^")[2].strip(), tokens.pieces[behind - 1])
+def _check_readings(
+    tokens: Sentence, readings: str, said: str, hint: str, ends: Sequence[str] = ("", ""), unknown: str = ""
+) -> None:
+    """Raises `ParseError` for what has two readings, where it doesn't end with the unknown; `ends` are those of the hints."""
+    for found in pattern(readings.replace("NAME", _NAME)).finditer(tokens.spaced):
+        parts = [part.replace(" ", "") for part in found.groups()]
+        if parts[-1] != unknown:
+            begin, behind = tokens.span(found)
             whole = tokens.piece(begin, behind)
-            raise tokens.error(ParseError, f"{whole} can be read in two ways", begin, behind, hint=said)
+            shown, shell = (hint.format(whole, *parts) + end for end in ends)
+            raise tokens.error(ParseError, said.format(whole, *parts), begin, behind, hint=shown, shell=shell)
 
 
 def _with_factors(tokens: Sentence, x: str, y: str) -> tuple[Sentence, list[str]]:
@@ -310,8 +301,7 @@ def _equation_variable(tokens: Sentence, y: str, declared: Collection[str]) -> t
     for likely in (DEFAULT_VARIABLE, default, "t"):
         if likely in names:
             return likely, None
-    evidence = _evidence(tokens)
-    likely_ones = [name for name in names if _varies(name, evidence, names)]
+    likely_ones = [name for name in names if _varies(name, tokens, names)]
     if len(likely_ones) > 1:
         hint = f"write {y}''(x) for the derivative, or name the variable:"
         said = f"{', '.join(likely_ones[:6])}: which is the variable?"
@@ -341,33 +331,26 @@ def argument_of(tokens: Sentence, unknown: str) -> str | None:
     return found and (found[1] or found[2])
 
 
-def _evidence(tokens: Sentence) -> dict[str, Counter[str]]:
-    """Where each name stands: in a "function" or an exponent, as a "power", in a denominator or a "sum", or as a "factor".
+def _places(name: str, tokens: Sentence) -> Iterator[str]:
+    """Where a name stands: in a "function" or an exponent, as a "power", in a denominator or a "sum", or as a "factor".
 
     Only a variable stands elsewhere than as a factor; of several kinds the first one counts.
     """
-    found: dict[str, Counter[str]] = {}
-    around: list[bool] = []  # of the open parentheses: those of a function or an exponent?
-    for k, kind in enumerate(tokens.kinds[:-1]):
+    heads = {k: tokens.kinds[k - 1] == "CIRCUMFLEX" or is_function(tokens.pieces[k - 1]) for k in tokens.partners}
+    for k in (k for k, token in enumerate(tokens) if token[:2] == ("NAME", name)):
         before, after = tokens.kinds[k - 1], tokens.kinds[k + 1]
-        if kind == "LPAR":
-            around.append(before == "CIRCUMFLEX" or (before == "HEAD" and is_function(tokens.pieces[k - 1])))
-        elif kind == "RPAR" and around:
-            around.pop()
-        elif kind == "NAME":
-            is_below = before == "SLASH" or tokens.are(k - 2, "SLASH", "LPAR")
-            stands = "factor"
-            if any(around) or before == "CIRCUMFLEX" or tokens.are(k - 2, "CIRCUMFLEX", "MINUS"):
-                stands = "function"
-            elif after in ("CIRCUMFLEX", "SUPERSCRIPT"):
-                stands = "power"
-            elif is_below or (around and not {before, after}.isdisjoint(("PLUS", "MINUS"))):
-                stands = "sum"
-            found.setdefault(tokens.pieces[k], Counter())[stands] += 1
-    return found
+        around = [heads[begin] for begin, end in tokens.partners.items() if begin < k < end]
+        if any(around) or before == "CIRCUMFLEX" or tokens.are(k - 2, "CIRCUMFLEX", "MINUS"):
+            yield "function"
+        elif after in ("CIRCUMFLEX", "SUPERSCRIPT"):
+            yield "power"
+        elif before == "SLASH" or tokens.are(k - 2, "SLASH", "LPAR"):
+            yield "sum"
+        else:
+            yield "sum" if around and {before, after} & {"PLUS", "MINUS"} else "factor"
 
 
-def _varies(name: str, evidence: dict[str, Counter[str]], names: Collection[str]) -> bool:
+def _varies(name: str, tokens: Sentence, names: Collection[str]) -> bool:
     """True where a usual name of a variable occurs as only a variable does: more than once, or not as a factor.
 
     T, tau, rho, zeta, ... are often constants: they have to occur in a function, or as a power and otherwise.
@@ -376,7 +359,7 @@ def _varies(name: str, evidence: dict[str, Counter[str]], names: Collection[str]
     has_small = name.lower() != name and name.lower() in names
     if is_ratio or has_small or name not in USUAL_VARIABLES:
         return False
-    found = evidence.get(name, Counter())
+    found = Counter(_places(name, tokens))
     if name in _OFTEN_CONSTANT:
         return found["function"] > 0 or found.total() > found["power"] > 0
     return name == "z" or found.total() > min(found["factor"], 1)

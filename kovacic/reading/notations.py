@@ -16,7 +16,7 @@ from typing import NamedTuple
 from kovacic.compatibility import cached_property
 from kovacic.errors import InputError
 from kovacic.reading.lexer import DERIVATIVES, DOTS, PRIMES, Token, scanned
-from kovacic.reading.names import BARE, FUNCTION_NAMES, GREEK, LETTER
+from kovacic.reading.names import BARE, FUNCTION_NAMES, FUNCTIONS, GREEK, LETTER, SPECIAL_LETTERS
 
 Match = re.Match[str]
 OPENING = frozenset("([{")
@@ -27,8 +27,7 @@ MAKERS = frozenset("symbols Symbol Function function var symfun Differential".sp
 SOLVERS = frozenset(
     "DSolve NDSolve DSolveValue NDSolveValue dsolve desolve ode2 contrib_ode rhs kovacicsols".split()  # noqa: SIM905
 )
-_KNOWN_WORDS = {*FUNCTION_NAMES, *GREEK, *DERIVATIVES, *SOLVERS, "Eq", "Equality", "hbar", "ell", "eps", "lam"}
-_KNOWN_WORDS |= {"sqrt", "cbrt", "root", "Piecewise", "SingularityFunction", "max", "min", "Max", "Min"}
+_KNOWN_WORDS = FUNCTIONS | GREEK | SPECIAL_LETTERS | DERIVATIVES | SOLVERS | {"Eq", "Equality"}
 #: What patterns are written with: one space glues tokens together or not, ~ glues them, and · is a gap between them.
 _PATTERN_SIGNS = {
     "OPEN": r"[(\[{]",
@@ -87,20 +86,24 @@ class Tokens(list[Token]):
 
     @cached_property
     def partners(self) -> dict[int, int]:
-        """Maps the index of each opening bracket to that of the bracket that closes it."""
+        """Maps the index of each opening bracket, or bar, to that of the one that closes it; bars do so within brackets."""
         found: dict[int, int] = {}
         opened: list[int] = []
-        for k, token in enumerate(self):
-            if token.text in OPENING:
-                opened.append(k)
-            elif token.text in CLOSING and opened:
+        for k, (_, text, _, _) in enumerate(self):
+            is_bar = bool(opened) and self[opened[-1]].text == "|"
+            if is_bar and text in CLOSING:
+                opened.pop()
+            if opened and (text in CLOSING or (is_bar and text == "|")):
                 found[opened.pop()] = k
+            elif text in OPENING or text == "|":
+                opened.append(k)
         return found
 
     @cached_property
     def depths(self) -> list[int]:
-        """The number of brackets that are open behind each token, less those that close nothing."""
-        return [*accumulate((token.text in OPENING) - (token.text in CLOSING) for token in self)]
+        """The number of brackets that are open behind each token."""
+        steps = ((token.text in OPENING) - (token.text in CLOSING) for token in self)
+        return [*accumulate(steps, lambda depth, step: max(0, depth + step), initial=0)][1:]
 
     def split(self, signs: Collection[str] = (",",)) -> list[Tokens]:
         """The parts between commas, or other signs, outside all brackets."""

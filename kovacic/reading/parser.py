@@ -175,7 +175,7 @@ class _Parser:
         return True
 
     def parenthesis(self, k: int) -> bool:
-        if k == 0 or self.kinds[k - 1] != "HEAD":
+        if self.kinds[k - 1] != "HEAD":
             self.open(_Group(k))
         return True
 
@@ -189,20 +189,16 @@ class _Parser:
         return True
 
     def power(self, k: int) -> bool:
+        """Of the operand that follows, or of the token itself, a superscript."""
         if self.kinds[k - 1] == "SUPERSCRIPT":  # x²^3
             self.complete(k)  # what is wrong before it is found first
             raise self.syntax_error(k)
         self.pending.append((_POWER, k))
-        return True
-
-    def superscript(self, k: int) -> bool:
-        if self.kinds[k - 1] == "SUPERSCRIPT":
-            self.complete(k)
-            raise self.syntax_error(k)
-        base = self.operands[-1]
-        self.site.span = base.begin, k, k + 1
+        if self.kinds[k] == "CIRCUMFLEX":
+            return True
+        self.site.span = self.operands[-1].begin, k, k + 1
         exponent = self.arithmetic.signed_integer(self.pieces[k].translate(SUPERSCRIPT_DIGITS))
-        base.value = self.reader.power(base.value, self.arithmetic.constant(exponent), self.site)
+        self.operands.append(_Operand(self.arithmetic.constant(exponent), k))
         return False
 
     def implicit_product(self, k: int) -> bool:
@@ -362,7 +358,7 @@ _PREFIX = {
 _INFIX = {
     **dict.fromkeys(_BINARY, _Parser.binary),
     "CIRCUMFLEX": _Parser.power,
-    "SUPERSCRIPT": _Parser.superscript,
+    "SUPERSCRIPT": _Parser.power,
     **dict.fromkeys(_OPERANDS, _Parser.implicit_product),
     "RPAR": _Parser.close,
     "COMMA": _Parser.comma,
@@ -406,7 +402,7 @@ _Fault = tuple[str, int, int, str | None]
 def _syntax_error(tokens: Sentence, k: int, opened: Sequence[int]) -> InputError:
     """The error for token k, which can't follow the tokens before it; `opened` are the open parentheses."""
     kind, piece = tokens.kinds[k], tokens.pieces[k]
-    before = tokens.kinds[k - 1] if k else ""
+    before = tokens.kinds[k - 1]
     fault: _Fault = f"{piece!r} doesn't belong here", k, k, None
     if kind == "$END":
         fault = _incomplete(tokens, k, opened)
@@ -420,12 +416,8 @@ def _syntax_error(tokens: Sentence, k: int, opened: Sequence[int]) -> InputError
     elif kind == "COMMA":
         fault = _comma(tokens, k)
     elif kind in (*_BINARY_KINDS, "SUPERSCRIPT"):
-        fault = (
-            f"there is nothing before {piece!r} for it to act on",
-            k,
-            k,
-            "write the number or name that belongs there",
-        )
+        said = f"there is nothing before {piece!r} for it to act on"
+        fault = said, k, k, "write the number or name that belongs there"
     elif kind == "EQUAL":
         fault = (*fault[:3], "an equation has one equals sign, outside all parentheses")
     message, begin, last, hint = fault
@@ -435,7 +427,7 @@ def _syntax_error(tokens: Sentence, k: int, opened: Sequence[int]) -> InputError
 def _incomplete(tokens: Sentence, end: int, opened: Sequence[int]) -> _Fault:
     """Of the end of the text."""
     last = end - 1
-    if end and tokens.kinds[last] in (*_BINARY_KINDS, "EQUAL", "COMMA"):
+    if tokens.kinds[last] in (*_BINARY_KINDS, "EQUAL", "COMMA"):
         return f"the expression ends after {tokens.pieces[last]!r}", last, last, "something is missing after it"
     if not opened:
         return "the expression isn't complete", end, end, None

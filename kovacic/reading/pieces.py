@@ -28,10 +28,8 @@ from kovacic.reading.lexer import DERIVATIVES, PRIMES, Token, error_at, scanned
 from kovacic.reading.names import is_function, is_letter
 from kovacic.reading.notations import (
     AROUND,
-    CLOSING,
     MAKERS,
     NOTATIONS,
-    OPENING,
     SOLVERS,
     Sentence,
     Tokens,
@@ -104,11 +102,10 @@ def _plain_tokens(text: str) -> Tokens:
 def _statements(scan: Tokens) -> Iterator[Tokens]:
     """The statements that commas, semicolons, words and ends of lines separate."""
     current: list[Token] = []
-    depth = 0
     is_first = True
     is_complete = False
     for k, token in enumerate(scan):
-        depth = max(0, depth + (token.text in OPENING) - (token.text in CLOSING))
+        depth = scan.depths[k]
         if depth == 0 and token.text in _SEPARATORS and _SEPARATORS[token.text](scan, k, current, is_complete):
             yield from [Tokens(current)] * bool(current)
             is_first = is_first and not current
@@ -340,9 +337,11 @@ class Paste:
         return self.named.pop(part[0].text, part) if len(part) == 1 else part
 
     def list_of(self, scan: Tokens) -> bool:
-        """{y'' + y = 0, y(0) = 1}."""
+        """{y'' + y = 0, y(0) = 1}, and SymPy's {y(0): 1}."""
         if scan[0].text not in ("{", "[") or not scan.is_enclosed:
             return False
+        if scan[0].text == "{":
+            scan = Tokens(token._replace(text="=") if token.text == ":" else token for token in scan)
         names = [token.text for token in scan[1:-1] if token.text != ","]
         if self.named.keys() >= {*names}:  # MATLAB's [cond1 cond2], too
             parts = [self.named.pop(name) for name in dict.fromkeys(names)]
@@ -358,16 +357,11 @@ class Paste:
     def argument(self, part: Tokens, names: set[str]) -> bool:
         """An argument behind the equation; false where it says nothing that is read."""
         match [token.text for token in part]:
-            case ["ivar" | "dvar" | "func" | "function" as keyword, "=", name, *_]:
+            case ["ivar" | "dvar" | "func" | "function" | "ics" as keyword, "=", name, *_]:
                 self.variable = name if keyword == "ivar" else self.variable
-                return self.argument(Tokens(part[2:]), names)
-            case ["singsol" | "IncludeSingularSolutions", *_] | ["ics", "="] | ["ics", "=", "{", "}"]:
+                return self.argument(self.resolved(Tokens(part[2:])), names)
+            case ["singsol" | "IncludeSingularSolutions", *_] | ["ics", "="]:
                 return True
-            case ["ics", "=", name]:
-                return self.argument(Tokens([*part[:2], *self.named.pop(name, [])]), names)
-            case ["ics", "=", "{" | "[" as opening, *_]:
-                values = self.values if opening == "{" else self.values_of_sage
-                return values(Tokens(part[3:-1]).split())
             case [name] | [name, "(" | "[", _, _]:
                 if name not in names:
                     if len(part) > 1 or not is_letter(name):
@@ -388,14 +382,6 @@ class Paste:
                 self.add("equation", part)
                 return True
         return False
-
-    def values(self, inside: Sequence[Tokens]) -> bool:
-        """SymPy's ics={y(0): 1}."""
-        for value in inside:
-            if not value.has((":",)):
-                return False
-            self.add("equation", Tokens(token._replace(text="=") if token.text == ":" else token for token in value))
-        return True
 
     def values_of_sage(self, inside: Sequence[Tokens]) -> bool:
         """Sage's ics=[x0, y0, dy0]."""

@@ -55,23 +55,27 @@ def read_input(
         if not lost and not source.guesses:
             return parsed
         return replace(parsed, notices=(*lost, *parsed.notices), guesses=source.guesses)
-    if not isinstance(S, Equation):
-        _check_unknown(variable)
-    if is_rational(S):
-        return Parsed(RatFunc(QQ.poly([exact_real(S, "S")])), variable or DEFAULT_VARIABLE)
-    if isinstance(S, RatFunc):
-        return Parsed(S, variable or DEFAULT_VARIABLE)
     if isinstance(S, Equation):
         if variable not in (None, S.variable):
             raise InputError(f"the variable of this equation is {S.variable}, not {variable}")
         return Parsed(S.S, S.variable, equation=S)
-    if isinstance(S, tuple | list) and len(S) == 2:
-        numerator, denominator = S
-        return Parsed(_coefficient_quotient(numerator, denominator, limits), variable or DEFAULT_VARIABLE)
-    raise InputError(
-        f"{type(S).__name__!r} isn't a form of S that can be read",
-        hint='give a string "x^2 + 3", a SymPy expression, or the pair of coefficient sequences ([3, 0, 1], [1])',
-    )
+    _check_unknown(variable)
+    if is_rational(S):
+        S = RatFunc(QQ.poly([exact_real(S, "S")]))
+    elif isinstance(S, tuple | list) and len(S) == 2:
+        above, below = (
+            _coefficient_polynomial(*part, limits) for part in zip(S, ("numerator", "denominator"), strict=True)
+        )
+        if not below:
+            hint = "give the pair (numerator, denominator), low powers first"
+            raise NotRational("the denominator is zero", hint=hint)
+        S = RatFunc(above, below)
+    elif not isinstance(S, RatFunc):
+        raise InputError(
+            f"{type(S).__name__!r} isn't a form of S that can be read",
+            hint='give a string "x^2 + 3", a SymPy expression, or the pair of coefficient sequences ([3, 0, 1], [1])',
+        )
+    return Parsed(S, variable or DEFAULT_VARIABLE)
 
 
 def _check_unknown(*names: str | None) -> None:
@@ -170,16 +174,6 @@ def _variable_name(var: Any) -> str | None:
     return name
 
 
-def _coefficient_quotient(numerator: Any, denominator: Any, limits: Limits) -> RatFunc:
-    """The rational function that a pair of sequences of coefficients means."""
-    above = _coefficient_polynomial(numerator, "numerator", limits)
-    below = _coefficient_polynomial(denominator, "denominator", limits)
-    if not below:
-        hint = "give the pair (numerator, denominator), low powers first"
-        raise NotRational("the denominator is zero", hint=hint)
-    return RatFunc(above, below)
-
-
 def _coefficient_polynomial(coefficients: Sequence[Any], what: str, limits: Limits) -> Poly:
     if isinstance(coefficients, str | bytes) or not hasattr(coefficients, "__iter__"):
         raise InputError(
@@ -189,12 +183,12 @@ def _coefficient_polynomial(coefficients: Sequence[Any], what: str, limits: Limi
     if len(coefficients) > limits.degree + 1:
         said = f"the {what} has {len(coefficients)} coefficients, above the limit of degree {limits.degree}"
         raise LimitExceeded(said, limit="degree")
-    numbers = [_exact_coefficient(value, power, what) for power, value in enumerate(coefficients)]
-    bits = max((max(q.numerator.bit_length(), q.denominator.bit_length()) for q in numbers), default=0)
+    polynomial = QQ.poly([_exact_coefficient(value, power, what) for power, value in enumerate(coefficients)])
+    bits = polynomial.height_bits()
     if bits > limits.bits:
         said = f"the {what} has coefficients of {bits} bits, above the limit of {limits.bits}"
         raise LimitExceeded(said, limit="bits")
-    return QQ.poly(numbers)
+    return polynomial
 
 
 def _exact_coefficient(value: Any, power: int, what: str) -> Fraction:

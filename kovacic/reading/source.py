@@ -65,10 +65,8 @@ def _only_equation(paste: Paste) -> Sentence:
         hint = "give S(x), for example x^2 + 3"
         raise ParseError("there is no expression: the text is empty", text=paste.text, position=0, hint=hint)
     if paste.beside is not None:
-        message, hint = (
-            "the text has this besides the expression",
-            "decimals are written with a point; one expression is one S",
-        )
+        message = "the text has this besides the expression"
+        hint = "decimals are written with a point; one expression is one S"
         if paste.is_equation:
             message = "the text has this besides the equation"
             hint = "leave it out, or substitute the values of letters in the equation; initial values follow it as y(0) = 1"
@@ -115,8 +113,8 @@ def read_with_numbers(source: Source, limits: Limits) -> Parsed:
         from kovacic.reading.linear import LinearForm
 
         def walk(reader: Any) -> Any:
-            product = reader.arithmetic.multiply(LinearForm({0: Monomial(1, 0)}), source.walk(reader))
-            return reader.arithmetic.sum([LinearForm({2: Monomial(1, 0)}), reader.arithmetic.negate(product)])
+            product = reader.arithmetic.multiply(LinearForm({0: Monomial(-1, 0)}), source.walk(reader))
+            return reader.arithmetic.sum([LinearForm({2: Monomial(1, 0)}), product])
 
         if not source.unknown:
             with suppress(InputError):
