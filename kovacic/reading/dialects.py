@@ -143,8 +143,7 @@ class _Latex:
 
     def upright(self, command: Token) -> None:
         r"""\mathrm{d}, \operatorname{sech}, \text{eff}: a name, of which the braces are no parentheses."""
-        following = self.scan[self.k] if self.k < len(self.scan) else command
-        if following.kind == "WORD":  # \mathrm dt
+        if [token.kind for token in self.scan[self.k : self.k + 1]] == ["WORD"]:  # \mathrm dt
             return
         group = self.group()
         name = "".join(token.text for token in group)
@@ -166,10 +165,10 @@ class _Latex:
         return list(self.scan[first : self.k])
 
     def index(self) -> None:
-        name = self.found[-1] if self.found else None
+        name = self.found[-1] if self.found else self.scan[self.k - 1]
         group = [token for token in self.group() if token.text not in _STYLES and token.text not in "{}"]
         index = "".join(token.text.removeprefix("\\") for token in group)
-        if name is None or name.kind != "WORD" or not group:
+        if name.kind != "WORD" or not group:
             raise self.error("an index belongs to a name", self.scan[self.k - 1])
         if not index.isalnum():
             said = f"the index of {name.text} is {index}, and an index has letters and digits alone"
@@ -237,10 +236,7 @@ class _Translation:
             if self.k in self.skipped:
                 self.k += 1
                 continue
-            for rule in _TOKEN_RULES.get(token.text) or _TOKEN_RULES[token.kind]:
-                if rule(self, token):
-                    break
-            else:
+            if not any(rule(self, token) for rule in _TOKEN_RULES.get(token.text) or _TOKEN_RULES[token.kind]):
                 raise unexpected(self.text, token)
         for k in sorted(self.closers):
             self.k = k
@@ -487,8 +483,6 @@ class _Translation:
     def opening(self, token: Token) -> bool:
         """A parenthesis, the argument of a name before it or a factor."""
         k = self.k
-        if token.text == "{" and k not in self.partner and self.latex:
-            raise error_at(self.text, "a brace is never closed", [token], _EXAMPLE)
         self.k += 1
         if token.text == "{" and self.texts[k + 1] == "(" and self.partner.get(k + 1) == self.partner.get(k, 0) - 1:
             self.skipped.add(self.partner[k])  # y{\left(x\right)}, as SymPy prints it

@@ -18,7 +18,7 @@ from __future__ import annotations
 from collections.abc import Collection, Sequence
 from contextlib import suppress
 from dataclasses import dataclass, replace
-from functools import partial
+from functools import partial, reduce
 from math import gcd, inf
 from typing import Any, NamedTuple
 
@@ -136,9 +136,7 @@ def common_power(exponentials: set[Any], x: Any, T: Any) -> CommonPower:
     ratios = {e: sympy.cancel(rate / first) for e, (rate, _) in lines.items()}
     if not all(ratio.is_Rational for ratio in ratios.values()):
         raise NotRational(f"exponentials of {x} whose rates have no rational quotient", hint=_HINT)
-    # The greatest rational number of which all ratios are multiples.
-    below = int(sympy.ilcm(*(ratio.q for ratio in ratios.values()), 1))
-    unit = sympy.Rational(gcd(*(int(ratio.p * below // ratio.q) for ratio in ratios.values())), below)
+    unit = abs(reduce(sympy.gcd, ratios.values()))  # the greatest rational number of which all ratios are multiples
     k = sympy.expand(first * unit)
     if k.could_extract_minus_sign():
         k, unit = -k, -unit
@@ -210,14 +208,14 @@ def _best(equation: Equation, k: Any, x: Any) -> _InVariable:
     g = form.step
     exponential = form.in_power(g).monic
     found = [(exponential, sympy.exp(sympy.expand(g * k * x)))]
-    waves = ((sympy.cos, 1), (sympy.sin, -1)) if is_trigonometric else ((sympy.cosh, 1), (sympy.sinh, -1))
+    waves = [(sympy.cosh, 1, T), (sympy.sinh, -1, T)]
+    if is_trigonometric:  # (T - 1/T)/2 = i sin
+        waves = [(sympy.cos, 1, T), *([] if i is None else [(sympy.sin, -1, T * i)])]
     for h in (g, g // 2) if g % 2 == 0 else (g,):
-        for function, sign in waves:
+        for function, sign, variable in waves:
             quotient = _invariant_form(form.in_power(h), sign)
-            if quotient is not None and function is sympy.sin:  # (T - 1/T)/2 = i sin
-                quotient = None if i is None else _in_moebius_variable(quotient, T * i)
             if quotient is not None:
-                found.append((quotient, function(sympy.expand(h * rate * x))))
+                found.append((_in_moebius_variable(quotient, variable), function(sympy.expand(h * rate * x))))
     if i is not None:
         tangent = _in_moebius_variable(exponential, (1 + T * i) / (1 - T * i))
         found.append((tangent, sympy.tan(sympy.expand(g * rate * x / 2))))

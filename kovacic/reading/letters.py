@@ -93,17 +93,13 @@ def _kernels(e: Expr, x: Expr, *, e_is_known: bool) -> list[Expr]:
     `e_is_known`: powers of Euler's number are none.
     """
     base, exponent = e.as_base_exp()
-    is_power_of_e = base is sympy.E
-    if e_is_known and is_power_of_e and exponent.is_Integer:
-        return []
-    is_constant = not e.has(x)
-    is_algebraic = e.is_number and e.is_algebraic and not is_power_of_e
-    if is_constant and (e.is_Symbol or e is sympy.pi or is_algebraic):
-        return []
     arguments = [each for each in e.args if isinstance(each, sympy.Expr)]  # a derivative has a pair beside f(t)
     inner = [kernel for argument in arguments for kernel in _kernels(argument, x, e_is_known=e_is_known)]
-    is_rational = e.is_Add or e.is_Mul or (e.is_Pow and exponent.is_Integer and not is_power_of_e)
-    return [e] if is_constant and not inner and not is_rational else inner
+    if inner or e.has(x) or e.is_Symbol or e is sympy.pi or e.is_Add or e.is_Mul:
+        return inner
+    is_whole = exponent.is_Integer and (e.is_Pow or base is sympy.E)
+    is_rational = e_is_known and is_whole if base is sympy.E else is_whole or (e.is_number and e.is_algebraic)
+    return [] if is_rational else [e]
 
 
 class _LetterTable:
@@ -225,9 +221,11 @@ def _by_others(kernel: Expr, kernels: Sequence[Expr]) -> Expr:
 
 def _without_squared_waves(part: Expr, kernels: Sequence[Expr]) -> Expr:
     """With 1 - cos^2 in the place of sin^2, where sine and cosine of one argument are among the constants; and with sinh^2."""
-    squares: Meanings = {}
-    for sine, cosine, sign in _WAVE_KINDS.values():
-        of_kind = [kernel for kernel in kernels if kernel.func is sine and cosine(*kernel.args) in kernels]
-        squares |= {wave: sign * (1 - cosine(*wave.args) ** 2) for wave in of_kind}
+    squares = {
+        wave: sign * (1 - cosine(*wave.args) ** 2)
+        for sine, cosine, sign in _WAVE_KINDS.values()
+        for wave in kernels
+        if wave.func is sine and cosine(*wave.args) in kernels
+    }
     powers = [power for power in part.atoms(sympy.Pow) if power.base in squares and power.exp.is_Integer]
     return part.xreplace({p: p.base ** (p.exp % 2) * squares[p.base] ** (p.exp // 2) for p in powers})

@@ -78,7 +78,7 @@ def scanned(text: str) -> list[Token]:
     >>> [token.text for token in scanned("ẍ + ½x² = 3e-1")]
     ['x', '˙˙', '+', '(', '1', '/', '2', ')', 'x', '²', '=', '3e-1']
     """
-    plain, origins = text, None
+    plain, origins = text, [*range(len(text))]
     if not text.isascii():
         pieces: list[str] = []
         for is_raised, run in groupby(range(len(text)), key=lambda k: _kind_of(text[k]) == "<super"):
@@ -94,9 +94,7 @@ def scanned(text: str) -> list[Token]:
         origins = [k for k, piece in enumerate(pieces) for _ in piece]
     tokens: list[Token] = []
     for found in _TOKEN.finditer(plain):
-        start, end = found.span()
-        if origins is not None:
-            start, end = origins[start], origins[end - 1] + 1
+        start, end = origins[found.start()], origins[found.end() - 1] + 1
         if found.lastgroup == "CHARACTER":  # Mathematica's \[Alpha]1
             tokens.append(Token("WORD", found[0][2:].replace("]", "").lower(), start, end))
         else:
@@ -106,8 +104,6 @@ def scanned(text: str) -> list[Token]:
 
 def _ordinary(text: str, k: int) -> str:
     character = text[k]
-    if character.isascii():
-        return character
     before = text[k - 1 : k]
     if character == "∞" and before.isalpha():  # T∞ is T_∞
         return "_oo"

@@ -104,17 +104,15 @@ class Vocabulary:
             _check_readings(tokens, *_STIFFNESS)
         _check_readings(tokens, *_POWER_OF_TEN)
         choose = _equation_variable if is_equation else _variable_of_S
-        x, why = (self.variable, None) if self.variable else choose(tokens, y, self.declared)
+        x, reasons = (self.variable, []) if self.variable else choose(tokens, y, self.declared)
         if x == y:
             said = f"{y} is the unknown function, and can't be the variable"
             raise InputError(said, hint="name another variable: var='x'", shell="name another variable: --var x")
-        if x in ("e", "E"):
-            _check_readings(tokens, _DECIMAL[0].replace("{x}", x), *_DECIMAL[1:])
+        _check_readings(tokens, _DECIMAL[0].replace("{x}", x), *_DECIMAL[1:])
         split, products = self._with_products(tokens, x, y)
         if x != "e":
             _check_readings(split, *_EXPONENT, unknown=y)
-        reasons = [why] if why else []
-        named, factors = _with_factors(split, x, y) if "HEAD" in split.kinds else (split, [])
+        named, factors = _with_factors(split, x, y)
         guesses = [*_guesses(tokens), *products, *factors, *self._imaginary_unit(split, x, y)]
         if has_operator:
             new = [t._replace(kind="OPERATOR", text=x) if t[:2] == ("NAME", OPERATOR) else t for t in named]
@@ -141,8 +139,8 @@ class Vocabulary:
         )
         y = self.unknown or next(iter(differentiated(tokens, self.declared)), None) or _operand(tokens)
         if y is None:  # what the operator D is applied to
-            usual = [name for name in tokens.names if name in _USUAL_UNKNOWNS]
-            y = usual[-1] if has_operator and usual and UNKNOWN not in usual else UNKNOWN
+            usual = [UNKNOWN, *(name for name in tokens.names if has_operator and name in _USUAL_UNKNOWNS)]
+            y = UNKNOWN if UNKNOWN in usual[1:] else usual[-1]
         return y, has_operator
 
     def _imaginary_unit(self, tokens: Sentence, x: str, y: str) -> list[str]:
@@ -277,14 +275,14 @@ def differentiated(tokens: Sentence, declared: Collection[str] = ()) -> list[str
     names = []
     for found in sorted(_DIFFERENTIATED.finditer(tokens.line), key=lambda match: match[1] is None):
         name = found[1] or found[2] or found[3]
-        is_glued = len(name) == 2 and not is_letter(name) and name not in declared and name[1] in _USUAL_UNKNOWNS
+        last = _letters_of(name, declared)[-1]
         if not is_function(name) and (found[1] or name not in DERIVATIVES):
-            names.append(name[1] if is_glued else name)
+            names.append(last if last in _USUAL_UNKNOWNS else name)
     return names
 
 
-def _equation_variable(tokens: Sentence, y: str, declared: Collection[str]) -> tuple[str, str | None]:
-    """The variable of an equation, and a note where it was guessed.
+def _equation_variable(tokens: Sentence, y: str, declared: Collection[str]) -> tuple[str, list[str]]:
+    """The variable of an equation, with a note where it was guessed.
 
     It is the argument of the unknown function, or what is differentiated by, or time where the notation says so; else x or t
     if it occurs; else the only usual letter that occurs as only a variable does; else x, and all names are parameters.
@@ -293,14 +291,14 @@ def _equation_variable(tokens: Sentence, y: str, declared: Collection[str]) -> t
     if "OPERATOR" in tokens.kinds:
         named = tokens.pieces[tokens.kinds.index("OPERATOR")]
     if named is not None:
-        return named, None
+        return named, []
     excluded = {*_NO_VARIABLES, y, *declared}
     names = [name for name in _single_letters(tokens, declared) if name not in excluded and is_letter(name)]
     usual = tokens.variable or DEFAULT_VARIABLE
     default = next((name for name in (usual, *"txsz") if name not in (y, *declared)), usual)
     for likely in (DEFAULT_VARIABLE, default, "t"):
         if likely in names:
-            return likely, None
+            return likely, []
     likely_ones = [name for name in names if _varies(name, tokens, names)]
     if len(likely_ones) > 1:
         hint = f"write {y}''(x) for the derivative, or name the variable:"
@@ -309,20 +307,21 @@ def _equation_variable(tokens: Sentence, y: str, declared: Collection[str]) -> t
         first = likely_ones[0]
         raise tokens.error(InputError, said, k, k + 1, hint=f"{hint} var={first!r}", shell=f"{hint} --var {first}")
     if likely_ones:
-        return likely_ones[0], f"{likely_ones[0]} is taken for the variable"
-    if not names:
-        return default, None
+        return likely_ones[0], [f"{likely_ones[0]} is taken for the variable"]
     which = "a parameter" if len(names) == 1 else "parameters"
-    return default, f"{default} is the variable, {', '.join(names[:6])} {which}"
+    return default, [f"{default} is the variable, {', '.join(names[:6])} {which}"] if names else []
 
 
 def _single_letters(tokens: Sentence, declared: Collection[str]) -> list[str]:
     """The plain names, those of two glued letters apart."""
-    found: dict[str, None] = {}
-    for name in tokens.names:
-        is_glued = len(name) == 2 and name.isalpha() and not is_letter(name) and name not in declared
-        found.update(dict.fromkeys(name if is_glued else [name]))
+    found = dict.fromkeys(letter for name in tokens.names for letter in _letters_of(name, declared))
     return [name for name in found if not is_function(name)]
+
+
+def _letters_of(name: str, declared: Collection[str]) -> Sequence[str]:
+    """Two letters that are glued together, or the name alone."""
+    is_glued = len(name) == 2 and name.isalpha() and not is_letter(name) and name not in declared
+    return name if is_glued else [name]
 
 
 def argument_of(tokens: Sentence, unknown: str) -> str | None:
@@ -365,7 +364,7 @@ def _varies(name: str, tokens: Sentence, names: Collection[str]) -> bool:
     return name == "z" or found.total() > min(found["factor"], 1)
 
 
-def _variable_of_S(tokens: Sentence, _: str, declared: Collection[str]) -> tuple[str, str | None]:
+def _variable_of_S(tokens: Sentence, _: str, declared: Collection[str]) -> tuple[str, list[str]]:
     """The only name that isn't one of a number, the energy or a function, or x.  Asks where it can't be told."""
     no_variables = {*NUMBER_NAMES, ENERGY, UNKNOWN, *declared}
     letters = [name for name in _single_letters(tokens, declared) if is_letter(name)]
@@ -376,7 +375,7 @@ def _variable_of_S(tokens: Sentence, _: str, declared: Collection[str]) -> tuple
         k = tokens.names.get(names[1], 0)
         raise tokens.error(InputError, error.message, k, k + 1, hint=error.hint, shell=error.shell) from None
     why = f"{x} is taken for the variable; name another one where it is a parameter: var='x' (--var x)"
-    return x, None if x in USUAL_VARIABLES or x not in letters else why
+    return x, [] if x in USUAL_VARIABLES or x not in letters else [why]
 
 
 def chosen_variable(names: Sequence[str]) -> str:

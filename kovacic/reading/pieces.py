@@ -319,10 +319,10 @@ class Paste:
             return False
         self.add("command", Tokens(scan[: opening + 1]))
         first, *rest = [self.resolved(_unquoted(part)) for part in Tokens(scan[opening + 1 : -1]).split()]
-        if first and first[0].text in SOLVERS:
-            return self.command(first)
         if not first:
             return True
+        if first[0].text in SOLVERS:
+            return self.command(first)
         if not self.list_of(first):
             self.add("equation", first)
         names = {token.text for equation in self.scans("equation") for token in equation}

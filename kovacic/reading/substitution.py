@@ -50,22 +50,18 @@ class Template:
                 name = tokens.pieces[k]
                 said = f"the parameter {name} is followed by a parenthesis like a function"
                 raise tokens.error(InputError, said, k, k + 1, hint=f"for a product write {name}*(...)")
-        #: The parameters in the order of the text, and the pieces of text before, between and behind them.
-        self._names = [tokens.pieces[k] for k in places]
-        self._pieces: list[str] = []
-        end = 0
-        for k in places:
-            self._pieces.append(text[end : tokens[k].start])
-            end = tokens[k].end
-        self._pieces.append(text[end:])
+        self._text = text
+        self._places = [tokens[k] for k in places]
         for name in names:
-            if name not in self._names:
+            if name not in {token.text for token in self._places}:
                 raise InputError(f"the expression has no parameter {name}", text=text)
 
     def filled(self, values: Mapping[str, Any]) -> str:
         """The text with these values."""
-        first, *others = self._pieces
-        return first + "".join(f"({values[name]}){piece}" for name, piece in zip(self._names, others, strict=True))
+        ends = [0, *(token.end for token in self._places)]
+        before = [self._text[end : token.start] for end, token in zip(ends, self._places, strict=False)]
+        filled = (f"{text}({values[token.text]})" for text, token in zip(before, self._places, strict=True))
+        return "".join([*filled, self._text[ends[-1] :]])
 
 
 def number_text(value: Any, limits: Limits = DEFAULT_LIMITS) -> str:
