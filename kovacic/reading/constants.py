@@ -187,11 +187,7 @@ class Constants:
 
 
 class Enlarged(Exception):
-    """The field must be larger; `constants` has it."""
-
-    def __init__(self, constants: Constants) -> None:
-        super().__init__()
-        self.constants = constants
+    """The field must be larger; the argument is the `Constants` that have it."""
 
 
 def with_root(numbers: Sequence[Poly], field: Field, other: AlgebraicField, limits: Limits) -> list[Poly]:
@@ -217,4 +213,4 @@ def read_with_constants(read: Callable[[Constants], T], limits: Limits, known: C
         try:
             return read(constants)
         except Enlarged as enlarged:
-            constants = enlarged.constants
+            (constants,) = enlarged.args

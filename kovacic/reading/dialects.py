@@ -81,7 +81,7 @@ _COMMANDS = {
     **{f"\\{name}": ("WORD", name) for name in (*GREEK, *SPECIAL_LETTERS, *BARE)},
     **{f"\\var{name}": ("WORD", name) for name in GREEK},
     # Read by `_Translation`.
-    **{name: ("COMMAND", name) for name in (*FRACTIONS, "\\sqrt", "\\dot", "\\ddot", "\\dddot")},
+    **{name: ("MACRO", name) for name in (*FRACTIONS, "\\sqrt", "\\dot", "\\ddot", "\\dddot")},
 }
 #: Words that are one name in LaTeX without a backslash, too; mu and nu may be products.
 _LATEX_WORDS = sorted(
@@ -107,26 +107,23 @@ class _Latex:
     def ordinary(self) -> Tokens:
         while self.k < len(self.scan):
             token = self.scan[self.k]
+            kind, text = _COMMANDS.get(token.text, token[:2])
             self.k += 1
             if token.kind == "WORD":
                 self.letters(token)
-            elif token.text in _STYLES:
+            elif text in _STYLES:
                 self.upright(token)
-            elif token.text in _COMMANDS:
-                self.found.append(Token(*_COMMANDS[token.text], token.start, token.end))
-            elif token.text == "_":
+            elif text == "_":
                 self.index()
-            elif token.text.isdecimal() and self.found and self.found[-1].text in FRACTIONS:
+            elif text.isdecimal() and self.found and self.found[-1].text in FRACTIONS:
                 # Of \frac12 each digit is an argument.
                 first = token.start
                 self.found += [Token("NUMBER", digit, first + k, first + k + 1) for k, digit in enumerate(token.text)]
-            elif token.text in LAYOUT:
-                continue
-            elif token.kind == "COMMAND":
-                shown = token.text if token.text.isprintable() else repr(token.text)
+            elif kind == "COMMAND" and text not in LAYOUT:
+                shown = text if text.isprintable() else repr(text)
                 raise self.error(f"{shown} isn't a command that is read here", token)
-            else:
-                self.found.append(token)
+            elif text not in LAYOUT:
+                self.found.append(token._replace(kind=kind, text=text))
         return self.found
 
     def letters(self, word: Token) -> None:
@@ -316,21 +313,19 @@ class _Translation:
         by = [("COMMA", ","), ("NAME", x), ("COMMA", ","), ("NUMBER", str(order)), ("RPAR", ")")]
         if y is None:
             behind = inner[3] if inner and inner[0] else self.operand_end(end)
-            if behind is None:  # d^2/dx^2 - x
-                self.write("OPERATOR", x, whole)
-                self.write("CIRCUMFLEX", "^", whole)
-                self.write("NUMBER", str(order), whole)
-            else:
-                self.head("diff", whole)
+            written = [("OPERATOR", x), ("CIRCUMFLEX", "^"), ("NUMBER", str(order))]  # d^2/dx^2 - x
+            if behind is not None:
+                written = [("HEAD", "diff"), ("LPAR", "(")]
                 self.later(behind, *by)
-        elif self.texts[end] == "(" and self.condition and self.argument_end(end) is None:
-            self.write("PRIMED", y + PRIMES * order, whole)
         else:
             behind = self.argument_end(end)
-            if behind is not None and self.texts[behind - 2] == x:
+            written = [("HEAD", "diff"), ("LPAR", "("), ("NAME", y), *by]
+            if behind is None and self.texts[end] == "(" and self.condition:
+                written = [("PRIMED", y + PRIMES * order)]
+            elif behind is not None and self.texts[behind - 2] == x:
                 end = behind
-            for kind, piece in (("HEAD", "diff"), ("LPAR", "("), ("NAME", y), *by):
-                self.write(kind, piece, whole)
+        for kind, piece in written:
+            self.write(kind, piece, whole)
         self.k = end
         return True
 
@@ -594,6 +589,7 @@ _TOKEN_RULES: dict[str, tuple[_TokenRule, ...]] = {
     "PRIMES": (_Translation.primes,),
     "TEXT": (_Translation.prose,),
     "COMMAND": (),
+    "MACRO": (),
     **dict.fromkeys(FUNCTION_NAMES, (_Translation.function, _Translation.word)),
     **dict.fromkeys(FRACTIONS, (_Translation.derivative, _Translation.fraction)),
     **dict.fromkeys(("\\sqrt", "√", "∛"), (_Translation.root,)),

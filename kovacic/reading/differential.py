@@ -22,14 +22,14 @@ from typing import Any
 from kovacic.algebra.extension import AlgebraicField
 from kovacic.algebra.poly import Field, Poly
 from kovacic.algebra.ratfunc import RatFunc
-from kovacic.equation import ENERGY, EULER, PI, UNKNOWN, Equation, over
+from kovacic.equation import ENERGY, EULER, PI, UNKNOWN, Equation, over, parameters_of
 from kovacic.errors import NotLinear, NotRational, ParseError
 from kovacic.limits import Limits
 from kovacic.numbers.numerals import as_text
 from kovacic.reading.arithmetic import VARIABLE, Arithmetic, Monomial, Value
 from kovacic.reading.constants import Constants, read_with_constants
 from kovacic.reading.dialects import tokenize
-from kovacic.reading.expression import OperationPlace, RationalReader, parse_with
+from kovacic.reading.expression import RationalReader, parse_with
 from kovacic.reading.lexer import DERIVATIVES, PRIMES
 from kovacic.reading.linear import REST, DerivativeOperator, LinearArithmetic, LinearForm, differentiations, is_rational
 from kovacic.reading.names import NUMBERS, TRANSCENDENTAL_HINT, is_letter
@@ -162,7 +162,7 @@ class EquationReader(RationalReader):
         """A coefficient may stand before the unknown function without a sign."""
         return name.rstrip(PRIMES) == self.unknown or name in DERIVATIVES
 
-    def other_power(self, base: Any, exponent: Any, place: OperationPlace) -> Any:
+    def other_power(self, base: Any, exponent: Any, place: Any) -> Any:
         with suppress(NotRational):
             return super().other_power(base, exponent, place)
         if ENERGY in self.constants.parameters and self.arithmetic.closed(base) == self.constants.parameter(ENERGY):
@@ -225,6 +225,15 @@ def _derivative_of_unknown(order: int) -> LinearForm:
     return LinearForm({order: Monomial(1, 0)})
 
 
+def generators(field: Field) -> dict[str, Value]:
+    """The parameters and the algebraic constant of a field, by their names."""
+    found: dict[str, Value] = {
+        name: field.ground.generator(name).over(field)  # type: ignore[attr-defined]
+        for name in parameters_of(field)
+    }
+    return {**found, field.name: field.generator} if isinstance(field, AlgebraicField) else found
+
+
 @dataclass(frozen=True)
 class WrittenReader:
     """`names` are what the names stand for that occur, formulas such as sqrt(2) among them, in the field or below it."""
@@ -260,13 +269,7 @@ def written_equation(text: str, variable: str, unknown: str, known: Constants) -
 
     def read(constants: Constants) -> Equation:
         field = constants.field
-        values: dict[str, Value] = {
-            name: field.ground.generator(name).over(field)  # type: ignore[attr-defined]
-            for name in constants.parameters
-        }
-        if isinstance(field, AlgebraicField):
-            values[field.name] = field.generator
-        plain, names = WrittenReader(field, values, Arithmetic(constants.limits)).plain(text)
+        plain, names = WrittenReader(field, generators(field), Arithmetic(constants.limits)).plain(text)
         source = SimpleNamespace(variable=variable, unknown=unknown, declared=(), has_functions=False)
         reader = EquationReader(source, constants.limits, constants)
         reader.names = {**reader.names, **names}

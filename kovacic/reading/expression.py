@@ -39,10 +39,6 @@ _LARGEST_INDEX = 100
 _ALONE = "give S alone, the factor of y on the right of y'' = S(x) y"
 
 
-#: Where an operation stands, in a text or in a SymPy expression; its `text()` is what the user wrote.
-OperationPlace = Any
-
-
 def parse_with(text: str, names: Mapping[str, Value], arithmetic: Arithmetic) -> Value:
     """The value of an expression in these names, whatever field their values belong to.
 
@@ -60,7 +56,8 @@ class RationalReader:
 
     `names` gives the values of the names that may occur: the variable, and whatever constants the caller's coefficient
     field has.  `constants` supplies algebraic numbers and parameters.  `arithmetic` has the operations on the values.  Each
-    method raises `InputError` without a position, which the parser adds.
+    method raises `InputError` without a position, which the parser adds.  The `place` of an operation, in a text or in a SymPy
+    expression, has a `text()`: what the user wrote.
     """
 
     def __init__(self, names: Mapping[str, Value], variable: str, arithmetic: Arithmetic, constants: Constants) -> None:
@@ -120,7 +117,7 @@ class RationalReader:
         """True if this name or call may be the second factor of an implicit product whose first factor ends in a name."""
         return False
 
-    def power(self, base: Value, exponent: Value, place: OperationPlace) -> Value:
+    def power(self, base: Value, exponent: Value, place: Any) -> Value:
         try:
             return self.arithmetic.power(base, exponent)
         except NotAnInteger:
@@ -160,7 +157,7 @@ class RationalReader:
             raise NotRational(f"{message} number, nor known to be an algebraic one", hint=TRANSCENDENTAL_HINT)
         raise NotRational(f"{message} function of {self.variable}")
 
-    def _radical(self, value: Value, n: int, place: OperationPlace) -> Poly:
+    def _radical(self, value: Value, n: int, place: Any) -> Poly:
         """The principal n-th root of a number, or of a parameter's square; an error for a function of the variable."""
         closed = self.arithmetic.closed(value)
         if not isinstance(closed, Poly) or not closed.is_constant:
@@ -175,7 +172,7 @@ class RationalReader:
             raise NotRational(f"{place.text()} isn't rational in the parameters", hint=hint)
         return root
 
-    def other_power(self, base: Value, exponent: Value, place: OperationPlace) -> Value:
+    def other_power(self, base: Value, exponent: Value, place: Any) -> Value:
         """`base ** exponent` for an exponent that isn't an integer: a power of a root of a number, or an error."""
         power = self.arithmetic.closed(exponent)
         if not isinstance(power, Poly) or not power.is_constant:

@@ -168,22 +168,23 @@ class LinearArithmetic(Arithmetic):
         return self.sum(terms)
 
     def called(self, head: str, arguments: Sequence[Any]) -> Any:
-        """A function of `FUNCTION_NAMES` or `SEVERAL_ARGUMENTS`, by SymPy; None for any other call."""
-        if head in SEVERAL_ARGUMENTS:
-            return self._of_several(head, arguments)
-        is_function = head in FUNCTION_NAMES and len(arguments) == 1 and not isinstance(arguments[0], tuple)
-        return self.applied(head, arguments[0]) if is_function else None
+        """A function of `FUNCTION_NAMES` or `SEVERAL_ARGUMENTS`, by SymPy; None for any other call.
 
-    def _of_several(self, head: str, arguments: Sequence[Any]) -> Any:
-        """One of the functions of `SEVERAL_ARGUMENTS`, by SymPy; the arguments of Piecewise are pairs."""
+        The arguments of Piecewise are pairs.
+        """
         import sympy
 
-        function = getattr(sympy, SEVERAL_ARGUMENTS[head])
-        if {isinstance(argument, tuple) for argument in arguments} != {function is sympy.Piecewise}:
+        are_pairs = {isinstance(argument, tuple) for argument in arguments}
+        if head in FUNCTION_NAMES and are_pairs == {False} and len(arguments) == 1:
+            return self.applied(head, arguments[0])
+        if head not in SEVERAL_ARGUMENTS:
+            return None
+        if are_pairs != {head == "Piecewise"}:
             raise NotRational(f"{head} doesn't have such arguments", hint=_ARGUMENTS_HINT)
-        if function is not sympy.Piecewise:
-            return self._checked(function(*map(self.expression, arguments)))
-        return self._checked(function(*((self.expression(value), self._condition(case)) for value, case in arguments)))
+        pieces: Any = map(self.expression, arguments)
+        if head == "Piecewise":
+            pieces = ((self.expression(value), self._condition(case)) for value, case in arguments)
+        return self._checked(getattr(sympy, SEVERAL_ARGUMENTS[head])(*pieces))
 
     def _condition(self, case: Any) -> Any:
         import sympy

@@ -227,8 +227,8 @@ class Paste:
     def take_apart(self) -> None:
         """Finds the pieces, statement by statement."""
         statements = list(_statements(_plain_tokens(self.text)))
-        for scan in statements:
-            self.statement(self.without_surroundings(scan), is_alone=len(statements) == 1)
+        for scan in filter(None, map(self.without_surroundings, statements)):
+            self.statement(scan, is_alone=len(statements) == 1)
         is_solved = bool(self.scans("command") and self.scans("equation"))
         for scan in [*self.named.values()]:
             if is_solved:  # MATLAB's dsolve(ode) where the values have names
@@ -282,13 +282,9 @@ class Paste:
         raise error_at(self.text, said, number, f"leave it out, or write {label}* for a factor")
 
     def statement(self, scan: Tokens, *, is_alone: bool) -> None:
-        if not scan:
-            return
-        if scan[0].text in _DECLARATIONS or (len(scan) == 1 and scan[0].text in SOLVERS):
-            self.add("declaration", scan)
-            return
+        is_declared = scan[0].text in _DECLARATIONS or (len(scan) == 1 and scan[0].text in SOLVERS)
         name, scan = _without_assignment(scan)
-        if _IDENTITY.fullmatch(scan.spaced) or (name and scan[0].text in MAKERS):
+        if is_declared or _IDENTITY.fullmatch(scan.spaced) or (name and scan[0].text in MAKERS):
             match [token.text for token in scan]:
                 case ["Differential", "(", variable, ")"] if is_letter(variable):  # Julia's D = Differential(t)
                     self.variable = variable

@@ -27,7 +27,7 @@ from kovacic.limits import DEFAULT_LIMITS, Limits
 from kovacic.numbers.numerals import as_text
 from kovacic.reading.arithmetic import VARIABLE, Monomial
 from kovacic.reading.dialects import tokenize
-from kovacic.reading.expression import OperationPlace, RationalReader
+from kovacic.reading.expression import RationalReader
 from kovacic.reading.lexer import DERIVATIVES, PRIMES, check_length
 from kovacic.reading.linear import LinearArithmetic, Symbols, differentiations
 from kovacic.reading.names import FUNCTION_NAMES, NUMBER_NAMES, NUMBERS, POWER_CALLS, is_function
@@ -85,8 +85,7 @@ def _leaf(node: Any, reader: RationalReader) -> Any:
     if node.is_Rational:
         return reader.arithmetic.constant(Fraction(index(node.p), index(node.q)))
     if node.is_Float and node.is_finite:  # a binary fraction
-        is_negative, mantissa, exponent, _ = node._mpf_
-        exact = Fraction(int(mantissa)) * Fraction(2) ** int(exponent) * (-1) ** is_negative
+        exact = Fraction(*map(int, sympy.Rational(node).as_numer_denom()))
         reader.decimals.append(f"the float {shown(node, 60)} was taken exactly, as {shown(exact, 60)}")
         return reader.arithmetic.constant(exact)
     if node.is_number and node.is_algebraic:
@@ -273,7 +272,7 @@ class SymbolicReader(RationalReader):
     def equation(self, left: Any, right: Any) -> Any:
         raise InputError(f"{self.what} is an expression, not an equation")
 
-    def other_power(self, base: Any, exponent: Any, _: OperationPlace) -> Any:
+    def other_power(self, base: Any, exponent: Any, _: Any) -> Any:
         return self.arithmetic.symbolic_power(base, exponent)
 
     def call(self, head: str, arguments: list[Any], site: Site) -> Any:

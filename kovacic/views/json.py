@@ -49,8 +49,8 @@ from kovacic.equation import EULER, PI, Change, Equation, Parsed, parameters_of
 from kovacic.errors import InputError, LimitExceeded, VerificationFailed
 from kovacic.limits import Limits
 from kovacic.numbers.numerals import as_text, for_json
-from kovacic.reading.arithmetic import VARIABLE, Arithmetic, Value
-from kovacic.reading.differential import WrittenReader
+from kovacic.reading.arithmetic import VARIABLE, Arithmetic
+from kovacic.reading.differential import WrittenReader, generators
 from kovacic.reading.names import words_among
 from kovacic.reading.read import read_input
 from kovacic.verify import verify
@@ -464,13 +464,7 @@ class _AnswerReader(WrittenReader):
     @classmethod
     def over(cls, field: Field, variable: str) -> _AnswerReader:
         """A reader that knows the variable, the parameters, and the algebraic constant of a field."""
-        names: dict[str, Value] = {
-            name: field.ground.generator(name)  # type: ignore[attr-defined]
-            for name in parameters_of(field)
-        }
-        if isinstance(field, AlgebraicField):
-            names[field.name] = field.generator
-        return cls(field, {**names, variable: VARIABLE}, _ARITHMETIC)
+        return cls(field, {**generators(field), variable: VARIABLE}, _ARITHMETIC)
 
     def extended(self, constants: Mapping[str, Any] | None) -> _AnswerReader:
         """A reader that also knows omega's constant c.  Raises `ValueError` if K[c] is no field: a gcd might not terminate."""
