@@ -170,8 +170,7 @@ class Atoms:
 
     def generator(self, field: Field) -> Expr:
         """The generator of an algebraic extension."""
-        if not isinstance(field, AlgebraicField):
-            raise TypeError("the rational numbers have no generator")
+        assert isinstance(field, AlgebraicField)
         key = (str(field.base), field.modulus.key())
         if key not in self._generators:
             self.call(field, self._new_generator(field))
@@ -192,9 +191,11 @@ class Atoms:
             if _is_the_smaller_root(field):
                 return -half - root
             return -half + root
-        radicand = _positive_radicand(modulus)
+        radicand = (
+            None if any(modulus[k] for k in range(1, modulus.degree)) else modulus.field.rational_value(-modulus[0])
+        )
         real, imaginary = field.approximation or (1, 0)  # the positive root where none in particular is meant
-        if radicand is not None and real > 0 and not imaginary:
+        if radicand is not None and radicand > 0 and real > 0 and not imaginary:
             return radical(rational(radicand), modulus.degree)
         if (
             isinstance(field.base, AlgebraicField) and field.ground == QQ
@@ -347,14 +348,6 @@ class Atoms:
             return Add(*(body.subs(self.root, root) for root in roots))
         kind = RootSum if over.domain.is_EX else sympy.RootSum
         return kind(over, sympy.Lambda(self.root, body), auto=False)
-
-
-def _positive_radicand(modulus: Poly) -> Fraction | None:
-    """a > 0 for x^n - a, None for another polynomial."""
-    a = modulus.field.rational_value(-modulus[0])
-    if a is None or a <= 0 or any(modulus[k] for k in range(1, modulus.degree)):
-        return None
-    return a
 
 
 def _is_the_smaller_root(field: AlgebraicField) -> bool:

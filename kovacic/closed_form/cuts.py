@@ -159,9 +159,6 @@ def common_place(x: Expr, *parts: Mapping[Expr, Expr], own: Own = sympy.sympify)
 
     shared = [Counter(arguments.values()) for arguments in parts]
 
-    def on_cuts(point: Expr) -> list[int]:
-        return [sum(n for u, n in counts.items() if _is_below_zero(u, x, point, own)) for counts in shared]
-
     def points() -> Iterator[Expr]:
         yield from _POINTS
         linear = (u for counts in shared for u in counts if sympy.diff(u, x).is_Rational)
@@ -170,7 +167,7 @@ def common_place(x: Expr, *parts: Mapping[Expr, Expr], own: Own = sympy.sympify)
 
     found: dict[Expr, list[int]] = {}
     for point in points():
-        found[point] = on_cuts(point)
+        found[point] = [sum(n for u, n in counts.items() if _is_below_zero(u, x, point, own)) for counts in shared]
         if not any(found[point]):
             return point
     return min(found, key=lambda point: found[point])

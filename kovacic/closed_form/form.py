@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from functools import partial
 from typing import Any
 
@@ -84,8 +84,9 @@ def written(structure: ClosedStructure, S: RatFunc, gauge: RatFunc, variable: st
     atoms = Atoms(Symbol(variable))
     y1, y2, notes = expressions(structure, atoms)
     notes = (*notes, *atoms.notes)
-    build = partial(_same, structure)
-    form = ClosedForm(one_exponential(y1), one_exponential(y2), atoms.x, gauge, EXACT, notes, build=build)
+    form = ClosedForm(
+        one_exponential(y1), one_exponential(y2), atoms.x, gauge, EXACT, notes, build=partial(replace, structure)
+    )
     check_time()
     passed = is_exact_solution(structure, S, gauge)
     if not passed or not all(is_numerical_solution(y, form.variable, S, gauge) for y in form):
@@ -99,10 +100,6 @@ def pair_at(form: ClosedForm, point: Any, own: Callable[[Expr], Expr]) -> tuple[
         return form.y1, form.y2
     y1, y2, _ = expressions(form.structure, Atoms(form.variable, at=point, own=own))
     return one_exponential(y1), one_exponential(y2)
-
-
-def _same(structure: ClosedStructure) -> ClosedStructure:
-    return structure
 
 
 def expressions(form: ClosedStructure, atoms: Atoms) -> tuple[Expr, Expr, tuple[str, ...]]:

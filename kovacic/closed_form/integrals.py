@@ -192,17 +192,13 @@ def _oriented(form: OnCurve) -> OnCurve:
     Only for rational tau^2, and d = 2 with two real branch points and without a logarithm at infinity.
     """
     integral = form.integral
-    if integral.rest or not integral.residues:
-        return form
     square = discriminant(integral.g)
-    if square is None or square <= 0:
+    if integral.rest or square is None or square <= 0:
         return form
-    for residue in integral.residues:
-        found = unit(integral.g, residue)
-        value = None if found is None else found.tau_squared.field.rational_value(found.tau_squared)
-        if value is None or value > 0:
-            return form
-    return _on_the_other_side(form)
+    units = [unit(integral.g, residue) for residue in integral.residues]
+    values = [None if u is None else u.tau_squared.field.rational_value(u.tau_squared) for u in units]
+    is_other = bool(values) and all(value is not None and value <= 0 for value in values)
+    return _on_the_other_side(form) if is_other else form
 
 
 def _on_the_other_side(form: OnCurve) -> OnCurve:
@@ -558,15 +554,6 @@ def integral(h: Product, atoms: Atoms) -> Expr | None:
     return Add(*(c * e for c, e in _terms(one, primitive, (Integer(1), []), atoms)))
 
 
-def _terms(
-    y: Product, primitive: RationalPrimitive | ExponentialPrimitive, first: Factors, atoms: Atoms
-) -> list[Scaled]:
-    """y times the integral."""
-    if isinstance(primitive, RationalPrimitive):
-        return _rational(y, primitive, first, atoms)
-    return _with_exponential(y, primitive, first, atoms)
-
-
 def _sum(terms: list[Scaled]) -> Expr:
     """The sum up to a constant factor: coprime integer coefficients if they are commensurable, the last one positive."""
     if len(terms) == 1:
@@ -584,17 +571,19 @@ def _scaled(scale: Expr, parts: list[Expr]) -> Scaled:
     return scale * coefficient, rest
 
 
-def _rational(y: Product, primitive: RationalPrimitive, first: Factors, atoms: Atoms) -> list[Scaled]:
+def _terms(
+    y: Product, primitive: RationalPrimitive | ExponentialPrimitive, first: Factors, atoms: Atoms
+) -> list[Scaled]:
+    """y times the integral."""
+    if isinstance(primitive, ExponentialPrimitive):
+        return _with_exponential(y, primitive, first, atoms)
     exact = primitive.parts.exact
     residues = primitive.parts.residues
     if not residues:
         exact = normalised_constant(exact)
-    terms = []
-    if exact:
-        terms.append(_scaled(*factors(y, atoms, exact)))
+    terms = [_scaled(*factors(y, atoms, exact))] if exact else []
     scale, parts = first
-    terms += [_scaled(scale, [*parts, term]) for term in logarithms(residues, atoms, y)]
-    return terms
+    return terms + [_scaled(scale, [*parts, term]) for term in logarithms(residues, atoms, y)]
 
 
 def logarithms(residues: Iterable[Residue], atoms: Atoms, y: Product | None = None) -> list[Expr]:

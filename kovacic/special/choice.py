@@ -157,10 +157,6 @@ class _Equation:
     def structure(self) -> ClosedStructure:
         return build(self.S, self.decision, self.gauge)
 
-    @property
-    def _request(self) -> Wanted:
-        return Wanted(self.S, self.gauge, self.variable, joined=True)
-
     @cached_property
     def _is_long(self) -> bool:
         """True if the polynomial of the certificate alone takes more characters than any short form is preferred to."""
@@ -174,12 +170,11 @@ class _Equation:
             return self._with_a_long_polynomial(self.decision.series)
         # In case 3 Klein's form comes after the pull-back's own parameters, and so does a polynomial of many terms.
         is_first = self.decision.case == 3 or self._is_long
-        forms = self._special_forms() if is_first else []
-        if not forms or best(forms).length > SHORT:
-            forms += self._own_forms()
-        found = best(forms)
-        if not is_first and (found.kind != FormKind.ELEMENTARY or found.length > SHORT):
-            forms += self._special_forms()
+        forms = self._special_forms() if is_first else self._own_forms()
+        found = best(forms) if forms else None
+        kinds = FormKind if is_first else (FormKind.ELEMENTARY,)
+        if found is None or found.length > SHORT or found.kind not in kinds:
+            forms += self._own_forms() if is_first else self._special_forms()
         chosen, first = self._written_best(forms)
         most = 2 * chosen.length
         pair = first
@@ -246,7 +241,7 @@ class _Equation:
 
     def _in_special_functions(self, source: Pullback | GaugeTransform) -> ClosedForm | None:
         """With y1 as it is where that is elementary and short; None if the two aren't known to be independent."""
-        found = self._request.pair(source)
+        found = Wanted(self.S, self.gauge, self.variable, joined=True).pair(source)
         if found is None:
             return None
         pair = found.y1, found.y2

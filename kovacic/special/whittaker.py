@@ -34,6 +34,7 @@ from flint import acb, fmpq, fmpq_poly
 
 from kovacic.algebra.poly import Poly
 from kovacic.algebra.ratfunc import RatFunc
+from kovacic.closed_form.product import product as product_of
 from kovacic.engine.places import Problem
 from kovacic.limits import count_work
 from kovacic.special import bessel, prices
@@ -207,7 +208,7 @@ class _WhittakerForm:
     def of(cls, equation: Whittaker, writer: Writer, f: RatFunc) -> _WhittakerForm:
         """The sign of sqrt(q) makes the exponential vanish where it can, or z positive."""
         q = writer.square_root(equation.q)
-        given = writer.exponential_rate
+        given = product_of(writer.gauge).exponential.derivative()  # of the gauge factor's exponential
         slope = f.derivative() * q.part
         vanishes = bool(given) and given in (slope, -slope)
         turned = given == -slope if vanishes else writer.is_negative(writer.scale(f))

@@ -157,11 +157,6 @@ class Writer:
                 return writer
         return None
 
-    @property
-    def exponential_rate(self) -> RatFunc:
-        """The logarithmic derivative of the gauge factor's exponential of a rational function."""
-        return product(self.gauge).exponential.derivative()
-
     def factor(
         self, f: RatFunc, powers: Sequence[tuple[Number, RatFunc]], exponent: tuple[Number, RatFunc] | None = None
     ) -> WrittenFactor:
