@@ -30,7 +30,6 @@ from kovacic.special.pullback import (
     StandardForm,
     ValueAndSlope,
     standard_part,
-    variable,
 )
 
 if TYPE_CHECKING:
@@ -50,7 +49,7 @@ class Airy(StandardEquation):
 
     @property
     def S(self) -> RatFunc:
-        return RatFunc(variable(self.q.field) * self.q)
+        return RatFunc(self.q.field.poly([0, 1]) * self.q)
 
     @classmethod
     def candidates(cls, problem: Problem, *, extended: bool, shifted: bool = False) -> Iterator[Pullback]:

@@ -1,4 +1,5 @@
-"""Bessel's equation in the square root of f, S0 = -r/z + M/z^2: of order nu, nu^2 = 4 M + 1, in 2 sqrt(r z).
+"""Bessel's equation, S0 = q - r/z + M/z^2 with q = 0 or r = 0: of order nu, nu^2 = 4 M + 1, in 2 sqrt(r z), or of nu/2 in
+sqrt(-q) z, which is found as one of Whittaker's.
 
 Pull-backs: where the orders of all poles of S are odd, all polar parts of f are determined.  Else its zeros are taken from the
 regular places: the exponent difference is the multiplicity times nu.
@@ -51,7 +52,6 @@ from kovacic.special.pullback import (
     each,
     is_integer,
     square_root,
-    variable,
 )
 
 if TYPE_CHECKING:
@@ -60,56 +60,90 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True)
 class Bessel(StandardEquation):
-    """S0 = -r/z + M/z^2."""
+    """S0 = q - r/z + M/z^2, q = 0 or r = 0."""
 
+    q: Poly
     r: Poly
     M: Poly
 
     searched: ClassVar[str] = "Bessel's equation in the square root of f(x), f rational"
     irregular: ClassVar[bool] = True
-    name = "Bessel's"
-    cost = prices.BESSEL
+
+    @property
+    def name(self) -> str:
+        return "Bessel's"
 
     @property
     def S(self) -> RatFunc:
-        z = variable(self.M.field)
-        return RatFunc(self.M - z * self.r, z * z)
+        z = self.M.field.poly([0, 1])
+        return RatFunc(z * z * self.q - z * self.r + self.M, z * z)
 
     @classmethod
     def candidates(cls, problem: Problem, *, extended: bool, shifted: bool = False) -> Iterator[Pullback]:
         places = irregular_places(problem)
-        one = problem.field.poly([1])
-        if any(place.order % 2 == 0 for place in places):
-            if not shifted:  # the exponents at the zeros are needed
-                yield from _by_zeros(problem, places)
-            return
-        polar = sum((square(place) for place in places), RatFunc(one * 0))
-        for f, nu_squared in zeros(problem, polar, shifted=shifted):
-            yield Pullback(Bessel(one, (nu_squared - 1) * Fraction(1, 4)), f)
+        zero = problem.field.poly([])
+        found: Iterable[tuple[RatFunc, Poly]] = ()
+        if all(place.order % 2 for place in places):
+            found = zeros(problem, sum((square(place) for place in places), RatFunc(zero)), shifted=shifted)
+        elif not shifted:  # the exponents at the zeros are needed
+            found = _by_zeros(problem, places)
+        for f, nu_squared in found:
+            yield Pullback(Bessel(zero, zero + 1, (nu_squared - 1) * Fraction(1, 4)), f)
 
-    def written(self, writer: Writer, f: RatFunc) -> WrittenPair:
+    def written(self, writer: Writer, f: RatFunc) -> WrittenPair | None:
         return written(writer, 4 * self.M + 1, f * self.r)
 
     @property
     def parameters(self) -> list[fmpq]:
-        return [4 * self.constants[1] + 1]
+        return [4 * self.constants[2] + 1]
+
+    @property
+    def cost(self) -> prices.Cost:
+        return prices.BESSEL
 
     def coordinate(self, n: Any, d: Any) -> int:
-        return sign_of(n, d)
+        """1 if Re f < 0: then -f is taken, by the symmetry z -> -z, r -> -r."""
+        return int(d != 0 and bool(acb(n / d).real < 0))
 
     def form(self, n: fmpq_poly, d: fmpq_poly, coordinate: int) -> StandardForm:
-        r, M = self.constants
-        if coordinate:  # the symmetry z -> -z
+        """0F1(; 1 +- order; argument) with the argument -r z or q z^2/4; one of the second kind for an integer order."""
+        q, r, M = self.constants
+        if coordinate:
             n = -n
             r = -r
-        return standard_form(n, d, -r, square_root(4 * M + 1) / 2, squared=False)
+        half = fmpq(1, 2)
+        mu = square_root(4 * M + 1) / 2
+        order, factor = (mu, q) if q else (2 * mu, -r)
+
+        def first(order: Any) -> StandardSolution:
+            c = 1 + order
+
+            def value(z: acb) -> ValueAndSlope:
+                argument, slope = (z * z * (factor / 4), z * (factor / 2)) if q else (z * factor, acb(factor))
+                return _0f1(argument, c), _0f1(argument, c + 1) * slope / c
+
+            return value
+
+        if not is_integer(order):
+            return StandardForm(n, d, ((half + mu, 0), (half - mu, 0)), each(first(order), first(-order)))
+        nu = acb(order)
+        root = acb(abs(factor)).sqrt()
+
+        def second(z: acb) -> ValueAndSlope:
+            w, slope = (root * z, acb(root)) if q else (2 * root * z.sqrt(), root / z.sqrt())
+            kind = w.bessel_k if factor > 0 else w.bessel_y
+            value = kind(nu)
+            above = kind(nu + 1)
+            return value, (nu / w * value - above) * slope
+
+        return StandardForm(n, d, ((half + mu, 0), (half, 0)), each(first(order), second), (1, None))
 
 
 # ------------------------------------------------------------------------------------------ found by zeros
 
 
-def _by_zeros(problem: Problem, irregular: list[Place]) -> Iterator[Pullback]:
-    """r = 1: f is a constant times the product of its zeros, by their multiplicities, over that of its poles."""
+def _by_zeros(problem: Problem, irregular: list[Place]) -> Iterator[tuple[RatFunc, Poly]]:
+    """f and nu^2 for r = 1: f is a constant times the product of its zeros, by their multiplicities, over that of its poles."""
     one = problem.field.poly([1])
     poles = prod((place.factor ** (place.order - 2) for place in irregular if not place.at_infinity), start=one)
     n = sum((place.order - 2) * place.degree for place in irregular)
@@ -122,7 +156,7 @@ def _by_zeros(problem: Problem, irregular: list[Place]) -> Iterator[Pullback]:
         f = RatFunc(fibre.polynomial, poles)
         scale = _scale(f, irregular[0])
         if scale is not None:
-            yield Pullback(Bessel(one, (fibre.square - 1) * Fraction(1, 4)), f * scale)
+            yield f * scale, fibre.square
 
 
 def _zeros(problem: Problem, n: int) -> Iterable[Fibre]:
@@ -185,11 +219,6 @@ def written(writer: Writer, nu_squared: Poly, t: RatFunc) -> WrittenPair:
 # ------------------------------------------------------------------------------------------ values
 
 
-def sign_of(n: Any, d: Any) -> int:
-    """True if Re f < 0; then -f is taken, by the symmetry z -> -z, r -> -r."""
-    return int(d != 0 and bool(acb(n / d).real < 0))
-
-
 def _0f1(argument: Any, c: Any) -> Any:
     """0F1(; c; argument), where FLINT sums the power series with its middle, and with more bits.
 
@@ -212,35 +241,3 @@ def _0f1(argument: Any, c: Any) -> Any:
     error = ((argument.real.rad() + argument.imag.rad()) * growth / abs(arb(c))).upper()
     off_axis = 0 if argument.imag == 0 else error
     return acb(arb(middle.real.mid(), middle.real.rad() + error), arb(middle.imag.mid(), middle.imag.rad() + off_axis))
-
-
-def standard_form(n: fmpq_poly, d: fmpq_poly, factor: Any, mu: Any, *, squared: bool) -> StandardForm:
-    """The exponents 1/2 +- mu at 0, and 0F1(; 1 +- order; argument): the argument is factor z or, `squared`, factor z^2/4.
-
-    For an integer order the second solution is sqrt(z) times one of the second kind.
-    """
-    half = fmpq(1, 2)
-    order = mu if squared else 2 * mu
-
-    def first(order: Any) -> StandardSolution:
-        c = 1 + order
-
-        def value(z: acb) -> ValueAndSlope:
-            argument, slope = (z * z * (factor / 4), z * (factor / 2)) if squared else (z * factor, acb(factor))
-            return _0f1(argument, c), _0f1(argument, c + 1) * slope / c
-
-        return value
-
-    if not is_integer(order):
-        return StandardForm(n, d, ((half + mu, 0), (half - mu, 0)), each(first(order), first(-order)))
-    nu = acb(order)
-    root = acb(abs(factor)).sqrt()
-
-    def second(z: acb) -> ValueAndSlope:
-        w, slope = (root * z, acb(root)) if squared else (2 * root * z.sqrt(), root / z.sqrt())
-        kind = w.bessel_k if factor > 0 else w.bessel_y
-        value = kind(nu)
-        above = kind(nu + 1)
-        return value, (nu / w * value - above) * slope
-
-    return StandardForm(n, d, ((half + mu, 0), (half, 0)), each(first(order), second), (1, None))

@@ -62,7 +62,6 @@ from kovacic.special.pullback import (
     ends,
     is_integer,
     square_root,
-    variable,
 )
 
 if TYPE_CHECKING:
@@ -95,7 +94,7 @@ class Gauss(StandardEquation):
 
     @property
     def S(self) -> RatFunc:
-        z = variable(self.A.field)
+        z = self.A.field.poly([0, 1])
         w = z - 1
         A = self.A
         B = self.B

@@ -25,7 +25,7 @@ from typing import TYPE_CHECKING, Any, ClassVar
 from flint import acb, fmpq, fmpq_poly
 from flint.utils.flint_exceptions import DomainError
 
-from kovacic.algebra.poly import Field, Poly
+from kovacic.algebra.poly import Poly
 from kovacic.algebra.ratfunc import RatFunc
 from kovacic.compatibility import cached_property
 from kovacic.engine.places import Problem
@@ -247,8 +247,3 @@ def schwarzian(f: RatFunc) -> RatFunc:
     slope = f.derivative()
     ratio = slope.derivative() / slope
     return ratio.derivative() - ratio * ratio * Fraction(1, 2)
-
-
-def variable(field: Field) -> Poly:
-    """z."""
-    return field.poly([0, 1])

@@ -37,7 +37,8 @@ from kovacic.algebra.ratfunc import RatFunc
 from kovacic.closed_form.product import product as product_of
 from kovacic.engine.places import Problem
 from kovacic.limits import count_work
-from kovacic.special import bessel, prices
+from kovacic.special import prices
+from kovacic.special.bessel import Bessel, written
 from kovacic.special.maps import (
     HALF,
     Number,
@@ -50,7 +51,6 @@ from kovacic.special.maps import (
 from kovacic.special.pullback import (
     TRIAL,
     Pullback,
-    StandardEquation,
     StandardForm,
     StandardSolution,
     ValueAndSlope,
@@ -58,7 +58,6 @@ from kovacic.special.pullback import (
     ends,
     is_integer,
     square_root,
-    variable,
 )
 
 if TYPE_CHECKING:
@@ -70,24 +69,14 @@ _MOST_SIGNS = 10
 
 
 @dataclass(frozen=True)
-class Whittaker(StandardEquation):
-    """S0 = q - r/z + M/z^2."""
-
-    q: Poly
-    r: Poly
-    M: Poly
+class Whittaker(Bessel):
+    """S0 = q - r/z + M/z^2, q != 0."""
 
     searched: ClassVar[str] = "Whittaker's equation (with Kummer's, Weber's and Bessel's) in f(x), f rational"
-    irregular: ClassVar[bool] = True
 
     @property
     def name(self) -> str:
-        return "Whittaker's" if self.r else "Bessel's"
-
-    @property
-    def S(self) -> RatFunc:
-        z = variable(self.M.field)
-        return RatFunc(z * z * self.q - z * self.r + self.M, z * z)
+        return "Whittaker's" if self.r else super().name
 
     @classmethod
     def candidates(cls, problem: Problem, *, extended: bool, shifted: bool = False) -> Iterator[Pullback]:
@@ -105,7 +94,7 @@ class Whittaker(StandardEquation):
 
     def written(self, writer: Writer, f: RatFunc) -> WrittenPair:
         if not self.r:
-            return bessel.written(writer, self.M + Fraction(1, 4), f * f * self.q * Fraction(-1, 4))
+            return written(writer, self.M + Fraction(1, 4), f * f * self.q * Fraction(-1, 4))
         form = _WhittakerForm.of(self, writer, f)
         for turned in (form, form.turned):
             polynomial = _hermite(turned) or _laguerre(turned)
@@ -121,29 +110,26 @@ class Whittaker(StandardEquation):
 
     @property
     def parameters(self) -> list[fmpq]:
-        q, r, M = self.constants
-        return [4 * M + 1, r * r / q]
+        q, r, _ = self.constants
+        return [*super().parameters, r * r / q]
 
     @property
     def cost(self) -> prices.Cost:
         if not self.r:
-            return prices.BESSEL
+            return super().cost
         mu, kappa = (square_root(square) / 2 for square in self.parameters)
         if any(ends(fmpq(1, 2) + sign * mu - kappa) for sign in (1, -1)):  # Laguerre's polynomial, and one series
             return prices.BESSEL
         return prices.TRICOMI if is_integer(2 * mu) else prices.WHITTAKER
 
-    def coordinate(self, n: Any, d: Any) -> int:
-        return bessel.sign_of(n, d)
-
     def form(self, n: fmpq_poly, d: fmpq_poly, coordinate: int) -> StandardForm:
         q, r, M = self.constants
-        if coordinate:  # the symmetry z -> -z
+        if r == 0:
+            return super().form(n, d, coordinate)
+        if coordinate:
             n = -n
             r = -r
-        mu = square_root(M + fmpq(1, 4))
-        if r == 0:
-            return bessel.standard_form(n, d, q, mu, squared=True)
+        mu = square_root(4 * M + 1) / 2
         rho = square_root(q)
         kappa = r / (2 * rho)
         half = fmpq(1, 2)

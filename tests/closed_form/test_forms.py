@@ -145,7 +145,7 @@ TARGETS: dict[str, RatFunc] = {
     "Bessel of order 1/3": -1 + (4 * THIRD**2 - 1) / (4 * X**2),
     "Bessel of order 2": -1 + Fraction(15, 4) / X**2,
     "Bessel modified, in x - 1/x": Pullback(Whittaker(*map(QQ.poly, ([1], [], [-THIRD / 4]))), X - 1 / X).S,
-    "Bessel in sqrt(x)": Pullback(Bessel(*map(QQ.poly, ([1], [(FIFTH**2 - 1) / 4]))), X).S,
+    "Bessel in sqrt(x)": Pullback(Bessel(*map(QQ.poly, ([], [1], [(FIFTH**2 - 1) / 4]))), X).S,
     "Weber": X**2 / 4 + THIRD,
     "Whittaker": Fraction(1, 4) - THIRD / X + (Fraction(1, 4) - 1) / (4 * X**2),
     "Gauss": pulled_back((THIRD, FIFTH, SEVENTH), X),

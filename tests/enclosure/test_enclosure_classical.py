@@ -46,7 +46,7 @@ def a_pullback(kind: str, rng: random.Random) -> Pullback:
     if kind == "Bessel":
         if rng.random() < 0.5:
             return Pullback(Whittaker(constant(few()), constant(Fraction(0)), constant(M)), f)
-        return Pullback(Bessel(constant(few()), constant(M)), f)
+        return Pullback(Bessel(constant(Fraction(0)), constant(few()), constant(M)), f)
     if kind == "Whittaker":
         return Pullback(Whittaker(constant(few()), constant(few()), constant(M)), f)
     squares = [rng.choice([few(), mu * mu, Fraction(1, 9), Fraction(0), Fraction(4)]) for _ in range(3)]
