@@ -342,12 +342,9 @@ class Wanted:
 
     def writer(self, transform: GaugeTransform | None = None) -> Writer:
         """A writer of solutions as they are wanted."""
-        import sympy
-
         from kovacic.special.writer import Writer
 
-        singular = self.S.den if self.joined else None
-        return Writer(self.gauge, sympy.Symbol(self.variable), self.symbols, transform, self.places, singular)
+        return Writer(self, transform)
 
     def pair(self, source: Pullback | GaugeTransform) -> WrittenPair | None:
         """y1 and y2, checked; None if the assumptions on the symbols leave open which solutions are independent.

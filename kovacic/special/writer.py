@@ -6,7 +6,7 @@ with square roots, stand beside it (`WrittenFactor`).
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass, field
 from fractions import Fraction
 from functools import partial, reduce
@@ -30,6 +30,7 @@ from kovacic.special.maps import HALF, Number, half_rate
 
 if TYPE_CHECKING:
     from kovacic.special.pullback import GaugeTransform
+    from kovacic.special.search import Wanted
 
 
 @dataclass(frozen=True)
@@ -104,29 +105,23 @@ WrittenTerm = tuple[WrittenFactor, Expr]
 
 
 class Writer:
-    """Writes in one variable; `symbols` are the user's own by name, with what is assumed about them.
+    """Writes in one variable, with the user's own symbols by name and what is assumed about them, what is `wanted`.
 
     With a gauge transformation a v + b v' is written for what would be v without.  `places` are values of the variable at which
     solutions are to be real.  With `singular`, a denominator of S, they are analytic wherever it isn't zero, even where
     f is.
     """
 
-    def __init__(
-        self,
-        gauge: RatFunc,
-        x: Any,
-        symbols: Mapping[str, Any],
-        transform: GaugeTransform | None = None,
-        places: Sequence[Fraction] = (),
-        singular: Poly | None = None,
-    ) -> None:
-        self.places = places
-        self.singular = singular
-        self.gauge = gauge
+    def __init__(self, wanted: Wanted, transform: GaugeTransform | None = None) -> None:
+        self.wanted = wanted
+        self.gauge = wanted.gauge
+        self.places = wanted.places
+        self.singular = wanted.S.den if wanted.joined else None
         self.transform = transform
+        x = sympy.Symbol(wanted.variable)
         self.atoms = Atoms(x)
-        self.real = Atoms(x, at=sympy.Rational(places[0])) if places else self.atoms
-        self.symbols = {sympy.Symbol(name): symbol for name, symbol in symbols.items()}
+        self.real = Atoms(x, at=sympy.Rational(self.places[0])) if self.places else self.atoms
+        self.symbols = {sympy.Symbol(name): symbol for name, symbol in wanted.symbols.items()}
         self.known = self.symbols
         self._squares: list[Poly] = []
         self._shown: dict[Number | Poly, Expr] = {}
@@ -141,8 +136,9 @@ class Writer:
         """A writer that knows the value to be natural: a symbol of an integer is written by that; None without one.
 
         >>> n, m = sympy.symbols("n m", integer=True, positive=True)
-        >>> writer = Writer(RatFunc(QQ.poly([0])), sympy.Symbol("x"), {"n": n, "m": m})
-        >>> writer.assuming(sympy.Symbol("n") - sympy.Symbol("m")).known
+        >>> from kovacic.special.search import Wanted
+        >>> zero = RatFunc(QQ.poly([0]))
+        >>> Writer(Wanted(zero, zero, "x", {"n": n, "m": m})).assuming(sympy.Symbol("n") - sympy.Symbol("m")).known
         {n: _d + m, m: m}
         """
         value = sympy.expand(value)
@@ -151,8 +147,7 @@ class Writer:
             for plain in (plain for plain in slopes if slopes[plain] == slope and self.symbols[plain].is_integer):
                 natural = sympy.Dummy("d", integer=True, nonnegative=True)
                 meaning = sympy.expand(plain + (natural - value) / slope).xreplace(self.symbols)
-                writer = Writer(self.gauge, self.atoms.x, {}, places=self.places, singular=self.singular)
-                writer.symbols = self.symbols
+                writer = Writer(self.wanted)
                 writer.known = {**self.symbols, plain: meaning}
                 return writer
         return None
