@@ -40,11 +40,11 @@ def is_exact_solution(form: ClosedStructure, S: RatFunc, gauge: RatFunc) -> bool
     Only for cases 1 and 2.
     """
     if isinstance(form, Diagonal):
-        first = _without(gauge, form.first)
-        second = _without(gauge, form.second)
+        first = form.first.logarithmic_derivative - gauge
+        second = form.second.logarithmic_derivative - gauge
         return first != second and _is_riccati_solution(first, S) and _is_riccati_solution(second, S)
     if isinstance(form, Triangular):
-        omega = _without(gauge, form.first)
+        omega = form.first.logarithmic_derivative - gauge
         same = omega == form.bare.logarithmic_derivative
         return same and _is_riccati_solution(omega, S) and _is_inverse_square(form.primitive, form.bare)
     assert isinstance(form, Conjugate | OnCurve)
@@ -52,11 +52,6 @@ def is_exact_solution(form: ClosedStructure, S: RatFunc, gauge: RatFunc) -> bool
     u = u - gauge
     solves = u.derivative() + u * u + square == S and not square.derivative() + 4 * u * square
     return bool(square) and solves and (isinstance(form, Conjugate) or _is_complete(form.integral))
-
-
-def _without(gauge: RatFunc, y: Product) -> RatFunc:
-    """The logarithmic derivative of y divided by the gauge factor."""
-    return y.logarithmic_derivative - gauge if gauge else y.logarithmic_derivative
 
 
 def _is_riccati_solution(omega: RatFunc, S: RatFunc) -> bool:

@@ -213,22 +213,21 @@ def _curve_terms(integral: CurveIntegral, atoms: Atoms, *, alone: bool, exponent
     terms = _Terms()
     if integral.exact:
         terms.others.append(atoms.ratio(integral.exact) * root)
-    if not integral.is_elementary:
-        if not integral.units:
-            terms.others.append(sympy.Integral(atoms.ratio(integral.without_exact) / root, atoms.x))
-            terms.notes = (f"integral left because {integral.reason}",)
-        else:
-            for u in integral.units:
-                _append_unit(u, root, atoms, terms, integral.g, exponents=exponents)
-        return terms
-    if integral.rest:
-        _append_rest(integral, atoms, terms, alone=alone, exponents=exponents)
-    for residue in integral.residues:
-        found = unit(integral.g, residue)
-        if found is not None:
-            _append_unit(found, root, atoms, terms, integral.g, exponents=exponents)
-        else:
-            terms.others.append(_root_sum(integral, residue, root, atoms))
+    units = list(integral.units)
+    if integral.is_elementary:
+        if integral.rest:
+            _append_rest(integral, atoms, terms, alone=alone, exponents=exponents)
+        for residue in integral.residues:
+            found = unit(integral.g, residue)
+            if found is not None:
+                units.append(found)
+            else:
+                terms.others.append(_root_sum(integral, residue, root, atoms))
+    elif not units:
+        terms.others.append(sympy.Integral(atoms.ratio(integral.without_exact) / root, atoms.x))
+        terms.notes = (f"integral left because {integral.reason}",)
+    for u in units:
+        _append_unit(u, root, atoms, terms, integral.g, exponents=exponents)
     return terms
 
 

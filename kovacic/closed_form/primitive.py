@@ -196,8 +196,7 @@ def _limit(E: RatFunc) -> list[Poly]:
 
 def _squares(E: RatFunc) -> Iterator[tuple[RatFunc, Poly, Poly]]:
     """(q, b, e) with E = e + b q^2."""
-    slope = E.derivative().num
-    factors = E.field.factor(slope) if slope.degree > 0 else []
+    factors = E.field.factor(E.derivative().num)
     values = [E.num * E.den.inverse_modulo(p) % p for p, _ in factors] + _limit(E)
     for e in dict.fromkeys(values):
         level = E - e
@@ -235,7 +234,7 @@ def _denominator(functions: list[RatFunc], E: RatFunc, alpha: Fraction) -> Poly:
     """Of W: a pole of order m of E raises the order of a pole of W by m + 1, and a factor x^alpha by 1."""
     field = E.field
     x = field.poly([0, 1])
-    poles = field.factor(E.den) if E.den.degree > 0 else []
+    poles = field.factor(E.den)
     if alpha and E.den[0]:
         poles = [*poles, (x, 0)]
     den = field.poly([1])
@@ -394,8 +393,7 @@ def _centre(fractional: list[_Root], E: RatFunc) -> Poly:
 def normalised_constant(exact: RatFunc) -> RatFunc:
     """The antiderivative that vanishes at a multiple zero of the integrand, or has the least degree in the numerator."""
     slope = exact.derivative()
-    zeros = exact.field.factor(slope.num) if slope.num.degree > 1 else []
-    multiple = [(p, k) for p, k in zeros if p.degree == 1 and k > 1]
+    multiple = [(p, k) for p, k in exact.field.factor(slope.num) if p.degree == 1 and k > 1]
     if multiple:
         p, _ = max(multiple, key=lambda pair: pair[1])
         return exact - exact.num * exact.den.inverse_modulo(p) % p
