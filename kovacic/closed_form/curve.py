@@ -112,10 +112,6 @@ class CurveIntegral:
         """True if (2) gives the integral; False proves nothing for genus 1 and higher."""
         return self.g.degree <= 2 or (not self.residues and not self.rest)
 
-    def radicand(self, residue: Residue) -> Poly:
-        """gamma = g(a) as an element of K[a]/p."""
-        return self.g % residue.factor
-
 
 def integrate_on_curve(r: RatFunc, g: Poly) -> CurveIntegral:
     """int r dx/sqrt(g) for a monic squarefree g.
@@ -133,15 +129,15 @@ def integrate_on_curve(r: RatFunc, g: Poly) -> CurveIntegral:
     W, r, residues = reduce_poles(r, RatFunc(g.derivative(), g) * Fraction(-1, 2), g)
     exact = W / g
     r = r - sum((found.logarithmic for found in residues), r * 0)
-    factors = field.factor(r.den)
-    for p, j in [(p, j) for p, multiplicity in factors for j in range(multiplicity, 0, -1)]:
-        # at a branch point, g = p u: ((B/p^j) s)' s = (1/2 - j) B p' u/p^j + ...
-        cofactor, count = r.den.remove(p)
-        if count == j:
+    for p, _ in field.factor(r.den):
+        cofactor, j = r.den.remove(p)
+        while j:
+            # at a branch point, g = p u: ((B/p^j) s)' s = (1/2 - j) B p' u/p^j + ...
             B = r.num * (cofactor * p.derivative() * (g // p)).inverse_modulo(p) % p
             C = RatFunc(B * (1 / (Fraction(1, 2) - j)), p**j)
             exact = exact + C
             r = r - _slope(C, g)
+            cofactor, j = r.den.remove(p)
     while r and r.num.degree >= d - 1:
         # at infinity: ((B x^j) s)' s = (j + d/2) B x^(j + d - 1) + ...
         j = r.num.degree - d + 1

@@ -300,7 +300,7 @@ def _root_sum(integral: CurveIntegral, residue: Residue, root: Expr, atoms: Atom
     """The sum over the roots a of p of -(rho/sqrt(gamma)) log((L_a + sqrt(gamma) s)/(x - a))."""
     p = residue.factor
     a = atoms.root
-    gamma = atoms.poly(integral.radicand(residue), a)
+    gamma = atoms.poly(integral.g % p, a)
     slope = atoms.poly(integral.g.derivative() * Fraction(1, 2) % p, a)
     tangent = gamma + slope * (atoms.x - a)
     body = -atoms.poly(residue.value, a) / sqrt(gamma) * log((tangent + sqrt(gamma) * root) / (atoms.x - a))

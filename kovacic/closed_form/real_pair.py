@@ -137,22 +137,21 @@ def _half_turns(
 def conjugate_roots(form: Conjugate, atoms: Atoms) -> tuple[Expr, Expr]:
     """y+ and y- for a delta that isn't negative: real where S is."""
     root = atoms.sqrt(form.delta)
-    first, second = (_conjugate_root(form, s, atoms) for s in (root, -root))
-    return first, second
-
-
-def _conjugate_root(form: Conjugate, s: Expr, atoms: Atoms) -> Expr:
-    exponents = {power.base: atoms.constant(power.exponent) for power in form.common.powers}
-    inner = [s * atoms.sum(form.phase.exact)] if form.phase.exact else []
-    for residue in form.phase.residues:
-        if residue.is_constant:  # an exponent
-            p = residue.factor
-            exponents[p] = exponents.get(p, Integer(0)) + s * atoms.constant(residue.value)
-        else:
-            inner.append(s * atoms.log_sum(residue))
-    powers = Mul(*(atoms.base(base, around_zero=False) ** sympy.expand_mul(e) for base, e in exponents.items()))
     rest = display(replace(form.common, powers=()), atoms)
-    return Add(atoms.poly(form.A), sympy.expand_mul(s * atoms.poly(form.B))) * powers * rest * sympy.exp(Add(*inner))
+    pair = []
+    for s in (root, -root):
+        exponents = {power.base: atoms.constant(power.exponent) for power in form.common.powers}
+        inner = [s * atoms.sum(form.phase.exact)]
+        for residue in form.phase.residues:
+            if residue.is_constant:  # an exponent
+                exponents.setdefault(residue.factor, Integer(0))
+                exponents[residue.factor] += s * atoms.constant(residue.value)
+            else:
+                inner.append(s * atoms.log_sum(residue))
+        powers = Mul(*(atoms.base(base, around_zero=False) ** sympy.expand_mul(e) for base, e in exponents.items()))
+        polynomial = Add(atoms.poly(form.A), sympy.expand_mul(s * atoms.poly(form.B)))
+        pair.append(polynomial * powers * rest * sympy.exp(Add(*inner)))
+    return pair[0], pair[1]
 
 
 def is_turned(equation: Equation, y: Expr) -> bool:

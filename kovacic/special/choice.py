@@ -161,8 +161,7 @@ class _Equation:
     def _is_long(self) -> bool:
         """True if the polynomial of the certificate alone takes more characters than any short form is preferred to."""
         semi = self.decision.semi_invariant
-        most = FACTOR * SHORT // (2 * _TERM)
-        return semi is not None and semi.P.degree > most and sum(map(bool, semi.P)) > most
+        return semi is not None and sum(map(bool, semi.P)) > FACTOR * SHORT // (2 * _TERM)
 
     def chosen(self) -> ClosedForm:
         """The preferred pair, checked; or one that keeps its digits and isn't much longer; with a note if there is no such."""

@@ -249,8 +249,6 @@ def zeros(problem: Problem, polar: RatFunc, *, shifted: bool) -> Iterator[tuple[
     Zeros of f are all places with exponents that integers don't explain; without such, apparent places or critical points.
     With `shifted`, S has k e up to integers only.
     """
-    if not polar.derivative():
-        return
     seen = regular_points(problem, apparent=False)
     for point in seen or [*regular_points(problem, apparent=True), *unseen_points(polar)]:
         value = value_at(polar, point)
