@@ -304,8 +304,6 @@ def _root_sum(integral: CurveIntegral, residue: Residue, root: Expr, atoms: Atom
     slope = atoms.poly(integral.g.derivative() * Fraction(1, 2) % p, a)
     tangent = gamma + slope * (atoms.x - a)
     body = -atoms.poly(residue.value, a) / sqrt(gamma) * log((tangent + sqrt(gamma) * root) / (atoms.x - a))
-    if roots := atoms.real_roots(p):
-        return Add(*(body.subs(a, value) for value in roots))
     return atoms.root_sum(atoms.poly(p, a), body)
 
 

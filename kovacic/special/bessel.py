@@ -147,7 +147,14 @@ def _by_zeros(problem: Problem, irregular: list[Place]) -> Iterator[tuple[RatFun
     one = problem.field.poly([1])
     poles = prod((place.factor ** (place.order - 2) for place in irregular if not place.at_infinity), start=one)
     n = sum((place.order - 2) * place.degree for place in irregular)
-    for fibre in _zeros(problem, n):
+    points = regular_points(problem)
+    logarithmic = [point for point in points if not point.square]
+    found: Iterable[Fibre] = fibres(points, n)
+    if logarithmic:
+        # nu = 0: all zeros are here, and the exponents don't tell the multiplicities.
+        choices = product(*(range(1, n // point.degree + 1) for point in logarithmic))
+        found = (Fibre(tuple(zip(logarithmic, choice, strict=True)), logarithmic[0].square) for choice in choices)
+    for fibre in found:
         problem.budget.check()
         count_work(1)
         if fibre.degree != n:
@@ -157,17 +164,6 @@ def _by_zeros(problem: Problem, irregular: list[Place]) -> Iterator[tuple[RatFun
         scale = _scale(f, irregular[0])
         if scale is not None:
             yield f * scale, fibre.square
-
-
-def _zeros(problem: Problem, n: int) -> Iterable[Fibre]:
-    """Sets of points with multiplicities proportional to the exponent differences, up to n zeros in all, and nu^2."""
-    points = regular_points(problem)
-    logarithmic = [point for point in points if not point.square]
-    if not logarithmic:
-        return fibres(points, n)
-    # nu = 0: all zeros are here, and the exponents don't tell the multiplicities.
-    choices = product(*(range(1, n // point.degree + 1) for point in logarithmic))
-    return (Fibre(tuple(zip(logarithmic, choice, strict=True)), logarithmic[0].square) for choice in choices)
 
 
 def _scale(f: RatFunc, place: Place) -> Poly | None:

@@ -169,11 +169,11 @@ class _Equation:
             return self._with_a_long_polynomial(self.decision.series)
         # In case 3 Klein's form comes after the pull-back's own parameters, and so does a polynomial of many terms.
         is_first = self.decision.case == 3 or self._is_long
-        forms = self._special_forms() if is_first else self._own_forms()
+        forms = self._special_forms(self._source()) if is_first else self._own_forms()
         found = best(forms) if forms else None
         kinds = FormKind if is_first else (FormKind.ELEMENTARY,)
         if found is None or found.length > SHORT or found.kind not in kinds:
-            forms += self._own_forms() if is_first else self._special_forms()
+            forms += self._own_forms() if is_first else self._special_forms(self._source())
         chosen, first = self._written_best(forms)
         most = 2 * chosen.length
         pair = first
@@ -208,7 +208,7 @@ class _Equation:
             pullback = klein_pullback(structure)
             if not pullback.gives(self.S):
                 raise VerificationFailed(f"Klein's invariant of S = {self.S} isn't right; please report the equation")
-            return [self._special_form(pullback)]
+            return self._special_forms(pullback)
         is_left = isinstance(structure, Triangular) and isinstance(structure.primitive, OpenPrimitive)
         kind = FormKind.INTEGRAL if is_left else FormKind.ELEMENTARY
         length = structure.length
@@ -229,14 +229,12 @@ class _Equation:
                 return found
         return find_transform(self.S, self.budget)
 
-    def _special_forms(self) -> list[PairForm]:
+    def _special_forms(self, source: Pullback | GaugeTransform | None) -> list[PairForm]:
         """The solutions of that standard equation."""
-        source = self._source()
-        return [] if source is None else [self._special_form(source)]
-
-    def _special_form(self, source: Pullback | GaugeTransform) -> PairForm:
+        if source is None:
+            return []
         parts = (source.f,) if isinstance(source, Pullback) else (source.pullback.f, source.a, source.b)
-        return PairForm(FormKind.SPECIAL, 4 * written_length(parts), partial(self._in_special_functions, source))
+        return [PairForm(FormKind.SPECIAL, 4 * written_length(parts), partial(self._in_special_functions, source))]
 
     def _in_special_functions(self, source: Pullback | GaugeTransform) -> ClosedForm | None:
         """With y1 as it is where that is elementary and short; None if the two aren't known to be independent."""

@@ -31,7 +31,7 @@ Reference: DLMF 14.3, 15.4.11-18, 15.10, 18.5, 18.7, 19.5.
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 from fractions import Fraction
 from functools import partial
@@ -57,6 +57,7 @@ from kovacic.special.pullback import (
     StandardEquation,
     StandardForm,
     StandardSolution,
+    StandardSolutions,
     ValueAndSlope,
     each,
     ends,
@@ -329,7 +330,7 @@ class _GaussForm:
     @property
     def degree(self) -> Number:
         """N with a = -N."""
-        return (self.alpha + self.beta + self.gamma - 1) * HALF
+        return -self.upper[0]
 
     @cached_property
     def _values(self) -> list[Fraction | float | None]:
@@ -509,8 +510,8 @@ def _values(mapped: tuple[Any, Any, Any, Any, Any]) -> StandardForm:
     right = (1 + e1) / 2
     is_dihedral = e1 == half and half in (e0, e2)
     if is_dihedral and e0 != 0:
-        pair = (_root(e0), _root(-e0)) if e2 == half else (_sine(e2), _cosine(e2))
-        return StandardForm(n, d, ((upper, half / 2), (lower, half / 2)), each(*pair), (None, 1))
+        solutions = each(_root(e0), _root(-e0)) if e2 == half else _sine_and_cosine(e2)
+        return StandardForm(n, d, ((upper, half / 2), (lower, half / 2)), solutions, (None, 1))
     first = _hypergeometric(e0, e1, e2, mirrored=False)
     if not is_integer(e0):
         second = _hypergeometric(-e0, e1, e2, mirrored=False)
@@ -531,27 +532,18 @@ def _root(e: Any) -> StandardSolution:
     return value
 
 
-def _sine(e: Any) -> StandardSolution:
-    """sin(e theta)/(e sqrt(z)), theta/sqrt(z) for e = 0."""
+def _sine_and_cosine(e: Any) -> StandardSolutions:
+    """sin(e theta)/(e sqrt(z)), or theta/sqrt(z) for e = 0, and cos(e theta), with theta' = 1/(2 sqrt(z) sqrt(1 - z))."""
 
-    def value(z: acb) -> ValueAndSlope:
+    def values(z: acb, needed: Sequence[bool]) -> list[ValueAndSlope]:
         root = z.sqrt()
+        w = (1 - z).sqrt()
         theta = root.asin()
-        sine, slope = (theta, acb(1)) if e == 0 else ((e * theta).sin() / e, (e * theta).cos())
-        return sine / root, (slope / (1 - z).sqrt() - sine / root) / (2 * z)
+        cosine = (e * theta).cos()
+        sine = (theta if e == 0 else (e * theta).sin() / e) / root
+        return [(sine, (cosine / w - sine) / (2 * z)), (cosine, -e * e * sine / (2 * w))]
 
-    return value
-
-
-def _cosine(e: Any) -> StandardSolution:
-    """cos(e theta)."""
-
-    def value(z: acb) -> ValueAndSlope:
-        root = z.sqrt()
-        angle = e * root.asin()
-        return angle.cos(), -angle.sin() * e / (2 * root * (1 - z).sqrt())
-
-    return value
+    return values
 
 
 def _hypergeometric(e0: Any, e1: Any, e2: Any, *, mirrored: bool) -> StandardSolution:

@@ -340,11 +340,6 @@ class Fibre:
         return _count(point for point, _ in self.multiplicities)
 
     @property
-    def is_at_infinity(self) -> bool:
-        """True if it is that of a polynomial over infinity."""
-        return all(point.at_infinity for point, _ in self.multiplicities)
-
-    @property
     def polynomial(self) -> Poly:
         """The product over the finite ones."""
         result = self.square.field.poly([1])
@@ -369,7 +364,8 @@ def _distributed(points: list[Point], apparent: list[Point], hidden: int) -> Ite
         if fibre.degree >= least_degree:
             by_degree.setdefault(fibre.degree, []).append(fibre)
     for n, found in sorted(by_degree.items()):
-        found.sort(key=lambda fibre: not fibre.is_at_infinity)  # polynomials f first
+        # polynomials f first
+        found.sort(key=lambda fibre: not all(point.at_infinity for point, _ in fibre.multiplicities))
         for zeros, poles in combinations(found, 2):
             check_time()
             count_work(1)
