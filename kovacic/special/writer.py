@@ -415,13 +415,12 @@ def _sine_of_letters(number: Expr) -> Expr:
 def _derivative(F: Expr, x: Any) -> tuple[Expr, Expr, Expr, Expr]:
     """(s, t, w, F1) with F' = s F + t w F1: s and t rational functions, w a root of one or 1."""
     rule = _SLOPES.get(F.func)
-    found = None if rule is None else rule(*F.args)
-    if found is None:
+    if rule is None:
         slope = sympy.diff(F, x)
         if isinstance(F, exp | sympy.Pow) or F.is_Number:
             return slope / F, sympy.S.Zero, sympy.S.One, sympy.S.Zero
         return sympy.S.Zero, sympy.S.One, sympy.S.One, slope
-    s, t, other = found
+    s, t, other = rule(*F.args)
     z = F.args[-1]
     rate = sympy.cancel(sympy.together(sympy.diff(z, x) / z))
     root = sympy.S.One if z.is_rational_function(x) else z
@@ -439,10 +438,7 @@ def _slope_of_bessel(kind: Any, below: int, above: int, nu: Expr, z: Expr) -> _S
     return -nu / z, sympy.Integer(below), kind(nu - 1, z, evaluate=False)
 
 
-def _slope_of_series(above: Expr, below: Expr, z: Expr) -> _Slope | None:
-    """Of pFq, None if that is 1."""
-    if 0 in above:
-        return None
+def _slope_of_series(above: Expr, below: Expr, z: Expr) -> _Slope:
     top, bottom = (tuple(sympy.cancel(value + 1) for value in values) for values in (above, below))
     return sympy.S.Zero, Mul(*above) / Mul(*below), hypergeometric(top, bottom, z)
 
@@ -453,7 +449,7 @@ def _slope_of_legendre(nu: Expr, z: Expr) -> _Slope:
     return nu * z / (z**2 - 1), -nu / (z**2 - 1), sympy.legendre(other, z)
 
 
-_SLOPES: dict[Any, Callable[..., _Slope | None]] = {
+_SLOPES: dict[Any, Callable[..., _Slope]] = {
     sympy.besselj: partial(_slope_of_bessel, sympy.besselj, 1, -1),
     sympy.bessely: partial(_slope_of_bessel, sympy.bessely, 1, -1),
     sympy.besseli: partial(_slope_of_bessel, sympy.besseli, 1, 1),
