@@ -250,13 +250,12 @@ class _Equation:
             if _length(y1) <= max(map(_length, pair)) and is_numerical_solution(y1, x, self.S, self.gauge):
                 pairs = [*((y1, y2) for y2 in pair), pair]
         # In an irreducible equation what differs by its exponents is independent.
-        W = found.wronskian if self.decision.case == 1 else None
-        is_sure = self.decision.case != 1 or (W is not None and is_nonzero(W, x))
-        chosen = None if is_sure and len(pairs) == 1 else independent(pairs, x)
-        if chosen is None and is_sure:
-            chosen = pair
+        is_sure = self.decision.case != 1 or (found.wronskian is not None and is_nonzero(found.wronskian, x))
+        chosen = pair if is_sure and len(pairs) == 1 else independent(pairs, x)
         if chosen is None:
-            return None
+            if not is_sure:
+                return None
+            chosen = pair
         place = found.place if chosen == pair else None
         return self._form(chosen, undefined=found.undefined, place=place)
 

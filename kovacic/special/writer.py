@@ -187,7 +187,7 @@ class Writer:
         With `real_at` the powers are real at that point, or at the first of the places.
         """
         at = self.real.at if self.places else real_at
-        atoms = self.real if at == self.real.at else Atoms(self.atoms.x, at=at)
+        atoms = Atoms(self.atoms.x, at=at)
         members = [self._member(*term, atoms) for term in (first, second)]
         is_turned_round = self.transform is None and second[0].size < first[0].size
         (y, C), (z, D) = members[::-1] if is_turned_round else members
