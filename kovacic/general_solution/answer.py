@@ -235,8 +235,7 @@ def exceptional_cases(zero: Expr) -> Iterator[Exceptional]:
             yield Exceptional(f"{number} is a {sign} integer", assume={number.name: f"{sign} integer"}, example=example)
     if integers:
         return
-    letters = [letter for letter in sorted(zero.free_symbols, key=str) if zero.is_polynomial(letter)]
-    slopes = {letter: sympy.factor(zero.diff(letter)) for letter in letters}
+    slopes = {letter: sympy.factor(zero.diff(letter)) for letter in sorted(zero.free_symbols, key=str)}
     linear = [k for k, slope in slopes.items() if not slope.has(k) and not (slope.is_Add and slope.free_symbols)]
     if not linear:
         yield Exceptional(str(ZeroSet(zero)))

@@ -217,9 +217,7 @@ def dsolve(
     for notice in answer.notices:
         warn_user(notice)
     remember(answer)
-    if isinstance(answer, SystemAnswer):
-        return answer.eq
-    return [answer.eq] if isinstance(eq, list | tuple) else answer.eq
+    return [answer.eq] if isinstance(eq, list | tuple) and not isinstance(answer, SystemAnswer) else answer.eq
 
 
 def in_special_functions(found: Any, eq: Any, func: Any = None, **given: Any) -> Any:
@@ -228,12 +226,11 @@ def in_special_functions(found: Any, eq: Any, func: Any = None, **given: Any) ->
     None if they take more, or none are known.  Arguments as for `dsolve`.
     """
     length = len(as_text(found.rhs))
-    if length <= SCREEN:
-        return None
-    other = None
     with suppress(NotImplementedError, InputError):
-        other = answer_to(eq, func, special=True, **given).eq
-    return other if other is not None and len(as_text(other.rhs)) < length / 2 else None
+        if length > SCREEN:
+            other = answer_to(eq, func, special=True, **given).eq
+            return other if len(as_text(other.rhs)) < length / 2 else None
+    return None
 
 
 @limited
@@ -297,13 +294,9 @@ def answer_to(
 
 def _has_euler(tokens: Sentence) -> bool:
     """True for e alone, or with a number for its exponent, as an author may write it for a parameter."""
-    powers = ("^", "**")
-    triples = zip(tokens, [*tokens[1:], None], [*tokens[2:], None, None], strict=False)
     return any(
-        token[:2] == ("NAME", EULER)
-        and after
-        and (after.text not in powers or (exponent and exponent.kind == "NUMBER"))
-        for token, after, exponent in triples
+        token[:2] == ("NAME", EULER) and (after.text not in ("^", "**") or exponent.kind == "NUMBER")
+        for token, after, exponent in zip(tokens, tokens[1:], [*tokens[2:], tokens[-1]], strict=False)
     )
 
 
@@ -465,14 +458,12 @@ class _Family:
 
     def member(self, constants: tuple[Expr, Expr]) -> Expr:
         """That with these constants in the user's symbols, factors that y1 and y2 share before the sum."""
-        common: list[Expr] = []
-        if 0 not in constants:
-            others = sympy.Mul.make_args(self.basis.y2)
-            common = [factor for factor in sympy.Mul.make_args(self.basis.y1) if factor in others]
-        summands = []
-        for constant, y in zip(constants, (self.basis.y1, self.basis.y2), strict=True):
-            own = [factor for factor in sympy.Mul.make_args(y) if factor not in common]
-            summands.append(sympy.Mul(constant, *own))
+        first, second = map(sympy.Mul.make_args, (self.basis.y1, self.basis.y2))
+        common = [factor for factor in first if factor in second and 0 not in constants]
+        summands = (
+            sympy.Mul(constant, *(factor for factor in factors if factor not in common))
+            for constant, factors in zip(constants, (first, second), strict=True)
+        )
         general = sympy.Mul(*common, sympy.Add(*summands)) + self.particular
         if self.question.conditions:
             general = min(general, sympy.expand_mul(general, deep=False), key=size)
@@ -483,20 +474,16 @@ class _Family:
     ) -> SecondOrderAnswer:
         """The answer with this value, as the user writes it."""
         rests_on = (self.question, self.basis, self.particular, self.names, determined)
-        by_sign = self._by_sign(is_general=determined is None)
-        return SecondOrderAnswer(
-            self.question.written(value), [*by_sign, *notices], *rests_on, unchecked=tuple(unchecked), ask=answer_to
-        )
-
-    def _by_sign(self, *, is_general: bool) -> list[str]:
-        """Where the solutions are those for a natural number: that, and the others, unless their constants are determined."""
-        if self.basis.natural is None:
-            return []
-        holds = f"this holds where {as_text(self.basis.natural)} >= 0"
-        if self.basis.otherwise is None or self.particular != 0 or not is_general:
-            return [f"{holds}: give such values for the solutions elsewhere"]
-        other = self.question.written(replace(self, basis=self.basis.otherwise).member(self.names))
-        return [f"{holds}; elsewhere, {other.lhs} = {other.rhs}"]
+        eq = self.question.written(value)
+        if self.basis.natural is not None:  # the others are said, unless their constants are determined
+            said = f"this holds where {as_text(self.basis.natural)} >= 0"
+            if self.basis.otherwise is None or self.particular != 0 or determined is not None:
+                said += ": give such values for the solutions elsewhere"
+            else:
+                other = self.question.written(replace(self, basis=self.basis.otherwise).member(self.names))
+                said += f"; elsewhere, {other.lhs} = {other.rhs}"
+            notices = [said, *notices]
+        return SecondOrderAnswer(eq, [*notices], *rests_on, unchecked=tuple(unchecked), ask=answer_to)
 
     def said(self, case: ParameterCase, answer: Expr, asked: _Asked) -> Iterable[str]:
         """The solutions for particular values of the parameters, of which the answer is the one for all others."""
@@ -504,11 +491,8 @@ class _Family:
         if case.outcome is Outcome.OPEN:
             formula = self.question.written(answer).xreplace(self.question.renamed)
             return asked.where_zero(case.zeros, self.question.at, [formula], where)
-        return [self._said_of_determined(case, answer, where)]
-
-    def _said_of_determined(self, case: ParameterCase, answer: Expr, where: str) -> str:
         if case.outcome is Outcome.NONE or not all(map(ZeroSet, case.needed)):
-            return f"{where}, where there is no solution"
+            return [f"{where}, where there is no solution"]
         value = self.member(case.values)
         free = [name for name in self.names if value.has(name)]
         value = in_book_form(value, self.question.x, free if len(free) == 2 else ())
@@ -516,10 +500,9 @@ class _Family:
             number = sympy.factor_terms(value.diff(free[0])).as_coeff_Mul()[0]
             value = value.subs(free[0], free[0] / number)
         found = self.question.written(value)
-        if not case.needed:
-            return f"{where}, where {found.lhs} = {found.rhs}"
         needed = " and ".join(ZeroSet(zero).equation(answer) for zero in case.needed)
-        return f"{where}, where there is a solution only if {needed}: {found.lhs} = {found.rhs}"
+        only = f" there is a solution only if {needed}:" if needed else ""
+        return [f"{where}, where{only} {found.lhs} = {found.rhs}"]
 
 
 class _Contradiction(InputError):
@@ -547,13 +530,12 @@ def _general(question: Question, basis: Basis) -> SecondOrderAnswer:
     right = right_hand_side(question.equation)
     cuts = arguments_with_cuts(right)
     # The pair of `solve` stays as it is there, and log(x - 2) on the right is real for x > 2.
-    is_free = question.equation.change is None and right != 0 and not cuts
-    is_around_zero = is_free and not is_singular(question, sympy.S.Zero)
+    is_fixed = question.equation.change is not None or right == 0 or cuts or is_singular(question, sympy.S.Zero)
 
     def place(*solutions: Expr) -> Expr:
         """Around 0 if the equation is regular there."""
         arguments = arguments_with_cuts(sympy.Tuple(*solutions))
-        return sympy.S.Zero if is_around_zero else common_place(basis.x, cuts, arguments, own=basis.own)
+        return common_place(basis.x, cuts, arguments, own=basis.own) if is_fixed else sympy.S.Zero
 
     if basis.place is None or right != 0:
         basis = real_at(basis, place(basis.y1, basis.y2))

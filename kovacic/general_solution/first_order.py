@@ -153,9 +153,9 @@ class FirstOrderEquation(OfFirstOrder):
     def is_linear(self) -> bool:
         return bool(self.r == 0)
 
-    def homogeneous(self, start: Expr | None = None) -> Expr:
-        """h with h'/h = q, real at the start, or at the `place`."""
-        return _exponential_of_integral(self.q, self.x, start, self.place if start is None else start)
+    def homogeneous(self) -> Expr:
+        """h with h'/h = q, real at the `place`."""
+        return _exponential_of_integral(self.q, self.x, self.value[0], self.place)
 
     def constant(self, taken: Set[Expr] = frozenset()) -> Expr:
         """C1, or the next of these names that is neither in the equation nor taken."""
@@ -163,9 +163,10 @@ class FirstOrderEquation(OfFirstOrder):
 
     @cached_property
     def place(self) -> Expr | None:
-        """Where solutions are to be real without a value: at 0, or half way to a pole on the right of it if 0 is one."""
-        if self.is_regular_at(_ZERO):
-            return _ZERO
+        """Where solutions are to be real: at the value, else at 0, or half way to a pole on the right of it if 0 is one."""
+        start, _ = self.value
+        if start is not None or have_values(self.entries, self.x, _ZERO):
+            return start or _ZERO
         whole = self.p + self.q
         is_rational = whole.is_rational_function(self.x)
         factors = sympy.factor_list(sympy.denom(sympy.together(whole)))[1] if is_rational else ()
@@ -173,9 +174,11 @@ class FirstOrderEquation(OfFirstOrder):
         poles = [-f.nth(0) / f.nth(1) for f in lines if f is not None and f.degree() == 1]
         return next((pole / 2 for pole in poles if is_seen_negative(-pole)), None)
 
-    def is_regular_at(self, point: Expr) -> bool:
-        """True if the coefficients have values at the point, so that one of w determines one solution."""
-        return have_values(self.entries, self.x, point)
+    @cached_property
+    def is_regular(self) -> bool:
+        """True without a value, and if the coefficients have values at its point, so that it determines one solution."""
+        start, _ = self.value
+        return start is None or have_values(self.entries, self.x, start)
 
 
 def is_unit(coefficient: Expr, x: Expr, point: Expr) -> bool:
@@ -203,12 +206,10 @@ def read_first_order(
         eq = expression_of(source, limits)
     if not isinstance(eq, sympy.Basic):
         return None
-    if isinstance(eq, sympy.Equality):
-        eq = eq.lhs - eq.rhs
-    whole = exact(eq)
+    whole = exact(eq.lhs - eq.rhs if isinstance(eq, sympy.Equality) else eq)
     function = func if isinstance(func, AppliedUndef) else function_of(whole)
     t = function.args[0]
-    if len(function.args) != 1 or not t.is_Symbol or str(var or t) != str(t):
+    if len(function.args) != 1 or not t.is_Symbol or str(var or t) != str(t) or not is_finite(whole):
         return None
     found = _in_powers(whole, function)
     return found and replace(found, guesses=guesses)
@@ -260,8 +261,8 @@ def solved_linear(equation: FirstOrderEquation, taken: Set[Expr] = frozenset()) 
     """
     p, q, x = equation.p, equation.q, equation.x
     start, _ = equation.value
-    place = equation.place if start is None else start
-    h = equation.homogeneous(start)
+    place = equation.place
+    h = equation.homogeneous()
     if place is not None:
         h = starting_at(turned_at(place, h, (-q,), _ZERO, x), x, start)
     if start is not None and p == 0:
@@ -388,18 +389,16 @@ def _constant_through(equation: FirstOrderEquation, h: Expr, particular: Expr, f
     a, v = equation.value
     if a is None:
         return free
-    is_regular = equation.is_regular_at(a)
-    if not is_regular and not is_finite(h.subs(x, a)):
-        if not is_finite(particular.subs(x, a)) or not is_zero(v - value_at(particular, x, a)):
-            raise InputError(f"at most one solution is finite at {a}, a singular point of the equation")
-        return _ZERO
-    rest = v - value_at(particular, x, a)
-    there = value_at(h, x, a)
-    if not is_regular and is_zero(there):
-        if not is_zero(rest):
-            raise _without_value(a)
+    if not equation.is_regular and not is_finite(h.subs(x, a)):
+        if is_finite(particular.subs(x, a)) and is_zero(v - value_at(particular, x, a)):
+            return _ZERO
+        raise InputError(f"at most one solution is finite at {a}, a singular point of the equation")
+    rest, there = v - value_at(particular, x, a), value_at(h, x, a)
+    if equation.is_regular or not is_zero(there):
+        return sympy.powsimp(rest / there)
+    if is_zero(rest):
         return free
-    return sympy.powsimp(rest / there)
+    raise _without_value(a)
 
 
 def _without_value(a: Expr) -> InputError:
@@ -416,13 +415,12 @@ def check_first_order(equation: FirstOrderEquation, w: Expr) -> list[str]:
 
     Raises `InputError` where w hasn't the value at a singular point, as no solution needs to have it.
     """
-    a, _ = equation.value
     u, k = w.as_base_exp()
     rate = equation.q + equation.r * u ** sympy.cancel(k * (equation.power - 1))
     coefficients = (_ZERO, Integer(1), -rate, equation.p)
     try:
         return SolutionClaim(equation.x, w, coefficients, equation.conditions, equation.reading).check()
     except VerificationFailed:
-        if a is None or equation.is_regular_at(a):
+        if equation.is_regular:
             raise
-    raise _without_value(a)
+    raise _without_value(equation.value[0])

@@ -18,7 +18,7 @@ from kovacic.equation import Equation, Parsed, parameters_of
 from kovacic.errors import LimitExceeded
 from kovacic.general_solution.basis import Basis, kernel, multiple_of
 from kovacic.general_solution.integrands import NUMBERS
-from kovacic.general_solution.places import limit_points, start_of
+from kovacic.general_solution.places import given_points, limit_points, start_of
 from kovacic.general_solution.question import Question
 from kovacic.general_solution.textbook import of_chebyshev, with_waves
 from kovacic.general_solution.zero_set import ZeroSet
@@ -79,11 +79,8 @@ def _basis(question: Question, solution: Solution, pair: WrittenPair) -> Basis:
         plain = {symbol: sympy.Symbol(name) for name, symbol in question.parameters.items()}
         pair = pair.mapped(lambda e: e.xreplace(plain))
     y1, y2 = (y.xreplace(NUMBERS) for y in pair_in_x(equation, *pair))
-    basis = Basis(
-        y1, y2, question.x, equation, question.own, partial(_stated, equation, pair), pair.undefined, solution
-    )
-    if equation.change is None:
-        basis = replace(basis, place=pair.place)
+    rests_on = (equation, question.own, partial(_stated, equation, pair), pair.undefined, solution)
+    basis = Basis(y1, y2, question.x, *rests_on, place=pair.place if equation.change is None else None)
     S = equation.S
     constant = S.num[0] if S.is_polynomial and S.num.degree == 0 else None
     if isinstance(constant, FunctionPoly) and not question.assumptions.is_positive(constant):
@@ -130,20 +127,19 @@ def _in_special_functions(question: Question, solution: Solution, budget: Budget
 
     By the sign of an integer where that is what is known; or where it gives names, and these or their behaviour is asked for.
     """
-    places_of_values = [point for condition in question.conditions for point in condition.points]
-    is_positive = all(e.is_positive for e in (question.function.args[0], *places_of_values))
+    is_positive = all(e.is_positive for e in (question.function.args[0], *given_points(question)))
+    has_values = bool(question.conditions) and not limit_points(question)  # all at ordinary points
     places = _real_places(question)
     request = Wanted(
         solution.S, solution.gauge, solution.variable, question.parameters, joined=not is_positive, places=places
     )
     found = special_functions(request, budget)
     pair = found.pair
-    has_integers = any(symbol.is_integer for symbol in question.parameters.values())
-    if has_integers and question.conditions and not limit_points(question):
+    if has_values and any(symbol.is_integer for symbol in question.parameters.values()):
         of_any_letters = special_functions(replace(request, symbols={}), budget)
         pair = _without_exceptions(of_any_letters.pair, sympy.Symbol(solution.variable)) or pair
     # no particular solution is asked for
-    is_asked = question.equation.is_homogeneous and (not question.conditions or bool(limit_points(question)))
+    is_asked = question.equation.is_homogeneous and not has_values
     if pair is None or is_asked:
         halves = by_sign(request, budget)
         if halves is not None:
@@ -193,13 +189,11 @@ def no_solution(solution: Solution, known: Assumptions = NOTHING_ASSUMED) -> str
     """Why there is no closed form, in a sentence; with parameters, for which values there is one."""
     if solution.status is Status.UNDECIDED:
         return f"undecided: {solution.reason}"
-    names = parameters_of(solution.S.field)
-    group = (
-        f"the differential Galois group of the normal form y'' = ({solution.S.to_str(solution.variable)}) y is SL2(C)"
-    )
+    names = ", ".join(parameters_of(solution.S.field))
+    said = f"{names and f'for generic {names} '}there is no Liouvillian solution, and that is proven: the differential Galois"
+    said += f" group of the normal form y'' = ({solution.S.to_str(solution.variable)}) y is SL2(C)"
     if not names:
-        return f"there is no Liouvillian solution, and that is proven: {group}"
-    said = f"for generic {', '.join(names)} there is no Liouvillian solution, and that is proven: {group}"
+        return said
     try:
         found = conditions_of(Parsed(solution.S, solution.variable), known, None, solution.limits)
     except LimitExceeded:

@@ -24,6 +24,7 @@ from collections.abc import Callable, Mapping, Sequence
 from contextlib import suppress
 from itertools import chain, count
 from math import comb
+from operator import mul
 from typing import Any
 
 import sympy
@@ -107,11 +108,10 @@ def _solved(basis: Basis, right: Expr, start: Expr | None) -> Expr:
     # not exp(x)/x and 1/x apart, which aren't defined at 0, where the difference may be
     if not 1 < len(terms) <= _LARGEST_SUM or not (start is None or have_values(terms, basis.x, start)):
         return found
-    parts = {term: _solved(basis, term, start) for term in terms}
-    known = [part for part in parts.values() if not part.has(sympy.Integral)]
-    rest = sympy.Add(*(term for term, part in parts.items() if part.has(sympy.Integral)))
-    if known and rest != 0:
-        known.append(with_integrals(basis, rest, start))
+    parts = {_solved(basis, term, start): term for term in terms}
+    left, known = sympy.sift(parts, lambda part: part.has(sympy.Integral), binary=True)
+    if left and known:
+        known.append(with_integrals(basis, sympy.Add(*map(parts.get, left)), start))
     return sympy.Add(*known) if known else found
 
 
@@ -169,12 +169,8 @@ def _polynomial_solution(equation: Equation, right: RatFunc | None) -> Poly | No
     lowest = min(p.degree for p in (a, b, c) if p)
     height = max(f.degree - lowest, 0) + 2
     powers: list[Any] = [x**k for k in range(height + 1)]
-    slopes = [p.derivative() for p in powers]
-    images = [a * q.derivative() + b * q + c * p for p, q in zip(powers, slopes, strict=True)]
-    found = combination(f, images)
-    if found is None:
-        return None
-    return sum((p * k for p, k in zip(powers, found, strict=True)), f * 0)
+    found = combination(f, [a * p.derivative().derivative() + b * p.derivative() + c * p for p in powers])
+    return None if found is None else sum(map(mul, powers, found), f * 0)
 
 
 def _step_response(g: Expr, basis: Basis, a: Expr) -> Expr:
@@ -262,23 +258,19 @@ def _known_integrals(basis: Basis, integrands: Sequence[Expr], start: Expr | Non
     None of them with more than a few special functions of complex arguments, which are harder to read than an integral.
     """
     known: list[Any] = [None, None]
+    poles = [basis.own(rate) for rate in basis.rates]
+
+    def is_crossing(f: Expr) -> bool:
+        """True for Ei(u) where u crosses the negative axis, the cut of that and of E1(-u), at an ordinary point."""
+        is_complex = isinstance(f, sympy.Ei) and f.has(sympy.I)
+        return is_complex and jumps(basis.own(f), basis.x, [*poles, basis.own(1 / f.args[0])])
+
     with suppress(LimitExceeded):
-        known = [_without_crossings(basis, antiderivative(integrand, basis.x, start)) for integrand in integrands]
+        known = [antiderivative(integrand, basis.x, start) for integrand in integrands]
+        # the two differ by pi i on either side of the axis [DLMF 6.2.3], and -u crosses only the positive one
+        known = [e and e.replace(is_crossing, lambda f: -sympy.expint(1, -f.args[0])) for e in known]
     functions = set().union(*(integral.atoms(*_COMPLEX) for integral in known if integral is not None))
     return known if sum(bool(f.has(sympy.I)) for f in functions) <= _MOST_COMPLEX else [None, None]
-
-
-def _without_crossings(basis: Basis, e: Expr | None) -> Expr | None:
-    """With -E1(-u) for Ei(u) where u crosses the negative axis, the cut of both functions, at an ordinary point.
-
-    The two differ by pi i on either side of the axis [DLMF 6.2.3], and -u crosses only the positive one.
-    """
-    if e is None:
-        return None
-    complex_ones = [f for f in e.atoms(sympy.Ei) if f.has(sympy.I)]
-    poles = [basis.own(rate) for rate in basis.rates]
-    crossing = [f for f in complex_ones if jumps(basis.own(f), basis.x, [*poles, basis.own(1 / f.args[0])])]
-    return e.xreplace({f: -sympy.expint(1, -f.args[0]) for f in crossing})
 
 
 def _checked(basis: Basis, parts: Sequence[Any], right: Expr) -> Expr | None:
@@ -310,10 +302,10 @@ def _is_right(basis: Basis, y: Expr, right: Expr) -> bool:
 
 def _without_homogeneous(basis: Basis, total: Expr) -> Expr:
     """A sum without the terms that are multiples of y1 or y2."""
+    members = (basis.y1, basis.y2)
     terms = sympy.Add.make_args(total)
-    for y in (basis.y1, basis.y2):
-        terms = [term for term in terms if not is_constant(term / y, basis.x)]
-    return sympy.factor_terms(sympy.Add(*terms))
+    own = (term for term in terms if not any(is_constant(term / y, basis.x) for y in members))
+    return sympy.factor_terms(sympy.Add(*own))
 
 
 def _gathered(form: Expr, x: Expr) -> Expr:

@@ -91,7 +91,7 @@ def solved_riccati(equation: FirstOrderEquation, solver: Solver) -> Solved:
     exceptions: tuple[Expr, ...] = ()
     zeros: list[Expr] = []
     notices: list[str] = []
-    if equation.power != 2 or (equation.p == 0 and (start is None or equation.is_regular_at(start))):
+    if equation.power != 2 or (equation.p == 0 and equation.is_regular):
         forms = [_of_bernoulli(equation)]
         zeros = zeros_of(forms[0], x, equation.entries)
         if start is None and equation.power.is_odd:
@@ -330,34 +330,28 @@ def solve_riccati(
     ((x**2 + 1)/x,)
     """
     given = _read_coefficients(p, q, r, var, limits)
-    R = given.a
-    Q = given.b
-    P = given.c
+    R, Q, P = given.a, given.b, given.c
     unit = R / R
     linear = Equation(unit, -(Q + R.derivative() / R), P * R, R - R, None, given.variable, "u")
     solution = solve(linear, limits=limits)
     group = solution.group
-    if solution.case is None:
-        are_all = None if group is None else False
-        return RiccatiSolutions((), None, None, are_all, solution)
+    all_algebraic = None if group is None else group.finite
     if solution.series is not None:
         Budget(limits).check_degree(solution.series.degree, "a rational solution")
-    all_algebraic = None if group is None else group.finite
     atoms = Atoms(sympy.Symbol(solution.variable))
-    if solution.case != 1:
+    rational: tuple[Expr, ...] = ()
+    family = polynomial = None
+    if solution.case == 1:
+        gauge, factor = map(atoms.ratio, (linear.gauge, R))
+        if all_algebraic:  # w for u = y1 + C1 y2
+            y1, y2 = solution.solutions
+            u = y1 + free_constants(1, y1, y2, factor)[0] * y2
+            family = sympy.cancel(sympy.powsimp(sympy.expand(-u.diff(atoms.x) / (factor * u))))
+        if group is None or group.order not in (1, 2):  # else infinitely many are rational
+            rational = tuple(sympy.cancel(-(omega + gauge) / factor) for omega in _rational_omegas(solution, atoms))
+    elif solution.case is not None:
         polynomial = _polynomial(solution, linear.gauge, R, atoms)
-        return RiccatiSolutions((), None, polynomial, all_algebraic, solution)
-    gauge = atoms.ratio(linear.gauge)
-    factor = atoms.ratio(R)
-    family = None
-    if all_algebraic:  # w for u = y1 + C1 y2
-        y1, y2 = solution.solutions
-        u = y1 + free_constants(1, y1, y2, factor)[0] * y2
-        family = sympy.cancel(sympy.powsimp(sympy.expand(-u.diff(atoms.x) / (factor * u))))
-    if group is not None and group.order in (1, 2):  # infinitely many are rational
-        return RiccatiSolutions((), family, None, all_algebraic, solution)
-    rational = tuple(sympy.cancel(-(omega + gauge) / factor) for omega in _rational_omegas(solution, atoms))
-    return RiccatiSolutions(rational, family, None, all_algebraic, solution)
+    return RiccatiSolutions(rational, family, polynomial, all_algebraic, solution)
 
 
 def _read_coefficients(p: Any, q: Any, r: Any, var: str | None, limits: Limits) -> Equation:
@@ -366,9 +360,7 @@ def _read_coefficients(p: Any, q: Any, r: Any, var: str | None, limits: Limits) 
         equation = read_first_order(p, None, var, limits)
         if equation is None or equation.is_linear or equation.power != 2:
             raise InputError(f"{p} isn't a Riccati equation", hint="write w' = p + q*w + r*w^2, or give p, q and r")
-        p = equation.p
-        q = equation.q
-        r = equation.r
+        p, q, r, _ = equation.entries
         var = equation.x.name
     elif q is None or r is None:
         raise InputError("one of p, q, r is missing", hint="give all three, or an equation")

@@ -89,12 +89,11 @@ def _may_diverge(f: Expr) -> bool:
 
 def _at_zero(value: Expr) -> Expr:
     """With the values of series and odd functions of 0, and of integrals over nothing, which SymPy leaves as they are."""
-    known = {f: _ONE for f in value.atoms(sympy.hyper) if f.argument == 0}
-    value = value.xreplace(known)
-    known = {f: _ZERO for f in value.atoms(*_ODD) if f.args[-1] == 0}
-    value = value.xreplace(known)
-    empty = [i for i in value.atoms(sympy.Integral) if i.limits[0][1:2] == i.limits[0][2:]]
-    return value.xreplace(dict.fromkeys(empty, _ZERO))
+    value = value.replace(lambda e: isinstance(e, sympy.hyper) and e.argument == 0, lambda e: _ONE)
+    value = value.replace(lambda e: isinstance(e, _ODD) and e.args[-1] == 0, lambda e: _ZERO)
+    return value.replace(
+        lambda e: isinstance(e, sympy.Integral) and e.limits[0][1:2] == e.limits[0][2:], lambda e: _ZERO
+    )
 
 
 def in_single_waves(e: Expr) -> Expr:

@@ -6,8 +6,7 @@ lambda = rho + i omega, y = Q exp(lambda x) is a solution for the right-hand sid
     Q'' + (2 lambda + b) Q' + (lambda^2 + b lambda + c) Q = P,                                                      (1)
 
 which gives the coefficients of Q from the highest one down, divided by the first of the three factors that isn't 0: in
-resonance Q has a degree one or two higher, and no part that solves the homogeneous equation.  u + i v is the pair (u, v),
-with letters for u and v as well.
+resonance Q has a degree one or two higher, and no part that solves the homogeneous equation.
 """
 
 from __future__ import annotations
@@ -23,15 +22,10 @@ from sympy import cos, cosh, sin, sinh
 from kovacic.general_solution.substitution import in_single_waves, size
 
 Expr = Any  # SymPy publishes no types
-Complex = tuple[Expr, Expr]
+#: i
+_I = sympy.Dummy("i")
 #: The largest degree of a polynomial, and number of terms, that is solved for.
 _LARGEST = 200
-_ZERO, _ONE = (sympy.S.Zero, sympy.S.Zero), (sympy.S.One, sympy.S.Zero)
-
-
-def _product(first: Complex, second: Complex) -> Complex:
-    (a, b), (u, v) = first, second
-    return a * u - b * v, a * v + b * u
 
 
 def undetermined(b: Expr, c: Expr, right: Expr, x: Expr) -> Expr | None:
@@ -45,13 +39,19 @@ def undetermined(b: Expr, c: Expr, right: Expr, x: Expr) -> Expr | None:
     if polynomials is None:
         return None
     total = []
-    for (rho, omega), P in polynomials.items():
-        Q = _solved(b, c, (rho, omega), P)
+    for rate, P in polynomials.items():
+        Q = _solved(b, c, rate, P)
         if Q is None:
             return None
-        A, B = (sympy.Add(*(coefficient[part] * x**k for k, coefficient in Q.items())) for part in (0, 1))
+        A, B = _parts(sympy.Add(*(coefficient * x**k for k, coefficient in Q.items())))
+        rho, omega = _parts(rate)
         total.append(sympy.powdenest(sympy.exp(rho * x)) * _wave_terms(A, B, omega * x))
     return sympy.Add(*total)
+
+
+def _parts(value: Expr) -> tuple[Expr, Expr]:
+    """u and v of u + i v."""
+    return value.xreplace({_I: sympy.S.Zero}), value.diff(_I)
 
 
 def _wave_terms(A: Expr, B: Expr, angle: Expr) -> Expr:
@@ -75,40 +75,36 @@ def _wave_terms(A: Expr, B: Expr, angle: Expr) -> Expr:
     return min(expanded, joined, key=size)
 
 
-def _polynomials(right: Expr, x: Expr) -> dict[Complex, dict[int, Complex]] | None:
-    """By the rates (rho, omega) the coefficients of x^k in the P beside exp((rho + i omega) x); a real part is meant.
+def _polynomials(right: Expr, x: Expr) -> dict[Expr, dict[int, Expr]] | None:
+    """By the rates rho + i omega the coefficients of x^k in the P beside exp((rho + i omega) x); a real part is meant.
 
     None for another right-hand side.
     """
     summands = _summands(right, x)
     if summands is None:
         return None
-    result: dict[Complex, dict[int, Complex]] = {}
+    result: dict[Expr, dict[int, Expr]] = defaultdict(lambda: defaultdict(lambda: sympy.S.Zero))
     for summand in summands:
-        number, rest = summand.as_independent(x, as_Add=False)
-        coefficient: Complex = (number, sympy.S.Zero)
+        coefficient, rest = summand.as_independent(x, as_Add=False)
         degree = 0
-        rho = omega = sympy.Integer(0)
+        rate = sympy.S.Zero
         for factor in sympy.Mul.make_args(rest):
             base, exponent = factor.as_base_exp()
             is_wave = factor.func in (sin, cos)
             constant, slope = _line(factor.args[0] if is_wave else exponent, x)
             if base == x and exponent.is_Integer and 0 <= exponent <= _LARGEST:
                 degree += int(exponent)
-            elif slope.has(x):
+            elif slope.has(x) or (is_wave and rate.has(_I)) or (not is_wave and base.has(x)):
                 return None
-            elif is_wave and omega == 0:
-                omega = slope
+            elif is_wave:
+                rate += _I * slope
                 # the sine is the cosine of an angle that is pi/2 less
                 c, s = cos(constant), sin(constant)
-                coefficient = _product(coefficient, (c, s) if factor.func is cos else (s, -c))
-            elif not base.has(x):
-                coefficient = _product(coefficient, (base**constant, sympy.S.Zero))
-                rho += slope * sympy.log(base)
+                coefficient *= c + _I * s if factor.func is cos else s - _I * c
             else:
-                return None
-        P = result.setdefault((rho, omega), defaultdict(lambda: _ZERO))
-        P[degree] = (P[degree][0] + coefficient[0], P[degree][1] + coefficient[1])
+                coefficient *= base**constant
+                rate += slope * sympy.log(base)
+        result[rate][degree] += coefficient
     return result
 
 
@@ -130,31 +126,24 @@ def _line(expression: Expr, x: Expr) -> tuple[Expr, Expr]:
     return constant, sympy.Add(*(term / x for term in sympy.Add.make_args(linear)))
 
 
-def _solved(b: Expr, c: Expr, rate: Complex, P: dict[int, Complex]) -> dict[int, Complex] | None:
+def _solved(b: Expr, c: Expr, rate: Expr, P: dict[int, Expr]) -> dict[int, Expr] | None:
     """Q of equation (1); None if u^2 + v^2 = 0 for a factor u + i v other than 0."""
-    rho, omega = rate
-    squared = rho**2 - omega**2 + b * rho + c, (2 * rho + b) * omega
-    factors = [(_constant(u), _constant(v)) for u, v in (squared, (2 * rho + b, 2 * omega), _ONE)]
-    m = next(k for k, factor in enumerate(factors) if factor != _ZERO)
-    u, v = factors[m]
-    norm = _constant(u**2 + v**2)
+    factors = [_constant(factor) for factor in (rate**2 + b * rate + c, 2 * rate + b, sympy.S.One)]
+    m = next(k for k, factor in enumerate(factors) if factor != 0)
+    conjugate = factors[m].xreplace({_I: -_I})
+    norm = _constant(factors[m] * conjugate)
     if norm == 0:
         return None
-    Q: dict[int, Complex] = defaultdict(lambda: _ZERO)
+    Q: dict[int, Expr] = defaultdict(lambda: sympy.S.Zero)
     for n in range(max(P), -1, -1):
-        products = [(perm(n + j, j), _product(factors[j], Q[n + j])) for j in range(m + 1, 3)]
-        rest = [P[n][part] - sympy.Add(*(k * product[part] for k, product in products)) for part in (0, 1)]
-        p, q = _product((u, -v), (rest[0], rest[1]))
-        Q[n + m] = _constant(p / (norm * perm(n + m, m))), _constant(q / (norm * perm(n + m, m)))
+        rest = P[n] - sympy.Add(*(perm(n + j, j) * factors[j] * Q[n + j] for j in range(m + 1, 3)))
+        Q[n + m] = _constant(conjugate * rest / (norm * perm(n + m, m)))
     return Q
 
 
 def _constant(value: Expr) -> Expr:
-    """In a form that shows whether it is zero."""
-    value = sympy.sympify(value, strict=True)
-    if value.is_Rational:
-        return value
-    value = sympy.radsimp(sympy.cancel(sympy.expand(value)), symbolic=False)
-    if value.is_number and value.equals(0):
-        return sympy.Integer(0)
-    return value
+    """A product of three factors as u + i v, in forms that show whether u and v are zero."""
+    powers = [sympy.expand(value).coeff(_I, k) for k in range(4)]
+    parts = [sympy.radsimp(sympy.cancel(powers[k] - powers[k + 2]), symbolic=False) for k in (0, 1)]
+    u, v = (sympy.S.Zero if part.is_number and part.equals(0) else part for part in parts)
+    return u + _I * v
