@@ -312,16 +312,14 @@ def validity(solution: Any, assume: Mapping[Any, Any] | None = None) -> Validity
     """
     if isinstance(solution, ProblemAnswer):
         return solution.validity
-    first, *others = solution if isinstance(solution, list) else [solution]
-    function = getattr(first, "lhs", None)
-    value = getattr(first, "rhs", None)
-    arguments: tuple[Any, ...] = getattr(function, "args", ())
-    if value is None or len(arguments) != 1 or not arguments[0].is_Symbol:
+    eqs = solution if isinstance(solution, list) else [solution]
+    if not all(isinstance(eq, sympy.Equality) and [arg.is_Symbol for arg in eq.lhs.args] == [True] for eq in eqs):
         raise InputError(f"{solution!r} isn't a solution y(x) = ...", hint="give what dsolve returns")
-    value = sympy.Tuple(value, *(other.rhs for other in others))
+    (x,) = eqs[0].lhs.args
+    value = sympy.Tuple(*(eq.rhs for eq in eqs))
     own = {symbol.name: symbol for symbol in value.free_symbols}
     said = {name: what for name, what in (assume or {}).items() if str(name) in own}
     symbols = symbols_that_know(said, own)
-    given = given_answer(first)
+    given = given_answer(eqs[0])
     exceptions = [] if given is None else [e.xreplace(given.own).xreplace(symbols) for e in given.pair_exceptions]
-    return needed_for(value.xreplace(symbols), arguments[0].xreplace(symbols), exceptions)
+    return needed_for(value.xreplace(symbols), x.xreplace(symbols), exceptions)

@@ -73,16 +73,14 @@ class OfFirstOrder:
 
     def with_values(self, ics: Mapping[Any, Any]) -> Self:
         """With conditions.  Raises `InputError` for one that isn't on one of several functions."""
-        names = [str(f.func) for f in self.functions]
+        functions = {str(f.func): f for f in self.functions}
+        first, *others = functions
         asked = []
         for key, value in ics.items():
-            name = str(key.func) if isinstance(key, AppliedUndef) else str(key).partition("(")[0].strip()
-            if len(names) > 1 and name not in names:
-                raise InputError(
-                    f"{key} isn't a value of an unknown", hint=f"write {names[0]}(0) = 1, {names[1]}(0) = 0"
-                )
-            f = self.functions[names.index(name) if len(names) > 1 else 0]
-            asked.append((f, ConditionReader(f, str(f.func)).read(key, value)))
+            name = str(key).partition("(")[0].strip() if others else first
+            if name not in functions:
+                raise InputError(f"{key} isn't a value of an unknown", hint=f"write {first}(0) = 1, {others[0]}(0) = 0")
+            asked.append((functions[name], ConditionReader(functions[name], name).read(key, value)))
         return replace(self, asked=tuple(asked))
 
     def at(self, values: Mapping[Expr, Expr]) -> tuple[tuple[Expr, ...], tuple[Expr, ...], dict[Expr, Any]]:
@@ -224,11 +222,12 @@ def _in_powers(whole: Expr, function: Expr) -> FirstOrderEquation | None:
         return None
     plain = sympy.expand(sympy.numer(sympy.together(plain)))
     plain = plain.replace(lambda e: e.is_Pow and e.base.has(w), lambda e: sympy.expand_power_base(e, force=True))
-    leading, others = (by_functions(e, lambda f: not f.has(w)) for e in (plain.diff(slope), plain.subs(slope, 0)))
-    if not plain.has(slope) or plain.diff(slope).has(slope) or len(leading) > 1:
+    coefficients = by_functions(plain, lambda f: not f.has(slope, w))
+    leading, others = sympy.sift(coefficients, lambda f: f.has(slope), binary=True)
+    if len(leading) != 1 or leading[0].diff(slope).has(slope):
         return None
-    ((below, a),) = leading.items()
-    right = {f / below: _quotient_by_terms(-c, a) for f, c in others.items()}
+    below = leading[0].diff(slope)
+    right = {f / below: _quotient_by_terms(-coefficients[f], coefficients[leading[0]]) for f in others}
     p, q = (right.pop(f, _ZERO) for f in (sympy.S.One, w))
     f, r = next(iter(right.items()), (w**2, _ZERO))
     base, power = f.as_base_exp()
