@@ -343,8 +343,7 @@ class Atoms:
             a, b, c = over.all_coeffs()
             half = sympy.sqrt(sympy.factor(sympy.expand(b**2 - 4 * a * c))) / (2 * a)
             roots = [sympy.expand_mul(sign * half - b / (2 * a)) for sign in (1, -1)]
-        powers = {power for root in roots for power in root.atoms(sympy.Pow)}
-        if roots and not any(power.free_symbols and not power.exp.is_Integer for power in powers):
+        if roots and all(root.is_rational_function() for root in roots):
             return Add(*(body.subs(self.root, root) for root in roots))
         kind = RootSum if over.domain.is_EX else sympy.RootSum
         return kind(over, sympy.Lambda(self.root, body), auto=False)

@@ -99,13 +99,9 @@ def all_turned(y: Expr, x: Expr, point: Expr, own: Own = sympy.sympify) -> Expr:
 
 def _opposite(u: Expr, x: Expr, point: Expr, own: Own) -> Expr:
     """-u, as (a - x)/(a + x) for (x - a)/(a + x) where x - a is negative at the point."""
-    factors = sympy.Mul.make_args(u)
-    sums = [f for f in factors if abs(f.as_base_exp()[1]) == 1 and f.as_base_exp()[0].is_Add]
-    negative = [f for f in sums if _is_negative(f.as_base_exp()[0], x, point, own)]
-    if len(factors) == 1 or len(negative) != 1:
-        return -u
-    base, exponent = negative[0].as_base_exp()
-    return sympy.Mul(*(f for f in factors if f != negative[0])) * (-base) ** exponent
+    powers = (f.as_base_exp() for f in sympy.Mul.make_args(u))
+    negative = [base for base, e in powers if abs(e) == 1 and base.is_Add and _is_negative(base, x, point, own)]
+    return u.xreplace({negative[0]: -negative[0]}) if u.is_Mul and len(negative) == 1 else -u
 
 
 def with_roots_of_factors(y: Expr, x: Expr, point: Expr) -> Expr:

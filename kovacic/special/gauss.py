@@ -375,10 +375,9 @@ def _named(form: _GaussForm) -> tuple[Expr, Expr]:
     a, b, c = (writer.constant(value) for value in (*top, 1 - form.alpha))
     z = writer.argument(form.f)
     half = sympy.S.Half
-    if c == 1 and {a, b} == {half}:
-        return sympy.pi / 2, sympy.elliptic_k(z)
-    if c == 1 and {a, b} == {half, -half}:
-        return sympy.pi / 2, sympy.elliptic_e(z)
+    for other, integral in ((half, sympy.elliptic_k), (-half, sympy.elliptic_e)):
+        if c == 1 and {a, b} == {half, other}:
+            return sympy.pi / 2, integral(z)
     if c == 1 and sympy.expand(a + b) == 1:
         middle = sympy.expand(half - a)  # P_nu is P_(-1-nu)
         degree = (-middle if middle.could_extract_minus_sign() else middle) - half

@@ -389,11 +389,9 @@ def fibres(points: list[Point], most: int) -> Iterator[Fibre]:
     for chosen, mask in _commensurable(points, most, 0, [], 0):
         # The smallest natural numbers in the proportion of the exponent differences; where these are 0 the multiplicities are
         # free, and only equal ones are tried.
-        least = [1] * len(chosen)
-        if chosen[0].square:
-            ratios = [ratio for point in chosen if (ratio := _ratio(point, chosen[0])) is not None]
-            unit = Fraction(gcd(*(r.numerator for r in ratios)), lcm(*(r.denominator for r in ratios)))
-            least = [int(ratio / unit) for ratio in ratios]
+        ratios = [_ratio(point, chosen[0]) or Fraction(1) for point in chosen]
+        unit = Fraction(gcd(*(r.numerator for r in ratios)), lcm(*(r.denominator for r in ratios)))
+        least = [int(ratio / unit) for ratio in ratios]
         size = sum(m * point.degree for m, point in zip(least, chosen, strict=True))
         for k in range(1, most // size + 1):
             multiplicities = tuple((point, k * m) for point, m in zip(chosen, least, strict=True))
