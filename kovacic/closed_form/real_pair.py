@@ -166,21 +166,24 @@ def is_turned(equation: Equation, y: Expr) -> bool:
 def pair_in_x(equation: Equation, y1: Expr, y2: Expr) -> tuple[Expr, Expr]:
     """Both of a pair; for complex conjugates, and multiples of i, that are `is_turned` real functions with the same span."""
     first, second = solution_in_x(equation, y1), solution_in_x(equation, y2)
-    if not (is_turned(equation, y1) or is_turned(equation, y2)):
+    if not is_turned(equation, sympy.Tuple(y1, y2)):
         return first, second
     # Letters and roots of them stand for real numbers: the parts are analytic in these, and so solutions for all values.
     x = user_variable(equation)
-    powers = first.atoms(sympy.Pow) | second.atoms(sympy.Pow)
-    roots = {power for power in powers if power.free_symbols and not power.has(x) and not power.exp.is_Integer}
-    real = {e: sympy.Dummy(real=True) for e in (*roots, *(first.free_symbols | second.free_symbols))}
+    both = sympy.Tuple(first, second)
+    roots = {
+        power for power in both.atoms(sympy.Pow) if power.free_symbols and not power.has(x) and not power.exp.is_Integer
+    }
+    real = {e: sympy.Dummy(real=True) for e in (*roots, *both.free_symbols)}
     back = {letter: e for e, letter in real.items()}
     pair: list[Expr] = []
-    for y in (first, second):
+    for y in both:
         for part in sympy.expand(y.xreplace(real), complex=True).as_real_imag():
             if all(sympy.expand(part**2 - other**2) != 0 for other in (0, *pair)):
                 pair.append(part)
     # Two of which both solutions are combinations are solutions themselves.
     if len(pair) != 2 or sympy.Tuple(*pair).has(sympy.re, sympy.im, sympy.arg):
         return first, second
-    y1, y2 = (sympy.factor_terms(part.xreplace(back)) for part in pair)
-    return -y1 if y1.could_extract_minus_sign() else y1, -y2 if y2.could_extract_minus_sign() else y2
+    shown = (sympy.factor_terms(part.xreplace(back)) for part in pair)
+    first, second = (-y if y.could_extract_minus_sign() else y for y in shown)
+    return first, second

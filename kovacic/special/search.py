@@ -283,8 +283,7 @@ class SpecialFunctions:
         return self.pullback is not None
 
     def __repr__(self) -> str:
-        found = f"{as_text(self.y1)}, {as_text(self.y2)}" if self else "none was found"
-        return f"<SpecialFunctions: {found}>"
+        return f"<SpecialFunctions: {', '.join(map(as_text, self.solutions)) or 'none was found'}>"
 
     def _repr_latex_(self) -> str | None:
         if self.pullback is None:
