@@ -211,8 +211,8 @@ def _whole_power(value: BallValue, exponent: int) -> BallValue:
 
 Acb = Any  # flint's acb
 
-#: Functions with the names that flint's series have for them.
-_UNARY = {
+#: Functions with the names that flint's series have for them; the last argument is the series.
+_SERIES = {
     sympy.Ei: "ei",
     sympy.Si: "si",
     sympy.Ci: "ci",
@@ -222,6 +222,8 @@ _UNARY = {
     sympy.airybi: "airy_bi",
     sympy.airyaiprime: "airy_ai_prime",
     sympy.airybiprime: "airy_bi_prime",
+    sympy.uppergamma: "gamma_upper",
+    sympy.lowergamma: "gamma_lower",
 }
 
 ANTIDERIVATIVES = (sympy.Integral, sympy.elliptic_f, sympy.elliptic_e, sympy.elliptic_pi)
@@ -270,13 +272,11 @@ class _Evaluator(BallEvaluator):
 
     def _special(self, e: Any) -> BallValue:
         """A special function; a constant that is none of these by SymPy's numbers."""
-        if e.func in _UNARY:
-            return getattr(_lifted(self(e.args[0])), _UNARY[e.func])()
+        if e.func in _SERIES:
+            *parameters, last = map(self, e.args)
+            return getattr(acb_series, _SERIES[e.func])(*parameters, _lifted(last))
         if (by_series := _BY_SERIES.get(e.func)) is not None:
             return self(by_series(*e.args))
-        if isinstance(e, (sympy.uppergamma, sympy.lowergamma)):
-            name = "gamma_upper" if isinstance(e, sympy.uppergamma) else "gamma_lower"
-            return getattr(acb_series, name)(self(e.args[0]), _lifted(self(e.args[1])))
         if isinstance(e, sympy.hyper):
             z = _lifted(self(e.argument))
             return _taylor(z, _hypergeometric(e, self, z[0]))
