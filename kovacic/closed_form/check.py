@@ -18,14 +18,7 @@ from kovacic.closed_form.curve import CurveIntegral
 from kovacic.closed_form.jets import jet
 from kovacic.closed_form.primitive import OpenPrimitive, Primitive
 from kovacic.closed_form.product import Product
-from kovacic.closed_form.structure import (
-    ClosedStructure,
-    Conjugate,
-    Diagonal,
-    OnCurve,
-    Triangular,
-    logarithmic_derivative,
-)
+from kovacic.closed_form.structure import ClosedStructure, Conjugate, Diagonal, OnCurve, Triangular
 from kovacic.errors import LimitExceeded
 from kovacic.limits import check_time
 
@@ -70,11 +63,12 @@ def _mean_and_square(form: Conjugate | OnCurve) -> tuple[RatFunc, RatFunc]:
         delta = form.delta
         norm = A * A - B * B * delta
         v = form.phase.derivative + RatFunc(A * B.derivative() - A.derivative() * B, norm)
-        return u + logarithmic_derivative(norm) / 2, v * v * delta
+        return u + RatFunc(norm.derivative(), norm) / 2, v * v * delta
     r = form.integral.integrand
     g = form.integral.g
     if form.zeros is not None:
-        u = u + logarithmic_derivative(form.zeros.norm(g)) / 2
+        norm = form.zeros.norm(g)
+        u = u + RatFunc(norm.derivative(), norm) / 2
         r = r + form.zeros.integrand(g)
     return u, r * r / g * form.kappa_squared
 

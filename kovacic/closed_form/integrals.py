@@ -41,26 +41,7 @@ from functools import partial
 from math import gcd, lcm
 
 import sympy
-from sympy import (
-    Add,
-    Ei,
-    Integer,
-    Mul,
-    asin,
-    asinh,
-    atan,
-    atanh,
-    cos,
-    elliptic_e,
-    elliptic_f,
-    elliptic_pi,
-    erf,
-    erfi,
-    exp,
-    log,
-    pi,
-    sin,
-)
+from sympy import Add, Ei, Integer, Mul, asin, atan, exp, log
 
 from kovacic.algebra.extension import AlgebraicField
 from kovacic.algebra.partial_fractions import Residue
@@ -137,8 +118,8 @@ def exponentials(form: OnCurve, atoms: Atoms) -> tuple[Expr, Expr, tuple[str, ..
     powers = [(base, _times(kappa, c)) for c, base in terms.logarithms]
     if oscillates:
         angle = Add(*inner, *(e * log(base) for base, e in powers))
-        c = cos(angle)
-        s = sin(angle)
+        c = sympy.cos(angle)
+        s = sympy.sin(angle)
         return common * (A * c - B * s), common * (A * s + B * c), terms.notes
     first = Mul(common, A + B, *(base**e for base, e in powers), exp(Add(*inner)))
     second = Mul(other, A - B, *(base**-e for base, e in powers), exp(-Add(*inner)))
@@ -266,7 +247,7 @@ def _inverse_sine(g: Poly, atoms: Atoms, *, exponents: bool) -> Expr | None:
     z = (atoms.x - atoms.constant(h)) / k
     if g.lc == -1:
         return asin(z)
-    return asinh(z)
+    return sympy.asinh(z)
 
 
 def _append_unit(u: Unit, root: Expr, atoms: Atoms, terms: _Terms, g: Poly, *, exponents: bool) -> None:
@@ -397,11 +378,11 @@ def _by_sine(curve: _Curve, atoms: Atoms) -> list[tuple[Poly, Expr]]:
         W = root * sqrt(atoms.factored(1 - shown)) * sqrt(atoms.factored(1 - shown * m))
         leading = done.exact.num.lc
         terms.append((leading, atoms.factored(done.exact(shown) / (2 * leading)) * W))
-    terms.append((m * done.rest[0] + done.rest[1], elliptic_f(phi, modulus)))
-    terms.append((-done.rest[1], elliptic_e(phi, modulus)))
+    terms.append((m * done.rest[0] + done.rest[1], sympy.elliptic_f(phi, modulus)))
+    terms.append((-done.rest[1], sympy.elliptic_e(phi, modulus)))
     for residue in done.residues:
         inverse = -residue.factor[0].inverse()  # 1/tau
-        terms.append((-m * residue.value[0] * inverse, elliptic_pi(atoms.constant(inverse), phi, modulus)))
+        terms.append((-m * residue.value[0] * inverse, sympy.elliptic_pi(atoms.constant(inverse), phi, modulus)))
     return terms
 
 
@@ -450,7 +431,11 @@ def _by_tangent(curve: _Curve, atoms: Atoms) -> list[tuple[Poly, Expr]]:
         of_F += of_pole
         terms += others
     modulus = atoms.constant(angle.m)
-    return [*terms, (of_F, elliptic_f(angle.phi, modulus)), (-done.rest[1] * 2, elliptic_e(angle.phi, modulus))]
+    return [
+        *terms,
+        (of_F, sympy.elliptic_f(angle.phi, modulus)),
+        (-done.rest[1] * 2, sympy.elliptic_e(angle.phi, modulus)),
+    ]
 
 
 @dataclass(frozen=True)
@@ -484,10 +469,10 @@ class _Angle:
         if atoms.is_negative(square):
             factor, inverse = atoms.sqrt(-square), atan
         else:
-            factor, inverse = atoms.sqrt(square), atanh
+            factor, inverse = atoms.sqrt(square), sympy.atanh
         terms: list[tuple[Poly, Expr]] = []
         if above and tau != 1:
-            Pi = elliptic_pi(atoms.constant(n), self.phi, atoms.constant(self.m))
+            Pi = sympy.elliptic_pi(atoms.constant(n), self.phi, atoms.constant(self.m))
             terms.append((rho * (tau - 1) / (2 * tau * above), Pi))
         return of_F, [*terms, (-rho, inverse(factor * z) / factor)]
 
@@ -682,8 +667,8 @@ def _gamma(factor: Poly, n: int, t: Expr, power: Fraction, atoms: Atoms) -> Scal
     if s == Fraction(1, 2):
         is_positive = beta.is_real is not False and not atoms.is_negative(factor)
         root = atoms.sqrt(factor if is_positive else -factor)
-        function = erfi if is_positive else erf
-        return 1 / (root * n), sqrt(pi) * function(root * t ** sympy.Rational(n, 2))
+        function = sympy.erfi if is_positive else sympy.erf
+        return 1 / (root * n), sqrt(sympy.pi) * function(root * t ** sympy.Rational(n, 2))
     order = rational(s)
     if n == 1 and beta.is_negative:
         return -((-beta) ** -order), sympy.uppergamma(order, -beta * t)

@@ -17,20 +17,8 @@ from kovacic.algebra.poly import Poly
 from kovacic.algebra.ratfunc import RatFunc
 from kovacic.engine.places import Problem
 from kovacic.special import prices
-from kovacic.special.maps import (
-    integral_of_cubic_root,
-    irregular_places,
-    leading_square,
-    parts_by_scale,
-    value_at,
-)
-from kovacic.special.pullback import (
-    Pullback,
-    StandardEquation,
-    StandardForm,
-    ValueAndSlope,
-    standard_part,
-)
+from kovacic.special.maps import integral_of_cubic_root, irregular_places, leading_square, parts_by_scale, value_at
+from kovacic.special.pullback import Pullback, StandardEquation, StandardForm, ValueAndSlope, standard_part
 
 if TYPE_CHECKING:
     from kovacic.special.writer import Writer, WrittenPair
