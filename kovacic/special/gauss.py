@@ -330,7 +330,7 @@ class _GaussForm:
     @property
     def degree(self) -> Number:
         """N with a = -N."""
-        return -self.upper[0]
+        return (self.alpha + self.beta + self.gamma - 1) * HALF
 
     @cached_property
     def _values(self) -> list[Fraction | float | None]:
