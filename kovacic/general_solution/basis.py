@@ -174,7 +174,7 @@ def definition(y1: Expr, y2: Expr, x: Expr) -> Expr:
     x
     """
     W = y1 * slope(y2, x) - slope(y1, x) * y2
-    for f in sorted({f for y in (y1, y2) for f in _antiderivatives_in(y) if f.has(x)}, key=str):
+    for f in sorted((f for f in sympy.Tuple(y1, y2).atoms(*_ANTIDERIVATIVES) if f.has(x)), key=str):
         check_time()
         shorter = W.xreplace({f: sympy.S.Zero})
         if _is_wronskian(shorter, y1, y2, x, _NONE):
@@ -188,15 +188,6 @@ def definition(y1: Expr, y2: Expr, x: Expr) -> Expr:
     if bases and all(base.free_symbols for base in bases) and not W.has(*_UNKNOWN, sympy.Function):
         return sympy.factor(sympy.cancel(sympy.together(W)))
     return W
-
-
-def _antiderivatives_in(e: Expr) -> Iterator[Expr]:
-    """Those of which a sum of products consists, not those inside of other functions."""
-    if isinstance(e, _ANTIDERIVATIVES):
-        yield e
-    elif e.is_Add or e.is_Mul:
-        for part in e.args:
-            yield from _antiderivatives_in(part)
 
 
 def multiple_of(w: Expr, y1: Expr, y2: Expr, x: Expr, integers: Mapping[Expr, Expr] = _NONE) -> Expr | None:

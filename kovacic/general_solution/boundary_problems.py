@@ -194,14 +194,12 @@ def _parameter_among(symbols: Collection[Expr], parameter: str) -> Expr:
 
 def _interval_ends(conditions: Sequence[Condition], domain: Sequence[Any] | None) -> tuple[Expr, Expr]:
     """The ends of the interval, from the points of the conditions and the given domain."""
-    points = {point for condition in conditions for point in condition.points}
-    for condition in conditions:
-        if any(term.coefficient.free_symbols for term in condition.terms):
-            raise InputError(f"{condition.text}: numbers are expected in it")
-    for point in points:
-        if point.free_symbols:
+    terms = [term for condition in conditions for term in condition.terms]
+    points = {term.point for term in terms}
+    for what, number in [("end", p) for p in points] + [("coefficient", term.coefficient) for term in terms]:
+        if number.free_symbols:
             raise InputError(
-                f"eigenvalues are numbers: the end {point} isn't one",
+                f"eigenvalues are numbers: the {what} {number} isn't one",
                 hint="params={...} gives values",
                 shell="--param NAME=NUMBER gives a value",
             )

@@ -17,7 +17,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property, partial
-from itertools import islice, pairwise
+from itertools import chain, islice, pairwise
 from types import MappingProxyType
 from typing import Any
 
@@ -303,7 +303,7 @@ def jumps(y: Expr, x: Expr, coefficients: Sequence[Expr]) -> bool:
         inside = set().union(*(e.free_symbols for e in (*y.atoms(sympy.Function, sympy.Pow), *coefficients)))
         first = next(samples(y.free_symbols - {x}))
         second = first | opposite({s: value for s, value in first.items() if s in inside})
-        for numbers in [first, *([second] if second != first else [])]:
+        for numbers in [first, second][: 1 + (second != first)]:
             here = y.xreplace(numbers)
             # The terms of each `RootSum`: with roots to 30 digits they lie on the same sides of cuts.
             sums = {e: sympy.Add(*map(e.fun, e.poly.nroots(30))) for e in here.atoms(sympy.RootSum)}
@@ -333,13 +333,11 @@ class _Course:
 
     def jumps_somewhere(self) -> bool:
         """Between two of the points that the arguments of its functions suggest."""
-        for a, b in pairwise(self._points()):
-            suspects = islice(self._suspects(a, b, _HALVINGS), _MOST_SUSPECTS)
-            for left, right in suspects:
-                is_ordinary = self._is_ordinary(arb(left).union(arb(right)))
-                if is_ordinary and any(self._differ(left, right, order) for order in (0, 1)):
-                    return True
-        return False
+        found = (islice(self._suspects(a, b, _HALVINGS), _MOST_SUSPECTS) for a, b in pairwise(self._points()))
+        return any(
+            self._is_ordinary(arb(left).union(arb(right))) and any(self._differ(left, right, order) for order in (0, 1))
+            for left, right in chain.from_iterable(found)
+        )
 
     def _points(self) -> list[Any]:
         """The grid, and points on both sides of each real x at which a linear argument is real, or a tangent has a pole."""

@@ -122,8 +122,13 @@ def determine(
     c2 = tidy((first.u * second.r - first.r * second.u) / value)
     others = [row for row in rows if row is not first and row is not second]
     found = _split(_Solved((c1, c2), [row.rest(c1, c2) for row in others]))
-    if when is Zero.SOMETIMES:
-        found.particular.append(_where_minor_vanishes(rows, names, value / scale))
+    if when is Zero.SOMETIMES:  # then the case of rank one, as far as it follows from the minor's being zero
+        of_rank_one = _of_rank_one(rows, names)
+        case = ParameterCase((), Outcome.OPEN)
+        if len(rows) == 2 and when_zero(of_rank_one.pivot) is not Zero.SOMETIMES:
+            generic, particular, _ = _split(of_rank_one)
+            case = particular[0] if particular else generic
+        found.particular.append(replace(case, zeros=(value / scale,), needed=case.zeros))
     return found
 
 
@@ -203,16 +208,6 @@ def _split(found: _Solved) -> Determined:
     return Determined(none, [generic, *particular]) if sometimes else Determined(generic, particular)
 
 
-def _where_minor_vanishes(rows: Sequence[Row], names: tuple[Expr, Expr], minor: Expr) -> ParameterCase:
-    """The case of rank one, as far as it follows from the minor's being zero."""
-    found = _of_rank_one(rows, names)
-    if len(rows) > 2 or when_zero(found.pivot) is Zero.SOMETIMES:
-        return ParameterCase((minor,), Outcome.OPEN)
-    generic, particular, _ = _split(found)
-    case = particular[0] if particular else generic
-    return replace(case, zeros=(minor,), needed=case.zeros)
-
-
 def tidy(value: Any) -> Any:
     """A shorter form of a constant, where that is known at once."""
     check_time()
@@ -273,12 +268,11 @@ def constants_of(
 
 def _wronskian(question: Question, basis: Basis, rows: Sequence[Row], limits: dict[Expr, Approach]) -> Expr | None:
     """For y and y' at one point, given first: the determinant, which isn't zero, in a form that is short; else None."""
-    first_two = question.conditions[:2]
-    if len(first_two) < 2 or not all(condition.is_value for condition in first_two):
+    terms = [condition.terms[0] for condition in question.conditions[:2] if condition.is_value]
+    places = {term.point for term in terms}
+    if {term.order for term in terms} != {0, 1} or len(places) != 1 or not places.isdisjoint(limits):
         return None
-    (first,), (second,) = (condition.terms for condition in first_two)
-    if first.point != second.point or first.order == second.order or first.point in limits:
-        return None
+    first, second = terms
     determinant = rows[0].u * rows[1].v - rows[0].v * rows[1].u
     W = finite_value(question.own(basis.wronskian), question.x, first.point)
     # of y and y' it is W, of y' and y it is -W

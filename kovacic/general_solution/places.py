@@ -9,10 +9,9 @@ and of a right-hand side with polynomials, roots of x, or waves below the line.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Iterator, Sequence
 from contextlib import suppress
 from dataclasses import dataclass, replace
-from functools import partial
 from typing import Any
 
 import sympy
@@ -20,7 +19,7 @@ import sympy
 from kovacic.algebra.poly import Poly
 from kovacic.closed_form import cuts
 from kovacic.closed_form.atoms import Atoms
-from kovacic.closed_form.form import ClosedForm, pair_at
+from kovacic.closed_form.form import pair_at
 from kovacic.equation import Equation
 from kovacic.errors import InputError
 from kovacic.general_solution.basis import Basis
@@ -61,7 +60,7 @@ class ImpulsesInside:
         h = sympy.sympify(question.equation.h or 0)
         jumps = h.atoms(sympy.Heaviside, sympy.DiracDelta)
         is_impulse = all(isinstance(jump, sympy.DiracDelta) and len(jump.args) == 1 for jump in jumps)
-        if len(points) != 2 or not {*points}.isdisjoint(_INFINITIES) or not is_impulse:
+        if len(points) != 2 or any(point.is_infinite for point in points) or not is_impulse:
             return cls()
         low, high = points[::-1] if (points[1] - points[0]).is_negative else points
         places = []
@@ -79,9 +78,12 @@ class ImpulsesInside:
 
     @property
     def notices(self) -> list[str]:
-        lows = ["" if (place - self.low).is_positive else f"{self.low} < " for place in self.places]
-        highs = ["" if (self.high - place).is_positive else f" < {self.high}" for place in self.places]
-        return [f"this holds for {low}{place}{high}" for low, place, high in zip(lows, self.places, highs, strict=True)]
+        def said(place: Expr) -> str:
+            low = "" if (place - self.low).is_positive else f"{self.low} < "
+            high = "" if (self.high - place).is_positive else f" < {self.high}"
+            return f"this holds for {low}{place}{high}"
+
+        return [*map(said, self.places)]
 
     @property
     def numbers(self) -> dict[Expr, Expr]:
@@ -96,9 +98,9 @@ def limit_points(question: Question) -> dict[Expr, Approach]:
 
     Raises `InputError` where the others are on both sides.
     """
-    infinite = {point: Approach(point) for point in given_points(question) if point in _INFINITIES}
-    others = [point for point in given_points(question) if point not in infinite]
-    return infinite | {p: Approach(p, _side(p, _points(question))) for p in others if is_singular(question, p)}
+    infinite, others = sympy.sift(given_points(question), lambda point: point in _INFINITIES, binary=True)
+    singular = {p: Approach(p, _side(p, _points(question))) for p in others if is_singular(question, p)}
+    return {point: Approach(point) for point in infinite} | singular
 
 
 def _side(point: Expr, points: Sequence[Expr]) -> int:
@@ -124,9 +126,8 @@ def start_of(question: Question, limits: dict[Expr, Approach]) -> Expr:
     poles = [*rational_poles(question)]
     finite = [approach for approach in limits.values() if not approach.is_infinite]
     if not finite:  # an integer beyond all poles
-        if next(iter(limits.values())).point == sympy.oo:
-            return sympy.ceiling(sympy.Max(0, *poles)) + 1
-        return sympy.floor(sympy.Min(0, *poles)) - 1
+        sign = sympy.sign(next(iter(limits)))
+        return sign * (sympy.ceiling(sympy.Max(0, *(sign * pole for pole in poles))) + 1)
     place = finite[-1]
     ends = [approach.point for approach in finite if approach.point != place.point]
     ends += [pole for pole in poles if ((pole - place.point) * place.direction).is_positive]
@@ -171,15 +172,10 @@ def real_at(basis: Basis, point: Expr) -> Basis:
         return basis
     solution, form = basis.solution, basis.form
     assert solution is not None
-    anew = None if form is None else partial(_with_numbers, form, point, basis.own)
+    anew = None if form is None else lambda: tuple(y.xreplace(NUMBERS) for y in pair_at(form, point, basis.own))
     pair = (basis.y1, basis.y2)
     pair = cuts.real_at(pair, basis.x, solution.S, solution.gauge, point, anew=anew, own=basis.own)
     return basis if pair == (basis.y1, basis.y2) else replace(basis.of(*pair), place=point)
-
-
-def _with_numbers(form: ClosedForm, point: Expr, own: Callable[[Expr], Expr]) -> tuple[Expr, Expr]:
-    y1, y2 = pair_at(form, point, own)
-    return y1.xreplace(NUMBERS), y2.xreplace(NUMBERS)
 
 
 def real_particular(question: Question, basis: Basis, particular: Expr, place: Expr) -> Expr:
@@ -206,7 +202,7 @@ def one_sided(question: Question) -> tuple[Question, list[str]]:
     h, x, said = question.equation.h, question.x, []
     parts = () if h is None else h.atoms(sympy.Pow, sympy.Function) - h.atoms(sympy.Heaviside, sympy.DiracDelta)
     steps = {step for part in parts for step in part.atoms(sympy.Heaviside) if step.has(x)}
-    points = [point for condition in question.conditions for point in condition.points]
+    points = given_points(question)
     for step in sorted(steps, key=str):
         place = place_of(step, x)
         if place is None or place.slope.is_positive is None or not is_singular(question, place.a):
@@ -225,13 +221,10 @@ def is_singular(question: Question, point: Expr) -> bool:
     atoms = Atoms(sympy.Symbol(equation.variable))
     at = question.own(function_of_x(equation)).subs(user_variable(equation), point)
     values = (question.own(atoms.poly(den)).subs(atoms.x, at) for den in _denominators(equation, equation.h is None))
-    if any(value.is_finite is False or is_zero(value) for value in values):
-        return True
-    if equation.h is None:
-        return False
     whole = right_hand_side(equation)
     smooth = whole.xreplace(dict.fromkeys(whole.atoms(sympy.Heaviside, sympy.DiracDelta), sympy.Integer(0)))
-    return not have_values([smooth], question.x, point)
+    is_pole = any(value.is_finite is False or is_zero(value) for value in values)
+    return is_pole or not have_values([smooth], question.x, point)
 
 
 def _denominators(equation: Equation, with_right: bool) -> list[Poly]:

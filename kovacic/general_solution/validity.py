@@ -351,12 +351,14 @@ _NEEDS: dict[Any, Callable[[Expr, Expr], Expr]] = {
     **dict.fromkeys((sympy.cot, sympy.csc), lambda e, u: _nonzero(sympy.sin(u))),
     **dict.fromkeys((sympy.coth, sympy.csch, sympy.Ei), lambda e, u: _nonzero(u)),
     # with a cut from 0 to -oo
-    **dict.fromkeys((sympy.log, sympy.Ci, sympy.expint, sympy.uppergamma, sympy.lowergamma), lambda e, u: _positive(u)),
+    **dict.fromkeys(
+        (sympy.log, sympy.Ci, sympy.expint, sympy.uppergamma, sympy.lowergamma, sympy.bessely, sympy.besselk),
+        lambda e, u: _positive(u),
+    ),
     sympy.polylog: lambda e, u: _positive(1 - u),
     **dict.fromkeys((sympy.elliptic_k, sympy.elliptic_e, sympy.elliptic_f, sympy.elliptic_pi), _of_elliptic_integral),
     # J_n(u) is (u/2)^n times an entire function; y_n(u) is rational in u beside waves for an integer n
     **dict.fromkeys((sympy.besselj, sympy.besseli, sympy.jn), lambda e, u: _unless(e.args[0].is_integer, _positive(u))),
-    **dict.fromkeys((sympy.bessely, sympy.besselk), lambda e, u: _positive(u)),
     sympy.yn: lambda e, u: _nonzero(u) if e.args[0].is_integer else _positive(u),
     # polynomials for an integer n; else u > -1
     **dict.fromkeys(

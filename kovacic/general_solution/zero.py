@@ -62,15 +62,13 @@ def when_zero(value: Expr) -> Zero:
     value = sympy.sympify(value, strict=True)
     if value == 0:
         return Zero.ALWAYS
-    if value.is_Rational or is_nowhere_zero(value):
+    if is_nowhere_zero(value):
         return Zero.NEVER
     tried = islice(samples(value.free_symbols), _SAMPLES)
     if any(differs_from_zero(value, sample) for sample in tried):
         # A number that isn't zero never is; what has parameters may be for other values of these.
-        parts = by_parity(value)
-        if value.free_symbols and not (parts and all(map(is_nowhere_zero, parts))):
-            return Zero.SOMETIMES
-        return Zero.NEVER
+        may_be_zero = value.free_symbols and not all(map(is_nowhere_zero, by_parity(value)))
+        return Zero.SOMETIMES if may_be_zero else Zero.NEVER
     if is_identically_zero(value):
         return Zero.ALWAYS
     raise NotImplementedError(f"undecided: whether {shown(value, 60)} is zero")
@@ -89,11 +87,10 @@ def is_nowhere_zero(value: Expr) -> bool:
 def _is_nonzero(factor: Expr) -> bool:
     """True if a power is provably not zero."""
     base, exponent = factor.as_base_exp()
-    if isinstance(factor, sympy.exp) or base == sympy.E:
+    if base == sympy.E:
         return True
-    for functions, has_no_zero in _WITHOUT_ZEROS:
-        if isinstance(base, functions):
-            return bool(has_no_zero(base))
+    if base.func in _WITHOUT_ZEROS:
+        return bool(_WITHOUT_ZEROS[base.func](base))
     if base.is_Add and size(base) > _LARGEST_ASKED:  # SymPy would compute parts of it, to ever more digits
         return False
     return base.is_zero is False and exponent.is_finite is not False
@@ -136,21 +133,21 @@ def _gamma_is_nonzero(f: Expr) -> bool:
 
 
 #: Functions, and whether one of them is known to be finite and not zero.
-_WITHOUT_ZEROS: tuple[tuple[tuple[Any, ...], Callable[[Expr], Any]], ...] = (
-    ((sympy.besselk, sympy.besseli), _bessel_is_nonzero),
-    ((sympy.gamma,), _gamma_is_nonzero),
-    ((sympy.cosh,), lambda f: f.args[0].is_real),
+_WITHOUT_ZEROS: dict[Any, Callable[[Expr], Any]] = {
+    **dict.fromkeys((sympy.besselk, sympy.besseli), _bessel_is_nonzero),
+    sympy.gamma: _gamma_is_nonzero,
+    sympy.cosh: lambda f: f.args[0].is_real,
     # Mathieu's even solution, and the slope of his odd one, at 0: where one vanished, the solution would be 0.
-    ((sympy.mathieuc, sympy.mathieusprime), lambda f: f.args[-1] == 0),
-)
+    **dict.fromkeys((sympy.mathieuc, sympy.mathieusprime), lambda f: f.args[-1] == 0),
+}
 
 
 def by_parity(value: Expr) -> list[Expr]:
-    """The value for even and for odd n, where that is the only symbol in a wave or a gamma function; else nothing."""
-    alone = (f.free_symbols for f in value.atoms(sympy.sin, sympy.cos, sympy.gamma) if len(f.free_symbols) == 1)
-    halved = {n for symbols in alone for n in symbols if n.is_integer and n.is_odd is None}
+    """The value for even and for odd n, where that is the only symbol in a wave or a gamma function; else as it is."""
+    alone = {f.free_symbols.pop() for f in value.atoms(sympy.sin, sympy.cos, sympy.gamma) if len(f.free_symbols) == 1}
+    halved = {n for n in alone if n.is_integer and n.is_odd is None}
     if len(halved) != 1:
-        return []
+        return [value]
     (n,) = halved
     even = sympy.Dummy(integer=True, positive=n.is_positive, nonnegative=n.is_nonnegative)
     odd = sympy.Dummy(integer=True, nonnegative=n.is_nonnegative)
@@ -178,31 +175,23 @@ def fitting_samples(symbols: set[Expr], natural: Expr | None) -> Iterator[dict[E
 
 def opposite(sample: dict[Expr, Expr]) -> dict[Expr, Expr]:
     """The values with the other sign, where nothing is assumed of it."""
-    is_open = {s: s.is_nonnegative is None and s.is_nonpositive is None for s in sample}
-    return {s: -value if is_open[s] else value for s, value in sample.items()}
+    return {s: -value if {s.is_nonnegative, s.is_nonpositive} == {None} else value for s, value in sample.items()}
 
 
 def sample_value(symbol: Expr, k: int) -> Expr:
     """The k-th value of a symbol: of integers the k-th natural number, or the k-th of those that are even or odd."""
-    if symbol.is_odd:
-        value = sympy.Integer(2 * k + 1)
-    elif symbol.is_even:
-        value = sympy.Integer(2 * k + 2)
-    elif symbol.is_integer:
-        value = sympy.Integer(k + 1)
+    if symbol.is_integer:
+        value = sympy.Integer(k + 1 if symbol.is_odd is None else 2 * k + 2 - symbol.is_odd)
     else:
         # between 1 and 2.01 but for k, with a large numerator and denominator: another one for most other names
         code = sum(ord(character) * 31**place for place, character in enumerate(symbol.name))
         value = sympy.Rational(9973 + 2 * code % 9973, 9967) + k
-    if symbol.is_negative or symbol.is_nonpositive:
-        return -value
-    return value
+    return -value if symbol.is_nonpositive else value
 
 
 def ball(value: Expr, sample: dict[Expr, Expr] | None = None) -> Any:
     """The value of a constant in a ball, None if that can't be computed; parameters have the values of the sample."""
-    if sample:
-        value = value.xreplace(sample)
+    value = value.xreplace(sample or {})
     if value.has(*ARBITRARY):
         return None
     found = known_jet(value, sympy.Dummy(), acb(0))
@@ -241,7 +230,7 @@ def is_identically_zero(value: Expr) -> bool:
     if size(value) > _LARGEST:
         return False
     numerator = sympy.numer(sympy.together(prepared(value)))  # a sum of waves, as sin(a) cos(b) isn't
-    if sympy.expand(numerator) == 0 or in_single_waves(numerator) == 0:
+    if in_single_waves(numerator) == 0:
         return True
     spread = sympy.expand_log(sympy.expand(numerator, power_base=True), force=False, factor=True)
     if sympy.expand(spread) == 0:

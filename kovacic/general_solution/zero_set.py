@@ -131,7 +131,7 @@ def _where_zero(e: Expr, base: Expr) -> Expr:
 
 def _has_no_zero(factor: Expr) -> bool:
     """True if that is seen of it: for even and for odd integers, without gamma functions, or in hyperbolic functions."""
-    cases = sympy.Mul(*(by_parity(factor) or [factor]))
+    cases = sympy.Mul(*by_parity(factor))
     forms = (cases, in_hyperbolic_functions(factor)) if factor.has(exp) else (cases,)
     return any(
         all(isinstance(part, gamma) or is_nowhere_zero(part) for part in sympy.Mul.make_args(form)) for form in forms
