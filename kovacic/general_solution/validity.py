@@ -11,9 +11,8 @@ Reference: DLMF 4.2, 4.23, 4.37 (logarithms, inverse functions), 6.4 (Ei, Ci), 8
 
 from __future__ import annotations
 
-from collections.abc import Callable, Collection, Iterable, Iterator
+from collections.abc import Callable, Collection, Iterable, Iterator, Sequence
 from dataclasses import dataclass
-from functools import partial
 from typing import Any
 
 import sympy
@@ -23,7 +22,7 @@ from sympy.simplify.fu import TR5, TR6
 from sympy.solvers.inequalities import reduce_rational_inequalities
 
 from kovacic.general_solution.substitution import in_single_waves
-from kovacic.general_solution.zero import agree, is_nowhere_zero, is_positive_polynomial
+from kovacic.general_solution.zero import agree, is_positive_polynomial
 from kovacic.general_solution.zero_set import ZeroSet, inequality, poles_of, without_implied
 
 Expr = Any  # SymPy publishes no types
@@ -68,36 +67,31 @@ def needed_for(formulas: Iterable[Expr], x: Expr, exceptions: Iterable[Expr] = (
     # Of an imaginary root they have cuts.
     squares = (e.args[0].xreplace(roots) ** 2 for e in value.atoms(sympy.atan, sympy.asinh) if e.has(*roots))
     needs = [need.xreplace(roots) for need in (*needs_of(value), *(_positive(1 + square) for square in squares))]
-    found = _without_what_holds(needs, x, exceptions, has_real_parts=has_real_numbers)
+    asked = [sympy.Ne(e, 0) for e in exceptions]
+    found = _without_what_holds([*needs, *asked], x, has_real_parts=has_real_numbers)
     if found is None:  # no x and letters make all parts real: it is a solution between the branch points
         relations = (need for need in needs if not isinstance(need, BooleanAtom))
         apart = [need if isinstance(need, sympy.Ne) else _nonzero(need.lhs) for need in relations]
-        found = _without_what_holds(apart, x, exceptions, has_real_parts=False)
+        found = _without_what_holds([*apart, *asked], x, has_real_parts=False)
     assert found is not None
     return found
 
 
-def _without_what_holds(
-    relations: Iterable[Expr], x: Expr, exceptions: Iterable[Expr], *, has_real_parts: bool
-) -> Validity | None:
+def _without_what_holds(relations: Sequence[Expr], x: Expr, *, has_real_parts: bool) -> Validity | None:
     """The relations that need to be stated; None if one is false, by the assumptions on letters or beside the others."""
-    truths = {relation: _truth(relation) for relation in relations}
-    if False in truths.values():
-        return None
-    relations = [relation for relation, is_true in truths.items() if not is_true]
-    of_letters, on_x = sympy.sift(relations, lambda r: isinstance(r, sympy.Ne) and not r.has(x), binary=True)
-    nonzero = [factor for relation in of_letters for factor in ZeroSet(relation.lhs).factors]
-    nonzero += [e for e in exceptions if not is_nowhere_zero(e)]
-    if has_real_parts:
-        nonzero = [factor for e in nonzero for factor in _beside_real_roots(e)]
-    said = _nonzero_beside(on_x)
-    for _ in range(2):  # k > 0 from k sqrt(h k) > 0, and then h > 0 from h k > 0
-        on_x = [part for relation in on_x for part in _parts(relation, on_x, nonzero) if not _truth(part)]
-        if sympy.false in on_x:
+    said = _nonzero_beside(relations)
+    nonzero: list[Expr] = []
+    for _ in range(3):  # k > 0 from k sqrt(h k) > 0, and then h > 0 from h k > 0
+        truths = {part: _truth(part) for relation in relations for part in _parts(relation, relations, nonzero)}
+        if False in truths.values():
             return None
+        parts = [part for part, is_true in truths.items() if not is_true]
+        of_letters, relations = sympy.sift(parts, lambda r: isinstance(r, sympy.Ne) and not r.has(x), binary=True)
+        zeros = [factor for relation in of_letters for factor in ZeroSet(relation.lhs).factors]
+        nonzero += [e for zero in zeros for e in (_beside_real_roots(zero) if has_real_parts else (zero,))]
     # x != 0 follows from a x > 0, but not from x >= 0
-    implied = {sympy.Ne: _nonzero_beside(on_x), sympy.GreaterThan: _positive_among(on_x)}
-    shorter = [_of_cosine(r) for r in on_x if r.lhs not in implied.get(r.func, ())]
+    implied = {sympy.Ne: _nonzero_beside(relations), sympy.GreaterThan: _positive_among(relations)}
+    shorter = [_of_cosine(r) for r in relations if r.lhs not in implied.get(r.func, ())]
     real = _in_one_interval({(r.func, sympy.expand(r.lhs)): r for r in shorter}.values(), x)
     exceptions = without_implied(e for e in nonzero if e not in said)
     return None if real is None else Validity(real, exceptions, has_real_parts)
@@ -106,21 +100,33 @@ def _without_what_holds(
 def _parts(relation: Expr, beside: Collection[Expr], nonzero: Collection[Expr]) -> list[Expr]:
     """Shorter relations in the place of one, beside others and beside what isn't zero; roots and powers are real.
 
-    k > 0 and x > 0 for sqrt(k)*sqrt(x)*exp(x/2) > 0, and for k*x > 0 beside k >= 0; x - a != 0 for a - x != 0; u > 0 for
-    u >= 0 beside u != 0, also by factors, and h >= 0 for h*k >= 0 beside k > 0.
+    Without factors that have a sign: a^2 - x^2 > 0 for 1 - x^2/a^2 > 0; k > 0 and x > 0 for sqrt(k)*sqrt(x)*exp(x/2) > 0, and
+    for k*x > 0 beside k >= 0; v != 0 for v^2 > 0 and |v| > 0; x - a != 0 for a - x != 0; u > 0 for u >= 0 beside u != 0,
+    also by factors, and h >= 0 for h*k >= 0 beside k > 0.
     """
+    if isinstance(relation, BooleanAtom):
+        return [relation]
     u = relation.lhs
     if isinstance(relation, sympy.Ne):
         return [sympy.Ne(-u, 0) if u.could_extract_minus_sign() else relation]
-    factors, positive = sympy.Mul.make_args(u), _positive_among(beside)
-    if isinstance(relation, sympy.GreaterThan) and not ({*ZeroSet(u).factors} or {u}) <= {*nonzero}:
-        return [sympy.GreaterThan(sympy.Mul(*(f for f in factors if f not in positive)), 0)]
-    known = {r.lhs for r in beside if not isinstance(r, sympy.Ne)}
-    factors = [f for f in factors if not _truth(f > 0)]
-    bases = {f: f.base if f.is_Pow and not f.exp.is_Integer else f for f in factors}
-    apart = [base for f, base in bases.items() if base in known or (f != base and f.exp.is_Rational)]
-    rest = sympy.Mul(*(f for f, base in bases.items() if base not in apart))
-    return [_positive(base) if base.is_Pow else base > 0 for base in (*apart, rest) if base != 1]
+    if u.has(sympy.tanh):  # 1 - tanh(x)^2 = 4 exp(2 x)/(exp(2 x) + 1)^2
+        u = sympy.factor(sympy.together(sympy.expand(u.rewrite(sympy.exp))))
+    if u.is_Add and u.is_rational_function() and any(p.exp.is_negative for p in u.atoms(sympy.Pow)):
+        u = sympy.factor_terms(sympy.together(u))
+    is_strict = isinstance(relation, sympy.StrictGreaterThan) or ({*ZeroSet(u).factors} or {u}) <= {*nonzero}
+    positive, known = _positive_among(beside), {r.lhs for r in beside if isinstance(r, sympy.GreaterThan)}
+    apart, rest = [], []
+    for f in sympy.Mul.make_args(u.as_content_primitive()[1]):
+        base, exponent = f.as_base_exp() if f.is_Pow else (f, sympy.S.One)
+        if _truth(_positive(f)) or (f in positive and not is_strict):
+            continue
+        if isinstance(f, sympy.Abs) or exponent.is_even:
+            apart += [_nonzero(f.args[0])] * (is_strict and not exponent.is_negative)
+        elif is_strict and (base in positive | known or not (exponent.is_integer or exponent.free_symbols)):
+            apart.append(_positive(base))
+        else:
+            rest.append(base if exponent.is_odd else f)
+    return [*apart, (_positive if is_strict else _not_negative)(sympy.Mul(*rest))]
 
 
 def _positive_among(relations: Iterable[Expr]) -> set[Expr]:
@@ -273,39 +279,14 @@ def _of_power(e: Expr, exponent: Expr) -> Expr:
 # ----------------------------------------------------------------------------------------------------------- relations
 
 
-def _comparison(relation: Any, u: Expr) -> Expr:
-    """u > 0, for a cut from 0 to -oo, or u >= 0: unevaluated where it is false, or where u isn't real.
-
-    For u = v^2 and |v| it is v != 0, or nothing; of an argument with an i it is said that it isn't the branch point.
-    """
-    short = _of_the_same_sign(u)
-    is_even = isinstance(short, sympy.Abs) or (short.is_Pow and short.exp.is_even and short.base.is_Symbol)
-    if is_even or u.has(sympy.I):
-        return _nonzero(short.args[0] if is_even else u) if relation is sympy.StrictGreaterThan else sympy.true
-    holds = short.is_extended_real is not False and relation(short, 0) == sympy.true
-    return sympy.true if holds else relation(short, 0, evaluate=False)
+def _positive(u: Expr) -> Expr:
+    """u > 0, for a cut from 0 to -oo; of an argument with an i it is said that it isn't the branch point."""
+    return _nonzero(u) if u.has(sympy.I) else sympy.StrictGreaterThan(u, 0, evaluate=False)
 
 
-_positive = partial(_comparison, sympy.StrictGreaterThan)
-_not_negative = partial(_comparison, sympy.GreaterThan)
-
-
-def _of_the_same_sign(u: Expr) -> Expr:
-    """Without a rational or even factor, a^2 - x^2 for 1 - x^2/a^2; the base of a root or an odd power, u being real.
-
-    A sum with a letter that stands for a root is left: its square may be negative.
-    """
-    if u.has(sympy.tanh):  # 1 - tanh(x)^2 = 4 exp(2 x)/(exp(2 x) + 1)^2
-        u = sympy.factor(sympy.together(sympy.expand(u.rewrite(sympy.exp))))
-    is_plain = u.is_Add and u.is_rational_function() and not u.atoms(sympy.Dummy)
-    if is_plain and any(p.exp.is_negative for p in u.atoms(sympy.Pow)):
-        u = sympy.factor_terms(sympy.together(u))
-    factors = sympy.Mul.make_args(u.as_content_primitive()[1])
-    inverse = [p for p in factors if p.is_Pow and p.exp.is_integer and p.exp.is_negative]
-    same = {p: p.base ** (p.exp % 2) for p in inverse if p.exp.is_odd or not p.atoms(sympy.Dummy)}
-    short = sympy.Mul(*(same.get(factor, factor) for factor in factors))
-    is_odd_power = short.is_Pow and short.exp.is_Rational and not short.exp.is_even
-    return short.base if is_odd_power else short
+def _not_negative(u: Expr) -> Expr:
+    """u >= 0, where u has no i."""
+    return sympy.true if u.has(sympy.I) else sympy.GreaterThan(u, 0, evaluate=False)
 
 
 def _nonzero(u: Expr) -> Expr:
