@@ -246,10 +246,10 @@ def _poles_between(question: Question, points: Sequence[Expr]) -> Iterator[tuple
     equation = question.equation
     parts = [] if equation.h is None else [right_hand_side(equation)]
     if equation.change is not None:
+        if not is_power(equation) and not is_of_a_line(equation):
+            raise NotImplementedError("undecided: whether a singular point lies between the points that are given")
         if is_power(equation) and first < 0 < last:
             yield sympy.Integer(0), False
-        elif not is_power(equation) and not is_of_a_line(equation):
-            raise NotImplementedError("undecided: whether a singular point lies between the points that are given")
         a, b, c, f = map(question.own, question.coefficients)
         parts = [b / a, c / a, f / a]
     needs = {need for part in parts for need in needs_of(part) if not isinstance(need, sympy.GreaterThan)}

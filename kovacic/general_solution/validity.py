@@ -22,7 +22,7 @@ from sympy.simplify.fu import TR5, TR6
 from sympy.solvers.inequalities import reduce_rational_inequalities
 
 from kovacic.general_solution.substitution import in_single_waves
-from kovacic.general_solution.zero import agree, is_positive_polynomial
+from kovacic.general_solution.zero import agree, is_nowhere_zero, is_positive_polynomial
 from kovacic.general_solution.zero_set import ZeroSet, inequality, poles_of, without_implied
 
 Expr = Any  # SymPy publishes no types
@@ -67,34 +67,38 @@ def needed_for(formulas: Iterable[Expr], x: Expr, exceptions: Iterable[Expr] = (
     # Of an imaginary root they have cuts.
     squares = (e.args[0].xreplace(roots) ** 2 for e in value.atoms(sympy.atan, sympy.asinh) if e.has(*roots))
     needs = [need.xreplace(roots) for need in (*needs_of(value), *(_positive(1 + square) for square in squares))]
-    asked = [sympy.Ne(e, 0) for e in exceptions]
-    found = _without_what_holds([*needs, *asked], x, has_real_parts=has_real_numbers)
+    exceptions = tuple(exceptions)
+    found = _without_what_holds(needs, x, exceptions, has_real_parts=has_real_numbers)
     if found is None:  # no x and letters make all parts real: it is a solution between the branch points
         relations = (need for need in needs if not isinstance(need, BooleanAtom))
         apart = [need if isinstance(need, sympy.Ne) else _nonzero(need.lhs) for need in relations]
-        found = _without_what_holds([*apart, *asked], x, has_real_parts=False)
+        found = _without_what_holds(apart, x, exceptions, has_real_parts=False)
     assert found is not None
     return found
 
 
-def _without_what_holds(relations: Sequence[Expr], x: Expr, *, has_real_parts: bool) -> Validity | None:
+def _without_what_holds(
+    relations: Sequence[Expr], x: Expr, exceptions: Iterable[Expr], *, has_real_parts: bool
+) -> Validity | None:
     """The relations that need to be stated; None if one is false, by the assumptions on letters or beside the others."""
-    said = _nonzero_beside(relations)
+    zeros = [e for e in exceptions if not is_nowhere_zero(e)]
     nonzero: list[Expr] = []
-    for _ in range(3):  # k > 0 from k sqrt(h k) > 0, and then h > 0 from h k > 0
-        truths = {part: _truth(part) for relation in relations for part in _parts(relation, relations, nonzero)}
+    for k in range(3):  # k > 0 from k sqrt(h k) > 0, and then h > 0 from h k > 0
+        truths = {part: _truth(part) for r in relations for part in _parts(r, relations, nonzero)}
         if False in truths.values():
             return None
         parts = [part for part, is_true in truths.items() if not is_true]
         of_letters, relations = sympy.sift(parts, lambda r: isinstance(r, sympy.Ne) and not r.has(x), binary=True)
-        zeros = [factor for relation in of_letters for factor in ZeroSet(relation.lhs).factors]
-        nonzero += [e for zero in zeros for e in (_beside_real_roots(zero) if has_real_parts else (zero,))]
+        zeros = [*(factor for r in of_letters for factor in ZeroSet(r.lhs).factors), *zeros]
+        if k == 0:
+            said = _nonzero_beside(relations)
+        nonzero = [part for zero in zeros for part in (_beside_real_roots(zero) if has_real_parts else (zero,))]
     # x != 0 follows from a x > 0, but not from x >= 0
     implied = {sympy.Ne: _nonzero_beside(relations), sympy.GreaterThan: _positive_among(relations)}
     shorter = [_of_cosine(r) for r in relations if r.lhs not in implied.get(r.func, ())]
     real = _in_one_interval({(r.func, sympy.expand(r.lhs)): r for r in shorter}.values(), x)
-    exceptions = without_implied(e for e in nonzero if e not in said)
-    return None if real is None else Validity(real, exceptions, has_real_parts)
+    unsaid = without_implied(e for e in nonzero if e not in said)
+    return None if real is None else Validity(real, unsaid, has_real_parts)
 
 
 def _parts(relation: Expr, beside: Collection[Expr], nonzero: Collection[Expr]) -> list[Expr]:
@@ -207,14 +211,13 @@ def _in_one_interval(relations: Collection[Expr], x: Expr) -> tuple[Expr, ...] |
         return tuple(relations)
     t = sympy.Dummy(real=True)
     where = reduce_rational_inequalities([[r.xreplace({x: t}) for r in rational]], t, relational=False)
-    if where.is_empty or isinstance(where, sympy.FiniteSet):
+    if where.measure == 0:
         return None
     if not isinstance(where, sympy.Interval) or where.has(sympy.CRootOf):
         return tuple(relations)
     a, b = where.start, where.end
-    bounds = [t > a if where.left_open else t >= a, t < b if where.right_open else t <= b]
-    bounds = [bound.xreplace({t: x}) for bound in bounds if bound != sympy.true]
-    bounds = [bound for bound in bounds if bound != sympy.true]  # of an x that is assumed to be positive
+    ends = [t > a if where.left_open else t >= a, t < b if where.right_open else t <= b]
+    bounds = [bound for end in ends if (bound := end.xreplace({t: x})) != sympy.true]  # as x > -1 for a positive x is
     p = sympy.Dummy(positive=True)
     inside = a + p if b == sympy.oo else b - p if a == -sympy.oo else (a + b * p) / (1 + p)
     places = (inside, *(end for end in (a, b) if end in where))
