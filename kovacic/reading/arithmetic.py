@@ -7,6 +7,7 @@ collected by their powers, and everything else is added by halves: most of the n
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
+from dataclasses import dataclass
 from fractions import Fraction
 from itertools import zip_longest
 from math import comb, prod
@@ -32,14 +33,12 @@ _SMALL_BITS = 2048
 PRINTED_BITS = 14_000
 
 
+@dataclass(eq=False, slots=True)
 class Monomial:
     """`coefficient * x**power`, the coefficient an integer or fraction of at most `_SMALL_BITS` bits; never changed."""
 
-    __slots__ = ("coefficient", "power")
-
-    def __init__(self, coefficient: int | Fraction, power: int) -> None:
-        self.coefficient = coefficient
-        self.power = power
+    coefficient: int | Fraction
+    power: int
 
 
 VARIABLE = Monomial(1, 1)

@@ -15,16 +15,7 @@ from collections.abc import Callable
 
 from kovacic.errors import ParseError
 from kovacic.limits import check_time
-from kovacic.reading.lexer import (
-    DERIVATIVES,
-    DOTS,
-    PRIMES,
-    SUPERSCRIPT_DIGITS,
-    Token,
-    error_at,
-    scanned,
-    unexpected,
-)
+from kovacic.reading.lexer import DERIVATIVES, DOTS, PRIMES, SUPERSCRIPT_DIGITS, Token, error_at, scanned, unexpected
 from kovacic.reading.names import (
     BARE,
     FUNCTION_NAMES,

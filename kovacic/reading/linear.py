@@ -7,6 +7,7 @@ A value is what `arithmetic` knows, or a SymPy expression that isn't a number (r
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass
 from fractions import Fraction
 from itertools import pairwise
 from typing import Any
@@ -38,19 +39,15 @@ _ARGUMENTS_HINT = "for example max(x, 0), Piecewise((1, 0 <= x < 5), (0, True))"
 REST = -1
 
 
+@dataclass(eq=False)
 class LinearForm:
     """`parts[k]` is the coefficient of the k-th derivative, `parts[REST]` the part without the unknown function."""
 
-    __slots__ = ("parts",)
-
-    def __init__(self, parts: Mapping[int, Any]) -> None:
-        self.parts = parts
+    parts: Mapping[int, Any]
 
 
 class DerivativeOperator(LinearForm):
     """`parts[k]` is the coefficient of D^k: what a linear form is before it is applied to the unknown function."""
-
-    __slots__ = ()
 
 
 def is_rational(value: Any) -> bool:
@@ -312,25 +309,6 @@ def _is_zero(expression: Any) -> bool:
     if expression.is_Mul:
         return any(map(_is_zero, expression.args))
     return not expression.free_symbols and bool(expression.is_zero)
-
-
-class Symbols:
-    """Stands in for `Constants` where parameters and algebraic numbers are SymPy expressions."""
-
-    parameters = ()
-
-    def parameter(self, name: str) -> Any:
-        from sympy import Symbol
-
-        return Symbol(name)
-
-    def algebraic(self, node: Any) -> Any:
-        return node
-
-    def radical(self, radicand: Poly, n: int, _: str) -> Any:
-        from sympy import Rational, root
-
-        return root(Rational(radicand.field.rational_value(radicand)), n)
 
 
 def chosen_root(polynomial: Any, field: AlgebraicField) -> Any:

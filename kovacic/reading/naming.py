@@ -20,15 +20,7 @@ from typing import Any, NamedTuple
 from kovacic.equation import DEFAULT_VARIABLE, ENERGY, EULER, UNKNOWN
 from kovacic.errors import InputError, ParseError
 from kovacic.reading.lexer import DERIVATIVES, PRIMES, Token
-from kovacic.reading.names import (
-    FUNCTION_NAMES,
-    INSTEAD,
-    LETTER,
-    NUMBER_NAMES,
-    is_function,
-    is_letter,
-    unglued,
-)
+from kovacic.reading.names import FUNCTION_NAMES, INSTEAD, LETTER, NUMBER_NAMES, is_function, is_letter, unglued
 from kovacic.reading.notations import Sentence, pattern
 from kovacic.reading.parser import evaluate, shortened
 

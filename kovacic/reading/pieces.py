@@ -26,17 +26,7 @@ from kovacic.errors import ParseError
 from kovacic.reading.dialects import FRACTIONS, LAYOUT, translated
 from kovacic.reading.lexer import DERIVATIVES, PRIMES, Token, error_at, scanned
 from kovacic.reading.names import is_function, is_letter
-from kovacic.reading.notations import (
-    AROUND,
-    MAKERS,
-    NOTATIONS,
-    SOLVERS,
-    Sentence,
-    Tokens,
-    pattern,
-    rewritten,
-    rule,
-)
+from kovacic.reading.notations import AROUND, MAKERS, NOTATIONS, SOLVERS, Sentence, Tokens, pattern, rewritten, rule
 
 #: Words between an equation and its conditions.
 _BETWEEN = frozenset("and with where subject such given for if at when satisfying".split())  # noqa: SIM905

@@ -154,9 +154,10 @@ def parts_of(source: Source, limits: Limits, order: int = 2) -> tuple[Sequence[A
     import sympy
 
     from kovacic.reading.differential import EquationReader
-    from kovacic.reading.linear import REST, Symbols
+    from kovacic.reading.linear import REST
+    from kovacic.reading.symbolic import SYMBOLS
 
-    reader = EquationReader(source, limits, Symbols())  # type: ignore[arg-type]
+    reader = EquationReader(source, limits, SYMBOLS)
     reader.arithmetic.coefficient = lambda expression: expression  # any one
     value = source.walk(reader)
     parts = reader.parts(value)

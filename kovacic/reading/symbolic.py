@@ -29,12 +29,19 @@ from kovacic.reading.arithmetic import VARIABLE, Monomial
 from kovacic.reading.dialects import tokenize
 from kovacic.reading.expression import RationalReader
 from kovacic.reading.lexer import DERIVATIVES, PRIMES, check_length
-from kovacic.reading.linear import LinearArithmetic, Symbols, differentiations
+from kovacic.reading.linear import LinearArithmetic, differentiations
 from kovacic.reading.names import FUNCTION_NAMES, NUMBER_NAMES, NUMBERS, POWER_CALLS, is_function
 from kovacic.reading.naming import Vocabulary, argument_of, differentiated
 from kovacic.reading.parser import Site, evaluate, shown
 from kovacic.reading.pieces import Paste, taken_apart
 
+#: Stands in for `Constants` where parameters and algebraic numbers are SymPy expressions.
+SYMBOLS: Any = SimpleNamespace(
+    parameters=(),
+    parameter=sympy.Symbol,
+    algebraic=lambda node: node,
+    radical=lambda radicand, n, _: sympy.root(sympy.Rational(radicand.field.rational_value(radicand)), n),
+)
 LIMITS = Limits(text_length=10_000, digits=1000, exponent=1000, bits=10_000)
 #: Spellings of infinity.
 _INFINITY_NAMES = dict.fromkeys(("oo", "inf", "infty", "infinity", "Infinity"), sympy.oo)
@@ -241,7 +248,7 @@ class SymbolicReader(RationalReader):
     arithmetic: LinearArithmetic
 
     def __init__(self, names: Mapping[str, Any] | None, what: str, limits: Limits, unknowns: Unknowns) -> None:
-        super().__init__({**_NUMBER_VALUES, **(names or {})}, "", LinearArithmetic(limits), Symbols())  # type: ignore[arg-type]
+        super().__init__({**_NUMBER_VALUES, **(names or {})}, "", LinearArithmetic(limits), SYMBOLS)
         self.any_name = names is None
         self.unknowns = unknowns
         self.what = what

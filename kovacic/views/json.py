@@ -229,9 +229,8 @@ def from_dict(data: Mapping[str, Any]) -> Answer:
     if verified and not _typed(data, "verified", bool):
         raise ValueError("the answer is marked as failing its check, but passes it")
     _demand_the_same(data, to_dict(answer), "")
-    _check_normal_form(answer)
+    _check_normal_form(answer, verified=verified)
     if verified:
-        _check_invariant(answer)
         _check_group(answer, data.get("group"))
         _check_solutions(answer, data.get("solutions"))
     return answer
@@ -297,21 +296,7 @@ def _unless_none(value: Any, read: Callable[[Any], Any]) -> Any:
 
 
 #: Keys that are compared by value, keys that are ignored or checked elsewhere, and keys that may be absent.
-_BY_VALUE = {
-    "S",
-    "theta",
-    "centre",
-    "P",
-    "D",
-    "coefficients",
-    "minimal_polynomial",
-    "a",
-    "b",
-    "c",
-    "f",
-    "gauge",
-    "near",
-}
+_BY_VALUE = {"S", "theta", "centre", "P", "D", "coefficients", "minimal_polynomial", *_COEFFICIENTS, "gauge", "near"}
 _ELSEWHERE = {"verified", "notices", "seconds", "solutions", "group"}
 _MAY_BE_ABSENT = {"field", "letters", "generic_conditions", "equation", "gauge", "change", "near"}
 #: The facts about a group, and the evidence for them, which is computed anew.
@@ -337,26 +322,20 @@ def _demand_the_same(found: Any, written: Any, path: str) -> None:
         raise ValueError(f"{path} can't be {found!r}")
 
 
-def _check_normal_form(answer: Answer) -> None:
-    """Raise `ValueError` unless P is monic and D the product of the factors to half the orders of the poles."""
-    form = answer.decision.semi_invariant
-    riccati = answer.decision.riccati
-    field = answer.S.field
+def _check_normal_form(answer: Answer, *, verified: bool) -> None:
+    """Raise `ValueError` unless P is monic and D the product of the factors to half the orders of the poles.
+
+    Where the answer is `verified`, P of the rational form has to be monic, too, and a form of degree 2 that of omega.
+    """
+    form, riccati, F = (getattr(answer.decision, name) for name in ("semi_invariant", "riccati", "invariant"))
     if form is None or riccati is None:
         return
-    D = field.poly([1])
-    if answer.S.den.degree > 0:
-        for p, k in field.factor(answer.S.den):
-            D *= p ** ((k + 1) // 2)
+    D = answer.S.field.poly([1])
+    for p, k in answer.S.field.factor(answer.S.den):
+        D *= p ** ((k + 1) // 2)
     if form.P.lc != 1 or riccati.D != D:
         raise ValueError("P or D isn't in its normal form")
-
-
-def _check_invariant(answer: Answer) -> None:
-    """Raise `ValueError` unless P of the rational form is monic, and a form of degree 2 is that of omega."""
-    F = answer.decision.invariant
-    riccati = answer.decision.riccati
-    if F is None or riccati is None:
+    if F is None or not verified:
         return
     if F.P.lc != 1:
         raise ValueError("P of the invariant isn't in its normal form")
