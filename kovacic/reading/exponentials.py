@@ -63,7 +63,7 @@ def in_exponentials(source: Source, limits: Limits) -> Parsed | None:
         common = common_power(of_coefficients, x, T)
     k = common.k
     a, b, c = (part.xreplace(common.powers) for part in rewritten[:3])
-    if any(part.has(x) for part in (a, b, c)):
+    if sympy.Tuple(a, b, c).has(x):
         raise NotRational(
             f"{x} and exp({k * x}) both occur: that isn't rational in one exponential function", hint=_HINT
         )
@@ -86,7 +86,7 @@ def in_exponentials(source: Source, limits: Limits) -> Parsed | None:
 
 def read_in(T: Any, parts: Sequence[Any], source: Source, limits: Limits, *, taken: Collection[Any] = ()) -> Any:
     """The equation with these coefficients in T, read in t, or in another letter that neither they have nor is `taken`."""
-    symbols = set(taken).union(*(part.free_symbols for part in parts))
+    symbols = {*taken, *sympy.Tuple(*parts).free_symbols}
     names = {source.variable, source.unknown, UNKNOWN, *(symbol.name for symbol in symbols)}
     t = sympy.Symbol(next(name for name in ("t", "s", "z", "w", "t_", "s_") if name not in names))
     renamed = source._replace(variable=t.name, unknown=source.unknown or UNKNOWN)

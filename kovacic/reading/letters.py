@@ -55,12 +55,12 @@ def with_letters(parts: Sequence[Expr], coefficients: int, x: Expr) -> Lettered 
     found = tuple(parts)
     for _ in range(_MOST_LETTERS):
         # Beside pi, e becomes a letter, for the two numbers aren't known to be independent.
-        e_is_known = not any(part.has(sympy.pi) for part in found[:coefficients])
+        e_is_known = not sympy.Tuple(*found[:coefficients]).has(sympy.pi)
         inner = {kernel for part in found[:coefficients] for kernel in _kernels(part, x, e_is_known=e_is_known)}
         if not inner:
             break
         found = letters.replaced(found, sorted(inner, key=sympy.default_sort_key))
-    used = set().union(*(part.free_symbols for part in found))
+    used = sympy.Tuple(*found).free_symbols
     meanings = {letter: meaning for letter, meaning in letters.meanings.items() if letter in used}
     return Lettered(found, meanings) if found != tuple(parts) else None
 
@@ -106,8 +106,12 @@ class _LetterTable:
     """Letters with what they stand for; new ones have names that nothing else has."""
 
     def __init__(self, x: Expr, parts: Sequence[Expr]) -> None:
-        symbols = set().union(*(part.free_symbols for part in parts))
-        self.taken = {symbol.name for symbol in symbols} | {x.name, UNKNOWN, *NUMBER_NAMES, *FUNCTION_NAMES}
+        self.taken = {symbol.name for symbol in sympy.Tuple(*parts).free_symbols} | {
+            x.name,
+            UNKNOWN,
+            *NUMBER_NAMES,
+            *FUNCTION_NAMES,
+        }
         self.meanings: Meanings = {}
 
     def letter(self, meaning: Expr) -> Expr:
@@ -126,9 +130,8 @@ class _LetterTable:
     def replaced(self, parts: Sequence[Expr], kernels: Sequence[Expr]) -> tuple[Expr, ...]:
         """The expressions with letters in the place of these constants; first those that depend on others by these."""
         by_others = {kernel: _by_others(kernel, kernels) for kernel in kernels}
-        depending = {kernel: others for kernel, others in by_others.items() if others != kernel}
-        if depending:
-            return tuple(part.xreplace(depending) for part in parts)
+        if [*by_others.values()] != [*kernels]:
+            return tuple(part.xreplace(by_others) for part in parts)
         values: Meanings = {}
         symbols: Meanings = {}
         by_bases: dict[Expr, list[Expr]] = {}

@@ -172,15 +172,14 @@ class Vocabulary:
 
     def _is_known(self, tokens: Sentence, k: int, x: str, y: str) -> bool:
         name = tokens.pieces[k].rstrip(PRIMES)
-        if name in (x, y, *self.declared) or name in NUMBER_NAMES or is_function(name):
+        if name in {x, y, *self.declared, *NUMBER_NAMES} or is_function(name):
             return True
         indexed = _GLUED_INDEX.fullmatch(name)
         if indexed is not None and {*indexed[1]} <= {x, y} and "{" not in tokens.piece(k, k + 1):
             return False  # w_0t is the product w_0 t, or a name
-        if name.rstrip(digits) in (x, y) and name not in (f"{x}0", f"{x}1", f"{y}0", f"{y}1"):
-            numbered = [other for other in tokens.names if other.rstrip(digits) in (x, y) and other not in (x, y)]
-            if numbered == [name]:
-                return False  # x2 alone may be a product, or a power; x1 and x2 are two points
+        numbered = {other for other in tokens.names if other.rstrip(digits) in (x, y)} - {x, y}
+        if numbered == {name} and name not in (f"{x}0", f"{x}1", f"{y}0", f"{y}1"):
+            return False  # x2 alone may be a product, or a power; x1 and x2 are two points
         return is_letter(name) or tokens.kinds[k] == "HEAD"
 
     def _unknown_name(self, tokens: Sentence, k: int, x: str, y: str) -> InputError:

@@ -52,8 +52,6 @@ def read_input(
         if parsed.equation is None:
             _check_unknown(parsed.variable, *parameters_of(parsed.S.field))
         lost = tuple(note for note in source.notes if note not in parsed.notices)
-        if not lost and not source.guesses:
-            return parsed
         return replace(parsed, notices=(*lost, *parsed.notices), guesses=source.guesses)
     if isinstance(S, Equation):
         if variable not in (None, S.variable):

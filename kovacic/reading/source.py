@@ -84,7 +84,7 @@ def _sympy_source(given: Any, variable: str | None, unknown: Any, equation: bool
     is_equation = equation or is_sympy_equation(given)
     expression = given.as_expr() if isinstance(given, sympy.Poly) else given
     if is_equation and getattr(given, "is_Equality", False):
-        expression = given.lhs - given.rhs if given.rhs != 0 else given.lhs
+        expression = given.lhs - given.rhs
     if not isinstance(expression, sympy.Expr):
         hint = "give S alone, from y'' = S(x) y"
         raise InputError(f"{type(expression).__name__!r} isn't a SymPy expression", hint=hint)

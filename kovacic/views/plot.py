@@ -101,6 +101,11 @@ class SampledCurve:
     def envelopes(self) -> list[Envelope]:
         return [part for run in self.runs for part in run if isinstance(part, Envelope)]
 
+    @property
+    def largest(self) -> float:
+        """The largest modulus of a value."""
+        return max((float(np.abs(arc.y).max()) for arc in self.arcs), default=0.0)
+
 
 @limited
 def sample(
@@ -135,9 +140,8 @@ def _sampled(equation: object, start: object, stop: object, points: int, request
                 raise InputError(problem, hint="x0=...", shell="--x0")
         initial = replace(initial, x0=x0)
     if initial.which is None and initial.frobenius is None:
-        initial = replace(
-            initial, y0=1 if initial.y0 is None else initial.y0, dy0=0 if initial.dy0 is None else initial.dy0
-        )
+        y0, dy0 = (usual if given is None else given for given, usual in ((initial.y0, 1), (initial.dy0, 0)))
+        initial = replace(initial, y0=y0, dy0=dy0)
     digits = 8 if accuracy.digits is None else accuracy.digits
     chart = replace(chart, given=fields_of(initial))
 
@@ -167,17 +171,16 @@ def _regular_intervals(chart: PieceChart, a: Fraction, b: Fraction) -> list[tupl
     cuts = sorted({z.re for z in chart.singular if z.is_real() and a <= z.re <= b})
     wild = {float(point.re) for point in chart.irregular}
 
-    def share(end: Fraction) -> Fraction:
-        if end not in cuts:
-            return Fraction(0)
-        return _IRREGULAR_GAP if float(end) in wild else _SINGULAR_GAP
+    shares = {end: _IRREGULAR_GAP if float(end) in wild else _SINGULAR_GAP for end in cuts}
 
-    found = []
-    for left, right in pairwise([a, *cuts, b]):
-        if left < right:
-            length = right - left
-            found.append((left + length * share(left), right - length * share(right)))
-    return found
+    def share(end: Fraction) -> Fraction:
+        return shares.get(end, Fraction(0))
+
+    return [
+        (left + (right - left) * share(left), right - (right - left) * share(right))
+        for left, right in pairwise([a, *cuts, b])
+        if left < right
+    ]
 
 
 def _middle_of_the_longest(intervals: list[tuple[Fraction, Fraction]]) -> Fraction:
@@ -334,12 +337,10 @@ def _read_with_variable(equation: object, request: Request) -> object:
 
 def _axis_names(equation: object) -> tuple[str, str]:
     """The variable and the unknown, for the axes."""
-    if not isinstance(equation, Answer | Parsed):
-        return str(equation.variable) if isinstance(equation, Coefficients) else "x", "y"
-    given = equation.equation
+    given = equation.equation if isinstance(equation, Answer | Parsed) else None
     if given is None:
-        return equation.variable, "y"
-    return equation.variable if given.change is None else given.change.variable, given.unknown
+        return str(equation.variable) if isinstance(equation, Answer | Parsed | Coefficients) else "x", "y"
+    return given.variable if given.change is None else given.change.variable, given.unknown
 
 
 def _curves(
@@ -507,7 +508,7 @@ def _agrees(y: Any, x: Any, curve: SampledCurve) -> bool:
     """True if the formula has the values of its curve: beyond a singular point it may be on another branch."""
     import sympy
 
-    largest = max((float(np.abs(arc.y).max()) for arc in curve.arcs), default=0.0)
+    largest = curve.largest
     for arc in curve.arcs:
         for k in np.linspace(0, len(arc.x) - 1, _FORMULA_POINTS).astype(int):
             value = sympy.N(y.subs(x, sympy.Rational(float(arc.x[k]))), 15)
@@ -565,16 +566,13 @@ class _DrawnPart:
 
     def draw(self, axes: Axes, colour: str) -> None:
         """The arcs, with bands where errors can be seen, and the envelopes."""
-        largest = max((float(np.abs(arc.y).max()) for arc in self.curve.arcs), default=0.0)
-        label = self.label
+        label, largest = self.label, self.curve.largest
         for arc in self.curve.arcs:
             x, y = arc.drawn()
             axes.plot(x, self.values(y), linewidth=1.5, color=colour, label=label)
             label = "_"  # once in the legend
             if arc.radius.max() > _SEEN * largest:
-                middle = self.values(arc.y)
-                low = middle - arc.radius
-                high = middle + arc.radius
+                low, high = self.values(arc.y) - arc.radius, self.values(arc.y) + arc.radius
                 axes.fill_between(arc.x, low, high, color=colour, alpha=0.25, linewidth=0, label="error band")
         for envelope in self.curve.envelopes:
             size = self.amplitude(envelope)
@@ -609,9 +607,8 @@ def _drawn_parts(label: _Label, curve: SampledCurve) -> list[_DrawnPart]:
     is_complex = any(np.any(np.abs(arc.y.imag) > arc.radius) for arc in curve.arcs) or any(
         np.any(envelope.imaginary > 1e-6 * envelope.real.max()) for envelope in curve.envelopes
     )
-    if not is_complex:
-        return [_DrawnPart(curve, "real", label.of_part(""))]
-    return [_DrawnPart(curve, "real", label.of_part("Re")), _DrawnPart(curve, "imag", label.of_part("Im"))]
+    parts = [("real", "Re"), ("imag", "Im")] if is_complex else [("real", "")]
+    return [_DrawnPart(curve, part, label.of_part(name)) for part, name in parts]
 
 
 def _cut_axis(axes: Axes, lines: list[_DrawnPart], width: float) -> None:

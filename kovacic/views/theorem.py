@@ -69,14 +69,11 @@ def theorem(answer: ParametricAnswer, *, format: str = "text") -> str:
     if format == "latex":
         written, latex = blocks(answer), FORMATS["latex"]
         start, end = written.index(_PROOF_HEADING), written.index(_REFERENCES)
-        environments = {
-            "theorem": written[1:start],
-            "proof": written[start + 1 : end],
-        }  # the references keep their heading
+        # The references keep their heading.
+        environments = ("theorem", written[1:start]), ("proof", written[start + 1 : end])
         # Ragged lines, as in `explain`, end with their group: they aren't left behind in the author's document.
         parts = [
-            f"\\begin{{{name}}}\\raggedright\n{latex.render(inside)}\\end{{{name}}}\n"
-            for name, inside in environments.items()
+            f"\\begin{{{name}}}\\raggedright\n{latex.render(inside)}\\end{{{name}}}\n" for name, inside in environments
         ]
         return "\n".join([*parts, f"{{{latex.render(written[end:])}\\par}}\n"])
     return chosen.document(f"y'' = {answer.right.text}", blocks(answer))
@@ -142,17 +139,12 @@ class _TheoremWriter:
             yield Formula(expanded)
             start = ["which "]
         elif equation.change:
-            start = [
-                "in ",
-                self._changed_variable(),
-                " (",
-                Math.of(equation.change.variable),
-                " is the variable that was given) ",
-            ]
+            given_variable = Math.of(equation.change.variable)
+            start = ["in ", self._changed_variable(), " (", given_variable, " is the variable that was given) "]
         if v == equation.unknown:
             yield say(*start, "has the normal form")
         else:
-            yield say(*start, "becomes, with ", *self._substitution(v), ", its normal form")
+            yield say(*start, "becomes, with ", self._substitution(v), ", its normal form")
         yield Formula(normal_form)
         yield say(f"Each of these equations {claim}")
 
@@ -216,11 +208,9 @@ class _TheoremWriter:
             kind = _kind_of_number(words)
             article = "an" if kind[0] in "aeio" else "a"
             found += [", ", Math.of(name), f" {article} {kind}"]
-        for bound in said:
-            if bound not in WORDS:
-                sign = bound.rstrip("0123456789/+-")
-                value = bound.removeprefix(sign)
-                found += [", ", Math.of(f"{name} {sign} {value}")]
+        for bound in (bound for bound in said if bound not in WORDS):
+            sign = bound.rstrip("0123456789/+-")
+            found += [", ", Math.of(f"{name} {sign} {bound.removeprefix(sign)}")]
         return found
 
     def _changed_variable(self) -> Math:
@@ -228,16 +218,16 @@ class _TheoremWriter:
         expression = self.change.expression
         return Math.of(self.answer.variable).equals(Math(expression.replace("**", "^"), latex_text(expression)))
 
-    def _substitution(self, v: str) -> list[str | Math]:
+    def _substitution(self, v: str) -> Math:
         equation = self.answer.equation
         x = self.answer.variable
         assert equation is not None
         if not equation.gauge:
-            return [Math.of(equation.unknown).equals(Math.of(v))]
+            return Math.of(equation.unknown).equals(Math.of(v))
         gamma = Formulas(x, equation.gauge.field).math(equation.gauge)
         text = f"{equation.unknown} = {v} exp(int ({gamma.text}) d{x})"
         latex = rf"{equation.unknown} = {v} \exp \int {gamma.latex} \, d{latex_text(x)}"
-        return [Math(text, latex)]
+        return Math(text, latex)
 
     def _normal_form(self, y: str) -> Math:
         S = self.answer.S
@@ -338,11 +328,9 @@ class _TheoremWriter:
         if y.has(letter):
             degree = Math.of(letter.name).equals(degree)
         yield Formula(self._named_solution(replace(solution, y=y)))
-        is_named = y.has(letter) and bool(solution.exclusion(letter.name))
-        exclusion = solution.exclusion(letter.name) if is_named else ()
-        yield say(
-            "where ", degree, " is a natural number", *exclusion, *_choice_of_signs(self._signs_in(solution)), "."
-        )
+        exclusion = solution.exclusion(letter.name) if y.has(letter) else ()
+        signs = _choice_of_signs(self._signs_in(solution))
+        yield say("where ", degree, " is a natural number", *exclusion, *signs, ".")
 
     def _with_determinant(self, region: ParameterRegion, natural: Natural) -> Iterator[Block]:
         """exp(int theta) P for the exponents of the region; P has the degree d."""
@@ -360,15 +348,8 @@ class _TheoremWriter:
         in_t: list[str | Math] = []
         if self._variable != self.answer.variable:
             in_t = [" in ", Math.of(self.answer.variable)]
-        yield say(
-            "with a polynomial ",
-            Math.of(P.name),
-            *in_t,
-            " of degree ",
-            degree,
-            *_choice_of_signs(self._signs_in(solution)),
-            ".",
-        )
+        signs = _choice_of_signs(self._signs_in(solution))
+        yield say("with a polynomial ", Math.of(P.name), *in_t, " of degree ", degree, *signs, ".")
 
     def _signs_in(self, solution: PolynomialSolution) -> list[sympy.Symbol]:
         """The symbols for signs that occur in a formula or its degree."""
@@ -409,18 +390,15 @@ class _TheoremWriter:
     def _delta(self, cases: list[Case]) -> Iterator[Block]:
         """What Delta_d is, and its first values."""
         #: The letter of the degree, by the degree m of the invariant.
-        letters: dict[int, str] = {}
-        for region in (region for case in cases for region in case.regions):
-            for natural in region.naturals:
-                letters.setdefault(natural.m, natural.letter)
-        for m in sorted(letters):
+        naturals = [natural for case in cases for region in case.regions for natural in region.naturals]
+        letters = {natural.m: natural.letter for natural in reversed(naturals)}
+        for m, letter in sorted(letters.items()):
             if m == 1:
-                yield from self._delta_of_omega(letters[m])
-            else:
-                delta = Math.of(f"Delta_{letters[m]}")
-                what = f" for an invariant of degree {m} says that there is a rational function of x that is "
-                what += f"a form of degree {m} in two solutions and has "
-                yield say(delta.equals(Math("0", "0")), what, Math.of(letters[m]), " zeros.")
+                yield from self._delta_of_omega(letter)
+                continue
+            what = f" for an invariant of degree {m} says that there is a rational function of x that is "
+            what += f"a form of degree {m} in two solutions and has "
+            yield say(Math.of(f"Delta_{letter}").equals(Math("0", "0")), what, Math.of(letter), " zeros.")
 
     def _delta_of_omega(self, d: str) -> Iterator[Block]:
         """Where omega is rational: the equation of the polynomial of degree d."""
@@ -435,22 +413,21 @@ class _TheoremWriter:
 
     def _has_systems(self) -> bool:
         """True if one of the determinants that are printed stands for several polynomials."""
-        for region in self.answer.regions:
-            for natural in region.naturals:
-                shown = range(len(region.determinants))
-                if any(determinant.system for d in shown for determinant in natural.determinants(d)):
-                    return True
-        return False
+        return any(
+            determinant.system
+            for region in self.answer.regions
+            for natural in region.naturals
+            for d in range(len(region.determinants))
+            for determinant in natural.determinants(d)
+        )
 
     # The proof
 
     def _proof(self) -> Iterator[Block]:
         answer = self.answer
         yield _PROOF_HEADING
-        if answer.complete is True:
-            yield say("The list is complete (", *prose.phrase(answer.theory.literal), ").")
-        else:
-            yield say(f"The list is complete {answer.complete} (", *prose.phrase(answer.theory.literal), ").")
+        where = "" if answer.complete is True else f"{answer.complete} "
+        yield say(f"The list is complete {where}(", *prose.phrase(answer.theory.literal), ").")
         for notice in answer.notices:
             if not notice.startswith(f"in {answer.variable} = "):
                 yield say(f"Note: {notice}.")
@@ -478,12 +455,9 @@ def _equation_key(equation: Equation | None) -> tuple[str, str]:
 
 def _kind_of_number(words: list[str]) -> str:
     """`nonnegative integer`: the adjectives, and then the noun."""
-    adjectives = [word for word in words if word not in _NOUNS]
     nouns = [word for word in words if word in _NOUNS]
-    if not nouns:
-        is_integer = "even" in words or "odd" in words
-        nouns = ["integer"] if is_integer else ["number"]
-    return " ".join([*adjectives, *nouns])
+    usual = "number" if {"even", "odd"}.isdisjoint(words) else "integer"
+    return " ".join([*(word for word in words if word not in _NOUNS), *(nouns or [usual])])
 
 
 def _enumerated(parts: list[Math]) -> list[str | Math]:
@@ -491,9 +465,7 @@ def _enumerated(parts: list[Math]) -> list[str | Math]:
     if len(parts) < 2:
         return [*parts]
     *first, last = parts
-    found: list[str | Math] = []
-    for part in first:
-        found += [part, ", "]
+    found = [said for part in first for said in (part, ", ")]
     return [*found[:-1], " and ", last]
 
 
