@@ -140,7 +140,7 @@ class Arithmetic:
         a, b = self.rational(left), self.rational(right)
         if not b:
             raise ZeroDivisionError("division by zero")
-        quotient = RatFunc(self._product(a.num, b.den), self._product(a.den, b.num))
+        quotient = RatFunc(self._product(a.num, b.den), self._product(b.num, a.den))
         return quotient.num if quotient.is_polynomial else quotient
 
     def power(self, base: Value, exponent: Value | int) -> Value:
@@ -185,6 +185,8 @@ class Arithmetic:
         return RatFunc(num, self._product(left.den, right.den))
 
     def _product(self, left: Poly, right: Poly) -> Poly:
+        if right == 1:
+            return left
         m = left.degree
         n = right.degree
         carries = (min(m, n) + 1).bit_length()
@@ -237,6 +239,8 @@ class Arithmetic:
     def _integer_of(self, exponent: Value | int) -> int:
         if isinstance(exponent, int):
             return exponent
+        if isinstance(exponent, Monomial) and exponent.power == 0 and isinstance(exponent.coefficient, int):
+            return exponent.coefficient
         number = self.number(exponent)
         if number is None or number.denominator != 1:
             raise NotAnInteger
@@ -252,7 +256,9 @@ def _total(parts: Sequence[T], add: Callable[[T, T], T]) -> T:
 
 
 def _bits(value: int | Fraction) -> int:
-    return max(value.numerator.bit_length(), value.denominator.bit_length())
+    return (
+        value.bit_length() if type(value) is int else max(value.numerator.bit_length(), value.denominator.bit_length())
+    )
 
 
 def _scaled_power(coefficient: int | Fraction, power: int) -> Monomial | Poly:

@@ -104,7 +104,7 @@ class Vocabulary:
         split, products = self._with_products(tokens, x, y)
         if x != "e":
             _check_readings(split, *_EXPONENT, unknown=y)
-        named, factors = _with_factors(split, x, y)
+        named, factors = _with_factors(split, x, y) if "HEAD" in split.kinds else (split, [])
         guesses = [*_guesses(tokens), *products, *factors, *self._imaginary_unit(split, x, y)]
         if has_operator:
             new = [t._replace(kind="OPERATOR", text=x) if t[:2] == ("NAME", OPERATOR) else t for t in named]
@@ -220,7 +220,7 @@ def _check_readings(
     tokens: Sentence, readings: str, said: str, hint: str, ends: Sequence[str] = ("", ""), unknown: str = ""
 ) -> None:
     """Raises `ParseError` for what has two readings, where it doesn't end with the unknown; `ends` are those of the hints."""
-    for found in pattern(readings.replace("NAME", _NAME)).finditer(tokens.spaced):
+    for found in pattern(readings.replace("NAME", _NAME)).finditer(tokens.spaced) if "e" in tokens.text.lower() else ():
         parts = [part.replace(" ", "") for part in found.groups()]
         if parts[-1] != unknown:
             begin, behind = tokens.span(found)

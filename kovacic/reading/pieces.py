@@ -23,7 +23,7 @@ from itertools import takewhile
 from typing import NamedTuple
 
 from kovacic.errors import ParseError
-from kovacic.reading.dialects import FRACTIONS, LAYOUT, translated
+from kovacic.reading.dialects import FRACTIONS, LAYOUT, plain_tokens, translated
 from kovacic.reading.lexer import DERIVATIVES, PRIMES, Token, error_at, scanned
 from kovacic.reading.names import is_function, is_letter
 from kovacic.reading.notations import AROUND, MAKERS, NOTATIONS, SOLVERS, Sentence, Tokens, pattern, rewritten, rule
@@ -64,7 +64,12 @@ class PlacedValue(NamedTuple):
 def taken_apart(text: str) -> Paste:
     """The pieces of a text.  Raises `ParseError` for arguments of a command that say nothing about the equation."""
     paste = Paste(text)
-    paste.take_apart()
+    plain = plain_tokens(text)
+    if plain is None:
+        paste.take_apart()
+    else:
+        paste.pieces = [PastedPiece("equation", Tokens(plain[:-1]))]
+        paste.equations, paste.is_equation = [plain], "=" in text or PRIMES in text
     return paste
 
 

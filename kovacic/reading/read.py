@@ -52,7 +52,7 @@ def read_input(
         if parsed.equation is None:
             _check_unknown(parsed.variable, *parameters_of(parsed.S.field))
         lost = tuple(note for note in source.notes if note not in parsed.notices)
-        return replace(parsed, notices=(*lost, *parsed.notices), guesses=source.guesses)
+        return replace(parsed, notices=(*lost, *parsed.notices), guesses=source.guesses) if source.notes else parsed
     if isinstance(S, Equation):
         if variable not in (None, S.variable):
             raise InputError(f"the variable of this equation is {S.variable}, not {variable}")

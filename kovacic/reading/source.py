@@ -15,9 +15,8 @@ from kovacic.errors import InputError, NotLinear, NotRational, ParseError
 from kovacic.limits import DEFAULT_LIMITS, Limits
 from kovacic.reading.arithmetic import VARIABLE, Arithmetic, Monomial
 from kovacic.reading.constants import Constants, read_with_constants
-from kovacic.reading.dialects import plain_tokens
 from kovacic.reading.expression import RationalReader
-from kovacic.reading.lexer import PRIMES, check_length
+from kovacic.reading.lexer import check_length
 from kovacic.reading.naming import Source, Vocabulary, chosen_variable
 from kovacic.reading.notations import Sentence
 from kovacic.reading.pieces import Paste, taken_apart
@@ -40,22 +39,17 @@ def source_of(
     """
     if not isinstance(given, str | Paste):
         return _sympy_source(given, variable, unknown, equation)
-    plain = None
     if isinstance(given, str):
         check_length(given, limits, what="the text")
-        plain = plain_tokens(given)
-        given = taken_apart(given) if plain is None else Paste(given)
+        given = taken_apart(given)
         values = given.scans("condition")
         if values:
             scan = given.scans("equation")[0]
             hint = f"give the equation: {given.text[scan[0].start : scan[-1].end]}"
             raise given.error("initial values are accepted by `dsolve` only", values[0], hint)
-    if plain is None:
-        tokens, is_equation = _only_equation(given), given.is_equation
-    else:
-        tokens, is_equation = plain, "=" in given.text or PRIMES in given.text
+    tokens = _only_equation(given)
     vocabulary = Vocabulary(variable or given.variable, unknown, frozenset(names))
-    return vocabulary.of(tokens, is_equation=equation or is_equation, notes=given.notes)
+    return vocabulary.of(tokens, is_equation=equation or given.is_equation, notes=given.notes)
 
 
 def _only_equation(paste: Paste) -> Sentence:
