@@ -395,7 +395,10 @@ class _Translation:
             return False
         exponent, k = self.exponent(k)
         if exponent == "-1":
-            name = self.inverse(token)
+            name = f"a{token.text}"  # what it means in books, and no reciprocal
+            if name not in FUNCTION_NAMES:
+                hint = f"write 1/{token.text}(x) for the reciprocal"
+                raise error_at(self.text, f"{token.text}^(-1) can be read in two ways", [token], hint)
         elif exponent.isalnum():
             power = [("CIRCUMFLEX", "^"), ("NUMBER" if exponent.isdigit() else "NAME", exponent)]
         elif exponent:
@@ -422,14 +425,6 @@ class _Translation:
         first = k + 1 + (self.texts[k + 1] == "-")
         # A letter alone: in sin^n (x) the parentheses are the argument of the sine.
         return first + 1 if self.kinds[first] == "WORD" else self.operand_end(first) or k
-
-    def inverse(self, token: Token) -> str:
-        r"""asin for \sin^{-1}: what it means in books, and no reciprocal."""
-        name = f"a{token.text}"
-        if name not in FUNCTION_NAMES:
-            hint = f"write 1/{token.text}(x) for the reciprocal"
-            raise error_at(self.text, f"{token.text}^(-1) can be read in two ways", [token], hint)
-        return name
 
     def factors_end(self, k: int) -> int | None:
         """The number of the token behind the argument of a function, x, 2x, x^2 or (x), with letters before it."""

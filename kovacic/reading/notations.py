@@ -281,8 +281,7 @@ def rule(notation: str, marks: str, text: str, result: str | Callable[[Match], s
 #: MATLAB's D2y and the like.
 _MATLAB_SLOPES = " ".join(f"D{n}{y}" for n in ("", 2, 3, 4) for y in "xyzuvwqf")
 _PACKAGES = "sympy|sp|sm|sy|np|math|numpy"
-_OF_X = r"(LETTER) \( (LETTER) \)"
-_SLOPE = rf"(?:diff|Derivative) \( {_OF_X} , \2 \)"
+_SLOPE = r"(?:diff|Derivative) \( (LETTER) \( (LETTER) \) , \2 \)"
 _BEHIND_NAME = r"(?:(?<=\w\x20)|(?<=\w\x20\x20))"
 NOTATIONS = (
     rule("Julia", "Differential", r"Differential \( (LETTER) \)(?= \()", r"d / d\1"),
@@ -296,11 +295,9 @@ NOTATIONS = (
     rule("Maple", "D", r"(?:OPEN D CLOSE|D) OPEN (LETTER) CLOSE(?= OPEN)", r"\1 '"),
     rule("MATLAB", "diff", r"(?<!\.\x20)diff OPEN (?P<y>LETTER) , (?P<n>[1-4]) CLOSE", _primed_by_order),
     rule("MATLAB", _MATLAB_SLOPES, r"D(?P<n>[2-4]?)(?P<y>[xyzuvwqf])", _by_time),
-    rule("SymPy", "subs", rf"{_OF_X} \. diff \( \2(?: , 1)? \) \. subs \( \2 ,", r"\1 ' ("),
-    rule("SymPy", "subs", r"(LETTER) \. diff \( (LETTER)(?: , 1)? \) \. subs \( \2 ,", r"\1 ' ("),
-    rule("SymPy", "subs", r"(LETTER) \. subs \( LETTER ,", r"\1 ("),
+    rule("SymPy", "subs", r"(LETTER)(?: \( LETTER \))? \. diff \( (LETTER)(?: , 1)? \) \. subs \( \2 ,", r"\1 ' ("),
     rule("SymPy", "subs", rf"{_SLOPE} \. subs \( \2 ,", r"\1 ' ("),
-    rule("SymPy", "subs", rf"{_OF_X} \. subs \( \2 ,", r"\1 ("),
+    rule("SymPy", "subs", r"(LETTER)(?: \( LETTER \))? \. subs \( LETTER ,", r"\1 ("),
     rule("SymPy", "Subs", rf"Subs \( {_SLOPE} , \2 ,", r"\1 ' ("),
     rule("SymPy", "Subs", rf"Subs \( {_SLOPE} , \( \2 , \) , \( (\S+) , \) \)", r"\1 ' ( \3 )"),
     rule("Maple", "$", r"` \$ ` \( (LETTER) , (\d) \)", r"\1 , \2"),

@@ -341,8 +341,34 @@ class _Parser:
             left.split = 0
 
     def syntax_error(self, k: int) -> InputError:
-        parentheses = [group.opened + group.is_call for group in self.groups[1:]]
-        return _syntax_error(self.tokens, k, parentheses)
+        """The error for token k, which can't follow the tokens before it."""
+        tokens = self.tokens
+        opened = [group.opened + group.is_call for group in self.groups[1:]]
+        kind, piece, before = self.kinds[k], self.pieces[k], self.kinds[k - 1]
+        fault: _Fault = f"{piece!r} doesn't belong here", k, k, None
+        if kind == "$END":
+            fault = _incomplete(tokens, k, opened)
+        elif kind == "RPAR" and before == "LPAR":
+            fault = (
+                "there is nothing between these parentheses",
+                k - 1,
+                k,
+                "leave them out, or write what belongs there",
+            )
+        elif kind == "RPAR" and not opened:
+            fault = "this parenthesis closes nothing", k, k, "remove it, or open it before"
+        elif before in _BINARY_KINDS and kind in _NO_OPERANDS:
+            said = f"something is missing between {self.pieces[k - 1]!r} and {piece!r}"
+            fault = said, k - 1, k, "write the number or name that belongs there, or one of the signs"
+        elif kind == "COMMA":
+            fault = _comma(tokens, k)
+        elif kind in (*_BINARY_KINDS, "SUPERSCRIPT"):
+            said = f"there is nothing before {piece!r} for it to act on"
+            fault = said, k, k, "write the number or name that belongs there"
+        elif kind == "EQUAL":
+            fault = (*fault[:3], "an equation has one equals sign, outside all parentheses")
+        message, begin, last, hint = fault
+        return tokens.error(ParseError, message, begin, last + 1, hint=hint)
 
 
 #: What a token does where an operand is expected; all others are misplaced there.
@@ -397,31 +423,6 @@ def _ambiguous(tokens: Sentence, site: Site, slash: int, split: int) -> InputErr
 
 #: What is wrong, from one token up to another one, and what to do about it.
 _Fault = tuple[str, int, int, str | None]
-
-
-def _syntax_error(tokens: Sentence, k: int, opened: Sequence[int]) -> InputError:
-    """The error for token k, which can't follow the tokens before it; `opened` are the open parentheses."""
-    kind, piece = tokens.kinds[k], tokens.pieces[k]
-    before = tokens.kinds[k - 1]
-    fault: _Fault = f"{piece!r} doesn't belong here", k, k, None
-    if kind == "$END":
-        fault = _incomplete(tokens, k, opened)
-    elif kind == "RPAR" and before == "LPAR":
-        fault = "there is nothing between these parentheses", k - 1, k, "leave them out, or write what belongs there"
-    elif kind == "RPAR" and not opened:
-        fault = "this parenthesis closes nothing", k, k, "remove it, or open it before"
-    elif before in _BINARY_KINDS and kind in _NO_OPERANDS:
-        said = f"something is missing between {tokens.pieces[k - 1]!r} and {piece!r}"
-        fault = said, k - 1, k, "write the number or name that belongs there, or one of the signs"
-    elif kind == "COMMA":
-        fault = _comma(tokens, k)
-    elif kind in (*_BINARY_KINDS, "SUPERSCRIPT"):
-        said = f"there is nothing before {piece!r} for it to act on"
-        fault = said, k, k, "write the number or name that belongs there"
-    elif kind == "EQUAL":
-        fault = (*fault[:3], "an equation has one equals sign, outside all parentheses")
-    message, begin, last, hint = fault
-    return tokens.error(ParseError, message, begin, last + 1, hint=hint)
 
 
 def _incomplete(tokens: Sentence, end: int, opened: Sequence[int]) -> _Fault:

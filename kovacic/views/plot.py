@@ -131,14 +131,13 @@ def _sampled(equation: object, start: object, stop: object, points: int, request
     equation = with_variable(equation, var, accuracy.limits, params)
     chart = chart_of(equation, {}, params)
     intervals = _regular_intervals(chart, a, b)
-    if initial.x0 is None:
-        x0 = _middle_of_the_longest(intervals)
-        if initial.y0 is not None or initial.dy0 is not None:
-            x0 = a
-            if intervals[0][0] != a:
-                problem = f"the values need a place: {plain_text(a)}, the left end, is a singular point"
-                raise InputError(problem, hint="x0=...", shell="--x0")
-        initial = replace(initial, x0=x0)
+    if initial.x0 is None and initial.y0 is None and initial.dy0 is None:
+        initial = replace(initial, x0=_middle_of_the_longest(intervals))
+    elif initial.x0 is None:
+        if intervals[0][0] != a:
+            problem = f"the values need a place: {plain_text(a)}, the left end, is a singular point"
+            raise InputError(problem, hint="x0=...", shell="--x0")
+        initial = replace(initial, x0=a)
     if initial.which is None and initial.frobenius is None:
         y0, dy0 = (usual if given is None else given for given, usual in ((initial.y0, 1), (initial.dy0, 0)))
         initial = replace(initial, y0=y0, dy0=dy0)
@@ -461,11 +460,9 @@ def _evaluable_pair(answer: Answer, x: Any, params: Mapping[str, object]) -> lis
     except InputError:  # an enclosure, which no formula has
         return []
     pair = [y.subs(letters) for y in (derived.special(answer) if form is None else form)]
-    for y in pair:
-        is_long = has_long_numbers(y) or len(as_text(y)) > _LONGEST_EVALUATED
-        if is_long or y.has(sympy.Integral) or not y.free_symbols <= {x}:
-            return []
-    return pair
+    is_long = any(has_long_numbers(y) or len(as_text(y)) > _LONGEST_EVALUATED for y in pair)
+    both = sympy.Tuple(*pair)
+    return [] if is_long or both.has(sympy.Integral) or not both.free_symbols <= {x} else pair
 
 
 def _real_functions(unknown: str, values: Sequence[Any]) -> list[tuple[str, Sequence[Any]]]:
