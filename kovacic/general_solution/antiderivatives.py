@@ -14,6 +14,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator
+from contextlib import suppress
 from functools import partial
 from math import lcm
 from typing import Any
@@ -26,7 +27,9 @@ from kovacic.equation import EULER
 from kovacic.general_solution.behaviour import have_values
 from kovacic.general_solution.integrands import (
     ChangeOfIntegrand,
+    UnknownIntegral,
     dilogarithm,
+    first_known,
     in_complex_exponentials,
     incomplete_gamma,
     integral_of_fraction,
@@ -34,7 +37,7 @@ from kovacic.general_solution.integrands import (
     power_beside_wave,
     prepared,
     radicands,
-    sum_of,
+    require,
 )
 from kovacic.general_solution.substitution import size
 from kovacic.general_solution.waves import beside_waves, by_coefficients, common_factor, in_waves, wave_changes
@@ -67,11 +70,11 @@ def antiderivative(integrand: Expr, x: Expr, start: Expr | None = None) -> Expr 
     # e exp(e x) is exp(e x + 1) for SymPy, which hides the factor: Euler's number gets a letter.
     euler = sympy.Symbol(f"{EULER}_")
     powers = {power: euler**power.exp for power in integrand.atoms(exp) if power.exp.is_Integer}
-    found = _by_rules(integrand.xreplace(plain | powers | {sympy.E: euler}), plain[x])
     own[euler] = sympy.E
-    if found is None:
+    try:
+        found = _by_rules(integrand.xreplace(plain | powers | {sympy.E: euler}), plain[x]).xreplace(own)
+    except UnknownIntegral:
         return None
-    found = found.xreplace(own)
     if start is not None:
         cuts = {*cuts_of(found, x)} - {*cuts_of(integrand, x)}
         if any(cut.subs(x, start) == 0 for cut in cuts) and have_values([integrand], x, start):
@@ -83,28 +86,20 @@ def antiderivative(integrand: Expr, x: Expr, start: Expr | None = None) -> Expr 
     return found
 
 
-def _by_rules(integrand: Expr, x: Expr) -> Expr | None:
+def _by_rules(given: Expr, x: Expr) -> Expr:
     """As a whole, or term by term, or terms together by parts; x may be a root or an exponential, which is positive."""
-    given = integrand
     integrand = prepared(given)
     functions = _functions(integrand)
-    if not functions <= _SIMPLE | set(_BY_PARTS):
-        return None
+    require(functions <= _SIMPLE | set(_BY_PARTS))
     if functions <= {exp}:
-        for rule in (integral_of_product, partial(_in_another_variable, _exponentials)):
-            for whole in (integrand, given):  # 1/((x - 1)*sqrt(x)) is a product before it is expanded
-                found = rule(whole, x)
-                if found is not None:
-                    return found
+        rules = (integral_of_product, partial(_in_another_variable, _exponentials))
+        with suppress(UnknownIntegral):  # 1/((x - 1)*sqrt(x)) is a product before it is expanded
+            return first_known(partial(rule, whole, x) for rule in rules for whole in (integrand, given))
     total = sympy.S.Zero
     for inverse, terms in _by_inverse_functions(integrand, x).items():
         check_time()
-        found = sum_of(_of_term(term, x) for term in terms)
-        if found is None:
-            found = _by_parts(inverse, sympy.Add(*(term / inverse for term in terms)), x)
-        if found is None:
-            return None
-        total += found
+        together = partial(_by_parts, inverse, sympy.Add(*(term / inverse for term in terms)), x)
+        total += first_known([partial(_of_terms, terms, x), together])
     return total
 
 
@@ -138,21 +133,15 @@ def _by_inverse_functions(integrand: Expr, x: Expr) -> dict[Expr, list[Expr]]:
     return groups
 
 
-def _of_term(term: Expr, x: Expr) -> Expr | None:
-    """By the first rule that knows it."""
-    for rule in _RULES.values():
-        found = rule(term, x)
-        if found is not None:
-            return found
-    return None
+def _of_terms(terms: Iterable[Expr], x: Expr) -> Expr:
+    """Each by the first rule that knows it."""
+    return sympy.Add(*(first_known(partial(rule, term, x) for rule in _RULES.values()) for term in terms))
 
 
 # ------------------------------------------------------------------------------------------------ changes of variable
 
 
-def _in_another_variable(
-    changes: Callable[[Expr, Expr], Iterable[ChangeOfIntegrand]], term: Expr, x: Expr
-) -> Expr | None:
+def _in_another_variable(changes: Callable[[Expr, Expr], Iterable[ChangeOfIntegrand]], term: Expr, x: Expr) -> Expr:
     """The shortest of the integrals that are known in a new variable, back in x."""
     found = []
     for change in changes(term, x):
@@ -161,12 +150,11 @@ def _in_another_variable(
         leads_back = change.u.has(exp) and any(not (f.args[0] / t).has(t) for f in g.atoms(log))
         if g.has(x) or leads_back:
             continue
-        integral = integral_of_fraction(g, t)
-        if integral is None:
-            integral = _by_rules(g, t)
-        if integral is not None and not integral.has(sympy.Integral):  # which would have another variable
-            found.append(change.back(integral))
-    return min(found, key=size, default=None)
+        with suppress(UnknownIntegral):
+            integral = first_known(partial(rule, g, t) for rule in (integral_of_fraction, _by_rules))
+            found += [] if integral.has(sympy.Integral) else [change.back(integral)]  # which has another variable
+    require(found)
+    return min(found, key=size)
 
 
 def _arguments(term: Expr, x: Expr) -> Iterator[ChangeOfIntegrand]:
@@ -229,36 +217,29 @@ def _waves(term: Expr, x: Expr) -> Iterator[ChangeOfIntegrand]:
 # ------------------------------------------------------------------------------------------------------------ by parts
 
 
-def _by_parts(inverse: Expr, g: Expr, x: Expr) -> Expr | None:
+def _by_parts(inverse: Expr, g: Expr, x: Expr) -> Expr:
     """int g l dx = G l - int G l' dx for a product l of inverse functions and the like, or of polynomials, if G is simpler.
 
     g = k l' + H' with a constant k gives k l^(m+1)/(m+1) + int H' l^m dx beside l^m.
     """
     powers = [factor.as_base_exp() for factor in sympy.Mul.make_args(inverse)]
-    if inverse == 1 or not all(m.is_Integer and m > 0 for _, m in powers):
-        return None
+    require(inverse != 1 and all(m.is_Integer and m > 0 for _, m in powers))
     if isinstance(inverse, log) and g.is_rational_function(x):
-        found = _beside_logarithm(inverse, g, x)
-        if found is not None:
-            return found
+        with suppress(UnknownIntegral):
+            return _beside_logarithm(inverse, g, x)
     G = _by_rules(g, x)
-    if G is None or G.has(sympy.Integral, sympy.RootSum):
-        return None
-    if len(powers) == 1:
-        ((function, m),) = powers
-        k = sympy.expand(G).coeff(function)
-        left = sympy.expand(g - k * _slope(function, x))
-        if k != 0 and not k.has(x) and size(left) <= size(g):
-            rest = _by_parts(inverse, left, x)
-            return None if rest is None else k * function ** (m + 1) / (m + 1) + rest
+    require(not G.has(sympy.Integral, sympy.RootSum))
+    function, m = powers[0]
+    k = sympy.expand(G).coeff(function)
+    left = sympy.expand(g - k * _slope(function, x))
+    if len(powers) == 1 and k != 0 and not k.has(x) and size(left) <= size(g):
+        return k * function ** (m + 1) / (m + 1) + _by_parts(inverse, left, x)
     left = sympy.Add(*(m * _slope(function, x) * inverse / function * G for function, m in powers))
-    rest = None
-    if _functions(G) <= _SIMPLE:
-        rest = _by_rules(left, x)
-    elif inverse.is_polynomial(x):  # term by term: functions of G that go by parts would come back to it
-        rest = sum_of(_of_term(part, x) for part in sympy.Add.make_args(prepared(left)))
-    if rest is None or (inverse.is_polynomial(x) and rest.has(sympy.Integral)):
-        return None
+    is_simple = _functions(G) <= _SIMPLE
+    require(is_simple or inverse.is_polynomial(x))
+    # term by term, else: functions of G that go by parts would come back to it
+    rest = _by_rules(left, x) if is_simple else _of_terms(sympy.Add.make_args(prepared(left)), x)
+    require(not inverse.is_polynomial(x) or not rest.has(sympy.Integral))
     return sympy.Add(*(part * inverse for part in sympy.Add.make_args(G)), -rest)
 
 
@@ -275,40 +256,35 @@ def _slope(function: Expr, x: Expr) -> Expr:
     return c / sympy.sqrt(sympy.expand(P)) if is_right else slope
 
 
-def _beside_logarithm(logarithm: Expr, g: Expr, x: Expr) -> Expr | None:
-    """int R log(u) dx, where a partial fraction of R has a dilogarithm; None if none has."""
+def _beside_logarithm(logarithm: Expr, g: Expr, x: Expr) -> Expr:
+    """int R log(u) dx, where a partial fraction of R has a dilogarithm."""
     fractions = sympy.Add.make_args(sympy.apart(g, x))
     known = {fraction: dilogarithm(logarithm.args[0], fraction, x) for fraction in fractions}
-    if set(known.values()) == {None}:
-        return None
-    return sum_of(_by_parts(logarithm, f, x) if found is None else found for f, found in known.items())
+    require(set(known.values()) != {None})
+    return sympy.Add(*(_by_parts(logarithm, f, x) if found is None else found for f, found in known.items()))
 
 
 # ------------------------------------------------------------------------------------------------------------ tangents
 
 
-def _beside_tangents(term: Expr, x: Expr) -> Expr | None:
+def _beside_tangents(term: Expr, x: Expr) -> Expr:
     """int q + (a + b s)/c dx for a wave c with simple zeros: at these s = 1 or -1, and residues must be constant [Risch]."""
     below = [f.base for f in sympy.Mul.make_args(term) if f.is_Pow and f.exp == -1 and f.base.func in (sin, cos)]
-    if len(below) != 1:
-        return None
+    require(len(below) == 1)
     (c,) = below
     s = (cos if c.func is sin else sin)(c.args[0])
-    if not (term * c).is_polynomial(s, c):
-        return None
+    require((term * c).is_polynomial(s, c))
     (_, q), rest = sympy.reduced(term * c, [s**2 + c**2 - 1, c], s, c)
     residues = [rest.xreplace({s: sympy.Integer(sign)}) for sign in (1, -1)]
-    if rest.has(log, atan) or not all(residue.has(x) and not residue.has(sin, cos) for residue in residues):
-        return None
-    found = _by_rules(q, x)
-    return None if found is None else found + sympy.Integral(rest / c, x)
+    require(not rest.has(log, atan) and all(residue.has(x) and not residue.has(sin, cos) for residue in residues))
+    return _by_rules(q, x) + sympy.Integral(rest / c, x)
 
 
 # --------------------------------------------------------------------------------------------------------------- rules
 
 
-#: int g dx for a term g of x, by what each rule knows; None if it isn't found in this way.
-_RULES: dict[str, Callable[[Expr, Expr], Expr | None]] = {
+#: int g dx for a term g of x, by what each rule knows.  Each raises `UnknownIntegral`.
+_RULES: dict[str, Callable[[Expr, Expr], Expr]] = {
     "int P exp(r x) cos(w x) dx: undetermined coefficients": by_coefficients,
     "int f(u) u' dx = int f(u) du": partial(_in_another_variable, _arguments),
     "int f(exp(k x)) dx = int f(u)/(k u) du": partial(_in_another_variable, _exponentials),

@@ -7,8 +7,10 @@ References: DLMF 7.2(iii), 8.2, 25.12.
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Callable, Iterable
+from contextlib import suppress
 from dataclasses import dataclass
+from functools import partial
 from typing import Any
 
 import sympy
@@ -37,6 +39,24 @@ _LONGEST = 200
 NUMBERS = {sympy.Symbol(PI): sympy.pi, sympy.Symbol(EULER): sympy.E}
 #: More complex exponentials than these are harder to read than the integral.
 _MOST_EXPONENTIALS = 4
+
+
+class UnknownIntegral(Exception):
+    """An integral isn't found in the way that was tried."""
+
+
+def require(holds: Any) -> None:
+    """Raises `UnknownIntegral` where a condition for a way to an integral doesn't hold."""
+    if not holds:
+        raise UnknownIntegral
+
+
+def first_known(attempts: Iterable[Callable[[], Expr]]) -> Expr:
+    """What the first of the attempts finds that finds an integral.  Raises `UnknownIntegral`."""
+    for attempt in attempts:
+        with suppress(UnknownIntegral):
+            return attempt()
+    raise UnknownIntegral
 
 
 @dataclass(frozen=True)
@@ -79,48 +99,32 @@ def prepared(integrand: Expr) -> Expr:
     return changed_beside((*quotients, *powers), integrand, expanded)
 
 
-def sum_of(integrals: Iterable[Expr | None]) -> Expr | None:
-    """The sum; None if one isn't known, and then the next ones aren't asked for."""
-    known = []
-    for found in integrals:
-        if found is None:
-            return None
-        known.append(found)
-    return sympy.Add(*known)
-
-
 def radicands(expression: Expr) -> list[Expr]:
     """What stands under roots: the bases of its powers with exponents that are fractions."""
     return [p.base for p in expression.atoms(sympy.Pow) if p.exp.is_Rational and not p.exp.is_Integer]
 
 
-def integral_of_product(term: Expr, x: Expr) -> Expr | None:
-    """int g dx for a product g of powers and exponentials of rational functions; None for anything else, or unknown."""
+def integral_of_product(term: Expr, x: Expr) -> Expr:
+    """int g dx for a product g of powers and exponentials of rational functions."""
     functions = [f for f in term.atoms(sympy.Function) if f.has(x)]
-    if any(f.func is not exp for f in functions):
-        return None
+    require(all(f.func is exp for f in functions))
     # sqrt(x^2 + a^2)/sqrt(a^2) for sqrt(x^2/a^2 + 1); one root of a linear function is left, as a new variable
     parts = {base: sympy.fraction(sympy.together(base)) for base in radicands(term) if base.has(x)}
     split = {base: (n, d) for base, (n, d) in parts.items() if d.free_symbols and not d.has(x)}
-    if not functions and len(parts) == 1 and any(not n.diff(x).has(x) for n, _ in split.values()):
-        return None
+    require(functions or len(parts) != 1 or all(n.diff(x).has(x) for n, _ in split.values()))
     for base, (n, d) in split.items():
         term = term.replace(lambda e: e.is_Pow and e.base == base, lambda e: n**e.exp * d**-e.exp)  # noqa: B023
     # roots of a - x and the like are real for x -> -oo
     odd = [polynomial for polynomial in _polynomial_radicands(term, x) if polynomial.degree() % 2]
     if odd and all(polynomial.LC().is_negative for polynomial in odd):
-        turned = integral_of_product(term.subs(x, -x), x)
-        if turned is None:
-            return None
-        return -turned.subs(x, -x)
-    rate = ratfunc(_rate(term, x), x)
-    if rate is None:
-        return None
-    return _integral_by_rate(rate, term, x)
+        return -integral_of_product(term.subs(x, -x), x).subs(x, -x)
+    return _integral_by_rate(ratfunc(_rate(term, x), x), term, x)
 
 
-def _integral_by_rate(rate: RatFunc, term: Expr, x: Expr) -> Expr | None:
+def _integral_by_rate(rate: RatFunc | None, term: Expr, x: Expr) -> Expr:
     """int g dx for g = K h with h'/h = rate: K int h dx."""
+    if rate is None:
+        raise UnknownIntegral
     polynomials = _polynomial_radicands(term, x)
     at = None
     if polynomials and all(p.LC().is_positive for p in polynomials):
@@ -130,19 +134,15 @@ def _integral_by_rate(rate: RatFunc, term: Expr, x: Expr) -> Expr | None:
     atoms = Atoms(x, at=at)
     h = product(rate)
     scale, shown = factors(h, atoms)
-    if any(factor.has(sympy.CRootOf) for factor in shown):  # SymPy's arithmetic with these takes minutes
-        return None
-    found = integral(h, atoms)
+    # SymPy's arithmetic with algebraic numbers takes minutes
+    found = None if sympy.Tuple(*shown).has(sympy.CRootOf) else integral(h, atoms)
     if found is None:
-        return None
-    K = _constant_value(term, scale * sympy.Mul(*shown), x)
-    if K is None:
-        return None
-    return sympy.expand(K * found, deep=False)
+        raise UnknownIntegral
+    return sympy.expand(_constant_value(term, scale * sympy.Mul(*shown), x) * found, deep=False)
 
 
-def _constant_value(term: Expr, other: Expr, x: Expr) -> Expr | None:
-    """The value of a ratio that doesn't depend on x, where it has one, and the term a real one if it can be; else None."""
+def _constant_value(term: Expr, other: Expr, x: Expr) -> Expr:
+    """The value of a ratio that doesn't depend on x, where it has one, and the term a real one if it can be."""
     points = (2, 3, 5, sympy.S.Half, -sympy.S.Half)
     for point in sorted(points, key=lambda point: term.subs(x, point).is_real is False):
         value = sympy.powsimp((term / other).subs(x, point))
@@ -150,7 +150,7 @@ def _constant_value(term: Expr, other: Expr, x: Expr) -> Expr | None:
             value = sympy.cancel(value)
         if value != 0 and not value.has(sympy.nan, sympy.zoo):
             return value
-    return None
+    raise UnknownIntegral
 
 
 def _polynomial_radicands(term: Expr, x: Expr) -> list[Expr]:
@@ -179,12 +179,12 @@ def _rate(g: Expr, x: Expr) -> Expr:
     return own + others.diff(x) / others
 
 
-def integral_of_fraction(g: Expr, x: Expr) -> Expr | None:
-    """By partial fractions; None if g isn't a rational function of x."""
+def integral_of_fraction(g: Expr, x: Expr) -> Expr:
+    """By partial fractions, for a rational function of x."""
     K, rest = g.as_independent(x, as_Add=False)  # roots of numbers in a factor stay as they are
     r = ratfunc(rest, x)
     if r is None:
-        return None
+        raise UnknownIntegral
     atoms = Atoms(x)
     parts = decompose(r)
     return K * (atoms.sum(parts.exact) + sympy.Add(*logarithms(parts.residues, atoms))).xreplace(NUMBERS)
@@ -203,7 +203,7 @@ def ratfunc(expression: Expr, x: Expr) -> RatFunc | None:
 # -------------------------------------------------------------------------------------------------- special functions
 
 
-def incomplete_gamma(term: Expr, x: Expr) -> Expr | None:
+def incomplete_gamma(term: Expr, x: Expr) -> Expr:
     """int K x^s exp(c x^m) dx = K x^(s+1)/(m e) 1F1(e; e + 1; c x^m), e = (s + 1)/m; s and m may be symbols.
 
     For a positive z = -c x^m it is -(K/m) x^(s+1) z^-e Gamma(e, z), where x^(s+1) z^-e is a constant.
@@ -216,20 +216,14 @@ def incomplete_gamma(term: Expr, x: Expr) -> Expr | None:
     K, rest = term.as_independent(x, as_Add=False)
     powers = rest.as_powers_dict()
     exponent = powers.pop(sympy.E, sympy.Integer(0))
-    if len(powers) > 1:
-        return None
     line, s = next(iter(powers.items()), (x, sympy.Integer(0)))
     slope = line.diff(x)
-    if slope.has(x) or slope == 0 or s.has(x):
-        return None
+    require(len(powers) <= 1 and slope != 0 and not slope.has(x) and not s.has(x) and (exponent, s) != (0, -1))
     if exponent == 0:
-        return None if s == -1 else K * line ** (s + 1) / (s + 1) / slope
+        return K * line ** (s + 1) / (s + 1) / slope
     # exp(d + c t^m) for t = a x + b
     t = sympy.Dummy()
-    parts = _single_power(exponent.subs(x, (t - line.subs(x, 0)) / slope), t)
-    if parts is None:
-        return None
-    d, c, m = parts
+    d, c, m = _single_power(exponent.subs(x, (t - line.subs(x, 0)) / slope), t)
     e = sympy.cancel((s + 1) / m)
     if e == sympy.S.Half:  # u = t^(s+1): t^s dt is du/(s + 1)
         function, root = (sympy.erf, sympy.sqrt(-c)) if is_seen_negative(c) else (sympy.erfi, sympy.sqrt(c))
@@ -242,7 +236,7 @@ def incomplete_gamma(term: Expr, x: Expr) -> Expr | None:
     return (K / slope * exp(d) * found).xreplace({t: line})
 
 
-def power_beside_wave(term: Expr, x: Expr) -> Expr | None:
+def power_beside_wave(term: Expr, x: Expr) -> Expr:
     """int K x^s cos(c x^m + d) dx, or of the sine: with 1F2, odd or even in the angle; s and m may be symbols.
 
     With e = (s + 1)/m and z = -(c x^m/2)^2,
@@ -256,18 +250,13 @@ def power_beside_wave(term: Expr, x: Expr) -> Expr | None:
     """
     K, rest = term.as_independent(x, as_Add=False)
     s, wave = rest.as_independent(sin, cos, as_Add=False)
-    if wave.func not in (sin, cos):
-        return None
     base, s = s.as_base_exp() if s != 1 else (x, sympy.S.Zero)
-    parts = _single_power(wave.args[0], x)
-    if base != x or s.has(x) or parts is None:
-        return None
-    d, c, m = parts
+    require(wave.func in (sin, cos) and base == x and not s.has(x))
+    d, c, m = _single_power(wave.args[0], x)
     if wave.func is cos:  # sin(u + d) = sin(u) cos(d) + cos(u) sin(d)
         d += sympy.pi / 2
     e = sympy.cancel((s + 1) / m)
-    if any(value.is_Integer and not value.is_positive for value in (e / 2, (e + 1) / 2)):  # a logarithm
-        return None
+    require(not any(value.is_Integer and not value.is_positive for value in (e / 2, (e + 1) / 2)))  # a logarithm
     z = -((c * x**m) ** 2) / 4
     half = sympy.S.Half
     of_cos = x ** (s + 1) / (s + 1) * hypergeometric((e / 2,), (half, e / 2 + 1), z)
@@ -275,12 +264,13 @@ def power_beside_wave(term: Expr, x: Expr) -> Expr | None:
     return K * (cos(d) * of_sin + sin(d) * of_cos)
 
 
-def _single_power(e: Expr, t: Expr) -> tuple[Expr, Expr, Expr] | None:
+def _single_power(e: Expr, t: Expr) -> tuple[Expr, Expr, Expr]:
     """d, c and m with e = d + c t^m."""
     d, single = sympy.expand(e).as_independent(t, as_Add=True)
     c, power = single.as_independent(t, as_Add=False)
     base, m = power.as_base_exp()
-    return None if base != t or m.has(t) or m == 0 else (d, c, m)
+    require(base == t and not m.has(t) and m != 0)
+    return d, c, m
 
 
 def dilogarithm(u: Expr, g: Expr, x: Expr) -> Expr | None:
@@ -307,11 +297,9 @@ def dilogarithm(u: Expr, g: Expr, x: Expr) -> Expr | None:
     return k / slope * (log(u) * log(1 - w) + sympy.polylog(2, w))
 
 
-def in_complex_exponentials(term: Expr, x: Expr) -> Expr | None:
+def in_complex_exponentials(term: Expr, x: Expr) -> Expr:
     """Waves as sums of exponentials: Ei, error functions and incomplete gamma functions of complex arguments."""
-    if not term.has(sin, cos):
-        return None
     parts = sympy.Add.make_args(sympy.expand(term.rewrite((sin, cos), exp), power_exp=False))
-    if len(parts) > _MOST_EXPONENTIALS:
-        return None
-    return sum_of([integral_of_product(part, x) or incomplete_gamma(part, x) for part in parts])
+    require(term.has(sin, cos) and len(parts) <= _MOST_EXPONENTIALS)
+    rules = (integral_of_product, incomplete_gamma)
+    return sympy.Add(*(first_known(partial(rule, part, x) for rule in rules) for part in parts))

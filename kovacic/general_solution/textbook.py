@@ -24,6 +24,7 @@ from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import suppress
 from itertools import combinations, product
 from math import lcm
+from operator import mul
 from typing import Any
 
 import sympy
@@ -70,11 +71,10 @@ def _without_roots_of_squares(value: Expr, x: Expr, free: Sequence[Expr]) -> Exp
         u = sympy.powdenest(sympy.sqrt(base), force=True)
         s = sympy.Dummy()
         in_s = value.replace(lambda e: e.is_Pow and e.base == base, lambda e: s ** (2 * e.exp))  # noqa: B023
-        other = in_s.xreplace({s: -s})
-        signs = (dict(zip(free, row, strict=True)) for row in product((1, -1), repeat=len(free)))
-        if u.is_rational_function() and any(
-            in_s.subs({C: sign * C for C, sign in row.items()}) == other for row in signs
-        ):
+        others = (
+            in_s.subs([*zip(free, map(mul, row, free), strict=True)]) for row in product((1, -1), repeat=len(free))
+        )
+        if u.is_rational_function() and in_s.xreplace({s: -s}) in others:
             value = in_s.xreplace({s: u})
     return value
 
@@ -85,11 +85,8 @@ def _with_equal_roots(value: Expr) -> Expr:
     for base in radicands(value):
         if not base.is_Symbol and expanded_size(base) <= _LARGEST:
             forms[sympy.expand(base)].append(base)
-    several = [equal for equal in forms.values() if len(equal) > 1]
-    shortest_forms = {base: min(equal, key=sympy.count_ops) for equal in several for base in equal}
-    if not several:
-        return value
-    return value.replace(lambda e: e.is_Pow and e.base in shortest_forms, lambda e: shortest_forms[e.base] ** e.exp)
+    short = {base: min(equal, key=sympy.count_ops) for equal in forms.values() for base in equal}
+    return value.replace(lambda e: e.is_Pow and short.get(e.base, e.base) != e.base, lambda e: short[e.base] ** e.exp)
 
 
 def in_hyperbolic_functions(value: Expr) -> Expr:
@@ -119,8 +116,9 @@ def with_waves(y1: Expr, y2: Expr) -> tuple[Expr, Expr]:
 
 def _exponent(y: Expr) -> tuple[Expr, Expr]:
     """c and A for c e^A."""
-    exponents, others = sympy.sift(sympy.Mul.make_args(y), lambda factor: isinstance(factor, exp), binary=True)
-    return sympy.Mul(*others), sympy.Add(*(factor.args[0] for factor in exponents))
+    powers = y.as_powers_dict()
+    A = powers.pop(sympy.E, sympy.S.Zero)
+    return sympy.Mul(*(base**e for base, e in powers.items())), A
 
 
 def of_chebyshev(y1: Expr, y2: Expr, x: Expr) -> tuple[Expr, Expr, Expr | None]:
@@ -190,7 +188,7 @@ def _before_and_after(value: Expr, x: Expr) -> tuple[Expr, Expr, Expr] | None:
 
 
 def _absolute(value: Expr, x: Expr) -> Iterator[Expr]:
-    """(2), for steps at one point; sign(x - a) F where f is minus F reflected."""
+    """(2), for steps at one point."""
     pieces = _before_and_after(value, x)
     if pieces is None:
         return
@@ -210,11 +208,10 @@ def _hyperbolic(value: Expr, x: Expr) -> Iterator[Expr]:
     if not is_in_sum and all(e.has(x) for e in value.atoms(exp)):  # a product has one exponential, and keeps it
         return
     powers = {e: sympy.expand(e.as_base_exp()[1]) for e in value.atoms(exp, type(sympy.E))}
-    exponents = {e: by_functions(exponent, lambda factor: factor.is_Number) for e, exponent in powers.items()}
-    numbers = [(rate, number) for rates in exponents.values() for rate, number in rates.items()]
-    if not all(number.is_Rational for _, number in numbers):
-        return
-    unit = {rate: lcm(*(int(n.q) for r, n in numbers if r == rate)) for rate, _ in sorted(numbers, key=str)}
+    exponents = {e: by_functions(exponent, lambda factor: factor.is_Rational) for e, exponent in powers.items()}
+    unit: dict[Expr, int] = defaultdict(lambda: 1)
+    for rate, n in sorted((item for rates in exponents.values() for item in rates.items()), key=str):
+        unit[rate] = lcm(unit[rate], int(n.q))
     letters = {rate: sympy.Dummy(positive=True) for rate in unit}  # e^(rate/unit)
     plain = {e: sympy.Mul(*(letters[r] ** (n * unit[r]) for r, n in rates.items())) for e, rates in exponents.items()}
     rate_of = {letter: rate / unit[rate] for rate, letter in letters.items()}
@@ -285,12 +282,10 @@ def _single_waves(value: Expr, x: Expr) -> Iterator[Expr]:
     terms = (sympy.Mul.make_args(term) for term in sympy.Add.make_args(expanded))
     if any(sum(isinstance(factor, sin | cos) for factor in term) > 1 for term in terms):
         found = sympy.powsimp(in_single_waves(value))
-        yield found
-        yield _with_common_factors(found)
         steps = sorted(value.atoms(Heaviside), key=str)
+        yield found
         yield sympy.collect(found, steps, _with_common_factors)
-        if steps:
-            yield sympy.collect(expanded, steps, _as_one_wave)
+        yield sympy.collect(expanded, steps, _as_one_wave)
 
 
 def _in_one_wave(value: Expr) -> Iterator[Expr]:
@@ -311,25 +306,18 @@ def _as_one_wave(total: Expr) -> Expr:
 
 def _with_short_coefficients(e: Expr, x: Expr) -> Expr:
     """With quotients of letters in factors, squares completed, as in (k - m w^2)^2 + c^2 w^2."""
-    if e.is_Atom:
-        return e
     if not e.has(x):
         return shortest([e, *_quotients_in_factors(e)])
-    if e.is_Mul:
-        number, rest = e.as_independent(x)
-        factors = (number, *sympy.Mul.make_args(rest))
-        return sympy.Mul(*(_with_short_coefficients(factor, x) for factor in factors))
     if e.is_Add:
         parts = [_with_short_coefficients(part, x).as_independent(x, as_Add=False) for part in e.args]
         functions = {sympy.Dummy(): function for _, function in parts}  # what contains x stays apart
         total = sympy.Add(*(c * name for (c, _), name in zip(parts, functions, strict=True)))
-        bases = [{factor.as_base_exp()[0] for factor in sympy.Mul.make_args(c)} for c, _ in parts]
-        are_apart = not set.intersection(*bases) and not any(part.is_Number for part in set().union(*bases) - {1, -1})
-        forms = [total] if are_apart else [total, _with_common_factors(total)]
-        return shortest([form.xreplace(functions) for form in forms])
-    if e.is_Pow or (e.is_Function and len(e.args) == 1):
-        return e.func(*(_with_short_coefficients(part, x) for part in e.args))
-    return e
+        return shortest([form.xreplace(functions) for form in (total, _with_common_factors(total))])
+    if not (e.is_Mul or e.is_Pow or (e.is_Function and len(e.args) == 1)):
+        return e
+    number, rest = e.as_independent(x, as_Add=False)
+    inner = (number, *sympy.Mul.make_args(rest)) if e.is_Mul else e.args
+    return e.func(*(_with_short_coefficients(part, x) for part in inner))
 
 
 def _quotients_in_factors(e: Expr) -> Iterator[Expr]:
@@ -348,21 +336,23 @@ def _quotients_in_factors(e: Expr) -> Iterator[Expr]:
 def _with_square(total: Expr) -> Expr:
     """(a + b)^2 + rest for a^2 + 2 a b + b^2 + rest, with products a and b; else the same."""
     roots = [sympy.powdenest(sympy.sqrt(term), force=True) for term in total.args]
-    for a, b in combinations([root for root in roots if root.is_polynomial()], 2):
-        for double in (2 * a * b, -2 * a * b):
-            if double in total.args:
-                return (a + double / (2 * a)) ** 2 + (total - a**2 - double - b**2)
+    pairs = combinations([root for root in roots if root.is_polynomial()], 2)
+    for (a, b), sign in product(pairs, (1, -1)):
+        if 2 * sign * a * b in total.args:
+            return (a + sign * b) ** 2 + (total - sympy.expand((a + sign * b) ** 2))
     return total
 
 
 def _tangents(value: Expr, x: Expr) -> Iterator[Expr]:
     """tan u for sin u/cos u, tanh u for sinh u/cosh u."""
-    bases = {power.base.func for power in value.atoms(sympy.Pow)}
-    if cos in bases:
-        yield TR2i(value)
-    if cosh in bases:
-        waves, back = hyper_as_trig(TR2i(value))
-        yield back(TR2i(waves))
+    if {cos, cosh} & {power.base.func for power in value.atoms(sympy.Pow)}:
+        yield _also_hyperbolic(TR2i, value)
+
+
+def _also_hyperbolic(change: Callable[[Expr], Expr], value: Expr) -> Expr:
+    """By an identity of circular functions, and by that of the hyperbolic ones."""
+    waves, back = hyper_as_trig(change(value))
+    return back(change(waves))
 
 
 def sums(value: Expr, x: Expr) -> Iterator[Expr]:
@@ -371,9 +361,7 @@ def sums(value: Expr, x: Expr) -> Iterator[Expr]:
     Also with quotients of waves for tangents: sin(x) for cos(x) tan(x).
     """
     if value.has(sympy.tan, sympy.cot, sympy.tanh, sympy.coth):
-        quotients = {f: sinh(f.args[0]) / cosh(f.args[0]) for f in value.atoms(sympy.tanh)}
-        quotients |= {f: cosh(f.args[0]) / sinh(f.args[0]) for f in value.atoms(sympy.coth)}
-        yield from sums(TR2(value).xreplace(quotients), x)
+        yield from sums(_also_hyperbolic(TR2, value), x)
     value = sympy.powsimp(value)
     expanded = sympy.powsimp(sympy.expand(value))
     totals = by_functions(expanded, lambda factor: not factor.has(x))

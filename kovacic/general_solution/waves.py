@@ -16,7 +16,7 @@ import sympy
 from sympy import atan, cos, log, sin, tan
 from sympy.simplify.fu import TR2, TR2i
 
-from kovacic.general_solution.integrands import ChangeOfIntegrand, integral_of_fraction, sum_of
+from kovacic.general_solution.integrands import ChangeOfIntegrand, UnknownIntegral, integral_of_fraction, require
 from kovacic.general_solution.substitution import by_functions, in_single_waves
 from kovacic.general_solution.undetermined import undetermined
 
@@ -229,7 +229,7 @@ def _changes(given: _InOneAngle, slope: Expr) -> Iterator[WaveChange]:
 # ------------------------------------------------------------------------------------------------ beside a single wave
 
 
-def beside_waves(term: Expr, x: Expr) -> Expr | None:
+def beside_waves(term: Expr, x: Expr) -> Expr:
     """int R cos(u) dx for linear u and rational R by Si and Ci, for quadratic u by Fresnel functions, too.
 
     Products of waves are sums of such terms.
@@ -240,36 +240,31 @@ def beside_waves(term: Expr, x: Expr) -> Expr | None:
     >>> print(beside_waves(x**2 * cos(x**2), x))
     x*sin(x**2)/2 - sqrt(2)*sqrt(pi)*fresnels(sqrt(2)*x/sqrt(pi))/4
     """
-    if not term.has(sin, cos) or term.has(sympy.exp, log, atan):
-        return None
-    return sum_of(_beside_at_most_one_wave(single, x) for single in sympy.Add.make_args(in_single_waves(term)))
+    require(term.has(sin, cos) and not term.has(sympy.exp, log, atan))
+    return sympy.Add(*(_beside_at_most_one_wave(single, x) for single in sympy.Add.make_args(in_single_waves(term))))
 
 
-def _beside_at_most_one_wave(term: Expr, x: Expr) -> Expr | None:
+def _beside_at_most_one_wave(term: Expr, x: Expr) -> Expr:
     """Integral of R times at most one wave, by partial fractions k (x - c)^n; c is the vertex of a quadratic angle."""
     waves = [wave for wave in term.atoms(sin, cos) if wave.has(x)]
     wave = sympy.Mul(*waves)
     R = term / wave
-    if len(waves) > 1 or not R.is_rational_function(x):
-        return None
+    require(len(waves) <= 1 and R.is_rational_function(x))
     if not waves:
         return integral_of_fraction(R, x)
     u = wave.args[0]
     m = sympy.degree(u, x) if u.is_polynomial(x) else 0
-    if m not in (1, 2):
-        return None
+    require(m in (1, 2))
     middle = x - u.diff(x) / u.diff(x, 2) if m == 2 else sympy.S.Zero
     total = sympy.S.Zero
     for fraction in sympy.Add.make_args(sympy.apart(R.subs(x, x + middle), x)):
         k, power = fraction.as_independent(x, as_Add=False)
         line, n = (x, sympy.S.Zero) if power == 1 else power.as_base_exp()
         slope = line.diff(x)
-        if slope.has(x):
-            return None
+        require(not slope.has(x))
         c = sympy.expand(middle + x - line / slope)
         a, *others, d = map(sympy.expand, sympy.Poly(u.subs(x, x + c), x).all_coeffs())
-        if any(others):
-            return None
+        require(not any(others))
         phase = d + sympy.pi / 2 if wave.func is cos else d
         total += _power_beside_sine(k * slope**n, int(n), m, a, phase, x).subs(x, x - c)
     return total
@@ -294,7 +289,7 @@ def _power_beside_sine(k: Expr, n: int, m: int, a: Expr, d: Expr, t: Expr) -> Ex
     return -k * t ** (n + 1 - m) * cos(u + d) + _power_beside_sine(k * (n + 1 - m), n - m, m, a, later, t)
 
 
-def by_coefficients(term: Expr, x: Expr) -> Expr | None:
+def by_coefficients(term: Expr, x: Expr) -> Expr:
     """Y' for Y'' = g, by undetermined coefficients: polynomials times exponentials and waves.
 
     >>> x = sympy.Symbol("x")
@@ -303,5 +298,5 @@ def by_coefficients(term: Expr, x: Expr) -> Expr | None:
     """
     found = undetermined(sympy.Integer(0), sympy.Integer(0), term, x)
     if found is None:
-        return None
+        raise UnknownIntegral
     return sympy.expand(found.diff(x))

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import random
 from collections.abc import Iterator
+from contextlib import suppress
 from typing import Any
 
 import pytest
@@ -15,7 +16,7 @@ from sympy import atan, cos, exp, log, sin, sqrt
 import kovacic
 from kovacic.closed_form.jets import jet
 from kovacic.general_solution import antiderivatives
-from kovacic.general_solution.integrands import incomplete_gamma, prepared
+from kovacic.general_solution.integrands import UnknownIntegral, incomplete_gamma, prepared
 
 x = sympy.Symbol("x")
 POINTS = (acb(fmpq(3, 10), fmpq(1, 7)), acb(fmpq(6, 5)), acb(fmpq(17, 10), fmpq(-1, 9)))
@@ -49,11 +50,12 @@ def test_each_rule_alone_finds_antiderivatives(claim: str, monkeypatch: pytest.M
     rule = antiderivatives._RULES[claim]
     monkeypatch.setattr(antiderivatives, "_RULES", {claim: rule})
     for term in integrands(60):
-        found = rule(term, x)
-        for point in POINTS if found is not None else ():
-            value, wanted = jet(found, x, point)[1], jet(term, x, point)[0]
-            assert value.is_finite(), (claim, term, found)
-            assert value.overlaps(wanted), (claim, term, found)
+        with suppress(UnknownIntegral):
+            found = rule(term, x)
+            for point in POINTS:
+                value, wanted = jet(found, x, point)[1], jet(term, x, point)[0]
+                assert value.is_finite(), (claim, term, found)
+                assert value.overlaps(wanted), (claim, term, found)
 
 
 def test_functions_of_a_logarithm_beside_a_square_in_an_exponent() -> None:
@@ -63,7 +65,8 @@ def test_functions_of_a_logarithm_beside_a_square_in_an_exponent() -> None:
 
 
 def test_powers_of_two_lines_have_no_incomplete_gamma_function() -> None:
-    assert incomplete_gamma(sqrt(x) / (x + 1), x) is None
+    with pytest.raises(UnknownIntegral):
+        incomplete_gamma(sqrt(x) / (x + 1), x)
 
 
 def test_an_exponential_of_a_wave_is_no_power_of_another() -> None:
