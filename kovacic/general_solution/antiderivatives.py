@@ -220,7 +220,7 @@ def _waves(term: Expr, x: Expr) -> Iterator[ChangeOfIntegrand]:
 def _by_parts(inverse: Expr, g: Expr, x: Expr) -> Expr:
     """int g l dx = G l - int G l' dx for a product l of inverse functions and the like, or of polynomials, if G is simpler.
 
-    g = k l' + H' with a constant k gives k l^(m+1)/(m+1) + int H' l^m dx beside l^m.
+    g = k l' + H' with a constant k gives k l^(m+1)/(m+1) + int H' l^m dx beside l^m, and H takes the place of G.
     """
     powers = [factor.as_base_exp() for factor in sympy.Mul.make_args(inverse)]
     require(inverse != 1 and all(m.is_Integer and m > 0 for _, m in powers))
@@ -229,18 +229,19 @@ def _by_parts(inverse: Expr, g: Expr, x: Expr) -> Expr:
             return _beside_logarithm(inverse, g, x)
     G = _by_rules(g, x)
     require(not G.has(sympy.Integral, sympy.RootSum))
+    total = sympy.S.Zero
     function, m = powers[0]
     k = sympy.expand(G).coeff(function)
-    left = sympy.expand(g - k * _slope(function, x))
-    if len(powers) == 1 and k != 0 and not k.has(x) and size(left) <= size(g):
-        return k * function ** (m + 1) / (m + 1) + _by_parts(inverse, left, x)
+    if len(powers) == 1 and k != 0 and not k.has(x):
+        total = k * function ** (m + 1) / (m + 1)
+        G = sympy.expand(G - k * function)
     left = sympy.Add(*(m * _slope(function, x) * inverse / function * G for function, m in powers))
     is_simple = _functions(G) <= _SIMPLE
     require(is_simple or inverse.is_polynomial(x))
     # term by term, else: functions of G that go by parts would come back to it
     rest = _by_rules(left, x) if is_simple else _of_terms(sympy.Add.make_args(prepared(left)), x)
     require(not inverse.is_polynomial(x) or not rest.has(sympy.Integral))
-    return sympy.Add(*(part * inverse for part in sympy.Add.make_args(G)), -rest)
+    return sympy.Add(total, *(part * inverse for part in sympy.Add.make_args(G)), -rest)
 
 
 def _slope(function: Expr, x: Expr) -> Expr:

@@ -26,7 +26,7 @@ from kovacic.reading.read import read_input
 from kovacic.special.choice import shortest
 from kovacic.views.explain import ExplanationWriter
 from kovacic.writing.document import Block, Formula, Heading, format_of, say
-from kovacic.writing.formula import Math, caret, free_name, latex_text, of_sympy, shortened
+from kovacic.writing.formula import Math, caret, free_name, of_sympy, shortened
 
 Expr = Any  # SymPy publishes no types
 
@@ -100,11 +100,13 @@ def is_problem(text: str) -> bool:
 
 
 def _named(name: str, value: Expr) -> Formula:
-    return Formula(_name(name).equals(of_sympy(value)))
+    return Formula(_with_names("{}", name).equals(of_sympy(value)))
 
 
-def _name(name: str) -> Math:
-    return of_sympy(sympy.Symbol(name))
+def _with_names(template: str, *names: object, latex: str = "") -> Math:
+    """A formula with names in its places, and by another template in LaTeX if that is given."""
+    shown = [of_sympy(sympy.Symbol(str(name))).latex for name in names]
+    return Math(template.format(*names), (latex or template).format(*shown))
 
 
 def _equation(
@@ -165,33 +167,26 @@ def _steps(answer: SecondOrderAnswer) -> Iterator[Block]:
     pair = {u: own(answer.basis.y1), v: own(answer.basis.y2)}
     yield from (_named(name, value) for name, value in pair.items())
     W = own(answer.basis.wronskian)
-    latex_of = {name: _name(name).latex for name in (u, v, f, w, particular)}
-    product = Math(f"{u} {v}' - {u}' {v}", "{0} {1}' - {0}' {1}".format(latex_of[u], latex_of[v]))
-    yield say("Their Wronskian ", product, " is")
+    yield say("Their Wronskian ", _with_names("{0} {1}' - {0}' {1}", u, v), " is")
     yield _named(w, W)
     if F != 0:
         yield Heading("Variation of parameters")
-        yield say("A solution with the right-hand side ", _name(f), " is")
-        d = rf"d{latex_text(question.x.name)}"
-        integrals = {name: rf"\int \frac{{{latex_of[name]} {latex_of[f]}}}{{{latex_of[w]}}} {d}" for name in pair}
-        latex = f"{latex_of[particular]} = -{latex_of[u]} {integrals[v]} + {latex_of[v]} {integrals[u]}"
-        text = f"{particular} = -{u} int {v} {f}/{w} d{question.x} + {v} int {u} {f}/{w} d{question.x}"
-        yield Formula(Math(text, latex))
+        yield say("A solution with the right-hand side ", _with_names("{}", f), " is")
+        text = "{0} = -{1} int {2} {3}/{4} d{5} + {2} int {1} {3}/{4} d{5}"
+        latex = r"{0} = -{1} \int \frac{{{2} {3}}}{{{4}}} d{5} + {2} \int \frac{{{1} {3}}}{{{4}}} d{5}"
+        yield Formula(_with_names(text, particular, u, v, f, w, question.x, latex=latex))
         yield say("with")
         for name in (v, u):
             integrand = shortest([*sums(pair[name] * F / W, question.x)])
-            quotient = Math(f"{name} {f}/{w}", rf"\frac{{{latex_of[name]} {latex_of[f]}}}{{{latex_of[w]}}}")
+            quotient = _with_names("{} {}/{}", name, f, w, latex=r"\frac{{{} {}}}{{{}}}")
             yield Formula(quotient.equals(of_sympy(integrand)))
-        yield say("Up to multiples of ", _name(u), " and ", _name(v), " it is")
+        yield say("Up to multiples of ", _with_names("{}", u), " and ", _with_names("{}", v), " it is")
         yield _named(particular, own(answer.particular))
     if answer.determined is not None:
         yield Heading("The constants")
-        parts = [(str(c), name) for c, name in zip(answer.names, pair, strict=True)]
-        text, latex = (
-            " + ".join([*(f"{shown(c)} {shown(name)}" for c, name in parts), *([shown(particular)] if F != 0 else [])])
-            for shown in (str, lambda name: _name(name).latex)
-        )
-        yield say(Math(f"{y} = {text}", f"{latex_text(y)} = {latex}"), " has the given values where")
+        c1, c2 = answer.names
+        whole = "{} = {} {} + {} {}" if F == 0 else "{} = {} {} + {} {} + {}"
+        yield say(_with_names(whole, y, c1, u, c2, v, particular), " has the given values where")
         yield from dict.fromkeys(_constants(answer, answer.determined))
 
 
@@ -218,7 +213,7 @@ def _steps_of_first_order(answer: FirstOrderAnswer) -> Iterator[Block]:
     yield from _equation(name, (-equation.q, sympy.Integer(1)), equation.p + square, equation.conditions)
     if equation.is_linear:
         yield Heading("The integrating factor")
-        yield say("The equation without its right-hand side ", _name(p), " has the solution")
+        yield say("The equation without its right-hand side ", _with_names("{}", p), " has the solution")
         yield _named(h, equation.homogeneous())
         if equation.p == 0:
             return
@@ -227,7 +222,7 @@ def _steps_of_first_order(answer: FirstOrderAnswer) -> Iterator[Block]:
             f"With {name} = {h} {c} it says that {c}' = {p}/{h}, so {name} = {h} ({constant} + int {p}/{h}), where"
         )
         quotient = shortest([*sums(equation.p / equation.homogeneous(), x)])
-        yield Formula(Math(f"{p}/{h}", f"{_name(p).latex}/{_name(h).latex}").equals(of_sympy(quotient)))
+        yield Formula(_with_names("{}/{}", p, h).equals(of_sympy(quotient)))
         return
     yield Heading("The linear equation")
     z = free_name(taken, "u", "z", "v")

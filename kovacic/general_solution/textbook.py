@@ -33,7 +33,6 @@ from sympy.simplify.fu import TR2, TR5, TR6, TR2i, TR10i, hyper_as_trig
 
 from kovacic.closed_form.jets import jet
 from kovacic.general_solution.integrands import radicands
-from kovacic.general_solution.steps import place_of
 from kovacic.general_solution.substitution import by_functions, changed_beside, expanded_size, in_single_waves
 from kovacic.general_solution.zero import is_positive_polynomial, is_zero, points
 from kovacic.special.choice import shortest
@@ -176,15 +175,11 @@ def is_constant(quotient: Expr, x: Expr) -> bool:
 
 def _before_and_after(value: Expr, x: Expr) -> tuple[Expr, Expr, Expr] | None:
     """a, f and f + g for f + g H(x - a); None for other steps, or several."""
-    steps = {step for step in value.atoms(Heaviside) if step.has(x)}
-    if len(steps) != 1 or value.has(sympy.DiracDelta):
+    steps = [step for step in value.atoms(Heaviside) if step.has(x)]
+    if len(steps) != 1 or steps[0].args[0].diff(x) != 1 or value.has(sympy.DiracDelta):
         return None
-    (step,) = steps
-    place = place_of(step, x)
-    if place is None or place.slope != 1:
-        return None
-    before, after = (sympy.expand(value.xreplace({step: sympy.Integer(k)})) for k in (0, 1))
-    return place.a, before, after
+    before, after = (sympy.expand(value.xreplace({steps[0]: sympy.Integer(k)})) for k in (0, 1))
+    return sympy.expand(x - steps[0].args[0]), before, after
 
 
 def _absolute(value: Expr, x: Expr) -> Iterator[Expr]:
@@ -207,8 +202,10 @@ def _hyperbolic(value: Expr, x: Expr) -> Iterator[Expr]:
     is_in_sum = any(part.has(exp) for part in value.atoms(sympy.Add))
     if not is_in_sum and all(e.has(x) for e in value.atoms(exp)):  # a product has one exponential, and keeps it
         return
-    powers = {e: sympy.expand(e.as_base_exp()[1]) for e in value.atoms(exp, type(sympy.E))}
-    exponents = {e: by_functions(exponent, lambda factor: factor.is_Rational) for e, exponent in powers.items()}
+    exponents = {
+        e: by_functions(sympy.expand(e.as_base_exp()[1]), lambda factor: factor.is_Rational)
+        for e in value.atoms(exp, type(sympy.E))
+    }
     unit: dict[Expr, int] = defaultdict(lambda: 1)
     for rate, n in sorted((item for rates in exponents.values() for item in rates.items()), key=str):
         unit[rate] = lcm(unit[rate], int(n.q))
@@ -216,48 +213,47 @@ def _hyperbolic(value: Expr, x: Expr) -> Iterator[Expr]:
     plain = {e: sympy.Mul(*(letters[r] ** (n * unit[r]) for r, n in rates.items())) for e, rates in exponents.items()}
     rate_of = {letter: rate / unit[rate] for rate, letter in letters.items()}
     fraction = sympy.fraction(sympy.cancel(sympy.together(value.xreplace(plain))))
-    if not all(part.is_polynomial(*rate_of) for part in fraction):  # J(exp(x))
-        return
-    (m, top), (n, bottom) = (_symmetric_product(part, rate_of) for part in fraction)
-    if top is None or bottom is None or (m - n).has(x):  # decaying exponentials stay apart
-        return
-    scale = exp(sympy.expand(m - n)) / bottom
-    yield scale * top
-    yield sympy.Add(*(scale * term for term in sympy.Add.make_args(sympy.expand(top))))
+    with suppress(_NotSymmetric):
+        (m, top), (n, bottom) = (_symmetric_product(part, rate_of) for part in fraction)
+        if (m - n).has(x):  # decaying exponentials stay apart
+            return
+        scale = exp(sympy.expand(m - n)) / bottom
+        yield scale * top
+        yield sympy.Add(*(scale * term for term in sympy.Add.make_args(sympy.expand(top))))
 
 
-def _symmetric_product(polynomial: Expr, rate_of: Mapping[Expr, Expr]) -> tuple[Expr, Expr | None]:
-    """m, and the rest without e^m, by factors without common letters: X^2 - 1, which is sinh, stays whole.
+class _NotSymmetric(Exception):
+    """A sum isn't of the kind (1)."""
 
-    None for the rest if a factor isn't symmetric.
-    """
+
+def _symmetric_product(polynomial: Expr, rate_of: Mapping[Expr, Expr]) -> tuple[Expr, Expr]:
+    """m, and the rest without e^m, by factors without common letters: X^2 - 1, which is sinh, stays whole."""
     constant, polynomial = polynomial.as_independent(*rate_of, as_Add=False)
-    if not all(
-        power.exp.is_Rational for power in polynomial.atoms(sympy.Pow)
-    ):  # SymPy can't sort factors with a^n, a^i
-        return sympy.S.Zero, None
+    # SymPy can't sort factors with a^n, a^i; J(exp(x)) is no polynomial
+    is_sorted = all(power.exp.is_Rational for power in polynomial.atoms(sympy.Pow))
+    if not (is_sorted and polynomial.is_polynomial(*rate_of)):
+        raise _NotSymmetric
     number, factors = sympy.factor_list(polynomial, *rate_of)
     groups: list[Expr] = []
     for base, k in factors:
-        common = [group for group in groups if group.free_symbols & base.free_symbols & {*rate_of}]
-        groups = [group for group in groups if group not in common] + [sympy.Mul(base**k, *common)]
+        letters = base.free_symbols & {*rate_of}
+        common, groups = sympy.sift(groups, lambda group: group.has(*letters), binary=True)  # noqa: B023
+        groups.append(sympy.Mul(base**k, *common))
     parts = [_symmetric(group, rate_of) for group in groups]
-    known = [total for _, total in parts if total is not None]
-    total = sympy.Mul(constant * number, *known) if len(known) == len(parts) else None
-    return sympy.Add(*(m for m, _ in parts)), total
+    return sympy.Add(*(m for m, _ in parts)), sympy.Mul(constant, number, *(total for _, total in parts))
 
 
-def _symmetric(part: Expr, rate_of: Mapping[Expr, Expr]) -> tuple[Expr, Expr | None]:
-    """m, and the sum (1) without e^m, for a polynomial in the letters that stand for e^rate; None if it isn't symmetric."""
+def _symmetric(part: Expr, rate_of: Mapping[Expr, Expr]) -> tuple[Expr, Expr]:
+    """m, and the sum (1) without e^m, for a polynomial in the letters that stand for e^rate."""
     terms = dict(sympy.Poly(part, *rate_of).terms())
     centre = [sympy.Rational(sum(column), len(terms)) for column in zip(*terms, strict=True)]
     m = sympy.Add(*(middle * rate for middle, rate in zip(centre, rate_of.values(), strict=True)))
     total = sympy.Integer(0)
     for degrees, c in terms.items():
         d = terms.get(tuple(2 * middle - degree for middle, degree in zip(centre, degrees, strict=True)))
+        if d is None or (0 not in (c + d, c - d) and c.is_number and d.is_number):
+            raise _NotSymmetric
         h = sympy.Add(*((k - middle) * rate for k, middle, rate in zip(degrees, centre, rate_of.values(), strict=True)))
-        if d is None or (h != 0 and 0 not in (c + d, c - d) and c.is_number and d.is_number):
-            return m, None
         if not h.could_extract_minus_sign():  # each pair once; in the middle c is d
             h = sympy.factor_terms(h)
             total += c if h == 0 else (c + d) * cosh(h) + (c - d) * sinh(h)
