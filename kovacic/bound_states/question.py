@@ -144,7 +144,7 @@ def read_boundary(boundary: str | None, ends: Sequence[Any], variable: str) -> B
     if not isinstance(boundary, str) or "=" not in boundary:
         hint = f'boundary="{FRIEDRICHS}", or a condition at an end: boundary="y\'(0) = 0"'
         raise InputError(f"{boundary!r} isn't a boundary condition", hint=hint)
-    reader = ConditionReader(sympy.Function("y")(sympy.Symbol(variable)), "y")
+    reader = ConditionReader(sympy.Function("y")(sympy.Symbol(variable)))
     wishes: dict[Any, Robin] = {}
     for key, value in as_mapping(boundary).items():
         condition = reader.read(key, value)

@@ -40,8 +40,8 @@ from kovacic.general_solution.integrands import (
     require,
 )
 from kovacic.general_solution.substitution import size
-from kovacic.general_solution.waves import beside_waves, by_coefficients, common_factor, in_waves, wave_changes
-from kovacic.general_solution.zero import ball, samples
+from kovacic.general_solution.waves import beside_waves, by_coefficients, common_factor, wave_changes
+from kovacic.general_solution.zero import ball, differs_from_zero, samples
 from kovacic.limits import check_time
 
 Expr = Any  # SymPy publishes no types
@@ -107,13 +107,9 @@ def _holds_on_every_side(found: Expr, integrand: Expr, x: Expr) -> bool:
     """True if its derivative is the integrand at real points far apart, wherever that is real."""
     slope = found.diff(x)
     others = next(samples(integrand.free_symbols - {x}))
-    for point in _POINTS:
-        here = {**others, x: point}
+    for here in ({**others, x: point} for point in _POINTS):
         value = ball(integrand, here)
-        if value is None or not value.is_finite() or not value.imag.contains(0):
-            continue
-        other = ball(slope, here)
-        if other is not None and other.is_finite() and not other.overlaps(value):
+        if value is not None and value.imag.contains(0) and differs_from_zero(slope - integrand, here):
             return False
     return True
 
@@ -209,11 +205,6 @@ def _roots(term: Expr, x: Expr) -> Iterator[ChangeOfIntegrand]:
     yield ChangeOfIntegrand(inner, t, sympy.root(line, q))
 
 
-def _waves(term: Expr, x: Expr) -> Iterator[ChangeOfIntegrand]:
-    """To c, s or a tangent."""
-    yield from wave_changes(in_waves(term), x)
-
-
 # ------------------------------------------------------------------------------------------------------------ by parts
 
 
@@ -289,7 +280,7 @@ _RULES: dict[str, Callable[[Expr, Expr], Expr]] = {
     "int P exp(r x) cos(w x) dx: undetermined coefficients": by_coefficients,
     "int f(u) u' dx = int f(u) du": partial(_in_another_variable, _arguments),
     "int f(exp(k x)) dx = int f(u)/(k u) du": partial(_in_another_variable, _exponentials),
-    "int R(sin(u), cos(u)) dx for linear u: rational in a wave or tangent": partial(_in_another_variable, _waves),
+    "int R(sin(u), cos(u)) dx for linear u: rational in a wave or tangent": partial(_in_another_variable, wave_changes),
     "products of powers and exponentials of rational functions": integral_of_product,
     "int R cos(u) dx: Si and Ci for linear u, Fresnel functions for quadratic u": beside_waves,
     "int q + (a + b s)/c dx where the second part isn't elementary": _beside_tangents,

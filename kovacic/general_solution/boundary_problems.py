@@ -137,7 +137,7 @@ def read_eigenproblem(
     x = function.args[0]
     if not isinstance(conditions, Mapping | str | None):
         raise InputError("conditions are a text or a mapping", hint='"y(0)=0, y(1)=0"')
-    reader = ConditionReader(function, function.func.__name__)
+    reader = ConditionReader(function)
     given = [reader.read(key, value).in_symbols(values) for key, value in as_mapping(conditions).items()]
     ends = _interval_ends(given, domain)
     wrap, wishes = wishes_of(given, ends)

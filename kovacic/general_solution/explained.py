@@ -162,7 +162,7 @@ def _steps(answer: SecondOrderAnswer) -> Iterator[Block]:
     yield say(f"{source}:")
     letters = sympy.Tuple(*map(question.own, question.coefficients)).free_symbols
     taken = letters.union(*(condition.free_symbols for condition in question.conditions))
-    u, v = ("y1", "y2") if free_name(taken, "y1") == "y1" and free_name(taken, "y2") == "y2" else ("u1", "u2")
+    u, v = ("y1", "y2") if {"y1", "y2"}.isdisjoint(map(str, taken)) else ("u1", "u2")
     f, w, particular = (free_name(taken, *names) for names in (("F", "R", "G"), ("W", "D"), ("y0", "y_p", "u_p")))
     pair = {u: own(answer.basis.y1), v: own(answer.basis.y2)}
     yield from (_named(name, value) for name, value in pair.items())

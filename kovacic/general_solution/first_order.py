@@ -80,7 +80,7 @@ class OfFirstOrder:
             name = str(key).partition("(")[0].strip() if others else first
             if name not in functions:
                 raise InputError(f"{key} isn't a value of an unknown", hint=f"write {first}(0) = 1, {others[0]}(0) = 0")
-            asked.append((functions[name], ConditionReader(functions[name], name).read(key, value)))
+            asked.append((functions[name], ConditionReader(functions[name]).read(key, value)))
         return replace(self, asked=tuple(asked))
 
     def at(self, values: Mapping[Expr, Expr]) -> tuple[tuple[Expr, ...], tuple[Expr, ...], dict[Expr, Any]]:

@@ -90,7 +90,7 @@ def prepared(integrand: Expr) -> Expr:
     # SymPy would multiply (x + 1)^(-3/2) out, in the denominator, and write log(x/(1 - x) + 1/(1 - x)).
     quotients = [f for f in integrand.atoms(log) if f.args[0].is_Mul and sympy.denom(f.args[0]).is_Add]
     sums = [power for power in integrand.atoms(sympy.Pow) if power.base.is_Add and power.exp.is_Rational]
-    powers = (power for power in sums if power.exp < -1 and not power.exp.is_Integer)
+    powers = [power for power in sums if power.exp < -1 and not power.exp.is_Integer]
 
     def expanded(rest: Expr) -> Expr:
         check_duration(_PART_SECONDS * expanded_size(rest), "expanding an integrand")
@@ -161,22 +161,18 @@ def _polynomial_radicands(term: Expr, x: Expr) -> list[Expr]:
 
 def _rate(g: Expr, x: Expr) -> Expr:
     """The logarithmic derivative, by factors; that of t (1 + u/t + ...) for a sum t + u + ..."""
-    products = [term.as_powers_dict() for term in sympy.Add.make_args(g)]
-    exponents = [powers.pop(sympy.E, sympy.Integer(0)) for powers in products]
-    first = products[0]
-    others = sympy.Integer(1)
-    for powers, exponent in zip(products[1:], exponents[1:], strict=True):
-        quotient = sympy.Mul(*(base**e for base, e in powers.items()), *(base**-e for base, e in first.items()))
-        others += quotient * exp(sympy.cancel(exponent - exponents[0]))
-    own = exponents[0].diff(x)
-    for base, e in first.items():
+    first, *others = sympy.Add.make_args(g)
+    quotients = ((term / first).replace(exp, lambda u: exp(sympy.cancel(u))) for term in others)
+    whole = sympy.Add(1, *quotients)
+    rate = whole.diff(x) / whole
+    for base, e in first.as_powers_dict().items():
         if not base.has(x):
-            own += e.diff(x) * log(base)
+            rate += e.diff(x) * log(base)
         elif base.is_Add and base.has(exp) and e.is_Rational:  # as in exp(-x)/(x + 1), which SymPy expands
-            own += e * _rate(base, x)
+            rate += e * _rate(base, x)
         else:
-            own += e * base.diff(x) / base
-    return own + others.diff(x) / others
+            rate += e * base.diff(x) / base
+    return rate
 
 
 def integral_of_fraction(g: Expr, x: Expr) -> Expr:

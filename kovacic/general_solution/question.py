@@ -10,6 +10,7 @@ y(a) = "bounded" that it stays bounded.
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
@@ -23,6 +24,7 @@ from kovacic.closed_form.atoms import Atoms
 from kovacic.equation import EULER, PI, Equation, Parsed, parameters_of
 from kovacic.errors import InputError, NotLinear
 from kovacic.general_solution.behaviour import value_at
+from kovacic.general_solution.integrands import NUMBERS
 from kovacic.general_solution.steps import JUMPING, in_steps
 from kovacic.limits import Limits
 from kovacic.numbers.exact import exact_real, exact_text, is_complex
@@ -79,10 +81,9 @@ class Question:
         equation = self.given
         t = sympy.Symbol(equation.variable)
         atoms = Atoms(t)
-        plain = {sympy.Symbol(PI): sympy.pi, sympy.Symbol(EULER): sympy.E}
-        a, b, c = (atoms.ratio(part).xreplace(plain) for part in (equation.a, equation.b, equation.c))
-        f = atoms.sum(equation.f).xreplace(plain)
-        h = sympy.sympify(equation.h or 0).xreplace(plain)
+        a, b, c = (atoms.ratio(part).xreplace(NUMBERS) for part in (equation.a, equation.b, equation.c))
+        f = atoms.sum(equation.f).xreplace(NUMBERS)
+        h = sympy.sympify(equation.h or 0).xreplace(NUMBERS)
         if equation.change is None:
             return a, b, c, f + h
         # y_t = y'/t' and y_tt = y''/t'^2 - t'' y'/t'^3.
@@ -148,7 +149,7 @@ def read_question(
     parsed, given, function = _read_equation(eq, func, var, limits, names)
     if given.variable in (PI, EULER):
         raise InputError(f"{given.variable} is a number", hint="take another name for the variable")
-    reader = ConditionReader(function, given.unknown)
+    reader = ConditionReader(function)
     conditions = tuple(reader.read(key, value) for key, value in values.items())
     symbols = {symbol.name: symbol for symbol in getattr(eq, "free_symbols", ())}
     own_names = parameters_of(given.S.field)
@@ -199,15 +200,15 @@ def known_letters(
 
     Raises `InputError` if something else is assumed of x than that it is positive.
     """
-    said = [str(what).replace(" ", "") for key, what in assume.items() if str(key) == x.name]
-    if said and said[0] not in ("positive", ">0"):
+    others = {str(key): what for key, what in assume.items()}
+    said = str(others.pop(x.name, "")).replace(" ", "")
+    if said not in ("", "positive", ">0"):
         raise InputError(
             f"of the variable {x} it can only be assumed that it is positive", hint='assume={"x": "positive"}'
         )
     own = {symbol.name: symbol for condition in conditions for symbol in condition.free_symbols} | dict(letters)
     own.pop(x.name, None)
-    known = symbols_that_know({key: what for key, what in assume.items() if str(key) != x.name}, own)
-    return known | ({x: sympy.Symbol(x.name, positive=True)} if said else {})
+    return symbols_that_know(others, own) | ({x: sympy.Symbol(x.name, positive=True)} if said else {})
 
 
 def symbols_that_know(assume: Mapping[Any, Any], own: Mapping[str, Expr]) -> dict[Expr, Expr]:
@@ -292,15 +293,13 @@ def with_floats(e: Expr) -> Expr:
 
 def _sought(func: Any) -> tuple[Any, Any]:
     """y(x) and y, each None if it isn't given.  Raises `InputError` for anything else."""
-    if isinstance(func, str):
-        name, _, argument = func.replace(" ", "").removesuffix(")").partition("(")
-        if not name.isidentifier() or not (argument or "x").isidentifier():
-            raise InputError(f"{func!r} isn't a function", hint='give "y(x)" or "y"')
+    if isinstance(func, str) and (found := re.fullmatch(r"([^\W\d]\w*)(?:\(([^\W\d]\w*)\))?", func.replace(" ", ""))):
+        name, argument = found.groups()
         func = sympy.Function(name)(sympy.Symbol(argument)) if argument else sympy.Function(name)
     applied = func if isinstance(func, AppliedUndef) else None
-    name = func if applied is None else func.func
-    if name is not None and not isinstance(name, UndefinedFunction):
-        raise InputError(f"{func!r} isn't a function", hint="give y(x), or y = Function('y')")
+    name = getattr(applied, "func", func)
+    if not isinstance(name, UndefinedFunction | None):
+        raise InputError(f"{func!r} isn't a function", hint="""give "y(x)", y(x), or y = Function('y')""")
     return applied, name
 
 
@@ -430,22 +429,19 @@ def periodicity(conditions: Sequence[Condition], ends: tuple[Expr, Expr]) -> int
 
 def as_mapping(ics: Mapping[Any, Any] | str | None) -> dict[Any, Any]:
     """Conditions that are given as a mapping, or as one text: "y(0)=1, y'(0)=0".  Raises `InputError`."""
-    if not isinstance(ics, str):
-        return dict(ics or {})
-    found: dict[Any, Any] = {}
-    for place, value in conditions_in(ics):
-        if place in found:
-            raise InputError(f"{place} is given twice in {ics!r}", hint='write "y(0)=1, y\'(0)=0", every value once')
-        found[place] = value
+    pairs = conditions_in(ics) if isinstance(ics, str) else (ics or {}).items()
+    found = dict(pairs)
+    if len(found) < len(pairs):
+        raise InputError(f"a value is given twice in {ics!r}", hint='write "y(0)=1, y\'(0)=0", every value once')
     return found
 
 
 class ConditionReader:
     """Reads conditions on the unknown function y(x): `function` as the user writes it, or its name in a text."""
 
-    def __init__(self, function: Expr, unknown: str) -> None:
+    def __init__(self, function: Expr) -> None:
         self.function = function
-        self.unknown = unknown
+        self.unknown = str(function.func)
         self._symbols: dict[tuple[Expr, int], Expr] = {}  # what stands for y(a), y'(a) in an expression
 
     def read(self, key: Any, value: Any) -> Condition:

@@ -17,7 +17,7 @@ from collections import defaultdict
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from functools import reduce
-from itertools import pairwise
+from itertools import accumulate, pairwise
 from math import comb
 from operator import mul
 from typing import Any, NamedTuple
@@ -44,9 +44,6 @@ _IDENTITIES: dict[Any, Callable[..., Expr]] = {
     DiracDelta: DiracDelta,
 }
 JUMPING = (*_IDENTITIES, sympy.Piecewise)
-#: The most terms that are treated.
-_MOST_TERMS = 200
-_NOTHING = sympy.Integer(0)
 #: The largest degree of a polynomial whose sign is asked for.
 _LARGEST_DEGREE = 8
 #: Functions without singular points on the real line.
@@ -106,12 +103,9 @@ def taken_apart(right: Expr, x: Expr) -> Apart | None:
 
     g delta^(n) = sum of (-1)^k C(n, k) g^(k)(a) delta^(n - k),    delta^(n)(s u) = delta^(n)(u)/(|s| s^n).
     """
-    terms = sympy.Add.make_args(sympy.expand(right))
-    if len(terms) > _MOST_TERMS:
-        return None
-    steps: defaultdict[Expr, Expr] = defaultdict(lambda: _NOTHING)
-    impulses: defaultdict[Expr, defaultdict[int, Expr]] = defaultdict(lambda: defaultdict(lambda: _NOTHING))
-    for term in map(with_single_steps, terms):
+    steps: defaultdict[Expr, Expr] = defaultdict(int)
+    impulses: defaultdict[Expr, defaultdict[int, Expr]] = defaultdict(lambda: defaultdict(int))
+    for term in map(with_single_steps, sympy.Add.make_args(sympy.expand(right))):
         jumps = [factor for factor in sympy.Mul.make_args(term) if factor.has(*JUMPING) and factor.has(x)]
         deltas, others = sympy.sift(jumps, lambda jump: isinstance(jump, DiracDelta), binary=True)
         places = [place_of(delta, x) for delta in deltas]
@@ -131,7 +125,7 @@ def taken_apart(right: Expr, x: Expr) -> Apart | None:
             strength = (-1) ** k * comb(n, k) * g.diff(x, k).subs(x, a) / (abs(slope) * slope**n)
             if strength != 0 and side.is_positive:
                 impulses[a][n - k] += strength
-    plain = steps.pop(-sympy.oo, _NOTHING)
+    plain = steps.pop(-sympy.oo, sympy.S.Zero)
     return Apart(plain, {a: g for a, g in steps.items() if g != 0}, impulses)
 
 
@@ -216,12 +210,8 @@ def _in_heavisides(e: Expr, x: Expr) -> Expr:
 
 def _alone(indicators: Sequence[Expr]) -> list[Expr]:
     """Where a condition holds and none of those before; at the end, where none holds."""
-    rest = sympy.Integer(1)
-    found = []
-    for on in indicators:
-        found.append(on * rest)
-        rest *= 1 - on
-    return [*found, rest]
+    rests = [*accumulate(indicators, lambda rest, on: rest * (1 - on), initial=sympy.Integer(1))]
+    return [*map(mul, indicators, rests), rests[-1]]
 
 
 def _indicator(condition: Expr, x: Expr) -> Expr:

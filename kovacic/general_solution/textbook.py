@@ -46,9 +46,8 @@ _LARGEST = 400
 
 def in_book_form(value: Expr, x: Expr, free: Sequence[Expr] = ()) -> Expr:
     """The shortest form of an answer; the functions that the constants `free` of a general one belong to stay."""
-    exponents = {e: exp(sympy.expand(e.args[0])) for e in value.atoms(exp) if e.args[0].is_Add}
-    short = value if value.free_symbols == {x} else _with_short_coefficients(value, x)
-    value = shortest([value, short, value.xreplace(exponents)])
+    if value.free_symbols != {x}:
+        value = shortest([value, _with_short_coefficients(value, x)])
     for rule in _RULES_OF_GENERAL_SOLUTIONS if free else _SHAPE_RULES:
         if _is_small(value):
             value = shortest([value, *rule(value, x)])

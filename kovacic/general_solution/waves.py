@@ -8,8 +8,9 @@ s = sin(theta) and c = cos(theta) for a linear theta = w x + phi.  A rational fu
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import reduce
+from itertools import product
 from typing import Any
 
 import sympy
@@ -100,13 +101,33 @@ class _InOneAngle:
         return cls(e.xreplace({wave: _multiple_angle(wave, theta, s, c) for wave in waves}), s, c, theta)
 
 
-def wave_changes(term: Expr, x: Expr) -> list[WaveChange]:
-    """The changes that make a term with waves rational, or a root of a wave stays; none where it has more than waves."""
-    found = _InOneAngle.of(term)
-    if found is None or found.R.has(x):
-        return []
-    slope = found.theta.diff(x)
-    return [] if slope.has(x) or slope == 0 else [*_changes(found, slope)]
+def wave_changes(term: Expr, x: Expr) -> Iterator[WaveChange]:
+    """The changes of the module's head that make a term of waves rational, or a root of a wave stays."""
+    found = _InOneAngle.of(in_waves(term))
+    if found is None or found.R.has(x) or found.theta.diff(x).has(x) or not found.theta.has(x):
+        return
+    R, s, c, theta = found.R, found.s, found.c, found.theta
+    u = sympy.Dummy()
+    root = sympy.sqrt(1 - u**2)
+    square = 1 + u**2
+
+    def change(f: Expr, sine: Expr, cosine: Expr, wave: Expr) -> WaveChange:
+        """For int f du with the sine and the cosine in u."""
+        # with a root as a factor, as the rules for roots of polynomials know it
+        in_u = sympy.cancel(f.subs({s: sine, c: cosine}) / theta.diff(x))
+        return WaveChange(sympy.together(in_u), u, wave)
+
+    is_odd_in_s, is_odd_in_c = (sympy.cancel(R + R.xreplace({wave: -wave})) == 0 for wave in (s, c))
+    if is_odd_in_s:
+        yield change(-R / s, root, u, cos(theta))
+    if is_odd_in_c:
+        yield change(R / c, u, root, sin(theta))
+    if is_odd_in_s or is_odd_in_c:
+        return
+    if sympy.cancel(R - R.xreplace({s: -s, c: -c})) == 0:
+        yield change(R / square, u / sympy.sqrt(square), 1 / sympy.sqrt(square), tan(theta))
+    else:
+        yield change(2 * R / square, 2 * u / square, (1 - u**2) / square, tan(theta / 2))
 
 
 def in_waves(e: Expr) -> Expr:
@@ -151,21 +172,20 @@ def fractions_of_waves(e: Expr, x: Expr) -> list[Expr]:
     found = _InOneAngle.of(masked)
     if found is None or found.R.is_polynomial(found.s, found.c):
         return []
-    s, c, theta = found.s, found.c, found.theta
-    rational = by_functions(found.R, lambda f: f.is_rational_function(s, c) and not f.has(x, *kept))
-    is_halved = any(wave.args[0] == 2 * theta for wave in masked.atoms(sin, cos))
-    forms = [
-        {other: _in_fractions(R, s, c, theta, k, doubled=doubled) for other, R in rational.items()}
-        for k in (0, 1)
-        for doubled in (False, True)[: 1 + is_halved]
-    ]
-    return [sympy.expand_mul(sympy.Add(*(other * R for other, R in form.items()))).xreplace(kept) for form in forms]
+    rational = by_functions(found.R, lambda f: f.is_rational_function(found.s, found.c) and not f.has(x, *kept))
+    is_halved = any(wave.args[0] == 2 * found.theta for wave in masked.atoms(sin, cos))
+    forms = (
+        sympy.Add(*(other * _in_fractions(replace(found, R=R), k, doubled=doubled) for other, R in rational.items()))
+        for k, doubled in product((0, 1), (False, True)[: 1 + is_halved])
+    )
+    return [sympy.expand_mul(form).xreplace(kept) for form in forms]
 
 
-def _in_fractions(R: Expr, s: Expr, c: Expr, theta: Expr, k: int, *, doubled: bool) -> Expr:
+def _in_fractions(given: _InOneAngle, k: int, *, doubled: bool) -> Expr:
     """A + B s with partial fractions A and B in c for k = 0, A + B c in s for k = 1, of the double angle if it can be."""
+    R, s, c, theta = given.R, given.s, given.c, given.theta
     A, B = _of_square(R, s, c)
-    if doubled and _is_even(A, c) and _is_even(B * c, c):  # c^2 = (1 + C)/2 and s c = S/2
+    if doubled and all(sympy.cancel(f - f.subs(c, -c)) == 0 for f in (A, B * c)):  # c^2 = (1 + C)/2 and s c = S/2
         A, B = (sympy.cancel(part.subs(c, sympy.sqrt((1 + c) / 2))) for part in (A, B / (2 * c)))
         theta *= 2
     if k == 1:
@@ -176,10 +196,6 @@ def _in_fractions(R: Expr, s: Expr, c: Expr, theta: Expr, k: int, *, doubled: bo
     back = dict(zip((s, c), (sin(theta), cos(theta))[:: 1 - 2 * k], strict=True))
     polynomials, fractions = sympy.sift(terms, lambda term: term.is_polynomial(s, c), binary=True)
     return in_single_waves(sympy.Add(*polynomials).xreplace(back)) + sympy.Add(*fractions).xreplace(back)
-
-
-def _is_even(f: Expr, c: Expr) -> bool:
-    return bool(sympy.cancel(f - f.subs(c, -c)) == 0)
 
 
 def _of_square(R: Expr, u: Expr, v: Expr) -> tuple[Expr, Expr]:
@@ -198,32 +214,6 @@ def _multiple_angle(wave: Expr, theta: Expr, s: Expr, c: Expr) -> Expr:
     if wave.func is cos:
         return sympy.chebyshevt(abs(n), c)
     return sympy.sign(n) * s * sympy.chebyshevu(abs(n) - 1, c)
-
-
-def _changes(given: _InOneAngle, slope: Expr) -> Iterator[WaveChange]:
-    """Those of the module's head that fit R, for an angle with this slope."""
-    R, s, c, theta = given.R, given.s, given.c, given.theta
-    u = sympy.Dummy()
-    root = sympy.sqrt(1 - u**2)
-    square = 1 + u**2
-
-    def change(f: Expr, sine: Expr, cosine: Expr, wave: Expr) -> WaveChange:
-        """For int f du with the sine and the cosine in u."""
-        # with a root as a factor, as the rules for roots of polynomials know it
-        return WaveChange(sympy.together(sympy.cancel(f.subs({s: sine, c: cosine}) / slope)), u, wave)
-
-    is_odd_in_s, is_odd_in_c = (sympy.cancel(R + R.xreplace({wave: -wave})) == 0 for wave in (s, c))
-    if is_odd_in_s:
-        yield change(-R / s, root, u, cos(theta))
-    if is_odd_in_c:
-        yield change(R / c, u, root, sin(theta))
-    if is_odd_in_s or is_odd_in_c:
-        return
-    is_even = sympy.cancel(R - R.xreplace({s: -s, c: -c})) == 0
-    if is_even:
-        yield change(R / square, u / sympy.sqrt(square), 1 / sympy.sqrt(square), tan(theta))
-    else:
-        yield change(2 * R / square, 2 * u / square, (1 - u**2) / square, tan(theta / 2))
 
 
 # ------------------------------------------------------------------------------------------------ beside a single wave
