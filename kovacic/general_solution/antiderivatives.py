@@ -161,8 +161,8 @@ def _arguments(term: Expr, x: Expr) -> Iterator[ChangeOfIntegrand]:
     t = sympy.Dummy(real=True)
     functions = term.atoms(*_BY_PARTS)
     slopes = {f.args[0]: f.args[0].diff(x) for f in functions}
-    lines = {u: slope for u, slope in slopes.items() if slope.free_symbols and not slope.has(x)}
-    inverse = {u: (t - u.subs(x, 0)) / slope for u, slope in lines.items()} | {log(x): exp(t)}
+    lines = {u: (t - u.subs(x, 0)) / k for u, k in slopes.items() if k.free_symbols and not k.has(x)}
+    inverse = lines | {log(x): exp(t)}
     own = functions | {*lines} | {f.args[0] for f in term.atoms(sympy.Function) if f.args[0].has(exp, sin, cos, log)}
     own |= {p.base for p in term.atoms(sympy.Pow) if p.exp.free_symbols and not p.exp.has(x)}
     for u in sorted((u for u in own if u.has(x) and u != x), key=str):

@@ -155,10 +155,6 @@ def read_question(
     own_names = parameters_of(given.S.field)
     letters = {name: sympy.Symbol(name) for name in own_names} | symbols
     known = known_letters(assume or {}, function.args[0], letters, conditions)
-    for symbol in letters.values():
-        s: Expr = known.get(symbol, symbol)
-        if s.is_nonnegative and not s.is_positive and _is_excluded_at_zero(sympy.Symbol(s.name), given):
-            known[symbol] = sympy.Symbol(s.name, integer=s.is_integer, positive=True)
     symbols |= {symbol.name: symbol for symbol in known.values()}
     meanings = _meanings(parsed.letters, symbols)
     symbols |= {letter.name: letter for letter in meanings}
@@ -183,8 +179,8 @@ def read_question(
 def free_constants(count: int, *parts: Expr) -> list[Expr]:
     """C1, C2, ..., or the next of these names that neither symbols nor functions in the parts have."""
     found = sympy.Tuple(*parts)
-    names = {symbol.name for symbol in found.free_symbols} | {f.func.__name__ for f in found.atoms(AppliedUndef)}
-    excluded = [sympy.Symbol(name) for name in names]
+    names = (*found.free_symbols, *(f.func for f in found.atoms(AppliedUndef)))
+    excluded = [sympy.Symbol(str(name)) for name in names]
     return [*islice(sympy.numbered_symbols("C", start=1, exclude=excluded), count)]
 
 
@@ -217,12 +213,6 @@ def symbols_that_know(assume: Mapping[Any, Any], own: Mapping[str, Expr]) -> dic
     return {own[name]: symbol for name, symbol in known.items() if symbol != own[name]}
 
 
-def _is_excluded_at_zero(letter: Expr, equation: Equation) -> bool:
-    """True if the normal form has no meaning where a letter is 0."""
-    below = sympy.denom(sympy.together(Atoms(sympy.Symbol(equation.variable)).ratio(equation.S)))
-    return bool(below.subs(letter, 0) == 0)
-
-
 def _meanings(letters: Sequence[tuple[str, Expr]], symbols: Mapping[str, Expr]) -> dict[Expr, Expr]:
     """The expressions in the user's symbols that letters stand for.  Powers are principal ones, and taken to be positive."""
     plain = {sympy.Symbol(name): symbol for name, symbol in symbols.items()}
@@ -230,9 +220,9 @@ def _meanings(letters: Sequence[tuple[str, Expr]], symbols: Mapping[str, Expr]) 
     for name, meaning in letters:
         whole = meaning.xreplace(plain)
         is_principal_power = isinstance(whole, sympy.Pow | sympy.exp) and not whole.as_base_exp()[0].is_negative
-        words = [word for word in ("positive", "negative", "real") if getattr(whole, f"is_{word}")]
-        words = ["positive"] if is_principal_power else words
-        meanings[sympy.Symbol(name, **dict.fromkeys(words, True))] = whole
+        words = ("positive", "negative", "real")
+        known = {word: True for word in words if getattr(whole, f"is_{word}")}
+        meanings[sympy.Symbol(name, **({"positive": True} if is_principal_power else known))] = whole
     return meanings
 
 

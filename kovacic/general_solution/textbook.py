@@ -151,9 +151,7 @@ def without_homogeneous(particular: Expr, y1: Expr, y2: Expr, x: Expr) -> Expr:
     if not particular.has(sympy.Add, sin, cos) or not _is_small(particular):
         return particular
     forms = [particular, *_single_waves(particular, x), *_common_factors(particular, x), *_in_one_wave(particular)]
-    pieces = _before_and_after(particular, x)
-    if pieces is not None:
-        _, before, after = pieces
+    for _, before, after in _before_and_after(particular, x):
         terms = sympy.Add.make_args(sympy.expand(after - before))
         own = [-term for term in terms if any(is_constant(term / y, x) for y in (y1, y2))]
         for h in (0, *own, sympy.Add(*own) / 2):
@@ -172,26 +170,22 @@ def is_constant(quotient: Expr, x: Expr) -> bool:
 # ------------------------------------------------------------------------------------------------------------- rules
 
 
-def _before_and_after(value: Expr, x: Expr) -> tuple[Expr, Expr, Expr] | None:
-    """a, f and f + g for f + g H(x - a); None for other steps, or several."""
+def _before_and_after(value: Expr, x: Expr) -> Iterator[tuple[Expr, Expr, Expr]]:
+    """a, f and f + g for f + g H(x - a); nothing for other steps, or several."""
     steps = [step for step in value.atoms(Heaviside) if step.has(x)]
-    if len(steps) != 1 or steps[0].args[0].diff(x) != 1 or value.has(sympy.DiracDelta):
-        return None
-    before, after = (sympy.expand(value.xreplace({steps[0]: sympy.Integer(k)})) for k in (0, 1))
-    return sympy.expand(x - steps[0].args[0]), before, after
+    if len(steps) == 1 and steps[0].args[0].diff(x) == 1 and not value.has(sympy.DiracDelta):
+        before, after = (sympy.expand(value.xreplace({steps[0]: sympy.Integer(k)})) for k in (0, 1))
+        yield sympy.expand(x - steps[0].args[0]), before, after
 
 
 def _absolute(value: Expr, x: Expr) -> Iterator[Expr]:
     """(2), for steps at one point."""
-    pieces = _before_and_after(value, x)
-    if pieces is None:
-        return
-    a, before, after = pieces
     u = sympy.Dummy()
-    before = sympy.powsimp(sympy.expand(before.subs(x, a - u)))
-    after = sympy.powsimp(sympy.expand(after.subs(x, a + u)))
-    if before != 0 and is_zero(before - after):
-        yield sympy.factor_terms(after).subs(u, Abs(x - a))
+    for a, *parts in _before_and_after(value, x):
+        places = (a - u, a + u)
+        before, after = (sympy.powsimp(sympy.expand(part.subs(x, at))) for part, at in zip(parts, places, strict=True))
+        if before != 0 and is_zero(before - after):
+            yield sympy.factor_terms(after).subs(u, Abs(x - a))
 
 
 def _hyperbolic(value: Expr, x: Expr) -> Iterator[Expr]:
@@ -261,14 +255,10 @@ def _symmetric(part: Expr, rate_of: Mapping[Expr, Expr]) -> tuple[Expr, Expr]:
 
 def _exchanged(value: Expr, x: Expr) -> Iterator[Expr]:
     """F(min(x, a), max(x, a)) for a step at a letter a, after which F(x, a) is F(a, x): Green's function."""
-    pieces = _before_and_after(value, x)
-    if pieces is None or not pieces[0].is_Symbol:
-        return
-    a, before, after = pieces
-    if before == 0 or not is_zero(after - before.xreplace({x: a, a: x})):
-        return
-    for form in (*_hyperbolic(before, x), TR10i(sympy.factor(sympy.together(sympy.expand_trig(before))))):
-        yield form.xreplace({x: sympy.Min(x, a), a: sympy.Max(x, a)})
+    for a, before, after in _before_and_after(value, x):
+        if a.is_Symbol and before != 0 and is_zero(after - before.xreplace({x: a, a: x})):
+            forms = (*_hyperbolic(before, x), TR10i(sympy.factor(sympy.together(sympy.expand_trig(before)))))
+            yield from sympy.Tuple(*forms).xreplace({x: sympy.Min(x, a), a: sympy.Max(x, a)})
 
 
 def _single_waves(value: Expr, x: Expr) -> Iterator[Expr]:
