@@ -173,15 +173,17 @@ def _arguments(term: Expr, x: Expr) -> Iterator[ChangeOfIntegrand]:
 def _exponentials(term: Expr, x: Expr) -> Iterator[ChangeOfIntegrand]:
     """To u = exp(k x), of which all exponentials are powers."""
     term = sympy.expand(term)
-    slopes = {e: e.args[0].diff(x) for e in term.atoms(exp) if e.has(x) and e.args[0].subs(x, 0) == 0}
-    rates = {e: slope for e, slope in slopes.items() if not slope.has(x)}  # exp(sin(x)) isn't one of them
+    exponentials = [e for e in term.atoms(exp) if e.has(x) and e.args[0].subs(x, 0) == 0]
+    rates = {
+        e: e.args[0].diff(x) for e in exponentials if not e.args[0].diff(x).has(x)
+    }  # exp(sin(x)) isn't one of them
     k = common_factor([*rates.values()])
     if k is None:
         return
     # One u for all terms, or logarithms that cancel would stay; polynomials in it under roots and in logarithms.
     k = -k if k.could_extract_minus_sign() else k
-    inner = {e for a in (*radicands(term), *(f.args[0] for f in term.atoms(log))) for e in a.atoms(exp)}
-    powers = [rates[e] / k for e in inner if e in rates]
+    inner = sympy.Tuple(*radicands(term), *(f.args[0] for f in term.atoms(log))).atoms(exp)
+    powers = [rates[e] / k for e in inner & {*rates}]
     if powers and all(power.is_negative for power in powers):
         k = -k
     t = sympy.Dummy(positive=True)
@@ -191,15 +193,12 @@ def _exponentials(term: Expr, x: Expr) -> Iterator[ChangeOfIntegrand]:
 
 def _roots(term: Expr, x: Expr) -> Iterator[ChangeOfIntegrand]:
     """To t = (a x + b)^(1/q), of which all roots of functions of x are powers."""
-    powers = [power for power in term.atoms(sympy.Pow) if power.exp.is_Rational and not power.exp.is_Integer]
-    bases = {power.base for power in powers if power.base.has(x)}
-    if len(bases) != 1 or not all(radicands(f) for f in term.atoms(*_BY_PARTS)):
-        return
+    bases = {base for base in radicands(term) if base.has(x)}
+    require(len(bases) == 1 and all(map(radicands, term.atoms(*_BY_PARTS))))
     (line,) = bases
     slope = line.diff(x)
-    if slope.has(x):
-        return
-    q = lcm(*(int(power.exp.q) for power in powers if power.base == line))
+    require(not slope.has(x))
+    q = lcm(*(int(power.exp.q) for power in term.atoms(sympy.Pow) if power.base == line and power.exp.is_Rational))
     t = sympy.Dummy(positive=True)
     inner = term.subs(x, (t**q - line.subs(x, 0)) / slope) * q * t ** (q - 1) / slope
     yield ChangeOfIntegrand(inner, t, sympy.root(line, q))

@@ -72,14 +72,14 @@ class ChangeOfIntegrand:
         """A function of t in x; with powers of v for exponentials of r t + s where u = log(v), but exp(-t^2) stays one."""
         if isinstance(self.u, exp):
             found = found.subs(log(self.t), self.u.args[0])
-        if not isinstance(self.u, log):
-            return found.subs(self.t, self.u)
 
         def power(e: Expr) -> Expr:
             rate = e.diff(self.t)
             return exp(e) if rate.has(self.t) else self.u.args[0] ** rate * exp(e.subs(self.t, 0))
 
-        return found.replace(exp, power).subs(self.t, self.u)
+        if isinstance(self.u, log):
+            found = found.replace(exp, power)
+        return found.subs(self.t, self.u)
 
 
 def prepared(integrand: Expr) -> Expr:

@@ -487,8 +487,7 @@ class ConditionReader:
         """Refuses what is no constant."""
         if not isinstance(value, sympy.Expr) or value.has(sympy.oo, -sympy.oo, *_NO_VALUES):
             raise InputError(f"the value {given!r} isn't a finite number")
-        variables = {argument.name for argument in self.function.args}
-        if any(symbol.name in variables for symbol in value.free_symbols):
+        if str(self.function.args[0]) in map(str, value.free_symbols):
             raise InputError(f"{given} contains the variable: a condition holds at one point", hint="write y(0): 1")
         if value.atoms(AppliedUndef):
             raise InputError(f"the value {given!r} can't be read", hint="give a number, or text such as 'sqrt(2)'")

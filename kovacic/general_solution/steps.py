@@ -77,7 +77,7 @@ def place_of(jump: Expr, x: Expr) -> HeavisidePlace | None:
     """The place of a step or an impulse of s (x - a) with constants s and a, s real; None for others."""
     inner = jump.args[0]
     slope = inner.diff(x)
-    if slope.has(x) or not slope.is_real or slope.is_zero is not False:
+    if slope.has(x) or not slope.is_nonzero:
         return None
     return HeavisidePlace(sympy.expand(x - inner / slope), slope)
 
@@ -166,8 +166,8 @@ def in_steps(right: Expr, x: Expr) -> Expr:
 
 def is_analytic(e: Expr, x: Expr) -> bool:
     """True if it is seen to be analytic on the whole line, on either side of its steps."""
-    parts = [part for part in sympy.preorder_traversal(e) if part.has(x)]
-    others = [p for p in parts if not (p.is_Symbol or p.is_Add or p.is_Mul or isinstance(p, Heaviside))]
+    plain = (sympy.Symbol, sympy.Add, sympy.Mul, Heaviside)
+    others = [part for part in sympy.preorder_traversal(e) if part.has(x) and not isinstance(part, plain)]
     return all(_is_function(p) or (p.is_Pow and p.exp.is_Integer and p.exp > 0) for p in others)
 
 
