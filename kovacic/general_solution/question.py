@@ -143,14 +143,16 @@ def read_question(
     if isinstance(eq, sympy.Basic):
         renamed = {s: sympy.Symbol(f"{s.name}_", **s.assumptions0) for s in eq.free_symbols if s.name in (PI, EULER)}
         eq = exact(eq)
-    eq, func = _in_symbols(eq, renamed), _in_symbols(func, renamed)
-    values = {_in_symbols(key, renamed): _in_symbols(value, renamed) for key, value in values.items()}
+    eq, func, *sides = (
+        given.xreplace(renamed) if isinstance(given, sympy.Basic) else given
+        for given in (eq, func, *values, *values.values())
+    )
     names = declared(parameters, about_letters(assume, var))
     parsed, given, function = _read_equation(eq, func, var, limits, names)
     if given.variable in (PI, EULER):
         raise InputError(f"{given.variable} is a number", hint="take another name for the variable")
     reader = ConditionReader(function)
-    conditions = tuple(reader.read(key, value) for key, value in values.items())
+    conditions = tuple(map(reader.read, sides, sides[len(values) :]))  # the left sides, then the right ones
     symbols = {symbol.name: symbol for symbol in getattr(eq, "free_symbols", ())}
     own_names = parameters_of(given.S.field)
     letters = {name: sympy.Symbol(name) for name in own_names} | symbols
@@ -331,12 +333,6 @@ def _applied_in(eq: Any, func: Any) -> Expr:
     if not found:
         raise InputError(f"{func} isn't a function in the equation")
     return min(found, key=str)
-
-
-def _in_symbols(given: Any, renamed: Mapping[Expr, Expr]) -> Any:
-    if isinstance(given, sympy.Basic):
-        return given.xreplace(renamed)
-    return given
 
 
 # --------------------------------------------------------------------------------------------------------- conditions

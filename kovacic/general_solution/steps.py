@@ -250,9 +250,9 @@ def above(u: Expr, x: Expr) -> Expr:
     if domain not in (sympy.ZZ, sympy.QQ) or sympy.degree(u, x) > _LARGEST_DEGREE:
         return Heaviside(u)
     beyond = {-sympy.oo: sympy.Integer(1), sympy.oo: sympy.Integer(0)}
-    ends = ((end.start, end.end) for end in solve_poly_inequality(sympy.Poly(u, x), ">"))
-    steps = [beyond.get(a, Heaviside(x - a)) - beyond.get(b, Heaviside(x - b)) for a, b in ends]
-    return sympy.Add(*steps)
+    intervals = solve_poly_inequality(sympy.Poly(u, x), ">")
+    ends = ((on.start, on.end) for on in intervals)
+    return sympy.Add(*(beyond.get(a, Heaviside(x - a)) - beyond.get(b, Heaviside(x - b)) for a, b in ends))
 
 
 # ------------------------------------------------------------------------------------------------- between the jumps

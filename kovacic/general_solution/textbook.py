@@ -51,16 +51,13 @@ def in_book_form(value: Expr, x: Expr, free: Sequence[Expr] = ()) -> Expr:
     for rule in _RULES_OF_GENERAL_SOLUTIONS if free else _SHAPE_RULES:
         if _is_small(value):
             value = shortest([value, *rule(value, x)])
-    return _with_moduli(_with_equal_roots(_without_roots_of_squares(value, x, free)), x)
+    return _with_moduli(_with_equal_roots(_without_roots_of_squares(value, x, free)))
 
 
-def _with_moduli(value: Expr, x: Expr) -> Expr:
+def _with_moduli(value: Expr) -> Expr:
     """|x| for 2 x H(x) - x in functions and powers, as in log|x|, also of a letter of integration."""
-    inside = {
-        e.args[0] for e in value.atoms(sympy.Pow, sympy.Function) if e.args[0].is_Add and e.args[0].has(Heaviside)
-    }
-    variables = {x, *(s for integral in value.atoms(sympy.Integral) for s in integral.bound_symbols)}
-    return value.xreplace({u: modulus for u in inside for s in variables for modulus in _absolute(u, s)})
+    inside = {e.args[0] for e in value.atoms(sympy.Pow, sympy.Function) if e.args[0].is_Add}
+    return value.xreplace({u: modulus for u in inside for x in u.free_symbols for modulus in _absolute(u, x)})
 
 
 def _without_roots_of_squares(value: Expr, x: Expr, free: Sequence[Expr]) -> Expr:
@@ -139,8 +136,8 @@ def of_chebyshev(y1: Expr, y2: Expr, x: Expr) -> tuple[Expr, Expr, Expr | None]:
         line, middle = (f**2, square / 4) if any(base.has(x) for base in radicands(f)) else (f, c / 2)
         if not line.diff(x).has(x) and is_real and not square.has(x):
             place = (middle - line.subs(x, 0)) / line.diff(x) if c.is_number and line.diff(x).is_number else None
-            turned = (p for p in g.atoms(sympy.Pow) if sympy.rem(p.base, rest**2, x) == 0)
-            g = g.xreplace({p: (-p.base) ** p.exp for p in turned})  # a constant multiple, real where |f| < |c|
+            turned = {p: (-p.base) ** p.exp for p in g.atoms(sympy.Pow) if sympy.rem(p.base, rest**2, x) == 0}
+            g = g.xreplace(turned)  # a constant multiple, real where |f| < |c|
             angle = power.exp * sympy.acos(f / c)
             return g * cos(angle), g * sin(angle), place
     return y1, y2, None
@@ -276,11 +273,13 @@ def _single_waves(value: Expr, x: Expr) -> Iterator[Expr]:
 def _in_one_wave(value: Expr) -> Iterator[Expr]:
     """Powers of sines, or of cosines, for sin(3 x) beside logarithms of these."""
     if value.has(sympy.log) and value.has(sin, cos):
-        logarithms = {f: sympy.factor(f.args[0]) for f in value.atoms(sympy.log)}
-        letters = {u: sympy.Dummy() for u in logarithms.values()}
-        plain = value.xreplace({f: letters[u] for f, u in logarithms.items()})
-        back = {letters[u]: f for f, u in sorted(logarithms.items(), key=str)}
-        yield from (sympy.expand(form(sympy.expand(sympy.expand_trig(plain)))).xreplace(back) for form in (TR5, TR6))
+        value = value.replace(sympy.log, lambda u: sympy.log(sympy.factor(u)))
+        for form in (TR5, TR6):
+            yield changed_beside(
+                value.atoms(sympy.log),
+                value,
+                lambda e: sympy.expand(form(sympy.expand(sympy.expand_trig(e)))),  # noqa: B023
+            )
 
 
 def _as_one_wave(total: Expr) -> Expr:
