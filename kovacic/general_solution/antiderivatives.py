@@ -142,13 +142,13 @@ def _in_another_variable(changes: Callable[[Expr, Expr], Iterable[ChangeOfIntegr
     found = []
     for change in changes(term, x):
         t, g = change.t, change.integrand
-        # in log(t), where t is exp(k x), exponentials would come back
-        leads_back = change.u.has(exp) and any(not (f.args[0] / t).has(t) for f in g.atoms(log))
-        if g.has(x) or leads_back:
-            continue
         with suppress(UnknownIntegral):
+            # in log(t), where t is exp(k x), exponentials would come back
+            require(not (change.u.has(exp) and any(not (f.args[0] / t).has(t) for f in g.atoms(log))))
+            require(not g.has(x))
             integral = first_known(partial(rule, g, t) for rule in (integral_of_fraction, _by_rules))
-            found += [] if integral.has(sympy.Integral) else [change.back(integral)]  # which has another variable
+            require(not integral.has(sympy.Integral))  # which would have another variable
+            found.append(change.back(integral))
     require(found)
     return min(found, key=size)
 

@@ -89,8 +89,8 @@ def prepared(integrand: Expr) -> Expr:
         integrand = TR2(TR1(integrand))
     # SymPy would multiply (x + 1)^(-3/2) out, in the denominator, and write log(x/(1 - x) + 1/(1 - x)).
     quotients = [f for f in integrand.atoms(log) if f.args[0].is_Mul and sympy.denom(f.args[0]).is_Add]
-    sums = [power for power in integrand.atoms(sympy.Pow) if power.base.is_Add and power.exp.is_Rational]
-    powers = [power for power in sums if power.exp < -1 and not power.exp.is_Integer]
+    roots = [power for power in integrand.atoms(sympy.Pow) if power.exp.is_Rational and not power.exp.is_Integer]
+    powers = [power for power in roots if power.exp < -1 and power.base.is_Add]
 
     def expanded(rest: Expr) -> Expr:
         check_duration(_PART_SECONDS * expanded_size(rest), "expanding an integrand")
@@ -118,11 +118,12 @@ def integral_of_product(term: Expr, x: Expr) -> Expr:
     odd = [polynomial for polynomial in _polynomial_radicands(term, x) if polynomial.degree() % 2]
     if odd and all(polynomial.LC().is_negative for polynomial in odd):
         return -integral_of_product(term.subs(x, -x), x).subs(x, -x)
-    return _integral_by_rate(ratfunc(_rate(term, x), x), term, x)
+    return _integral_by_rate(term, x)
 
 
-def _integral_by_rate(rate: RatFunc | None, term: Expr, x: Expr) -> Expr:
-    """int g dx for g = K h with h'/h = rate: K int h dx."""
+def _integral_by_rate(term: Expr, x: Expr) -> Expr:
+    """int g dx for g = K h with a rational h'/h: K int h dx."""
+    rate = ratfunc(_rate(term, x), x)
     if rate is None:
         raise UnknownIntegral
     polynomials = _polynomial_radicands(term, x)
@@ -155,8 +156,7 @@ def _constant_value(term: Expr, other: Expr, x: Expr) -> Expr:
 
 def _polynomial_radicands(term: Expr, x: Expr) -> list[Expr]:
     """Polynomials in x whose roots are factors."""
-    bases = [base for base in radicands(term) if base.has(x)]
-    return [sympy.Poly(base, x) for base in bases if base.is_polynomial(x)]
+    return [sympy.Poly(base, x) for base in radicands(term) if base.has(x) and base.is_polynomial(x)]
 
 
 def _rate(g: Expr, x: Expr) -> Expr:

@@ -235,15 +235,15 @@ def _symmetric_product(polynomial: Expr, rate_of: Mapping[Expr, Expr]) -> tuple[
 
 def _symmetric(part: Expr, rate_of: Mapping[Expr, Expr]) -> tuple[Expr, Expr]:
     """m, and the sum (1) without e^m, for a polynomial in the letters that stand for e^rate."""
-    terms = dict(sympy.Poly(part, *rate_of).terms())
-    centre = [sympy.Rational(sum(column), len(terms)) for column in zip(*terms, strict=True)]
-    m = sympy.Add(*(middle * rate for middle, rate in zip(centre, rate_of.values(), strict=True)))
+    terms = sympy.Poly(part, *rate_of).terms()
+    by_exponent = {sympy.expand(sympy.Add(*map(mul, degrees, rate_of.values()))): c for degrees, c in terms}
+    m = sympy.expand(sympy.Add(*by_exponent) / len(terms))
     total = sympy.Integer(0)
-    for degrees, c in terms.items():
-        d = terms.get(tuple(2 * middle - degree for middle, degree in zip(centre, degrees, strict=True)))
+    for exponent, c in by_exponent.items():
+        d = by_exponent.get(sympy.expand(2 * m - exponent))
         if d is None or (0 not in (c + d, c - d) and c.is_number and d.is_number):
             raise _NotSymmetric
-        h = sympy.Add(*((k - middle) * rate for k, middle, rate in zip(degrees, centre, rate_of.values(), strict=True)))
+        h = sympy.expand(exponent - m)
         if not h.could_extract_minus_sign():  # each pair once; in the middle c is d
             h = sympy.factor_terms(h)
             total += c if h == 0 else (c + d) * cosh(h) + (c - d) * sinh(h)
