@@ -15,6 +15,7 @@ the larger one, r = lim y1/y2: then C2 + r C1 = 0, and y = C1 (y1 - r y2).  As (
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
+from contextlib import suppress
 from dataclasses import dataclass, replace
 from enum import Enum
 from itertools import combinations
@@ -123,11 +124,12 @@ def determine(
     others = [row for row in rows if row is not first and row is not second]
     found = _split(_Solved((c1, c2), [row.rest(c1, c2) for row in others]))
     if when is Zero.SOMETIMES:  # then the case of rank one, as far as it follows from the minor's being zero
-        of_rank_one = _of_rank_one(rows, names)
         case = ParameterCase((), Outcome.OPEN)
-        if len(rows) == 2 and when_zero(of_rank_one.pivot) is not Zero.SOMETIMES:
-            generic, particular, _ = _split(of_rank_one)
-            case = particular[0] if particular else generic
+        with suppress(NotImplementedError):  # undecided there, which says nothing about all other values
+            of_rank_one = _of_rank_one(rows, names)
+            if len(rows) == 2 and when_zero(of_rank_one.pivot) is not Zero.SOMETIMES:
+                generic, particular, _ = _split(of_rank_one)
+                case = particular[0] if particular else generic
         found.particular.append(replace(case, zeros=(value / scale,), needed=case.zeros))
     return found
 

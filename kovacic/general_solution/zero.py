@@ -183,9 +183,10 @@ def sample_value(symbol: Expr, k: int) -> Expr:
     if symbol.is_integer:
         value = sympy.Integer(k + 1 if symbol.is_odd is None else 2 * k + 2 - symbol.is_odd)
     else:
-        # between 1 and 2.01 but for k, with a large numerator and denominator: another one for most other names
+        # Between 1 and 2 but for k, another one for most other names.  Of short numerators, for SymPy reduces (17/4)^(5/7) to
+        # a root of 17^5 4^2.
         code = sum(ord(character) * 31**place for place, character in enumerate(symbol.name))
-        value = sympy.Rational(9973 + 2 * code % 9973, 9967) + k
+        value = sympy.Rational(102 + 2 * code % 99, 101) + k
     return -value if symbol.is_nonpositive else value
 
 
