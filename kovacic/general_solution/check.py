@@ -265,9 +265,13 @@ def _is_violated(claim: SolutionClaim, condition: Condition, numbers: dict[Expr,
     x = claim.x
     y = in_steps(claim.y, x) if claim.y.has(*_CORNERS) else claim.y  # |x| is -x just before 0
     total = (condition.of(y, x) - condition.value).xreplace(numbers)
-    unknown = [e for e in total.atoms(sympy.Integral) if e.limits[0][1:]]  # numbers that aren't known
-    letters = {e: sympy.Symbol(f"integral_{k}") for k, e in enumerate(sorted(unknown, key=str))}
-    total = total.xreplace(letters)
+    # Numbers that aren't known, but for factors that may stand before one and in another.
+    unknown = {
+        e: e.function.as_independent(e.variables[0], as_Add=False)
+        for e in total.atoms(sympy.Integral)
+        if e.limits[0][1:]
+    }
+    total = total.xreplace({e: factor * sympy.Symbol(f"{rest}{e.limits}") for e, (factor, rest) in unknown.items()})
     # parameters on which a step depends, with values on either side of it as a rule
     symbols = set().union(*(step.free_symbols for step in total.atoms(sympy.Heaviside)))
     tried = islice(samples(symbols), _SAMPLES if symbols else 1)

@@ -491,6 +491,31 @@ def test_an_answer_that_holds_in_an_exceptional_case_has_none(equation: str, ics
     assert not kovacic.answer_to(equation, ics=ics, assume=assume).notices
 
 
+@pytest.mark.parametrize(
+    ("text", "said"),
+    [
+        # whether there are solutions at such values isn't known for the integral
+        (
+            "y'' + k^2*y = 1/(1+x^4), y(0) = 0, y(L) = 0",
+            "sin(L*k) = 0 and k != 0: give such values for the solutions there",
+        ),
+        # an integral from 1 to 3 is divided by sqrt(k - n^2), another has that inside
+        (
+            "y'' + 2*n*y' + k*y = x^k, y(1) = p, y(3) = q",
+            "sin(2*sqrt(k - n**2)) = 0 and k - n**2 != 0: give such values",
+        ),
+        # (17/4)^(5/7), for generic values, would have larger numerators
+        (
+            "(1+a*x)*y'' - q*y' = 0, y(2) = p, y(3) = 0",
+            "(2*a + 1)**(1 + q/a) - (3*a + 1)**(1 + q/a) = 0 and a + q != 0, where",
+        ),
+    ],
+)
+def test_there_is_an_answer_beside_exceptions_that_are_hard(text: str, said: str) -> None:
+    (notice,) = kovacic.answer_to(text).notices
+    assert f"unless {said}" in notice
+
+
 def test_the_answer_is_kept_where_an_exceptional_case_takes_too_long() -> None:
     """At k = 0 the equation is solved once more, in a part of the time that is left."""
     notices: set[str] = set()
