@@ -118,7 +118,7 @@ class Gauss(StandardEquation):
         yield from (Pullback(Gauss(*squares), f) for f, *squares in coverings(points, apparent))
 
     def written(self, writer: Writer, f: RatFunc) -> WrittenPair | None:
-        forms = sorted(_GaussForm.of(self, writer, f).arranged, key=lambda form: form.cost)
+        forms = _GaussForm.of(self, writer, f).arranged
         first = forms[0]
         if any(map(writer.has_letters, (first.alpha, first.beta, first.gamma))):
             signed_forms = [signed for form in forms for signed in form.signs]
@@ -141,10 +141,10 @@ class Gauss(StandardEquation):
 
     def integers(self, writer: Writer, f: RatFunc) -> Iterator[Number]:
         """Degrees of polynomials, and the exponent differences."""
-        forms = _GaussForm.of(self, writer, f).arranged
-        for form in sorted(forms, key=lambda form: form.cost):
+        given = _GaussForm.of(self, writer, f)
+        for form in given.arranged:
             yield from (signed.degree for signed in form.signs if writer.is_natural(-signed.alpha))
-        yield from (forms[0].alpha, forms[0].beta, forms[0].gamma)
+        yield from (given.alpha, given.beta, given.gamma)
 
     @property
     def parameters(self) -> list[fmpq]:
@@ -181,7 +181,7 @@ def _shifted(points: list[Point], apparent: list[Point]) -> Iterator[Pullback]:
             yield Pullback(Gauss(*squares), f)
             # Contiguous functions have sums of all three that differ by even integers.
             for k, square in enumerate(squares):
-                root = square.field.sqrt(square) if square else square
+                root = square.field.sqrt(square)
                 if root is not None:
                     moved = [*squares[:k], (root - 1) ** 2, *squares[k + 1 :]]
                     yield Pullback(Gauss(*moved), f)
@@ -216,9 +216,10 @@ class _GaussForm:
 
     @property
     def arranged(self) -> list[_GaussForm]:
-        """The points 0, 1 and infinity in all orders."""
+        """The points 0, 1 and infinity in all orders, the preferred one first."""
         orders = _maps(self.f.num, self.f.den, self.alpha, self.beta, self.gamma)
-        return [_GaussForm(self.writer, RatFunc(n, d), *differences) for n, d, *differences in orders]
+        forms = [_GaussForm(self.writer, RatFunc(n, d), *differences) for n, d, *differences in orders]
+        return sorted(forms, key=lambda form: form.cost)
 
     @property
     def signs(self) -> Iterator[_GaussForm]:

@@ -277,7 +277,7 @@ def value_at(f: RatFunc, point: Point | Place) -> Poly | None:
 
 def _shifted_differences(square: Poly, k: int) -> Iterator[Poly]:
     """The squares of e with k e = Delta up to sign and integers, small ones first where they are rational."""
-    root = square.field.sqrt(square) if square else square
+    root = square.field.sqrt(square)
     if root is None:
         return
     rational = root.field.rational_value(root)

@@ -127,7 +127,7 @@ def _shifts(first: Place, second: Place) -> list[int]:
             squares = [first.factor * 0] if first.order % 2 else _squares_of_residues(first, second)
     elif A is not None and B is not None:
         # n^2 = A + B -+ 2 sqrt(A B), whether the roots of A and B lie in the field or not
-        root = A.field.sqrt(A * B) if A * B else A * B
+        root = A.field.sqrt(A * B)
         squares = [] if root is None else [A + B - 2 * root, A + B + 2 * root]
     elif A is B:
         squares = [first.factor * 0]

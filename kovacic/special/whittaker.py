@@ -159,10 +159,11 @@ class Whittaker(Bessel):
 def _near_zero(q: Poly, r: Poly) -> list[Poly]:
     """2 sqrt(q) kappa for the kappa between -1/2 and 1/2 that differs from r's by an integer, where it is rational."""
     root = q.field.sqrt(q)
-    kappa = None if root is None else q.field.rational_value(r / (2 * root))
-    if root is None or kappa is None:
-        return []
-    return [root * (2 * (kappa - round(kappa)))]
+    if root is not None:
+        kappa = q.field.rational_value(r / (2 * root))
+        if kappa is not None:
+            return [root * (2 * (kappa - round(kappa)))]
+    return []
 
 
 def _signs(parts: list[PolarPart]) -> Iterator[Sequence[int]]:

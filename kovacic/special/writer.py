@@ -249,7 +249,7 @@ class Writer:
     def square_root(self, square: Poly) -> Number:
         """A square root, in the field or as a multiple of an earlier one where that is possible; never with a minus sign."""
         zero = square * 0
-        inside = square.field.sqrt(square) if square else square
+        inside = square.field.sqrt(square)
         if inside is not None:
             return Number(self._without_sign(inside))
         for known in self._squares:
