@@ -301,7 +301,7 @@ class Atoms:
         mean = self.constant(value[0] - slope * p[1] * Fraction(1, 2))
         content, shown = self.primitive(p)
         A = content.inverse()
-        total = mean * log(shown) if mean else Integer(0)
+        total = mean * log(shown)
         twice = self.poly(p.derivative() * A)
         w = (4 * p[0] - p[1] * p[1]) * A * A
         if discriminant(p) is None and self.is_negative(w):

@@ -89,7 +89,7 @@ def real_pair(form: Conjugate, atoms: Atoms) -> tuple[Expr, Expr]:
         evaluate = angle.has(sympy.atan)  # everything else stays as it is
         c = cos(angle, evaluate=evaluate)
         t = sin(angle, evaluate=evaluate)
-        first, second = (first * c, first * t) if second == 0 else (first * c - second * t, first * t + second * c)
+        first, second = first * c - second * t, first * t + second * c
     return _without_content(first) * common, _without_content(second) * common
 
 

@@ -65,7 +65,7 @@ class Airy(StandardEquation):
 
     def form(self, n: fmpq_poly, d: fmpq_poly, coordinate: int) -> StandardForm:
         (q,) = self.constants
-        size = acb(1) if abs(q) == 1 else acb(arb(abs(q)).root(3))
+        size = acb(arb(abs(q)).root(3))
         c = size if q > 0 else -size
 
         def values(z: acb, needed: Sequence[bool]) -> list[ValueAndSlope]:

@@ -36,6 +36,7 @@ from kovacic.special.maps import (
     Fibre,
     Number,
     fibres,
+    in_x,
     irregular_places,
     leading_square,
     regular_points,
@@ -168,10 +169,9 @@ def _by_zeros(problem: Problem, irregular: list[Place]) -> Iterator[tuple[RatFun
 
 def _scale(f: RatFunc, place: Place) -> Poly | None:
     """The constant c for which c f has the leading coefficient at the pole that S shows; None if there is none."""
-    field = f.field
     p = place.factor
     d = place.order - 2
-    local = f(RatFunc(field.poly([1]), field.poly([0, 1]))) if place.at_infinity else f
+    local = in_x(f, place)
     scale = leading_square(place) * (local.den // p**d) * local.num.inverse_modulo(p) % p
     return scale if scale.degree == 0 else None
 

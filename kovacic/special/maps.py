@@ -65,7 +65,7 @@ class Number:
             return Number(self.part + other, self.roots)
         total = dict(self.roots)
         for square, coefficient in other.roots:
-            total[square] = total[square] + coefficient if square in total else coefficient
+            total[square] = coefficient + total.get(square, 0)
         return Number(self.part + other.part, tuple((square, c) for square, c in total.items() if c))
 
     __radd__ = __add__
