@@ -155,16 +155,11 @@ def _zero_factors(form: OnCurve, kappa: Expr, atoms: Atoms) -> tuple[Expr, Expr]
 
 def _times(factor: Expr, term: Expr) -> Expr:
     """factor * term with the square roots of rational numbers multiplied out."""
-    number = term
-    rest: Expr = Integer(1)
-    if term.free_symbols:
-        number, rest = term.as_independent(*term.free_symbols, as_Add=False)
+    number, rest = term.as_independent(*term.free_symbols, as_Add=False)
     square = sympy.expand_mul(factor**2 * number**2)
-    if not (square.is_Rational and factor.is_real and number.is_real):
-        return sympy.sqrtdenest(sympy.expand_mul(factor * number)) * rest
-    if bool(factor.is_negative) != bool(number.is_negative):
-        return -sqrt(square) * rest
-    return sqrt(square) * rest
+    if square.is_Rational and factor.is_real and number.is_real:
+        return sympy.sign(factor) * sympy.sign(number) * sqrt(square) * rest
+    return sympy.sqrtdenest(sympy.expand_mul(factor * number)) * rest
 
 
 def _oriented(form: OnCurve) -> OnCurve:
@@ -602,13 +597,9 @@ def logarithms(residues: Iterable[Residue], atoms: Atoms, y: Product | None = No
 
 def _are_real_before(end: Poly, y: Product, atoms: Atoms) -> bool:
     """False if a root in y, as it is written, isn't real to the left of a number and near it."""
-    for group, exponent in grouped(merged(y)):
-        for base in () if atoms.constant(exponent).is_Integer else group:
-            # Where it is zero the base is negative to the left, unless it is written with the other sign.
-            is_positive = atoms.constant(base(end)).is_positive
-            if is_positive is not None and is_positive == atoms.is_turned(base):
-                return False
-    return True
+    roots = (base for group, e in grouped(merged(y)) if not atoms.constant(e).is_Integer for base in group)
+    # Where it is zero the base is negative to the left, unless it is written with the other sign.
+    return all(atoms.constant(base(end)).is_positive in (None, not atoms.is_turned(base)) for base in roots)
 
 
 def _is_at_a_point(residue: Residue) -> bool:
