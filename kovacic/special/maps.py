@@ -38,7 +38,6 @@ from dataclasses import dataclass
 from fractions import Fraction
 from itertools import combinations
 from math import gcd, lcm
-from typing import TypeVar
 
 from kovacic.algebra.extension import root, root_modulo
 from kovacic.algebra.partial_fractions import decompose
@@ -94,13 +93,8 @@ def irregular_places(problem: Problem) -> list[Place]:
     return [place for place in problem.places if place.kind in (Kind.UNRAMIFIED, Kind.RAMIFIED)]
 
 
-Part = TypeVar("Part")
-
-
-def parts_by_scale(
-    problem: Problem, leading: Callable[[Place], Poly], n: int, part: Callable[[Place, Poly], Part | None]
-) -> Iterator[tuple[Poly, list[Part]]]:
-    """q with the parts of an n-th root at all irregular places, for each q for which there are such; `leading` is for `scales`.
+def parts_by_scale(problem: Problem, n: int) -> Iterator[tuple[Poly, list[PolarPart]]]:
+    """q with the parts of an n-th root at all irregular places, for each q for which there are such.
 
     Raises `LimitExceeded` where poles are conjugate over a larger field than the limit on constants allows.
     """
@@ -109,15 +103,15 @@ def parts_by_scale(
     most = problem.budget.limits.constants if problem.field.ground == QQ else _WITH_PARAMETERS
     if largest > most:
         raise LimitExceeded(f"f has {largest} conjugate poles; roots are taken up to degree {most}", limit="constants")
-    for q in scales(places, leading, n):
-        parts = [found for place in places if (found := part(place, q)) is not None]
+    for q in scales(places, n):
+        parts = [found for place in places if (found := _ROOTS[n][1](place, q)) is not None]
         if len(parts) == len(places):
             yield q, parts
 
 
 @dataclass(frozen=True)
 class PolarPart:
-    """That of int sqrt(S/q) dx, up to the sign, its order, and the residue of sqrt(S/q) dx, a constant in K[x]/p."""
+    """That of f, for a square root up to its sign, its order, and the residue of sqrt(S/q) dx, a constant in K[x]/p."""
 
     part: RatFunc
     order: int
@@ -174,12 +168,12 @@ def expanded_square(place: Place, precision: int) -> Poly:
     return T
 
 
-def integral_of_cubic_root(place: Place, q: Poly) -> RatFunc | None:
+def integral_of_cubic_root(place: Place, q: Poly) -> PolarPart | None:
     """F at a place where q F'^2 F = S + ...: F^3 = -9 t/q has a pole of order d = k - 2; None without a cubic root."""
     p = place.factor
     d = (place.order - 2) // 3
     W = root_modulo(expanded_square(place, d) * -9 / q, p, 3, d)
-    return None if W is None else in_x(RatFunc(W, p**d), place)
+    return None if W is None else PolarPart(in_x(RatFunc(W, p**d), place), d, p * 0)
 
 
 def in_x(function: RatFunc, place: Place) -> RatFunc:
@@ -193,15 +187,21 @@ def in_x(function: RatFunc, place: Place) -> RatFunc:
 # ------------------------------------------------------------------------------------------ scale and constant
 
 
-def scales(places: list[Place], value: Callable[[Place], Poly], n: int) -> list[Poly]:
+#: By n what shows q up to n-th powers at a place, and the part of the n-th root there.
+_ROOTS: dict[int, tuple[Callable[[Place], Poly], Callable[[Place, Poly], PolarPart | None]]] = {
+    2: (lambda place: place.unit(1), integral_of_square_root),
+    3: (lambda place: leading_square(place) * -9, integral_of_cubic_root),
+}
+
+
+def scales(places: list[Place], n: int) -> list[Poly]:
     """What q can be, up to n-th powers: the leading coefficient at a place of degree 1; else 1, -1 and what norms tell."""
     place = min(places, key=lambda place: place.degree)
-    v = value(place)
+    v = _ROOTS[n][0](place)
     field = place.num.field
     one = field.poly([1])
     if place.degree == 1:
-        is_power = root(v[0], n) is not None
-        return [one] if is_power else [v[0]]
+        return [v[0]] if root(v[0], n) is None else [one]
     scales = [one] if n == 3 else [one, -one]
     if place.degree == 2 and n == 2:
         # v = q w^2 has the norm (q N(w))^2, and (v + sqrt N(v))^2 = v (tr v + 2 sqrt N(v)).

@@ -136,7 +136,7 @@ def _shifts(first: Place, second: Place) -> list[int]:
 
 def _squares_of_residues(first: Place, second: Place) -> list[Poly]:
     """The square of twice the difference of those of sqrt(S) and sqrt(T), if both have one polar part."""
-    for q in scales([second], lambda place: place.unit(1), 2):
+    for q in scales([second], 2):
         own = integral_of_square_root(first, q)
         other = integral_of_square_root(second, q)
         for sign in (1, -1):

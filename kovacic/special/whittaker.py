@@ -39,15 +39,7 @@ from kovacic.engine.places import Problem
 from kovacic.limits import count_work
 from kovacic.special import prices
 from kovacic.special.bessel import Bessel, written
-from kovacic.special.maps import (
-    HALF,
-    Number,
-    PolarPart,
-    integral_of_square_root,
-    irregular_places,
-    parts_by_scale,
-    zeros,
-)
+from kovacic.special.maps import HALF, Number, PolarPart, irregular_places, parts_by_scale, zeros
 from kovacic.special.pullback import (
     TRIAL,
     Pullback,
@@ -82,7 +74,7 @@ class Whittaker(Bessel):
     def candidates(cls, problem: Problem, *, extended: bool, shifted: bool = False) -> Iterator[Pullback]:
         if any(place.order % 2 for place in irregular_places(problem)):
             return
-        for q, parts in parts_by_scale(problem, lambda place: place.unit(1), 2, integral_of_square_root):
+        for q, parts in parts_by_scale(problem, 2):
             r = parts[0].residue * q * Fraction(2, parts[0].order)
             for signs in _signs(parts):
                 count_work(TRIAL)
