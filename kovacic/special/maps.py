@@ -328,16 +328,14 @@ class Fibre:
 
     multiplicities: tuple[tuple[Point, int], ...]
     square: Poly
-    mask: int = 0
-    """The points as bits, by their numbers among those that are distributed."""
 
     @cached_property
     def degree(self) -> int:
         return sum(k * point.degree for point, k in self.multiplicities)
 
-    @property
-    def points(self) -> int:
-        return _count(point for point, _ in self.multiplicities)
+    @cached_property
+    def points(self) -> frozenset[Point]:
+        return frozenset(point for point, _ in self.multiplicities)
 
     @property
     def polynomial(self) -> Poly:
@@ -365,17 +363,17 @@ def _distributed(points: list[Point], apparent: list[Point], hidden: int) -> Ite
             by_degree.setdefault(fibre.degree, []).append(fibre)
     for n, found in sorted(by_degree.items()):
         # polynomials f first
-        found.sort(key=lambda fibre: not all(point.at_infinity for point, _ in fibre.multiplicities))
+        found.sort(key=lambda fibre: not all(point.at_infinity for point in fibre.points))
         for zeros, poles in combinations(found, 2):
             check_time()
             count_work(1)
-            if zeros.mask & poles.mask:
+            if not zeros.points.isdisjoint(poles.points):
                 continue
-            used = zeros.mask | poles.mask
-            rest = [point for point in points if not used >> among.index(point) & 1]
+            used = zeros.points | poles.points
+            rest = [point for point in points if point not in used]
             over_one = _count(rest)
             multiple = (n - over_one) // 2  # at most: S doesn't show these
-            if zeros.points + poles.points + over_one + multiple >= n + 2:
+            if _count(used) + over_one + multiple >= n + 2:
                 yield zeros, poles, rest
 
 
@@ -386,7 +384,7 @@ def _count(points: Iterable[Point]) -> int:
 
 def fibres(points: list[Point], most: int) -> Iterator[Fibre]:
     """Every set of points that can be a whole fibre of a function of degree `most` or less, with its multiplicities."""
-    for chosen, mask in _commensurable(points, most, 0, [], 0):
+    for chosen in _commensurable(points, most):
         # The smallest natural numbers in the proportion of the exponent differences; where these are 0 the multiplicities are
         # free, and only equal ones are tried.
         ratios = [_ratio(point, chosen[0]) or Fraction(1) for point in chosen]
@@ -396,22 +394,19 @@ def fibres(points: list[Point], most: int) -> Iterator[Fibre]:
         for k in range(1, most // size + 1):
             multiplicities = tuple((point, k * m) for point, m in zip(chosen, least, strict=True))
             square = chosen[0].square * Fraction(1, (k * least[0]) ** 2)
-            yield Fibre(multiplicities, square, mask)
+            yield Fibre(multiplicities, square)
 
 
-def _commensurable(
-    points: list[Point], most: int, index: int, chosen: list[Point], mask: int
-) -> Iterator[tuple[list[Point], int]]:
-    """Sets of `most` points or fewer with rational quotients of their exponent differences, as lists and as bits: what has been
-    chosen before the index, and all that goes with it from there."""
+def _commensurable(points: list[Point], most: int, chosen: tuple[Point, ...] = ()) -> Iterator[tuple[Point, ...]]:
+    """Sets of `most` points or fewer with rational quotients of their exponent differences: what has been chosen, and all that
+    goes with it."""
     if chosen:
-        yield chosen, mask
+        yield chosen
     left = most - _count(chosen)
-    for k in range(index, len(points)):
-        point = points[k]
+    for k, point in enumerate(points):
         goes_with_others = not chosen or _ratio(point, chosen[0]) is not None
         if goes_with_others and point.degree <= left:
-            yield from _commensurable(points, most, k + 1, [*chosen, point], mask | 1 << k)
+            yield from _commensurable(points[k + 1 :], most, (*chosen, point))
 
 
 def _ratio(point: Point, other: Point) -> Fraction | None:
