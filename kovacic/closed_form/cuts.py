@@ -189,9 +189,9 @@ def real_at(
 
     if not place.is_real or not left(pair):
         return pair
-    makers: list[Callable[[], tuple[Expr, Expr]]] = [lambda: pair] if anew is None else [lambda: pair, anew]
+    makers: list[Callable[[], tuple[Expr, Expr]] | None] = [lambda: pair, anew]
     chosen, least = pair, sys.maxsize
-    for written in makers:
+    for written in filter(None, makers):
         y1, y2 = turned = tuple(all_turned(sympy.Tuple(*written()), x, place, own))
         count = left(turned)
         are_solutions = count < least and all(y in pair or is_numerical_solution(y, x, S, gauge) for y in turned)

@@ -509,14 +509,14 @@ def triangular(form: Triangular, atoms: Atoms) -> tuple[Expr, Expr, tuple[str, .
     _, value, notes = curve_integral(primitive, atoms)
     content, shown = value.as_content_primitive()
     if shown.could_extract_minus_sign():
-        content, shown = -content, -shown
-    if not primitive.exact:
-        return first, Add(*(first * term for term in Add.make_args(shown))), notes
-    # y1 times the rational function before the root of g, in lowest terms
-    scale, whole = factors(form.first, atoms, primitive.exact)
-    algebraic = Mul(scale / (parts[0] * content), *whole, *atoms.root_of(primitive.g))
-    _, rest, _ = curve_integral(replace(primitive, exact=primitive.exact * 0), atoms)
-    return first, Add(algebraic, *(first * (term / content) for term in Add.make_args(rest))), notes
+        content = -content
+    algebraic: Expr = Integer(0)
+    if primitive.exact:
+        # y1 times the rational function before the root of g, in lowest terms
+        scale, whole = factors(form.first, atoms, primitive.exact)
+        algebraic = Mul(scale / (parts[0] * content), *whole, *atoms.root_of(primitive.g))
+        _, value, _ = curve_integral(replace(primitive, exact=primitive.exact * 0), atoms)
+    return first, Add(algebraic, *(first * (term / content) for term in Add.make_args(value))), notes
 
 
 def integral(h: Product, atoms: Atoms) -> Expr | None:
