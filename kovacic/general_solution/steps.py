@@ -85,7 +85,7 @@ def place_of(jump: Expr, x: Expr) -> HeavisidePlace | None:
 def jump_points(e: Expr, x: Expr) -> list[Expr]:
     """The places of the steps and impulses in an expression, each once."""
     places = (place_of(jump, x) for jump in sorted(e.atoms(Heaviside, DiracDelta), key=str))
-    return [*dict.fromkeys(place.a for place in places if place is not None)]
+    return [*dict.fromkeys(place.a for place in filter(None, places))]
 
 
 def with_single_steps(e: Expr) -> Expr:
@@ -261,8 +261,7 @@ def above(u: Expr, x: Expr) -> Expr:
 def break_points(expression: Expr, x: Expr) -> list[Expr]:
     """The points where functions of an expression jump, as far as they are known, from left to right."""
     parts = sympy.Tuple(*(_at_points(_in_heavisides(e, x), x) for e in expression.atoms(*JUMPING) if e.has(x)))
-    numbers = [point for point in jump_points(parts, x) if point.is_number and point.is_real]
-    return sorted(numbers, key=lambda point: float(point.evalf()))
+    return sorted((a for a in jump_points(parts, x) if a.is_number and a.is_real), key=lambda a: float(a.evalf()))
 
 
 def between(breaks: Sequence[Expr]) -> list[Expr]:

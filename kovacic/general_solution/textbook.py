@@ -261,7 +261,7 @@ def _exchanged(value: Expr, x: Expr) -> Iterator[Expr]:
 def _single_waves(value: Expr, x: Expr) -> Iterator[Expr]:
     """Products of waves as sums, where a term has two."""
     expanded = sympy.expand(value) if value.has(sin, cos) else value
-    terms = (sympy.Mul.make_args(term) for term in sympy.Add.make_args(expanded))
+    terms = map(sympy.Mul.make_args, sympy.Add.make_args(expanded))
     if any(sum(isinstance(factor, sin | cos) for factor in term) > 1 for term in terms):
         found = sympy.powsimp(in_single_waves(value))
         steps = sorted(value.atoms(Heaviside), key=str)

@@ -53,8 +53,8 @@ def _at_tangent(found: Expr, angle: Expr, u: Expr) -> Expr:
         if not all(part.is_polynomial(u) for part in parts):
             continue
         degrees = [sympy.degree(part, u) for part in parts]
-        in_waves = [sympy.expand(sympy.expand(p.subs(u, s / c) * c**n)) for p, n in zip(parts, degrees, strict=True)]
-        n, m = (in_single_waves(part).as_content_primitive()[1] for part in in_waves)
+        in_waves = (in_single_waves(part.subs(u, s / c) * c**k) for part, k in zip(parts, degrees, strict=True))
+        n, m = (part.as_content_primitive()[1] for part in in_waves)
         known[logarithm] = log(n / m) - sympy.Rational(degrees[0] - degrees[1], 2) * in_cosine
     whole = sympy.expand(found.xreplace(known), deep=False).xreplace({in_cosine: 2 * log(c)})
     return whole.xreplace({u**2 + 1: c**-2}).xreplace({u: s / c})
@@ -132,7 +132,7 @@ def wave_changes(term: Expr, x: Expr) -> Iterator[WaveChange]:
 
 def in_waves(e: Expr) -> Expr:
     """With exp(i u) = cos(u) + i sin(u)."""
-    angles = {f: sympy.expand(f.args[0] / sympy.I) for f in e.atoms(sympy.exp) if f.has(sympy.I)}
+    angles = {f: sympy.expand(f.args[0] / sympy.I) for f in e.atoms(sympy.exp)}
     return e.xreplace({f: cos(u) + sympy.I * sin(u) for f, u in angles.items() if not u.has(sympy.I)})
 
 
