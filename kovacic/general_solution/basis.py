@@ -200,23 +200,25 @@ def multiple_of(w: Expr, y1: Expr, y2: Expr, x: Expr, integers: Mapping[Expr, Ex
     >>> multiple_of(1 / x, x**k, x**-k, x)
     -2*k/x
     """
-    for c in chain(_quotients(w, y1, y2, x), _TURNS):
-        if _is_wronskian(c * w, y1, y2, x, integers):
+    for quotient in chain(_quotients(w, y1, y2, x), _TURNS):
+        check_time()
+        c = in_single_waves(quotient or 0)
+        is_constant = c != 0 and c.is_finite is not False and not c.has(sympy.Function, sympy.nan, sympy.zoo)
+        if is_constant and _is_wronskian(c * w, y1, y2, x, integers):
             return _simplified(c) * w
     return None
 
 
-def _quotients(w: Expr, y1: Expr, y2: Expr, x: Expr) -> Iterator[Expr]:
-    """W/w at the points where it is elementary; last, at singular ones, where powers of W and w cancel."""
+def _quotients(w: Expr, y1: Expr, y2: Expr, x: Expr) -> Iterator[Expr | None]:
+    """W/w at the points where it has a value; last, at singular ones, where powers of W and w cancel."""
     W = definition(y1, y2, x)
-    values = ([finite_value(e, x, point) for e in (W, w)] for point in _POINTS)
-    found = (above / below for above, below in values if above is not None and below)
-    joined = (sympy.powsimp(expand(W / w)) for _ in range(size(W) <= _LONGEST_JOINED))
-    for quotient in chain(found, (finite_value(e, x, point) for e in joined for point in _POINTS)):
-        check_time()
-        c = in_single_waves(quotient or 0)
-        if c != 0 and c.is_finite is not False and not c.has(sympy.Function, sympy.nan, sympy.zoo):
-            yield c
+    for point in _POINTS:
+        above, below = (finite_value(e, x, point) for e in (W, w))
+        if below:
+            yield above and above / below
+    if size(W) <= _LONGEST_JOINED:
+        joined = sympy.powsimp(expand(W / w))
+        yield from (finite_value(joined, x, point) for point in _POINTS)
 
 
 def _is_wronskian(W: Expr, y1: Expr, y2: Expr, x: Expr, letters: Mapping[Expr, Expr]) -> bool:

@@ -246,7 +246,7 @@ def _is_nearer(found: Expr, far: Any, near: Any) -> bool:
     if found == sympy.oo:
         return bool(near > far * arb("1.02"))
     if found == OSCILLATING:
-        return bool(near < far * 1000) and bool(near > far / 1000)
+        return bool(far / 1000 < near < far * 1000)
     return bool(near < far / arb("1.02")) or bool(near < _LOST)
 
 
@@ -274,7 +274,7 @@ def _with_leading_terms(e: Expr, variable: Expr, towards: Expr) -> Expr:
     for f in e.atoms(sympy.Function):
         *parameters, z = f.args
         rules = _LEADING.get((len(f.ap), len(f.bq)) if isinstance(f, sympy.hyper) else f.func)
-        if rules is None or not z.has(variable) or any(part.has(variable) for part in parameters):
+        if rules is None or not z.has(variable) or sympy.Tuple(*parameters).has(variable):
             continue
         end = _by_sympy(z, variable, towards)
         if end not in rules and end is not None and not end.is_finite:
@@ -440,8 +440,7 @@ def value_at(expression: Expr, x: Expr, point: Expr, order: int = 0) -> Expr:
     if not e.has_free(x):
         return _ZERO if order else e
     # Steps and impulses have the values just before the point: neither has a slope there.
-    steps = [jump for jump in e.atoms(sympy.Heaviside, sympy.DiracDelta) if jump.has(x)]
-    e = e.xreplace({jump: _just_before(e, jump, x, point, order) for jump in steps})
+    e = e.xreplace({jump: _just_before(e, jump, x, point, order) for jump in e.atoms(*_JUMPING) if jump.has(x)})
     if order:
         is_series_at_zero = any(f.argument.subs(x, point) == 0 for f in e.atoms(sympy.hyper))
         derivative = e.diff(x) if is_series_at_zero else slope(e, x)

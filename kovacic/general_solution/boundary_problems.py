@@ -145,7 +145,7 @@ def read_eigenproblem(
     problem = SturmProblem(x, pieces, wishes, wrap, B, sign)
     if wrap and any(end.is_infinite for end in problem.ends):
         raise InputError("periodic conditions need a finite interval")
-    if wrap and problem.B != 0 and sympy.simplify(sympy.integrate(problem.B, (problem.x, *problem.ends))) != 0:
+    if wrap and sympy.simplify(sympy.integrate(problem.B, (problem.x, *problem.ends))) != 0:
         raise InputError("with p(a) different from p(b) periodic conditions don't belong to a symmetric problem")
     return Eigenproblem(problem, parameter)
 
@@ -160,7 +160,7 @@ def _linear_in_parameter(
     x = sympy.Symbol(source.variable)
     symbol = _parameter_among(sympy.Tuple(a, b, c).free_symbols - {x}, parameter)
     c1 = sympy.simplify(c.diff(symbol))
-    if rest != 0 or any(part.has(symbol) for part in (a, b, c1)):
+    if rest != 0 or sympy.Tuple(a, b, c1).has(symbol):
         raise InputError(
             f"a y'' + b y' + (c0 + {parameter} c1) y = 0 is expected, linear in y and in {parameter}",
             hint=f"where {parameter}^2 stands, call that {parameter}",
@@ -182,12 +182,12 @@ def _parameter_among(symbols: Collection[Expr], parameter: str) -> Expr:
             hint=f'{said}; parameter="E" names another',
             shell=f"{said}; --parameter E names another",
         )
-    needed = [name for name in names if name != parameter]
-    if needed:
+    names.remove(parameter)
+    if names:
         raise InputError(
-            f"eigenvalues are numbers: values are needed for {', '.join(needed)}",
-            hint=f"params={dict.fromkeys(needed, 3)}, for instance",
-            shell=" ".join(f"--param {name}=3" for name in needed) + ", for instance",
+            f"eigenvalues are numbers: values are needed for {', '.join(names)}",
+            hint=f"params={dict.fromkeys(names, 3)}, for instance",
+            shell=" ".join(f"--param {name}=3" for name in names) + ", for instance",
         )
     return next(iter(symbols))
 

@@ -110,7 +110,12 @@ class SolutionClaim:
         """As `check_answer`, but for jumps at ordinary points."""
         if not is_finite(self.y):
             raise self.failed("has no value")
-        numbers = _numbers_for(self, natural)
+        # Numbers for symbols that are integers or not positive; other symbols have values by their names.  The answer has a
+        # value for them, if such are found: it is for generic ones, and a small integer needn't be generic.
+        known = set().union(*(part.free_symbols for part in (self.y, *self.coefficients, *self.conditions)))
+        special = {s for s in known if s.is_integer or s.is_nonpositive}
+        tried = islice(fitting_samples(special, natural), _SAMPLES)
+        numbers = next((numbers for numbers in tried if is_finite(self.y.xreplace(numbers))), {})
         beside = None if start is None else start.xreplace(numbers)
         unchecked = self._test("the equation", lambda: _is_wrong_at(self.at(numbers), beside))
         for condition in self.conditions:
@@ -164,17 +169,6 @@ def check_answer(
     return unchecked
 
 
-def _numbers_for(claim: SolutionClaim, natural: Expr | None) -> dict[Expr, Expr]:
-    """Numbers for symbols that are integers or not positive; other symbols have values by their names.
-
-    The answer has a value for them, if such are found: it is for generic ones, and a small integer needn't be generic.
-    """
-    known = set().union(*(part.free_symbols for part in (claim.y, *claim.coefficients, *claim.conditions)))
-    special = {s for s in known if s.is_integer or s.is_negative or s.is_nonpositive}
-    tried = islice(fitting_samples(special, natural), _SAMPLES)
-    return next((numbers for numbers in tried if is_finite(claim.y.xreplace(numbers))), {})
-
-
 def is_finite(value: Expr) -> bool:
     """True if neither nan nor an infinity occurs, except as a bound of an integral."""
     if isinstance(value, sympy.Integral):
@@ -189,7 +183,7 @@ def _is_wrong_at(claim: SolutionClaim, start: Expr | None) -> bool:
     definite = [integral for integral in claim.y.atoms(sympy.Integral) if integral.free_symbols <= letters]
     claim = claim.at(dict.fromkeys(definite, sympy.Integer(1)))  # they are factors of y1 and y2
     with working_digits(DIGITS):
-        if not any(e.has(*JUMPING, AppliedUndef) for e in claim.coefficients):
+        if not sympy.Tuple(*claim.coefficients).has(*JUMPING, AppliedUndef):
             base = acb(fmpq(23, 71), fmpq(41, 89)) if start is None else ball(start)
             return _is_large(claim, claim.y, base + arb(_SAMPLE_STEP))
         claim = _sampled(claim)
@@ -220,12 +214,12 @@ def _is_wrong_across(claim: SolutionClaim, point: Expr, *sides: Expr) -> bool:
     if here and len(rates) == 2:
         wanted[1] -= jet(rates[0], x, at)[0] * wanted[0]
     y = _antiderivatives(claim.y, x, point)
-    if any(e.has(*JUMPING) for e in y.atoms(sympy.Integral)):  # of which no value is known on either side
+    if sympy.Tuple(*y.atoms(sympy.Integral)).has(*JUMPING):  # of which no value is known on either side
         return False
     before, after = (jet(on_piece(y, x, side), x, at)[: len(rates)] for side in sides)
     scale = sum(map(abs, (*before, *after)), arb(1))
-    misses = (right - left - jump for left, right, jump in zip(before, after, wanted, strict=True))
-    return any(bool(abs(miss) > _SMALL * scale) for miss in misses)
+    sides_and_jump = zip(before, after, wanted, strict=True)
+    return any(bool(abs(right - left - jump) > _SMALL * scale) for left, right, jump in sides_and_jump)
 
 
 def _sampled(claim: SolutionClaim) -> SolutionClaim:
@@ -273,7 +267,7 @@ def _is_violated(claim: SolutionClaim, condition: Condition, numbers: dict[Expr,
     }
     total = total.xreplace({e: factor * sympy.Symbol(f"{rest}{e.limits}") for e, (factor, rest) in unknown.items()})
     # parameters on which a step depends, with values on either side of it as a rule
-    symbols = set().union(*(step.free_symbols for step in total.atoms(sympy.Heaviside)))
+    symbols = sympy.Tuple(*total.atoms(sympy.Heaviside)).free_symbols
     tried = islice(samples(symbols), _SAMPLES if symbols else 1)
     with working_digits(2 * DIGITS):
         for steps in tried:
@@ -304,7 +298,7 @@ def jumps(y: Expr, x: Expr, coefficients: Sequence[Expr]) -> bool:
         return False
     with working_precision(_BITS):
         # The sign of a letter outside, as a constant's, moves no jump.
-        inside = set().union(*(e.free_symbols for e in (*y.atoms(sympy.Function, sympy.Pow), *coefficients)))
+        inside = sympy.Tuple(*y.atoms(sympy.Function, sympy.Pow), *coefficients).free_symbols
         first = next(samples(y.free_symbols - {x}))
         second = first | opposite({s: value for s, value in first.items() if s in inside})
         for numbers in [first, second][: 1 + (second != first)]:
@@ -338,8 +332,10 @@ class _Course:
     def jumps_somewhere(self) -> bool:
         """Between two of the points that the arguments of its functions suggest."""
         found = (islice(self._suspects(a, b, _HALVINGS), _MOST_SUSPECTS) for a, b in pairwise(self._points()))
+        own_cuts = cuts_of(sympy.Tuple(*self.coefficients), self.x)
         return any(
-            self._is_ordinary(arb(left).union(arb(right))) and any(self._differ(left, right, order) for order in (0, 1))
+            self._is_analytic(acb(arb(left).union(arb(right))), self.coefficients, own_cuts)  # an ordinary point
+            and any(self._differ(left, right, order) for order in (0, 1))
             for left, right in chain.from_iterable(found)
         )
 
@@ -363,10 +359,6 @@ class _Course:
         middle = (3 * a + 4 * b) / 7
         yield from self._suspects(a, middle, halvings - 1)
         yield from self._suspects(middle, b, halvings - 1)
-
-    def _is_ordinary(self, here: Any) -> bool:
-        """True if the coefficients are analytic on a real ball."""
-        return self._is_analytic(acb(here), self.coefficients, cuts_of(sympy.Tuple(*self.coefficients), self.x))
 
     def _is_analytic(self, here: Acb, functions: Sequence[Expr], cuts: Sequence[Expr]) -> bool:
         """True if all functions are finite on a real ball, with no argument on a cut, or continuous along one."""

@@ -146,9 +146,9 @@ def check_between(question: Question, solutions: Sequence[Expr]) -> None:
     whole = sympy.Tuple(*map(question.own, solutions))
     if len(points) < 2 or (all(is_analytic(y, question.x) for y in whole) and not whole.has(sympy.Heaviside)):
         return
-    pole = next((pole for pole, is_removable in _poles_between(question, points) if not is_removable), None)
-    if pole is not None:
-        raise _apart_error(pole, points)
+    for pole, is_removable in _poles_between(question, points):
+        if not is_removable:
+            raise _apart_error(pole, points)
 
 
 def _points(question: Question) -> list[Expr]:
@@ -173,9 +173,9 @@ def real_at(basis: Basis, point: Expr) -> Basis:
     solution, form = basis.solution, basis.form
     assert solution is not None
     anew = None if form is None else lambda: tuple(y.xreplace(NUMBERS) for y in pair_at(form, point, basis.own))
-    pair = (basis.y1, basis.y2)
-    pair = cuts.real_at(pair, basis.x, solution.S, solution.gauge, point, anew=anew, own=basis.own)
-    return basis if pair == (basis.y1, basis.y2) else replace(basis.of(*pair), place=point)
+    given = (basis.y1, basis.y2)
+    pair = cuts.real_at(given, basis.x, solution.S, solution.gauge, point, anew=anew, own=basis.own)
+    return basis if pair == given else replace(basis.of(*pair), place=point)
 
 
 def real_particular(question: Question, basis: Basis, particular: Expr, place: Expr) -> Expr:

@@ -166,17 +166,13 @@ def _without_even_roots(value: Expr, x: Expr) -> tuple[Expr, dict[Expr, Expr]]:
         s = sympy.Dummy(real=True)
         in_s = value.replace(lambda e: e.is_Pow and e.base == radicand, lambda e: s ** (2 * e.exp))  # noqa: B023
         other = in_s.xreplace({s: -s})
-        if in_s == other or (in_s.has(sympy.hyper) and _are_equal(in_s, other)):
+        # equal for small values of the letters
+        sample = {t: sympy.Rational(k + 2, 2 * k + 5) for k, t in enumerate(sorted(in_s.free_symbols, key=str))}
+        equal = (agree(u.xreplace(sample), v.xreplace(sample)) for u, v in zip(in_s, other, strict=True))
+        if in_s == other or (in_s.has(sympy.hyper) and all(equal)):
             value = in_s
             roots[s] = sympy.sqrt(radicand)
     return value, roots
-
-
-def _are_equal(e: Expr, other: Expr) -> bool:
-    """To 50 digits, for small values of the letters in tuples."""
-    symbols = sorted(e.free_symbols | other.free_symbols, key=str)
-    sample = {symbol: sympy.Rational(k + 2, 2 * k + 5) for k, symbol in enumerate(symbols)}
-    return all(agree(u, v) for u, v in zip(e.xreplace(sample), other.xreplace(sample), strict=True))
 
 
 def _truth(relation: Expr) -> bool | None:
