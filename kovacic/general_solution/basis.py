@@ -121,8 +121,9 @@ class Basis:
     def _integers(self) -> dict[Expr, Expr]:
         """Values of the letters that stand for integers, for which the pair is meant."""
         letters = {s: self.own(s) for s in sympy.Tuple(self.y1, self.y2).free_symbols - {self.x}}
-        values = next(fitting_samples({s for s in letters.values() if s.is_integer}, self.natural), {})
-        return {plain: values[s] for plain, s in letters.items() if s in values}
+        integers = {s: own for s, own in letters.items() if own.is_integer}
+        values = next(fitting_samples({*integers.values()}, self.natural), {})
+        return {plain: values.get(s, s) for plain, s in integers.items()}
 
     @property
     def constant(self) -> Expr:

@@ -142,7 +142,7 @@ def _quotient_of_analytic_functions(e: Expr, x: Expr, point: Expr) -> Expr | Non
         for _ in range(_MOST_DERIVATIVES):
             check_time()
             top, bottom = (finite_value(part, x, point) for part in (above, below))
-            if top is None or bottom is None:
+            if None in (top, bottom):
                 return None
             if not is_zero(bottom):
                 return top / bottom
@@ -156,7 +156,7 @@ def _by_sympy(e: Expr, variable: Expr, towards: Expr) -> Any:
     """SymPy's limit of an expression in functions that it knows; None if it gives up, by whichever exception."""
     # of a function without a series SymPy computes derivatives forever; a Bessel function of an integer order has one
     others = [f for f in e.atoms(sympy.Function) if f.has(variable) and not isinstance(f, _KNOWN)]
-    if size(e) > _LONGEST or not all(isinstance(f, BesselBase) and f.args[0].is_Integer for f in others):
+    if size(e) > _LONGEST or not all(isinstance(f, BesselBase) and f.order.is_Integer for f in others):
         return None
     constant, rest = e.as_independent(variable, as_Add=False)
     rates = _rates_with_signs(rest, variable)

@@ -361,8 +361,11 @@ def _rows_of_limit(limit: _Limit, solutions: Sequence[Expr]) -> tuple[list[Row],
     """The rows, and symbols that were taken for positive where it is only known that they aren't negative."""
     parts = sympy.Tuple(*(y.diff(limit.x, limit.order) for y in solutions), limit.W)
     symbols = sorted(parts.free_symbols - {limit.x}, key=str)
-    perhaps_zero = [s for s in symbols if s.is_nonnegative and not s.is_positive]
-    natural = {s: sympy.Dummy(s.name, integer=s.is_integer, positive=True) for s in perhaps_zero}
+    natural = {
+        s: sympy.Dummy(s.name, integer=s.is_integer, positive=True)
+        for s in symbols
+        if s.is_nonnegative and not s.is_positive
+    }
     for positive in ({}, natural):
         *forms, W = parts.xreplace(positive)
         back = {dummy: symbol for symbol, dummy in positive.items()}

@@ -201,7 +201,7 @@ def one_sided(question: Question) -> tuple[Question, list[str]]:
     """
     h, x, said = question.equation.h, question.x, []
     parts = () if h is None else h.atoms(sympy.Pow, sympy.Function) - h.atoms(sympy.Heaviside, sympy.DiracDelta)
-    steps = {step for part in parts for step in part.atoms(sympy.Heaviside) if step.has(x)}
+    steps = {step for step in sympy.Tuple(*parts).atoms(sympy.Heaviside) if step.has(x)}
     points = given_points(question)
     for step in sorted(steps, key=str):
         place = place_of(step, x)
@@ -252,7 +252,7 @@ def _poles_between(question: Question, points: Sequence[Expr]) -> Iterator[tuple
             yield sympy.Integer(0), False
         a, b, c, f = map(question.own, question.coefficients)
         parts = [b / a, c / a, f / a]
-    needs = {need for part in parts for need in needs_of(part) if not isinstance(need, sympy.GreaterThan)}
+    needs = {need for need in needs_of(sympy.Tuple(*parts)) if not isinstance(need, sympy.GreaterThan)}
     for zero in sorted({need.lhs for need in needs if need.free_symbols == {x}}, key=str):
         for point in _zeros(zero, x, first, last):
             if point.is_number and first < point < last:

@@ -52,7 +52,7 @@ class Validity:
 
     def __str__(self) -> str:
         """`x > 0, c**2 - 4*k*m != 0`."""
-        real = (f"{r.lhs} != 0" if isinstance(r, sympy.Ne) else str(r) for r in self.real)
+        real = (inequality(r.lhs) if isinstance(r, sympy.Ne) else str(r) for r in self.real)
         implied = _nonzero_beside(self.real)
         return ", ".join([*real, *(inequality(e) for e in self.exceptions if e not in implied)])
 
@@ -149,10 +149,10 @@ def _beside_real_roots(zero: Expr) -> tuple[Expr, ...]:
         return (zero,)
     roots = {p: sympy.Dummy(nonnegative=True) for p in zero.atoms(sympy.Pow) if p.exp == sympy.S.Half}
     u = sympy.expand((1 / zero).args[0].xreplace(roots))
-    if u.is_positive:
-        return ()
-    radicand = next((p.base for p, s in roots.items() if (u / s).is_positive), None)
-    return (zero,) if radicand is None else ZeroSet(radicand).factors
+    for p, s in roots.items():
+        if (u / s).is_positive:
+            return ZeroSet(p.base).factors
+    return () if u.is_positive else (zero,)
 
 
 def _without_even_roots(value: Expr, x: Expr) -> tuple[Expr, dict[Expr, Expr]]:
