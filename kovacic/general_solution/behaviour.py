@@ -142,7 +142,7 @@ def _quotient_of_analytic_functions(e: Expr, x: Expr, point: Expr) -> Expr | Non
         for _ in range(_MOST_DERIVATIVES):
             check_time()
             top, bottom = (finite_value(part, x, point) for part in (above, below))
-            if None in (top, bottom):
+            if top is None or bottom is None:
                 return None
             if not is_zero(bottom):
                 return top / bottom
