@@ -166,10 +166,10 @@ class SecondOrderAnswer(ProblemAnswer):
             return self.basis.exceptions
         # With given values a constant that vanishes is a denominator of the answer, or a gamma function has a pole.
         # Where one constant stays free, the solution that it multiplies vanishes with the Wronskian, as sin(k x) at k = 0.
-        members = self.basis.y1.atoms(sympy.Function) | self.basis.y2.atoms(sympy.Function)
-        occur = members & self.eq.xreplace(self.known).rhs.atoms(sympy.Function)
-        found = map(self.question.own, self.basis.undefined) if occur else ()
-        solution = self.question.own(self.eq.xreplace(self.known).rhs)
+        value = self.eq.xreplace(self.known).rhs
+        members = sympy.Tuple(self.basis.y1, self.basis.y2).atoms(sympy.Function)
+        found = map(self.question.own, self.basis.undefined) if members & value.atoms(sympy.Function) else ()
+        solution = self.question.own(value)
         free = [solution.diff(name) for name in self.names if solution.has(name)]
         has_poles = self.eq.has(sympy.gamma)
         zeros = (

@@ -143,11 +143,6 @@ class FirstOrderEquation(OfFirstOrder):
         return FirstOrderEquation(self.functions, (m * self.r, m * self.q, *LINEAR), asked)
 
     @property
-    def of_inverse(self) -> FirstOrderEquation:
-        """The equation of z = 1/w, z' = -r - q z - p z^2."""
-        return FirstOrderEquation(self.functions, (-self.r, -self.q, -self.p, _TWO))
-
-    @property
     def is_linear(self) -> bool:
         return bool(self.r == 0)
 

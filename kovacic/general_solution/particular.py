@@ -179,13 +179,12 @@ def _step_response(g: Expr, basis: Basis, a: Expr) -> Expr:
     if not have_values(basis.rates, x, a):
         return Heaviside(x - a) * _solved(basis, g, None)
     p = _solved(basis, g, a)
-    return Heaviside(x - a) * _from_rest(p, basis, values_at(p, x, a), a)
+    return Heaviside(x - a) * _from_rest(p, basis, *values_at(p, x, a), a)
 
 
-def _from_rest(p: Expr, basis: Basis, values: tuple[Expr, Expr], a: Expr) -> Expr:
-    """p - u for the solution u of the homogeneous equation with u(a), u'(a) = `values`: p(a) and p'(a), for a step."""
+def _from_rest(p: Expr, basis: Basis, value: Expr, rate: Expr, a: Expr) -> Expr:
+    """p - u for the solution u of the homogeneous equation with u(a), u'(a) = value, rate: p(a) and p'(a), for a step."""
     x = basis.x
-    value, rate = values
     wronskian = tidy(value_at(basis.wronskian, x, a))  # a limit where t(x) alone is singular
     if wronskian == 0 or not is_finite(wronskian):
         raise NotImplementedError(f"the functions of the closed form are singular at {a}, where the solutions aren't")
@@ -208,14 +207,14 @@ def _impulse_response(strengths: Mapping[int, Expr], basis: Basis, a: Expr) -> E
     rest = defaultdict(lambda: sympy.Integer(0), strengths)
     singular = sympy.Integer(0)
     for order in range(max(rest), 1, -1):
-        d = rest.pop(order, sympy.Integer(0))
+        d = rest[order]
         singular += d * DiracDelta(x - a, order - 2)
         for rate, n in ((B, order - 1), (C, order - 2)):
             for k in range(n + 1):
                 rest[n - k] -= d * (-1) ** k * comb(n, k) * value_at(rate.diff(x, k), x, a)
     value = rest[1]
     slope = rest[0] - value_at(B, x, a) * value
-    return Heaviside(x - a) * _from_rest(sympy.Integer(0), basis, (-tidy(value), -tidy(slope)), a) + singular
+    return Heaviside(x - a) * _from_rest(sympy.Integer(0), basis, -tidy(value), -tidy(slope), a) + singular
 
 
 # -------------------------------------------------------------------------------------------- variation of parameters

@@ -19,7 +19,7 @@ a rational solution and a term that the constant moves.  Bernoulli's equations, 
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import reduce
 from typing import Any
 
@@ -98,7 +98,8 @@ def solved_riccati(equation: FirstOrderEquation, solver: Solver) -> Solved:
             notices.append(f"-{equation.function} is a solution, too")
     else:
         is_inverted = _is_inverted(equation)
-        solved_for = equation.of_inverse if is_inverted else equation
+        p, q, r, n = equation.entries
+        solved_for = replace(equation, entries=(-r, -q, -p, n)) if is_inverted else equation  # for 1/w
         u, constants, linear = _solved_linear(equation, solved_for, solver)
         notices = linear.notices
         exceptions = tuple(e.xreplace(linear.own) for e in linear.pair_exceptions)

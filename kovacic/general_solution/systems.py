@@ -79,12 +79,10 @@ class LinearSystem(OfFirstOrder):
             joined = sympy.powsimp(sympy.Add(*plain)).replace(sympy.exp, lambda power: sympy.exp(sympy.expand(power)))
             y = sympy.Add(*integrals, joined)
         apart = taken_apart(y, self.x) if y.has(sympy.DiracDelta) else None
-        if apart is None:
-            return y
         # H u has the slope H u' + u(a) delta, where u(a) is zero or what an impulse in f brings.
-        if not all(is_zero(strength) for here in apart.impulses.values() for strength in here.values()):
-            return y
-        return apart.without_impulses(self.x)
+        if apart and all(is_zero(strength) for here in apart.impulses.values() for strength in here.values()):
+            return apart.without_impulses(self.x)
+        return y
 
     def alone(self, other: Expr) -> FirstOrderEquation:
         """The equation of the first unknown, with its conditions, where the second one is known."""
@@ -135,18 +133,17 @@ def read_system(equations: Sequence[Any], functions: Sequence[Any] | None) -> Li
 
 def _unknowns(whole: Sequence[Expr], functions: Sequence[Any] | None) -> tuple[Expr, Expr]:
     """x(t) and y(t): those that are given, or the functions that are differentiated."""
-    differentiated = {e.expr for w in whole for e in w.atoms(sympy.Derivative)}
-    found = [*(functions or sorted(differentiated, key=str))]
+    system = sympy.Tuple(*whole)
+    found = [*(functions or sorted({e.expr for e in system.atoms(sympy.Derivative)}, key=str))]
     if len(found) != 2 or not all(isinstance(f, AppliedUndef) and len(f.args) == 1 for f in found):
         raise InputError("two unknown functions are expected", hint="give them as func=[x(t), y(t)]")
-    if found[0].args != found[1].args:
-        raise InputError(f"{found[0]} and {found[1]} have different variables")
-    kinds = {f.func for f in found}
-    others = {f for w in whole for f in w.atoms(AppliedUndef) if f.func in kinds} - {*found}
+    x, y = found
+    if x.args != y.args:
+        raise InputError(f"{x} and {y} have different variables")
+    others = {f for f in system.atoms(AppliedUndef) if f.func in (x.func, y.func)} - {x, y}
     if others:
-        said = f"{min(others, key=str)} and {found[0]} have different arguments, as in a delay equation"
-        raise NotLinear(said)
-    return found[0], found[1]
+        raise NotLinear(f"{min(others, key=str)} and {x} have different arguments, as in a delay equation")
+    return x, y
 
 
 def solved_system(given: LinearSystem, solver: Solver) -> Solved:
@@ -181,7 +178,7 @@ def solved_system(given: LinearSystem, solver: Solver) -> Solved:
         pair, zeros = _with_constants(system, pair, constants)
     left = [constant for constant in constants if pair.has(constant)]
     if is_open:  # a constant that is left stands before solutions that may vanish with the Wronskian
-        functions_left = [[solution.diff(constant) for solution in pair] for constant in left]
+        functions_left = [sympy.Matrix(pair).diff(constant) for constant in left]
         exceptions = [e for e in exceptions if any(vanishes_with(e, *solutions) for solutions in functions_left)]
     renamed = dict(zip(left, free_constants(len(left), *taken, *system.functions), strict=True))
     x, y = (_with_constants_apart(e, renamed.values(), t) for e in pair.xreplace(renamed))
@@ -236,10 +233,9 @@ def _through_values(system: LinearSystem, values: tuple[Expr, Expr, Expr], solve
 def _with_constants(system: LinearSystem, pair: Expr, constants: Sequence[Expr]) -> tuple[Expr, list[Expr]]:
     """With the constants that the values determine, and expressions in parameters that are zero where that is otherwise."""
     c1, c2 = constants
-    solutions = dict(zip(system.functions, pair, strict=True))
     rows = []
     for f, condition in system.asked:
-        there = value_at(solutions[f], system.x, condition.points[0])
+        there = value_at(pair[system.functions.index(f)], system.x, condition.points[0])
         rows.append(Row(there.diff(c1), there.diff(c2), condition.value - there.subs({c1: 0, c2: 0})))
     generic, others, _ = determine(rows, (c1, c2))
     if generic.outcome is Outcome.NONE:

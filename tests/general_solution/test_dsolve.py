@@ -445,6 +445,7 @@ def test_floats_are_decimals(value: object) -> None:
     ordinary=1,
     long=4,
 )
+@pytest.mark.filterwarnings("ignore:e is Euler's number")
 def test_normal_forms_with_constant_coefficients(text: str, values: dict) -> None:
     """Undetermined coefficients for u with y = G u, and for Euler's equations: no integration."""
     solution = dsolve(text, var="x")
