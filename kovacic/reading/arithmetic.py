@@ -114,12 +114,11 @@ class Arithmetic:
                 fractions.append(part)
             else:
                 polynomials.append(part)
-        if coefficients:
-            polynomials.append(QQ.poly([coefficients.get(k, 0) for k in range(max(coefficients) + 1)]))
+        polynomials.append(QQ.poly([coefficients.get(k, 0) for k in range(max(coefficients, default=-1) + 1)]))
+        polynomial = _total(polynomials, self._poly_sum)
         if not fractions:
-            return _total(polynomials, self._poly_sum)
+            return polynomial
         fraction = _total(fractions, self._ratfunc_sum)
-        polynomial = _total(polynomials, self._poly_sum) if polynomials else None
         if polynomial:  # the sum needs no reduction
             num = self._poly_sum(fraction.num, self._product(polynomial, fraction.den))
             fraction = RatFunc(num, fraction.den.over(num.field), reduced=True)

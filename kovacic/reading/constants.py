@@ -175,7 +175,8 @@ class Constants:
             found.append(f"{said} generic values")
         if EULER in letters:
             found.append(f"{EULER} is Euler's number; it is a letter where it is declared, --names {EULER}")
-        found += [f"{name} is Euler's number" for name in letters if name == f"{EULER}_"]
+        if f"{EULER}_" in letters:
+            found.append(f"{EULER}_ is Euler's number")
         numbers = self.numbers
         if isinstance(numbers, AlgebraicField) and numbers.name == "alpha":
             real, imaginary = map(float, numbers.approximation or ())

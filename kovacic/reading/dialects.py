@@ -464,6 +464,8 @@ class _Translation:
     def opening(self, token: Token) -> bool:
         """A parenthesis, the argument of a name before it or a factor."""
         k = self.k
+        if token.text == "{" and k not in self.partner:
+            raise error_at(self.text, "a brace is never closed", [token], _EXAMPLE)
         self.k += 1
         if token.text == "{" and self.texts[k + 1] == "(" and self.partner.get(k + 1) == self.partner.get(k, 0) - 1:
             self.skipped.add(self.partner[k])  # y{\left(x\right)}, as SymPy prints it

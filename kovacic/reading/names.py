@@ -98,13 +98,11 @@ def unglued(word: str) -> str:
     >>> unglued("xsinx"), unglued("Fcoswt"), unglued("sin2x"), unglued("EI")
     ('x*sin(x)', 'F*cos(w*t)', 'sin(2*x)', 'E*I')
     """
-    text = ""
-    is_inside = False
+    factors: list[str] = []
+    calls: list[tuple[str, list[str]]] = [("", factors)]
     for found in _PARTS.finditer(word):
-        if is_inside and found["function"]:
-            text = text.removesuffix("(") if text.endswith("(") else f"{text})"
-        text += f"{'' if not text or text.endswith('(') else '*'}{found[0]}"
         if found["function"]:
-            is_inside = True
-            text += "("
-    return f"{text}{'...' if text.endswith('(') else ''})" if is_inside else text
+            calls.append((found[0], []))
+        else:
+            calls[-1][1].append(found[0])
+    return "*".join([*factors, *(f"{name}({'*'.join(inside) or '...'})" for name, inside in calls[1:])])
