@@ -1,14 +1,7 @@
 """int g dx for the integrands that variation of parameters meets, at once, without SymPy's integration.
 
-- Products of powers and exponentials of rational functions (Ei, erf, gamma functions): `kovacic.closed_form.primitive`.
-- Logarithms, inverse and error functions, exponential integrals, polynomials times others, by parts, and l^m l'.
-- Waves times rational functions: sine and cosine integrals, Fresnel functions, Ei and erf of complex arguments.
-- Tangents, cotangents, secants, ... times functions whose residues aren't constant: the rest, and an `Integral` that stays.
-- Polynomials times exponentials and waves in x or exp(k x): Y' for Y'' = g, by undetermined coefficients.
-- All of these in log(x), a root of x, or an argument u of a function beside u'.
-- Rational functions of exp(k x), or of sines and cosines, by partial fractions.
-
-`_RULES`, at the end, has them in the order in which they are tried on a term.
+`_RULES`, at the end, has the rules in the order in which they are tried on a term.  What none of them knows goes by parts:
+logarithms, inverse and error functions, exponential integrals, polynomials times others.
 """
 
 from __future__ import annotations
@@ -173,10 +166,8 @@ def _arguments(term: Expr, x: Expr) -> Iterator[ChangeOfIntegrand]:
 def _exponentials(term: Expr, x: Expr) -> Iterator[ChangeOfIntegrand]:
     """To u = exp(k x), of which all exponentials are powers."""
     term = sympy.expand(term)
-    exponentials = [e for e in term.atoms(exp) if e.has(x) and e.args[0].subs(x, 0) == 0]
-    rates = {
-        e: e.args[0].diff(x) for e in exponentials if not e.args[0].diff(x).has(x)
-    }  # exp(sin(x)) isn't one of them
+    own = [e for e in term.atoms(exp) if e.has(x) and e.args[0].subs(x, 0) == 0]
+    rates = {e: e.args[0].diff(x) for e in own if not e.args[0].diff(x).has(x)}  # exp(sin(x)) isn't one of them
     k = common_factor([*rates.values()])
     if k is None:
         return
