@@ -250,19 +250,14 @@ def _append_unit(u: Unit, root: Expr, atoms: Atoms, terms: _Terms, g: Poly, *, e
     has_norm = exponents or u.p is None  # which is a power of kappa/tau
     root_of = atoms.sqrt if has_norm else partial(atoms.sqrt_beside, g=g)
     factor = rational(u.factor)
-    A = u.A
-    B = u.B
-    content, _ = atoms.primitive(A)
-    A = A / content
-    B = B / content
+    content, top = atoms.primitive(u.A)
     if atoms.is_negative(u.tau_squared):
         eta = root_of(-u.tau_squared)
-        a, top = atoms.primitive(A)
-        b, bottom = atoms.primitive(B)
-        terms.others.append(atan(Mul(atoms.constant(a / b) / eta, top, 1 / bottom, 1 / root)) * -factor / eta)
+        b, bottom = atoms.primitive(u.B)
+        terms.others.append(atan(Mul(atoms.constant(content / b) / eta, top, 1 / bottom, 1 / root)) * -factor / eta)
         return
     tau = root_of(u.tau_squared)
-    argument = atoms.poly(A) + sympy.expand_mul(tau * atoms.poly(B)) * root
+    argument = top + sympy.expand_mul(tau * atoms.poly(u.B / content)) * root
     if u.p is None:
         norm = u.norm(g)
         terms.norms += [(p, -u.factor * k / 2) for p, k in norm.field.factor(norm)]
