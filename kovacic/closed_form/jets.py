@@ -140,7 +140,7 @@ class BallEvaluator:
         if e.func in _REWRITTEN:
             return self(_rewritten(e))
         if e.func in _CUT:  # on the principal branch
-            slope = type(self)({_U: value})(e.func(_U).fdiff())
+            slope = BallEvaluator({_U: value})(e.func(_U).fdiff())
             return (slope * value.derivative()).integral() + getattr(value[0], name)()
         return self.other(e)
 
