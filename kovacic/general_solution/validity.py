@@ -92,7 +92,7 @@ def _without_what_holds(
         zeros = [*(factor for r in of_letters for factor in ZeroSet(r.lhs).factors), *zeros]
         if k == 0:
             said = _nonzero_beside(relations)
-        nonzero = [part for zero in zeros for part in (_beside_real_roots(zero) if has_real_parts else (zero,))]
+        nonzero = [part for zero in zeros for part in (_for_real_letters(zero) if has_real_parts else (zero,))]
     # x != 0 follows from a x > 0, but not from x >= 0
     implied = {sympy.Ne: _nonzero_beside(relations), sympy.GreaterThan: _positive_among(relations)}
     shorter = [_of_cosine(r) for r in relations if r.lhs not in implied.get(r.func, ())]
@@ -143,16 +143,15 @@ def _nonzero_beside(relations: Iterable[Expr]) -> set[Expr]:
     return {sign * u for u in parts for sign in (1, -1)}
 
 
-def _beside_real_roots(zero: Expr) -> tuple[Expr, ...]:
-    """The factors of r for 1/gamma(sqrt(r)), nothing for 1/gamma(1 + sqrt(r)): a real root isn't negative."""
-    if poles_of(zero) is None:
-        return (zero,)
+def _for_real_letters(zero: Expr) -> Iterator[Expr]:
+    """The factors that may be zero for real letters and roots, which aren't negative: r for 1/gamma(sqrt(r)), k for sinh(k)."""
     roots = {p: sympy.Dummy(nonnegative=True) for p in zero.atoms(sympy.Pow) if p.exp == sympy.S.Half}
-    u = sympy.expand((1 / zero).args[0].xreplace(roots))
-    for p, s in roots.items():
-        if (u / s).is_positive:
-            return ZeroSet(p.base).factors
-    return () if u.is_positive else (zero,)
+    real = {s: sympy.Symbol(s.name, real=True) for s in zero.free_symbols if s.is_real is None}
+    for factor in ZeroSet(zero.xreplace(roots).xreplace(real)).factors:
+        pole = sympy.expand((1 / factor).args[0]) if poles_of(factor) else factor
+        root = next((s for s in roots.values() if (pole / s).is_positive), factor)
+        own = {known: own for own, known in (real | roots).items()}
+        yield from ZeroSet(root.xreplace(own)).factors
 
 
 def _without_even_roots(value: Expr, x: Expr) -> tuple[Expr, dict[Expr, Expr]]:

@@ -53,8 +53,8 @@ class ZeroSet:
         below = sympy.Mul.make_args(sympy.fraction(sympy.together(self.expression))[1])
         product = sympy.Mul(*self.factors)
         bases = (factor.as_base_exp()[0] for factor in below)
-        guarding = (b for b in bases if b.free_symbols and _where_zero(product, b) == 0)
-        return " and ".join([self.equation(answer), *(f"{sympy.Mul(*ZeroSet(b).factors)} != 0" for b in guarding)])
+        guarding = (ZeroSet(b).factors for b in bases if b.free_symbols and _where_zero(product, b) == 0)
+        return " and ".join([self.equation(answer), *(f"{sympy.Mul(*zeros)} != 0" for zeros in guarding if zeros)])
 
     def equation(self, answer: Expr = sympy.S.Zero) -> str:
         """`k = 0`, with hyperbolic functions beside an answer in these."""
@@ -100,10 +100,17 @@ def without_implied(exceptions: Iterable[Expr]) -> tuple[Expr, ...]:
 
 
 def _bases(zero: Expr) -> Iterator[Expr]:
-    """The factors, without powers that are positive or may be: b^c is zero for b = 0 alone."""
+    """The factors, without powers that are positive or may be: b^c is zero for b = 0 alone.
+
+    With real a and b, a - b in the place of exp(a) - exp(b), and 2*n + 1 in that of 3*3^(2*n) - 1.
+    """
     for factor in sympy.Mul.make_args(_factored(zero)):
+        terms = sympy.Add.make_args(factor.rewrite(exp) if isinstance(factor, sinh) else factor)
+        exponent = sympy.expand_log(sympy.log(-terms[0] / terms[1])) if len(terms) == 2 else sympy.I
         if factor.is_Pow and not isinstance(factor, exp) and not factor.exp.is_nonpositive:
             yield from _bases(factor.base)
+        elif exponent.is_real and all(f.is_number for f in exponent.atoms(sympy.log)):
+            yield from _bases(exponent)
         else:
             yield factor
 
