@@ -105,7 +105,10 @@ def _stated(equation: Equation, pair: WrittenPair) -> Expr | None:
     constants = sympy.Mul(
         *(sympy.powsimp(member / in_x(equation, y)) for member, y in zip((y1, y2), pair, strict=True))
     )
-    return in_x(equation, W) * slope * constants if constants.is_number else None  # a short one is found without
+    if constants.has(x):
+        return None
+    short = None if constants.is_number else multiple_of(in_x(equation, kernel(equation)) * slope, y1, y2, x)
+    return in_x(equation, W) * slope * constants if short is None else short
 
 
 def decide(question: Question, budget: Budget) -> Solution:

@@ -29,7 +29,7 @@ from typing import Any
 
 import sympy
 from flint import arb
-from sympy import DiracDelta, Heaviside, cosh, exp, expand, log, powsimp, sinh, sympify
+from sympy import DiracDelta, Heaviside, cos, cosh, exp, expand, log, powsimp, sin, sinh, sympify
 from sympy.core.function import AppliedUndef
 
 from kovacic.algebra.factors import combination
@@ -278,7 +278,8 @@ def _checked(basis: Basis, parts: Sequence[Any], right: Expr) -> Expr | None:
     if any(power.exp.free_symbols - {basis.x} for power in whole.atoms(sympy.Pow)):  # x x^a
         whole = powsimp(whole)
     others = map(expand, (in_waves(whole), whole.rewrite((sinh, cosh), exp)))  # beside integrals, in exponentials
-    forms = dict.fromkeys([whole, *others, *fractions_of_waves(whole, basis.x)])
+    in_fractions = fractions_of_waves(whole, basis.x) if whole.has(sin, cos) else []
+    forms = dict.fromkeys([whole, *others, *in_fractions])
     candidates = [_without_homogeneous(basis, part) for form in forms for part in (form, _gathered(form, basis.x))]
     found = one_exponential(min(candidates, key=size))
     return found if _is_right(basis, found, right) else None
