@@ -374,7 +374,10 @@ def factors(
     scale: Expr = Mul(*(Integer(-1) ** index for index in turned))
     for factor in found:
         content = atoms.cleared(factor.base)[0]
-        if content != 1:
+        exponent = factor.exponent.field.rational_value(factor.exponent)
+        if exponent is not None and exponent.denominator == 1:
+            scale = scale * atoms.constant(content) ** int(exponent)
+        elif content != 1:
             scale = scale * atoms.sqrt(content.inverse()) ** (-2 * atoms.constant(factor.exponent))
     return scale, shown
 
