@@ -21,7 +21,7 @@ from sympy.logic.boolalg import BooleanAtom
 from sympy.simplify.fu import TR5, TR6
 from sympy.solvers.inequalities import reduce_rational_inequalities
 
-from kovacic.general_solution.substitution import in_single_waves
+from kovacic.general_solution.substitution import in_single_waves, size
 from kovacic.general_solution.zero import agree, is_nowhere_zero, is_positive_polynomial
 from kovacic.general_solution.zero_set import ZeroSet, inequality, poles_of, without_implied
 
@@ -92,7 +92,8 @@ def _without_what_holds(
         zeros = [*(factor for r in of_letters for factor in ZeroSet(r.lhs).factors), *zeros]
         if k == 0:
             said = _nonzero_beside(relations)
-        nonzero = [part for zero in zeros for part in (_for_real_letters(zero) if has_real_parts else (zero,))]
+        known = [r.lhs for r in relations if not isinstance(r, sympy.Ne)]
+        nonzero = [part for zero in zeros for part in (_for_real_letters(zero, known) if has_real_parts else (zero,))]
     # x != 0 follows from a x > 0, but not from x >= 0
     implied = {sympy.Ne: _nonzero_beside(relations), sympy.GreaterThan: _positive_among(relations)}
     shorter = [_of_cosine(r) for r in relations if r.lhs not in implied.get(r.func, ())]
@@ -143,15 +144,23 @@ def _nonzero_beside(relations: Iterable[Expr]) -> set[Expr]:
     return {sign * u for u in parts for sign in (1, -1)}
 
 
-def _for_real_letters(zero: Expr) -> Iterator[Expr]:
-    """The factors that may be zero for real letters and roots, which aren't negative: r for 1/gamma(sqrt(r)), k for sinh(k)."""
+def _for_real_letters(zero: Expr, known: Collection[Expr]) -> Sequence[Expr]:
+    """The factors that may be zero for real letters: k for sinh(k), and r for exp(sqrt(r)) - 1 where r >= 0 is known.
+
+    Nothing for 1/gamma(1 + sqrt(r)), and r for 1/gamma(sqrt(r)): a root isn't negative, and no pole if it isn't real.
+    """
+    is_pole = poles_of(zero) is not None
     roots = {p: sympy.Dummy(nonnegative=True) for p in zero.atoms(sympy.Pow) if p.exp == sympy.S.Half}
-    real = {s: sympy.Symbol(s.name, real=True) for s in zero.free_symbols if s.is_real is None}
-    for factor in ZeroSet(zero.xreplace(roots).xreplace(real)).factors:
-        pole = sympy.expand((1 / factor).args[0]) if poles_of(factor) else factor
-        root = next((s for s in roots.values() if (pole / s).is_positive), factor)
-        own = {known: own for own, known in (real | roots).items()}
-        yield from ZeroSet(root.xreplace(own)).factors
+    own = {s: p for p, s in roots.items() if is_pole or p.base in known}
+    real = {sympy.Symbol(s.name, real=True): s for s in zero.free_symbols if s.is_real is None}
+    found: list[Expr] = []
+    for factor in ZeroSet(
+        zero.xreplace({e: s for s, e in own.items()}).xreplace({e: s for s, e in real.items()})
+    ).factors:
+        pole = sympy.expand((1 / factor).args[0]) if is_pole else factor
+        root = next((s for s in own if (pole / s).is_positive), factor)
+        found += ZeroSet(root.xreplace(own).xreplace(real)).factors
+    return found if sum(map(size, found)) < size(zero) else (zero,)
 
 
 def _without_even_roots(value: Expr, x: Expr) -> tuple[Expr, dict[Expr, Expr]]:
