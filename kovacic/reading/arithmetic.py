@@ -185,6 +185,7 @@ class Arithmetic:
 
     def _product(self, left: Poly, right: Poly) -> Poly:
         if right == 1:
+            self._check(left.degree, left.height_bits() + 2)
             return left
         m = left.degree
         n = right.degree
