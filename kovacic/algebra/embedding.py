@@ -111,11 +111,10 @@ def approximation(constant: Poly) -> Any:
 def enclosure(constant: Poly) -> Any:
     """A ball with the complex number that an element of Q or of Q(theta) is."""
     with working_precision(_EMBEDDING_BITS):
-        if not isinstance(constant, ExtensionPoly):
-            return _value_for_generator(constant, acb(0))
-        return _value_for_generator(
-            constant, _roots_by_distance(constant.field.modulus, _complex(constant.field.approximation))[0]
-        )
+        theta = acb(0)
+        if isinstance(constant, ExtensionPoly):
+            theta = _roots_by_distance(constant.field.modulus, _complex(constant.field.approximation))[0]
+        return _value_for_generator(constant, theta)
 
 
 def _value_for_generator(constant: Poly, theta: Any) -> Any:

@@ -141,10 +141,6 @@ class _Window(NamedTuple):
         low = question.kinetic * _number_below(real.V, real.t, bounds)
         return cls(low if low.is_Rational else -sympy.oo, high)
 
-    def has_zero_of(self, polynomial: Any, E: Any) -> bool:
-        """True if a polynomial over Q has a real zero in it."""
-        return any(self.low < root <= self.high for root in sympy.Poly(polynomial, E).real_roots())
-
     def last_number(self, function: Any, E: Any, d: Any) -> int | None:
         """A degree from which on no E with `function`(E, d) = 0 lies in the window, or None if none is known."""
         polynomial = sympy.Poly(function, E)
@@ -249,7 +245,7 @@ class _ClosedFormSearch(ClosedForms):
                 for factor, _ in together.factor_list()[1]:
                     if factor.domain not in (sympy.QQ, sympy.ZZ):
                         self.complete = False
-                    elif self.window.has_zero_of(factor.as_expr(), self.E):
+                    elif any(self.window.low < root <= self.window.high for root in factor.real_roots()):
                         yield number, factor.monic().as_expr()
 
     def _numbers(self, region: ParameterRegion, parts: Sequence[Statement]) -> Sequence[int | None]:

@@ -17,7 +17,6 @@ from kovacic.bound_states.coordinates import Original, RealPotential, check_pole
 from kovacic.bound_states.energies import exact_root, tidied
 from kovacic.bound_states.levels import Spectrum
 from kovacic.bound_states.question import SpectralProblem
-from kovacic.bound_states.signs import Signs
 from kovacic.errors import InputError
 from kovacic.limits import check_duration
 from kovacic.parametric.restriction import own_parameters
@@ -199,7 +198,10 @@ def _finite(end: End, square: Any, question: SpectralProblem) -> End:
     """A finite regular end: V ~ (nu^2 - 1/4)/(x - a)^2, and the square of nu."""
     signs = question.signs
     end = replace(end, vanishes=signs.is_nonnegative(square - sympy.Rational(1, 4)) is True)
-    circle = _less_than_1(square, signs)
+    circle = sympy.Lt(square, 1)
+    root = exact_root(square)
+    if root is not None and signs.holds(circle) is None:  # nu, which is no radical and has a sign
+        circle = tidied([sympy.Lt(signs.size(root), 1)], signs)[0]
     distance = end.at - question.x if end.side else question.x - end.at
     powers = f"y ~ {_end_powers(distance, square, question)}"
     if signs.holds(circle) is False:
@@ -212,14 +214,6 @@ def _finite(end: End, square: Any, question: SpectralProblem) -> End:
     for condition in tidied([circle], signs):
         said += f" where {question.shown(condition)}"
     return replace(end, circle=circle, sentence=end.sentence + said, oscillation=sympy.Lt(square, 0))
-
-
-def _less_than_1(square: Any, signs: Signs) -> Any:
-    """square < 1, for nu where that is no radical and has a sign."""
-    root = exact_root(square)
-    if root is None or signs.holds(sympy.Lt(square, 1)) is not None:
-        return sympy.Lt(square, 1)
-    return tidied([sympy.Lt(signs.size(root), 1)], signs)[0]
 
 
 def _end_powers(distance: Any, square: Any, question: SpectralProblem) -> str:

@@ -89,7 +89,7 @@ def invariants(problem: Problem, m: int) -> list[Form] | NoInvariant:
     for bundle in problem.field.bundles():
         problem.budget.check()
         try:
-            spaces = [search.modulo(h) for h in bundle]
+            spaces = [invariants_modulo(h, problem, m, *found, margin=search.margin) for h in bundle]
         except BadPrimeError:
             continue
         for h, space in zip(bundle, spaces, strict=True):
@@ -117,10 +117,6 @@ class _Search:
         self.lifter = Lifter(problem.field)
         self.recurrence_tried = False
 
-    def modulo(self, h: Homomorphism) -> ModularSpace:
-        """The invariants modulo a prime, and others if the equations are too few."""
-        return invariants_modulo(h, self.problem, self.m, self.valuations, self.N, margin=self.margin)
-
     def lifted(self, bundle: Sequence[Homomorphism], bases: Sequence[list[Any]]) -> list[Form]:
         """A verified basis over the field, if one can be told with the bases modulo these primes; else none, for now."""
         dimensions = {len(basis) for basis in bases}
@@ -137,7 +133,12 @@ class _Search:
                 self.margin *= 2  # more equations, from the beginning
                 self.lifter = Lifter(problem.field)
                 return []
-        if dimensions == {1} and not self.recurrence_tried and self._is_recurrence_cheaper():
+        if dimensions == {1} and not self.recurrence_tried and problem.field == QQ:
+            # Building the recurrence takes about (m + 1)^2 n^2 products of short polynomials, and a prime about as long as
+            # N + 20 of them; measured by `benchmarks/lifting.py`.
+            products = ((self.m + 1) * (problem.D.degree + 1)) ** 2
+            if self.lifter.primes_used * (self.N + 20) < products:
+                return []
             self.recurrence_tried = True
             P = polynomial_invariant(problem, self.m, self.N, self.valuations)  # over the field itself
             return [] if P is None else self._verified([P])
@@ -147,15 +148,6 @@ class _Search:
         """The forms with the proposed P, if all of them are right; else none."""
         forms = [Form(self.m, self.R0, P) for P in proposal]
         return forms if all(form.is_form(self.problem) for form in forms) else []
-
-    def _is_recurrence_cheaper(self) -> bool:
-        """True if lifting by primes has already cost as much as the recurrence would.
-
-        Building the recurrence takes about (m + 1)^2 n^2 products of short polynomials, and a prime about as long as N + 20 of
-        them; measured by `benchmarks/lifting.py`.
-        """
-        products = ((self.m + 1) * (self.problem.D.degree + 1)) ** 2
-        return self.problem.field == QQ and self.lifter.primes_used * (self.N + 20) >= products
 
 
 class ModularSpace(NamedTuple):

@@ -45,20 +45,14 @@ def irrational_exponents(problem: Problem) -> NecessaryCondition | None:
     for place in problem.places:
         if place.kind in (Kind.REGULAR, Kind.UNRAMIFIED) and place.delta is None:
             p = place.factor
-            top = place.near[0]
-            bottom = _leading_coefficient(place)
+            top, cofactor = place.near
+            # S = top / (t^order bottom) to leading order at the class of x in K[x]/p.
+            bottom = cofactor % p if p.degree == 1 else p.derivative() ** place.order * cofactor % p
             if place.kind is Kind.REGULAR:
                 top = bottom + 4 * top
             if is_provably_not_a_square(top * bottom % p, p):
                 return NecessaryCondition(Rule.NOT_A_SQUARE, (place.name,))
     return None
-
-
-def _leading_coefficient(place: Place) -> Poly:
-    """E with S = num / (t^order E) to leading order at the class of x in K[x]/p."""
-    p = place.factor
-    cofactor = place.near[1]
-    return cofactor % p if p.degree == 1 else p.derivative() ** place.order * cofactor % p
 
 
 @dataclass(frozen=True)

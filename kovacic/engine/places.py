@@ -302,7 +302,6 @@ def logarithm_obstruction(equation: LocalEquation, delta: int) -> int:
     return int(residual[delta - 1])
 
 
-_PRIMITIVE_STRUCTURES = (Structure.TETRAHEDRAL, Structure.OCTAHEDRAL, Structure.ICOSAHEDRAL)
 _MONODROMY_ORDERS = {
     Structure.TETRAHEDRAL: frozenset({1, 2, 3}),
     Structure.OCTAHEDRAL: frozenset({1, 2, 3, 4}),
@@ -310,44 +309,36 @@ _MONODROMY_ORDERS = {
 }
 
 
-@dataclass(frozen=True)
-class _Failure:
-    """A condition that fails at the places `culprits`, and the structures that this excludes."""
-
-    rule: Rule
-    culprits: list[Place]
-    structures: Sequence[Structure]
-
-
 def excluded_by_local_data(problem: Problem) -> dict[Structure, NecessaryCondition]:
     """The structures that can't occur, each with the first condition that fails."""
     excluded: dict[Structure, NecessaryCondition] = {}
-    for failure in _failures(problem.places):
-        new = [structure for structure in failure.structures if structure not in excluded]
+    for rule, culprits, structures in _failures(problem.places):
+        new = [structure for structure in structures if structure not in excluded]
         if new:
-            condition = NecessaryCondition(failure.rule, tuple([place.name for place in failure.culprits]))
+            condition = NecessaryCondition(rule, tuple([place.name for place in culprits]))
             excluded.update(dict.fromkeys(new, condition))
     return excluded
 
 
-def _failures(places: Sequence[Place]) -> Iterator[_Failure]:
+def _failures(places: Sequence[Place]) -> Iterator[tuple[Rule, list[Place], list[Structure]]]:
+    """The conditions that fail, at which places, and the structures that this excludes."""
     ramified = _of_kinds(places, Kind.RAMIFIED)
     if ramified:
-        yield _Failure(Rule.RAMIFIED, ramified, [Structure.REDUCIBLE])
+        yield Rule.RAMIFIED, ramified, [Structure.REDUCIBLE]
     logarithmic = [place for place in places if place.logarithm]
     if logarithmic:
-        yield _Failure(Rule.LOGARITHM, logarithmic, [Structure.IMPRIMITIVE, *_PRIMITIVE_STRUCTURES])
+        yield Rule.LOGARITHM, logarithmic, [Structure.IMPRIMITIVE, *_MONODROMY_ORDERS]
     branched = ramified + [place for place in places if place.delta is not None and place.delta.denominator == 2]
     if sum(place.degree for place in branched) < 2:
-        yield _Failure(Rule.TOO_FEW_BRANCH_POINTS, branched, [Structure.IMPRIMITIVE])
+        yield Rule.TOO_FEW_BRANCH_POINTS, branched, [Structure.IMPRIMITIVE]
     irregular = _of_kinds(places, Kind.RAMIFIED, Kind.UNRAMIFIED)
     if irregular:
-        yield _Failure(Rule.IRREGULAR, irregular, _PRIMITIVE_STRUCTURES)
+        yield Rule.IRREGULAR, irregular, [*_MONODROMY_ORDERS]
     regular = _of_kinds(places, Kind.REGULAR)
     for structure, orders in _MONODROMY_ORDERS.items():
         culprits = [place for place in regular if place.delta is None or place.delta.denominator not in orders]
         if culprits:
-            yield _Failure(Rule.EXPONENTS, culprits, [structure])
+            yield Rule.EXPONENTS, culprits, [structure]
 
 
 def _of_kinds(places: Sequence[Place], *kinds: Kind) -> list[Place]:

@@ -129,18 +129,12 @@ def _lifted_factor(problem: Problem, field: Field, P: Poly, X: Poly, Y: Poly) ->
         if len(degrees) > 1:
             continue
         degree = degrees.pop()
-        if degree <= _LIFTED_DEGREE:
-            proposal = lifter.add(bundle, [[R, zeros] for R, zeros in parts])
-        else:  # R alone is lifted
-            proposal = lifter.add(bundle, [[R] for R, _ in parts])
+        proposal = lifter.add(bundle, parts if degree <= _LIFTED_DEGREE else [[R] for R, _ in parts])
         if not proposal:
             continue
         R = proposal[0]
         zeros = proposal[1] if degree <= _LIFTED_DEGREE else _polynomial_part(problem, R, degree)
-        if not zeros:
-            continue
-        form = Form(1, R, zeros)
-        if form.is_form(problem):
+        if zeros and (form := Form(1, R, zeros)).is_form(problem):
             return form
     raise AssertionError("the sequence of primes is infinite")
 

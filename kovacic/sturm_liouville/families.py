@@ -101,9 +101,9 @@ def family(
         v = sympy.cos(k * t)
     else:
         v = k * sympy.cos(k * t) - left[0] / left[1] * sympy.sin(k * t)
-    numbers = _wave_numbers(left, right, n)
-    if numbers is not None:
-        first, angle = numbers
+    if 0 in left and 0 in right:  # else the equation for k is transcendental
+        vanishes = left[1] == 0
+        first, angle = (int(vanishes), n * sympy.pi) if vanishes == (right[1] == 0) else (1, (2 * n - 1) * sympy.pi / 2)
         root = angle / T
         return EigenvalueFamily(
             sympy.simplify(root**2 + waves.q), (waves.function(v.subs(k, root), t),), n, first, shift=waves.q
@@ -134,14 +134,6 @@ def _waves(x: Expr, B: Expr, c0: Expr, c1: Expr, ends: tuple[Expr, Expr]) -> _Wa
     t = sympy.simplify(primitive - primitive.subs(X, bounds[0]))
     t, h, q = (e.xreplace(back) for e in (t, h, q))
     return _Waves(x, t, h, q, ends)
-
-
-def _wave_numbers(left: tuple[Expr, Expr], right: tuple[Expr, Expr], n: Expr) -> tuple[int, Expr] | None:
-    """The first n, and k T; None if the equation for k is transcendental."""
-    if 0 not in left or 0 not in right:
-        return None
-    vanishes, other = left[1] == 0, right[1] == 0
-    return (int(vanishes), n * sympy.pi) if vanishes == other else (1, (2 * n - 1) * sympy.pi / 2)
 
 
 def _wave_equation(left: tuple[Expr, Expr], right: tuple[Expr, Expr], root: Expr, T: Expr) -> Expr:

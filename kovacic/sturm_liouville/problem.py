@@ -187,11 +187,7 @@ def _branches(step: Expr) -> tuple[Sequence[Expr], Sequence[Expr]]:
 def _is_below(a: Expr, b: Expr) -> bool:
     if a.is_infinite or b.is_infinite:
         return bool(a != b and (a == -sympy.oo or b == sympy.oo))
-    return _is_above_zero(b - a)
-
-
-def _is_above_zero(e: Expr) -> bool:
-    """True for a positive constant.  Raises `InputError` for one with letters of which SymPy doesn't know it."""
+    e = b - a
     if not e.free_symbols:
         return bool(ball(e) > 0)
     if e.is_positive is None:

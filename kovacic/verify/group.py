@@ -52,7 +52,10 @@ def group_holds(inspector: Inspector, decision: Decision, claim: GroupClaim) -> 
     if decision.undecided is not None:
         return False
     if decision.series is not None:
-        return _with_one_omega(decision.series.theta) == (claim.family, n) if _is_only_series(inspector) else None
+        numbers = inspector.numbers_of_series
+        if numbers is None or numbers[1] != 1:  # not the only pair of a theta and a P, nor omega
+            return None
+        return _with_one_omega(decision.series.theta) == (claim.family, n)
     if f is None or riccati is None:  # there is no solution
         return (claim.family, claim.n) == ("SL2", None)
     if decision.structure is Structure.REDUCIBLE:
@@ -92,12 +95,6 @@ def _with_one_omega(theta: RatFunc) -> _Named:
     """The group of y1 = exp(int theta) P where no other omega is rational: n is the least with y1^n rational."""
     residues = rational_residues(theta)
     return ("borel", None) if residues is None else ("additive", lcm(*(value.denominator for _, value in residues)))
-
-
-def _is_only_series(inspector: Inspector) -> bool:
-    """True if there is only one pair of a theta and a P, and so one omega."""
-    numbers = inspector.numbers_of_series
-    return numbers is not None and numbers[1] == 1
 
 
 def _inverse_has_an_integral(inspector: Inspector, F: SemiInvariant) -> bool:

@@ -44,8 +44,15 @@ def rational_residues(theta: RatFunc, factors: Sequence[Poly] = ()) -> list[tupl
     """
     if theta.num and theta.num.degree >= theta.den.degree:
         return None
+    # The known factors that divide the denominator, then those of the rest.
+    places, rest = [], theta.den
+    for p in factors:
+        cofactor = rest.exact_quotient(p)
+        if cofactor is not None:
+            places.append(p)
+            rest = cofactor
     residues = []
-    for p in _factors_with_known(theta.den, factors):
+    for p in [*places, *(p for p, _ in factors_of(rest))]:
         # At the roots of p it is num/den', if these are simple poles.
         num = theta.num % p
         slope = theta.den.derivative() % p
@@ -57,17 +64,6 @@ def rational_residues(theta: RatFunc, factors: Sequence[Poly] = ()) -> list[tupl
             return None
         residues.append((p, rational))
     return residues
-
-
-def _factors_with_known(den: Poly, known: Sequence[Poly]) -> list[Poly]:
-    """The irreducible factors of a denominator: the known ones that divide it, then those of the rest."""
-    found = []
-    for p in known:
-        quotient = den.exact_quotient(p)
-        if quotient is not None:
-            found.append(p)
-            den = quotient
-    return found + [p for p, _ in factors_of(den)]
 
 
 def is_rational(F: SemiInvariant, factors: Sequence[Poly] = ()) -> bool:

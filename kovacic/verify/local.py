@@ -7,7 +7,7 @@ number.  If k > 2, the point is irregular.  Infinity is z = 0 for S(1/z)/z^4.  [
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from fractions import Fraction
 from math import isqrt
 from typing import Any
@@ -171,6 +171,7 @@ class Expansions:
 
     S: RatFunc
     factors: list[tuple[Poly, int]]
+    _images: dict[Homomorphism, tuple[Any, Any]] = field(default_factory=dict)
 
     def at(self, factor: Poly) -> tuple[Poly, Poly]:
         alone = self.factors if len(self.factors) <= _FEW_POINTS else self.factors[:1]
@@ -184,10 +185,6 @@ class Expansions:
         if h not in self._images:
             self._images[h] = (h(self.S.num), h.keeping_degree(self.S.den))
         return self._images[h]
-
-    @cached_property
-    def _images(self) -> dict[Homomorphism, tuple[Any, Any]]:
-        return {}
 
     @cached_property
     def together(self) -> dict[Poly, tuple[Poly, Poly]]:
