@@ -201,7 +201,5 @@ def _decided(
         decision, sentence, proven = under_assumptions(parsed, decision, known, budget.limits, certify=certify)
     except LimitExceeded as limit:
         return Decision(None, (), undecided=str(limit)), parsed.notices, False, known
-    notices = parsed.notices
-    if sentence:
-        notices = (*notices, sentence)
+    notices = (*parsed.notices, sentence) if sentence else parsed.notices
     return decision, notices, proven, known

@@ -221,9 +221,8 @@ class Tower:
         self.made: dict[str, Any] = {}
         self.families: dict[str, list[Function]] = {}
         self.arcsines: dict[str, Function] = {}
-        self.orders = (
-            {} if orders is None else orders
-        )  # the roots of a function that occur, as their least common multiple
+        # the roots of a function that occur, as their least common multiple
+        self.orders = {} if orders is None else orders
         self.x = self.new("x", lambda _: self.number(1), lambda at: None)
         self.names = {variable: self.x}
 

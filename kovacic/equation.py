@@ -169,10 +169,8 @@ class Equation:
                 products.append(f"({text})*{name}" if " " in text or "/" in text else f"{text}*{name}")
         left = " + ".join(products)
         right = [_coefficient(self.f, self.variable)] if self.f or self.h is None else []
-        if self.h is not None and self.change is None:
-            right.append(as_text(self.h))
-        elif self.h is not None and self.change is not None:
-            right.append(f"[a right-hand side in {self.change.variable}]")
+        if self.h is not None:
+            right.append(f"[a right-hand side in {self.change.variable}]" if self.change else as_text(self.h))
         line = f"{left} = {' + '.join(right)}".replace("+ -", "- ")
         return line.replace("**", "^") if caret else line
 

@@ -87,15 +87,10 @@ def seconds_of(given: Any, name: str) -> float | None:
     """A time as a float, infinity included, or None.  Raises `InputError` for anything else."""
     if given is None:
         return None
-    if isinstance(given, float) and isinf(given):
-        seconds = float(given)
-    else:
-        exact = exact_real(given, name)
-        seconds = float(exact) if abs(exact) < 10**300 else inf
-        seconds = seconds if exact >= 0 else -inf
-    if seconds < 0:
+    exact = given if isinstance(given, float) and isinf(given) else exact_real(given, name)
+    if exact < 0:
         raise InputError(f"{name} = {plain_text(given)[:60]}: a time isn't negative")
-    return seconds
+    return float(exact) if exact < 10**300 else inf
 
 
 DEFAULT_LIMITS = Limits()

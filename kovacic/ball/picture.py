@@ -43,8 +43,7 @@ def draw(motion: Motion, times: Array, file: Path | str, *, title: str = "") -> 
     figure = Figure(figsize=(12.5, 2.6 + 1.6 * len(panels)), dpi=110)
     figure.set_layout_engine("constrained", wspace=0.08)
     grid = figure.add_gridspec(len(panels), 2, width_ratios=(1.15, 1))
-    projection = "3d" if motion.ball.kappa else None
-    path = figure.add_subplot(grid[:, 0], projection=projection)
+    path = figure.add_subplot(grid[:, 0], projection="3d" if motion.ball.kappa else None)
     _draw_path(path, motion.contact(times), motion.ball.kappa)
     for k, (curves, label, heading, levels) in enumerate(panels):
         axes = figure.add_subplot(grid[k, 1])

@@ -227,8 +227,7 @@ class EquationCommand(Command):
             if option is not None and not (option.is_flag or option.count):
                 found += [argument, *islice(rest, option.nargs)]
                 continue
-            shown = f" {argument}" if _is_expression(argument, options) else argument
-            found.append(shown)
+            found.append(f" {argument}" if _is_expression(argument, options) else argument)
             is_unknown_word = argument.startswith("--") and argument.partition("=")[0] not in options
             if is_unknown_word or argument[:2] in options:
                 doubtful.append(argument)
@@ -380,8 +379,7 @@ def answer_each(
             with waiting("deciding"):
                 answer = solve(text, var=var, assume=assume, parameters=parameters, limits=limits)
             is_open = answer.status is Status.UNDECIDED and not answer.assumed
-            outcome = UNDECIDED if is_open else DECIDED
-            outcomes.append(outcome)
+            outcomes.append(UNDECIDED if is_open else DECIDED)
             lines = iter(show(answer))
             while True:
                 with waiting("writing"):

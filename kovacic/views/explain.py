@@ -40,7 +40,6 @@ from kovacic.writing.document import (
     Formula,
     Heading,
     Paragraph,
-    Sentence,
     Table,
     anchor,
     format_of,
@@ -321,8 +320,7 @@ class ExplanationWriter:
     def closed_form(self) -> Iterator[Block]:
         found, notes = solutions_of(self.answer)
         if found:
-            title = "Solutions" if self.answer.case else "Solutions in special functions"
-            yield Heading(title)
+            yield Heading("Solutions" if self.answer.case else "Solutions in special functions")
         for name, y in found:
             text = shortened(y.text)
             yield Formula(name.equals(y if text == y.text else Math(text, r"\text{(too long to print)}")))
@@ -348,10 +346,8 @@ class ExplanationWriter:
             yield say("All solutions are algebraic functions.")
 
     def check(self) -> Iterator[Block]:
-        rows: list[list[Sentence]] = []
-        for check in derived.verification(self.answer).checks:
-            result = "passed" if check.passed else "FAILED"
-            rows.append([check.statement, result])
+        checks = derived.verification(self.answer).checks
+        rows = [[check.statement, "passed" if check.passed else "FAILED"] for check in checks]
         if rows:
             yield Heading("Checks by independent code")
             yield Table(("statement", "result"), rows)

@@ -274,16 +274,14 @@ def _decision(data: Mapping[str, Any], S: RatFunc, variable: str) -> Decision:
     if form is not None:
         D = over_constants.poly(proof["semi_invariant"]["D"])
         riccati = _riccati(S, form, D, data["riccati"], over_constants)
-    undecided = _typed(proof, "undecided", str, type(None))
-    series = _unless_none(proof.get("series"), over_constants.series)
     decision = Decision(
         structure=structure,
         exclusions=exclusions,
         invariant=invariant,
         semi_invariant=form,
         riccati=riccati,
-        undecided=undecided,
-        series=series,
+        undecided=_typed(proof, "undecided", str, type(None)),
+        series=_unless_none(proof.get("series"), over_constants.series),
     )
     if Status(data["status"]) is not decision.status or data["case"] != decision.case:
         raise ValueError("status or case contradict the proof")

@@ -169,14 +169,10 @@ def _regular_intervals(chart: PieceChart, a: Fraction, b: Fraction) -> list[tupl
     """The parts of [a, b] between singular points, shortened near each of these."""
     cuts = sorted({z.re for z in chart.singular if z.is_real() and a <= z.re <= b})
     wild = {float(point.re) for point in chart.irregular}
-
-    shares = {end: _IRREGULAR_GAP if float(end) in wild else _SINGULAR_GAP for end in cuts}
-
-    def share(end: Fraction) -> Fraction:
-        return shares.get(end, Fraction(0))
-
+    share = {a: Fraction(0), b: Fraction(0)}
+    share |= {end: _IRREGULAR_GAP if float(end) in wild else _SINGULAR_GAP for end in cuts}
     return [
-        (left + (right - left) * share(left), right - (right - left) * share(right))
+        (left + (right - left) * share[left], right - (right - left) * share[right])
         for left, right in pairwise([a, *cuts, b])
         if left < right
     ]
@@ -359,16 +355,15 @@ def _curves(
 def _name_by_values(y: str, initial: Start) -> str:
     """The name of a solution in the legend, by its values or by its behaviour at x0."""
     at = plain_text(initial.x0)
-    value = "1" if initial.y0 is None else plain_text(initial.y0)
-    value_there = f"{y}({at}) = {value}"
     place = _typeset(latex_text(f"x = {at}"), f"x = {at}")
     if initial.which == "regular":
         return f"{_typeset(y)} regular at {place}"
     if initial.frobenius is not None:
         c1, c2 = map(plain_text, initial.frobenius)
         return f"{_typeset(y)} = ({c1}) {_typeset(f'{y}_1')} + ({c2}) {_typeset(f'{y}_2')} of the Frobenius basis at {place}"
-    shown = value_there
-    latex = latex_text(value_there)
+    value = "1" if initial.y0 is None else plain_text(initial.y0)
+    shown = f"{y}({at}) = {value}"
+    latex = latex_text(shown)
     if initial.which is None:
         slope = plain_text(initial.dy0)
         shown = f"{shown}, {y}'({at}) = {slope}"
@@ -417,7 +412,9 @@ def _solution_curves(
     a, b = _interval_of(start, stop)
     chart = chart_of(answer, {}, request.params)
     intervals = _regular_intervals(chart, a, b)
-    digits = 30 + _digits_gained(chart, intervals)
+    # The larger one grows like exp(int sqrt(S)), S > 0, the other decays as fast: the quotient gains twice the integral.
+    growth, _ = _integral_of_root(chart, intervals)
+    digits = 30 + int(min(5000.0, 2 * growth / np.log(10)))
     found: list[list[tuple[str, SampledCurve]]] = [[], []]
     for low, high in intervals:
         at = _middle_of_the_longest([(low, high)])
@@ -538,13 +535,6 @@ def _integral_of_root(chart: PieceChart, intervals: list[tuple[Fraction, Fractio
         growth += float(np.trapezoid(np.sqrt(np.maximum(here.S, 0.0)), here.x))
         turning += float(np.trapezoid(np.sqrt(np.maximum(-here.S, 0.0)), here.x))
     return growth, turning
-
-
-def _digits_gained(chart: PieceChart, intervals: list[tuple[Fraction, Fraction]]) -> int:
-    """Decimal digits by which a growing solution may gain on a decaying one: twice the integral of sqrt(S), S > 0."""
-    # One grows like exp(int sqrt(S)), the other decays as fast: the quotient gains twice the integral.
-    growth, _ = _integral_of_root(chart, intervals)
-    return int(min(5000.0, 2 * growth / np.log(10)))
 
 
 @dataclass(frozen=True)

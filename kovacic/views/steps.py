@@ -194,8 +194,7 @@ class Steps:
             values = [self._shown(choice.value) for choice in family.choices]
             rows.append([*values, self._shown(family.d), outcome])
         if rows:
-            head = [*map(self._point, search.points), Math.of(self.d), Math.of(self.P)]
-            yield Table(head, rows)
+            yield Table([*map(self._point, search.points), Math.of(self.d), Math.of(self.P)], rows)
         if len(families) > _MOST_SHOWN:
             yield say(f"and {len(families) - _MOST_SHOWN} more.")
 

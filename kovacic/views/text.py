@@ -183,8 +183,7 @@ def html_view(answer: Answer) -> str:
     if group is not None:
         rows.append(("Galois group", [Math(group.name, group.latex), f", {group.description}"]))
     rows += _rows_of_solutions(answer)
-    verified = "yes, by independent code" if answer.verified else "no"
-    rows.append(("verified", verified))
+    rows.append(("verified", "yes, by independent code" if answer.verified else "no"))
     rows += [("note", notice) for notice in answer.notices]
     return FORMATS["html"].render([Table((), rows)]).rstrip()
 
@@ -193,10 +192,8 @@ def _rows_of_solutions(answer: Answer) -> Iterator[tuple[Sentence, Sentence]]:
     """Two solutions, notes, and how the closed form was checked."""
     found, notes = _solutions_in_time(answer)
     for name, value in found:
-        if len(value.latex) <= _LONGEST_TYPESET:
-            yield name, value
-        else:
-            yield name, Math(value.text[:_LONGEST_TYPESET], "")
+        is_long = len(value.latex) > _LONGEST_TYPESET
+        yield name, Math(value.text[:_LONGEST_TYPESET], "") if is_long else value
     for note in notes:
         yield "note", note
     form = derived.closed_form(answer) if found else None

@@ -10,7 +10,6 @@ import re
 from collections.abc import Iterable, Iterator, Sequence
 from contextlib import suppress
 from dataclasses import replace
-from typing import NamedTuple
 
 import sympy
 
@@ -44,7 +43,7 @@ from kovacic.reading.names import words_among
 from kovacic.reading.read import read_input
 from kovacic.reading.source import source_of
 from kovacic.views.bibliography import literature
-from kovacic.writing.document import FORMATS, Block, Formula, Heading, Sentence, Table, format_of, say
+from kovacic.writing.document import Block, Formula, Heading, Sentence, Table, format_of, say
 from kovacic.writing.formula import Formulas, Math, free_name, latex_text, of_sympy, rational_functions
 
 #: What the signs in a solution are called, those that aren't parameters.
@@ -67,15 +66,15 @@ def theorem(answer: ParametricAnswer, *, format: str = "text") -> str:
     """
     chosen = format_of(format)
     if format == "latex":
-        written, latex = blocks(answer), FORMATS["latex"]
+        written = blocks(answer)
         start, end = written.index(_PROOF_HEADING), written.index(_REFERENCES)
         # The references keep their heading.
         environments = ("theorem", written[1:start]), ("proof", written[start + 1 : end])
         # Ragged lines, as in `explain`, end with their group: they aren't left behind in the author's document.
         parts = [
-            f"\\begin{{{name}}}\\raggedright\n{latex.render(inside)}\\end{{{name}}}\n" for name, inside in environments
+            f"\\begin{{{name}}}\\raggedright\n{chosen.render(inside)}\\end{{{name}}}\n" for name, inside in environments
         ]
-        return "\n".join([*parts, f"{{{latex.render(written[end:])}\\par}}\n"])
+        return "\n".join([*parts, f"{{{chosen.render(written[end:])}\\par}}\n"])
     return chosen.document(f"y'' = {answer.right.text}", blocks(answer))
 
 
@@ -98,8 +97,7 @@ class _TheoremWriter:
         yield Heading("Theorem", 1)
         yield from self._hypothesis(self._claim(cases))
         for k, case in enumerate(cases, 1):
-            number = f"({k}) " if len(cases) > 1 else ""
-            yield from self._case(case, number)
+            yield from self._case(case, f"({k}) " if len(cases) > 1 else "")
         if self.is_solvable:
             otherwise = "Otherwise" if cases else "For all values"
             if self.answer.complete is not True:
@@ -205,7 +203,10 @@ class _TheoremWriter:
         said = self.answer.assumptions.of(name).words
         words = [word for word in said if word in WORDS]
         if words:
-            kind = _kind_of_number(words)
+            # The adjectives, and then the noun: nonnegative integer.
+            nouns = [word for word in words if word in _NOUNS]
+            usual = "number" if {"even", "odd"}.isdisjoint(words) else "integer"
+            kind = " ".join([*(word for word in words if word not in _NOUNS), *(nouns or [usual])])
             article = "an" if kind[0] in "aeio" else "a"
             found += [", ", Math.of(name), f" {article} {kind}"]
         for bound in (bound for bound in said if bound not in WORDS):
@@ -260,7 +261,13 @@ class _TheoremWriter:
             yield Table(("where", "condition"), rows)
         else:
             yield say(number, *_sentence_of(case.statement), *without, ".")
-        yield from _schwarz(case.statement)
+        # The rows of Schwarz's table that are meant, for the exponent differences that depend on the parameters.
+        for part in _schwarz_in(case.statement):
+            names, differences = part.resolved()
+            heads: list[Sentence] = [Math.of(name) for name in names]
+            if not names:
+                heads = ["differences up to order, signs and integers", "sum of the integers"]
+            yield Table(["group", *heads], [[structure.value, *values] for structure, values in differences])
         region = case.regions[0]
         yield say(f"Case {region.case}. ", *_group(region.verdict))
         yield from self._solutions(case)
@@ -372,16 +379,16 @@ class _TheoremWriter:
     def _collected(self, expression: sympy.Expr) -> sympy.Expr:
         """A sum as one fraction whose numerator is sorted by the signs: -(epsilon*(c - 1) + zeta*(a + b - c) + 1)/2."""
         by_sign = sympy.collect(sympy.expand(expression), self.signs, evaluate=False)
-        terms: list[_ScaledTerm] = []
+        terms: list[tuple[sympy.Rational, sympy.Expr]] = []
         for sign, coefficient in by_sign.items():  # the minus of each is in the number, none before the rest
             number, other = sympy.factor(coefficient).as_coeff_Mul()
             is_turned = other.could_extract_minus_sign()
-            terms.append(_ScaledTerm(-number, -other * sign) if is_turned else _ScaledTerm(number, other * sign))
+            terms.append((-number, -other * sign) if is_turned else (number, other * sign))
         if len(terms) < 2:
             return expression
-        below = sympy.ilcm(1, *(term.number.q for term in terms))
-        outside = -1 if all(term.number < 0 for term in terms) else 1
-        above = sympy.Add(*(outside * below * term.number * term.rest for term in terms))
+        below = sympy.ilcm(1, *(number.q for number, _ in terms))
+        outside = -1 if all(number < 0 for number, _ in terms) else 1
+        above = sympy.Add(*(outside * below * number * rest for number, rest in terms))
         factor = sympy.Rational(outside, below)
         return above if factor == 1 else sympy.Mul(factor, above, evaluate=False)
 
@@ -403,23 +410,21 @@ class _TheoremWriter:
     def _delta_of_omega(self, d: str) -> Iterator[Block]:
         """Where omega is rational: the equation of the polynomial of degree d."""
         P = f"P_{d}"
-        several = [" (all of the polynomials in parentheses vanish, where there are several)"] * self._has_systems()
+        # One of the determinants that are printed may stand for several polynomials.
+        has_systems = any(
+            determinant.system
+            for region in self.answer.regions
+            for natural in region.naturals
+            for k in range(len(region.determinants))
+            for determinant in natural.determinants(k)
+        )
+        several = [" (all of the polynomials in parentheses vanish, where there are several)"] * has_systems
         what = " vanishes exactly where the linear system for the coefficients of "
         yield say(
             Math.of(f"Delta_{d}"), what, Math.of(P), ", of degree ", Math.of(d), ", has a solution", *several, ":"
         )
         yield Formula(Math.of(f"{P}'' + 2 theta {P}' + (theta' + theta^2 - S) {P} = 0"))
         yield say("with ", Math.of("theta"), " the logarithmic derivative of ", Math.of(f"{self._unknown}/{P}"), ".")
-
-    def _has_systems(self) -> bool:
-        """True if one of the determinants that are printed stands for several polynomials."""
-        return any(
-            determinant.system
-            for region in self.answer.regions
-            for natural in region.naturals
-            for d in range(len(region.determinants))
-            for determinant in natural.determinants(d)
-        )
 
     # The proof
 
@@ -439,25 +444,11 @@ class _TheoremWriter:
         yield from (say(literature()[key].text()) for key in known)
 
 
-class _ScaledTerm(NamedTuple):
-    """number * rest."""
-
-    number: sympy.Rational
-    rest: sympy.Expr
-
-
 def _equation_key(equation: Equation | None) -> tuple[str, str]:
     """An equation, over whichever field, and its change of variable; empty where there is none."""
     if equation is None:
         return "", ""
     return str(equation), equation.change.expression if equation.change else ""
-
-
-def _kind_of_number(words: list[str]) -> str:
-    """`nonnegative integer`: the adjectives, and then the noun."""
-    nouns = [word for word in words if word in _NOUNS]
-    usual = "number" if {"even", "odd"}.isdisjoint(words) else "integer"
-    return " ".join([*(word for word in words if word not in _NOUNS), *(nouns or [usual])])
 
 
 def _enumerated(parts: list[Math]) -> list[str | Math]:
@@ -522,16 +513,6 @@ def _schwarz_in(statement: Statement) -> list[Schwarz]:
     parts: Iterable[Statement] = statement.parts if isinstance(statement, Both | Either) else (statement,)
     found = [part for part in parts if isinstance(part, Schwarz)]
     return [part for part in found if part.structures != (Structure.IMPRIMITIVE,)]
-
-
-def _schwarz(statement: Statement) -> Iterator[Table]:
-    """The rows of Schwarz's table that are meant, for the exponent differences that depend on the parameters."""
-    for part in _schwarz_in(statement):
-        names, rows = part.resolved()
-        heads: list[Sentence] = [Math.of(name) for name in names]
-        if not names:
-            heads = ["differences up to order, signs and integers", "sum of the integers"]
-        yield Table(["group", *heads], [[structure.value, *values] for structure, values in rows])
 
 
 def _determinant_table(natural: Natural, number: int) -> Iterator[Block]:

@@ -87,12 +87,6 @@ class _Language:
     assignment: str
     comment: str
 
-    @property
-    def known(self) -> dict[str, str]:
-        """Patterns and names of functions by SymPy's."""
-        words = self.functions.replace(",", " ").split()
-        return {**dict(zip(words[::2], words[1::2], strict=True)), **self.patterns}
-
 
 LANGUAGES = {
     "mathematica": _Language(
@@ -173,7 +167,9 @@ def as_code(expression: Expr, language: str) -> str:
 
 def _printer(language: _Language) -> Any:
     """SymPy's printer for a language, which consults the table first and refuses functions outside of it."""
-    known = language.known
+    # Patterns and names of functions by SymPy's.
+    words = language.functions.replace(",", " ").split()
+    known = {**dict(zip(words[::2], words[1::2], strict=True)), **language.patterns}
 
     class Printer(language.printer):  # type: ignore[misc, name-defined]
         def _print(self, expr: Expr, **options: Any) -> str:

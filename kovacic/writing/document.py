@@ -177,18 +177,11 @@ _LOW = re.compile(
 _THIN = "<mspace width='.17em'/>"
 
 
-def _mathml(math: Math, display: str = "inline") -> str:
-    """Presentation MathML, which browsers show without a script or a font from elsewhere."""
-    if not math.latex:
-        return _code(math)
-    check_time()
-    return mathml(math.latex, display)
-
-
 def mathml(latex: str, display: str = "inline") -> str:
-    """The MathML of a formula in LaTeX."""
+    """The presentation MathML of a formula in LaTeX, which browsers show without a script or a font from elsewhere."""
     from latex2mathml.converter import convert
 
+    check_time()
     written = convert(latex, display=display)
     # Browsers set no space beside the name of a function: t sin x would be tsinx.
     written = re.sub(
@@ -225,10 +218,10 @@ def _html_math(math: Math) -> str:
 def _html_line(latex: str) -> str:
     """In a line; a formula that is wider than a page as many small ones, between which browsers break the line."""
     if width(latex) <= 1.5 * LINE:
-        return _mathml(Math("", latex))
+        return mathml(latex)
     # A sign at the beginning is one of the sum, not of its first term: empty braces before it say so.
     parts = [f"{{}} {piece}" if piece[0] in "+-" else piece for piece in pieces(latex)]
-    return "<wbr/>".join(_mathml(Math("", part)) for part in parts)
+    return "<wbr/>".join(map(mathml, parts))
 
 
 def _html_formula(math: Math) -> str:
@@ -236,7 +229,8 @@ def _html_formula(math: Math) -> str:
     rows = _rows(math)
     try:
         if all(width(row) <= 1.5 * LINE for row in rows):
-            return f"{wide}{_mathml(math, 'block')}</div>"
+            written = mathml(math.latex, "block") if math.latex else _code(math)
+            return f"{wide}{written}</div>"
         return "".join(f'<div style="padding:.4em 0">{_html_line(row)}</div>' for row in rows)
     except LimitExceeded:
         return f"{wide}{_code(math)}</div>"
