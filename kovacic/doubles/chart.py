@@ -205,8 +205,7 @@ def _singular_ends(problem: NumericProblem | None, low: ExactPoint, high: ExactP
         is_high = root.overlaps(b)
         is_beside = root.real < a.real or root.real > b.real
         is_above_or_below = root.imag < a.imag or root.imag > b.imag
-        is_outside = is_beside or is_above_or_below
-        if not (is_low or is_high or is_outside):
+        if not (is_low or is_high or is_beside or is_above_or_below):
             raise InputError(f"the interval contains the singular point {name_of(problem.places, root)}")
         at_low = at_low or is_low
         at_high = at_high or is_high

@@ -229,9 +229,8 @@ def _envelope(chart: PieceChart, part: CurveCoefficients, width: Fraction, state
     q = here.frequency
     # u' exp(-int beta) = y' + beta y.
     velocity = samples.dy + here.beta * samples.y
-    turned = np.divide(
-        velocity, q, out=np.full_like(velocity, np.nan), where=q != 0
-    )  # no envelope where nothing oscillates
+    # There is no envelope where nothing oscillates.
+    turned = np.divide(velocity, q, out=np.full_like(velocity, np.nan), where=q != 0)
     real = np.hypot(samples.y.real, turned.real)
     imaginary = np.hypot(samples.y.imag, turned.imag)
     return Envelope(x, real, imaginary, _periods(part.x, part.frequency))

@@ -21,7 +21,7 @@ import math
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
-from typing import Any, NamedTuple
+from typing import Any
 
 import numpy as np
 from flint import acb
@@ -99,14 +99,6 @@ class RationalFunction:
 
 _ROOM = 900.0
 """Bits that a plain product may grow by before its binary exponent is taken out."""
-
-
-class _Parts(NamedTuple):
-    """y = value * 2^binary * exp(growth)."""
-
-    value: Complex
-    binary: Any
-    growth: Complex
 
 
 @dataclass(frozen=True)
@@ -239,19 +231,16 @@ class ProductForm:
             unit, total = self.log(points.data)
             return np.ma.array(unit, mask=points.mask), np.ma.array(total, mask=points.mask)
         with np.errstate(all="ignore"):
-            parts = self._parts(points.reshape(-1), careful=True)
-            growth = parts.growth
+            value, binary, growth = self._parts(points.reshape(-1), careful=True)
             # log|y| = re(growth) + binary log(2) + log|value|; the sign is that of the value times exp(i im(growth)).
-            unit = complex_array(parts.value)
-            total = double(growth.re + LOG_2 * Pair(0.0 + parts.binary)) + np.log(np.abs(unit))
+            unit = complex_array(value)
+            total = double(growth.re + LOG_2 * Pair(0.0 + binary)) + np.log(np.abs(unit))
             unit = np.sign(unit) * complex_array(_turn(growth))
         return unit.reshape(points.shape)[()], total.reshape(points.shape)[()]
 
     def _values(self, x: Any) -> Any:
-        parts = self._parts(x, self.careful)
-        value = parts.value.each(double)
-        binary = parts.binary
-        growth = parts.growth
+        value, binary, growth = self._parts(x, self.careful)
+        value = value.each(double)
         if self.careful:
             # exp(growth) = 2^turns exp(rest), |rest| <= log(2)/2, and exp(hi + lo) = exp(hi) (1 + lo).
             turns = np.rint(growth.re.hi / LOG_2.hi)
@@ -266,8 +255,8 @@ class ProductForm:
             value = value.each(lambda part: np.ldexp(part, binary))
         return value.re if self.is_real else complex_array(value)
 
-    def _parts(self, x: Any, careful: bool) -> _Parts:
-        """The function in the parts of the product."""
+    def _parts(self, x: Any, careful: bool) -> tuple[Complex, Any, Complex]:
+        """value, binary and growth with y = value * 2^binary * exp(growth)."""
         point = Complex(x) if self.region.is_real else Complex(x.real, x.imag)
         if careful:
             point = point.each(_with_low_part)
@@ -284,7 +273,7 @@ class ProductForm:
         if self.is_real:
             total = Complex(total.re)
         value = product.value or Complex(np.ones(x.shape))
-        return _Parts(value if self.constant is None else value * self.constant, product.binary, total)
+        return (value if self.constant is None else value * self.constant), product.binary, total
 
 
 def _with_low_part(v: Any) -> Any:

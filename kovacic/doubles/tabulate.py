@@ -22,7 +22,7 @@ from __future__ import annotations
 
 import math
 from bisect import bisect_right
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from fractions import Fraction
 from functools import cached_property, lru_cache
 from math import ldexp
@@ -158,6 +158,7 @@ class TabulatedFunction:
     coefficients: Any
     careful: bool = True
     measured: Measured | None = None
+    _whole: dict[int, list[_Whole]] = field(default_factory=dict, init=False)
 
     def __call__(self, x: Any) -> Any:
         """y(x), of the shape of x; inf or 0 where the value is beyond the doubles, and NaN for NaN.
@@ -199,9 +200,8 @@ class TabulatedFunction:
     @cached_property
     def derivative(self) -> TabulatedFunction:
         """y', a table on the same pieces; its error isn't measured, some ten times that of y over the length of a piece."""
-        terms = self.coefficients.shape[2]
         # d/dx = 2^-exponent d/du, and (u^n)' = n u^(n - 1).
-        factors = np.arange(1.0, terms)
+        factors = np.arange(1.0, self.coefficients.shape[2])
         product = Pair(*self.coefficients[:, :, 1:].swapaxes(0, 1)) * Pair(factors[:, None])
         table = np.array([product.hi, product.lo]).swapaxes(0, 1)
         power = self.powers - self.exponents
@@ -228,10 +228,6 @@ class TabulatedFunction:
     def _lists(self) -> tuple[list[float], list[float], list[int], list[int]]:
         """The edges, centres, exponents and powers as Python's numbers."""
         return self.edges.tolist(), self.centres.tolist(), self.exponents.tolist(), self.powers.tolist()
-
-    @cached_property
-    def _whole(self) -> dict[int, list[_Whole]]:
-        return {}
 
     def _values(self, flat: Any) -> Any:
         """At points of an array of one dimension."""

@@ -118,7 +118,7 @@ def compare(local: tuple[LocalMonodromy, ...], group: Group, fuchsian: bool) -> 
         generators = [item.acb_mat() for item in local]
         angles = _angles(group)
         if angles is not None:
-            return _enumerate(generators, angles, group)
+            return _Enumeration(group, angles).verdict(generators)
         if not generators:
             return Agreement(None, "there is no finite singular point, so the monodromy is trivial")
         # The generators and their products in pairs; with one generator, itself and its square.
@@ -150,17 +150,6 @@ def _angles_of_roots(n: int) -> Counter[Fraction]:
     # exp(2 pi i turn) and its inverse are the eigenvalues of one element, or of two with the same trace.
     turns = [Fraction(k, n) for k in range(n)]
     return Counter(min(turn, 1 - turn) for turn in turns)
-
-
-def _enumerate(generators: list[acb_mat], angles: Counter[Fraction], group: Group) -> Agreement:
-    """A finite group: its elements by their traces."""
-    enumeration = _Enumeration(group, angles)
-    for element in enumeration.elements:  # which grows meanwhile
-        for generator in generators:
-            verdict = enumeration.add(generator * element)
-            if verdict is not None:
-                return verdict
-    return enumeration.verdict()
 
 
 class _Element(IntEnum):
@@ -216,8 +205,13 @@ class _Enumeration:
             return _Element.IDENTITY
         return _Element.UNIPOTENT
 
-    def verdict(self) -> Agreement:
-        """The verdict on all elements: no product of generators is a new one."""
+    def verdict(self, generators: list[acb_mat]) -> Agreement:
+        """The verdict on all elements, by their traces: in the end no product with a generator is a new one."""
+        for element in self.elements:  # which grows meanwhile
+            for generator in generators:
+                verdict = self.add(generator * element)
+                if verdict is not None:
+                    return verdict
         count = len(self.elements)
         if self.found != self.angles:
             return Agreement(False, f"the monodromy group has {count} elements, with other traces than {self.group}")
@@ -238,13 +232,12 @@ class _Possible:
     @classmethod
     def of(cls, words: list[acb_mat]) -> _Possible:
         commutators = _commutators(words)
-        of_squares = _commutators([word**2 for word in words])
         return cls(
             words,
             commutators,
             commuting=_may_be_identities(commutators),
             reducible=all(c.trace().overlaps(_TWO) for c in commutators),
-            monomial=_may_be_identities(of_squares),
+            monomial=_may_be_identities(_commutators([word**2 for word in words])),
         )
 
     def torsion(self) -> bool:

@@ -26,7 +26,7 @@ ball: discs lead to the midpoint of a + T, and its state is spread over the ball
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from functools import cached_property, lru_cache
 from typing import Any
 
@@ -239,6 +239,7 @@ class PeriodicWay(AnalyticWay):
     """An equation all of whose coefficients have the `period`, an expression."""
 
     period: Any = None
+    _maps: dict[Any, Affine] = field(default_factory=dict, init=False)
 
     def _length(self) -> arb:
         return abs(in_balls(self.period, self.functions.coefficients.at(sympy.Integer(0))))
@@ -272,10 +273,6 @@ class PeriodicWay(AnalyticWay):
                 square = compose(square, square)
             rest = way._map(a, Constant("less than a period later", lambda: to_acb(b) - step * abs(n)))
             return maps.after(*compose(rest, power))
-
-    @cached_property
-    def _maps(self) -> dict[Any, Affine]:
-        return {}
 
     def _map(self, a: ExactPoint, number: Constant) -> Affine:
         """From the state at a to that at a number in a ball."""

@@ -13,7 +13,7 @@ ones; in cases 2 and 3 the roots of the polynomial of omega at the point, by rea
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from functools import cached_property, cmp_to_key, lru_cache
 
 from flint import acb, acb_poly, arb, ctx
@@ -48,6 +48,10 @@ class Exponential:
     theta: RatFunc
     P: Poly
     embedding: int = 0
+    # theta, P and P' at precisions that were in force, for the next points.
+    _in_balls: dict[int, tuple[LogDerivative, acb_poly, acb_poly]] = field(
+        default_factory=dict, init=False, repr=False, compare=False
+    )
 
     def constants(self) -> list[acb | None]:
         """The conjugate values of the generator of the field, at the working precision in force."""
@@ -75,11 +79,6 @@ class Exponential:
         E = theta.growth(a, b)
         # y' = E (theta P + P').
         return [(g * P(x), g * (theta.value(x) * P(x) + slope(x))) for x, g in ((a, acb(1)), (b, E))]
-
-    @cached_property
-    def _in_balls(self) -> dict[int, tuple[LogDerivative, acb_poly, acb_poly]]:
-        """theta, P and P' at precisions that were in force, for the next points."""
-        return {}
 
 
 def value(function: RatFunc, c: acb | None, z: acb) -> acb:

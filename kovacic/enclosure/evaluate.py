@@ -189,9 +189,8 @@ class Prepared:
         # Arrays have a shape; everything else is a point or an iterable of points.
         shape = getattr(x, "shape", None)
         if shape is None:
-            is_many = isinstance(x, Iterable) and not isinstance(x, str | bytes | Mapping | Set)
-            if is_many:
-                return tuple(self._at([*x], derivative))  # type: ignore[misc]
+            if isinstance(x, Iterable) and not isinstance(x, str | bytes | Mapping | Set):
+                return tuple(self._at([*x], derivative))
             return self._at([x], derivative)[0]
 
         import numpy as np

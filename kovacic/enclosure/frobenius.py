@@ -217,8 +217,7 @@ def limit(point: Singular, start: State) -> State:
     last, bound = junction(point, beside, 64)
     needed = [not coordinate.is_zero() for coordinate in start]
     total = (acb(0), acb(0))
-    found = _expansions(point, last, bound, max(64, ctx.prec), needed)
-    for k, solution in found.items():
+    for k, solution in _expansions(point, last, bound, max(64, ctx.prec), needed).items():
         powers = [solution.derivative_at_zero(order) for order in (0, 1)]
         if powers[0] is None or powers[1] is None:
             raise InputError(f"y or y' is infinite at the singular point {point}", hint="choose a point beside it")
@@ -281,10 +280,9 @@ class FrobeniusSeries:
         U = self.U
         V = self.V
         lam = acb(self.lam)
-        value = U(t)
+        value = U(t) + V(t) * log
         slope = lam * U(t) + t * U.derivative()(t)
-        value = value + V(t) * log
-        slope = slope + (lam * V(t) + t * V.derivative()(t)) * log + V(t)
+        slope += (lam * V(t) + t * V.derivative()(t)) * log + V(t)
         real = t.imag.is_zero() and value.imag.is_zero() and slope.imag.is_zero()
         # The errors are over max(1, |log t|).
         size = max(arb(1), abs(log).upper())

@@ -269,9 +269,8 @@ class Substitution:
     def start(self, x0: Number, data: tuple[Number, Number]) -> Origin:
         """The start in t with these values of y and y'."""
         y, dy = data
-        return Origin(
-            self.image(x0), (y, Constant("y'/t'", lambda: to_ball(dy) / self.slope(x0), dy.fixed or x0.fixed))
-        )
+        slope = Constant("y'/t'", lambda: to_ball(dy) / self.slope(x0), dy.fixed or x0.fixed)
+        return Origin(self.image(x0), (y, slope))
 
     def is_real(self, numbers: Sequence[Number]) -> bool:
         """True if these numbers, and t and its derivative there, are real."""

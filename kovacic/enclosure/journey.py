@@ -6,8 +6,7 @@ A state is carried along each line by a `Way`.  A journey from a regular singula
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
-from functools import cached_property
+from dataclasses import dataclass, field
 from typing import Any
 
 from kovacic.enclosure.classical import Closed
@@ -29,7 +28,8 @@ class Journey:
     """From the start along the polygon `vertices`, then from its end a straight line to each target, or (`chain`) from
     target to target.  `side` says on which side of the real axis singular points on it are passed ("above", "below").
 
-    `problem` is the equation where its coefficients are rational.
+    `problem` is the equation where its coefficients are rational, `routes` the choices of `kovacic.enclosure.states` by what
+    they depend on.
     """
 
     way: Way
@@ -38,6 +38,8 @@ class Journey:
     chain: bool = False
     side: str | None = None
     problem: NumericProblem | None = None
+    routes: dict[Any, Any] = field(default_factory=dict, init=False)
+    _begun: dict[tuple[Closed | None, int], Traveller] = field(default_factory=dict, init=False)
 
     @property
     def place(self) -> ExactPoint | Singular:
@@ -69,15 +71,6 @@ class Journey:
             fan = traveller.fan(stops) if self.side is None else self._around(traveller, stops, self.side)
             found = [fan[stop] for stop in stops]
         return [traveller.way.spread(target, state) for target, state in zip(targets, found, strict=True)]
-
-    @cached_property
-    def _begun(self) -> dict[tuple[Closed | None, int], Traveller]:
-        return {}
-
-    @cached_property
-    def routes(self) -> dict[Any, Any]:
-        """The choices of `kovacic.enclosure.states`, by what they depend on."""
-        return {}
 
     def _begin(self, closed: Closed | None, prec: int) -> Traveller:
         """At the end of the polygon."""

@@ -331,10 +331,9 @@ class RationalWay(Way):
         return first / top, last / top, acb(0), True
 
     def decay_rate(self, x: ExactPoint) -> acb:
-        system = self.problem.system
         prec = self.prec + 20
         normal = replace(self.problem, gauge=self.problem.gauge * 0)
-        rate = logarithmic_derivative(RationalWay(normal, prec), system, x, prec)
+        rate = logarithmic_derivative(RationalWay(normal, prec), self.problem.system, x, prec)
         return rate + self.gauge.value(to_acb(x))
 
     def departure(self, point: Singular, stop: ExactPoint, needed: tuple[bool, bool]) -> tuple[ExactPoint, Matrix]:

@@ -36,8 +36,7 @@ class Operator:
 
     def in_balls(self) -> Operator:
         """The operator in balls, real if all of them are."""
-        is_complex = any(isinstance(v, acb) for v in (*self.A, *self.B, *self.C))
-        kind = acb if is_complex else arb
+        kind = acb if any(isinstance(v, acb) for v in (*self.A, *self.B, *self.C)) else arb
         return Operator(*([kind(v) for v in part] for part in (self.A, self.B, self.C)))
 
 

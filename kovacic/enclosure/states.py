@@ -69,8 +69,7 @@ def route_of(journey: Journey, targets: Sequence[Number], method: Method | None,
     problem = journey.problem
     if problem is None or problem.right is not None or not problem.is_rational:
         return None
-    ways = tuple(_ways(journey, targets))
-    key = ways, len(targets), digits
+    key = tuple(_ways(journey, targets)), len(targets), digits
     if key not in journey.routes:
         journey.routes[key] = _chosen(journey, problem, *key)
     found: ClosedRoute | None = journey.routes[key]

@@ -20,7 +20,7 @@ import logging
 import math
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
-from typing import Any, NamedTuple
+from typing import Any
 
 from flint import fmpq
 
@@ -95,8 +95,7 @@ def walk(
 
     `alone` says that only the end is asked for; `split`, that the matrices come from binary splitting.
     """
-    how = ", by binary splitting" if split else ""
-    _LOG.debug("from %s to %s, %d bits%s", a, b, prec, how)
+    _LOG.debug("from %s to %s, %d bits%s", a, b, prec, ", by binary splitting" if split else "")
     for number, disc in enumerate(cover(system, a, b, prec, alone=alone), 1):
         _LOG.debug("disc %d: centre %s, radius 2^%d", number, disc.frame.centre, disc.frame.e)
         count_work(prec)
@@ -138,6 +137,10 @@ def cover(system: System, a: ExactPoint, b: ExactPoint, prec: int, *, alone: boo
             guess = disc.frame.e
             t = disc.t_leave
             enter = disc.leave
+
+
+_Placed = tuple[ExactPoint, ExactPoint, Any]
+"""Where a disc has its centre and where it would be left, with the parameter of the latter."""
 
 
 @dataclass(frozen=True)
@@ -183,20 +186,20 @@ class StraightPiece:
     def _disc(self, t: Any, enter: ExactPoint, e: int) -> Disc | None:
         """The disc of scale 2^e that is entered at t; None if it doesn't fit."""
         if _reaches_end((1 - t) ** 2 * (self.b - self.a).norm_squared(), e):
-            placed = _Placed(self.at((1 + t) / 2).rounded(e - 4), self.b, fmpq(1))
+            centre, leave, t_leave = self.at((1 + t) / 2).rounded(e - 4), self.b, fmpq(1)
         elif self.a.is_real() and self.b.is_real():
-            placed = self._on_axis(enter, e)
+            centre, leave, t_leave = self._on_axis(enter, e)
         else:
-            placed = self._beside(t, e)
-        if not t < placed.t_leave <= 1:
+            centre, leave, t_leave = self._beside(t, e)
+        if not t < t_leave <= 1:
             return None
         begin = self.at(t)
         square = power_of_two(2 * e)
-        for point in (begin, self.at(placed.t_leave), enter, placed.leave):
-            if (point - placed.centre).norm_squared() > square:
+        for point in (begin, self.at(t_leave), enter, leave):
+            if (point - centre).norm_squared() > square:
                 return None
-        frame = fitting(self.system, placed.centre, e, _RATIO, self.growth)
-        return None if frame is None else Disc(frame, enter, placed.leave, placed.t_leave, begin)
+        frame = fitting(self.system, centre, e, _RATIO, self.growth)
+        return None if frame is None else Disc(frame, enter, leave, t_leave, begin)
 
     def _on_axis(self, enter: ExactPoint, e: int) -> _Placed:
         """One scale ahead, rounded towards the junction behind: a nearest point may lie beyond the scale from there."""
@@ -206,7 +209,7 @@ class StraightPiece:
         grain = power_of_two(e - 4)
         centre = ExactPoint(sign * (((sign * enter.x + unit) / grain).floor() * grain))
         leave = ExactPoint(centre.x + sign * unit)
-        return _Placed(centre, leave, (leave.x - self.a.x) / step)
+        return centre, leave, (leave.x - self.a.x) / step
 
     def _beside(self, t: Any, e: int) -> _Placed:
         """Ahead by short dyadic parameters, just below 2^e/|b - a| and twice as much."""
@@ -215,15 +218,7 @@ class StraightPiece:
         forward = root_below(square, 12) * fmpq(15, 16)
         grain = power_of_two(binary_exponent(square) // 2 - 8)
         t_leave = t + (forward * fmpq(31, 16) / grain).floor() * grain
-        return _Placed(self.at(t + forward).rounded(e - 4), self.at(t_leave).rounded(e - 4), t_leave)
-
-
-class _Placed(NamedTuple):
-    """Where a disc has its centre and where it would be left, with the parameter of the latter."""
-
-    centre: ExactPoint
-    leave: ExactPoint
-    t_leave: Any
+        return self.at(t + forward).rounded(e - 4), self.at(t_leave).rounded(e - 4), t_leave
 
 
 def _reaches_end(square: Any, e: int) -> bool:

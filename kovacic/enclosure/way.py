@@ -340,18 +340,6 @@ def position(here: ExactPoint, x: ExactPoint) -> Any:
     return max(abs(step.x), abs(step.y))
 
 
-@dataclass(frozen=True)
-class _Passed:
-    """A disc that was passed, and the maps to the state where it was entered."""
-
-    step: WayStep
-    maps: MapProduct
-
-    def left(self) -> MapProduct:
-        """The maps to the state where it is left."""
-        return self.maps.after(self.step.matrix, self.step.added)
-
-
 @dataclass
 class Ray:
     """The discs from `here` towards `far`, made as far as somebody has asked.
@@ -371,9 +359,10 @@ class Ray:
     def _begin(self) -> None:
         self._end = self.here
         self._nearest: Any = 0  # what is nearer was forgotten
-        # Of disc k: how far from here it is left, what was passed, and the solution in it if somebody has asked.
+        # Of disc k: how far from here it is left, the disc with the maps to where it is entered, and the solution in it if
+        # somebody has asked.
         self._leave: list[Any] = []
-        self._passed: list[_Passed] = []
+        self._passed: list[tuple[WayStep, MapProduct]] = []
         self._locals: dict[int, Followed] = {}
         self._steps = self.way.walk(self.here, self.far)
 
@@ -391,8 +380,8 @@ class Ray:
         # The first disc that is left at this place or behind it.
         k = bisect_left(self._leave, place)
         if k not in self._locals:
-            passed = self._passed[k]
-            self._locals[k] = passed.step.local(passed.maps.apply(self.start))
+            step, maps = self._passed[k]
+            self._locals[k] = step.local(maps.apply(self.start))
         return apply(self.way.out_of(self.here, stop), self._locals[k].state(stop))
 
     def _advance(self, stop: ExactPoint, place: Any) -> None:
@@ -405,9 +394,12 @@ class Ray:
                 ahead.check(number)
             number += 1
             step = next(self._steps)
-            # From the start to where this disc is entered.
-            entered = self._passed[-1].left() if self._passed else self.maps.after(self.way.into(self.here))
-            self._passed.append(_Passed(step, entered))
+            if self._passed:
+                last, maps = self._passed[-1]
+                maps = maps.after(last.matrix, last.added)
+            else:
+                maps = self.maps.after(self.way.into(self.here))
+            self._passed.append((step, maps))
             self._leave.append(position(self.here, step.leave))
             self._end = step.leave
             if len(self._passed) > _MOST_DISCS:  # the first half is forgotten
