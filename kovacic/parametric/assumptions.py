@@ -207,8 +207,7 @@ class Known:
         if "half-integer" in self.words:
             words += ["rational", "noninteger"]
         for bound in self.bounds:
-            is_beyond_zero = bound.sign * bound.end >= 0
-            if is_beyond_zero:
+            if bound.sign * bound.end >= 0:  # beyond zero
                 strict, weak = _SIGNS[bound.sign]
                 words.append(strict if bound.strict or bound.end != 0 else weak)
         return words
@@ -335,8 +334,7 @@ class Assumptions:
             (root,) = linear.solutions(INTEGERS).residues  # where the value is 0
             if not self.of(linear.parameter).admits_number(root):
                 return True
-        is_product = len(function.num) == 1
-        if is_product:
+        if len(function.num) == 1:  # a product
             return all(self.of(name).nonzero for name in parameters_of(function))
         above = numerator(function)
         return self.is_irrational(function) or self.is_positive(above) or self.is_positive(-1 * above)

@@ -204,7 +204,7 @@ def solvable_cases(regions: Sequence[ParameterRegion]) -> list[Case]:
             meeting = ((other, within(region.statement, within(other, charts))) for other in unsolvable)
             without = [other for other, common in meeting if not covered(common, before)]
             found.append(Case(region.statement, (region,), tuple(without)))
-    return grouped(found, _is_same_region)
+    return grouped(found, lambda first, second: first.verdict.says_the_same(second.verdict))
 
 
 def in_lines(regions: Sequence[ParameterRegion]) -> list[ParameterRegion]:
@@ -264,7 +264,7 @@ def _is_redundant(
     charts = charts_of(region.statement)
     known = [one.statement for one in before]
     for other in after:
-        says_the_same = _is_same_region(other, region)
+        says_the_same = other.verdict.says_the_same(region.verdict)
         if says_the_same and covered(charts, [other.statement]):
             return True
         # The other one has a solution at all of its values, where this one has none.
@@ -274,10 +274,6 @@ def _is_redundant(
         if not covered(within(other.statement, charts), known):
             return False
     return is_generic
-
-
-def _is_same_region(first: ParameterRegion, second: ParameterRegion) -> bool:
-    return first.verdict.says_the_same(second.verdict)
 
 
 def _proves_a_solution(region: ParameterRegion) -> bool:

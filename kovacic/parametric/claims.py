@@ -240,9 +240,8 @@ class Numbers:
         if self.field != self.base:
             return rational_roots(point.at(over_parameters(self.equation(multiples))))
         chosen = [(k, over_parameters(root.square)) for k, root in zip(multiples, self.roots, strict=True) if k]
-        return rational_roots(
-            signed_sums([k * k * point.at(square) for k, square in chosen], self.constant, point.field)
-        )
+        squares = [k * k * point.at(square) for k, square in chosen]
+        return rational_roots(signed_sums(squares, self.constant, point.field))
 
     @property
     def squares(self) -> list[FunctionPoly]:

@@ -389,9 +389,14 @@ def is_too_large(field: Field) -> bool:
 def places_of(problem: Problem) -> Places | None:
     """The choices differ by a root: the exponent difference, or the root of a leading coefficient."""
     points = sum(place.degree for place in singular_places(problem))
-    split = None if is_too_large(problem.field) or points > _POINTS else _with_rational_points(problem)
-    if split is None:
+    if is_too_large(problem.field) or points > _POINTS:
         return None
+    largest = _DEGREE * problem.field.absolute_degree
+    split = problem  # over an extension over which its singular points are rational
+    while factor := next((place.factor for place in split.finite_places if place.degree > 1), None):
+        if split.field.absolute_degree * factor.degree > largest:
+            return None
+        split = _with_root_of(factor, split)
     singular = singular_places(split)
     field = split.field
     roots: list[Poly] = []
@@ -399,7 +404,7 @@ def places_of(problem: Problem) -> Places | None:
         square = place.difference_squared if place.kind is Kind.REGULAR else _at_infinity(place, split.S).lc
         root = adjoined_square_root(field, square.over(field), as_radical=True)
         field = root.field
-        if _degree_over(field, problem.field) > _DEGREE:
+        if field.absolute_degree > largest:
             return None
         roots.append(root)
     S = RatFunc(split.S.num.over(field), split.S.den.over(field), reduced=True)
@@ -409,16 +414,6 @@ def places_of(problem: Problem) -> Places | None:
 
 def singular_places(problem: Problem) -> list[Place]:
     return [place for place in problem.places if place.kind is not Kind.ORDINARY]
-
-
-def _with_rational_points(problem: Problem) -> Problem | None:
-    """The problem over an extension over which its singular points are rational; None if that is too large."""
-    base = problem.field
-    while factor := next((place.factor for place in problem.finite_places if place.degree > 1), None):
-        if _degree_over(problem.field, base) * factor.degree > _DEGREE:
-            return None
-        problem = _with_root_of(factor, problem)
-    return problem
 
 
 def _with_root_of(factor: Poly, problem: Problem) -> Problem:
@@ -441,10 +436,6 @@ def with_points_apart(problem: Problem) -> Problem | None:
     if all(_difference_squared(place).degree <= 0 for place in conjugate):
         return problem
     return _with_root_of(conjugate[0].factor, problem) if [place.degree for place in conjugate] == [2] else None
-
-
-def _degree_over(field: Field, base: Field) -> int:
-    return field.absolute_degree // base.absolute_degree
 
 
 def _at_infinity(place: Place, S: RatFunc) -> Poly:

@@ -61,15 +61,10 @@ def written(function: Poly | RatFunc, letter: str = "x") -> str:
     """The shortest of the usual forms, with its denominator in factors; `letter` is the name of the polynomial variable."""
     above, below, names = _as_quotient(function, letter)
     forms = [*_written_forms(above, below)]
-    best = _shortest(forms, names)
+    best = min((_sum(form, names) for form in forms), key=len)
     has_sum_below = re.search(r"/\([^()]* [+-] [^()]*\)", best) is not None
     in_factors = _sum(forms[-1], names)
     return in_factors if has_sum_below and len(in_factors) <= len(best) + _FOR_FACTORS else best
-
-
-def _shortest(forms: Iterable[Sequence[_FormulaTerm]], names: Sequence[str]) -> str:
-    """The text of the first of the shortest ones."""
-    return min((_sum(form, names) for form in forms), key=len)
 
 
 def partial_fractions(S: RatFunc, variable: str) -> str:
@@ -112,12 +107,13 @@ def sides_of_equation(function: FunctionPoly) -> SidesOfEquation:
         if is_linear or all(factor.total_degree() == 1 for factor, _ in values[0][0].top):
             has_fractions = is_linear and abs(int(parts[degree].leading_coefficient())) != 1
             left = _polynomial(above.context().gen(i) ** degree, names)
-            solved.append((has_fractions, SidesOfEquation(left, _shortest(values, names))))
+            right = min((_sum(form, names) for form in values), key=len)
+            solved.append((has_fractions, SidesOfEquation(left, right)))
     if solved:
         return min(solved, key=lambda one: one[0])[1]
     negative = {exponents: -int(c) for exponents, c in above.to_dict().items() if int(c) < 0}
-    right = above.context().from_dict(negative if len(above) == 2 and len(negative) == 1 else {})
-    return SidesOfEquation(_polynomial(above + right, names), _polynomial(right, names))
+    moved = above.context().from_dict(negative if len(above) == 2 and len(negative) == 1 else {})
+    return SidesOfEquation(_polynomial(above + moved, names), _polynomial(moved, names))
 
 
 def root_written(square: Poly, factor: str = "") -> str:

@@ -179,8 +179,7 @@ def _integer_choices(equation: FunctionPoly, family: IntegerFamily, numbers: Cla
     is_mirrored = equation(-N) == (-1) ** equation.degree * equation
     first = numbers.residues[0]
     are_mirrored = is_mirrored and {*numbers.residues} == {first, -first % numbers.modulus}  # r and -r say the same
-    is_single = len(numbers.residues) == 1 or are_mirrored
-    is_line = is_single and numbers.least is None
+    is_line = (len(numbers.residues) == 1 or are_mirrored) and numbers.least is None
     if equation.degree > 1 or not is_line:
         yield family.along(N, numbers)
     modulus = numbers.modulus

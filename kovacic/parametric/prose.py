@@ -118,12 +118,11 @@ def _congruent(form: str, numbers: Classes) -> str:
 
 def _kind(numbers: Classes, letter: str = "") -> str:
     """What an integer of these is, maybe with its name: "an odd integer n", "an integer not divisible by 3"."""
-    residues = numbers.residues
     noun = _PROSE_OF_KIND.get(numbers, "an integer")
     name = f" `{letter}`" if letter else ""
     if numbers in _PROSE_OF_KIND:
         return noun + name
-    if residues == tuple(range(1, int(numbers.modulus))):
+    if numbers.residues == tuple(range(1, int(numbers.modulus))):
         return f"{noun}{name} not divisible by {numbers.modulus}"
     return f"{noun} `{_congruent(letter, numbers)}`"
 

@@ -110,9 +110,8 @@ def equation_data(equation: Equation | None) -> dict[str, Any] | None:
     """The equation that was given, as text, and the function of the user's variable that its variable is."""
     if equation is None:
         return None
-    change = equation.change
-    shown = None if change is None else change.to_dict()
-    return {"text": equation.text(caret=False), "unknown": equation.unknown, "change": shown}
+    change = equation.change and equation.change.to_dict()
+    return {"text": equation.text(caret=False), "unknown": equation.unknown, "change": change}
 
 
 def equation_from(

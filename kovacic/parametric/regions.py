@@ -268,10 +268,8 @@ class ParameterRegion:
         if self.case is None or not self.verdict.known:
             return f"nothing is solved where the answer is: {self.said}"
         if self.case > 1:
-            degree = _DEGREES_OF_OMEGA[self.case]
-            return (
-                f"omega is algebraic of degree {degree}, and depends on the values of the parameters: solve_at gives it"
-            )
+            said = f"omega is algebraic of degree {_DEGREES_OF_OMEGA[self.case]}"
+            return f"{said}, and depends on the values of the parameters: solve_at gives it"
         if self.formulas is None:
             return "omega follows from the equation on this part: solve_at, or assume the values"
         if self.naturals:
@@ -309,9 +307,7 @@ class ParameterRegion:
         return rf"${self.statement.latex()}\colon\ \text{{{self.said}}}$"
 
     def __str__(self) -> str:
-        known = ""
-        if self.complete is not True:
-            known = f" [{self.complete}]"
+        known = "" if self.complete is True else f" [{self.complete}]"
         first = f"{self.statement.text()}: {self.said}{known}"
         return "\n      ".join([first, *self.determinants])
 

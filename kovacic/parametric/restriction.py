@@ -221,9 +221,7 @@ def _with_weights(function: FunctionPoly) -> Hypersurface | None:
     field = FunctionField((*(name for name in names if name not in (u, v)), letter))
     T = field.generator(letter)
     modulus = field.poly([terms.get((p * (degree - k), q * k), 0) for k in range(degree + 1)]).monic()
-    theta: Poly = -modulus[0]
-    if degree > 1:
-        theta = AlgebraicField(field, modulus, number).generator
+    theta: Poly = AlgebraicField(field, modulus, number).generator if degree > 1 else -modulus[0]
     a = pow(q, -1, p)
     b = (a * q - 1) // p  # -1 for p = 1
     values: dict[str, Poly] = {name: field.generator(name) for name in field.names}
@@ -299,7 +297,11 @@ def spelled(parsed: Parsed) -> tuple[Parsed, Letters]:
     if not isinstance(field, FunctionField) or not parsed.letters:
         return parsed, parsed.letters
     meanings = dict(parsed.letters)
-    spellings = {name: _spelling(meaning) for name, meaning in parsed.letters}
+    spellings: dict[str, str] = {}
+    for name, meaning in parsed.letters:  # powers in parentheses, (a^(1/3)), so that they can be raised to others
+        text = caret(as_text(meaning))
+        is_power = meaning.is_Pow and meaning.exp != sympy.S.Half and meaning.base != sympy.E
+        spellings[name] = f"({text})" if is_power else text
     letters = tuple((spellings[name], meanings[name]) for name in field.names if name in meanings)
     renamed = partial(_in_other_names, field=FunctionField(tuple(spellings.get(name, name) for name in field.names)))
     equation = parsed.equation
@@ -310,13 +312,6 @@ def spelled(parsed: Parsed) -> tuple[Parsed, Letters]:
     said = (notice for notice in parsed.notices if not notice.startswith(tuple(f"{name} is " for name in meanings)))
     notices = tuple(with_single_powers(own.sub(lambda name: spellings[name[0]], notice)) for notice in said)
     return replace(parsed, S=renamed(parsed.S), equation=equation, notices=notices, letters=()), letters
-
-
-def _spelling(meaning: Any) -> str:
-    """sqrt(a), exp(a/2), and powers in parentheses: (a^(1/3)), so that they can be raised to others."""
-    text = caret(as_text(meaning))
-    is_power = meaning.is_Pow and meaning.exp != sympy.S.Half and meaning.base != sympy.E
-    return f"({text})" if is_power else text
 
 
 def _in_other_names(function: RatFunc, field: FunctionField) -> RatFunc:

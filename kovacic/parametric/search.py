@@ -90,7 +90,10 @@ def search(problem: Problem) -> Findings:
         findings = Findings(Theory("the exponents, and polynomials of bounded or natural degree", "Kov86", "AMW11"))
         _add_reducible(problem, findings)
         wanted = _degrees_that_are_possible(problem)
-    candidates = _where_a_logarithm_vanishes(problem) if wanted else None
+    # Where an exponent difference is a positive integer, there is a logarithm, and so only case 1 or none, unless the
+    # obstruction to a solution without one vanishes: its zeros are examined as a whole.
+    obstructions = filter(None, map(_obstruction, problem.places))
+    candidates = _examinable(map(over_parameters, obstructions)) if wanted else None
     if candidates is not None:
         findings.candidates += candidates
         wanted = [(m, structure) for m, structure in wanted if structure is Structure.REDUCIBLE]
@@ -132,15 +135,6 @@ def _degrees_that_decide(problem: Problem) -> Degrees | None:
     return sorted([*reducible, *_degrees_that_are_possible(problem)], key=itemgetter(0))
 
 
-def _where_a_logarithm_vanishes(problem: Problem) -> list[FunctionPoly] | None:
-    """Hypersurfaces outside of which there is a logarithm, and so only case 1 or none: each is examined as a whole.
-
-    Where an exponent difference is a positive integer, that is where the obstruction to a solution without one vanishes.
-    None if the obstructions vanish everywhere, or their zeros can't be examined.
-    """
-    return _examinable(over_parameters(obstruction) for obstruction in map(_obstruction, problem.places) if obstruction)
-
-
 def _obstruction(place: Place) -> Poly | None:
     """The right side of the recurrence n (n - Delta) c_n = ... at n = Delta, which has to vanish, from the smaller exponent on.
 
@@ -168,20 +162,16 @@ def _degrees_that_are_possible(problem: Problem) -> Degrees:
     if any(place.order == 1 or (place.order == 2 and place.delta == 0) for place in problem.places):
         return []
     found: Degrees = []
-    # The square root of an invariant needs two branch points.
-    if sum(place.degree for place in problem.places if _may_branch(place)) >= 2:
+    # The square root of an invariant needs two branch points, whose exponent differences are half-integers or aren't known.
+    halves = [p for p in problem.places if p.kind is Kind.REGULAR and (p.delta is None or p.delta.denominator == 2)]
+    ramified = [place for place in problem.places if place.kind is Kind.RAMIFIED]
+    if sum(place.degree for place in halves + ramified) >= 2:
         found.append((4, Structure.IMPRIMITIVE))
     # Each exponent difference may be one of Schwarz's table.
     are_possible = all(place.delta is None or place.delta.denominator <= riemann.LARGEST for place in problem.places)
     if riemann.is_fuchsian(problem) and are_possible:
         found.append((12, Structure.TETRAHEDRAL))
     return found
-
-
-def _may_branch(place: Place) -> bool:
-    """True for a branch point in case 2, at which an exponent difference is a half-integer, or isn't known."""
-    is_half_integer = place.delta is None or place.delta.denominator == 2
-    return place.kind is Kind.RAMIFIED or (place.kind is Kind.REGULAR and is_half_integer)
 
 
 def degree_equation(problem: Problem) -> Poly | None:

@@ -109,8 +109,7 @@ def derivative(y: Any, x: Any) -> Any:
 
 def _binomial(top: Any, k: Any) -> Any:
     """The polynomial top (top - 1) ... (top - k + 1)/k!."""
-    factors = [(top - j) / (j + 1) for j in range(int(k))]
-    return sympy.Mul(*factors)
+    return sympy.Mul(*((top - j) / (j + 1) for j in range(int(k))))
 
 
 @dataclass(frozen=True)

@@ -132,9 +132,7 @@ def symmetries(problem: Problem, variable: str) -> Iterator[Symmetric]:
 def mean_of_singular_points(S: RatFunc) -> Poly | None:
     """The mean of the poles, or of the zeros of a polynomial; None for a constant."""
     points = S.den if S.den.degree else S.num
-    if points.degree < 1:
-        return None
-    return -points[points.degree - 1] / (points.lc * points.degree)
+    return None if points.degree < 1 else -points[points.degree - 1] / (points.lc * points.degree)
 
 
 def kimura(problem: Problem, variable: str) -> Theorem | None:

@@ -169,9 +169,7 @@ class Arithmetic:
         return power.num if power.is_polynomial else power
 
     def closed(self, value: Value) -> Poly | RatFunc:
-        if isinstance(value, Monomial):
-            return _monomial(value.coefficient, value.power)
-        return value
+        return _monomial(value.coefficient, value.power) if isinstance(value, Monomial) else value
 
     def _poly_sum(self, left: Poly, right: Poly) -> Poly:
         self._check(max(left.degree, right.degree), left.height_bits() + right.height_bits() + 1)

@@ -174,8 +174,7 @@ class EquationReader(RationalReader):
         if head.rstrip(PRIMES) == self.unknown:
             return self._call_of_unknown(head, arguments, site)
         if head in DERIVATIVES:
-            order = differentiations(arguments, self)
-            return self._derived(arguments[0], order)
+            return self._derived(arguments[0], differentiations(arguments, self))
         if head in self.names:
             hint = f"for a product write {head}*({site.inside()})"
             raise ParseError(f"{head} is followed by a parenthesis like a function", hint=hint)

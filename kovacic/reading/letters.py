@@ -151,10 +151,12 @@ class _LetterTable:
         A base that is linear in a symbol which isn't among the `symbols` yet becomes a power of the letter, and so does this.
         """
         one = sympy.S.One  # the monomial of base^r, and the rate of the base itself
-        exponents = {power: _monomials(power) for power in powers}
+        exponents: dict[Expr, dict[Expr, Expr]] = {each: {} for each in powers}  # r by m
         rates: dict[Expr, list[Expr]] = {}
-        for terms in exponents.values():
-            for monomial, rate in terms.items():
+        for each, terms in exponents.items():
+            for term in sympy.Add.make_args(sympy.expand(each.as_base_exp()[1])):
+                rate, monomial = term.as_coeff_Mul(rational=True)
+                terms[monomial] = rate
                 rates.setdefault(monomial, []).append(rate)
         line = _line_in_symbol(base, symbols) if one in rates else None
         if line is not None:
@@ -173,12 +175,6 @@ class _LetterTable:
             symbol, slope, rest = line
             symbols[symbol] = sympy.expand((power(one, one) - rest) / slope)
         return {each: sympy.Mul(*(power(m, rate) for m, rate in terms.items())) for each, terms in exponents.items()}
-
-
-def _monomials(power: Expr) -> dict[Expr, Expr]:
-    """The exponent as a sum of rational numbers times monomials."""
-    terms = sympy.Add.make_args(sympy.expand(power.as_base_exp()[1]))
-    return {monomial: rate for rate, monomial in (term.as_coeff_Mul(rational=True) for term in terms)}
 
 
 def _line_in_symbol(base: Expr, known: Meanings) -> tuple[Expr, Expr, Expr] | None:

@@ -194,9 +194,7 @@ class LinearArithmetic(Arithmetic):
 
     def _coefficient_of(self, factor: Any) -> Any:
         """A value free of the unknown function, as a coefficient of it."""
-        if is_rational(factor):
-            return self.closed(factor)
-        return self.coefficient(factor)  # type: ignore[misc]
+        return self.closed(factor) if is_rational(factor) else self.coefficient(factor)  # type: ignore[misc]
 
     def divide(self, left: Any, right: Any) -> Any:
         if isinstance(right, LinearForm):

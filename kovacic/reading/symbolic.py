@@ -86,9 +86,7 @@ def _combined(node: Any, arguments: list[Any], reader: RationalReader) -> Any:
 
 def _leaf(node: Any, reader: RationalReader) -> Any:
     if node.is_Symbol:
-        if node.name == reader.variable:
-            return VARIABLE
-        return reader.constants.parameter(node.name)
+        return VARIABLE if node.name == reader.variable else reader.constants.parameter(node.name)
     if node.is_Rational:
         return reader.arithmetic.constant(Fraction(index(node.p), index(node.q)))
     if node.is_Float and node.is_finite:  # a binary fraction
