@@ -139,9 +139,9 @@ class TwoTerms:
             downwards = TwoTerms(-self.step, self.lower, self.upper)
             reverse = downwards._from(self.upper, degree, self.lower, lowest)
             found = found if reverse.is_singular else reverse
-        other = None if self.lower.degree < 2 else -self.lower[1] / self.lower[2] - lowest
-        if other is None:
+        if self.lower.degree < 2:
             return [found]
+        other = -self.lower[1] / self.lower[2] - lowest
         second = self._from(self.lower, other, self.upper, degree)
         return [found] if not other - lowest or second.is_singular else [found, second]
 

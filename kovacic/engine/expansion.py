@@ -48,7 +48,8 @@ def polynomial_invariant(problem: Problem, m: int, N: int, valuations: Sequence[
         return None
     P = fmpq_poly([])
     for factor, solution in zip(combination, solutions, strict=True):
-        P += solution.truncated(N) * factor
+        terms = solution.series.polynomial(max(N + 1 - solution.start, 0))  # up to t^N
+        P += terms.rep.left_shift(solution.start) * factor
     if place is not None and place.at_infinity:
         return RationalPoly(fmpq_poly(P.coeffs()[::-1]).left_shift(N - P.degree())).monic()
     return RationalPoly(P)(QQ.poly([-point, 1])).monic()
@@ -63,10 +64,6 @@ class _Solution(NamedTuple):
     def term(self, k: int) -> Any:
         """The coefficient of t^k."""
         return self.series.term(k - self.start) if k >= self.start else fmpq(0)
-
-    def truncated(self, N: int) -> Any:
-        """The terms up to t^N."""
-        return self.series.polynomial(max(N + 1 - self.start, 0)).rep.left_shift(self.start)
 
 
 def _local_solutions(problem: Problem, factors: Sequence[Any], N: int) -> tuple[list[_Solution], list[list[Any]]]:

@@ -76,7 +76,10 @@ def search_series(problem: Problem) -> SeriesSearch | None:
     tried = []
     for family, d in families(choices, points, 1, field):
         if is_natural(d):
-            tried.append((natural(d), _in_least_field(RatFunc(theta_numerator(D, points, family), D))))
+            theta = RatFunc(theta_numerator(D, points, family), D)
+            if not any([*theta.num.parts[1:], *theta.den.parts[1:]]):  # over K, if it doesn't contain c
+                theta = RatFunc(theta.num.parts[0], theta.den.parts[0])
+            tried.append((natural(d), theta))
     found = []
     is_known = True
     for degree, theta in sorted(tried, key=lambda pair: pair[0]):
@@ -99,12 +102,6 @@ def recurrence_about(centre: Poly, S: RatFunc, theta: RatFunc) -> TwoTerms | Non
     one = RatFunc(x**0)
     parts = over_one_denominator([one, 2 * theta, theta.derivative() + theta * theta - one * S])
     return TwoTerms.of(*(part(x + centre) for part in parts))
-
-
-def _in_least_field(theta: RatFunc) -> RatFunc:
-    """A function over K(c) that doesn't contain c as one over K; any other as it is."""
-    parts = [part for f in (theta.num, theta.den) for part in f.parts[1:]]
-    return theta if any(parts) else RatFunc(theta.num.parts[0], theta.den.parts[0])
 
 
 def _centres(problem: Problem, theta: RatFunc) -> Iterator[Poly]:

@@ -119,11 +119,8 @@ def model_of(H: RatFunc) -> Model:
     t = field.poly([0, 1])
     moved = RatFunc(num, den * t**4)  # dx = -dt/t^2
     h, s = _squarefree_part(moved)
-    poles = []
-    for q, multiplicity in field.factor(moved.den):
-        if multiplicity == 2:
-            poles.append(_pole_over(moved, h, s, q))
-    return Model(r, h, s, tuple(poles))
+    double = [q for q, multiplicity in field.factor(moved.den) if multiplicity == 2]
+    return Model(r, h, s, tuple(_pole_over(moved, h, s, q) for q in double))
 
 
 def _squarefree_part(H: RatFunc) -> tuple[Poly, RatFunc]:

@@ -219,8 +219,7 @@ class Road:
             far = None if end.is_infinite else ball(end)
             if far is not None and not (start < far if forwards else far < start):
                 continue
-            leaves = far is None or not (far < stop if forwards else stop < far)
-            if leaves:
+            if far is None or not (far < stop if forwards else stop < far):
                 yield piece, stop, 0
                 return
             yield piece, far, ball(pieces[number + 1].delta) if forwards else -ball(piece.delta)

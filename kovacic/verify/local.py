@@ -143,10 +143,7 @@ def points(S: RatFunc, budget: Budget) -> list[Point]:
     factors = factors_of(S.den)
     regular = Expansions(S, [(p, order) for p, order in factors if order <= 2])
     irregular = Expansions(S, [(p, order) for p, order in factors if order > 2])
-    found = []
-    for p, order in factors:
-        expansions = regular if order <= 2 else irregular
-        found.append(Point(p, order, S.num, S.den, budget, expansions))
+    found = [Point(p, order, S.num, S.den, budget, regular if order <= 2 else irregular) for p, order in factors]
     # S(1/z)/z^4 = N/(z^k M), k = deg num - deg den + 4, where N and M have the coefficients of num and den in the reversed
     # order; a negative k gives N a power of z.
     k = S.num.degree - S.den.degree + 4 if S.num else 0

@@ -165,6 +165,4 @@ def roots_modulo(polynomial: Poly, h: Homomorphism) -> list[int]:
 
 def translated(polynomial: Any, point: int) -> Any:
     """polynomial(t + point)."""
-    if point == 0:
-        return polynomial
-    return polynomial.compose(nmod_poly([point, 1], polynomial.modulus()))
+    return polynomial if point == 0 else polynomial.compose(nmod_poly([point, 1], polynomial.modulus()))

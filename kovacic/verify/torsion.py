@@ -160,8 +160,7 @@ class Curve:
         common, e1, e2 = u1.xgcd(u2)
         d, c, c3 = common.xgcd(v1 + v2)
         u = u1 * u2 // (d * d)
-        v = (c * e1 * u1 * v2 + c * e2 * u2 * v1 + c3 * (v1 * v2 + self.h)) // d
-        v = v % u
+        v = (c * e1 * u1 * v2 + c * e2 * u2 * v1 + c3 * (v1 * v2 + self.h)) // d % u
         # Reduced to the degree g + 1 at most: the conjugates of the other zeros of y - v have the same class.
         while 2 * u.degree() > self.h.degree():
             others = (v * v - self.h) // u

@@ -151,9 +151,7 @@ class ZeroCounts:
         if not own or point.factor.degree > 1 or not is_exact:
             return None
         others = [half for other, half in self.choices if other is not point]
-        half = own[0]
-        possible = [(half, largest_natural_sum(self.total - half, others))]
-        possible.append((-half, largest_natural_sum(self.total + half, others)))
+        possible = [(shift, largest_natural_sum(self.total - shift, others)) for shift in (own[0], -own[0])]
         mean = Fraction(_double_mean(point), 2)
         return [(mean + shift, bound) for shift, bound in possible if bound >= 0]
 
