@@ -143,10 +143,7 @@ def arcs(
     found: list[Arc | Envelope] = []
     for first, last in _stretches(too_fine):
         part = CurveCoefficients(*(values[first : last + 1] for values in here))
-        if too_fine[first]:
-            found.append(_envelope(chart, part, width, states))
-        else:
-            found.append(_arc(part, width, points, states))
+        found.append(_envelope(chart, part, width, states) if too_fine[first] else _arc(part, width, points, states))
     return found
 
 
@@ -167,8 +164,7 @@ def _beside_singular_points(chart: PieceChart, low: float, high: float) -> list[
 
 def _stretches(kind: NDArray[np.bool_]) -> list[tuple[int, int]]:
     """First and last index of each stretch of points of one kind; the next stretch begins at the last one."""
-    changes = [int(k) + 1 for k in np.flatnonzero(kind[1:] != kind[:-1])]
-    ends = [0, *changes, len(kind) - 1]
+    ends = [0, *(int(k) + 1 for k in np.flatnonzero(kind[1:] != kind[:-1])), len(kind) - 1]
     return [(first, last) for first, last in pairwise(ends) if first < last]
 
 

@@ -118,9 +118,7 @@ class Complex:
     @classmethod
     def of(cls, value: acb) -> Complex:
         """The number next to the midpoint of a ball; real, if the ball meets the real axis."""
-        if value.imag.contains(0):
-            return cls(Pair.of(value.real))
-        return cls(Pair.of(value.real), Pair.of(value.imag))
+        return cls(Pair.of(value.real), None if value.imag.contains(0) else Pair.of(value.imag))
 
     def ball(self) -> acb:
         """The number, of Pairs of floats, exactly."""
@@ -151,9 +149,7 @@ class Complex:
 
     def each(self, function: Callable[[Any], Any]) -> Complex:
         """The function of both parts; of the real one where the other is 0."""
-        if self.im is None:
-            return Complex(function(self.re))
-        return Complex(function(self.re), function(self.im))
+        return Complex(function(self.re), None if self.im is None else function(self.im))
 
     def conjugate(self) -> Complex:
         """re - i im."""

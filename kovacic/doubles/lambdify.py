@@ -177,13 +177,11 @@ def _question(initial: Start, path: Path) -> tuple[dict[str, Any], int]:
     """The keywords of the start and the path, if there are any, and else the number of the solution."""
     which = initial.which
     start = fields_of(initial) if path is None else {**fields_of(initial), "path": path}
-    number = 0
     if isinstance(which, str) and which in _PRINTED:
         if len(start) > 1:
             raise InputError(f"which={which!r} is a solution without initial values")
         return {}, 0
-    if not isinstance(which, str):
-        number = whole(start.pop("which", 0), "which")
+    number = 0 if isinstance(which, str) else whole(start.pop("which", 0), "which")
     if start and "x0" not in start:
         raise InputError(f"{', '.join(start)} without a point: x0 is needed", hint="x0=0, y0=1, dy0=0, for instance")
     if start and number:

@@ -134,9 +134,8 @@ class Classical:
         if zero is None:
             return multiply(start.at(b), start.coordinates)
         basis = _solutions_at_start(self, zero, True)
-        there = basis.at(b)
         coordinates = basis.coordinates if a == zero else inverse(basis.at(a))
-        return multiply(there, coordinates)
+        return multiply(basis.at(b), coordinates)
 
 
 Closed = CaseOneForm | Classical
@@ -157,8 +156,7 @@ def _settled(compute: Callable[[], Matrix], bits: int) -> Matrix:
 def _solutions_at_start(classical: Classical, a: ExactPoint, is_zero: bool) -> Solutions:
     """The solutions from a, perhaps an ordinary zero of f, on."""
     form = _form(classical, classical.coordinate(a))
-    exponents = (fmpq(0), fmpq(1)) if is_zero else None
-    return Solutions.make(form, a, exponents)
+    return Solutions.make(form, a, (fmpq(0), fmpq(1)) if is_zero else None)
 
 
 @kept_at_precision(maxsize=16)
@@ -194,8 +192,7 @@ def _without_pole(gauge: RatFunc, point: ExactPoint) -> RatFunc | None:
 
 def _ordinary_zero(form: StandardForm, a: ExactPoint, b: ExactPoint) -> ExactPoint | None:
     """A zero of f on a real leg that is an ordinary point of y'' = S y: where f^(1/2 +- mu) has the orders 1/2 +- 1/2."""
-    is_real = a.is_real() and b.is_real()
-    if not is_real or form.n.degree() < 2 or form.powers[0][0] == 0:
+    if not (a.is_real() and b.is_real()) or form.n.degree() < 2 or form.powers[0][0] == 0:
         return None
     low, high = sorted((a.x, b.x))
     doubled = 2 * form.powers[0][0] - 1  # 2 mu, or -2 mu

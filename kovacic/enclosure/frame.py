@@ -419,8 +419,7 @@ def largest_exponent(system: System, point: ExactPoint) -> int | None:
         # A frame needs sigma < _MOST_GROWTH^2 for its sigma >= |p/q|, which is 4^e |S| at the point.
         size = abs(system.polynomial("num")(here)).lower()
         steepest = arb(_MOST_GROWTH**2) * abs(system.polynomial("den")(here)).upper()
-        is_known = size > 0 and steepest > 0
-        return math.ceil(log2(steepest / size) / 2) if is_known else None
+        return math.ceil(log2(steepest / size) / 2) if size > 0 and steepest > 0 else None
 
 
 def foreseen_growth(rate: Callable[[acb], Any], a: ExactPoint, b: ExactPoint) -> float:
@@ -440,8 +439,7 @@ def foreseen_growth(rate: Callable[[acb], Any], a: ExactPoint, b: ExactPoint) ->
             sizes.append(float((rate(start + step * t) * length).mid()))
         # (t - s) min(value at s, value at t), without those that are NaN.
         pieces = zip(_MARKS, _MARKS[1:], sizes, sizes[1:], strict=False)
-        least = ((t - s) * min([v for v in (x, y) if not math.isnan(v)], default=0.0) for s, t, x, y in pieces)
-        return sum(least)
+        return sum((t - s) * min([v for v in (x, y) if not math.isnan(v)], default=0.0) for s, t, x, y in pieces)
 
 
 def frequency(system: System) -> Callable[[acb], arb]:

@@ -187,7 +187,6 @@ def _wave_quotient(t: Any, function: RatFunc, factor: Any) -> Any:
     below = list(atoms.coefficients(function.den))
     lowest = next(k for k, c in enumerate(below) if c != 0)
     half = sympy.Rational(lowest + len(below) - 1, 2)
-
     first, last = (
         sympy.conjugate(c).xreplace({sympy.conjugate(s): s for s in c.free_symbols}) for c in (below[lowest], below[-1])
     )

@@ -439,8 +439,7 @@ def step_of(jets: Jets, enter: ExactPoint, leave: ExactPoint) -> DiscStep:
 def _solved(jets: Jets, start: int | None) -> Local:
     """The solution with the state (1, 0) or (0, 1) at the centre, or with the right-hand side and (0, 0)."""
     A, B, C, F = jets.parts
-    is_real = isinstance(F, arb_poly)
-    number = arb if is_real else acb
+    number = arb if isinstance(F, arb_poly) else acb
     right = F if start is None else F * 0
     with working_precision(jets.precision):
         # a_0 and a_1: 1, 0 or 0, 1; beside the right-hand side (start is None) 0, 0.

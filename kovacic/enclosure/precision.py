@@ -92,8 +92,7 @@ def raise_precision(
             ceiling = max(ceiling, 2 * max(map(_growth, run.values)) + 2 * start_bits(digits))
             if closed is not None:
                 ceiling = min(ceiling, most)
-        is_stalled = not exact and run.is_stalled(previous)
-        if bits >= ceiling or ceiling > most or is_stalled:
+        if bits >= ceiling or ceiling > most or (not exact and run.is_stalled(previous)):
             return run.explained()
         if run.finite:
             previous = run

@@ -131,11 +131,14 @@ def recurrence(p: GaussianParts, q: GaussianParts, w: int, start: int, small: in
     pad = max(map(len, (p_re, p_im, q_re, q_im))) + 2
     real = _Series(pad, *((zero, one) if start else (one, zero)))
     imag = None if p[1] is q[1] is None else _Series(pad, zero, zero)
+    cap = 40 * w + 4000
     n = 0
     quiet = 0
     while quiet <= pad:
         if n % _TERMS_BETWEEN_LOOKS == 0:
-            _check_terms(n, w)
+            check_time()
+            if n > cap:
+                raise LimitExceeded(f"a Taylor expansion needs more than {cap} terms", limit="unknown_degree")
         k = (n + 1) * (n + 2)
         # (p + i p')(a + i a') = (p a - p' a') + i (p a' + p' a), and q so.
         re = real.known(p_re, q_re)
@@ -151,14 +154,6 @@ def recurrence(p: GaussianParts, q: GaussianParts, w: int, start: int, small: in
         quiet = quiet + 1 if -small < re < small and -small < im < small else 0
         n += 1
     return real.a[pad:], None if imag is None else imag.a[pad:]
-
-
-def _check_terms(n: int, w: int) -> None:
-    """Raise LimitExceeded where there are too many terms, or no time is left."""
-    check_time()
-    cap = 40 * w + 4000
-    if n > cap:
-        raise LimitExceeded(f"a Taylor expansion needs more than {cap} terms", limit="unknown_degree")
 
 
 def _proven_defect(p: GaussianParts, q: GaussianParts, column: GaussianParts, excess: int, small: int) -> int:
