@@ -365,6 +365,9 @@ class _Asked:
         if isinstance(problem, LinearSystem):
             solved = solved_system(problem, solver)
         else:
+            if (problem.q + problem.r).has(sympy.DiracDelta):
+                what = f"in {problem.reading} an impulse is multiplied by {problem.function}, which jumps there"
+                raise InputError(what, hint="solve the equation on either side, and give the ratio of the values there")
             solved = solved_linear(problem) if problem.is_linear else solved_riccati(problem, solver)
         eqs = [sympy.Eq(f, w, evaluate=False) for f, w in zip(problem.functions, solved.values, strict=True)]
         exceptions = (f"this holds unless {said}" for said in self.where_zero(solved.zeros, problem.at, eqs))

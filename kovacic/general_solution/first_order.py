@@ -333,10 +333,7 @@ def _exponential_of_integral(q: Expr, x: Expr, start: Expr | None, place: Expr |
         atoms = Atoms(x, at=place if is_known else None, own=lambda e: e.xreplace(own))
         h = display(product(rate), atoms).xreplace(NUMBERS | own)
         return h.replace(lambda e: e.is_Add, sympy.expand)  # as in p
-    apart = in_parts(q, x)
-    if apart.impulses:
-        return sympy.exp(sympy.Integral(q, x))
-    return sympy.exp(_of_parts(apart, sympy.Integer(1), x, start))
+    return sympy.exp(_of_parts(in_parts(q, x), sympy.Integer(1), x, start))
 
 
 def _beside_value(h: Expr, x: Expr, start: Expr) -> Expr:

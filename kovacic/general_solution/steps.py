@@ -31,15 +31,22 @@ from kovacic.errors import InputError
 from kovacic.general_solution.zero import samples
 
 Expr = Any  # SymPy publishes no types
+
+
+def _singularity(u: Expr, a: Expr, n: Expr) -> Expr:
+    """A power beside a step, or an impulse; with a letter n it may be either."""
+    if not n.is_Integer:
+        return sympy.SingularityFunction(u, a, n)
+    return DiracDelta(u - a, -1 - n) if n < 0 else (u - a) ** n * Heaviside(u - a)
+
+
 #: Functions that jump, or whose slopes do, of their arguments.
 _IDENTITIES: dict[Any, Callable[..., Expr]] = {
     sympy.Abs: lambda u: u * (2 * Heaviside(u) - 1),
     sympy.sign: lambda u: 2 * Heaviside(u) - 1,
     sympy.Max: lambda *parts: reduce(lambda u, v: v + (u - v) * Heaviside(u - v), parts),
     sympy.Min: lambda *parts: reduce(lambda u, v: v + (u - v) * Heaviside(v - u), parts),
-    sympy.SingularityFunction: lambda u, a, n: (
-        DiracDelta(u - a, -1 - n) if n.is_negative else (u - a) ** n * Heaviside(u - a)
-    ),
+    sympy.SingularityFunction: _singularity,
     Heaviside: lambda u, *_: Heaviside(u),
     DiracDelta: DiracDelta,
 }
@@ -192,7 +199,7 @@ def _at_points(e: Expr, x: Expr) -> Expr:
 
 
 def _in_heavisides(e: Expr, x: Expr) -> Expr:
-    """A function that jumps in terms of H(u) and impulses.
+    """A function that jumps in terms of H(u) and impulses; the same where that isn't known.
 
     Raises `InputError` where no case of one that is given by cases holds.
     """
@@ -281,6 +288,7 @@ def on_piece(expression: Expr, x: Expr, point: Expr) -> Expr:
             return sympy.Integer(0)
         if isinstance(jump, Heaviside):
             return (1 + sympy.sign(jump.args[0].subs(x, point))) / 2
-        return on_piece(_in_heavisides(jump, x), x, point)
+        plain = _in_heavisides(jump, x)
+        return jump if plain == jump else on_piece(plain, x, point)
 
     return expression.replace(lambda e: isinstance(e, JUMPING) and e.has(x), near)

@@ -356,6 +356,12 @@ def test_the_second_unknown_is_short(text: str, printed: str) -> None:
     assert str(kovacic.dsolve(text)[1].rhs) == printed
 
 
+@pytest.mark.parametrize("text", ["y' + dirac(x-1)*y = 0", "w' = dirac(x)*w^2, w(-1) = 1"])
+def test_an_impulse_times_a_function_that_jumps_there_has_no_value(text: str) -> None:
+    with pytest.raises(kovacic.InputError, match=r"an impulse is multiplied by .\(x\), which jumps there"):
+        kovacic.dsolve(text)
+
+
 def test_where_the_solutions_of_a_system_with_letters_are_real_and_independent() -> None:
     with pytest.warns(
         UserWarning, match=r"unless b = -\(a - d\)\*\*2/\(4\*c\), where x\(t\) = .*|unless b = 0: give such values"

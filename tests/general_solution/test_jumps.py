@@ -383,6 +383,11 @@ def test_macaulays_brackets(n: int) -> None:
     assert with_brackets == with_steps
 
 
+def test_a_bracket_with_a_letter_may_be_a_step_or_an_impulse() -> None:
+    load = sympy.SingularityFunction(x, 1, sympy.Symbol("n"))
+    assert load in kovacic.answer_to(sympy.Eq(applied(0, 1, y(x)), load), y(x)).eq.rhs.atoms(sympy.SingularityFunction)
+
+
 PIECES: list[tuple[str, Any]] = [
     ("Piecewise((1, t < 5), (0, True))", [(1, x < 5), (0, True)]),
     ("Piecewise((t, 0 <= t < 1), (2 - t, 1 <= t < 2), (0, otherwise))", [(x, x < 1), (2 - x, x < 2), (0, True)]),
