@@ -470,10 +470,8 @@ def _read_words(what: object) -> list[str]:
     words = [*chain.from_iterable(_ABBREVIATIONS.get(word, (word,)) for word in given)]
     unknown = [word for word in words if word not in WORDS and not is_relation(word)]
     if unknown or not given:
-        raise InputError(
-            f"{' '.join(unknown) or what!r} isn't an assumption that is known",
-            hint=f"known are {', '.join((*_ABBREVIATIONS, *WORDS))}, >=1/2, !=1, a value",
-        )
+        hint = f"known are {', '.join((*_ABBREVIATIONS, *WORDS))}, >=1/2, !=1, a value"
+        raise InputError(f"{' '.join(unknown) or what!r} isn't an assumption that is known", hint=hint)
     for word in filter(_BOUND.fullmatch, words):
         _stated_bound(word)
     return words
@@ -487,6 +485,5 @@ def _is_positive_beyond(bounds: Sequence[Bound], form: FunctionPoly, *, or_zero:
     if any(coefficient < 0 for coefficient in terms.values()):
         return False
     # A monomial is positive where each of its parameters is strictly beyond the bound.
-    return or_zero or any(
-        all(bound.strict for bound, k in zip(bounds, powers[1:], strict=True) if k) for powers in terms
-    )
+    are_positive = (all(bound.strict for bound, k in zip(bounds, powers[1:], strict=True) if k) for powers in terms)
+    return or_zero or any(are_positive)

@@ -220,9 +220,8 @@ def _cleared(row: dict[int, Any], k: int, chosen: dict[int, Any]) -> dict[int, A
     check_time()
     pivot, factor = chosen[k], row[k]
     zero = 0 * pivot
-    combined = {
-        j: _product(pivot, row.get(j, zero)) - _product(factor, chosen.get(j, zero)) for j in row.keys() | chosen.keys()
-    }
+    columns = row.keys() | chosen.keys()
+    combined = {j: _product(pivot, row.get(j, zero)) - _product(factor, chosen.get(j, zero)) for j in columns}
     return _primitive({j: entry for j, entry in combined.items() if entry})
 
 

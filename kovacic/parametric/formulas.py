@@ -125,9 +125,8 @@ def root_written(square: Poly, factor: str = "") -> str:
         return "0"
     field = over_parameters(square).field
     above, below, names = _as_quotient(square, "x")
-    (top, odd), (bottom, under) = (
-        [part.num for part in element(field, whole).square_part()] for whole in (above, below)
-    )
+    squares = (element(field, whole).square_part() for whole in (above, below))
+    (top, odd), (bottom, under) = ([part.num for part in parts] for parts in squares)
     if int(odd.leading_coefficient()) < 0 and not under.is_constant():
         odd, under = -odd, -under
     return _sum([replace(_factored(top, bottom), root=odd, under=under, name=factor)], names)

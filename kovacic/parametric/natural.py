@@ -130,9 +130,8 @@ class Natural(Statement):
         if self.factors is None:
             return replace(self, S=S)
         factored = (one.field.factor(one) for one in map(change, self.factors))
-        return replace(
-            self, S=S, factors=tuple(union([over_parameters(factor) for factor, _ in one] for one in factored))
-        )
+        factors = union([over_parameters(factor) for factor, _ in one] for one in factored)
+        return replace(self, S=S, factors=tuple(factors))
 
     def numbers_at(self, point: ParameterPoint) -> list[int]:
         """The natural numbers that the exponents allow at a point, as far as they are listed."""

@@ -83,9 +83,8 @@ def search(problem: Problem) -> Findings:
     """
     wanted = _degrees_that_decide(problem)
     if wanted is not None:
-        findings = Findings(
-            Theory("exponents that don't depend on the parameters: invariants of bounded degree", "UW96", "HW97")
-        )
+        said = "exponents that don't depend on the parameters: invariants of bounded degree"
+        findings = Findings(Theory(said, "UW96", "HW97"))
     else:
         findings = Findings(Theory("the exponents, and polynomials of bounded or natural degree", "Kov86", "AMW11"))
         _add_reducible(problem, findings)

@@ -139,9 +139,8 @@ def kimura(problem: Problem, variable: str) -> Theorem | None:
     """Kimura's theorem, where the equation or its quotient has at most three singular points, and regular ones."""
     if not riemann.is_fuchsian(problem):
         return None
-    quotients = (
-        (one.coordinate, one.quotient(problem)) for one in symmetries(problem, variable) if one.coordinate.n > 1
-    )
+    powers = (one for one in symmetries(problem, variable) if one.coordinate.n > 1)
+    quotients = ((one.coordinate, one.quotient(problem)) for one in powers)
     for coordinate, equation in chain([(Coordinate(variable), problem)], quotients):
         if riemann.singular_points(equation) > 3:
             continue

@@ -64,9 +64,8 @@ def in_exponentials(source: Source, limits: Limits) -> Parsed | None:
     k = common.k
     a, b, c = (part.xreplace(common.powers) for part in rewritten[:3])
     if sympy.Tuple(a, b, c).has(x):
-        raise NotRational(
-            f"{x} and exp({k * x}) both occur: that isn't rational in one exponential function", hint=_HINT
-        )
+        said = f"{x} and exp({k * x}) both occur: that isn't rational in one exponential function"
+        raise NotRational(said, hint=_HINT)
     right, h = _right_side(parts[3], x, common.powers)
     left = (k**2 * T**2 * a, k**2 * T * a + k * T * b, c)
     read = read_in(T, (*left, -right), source, limits, taken=k.free_symbols)

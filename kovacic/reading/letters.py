@@ -82,9 +82,8 @@ def without_shifts(part: Expr, x: Expr) -> Expr:
 
     bases = {p: sympy.log(p.base) * p.exp for p in part.atoms(sympy.Pow) if p.exp.has(x) and not p.base.has(x)}
     part = part.xreplace({power: sympy.exp(exponent, evaluate=False) for power, exponent in bases.items()})
-    return part.replace(
-        lambda e: isinstance(e, sympy.exp | TrigonometricFunction | HyperbolicFunction) and e.has(x), apart
-    )
+    kinds = (sympy.exp, TrigonometricFunction, HyperbolicFunction)
+    return part.replace(lambda e: isinstance(e, kinds) and e.has(x), apart)
 
 
 def _kernels(e: Expr, x: Expr, *, e_is_known: bool) -> list[Expr]:

@@ -349,12 +349,8 @@ class _Parser:
         if kind == "$END":
             fault = _incomplete(tokens, k, opened)
         elif kind == "RPAR" and before == "LPAR":
-            fault = (
-                "there is nothing between these parentheses",
-                k - 1,
-                k,
-                "leave them out, or write what belongs there",
-            )
+            said = "there is nothing between these parentheses"
+            fault = said, k - 1, k, "leave them out, or write what belongs there"
         elif kind == "RPAR" and not opened:
             fault = "this parenthesis closes nothing", k, k, "remove it, or open it before"
         elif before in _BINARY_KINDS and kind in _NO_OPERANDS:

@@ -106,9 +106,8 @@ def _statements(scan: Tokens) -> Iterator[Tokens]:
             is_first = is_first and not current
             current, is_complete = [], False
         elif token.kind != "NEWLINE" and (current or is_first or token.text not in (*_FILLERS, *_BETWEEN)):
-            is_complete |= (depth == 0 and token.text in _ASSIGNS) or (
-                not current and token.text in _WHOLE | _DECLARATIONS
-            )
+            is_whole = not current and token.text in _WHOLE | _DECLARATIONS
+            is_complete |= is_whole or (depth == 0 and token.text in _ASSIGNS)
             current.append(token)
     yield from [Tokens(current)] * bool(current)
 

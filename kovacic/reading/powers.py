@@ -76,11 +76,13 @@ def _in_one_power(P: Expr, Q: Expr, source: Source, limits: Limits) -> Any:
 
 
 def _of_waves(P: Expr, Q: Expr, waves: Sequence[Expr], source: Source, limits: Limits) -> Any:
-    """In u = x^m, and then in exp(c u)."""
+    """In u = x^m, where the arguments of all waves contain x in x^m alone, and then in exp(c u)."""
     x = sympy.Symbol(source.variable)
-    m = _power_in(waves, x)
-    if m is None:
+    arguments = sympy.Tuple(*(wave.args[-1] for wave in waves))
+    powers = {p for p in arguments.atoms(sympy.Pow) if p.base == x}
+    if len(powers) != 1 or arguments.subs(dict.fromkeys(powers, 0)).has(x):
         return None
+    m = powers.pop().exp
     u = sympy.Symbol("v") if x.name == "u" else sympy.Symbol("u")
     T = sympy.Dummy("T", positive=True)
     P, Q = (sympy.powdenest(part.subs(x, T ** (1 / m)), force=True) for part in (P, Q))
@@ -98,11 +100,3 @@ def _with_change(read: Any, source: Source, value: Expr) -> Any:
     """With a variable that is this function of the user's."""
     change = Change(source.variable, as_text(value))
     return replace(read, equation=replace(read.equation, unknown=source.unknown or UNKNOWN, change=change))
-
-
-def _power_in(waves: Sequence[Expr], x: Expr) -> Expr | None:
-    """m, where the arguments of all waves contain x in x^m alone; None elsewhere."""
-    arguments = sympy.Tuple(*(wave.args[-1] for wave in waves))
-    powers = {p for p in arguments.atoms(sympy.Pow) if p.base == x}
-    rest = arguments.subs(dict.fromkeys(powers, 0))
-    return None if len(powers) != 1 or rest.has(x) else powers.pop().exp

@@ -61,18 +61,15 @@ def read_input(
     if is_rational(S):
         S = RatFunc(QQ.poly([exact_real(S, "S")]))
     elif isinstance(S, tuple | list) and len(S) == 2:
-        above, below = (
-            _coefficient_polynomial(*part, limits) for part in zip(S, ("numerator", "denominator"), strict=True)
-        )
+        parts = zip(S, ("numerator", "denominator"), strict=True)
+        above, below = (_coefficient_polynomial(*part, limits) for part in parts)
         if not below:
             hint = "give the pair (numerator, denominator), low powers first"
             raise NotRational("the denominator is zero", hint=hint)
         S = RatFunc(above, below)
     elif not isinstance(S, RatFunc):
-        raise InputError(
-            f"{type(S).__name__!r} isn't a form of S that can be read",
-            hint='give a string "x^2 + 3", a SymPy expression, or the pair of coefficient sequences ([3, 0, 1], [1])',
-        )
+        hint = 'give a string "x^2 + 3", a SymPy expression, or the pair of coefficient sequences ([3, 0, 1], [1])'
+        raise InputError(f"{type(S).__name__!r} isn't a form of S that can be read", hint=hint)
     return Parsed(S, variable or DEFAULT_VARIABLE)
 
 
@@ -108,9 +105,8 @@ def _parsed(given: Any, source: Source, limits: Limits, *, exponentials: bool) -
         found = multiplied_out(given, source, limits)
         if found is None:
             raise
-        return _parsed(
-            found, source_of(found, source.variable, limits, equation=True), limits, exponentials=exponentials
-        )
+        plain = source_of(found, source.variable, limits, equation=True)
+        return _parsed(found, plain, limits, exponentials=exponentials)
     except NotRational as error:
         if not exponentials:
             raise
@@ -174,10 +170,8 @@ def _variable_name(var: Any) -> str | None:
 
 def _coefficient_polynomial(coefficients: Sequence[Any], what: str, limits: Limits) -> Poly:
     if isinstance(coefficients, str | bytes) or not hasattr(coefficients, "__iter__"):
-        raise InputError(
-            f"the {what} is {type(coefficients).__name__!r}, not a sequence of coefficients",
-            hint="give two sequences of numbers, low powers first: ([3, 0, 1], [1]) is x^2 + 3",
-        )
+        hint = "give two sequences of numbers, low powers first: ([3, 0, 1], [1]) is x^2 + 3"
+        raise InputError(f"the {what} is {type(coefficients).__name__!r}, not a sequence of coefficients", hint=hint)
     if len(coefficients) > limits.degree + 1:
         said = f"the {what} has {len(coefficients)} coefficients, above the limit of degree {limits.degree}"
         raise LimitExceeded(said, limit="degree")
@@ -195,6 +189,5 @@ def _exact_coefficient(value: Any, power: int, what: str) -> Fraction:
     hint = "give integers, Fraction(1, 2) or sympy.Rational(1, 2)"
     if isinstance(value, float):
         hint = f"give Fraction({value!r}) if exactly this float is meant, or Fraction({str(value)!r}) for the decimal"
-    raise NotRational(
-        f"the coefficient of power {power} in the {what} is {shown(value)!r}, not a rational number", hint=hint
-    )
+    said = f"the coefficient of power {power} in the {what} is {shown(value)!r}, not a rational number"
+    raise NotRational(said, hint=hint)

@@ -104,9 +104,8 @@ def names_of(expression: Any) -> list[str]:
     """The names of the symbols, in alphabetical order.  Refuses what would be lost in them."""
     names = sorted(symbol.name for symbol in expression.free_symbols)
     if len(set(names)) < len(names):
-        raise InputError(
-            f"different symbols have the same name: {', '.join(names)}", hint="use one symbol x throughout"
-        )
+        said = f"different symbols have the same name: {', '.join(names)}"
+        raise InputError(said, hint="use one symbol x throughout")
     if expression.is_commutative is False:
         raise InputError("a product of symbols that don't commute", hint="use commutative symbols")
     return names
