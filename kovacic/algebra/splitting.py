@@ -96,14 +96,9 @@ def _extended(
     None if there are fewer roots.  Raises `BadPrimeError`.
     """
     found: list[ExtensionHomomorphism] = []
+    needed = modulus.degree if complete else 1
     for h in bundle:
-        image = h.keeping_degree(modulus)
-        if complete:
-            roots = sorted(int(root) for root, _ in image.roots())
-            needed = modulus.degree
-        else:
-            roots = list(islice(simple_roots(image), 1))
-            needed = 1
+        roots = list(islice(simple_roots(h.keeping_degree(modulus)), needed))
         if len(roots) < needed:
             return None
         found += [ExtensionHomomorphism(h, root) for root in roots]

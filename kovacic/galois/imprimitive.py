@@ -30,17 +30,17 @@ number, a theory of factorization, and genera", Proc. Symp. Pure Math. 20 (1971)
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from fractions import Fraction
 from itertools import combinations, count, islice, takewhile
 from math import isqrt, lcm, prod
-from typing import Any, NamedTuple
+from typing import Any
 
 from flint import fmpz, nmod_poly
 
 from kovacic.algebra.homomorphism import BadPrimeError, Homomorphism
 from kovacic.algebra.modular import simple_roots
-from kovacic.algebra.poly import Field, Poly
+from kovacic.algebra.poly import Field
 from kovacic.algebra.ratfunc import RatFunc
 from kovacic.algebra.rationals import QQ
 from kovacic.algebra.splitting import homomorphisms_modulo
@@ -146,9 +146,12 @@ _PRIMES_TRIED = 400
 
 @dataclass(frozen=True)
 class CurvePoint:
-    """The places over the roots of a factor: the valuation e of g there, and the residue of eta (0 without a pole)."""
+    """The places over the roots of a factor: the valuation e of g there, and the residue of eta (0 without a pole).
 
-    factor: Poly
+    The factor is one over the field, or its image modulo a prime.
+    """
+
+    factor: Any
     e: int
     residue: Fraction
 
@@ -162,7 +165,7 @@ class SquareRootCurve:
 
     @property
     def genus(self) -> int:
-        return sum(point.factor.degree for point in (*self.points, self.infinity) if point.e % 2) // 2 - 1
+        return int(sum(point.factor.degree for point in (*self.points, self.infinity) if point.e % 2)) // 2 - 1
 
     @property
     def residues(self) -> list[Fraction]:
@@ -263,14 +266,6 @@ def _small_homomorphisms(field: Field, genus: int) -> Iterator[Homomorphism]:
     return takewhile(lambda h: h.p**genus <= 10**7, tried)
 
 
-class _Image(NamedTuple):
-    """The places over the roots of a factor modulo p, the valuation e of g there, and the residue of eta modulo p."""
-
-    factor: Any
-    e: int
-    residue: Fraction
-
-
 def _order_modulo(h: Homomorphism, curve: SquareRootCurve, l: int) -> int:  # noqa: E741 - as in the module's text
     """The order of the divisor of l eta in the Jacobian modulo p.  Raises `BadPrimeError` at a prime of bad reduction."""
     # The kernel knows the residues by their squares modulo p: these have to be units, and different ones.
@@ -278,7 +273,7 @@ def _order_modulo(h: Homomorphism, curve: SquareRootCurve, l: int) -> int:  # no
     differences = {a - b for a, b in combinations(squares, 2)}
     if any(value.numerator * value.denominator % h.p == 0 for value in squares | differences):
         raise BadPrimeError("a residue isn't a unit, or two have the same square")
-    images = [_Image(h.keeping_degree(point.factor), point.e, point.residue) for point in curve.points]
+    images = [replace(point, factor=h.keeping_degree(point.factor)) for point in curve.points]
     together = prod((image.factor for image in images), start=nmod_poly([1], h.p))
     if together.gcd(together.derivative()).degree() > 0:
         raise BadPrimeError("points meet")
@@ -297,7 +292,7 @@ def _order_modulo(h: Homomorphism, curve: SquareRootCurve, l: int) -> int:  # no
     return jacobian.order(total)
 
 
-def _with_branch_point_at_infinity(images: list[_Image], infinity: CurvePoint, p: int) -> list[_Image]:
+def _with_branch_point_at_infinity(images: list[CurvePoint], infinity: CurvePoint, p: int) -> list[CurvePoint]:
     """The points in a coordinate t = 1/(x - r), which keeps eta, with a branch point at infinity; the old infinity is 0."""
     r = next((root for image in images if image.e % 2 for root in simple_roots(image.factor)), None)
     if r is None:
@@ -306,11 +301,11 @@ def _with_branch_point_at_infinity(images: list[_Image], infinity: CurvePoint, p
     for image in images:
         factor = image.factor.compose(nmod_poly([r, 1], p)).reverse()
         if factor.degree():
-            moved.append(image._replace(factor=factor))
-    return [*moved, _Image(nmod_poly([0, 1], p), infinity.e, infinity.residue)]
+            moved.append(replace(image, factor=factor))
+    return [*moved, replace(infinity, factor=nmod_poly([0, 1], p))]
 
 
-def _ordinate(pole: _Image, images: list[_Image]) -> Any:
+def _ordinate(pole: CurvePoint, images: list[CurvePoint]) -> Any:
     """s = 1/(residue * Q') at the roots of a factor of Q."""
     q = pole.factor
     one = q**0

@@ -100,8 +100,7 @@ _PRINTER = MpmathPrinter({"fully_qualified_modules": False, "inline": True, "all
 
 def _dominated(e: Expr, x: Expr, c: Expr) -> Any:
     """num/den, each as a term times 1 plus quotients of terms; for hyperbolic functions in exponentials."""
-    in_exponentials = e.rewrite(_HYPERBOLIC, sympy.exp)
-    num, den = sympy.fraction(sympy.together(in_exponentials))
+    num, den = sympy.fraction(sympy.together(e.rewrite(_HYPERBOLIC, sympy.exp)))
     best = -_INFINITY
     for above in _by_its_terms(num):
         for below in _by_its_terms(den):

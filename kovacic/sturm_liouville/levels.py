@@ -92,11 +92,7 @@ class SeparatedCounter:
             mismatch = left.v * right.u - left.u * right.v
             against = mismatch * left.u * right.u
             zeros = left.zeros + right.zeros
-        if against < 0:
-            return Reading(zeros + 1, mismatch.mid())
-        if against > 0:
-            return Reading(zeros, mismatch.mid())
-        return Reading(None, mismatch.mid())
+        return Reading(None if against.contains(0) else zeros + int(against < 0), mismatch.mid())
 
     def zeros(self, k: int) -> int:
         """Of the eigenfunction number k, inside the interval."""
@@ -136,9 +132,7 @@ class PeriodicCounter:
 
     def zeros(self, k: int) -> int:
         """Of the eigenfunction number k in one period."""
-        if self.problem.wrap == 1:
-            return 2 * ((k + 1) // 2)
-        return 2 * (k // 2) + 1
+        return 2 * ((k + 1) // 2) if self.problem.wrap == 1 else 2 * (k // 2) + 1
 
 
 @dataclass(frozen=True)

@@ -33,8 +33,7 @@ def form_numerators(S: RatFunc, F: SemiInvariant, D: Poly) -> list[Poly] | None:
         R = R - D.derivative()
         following = D * A[k].derivative() + R * A[k] - T * A[k - 1] * (F.degree - k + 1)
         A.append(following / (k + 1))
-    last = A.pop()
-    return None if last else A
+    return None if A.pop() else A
 
 
 def rational_residues(theta: RatFunc, factors: Sequence[Poly] = ()) -> list[tuple[Poly, Fraction]] | None:

@@ -44,9 +44,7 @@ class Recurrence(NamedTuple):
             return None
         ends = [k for k in integers_among_the_roots(self.low) if 0 <= k <= degree and (degree - k) % self.step == 0]
         stops = [k for k in integers_among_the_roots(self.high) if k < degree and (degree - k) % self.step == 0]
-        if not ends or any(k >= max(ends) for k in stops):
-            return None
-        return max(ends)
+        return None if not ends or any(k >= max(ends) for k in stops) else max(ends)
 
 
 def recurrence(S: RatFunc, theta: RatFunc, centre: Poly) -> Recurrence | None:

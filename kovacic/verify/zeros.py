@@ -287,6 +287,4 @@ def largest_natural_sum(total: Fraction, choices: list[Fraction]) -> int:
             losses[part] = min(more, losses.get(part, more))
         if len(losses) > _FRACTIONAL_PARTS:
             return max(largest // unit, -1)
-    if 0 not in losses:
-        return -1
-    return max((largest - losses[0]) // unit, -1)
+    return max((largest - losses.get(0, largest + unit)) // unit, -1)
