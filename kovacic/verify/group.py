@@ -131,11 +131,6 @@ class FormCurve:
     branches: int
     differences: frozenset[Fraction]
 
-    @property
-    def denominator(self) -> int:
-        """The least l for which l eta has integer residues."""
-        return lcm(*(difference.denominator for difference in self.differences))
-
 
 def _imprimitive_holds(
     inspector: Inspector, f: SemiInvariant, riccati: RiccatiPolynomial, claim: GroupClaim
@@ -153,7 +148,7 @@ def _imprimitive_holds(
     if curve is None:
         return False
     if curve.branches == 2:  # genus 0: y1/y2 is a product of powers of functions, with the exponents Delta
-        return named == ("dicyclic", curve.denominator)
+        return named == ("dicyclic", lcm(*(difference.denominator for difference in curve.differences)))
     if not curve.differences:  # a differential of the first kind, whose integral has periods
         return named == ("infinite dihedral", None)
     return _on_curve_of_positive_genus(inspector, riccati, claim, curve)
