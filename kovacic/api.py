@@ -60,8 +60,7 @@ def find_answer(
 ) -> Answer:
     """The answer of `kovacic.solve`, which watches the time, as data; arguments and exceptions are the same."""
     start = time.perf_counter()
-    coefficients = {"a": a, "b": b, "c": c, "f": f}
-    S, parsed, assume = _read_question(S, coefficients, var, assume, parameters, limits)
+    S, parsed, assume = _read_question(S, {"a": a, "b": b, "c": c, "f": f}, var, assume, parameters, limits)
     budget = Budget(limits)
     decision, notices, assumed, known = _decided(parsed, S, assume, budget, certify=True)
     try:
@@ -77,7 +76,6 @@ def find_answer(
     if not verified and (verification.checks or decision.status is not Status.UNDECIDED):
         said = f"the answer for S = {parsed.S} failed its own check; please report it"
         raise VerificationFailed(f"{said}\n{verification}")
-    seconds = time.perf_counter() - start
     return Answer(
         _text_of(S, parsed),
         parsed.variable,
@@ -85,8 +83,8 @@ def find_answer(
         decision,
         notices,
         verified,
-        seconds,
-        parsed.equation,
+        time.perf_counter() - start,
+        equation,
         assumed,
         limits,
         known,

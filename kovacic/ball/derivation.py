@@ -180,7 +180,7 @@ def _dynamics() -> Iterator[tuple[str, list[Any]]]:
 def _elimination() -> Iterator[tuple[str, list[Any]]]:
     """(9), (10), the system in n and omega_3, and (11)."""
     K = PRINTED["6"]
-    in_K = dict(zip((K11, K22, K23, K33), (K[name] for name in ("K11", "K22", "K23", "K33")), strict=True))
+    in_K = {symbol: K[symbol.name] for symbol in (K11, K22, K23, K33)}
     nine = {name: value.xreplace(in_K) for name, value in PRINTED["9"].items()}
     momenta = {T_du: K11 * du, T_dv: K22 * dv + K23 * n, T_n: K33 * n + K23 * dv}
     of_v, of_n = (PRINTED["7"][name].xreplace(momenta).xreplace(in_K) for name in ("dTheta_v'/dt", "dTheta_n/dt"))

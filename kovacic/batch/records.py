@@ -174,11 +174,10 @@ def solved(item: Item, solution: Solution, job: Job) -> Record:
     if job.group:
         added["group"] = group_dict(solution)
     head = json_line(added)
-    structure = solution.decision.structure
     label = UNDECIDED
     if not solution.reason:
-        name = None if structure is None else structure.value
-        label, *_ = _STRUCTURE_LABELS[name]
+        structure = solution.decision.structure
+        label, *_ = _STRUCTURE_LABELS[structure and structure.value]
     return Record(item.number, label, solution.seconds or 0.0, f"{head[:-1]}, {solution.to_json()[1:]}")
 
 

@@ -302,9 +302,8 @@ def _watch(context: click.Context, _: click.Parameter, given: int) -> None:
         logger.removeHandler(said)
         logger.setLevel(level)
 
-    wanted = logging.INFO if given == 1 else logging.DEBUG
     logger.addHandler(said)
-    logger.setLevel(wanted)
+    logger.setLevel(logging.INFO if given == 1 else logging.DEBUG)
     context.find_root().call_on_close(unwatch)  # a subcommand whose other arguments are wrong has no end of its own
 
 

@@ -30,21 +30,13 @@ _LABELS = tuple(kind.name for kind in _KINDS)
 
 def text(answer: ParametricAnswer, *, all: bool) -> str:
     """The partition in lines; by default as many as fit a screen."""
-    complete = f"complete {answer.complete}"
-    if answer.complete is True:
-        complete = "proven to be complete"
+    complete = "proven to be complete" if answer.complete is True else f"complete {answer.complete}"
     regions = in_lines(answer.regions)
     shown = regions if all or len(regions) <= _SCREEN + 1 else regions[:_SCREEN]
-    more = []
+    lines = [*_heading(answer), *(f"  {region}" for region in shown)]
     if len(shown) < len(regions):
-        more.append(f"  ... and {len(regions) - len(shown)} more regions: text(all=True), or --all")
-    lines = [
-        *_heading(answer),
-        *(f"  {region}" for region in shown),
-        *more,
-        f"  {_where_generic(answer)}: {answer.generic}",
-        f"  ({complete}; {answer.theory})",
-    ]
+        lines.append(f"  ... and {len(regions) - len(shown)} more regions: text(all=True), or --all")
+    lines += [f"  {_where_generic(answer)}: {answer.generic}", f"  ({complete}; {answer.theory})"]
     return visible("\n".join(lines))
 
 

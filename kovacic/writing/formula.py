@@ -302,16 +302,15 @@ class _LatexWriter:
     def __init__(self) -> None:
         self.parts: list[_Part] = []
 
-    def ready(self, product: str, alone: str) -> str:
-        self.parts.append(_Part(product, alone))
+    def ready(self, product: str, alone: str | None = None) -> str:
+        self.parts.append(_Part(product, product if alone is None else alone))
         return chr(_PART + len(self.parts) - 1)
 
     def alone(self, text: str) -> str:
         """Above or below a line, where a part needs no parentheses."""
         if _READY.fullmatch(text) is None:
             return text
-        written = self.parts[ord(text) - _PART].alone
-        return self.ready(written, written)
+        return self.ready(self.parts[ord(text) - _PART].alone)
 
     def fraction(self, match: re.Match[str]) -> str:
         return rf"\frac{{{self.alone(match[1])}}}{{{self.alone(match[2])}}}"
@@ -328,19 +327,16 @@ class _LatexWriter:
     def parenthesised(self, match: re.Match[str]) -> str:
         """A root, an exponent, the argument of a function, or a sum in parentheses."""
         if match[1] == "^":
-            exponent = f"^{{{self.complete(match[2])}}}"
-            return self.ready(exponent, exponent)
+            return self.ready(f"^{{{self.complete(match[2])}}}")
         if match[1] in _PRINTED_FUNCTIONS:
             name = rf"\operatorname{{{match[1]}}}" if match[1] in _PRINTED_FUNCTIONS[-2:] else rf"\{match[1]}"
-            call = rf"{name}\left({self.complete(match[2])}\right)"
-            return self.ready(call, call)
+            return self.ready(rf"{name}\left({self.complete(match[2])}\right)")
         if match[1]:
             radicand, _, n = match[2].partition(", ")
             if match[1] == "cbrt":
                 n = "3"
             degree = f"[{n}]" if n else ""
-            root = rf"\sqrt{degree}{{{self.complete(radicand)}}}"
-            return self.ready(root, root)
+            return self.ready(rf"\sqrt{degree}{{{self.complete(radicand)}}}")
         inside = self.complete(match[2])
         product = rf"\left({inside}\right)" if r"\frac" in inside else f"({inside})"
         return self.ready(product, inside)
