@@ -96,7 +96,8 @@ def special(answer: Answer) -> SpecialFunctions:
 
     What was assumed about parameters is used: hermite(n, x) for natural n.  An exhausted limit is a value, `stopped`.
     """
-    from kovacic.special.search import Wanted, special_functions
+    from kovacic.special.search import special_functions
+    from kovacic.special.writer import Wanted
 
     symbols = answer.known.symbols() if answer.known else {}
     found = special_functions(Wanted(answer.S, answer.gauge, answer.variable, symbols), Budget(answer.limits))

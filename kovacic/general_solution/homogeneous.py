@@ -29,8 +29,8 @@ from kovacic.reading.change_of_variable import function_of_x, is_power, real_val
 from kovacic.solution import Solution, solve
 from kovacic.special.choice import solutions
 from kovacic.special.mathieu import mathieu
-from kovacic.special.search import BySign, Wanted, by_sign, special_functions
-from kovacic.special.writer import WrittenPair
+from kovacic.special.search import BySign, by_sign, special_functions
+from kovacic.special.writer import Wanted, WrittenPair
 
 Expr = Any  # SymPy publishes no types
 #: How many sets of values of parameters are said.

@@ -43,7 +43,8 @@ from kovacic.limits import Budget, bounded_work, check_time
 from kovacic.numbers.numerals import as_text
 from kovacic.special.gauss import klein_pullback
 from kovacic.special.pullback import GaugeTransform, Pullback
-from kovacic.special.search import Wanted, find, find_transform
+from kovacic.special.search import find, find_transform, pair_for
+from kovacic.special.writer import Wanted
 
 #: Units of work after which no pull-back is sought any more beside a form that is there.
 _SEARCH = 6000
@@ -238,7 +239,7 @@ class _Equation:
 
     def _in_special_functions(self, source: Pullback | GaugeTransform) -> ClosedForm | None:
         """With y1 as it is where that is elementary and short; None if the two aren't known to be independent."""
-        found = Wanted(self.S, self.gauge, self.variable, joined=True).pair(source)
+        found = pair_for(Wanted(self.S, self.gauge, self.variable, joined=True), source)
         if found is None:
             return None
         pair = found.y1, found.y2

@@ -24,10 +24,9 @@ Reference: R. Debeerst, M. van Hoeij, W. Koepf, ISSAC 2008, 39-46; M. van Hoeij,
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterator, Sequence
 from contextlib import suppress
 from dataclasses import dataclass, field, replace
-from fractions import Fraction
 from itertools import product, zip_longest
 from typing import TYPE_CHECKING, Any
 
@@ -50,7 +49,7 @@ from kovacic.special.pullback import TRIAL, GaugeTransform, Pullback, StandardEq
 from kovacic.special.whittaker import Whittaker
 
 if TYPE_CHECKING:
-    from kovacic.special.writer import Writer, WrittenPair
+    from kovacic.special.writer import Wanted, Writer, WrittenPair
 
 #: In the order in which they are tried.
 EQUATIONS: tuple[type[StandardEquation], ...] = (Airy, Whittaker, Bessel, Gauss)
@@ -322,48 +321,29 @@ def find(S: RatFunc, budget: Budget, *, extended: bool = True) -> SpecialFunctio
         return SpecialFunctions(None, searched, str(limit))
 
 
-@dataclass(frozen=True)
-class Wanted:
-    """The equation whose solutions are written, those of y'' = S y times exp(int gauge dx), and how.
+def pair_for(wanted: Wanted, source: Pullback | GaugeTransform) -> WrittenPair | None:
+    """y1 and y2, checked; None if the assumptions on the symbols leave open which solutions are independent.
 
-    `symbols` are SymPy's symbols for the parameters by name; the expressions are in these, and what is assumed about them is
-    used: with n a natural number, Hermite's equation has `hermite(n, x)`.  With `joined`, solutions are analytic at ordinary
-    points where the argument of Bessel's functions is zero: series 0F1 instead of these.  Solutions are real at one of the
-    `places`, those values of the variable that are meant, as far as it can be had.
+    Raises `VerificationFailed` if the check fails, which is a defect of this package; `LimitExceeded` within
+    `Budget.watched`.
     """
+    from kovacic.special.writer import Writer
 
-    S: RatFunc
-    gauge: RatFunc
-    variable: str
-    symbols: Mapping[str, Any] = field(default_factory=dict)
-    joined: bool = False
-    places: Sequence[Fraction] = ()
+    writer = Writer(wanted, source.transform)
+    found = source.pullback.equation.written(writer, source.pullback.f)
+    return None if found is None else _checked(found, writer)
 
-    def writer(self, transform: GaugeTransform | None = None) -> Writer:
-        """A writer of solutions as they are wanted."""
-        from kovacic.special.writer import Writer
 
-        return Writer(self, transform)
+def _checked(pair: WrittenPair, writer: Writer) -> WrittenPair:
+    """The pair in the user's symbols; raises `VerificationFailed` where one isn't a solution, to 50 digits at a point."""
+    from kovacic.closed_form.check import is_numerical_solution
 
-    def pair(self, source: Pullback | GaugeTransform) -> WrittenPair | None:
-        """y1 and y2, checked; None if the assumptions on the symbols leave open which solutions are independent.
-
-        Raises `VerificationFailed` if the check fails, which is a defect of this package; `LimitExceeded` within
-        `Budget.watched`.
-        """
-        writer = self.writer(source.transform)
-        found = source.pullback.equation.written(writer, source.pullback.f)
-        return None if found is None else self.checked(found, writer)
-
-    def checked(self, pair: WrittenPair, writer: Writer) -> WrittenPair:
-        """The pair in the user's symbols; raises `VerificationFailed` where one isn't a solution, to 50 digits at a point."""
-        from kovacic.closed_form.check import is_numerical_solution
-
-        for y in pair:
-            if not is_numerical_solution(y, writer.atoms.x, self.S, self.gauge):
-                said = f"a special function for S = {self.S} failed its check; please report the equation: {y}"
-                raise VerificationFailed(said)
-        return pair.mapped(lambda e: e.xreplace(writer.own))
+    wanted = writer.wanted
+    for y in pair:
+        if not is_numerical_solution(y, writer.atoms.x, wanted.S, wanted.gauge):
+            said = f"a special function for S = {wanted.S} failed its check; please report the equation: {y}"
+            raise VerificationFailed(said)
+    return pair.mapped(lambda e: e.xreplace(writer.own))
 
 
 def special_functions(request: Wanted, budget: Budget) -> SpecialFunctions:
@@ -374,6 +354,7 @@ def special_functions(request: Wanted, budget: Budget) -> SpecialFunctions:
     parameters.
 
     >>> import kovacic
+    >>> from kovacic.special.writer import Wanted
     >>> answer = kovacic.solve("x^2*y'' + x*y' + (x^2 - n^2)*y = 0")
     >>> print(special_functions(Wanted(answer.S, answer.gauge, "x"), Budget()))
     y1 = besselj(n, x)
@@ -390,7 +371,7 @@ def special_functions(request: Wanted, budget: Budget) -> SpecialFunctions:
     pair = None
     try:
         with budget.watched():
-            pair = request.pair(source)
+            pair = pair_for(request, source)
     except LimitExceeded as limit:
         said = str(limit)
     if pair is None:
@@ -438,6 +419,7 @@ def by_sign(request: Wanted, budget: Budget) -> BySign | None:
     None if the sign of no integer helps.
 
     >>> import kovacic, sympy
+    >>> from kovacic.special.writer import Wanted
     >>> n, l = sympy.symbols("n l", integer=True, positive=True)
     >>> answer = kovacic.solve("x^2*y'' + 2*x*y' + (2*x - x^2/n^2 - l*(l + 1))*y = 0", var="x")
     >>> found = by_sign(Wanted(answer.S, answer.gauge, "x", {"n": n, "l": l}), Budget())
@@ -449,14 +431,16 @@ def by_sign(request: Wanted, budget: Budget) -> BySign | None:
     pullback = find(request.S, budget).pullback
     if pullback is None:
         return None
-    writer = request.writer()
+    from kovacic.special.writer import Writer
+
+    writer = Writer(request)
     try:
         with budget.watched():
             best = max(_helpful(pullback, writer), key=lambda found: found.negative is not None, default=None)
             if best is None:
                 return None
-            natural = request.checked(best.natural, writer)
-            negative = None if best.negative is None else request.checked(best.negative, writer)
+            natural = _checked(best.natural, writer)
+            negative = None if best.negative is None else _checked(best.negative, writer)
     except LimitExceeded:
         return None
     return BySign(best.integer.xreplace(writer.own), natural, negative)

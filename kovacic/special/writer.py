@@ -6,12 +6,12 @@ with square roots, stand beside it (`WrittenFactor`).
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from fractions import Fraction
 from functools import partial, reduce
 from operator import mul
-from typing import TYPE_CHECKING, Any
+from typing import Any, Protocol
 
 import sympy
 from sympy import Mul, exp
@@ -27,10 +27,6 @@ from kovacic.closed_form.product import Power, Product, product
 from kovacic.compatibility import cached_property
 from kovacic.numbers.exact import radical
 from kovacic.special.maps import HALF, Number, half_rate
-
-if TYPE_CHECKING:
-    from kovacic.special.pullback import GaugeTransform
-    from kovacic.special.search import Wanted
 
 
 @dataclass(frozen=True)
@@ -104,6 +100,40 @@ class WrittenPair:
 WrittenTerm = tuple[WrittenFactor, Expr]
 
 
+@dataclass(frozen=True)
+class Wanted:
+    """The equation whose solutions are written, those of y'' = S y times exp(int gauge dx), and how.
+
+    `symbols` are SymPy's symbols for the parameters by name; the expressions are in these, and what is assumed about them is
+    used: with n a natural number, Hermite's equation has `hermite(n, x)`.  With `joined`, solutions are analytic at ordinary
+    points where the argument of Bessel's functions is zero: series 0F1 instead of these.  Solutions are real at one of the
+    `places`, those values of the variable that are meant, as far as it can be had.
+    """
+
+    S: RatFunc
+    gauge: RatFunc
+    variable: str
+    symbols: Mapping[str, Any] = field(default_factory=dict)
+    joined: bool = False
+    places: Sequence[Fraction] = ()
+
+
+class Combined(Protocol):
+    """sqrt(m) (a v + b v'): what a `pullback.GaugeTransform` makes of v."""
+
+    @property
+    def m(self) -> Poly: ...
+
+    @property
+    def a(self) -> RatFunc: ...
+
+    @property
+    def b(self) -> RatFunc: ...
+
+    @property
+    def factor(self) -> RatFunc: ...
+
+
 class Writer:
     """Writes in one variable, with the user's own symbols by name and what is assumed about them, what is `wanted`.
 
@@ -112,7 +142,7 @@ class Writer:
     f is.
     """
 
-    def __init__(self, wanted: Wanted, transform: GaugeTransform | None = None) -> None:
+    def __init__(self, wanted: Wanted, transform: Combined | None = None) -> None:
         self.wanted = wanted
         self.gauge = wanted.gauge
         self.places = wanted.places
@@ -136,7 +166,6 @@ class Writer:
         """A writer that knows the value to be natural: a symbol of an integer is written by that; None without one.
 
         >>> n, m = sympy.symbols("n m", integer=True, positive=True)
-        >>> from kovacic.special.search import Wanted
         >>> zero = RatFunc(QQ.poly([0]))
         >>> Writer(Wanted(zero, zero, "x", {"n": n, "m": m})).assuming(sympy.Symbol("n") - sympy.Symbol("m")).known
         {n: _d + m, m: m}
@@ -216,7 +245,7 @@ class Writer:
         return powers * function, powers
 
     def _combined(
-        self, transform: GaugeTransform, before: WrittenFactor, function: Expr, atoms: Atoms
+        self, transform: Combined, before: WrittenFactor, function: Expr, atoms: Atoms
     ) -> tuple[Expr, Expr | None]:
         """P sqrt(m) ((a + b P'/P) F + b F') over a constant c for v = P F, F' = s F + t F1, F1 another function; P sqrt(m)/c.
 

@@ -24,9 +24,9 @@ from kovacic.numbers.numerals import as_latex
 from kovacic.special.airy import Airy
 from kovacic.special.gauss import Gauss
 from kovacic.special.pullback import Pullback
-from kovacic.special.search import EQUATIONS, Wanted, find, special_functions
+from kovacic.special.search import EQUATIONS, find, special_functions
 from kovacic.special.whittaker import Whittaker
-from kovacic.special.writer import Writer
+from kovacic.special.writer import Wanted, Writer
 
 x = sympy.Symbol("x")
 X = RatFunc(QQ.poly([0, 1]))
