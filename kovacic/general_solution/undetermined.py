@@ -143,7 +143,11 @@ def _solved(b: Expr, c: Expr, rate: Expr, P: dict[int, Expr]) -> dict[int, Expr]
 
 def _constant(value: Expr) -> Expr:
     """A product of three factors as u + i v, in forms that show whether u and v are zero."""
-    powers = [sympy.expand(value).coeff(_I, k) for k in range(4)]
-    parts = [sympy.radsimp(sympy.cancel(powers[k] - powers[k + 2]), symbolic=False) for k in (0, 1)]
-    u, v = (sympy.S.Zero if part.is_number and part.equals(0) else part for part in parts)
+    expanded = sympy.expand(value)
+    powers = [expanded.coeff(_I, k) for k in range(4)]
+    u, v = (
+        part if part.is_Rational else sympy.radsimp(sympy.cancel(part), symbolic=False)
+        for part in (powers[0] - powers[2], powers[1] - powers[3])
+    )
+    u, v = (sympy.S.Zero if part.is_number and part.equals(0) else part for part in (u, v))
     return u + _I * v
