@@ -359,3 +359,16 @@ def test_what_is_even_in_a_root_needs_no_sign_below_it(equation: str, needed: st
 def test_poles_of_several_functions_are_said_once() -> None:
     answer = kovacic.answer_to("y'' = x^n*exp(x)", ics="y(1)=0, y'(1)=0")
     assert str(answer.validity) == "x > 0, n + 1 is none of 0, -1, -2, ..."
+
+
+@pytest.mark.parametrize(
+    ("text", "needed"),
+    [
+        ("y'' - k^2*y = 0, y(0) = 0, y(1) = 1", "k != 0"),  # sinh(k)
+        ("y'' - k^2*y = 0, y'(0) = 0, y(L) = 1", ""),  # cosh(k*L)
+        ("y'' - (a+b)*y' + a*b*y = 0, y(0) = 0, y(1) = 1", "a - b != 0"),  # exp(a) - exp(b)
+        ("y'' - k*y = 0, y(0) = 0, y(1) = 1", "sinh(sqrt(k)) != 0"),  # for k = -pi^2 as well
+    ],
+)
+def test_what_real_letters_can_violate_is_said(text: str, needed: str) -> None:
+    assert str(kovacic.answer_to(text).validity) == needed
