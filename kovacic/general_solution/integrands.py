@@ -52,7 +52,7 @@ def require(holds: Any) -> None:
 
 
 def first_known(attempts: Iterable[Callable[[], Expr]]) -> Expr:
-    """What the first of the attempts finds that finds an integral.  Raises `UnknownIntegral`."""
+    """The integral by the first attempt that succeeds.  Raises `UnknownIntegral` if none does."""
     for attempt in attempts:
         with suppress(UnknownIntegral):
             return attempt()

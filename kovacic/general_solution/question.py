@@ -298,7 +298,7 @@ def _sought(func: Any) -> tuple[Any, Any]:
 def _read_equation(
     eq: Any, func: Any, var: str | None, limits: Limits, names: Sequence[str]
 ) -> tuple[Parsed, Equation, Expr]:
-    """What was read, its equation, and the unknown function as the user writes it.  Raises `InputError`."""
+    """The input as read, its equation, and the unknown function in the user's notation.  Raises `InputError`."""
     applied, name = _sought(func)
     unknown: Any = None
     if isinstance(eq, str | Paste):

@@ -248,7 +248,7 @@ class _GaussForm:
 
     @property
     def shorter(self) -> _GaussForm:
-        """The same solution u with the sign of beta that leaves fewer factors [DLMF 15.8.1], unless it is a polynomial."""
+        """The same solution u with fewer factors, by the sign of beta [DLMF 15.8.1]; a polynomial stays as it is."""
         if self.has_polynomial:
             return self
         forms = [replace(self, beta=sign * self.beta) for sign in (1, -1)]
