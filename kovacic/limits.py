@@ -109,6 +109,15 @@ def limits_of(given: Any) -> Limits:
 #: Seconds for one equation where the limits don't say.
 DEFAULT_SECONDS = 600.0
 
+#: Subexpressions of an expression up to which SymPy is asked to rewrite it: its factoring and its limits take some 50 ms there.
+MOST_SUBEXPRESSIONS = 400
+
+#: Candidates (combinations of exponents, primes, special values) up to which a search tries each one.
+MOST_TRIALS = 400
+
+#: Characters of a formula up to which it is printed in full where a shorter description could replace it: half a screen.
+MOST_CHARACTERS = 1000
+
 
 class Clock:
     """The clock that every limit reads, in seconds: `now` is the wall clock, unless a test replaces it."""
@@ -214,6 +223,20 @@ def count_work(amount: int) -> None:
     work.left -= amount
     if work.left < 0:
         raise LimitExceeded(f"more than {work.most} units of work are needed", limit="work")
+
+
+def manageable(*expressions: Any, most: int = MOST_SUBEXPRESSIONS) -> bool:
+    """True if SymPy expressions have at most `most` subexpressions together; no more of them are visited.
+
+    >>> import sympy
+    >>> manageable(sympy.Symbol("x") + 1), manageable(sympy.Symbol("x") + 1, most=2)
+    (True, False)
+    """
+    left, waiting = most, list(expressions)
+    while waiting and left >= 0:
+        waiting.extend(waiting.pop().args)
+        left -= 1
+    return left >= 0
 
 
 _P = ParamSpec("_P")
