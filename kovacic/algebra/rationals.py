@@ -20,8 +20,8 @@ from kovacic.limits import check_duration, check_time, may_be_late, watched_seco
 _EUCLID_OVER_Q = 16
 #: Above this degree it is tried first whether a polynomial to be factored is a power: gcds with derivatives are slow.
 _ROOT_DEGREE = 100
-#: Above this degree polynomials are factored in a process that can be stopped.
-_LONGEST_FACTORED_HERE = 400
+#: Above this degree exact arithmetic takes long: it is estimated first, done modulo primes, or in another process.
+LARGE_DEGREE = 400
 #: Up to this degree they are factored at once, and up to this number of factors modulo a small prime; and FLINT's seconds at
 #: most for a degree between these, over its cube.
 _SHORT_DEGREE = 60
@@ -165,7 +165,7 @@ class RationalPoly(Poly):
         if type(point) is not RationalPoly:
             return super().__call__(point)
         constant = point.degree <= 0  # evaluation is much faster than composition with a constant
-        if not constant and self.degree > _LONGEST_FACTORED_HERE:
+        if not constant and self.degree > LARGE_DEGREE:
             foresee_move(self.degree * point.degree, self.height_bits(), point.height_bits())
         return RationalPoly(fmpq_poly([self.rep(point.rep[0])]) if constant else self.rep(point.rep))
 
@@ -188,7 +188,7 @@ class RationalPoly(Poly):
     def __pow__(self, exponent: int) -> RationalPoly:
         if exponent < 0:
             raise ValueError("a polynomial has no negative powers")
-        if (degree := self.rep.degree() * exponent) > _LONGEST_FACTORED_HERE:
+        if (degree := self.rep.degree() * exponent) > LARGE_DEGREE:
             check_duration(_POWER_SECONDS * degree * exponent * self.height_bits(), f"a power of degree {degree}")
         return RationalPoly(self.rep**exponent)
 
@@ -200,7 +200,7 @@ class RationalPoly(Poly):
         return bool(self.rep.leading_coefficient() == 1)
 
     def _gcd(self, other: RationalPoly) -> RationalPoly:
-        if self.degree > _LONGEST_FACTORED_HERE and other.degree > _LONGEST_FACTORED_HERE:
+        if self.degree > LARGE_DEGREE and other.degree > LARGE_DEGREE:
             degree, least = sorted((self.degree, other.degree), reverse=True)
             seconds = _GCD_SECONDS * degree**2 * min(self.height_bits(), other.height_bits())
             if seconds > watched_seconds(inf):  # coprime ones take a moment only, and one prime tells
@@ -422,7 +422,7 @@ def _may_take_long(polynomial: Any) -> bool:
     degree = polynomial.degree()
     if degree <= _SHORT_DEGREE:
         return False
-    if degree > _LONGEST_FACTORED_HERE:
+    if degree > LARGE_DEGREE:
         return watched_seconds(inf) < inf
     if not may_be_late(_FACTOR_SECONDS * degree**3):
         return False

@@ -8,10 +8,8 @@ from typing import Any
 from flint import Ordering, fmpq, fmpq_mpoly_ctx, fmpz_mpoly_ctx
 from flint.utils.flint_exceptions import DomainError
 
+from kovacic.algebra.rationals import LARGE_DEGREE
 from kovacic.limits import check_time, watched_seconds
-
-#: Above this degree in one of the variables, polynomials are factored in a process that can be stopped.
-_LONGEST_AT_ONCE = 400
 
 _SparseTerms = tuple[tuple[tuple[int, ...], int], ...]
 
@@ -60,7 +58,7 @@ def terms_of(polynomial: Any) -> _SparseTerms:
 def factorisation(polynomial: Any) -> tuple[int, list[tuple[Any, int]]]:
     """The content with its sign, and the primitive irreducible factors with their multiplicities."""
     check_time()
-    if polynomial.is_constant() or max(polynomial.degrees()) <= _LONGEST_AT_ONCE or watched_seconds(inf) == inf:
+    if polynomial.is_constant() or max(polynomial.degrees()) <= LARGE_DEGREE or watched_seconds(inf) == inf:
         return _factored_at_once(polynomial)
     from kovacic.process import computed_apart
 

@@ -11,11 +11,10 @@ from flint import fmpz
 
 from kovacic.algebra.homomorphism import BadPrimeError
 from kovacic.algebra.poly import Poly
+from kovacic.limits import MOST_TRIALS
 
 #: Primes at which a norm is tested for being a square: one that isn't passes with probability 2^-24.
 _NORM_TESTS = 24
-#: Fractional parts that `largest_integer_total` keeps apart before it stops looking at them.
-_RESIDUES = 4096
 
 
 def largest_integer_total(base: Fraction, choices: Iterable[Fraction]) -> int:
@@ -35,7 +34,7 @@ def largest_integer_total(base: Fraction, choices: Iterable[Fraction]) -> int:
                 residue = value % unit
                 totals[residue] = max(totals.get(residue, value), value)
         best = totals
-        if len(best) > _RESIDUES:
+        if len(best) > MOST_TRIALS:
             return (start + sum(sizes)) // unit
     return best.get(0, -unit) // unit
 

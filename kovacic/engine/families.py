@@ -17,11 +17,9 @@ from fractions import Fraction
 from kovacic.algebra.extension import AlgebraicField, root_modulo
 from kovacic.algebra.function_field import FunctionPoly
 from kovacic.algebra.poly import Field, Poly
+from kovacic.algebra.rationals import LARGE_DEGREE
 from kovacic.engine.places import Kind, Place
 from kovacic.limits import check_time
-
-#: The degree over Q from which on no further roots are adjoined.
-_MOST_ROOTS = 256
 
 Number = int | Fraction | Poly
 
@@ -57,7 +55,7 @@ class Roots:
     def root(self, square: Poly) -> Poly | None:
         """A square root, adjoined if need be; None if the field would become too large."""
         found = self.field.sqrt(square.over(self.field))
-        if found is None and self.field.absolute_degree < _MOST_ROOTS:
+        if found is None and self.field.absolute_degree < LARGE_DEGREE:
             outer, inner = square.square_part() if isinstance(square, FunctionPoly) else (1, square)
             radicand = -inner.over(self.field)
             self.field = AlgebraicField(self.field, self.field.poly([radicand, 0, 1]), self._name or f"sqrt({inner})")

@@ -52,10 +52,9 @@ from kovacic.engine.families import (
 from kovacic.engine.places import Kind, Problem
 from kovacic.engine.riccati import numerators
 from kovacic.equation import parameters_of
-from kovacic.limits import check_time
+from kovacic.limits import MOST_TRIALS, check_time
 
-#: Families that are enumerated, or sums that are counted apart; all of a few are shown and tried.
-_MOST_FAMILIES = 4096
+#: Of at most this number of families all are shown and tried.
 _FEW_FAMILIES = 8
 #: The highest order of a pole: longer singular parts fill a screen each.
 _HIGHEST_POLE_ORDER = 40
@@ -125,7 +124,7 @@ def search(problem: Problem, variable: str, m: int) -> Search | None:
         chosen_at.append(chosen)
     choices = tuple(chosen_at)
     total = prod(len(chosen) ** point.count for chosen, point in zip(choices, points, strict=True))
-    if prod(map(len, choices)) > _MOST_FAMILIES:
+    if prod(map(len, choices)) > MOST_TRIALS:
         return Search(m, points, choices, total, natural=_naturals(choices, points, m), families=None)
 
     every = [Family(*family) for family in families(choices, points, m, roots.field)]
@@ -160,7 +159,7 @@ def _naturals(choices: Sequence[Sequence[Choice]], points: Sequence[SingularPoin
             for ((d, all_even), count), (part, even) in product(sums.items(), parts):
                 longer[d + part, all_even and even] += count
             sums = longer
-            if len(sums) > _MOST_FAMILIES:
+            if len(sums) > MOST_TRIALS:
                 return None
     return sum(count for (d, all_even), count in sums.items() if is_natural(d) and not all_even)
 

@@ -20,7 +20,7 @@ from kovacic.algebra.extension import adjoined_square_root
 from kovacic.algebra.homomorphism import BadPrimeError, Homomorphism
 from kovacic.algebra.lifting import Lifter
 from kovacic.algebra.poly import Field, Poly
-from kovacic.algebra.rationals import QQ
+from kovacic.algebra.rationals import LARGE_DEGREE, QQ
 from kovacic.algebra.recurrence import polynomial_solution
 from kovacic.decision import Evidence, Exclusion, NoInvariant, NoRationalOmega, NoTerminatingSeries, Structure
 from kovacic.engine.invariants import invariants
@@ -38,12 +38,10 @@ from kovacic.engine.places import Kind, Place, Problem
 from kovacic.engine.riccati import Form, Found, Outcome, normalised, singular_factor
 from kovacic.engine.terminating import terminating_series
 from kovacic.errors import LimitExceeded
-from kovacic.limits import count_work
+from kovacic.limits import MOST_TRIALS, count_work
 
 #: Up to this degree P1 is lifted with R; above, its recurrence is faster.
 _LIFTED_DEGREE = 200
-#: Up to this degree of P the common zeros are found faster over Q than modulo primes.
-_EXACT_DEGREE = 400
 
 
 def decide(problem: Problem) -> Outcome:
@@ -111,7 +109,7 @@ def _from_quadratic_invariant(problem: Problem, F: Form) -> Form:
     w = adjoined_square_root(problem.field, value / weight(point) ** 2)
     field = w.field
     Y = w * weight
-    if field == QQ and P.degree <= _EXACT_DEGREE:
+    if field == QQ and P.degree <= LARGE_DEGREE:
         return Form(1, *_first_factor(problem.D, P, X, Y, Fraction(1, 2)))
     return _lifted_factor(problem, field, P, X, Y)
 
@@ -218,7 +216,7 @@ def _omegas_of_low_degree(problem: Problem) -> list[Form]:
         return found
     for sign in (0, 1):
         lifter = Lifter(problem.field)
-        for bundle in islice(problem.field.bundles(), _PRIMES_FOR_A_SIMPLE_OMEGA):
+        for bundle in islice(problem.field.bundles(), MOST_TRIALS):
             problem.budget.check()
             count_work(_WORK_PER_PRIME)
             try:
@@ -251,9 +249,7 @@ def _lifted_omega(
 
 #: Degrees of P that are tried before their bound is computed where that is the more expensive part.
 _FIRST_DEGREES = [8, 32]
-#: Primes for the lift of an omega whose existence isn't proven: then there may be none.
-_PRIMES_FOR_A_SIMPLE_OMEGA = 400
-#: Units of work for each of them, approximately.
+#: Units of work, approximately, for each prime in the search for an omega of degree 1.
 _WORK_PER_PRIME = 25
 
 

@@ -28,9 +28,7 @@ from kovacic.engine.families import (
     theta_numerator,
 )
 from kovacic.engine.places import Problem
-
-#: Families of exponents that are tried.
-_MOST_FAMILIES = 256
+from kovacic.limits import MOST_TRIALS
 
 
 @dataclass(frozen=True)
@@ -70,7 +68,7 @@ def search_series(problem: Problem) -> SeriesSearch | None:
         choices.append(chosen)
     field = roots.field
     is_single = isinstance(field, AlgebraicField) and field.base == problem.field
-    if prod(map(len, choices)) > _MOST_FAMILIES or not (field == problem.field or is_single):
+    if prod(map(len, choices)) > MOST_TRIALS or not (field == problem.field or is_single):
         return None
     D = problem.D.over(field)
     tried = []

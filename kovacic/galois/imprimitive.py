@@ -50,6 +50,7 @@ from kovacic.engine.riccati import residue
 from kovacic.errors import LimitExceeded
 from kovacic.galois.chain import Points, function_of_order
 from kovacic.galois.group import Ground, Group, GroupKind
+from kovacic.limits import MOST_TRIALS
 
 
 @dataclass(frozen=True)
@@ -140,8 +141,6 @@ def _monic(u: Any) -> Any:
 _AGREEING_PRIMES = 3
 #: The orders 1, 2, ... up to this are tried where no prime shows one.
 _ORDERS_TRIED = 12
-#: Primes that are tried, beyond which the bad ones are too many.
-_PRIMES_TRIED = 400
 
 
 @dataclass(frozen=True)
@@ -262,7 +261,7 @@ def _small_homomorphisms(field: Field, genus: int) -> Iterator[Homomorphism]:
     if field.ground != QQ:
         return iter(())
     primes = (p for p in count(5) if fmpz(p).is_prime())
-    tried = islice((h for p in primes for h in homomorphisms_modulo(field, p)), _PRIMES_TRIED)
+    tried = islice((h for p in primes for h in homomorphisms_modulo(field, p)), MOST_TRIALS)
     return takewhile(lambda h: h.p**genus <= 10**7, tried)
 
 

@@ -29,13 +29,13 @@ from kovacic.algebra.poly import Poly
 from kovacic.algebra.ratfunc import RatFunc
 from kovacic.decision import CurveFunction
 from kovacic.errors import LimitExceeded
+from kovacic.limits import MOST_TRIALS
 from kovacic.verify.factors import factors_of
 from kovacic.verify.primes import BadPrimeError, Homomorphism, homomorphisms_modulo
 
 #: Primes are taken upwards from here.
 _PRIMES_FROM = 1 << 40
-#: Homomorphisms under which classes are compared, and values of x that are tried under each.
-_MOST_HOMOMORPHISMS = 100
+#: Values of x that are tried under each homomorphism.
 _VALUES_OF_X = 40
 #: The largest prime factor of n for which there are such primes within a machine word.
 _LARGEST_FACTOR = 1 << 50
@@ -102,7 +102,7 @@ def _is_no_power(f: CurveFunction, G: Poly, l: int) -> bool:  # noqa: E741 - as 
     """True if two values of f modulo a prime lie in different classes modulo l-th powers."""
     # Primes p = k l + 1: F_p contains the l-th roots of unity.
     primes = (p for p in count(_PRIMES_FROM // l * l + l + 1, l) if fmpz(p).is_prime())
-    for h in islice((h for p in primes for h in homomorphisms_modulo(f.h.field, p)), _MOST_HOMOMORPHISMS):
+    for h in islice((h for p in primes for h in homomorphisms_modulo(f.h.field, p)), MOST_TRIALS):
         try:
             classes = {pow(value, (h.p - 1) // l, h.p) for value in _curve_values(f, G, h)}
         except BadPrimeError:

@@ -23,12 +23,9 @@ from typing import NamedTuple
 from kovacic.algebra.poly import Poly
 from kovacic.algebra.ratfunc import RatFunc, over_one_denominator
 from kovacic.decision import TerminatingSeries
-from kovacic.limits import check_time
+from kovacic.limits import MOST_TRIALS, check_time
 from kovacic.verify.factors import inverse, quotient
 from kovacic.verify.local import Point
-
-#: Combinations of exponents that are recomputed.
-_MOST_FAMILIES = 256
 
 
 class Recurrence(NamedTuple):
@@ -94,7 +91,7 @@ def numbers_of_series(S: RatFunc, points: list[Point]) -> tuple[int, int] | None
         if found is None:
             return None
         choices.append(found)
-    if prod(map(len, choices)) > _MOST_FAMILIES:
+    if prod(map(len, choices)) > MOST_TRIALS:
         return None
     tried = ending = 0
     for parts in product(*choices):

@@ -39,6 +39,7 @@ from kovacic.algebra.poly import Poly
 from kovacic.algebra.rationals import QQ, to_fraction
 from kovacic.compatibility import cached_property
 from kovacic.errors import VerificationFailed
+from kovacic.limits import MOST_TRIALS
 from kovacic.verify.factors import inverse
 from kovacic.verify.local import Point
 from kovacic.verify.primes import BadPrimeError, Homomorphism, homomorphisms, roots_modulo
@@ -121,8 +122,6 @@ def _digits(H: Poly, p: Poly, count: int) -> list[Poly]:
 _SQUARE_TESTS = 40
 #: Norms come first, which cost less than a hundredth of the roots at degree 60; two of them tell as a rule.
 _NORMS = 8
-#: Sums with different fractional parts that are told apart, at most.
-_FRACTIONAL_PARTS = 4096
 
 
 @dataclass(frozen=True)
@@ -285,6 +284,6 @@ def largest_natural_sum(total: Fraction, choices: list[Fraction]) -> int:
             more = loss + 2 * size
             part = (largest - more) % unit
             losses[part] = min(more, losses.get(part, more))
-        if len(losses) > _FRACTIONAL_PARTS:
+        if len(losses) > MOST_TRIALS:
             return max(largest // unit, -1)
     return max((largest - losses.get(0, largest + unit)) // unit, -1)
