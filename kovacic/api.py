@@ -104,9 +104,9 @@ def _text_of(S: Any, parsed: Parsed) -> str:
         return S.strip()
     if not is_changed or isinstance(S, Equation):
         return parsed.text
-    from kovacic.reading.symbolic import text_of
+    from kovacic.reading.symbolic import equation_text
 
-    return text_of(S)
+    return equation_text(S)
 
 
 @limited
@@ -176,9 +176,9 @@ def _read_question(
         parsed = read_input(S, var=var, limits=limits, exponentials=True, names=names)
     if not assume:
         return S, parsed, assume
-    from kovacic.reading.substitution import with_values
+    from kovacic.reading.substitution import with_assumed_values
 
-    return with_values(S, parsed, assume, limits)
+    return with_assumed_values(S, parsed, assume, limits)
 
 
 def _decided(

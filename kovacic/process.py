@@ -30,7 +30,7 @@ from kovacic.limits import check_time, watched_seconds
 
 # The interpreter finds modules on this one's path, and not in the current directory.
 _INTERPRETER_SOURCE = (
-    "import json, sys; sys.path[:] = json.loads(sys.argv[1]); from kovacic.process import main; main()"
+    "import json, sys; sys.path[:] = json.loads(sys.argv[1]); from kovacic.process import serve_parent; serve_parent()"
 )
 # The end of the error stream that `last_words` reads: a traceback of some hundred lines.
 _SHOWN_ERROR_BYTES = 20_000
@@ -81,10 +81,8 @@ class Process:
         self.send(serve)
 
     def send(self, value: object) -> None:
-        self.write(pickle.dumps(value))
-
-    def write(self, pickled: bytes) -> None:
-        """Send objects that are pickled already.  A broken pipe is no error here: `receive` reports the end."""
+        """Send an object.  A broken pipe is no error here: `receive` reports the end."""
+        pickled = pickle.dumps(value)
         with suppress(OSError):
             self._to.write(pickled)
             self._to.flush()
@@ -167,7 +165,7 @@ def set_alarm(seconds: float) -> None:
         signal.setitimer(signal.ITIMER_REAL, seconds)
 
 
-def main() -> None:
+def serve_parent() -> None:
     """The entry point of the interpreter that `Process` starts."""
     signal.signal(signal.SIGINT, signal.SIG_IGN)  # Ctrl-C is the parent's affair
     answers = os.fdopen(os.dup(1), "wb")

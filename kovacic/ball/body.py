@@ -21,7 +21,7 @@ import sympy as sp
 
 from kovacic.errors import InputError, LimitExceeded, NotRational
 from kovacic.limits import Limits
-from kovacic.numbers.exact import exact_real, is_rational
+from kovacic.numbers.exact import exact_real, is_rational_number
 from kovacic.reading import symbolic
 from kovacic.reading.read import read_input
 
@@ -43,7 +43,7 @@ def exact(value: Quantity, name: str) -> sp.Expr:
     """
     if isinstance(value, str):
         result = read_expression(value, what=f"the number {name}", names={})
-    elif is_rational(value):
+    elif is_rational_number(value):
         number = exact_real(value, name)
         result = sp.Rational(number.numerator, number.denominator)
     elif isinstance(value, sp.Expr) and not value.has(sp.Float):

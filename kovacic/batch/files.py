@@ -31,10 +31,7 @@ from kovacic.writing.escaped import strict_json
 
 #: Names of the key or column with the expression; and all names that mean something.
 _EXPRESSION_KEYS = ("S", "input", "expression")
-_KEYS = (*_EXPRESSION_KEYS, "id", "var", "names")
-
-# Bytes of a line for each character that an expression may have: UTF-8, and escapes of JSON.
-_BYTES_PER_CHARACTER = 6
+_ITEM_KEYS = (*_EXPRESSION_KEYS, "id", "var", "names")
 
 
 def guess_format(name: str) -> str | None:
@@ -57,7 +54,7 @@ def read_items(
     which are carried along, or no header and the expressions in its first column.  `var` is the variable of all items that
     don't name one.  Gzip files are recognised and decompressed.  Raises `InputError` at damaged ones, after the items before.
     """
-    longest = limits.text_length * _BYTES_PER_CHARACTER
+    longest = limits.text_length * len(r"\u0041")  # bytes: a character as UTF-8 or as an escape of JSON
     lines = _text_lines(stream, longest, var)
     if form == "csv":
         yield from _csv_items(lines, longest, var)
@@ -159,9 +156,9 @@ def _flaw_of(names: Sequence[str], *, others: bool = False) -> InputError | None
     for name, count in Counter(names).items():
         if count > 1:
             return InputError(f"two columns have the name {name!r}")
-        if name not in _KEYS and not others:
+        if name not in _ITEM_KEYS and not others:
             return InputError(
-                f"unknown key {name!r}", hint=f"the keys are {', '.join(_KEYS)}; an id may be any JSON value"
+                f"unknown key {name!r}", hint=f"the keys are {', '.join(_ITEM_KEYS)}; an id may be any JSON value"
             )
     found = [name for name in _EXPRESSION_KEYS if name in names]
     if len(found) > 1:
@@ -174,53 +171,46 @@ def _flaw_of(names: Sequence[str], *, others: bool = False) -> InputError | None
 def _csv_items(lines: Iterator[Item], longest: int, var: str | None) -> Iterator[Item]:
     """The rows of a CSV file.  Without a header the expressions are in the first column, and the others have numbers."""
     rows = _Rows(lines, longest)
-    table: _Table | None = None
-    while (row := rows.next(0 if table is None else len(table.header))) is not None:
+    header: tuple[str, ...] | None = None  # the names of the columns; none without a header
+    flaw: InputError | None = None  # of the header, after which no row can be read
+    while (row := rows.next(len(header or ()))) is not None:
         line, cells = row
         text = ",".join(cells) or line.text.strip()
-        is_first = table is None
         if line.error is not None:
-            table = table or _Table()
+            header = header or ()
             yield Item(line.number, text, var, error=line.error)
         elif any(cells):
-            table = table or _Table.begun(cells, text, line.number)
-            if table.flaw is not None:
-                yield Item(line.number, text, var, error=table.flaw)
-            elif not (is_first and table.header):
-                yield table.item(line.number, cells, text, var)
+            if header is None:
+                header, flaw = _header(cells, text, line.number)
+                if header and flaw is None:
+                    continue
+            yield Item(line.number, text, var, error=flaw) if flaw else _row_item(header, line.number, cells, text, var)
 
 
-@dataclass(frozen=True)
-class _Table:
-    """The names of the columns, empty without a header; no row can be read after a header with a `flaw`."""
+def _header(cells: list[str], text: str, number: int) -> tuple[tuple[str, ...], InputError | None]:
+    """The first row as a header, if a key or nothing but words are among its cells, and what is wrong with it."""
+    if any(cell.strip() in _ITEM_KEYS for cell in text.split(";")) and ";" in text:
+        return (), InputError("semicolons between cells", hint="write commas there, and points in decimals")
+    is_of_words = all(map(str.isidentifier, cells)) and max(map(len, cells)) > 1
+    if not is_of_words and set(_ITEM_KEYS).isdisjoint(cells):
+        return (), None
+    flaw = _flaw_of(cells, others=True)
+    if flaw is not None:
+        hint = "name the column of the expressions S; if the file has no header, put S as its first line"
+        flaw = InputError(f"line {number} as a header: {flaw.message}", hint=hint)
+    return tuple(cells), flaw
 
-    header: tuple[str, ...] = ()
-    flaw: InputError | None = None
 
-    @classmethod
-    def begun(cls, cells: list[str], text: str, number: int) -> _Table:
-        """The table whose first row has these cells: a header, if a key or nothing but words are among them."""
-        if any(cell.strip() in _KEYS for cell in text.split(";")) and ";" in text:
-            return cls((), InputError("semicolons between cells", hint="write commas there, and points in decimals"))
-        is_of_words = all(map(str.isidentifier, cells)) and max(map(len, cells)) > 1
-        if not is_of_words and set(_KEYS).isdisjoint(cells):
-            return cls()
-        flaw = _flaw_of(cells, others=True)
-        if flaw is not None:
-            hint = "name the column of the expressions S; if the file has no header, put S as its first line"
-            flaw = InputError(f"line {number} as a header: {flaw.message}", hint=hint)
-        return cls(tuple(cells), flaw)
-
-    def item(self, number: int, cells: list[str], text: str, var: str | None) -> Item:
-        """The item of a row; columns that mean nothing are carried along."""
-        if not self.header:
-            item = Item(number, cells[0], var)
-            others = {str(k): cell for k, cell in enumerate(cells[1:], 2) if cell}
-        else:
-            named = dict(zip(self.header, cells, strict=True))
-            others = {name: named.pop(name) for name in self.header if name not in _KEYS}
-            item = _item_of(number, named, text, var)
-        return replace(item, extra={**item.extra, "columns": others}) if others else item
+def _row_item(header: tuple[str, ...], number: int, cells: list[str], text: str, var: str | None) -> Item:
+    """The item of a row; columns that mean nothing are carried along."""
+    if header:
+        named = dict(zip(header, cells, strict=True))
+        others = {name: named.pop(name) for name in header if name not in _ITEM_KEYS}
+        item = _item_of(number, named, text, var)
+    else:
+        item = Item(number, cells[0], var)
+        others = {str(k): cell for k, cell in enumerate(cells[1:], 2) if cell}
+    return replace(item, extra={**item.extra, "columns": others}) if others else item
 
 
 class _Rows:

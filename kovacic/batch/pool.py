@@ -1,13 +1,11 @@
 """A pool of worker processes that can be killed: every item gets exactly one record.
 
-One loop in the caller's thread goes round in four steps.  Each process that has nothing to do gets a lot of items, as many as
-take about 20 ms.  Items that are refused without a process get their records.  Events are taken up: a record, the end of a
-process, an item from a stream.  Processes that are over their time are killed.  The loop waits for events only where a round
-has found nothing to hand out: then every process works or starts, or the input is silent, and each of these ends with an event.
+One loop in the caller's thread goes round in four steps.  Each idle process gets an item, and an item that is refused without
+a process its record.  If none was refused, the loop waits for an event: a record, the end of a process, an item from a stream,
+or the deadline of a process.  Events are taken up.  Processes that are over their time are killed.
 
 A process that is over its time is killed, and its item gets a record.  So does the item of a process that has ended with an
-exception; one whose process was killed by somebody else gets another one, up to three times.  What waited behind the item
-goes back to the front.
+exception; one whose process was killed by somebody else gets another one, up to three times.
 
 The processes are those of `kovacic.process`, and run `kovacic.batch.worker.serve`.
 """
@@ -15,16 +13,14 @@ The processes are those of `kovacic.process`, and run `kovacic.batch.worker.serv
 from __future__ import annotations
 
 import math
-import pickle
 import re
 import signal
 import threading
 import time
 from collections import Counter, deque
-from collections.abc import Callable, Iterable, Iterator, Sequence
-from contextlib import AbstractContextManager
+from collections.abc import Callable, Iterable, Iterator
+from contextlib import AbstractContextManager, suppress
 from queue import Empty, Queue, SimpleQueue
-from typing import NamedTuple
 
 from kovacic.batch import worker
 from kovacic.batch.records import Item, Job, ProcessLost, Record, refused, stopped
@@ -39,18 +35,8 @@ _START_SECONDS = 120.0
 # A signal may come from somebody else: starts in a row, or processes of one item or chunk, that may end by one.
 MOST_LOSSES = 4
 
-# In order of the input, items that are read beyond the first one that has no answer.
-ORDERED_WINDOW = 10_000
-
-# Items that are read from a stream before they are needed.
-_AHEAD = 256
-
-# Seconds of work that a process gets at once, so that it needn't wait for the parent after each item; a longer item comes
-# alone.  Everything behind the first item must fit into the pipe: the process reads the first one before it works,
-# and writing to a full pipe of a process that is busy would stop the parent, its deadlines included.
-_SECONDS_AT_ONCE = 0.02
-_ITEMS_AT_ONCE = 32
-_BYTES_AT_ONCE = 30_000
+# Items read ahead: in order of the input, beyond the first one without an answer; from a stream, before they are needed.
+_AHEAD = 10_000
 
 # The last words of Python, GMP, flint and the C++ library.
 _OUT_OF_MEMORY = re.compile(r"MemoryError|(cannot|unable to) (re)?allocate|bad_alloc", re.IGNORECASE)
@@ -63,83 +49,52 @@ Serve = Callable[[Channel], None]
 Event = tuple["Child", Record | None] | None
 
 
-class Lot(NamedTuple):
-    """Items for one process, handed out at once, and the records of items that need none, since their line was wrong."""
-
-    items: list[Item]
-    refusals: list[Record]
-
-
 class ItemSource:
     """The source of items: first those that a lost process has left, then the input, which may be silent for the moment."""
 
     def __init__(self, feed: Iterator[Item | None]) -> None:
         self._feed = feed
-        self._returned: deque[Item] = deque()
         self._ended = False
+        self.returned: list[Item] = []
         self.failure: Exception | None = None  # that has ended the input, unless it came to its end
 
     @property
     def exhausted(self) -> bool:
-        """True if the end of the input is known, and nothing was given back."""
-        return self._ended and not self._returned
-
-    def give_back(self, items: Sequence[Item]) -> None:
-        """Put items back to be handed out next, in this order."""
-        self._returned.extendleft(reversed(items))
+        """True if the end of the input is known, and nothing was returned."""
+        return self._ended and not self.returned
 
     def next(self) -> Item | None:
         """The next item, or None if there is none: for the moment, or at the end."""
-        if self._returned:
-            return self._returned.popleft()
-        if self._ended:
-            return None
-        try:
-            return next(self._feed)
-        except StopIteration:
-            self._ended = True
-        except Exception as error:  # raised by the pool, when what came before it is answered
-            self._ended = True
-            self.failure = error
+        if self.returned:
+            return self.returned.pop()
+        if not self._ended:
+            try:
+                return next(self._feed)
+            except StopIteration:
+                self._ended = True
+            except Exception as error:  # raised by the pool, when what came before it is answered
+                self._ended = True
+                self.failure = error
         return None
-
-    def lot(self, most: int) -> Lot:
-        """Up to `most` items, and at least one if any is available."""
-        lot = Lot([], [])
-        size = 0
-        while len(lot.items) + len(lot.refusals) < most:
-            item = self.next()
-            if item is None:
-                break
-            if item.error is not None:
-                lot.refusals.append(refused(item, item.error))
-                continue
-            size += len(_packed(item))
-            if lot.items and size > _BYTES_AT_ONCE:
-                self.give_back([item])
-                break
-            lot.items.append(item)
-        return lot
 
 
 class Child:
-    """A worker process, and the items that it hasn't answered; it works on the first one."""
+    """A worker process, and the item that it works on; `since` is the time at which it got this, or was started."""
 
     def __init__(self, job: Job, serve: Serve, events: SimpleQueue[Event]) -> None:
-        self.items: deque[Item] = deque()
+        self.item: Item | None = None
         self.ready = False
-        self.busy_since = time.monotonic()
+        self.since = time.monotonic()
         self.process = Process(serve)
         self.pid = self.process.pid
         self._reader = threading.Thread(target=self._read, args=(events,), daemon=True)
         self._reader.start()
         self.process.send(job)
 
-    def give(self, items: Sequence[Item]) -> None:
-        """Queue items for the process."""
-        self.items.extend(items)
-        self.busy_since = time.monotonic()
-        self.process.write(b"".join(map(_packed, items)))
+    def give(self, item: Item) -> None:
+        self.item = item
+        self.since = time.monotonic()
+        self.process.send(item)
 
     def kill(self) -> None:
         """End the process at once and wait for it; its reader thread ends as well."""
@@ -149,10 +104,9 @@ class Child:
 
     def _read(self, events: SimpleQueue[Event]) -> None:
         try:
-            while True:
-                events.put((self, Record(*self.process.receive())))
-        except EOFError:
-            pass
+            with suppress(EOFError):
+                while True:
+                    events.put((self, self.process.receive()))
         finally:
             events.put((self, None))
 
@@ -172,7 +126,6 @@ class Pool(AbstractContextManager["Pool"]):
         self._children: list[Child] = []
         self._losses: Counter[int] = Counter()
         self._failed_starts = 0
-        self._pace = 1.0  # seconds for an item, lately
         self.replaced = 0
 
     def __exit__(self, *error: object) -> None:
@@ -204,7 +157,7 @@ class Pool(AbstractContextManager["Pool"]):
 
         def noted() -> Iterator[Item | None]:
             for item in feed:
-                while len(order) >= ORDERED_WINDOW:
+                while len(order) >= _AHEAD:
                     yield None
                 if item is not None:
                     order.append(item.number)
@@ -221,123 +174,99 @@ class Pool(AbstractContextManager["Pool"]):
         while len(self._children) < self._jobs:
             self._children.append(Child(self.job, self._serve, self._events))
         while True:
-            lots = self._hand_out(source)
-            for lot in lots:
-                yield from lot.refusals
-            working = any(child.items for child in self._children)
-            if source.exhausted and not working:
+            refusals: list[Record] = []
+            for child in self._children:
+                if child.ready and child.item is None and (item := source.next()) is not None:
+                    if item.error is None:
+                        child.give(item)
+                    else:
+                        refusals.append(refused(item, item.error))
+            yield from refusals
+            if source.exhausted and not any(child.item for child in self._children):
                 if source.failure is not None:
                     raise source.failure
                 return
-            events = self._arrived(wait=not lots)
+            events = self._arrived(wait=not refusals)
             # Processes that are over their time, and have sent nothing.
             now = time.monotonic()
             heard = [event[0] for event in events if event is not None]
             late = [child for child in self._children if child not in heard and self._deadline(child) <= now]
-            yield from self._take_up(events, source)
-            yield from self._end(late, source)
-
-    def _hand_out(self, source: ItemSource) -> list[Lot]:
-        """Give each process that has nothing to do a lot, as long as there are items; the lots."""
-        lots: list[Lot] = []
-        for child in self._children:
-            if not child.ready or child.items:
-                continue
-            lot = source.lot(max(1, int(min(_SECONDS_AT_ONCE / self._pace, _ITEMS_AT_ONCE))))
-            if lot.items:
-                child.give(lot.items)
-            if lot.items or lot.refusals:
-                lots.append(lot)
-        return lots
+            for event in events:
+                if (
+                    event is not None and event[0] in self._children
+                ):  # not an item of a stream, nor of a replaced process
+                    yield from self._take_up(*event, source)
+            for child in late:
+                if child.item is None:
+                    raise KovacicError(f"a worker process hasn't started within {_START_SECONDS:g} s")
+                self._replace(child)
+                reason = f"the time limit of {self.job.timeout:g} s is exceeded (process killed)"
+                yield stopped(child.item, reason, time.monotonic() - child.since)
 
     def _arrived(self, *, wait: bool) -> list[Event]:
         """The events that have arrived; with `wait`, at least one unless a deadline comes first."""
         events: list[Event] = []
-        try:
+        with suppress(Empty):
             if wait:
                 deadline = min(map(self._deadline, self._children))
                 patience = None if deadline == math.inf else max(0.0, deadline - time.monotonic())
                 events.append(self._events.get(timeout=patience))
             while True:
                 events.append(self._events.get_nowait())
-        except Empty:
-            return events
+        return events
 
     def _deadline(self, child: Child) -> float:
         if not child.ready:
-            return child.busy_since + _START_SECONDS
-        if self.job.timeout is None or not child.items:
+            return child.since + _START_SECONDS
+        if self.job.timeout is None or child.item is None:
             return math.inf
-        return child.busy_since + self.job.timeout + GRACE_SECONDS
+        return child.since + self.job.timeout + GRACE_SECONDS
 
-    def _take_up(self, events: list[Event], source: ItemSource) -> Iterator[Record]:
-        """The records that these events bring.  An item of a stream brings none, nor does a process that was replaced."""
-        for event in events:
-            if event is None:
-                continue
-            child, record = event
-            if child not in self._children:
-                continue
-            if record is None:
-                yield from self._died(child, source)
-            elif child.ready:
-                # The answer to its first item; it has turned to the next one.
-                now = time.monotonic()
-                self._pace += (now - child.busy_since - self._pace) / 8
-                child.busy_since = now
-                child.items.popleft()
-                yield record
-            else:  # with a record of nothing, by which it says so
-                child.ready = True
-                self._failed_starts = 0
-
-    def _end(self, late: list[Child], source: ItemSource) -> Iterator[Record]:
-        """Kill processes that are over their time; the records of the items that they worked on."""
-        for child in late:
-            if not child.items:
-                raise KovacicError(f"a worker process hasn't started within {_START_SECONDS:g} s")
-            item = child.items.popleft()
-            self._replace(child, source)
-            reason = f"the time limit of {self.job.timeout:g} s is exceeded (process killed)"
-            yield stopped(item, reason, time.monotonic() - child.busy_since)
+    def _take_up(self, child: Child, record: Record | None, source: ItemSource) -> Iterator[Record]:
+        """The record of a child's item, or what its end brings."""
+        if record is None:
+            yield from self._died(child, source)
+        elif child.ready:
+            child.item = None
+            yield record
+        else:  # the first record says that the process is ready
+            child.ready = True
+            self._failed_starts = 0
 
     def _died(self, child: Child, source: ItemSource) -> Iterator[Record]:
         """Replace a process that has ended; a record for its item, unless there is another attempt."""
         status, words = child.process.last_words()  # a negative status is a signal
+        name = next((known.name for known in signal.Signals if known == -status), str(-status))
+        cause = f"the worker process ended with {f'signal {name}' if status < 0 else f'exit status {status}'}"
+        if words:
+            cause += f": {words.splitlines()[-1].strip()}"
         if not child.ready:
             self._failed_starts += 1
         if self._failed_starts >= MOST_LOSSES:
-            raise KovacicError(f"worker processes can't be started: {_cause(status, words)}\n{words}")
-        item = child.items.popleft() if child.items else None
-        self._replace(child, source)
+            raise KovacicError(f"worker processes can't be started: {cause}\n{words}")
+        self._replace(child)
+        item = child.item
         if item is None:
             return
-        seconds = time.monotonic() - child.busy_since
+        seconds = time.monotonic() - child.since
         if self.job.memory is not None and _OUT_OF_MEMORY.search(words):
             yield stopped(item, f"the memory limit of {self.job.memory} MiB is exceeded (process ended)", seconds)
             return
-        if self.job.timeout is not None and _signal_name(status) == "SIGALRM":
+        if self.job.timeout is not None and name == "SIGALRM":
             yield stopped(item, f"the time limit of {self.job.timeout:g} s is exceeded (process ended)", seconds)
             return
         self._losses[item.number] += 1
         attempts = MOST_LOSSES if status < 0 else 1  # an exception repeats itself
         if self._losses[item.number] >= attempts:
-            yield refused(item, ProcessLost(_cause(status, words)), seconds)
+            yield refused(item, ProcessLost(cause), seconds)
         else:
-            source.give_back([item])
+            source.returned.append(item)
 
-    def _replace(self, child: Child, source: ItemSource) -> None:
-        """Kill a process, give back the items that it hasn't begun, and start another one."""
-        source.give_back(child.items)
+    def _replace(self, child: Child) -> None:
+        """Kill a process, and start another one."""
         child.kill()
-        place = self._children.index(child)
-        self._children[place] = Child(self.job, self._serve, self._events)
+        self._children[self._children.index(child)] = Child(self.job, self._serve, self._events)
         self.replaced += 1
-
-
-def _packed(item: Item) -> bytes:
-    """An item in the form in which it is sent to a process."""
-    return pickle.dumps((item.number, item.text, item.var, item.extra, None, item.names))
 
 
 def _read_ahead(items: Iterable[Item], events: SimpleQueue[Event]) -> Iterator[Item | None]:
@@ -367,15 +296,3 @@ def _read_ahead(items: Iterable[Item], events: SimpleQueue[Event]) -> Iterator[I
         if item is None:
             return
         yield item
-
-
-def _cause(status: int, words: str) -> str:
-    end = f"signal {_signal_name(status)}" if status < 0 else f"exit status {status}"
-    last_line = words.splitlines()[-1].strip() if words else ""
-    cause = f"the worker process ended with {end}"
-    return f"{cause}: {last_line}" if last_line else cause
-
-
-def _signal_name(status: int) -> str:
-    """The name of the signal that ended a process, or its number if this system has no name for it."""
-    return next((known.name for known in signal.Signals if known == -status), str(-status))

@@ -23,8 +23,7 @@ from kovacic.writing.document import FORMATS, Table
 from kovacic.writing.escaped import json_line
 
 # The verdict of a record in one word; the degree of omega is added in case 3.
-NONE = "none"
-UNDECIDED = "undecided"
+OPEN = "undecided"
 ERROR = "bad input"
 FAILED = "failed"
 # By the structure of the group: label, case, degree of omega.
@@ -34,10 +33,10 @@ _STRUCTURE_LABELS: dict[str | None, tuple[str, int | None, int]] = {
     "tetrahedral": ("case 3 (4)", 3, 4),
     "octahedral": ("case 3 (6)", 3, 6),
     "icosahedral": ("case 3 (12)", 3, 12),
-    None: (NONE, None, 0),
+    None: ("none", None, 0),
 }
-LABELS = (*(label for label, _, _ in _STRUCTURE_LABELS.values()), UNDECIDED, ERROR, FAILED)
-_EXIT_STATUS = {FAILED: 4, ERROR: 2, UNDECIDED: 3}
+LABELS = (*(label for label, _, _ in _STRUCTURE_LABELS.values()), OPEN, ERROR, FAILED)
+_EXIT_STATUS = {FAILED: 4, ERROR: 2, OPEN: 3}
 
 
 class ProcessLost(KovacicError):
@@ -168,13 +167,13 @@ class Job:
         return replace(self.limits, seconds=min(times, default=None))
 
 
-def solved(item: Item, solution: Solution, job: Job) -> Record:
+def record_of(item: Item, solution: Solution, job: Job) -> Record:
     """The record of an answer."""
     added = {"line": item.number, **item.extra}
     if job.group:
         added["group"] = group_dict(solution)
     head = json_line(added)
-    label = UNDECIDED
+    label = OPEN
     if not solution.reason:
         structure = solution.decision.structure
         label, *_ = _STRUCTURE_LABELS[structure and structure.value]
@@ -190,8 +189,8 @@ def label_of(data: Mapping[str, Any]) -> str:
         raise ValueError("another schema")
     if data["status"] == "error":
         return FAILED if data["error"]["type"] in _FAILURES else ERROR
-    if data["status"] == UNDECIDED and data["proof"]["undecided"]:
-        return UNDECIDED
+    if data["status"] == OPEN and data["proof"]["undecided"]:
+        return OPEN
     label, case, degree = _STRUCTURE_LABELS[data["proof"]["structure"]]
     status = "none" if case is None else "liouvillian"
     by_series = int(data["proof"].get("series") is not None)
@@ -221,14 +220,14 @@ def stopped(item: Item, reason: str, seconds: float) -> Record:
     data: dict[str, Any] = {
         "variable": item.var or "x",
         "S": item.text.strip(),
-        "status": UNDECIDED,
+        "status": OPEN,
         **dict.fromkeys(("case", "riccati", "constants")),
         "verified": False,
         "proof": {"structure": None, "semi_invariant": None, "invariant": None, "excluded": [], "undecided": reason},
         "notices": [],
         "seconds": round(seconds, 6),
     }
-    return _without_answer(item, UNDECIDED, data, seconds)
+    return _without_answer(item, OPEN, data, seconds)
 
 
 def _without_answer(item: Item, label: str, data: Mapping[str, Any], seconds: float) -> Record:

@@ -5,6 +5,7 @@ from __future__ import annotations
 import csv
 import os
 import re
+import sys
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
@@ -19,9 +20,6 @@ from kovacic.numbers.numerals import as_text
 from kovacic.reading.read import read_input
 from kovacic.reading.substitution import Template, number_text
 from kovacic.writing.maps import CellKind, check_size, draw_cells, new_axes
-
-# Values of one parameter: `range` takes more, but nobody waits for them.
-_LARGEST_GRID = 10**9
 
 # Okabe and Ito's palette, which colour-blind readers can tell apart; "none" is light, so that the solvable values stand out.
 _COLOURS_AND_NAMES = {
@@ -57,7 +55,7 @@ def parse_grid(text: str) -> Grid:
     """The grid that `NAME=START:STOP:STEP` (STOP included, STEP 1 by default) or `NAME=VALUE,VALUE,...` denotes.
 
     Numbers are integers, fractions or decimals, taken exactly, and VALUE can be algebraic: n=sqrt(2).  Raises `InputError` for
-    anything else, and `LimitExceeded` for more than 10^9 values.
+    anything else, and `LimitExceeded` for more values than a sequence can have.
 
     >>> grid = parse_grid("n=0:1:1/4")
     >>> grid.name, [str(value) for value in grid]
@@ -72,19 +70,14 @@ def parse_grid(text: str) -> Grid:
     if ":" not in rest:
         return Grid(name, [_grid_value(part, text) for part in rest.split(",")])
     values = [_grid_value(part, text) for part in re.split("[:,]", rest)]
-    return _range(name, values, text)
-
-
-def _range(name: str, values: list[Fraction | str], text: str) -> Grid:
-    """The grid of START, STOP and perhaps STEP."""
     if "," in text or len(values) > 3 or not all(isinstance(value, Fraction) for value in values):
         raise InputError(f"{text!r} isn't START:STOP:STEP with rational numbers", hint="n=0:10:1/4")
     start, stop, step = (Fraction(value) for value in (*values, 1)[:3])
     if not step or (stop - start) / step < 0:
         raise InputError(f"{text!r}: no value lies between {start} and {stop} in steps of {step}")
     count = int((stop - start) / step) + 1
-    if count > _LARGEST_GRID:
-        raise LimitExceeded(f"{text!r} has {count} values, above the limit of {_LARGEST_GRID}", limit="text_length")
+    if count > sys.maxsize:  # which is the longest `len` of a sequence
+        raise LimitExceeded(f"{text!r} has {count} values, above the limit of {sys.maxsize}", limit="text_length")
     denominator = lcm(start.denominator, step.denominator)
     first = int(start * denominator)
     difference = int(step * denominator)
@@ -103,13 +96,13 @@ def _grid_value(part: str, text: str) -> Fraction | str:
     return number if rational is None else rational
 
 
-def points(grids: Sequence[Grid]) -> Iterator[dict[str, Fraction | str]]:
+def grid_points(grids: Sequence[Grid]) -> Iterator[dict[str, Fraction | str]]:
     """Every combination of values, the last parameter changing fastest."""
     if not grids:
         yield {}
         return
     for value in grids[0]:
-        for rest in points(grids[1:]):
+        for rest in grid_points(grids[1:]):
             yield {grids[0].name: value, **rest}
 
 
@@ -131,7 +124,7 @@ def scan_items(expression: Any, grids: Sequence[Grid], *, var: str | None = None
             var,
             {"parameters": {name: as_text(value) for name, value in values.items()}},
         )
-        for number, values in enumerate(points(grids), start=1)
+        for number, values in enumerate(grid_points(grids), start=1)
     )
 
 

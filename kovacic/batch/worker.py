@@ -14,7 +14,7 @@ import time
 from typing import Any
 
 import kovacic
-from kovacic.batch.records import Item, Job, Record, refused, solved
+from kovacic.batch.records import Item, Job, Record, record_of, refused
 from kovacic.errors import KovacicError
 from kovacic.limits import Budget, Limits
 from kovacic.process import Channel, set_alarm
@@ -28,8 +28,8 @@ def serve(channel: Channel) -> None:
     record = solve_item(Item(0, "x**2 + 3"), job, limits)
     gc.freeze()  # modules stay: the collector needn't visit them again
     while True:
-        channel.send((record.number, record.label, record.seconds, record.json))
-        item = Item(*channel.receive())
+        channel.send(record)
+        item: Item = channel.receive()
         if job.memory is not None:
             _limit_memory(job.memory)
         if job.timeout is not None:
@@ -48,9 +48,9 @@ def solve_item(item: Item, job: Job, limits: Limits) -> Record:
     try:
         answer = kovacic.solve(item.text, var=item.var, parameters=(*job.parameters, *item.names), limits=limits)
         if answer.reason:
-            return solved(item, answer, job)
+            return record_of(item, answer, job)
         with budget.watched():
-            return solved(item, answer, job)
+            return record_of(item, answer, job)
     except KovacicError as error:
         return refused(item, error, time.perf_counter() - start)
 

@@ -33,12 +33,12 @@ from kovacic.numbers.numerals import as_text
 from kovacic.parametric.assumptions import Assumptions, read_assumptions
 from kovacic.parametric.restriction import Letters, own_parameters
 from kovacic.reading.lexer import scanned
+from kovacic.reading.linear import SYMBOLIC_LIMITS
 from kovacic.reading.names import NUMBER_NAMES, is_letter
 from kovacic.reading.naming import USUAL_VARIABLES, chosen_variable
 from kovacic.reading.read import read_input
 from kovacic.reading.source import parts_of, source_of
 from kovacic.reading.substitution import value_text, values_among
-from kovacic.reading.symbolic import LIMITS as SYMBOLIC
 from kovacic.reading.symbolic import expression_of, names_of, read_expression
 from kovacic.sturm_liouville.problem import STEPS, pieces_of
 from kovacic.writing.formula import caret
@@ -186,12 +186,12 @@ def _read(V: Any, var: str | None, energy: str, names: Sequence[str], limits: Li
             # Errors come below, with their position; names only, since l(l + 1) is a product or a function.
             with suppress(InputError):
                 named, _ = _variable_of([name for name in _letters(V) if name not in NUMBER_NAMES])
-        source = source_of(V, named, SYMBOLIC, names=(*names, energy))
+        source = source_of(V, named, SYMBOLIC_LIMITS, names=(*names, energy))
         if source.unknown:
             raise InputError(
                 "a potential is expected, and this is an equation", hint="give V of -y'' + V y = E y alone"
             )
-        expression, guesses = expression_of(source, SYMBOLIC, what="the potential"), source.guesses
+        expression, guesses = expression_of(source, SYMBOLIC_LIMITS, what="the potential"), source.guesses
     else:
         given = V if hasattr(V, "free_symbols") else read_expression(exact_text(V, "the potential"))
         expression = given.xreplace({symbol: sympy.Symbol(symbol.name) for symbol in given.free_symbols})
@@ -225,8 +225,8 @@ def _check_real(V: Any, energy: str) -> None:
             shell="--energy gives it another name",
         )
     longest = max((max(abs(int(c.p)), int(c.q)) for c in V.atoms(sympy.Rational)), default=0)
-    if longest.bit_length() > SYMBOLIC.bits:
-        raise LimitExceeded(f"the potential has numbers of more than {SYMBOLIC.bits} bits", limit="bits")
+    if longest.bit_length() > SYMBOLIC_LIMITS.bits:
+        raise LimitExceeded(f"the potential has numbers of more than {SYMBOLIC_LIMITS.bits} bits", limit="bits")
     if V.has(sympy.I):
         raise InputError("the potential isn't real")
     for unknown in V.atoms(sympy.floor):

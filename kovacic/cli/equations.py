@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from kovacic.cli import options
-from kovacic.cli.main import DECIDED, UNDECIDED
+from kovacic.cli.main import Exit
 from kovacic.cli.options import fitted
 from kovacic.errors import KovacicError
 from kovacic.writing.escaped import json_line
@@ -37,7 +37,7 @@ if TYPE_CHECKING:
 @click.option("--explain", "derived", is_flag=True, hidden=True)
 @click.option("--ics", multiple=True, hidden=True)
 @options.VAR
-@options.NAMES
+@options.DECLARED
 @options.ASSUME
 @options.LIMIT
 @click.pass_context
@@ -64,7 +64,7 @@ def solve(
     kovacic solve --json "x" "1/x - 3/(16*x^2)"
     kovacic solve --as mathematica "x^2 + 3"
     """
-    from kovacic.reading.pieces import is_equation
+    from kovacic.reading.pieces import Paste
     from kovacic.views.text import render, solution_lines
 
     if form != "json":
@@ -80,7 +80,7 @@ def solve(
     if ics:
         options.refuse({"assume", "full", "no_solutions"}, "with --ics")
         given |= {"as_json": form == "json", "as_formula": form == "formula", "ics": ", ".join(ics)}
-        texts = (text if is_equation(text) else f"y'' = ({text.strip()})*y" for text in equations)
+        texts = (text if Paste(text).is_equation else f"y'' = ({text.strip()})*y" for text in equations)
         return max(int(context.invoke(dsolve, equation=text, **given)) for text in texts)
 
     def show(answer: Solution) -> Iterable[str]:
@@ -147,7 +147,7 @@ def _inhomogeneous(answer: Solution) -> Iterator[str]:
 )
 @click.option("--func", metavar="NAME", help="The unknown function, y or y(x), where other functions occur.")
 @options.VAR
-@options.NAMES
+@options.DECLARED
 @options.ASSUME
 @options.LIMIT
 def dsolve(equation: str, form: str, ics: str, **given: Any) -> int:
@@ -167,13 +167,13 @@ def dsolve(equation: str, form: str, ics: str, **given: Any) -> int:
     try:
         if form == "json":
             print(_solution_in_json(equation, ics, **given))
-            return DECIDED
+            return Exit.DECIDED
         with options.waiting("solving"):
             lines = list(_solution_lines(equation, latex=form == "formula", ics=ics, **given))
         options.say_reading(equation, given["var"], given["parameters"])
         for line in lines:
             print(fitted(line) if form == "text" else line)
-        return DECIDED
+        return Exit.DECIDED
     except KovacicError as error:
         if form == "json":
             _print_refusal(equation, error)
@@ -187,7 +187,7 @@ def dsolve(equation: str, form: str, ics: str, **given: Any) -> int:
             print(fitted(str(reason)))
         else:
             print(f"kovacic: {reason}", file=sys.stderr)
-        return DECIDED if is_proven else UNDECIDED
+        return Exit.DECIDED if is_proven else Exit.UNDECIDED
 
 
 def _solution_lines(equation: Any, *, latex: bool = False, **given: Any) -> Iterator[str]:
@@ -260,7 +260,7 @@ def _exception_lines(answer: Any) -> list[dict[str, str | None]]:
 @click.option("--cite", is_flag=True, help="Only the references, as BibTeX.")
 @click.option("--no-solutions", is_flag=True, help="Leave the closed forms out.")
 @options.VAR
-@options.NAMES
+@options.DECLARED
 @options.ASSUME
 @options.LIMIT
 def explain(
@@ -307,9 +307,9 @@ def explain(
                 text = explain_problem(equations[0], format=form, **given)
         except NotImplementedError as reason:
             print(f"kovacic: {reason}", file=sys.stderr)
-            return UNDECIDED
+            return Exit.UNDECIDED
         print(written(text))
-        return DECIDED
+        return Exit.DECIDED
     return options.answer_each(equations, show, gap="\n", **given)
 
 

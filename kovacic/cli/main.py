@@ -11,6 +11,7 @@ import sys
 import warnings
 from collections.abc import Sequence
 from contextlib import suppress
+from enum import IntEnum
 from importlib import import_module
 from io import StringIO, TextIOWrapper
 
@@ -19,13 +20,18 @@ import click
 import kovacic
 from kovacic.errors import visible
 
-DECIDED = 0
-BAD_INPUT = 2
-UNDECIDED = 3
-CHECK_FAILED = 4
-NOT_WRITTEN = 5
-INTERRUPTED = 130
-PIPE_CLOSED = 141
+
+class Exit(IntEnum):
+    """The exit status of a command."""
+
+    DECIDED = 0
+    BAD_INPUT = 2
+    UNDECIDED = 3
+    CHECK_FAILED = 4
+    NOT_WRITTEN = 5
+    INTERRUPTED = 130
+    PIPE_CLOSED = 141
+
 
 #: By name: the module of kovacic.cli that has the click command of this name, and its line of help.
 COMMANDS = {
@@ -133,26 +139,26 @@ def run(arguments: Sequence[str] | None = None) -> int:
         with cli.make_context("kovacic", list(arguments)) as context:
             status = cli.invoke(context)
         sys.stdout.flush()
-        return status if isinstance(status, int) else DECIDED
+        return status if isinstance(status, int) else Exit.DECIDED
     except click.exceptions.Exit as ending:
         return ending.exit_code
     except click.ClickException as error:
         said = StringIO()
         error.show(said)
         print(visible(said.getvalue()), end="", file=sys.stderr)
-        return BAD_INPUT
+        return Exit.BAD_INPUT
     except kovacic.KovacicError as error:
         return reported(error)
     except (KeyboardInterrupt, click.Abort):
         print("kovacic: interrupted", file=sys.stderr)
-        return INTERRUPTED
+        return Exit.INTERRUPTED
     except BrokenPipeError:
-        return _given_up(PIPE_CLOSED)
+        return _given_up(Exit.PIPE_CLOSED)
     except OSError as error:
         with suppress(OSError):  # standard error may be full as well
             where = f" to {visible(str(error.filename))}" if error.filename else ""
             print(f"kovacic: the output can't be written{where}: {error.strerror}", file=sys.stderr)
-        return _given_up(NOT_WRITTEN)
+        return _given_up(Exit.NOT_WRITTEN)
 
 
 def _given_up(status: int) -> int:
@@ -171,5 +177,5 @@ def reported(error: Exception) -> int:
     said = error.for_shell() if isinstance(error, kovacic.InputError) else str(error)
     print(f"kovacic: {visible(said)}", file=sys.stderr)
     if isinstance(error, kovacic.InputError | ImportError):
-        return BAD_INPUT
-    return UNDECIDED if isinstance(error, kovacic.LimitExceeded) else CHECK_FAILED
+        return Exit.BAD_INPUT
+    return Exit.UNDECIDED if isinstance(error, kovacic.LimitExceeded) else Exit.CHECK_FAILED

@@ -28,7 +28,7 @@ _OPTIONS = [
         "--timeout", type=click.FloatRange(min=0, min_open=True), metavar="SECONDS", help="For each equation."
     ),
     click.option("--memory", type=click.IntRange(min=1), metavar="MIB", help="For each equation."),
-    options.NAMES,
+    options.DECLARED,
     options.LIMIT,
     click.option("--backend", type=click.Choice(["dask", "ray"]), help="Run on a cluster."),
     click.option("--scheduler", metavar="ADDRESS", help="The engine's address, for example tcp://host:8786."),
@@ -41,7 +41,7 @@ _OPTIONS = [
 ]
 
 
-def _batch_options(command: options.Function) -> options.Function:
+def _batch_options(command: options.CommandFunction) -> options.CommandFunction:
     """The options of a command that answers many equations; `limits` and so on arrive as keywords."""
     for option in reversed(_OPTIONS):
         command = option(command)

@@ -18,7 +18,7 @@ from typing import TYPE_CHECKING, Any, TypeVar
 import click
 from click.core import ParameterSource
 
-from kovacic.cli.main import BAD_INPUT, CHECK_FAILED, DECIDED, UNDECIDED, reported
+from kovacic.cli.main import Exit, reported
 from kovacic.errors import InputError, KovacicError, NotLinear
 
 if TYPE_CHECKING:
@@ -28,7 +28,7 @@ if TYPE_CHECKING:
     from kovacic.solution import Solution
 
 
-Function = TypeVar("Function", bound=Callable[..., Any])
+CommandFunction = TypeVar("CommandFunction", bound=Callable[..., Any])
 
 
 class OutputFile(click.Path):
@@ -73,7 +73,7 @@ def formats(
     choices: Sequence[str] = ("text", "markdown", "latex", "html"),
     suffixes: Mapping[str, str] | None = None,
     default: str = "text",
-) -> Callable[[Function], Function]:
+) -> Callable[[CommandFunction], CommandFunction]:
     """The options --json, --latex, --as and --format for the output of a command: those with a help text here.
 
     The command gets a single keyword `form`: "json"; "formula" for --latex; the language of --as; the value of --format or of
@@ -90,7 +90,7 @@ def formats(
     if json:
         options.append(click.option("--json", "as_json", is_flag=True, help=json))
 
-    def decorate(command: Function) -> Function:
+    def decorate(command: CommandFunction) -> CommandFunction:
         @wraps(command)
         def with_form(
             *arguments: Any,
@@ -270,7 +270,7 @@ ASSUME = click.option(
     callback=_assumptions,
     help="What is known about a parameter: n=integer, n>=0, 0<n<20, n!=1, n=3, n=m^2.",
 )
-NAMES = click.option(
+DECLARED = click.option(
     "--names",
     "parameters",
     metavar="NAME",
@@ -371,14 +371,14 @@ def answer_each(
     from kovacic.decision import Status
     from kovacic.solution import solve
 
-    outcomes = [DECIDED]
+    outcomes: list[int] = [Exit.DECIDED]
     between = ""
     for text in _expressions(equations):
         try:
             with waiting("deciding"):
                 answer = solve(text, var=var, assume=assume, parameters=parameters, limits=limits)
             is_open = answer.status is Status.UNDECIDED and not answer.assumed
-            outcomes.append(UNDECIDED if is_open else DECIDED)
+            outcomes.append(Exit.UNDECIDED if is_open else Exit.DECIDED)
             lines = iter(show(answer))
             while True:
                 with waiting("writing"):
@@ -392,18 +392,18 @@ def answer_each(
             if refuse is not None:
                 refuse(text, error)
             outcomes.append(reported(error))
-    return max(outcomes, key=(DECIDED, UNDECIDED, BAD_INPUT, CHECK_FAILED).index)
+    return max(outcomes, key=(Exit.DECIDED, Exit.UNDECIDED, Exit.BAD_INPUT, Exit.CHECK_FAILED).index)
 
 
 def say_reading(equation: str, var: str | None, names: Sequence[str] = ()) -> None:
     """Print how an equation was read to the error stream, if anything was guessed or a parameter isn't among the names."""
     from kovacic.equation import parameters_of
     from kovacic.limits import DEFAULT_LIMITS
-    from kovacic.reading.pieces import taken_apart
+    from kovacic.reading.pieces import Paste
     from kovacic.reading.read import read_input
 
     with suppress(KovacicError):  # the command says what is wrong
-        paste = taken_apart(equation)
+        paste = Paste(equation)
         try:
             parsed: Any = read_input(paste, var=var, names=names)
             parameters = {*parameters_of(parsed.S.field)}

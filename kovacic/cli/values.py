@@ -12,7 +12,7 @@ from typing import Any
 import click
 
 from kovacic.cli import options
-from kovacic.cli.main import CHECK_FAILED, DECIDED, UNDECIDED
+from kovacic.cli.main import Exit
 from kovacic.writing.escaped import json_line
 
 
@@ -125,7 +125,7 @@ def plot(equation: str, start: str, stop: str, output: Path, **given: Any) -> No
     "document (amsmath, amssymb, amsthm, graphicx); or a page of its own for a browser.",
 )
 @click.option("--var", metavar="NAME", help="The name of the variable, by default x; all other names are parameters.")
-@options.NAMES
+@options.DECLARED
 @options.ASSUME
 @click.option("--max-degree", default=2, show_default=True, help="The determinants Delta_d are shown up to this d.")
 @click.option("--all", "everything", is_flag=True, help="All regions, however many.")
@@ -165,8 +165,8 @@ def conditions(equation: str, form: str, everything: bool, explained: bool, samp
             found = f"{len(report.disagreements)} disagree"
         print(f"  checked at {report.inside} points inside and {report.outside} outside: {found}", file=stream)
         if not report:
-            return CHECK_FAILED
-    return DECIDED if answer.within_limits else UNDECIDED
+            return Exit.CHECK_FAILED
+    return Exit.DECIDED if answer.within_limits else Exit.UNDECIDED
 
 
 @options.equation_command()
@@ -175,7 +175,7 @@ def conditions(equation: str, form: str, everything: bool, explained: bool, samp
 @click.option("--to", "stop", default="oo", show_default=True, metavar="B", help="The right end.")
 @click.option("--energy", default="E", show_default=True, metavar="NAME", help="The name of the energy.")
 @click.option("--var", metavar="NAME", help="The name of the variable, by default x; all other names are parameters.")
-@options.NAMES
+@options.DECLARED
 @options.ASSUME
 @click.option(
     "--boundary", metavar="CONDITIONS", help="At finite ends: y'(0) = 0; or friedrichs, the smaller solution at each."
@@ -207,7 +207,7 @@ def spectrum(potential: str, start: str, stop: str, form: str, picture: str | No
         print(options.fitted(answer.text(shell=True)))
     if picture is not None:
         answer.plot().savefig(picture)
-    return DECIDED if answer.is_decided or answer.numeric else UNDECIDED
+    return Exit.DECIDED if answer.is_decided or answer.numeric else Exit.UNDECIDED
 
 
 @options.equation_command()
@@ -257,4 +257,4 @@ def eigenvalues(
             found = problem.answer()
             if found or problem.complete:
                 print(json_line({"schema": 1, "input": equation, **found.to_dict()}) if as_json else found)
-    return DECIDED if len(found) == count or found.complete else UNDECIDED
+    return Exit.DECIDED if len(found) == count or found.complete else Exit.UNDECIDED

@@ -13,7 +13,7 @@ import sympy
 from sympy.simplify.fu import TR2, TR8
 
 from kovacic.equation import Equation
-from kovacic.reading.change_of_variable import function_of_x, is_power, user_variable
+from kovacic.reading.change_of_variable import function_of_x, is_in_power, user_variable
 
 
 def in_x(equation: Equation, expression: Any) -> Any:
@@ -31,7 +31,7 @@ def in_x(equation: Equation, expression: Any) -> Any:
             c, integrand = inner.as_independent(x, as_Add=False)
             integrals[integral] = c * sympy.Integral(integrand, x)
     with_integrals = expression.xreplace(integrals)
-    if is_power(equation):
+    if is_in_power(equation):
         return _in_powers_of_x(with_integrals, own, t.exp, x)
     result = _continued(with_integrals.xreplace({own: t}), t)
     if t.func in _SINES:  # roots of t + 1 and t - 1 as powers that join where t is 1 or -1

@@ -29,7 +29,7 @@ from kovacic.general_solution.steps import place_of
 from kovacic.general_solution.substitution import finite_value, size, slope
 from kovacic.general_solution.zero import NOT_EVALUATED, agree, ball, is_zero, known_jet, opposite, samples
 from kovacic.limits import check_time
-from kovacic.reading.parser import shown
+from kovacic.reading.parser import excerpt
 
 Expr = Any  # SymPy publishes no types
 _ZERO = sympy.Integer(0)
@@ -101,7 +101,7 @@ def limit_at(expression: Expr, x: Expr, place: Approach) -> Expr:
     if not e.has_free(x):
         return e
     if e.has(*ANTIDERIVATIVES, sympy.RootSum):
-        raise UnknownLimit(f"the limit of {shown(e, 60)} isn't known")
+        raise UnknownLimit(f"the limit of {excerpt(e, 60)} isn't known")
     # At infinity the variable is x or -x, as SymPy has it; else the distance from the point.
     variable = sympy.Dummy("s", positive=True)
     towards = sympy.oo if place.is_infinite else _ZERO
@@ -112,7 +112,7 @@ def limit_at(expression: Expr, x: Expr, place: Approach) -> Expr:
     for found in _candidates(e, x, way, variable, towards):
         if found is not None and _is_confirmed(found, e, x, place):
             return found
-    raise UnknownLimit(f"the limit of {shown(e, 60)} isn't known")
+    raise UnknownLimit(f"the limit of {excerpt(e, 60)} isn't known")
 
 
 def _candidates(e: Expr, x: Expr, way: Expr, variable: Expr, towards: Expr) -> Iterator[Expr | None]:

@@ -72,8 +72,8 @@ from kovacic.general_solution.zero import is_identically_zero
 from kovacic.general_solution.zero_set import ZeroSet
 from kovacic.limits import DEFAULT_LIMITS, Budget, Limits, limited
 from kovacic.numbers.numerals import as_text
-from kovacic.reading.notations import Sentence
-from kovacic.reading.pieces import taken_apart
+from kovacic.reading.notations import ParserTokens
+from kovacic.reading.pieces import Paste
 from kovacic.reading.read import declared
 from kovacic.reading.symbolic import read_equations
 
@@ -286,13 +286,13 @@ def answer_to(
     c is a nonpositive integer | C1*x**(1 - c)*hyper((a - c + 1,), (2 - c,), x) + C2*hyper((a, a - c + 1), (), -1/x)/x**a
     """
     # before the time is used up, which the answer may take
-    is_of_euler = isinstance(eq, str) and any(_has_euler(tokens) for tokens in taken_apart(eq).equations)
+    is_of_euler = isinstance(eq, str) and any(_has_euler(tokens) for tokens in Paste(eq).equations)
     eq, ics, assume = with_values(eq, ics, assume, limits)
     answer = _Asked(limits, var, parameters, assume, special).answer(eq, func, ics)
     return replace(answer, notices=[f"{EULER} is Euler's number", *answer.notices]) if is_of_euler else answer
 
 
-def _has_euler(tokens: Sentence) -> bool:
+def _has_euler(tokens: ParserTokens) -> bool:
     """True for e alone, or with a number for its exponent, as an author may write it for a parameter."""
     return any(
         token[:2] == ("NAME", EULER) and (after.text not in ("^", "**") or exponent.kind == "NUMBER")
@@ -332,7 +332,7 @@ class _Asked:
         if isinstance(eq, str):
             if EULER in names:
                 raise InputError(f"{EULER} is Euler's number, and no name of a parameter", hint="take another letter")
-            paste = taken_apart(eq)
+            paste = Paste(eq)
             if len(paste.scans("equation")) > 1:
                 reading = read_equations(paste, names=names)
                 eq, func, ics = reading.equations, func or reading.functions, ics or dict(reading.conditions)

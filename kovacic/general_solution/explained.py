@@ -21,7 +21,7 @@ from kovacic.general_solution.riccati import linear_equation
 from kovacic.general_solution.textbook import sums
 from kovacic.limits import DEFAULT_LIMITS, Limits, limited
 from kovacic.reading.change_of_variable import function_of_x
-from kovacic.reading.pieces import taken_apart
+from kovacic.reading.pieces import Paste
 from kovacic.reading.read import read_input
 from kovacic.special.choice import shortest
 from kovacic.views.explain import ExplanationWriter
@@ -89,7 +89,7 @@ def explain(
 
 def is_problem(text: str) -> bool:
     """True for a text with values, with a right-hand side, or with an equation that isn't a linear one of second order."""
-    paste = taken_apart(text)
+    paste = Paste(text)
     if not paste.is_equation or paste.conditions or len(paste.scans("equation")) > 1:
         return paste.is_equation
     try:

@@ -25,7 +25,7 @@ from kovacic.general_solution.zero_set import ZeroSet
 from kovacic.limits import Budget
 from kovacic.parametric.api import conditions_of
 from kovacic.parametric.assumptions import NOTHING_ASSUMED, Assumptions
-from kovacic.reading.change_of_variable import function_of_x, is_power, real_values, user_variable
+from kovacic.reading.change_of_variable import function_of_x, is_in_power, real_values, user_variable
 from kovacic.solution import Solution, solve
 from kovacic.special.choice import solutions
 from kovacic.special.mathieu import mathieu
@@ -75,7 +75,7 @@ def find_basis(question: Question, budget: Budget, *, special: bool = False) -> 
 def _basis(question: Question, solution: Solution, pair: WrittenPair) -> Basis:
     """The solutions in the user's variable."""
     equation = question.equation
-    if is_power(equation):  # whose exponent has plain symbols
+    if is_in_power(equation):  # whose exponent has plain symbols
         plain = {symbol: sympy.Symbol(name) for name, symbol in question.parameters.items()}
         pair = pair.mapped(lambda e: e.xreplace(plain))
     y1, y2 = (y.xreplace(NUMBERS) for y in pair_in_x(equation, *pair))

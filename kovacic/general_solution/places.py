@@ -31,7 +31,7 @@ from kovacic.general_solution.steps import is_analytic, jump_points, place_of
 from kovacic.general_solution.validity import needs_of
 from kovacic.general_solution.zero import is_zero
 from kovacic.limits import check_time
-from kovacic.reading.change_of_variable import function_of_x, is_of_a_line, is_power, user_variable
+from kovacic.reading.change_of_variable import function_of_x, is_in_power, is_of_a_line, user_variable
 
 Expr = Any  # SymPy publishes no types
 _INFINITIES = (sympy.oo, -sympy.oo)
@@ -246,9 +246,9 @@ def _poles_between(question: Question, points: Sequence[Expr]) -> Iterator[tuple
     equation = question.equation
     parts = [] if equation.h is None else [right_hand_side(equation)]
     if equation.change is not None:
-        if not is_power(equation) and not is_of_a_line(equation):
+        if not is_in_power(equation) and not is_of_a_line(equation):
             raise NotImplementedError("undecided: whether a singular point lies between the points that are given")
-        if is_power(equation) and first < 0 < last:
+        if is_in_power(equation) and first < 0 < last:
             yield sympy.Integer(0), False
         a, b, c, f = map(question.own, question.coefficients)
         parts = [b / a, c / a, f / a]

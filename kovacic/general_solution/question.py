@@ -31,7 +31,8 @@ from kovacic.numbers.exact import exact_real, exact_text, is_complex
 from kovacic.numbers.numerals import plain_text
 from kovacic.parametric.assumptions import Assumptions, check_mapping, read_assumptions
 from kovacic.reading.change_of_variable import function_of_x
-from kovacic.reading.pieces import Paste, conditions_in, taken_apart
+from kovacic.reading.lexer import error_at
+from kovacic.reading.pieces import Paste, conditions_in
 from kovacic.reading.read import declared, read_input
 from kovacic.reading.substitution import Template, value_text, values_among
 from kovacic.reading.symbolic import function_of, functions_in, read_expression
@@ -232,10 +233,10 @@ def apart(eq: Any, ics: Any) -> tuple[Any, Any]:
     """The equation and its values, where a text has both: y'' + y = 0, y(0) = 1, y'(0) = 0."""
     if not isinstance(eq, str):
         return eq, ics
-    paste = taken_apart(eq)
+    paste = Paste(eq)
     values = dict(paste.conditions)
     if len(values) < len(paste.conditions):
-        raise paste.error("a value is given twice", paste.scans("condition")[-1], "write every value once")
+        raise error_at(eq, "a value is given twice", paste.scans("condition")[-1], "write every value once")
     if values and ics:
         raise InputError("values stand in the equation's text and apart from it", hint="give them in one of these ways")
     return paste, values or ics

@@ -25,7 +25,7 @@ from kovacic.closed_form.check import DIGITS
 from kovacic.closed_form.jets import ARBITRARY, jet
 from kovacic.general_solution.integrands import prepared
 from kovacic.general_solution.substitution import in_single_waves, size
-from kovacic.reading.parser import shown
+from kovacic.reading.parser import excerpt
 
 Expr = Any  # SymPy publishes no types
 #: What is raised for functions that can't be evaluated.
@@ -71,7 +71,7 @@ def when_zero(value: Expr) -> Zero:
         return Zero.SOMETIMES if may_be_zero else Zero.NEVER
     if is_identically_zero(value):
         return Zero.ALWAYS
-    raise NotImplementedError(f"undecided: whether {shown(value, 60)} is zero")
+    raise NotImplementedError(f"undecided: whether {excerpt(value, 60)} is zero")
 
 
 def is_zero(value: Expr) -> bool:

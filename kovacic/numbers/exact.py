@@ -73,7 +73,7 @@ def whole(value: Any, name: str, *, least: int | None = 0) -> int:
     return found
 
 
-def is_rational(value: Any) -> bool:
+def is_rational_number(value: Any) -> bool:
     """True for an integer or a quotient, by its type; floats and truth values aren't."""
     return isinstance(value, Rational | fmpz | fmpq) and not isinstance(value, bool) and not _is_duration(value)
 

@@ -45,7 +45,7 @@ from kovacic.parametric.solutions import Carried
 from kovacic.parametric.statements import ALWAYS, Statement, Vanishes
 from kovacic.reading.change_of_variable import function_of_x, user_variable
 from kovacic.reading.read import read_input
-from kovacic.reading.substitution import with_values
+from kovacic.reading.substitution import with_assumed_values
 
 
 @dataclass(frozen=True)
@@ -263,7 +263,7 @@ def find_conditions(
     with Budget(limits).watched():
         parsed = read_input(S, var=var, limits=limits, exponentials=True, names=names)
         given = parsed
-        S, parsed, assume = with_values(S, parsed, assume, limits)
+        S, parsed, assume = with_assumed_values(S, parsed, assume, limits)
     parsed, letters = spelled(parsed)
     names = parameters_of(parsed.S.field)
     if not names:

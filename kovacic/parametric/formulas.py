@@ -29,7 +29,7 @@ from kovacic.algebra.ratfunc import RatFunc
 from kovacic.algebra.sparse import by_power, factorisation
 from kovacic.numbers.numerals import as_text, digits
 from kovacic.parametric.functions import element, over_parameters
-from kovacic.reading.lexer import PRIMES, SUPERSCRIPT_DIGITS
+from kovacic.reading.lexer import PRIME, SUPERSCRIPT_DIGITS
 from kovacic.reading.names import is_function
 from kovacic.reading.naming import Source
 from kovacic.writing.formula import Math, caret, latex_text, with_single_powers
@@ -374,7 +374,7 @@ def unexpanded(source: Source) -> Math | None:
         return None
     pieces: list[str] = []
     for kind, piece in zip(source.tokens.kinds, source.tokens.pieces, strict=True):
-        is_call = piece.rstrip(PRIMES) == source.unknown or (is_function(piece) and piece.isalpha())
+        is_call = piece.rstrip(PRIME) == source.unknown or (is_function(piece) and piece.isalpha())
         is_exponential = kind == "NUMBER" and "e" in piece.lower()
         if kind in ("COMMA", "OPERATOR") or is_exponential or (kind == "HEAD" and not is_call):
             return None

@@ -45,7 +45,7 @@ from kovacic.parametric.functions import element, irreducible_factors, over_para
 from kovacic.parametric.integers import free_letter
 from kovacic.parametric.prose import Words
 from kovacic.parametric.restriction import Letters
-from kovacic.reading.change_of_variable import is_power, user_variable
+from kovacic.reading.change_of_variable import is_in_power, user_variable
 from kovacic.reading.read import read_input
 from kovacic.writing.formula import caret
 
@@ -253,7 +253,7 @@ def given(equation: Equation, zeros: tuple[FunctionPoly, ...], solution: Polynom
     y = translated(solution.y, equation)
     degree = solution.degree
     conditions = solution.conditions
-    if is_power(equation):
+    if is_in_power(equation):
         x = user_variable(equation)
         degree = with_roots_of_factors(degree, x)
         conditions = tuple(with_roots_of_factors(condition, x) for condition in conditions)

@@ -11,23 +11,21 @@ from dataclasses import dataclass
 from fractions import Fraction
 from itertools import zip_longest
 from math import comb, prod
-from typing import TypeVar
+from typing import Any, TypeVar
 
-from flint import fmpq_poly, fmpz
+from flint import fmpq, fmpq_poly, fmpz
 
 from kovacic.algebra.poly import Poly
 from kovacic.algebra.ratfunc import RatFunc
-from kovacic.algebra.rationals import QQ, RationalPoly, to_fmpq
+from kovacic.algebra.rationals import RationalPoly
 from kovacic.errors import LimitExceeded
 from kovacic.limits import DEFAULT_LIMITS, Limits, check_time
+from kovacic.numbers.numerals import in_a_message
 
 T = TypeVar("T")
 
 # A polynomial may have at most this many times `Limits.bits` bits in all its coefficients together.
 _TOTAL_FACTOR = 100
-
-# Above this size, flint's numbers are faster than Python's.
-_SMALL_BITS = 2048
 
 # Bits of the integers that are printed: Python prints at most 4300 digits.
 PRINTED_BITS = 14_000
@@ -35,13 +33,13 @@ PRINTED_BITS = 14_000
 
 @dataclass(eq=False, slots=True)
 class Monomial:
-    """`coefficient * x**power`, the coefficient an integer or fraction of at most `_SMALL_BITS` bits; never changed."""
+    """`coefficient * x**power`, never changed."""
 
-    coefficient: int | Fraction
+    coefficient: fmpq
     power: int
 
 
-VARIABLE = Monomial(1, 1)
+ZERO, ONE, VARIABLE = Monomial(fmpq(0), 0), Monomial(fmpq(1), 0), Monomial(fmpq(1), 1)
 Value = Monomial | Poly | RatFunc
 
 
@@ -59,28 +57,27 @@ class Arithmetic:
     def __init__(self, limits: Limits = DEFAULT_LIMITS) -> None:
         self.limits = limits
 
-    def integer(self, digits: str) -> int:
-        if digits[self.limits.digits :]:
-            raise LimitExceeded(f"{len(digits)} digits, above the limit of {self.limits.digits}", limit="digits")
-        return int(fmpz(digits))  # Python reads integers of at most 4300 digits
+    def integer(self, text: str) -> int:
+        digits = len(text.lstrip("+-"))
+        if digits > self.limits.digits:
+            raise LimitExceeded(f"{digits} digits, above the limit of {self.limits.digits}", limit="digits")
+        return int(fmpz(text.lstrip("+")))  # Python reads integers of at most 4300 digits
 
-    def signed_integer(self, text: str) -> int:
-        return -self.integer(text[1:]) if text[0] == "-" else self.integer(text.lstrip("+"))
+    def constant(self, numerator: Any, denominator: Any = 1) -> Value:
+        number = fmpq(int(numerator), int(denominator))
+        self._check(0, number.height_bits())
+        return Monomial(number, 0)
 
-    def constant(self, value: int | Fraction) -> Value:
-        self._check(0, _bits(value))
-        return _scaled_power(value, 0)
-
-    def decimal(self, text: str) -> Poly:
-        """The rational number that a decimal such as 1.5e-3 denotes."""
+    def decimal(self, text: str) -> fmpq:
+        """The rational number that a decimal such as 1.5e-3, or an integer, denotes."""
         mantissa, _, scale = text.lower().partition("e")
         whole, _, digits = mantissa.partition(".")
         power = -len(digits)
         if scale:
-            power += self.signed_integer(scale)
+            power += self.integer(scale)
         if abs(power) > self.limits.digits:
             raise LimitExceeded(f"over {self.limits.digits} digits, the limit", limit="digits")
-        return QQ.poly([self.integer(whole + digits) * 10 ** max(power, 0)]) * QQ.poly([10 ** max(-power, 0)]).inverse()
+        return fmpq(self.integer(whole + digits)) * fmpq(10) ** power
 
     def number(self, value: Value) -> Fraction | None:
         closed = self.closed(value)
@@ -101,21 +98,21 @@ class Arithmetic:
     def sum(self, terms: Sequence[Value]) -> Value:
         if len(terms) == 1:
             return terms[0]
-        coefficients: dict[int, int | Fraction] = {}  # of the monomials, by their powers
+        coefficients: dict[int, list[fmpq]] = {}  # of the monomials, by their powers
         polynomials: list[Poly] = []
         fractions: list[RatFunc] = []
         for term in terms:
-            # A sum too long for Python's numbers stays unevaluated.
-            if isinstance(term, Monomial) and _bits(known := coefficients.get(term.power, 0)) <= _SMALL_BITS:
-                coefficients[term.power] = known + term.coefficient
-                continue
-            part = self.closed(term)
-            if isinstance(part, RatFunc):
-                fractions.append(part)
+            if isinstance(term, Monomial):
+                coefficients.setdefault(term.power, []).append(term.coefficient)
+            elif isinstance(term, RatFunc):
+                fractions.append(term)
             else:
-                polynomials.append(part)
-        polynomials.append(QQ.poly([coefficients.get(k, 0) for k in range(max(coefficients, default=-1) + 1)]))
-        polynomial = _total(polynomials, self._poly_sum)
+                polynomials.append(term)
+        numbers = [fmpq(0)] * (max(coefficients, default=-1) + 1)
+        for power, summands in coefficients.items():
+            numbers[power] = _total(summands, self._number_sum)
+        check_time()
+        polynomial = _total([*polynomials, RationalPoly(fmpq_poly(numbers))], self._poly_sum)
         if not fractions:
             return polynomial
         fraction = _total(fractions, self._ratfunc_sum)
@@ -127,15 +124,16 @@ class Arithmetic:
     def multiply(self, left: Value, right: Value) -> Value:
         if isinstance(left, Monomial) and isinstance(right, Monomial):
             power = left.power + right.power
-            self._check(power, 0)
-            return _scaled_power(left.coefficient * right.coefficient, power)
+            self._check(power, left.coefficient.height_bits() + right.coefficient.height_bits())
+            return Monomial(left.coefficient * right.coefficient, power)
         a, b = self.rational(left), self.rational(right)
         num = self._product(a.num, b.num)
         return num if a.is_polynomial and b.is_polynomial else RatFunc(num, self._product(a.den, b.den))
 
     def divide(self, left: Value, right: Value) -> Value:
         if isinstance(left, Monomial) and isinstance(right, Monomial) and right.coefficient and right.power == 0:
-            return _scaled_power(Fraction(left.coefficient, right.coefficient), left.power)
+            self._check(left.power, left.coefficient.height_bits() + right.coefficient.height_bits())
+            return Monomial(left.coefficient / right.coefficient, left.power)
         a, b = self.rational(left), self.rational(right)
         if not b:
             raise ZeroDivisionError("division by zero")
@@ -146,22 +144,20 @@ class Arithmetic:
         """`base ** exponent`; raises `NotAnInteger` if the exponent isn't an integer constant."""
         n = self._integer_of(exponent)
         if abs(n) > self.limits.exponent:
-            shown = str(n) if abs(n) < 10**20 else f"of {n.bit_length()} bits"
-            raise LimitExceeded(f"an exponent {shown}, above the limit of {self.limits.exponent}", limit="exponent")
-        if (
-            isinstance(base, Monomial)
-            and n > 0
-            and (base.coefficient == 1 or n * _bits(base.coefficient) <= _SMALL_BITS)
-        ):
-            self._check(base.power * n, 0)
+            raise LimitExceeded(
+                f"an exponent {in_a_message(n)}, above the limit of {self.limits.exponent}", limit="exponent"
+            )
+        if isinstance(base, Monomial) and n > 0:
+            height = max(abs(base.coefficient.p), base.coefficient.q)
+            self._check(base.power * n, n * int(height - 1).bit_length())
             return Monomial(base.coefficient**n, base.power * n)
         base = self.closed(base)
         if n <= 0 and not base:
             raise ZeroDivisionError("0 has no powers with exponent zero or below")
         if n == 0:
-            return Monomial(1, 0)
+            return ONE
         if n < 0:
-            base = self.rational(self.divide(Monomial(1, 0), base))
+            base = self.rational(self.divide(ONE, base))
         if isinstance(base, Poly):
             return self._poly_power(base, n)
         # Powers of what is in lowest terms are, too.
@@ -169,7 +165,13 @@ class Arithmetic:
         return power.num if power.is_polynomial else power
 
     def closed(self, value: Value) -> Poly | RatFunc:
-        return _monomial(value.coefficient, value.power) if isinstance(value, Monomial) else value
+        if isinstance(value, Monomial):
+            return RationalPoly(fmpq_poly([value.coefficient]).left_shift(value.power))
+        return value
+
+    def _number_sum(self, left: fmpq, right: fmpq) -> fmpq:
+        self._check(0, left.height_bits() + right.height_bits() + 1)
+        return left + right
 
     def _poly_sum(self, left: Poly, right: Poly) -> Poly:
         self._check(max(left.degree, right.degree), left.height_bits() + right.height_bits() + 1)
@@ -237,8 +239,6 @@ class Arithmetic:
     def _integer_of(self, exponent: Value | int) -> int:
         if isinstance(exponent, int):
             return exponent
-        if isinstance(exponent, Monomial) and exponent.power == 0 and isinstance(exponent.coefficient, int):
-            return exponent.coefficient
         number = self.number(exponent)
         if number is None or number.denominator != 1:
             raise NotAnInteger
@@ -251,23 +251,3 @@ def _total(parts: Sequence[T], add: Callable[[T, T], T]) -> T:
     if not half:
         return parts[0]
     return add(_total(parts[:half], add), _total(parts[half:], add))
-
-
-def _bits(value: int | Fraction) -> int:
-    return (
-        value.bit_length() if type(value) is int else max(value.numerator.bit_length(), value.denominator.bit_length())
-    )
-
-
-def _scaled_power(coefficient: int | Fraction, power: int) -> Monomial | Poly:
-    """`coefficient * x**power`; a whole fraction becomes an integer."""
-    if type(coefficient) is not int and coefficient.denominator == 1:
-        coefficient = coefficient.numerator
-    if _bits(coefficient) <= _SMALL_BITS:
-        return Monomial(coefficient, power)
-    return _monomial(coefficient, power)
-
-
-def _monomial(coefficient: int | Fraction, power: int) -> Poly:
-    check_time()
-    return RationalPoly(fmpq_poly([to_fmpq(coefficient)]).left_shift(power))

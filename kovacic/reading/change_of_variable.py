@@ -28,7 +28,7 @@ SQUARES: dict[Any, Any] = {
 }
 
 #: Values that t has for positive x, for functions that don't have all.
-_VALUES = {
+_VALUES_OF_T = {
     sympy.exp: (Fraction(7, 2),),
     sympy.cosh: (Fraction(7, 2),),
     sympy.sin: (Fraction(2, 7), Fraction(-2, 7)),
@@ -39,7 +39,7 @@ _VALUES = {
 
 def real_values(equation: Equation) -> tuple[Fraction, ...]:
     """Some values of t for real x; none where every number is one."""
-    return _VALUES.get(function_of_x(equation).func, ())
+    return _VALUES_OF_T.get(function_of_x(equation).func, ())
 
 
 def function_of_x(equation: Equation) -> Any:
@@ -61,7 +61,7 @@ def is_of_a_line(equation: Equation) -> bool:
     return t == x or (t.func in SQUARES and not t.args[0].diff(x).has(x))
 
 
-def is_power(equation: Equation) -> bool:
+def is_in_power(equation: Equation) -> bool:
     """True if t = x^k."""
     t = function_of_x(equation)
     return bool(t.is_Pow and t.func not in SQUARES)

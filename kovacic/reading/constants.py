@@ -16,17 +16,13 @@ from flint import acb, arb, fmpq
 from kovacic.algebra.embedding import adjoined_root, principal_root, refined_root, substituted, vanishing_factor
 from kovacic.algebra.extension import AlgebraicField, ExtensionPoly
 from kovacic.algebra.poly import Field, Poly
-from kovacic.algebra.ratfunc import RatFunc
 from kovacic.algebra.rationals import QQ, square_part
-from kovacic.equation import ENERGY, EULER, lowered, over
+from kovacic.equation import ENERGY, EULER
 from kovacic.errors import LimitExceeded
 from kovacic.limits import DEFAULT_LIMITS, Limits
 from kovacic.reading.arithmetic import PRINTED_BITS
 
 T = TypeVar("T")
-
-#: Digits of the approximation that tells an algebraic number of SymPy from its conjugates.
-_APPROXIMATION_DIGITS = 15
 
 
 class Radical(NamedTuple):
@@ -112,7 +108,7 @@ class Constants:
         except NotImplementedError:
             return None
         coefficients = [Fraction(int(c.p), int(c.q)) for c in reversed(minimal.all_coeffs())]
-        real, imaginary = sympy.N(exact, _APPROXIMATION_DIGITS).as_real_imag()
+        real, imaginary = sympy.N(exact).as_real_imag()
         return self.root(QQ.poly(coefficients), acb(arb(str(real)), arb(str(imaginary))))
 
     def root(self, minimal: Poly, approximation: Any) -> Poly:
@@ -158,12 +154,6 @@ class Constants:
         constant = QQ.poly(numbers)
         return self.numbers.element(constant) if isinstance(self.numbers, AlgebraicField) else constant
 
-    def embedded(self, function: RatFunc) -> RatFunc:
-        """The rational function over the whole field, or over Q if it lies there."""
-        if self.numbers is QQ and not self.parameters:
-            return function
-        return lowered(over(function, self.field))
-
     def notices(self, letters: Collection[str] = ()) -> list[str]:
         """Notes for the user about the field; `letters` stand for numbers."""
         found = []
@@ -204,12 +194,11 @@ def with_root(numbers: Sequence[Poly], field: Field, other: AlgebraicField, limi
 
     # As radicals, the numbers are carried into a larger field; no root is one of degree 0.
     known = tuple(Radical(Fraction(0), 0, number) for number in numbers)
-    return read_with_constants(read, limits, Constants(limits, field, known))
+    return read_with_constants(read, Constants(limits, field, known))
 
 
-def read_with_constants(read: Callable[[Constants], T], limits: Limits, known: Constants | None = None) -> T:
+def read_with_constants(read: Callable[[Constants], T], constants: Constants) -> T:
     """The result of `read`, called again with a larger field as long as it raises `Enlarged`."""
-    constants = known or Constants(limits)
     while True:
         try:
             return read(constants)

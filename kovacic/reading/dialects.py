@@ -1,10 +1,10 @@
 """Notations of several tokens whose parts may be anything: fractions, roots, bars, functions without parentheses, derivatives.
 
-`translated` goes through the tokens once, from left to right.  A rule looks at the token that is next, takes what
+`in_own_notation` goes through the tokens once, from left to right.  A rule looks at the token that is next, takes what
 belongs to it, and writes tokens of the parser's grammar; what has to stand behind a bracket or a factor that is still to be
 read is kept in `closers` until then.  Linear time, no recursion; every token keeps its place in the user's text.
 
->>> translated("", Tokens(scanned(r"\\frac{d^2y}{dx^2} = x^{2} \\sin^2 \\omega x"))).pieces
+>>> in_own_notation("", Tokens(scanned(r"\\frac{d^2y}{dx^2} = x^{2} \\sin^2 \\omega x"))).pieces
 ['diff', '(', 'y', ',', 'x', ',', '2', ')', '=', 'x', '^', '(', '2', ')', 'sin', '(', 'omega', 'x', ')', '^', '2', '']
 """
 
@@ -15,19 +15,20 @@ from collections.abc import Callable
 
 from kovacic.errors import ParseError
 from kovacic.limits import check_time
-from kovacic.reading.lexer import DERIVATIVES, DOTS, PRIMES, SUPERSCRIPT_DIGITS, Token, error_at, scanned, unexpected
+from kovacic.reading.lexer import DERIVATIVES, DOTS, PRIME, SUPERSCRIPT_DIGITS, Token, error_at, scanned, unexpected
 from kovacic.reading.names import (
     BARE,
     FUNCTION_NAMES,
     GREEK,
     LETTER,
     SPECIAL_LETTERS,
-    STEPS,
+    STEP_LETTERS,
     is_function,
     is_letter,
     unglued,
 )
-from kovacic.reading.notations import CLOSING, LATEX, NOTATIONS, OPENING, Sentence, Tokens, primes_of, rewritten
+from kovacic.reading.notations import CLOSING, LATEX, NOTATIONS, OPENING, ParserTokens, Tokens, primes_of, rewritten
+from kovacic.reading.parser import DEEPEST
 
 _SIGN_KINDS = {
     "+": "PLUS",
@@ -42,7 +43,7 @@ _SIGN_KINDS = {
     **dict.fromkeys(("<", ">", "<=", ">="), "COMPARISON"),
 }
 #: The condition of the last of several pieces.
-_OTHERWISE = ("True", "otherwise")
+_LAST_CASE = ("True", "otherwise")
 _POWERS = ("^", "**")
 
 #: How tokens of a kind are written, however they were.
@@ -63,7 +64,7 @@ _COMMANDS = {
     **dict.fromkeys(("\\cdot", "\\times"), ("SIGN", "*")),
     "\\div": ("SIGN", "/"),
     "\\infty": ("WORD", "oo"),
-    "\\prime": ("PRIMES", PRIMES),
+    "\\prime": ("PRIMES", PRIME),
     "\\imath": ("WORD", "I"),
     "\\partial": ("WORD", "d"),
     **dict.fromkeys(("\\vert", "\\lvert", "\\rvert", "\\mid"), ("SIGN", "|")),
@@ -168,17 +169,16 @@ class _Latex:
 
 
 #: d^2 y/dx^2, d^2 P_l/dx^2, d y(x)/dx, d/dx without brackets.
-_QUOTIENT = re.compile(rf"d\^?([2-9]?)({LETTER}(?:_(?:[0-9]+|[A-Za-z]))?)?(?:{LETTER})?/d({LETTER})\^?\1")
+_LEIBNIZ = re.compile(rf"d\^?([2-9]?)({LETTER}(?:_(?:[0-9]+|[A-Za-z]))?)?(?:{LETTER})?/d({LETTER})\^?\1")
 #: \partial_x, ∂ₓₓ.
 _INDEXED_OPERATOR = re.compile(r"d_([a-z])\1*")
-#: Fractions and roots without braces within each other: 2^20 looks where each is looked at twice.
-_DEEPEST = 20
-_LONGEST_QUOTIENT = 36  # tokens of the quotient of a derivative
+#: Tokens of the quotient of a derivative: a search to the end would take quadratic time.
+_LONGEST_QUOTIENT = 36
 #: What the argument of a function without parentheses ends with, as in cos omega t.
 _VARIABLES = frozenset("xtzsr") | {"theta", "phi", "tau", "xi", "rho"}
 
 
-def translated(text: str, scan: Tokens, *, condition: bool = False) -> Sentence:
+def in_own_notation(text: str, scan: Tokens, *, condition: bool = False) -> ParserTokens:
     """The tokens of an expression or equation, in which `NOTATIONS` are rewritten but for those that LaTeX hides.
 
     Those of a `condition` have the unknown function at points.  Raises `ParseError` for what has no meaning in any notation.
@@ -216,7 +216,7 @@ class _Translation:
         self.skipped: set[int] = set()
         self.partner = {k: last for k, last in scan.partners.items() if self.texts[k] != "|"}
 
-    def tokens(self) -> Sentence:
+    def tokens(self) -> ParserTokens:
         while self.k < len(self.scan):
             check_time()
             self.close()
@@ -231,7 +231,7 @@ class _Translation:
             self.close()
         end = len(self.text)
         variable = "t" if any(DOTS in text for text in self.texts) else None
-        return Sentence([*self.found, Token("$END", "", end, end)], self.text, variable)
+        return ParserTokens([*self.found, Token("$END", "", end, end)], self.text, variable)
 
     def write(self, kind: str, piece: str, token: Token | None = None) -> None:
         """A token where the `token` stands, or behind what was written before."""
@@ -264,7 +264,7 @@ class _Translation:
     def operand_end(self, k: int, depth: int = 0) -> int | None:
         """The number of the token behind the one operand that begins with number k, or None."""
         text = self.texts[k]
-        if depth > _DEEPEST:
+        if depth > DEEPEST:
             return None
         if k in self.scan.partners:
             return self.scan.partners[k] + 1
@@ -312,7 +312,7 @@ class _Translation:
             behind = self.argument_end(end)
             written = [("HEAD", "diff"), ("LPAR", "("), ("NAME", y), *by]
             if behind is None and self.texts[end] == "(" and self.condition:
-                written = [("PRIMED", y + PRIMES * order)]
+                written = [("PRIMED", y + PRIME * order)]
             elif behind is not None and self.texts[behind - 2] == x:
                 end = behind
         for kind, piece in written:
@@ -342,7 +342,7 @@ class _Translation:
         if middle is None or end is None or end - k > _LONGEST_QUOTIENT or closing > middle:  # (d/dx + 1)
             return None
         above, below = self.compact(k, middle), self.compact(middle, end)
-        found = _QUOTIENT.fullmatch(f"{above.removeprefix(text)}/{below}" if text in FRACTIONS else above + below)
+        found = _LEIBNIZ.fullmatch(f"{above.removeprefix(text)}/{below}" if text in FRACTIONS else above + below)
         return found and (found[2], found[3], int(found[1] or 1), end)
 
     def operator(self, x: str, order: int, k: int) -> tuple[None, str, int, int] | None:
@@ -454,7 +454,7 @@ class _Translation:
             self.k += 1
             self.write("PRIMED", token.text + primes_of(primes.text), Token("", "", token.start, primes.end))
         else:
-            kind = "OTHERWISE" if token.text in _OTHERWISE else "NAME"
+            kind = "OTHERWISE" if token.text in _LAST_CASE else "NAME"
             self.write(kind, token.text, token)
         return True
 
@@ -496,7 +496,7 @@ class _Translation:
         if not self.latex or self.condition or self.argument_end(k) is not None:
             return token.text != "{" or not self.latex
         name = self.found[-1][1]
-        is_step = name in STEPS and self.texts.count(name) == 1
+        is_step = name in STEP_LETTERS and self.texts.count(name) == 1
         return token.text == "(" and (is_function(name) or name in DERIVATIVES or is_step)
 
     def fraction(self, token: Token) -> bool:
@@ -589,36 +589,6 @@ _TOKEN_RULES: dict[str, tuple[_TokenRule, ...]] = {
 }
 
 
-#: This package's own notation alone: whole numbers, single letters with their primes, signs.  Not numbers of lists and
-#: equations, "2) y''", "(2) y''", "y'' = y (2)", nor what may begin a comment.
-_PLAIN_TEXT = re.compile(
-    r"""
-    (?! \ * (?: [^ (]{1,2}\ *\) | \(\ *\w+\ *\)\  ) )
-    (?: [0-9]+(?![0-9.eE]) | [A-CF-Za-ce-z](?:'+(?!'))?(?![\w'.]) | \*{1,2}(?!\*) | \((?! \* | \ *[0-9]+\ *\)\ *$ )
-      | /(?![*/]) | -(?!-) | =(?!=) | [+^)\ ] )+
-    """,
-    re.VERBOSE | re.ASCII,
-)
-_PLAIN_TOKEN = re.compile(
-    r"(?P<HEAD>[A-Za-z]'*(?=\ *\())|(?P<NUMBER>[0-9]+)|(?P<PRIMED>[A-Za-z]'+)|(?P<NAME>[A-Za-z])|\*\*|[^ ]"
-)
-
-
-def plain_tokens(text: str) -> Sentence | None:
-    """The result of `translated` for a text in this package's own notation; None for other texts.
-
-    >>> plain_tokens("y''(x) = -4 y").pieces, plain_tokens("y'' = sin x")
-    (["y''", '(', 'x', ')', '=', '-', '4', 'y', ''], None)
-    """
-    if _PLAIN_TEXT.fullmatch(text) is None or text.isspace():
-        return None
-    found = [
-        Token(match.lastgroup or _SIGN_KINDS[match[0]], match[0], *match.span())
-        for match in _PLAIN_TOKEN.finditer(text)
-    ]
-    return Sentence([*found, Token("$END", "", len(text), len(text))], text)
-
-
-def tokenize(text: str) -> Sentence:
+def tokenize(text: str) -> ParserTokens:
     """The tokens of an expression.  Raises `ParseError` for what has no meaning."""
-    return plain_tokens(text) or translated(text, rewritten(Tokens(scanned(text)), NOTATIONS))
+    return in_own_notation(text, rewritten(Tokens(scanned(text)), NOTATIONS))

@@ -26,14 +26,14 @@ from kovacic.equation import ENERGY, EULER, PI, UNKNOWN, Equation, over, paramet
 from kovacic.errors import NotLinear, NotRational, ParseError
 from kovacic.limits import Limits
 from kovacic.numbers.numerals import as_text
-from kovacic.reading.arithmetic import VARIABLE, Arithmetic, Monomial, Value
+from kovacic.reading.arithmetic import ONE, VARIABLE, ZERO, Arithmetic, Value
 from kovacic.reading.constants import Constants, read_with_constants
 from kovacic.reading.dialects import tokenize
 from kovacic.reading.expression import RationalReader, parse_with
-from kovacic.reading.lexer import DERIVATIVES, PRIMES
-from kovacic.reading.linear import REST, DerivativeOperator, LinearArithmetic, LinearForm, differentiations, is_rational
-from kovacic.reading.names import NUMBERS, TRANSCENDENTAL_HINT, is_letter
-from kovacic.reading.parser import Site, evaluate
+from kovacic.reading.lexer import DERIVATIVES, PRIME
+from kovacic.reading.linear import REST, DerivativeOperator, LinearArithmetic, LinearForm, differentiations, is_plain
+from kovacic.reading.names import KNOWN_NUMBERS, TRANSCENDENTAL_HINT, is_letter
+from kovacic.reading.parser import Site, parse
 
 
 class EquationReader(RationalReader):
@@ -66,7 +66,7 @@ class EquationReader(RationalReader):
         self.letters |= numbers
         names = {number: sympy.Symbol(name) for name, number in numbers.items()}
         value = walked(expression.xreplace({e: names[sympy.E] ** e.args[0] for e in powers} | names), self)
-        if not is_rational(value):
+        if not is_plain(value):
             shown = as_text(expression)
             if not expression.free_symbols:
                 raise NotRational(f"{shown} isn't an algebraic number", hint=TRANSCENDENTAL_HINT)
@@ -86,8 +86,7 @@ class EquationReader(RationalReader):
     def equation_of(self, value: Any, text: str | None) -> Equation:
         """The equation that says that a linear form is zero; `text` is what it was read from."""
         parts = self.parts(value)
-        zero = Monomial(0, 0)
-        rest = parts.pop(REST, zero)
+        rest = parts.pop(REST, ZERO)
         coefficients = {k: self.arithmetic.rational(c) for k, c in parts.items()}
         order = max((k for k, c in coefficients.items() if c), default=0)
         if order != 2:
@@ -97,14 +96,14 @@ class EquationReader(RationalReader):
             position = None if text is None else 0
             raise NotLinear(said, hint=hint, text=text, position=position, length=len(text or ""))
         h = None
-        if not is_rational(rest):  # its rational terms, and h, minus the sum of its other ones
+        if not is_plain(rest):  # its rational terms, and h, minus the sum of its other ones
             from kovacic.reading.symbolic import walked
 
             values = {term: walked(term, self) for term in rest.as_ordered_terms()}
-            h = -sum(term for term, value in values.items() if not is_rational(value)) or None
-            rest = self.arithmetic.sum([zero, *filter(is_rational, values.values())])
+            h = -sum(term for term, value in values.items() if not is_plain(value)) or None
+            rest = self.arithmetic.sum([ZERO, *filter(is_plain, values.values())])
         coefficients[REST] = self.arithmetic.rational(rest)
-        nothing = self.arithmetic.rational(zero)
+        nothing = self.arithmetic.rational(ZERO)
         r, c, b, a = (over(coefficients.get(k, nothing), self.constants.field) for k in (REST, 0, 1, 2))
         return Equation(a, b, c, -r, h, self.variable, self.unknown)
 
@@ -133,14 +132,14 @@ class EquationReader(RationalReader):
         if name == self.unknown:
             return _derivative_of_unknown(0)
         is_known = name in self.names or name in self.declared
-        if name in NUMBERS and name != "I" and not is_known:
+        if name in KNOWN_NUMBERS and name != "I" and not is_known:
             import sympy
 
-            return getattr(sympy, NUMBERS[name]).expand(func=True)
+            return getattr(sympy, KNOWN_NUMBERS[name]).expand(func=True)
         return super().name(name)
 
     def derivative(self, text: str) -> Any:
-        name = text.rstrip(PRIMES)
+        name = text.rstrip(PRIME)
         if name != self.unknown:
             hint = f"there is one unknown function, here {self.unknown}; write products with *: x*y''"
             if name == self.variable + self.unknown:
@@ -151,7 +150,7 @@ class EquationReader(RationalReader):
     def operator(self, variable: str) -> Any:
         if variable != self.variable:
             raise NotLinear(f"a derivative with respect to something else than {self.variable}")
-        return DerivativeOperator({1: Monomial(1, 0)})
+        return DerivativeOperator({1: ONE})
 
     def equation(self, left: Any, right: Any) -> Any:
         if not isinstance(left, LinearForm):  # f = a y'' + b y' + c y
@@ -160,7 +159,7 @@ class EquationReader(RationalReader):
 
     def follows_without_sign(self, name: str) -> bool:
         """A coefficient may stand before the unknown function without a sign."""
-        return name.rstrip(PRIMES) == self.unknown or name in DERIVATIVES
+        return name.rstrip(PRIME) == self.unknown or name in DERIVATIVES
 
     def other_power(self, base: Any, exponent: Any, place: Any) -> Any:
         with suppress(NotRational):
@@ -171,7 +170,7 @@ class EquationReader(RationalReader):
         return self.arithmetic.symbolic_power(base, exponent)
 
     def call(self, head: str, arguments: list[Any], site: Site) -> Any:
-        if head.rstrip(PRIMES) == self.unknown:
+        if head.rstrip(PRIME) == self.unknown:
             return self._call_of_unknown(head, arguments, site)
         if head in DERIVATIVES:
             return self._derived(arguments[0], differentiations(arguments, self))
@@ -212,7 +211,7 @@ class EquationReader(RationalReader):
         raise NotLinear(said, hint=hint)
 
     def is_variable(self, value: Any) -> bool:
-        return is_rational(value) and bool(self.arithmetic.closed(value) == self.arithmetic.closed(VARIABLE))
+        return is_plain(value) and bool(self.arithmetic.closed(value) == self.arithmetic.closed(VARIABLE))
 
     def _derived(self, value: Any, order: int) -> Any:
         for _ in range(order):
@@ -221,7 +220,7 @@ class EquationReader(RationalReader):
 
 
 def _derivative_of_unknown(order: int) -> LinearForm:
-    return LinearForm({order: Monomial(1, 0)})
+    return LinearForm({order: ONE})
 
 
 def generators(field: Field) -> dict[str, Value]:
@@ -272,6 +271,6 @@ def written_equation(text: str, variable: str, unknown: str, known: Constants) -
         source = SimpleNamespace(variable=variable, unknown=unknown, declared=(), has_functions=False)
         reader = EquationReader(source, constants.limits, constants)
         reader.names = {**reader.names, **names}
-        return reader.equation_of(evaluate(tokenize(plain), reader), plain)
+        return reader.equation_of(parse(tokenize(plain), reader), plain)
 
-    return read_with_constants(read, known.limits, known)
+    return read_with_constants(read, known)

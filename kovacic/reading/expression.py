@@ -16,19 +16,19 @@ from kovacic.errors import NotRational
 from kovacic.reading.arithmetic import VARIABLE, Arithmetic, NotAnInteger, Value
 from kovacic.reading.constants import Constants, Enlarged
 from kovacic.reading.dialects import tokenize
-from kovacic.reading.lexer import PRIMES
+from kovacic.reading.lexer import PRIME
 from kovacic.reading.names import (
     FUNCTION_NAMES,
     INSTEAD,
     NUMBER_NAMES,
     POWER_CALLS,
-    STEPS,
+    STEP_LETTERS,
     TRANSCENDENTAL_HINT,
     is_function,
     is_letter,
     unglued,
 )
-from kovacic.reading.parser import Site, evaluate, shortened, shown
+from kovacic.reading.parser import Site, excerpt, parse
 
 _SHOWN_DECIMALS = 3
 
@@ -46,9 +46,9 @@ def parse_with(text: str, names: Mapping[str, Value], arithmetic: Arithmetic) ->
     """
     variable = next((name for name, value in names.items() if value is VARIABLE), DEFAULT_VARIABLE)
     try:
-        return evaluate(tokenize(text), RationalReader(names, variable, arithmetic, Constants()))  # type: ignore[no-any-return]
+        return parse(tokenize(text), RationalReader(names, variable, arithmetic, Constants()))  # type: ignore[no-any-return]
     except Enlarged:
-        raise NotRational(f"a constant in {shortened(text)} that isn't one of {', '.join(names)}") from None
+        raise NotRational(f"a constant in {excerpt(text)} that isn't one of {', '.join(names)}") from None
 
 
 class RationalReader:
@@ -76,11 +76,10 @@ class RationalReader:
         return self.decimals[:_SHOWN_DECIMALS] + rest
 
     def number(self, text: str) -> Value:
-        if text.isdigit():
-            return self.arithmetic.constant(self.arithmetic.integer(text))
         value = self.arithmetic.decimal(text)
-        self.decimals.append(f"{shortened(text)} was taken exactly, as {shortened(value.to_str())}")
-        return value
+        if not text.isdigit():
+            self.decimals.append(f"{excerpt(text)} was taken exactly, as {excerpt(str(value))}")
+        return self.arithmetic.constant(value.p, value.q)
 
     def name(self, name: str) -> Value:
         value = self.names.get(name)
@@ -105,7 +104,7 @@ class RationalReader:
         return self.constants.parameter(name)
 
     def derivative(self, text: str) -> Value:
-        raise NotRational(f"{shortened(text)} is a derivative, and S contains none", hint=_ALONE)
+        raise NotRational(f"{excerpt(text)} is a derivative, and S contains none", hint=_ALONE)
 
     def operator(self, variable: str) -> Value:
         raise NotRational(f"d/d{variable} is a derivative, and S contains none", hint=_ALONE)
@@ -125,7 +124,7 @@ class RationalReader:
 
     def call(self, head: str, arguments: list[Any], site: Site) -> Value:
         """A call of a name, with primes or not; a pair among the arguments is a tuple."""
-        name = head.rstrip(PRIMES)
+        name = head.rstrip(PRIME)
         is_plain = not any(isinstance(argument, tuple) for argument in arguments)
         match (name if is_plain else None), arguments:
             case (("sqrt" | "cbrt"), [value]):
@@ -152,7 +151,7 @@ class RationalReader:
 
     def other_leaf(self, node: Any) -> Any:
         """The value of a SymPy expression that is no sum, product, power or algebraic number."""
-        message = f"{shown(node, 60)} isn't a rational"
+        message = f"{excerpt(node, 60)} isn't a rational"
         if node.is_number:
             raise NotRational(f"{message} number, nor known to be an algebraic one", hint=TRANSCENDENTAL_HINT)
         raise NotRational(f"{message} function of {self.variable}")
@@ -190,14 +189,14 @@ class RationalReader:
 
 
 def usage(name: str) -> str:
-    name = name.rstrip(PRIMES)
+    name = name.rstrip(PRIME)
     if name in ROOTS:
         return "roots are those of numbers: sqrt(2), cbrt(2), root(2, 5)"
     if name in FUNCTION_NAMES:
         return f"{name} has one argument; S is rational in x, or in exp(k*x), sin(k*x), ..."
     if name in INSTEAD:
         return f"write {INSTEAD[name]}"
-    if name in STEPS:
+    if name in STEP_LETTERS:
         return f"for a product write {name}*(...), for a step heaviside(...), for an impulse dirac(...)"
     if is_letter(name):
         return f"for a product write {name}*(...)"

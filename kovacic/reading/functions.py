@@ -14,7 +14,7 @@ from kovacic.equation import Parsed
 from kovacic.errors import InputError, NotRational
 from kovacic.limits import Limits
 from kovacic.reading.exponentials import in_exponentials
-from kovacic.reading.letters import with_letters, without_shifts
+from kovacic.reading.letters import letters_for_constants, without_shifts
 from kovacic.reading.naming import Source
 from kovacic.reading.powers import in_powers
 from kovacic.reading.source import parts_of, read_source, read_with_numbers, source_of_parts
@@ -70,7 +70,7 @@ def _in_letters(source: Source, limits: Limits) -> Parsed | None:
     parts, notices = parts_of(source, limits)
     x = sympy.Symbol(source.variable)
     for given in (parts, [*(without_shifts(part, x) for part in parts[:3]), parts[3]]):
-        lettered = with_letters(given, 3, x)
+        lettered = letters_for_constants(given, 3, x)
         if lettered is None:
             continue
         written = source_of_parts(lettered.parts, source)

@@ -43,11 +43,11 @@ class Lettered(NamedTuple):
     meanings: Meanings
 
 
-def with_letters(parts: Sequence[Expr], coefficients: int, x: Expr) -> Lettered | None:
+def letters_for_constants(parts: Sequence[Expr], coefficients: int, x: Expr) -> Lettered | None:
     """Expressions in which constants have become letters; None if the first ones, the `coefficients`, have none.
 
     >>> x, a, b = sympy.symbols("x a b")
-    >>> found = with_letters((1 + sympy.sqrt(a), a * x, sympy.exp(2 * b)), 3, x)
+    >>> found = letters_for_constants((1 + sympy.sqrt(a), a * x, sympy.exp(2 * b)), 3, x)
     >>> found.parts, sorted(found.meanings.items(), key=str)
     ((sqrt_a + 1, sqrt_a**2*x, exp_b**2), [(exp_b, exp(b)), (sqrt_a, sqrt(a))])
     """

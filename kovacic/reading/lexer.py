@@ -15,7 +15,7 @@ from typing import NamedTuple
 from kovacic.errors import LimitExceeded, ParseError
 from kovacic.limits import Limits
 
-PRIMES = "'"
+PRIME = "'"
 #: Derivatives by the time: ẋ.
 DOTS = "˙"
 #: Names of derivatives.

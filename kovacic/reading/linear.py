@@ -8,7 +8,6 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
-from fractions import Fraction
 from itertools import pairwise
 from typing import Any
 
@@ -20,14 +19,12 @@ from kovacic.algebra.rationals import QQ
 from kovacic.equation import over
 from kovacic.errors import InputError, LimitExceeded, NotLinear, NotRational
 from kovacic.limits import Limits, check_duration
-from kovacic.reading.arithmetic import PRINTED_BITS, Arithmetic, Monomial
+from kovacic.reading.arithmetic import ONE, PRINTED_BITS, ZERO, Arithmetic, Monomial
 from kovacic.reading.names import FUNCTION_NAMES, RECIPROCALS, SEVERAL_ARGUMENTS
-from kovacic.reading.parser import Comparison
+from kovacic.reading.parser import DEEPEST, Comparison
 
-#: The largest exponent of a power that SymPy computes.
-_LARGEST_SYMBOLIC_EXPONENT = 1000
-#: The highest order of a derivative or operator: ((D^10)^10) y takes half a second, and a power of it would take minutes.
-_HIGHEST_ORDER = 100
+#: Limits on input that SymPy calculates with: it expands powers, and its integers have no limit of their own.
+SYMBOLIC_LIMITS = Limits(text_length=10_000, digits=1000, exponent=1000, bits=10_000)
 
 LINEAR_HINT = "the equation is a y'' + b y' + c y = f, where a, b, c and f depend on the variable alone"
 
@@ -50,7 +47,7 @@ class DerivativeOperator(LinearForm):
     """`parts[k]` is the coefficient of D^k: what a linear form is before it is applied to the unknown function."""
 
 
-def is_rational(value: Any) -> bool:
+def is_plain(value: Any) -> bool:
     """True for a value of `Arithmetic`, which is neither a SymPy expression nor a linear form."""
     return isinstance(value, _RATIONAL_VALUES)
 
@@ -76,7 +73,7 @@ class LinearArithmetic(Arithmetic):
 
         if isinstance(value, LinearForm):
             raise NotLinear(f"the unknown function {self.unknown} within a function or a power", hint=LINEAR_HINT)
-        if not is_rational(value):
+        if not is_plain(value):
             return value
         x = sympy.Symbol(self.variable)
         function = self.rational(value)
@@ -95,26 +92,26 @@ class LinearArithmetic(Arithmetic):
 
     def _checked(self, value: Any) -> Any:
         if value.is_Rational:
-            return self.constant(Fraction(int(value.p), int(value.q)))
+            return self.constant(value.p, value.q)
         return value
 
     def negate(self, value: Any) -> Any:
         if isinstance(value, LinearForm):
             return type(value)({k: self.negate(c) for k, c in value.parts.items()})
-        if is_rational(value):
+        if is_plain(value):
             return super().negate(value)
         return -value
 
     def sum(self, terms: Sequence[Any]) -> Any:
         if any(isinstance(term, LinearForm) for term in terms):
             return self._sum_of_forms(terms)
-        rational = [term for term in terms if is_rational(term)]
-        others = [term for term in terms if not is_rational(term)]
+        rational = [term for term in terms if is_plain(term)]
+        others = [term for term in terms if not is_plain(term)]
         if not others:
             return super().sum(rational)
         from sympy import Add
 
-        others.append(self.expression(super().sum([Monomial(0, 0), *rational])))
+        others.append(self.expression(super().sum([ZERO, *rational])))
         return self._checked(Add(*others))  # at once: one by one, a sum of n terms is taken apart n times
 
     def _sum_of_forms(self, terms: Sequence[Any]) -> LinearForm:
@@ -135,7 +132,7 @@ class LinearArithmetic(Arithmetic):
         return kind({k: self.sum(coefficients) for k, coefficients in parts.items()})
 
     def multiply(self, left: Any, right: Any) -> Any:
-        if is_rational(left) and is_rational(right):
+        if is_plain(left) and is_plain(right):
             return super().multiply(left, right)
         if isinstance(left, DerivativeOperator):
             return self._applied(left, right if isinstance(right, LinearForm) else DerivativeOperator({0: right}))
@@ -194,14 +191,14 @@ class LinearArithmetic(Arithmetic):
 
     def _coefficient_of(self, factor: Any) -> Any:
         """A value free of the unknown function, as a coefficient of it."""
-        return self.closed(factor) if is_rational(factor) else self.coefficient(factor)  # type: ignore[misc]
+        return self.closed(factor) if is_plain(factor) else self.coefficient(factor)  # type: ignore[misc]
 
     def divide(self, left: Any, right: Any) -> Any:
         if isinstance(right, LinearForm):
             raise self._not_linear(f"{self.unknown} or a derivative of it in a denominator")
         if isinstance(left, LinearForm):
             return self.multiply(left, self.divide(self.constant(1), right))
-        if is_rational(left) and is_rational(right):
+        if is_plain(left) and is_plain(right):
             return super().divide(left, right)
         denominator = self.expression(right)
         if _is_zero(denominator):
@@ -210,7 +207,7 @@ class LinearArithmetic(Arithmetic):
 
     def power(self, base: Any, exponent: Any) -> Any:
         n = self._integer_of(exponent)
-        if is_rational(base):
+        if is_plain(base):
             return super().power(base, n)
         if not isinstance(base, LinearForm):
             return self.symbolic_power(base, self.constant(n))
@@ -240,7 +237,7 @@ class LinearArithmetic(Arithmetic):
 
         if not (exponent.is_Rational or exponent.has(log)):
             return
-        largest = min(self.limits.exponent, _LARGEST_SYMBOLIC_EXPONENT)
+        largest = min(self.limits.exponent, SYMBOLIC_LIMITS.exponent)
         if any(abs(number) > largest for number in exponent.atoms(Rational)):
             raise LimitExceeded(f"an exponent above the limit of {largest}", limit="exponent")
 
@@ -249,7 +246,7 @@ class LinearArithmetic(Arithmetic):
         import sympy
 
         if head in RECIPROCALS:
-            return self.divide(Monomial(1, 0), self.applied(RECIPROCALS[head], argument))
+            return self.divide(ONE, self.applied(RECIPROCALS[head], argument))
         argument = self.expression(argument)
         if head == "exp":
             self._check_exponent(argument)
@@ -267,7 +264,7 @@ class LinearArithmetic(Arithmetic):
             slopes = [kind({k: self.derivative(c)}) for k, c in value.parts.items()]
             higher = [kind({k + 1: c}) for k, c in value.parts.items() if k != REST]
             return self.sum([*slopes, *higher])
-        if is_rational(value):
+        if is_plain(value):
             return self.closed(value).derivative()
         from sympy import Symbol
 
@@ -275,9 +272,9 @@ class LinearArithmetic(Arithmetic):
 
 
 def check_order(order: int) -> None:
-    """Raise `NotLinear` for a derivative or an operator of a higher order than any that is read."""
-    if order > _HIGHEST_ORDER:
-        raise NotLinear(f"a derivative of order {order}, above the limit of {_HIGHEST_ORDER}", hint=LINEAR_HINT)
+    """Raise `NotLinear` for a high order: ((D^10)^10) y takes half a second, and a power of it would take minutes."""
+    if order > DEEPEST:
+        raise NotLinear(f"a derivative of order {order}, above the limit of {DEEPEST}", hint=LINEAR_HINT)
 
 
 def differentiations(arguments: Sequence[Any], reader: Any) -> int:

@@ -6,11 +6,11 @@ import re
 from collections.abc import Iterable
 
 #: The numbers that texts have, with SymPy's names; they are declared where they are parameters.
-NUMBERS = {"e": "E", "pi": "pi", "π": "pi", "I": "I", "EulerGamma": "EulerGamma", "Catalan": "Catalan"}
-NUMBERS["GoldenRatio"] = "GoldenRatio"
+KNOWN_NUMBERS = {"e": "E", "pi": "pi", "π": "pi", "I": "I", "EulerGamma": "EulerGamma", "Catalan": "Catalan"}
+KNOWN_NUMBERS["GoldenRatio"] = "GoldenRatio"
 #: Names that stand for numbers unless the caller says that the variable has this name.
 NUMBER_NAMES = {
-    **{name: f"the number {name}" for name in NUMBERS},
+    **{name: f"the number {name}" for name in KNOWN_NUMBERS},
     **dict.fromkeys(("oo", "zoo", "inf", "infinity", "Infinity"), "infinity"),
     "I": "the imaginary unit",
     "e": "Euler's number",
@@ -58,7 +58,7 @@ GREEK = frozenset(_GREEK.split())
 SPECIAL_LETTERS = frozenset({"hbar", "ell", "pi", "eps", "lam"})
 
 #: Letters that often are a step or an impulse before a parenthesis, and no factors.
-STEPS = frozenset({"H", "u", "theta", "Theta", "delta", "θ", "Θ", "δ"})
+STEP_LETTERS = frozenset({"H", "u", "theta", "Theta", "delta", "θ", "Θ", "δ"})
 
 #: A pattern for a name of one letter, or of a Greek one.
 LETTER = rf"(?:{'|'.join(sorted(GREEK | SPECIAL_LETTERS, key=len, reverse=True))}|[^\W\d_])"
@@ -75,7 +75,7 @@ def is_letter(name: str) -> bool:
 
 def words_among(names: Iterable[object]) -> tuple[str, ...]:
     """The names that have to be declared where a text with them is read again."""
-    return tuple(name for name in names if isinstance(name, str) and (name in NUMBERS or not is_letter(name)))
+    return tuple(name for name in names if isinstance(name, str) and (name in KNOWN_NUMBERS or not is_letter(name)))
 
 
 FUNCTIONS = frozenset({*FUNCTION_NAMES, "sqrt", "cbrt", "root", *SEVERAL_ARGUMENTS})

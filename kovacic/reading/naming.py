@@ -19,10 +19,10 @@ from typing import Any, NamedTuple
 
 from kovacic.equation import DEFAULT_VARIABLE, ENERGY, EULER, UNKNOWN
 from kovacic.errors import InputError, ParseError
-from kovacic.reading.lexer import DERIVATIVES, PRIMES, Token
+from kovacic.reading.lexer import DERIVATIVES, PRIME, Token
 from kovacic.reading.names import FUNCTION_NAMES, INSTEAD, LETTER, NUMBER_NAMES, is_function, is_letter, unglued
-from kovacic.reading.notations import Sentence, pattern
-from kovacic.reading.parser import evaluate, shortened
+from kovacic.reading.notations import ParserTokens, pattern
+from kovacic.reading.parser import excerpt, parse
 
 #: Names that stand for the variable where they are the only one; others might be parameters of an equation in x.
 USUAL_VARIABLES = frozenset("xtzsruXTZθφτξρζ") | {"theta", "phi", "tau", "xi", "rho", "zeta"}
@@ -70,7 +70,7 @@ class Source(NamedTuple):
     unknown: str = ""
     text: str | None = None
     notes: tuple[str, ...] = ()
-    tokens: Sentence | None = None
+    tokens: ParserTokens | None = None
     declared: frozenset[str] = frozenset()
     #: The unknown function was named: others, g(x), are given ones.
     has_functions: bool = False
@@ -86,7 +86,7 @@ class Vocabulary:
     unknown: str | None = None
     declared: frozenset[str] = frozenset()
 
-    def of(self, tokens: Sentence, *, is_equation: bool, notes: Sequence[str] = ()) -> Source:
+    def of(self, tokens: ParserTokens, *, is_equation: bool, notes: Sequence[str] = ()) -> Source:
         """An equation, or S alone, in which every name is known.  Raises `InputError` for unknown and for ambiguous names.
 
         The `notes` say what was left out around it.
@@ -111,7 +111,7 @@ class Vocabulary:
             named = tokens.of(new)
         is_usual = is_equation and x in (DEFAULT_VARIABLE, "t")
         return Source(
-            partial(evaluate, named),
+            partial(parse, named),
             x,
             y,
             tokens.text,
@@ -122,7 +122,7 @@ class Vocabulary:
             guesses=(*notes, *([] if is_usual else reasons), *guesses),
         )
 
-    def _unknown_of(self, tokens: Sentence) -> tuple[str, bool]:
+    def _unknown_of(self, tokens: ParserTokens) -> tuple[str, bool]:
         """The unknown function of an equation, and True if D stands for the derivative."""
         has_operator = (
             OPERATOR not in self.declared
@@ -135,7 +135,7 @@ class Vocabulary:
             y = UNKNOWN if UNKNOWN in usual[1:] else usual[-1]
         return y, has_operator
 
-    def _imaginary_unit(self, tokens: Sentence, x: str, y: str) -> list[str]:
+    def _imaginary_unit(self, tokens: ParserTokens, x: str, y: str) -> list[str]:
         """Notes that i or j, or E beside y[x], undeclared, is a parameter; and that I isn't, before y'', as an inertia is."""
         free = tokens.names.keys() - {x, y, *self.declared}
         found = [f"{name} is a parameter; the imaginary unit is I" for name in "ij" if name in free]
@@ -145,7 +145,7 @@ class Vocabulary:
             found.append("I is the imaginary unit: a moment of inertia needs another letter, or is declared")
         return found
 
-    def _with_products(self, tokens: Sentence, x: str, y: str) -> tuple[Sentence, list[str]]:
+    def _with_products(self, tokens: ParserTokens, x: str, y: str) -> tuple[ParserTokens, list[str]]:
         """With x y for xy; notes say so.  Raises `ParseError` for all other names that aren't known."""
         pieces = tokens.pieces
         unknown = [
@@ -159,7 +159,7 @@ class Vocabulary:
         notes: dict[str, None] = {}
         for k in reversed(unknown):
             kind, piece, start, end = rows[k]
-            name = piece.rstrip(PRIMES)
+            name = piece.rstrip(PRIME)
             # A product begins with its coefficient.
             if len(name) != 2 or not name.isalpha() or not (name[0] == x or name[1] in (x, y)):
                 raise self._unknown_name(tokens, unknown[0], x, y)
@@ -170,8 +170,8 @@ class Vocabulary:
             rows[k : k + 1] = [Token("NAME", name[0], start, start + 1), Token(kind, piece[1:], start + 1, end)]
         return tokens.of(rows), list(reversed(notes))
 
-    def _is_known(self, tokens: Sentence, k: int, x: str, y: str) -> bool:
-        name = tokens.pieces[k].rstrip(PRIMES)
+    def _is_known(self, tokens: ParserTokens, k: int, x: str, y: str) -> bool:
+        name = tokens.pieces[k].rstrip(PRIME)
         if name in {x, y, *self.declared, *NUMBER_NAMES} or is_function(name):
             return True
         indexed = _GLUED_INDEX.fullmatch(name)
@@ -182,8 +182,8 @@ class Vocabulary:
             return False  # x2 alone may be a product, or a power; x1 and x2 are two points
         return is_letter(name) or tokens.kinds[k] == "HEAD"
 
-    def _unknown_name(self, tokens: Sentence, k: int, x: str, y: str) -> InputError:
-        name = tokens.pieces[k].rstrip(PRIMES)
+    def _unknown_name(self, tokens: ParserTokens, k: int, x: str, y: str) -> InputError:
+        name = tokens.pieces[k].rstrip(PRIME)
         meant = f"write {unglued(name)}"
         said = f"{name} is one name, and not a known one"
         bare = name.rstrip(digits)
@@ -203,7 +203,7 @@ class Vocabulary:
         return tokens.error(ParseError, said, k, k + 1, hint=hint, shell=f"{meant}, or declare it: --names {name}")
 
 
-def _guesses(tokens: Sentence) -> Iterator[str]:
+def _guesses(tokens: ParserTokens) -> Iterator[str]:
     """Notes on what may have been meant in another way: x^1/2 is x/2; sin x/2, without parentheses or a blank, (sin x)/2."""
     found = _ROOT.search(tokens.line)
     if found:
@@ -217,7 +217,7 @@ def _guesses(tokens: Sentence) -> Iterator[str]:
 
 
 def _check_readings(
-    tokens: Sentence, readings: str, said: str, hint: str, ends: Sequence[str] = ("", ""), unknown: str = ""
+    tokens: ParserTokens, readings: str, said: str, hint: str, ends: Sequence[str] = ("", ""), unknown: str = ""
 ) -> None:
     """Raises `ParseError` for what has two readings, where it doesn't end with the unknown; `ends` are those of the hints."""
     for found in pattern(readings.replace("NAME", _NAME)).finditer(tokens.spaced) if "e" in tokens.text.lower() else ():
@@ -229,7 +229,7 @@ def _check_readings(
             raise tokens.error(ParseError, said.format(whole, *parts), begin, behind, hint=shown, shell=shell)
 
 
-def _with_factors(tokens: Sentence, x: str, y: str) -> tuple[Sentence, list[str]]:
+def _with_factors(tokens: ParserTokens, x: str, y: str) -> tuple[ParserTokens, list[str]]:
     """With factors for heads that are no functions: n(n+1) is a product where n occurs without parentheses, too.
 
     So is y(1 - y), of which a note says so: y is no argument of itself.
@@ -246,12 +246,12 @@ def _with_factors(tokens: Sentence, x: str, y: str) -> tuple[Sentence, list[str]
             end = tokens.partners.get(k + 1, k)
             if bisect_left(bare, k) == bisect_left(bare, end):
                 continue
-            notes = notes or [f"{shortened(tokens.piece(k, end + 1))} was read as a product"]
+            notes = notes or [f"{excerpt(tokens.piece(k, end + 1))} was read as a product"]
         rows[k] = rows[k]._replace(kind="NAME")
     return tokens.of(rows), notes
 
 
-def _operand(tokens: Sentence) -> str | None:
+def _operand(tokens: ParserTokens) -> str | None:
     """The name after the parentheses around an operator: y in (d^2/dx^2 - x) y."""
     depth = 0
     for k in range(tokens.kinds.index("OPERATOR"), len(tokens.kinds)) if "OPERATOR" in tokens.kinds else ():
@@ -261,7 +261,7 @@ def _operand(tokens: Sentence) -> str | None:
     return None
 
 
-def differentiated(tokens: Sentence, declared: Collection[str] = ()) -> list[str]:
+def differentiated(tokens: ParserTokens, declared: Collection[str] = ()) -> list[str]:
     """The names that have primes, x for mx'', and then those that are y in diff(y, x), diff(y(x), x) and diff(y)."""
     names = []
     for found in sorted(_DIFFERENTIATED.finditer(tokens.line), key=lambda match: match[1] is None):
@@ -272,7 +272,7 @@ def differentiated(tokens: Sentence, declared: Collection[str] = ()) -> list[str
     return names
 
 
-def _equation_variable(tokens: Sentence, y: str, declared: Collection[str]) -> tuple[str, list[str]]:
+def _equation_variable(tokens: ParserTokens, y: str, declared: Collection[str]) -> tuple[str, list[str]]:
     """The variable of an equation, with a note where it was guessed.
 
     It is the argument of the unknown function, or what is differentiated by, or time where the notation says so; else x or t
@@ -303,7 +303,7 @@ def _equation_variable(tokens: Sentence, y: str, declared: Collection[str]) -> t
     return default, [f"{default} is the variable, {', '.join(names[:6])} {which}"] if names else []
 
 
-def _single_letters(tokens: Sentence, declared: Collection[str]) -> list[str]:
+def _single_letters(tokens: ParserTokens, declared: Collection[str]) -> list[str]:
     """The plain names, those of two glued letters apart."""
     found = dict.fromkeys(letter for name in tokens.names for letter in _letters_of(name, declared))
     return [name for name in found if not is_function(name)]
@@ -315,13 +315,13 @@ def _letters_of(name: str, declared: Collection[str]) -> Sequence[str]:
     return name if is_glued else [name]
 
 
-def argument_of(tokens: Sentence, unknown: str) -> str | None:
+def argument_of(tokens: ParserTokens, unknown: str) -> str | None:
     """The name in y''(x), or in D(y, x) and Derivative(y, (x, 2)); None if the unknown function stands alone."""
     found = pattern(rf"{re.escape(unknown)}'* (?:\( ({_NAME}) \)|, (?:\( )?({_NAME}))").search(tokens.line)
     return found and (found[1] or found[2])
 
 
-def _places(name: str, tokens: Sentence) -> Iterator[str]:
+def _positions(name: str, tokens: ParserTokens) -> Iterator[str]:
     """Where a name stands: in a "function" or an exponent, as a "power", in a denominator or a "sum", or as a "factor".
 
     Only a variable stands elsewhere than as a factor; of several kinds the first one counts.
@@ -340,7 +340,7 @@ def _places(name: str, tokens: Sentence) -> Iterator[str]:
             yield "sum" if around and {before, after} & {"PLUS", "MINUS"} else "factor"
 
 
-def _varies(name: str, tokens: Sentence, names: Collection[str]) -> bool:
+def _varies(name: str, tokens: ParserTokens, names: Collection[str]) -> bool:
     """True where a usual name of a variable occurs as only a variable does: more than once, or not as a factor.
 
     T, tau, rho, zeta, ... are often constants: they have to occur in a function, or as a power and otherwise.
@@ -349,13 +349,13 @@ def _varies(name: str, tokens: Sentence, names: Collection[str]) -> bool:
     has_small = name.lower() != name and name.lower() in names
     if is_ratio or has_small or name not in USUAL_VARIABLES:
         return False
-    found = Counter(_places(name, tokens))
+    found = Counter(_positions(name, tokens))
     if name in _OFTEN_CONSTANT:
         return found["function"] > 0 or found.total() > found["power"] > 0
     return name == "z" or found.total() > min(found["factor"], 1)
 
 
-def _variable_of_S(tokens: Sentence, _: str, declared: Collection[str]) -> tuple[str, list[str]]:
+def _variable_of_S(tokens: ParserTokens, _: str, declared: Collection[str]) -> tuple[str, list[str]]:
     """The only name that isn't one of a number, the energy or a function, or x.  Asks where it can't be told."""
     no_variables = {*NUMBER_NAMES, ENERGY, UNKNOWN, *declared}
     letters = [name for name in _single_letters(tokens, declared) if is_letter(name)]

@@ -15,7 +15,7 @@ from typing import NamedTuple
 
 from kovacic.compatibility import cached_property
 from kovacic.errors import InputError
-from kovacic.reading.lexer import DERIVATIVES, DOTS, PRIMES, Token, scanned
+from kovacic.reading.lexer import DERIVATIVES, DOTS, PRIME, Token, scanned
 from kovacic.reading.names import BARE, FUNCTION_NAMES, FUNCTIONS, GREEK, LETTER, SPECIAL_LETTERS
 
 Match = re.Match[str]
@@ -116,7 +116,7 @@ class Tokens(list[Token]):
         return len(self) > 1 and self.partners.get(0) == len(self) - 1
 
 
-class Sentence(Tokens):
+class ParserTokens(Tokens):
     """The tokens of an expression or equation in `text`, for names and the parser; the last one is `$END`, and empty.
 
     Token k is `pieces[k]`, of the kind `kinds[k]`.  `variable` is what the notation stands for where none is named.
@@ -127,9 +127,9 @@ class Sentence(Tokens):
         self.text = text
         self.variable = variable
 
-    def of(self, tokens: Iterable[Token]) -> Sentence:
+    def of(self, tokens: Iterable[Token]) -> ParserTokens:
         """This text with other tokens."""
-        return Sentence(tokens, self.text, self.variable)
+        return ParserTokens(tokens, self.text, self.variable)
 
     @cached_property
     def kinds(self) -> list[str]:
@@ -211,7 +211,7 @@ def rewritten(scan: Tokens, rules: Sequence[Rewrite]) -> Tokens:
 
 def primes_of(marks: str) -> str:
     """A prime for each of the marks; a quotation mark is two."""
-    return PRIMES * len(marks.replace('"', "''").replace(" ", ""))
+    return PRIME * len(marks.replace('"', "''").replace(" ", ""))
 
 
 @lru_cache(maxsize=8)
@@ -222,13 +222,13 @@ def _occurs(pattern: str, text: str) -> Match | None:
 
 def _primed_by_order(match: Match) -> str:
     """y'' for an order n, one if none is said."""
-    return f"{match['y']} {PRIMES * int(match['n'] or 1)}"
+    return f"{match['y']} {PRIME * int(match['n'] or 1)}"
 
 
 def _by_time(match: Match) -> str:
     """MATLAB's D2y: by time, unless x occurs, or D alone, as in D^2 y + 2Dy."""
     is_by_x = match["y"] != "x" and _occurs(r"(?<!\S)(?:x|D)(?!\S)", match.string)
-    return f"{match['y']} {(PRIMES if is_by_x else DOTS) * int(match['n'] or 1)}"
+    return f"{match['y']} {(PRIME if is_by_x else DOTS) * int(match['n'] or 1)}"
 
 
 def _by_index(match: Match) -> str:
@@ -245,17 +245,17 @@ def _power_of_e(match: Match) -> str:
     return "e ^" if _occurs(r"(?:\w|') \[ +[a-z] +\]|[A-Z][a-z]+ \[", match.string) else match[0]
 
 
-def _pieces(match: Match) -> str:
+def _cases(match: Match) -> str:
     r"""Piecewise((a, x < 1), (b, True)) for the rows a & x < 1 \\ b & \text{otherwise}; words such as if are left out."""
     rows = []
     for row in filter(str.strip, re.split(r"\\\\ ", match[1])):
-        value, _, case = _WORDS.sub(lambda m: " True " if m[1] in _OTHERWISE else " ", row).partition("& ")
+        value, _, case = _CASE_WORDS.sub(lambda m: " True " if m[1] in _OTHERWISE else " ", row).partition("& ")
         rows.append(f"( {value.rstrip(' ,')} , {case.rstrip(' ,.')} )")
     return f"Piecewise ( {' , '.join(rows)} )"
 
 
 _OTHERWISE = ("otherwise", "else", "elsewhere")
-_WORDS = re.compile(rf"\\(?:text|textrm|mbox|mathrm) \{{ +(if|for|when|{'|'.join(_OTHERWISE)}) *(?:[.,] +)?\}}")
+_CASE_WORDS = re.compile(rf"\\(?:text|textrm|mbox|mathrm) \{{ +(if|for|when|{'|'.join(_OTHERWISE)}) *(?:[.,] +)?\}}")
 
 
 #: What names of Mathematica's, Maple's and SymPy's are.
@@ -325,7 +325,7 @@ LATEX = (
         r"\\(d{1,3})ot (?:\{ (\S+) \}|(\S+))",
         lambda m: f"{m[2] or m[3]} {DOTS * len(m[1])}",
     ),
-    rule("an order", "{", rf"{_BEHIND_NAME}\^ \{{ \( ([1-4]) \) \}}", lambda match: PRIMES * int(match[1])),
+    rule("an order", "{", rf"{_BEHIND_NAME}\^ \{{ \( ([1-4]) \) \}}", lambda match: PRIME * int(match[1])),
     *NOTATIONS,
 )
 
@@ -351,7 +351,7 @@ AROUND = (
         r"\begin",
         rf"(?:{_ARRAY}|\\begin \{{ cases \}}) +((?:(?!& ){_NO_END}){{0,2000}}& +{_NO_END}{{0,2000}})"
         rf"(?:{_END_OF_ARRAY}|\\end \{{ cases \}})",
-        _pieces,
+        _cases,
     ),
     rule("comparisons", r"\le \leq \ge \geq", r"\\([lg])eq?", lambda m: "<=" if m[1] == "l" else ">="),
     rule(

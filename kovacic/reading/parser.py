@@ -19,8 +19,9 @@ from dataclasses import dataclass, field
 from typing import Any, NamedTuple
 
 from kovacic.errors import InputError, LimitExceeded, NotRational, ParseError
-from kovacic.reading.lexer import DERIVATIVES, PRIMES, SUPERSCRIPT_DIGITS, unexpected
-from kovacic.reading.notations import Sentence
+from kovacic.numbers.numerals import plain_text
+from kovacic.reading.lexer import DERIVATIVES, PRIME, SUPERSCRIPT_DIGITS, unexpected
+from kovacic.reading.notations import ParserTokens
 
 # Strengths; no operation reaches beyond a parenthesis that is open.
 _OPEN, _SUM, _PRODUCT, _SIGN, _IMPLICIT, _POWER = range(6)
@@ -30,8 +31,8 @@ _ATOMS = ("NUMBER", "NAME", "PRIMED", "OPERATOR")
 _OPERANDS = frozenset({*_ATOMS, "HEAD", "LPAR"})
 _BINARY_KINDS = (*_BINARY, "CIRCUMFLEX")
 _NO_OPERANDS = (*_BINARY_KINDS, "RPAR", "COMMA", "EQUAL")
-#: SymPy's functions are recursive.
-_DEEPEST_CALL = 100
+#: The deepest nesting of calls, fractions and derivatives: SymPy and the look ahead at fractions are recursive.
+DEEPEST = 100
 
 
 @dataclass(slots=True)
@@ -41,18 +42,18 @@ class Site:
     It has the tokens `begin`, ..., `end - 1`, and its last operand those from `right`.
     """
 
-    tokens: Sentence
+    tokens: ParserTokens
     span: tuple[int, int, int] = (0, 0, 0)
 
     def text(self) -> str:
         """The text of the operation with its operands, shortened."""
         begin, _, end = self.span
-        return shortened(self.tokens.piece(begin, end))
+        return excerpt(self.tokens.piece(begin, end))
 
     def inside(self) -> str:
         """The text between the parentheses of a call, shortened."""
         begin, _, end = self.span
-        return shortened(self.tokens.piece(begin + 2, end - 1))
+        return excerpt(self.tokens.piece(begin + 2, end - 1))
 
     def located(self, error: Exception) -> Exception:
         """An error of the operation with its place in the text."""
@@ -70,7 +71,7 @@ class Site:
         return error
 
 
-def evaluate(tokens: Sentence, reader: Any) -> Any:
+def parse(tokens: ParserTokens, reader: Any) -> Any:
     """The value of a text to a reader: a `RationalReader`, or what extends it.
 
     Raises `ParseError` where it isn't an expression or equation, and what the reader raises, with the place in the text.
@@ -116,12 +117,12 @@ class _Group:
 
 
 class _Parser:
-    """One pass over the tokens: `_PREFIX` says what one does where an operand is expected, `_INFIX` what it does after one.
+    """One pass over the tokens: `_PREFIX` has their methods where an operand is expected, `_INFIX` those after an operand.
 
-    Each of these methods takes the number of its token, and answers whether an operand is expected next.
+    Each of these takes the number of its token, and returns True if an operand is expected next.
     """
 
-    def __init__(self, tokens: Sentence, reader: Any) -> None:
+    def __init__(self, tokens: ParserTokens, reader: Any) -> None:
         self.tokens = tokens
         self.kinds = tokens.kinds
         self.pieces = tokens.pieces
@@ -138,7 +139,7 @@ class _Parser:
         #: The strengths and tokens of the operators whose right operand is still being read, and of the open groups.
         self.pending = [(_OPEN, -1)]
         self.groups = [_Group(-1)]
-        #: How many calls and pairs are being read.
+        #: The number of calls and pairs that are open.
         self.argument_lists = 0
 
     def read(self) -> Any:
@@ -170,12 +171,12 @@ class _Parser:
         self.site.span = k, k, k + 1
         self.open(_Group(k, is_call=True))
         self.argument_lists += 1
-        if self.argument_lists > _DEEPEST_CALL:
-            raise LimitExceeded(f"over {_DEEPEST_CALL} nested calls, the limit", limit="text_length")
+        if self.argument_lists > DEEPEST:
+            raise LimitExceeded(f"over {DEEPEST} nested calls, the limit", limit="text_length")
         return True
 
     def parenthesis(self, k: int) -> bool:
-        if self.kinds[k - 1] != "HEAD":
+        if self.kinds[k - 1] != "HEAD":  # which has opened the group already
             self.open(_Group(k))
         return True
 
@@ -197,7 +198,7 @@ class _Parser:
         if self.kinds[k] == "CIRCUMFLEX":
             return True
         self.site.span = self.operands[-1].begin, k, k + 1
-        exponent = self.arithmetic.signed_integer(self.pieces[k].translate(SUPERSCRIPT_DIGITS))
+        exponent = self.arithmetic.integer(self.pieces[k].translate(SUPERSCRIPT_DIGITS))
         self.operands.append(_Operand(self.arithmetic.constant(exponent), k))
         return False
 
@@ -214,7 +215,7 @@ class _Parser:
     def is_derivative(self, k: int) -> bool:
         piece = self.pieces[k]
         is_call = self.kinds[k] == "HEAD" and piece in DERIVATIVES
-        return is_call or piece.endswith(PRIMES) or self.kinds[k] == "OPERATOR"
+        return is_call or piece.endswith(PRIME) or self.kinds[k] == "OPERATOR"
 
     def close(self, k: int) -> bool:
         self.complete(k)
@@ -390,7 +391,7 @@ _INFIX = {
 }
 
 
-def _check_neighbours(tokens: Sentence, reader: Any, begin: int, right: int) -> None:
+def _check_neighbours(tokens: ParserTokens, reader: Any, begin: int, right: int) -> None:
     """Refuses a product without a sign whose second factor, from token `right`, can't be told from the first one."""
     left = right - 1
     is_applied = tokens.pieces[begin] in DERIVATIVES and tokens.kinds[right] == "LPAR"  # D(y)(x)
@@ -401,38 +402,38 @@ def _check_neighbours(tokens: Sentence, reader: Any, begin: int, right: int) -> 
         return
     if tokens.kinds[left] == "NAME" and tokens.kinds[right] in ("NAME", "HEAD", "LPAR", "OPERATOR"):
         return  # letters that stand apart, as `naming` has found
-    first = shortened(tokens.pieces[left])
-    second = shortened(tokens.pieces[right])
+    first = excerpt(tokens.pieces[left])
+    second = excerpt(tokens.pieces[right])
     message = f"an operator is missing between {first!r} and {second!r}"
     raise tokens.error(ParseError, message, left, right + 1, hint="write a product with *")
 
 
-def _ambiguous(tokens: Sentence, site: Site, slash: int, split: int) -> InputError:
+def _ambiguous(tokens: ParserTokens, site: Site, slash: int, split: int) -> InputError:
     """The error for a/b c, where c begins with token `split`."""
     begin, right, end = site.span
     spans = ((begin, slash), (right, end), (right, split), (split, end))
-    above, below, first, rest = (shortened(tokens.piece(*span)) for span in spans)
+    above, below, first, rest = (excerpt(tokens.piece(*span)) for span in spans)
     hint = f"write {above}/({below}) or ({above}/{first})*{rest}"
     message = "a product without a sign after / can be read in two ways"
     return tokens.error(ParseError, message, begin, end, hint=hint)
 
 
-#: What is wrong, from one token up to another one, and what to do about it.
+#: A message, the first and the last token that it is about, and a hint.
 _Fault = tuple[str, int, int, str | None]
 
 
-def _incomplete(tokens: Sentence, end: int, opened: Sequence[int]) -> _Fault:
+def _incomplete(tokens: ParserTokens, end: int, opened: Sequence[int]) -> _Fault:
     """Of the end of the text."""
     last = end - 1
     if tokens.kinds[last] in (*_BINARY_KINDS, "EQUAL", "COMMA"):
         return f"the expression ends after {tokens.pieces[last]!r}", last, last, "something is missing after it"
     if not opened:
         return "the expression isn't complete", end, end, None
-    hint = f"add {shortened(')' * len(opened))!r} where it ends"
+    hint = f"add {excerpt(')' * len(opened))!r} where it ends"
     return "this parenthesis is never closed", opened[-1], opened[-1], hint
 
 
-def _comma(tokens: Sentence, k: int) -> _Fault:
+def _comma(tokens: ParserTokens, k: int) -> _Fault:
     """Of a comma outside calls, which may be that of a decimal, or separate values."""
     begin, hint = k, "decimals are written with a point, and one expression is one S"
     if tokens.are(k - 1, "NUMBER", "COMMA", "NUMBER") and tokens[k - 1].end + 1 == tokens[k + 1].start:
@@ -444,14 +445,7 @@ def _comma(tokens: Sentence, k: int) -> _Fault:
     return "a comma doesn't belong here", begin, k, hint
 
 
-def shown(value: Any, width: int = 40) -> str:
-    try:
-        return shortened(str(value), width)
-    except ValueError:  # Python prints integers of at most 4300 digits
-        return "a number of thousands of digits"
-
-
-def shortened(text: str, width: int = 40) -> str:
-    """The text on one line, without its middle where it is long."""
-    text = " ".join(text.split()) if len(text) < 10_000 else text
+def excerpt(value: Any, width: int = 40) -> str:
+    """A text, number or expression on one line, without its middle if it is longer than `width`."""
+    text = " ".join(plain_text(value).split())
     return text if len(text) <= width else f"{text[: width // 2]}...{text[-width // 4 :]}"

@@ -1,11 +1,11 @@
 """A text that was pasted, taken apart into pieces with roles, before anything in it is read.
 
->>> paste = taken_apart("sol := dsolve({diff(y(x),x$2) + y(x) = 0, y(0) = 1, D(y)(0) = 0}, y(x));")
+>>> paste = Paste("sol := dsolve({diff(y(x),x$2) + y(x) = 0, y(0) = 1, D(y)(0) = 0}, y(x));")
 >>> [piece.role for piece in paste.pieces]
 ['command', 'equation', 'condition', 'condition', 'name']
 >>> paste.conditions
 (PlacedValue(place='y(0)', value='1'), PlacedValue(place="y'(0)", value='0'))
->>> taken_apart("3. Solve the equation y'' + y = 0;  // easy").notes
+>>> Paste("3. Solve the equation y'' + y = 0;  // easy").notes
 ['3. was taken for a number in a list', 'left out: Solve the equation']
 
 Comments, numbers of lists and equations, prose, dollar signs, environments of LaTeX, assignments and commands of other systems
@@ -17,16 +17,15 @@ from __future__ import annotations
 
 import re
 from collections.abc import Callable, Collection, Iterator, Sequence
-from dataclasses import dataclass, field
 from functools import cached_property
 from itertools import takewhile
 from typing import NamedTuple
 
 from kovacic.errors import ParseError
-from kovacic.reading.dialects import FRACTIONS, LAYOUT, plain_tokens, translated
-from kovacic.reading.lexer import DERIVATIVES, PRIMES, Token, error_at, scanned
+from kovacic.reading.dialects import FRACTIONS, LAYOUT, in_own_notation
+from kovacic.reading.lexer import DERIVATIVES, PRIME, Token, error_at, scanned
 from kovacic.reading.names import is_function, is_letter
-from kovacic.reading.notations import AROUND, MAKERS, NOTATIONS, SOLVERS, Sentence, Tokens, pattern, rewritten, rule
+from kovacic.reading.notations import AROUND, MAKERS, NOTATIONS, SOLVERS, ParserTokens, Tokens, pattern, rewritten, rule
 
 #: Words between an equation and its conditions.
 _BETWEEN = frozenset("and with where subject such given for if at when satisfying".split())  # noqa: SIM905
@@ -61,26 +60,9 @@ class PlacedValue(NamedTuple):
     value: str
 
 
-def taken_apart(text: str) -> Paste:
-    """The pieces of a text.  Raises `ParseError` for arguments of a command that say nothing about the equation."""
-    paste = Paste(text)
-    plain = plain_tokens(text)
-    if plain is None:
-        paste.take_apart()
-    else:
-        paste.pieces = [PastedPiece("equation", Tokens(plain[:-1]))]
-        paste.equations, paste.is_equation = [plain], "=" in text or PRIMES in text
-    return paste
-
-
 def conditions_in(text: str) -> tuple[PlacedValue, ...]:
     """Conditions that stand alone: "y(0) = 1, y'(0) = 0".  Raises `ParseError` for anything else."""
     return tuple(given for statement in _statements(_plain_tokens(text)) for given in _placed_values(text, statement))
-
-
-def is_equation(text: str) -> bool:
-    """True for a text with an equation in it, false for S alone."""
-    return taken_apart(text).is_equation
 
 
 def _plain_tokens(text: str) -> Tokens:
@@ -178,49 +160,20 @@ SURROUNDINGS = (
 )
 
 
-@dataclass
 class Paste:
-    """A text with its pieces; `variable` is one that a command names, `notes` say what was left out.
+    """A text taken apart; `variable` is one that a command names, `notes` say what was left out.
 
-    Statements that have names are kept under these until they are used.
+    Raises `ParseError` for arguments of a command that say nothing about the equation.
     """
 
-    text: str
-    pieces: list[PastedPiece] = field(default_factory=list)
-    variable: str | None = None
-    notes: list[str] = field(default_factory=list)
-    named: dict[str, Tokens] = field(default_factory=dict)
-
-    def scans(self, role: str) -> list[Tokens]:
-        return [piece.scan for piece in self.pieces if piece.role == role]
-
-    @cached_property
-    def is_equation(self) -> bool:
-        """True for an equation, false for S alone."""
-        return any(map(_is_equation, self.scans("equation")))
-
-    @property
-    def beside(self) -> Tokens | None:
-        """A piece besides the one equation or expression: prose, or a second one."""
-        scans = self.scans("equation")
-        if len(scans) < 2:
-            return None
-        return next((scan for scan in scans if self.is_equation and not _is_equation(scan)), scans[1])
-
-    @cached_property
-    def equations(self) -> list[Sentence]:
-        return [translated(self.text, scan) for scan in self.scans("equation")]
-
-    @cached_property
-    def conditions(self) -> tuple[PlacedValue, ...]:
-        return tuple(given for scan in self.scans("condition") for given in _placed_values(self.text, scan))
-
-    def error(self, message: str, scan: Sequence[Token], hint: str) -> ParseError:
-        return error_at(self.text, message, scan, hint)
-
-    def take_apart(self) -> None:
-        """Finds the pieces, statement by statement."""
-        statements = list(_statements(_plain_tokens(self.text)))
+    def __init__(self, text: str) -> None:
+        self.text = text
+        self.pieces: list[PastedPiece] = []
+        self.variable: str | None = None
+        self.notes: list[str] = []
+        #: Statements that have names, until they are used.
+        self.named: dict[str, Tokens] = {}
+        statements = list(_statements(_plain_tokens(text)))
         for scan in filter(None, map(self.without_surroundings, statements)):
             self.statement(scan, is_alone=len(statements) == 1)
         is_solved = bool(self.scans("command") and self.scans("equation"))
@@ -229,7 +182,29 @@ class Paste:
                 self.notes.append(f"not used: {self.written(scan)}")
             elif not self.list_of(scan):
                 self.add("equation", scan)
-        self.sort_roles()
+        # Conditions among the statements; where nothing else is there, the first one is an equation.
+        first, *others = self.scans("equation") or [Tokens()]
+        letters = _argument_letters(first)
+        conditions = [id(scan) for scan in others if _is_condition(scan) and not letters & _argument_letters(scan)]
+        if len(conditions) < len(others) and _is_condition(first, is_first=True):
+            conditions.append(id(first))
+        self.pieces = [p._replace(role="condition") if id(p.scan) in conditions else p for p in self.pieces]
+
+    def scans(self, role: str) -> list[Tokens]:
+        return [piece.scan for piece in self.pieces if piece.role == role]
+
+    @cached_property
+    def is_equation(self) -> bool:
+        """True for an equation, false for S alone."""
+        return any(map(is_equation, self.scans("equation")))
+
+    @cached_property
+    def equations(self) -> list[ParserTokens]:
+        return [in_own_notation(self.text, scan) for scan in self.scans("equation")]
+
+    @cached_property
+    def conditions(self) -> tuple[PlacedValue, ...]:
+        return tuple(given for scan in self.scans("condition") for given in _placed_values(self.text, scan))
 
     def add(self, role: str, scan: Tokens) -> None:
         """Adds a piece; left = right for the equation Eq(left, right) of SymPy."""
@@ -251,7 +226,7 @@ class Paste:
             first, behind = scan.span(match)
             left, rest = Tokens(scan[first:behind]), Tokens([*scan[:first], *scan[behind:]])
             is_name = len(left) == 2 and left[1].text == ":" and self.text.count(left[0].text) > 1  # eqn: ... ode2(eqn)
-            if around.kind and (is_name or not _is_equation(rest)):
+            if around.kind and (is_name or not is_equation(rest)):
                 if around.kind == "label":
                     self.notes.append(f"{self.written(left)} was read as a factor; leave the number of an equation out")
                 continue
@@ -380,22 +355,10 @@ class Paste:
             return False
         point, *values = inside
         opening, closing, equals = (Token("SIGN", sign, point[0].start, point[0].end) for sign in "()=")
-        primes = Token("PRIMES", PRIMES, function.end, function.end)
+        primes = Token("PRIMES", PRIME, function.end, function.end)
         self.add("equation", Tokens([function, opening, *point, closing, equals, *values[0]]))
         self.add("equation", Tokens([function, primes, opening, *point, closing, equals, *values[1]]))
         return True
-
-    def sort_roles(self) -> None:
-        """Conditions among the statements; where nothing else is there, the first one is an equation."""
-        equations = self.scans("equation")
-        if len(equations) < 2:
-            return
-        letters = _argument_letters(equations[0])
-        conditions = [scan for scan in equations[1:] if _is_condition(scan) and not letters & _argument_letters(scan)]
-        if _is_condition(equations[0], is_first=True) and len(conditions) < len(equations) - 1:
-            conditions.append(equations[0])
-        ids = {id(scan) for scan in conditions}
-        self.pieces = [p._replace(role="condition") if id(p.scan) in ids else p for p in self.pieces]
 
 
 _COMMAND = pattern(rf"(?:\w+ [.\[]? ?)?(?:{'|'.join(SOLVERS)}) (?:\] |\[ \w+ \] )?[(\[]")
@@ -409,14 +372,14 @@ _CALL = pattern(r"(?:\\?[^\W\d]\S*(?: ['\"˙]+)?|\}) [(\[]")
 _PRIMES_ALONE = pattern(r"(?:''|\"|˙˙)(?! OPEN)")
 
 
-def _is_equation(scan: Tokens) -> bool:
+def is_equation(scan: Tokens) -> bool:
     """True if an equals sign, a prime or a derivative occurs."""
     if _EQUATION.search(scan.spaced):
         return True
     if not scan.has(("/", *FRACTIONS)):
         return False
     try:
-        return "diff" in translated("", scan).pieces
+        return "diff" in in_own_notation("", scan).pieces
     except ParseError:
         return False
 
@@ -480,7 +443,7 @@ def _is_condition(scan: Tokens, *, is_first: bool = False) -> bool:
                 return name == 0 and not is_first
             case [("NUMBER", _)]:
                 return True
-        if scan[name].text == "}" or not _is_equation(Tokens(scan[:name])):  # \dot{y}(0)
+        if scan[name].text == "}" or not is_equation(Tokens(scan[:name])):  # \dot{y}(0)
             return True
     return False
 
@@ -488,7 +451,7 @@ def _is_condition(scan: Tokens, *, is_first: bool = False) -> bool:
 def _placed_values(text: str, scan: Tokens) -> Iterator[PlacedValue]:
     """The conditions that one statement has; y(0) = y'(0) = 1 are two."""
     plain = Tokens(token for token in scan if token.text not in ("$", "`"))
-    sides = [translated(text, side, condition=True) for side in plain.split(_ASSIGNS)]
+    sides = [in_own_notation(text, side, condition=True) for side in plain.split(_ASSIGNS)]
     # In this package's notation a blank stands between names and numbers alone.
     *places, value = (re.sub(r"(?<![\w']) | (?!\w)", "", " ".join(tokens.pieces)) for tokens in sides)
     if not places or not all((*places, value)):

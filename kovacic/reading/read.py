@@ -13,9 +13,9 @@ from kovacic.algebra.rationals import QQ
 from kovacic.equation import DEFAULT_VARIABLE, PI, UNKNOWN, Equation, Parsed, parameters_of
 from kovacic.errors import InputError, LimitExceeded, NotLinear, NotRational
 from kovacic.limits import DEFAULT_LIMITS, Limits
-from kovacic.numbers.exact import exact_real, exact_text, is_rational
+from kovacic.numbers.exact import exact_real, exact_text, is_rational_number
 from kovacic.reading.naming import Source
-from kovacic.reading.parser import shown
+from kovacic.reading.parser import excerpt
 from kovacic.reading.pieces import Paste
 from kovacic.reading.source import read_source, read_with_numbers, source_of
 
@@ -48,7 +48,7 @@ def read_input(
     variable = _variable_name(var)
     if isinstance(S, str | Paste) or _is_sympy(S):
         source = source_of(S, variable, limits, unknown=unknown, equation=equation, names=names)
-        parsed = _with_note(_parsed(S, source, limits, exponentials=exponentials))
+        parsed = _with_note(_meaning(S, source, limits, exponentials=exponentials))
         if parsed.equation is None:
             _check_unknown(parsed.variable, *parameters_of(parsed.S.field))
         lost = tuple(note for note in source.notes if note not in parsed.notices)
@@ -58,7 +58,7 @@ def read_input(
             raise InputError(f"the variable of this equation is {S.variable}, not {variable}")
         return Parsed(S.S, S.variable, equation=S)
     _check_unknown(variable)
-    if is_rational(S):
+    if is_rational_number(S):
         S = RatFunc(QQ.poly([exact_real(S, "S")]))
     elif isinstance(S, tuple | list) and len(S) == 2:
         parts = zip(S, ("numerator", "denominator"), strict=True)
@@ -92,7 +92,7 @@ def declared(parameters: Collection[str], assume: Any = None) -> tuple[str, ...]
     return (*parameters, *map(str, assume if isinstance(assume, Mapping) else ()))
 
 
-def _parsed(given: Any, source: Source, limits: Limits, *, exponentials: bool) -> Parsed:
+def _meaning(given: Any, source: Source, limits: Limits, *, exponentials: bool) -> Parsed:
     """The meaning of a source, made of the text or expression that was given.
 
     With `exponentials`, coefficients that aren't rational are tried as functions of exp(k x), and constants as letters.
@@ -106,7 +106,7 @@ def _parsed(given: Any, source: Source, limits: Limits, *, exponentials: bool) -
         if found is None:
             raise
         plain = source_of(found, source.variable, limits, equation=True)
-        return _parsed(found, plain, limits, exponentials=exponentials)
+        return _meaning(found, plain, limits, exponentials=exponentials)
     except NotRational as error:
         if not exponentials:
             raise
@@ -184,10 +184,10 @@ def _coefficient_polynomial(coefficients: Sequence[Any], what: str, limits: Limi
 
 
 def _exact_coefficient(value: Any, power: int, what: str) -> Fraction:
-    if is_rational(value):
+    if is_rational_number(value):
         return exact_real(value, f"the coefficient of power {power}")
     hint = "give integers, Fraction(1, 2) or sympy.Rational(1, 2)"
     if isinstance(value, float):
         hint = f"give Fraction({value!r}) if exactly this float is meant, or Fraction({str(value)!r}) for the decimal"
-    said = f"the coefficient of power {power} in the {what} is {shown(value)!r}, not a rational number"
+    said = f"the coefficient of power {power} in the {what} is {excerpt(value)!r}, not a rational number"
     raise NotRational(said, hint=hint)

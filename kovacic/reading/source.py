@@ -10,16 +10,16 @@ from contextlib import suppress
 from functools import partial
 from typing import Any
 
-from kovacic.equation import PI, UNKNOWN, Parsed
+from kovacic.equation import PI, UNKNOWN, Parsed, lowered, over
 from kovacic.errors import InputError, NotLinear, NotRational, ParseError
 from kovacic.limits import DEFAULT_LIMITS, Limits
-from kovacic.reading.arithmetic import VARIABLE, Arithmetic, Monomial
+from kovacic.reading.arithmetic import ONE, VARIABLE, Arithmetic
 from kovacic.reading.constants import Constants, read_with_constants
 from kovacic.reading.expression import RationalReader
-from kovacic.reading.lexer import check_length
+from kovacic.reading.lexer import check_length, error_at
 from kovacic.reading.naming import Source, Vocabulary, chosen_variable
-from kovacic.reading.notations import Sentence
-from kovacic.reading.pieces import Paste, taken_apart
+from kovacic.reading.notations import ParserTokens
+from kovacic.reading.pieces import Paste, is_equation
 
 
 def source_of(
@@ -41,30 +41,29 @@ def source_of(
         return _sympy_source(given, variable, unknown, equation)
     if isinstance(given, str):
         check_length(given, limits, what="the text")
-        given = taken_apart(given)
+        given = Paste(given)
         values = given.scans("condition")
         if values:
             scan = given.scans("equation")[0]
             hint = f"give the equation: {given.text[scan[0].start : scan[-1].end]}"
-            raise given.error("initial values are accepted by `dsolve` only", values[0], hint)
+            raise error_at(given.text, "initial values are accepted by `dsolve` only", values[0], hint)
     tokens = _only_equation(given)
     vocabulary = Vocabulary(variable or given.variable, unknown, frozenset(names))
     return vocabulary.of(tokens, is_equation=equation or given.is_equation, notes=given.notes)
 
 
-def _only_equation(paste: Paste) -> Sentence:
+def _only_equation(paste: Paste) -> ParserTokens:
     """The tokens of the one equation that is in a text."""
     scans = paste.scans("equation")
     if not scans:
         hint = "give S(x), for example x^2 + 3"
         raise ParseError("there is no expression: the text is empty", text=paste.text, position=0, hint=hint)
-    if paste.beside is not None:
-        message = "the text has this besides the expression"
-        hint = "decimals are written with a point; one expression is one S"
+    if len(scans) > 1:
+        kind, other, hint = "expression", scans[1], "decimals are written with a point; one expression is one S"
         if paste.is_equation:
-            message = "the text has this besides the equation"
+            kind, other = "equation", next((scan for scan in scans if not is_equation(scan)), scans[1])
             hint = "leave it out, or substitute the values of letters in the equation; initial values follow it as y(0) = 1"
-        raise paste.error(message, paste.beside, hint)
+        raise error_at(paste.text, f"the text has this besides the {kind}", other, hint)
     (tokens,) = paste.equations
     return tokens
 
@@ -107,8 +106,8 @@ def read_with_numbers(source: Source, limits: Limits) -> Parsed:
         from kovacic.reading.linear import LinearForm
 
         def walk(reader: Any) -> Any:
-            product = reader.arithmetic.multiply(LinearForm({0: Monomial(-1, 0)}), source.walk(reader))
-            return reader.arithmetic.sum([LinearForm({2: Monomial(1, 0)}), product])
+            product = reader.arithmetic.multiply(LinearForm({0: reader.arithmetic.negate(ONE)}), source.walk(reader))
+            return reader.arithmetic.sum([LinearForm({2: ONE}), product])
 
         if not source.unknown:
             with suppress(InputError):
@@ -128,7 +127,7 @@ def read_source(source: Source, limits: Limits) -> Parsed:
         if not source.unknown:
             reader = RationalReader({x: VARIABLE}, x, Arithmetic(limits), constants)
             reader.declared = source.declared
-            S = constants.embedded(reader.arithmetic.rational(source.walk(reader)))
+            S = lowered(over(reader.arithmetic.rational(source.walk(reader)), constants.field))
             return Parsed(S, x, (*source.notes, *reader.notices(), *constants.notices()))
         from kovacic.reading.differential import EquationReader
 
@@ -137,7 +136,7 @@ def read_source(source: Source, limits: Limits) -> Parsed:
         notes = (*source.notes, *reader.notices(), *constants.notices(reader.letters))
         return Parsed(equation.S, x, notes, equation, tuple(reader.letters.items()))
 
-    return read_with_constants(read, limits)
+    return read_with_constants(read, Constants(limits))
 
 
 def parts_of(source: Source, limits: Limits, order: int = 2) -> tuple[Sequence[Any], list[str]]:
@@ -156,7 +155,7 @@ def parts_of(source: Source, limits: Limits, order: int = 2) -> tuple[Sequence[A
     value = source.walk(reader)
     parts = reader.parts(value)
     if not source.unknown:  # S alone
-        parts = {2: Monomial(1, 0), 0: reader.arithmetic.negate(value)}
+        parts = {2: ONE, 0: reader.arithmetic.negate(value)}
     found = {k: reader.arithmetic.expression(c) for k, c in parts.items()}
     if max(found, default=0) != order:
         raise NotLinear(f"a linear equation of order {order} is expected")

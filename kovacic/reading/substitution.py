@@ -26,7 +26,7 @@ _FACT_WORDS = re.compile(r"(\s*([A-Za-z-]{2,}|([<>]=?|!=)\s*[^\s,<>=!]+),?)*\s*"
 _CHAIN = re.compile(r"\s*([^<>=!]+?)\s*([<>]=?)\s*(\w+)\s*([<>]=?)\s*([^<>=!]+?)\s*")
 #: A variable that no value contains.
 _NO_VARIABLE = "x_"
-_TURNED = {"<": ">", ">": "<", "<=": ">=", ">=": "<="}
+_MIRRORED = {"<": ">", ">": "<", "<=": ">=", ">=": "<="}
 
 
 class Template:
@@ -82,7 +82,7 @@ def relations(text: str) -> tuple[str, str] | None:
     if match is None:
         return None
     first, sign, name, other, last = match.groups()
-    return name, f"{_TURNED[sign]}{first} {other}{last}"
+    return name, f"{_MIRRORED[sign]}{first} {other}{last}"
 
 
 def value_text(value: Any, *excluded: str, limits: Limits = DEFAULT_LIMITS) -> str:
@@ -103,13 +103,13 @@ def value_text(value: Any, *excluded: str, limits: Limits = DEFAULT_LIMITS) -> s
 Substituted = tuple[Any, Parsed, Mapping[Any, Any] | None]
 
 
-def with_values(S: Any, parsed: Parsed, assume: Mapping[Any, Any] | None, limits: Limits) -> Substituted:
+def with_assumed_values(S: Any, parsed: Parsed, assume: Mapping[Any, Any] | None, limits: Limits) -> Substituted:
     """The input with the values that are among the assumptions, {"n": 3}, the result of reading it, and the other assumptions.
 
     Raises `InputError` for values that aren't numbers, or of what isn't a parameter.
 
     >>> S = "(4*n^2 - 1)/(4*x^2) - k"
-    >>> text, parsed, rest = with_values(S, read_input(S), {"n": "3/2", "k": "integer"}, DEFAULT_LIMITS)
+    >>> text, parsed, rest = with_assumed_values(S, read_input(S), {"n": "3/2", "k": "integer"}, DEFAULT_LIMITS)
     >>> text, rest
     ('(4*(3/2)^2 - 1)/(4*x^2) - k', {'k': 'integer'})
     """

@@ -13,9 +13,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Collection, Mapping
 from dataclasses import replace
-from fractions import Fraction
 from functools import partial, reduce
-from operator import index
 from types import SimpleNamespace
 from typing import Any, NamedTuple
 
@@ -25,15 +23,15 @@ from sympy.core.function import AppliedUndef
 from kovacic.errors import InputError, LimitExceeded, NotLinear, NotRational, ParseError
 from kovacic.limits import DEFAULT_LIMITS, Limits
 from kovacic.numbers.numerals import as_text
-from kovacic.reading.arithmetic import VARIABLE, Monomial
+from kovacic.reading.arithmetic import ONE, VARIABLE
 from kovacic.reading.dialects import tokenize
 from kovacic.reading.expression import RationalReader
-from kovacic.reading.lexer import DERIVATIVES, PRIMES, check_length
-from kovacic.reading.linear import LinearArithmetic, differentiations
-from kovacic.reading.names import FUNCTION_NAMES, NUMBER_NAMES, NUMBERS, POWER_CALLS, is_function
+from kovacic.reading.lexer import DERIVATIVES, PRIME, check_length
+from kovacic.reading.linear import SYMBOLIC_LIMITS, LinearArithmetic, differentiations
+from kovacic.reading.names import FUNCTION_NAMES, KNOWN_NUMBERS, NUMBER_NAMES, POWER_CALLS, is_function
 from kovacic.reading.naming import Vocabulary, argument_of, differentiated
-from kovacic.reading.parser import Site, evaluate, shown
-from kovacic.reading.pieces import Paste, taken_apart
+from kovacic.reading.parser import Site, excerpt, parse
+from kovacic.reading.pieces import Paste
 
 #: Stands in for `Constants` where parameters and algebraic numbers are SymPy expressions.
 SYMBOLS: Any = SimpleNamespace(
@@ -42,12 +40,11 @@ SYMBOLS: Any = SimpleNamespace(
     algebraic=lambda node: node,
     radical=lambda radicand, n, _: sympy.root(sympy.Rational(radicand.field.rational_value(radicand)), n),
 )
-LIMITS = Limits(text_length=10_000, digits=1000, exponent=1000, bits=10_000)
 #: Spellings of infinity.
 _INFINITY_NAMES = dict.fromkeys(("oo", "inf", "infty", "infinity", "Infinity"), sympy.oo)
 #: Letters that are functions where they have an argument, and neither a product nor an unknown function is meant.
 _SYMBOLS_OF_FUNCTIONS = {"delta": "DiracDelta", "δ": "DiracDelta"}
-_NUMBER_VALUES = {name: getattr(sympy, number).expand(func=True) for name, number in NUMBERS.items()}
+_NUMBER_VALUES = {name: getattr(sympy, number).expand(func=True) for name, number in KNOWN_NUMBERS.items()}
 
 
 def walked(expression: Any, reader: RationalReader) -> Any:
@@ -74,25 +71,25 @@ def _combined(node: Any, arguments: list[Any], reader: RationalReader) -> Any:
     try:
         if node.is_Pow:
             base, exponent = arguments
-            return reader.power(base, exponent, SimpleNamespace(text=partial(shown, node, 60)))
+            return reader.power(base, exponent, SimpleNamespace(text=partial(excerpt, node, 60)))
         if node.is_Add:
             return reader.arithmetic.sum(arguments)
         return reduce(reader.arithmetic.multiply, arguments)
     except ZeroDivisionError:
-        raise NotRational(f"division by zero in {shown(node, 60)}") from None
+        raise NotRational(f"division by zero in {excerpt(node, 60)}") from None
     except LimitExceeded as error:
-        raise LimitExceeded(f"{shown(node, 60)} would have {error}", limit=error.limit) from None
+        raise LimitExceeded(f"{excerpt(node, 60)} would have {error}", limit=error.limit) from None
 
 
 def _leaf(node: Any, reader: RationalReader) -> Any:
     if node.is_Symbol:
         return VARIABLE if node.name == reader.variable else reader.constants.parameter(node.name)
     if node.is_Rational:
-        return reader.arithmetic.constant(Fraction(index(node.p), index(node.q)))
+        return reader.arithmetic.constant(node.p, node.q)
     if node.is_Float and node.is_finite:  # a binary fraction
-        exact = Fraction(*map(int, sympy.Rational(node).as_numer_denom()))
-        reader.decimals.append(f"the float {shown(node, 60)} was taken exactly, as {shown(exact, 60)}")
-        return reader.arithmetic.constant(exact)
+        exact = sympy.Rational(node)
+        reader.decimals.append(f"the float {excerpt(node, 60)} was taken exactly, as {excerpt(exact, 60)}")
+        return reader.arithmetic.constant(exact.p, exact.q)
     if node.is_number and node.is_algebraic:
         value = reader.constants.algebraic(node)
         if value is not None:
@@ -121,11 +118,11 @@ def is_sympy_equation(value: Any) -> bool:
     return bool(functions_in(value)) and bool(getattr(value, "is_Equality", False) or value.has(sympy.Derivative))
 
 
-def text_of(given: Any) -> str:
+def equation_text(given: Any) -> str:
     """A SymPy expression or equation as a text that means the same.
 
     >>> x, y = sympy.Symbol("x"), sympy.Function("y")
-    >>> text_of(sympy.Eq(y(x).diff(x, 2), sympy.exp(x) * y(x)))
+    >>> equation_text(sympy.Eq(y(x).diff(x, 2), sympy.exp(x) * y(x)))
     "y'' = y*exp(x)"
     """
     if not is_sympy_equation(given):
@@ -158,7 +155,7 @@ def read_expression(
     *,
     names: Mapping[str, Any] | None = None,
     what: str = "the expression",
-    limits: Limits = LIMITS,
+    limits: Limits = SYMBOLIC_LIMITS,
     values: Unknowns | None = None,
 ) -> Any:
     """The SymPy expression that a text denotes in `names`, pi, e, I and the elementary functions; decimals are exact.
@@ -175,7 +172,7 @@ def read_expression(
 
 def written_expression(text: str) -> Any:
     """The expression that `as_text` wrote, in which e is a letter: Euler's number is exp(1) there."""
-    reader = SymbolicReader(None, "a function", LIMITS, {})
+    reader = SymbolicReader(None, "a function", SYMBOLIC_LIMITS, {})
     reader.names = {name: value for name, value in reader.names.items() if name != "e"}
     return reader.read(text.replace("gamma(", "Gamma("))
 
@@ -214,8 +211,9 @@ def read_equations(
     The variable is what an unknown function is applied to or differentiated by; else t, and x where that occurs and isn't
     unknown.
     """
-    paste = text if isinstance(text, Paste) else taken_apart(text)
-    limits = replace(limits, exponent=min(limits.exponent, 1000), bits=min(limits.bits, 10_000))
+    paste = text if isinstance(text, Paste) else Paste(text)
+    most = SYMBOLIC_LIMITS
+    limits = replace(limits, exponent=min(limits.exponent, most.exponent), bits=min(limits.bits, most.bits))
     unknowns = tuple(dict.fromkeys(name for tokens in paste.equations for name in differentiated(tokens, names)))
     if not unknowns:
         raise InputError("these equations contain no derivative", hint="for example x' = y, y' = -x")
@@ -227,7 +225,7 @@ def read_equations(
     equations = []
     for tokens in paste.equations:
         if not differentiated(tokens):
-            said = f"{shown(' '.join(tokens.pieces).strip())!r} contains no derivative, and isn't a condition"
+            said = f"{excerpt(' '.join(tokens.pieces).strip())!r} contains no derivative, and isn't a condition"
             raise InputError(said, hint="a value of a parameter is substituted, or assumed: --assume k=2")
         source = Vocabulary(chosen, unknowns[0], frozenset({*names, *unknowns})).of(tokens, is_equation=True)
         guesses |= dict.fromkeys(source.guesses)
@@ -255,17 +253,17 @@ class SymbolicReader(RationalReader):
         tokens = tokenize(text)
         if len(tokens.kinds) == 1:
             raise ParseError(f"there is no expression: {self.what} is empty", text=text, position=0)
-        return self.arithmetic.expression(evaluate(tokens, self))
+        return self.arithmetic.expression(parse(tokens, self))
 
     def name(self, name: str) -> Any:
         if name in self.names:
             return self.names[name]
-        if not self.any_name or (name in NUMBER_NAMES and name not in NUMBERS):
+        if not self.any_name or (name in NUMBER_NAMES and name not in KNOWN_NUMBERS):
             raise InputError(f"{self.what} can't contain {name}")
         return sympy.Symbol(name)
 
     def follows_without_sign(self, name: str) -> bool:
-        return name.rstrip(PRIMES) in self.unknowns
+        return name.rstrip(PRIME) in self.unknowns
 
     def derivative(self, text: str) -> Any:
         raise InputError(f"{self.what} can't contain the derivative {text}")
@@ -280,12 +278,12 @@ class SymbolicReader(RationalReader):
         return self.arithmetic.symbolic_power(base, exponent)
 
     def call(self, head: str, arguments: list[Any], site: Site) -> Any:
-        name = head.rstrip(PRIMES)
+        name = head.rstrip(PRIME)
         if name in self.unknowns and len(arguments) == 1:
             return self.unknowns[name](self.arithmetic.expression(arguments[0]), len(head) - len(name))
         if head in (*POWER_CALLS, "root") and len(arguments) == 2:
             base, n = arguments
-            exponent = self.arithmetic.divide(Monomial(1, 0), n) if head == "root" else n
+            exponent = self.arithmetic.divide(ONE, n) if head == "root" else n
             return self.power(base, exponent, site)
         value = self.arithmetic.called(_SYMBOLS_OF_FUNCTIONS.get(head, head), arguments)
         if value is None:
@@ -310,10 +308,10 @@ class EquationsReader(SymbolicReader):
         return self.functions[name] if name in self.functions else super().name(name)
 
     def follows_without_sign(self, name: str) -> bool:
-        return name.rstrip(PRIMES) in self.functions or name in DERIVATIVES
+        return name.rstrip(PRIME) in self.functions or name in DERIVATIVES
 
     def derivative(self, text: str) -> Any:
-        name = text.rstrip(PRIMES)
+        name = text.rstrip(PRIME)
         if name not in self.functions:
             return super().derivative(text)
         return self.functions[name].diff(self.x, len(text) - len(name))
@@ -326,7 +324,7 @@ class EquationsReader(SymbolicReader):
             order = differentiations(arguments, self)
             return self.arithmetic.expression(arguments[0]).diff(self.x, order)
         if len(arguments) == 1 and self.is_variable(arguments[0]):
-            if head.rstrip(PRIMES) in self.functions:
+            if head.rstrip(PRIME) in self.functions:
                 return self.derivative(head)
             if self.has_functions and not is_function(head):
                 return sympy.Function(head)(self.x)

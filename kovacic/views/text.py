@@ -10,7 +10,7 @@ from kovacic.answer import Answer
 from kovacic.decision import Status
 from kovacic.equation import parameters_of
 from kovacic.errors import LimitExceeded, visible
-from kovacic.reading.pieces import is_equation
+from kovacic.reading.pieces import Paste
 from kovacic.views.sentences import (
     SOLVABLE,
     UNDECIDED,
@@ -117,7 +117,7 @@ def _given_text(answer: Answer) -> str:
     if answer.change is None:
         return equation_of(answer).text
     text = in_one_line(answer.text)
-    return text if is_equation(text) else f"y'' = ({text}) y"
+    return text if Paste(text).is_equation else f"y'' = ({text}) y"
 
 
 def solution_lines(answer: Answer) -> Iterator[str]:

@@ -342,7 +342,7 @@ def single() -> Iterator[Pool]:
     [(0.05, 600.0, "undecided"), pytest.param(60.0, 0.3, "none", marks=pytest.mark.long)],
 )
 def test_a_late_line_ends_and_costs_no_other(timeout: float, seconds: float, label: str) -> None:
-    """What waited behind it in the same lot is given back, answered, and the pool knows that nothing is left.
+    """What comes after it is answered, and the pool knows that nothing is left.
 
     A line that takes a while within its time is answered by the same process.
     """
@@ -487,7 +487,7 @@ def _kill_later(pool: Pool, times: int) -> None:
         while len(killed) < times:
             time.sleep(0.05)
             child = pool._children[0]
-            if child.pid not in killed and child.items and child.items[0].text == SLOW:
+            if child.pid not in killed and child.item is not None and child.item.text == SLOW:
                 killed.add(child.pid)
                 os.kill(child.pid, signal.SIGKILL)
 

@@ -20,7 +20,7 @@ from kovacic.reading.arithmetic import VARIABLE, Arithmetic
 from kovacic.reading.dialects import tokenize
 from kovacic.reading.expression import parse_with
 from kovacic.reading.lexer import scanned
-from kovacic.reading.parser import Site, evaluate
+from kovacic.reading.parser import Site, parse
 
 # Far from every root that the small numbers of the strategies produce.
 POINTS = (Fraction(10007, 13), Fraction(-9973, 17))
@@ -132,7 +132,7 @@ class Shapes:
 
     name = derivative = operator = number
 
-    def signed_integer(self, text: str) -> int:
+    def integer(self, text: str) -> int:
         return int(text)
 
     def constant(self, value: int) -> str:
@@ -168,7 +168,7 @@ class Shapes:
 
 def shape(text: str) -> str:
     tokens = tokenize(text)
-    return str(evaluate(tokens, Shapes(tokens)))
+    return str(parse(tokens, Shapes(tokens)))
 
 
 @pytest.mark.parametrize(
@@ -220,7 +220,7 @@ def test_the_structure_doesnt_depend_on_redundant_parentheses(expression: Expres
     """What an operation stands on is its operands' text: parentheses around it change nothing."""
     tokens = tokenize(expression.text)
     reader = Shapes(tokens)
-    whole = str(evaluate(tokens, reader))
+    whole = str(parse(tokens, reader))
     assert shape(f"({expression.text})") == whole
     assert shape(f"f({expression.text})") == f"f[{whole}]"
     assert shape(whole) == whole
@@ -240,7 +240,7 @@ def test_the_structure_doesnt_depend_on_redundant_parentheses(expression: Expres
 def test_the_places_of_operations(text: str, spans: list[tuple[str, str]]) -> None:
     tokens = tokenize(text)
     reader = Shapes(tokens)
-    evaluate(tokens, reader)
+    parse(tokens, reader)
     assert reader.spans == spans
 
 

@@ -22,8 +22,8 @@ import kovacic
 from kovacic.cli.main import run
 from kovacic.doubles.lambdify import lambdify
 from kovacic.general_solution.question import apart, read_question
-from kovacic.reading.dialects import plain_tokens, tokenize
-from kovacic.reading.pieces import taken_apart
+from kovacic.reading.dialects import tokenize
+from kovacic.reading.pieces import Paste
 from kovacic.reading.source import source_of
 
 x, t, k, n, a, omega_0, alpha = sympy.symbols("x t k n a omega_0 alpha")
@@ -537,7 +537,7 @@ def test_julias_derivative_names_the_variable(variable: str, right: str) -> None
     assert (question.x, question.given) == (expected.x, expected.given)
     for end in range(len(declared)):  # of what is still being typed
         with suppress(kovacic.InputError):
-            taken_apart(declared[:end])
+            Paste(declared[:end])
 
 
 def test_values_of_a_function_with_a_greek_name_in_latex() -> None:
@@ -848,24 +848,3 @@ def test_systems_are_read_in_their_notations(text: str) -> None:
 def test_a_value_declares_its_name() -> None:
     expected = kovacic.evaluate("y'' + 2*y = 0", 1, x0=0, y0=1, dy0=0)
     assert kovacic.evaluate("mass*y'' + k*y = 0", 1, x0=0, y0=1, dy0=0, params={"mass": 1, "k": 2}) == expected
-
-
-def test_plain_texts_are_read_as_all_others() -> None:
-    """The short way of texts without notations of others gives the tokens, places included, of the long one."""
-    rng = random.Random(3)
-    parts = [*"xytakiITHuSCn()+-*/^=2013", "y'", "y''", "**", "(x)", "13", " ", "  ", " = "]
-    texts = [row["text"] for row in PASTED] + [
-        "".join(rng.choice(parts) for _ in range(rng.randint(1, 14))) for _ in range(4000)
-    ]
-    plain = 0
-    for text in texts:
-        found = plain_tokens(text)
-        if found is None:
-            continue
-        plain += 1
-        paste = taken_apart(text)
-        assert paste.equations == [found], text
-        assert paste.equations[0].text == found.text
-        assert paste.is_equation == ("=" in text or "'" in text)
-        assert (paste.notes, paste.variable, len(paste.pieces)) == ([], None, 1), text
-    assert plain > 1000

@@ -11,6 +11,7 @@ from typing import Any
 
 import kovacic
 from kovacic.batch import worker
+from kovacic.batch.records import Record
 from kovacic.process import Channel
 
 FATAL = "x^7"
@@ -57,12 +58,12 @@ def cannot_start(_: Channel) -> None:
 def _answer_all(at_the_fatal_item: Any, channel: Channel) -> None:
     """Ready at once, without the engine; answers every other item."""
     channel.receive()
-    channel.send((0, "none", 0.0, "{}"))
+    channel.send(Record(0, "none", 0.0, "{}"))
     while True:
-        (number, text, *_) = channel.receive()
-        if text == FATAL:
+        item = channel.receive()
+        if item.text == FATAL:
             at_the_fatal_item()
-        channel.send((number, "none", 0.0, "{}"))
+        channel.send(Record(item.number, "none", 0.0, "{}"))
 
 
 def _serve(end: Any, channel: Channel) -> None:
