@@ -28,11 +28,11 @@ import newton_euler
 from ball_quadratures import quadratures
 
 from kovacic.ball import RollingBall
-from kovacic.ball.motion import State, solve_motion
+from kovacic.ball.motion import MotionStart, solve_motion
 
 RESULTS = Path(__file__).parent / "results"
 SPHERE = RollingBall(m=1, R=1, a="1/5", A1="1/4", A3="1/3").on_sphere(3)
-START = State(u=1.0, du=0.5, dv=0.25, n=2.0)
+START = MotionStart(u=1.0, du=0.5, dv=0.25, n=2.0)
 BODY = newton_euler.Body(1.0, 1.0, 0.2, 0.25, 1 / 3, 3.0, newton_euler.central(lambda x: 1.0, 1.0, 0.2, 3.0))
 SAMPLES, COUNTS = 25, (1, 10, 100, 1000, 10_000)
 PATIENCE = 10.0

@@ -39,7 +39,7 @@ from scipy.integrate import solve_ivp
 
 import kovacic
 from kovacic.ball import RollingBall
-from kovacic.ball.motion import State, solve_motion
+from kovacic.ball.motion import MotionStart, solve_motion
 
 sys.path.insert(0, str(Path(__file__).resolve().parent.parent / "tests" / "shared"))
 import newton_euler
@@ -408,7 +408,7 @@ def check_matrix(rng: random.Random, row: dict[str, Any]) -> dict[str, Any]:
 def check_motion(rng: random.Random, row: dict[str, Any]) -> dict[str, Any]:
     """A rolling ball on a sphere, outside or inside, in the potential cos(u) or cos(u)^2."""
     R1, potential = rng.choice((3, 5, -4)), rng.choice(("cos(u)", "cos(u)^2"))
-    start = State(u=rng.uniform(0.3, 2.8), du=rng.uniform(-1, 1), dv=rng.uniform(-1, 1), n=rng.uniform(-3, 3))
+    start = MotionStart(u=rng.uniform(0.3, 2.8), du=rng.uniform(-1, 1), dv=rng.uniform(-1, 1), n=rng.uniform(-3, 3))
     times = np.sort([rng.uniform(0, 20) for _ in range(5)])
     row |= {"kind": "the ball's motion", "call": f"R1 = {R1}, {potential}, {start}", "ratio": 0.0}
     body = RollingBall(m=1, R=1, a="1/5", A1="1/4", A3="1/3").on_sphere(R1)

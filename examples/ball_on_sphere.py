@@ -15,9 +15,8 @@ import sympy as sp
 
 import kovacic
 from kovacic.ball import InRoots, RollingBall, closed_form
-from kovacic.ball.derivation import holds
-from kovacic.ball.paper import R1, R, equations_of, explained
-from kovacic.ball.theorems import theorem
+from kovacic.ball.derivation import R1, R, equations_of, explained, holds
+from kovacic.ball.theorems import ball_theorem
 
 
 def main() -> int:
@@ -43,7 +42,7 @@ def main() -> int:
     print("\nBalls: the engine's case and group, and what the theorems say:")
     for label, ball, radius in _balls():
         place = ball.on_plane() if radius is None else ball.on_sphere(radius)
-        answer, (said, case) = kovacic.solve(place.S), theorem(place)
+        answer, (said, case) = kovacic.solve(place.S), ball_theorem(place)
         form = closed_form(place)
         agrees = answer.case == case and form.solves(place)
         good = good and agrees

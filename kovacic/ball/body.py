@@ -6,8 +6,8 @@ inertia; R1 radius of the fixed sphere (negative: the ball rolls inside; infinit
 In x = cos u equation (11) becomes (12), and (13) is its normal form [Kuleshov & Katasonova 2018]:
     (12)  D omega_3'' + (3/2) D' omega_3' + l (1 - rho^2) omega_3 = 0,
     (13)  y'' = S y,  y = D^(3/4) omega_3,  S = l (1 + 2 rho^2)/(2 D) - 3 D'^2/(16 D^2).
-`kovacic.ball.paper` has them all, `kovacic.ball.derivation` derives them.  D > 0 on [-1, 1] for a possible body, since it is
-at least A1 A3: the singular points x1, x2 of (12), the roots of D, are never reached.
+`kovacic.ball.derivation` derives and prints them all.  D >= A1 A3 > 0 on [-1, 1] for a possible body: the roots x1, x2 of D,
+the singular points of (12), are never reached.
 """
 
 from __future__ import annotations
@@ -28,21 +28,21 @@ from kovacic.reading.read import read_input
 Quantity: TypeAlias = "int | Fraction | str | sp.Expr"
 U, X = sp.symbols("u x")
 x1, x2, A1, A3 = sp.symbols("x1 x2 A1 A3")
-#: Of numbers and potentials as text: SymPy's functions are recursive, and its integers aren't bounded.
-LIMITS = Limits(text_length=500, digits=100, exponent=100, bits=500)
-read_expression = partial(symbolic.read_expression, limits=LIMITS)
+#: For numbers and potentials as text: SymPy's functions are recursive, and its integers unbounded.
+BALL_LIMITS = Limits(text_length=500, digits=100, exponent=100, bits=500)
+read_short = partial(symbolic.read_expression, limits=BALL_LIMITS)
 
 
-def exact(value: Quantity, name: str) -> sp.Expr:
+def exact_quantity(value: Quantity, name: str) -> sp.Expr:
     """An exact real number, or an expression in symbols, without their assumptions; text is a number ("0.25", "sqrt(2)").
 
     Raises `InputError` for anything else, and `LimitExceeded` for numbers of more than 500 bits.
 
-    >>> exact("0.25", "m"), exact("sqrt(3 + 2*sqrt(2)) - sqrt(2)", "m")
+    >>> exact_quantity("0.25", "m"), exact_quantity("sqrt(3 + 2*sqrt(2)) - sqrt(2)", "m")
     (1/4, 1)
     """
     if isinstance(value, str):
-        result = read_expression(value, what=f"the number {name}", names={})
+        result = read_short(value, what=f"the number {name}", names={})
     elif is_rational_number(value):
         number = exact_real(value, name)
         result = sp.Rational(number.numerator, number.denominator)
@@ -57,14 +57,14 @@ def exact(value: Quantity, name: str) -> sp.Expr:
         raise InputError(f"{name} = {result} isn't a real number")
     if {U, X} & result.free_symbols:
         raise InputError(f"{name} = {result}: x and u are the variables of the equations, no parameter has these names")
-    result = settled(result)
-    if result.is_Rational and max(int(result.p).bit_length(), int(result.q).bit_length()) > LIMITS.bits:
-        raise LimitExceeded(f"{name} has more than {LIMITS.bits} bits, the limit", limit="bits")
+    result = in_lowest_form(result)
+    if result.is_Rational and max(int(result.p).bit_length(), int(result.q).bit_length()) > BALL_LIMITS.bits:
+        raise LimitExceeded(f"{name} has more than {BALL_LIMITS.bits} bits, the limit", limit="bits")
     return result
 
 
-def settled(value: sp.Expr) -> sp.Expr:
-    """An algebraic number as a rational one, if it is: decided in the engine's field.  All else stays as it is."""
+def in_lowest_form(value: sp.Expr) -> sp.Expr:
+    """A rational number if the value is one, decided in the engine's field of algebraic numbers; else the value itself."""
     if not value.is_number or value.is_Rational:
         return value
     try:
@@ -76,19 +76,20 @@ def settled(value: sp.Expr) -> sp.Expr:
 
 
 def sign(value: sp.Expr) -> int | None:
-    """1, 0 or -1; None with symbols.  Raises `InputError` where a number that isn't algebraic can't be told from zero.
+    """1, 0 or -1; None for an expression with symbols.
+
+    Raises `InputError` for a number that isn't algebraic and can't be told from zero.
 
     >>> sign(sp.sqrt(5 + 2 * sp.sqrt(6)) - sp.sqrt(2) - sp.sqrt(3))
     0
     """
-    value = settled(value)
+    value = in_lowest_form(value)
     if not value.is_number:
         return None
     if value.is_Rational:
         return int(sp.sign(value))
-    # Not zero, if it is algebraic: more digits tell the sign in the end.
-    most = 10_000 if value.is_algebraic else 60
-    digits = sp.N(value, 15, maxn=most)
+    # An algebraic number isn't zero, since it isn't rational: more digits tell its sign in the end.
+    digits = sp.N(value, 15, maxn=10_000 if value.is_algebraic else 60)
     if not digits.is_Float or digits._prec <= 1:
         raise InputError(f"it can't be decided whether {value} is zero", hint="take algebraic numbers, such as sqrt(2)")
     return 1 if digits > 0 else -1
@@ -96,26 +97,20 @@ def sign(value: sp.Expr) -> int | None:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class RollingBall:
-    """A dynamically symmetric ball.
-
-    Units: any consistent ones, moments in mass * length^2.  Each parameter is an exact number, text such as "1/5" or
-    "sqrt(2)", or a symbol.
+    """A dynamically symmetric ball, in any consistent units.
 
     Parameters
     ----------
-    m, R : number, str or sympy.Expr
-        Mass and radius.
-    a : number, str or sympy.Expr
-        The distance of the centre of mass from the centre, along the axis.
-    A1, A3 : number, str or sympy.Expr
-        The central moments of inertia: A1 = A2 across the axis, A3 about it.
+    m, R, a, A1, A3 : number, str or sympy.Expr
+        Mass; radius; distance of the centre of mass from the centre, along the axis; central moments of inertia, A1 = A2
+        across the axis and A3 about it.  Exact numbers, text such as "1/5" or "sqrt(2)", or symbols.
 
     Raises
     ------
     InputError
-        For a body that can't exist, as far as that can be decided, with the inequality that fails: m > 0, R > 0, A1 > 0,
-        A3 > 0, A3 <= 2 A1 (which is int z^2 dm >= 0), and A1 + A3/2 <= m (R^2 - a^2), which holds exactly when some mass
-        distribution within the ball has these moments and this centre of mass.
+        For a body that provably can't exist, with the inequality that fails: m > 0, R > 0, A1 > 0, A3 > 0, A3 <= 2 A1 (which
+        is int z^2 dm >= 0), and A1 + A3/2 <= m (R^2 - a^2), which holds exactly when some mass distribution within the ball
+        has these moments and this centre of mass.
 
     Examples
     --------
@@ -135,7 +130,7 @@ class RollingBall:
 
     def __post_init__(self) -> None:
         for name, given in zip(self.__slots__, self.parameters, strict=True):
-            value = exact(given, name)
+            value = exact_quantity(given, name)
             object.__setattr__(self, name, value)
             if name != "a" and sign(value) in (0, -1):
                 raise InputError(f"there is no such body: {name} > 0 fails, as {name} = {value}")
@@ -147,8 +142,8 @@ class RollingBall:
         ):
             if sign(small - large) == 1:
                 raise InputError(f"there is no such body: {text} fails, as {small} > {large}")
-        if sign(A3 - A1) == 0:
-            object.__setattr__(self, "A3", A1)  # however they are written
+        if sign(A3 - A1) == 0:  # l is 0 then, however the two are written
+            object.__setattr__(self, "A3", A1)
 
     @property
     def parameters(self) -> tuple[sp.Expr, sp.Expr, sp.Expr, sp.Expr, sp.Expr]:
@@ -163,44 +158,33 @@ class RollingBall:
         R1 : number, str or sympy.Expr
             The radius: R1 > 0, or R1 < -R for a ball inside of it.
 
-        Returns
-        -------
-        BallOnSphere
-            With its equations.
-
         Raises
         ------
         InputError
-            For 0, and for a ball that doesn't fit inside.
+            For R1 = 0, and for a ball that doesn't fit inside.
         """
-        radius = exact(R1, "R1")
+        radius = exact_quantity(R1, "R1")
         if radius == 0:
-            what = "the fixed sphere needs a radius R1 other than 0"
-            raise InputError(what, hint="the plane is R1 = infinity: on_plane()", shell="the plane is --sphere plane")
+            hint, shell = "the plane is R1 = infinity: on_plane()", "the plane is --sphere plane"
+            raise InputError("the fixed sphere needs a radius R1 other than 0", hint=hint, shell=shell)
         if sign(radius) == -1 and sign(self.R + radius) in (0, 1):
             raise InputError(f"the ball doesn't fit inside the sphere: R < |R1| fails, as {self.R} >= {-radius}")
         return self._rolling(radius)
 
     def on_plane(self) -> BallOnSphere:
-        """The ball on a plane, R1 -> infinity.
-
-        Returns
-        -------
-        BallOnSphere
-            With the ratio R/R1 = 0.
-        """
+        """The ball on a plane: R1 -> infinity, R/R1 = 0."""
         return self._rolling(sp.oo)
 
     def _rolling(self, R1: sp.Expr) -> BallOnSphere:
         m, R, a, A1, A3 = self.parameters
-        ratio = sp.Integer(0) if R1.is_infinite else settled(sp.cancel(R / R1))
+        ratio = in_lowest_form(sp.cancel(R / R1))
         D = sp.expand(A1 * A3 + A1 * m * R**2 * (1 - X**2) + A3 * m * (R * X + a) ** 2)
         return BallOnSphere(ratio, D, sp.factor(m * R**2 * (A3 - A1)), m * R**2 * A1, self, R1)
 
 
 @dataclass(frozen=True, slots=True)
 class Rolling:
-    """What the linear equations depend on: `BallOnSphere` says what each is."""
+    """The data of the linear equations; `BallOnSphere` describes each."""
 
     ratio: sp.Expr
     D: sp.Expr
@@ -214,8 +198,8 @@ class Rolling:
 
     @property
     def discriminant(self) -> sp.Expr:
-        """The discriminant of D; 0: a double root, x1 = x2."""
-        return settled(sp.factor(4 * (self.half**2 - self.leading * self.D)))
+        """The discriminant of D; 0 for a double root, x1 = x2."""
+        return in_lowest_form(sp.factor(4 * (self.half**2 - self.leading * self.D)))
 
     @property
     def roots(self) -> tuple[sp.Expr, ...]:
@@ -225,40 +209,29 @@ class Rolling:
     @property
     def linear_system(self) -> tuple[sp.Expr, ...]:
         """a1, a2, b1, b2 divided by sin u, in x: dn/du = a1 n + a2 omega_3, d omega_3/du = b1 n + b2 omega_3."""
-        D = self.D
-        half = self.half
-        rho = self.ratio
-        weight = self.weight
-        across = sp.expand(self.leading * D - half**2) / weight
+        half, rho, weight = self.half, self.ratio, self.weight
+        across = sp.expand(self.leading * self.D - half**2) / weight
         parts = -rho * half, (1 + rho) * across, rho * weight, (1 + rho) * half
-        return tuple(sp.factor(part / D) for part in parts)
+        return tuple(sp.factor(part / self.D) for part in parts)
 
     @property
     def second_order(self) -> tuple[sp.Expr, sp.Expr]:
         """d1, d2 of (12), omega_3'' + d1 omega_3' + d2 omega_3 = 0 with ' = d/dx.
 
-        On the plane, where omega_3 sqrt(D) is constant, the limit of (12) for R1 -> infinity: every omega_3 satisfies it, but
-        not every solution of it is an omega_3.
+        On the plane, the limit R1 -> infinity: a solution is an omega_3 only if omega_3 sqrt(D) is constant.
         """
         return sp.factor(3 * self.half / self.D), (1 - self.ratio**2) * sp.factor(self.leading / self.D)
 
     @property
     def S(self) -> sp.Expr:
         """S of (13), y'' = S(x) y."""
-        D = self.D
-        half = self.half
-        return sp.factor((2 * self.leading * (1 + 2 * self.ratio**2) * D - 3 * half**2) / (4 * D**2))
+        return sp.factor((2 * self.leading * (1 + 2 * self.ratio**2) * self.D - 3 * self.half**2) / (4 * self.D**2))
 
 
 class InRoots(Rolling):
-    """All balls with R/R1 = rho and the different roots x1, x2 of D: up to a constant D is (x - x1)(x - x2).
+    """All balls with R/R1 = rho, a SymPy expression, and different roots x1, x2 of D: D/l = (x - x1)(x - x2).
 
-    Of the body, only A3/A1 occurs besides.  S is written as the paper prints it.
-
-    Parameters
-    ----------
-    rho : sympy.Expr
-        R/R1.
+    Of the body, only A3/A1 occurs besides.
     """
 
     def __init__(self, rho: sp.Expr) -> None:
@@ -277,14 +250,8 @@ class BallOnSphere(Rolling):
 
     Attributes
     ----------
-    ratio : sympy.Expr
-        rho = R/R1; 0 on the plane.
-    D : sympy.Expr
-        D(x), x = cos u.
-    leading : sympy.Expr
-        Its leading coefficient l; 0 exactly if A1 = A3.
-    weight : sympy.Expr
-        m R^2 A1.
+    ratio, D, leading, weight : sympy.Expr
+        rho = R/R1, 0 on the plane; D(x), x = cos u; its leading coefficient l, 0 exactly if A1 = A3; m R^2 A1.
     ball : RollingBall
         The body.
     R1 : sympy.Expr
@@ -305,15 +272,14 @@ class BallOnSphere(Rolling):
 
     @property
     def kind(self) -> str:
-        """Which ball this is, in words; undecided symbolic parameters count as generic."""
-        centred = self.ball.a == 0
+        """The kind of the ball, in words; undecided symbolic parameters count as generic."""
+        is_centred = self.ball.a == 0
         if self.leading == 0:
-            return "A1 = A3 and a = 0 (homogeneous): D is constant" if centred else "A1 = A3: D is linear in x"
+            return "A1 = A3 and a = 0 (homogeneous): D is constant" if is_centred else "A1 = A3: D is linear in x"
         kinds = {
             None: "generic: D has two simple roots",
             0: "D has a double root, x1 = x2",
             1: "D has two simple roots, real, outside of [-1, 1]",
             -1: "D has two simple roots, a complex conjugate pair",
         }
-        kind = kinds[sign(self.discriminant)]
-        return f"{kind}, with a = 0" if centred else kind
+        return kinds[sign(self.discriminant)] + ", with a = 0" * is_centred

@@ -1,15 +1,14 @@
-"""Woronetz's equations for the ball on the sphere, as the paper prints them and as they follow from the definitions.
+"""Woronetz's equations (1) to (13) for the ball on the sphere: printed as in the paper, and derived from the definitions.
 
 The contact point is (x, y, z)(u, v) on the ball, in axes through its centre of mass, and (u1, v1) on the sphere; theta is
 the angle between the u-line there and the v1-line.  E, F, G and L, M, N are the fundamental forms of the ball's surface, e_n
-its outward normal.  `PRINTED` is what the paper prints under its numbers (1) to (11), or, where that is general, what it says
-of the ball.
+its outward normal.  `PRINTED` has the paper's formulas under its numbers (1) to (11), general ones specialized to the ball.
 
 The derivation holds for all values of the parameters.  The two velocities of the contact point in the frame (e_u, e_v, e_n)
 agree (rolling without slipping): that gives (2).  The angular velocity is that of the frame in space, known by (u1, v1, theta),
 less that in the ball, known by (u, v): (4), (5).  The equations of motion (7) are d'Alembert's principle for the velocities
-u', v', n that rolling leaves free; the rest follows by elimination.  `residuals` is the difference of each printed formula from
-what is derived here, and `holds` decides that they vanish, in the engine's field of rational functions.  The accelerations are
+u', v', n that rolling leaves free; the rest follows by elimination.  `residuals` are the differences between printed and
+derived formulas, and `holds` decides that they vanish, in the engine's field of rational functions.  The accelerations are
 unique, since the matrix of K22, K23, K33 is positive definite.
 P. Woronetz, Math. Ann. 70 (1911) 410-453; A. S. Kuleshov & D. V. Katasonova (2018).
 """
@@ -25,44 +24,44 @@ from typing import Any
 import sympy as sp
 from sympy import cos, sin
 
-from kovacic.ball.body import A1, A3, InRoots, U, X, read_expression, x1, x2
+from kovacic.ball.body import A1, A3, InRoots, Rolling, U, X, read_short, x1, x2
 from kovacic.equation import eliminated
 from kovacic.limits import Limits
 from kovacic.reading.read import read_input
+from kovacic.writing.document import Block, Formula, Heading, format_of, say
 from kovacic.writing.formula import Math
 
-u = U
-x = X
+u, x = U, X
 m, R, a, R1, D = sp.symbols("m R a R1 D")
 v, theta, u1, v1, n, w3 = sp.symbols("v theta u1 v1 n omega_3")
 du, dv, dtheta, du1, dv1, ddu, ddv, dn = sp.symbols("u' v' theta' u1' v1' u'' v'' n'")
 sigma, tau = sp.symbols("sigma tau")
 #: The partial derivatives of the kinetic energy Theta, and dV/du.
 T_u, T_du, T_dv, T_n, V_u = sp.symbols("Theta_u Theta_u' Theta_v' Theta_n V_u")
-
 K11, K22, K23, K33 = sp.symbols("K11 K22 K23 K33")
 
 
 @dataclass(frozen=True)
-class Step:
-    """A step of the paper: its title, general relations as text and LaTeX, and the formulas of the ball by their names."""
+class PaperStep:
+    """A step of the paper: its title, general relations, and the formulas of the ball by their names."""
 
     title: str
     relations: tuple[Math, ...]
     formulas: dict[str, sp.Expr]
 
 
-def _paper_steps() -> Iterator[tuple[str, Step]]:
-    """The steps of `paper.txt` with their keys in `PRINTED`, in the order in which one needs the next; (8) comes first.
+def _paper_steps() -> Iterator[tuple[str, PaperStep]]:
+    """The steps of `paper.txt` with their keys in `PRINTED`, in logical order: (8) comes first.
 
-    There "key | title" stands before the relations and the formulas, which begin with "="; a line that is indented twice
-    continues the one above.  In a formula z_u is the derivative by u of z as it was printed before.
+    There "key | title" stands before the relations, text and LaTeX in turn, and the formulas, which begin with "="; a line
+    that is indented twice continues the one above.  In a formula z_u is the derivative by u of the z printed before, and u'
+    is read as u_dot.
     """
     symbols = {
         *(m, R, a, R1, A1, A3, D, u, v, theta, u1, n, sigma, tau, K11, K22, K23, K33),
         *(du, dv, dtheta, dv1, T_u, T_du, T_dv, T_n, V_u, *sp.symbols("a1 b1 a2 b2")),
     }
-    names = {_spelled(symbol.name): symbol for symbol in symbols}
+    names = {symbol.name.replace("'", "_dot"): symbol for symbol in symbols}
     text = (files(__package__) / "paper.txt").read_text(encoding="utf-8").strip()
     for step in re.split(r"\n(?! )", text):
         heading, *lines = step.replace("\n      ", " ").splitlines()
@@ -71,25 +70,20 @@ def _paper_steps() -> Iterator[tuple[str, Step]]:
         for line in lines:
             if line.startswith("  = "):
                 name, _, value = line.removeprefix("  = ").partition(" = ")
-                formulas[name] = read_expression(_spelled(value), names=names)
+                formulas[name] = read_short(value.replace("'", "_dot"), names=names)
                 names[f"{name}_u"] = formulas[name].diff(u)
         rows = [line.strip() for line in lines if not line.startswith("  = ")]
-        yield key.strip(), Step(title, tuple(map(Math, rows[::2], rows[1::2])), formulas)
-
-
-def _spelled(text: str) -> str:
-    """With u_dot in the place of u'."""
-    return text.replace("'", "_dot")
+        yield key.strip(), PaperStep(title, tuple(map(Math, rows[::2], rows[1::2])), formulas)
 
 
 #: All steps; those without formulas follow from the roots x1, x2 of D, (12) and (13), or from others, (3).
-STEPS = tuple(_paper_steps())
-#: For each of the paper's numbers (and "system", which has none) the formulas by name.  D is a name in "system" and (11).
-PRINTED: dict[str, dict[str, sp.Expr]] = {key: step.formulas for key, step in STEPS if step.formulas}
+PAPER_STEPS = tuple(_paper_steps())
+#: For each of the paper's numbers (and "system", which has none) the formulas by name; "system" and (11) have D as a name.
+PRINTED: dict[str, dict[str, sp.Expr]] = {key: step.formulas for key, step in PAPER_STEPS if step.formulas}
 
 
 def rate(expression: Any, clock: Mapping[sp.Symbol, Any]) -> Any:
-    """d/dt of an expression or a matrix, where the symbols in `clock` have these rates."""
+    """d/dt of an expression or a matrix, with the rates of the symbols in `clock`."""
     return sum((expression.diff(symbol) * speed for symbol, speed in clock.items()), expression * 0)
 
 
@@ -101,7 +95,12 @@ def _turning(frame: Any, clock: Mapping[sp.Symbol, Any]) -> Any:
 
 def _surface() -> Any:
     """The printed surface, from the centre of mass."""
-    return sp.Matrix([PRINTED["8"][name] for name in ("x", "y", "z")])
+    return sp.Matrix([PRINTED["8"][name] for name in "xyz"])
+
+
+def _with_D(*keys: str) -> dict[str, sp.Expr]:
+    """The printed formulas under these numbers, with the printed value of D."""
+    return {name: value.xreplace({D: PRINTED["system"]["D"]}) for key in keys for name, value in PRINTED[key].items()}
 
 
 def _direction_cosines() -> Any:
@@ -117,8 +116,7 @@ def _surface_and_frame() -> Iterator[tuple[str, list[Any]]]:
     """(8) and (1): the surface is a sphere about its centre; its fundamental forms; the direction cosines."""
     forms = PRINTED["8"]
     r = _surface()
-    r_u = r.diff(u)
-    r_v = r.diff(v)
+    r_u, r_v = r.diff(u), r.diff(v)
     e_u, e_v, e_n = (_direction_cosines()[:, k] for k in range(3))
     from_centre = r - sp.Matrix([0, 0, a])
     first = [r_u.dot(r_u) - forms["E"], r_u.dot(r_v), r_v.dot(r_v) - forms["G"]]
@@ -133,7 +131,7 @@ def _kinematics() -> Iterator[tuple[str, list[Any]]]:
     five = PRINTED["5"]
     c = _direction_cosines()
     rolling = {du1: PRINTED["2"]["u1'"], dv1: PRINTED["2"]["v1'"]}
-    # The frame at the contact point as (u1, v1, theta) tell it: the meridian and the circle on the sphere, turned by theta.
+    # The frame at the contact point in terms of (u1, v1, theta): the meridian and the circle on the sphere, turned by theta.
     out = sp.Matrix([sin(u1) * cos(v1), sin(u1) * sin(v1), cos(u1)])
     south = out.diff(u1)
     east = sp.Matrix([-sin(v1), cos(v1), 0])
@@ -152,16 +150,14 @@ def _dynamics() -> Iterator[tuple[str, list[Any]]]:
     """(3) with (6), and (7)."""
     five = PRINTED["5"]
     K = PRINTED["6"]
-    r = _surface()
-    c = _direction_cosines()
+    r, c = _surface(), _direction_cosines()
     energy = K["K11"] * du**2 + K["K22"] * dv**2 + 2 * K["K23"] * dv * n + K["K33"] * n**2  # 2 Theta
     # (3) and (4), in the axes of the ball.
-    omega = sp.Matrix([PRINTED["4"][f"omega_{i}"] for i in (1, 2, 3)]).xreplace(
-        {tau: five["tau"], sigma: five["sigma"]}
-    )
+    omega = sp.Matrix([PRINTED["4"][f"omega_{i}"] for i in (1, 2, 3)])
+    omega = omega.xreplace({tau: five["tau"], sigma: five["sigma"]})
     w = omega.cross(r)
     yield "(3), (6)", [m * w.dot(w) + A1 * (omega[0] ** 2 + omega[1] ** 2) + A3 * omega[2] ** 2 - energy]
-    # In the frame, where v doesn't occur.
+    # (7), in the frame (e_u, e_v, e_n), where v doesn't occur.
     omega = sp.Matrix([five["tau"] * dv, five["sigma"] * du, n])
     turning = omega + _turning(c, _BALL_CLOCK)
     axis = c.T * sp.Matrix([0, 0, 1])
@@ -191,11 +187,7 @@ def _elimination() -> Iterator[tuple[str, list[Any]]]:
     first = nine["a1"] * n + nine["b1"] * dv - (sp.diff(K["K23"], u) * n + sp.diff(K["K22"], u) * dv)
     second = nine["a2"] * n + nine["b2"] * dv - (sp.diff(K["K33"], u) * n + sp.diff(K["K23"], u) * dv)
     yield "(10)", [ten["a1'"] * n + ten["b1'"] * dv - first, ten["a2'"] * n + ten["b2'"] * dv - second]
-    p = {
-        name: value.xreplace({D: PRINTED["system"]["D"]})
-        for key in ("system", "11")
-        for name, value in PRINTED[key].items()
-    }
+    p = _with_D("system", "11")
     # v' from the third of (4), in which c23 = 0.
     slope = (cos(u) * n - w3) / (PRINTED["5"]["tau"] * sin(u))
     along = {u: 1, n: p["a1"] * n + p["a2"] * w3, w3: p["b1"] * n + p["b2"] * w3}
@@ -211,7 +203,7 @@ def _elimination() -> Iterator[tuple[str, list[Any]]]:
 
 def _in_the_roots() -> Iterator[tuple[str, list[Any]]]:
     """(12) and (13): the roots in place of m and a; their sum gives a, and their product is linear in 1/m."""
-    p = {name: value.xreplace({D: PRINTED["system"]["D"]}) for name, value in PRINTED["11"].items()}
+    p = _with_D("11")
     offset = -R * (A3 - A1) * (x1 + x2) / (2 * A3)
     mass = A1 * A3 / (R**2 * (A3 - A1) * x1 * x2 - A1 * R**2 - A3 * offset**2)
     place = InRoots(R / R1)
@@ -222,13 +214,13 @@ def _in_the_roots() -> Iterator[tuple[str, list[Any]]]:
 
 
 def residuals() -> Iterator[tuple[str, list[Any]]]:
-    """For each formula of `PRINTED`, and for (12) and (13), in this order: what vanishes if it is right."""
+    """Expressions that vanish if the formulas are right: for each number in `PRINTED`, and for (12) and (13)."""
     for part in (_surface_and_frame, _kinematics, _dynamics, _elimination, _in_the_roots):
         yield from part()
 
 
 def vanishes(expression: Any) -> bool:
-    """True if an expression, rational in names and in their sines and cosines, is zero; decided in the engine's fields."""
+    """True if an expression, rational in names and in sines and cosines of angles, is zero; decided in the engine's fields."""
     rational: dict[Any, Any] = {}
     for z in (u, v, theta, u1, v1):
         t = sp.Symbol(f"t_{z}")
@@ -237,5 +229,63 @@ def vanishes(expression: Any) -> bool:
 
 
 def holds() -> dict[str, bool]:
-    """Whether the derivation confirms each group of formulas, for all values of the parameters."""
+    """The verdict on each group of formulas: True if the derivation confirms it for all values of the parameters."""
     return {name: all(map(vanishes, parts)) for name, parts in residuals()}
+
+
+#: LaTeX names.
+_TEX = {du: r"\dot{u}", dv: r"\dot{v}", dtheta: r"\dot{\theta}", du1: r"\dot{u}_{1}", dv1: r"\dot{v}_{1}"}
+_TEX |= {V_u: r"\frac{dV}{du}", **{sp.Symbol(f"{c}{k}'"): f"{c}'_{{{k}}}" for c in "ab" for k in "12"}}  # those of (10)
+for _name, _tex in (("u", "u"), ("u'", r"\dot{u}"), ("v'", r"\dot{v}"), ("n", "n")):
+    _part = rf"\frac{{\partial\Theta}}{{\partial {_tex}}}"
+    _TEX |= {sp.Symbol(f"Theta_{_name}"): _part, sp.Symbol(f"dTheta_{_name}/dt"): rf"\frac{{d}}{{dt}}{_part}"}
+
+
+def second_order_equation(d1: sp.Expr, d2: sp.Expr, variable: sp.Symbol = x) -> Math:
+    """omega_3'' + d1 omega_3' + d2 omega_3 = 0."""
+    text, tex = f"omega_3''({variable})", r"\omega_{3}''"
+    for coefficient, prime in ((d1, "'"), (d2, "")):
+        if coefficient != 0:
+            text += f" + ({coefficient})*omega_3{prime}({variable})"
+            tex += rf" + \left({sp.latex(coefficient)}\right) \omega_{{3}}{prime}"
+    return Math(f"{text} = 0", f"{tex} = 0")
+
+
+def named(name: str, value: sp.Expr) -> Math:
+    """name = value."""
+    left, right = (sp.latex(side, symbol_names=_TEX) for side in (sp.Symbol(name), value))
+    return Math(f"{name} = {value}", f"{left} = {right}")
+
+
+def equations_of(place: Rolling) -> dict[str, Math]:
+    """a1, a2, b1, b2, and the equations 11, 12 and 13 with the values of one ball, or in the roots."""
+    d1, d2 = place.second_order
+    in_u = [part.subs(x, cos(u)) for part in (*place.linear_system, d1, d2)]
+    found = {name: named(name, part * sin(u)) for name, part in zip(("a1", "a2", "b1", "b2"), in_u, strict=False)}
+    factor = rf"\left({sp.latex(place.S)}\right)" if place.S.is_Add else sp.latex(place.S)
+    is_zero = place.S == 0
+    normal_form = Math(f"y''(x) = {0 if is_zero else f'({place.S})*y(x)'}", f"y'' = {0 if is_zero else f'{factor} y'}")
+    return {
+        **found,
+        "11": second_order_equation(-sin(u) * in_u[4] - cos(u) / sin(u), sin(u) ** 2 * in_u[5], u),
+        "12": second_order_equation(d1, d2),
+        "13": normal_form,
+    }
+
+
+def explained(*, format: str = "text") -> str:
+    """The equations (1) to (13) for all values of the parameters, as "text", "markdown", "latex" or "html".
+
+    >>> explained().splitlines()[0]
+    'A ball of radius R rolls on a sphere of radius R1, its centre of mass at the distance a from its centre.'
+    """
+    in_roots = equations_of(InRoots(R / R1))
+    blocks: list[Block] = [
+        say("A ball of radius R rolls on a sphere of radius R1, its centre of mass at the distance a from its centre.")
+    ]
+    for key, step in PAPER_STEPS:
+        rows = [*step.relations, *(named(name, value) for name, value in step.formulas.items())]
+        if key in ("12", "13"):
+            rows.append(in_roots[key])
+        blocks += [Heading(step.title), Formula(Math.lines(rows))]
+    return format_of(format).render(blocks)

@@ -20,14 +20,14 @@ import numpy as np
 import sympy as sp
 from numpy.typing import NDArray
 
-from kovacic.ball.body import BallOnSphere, Quantity, U, exact, read_expression
+from kovacic.ball.body import BallOnSphere, Quantity, U, exact_quantity, read_short
 from kovacic.errors import InputError
 
 Array = NDArray[np.float64]
 Vector: TypeAlias = "Sequence[Any] | NDArray[Any]"
 Potential: TypeAlias = "sp.Expr | str | float"
 #: The range of numbers in a motion: products of several of them, and of their inverses, are still floats.
-LARGEST = 1e50
+_LARGEST_NUMBER = 1e50
 
 
 @dataclass(frozen=True, slots=True)
@@ -43,8 +43,8 @@ class Force:
     def of(cls, V: sp.Expr, g: float | None = None) -> Force:
         """The force with the potential V(u).
 
-        Raises `InputError` where V isn't finite on 0 <= u <= pi, or isn't even about both poles, as functions of cos u are:
-        there the force would jump.
+        Raises `InputError` for a V that isn't finite on 0 <= u <= pi, or isn't even about both poles, as functions of cos u
+        are: the force would jump there.
         """
         value, slope = (sp.lambdify(U, f, modules="numpy", cse=True) for f in (V, sp.diff(V, U)))
         u = np.linspace(0.0, np.pi, 33)
@@ -66,25 +66,27 @@ class Force:
         distance d/|k| from the sphere's, d^2 = 1 + a^2 k^2 + 2 a k cos u, 1/k = R1 + R; V is m g (d - 1)/k.
         """
         m, R, a, _, _ = sphere.ball.parameters
-        strength = exact(g, "g")
+        strength = exact_quantity(g, "g")
         k = sp.Integer(0) if sphere.R1.is_infinite else 1 / (sphere.R1 + R)
         V = m * strength * a * (a * k + 2 * sp.cos(U)) / (1 + sp.sqrt(1 + a**2 * k**2 + 2 * a * k * sp.cos(U)))
         return cls.of(V, as_float(strength, "g"))
 
 
 def as_float(value: Any, name: str, *, least: float = 0.0) -> float:
-    """A float as it is; text and SymPy's numbers are read exactly.  Raises `InputError` for what a motion can't begin with."""
-    number = sp.Float(value) if isinstance(value, float | np.floating) else exact(value, name)
-    if not number.is_number or (number != 0 and not least <= abs(float(number)) <= LARGEST):
-        hint = f"numbers are needed; choose units that bring them between {1 / LARGEST:g} and {LARGEST:g}"
+    """The value as a float; text and SymPy's numbers are read exactly.  Raises `InputError` for symbols, and out of range."""
+    number = sp.Float(value) if isinstance(value, float | np.floating) else exact_quantity(value, name)
+    if not number.is_number or (number != 0 and not least <= abs(float(number)) <= _LARGEST_NUMBER):
+        hint = (
+            f"numbers are needed; choose units that bring them between {1 / _LARGEST_NUMBER:g} and {_LARGEST_NUMBER:g}"
+        )
         raise InputError(f"{name} = {value} isn't a number that a motion can start with", hint=hint)
     return float(number)
 
 
 def potential_of(value: Potential) -> sp.Expr:
-    """V as a SymPy expression in u; floats are taken as they are, decimals in text are exact.
+    """V as a SymPy expression in u; floats are their binary values, decimals in text are exact.
 
-    Raises `InputError` for anything but a real elementary function of u, and `LimitExceeded` for one that is too long.
+    Raises `InputError` for anything but a real elementary function of u, and `LimitExceeded` if it is too long.
 
     >>> potential_of("3/2*cos(u)")
     3*cos(u)/2
@@ -95,7 +97,7 @@ def potential_of(value: Potential) -> sp.Expr:
     if not isinstance(value, str):  # in text, E isn't Euler's number
         value = str(sp.nsimplify(value, rational=True, rational_conversion="exact"))
         names["E"] = sp.E
-    V = read_expression(value, what="the potential", names=names)
+    V = read_short(value, what="the potential", names=names)
     corners = sorted(map(str, V.atoms(sp.Abs, sp.sign, sp.Heaviside, sp.DiracDelta)))
     if corners:
         raise InputError(f"the potential can't contain {corners[0]}: its force has to be smooth")
@@ -106,7 +108,7 @@ def potential_of(value: Potential) -> sp.Expr:
 
 @dataclass(frozen=True, slots=True)
 class Dynamics:
-    """The parameters as floats, kappa = 1/R1, and what the equations need of them; vectors are sequences of components."""
+    """The parameters as floats, kappa = 1/R1, and the equations of motion; vectors are sequences of components."""
 
     m: float
     R: float
@@ -117,9 +119,9 @@ class Dynamics:
 
     @classmethod
     def of(cls, sphere: BallOnSphere) -> Dynamics:
-        """Raises `InputError` where a parameter is a symbol, or out of range."""
+        """The parameters of this ball; raises `InputError` for symbols, and for numbers out of range."""
         values = zip(("m", "R", "a", "A1", "A3", "1/R1"), (*sphere.ball.parameters, 1 / sphere.R1), strict=True)
-        return cls(*(as_float(value, name, least=1 / LARGEST) for name, value in values))
+        return cls(*(as_float(value, name, least=1 / _LARGEST_NUMBER) for name, value in values))
 
     @property
     def rho(self) -> float:
@@ -135,17 +137,15 @@ class Dynamics:
 
     def acceleration(self, s: Vector, omega: Vector) -> tuple[Any, Any, Any]:
         """b: the centre of mass has the acceleration -(omega' x r) - b."""
-        drift = cross(omega, s)
         k = self.R / (1 + self.rho)
-        turn = cross(omega, self.arm(s))
-        return cross(omega, [p - k * q for p, q in zip(turn, drift, strict=True)])
+        parts = zip(cross(omega, self.arm(s)), cross(omega, s), strict=True)
+        return cross(omega, [turn - k * drift for turn, drift in parts])
 
     def rates(self, slope: Callable[[Any], Any], y: Vector) -> list[Any]:
-        """The derivatives of omega, s, the rows of B, and the contact point's way on a plane; floats or arrays of them."""
-        omega = y[:3]
-        s = y[3:6]
+        """The derivatives of y: omega, s, the rows of B, and the contact point's way on a plane; floats or arrays of them."""
+        omega, s = y[:3], y[3:6]
         r = self.arm(s)
-        ds = cross(s, omega)
+        ds = cross(s, omega)  # (1 + rho) s'
         moved = [cross(y[k : k + 3], omega) for k in (6, 9, 12)]
         J = (self.A1, self.A1, self.A3)
         spin = cross([p * q for p, q in zip(J, omega, strict=True)], omega)
@@ -164,27 +164,27 @@ class Dynamics:
         return [*domega, *(p / (1 + self.rho) for p in ds), *(p for row in moved for p in row), *way]
 
     def transport(self, x: Array, x0: float, omega_3: float, n: float) -> tuple[Array, Array]:
-        """(omega_3, n) at x from their values at x0 = cos u0: the closed form of `kovacic.ball.body`, on either sign of l."""
+        """(omega_3, n) at x from their values at x0 = cos u0: the closed form of `kovacic.ball.theorems`, for either sign of l.
+
+        eta and zeta are turned by the hyperbolic angle rho sqrt(l) (xi - xi0), an ordinary one for l < 0.
+        """
 
         def half(x: Any) -> Any:  # D'/2
             return self.m * self.R * ((self.A3 - self.A1) * self.R * x + self.A3 * self.a)
 
         weight = self.m * self.R**2 * self.A1
-        root0 = np.sqrt(self.D(x0))
-        root = np.sqrt(self.D(x))
-        eta0 = omega_3 * root0
-        zeta0 = weight * n + half(x0) * omega_3
+        root0, root = np.sqrt(self.D(x0)), np.sqrt(self.D(x))
+        eta0, zeta0 = omega_3 * root0, weight * n + half(x0) * omega_3
         scale = np.sqrt(complex(self.m * self.R**2 * (self.A3 - self.A1))) or 1e-30 * root0  # the limit of l -> 0
         angle = 2 * self.rho * np.arctanh(scale * (x - x0) / (root + root0))
-        even = np.cosh(angle).real
-        odd = np.sinh(angle)
+        even, odd = np.cosh(angle).real, np.sinh(angle)
         eta = eta0 * even - zeta0 * (odd / scale).real
         zeta = zeta0 * even - eta0 * (odd * scale).real
         return eta / root, (zeta - half(x) * eta / root) / weight
 
 
 def unsteadiness(y: Array, f: Array, rate: float) -> Array:
-    """How far (omega, s) is from turning uniformly about the axis, as it does in steady motions; at most about 1."""
+    """The distance of (omega, s) from turning uniformly about the axis, as in steady motions; at most about 1."""
     z = np.array([y[1] / rate, -y[0] / rate, y[4], -y[3]])  # turned by -90 degrees
     change = np.array([f[0] / rate, f[1] / rate, f[3], f[4], f[2] / rate, f[5]]) / rate
     square = (z * z).sum(0)

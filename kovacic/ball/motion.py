@@ -35,22 +35,22 @@ from kovacic.ball.dynamics import (
 )
 from kovacic.errors import InputError, LimitExceeded
 
-#: Evaluations of the equations for one oscillation (some 20 seconds), and the oscillations that a motion is followed for.
-MAX_EVALUATIONS = 300_000
-LONGEST = 100_000
-#: Below the first a motion is steady; one that comes below the second, of its largest distance, is asymptotic to a steady one.
+#: Evaluations of the equations for four turns: 20 s, where usual motions take some thousand.
+_MOST_EVALUATIONS = 300_000
+#: Oscillations that a motion is followed for: its errors, about 5e-14 for each, reach 5e-9.
+_MOST_OSCILLATIONS = 100_000
+#: A motion with a smaller `unsteadiness` is steady.
 _STEADY = 1e-12
+#: A motion whose `approach` is smaller is asymptotic, and followed for as long as two integrations, with tolerances that differ
+#: by a factor of ten, agree to this accuracy.
 _ASYMPTOTIC = 1e-6
-#: An asymptotic motion is given for as long as two integrations, with tolerances ten apart, agree to this at that many times.
-_AGREED_TO = 1e-6
-_TIMES_COMPARED = 4000
-#: The integrator's relative tolerance, the least that SciPy takes.
+#: The integrator's relative tolerance, the least that SciPy accepts.
 _RELATIVE_TOLERANCE = 2.3e-14
 _AXIS = np.array([0.0, 0.0, 1.0])
 
 
 @dataclass(frozen=True, slots=True)
-class State:
+class MotionStart:
     """Position and velocity at time 0: angles in radians, rates in radians per unit of time, n the spin; floats or exact.
 
     v is the longitude of the contact point on the body, u1 and v1 are its colatitude and longitude on the sphere (Cartesian
@@ -74,18 +74,18 @@ class State:
 class Motion:
     """A motion; its methods take times, an array of any shape or a number, negative ones too, and 0 is the start.
 
-    `period` is the time of one oscillation of x = cos u; None for a steady motion, where u stays constant, and for an
-    asymptotic one.  `determined` is infinite but for an asymptotic motion: the time up to which its digits are known, from 0;
-    later and earlier times raise `LimitExceeded`.
-    `turning_points` are the least and the largest u: 0 or pi, up to rounding, where the path goes through a pole.
-    Vectors are the last index of what is returned.  Errors are about 5e-14 times the number of oscillations; beyond 10^5 of
-    these, `LimitExceeded` is raised.  `approach` is how near the motion comes to an unstable steady one, relative to its
-    greatest distance: where it is small, neighbouring motions part, and one passage multiplies errors by 1/approach^2.
+    `period` is the time of one oscillation of x = cos u; None for a steady motion, with constant u, and for an asymptotic
+    one.  `determined` is the time up to which the digits of an asymptotic motion are known, from 0; other times raise
+    `LimitExceeded`.  It is infinite for every other motion.
+    `turning_points` are the least and the largest u: 0 or pi, up to rounding, for a path through a pole.
+    The last index of a result is that of the vector.  Errors are about 5e-14 times the number of oscillations; beyond 10^5
+    of these, `LimitExceeded` is raised.  `approach` is the least distance from an unstable steady motion relative to the
+    greatest: if it is small, neighbouring motions part, and one passage multiplies errors by 1/approach^2.
     """
 
     ball: Dynamics
     force: Force
-    start: State
+    start: MotionStart
     period: float | None
     turning_points: tuple[float, float]
     approach: float
@@ -136,29 +136,28 @@ class Motion:
     def energy(self, times: Any) -> Array:
         """Kinetic and potential energy, from the integrated angular velocity: constant up to its errors."""
         ball = self.ball
-        (_, y) = self._at(times)
+        _, y = self._at(times)
         velocity = cross(y[:3], ball.arm(y[3:6]))
         twice = ball.m * dot(velocity, velocity) + ball.A1 * (y[0] ** 2 + y[1] ** 2) + ball.A3 * y[2] ** 2
         return np.asarray(twice / 2 + self.force.value(colatitude(y[3:6])), dtype=float)
 
     def reaction(self, times: Any) -> Array | None:
-        """The normal reaction of the sphere on the ball; negative: it would have to pull.  None under another potential.
+        """The normal reaction of the sphere on the ball; negative where it would have to pull.
 
-        For a potential V(u) alone doesn't say which force it belongs to.
+        None for a general potential V(u), which doesn't determine the force.
         """
         if self.force.g is None:
             return None
         ball = self.ball
-        (_, y) = self._at(times)
-        omega = y[:3]
-        s = y[3:6]
+        _, y = self._at(times)
+        omega, s = y[:3], y[3:6]
         turn = cross(ball.rates(self.force.slope, y)[:3], ball.arm(s))
         lever = ball.a * ball.kappa / (1 + ball.rho)  # of the centre of mass, by the distance of the two centres
         weight = self.force.g * (1 + lever * s[2]) / np.sqrt(1 + lever**2 + 2 * lever * s[2])
         return np.asarray(ball.m * (dot(s, turn) + dot(s, ball.acceleration(s, omega)) + weight))
 
     def defects(self, times: Any) -> dict[str, Array]:
-        """The closed forms of omega_3 and n at x(t) less the integrated angular velocity's components."""
+        """The closed forms of omega_3 and n at x(t) minus the components of the integrated angular velocity."""
         _, y = self._at(times)
         omega_3, n = self._closed(y)
         return {"omega_3": omega_3 - y[2], "n": n - dot(y[:3], y[3:6])}
@@ -173,50 +172,48 @@ class Motion:
         if not np.isfinite(instants).all():
             raise InputError("times must be finite")
         if np.isfinite(self.determined):
+            end = f"{self.determined:.6g}"
             if ((instants < 0) | (instants > self.determined)).any():
                 why = "it comes so near to an unstable steady motion that floats don't tell whether and when it turns"
-                said = f"the motion is asymptotic, its digits are lost from t = {self.determined:.6g} on: {why}"
-                hint = (
-                    f"times from 0 to {self.determined:.6g}, or a velocity at the start that differs by 1e-5 of itself"
-                )
-                raise LimitExceeded(f"{said}\n  hint: {hint}", limit="digits")
+                hint = f"times from 0 to {end}, or a velocity at the start that differs by 1e-5 of itself"
+                lost = f"the motion is asymptotic, its digits are lost from t = {end} on: {why}\n  hint: {hint}"
+                raise LimitExceeded(lost, limit="digits")
             return np.zeros(instants.shape), self._solution(instants.ravel()).reshape(18, *instants.shape)
         count = np.floor(instants / self._cycle)
-        if np.abs(count).max(initial=0) > LONGEST:
-            end = f"{LONGEST} oscillations, to t = {LONGEST * self._cycle:.6g}"
+        if np.abs(count).max(initial=0) > _MOST_OSCILLATIONS:
+            end = f"{_MOST_OSCILLATIONS} oscillations, to t = {_MOST_OSCILLATIONS * self._cycle:.6g}"
             raise LimitExceeded(f"a motion is followed for {end}", limit="time")
         rest = np.clip(instants - count * self._cycle, 0, self._cycle)
         return count, self._solution(rest.ravel()).reshape(18, *rest.shape)
 
 
 def solve_motion(
-    sphere: BallOnSphere, start: State, *, gravity: Quantity | None = None, potential: Potential | None = None
+    sphere: BallOnSphere, start: MotionStart, *, gravity: Quantity | None = None, potential: Potential | None = None
 ) -> Motion:
     """The motion from `start` at t = 0 under a force of strength m g (default: g = 1), or with a potential energy V(u).
 
-    The force acts at the centre of mass and presses the ball to the fixed surface: towards the centre of the sphere, away
-    from it inside, downwards on a plane.  V is text or SymPy, a smooth function of cos u.  Rolling is enforced, also where
-    the reaction would have to pull: see `Motion.reaction`.
+    `Force.gravity` says where the force points; V is text or SymPy, a smooth function of cos u.  Rolling is enforced, also
+    where the reaction would have to pull: see `Motion.reaction`.
     Every start has a motion, at the poles and steady ones included.  Asymptotic ones, which come as near as 1e-6 to an
     unstable steady motion, depend on digits that floats don't have: they are followed up to `Motion.determined`.
     Raises `InputError` for symbolic parameters, numbers out of range and potentials that aren't smooth.
 
     >>> from kovacic.ball.body import RollingBall
     >>> sphere = RollingBall(m=1, R=1, a="1/5", A1="1/4", A3="1/3").on_sphere(3)
-    >>> motion = solve_motion(sphere, State(u=1, du="1/2", dv=0, n=2))
+    >>> motion = solve_motion(sphere, MotionStart(u=1, du="1/2", dv=0, n=2))
     >>> bool(motion.turning_points[0] < 1 < motion.turning_points[1])
     True
     """
     ball = Dynamics.of(sphere)
-    state = State(*(as_float(getattr(start, field.name), field.name) for field in fields(start)))
+    state = MotionStart(*(as_float(getattr(start, field.name), field.name) for field in fields(start)))
     if not 0 <= state.u <= np.pi:
         raise InputError(f"u is an angle between 0 and pi, not {state.u}")
-    if gravity is not None and potential is not None:
-        raise InputError("either gravity or a potential")
-    if potential is not None:
+    if potential is None:
+        force = Force.gravity(sphere, 1 if gravity is None else gravity)
+    elif gravity is None:
         force = Force.of(potential_of(potential))
     else:
-        force = Force.gravity(sphere, 1 if gravity is None else gravity)
+        raise InputError("either gravity or a potential")
     frame = Rotation.from_euler("ZY", [state.v, state.u]).as_matrix()  # (e_u, e_v, e_r) as columns
     along = [(1 + ball.rho) * np.sin(state.u) * state.dv, -(1 + ball.rho) * state.du, state.n]
     y = np.concatenate([frame @ along, frame[:, 2], np.eye(3).ravel(), np.zeros(3)])
@@ -231,13 +228,12 @@ def solve_motion(
     return Motion(ball=ball, force=force, start=state, _gain=gain, _turn=turn, _space=space, **course)
 
 
-def _contact_frame(ball: Dynamics, state: State) -> Array:
+def _contact_frame(ball: Dynamics, state: MotionStart) -> Array:
     """(e_u, e_v, e_r) at the start as columns in space: e_u = -sin(theta) e_u1 + cos(theta) e_v1; the normals are opposite.
 
     Inside a sphere e_u1, e_v1 are still the directions to the south and to the east, and the ball's normal is the sphere's.
     """
-    s = np.sin(state.theta)
-    c = np.cos(state.theta)
+    s, c = np.sin(state.theta), np.cos(state.theta)
     side = -1.0 if ball.kappa < 0 else 1.0
     frame = np.array([[-s, side * c, 0.0], [c, side * s, 0.0], [0.0, 0.0, -side]])
     return np.asarray(Rotation.from_euler("ZY", [state.v1, state.u1]).as_matrix() @ frame) if ball.kappa else frame
@@ -246,20 +242,18 @@ def _contact_frame(ball: Dynamics, state: State) -> Array:
 def _follow(ball: Dynamics, force: Force, y: Array, rate: float) -> dict[str, Any]:
     """Fields of `Motion`: one oscillation from y, some time of a steady motion, or an asymptotic one as far as it is known."""
 
-    def change(states: Array) -> Array:
+    def distances(states: Array) -> Array:
         return unsteadiness(states, np.array(ball.rates(force.slope, states)), rate)
 
-    approach = 1.0
-    determined = np.inf
-    period = None
-    if float(change(y)) < _STEADY:
+    approach, determined, period = 1.0, np.inf, None
+    if float(distances(y)) < _STEADY:
         solution = _integrate(ball, force, y, rate, turns=0)
         cycle = 10 / rate
         u = colatitude(y[3:6])
     else:
         solution = _integrate(ball, force, y, rate, turns=4)
         turns = solution.t_events[0]
-        distance = change(solution.y)
+        distance = distances(solution.y)
         approach = float(distance.min() / distance.max())
         # x'' at two turning points: the period is known best between those where it is larger.
         p = solution.sol(turns[:2])
@@ -285,10 +279,10 @@ def _follow(ball: Dynamics, force: Force, y: Array, rate: float) -> dict[str, An
 
 def _last_agreement(fine: Any, rough: Any, rate: float) -> float:
     """The last time up to which two integrations agree in omega and s; the rough one errs ten times as much."""
-    times = np.linspace(0.0, min(fine.t[-1], rough.t[-1]), _TIMES_COMPARED)
+    times = np.linspace(0.0, min(fine.t[-1], rough.t[-1]), 4000)
     scale = np.repeat([rate, 1.0], 3)[:, None]
     difference = np.abs((fine.sol(times) - rough.sol(times))[:6] / scale).max(axis=0)
-    lost = np.append(difference > _AGREED_TO, True)
+    lost = np.append(difference > _ASYMPTOTIC, True)
     return float(times[max(int(lost.argmax()) - 1, 0)])
 
 
@@ -297,34 +291,28 @@ def _integrate(
 ) -> Any:
     """SciPy's solution from y, until x' has been 0 `turns` times; without any, for the time 10/rate.
 
-    Raises `LimitExceeded` after `MAX_EVALUATIONS`, and where the potential isn't smooth.
+    Raises `LimitExceeded` after too many evaluations, and where the potential isn't smooth.
     """
     count = 0
 
     def rates(_: float, state: Array) -> list[Any]:
         nonlocal count
         count += 1
-        if count > MAX_EVALUATIONS:
+        if count > _MOST_EVALUATIONS:
             why = "it is almost asymptotic, or the potential isn't smooth"
-            said = f"the motion doesn't turn within {MAX_EVALUATIONS} evaluations of its equations: {why}"
+            said = f"the motion doesn't turn within {_MOST_EVALUATIONS} evaluations of its equations: {why}"
             raise LimitExceeded(said, limit="evaluations")
         return ball.rates(force.slope, state.tolist())
 
-    def speed(_: float, state: Array) -> float:
+    def speed(_: float, state: Array) -> float:  # (1 + rho) x', up to its sign
         return float(state[3] * state[1] - state[4] * state[0])
 
     speed.terminal = turns or False  # type: ignore[attr-defined]
     scale = np.repeat([rate, 1.0, ball.R], [3, 12, 3])
-    result = solve_ivp(
-        rates,
-        (0.0, (1e12 if turns else 10) / rate),
-        y,
-        events=speed if turns else None,
-        rtol=tolerance,
-        atol=1e-16 * (tolerance / _RELATIVE_TOLERANCE) * scale,
-        dense_output=True,
-        method="DOP853",
-    )
+    end = (1e12 if turns else 10) / rate
+    errors = {"rtol": tolerance, "atol": 1e-16 * (tolerance / _RELATIVE_TOLERANCE) * scale}
+    events = speed if turns else None
+    result = solve_ivp(rates, (0.0, end), y, events=events, dense_output=True, method="DOP853", **errors)
     if not result.success or (turns and len(result.t_events[0]) < turns):
         said = f"the motion can't be followed beyond t = {result.t[-1]:.6g}: {result.message}"
         raise LimitExceeded(said, limit="steps")

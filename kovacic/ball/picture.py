@@ -1,7 +1,4 @@
-"""Pictures of a motion: the contact point's path on the fixed surface, u(t), omega_3(t), the reaction, and the errors.
-
-Drawn with Matplotlib's Agg canvas; nothing is ever shown on a screen.
-"""
+"""Pictures of a motion: the contact point's path on the fixed surface, u(t), omega_3(t), the reaction, and the errors."""
 
 from __future__ import annotations
 
@@ -15,23 +12,20 @@ from scipy.spatial.transform import Rotation
 from kovacic.ball.dynamics import Array
 from kovacic.ball.motion import Motion
 
-_BLUE = "#1f5f99"
-_ORANGE = "#d9731a"
-_GREY = "#8a8a8a"
-_GREEN = "#2f7d4f"
+_BLUE, _ORANGE, _GREY, _GREEN = "#1f5f99", "#d9731a", "#8a8a8a", "#2f7d4f"
 
 
 def draw(motion: Motion, times: Array, file: Path | str, *, title: str = "") -> None:
-    """Write the picture of the motion at `times`; the format follows from the suffix (png, pdf, svg).
+    """Write the picture of the motion at `times` to a file, whose suffix is its format (png, pdf, svg).
 
-    The file is there whole or, after an error or an interruption, not at all (an older one stays as it was).
+    After an error or an interruption there is no new file, and an older one is unchanged.
     """
     from matplotlib.figure import Figure
 
     reaction = motion.reaction(times)
-    errors = motion.defects(times)
-    errors = {"energy": motion.energy(times) - motion.energy(0.0), r"$\omega_3$": errors["omega_3"], "n": errors["n"]}
-    errors = {name: np.maximum(np.abs(error), 1e-17) for name, error in errors.items()}
+    defects = motion.defects(times)
+    errors = {"energy": motion.energy(times) - motion.energy(0.0), r"$\omega_3$": defects["omega_3"], "n": defects["n"]}
+    errors = {name: np.maximum(np.abs(error), 1e-17) for name, error in errors.items()}  # the axis is logarithmic
     panels: list[tuple[dict[str, Any], str, str, tuple[float, ...]]] = [
         ({"": motion.u(times)}, "u (rad)", "colatitude of the contact point on the ball", motion.turning_points),
         ({"": motion.omega_3(times)}, r"$\omega_3$ (rad per unit time)", "spin about the axis of symmetry", ()),
@@ -82,13 +76,11 @@ def _draw_path(axes: Any, points: Array, kappa: float) -> None:
         axes.set_box_aspect((1, 1, 1), zoom=1.7)
         axes.set_axis_off()
         front = points @ Rotation.from_euler("ZY", [azimuth, -elevation]).as_matrix()[:, 0] >= 0
-        surface = "sphere (faint: far side)"
-        corner = "upper left"
+        surface, corner = "sphere (faint: far side)", "upper left"
     else:
         shown = points.T[:2]
         front = np.full(len(points), True)
-        surface = "plane"
-        corner = "best"
+        surface, corner = "plane", "best"
         axes.set(xlabel="X", ylabel="Y")
         axes.grid(True, color="#dddddd", lw=0.6)
         axes.set_aspect("equal", adjustable="datalim")

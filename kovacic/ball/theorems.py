@@ -20,17 +20,17 @@ import sympy as sp
 from flint import acb, arb, fmpq
 
 from kovacic.algebra.precision import working_digits
-from kovacic.ball.body import A1, A3, InRoots, Rolling, X, exact, sign, x1, x2
+from kovacic.ball.body import A1, A3, InRoots, Rolling, X, exact_quantity, sign, x1, x2
 from kovacic.closed_form.jets import jet
 from kovacic.errors import InputError
 
 C1, C2 = sp.symbols("c1 c2")
-#: The largest |2R/R1| for which the solutions in the roots are written as polynomials.
-_EXPANDED = 12
+#: The largest |2R/R1| for which the solutions in the roots are written as polynomials: at 12, n has 1,200 characters.
+_MOST_EXPANDED = 12
 
 
-def theorem(place: Rolling) -> tuple[str, int | None]:
-    """What the theorems say about a ball, in words, and Kovacic's case, or None if that depends on symbols."""
+def ball_theorem(place: Rolling) -> tuple[str, int | None]:
+    """The claim of the theorems about a ball, in words, and Kovacic's case, or None if that depends on symbols."""
     N = 2 * place.ratio
     for equal, value in (("A1 = A3", place.leading), ("x1 = x2", place.discriminant)):
         if sign(value) == 0:
@@ -38,8 +38,8 @@ def theorem(place: Rolling) -> tuple[str, int | None]:
     if N == 0:
         return "on a plane omega_3*sqrt(D) is constant (case 1)", 1
     if N.is_integer:
-        special = "; R1 = R: omega_3 = const is a solution" if N == 2 else ""
-        return f"Theorem 1: N is an integer, so omega is rational (case 1){special}", 1
+        constant = "; R1 = R: omega_3 = const is a solution" if N == 2 else ""
+        return f"Theorem 1: N is an integer, so omega is rational (case 1){constant}", 1
     if not N.is_number:
         first = f"Theorem 1 (omega rational, case 1) if {N} is an integer"
         return f"{first}, else Theorem 2 (omega of degree 2, case 2)", None
@@ -48,16 +48,16 @@ def theorem(place: Rolling) -> tuple[str, int | None]:
 
 @dataclass(frozen=True, slots=True)
 class BallSolution:
-    """The solution of the linear equations of a ball, as functions of x = cos u with constants c1, c2.
+    """The general solution of the linear equations of a ball, as functions of x = cos u with constants c1, c2.
 
     Attributes
     ----------
     omega : tuple of sympy.Expr
-        y'/y for a solution y or two.
+        y'/y for one or two solutions y.
     y, omega_3, n : sympy.Expr
-        The general ones.
+        The general solutions.
     E : sympy.Expr or None
-        The base of the powers that occur: D'/2 + sqrt(l D), or its negative where that is positive.
+        The base of the powers in them: D'/2 + sqrt(l D), or its negative where that is positive.
     """
 
     omega: tuple[sp.Expr, ...]
@@ -67,14 +67,14 @@ class BallSolution:
     E: sp.Expr | None = None
 
     def solves(self, place: Rolling) -> bool:
-        """True if omega, y, n and omega_3, as they are printed, satisfy (13) and the `linear_system`.
+        """True if omega, y, n and omega_3, as printed, satisfy (13) and the `linear_system`.
 
         By substitution at one point and for one value of each symbol, to 30 digits in interval arithmetic.
 
         Parameters
         ----------
         place : Rolling
-            The ball for which this solution was found.
+            The ball of this solution.
         """
         roots = {} if isinstance(place, InRoots) else dict(zip((x1, x2), place.roots, strict=False))
 
@@ -93,19 +93,14 @@ class BallSolution:
 def closed_form(place: Rolling) -> BallSolution:
     """The general solution of the linear equations of a ball, degenerate balls and the plane included; real on [-1, 1].
 
-    Sines and cosines where l is known to be negative; undecided symbolic parameters are taken as generic.  For an integer
-    N = 2 rho, omega is written in the roots x1, x2.  On the plane y is what belongs to omega_3.  y = D^(3/4) omega_3, but for
-    a constant D (A1 = A3 and a = 0), where its power is left out: y = omega_3 = c1 + c2 x.
+    It has sines and cosines if l is known to be negative; undecided symbolic parameters count as generic.  For an integer
+    N = 2 rho, omega is written in the roots x1, x2.  y = D^(3/4) omega_3, except for a constant D (A1 = A3 and a = 0), whose
+    power is left out: y = omega_3 = c1 + c2 x.
 
     Parameters
     ----------
     place : Rolling
         A `BallOnSphere`, or `InRoots`.
-
-    Returns
-    -------
-    BallSolution
-        Its `solves` checks it.
 
     Examples
     --------
@@ -128,20 +123,16 @@ def closed_form(place: Rolling) -> BallSolution:
         quarter = sp.sqrt(sp.sqrt(place.leading) * (X + place.half.subs(X, 0) / place.leading))
     if rho.is_number and (2 * rho).is_Integer and rho != 0 and len(place.roots) == 2:
         omega = _solution_in_roots(InRoots(rho)).omega
-    # For rho = 1, c1 stands by itself.
+    # For rho = 1, c1 is a term of its own.
     omega_3 = sum(term / root for term in eta.args) if rho == 1 else eta / quarter**2
     return BallSolution(omega, quarter * eta, omega_3, spin / place.weight, E)
 
 
 def _simplest_solution(place: Rolling) -> tuple[sp.Expr, sp.Expr, tuple[sp.Expr, ...], sp.Expr | None]:
     """eta, m R^2 A1 n, omega and E in the form that is the simplest for this ball, where D isn't constant or rho = 0."""
-    D = place.D
-    half = place.half
-    leading = place.leading
-    rho = place.ratio
+    D, half, leading, rho = place.D, place.half, place.leading, place.ratio
     d = place.discriminant / 4
-    root = sp.sqrt(D)
-    scale = sp.sqrt(leading)
+    root, scale = sp.sqrt(D), sp.sqrt(leading)
     share = sp.factor(half / (2 * D))
     omega = share + rho * scale / root, share - rho * scale / root
     if rho == 0:
@@ -169,28 +160,25 @@ def _simplest_solution(place: Rolling) -> tuple[sp.Expr, sp.Expr, tuple[sp.Expr,
 
 
 def _solution_in_roots(place: InRoots) -> BallSolution:
-    """For an integer N both solutions are polynomials times powers of sqrt(x - x1) and sqrt(x - x2), written so up to |N| = 12.
+    """For an integer N both solutions are polynomials times powers of sqrt(x - x1) and sqrt(x - x2).
 
-    Beyond, the polynomials are longer than a page: omega is written as a quotient, and the solutions as powers.
+    Beyond |N| = 12 the polynomials fill pages: omega is written as a quotient, and the solutions as powers.
     """
-    alpha = X - x1
-    beta = X - x2
+    alpha, beta = X - x1, X - x2
     rho = place.ratio
-    N = sp.Abs(2 * place.ratio)
+    N = sp.Abs(2 * rho)
     fourth = sp.Rational(1, 4)
     quarter = alpha**fourth * beta**fourth
     root = quarter**2
-    if N.is_Integer and N <= _EXPANDED:
+    if N.is_Integer and N <= _MOST_EXPANDED:
         # The parts of (sqrt(alpha) + sqrt(beta))^N with an even and with an odd power of sqrt(beta), over sqrt(alpha beta).
         omega = []
-        omega_3 = sp.Integer(0)
-        spin = sp.Integer(0)
-        constants = (C2, C1) if N == 1 else (C1, C2)  # the paper names them in this way
+        omega_3 = spin = sp.Integer(0)
+        constants = (C2, C1) if N == 1 else (C1, C2)  # the paper's names
         for i, c in enumerate(constants):
             k = (N - i) // 2
             P = sp.expand(sum(sp.binomial(N, 2 * j + i) * alpha ** (k - j) * beta**j for j in range(k + 1)))
-            e1 = -sp.Rational(i == N % 2, 2)
-            e2 = -sp.Rational(i == 0, 2)
+            e1, e2 = -sp.Rational(i == N % 2, 2), -sp.Rational(i == 0, 2)
             power = alpha**e1 * beta**e2
             rate = e1 * beta + e2 * alpha + (1 + rho) * (alpha + beta) / 2
             omega.append((e1 + 3 * fourth) / alpha + (e2 + 3 * fourth) / beta + sp.diff(P, X) / P)
@@ -200,12 +188,11 @@ def _solution_in_roots(place: InRoots) -> BallSolution:
         if N == 1:
             omega.reverse()
         return BallSolution(tuple(omega), y, omega_3, spin / -place.weight)
-    r = sp.sqrt(alpha) + sp.sqrt(beta)
-    s = sp.sqrt(alpha) - sp.sqrt(beta)
-    steps = (rho / root, -rho / root)
-    if N.is_Integer:  # r' = r/(2 root), s' = -s/(2 root): these two are rational
+    r, s = sp.sqrt(alpha) + sp.sqrt(beta), sp.sqrt(alpha) - sp.sqrt(beta)
+    steps = rho / root, -rho / root
+    if N.is_Integer:  # r' = r/(2 root), s' = -s/(2 root): omega is rational for r^N + s^N and for r^N - s^N
         quotient = (r ** (2 * rho) - s ** (2 * rho)) / (r ** (2 * rho) + s ** (2 * rho))
-        steps = (rho / root * quotient, rho / root / quotient)
+        steps = rho / root * quotient, rho / root / quotient
     eta = C1 * r ** (2 * rho) + C2 * r ** (-2 * rho)
     n = (C1 * r ** (2 + 2 * rho) + C2 * (x1 - x2) ** 2 * r ** (-2 - 2 * rho)) / (-2 * root * place.weight)
     omega = [(1 / alpha + 1 / beta) / 4 + step for step in steps]
@@ -215,10 +202,10 @@ def _solution_in_roots(place: InRoots) -> BallSolution:
 def read_ratio(text: str) -> sp.Expr:
     """R/R1 from text: a number, or a name for all of its values.
 
-    Raises `InputError` for 0 (a plane has no R1), for a ball that doesn't fit inside, and for the names of other things.
+    Raises `InputError` for 0 (a plane has no R1), for a ball that doesn't fit inside, and for a name with another meaning.
     """
-    known = {symbol.name for symbol in (X, x1, x2, A1, A3, C1, C2)}
-    rho = sp.Symbol(text) if text.isidentifier() and text not in {*known, "u", "pi", "e"} else exact(text, "R/R1")
+    taken = {"u", "pi", "e", *(symbol.name for symbol in (X, x1, x2, A1, A3, C1, C2))}
+    rho = sp.Symbol(text) if text.isidentifier() and text not in taken else exact_quantity(text, "R/R1")
     if rho == 0:
         shell = "a plane is --sphere plane, with --mass and --radius"
         raise InputError("R/R1 = 0 has no R1", hint="a plane is RollingBall(...).on_plane()", shell=shell)

@@ -88,8 +88,7 @@ def ball(form: str, latex: bool, explain: bool, **given: Any) -> None:
     """
     derivation: dict[str, Any] = {}
     if explain:
-        from kovacic.ball.derivation import holds
-        from kovacic.ball.paper import explained
+        from kovacic.ball.derivation import explained, holds
 
         text = explained(format="latex" if latex else "text")
         derivation = {"derivation": text, "derived": all(holds().values())}
@@ -122,7 +121,7 @@ def ball(form: str, latex: bool, explain: bool, **given: Any) -> None:
 def _ball_from_options(given: Mapping[str, Any]) -> Rolling:
     """The ball of these options; raises `click.UsageError` for options that don't belong together."""
     from kovacic.ball import RollingBall
-    from kovacic.ball.body import InRoots, exact
+    from kovacic.ball.body import InRoots, exact_quantity
     from kovacic.ball.theorems import read_ratio
 
     if given["ratio"] is not None:
@@ -137,9 +136,9 @@ def _ball_from_options(given: Mapping[str, Any]) -> Rolling:
     if all(given[name] is not None for name in _FORCE):
         raise click.UsageError("either --gravity or --potential")
     moments = [given["a1"], given["a3"]]
-    if exact(given["offset"], "a") != 0 and None in moments:
+    if exact_quantity(given["offset"], "a") != 0 and None in moments:
         raise click.UsageError("a ball with --offset isn't homogeneous: give its moments too, --A1 and --A3")
-    homogeneous = exact(given["mass"], "m") * exact(given["radius"], "R") ** 2 * 2 / 5
+    homogeneous = exact_quantity(given["mass"], "m") * exact_quantity(given["radius"], "R") ** 2 * 2 / 5
     A1, A3 = (homogeneous if moment is None else moment for moment in moments)
     ball = RollingBall(m=given["mass"], R=given["radius"], a=given["offset"], A1=A1, A3=A3)
     return ball.on_plane() if given["sphere"] == "plane" else ball.on_sphere(given["sphere"])
@@ -149,8 +148,8 @@ def _answer(place: Rolling, *, latex: bool) -> list[AnswerRow]:
     """The verdicts of the theorems and of the engine, and the closed form with its check."""
     import kovacic
     from kovacic.ball import BallOnSphere, closed_form
-    from kovacic.ball.paper import equations_of
-    from kovacic.ball.theorems import theorem
+    from kovacic.ball.derivation import equations_of
+    from kovacic.ball.theorems import ball_theorem
     from kovacic.solution.conditions import conditions
     from kovacic.writing.breaking import breakable
 
@@ -158,7 +157,7 @@ def _answer(place: Rolling, *, latex: bool) -> list[AnswerRow]:
     solution = kovacic.solve(place.S.subs({"x1": 1, "x2": -1}), var="x")
     form = closed_form(place)
     equations = equations_of(place)
-    said, case = theorem(place)
+    said, case = ball_theorem(place)
     group = solution.group and solution.group.name
     is_generic = bool(place.ratio.free_symbols)
     generic = " for generic values" if is_generic else ""
@@ -217,13 +216,13 @@ def _simulate(sphere: Any, given: Mapping[str, Any]) -> list[AnswerRow]:
         import numpy as np
 
         from kovacic.ball.dynamics import as_float
-        from kovacic.ball.motion import State, solve_motion
+        from kovacic.ball.motion import MotionStart, solve_motion
         from kovacic.ball.picture import draw
 
     time = as_float(given["end"], "the time")
     if time <= 0:
         raise InputError(f"the time must be positive, not {time:g}")
-    motion = solve_motion(sphere, State(*given["start"]), **{name: given[name] for name in _FORCE})
+    motion = solve_motion(sphere, MotionStart(*given["start"]), **{name: given[name] for name in _FORCE})
     samples = _LEAST_TIMES + int(_PER_OSCILLATION * time / (motion.period or np.inf))
     times = np.linspace(0.0, time, min(_MOST_TIMES, samples))
     if given["plot"]:

@@ -116,9 +116,9 @@ class Conditions(ParametricAnswer):
         >>> print(bessel.latex().partition("cases} ")[2])
         \text{case 1} & n - \frac{1}{2} \in \mathbb{Z} \\ \text{no Liouvillian solution} & \text{otherwise} \end{cases}
         """
-        from kovacic.views.parameters import latex
+        from kovacic.views.parameters import conditions_latex
 
-        return latex(self)
+        return conditions_latex(self)
 
     def _repr_latex_(self) -> str:
         return f"${self.latex()}$"
@@ -170,9 +170,9 @@ class Conditions(ParametricAnswer):
         >>> strip.get_xlabel(), strip.get_ylabel()
         ('n', '')
         """
-        from kovacic.views.parameters import plot
+        from kovacic.views.parameters import plot_map
 
-        return plot(self, axes, parameters, ranges, steps, fixed)
+        return plot_map(self, axes, parameters, ranges, steps, fixed)
 
     def text(self, *, all: bool = False) -> str:
         """The partition in lines: regions in a row with the same case are written together.
@@ -199,9 +199,9 @@ class Conditions(ParametricAnswer):
         >>> print(kovacic.conditions("n/x^2 + k").text(all=True).splitlines()[0])
         y'' = ((k*x^2 + n)/x^2) y, parameters n, k
         """
-        from kovacic.views.parameters import text
+        from kovacic.views.parameters import conditions_text
 
-        return text(self, all=all)
+        return conditions_text(self, all=all)
 
     @limited
     def explain(self) -> str:
@@ -219,9 +219,9 @@ class Conditions(ParametricAnswer):
         >>> print(bessel.explain().splitlines()[-1])
           y = x^(1/2 - n)*exp(-I*x)*assoc_laguerre(n - 1/2, -2*n, 2*I*x) where n - 1/2 is a natural number
         """
-        from kovacic.views.parameters import explain
+        from kovacic.views.parameters import explain_conditions
 
-        return explain(self)
+        return explain_conditions(self)
 
     def __str__(self) -> str:
         return self.text()

@@ -45,7 +45,7 @@ from kovacic.writing.document import (
     format_of,
     say,
 )
-from kovacic.writing.formula import Math, caret, free_name, latex_text, rational_functions, shortened
+from kovacic.writing.formula import Math, caret, free_name, generated_field, latex_text, shortened
 
 _CASES = {
     Structure.REDUCIBLE: "case 1 (the group is reducible, omega rational)",
@@ -189,7 +189,7 @@ class ExplanationWriter:
             )
         yield from (say(f"Note: {notice}.") for notice in answer.notices)
         if answer.change is not None:
-            yield say("The case and the group are those over ", rational_functions(answer.change.expression), ".")
+            yield say("The case and the group are those over ", generated_field(answer.change.expression), ".")
 
     def normal_form(self, y: str) -> tuple[str, list[Block]]:
         """The name of the unknown in the normal form, and the substitution that leads to it, and the form itself."""

@@ -12,11 +12,10 @@ from kovacic.numbers.exact import exact_real, whole
 from kovacic.numbers.numerals import plain_text
 from kovacic.parametric.cases import in_lines
 from kovacic.parametric.parametric_answer import ParametricAnswer
+from kovacic.writing.document import SCREEN_LINES
 from kovacic.writing.maps import FARTHEST, CellKind, check_size, draw_cells, new_axes
 
-#: The number of regions that are written by default.
-_SCREEN = 24
-#: What can be known at a point, in colours that keep apart in print and for colour-blind readers [Okabe & Ito].
+#: The possible claims at a point, in colours that print and colour-blind readers keep apart [Okabe & Ito].
 _KINDS = (
     CellKind("no Liouvillian solution", "#ffffff"),
     CellKind("case 1", "#0072b2"),
@@ -28,11 +27,11 @@ _KINDS = (
 _LABELS = tuple(kind.name for kind in _KINDS)
 
 
-def text(answer: ParametricAnswer, *, all: bool) -> str:
+def conditions_text(answer: ParametricAnswer, *, all: bool) -> str:
     """The partition in lines; by default as many as fit a screen."""
     complete = "proven to be complete" if answer.complete is True else f"complete {answer.complete}"
     regions = in_lines(answer.regions)
-    shown = regions if all or len(regions) <= _SCREEN + 1 else regions[:_SCREEN]
+    shown = regions if all or len(regions) <= SCREEN_LINES + 1 else regions[:SCREEN_LINES]
     lines = [*_heading(answer), *(f"  {region}" for region in shown)]
     if len(shown) < len(regions):
         lines.append(f"  ... and {len(regions) - len(shown)} more regions: text(all=True), or --all")
@@ -41,7 +40,7 @@ def text(answer: ParametricAnswer, *, all: bool) -> str:
 
 
 def _heading(answer: ParametricAnswer) -> list[str]:
-    """The equation, its parameters and what is known of them, and what is to be said about the equation."""
+    """The equation, its parameters with their assumptions, and notices."""
     first = f"y'' = {answer.right.text}, parameters {', '.join(answer.parameters)}"
     assumed = answer.assumptions.without(name for name, _ in answer.letters)
     if assumed:
@@ -61,16 +60,16 @@ def _where_generic(answer: ParametricAnswer) -> str:
     return ", ".join(words) or "always"
 
 
-def latex(answer: ParametricAnswer) -> str:
+def conditions_latex(answer: ParametricAnswer) -> str:
     """A `cases` environment."""
     rows = [rf"\text{{{r.verdict}}} & {r.statement.latex()}" for r in in_lines(answer.regions) if r.defined]
     rows.append(rf"\text{{{answer.generic}}} & \text{{{_where_generic(answer)}}}")
     return rf"y'' = {answer.right.latex}" + r"\colon\quad \begin{cases} " + r" \\ ".join(rows) + r" \end{cases}"
 
 
-def explain(answer: ParametricAnswer) -> str:
+def explain_conditions(answer: ParametricAnswer) -> str:
     """The partition, and solutions of each region where they are known."""
-    lines = [text(answer, all=True)]
+    lines = [conditions_text(answer, all=True)]
     for region in answer.regions:
         known = [*region.solution()]  # in all of the region, and for the first natural numbers
         for number in range(len(region.determinants)):
@@ -80,7 +79,7 @@ def explain(answer: ParametricAnswer) -> str:
     return visible("\n".join(lines))
 
 
-def plot(
+def plot_map(
     answer: ParametricAnswer,
     axes: Any,
     parameters: Sequence[str] | None,
@@ -88,7 +87,7 @@ def plot(
     steps: int,
     fixed: Mapping[str, Any] | None,
 ) -> Any:
-    """A map of two parameters, or a strip for one, coloured by what the regions claim."""
+    """A map of two parameters, or a strip for one, coloured by the claims of the regions."""
     chosen = tuple(parameters or answer.parameters[:2])
     if len(chosen) not in (1, 2) or not {*chosen} <= {*answer.parameters}:
         raise InputError("a map needs one parameter or two", hint=f"the parameters are {', '.join(answer.parameters)}")
@@ -122,13 +121,12 @@ def _grids(chosen: Sequence[str], ranges: Sequence[tuple[Any, Any]] | None, step
         raise InputError(f"{len(given)} ranges for {len(chosen)} parameters", hint="ranges=[(0, 1), (-2, 2)]")
     steps = whole(steps, "steps", least=1)
     check_size(steps + 1, (steps + 1) ** (len(chosen) - 1))
-    return [_grid(low, high, steps) for low, high in given]
+    return [_equidistant(low, high, steps) for low, high in given]
 
 
-def _grid(low: Any, high: Any, steps: int) -> list[Fraction]:
+def _equidistant(low: Any, high: Any, steps: int) -> list[Fraction]:
     """The ends of equal intervals from one number to another, exactly."""
-    first = exact_real(low, "an end of a range")
-    last = exact_real(high, "an end of a range")
+    first, last = (exact_real(end, "an end of a range") for end in (low, high))
     if max(abs(first), abs(last)) > FARTHEST:
         raise InputError("a range of a map is beyond the range of doubles, in which pictures are drawn")
     if first >= last:

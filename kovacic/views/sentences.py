@@ -20,12 +20,14 @@ from kovacic.decision import (
 from kovacic.equation import Parsed
 from kovacic.errors import LimitExceeded
 from kovacic.numbers.numerals import as_text, in_a_message
-from kovacic.writing.formula import LARGEST_DEGREE, Formulas, Math, caret, latex_text, of_sympy
+from kovacic.writing.formula import Formulas, Math, caret, joined, latex_text, of_sympy
 
+#: Degree of P up to which solutions are written out.
+_HIGHEST_WRITTEN = 300
 #: Verdicts.
 SOLVABLE = "Liouvillian solutions exist"
 UNSOLVABLE = "no Liouvillian solution exists"
-UNDECIDED = "undecided"
+NOT_DECIDED = "undecided"
 
 
 def formulas_of(answer: Answer | Parsed) -> Formulas:
@@ -52,33 +54,26 @@ def omega_math(riccati: RiccatiPolynomial, formulas: Formulas) -> Math:
         return formulas.math(-riccati.coefficients[0])
     w = formulas.unknown
     m = riccati.degree
-    texts = [f"{w}^{m}"]
-    latex = [f"{w}^{{{m}}}"]
-    for k in range(m - 1, -1, -1):
-        coefficient = riccati.coefficients[k]
+    lines = [Math(f"{w}^{m}", f"{w}^{{{m}}}")]
+    for k, coefficient in reversed([*enumerate(riccati.coefficients[:m])]):
         if not coefficient:
             continue
         sign = "-" if formulas.math(coefficient).text.removeprefix("(").startswith("-") else "+"
         positive = coefficient if sign == "+" else -coefficient
         if k == 0:
             value = formulas.factor(positive)
-        elif k == 1:
-            value = formulas.times(positive, w, w)
         else:
-            value = formulas.times(positive, f"{w}^{k}", f"{w}^{{{k}}}")
-        texts.append(f"{sign} {value.text}")
-        latex.append(f"{sign} {value.latex}")
-    lines = r" \\ \displaystyle ".join(latex)
-    return Math("\n".join(texts) + " = 0", rf"\begin{{array}}{{l}} \displaystyle {lines} = 0 \end{{array}}")
+            power = Math(w, w) if k == 1 else Math(f"{w}^{k}", f"{w}^{{{k}}}")
+            value = formulas.times(positive, power.text, power.latex)
+        lines.append(Math(f"{sign} {value.text}", f"{sign} {value.latex}"))
+    return Math.lines([*lines[:-1], lines[-1].equals(Math("0", "0"))])
 
 
 def powers_in(series: TerminatingSeries, formulas: Formulas) -> Iterator[str | Math]:
-    """The powers that P has, where it is known by its recurrence."""
+    """The powers in P, for a P given by its recurrence."""
     t = formulas.math(series.theta.field.poly([0, 1]) - series.centre)
     highest, lowest, step = map(in_a_message, (series.degree, series.lowest, series.step))
-    yield f"degree {highest}, with powers of "
-    yield t
-    yield f" down to {lowest} in steps of {step}"
+    yield from (f"degree {highest}, with powers of ", t, f" down to {lowest} in steps of {step}")
 
 
 def plain(parts: Iterable[str | Math]) -> str:
@@ -88,11 +83,9 @@ def plain(parts: Iterable[str | Math]) -> str:
 
 def omega_lines(answer: Answer) -> list[str]:
     """omega, or its polynomial, and its constants, as text."""
-    riccati = answer.riccati
-    series = answer.series
+    riccati, series, constants = answer.riccati, answer.series, answer.constants
     formulas = formulas_of(answer)
     omega = Math("", "") if riccati is None else omega_math(riccati, formulas)
-    constants = answer.constants
     roots = None if constants is None else _simple_roots(constants)
     if roots is not None and omega.text == formulas.symbol:
         return [f"omega = {roots}"]
@@ -104,8 +97,8 @@ def omega_lines(answer: Answer) -> list[str]:
     else:
         lines = [f"omega is a root {formulas.unknown} of", *(f"    {line}" for line in omega.text.splitlines())]
     if constants is not None:
-        what = roots or f"any root of {caret(constants.to_str(formulas.symbol))}"
-        lines.append(f"where {formulas.symbol} is {what}")
+        root = roots or f"any root of {caret(constants.to_str(formulas.symbol))}"
+        lines.append(f"where {formulas.symbol} is {root}")
     return lines
 
 
@@ -123,16 +116,11 @@ def _simple_roots(modulus: Poly) -> str | None:
 
 
 def reason(evidence: Evidence, formulas: Formulas) -> Iterator[str | Math]:
-    """Why a structure is excluded, without the bounds of the linear systems."""
+    """The reason why a structure is excluded, without the bounds of the linear systems."""
     if isinstance(evidence, NecessaryCondition):
         yield evidence.rule.value
-        before = " (at "
-        for place in evidence.places:
-            yield before
-            yield formulas.place(place)
-            before = ", "
         if evidence.places:
-            yield ")"
+            yield from (" (at ", *joined(", ", map(formulas.place, evidence.places)), ")")
     elif isinstance(evidence, NoInvariant):
         m = evidence.invariant_degree
         if evidence.prime is None:
@@ -140,33 +128,30 @@ def reason(evidence: Evidence, formulas: Formulas) -> Iterator[str | Math]:
         else:
             yield f"no rational invariant of degree {m}, by a linear system of nullity 0 modulo {evidence.prime}"
     elif isinstance(evidence, NoTerminatingSeries):
-        yield "the recurrence for P, of two terms, doesn't end for any theta that the exponents allow"
+        yield "the recurrence for P, of two terms, terminates for no theta that the exponents allow"
     elif evidence.prime is None:
         yield "the exponents leave no room for a rational omega"
     else:
-        yield "no rational omega, by its expansion at "
-        yield formulas.place(evidence.place)
-        yield f" modulo {evidence.prime}"
+        yield from (
+            "no rational omega, by its expansion at ",
+            formulas.place(evidence.place),
+            f" modulo {evidence.prime}",
+        )
 
 
 def solutions_of(answer: Answer) -> tuple[list[tuple[Math, Math]], tuple[str, ...]]:
     """Names and formulas of two solutions, and notes; in special functions if there is no Liouvillian one, empty if unknown.
 
-    Raises `LimitExceeded` for formulas that are too long to be printed, and where no time is left.
+    Raises `LimitExceeded` for formulas that are too long to be printed, and if the time is over.
     """
     semi = answer.semi_invariant
-    if semi is not None and semi.P.degree > LARGEST_DEGREE:
+    if semi is not None and semi.P.degree > _HIGHEST_WRITTEN:
         raise LimitExceeded(f"P has the degree {semi.P.degree}; --json --full has it", limit="degree")
     form = derived.closed_form(answer)
-    if form is None:
-        return _named_solutions(answer, derived.special(answer)), ()
-    return _named_solutions(answer, form), form.notes
-
-
-def _named_solutions(answer: Answer, values: Iterable[Any]) -> list[tuple[Math, Math]]:
+    pair: Iterable[Any] = derived.special(answer) if form is None else form
     y = "y" if answer.equation is None else answer.equation.unknown
     names = [Math(f"{y}{k}", f"{y}_{{{k}}}") for k in (1, 2)]
-    return list(zip(names, map(of_sympy, values), strict=False))
+    return list(zip(names, map(of_sympy, pair), strict=False)), () if form is None else form.notes
 
 
 def verdict_of(answer: Answer) -> tuple[str, str]:
@@ -178,7 +163,7 @@ def verdict_of(answer: Answer) -> tuple[str, str]:
     if answer.series is not None:
         return SOLVABLE, f"case {answer.case}, omega = y'/y is rational"
     if answer.reason is not None:
-        return UNDECIDED, answer.reason
+        return NOT_DECIDED, answer.reason
     return UNSOLVABLE, "the Galois group is SL2(C)"
 
 

@@ -21,11 +21,11 @@ from kovacic.equation import parameters_of
 from kovacic.limits import Budget, check_time
 from kovacic.numbers.numerals import as_text
 from kovacic.views.sentences import formulas_of
-from kovacic.writing.document import Block, Formula, Heading, Sentence, Table, say
-from kovacic.writing.formula import Math, free_name, latex_text, of_sympy
+from kovacic.writing.document import SCREEN_LINES, Block, Formula, Heading, Sentence, Table, say
+from kovacic.writing.formula import Math, free_name, joined, latex_text, of_sympy
 
-# d from the chosen exponents, and what P has to satisfy, by case [Kovacic 1986, sections 3.1, 4.1 and 5.1].
-_DEGREE = {
+# d from the chosen exponents, and the equations for P, by case [Kovacic 1986, sections 3.1, 4.1 and 5.1].
+_DEGREE_OF_P = {
     1: Math("alpha_inf - sum alpha_c", r"\alpha_\infty - \sum_c \alpha_c"),
     2: Math("(e_inf - sum e_c)/2", r"\tfrac{1}{2}\left(e_\infty - \sum_c e_c\right)"),
     3: Math("n/12 (e_inf - sum e_c)", r"\tfrac{n}{12}\left(e_\infty - \sum_c e_c\right)"),
@@ -47,8 +47,6 @@ _CONDITIONS = {
     2: "some pole has order 2 or an odd order > 2",
     3: "no pole has an order > 2; at infinity the order is >= 2; every Delta is rational",
 }
-#: Families shown in a table, and trials of step 3.
-_MOST_SHOWN = 24
 _LOCAL_TYPES = {
     Kind.ORDINARY: "ordinary",
     Kind.REGULAR: "regular",
@@ -88,7 +86,7 @@ class Steps:
         rows: list[list[Sentence]] = []
         for place in self.places:
             order = str(place.order)
-            if place.at_infinity:  # that of S itself; the place's is 4 more
+            if place.at_infinity:  # the order of S itself; k = 4 - order is that of the place
                 order = str(-self.answer.S.degree) if self.answer.S else "-"
             kind = _LOCAL_TYPES[place.kind] + (", logarithm" if place.logarithm else "")
             rows.append([self.formulas.place(str(place)), str(place.degree), order, kind, self._delta(place)])
@@ -110,12 +108,11 @@ class Steps:
         yield Heading("Kovacic's necessary conditions (section 2.1)")
         rows: list[list[Sentence]] = []
         for case, condition in _CONDITIONS.items():
-            verdict: list[str | Math] = ["holds" if _allowed(case, self.places) else "fails"]
             # The condition of case 2 has to hold at some pole only; the others fail at certain places.
-            culprits = [place for place in self.places if case != 2 and not _allowed(case, [place])]
-            for k, place in enumerate(culprits):
-                verdict += [", " if k else " at ", self.formulas.place(str(place))]
-            rows.append([str(case), condition, verdict])
+            failing = [place for place in self.places if case != 2 and not _allowed(case, [place])]
+            places = joined(", ", (self.formulas.place(str(place)) for place in failing))
+            verdict = "holds" if _allowed(case, self.places) else "fails"
+            rows.append([str(case), condition, [verdict + " at " * bool(failing), *places]])
         yield Table(("case", "condition", "verdict"), rows)
 
     def search(self) -> Iterator[Block]:
@@ -134,14 +131,17 @@ class Steps:
     def _steps(self, found: Search | None, case: int) -> Iterator[Block]:
         """Steps 1 to 3 of one case, as far as they can be written out."""
         if found is None:
-            domain = "exponents that are square roots, constants of low degree, and poles of low order"
-            yield say(f"The steps are written out for {domain} only.")
+            yield say(
+                "The steps are written out only for exponents that are square roots, constants of low degree, "
+                "and poles of low order."
+            )
             return
         yield self._singular_parts(found) if case == 1 else self._exponents(found)
         yield self._counted(found, case)
         if found.families is None:
-            they = "They are too many to be listed; the engine finds omega, or proves that there is none"
-            yield say(f"{they}, without them.")
+            yield say(
+                "There are too many to be listed; the engine finds omega, or proves that there is none, without them."
+            )
             return
         yield from self._families(found, found.families)
         yield from self._trials(found, found.families, case)
@@ -152,10 +152,9 @@ class Steps:
         for point, choices in zip(search.points, search.choices, strict=True):
             t = self.x if point.at is None else self.x - in_sympy(point.at, self.x)
             singular = Add(*(in_sympy(c, self.x) * t**power for power, c in choices[0].singular))
-            # alpha+ comes first; where both are equal there is a single choice.
-            plus = self._shown(choices[0].value)
-            minus = self._shown(choices[-1].value)
-            rows.append([self._point(point), self._shown(singular), plus, minus])
+            # alpha+ comes first; if both are equal there is a single choice.
+            exponents = (self._shown(choice.value) for choice in (choices[0], choices[-1]))
+            rows.append([self._point(point), self._shown(singular), *exponents])
         head = ("place", Math("[sqrt S]", r"[\sqrt{S}]"), Math("alpha+", r"\alpha^+"), Math("alpha-", r"\alpha^-"))
         return Table(head, rows)
 
@@ -168,7 +167,7 @@ class Steps:
         return Table(("place", Math("E", "E")), rows)
 
     def _counted(self, search: Search, case: int) -> Block:
-        """Step 2: how many families of exponents there are, and in how many of them d is a natural number."""
+        """Step 2: the number of families of exponents, and of those with a natural number d."""
         said = f"{search.total} family of exponents" if search.total == 1 else f"{search.total} families of exponents"
         if search.natural is not None:
             said += f", {self.d} is a natural number in {search.natural or 'none'} of them"
@@ -179,11 +178,11 @@ class Steps:
         return say("Step 2: ", self.degree(case), f"; {said}.")
 
     def _families(self, search: Search, families: Sequence[Family]) -> Iterator[Block]:
-        """The exponents of each, d, and P where there is one."""
+        """The exponents of each, d, and P if there is one."""
         if not search.complete:
             yield say("Of conjugate poles, only families with equal exponents are listed.")
         rows: list[list[Sentence]] = []
-        for family in families[:_MOST_SHOWN]:
+        for family in families[:SCREEN_LINES]:
             outcome: str | Math = ""
             if family.P is not None:
                 outcome = self._shown(family.P)
@@ -195,8 +194,8 @@ class Steps:
             rows.append([*values, self._shown(family.d), outcome])
         if rows:
             yield Table([*map(self._point, search.points), Math.of(self.d), Math.of(self.P)], rows)
-        if len(families) > _MOST_SHOWN:
-            yield say(f"and {len(families) - _MOST_SHOWN} more.")
+        if len(families) > SCREEN_LINES:
+            yield say(f"and {len(families) - SCREEN_LINES} more.")
 
     def _trials(self, search: Search, families: Sequence[Family], case: int) -> Iterator[Block]:
         """Step 3."""
@@ -207,7 +206,7 @@ class Steps:
             yield say(f"Step 3: {self.P} of degree {self.d}, with")
             for said in _EQUATIONS[case]:
                 yield Formula(Math(said.text.replace("P", self.P), said.latex.replace("P", self.P)))
-        for family in tried[-_MOST_SHOWN:]:
+        for family in tried[-SCREEN_LINES:]:
             yield from self._trial(family)
 
     @property
@@ -225,7 +224,7 @@ class Steps:
 
     def degree(self, case: int) -> Math:
         """d = ..., from the chosen exponents."""
-        return Math.of(self.d).equals(_DEGREE[case])
+        return Math.of(self.d).equals(_DEGREE_OF_P[case])
 
     def _shown(self, value: Any) -> Math:
         check_time()
@@ -243,24 +242,22 @@ class Steps:
         unknowns = set(family.unknowns)
         impossible = next((value for value in family.conditions if not unknowns & value.free_symbols), None)
         conditions = [self._shown(condition) for condition in family.conditions[:6]]
+        found: list[str | Math] = ["no solution, for "]
         if family.P is not None:
-            yield say(f"{self.d} = {d}: ", Math.of(self.P).equals(self._shown(family.P)), " is a solution.")
+            found = [Math.of(self.P).equals(self._shown(family.P)), " is a solution"]
         elif impossible is not None:
-            yield say(
-                f"{self.d} = {d}: no solution, for a coefficient is ", self._shown(impossible), ", which isn't 0."
-            )
+            found += ["a coefficient is ", self._shown(impossible), ", which isn't 0"]
         elif conditions:
             noun = "coefficients" if d > 1 else "coefficient"
-            names = f"{noun} {', '.join(map(str, family.unknowns))}"
             text = ", ".join(f"{value.text} = 0" for value in conditions)
             latex = r",\; ".join(f"{value.latex} = 0" for value in conditions)
-            yield say(
-                f"{self.d} = {d}: no solution, for the lower {names} of {self.P} would satisfy ", Math(text, latex), "."
-            )
+            found += [
+                f"the lower {noun} {', '.join(map(str, family.unknowns))} of {self.P} would satisfy ",
+                Math(text, latex),
+            ]
         else:
-            yield say(
-                f"{self.d} = {d}: no solution, for the linear system for its {d + 1} coefficients has rank {d + 1}."
-            )
+            found.append(f"the linear system for its {d + 1} coefficients has rank {d + 1}")
+        yield say(f"{self.d} = {d}: ", *found, ".")
 
 
 def _allowed(case: int, places: Sequence[Place]) -> bool:

@@ -12,8 +12,8 @@ from kovacic.equation import parameters_of
 from kovacic.errors import LimitExceeded, visible
 from kovacic.reading.pieces import Paste
 from kovacic.views.sentences import (
+    NOT_DECIDED,
     SOLVABLE,
-    UNDECIDED,
     UNSOLVABLE,
     equation_of,
     formulas_of,
@@ -32,29 +32,27 @@ from kovacic.writing.formula import Math, shortened
 if TYPE_CHECKING:
     from kovacic.writing.document import Sentence
 
-#: Longer formulas aren't typeset in a table.
-_LONGEST_TYPESET = 3000
-_ROLES = {SOLVABLE: "good", UNSOLVABLE: "bad", UNDECIDED: "unsure"}
+_ROLES = {SOLVABLE: "good", UNSOLVABLE: "bad", NOT_DECIDED: "unsure"}
 _NEITHER = {Status.NONE_EXISTS: "no Liouvillian solution", Status.UNDECIDED: "undecided"}
 
-#: Gives a piece of text a role ("good", "bad", "unsure", "title", "faint"): colours on a terminal, nothing elsewhere.
+#: Marks a piece of text by its role ("good", "bad", "unsure", "title", "faint"): in colour on a terminal, not elsewhere.
 Style = Callable[[str, str], str]
 
 
 def one_line(answer: Answer) -> str:
     """The equation and the verdict."""
-    equation = _given_text(answer)
-    if answer.status is Status.UNDECIDED:
-        said = in_one_line(answer.reason or "")
-        return f"{equation}: {said}" if answer.assumed else f"{equation}: undecided, {said}"
-    if answer.status is Status.NONE_EXISTS:
-        return f"{equation}: no Liouvillian solution"
     riccati = answer.riccati
-    if riccati is None:
-        return f"{equation}: case {answer.case}"
-    if riccati.degree > 1:
-        return f"{equation}: case {answer.case}, omega {of_degree(riccati.degree)}"
-    return f"{equation}: case {answer.case}, omega = {omega_math(riccati, formulas_of(answer)).text}"
+    if answer.status is Status.UNDECIDED:
+        said = ("" if answer.assumed else "undecided, ") + in_one_line(answer.reason or "")
+    elif answer.status is Status.NONE_EXISTS:
+        said = "no Liouvillian solution"
+    elif riccati is None:
+        said = f"case {answer.case}"
+    elif riccati.degree > 1:
+        said = f"case {answer.case}, omega {of_degree(riccati.degree)}"
+    else:
+        said = f"case {answer.case}, omega = {omega_math(riccati, formulas_of(answer)).text}"
+    return f"{_given_text(answer)}: {said}"
 
 
 def render(
@@ -80,7 +78,7 @@ def render(
     if answer.omega is not None and solutions is None:
         of_what = ", a solution of the normal form" if is_gauged else ""
         yield f"  y = exp(integral of omega d{answer.variable}){of_what}"
-    yield from _indented(_exclusions(answer))
+    yield from _indented(_lines_of_exclusions(answer))
     is_open = answer.status is Status.UNDECIDED
     if parameters_of(answer.S.field) and not is_open and not answer.assumed:
         from kovacic.parametric.restriction import generic_conditions
@@ -113,7 +111,7 @@ def _how_verified(answer: Answer) -> str:
 
 
 def _given_text(answer: Answer) -> str:
-    """The equation in the user's variable; if it isn't rational there, a notice has the rational one."""
+    """The equation in the user's variable; a notice has the rational one, if there is a change of variable."""
     if answer.change is None:
         return equation_of(answer).text
     text = in_one_line(answer.text)
@@ -123,8 +121,8 @@ def _given_text(answer: Answer) -> str:
 def solution_lines(answer: Answer) -> Iterator[str]:
     """y1 and y2 of the homogeneous equation as given, with notes, or the limit that was reached.
 
-    Without a Liouvillian solution: two in special functions, or the classes that were searched in vain; for an undecided
-    equation, two in special functions if they are found.
+    Without a Liouvillian solution: two in special functions, or the classes that were searched in vain.  For an undecided
+    equation: two in special functions, if any were found.
     """
     found, notes = _solutions_in_time(answer)
     named = [f"{name.text} = {shortened(value.text)}" for name, value in found]
@@ -133,25 +131,21 @@ def solution_lines(answer: Answer) -> Iterator[str]:
     elif named:
         yield "in special functions, verified:"
         yield from _indented(named)
-    elif answer.status is Status.NONE_EXISTS and not notes:  # the classes of functions that were searched in vain
+    elif answer.status is Status.NONE_EXISTS and not notes:
         yield str(derived.special(answer))
     yield from (f"note: {note}" for note in notes)
 
 
-def _exclusions(answer: Answer) -> list[str]:
-    """One line for each structure that was excluded, equal reasons of the finite groups together."""
+def _lines_of_exclusions(answer: Answer) -> Iterator[str]:
+    """One line for each excluded structure, finite groups with equal reasons together."""
     formulas = formulas_of(answer)
     grouped: dict[tuple[int, str], list[str]] = {}
     for exclusion in answer.proof:
         reasons = "; ".join(plain(reason(evidence, formulas)) for evidence in exclusion.evidence)
         grouped.setdefault((exclusion.structure.case, reasons), []).append(exclusion.structure.value)
-    lines = []
     for (case, reasons), structures in grouped.items():
-        which = f"case {case}"
-        if case == 3:
-            which += f" ({', '.join(structures)})"
-        lines.append(f"not {which}: {reasons}")
-    return lines
+        which = f" ({', '.join(structures)})" if case == 3 else ""
+        yield f"not case {case}{which}: {reasons}"
 
 
 def latex_view(answer: Answer) -> str:
@@ -172,9 +166,9 @@ def html_view(answer: Answer) -> str:
     if answer.equation is not None and not answer.equation.is_normal_form:
         rows.append(("normal form", normal_form(answer)))
     found, more = verdict_of(answer)
-    if found == UNDECIDED:
+    if found == NOT_DECIDED:
         found = f"undecided: {more}"
-    elif answer.assumed:  # the reason says what is assumed
+    elif answer.assumed:  # the reason names the assumptions
         found = more
     rows.append(("status", found))
     if answer.case is not None:
@@ -192,8 +186,8 @@ def _rows_of_solutions(answer: Answer) -> Iterator[tuple[Sentence, Sentence]]:
     """Two solutions, notes, and how the closed form was checked."""
     found, notes = _solutions_in_time(answer)
     for name, value in found:
-        is_long = len(value.latex) > _LONGEST_TYPESET
-        yield name, Math(value.text[:_LONGEST_TYPESET], "") if is_long else value
+        text = shortened(value.text)
+        yield name, value if text == value.text else Math(text, "")
     for note in notes:
         yield "note", note
     form = derived.closed_form(answer) if found else None

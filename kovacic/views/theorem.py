@@ -44,7 +44,7 @@ from kovacic.reading.read import read_input
 from kovacic.reading.source import source_of
 from kovacic.views.bibliography import literature
 from kovacic.writing.document import Block, Formula, Heading, Sentence, Table, format_of, say
-from kovacic.writing.formula import Formulas, Math, free_name, latex_text, of_sympy, rational_functions
+from kovacic.writing.formula import Formulas, Math, free_name, generated_field, latex_text, of_sympy
 
 #: What the signs in a solution are called, those that aren't parameters.
 _SIGN_LETTERS = ("epsilon", "zeta", "eta", "kappa", "iota", "tau", "upsilon", "chi")
@@ -110,7 +110,7 @@ class _TheoremWriter:
             if not equation.is_normal_form:
                 said.append(" of the normal form")
             if self.change:  # the field isn't C(x)
-                said += [" over ", rational_functions(self.change.expression)]
+                said += [" over ", generated_field(self.change.expression)]
             yield say(*said, ".")
         yield from self._delta(cases)
         yield from self._proof()

@@ -19,7 +19,9 @@ from kovacic.writing import escaped
 from kovacic.writing.breaking import LINE, breakable, pieces, width
 from kovacic.writing.formula import Math
 
-#: Characters in a line of a LaTeX table, and the most that count of a column's width: others beside it need some.
+#: Lines of a list or table that are shown by default.
+SCREEN_LINES = 24
+#: Characters in a line of a LaTeX table, and the largest width that a column counts with, so that the others get some.
 _PAGE = 66
 _COLUMN = 120
 
@@ -119,7 +121,7 @@ def _markdown_table(rows: list[list[str]]) -> str:
 
 
 def _latex_table(rows: list[list[str]]) -> str:
-    """A table with columns of their natural width, or with broken lines if together they would be wider than the page."""
+    """A table with columns of natural width, or with broken lines if together they would be wider than the page."""
     widths = [min(max(map(width, column)), _COLUMN) for column in zip(*rows, strict=True)]
     # The widths of the columns in which lines are broken; 0 for the others.
     broken = [0.0] * len(widths)
@@ -142,16 +144,10 @@ def _latex_table(rows: list[list[str]]) -> str:
     return rf"\medskip{box}\par\noindent{fitted}\par\medskip"
 
 
-def _rows(math: Math) -> list[str]:
-    """The lines of an array."""
-    lines = math.latex.removeprefix(r"\begin{array}{l} \displaystyle ").removesuffix(r" \end{array}")
-    return lines.split(r" \\ \displaystyle ")
-
-
 def _latex_formula(math: Math) -> str:
-    """A paragraph; lines of an array one by one."""
-    # In a group, for in a list, such as a theorem, \par doesn't end what \hangindent began.
-    shown = [rf"{{\hangindent2em$\displaystyle {breakable(row)}$\par}}\smallskip" for row in _rows(math)]
+    """A paragraph for each line."""
+    # Each in a group: in a list, such as a theorem, \par doesn't end what \hangindent began.
+    shown = [rf"{{\hangindent2em$\displaystyle {breakable(row)}$\par}}\smallskip" for row in math.latex_lines]
     return "\n".join([r"\smallskip", *shown])
 
 
@@ -226,7 +222,7 @@ def _html_line(latex: str) -> str:
 
 def _html_formula(math: Math) -> str:
     wide = f'<div class="wide" style="{_SCROLLED}; padding:.4em 0">'
-    rows = _rows(math)
+    rows = math.latex_lines
     try:
         if all(width(row) <= 1.5 * LINE for row in rows):
             written = mathml(math.latex, "block") if math.latex else _code(math)

@@ -6,7 +6,7 @@ Text has ^ for powers.  LaTeX is made from the exact data, each quotient as one 
 from __future__ import annotations
 
 import re
-from collections.abc import Collection
+from collections.abc import Collection, Iterable, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 from functools import cached_property
@@ -18,6 +18,7 @@ from kovacic.algebra.poly import Field, Poly
 from kovacic.algebra.ratfunc import RatFunc
 from kovacic.algebra.rationals import RationalPoly
 from kovacic.equation import parameters_of
+from kovacic.limits import MOST_CHARACTERS
 from kovacic.numbers.numerals import as_latex, as_text
 
 _GREEK_LETTERS = (
@@ -54,14 +55,7 @@ _PART = 0xF0000
 _READY = re.compile(f"[{chr(_PART)}-{chr(0x10FFFD)}]")
 
 
-#: Solutions with polynomials of a higher degree aren't written out, nor are dense polynomials of a higher degree in `Math`.
-LARGEST_DEGREE = 300
-#: Bits of all coefficients together, above which a function isn't printed in `Math`: some twenty screens.
-_LARGEST_SIZE = 100_000
-#: Terms in the variable and the parameters together: some four screens.
-_MOST_PRINTED_TERMS = 500
-#: Characters; longer formulas are shortened.
-_SHORTENED_ABOVE = 2000
+_FIRST_LINE, _NEXT_LINE, _LAST_LINE = r"\begin{array}{l} \displaystyle ", r" \\ \displaystyle ", r" \end{array}"
 # The names within the engine.
 _VARIABLE = "x"
 _SYMBOL = "c"
@@ -69,19 +63,35 @@ _SYMBOL = "c"
 
 @dataclass(frozen=True)
 class Math:
-    """A formula, for reading and for LaTeX."""
+    """A formula as text and as LaTeX."""
 
     text: str
     latex: str
 
     @classmethod
     def of(cls, text: str) -> Math:
-        """A formula of functions and names, by its text."""
+        """The formula with this text."""
         text = with_single_powers(text)
         return cls(text, latex_text(text))
 
+    @classmethod
+    def lines(cls, formulas: Sequence[Math]) -> Math:
+        """Several formulas, one a line."""
+        latex = _NEXT_LINE.join(formula.latex for formula in formulas)
+        return cls("\n".join(formula.text for formula in formulas), _FIRST_LINE + latex + _LAST_LINE)
+
+    @property
+    def latex_lines(self) -> list[str]:
+        """The LaTeX of each line."""
+        return self.latex.removeprefix(_FIRST_LINE).removesuffix(_LAST_LINE).split(_NEXT_LINE)
+
     def equals(self, value: Math) -> Math:
         return Math(f"{self.text} = {value.text}", f"{self.latex} = {value.latex}")
+
+
+def joined(separator: str, parts: Iterable[str | Math]) -> list[str | Math]:
+    """The parts of a sentence with a separator between them."""
+    return [piece for part in parts for piece in (separator, part)][1:]
 
 
 def _first_free(taken: set[str], *candidates: str) -> str:
@@ -98,7 +108,7 @@ class Formulas:
 
     @cached_property
     def symbol(self) -> str:
-        """The name of omega's constants: that of the engine, unless a name of the user's is the same."""
+        """The name of omega's constants: the engine's, unless the user has given it to something else."""
         return _first_free({self.variable, *parameters_of(self.field)}, _SYMBOL)
 
     @cached_property
@@ -111,7 +121,7 @@ class Formulas:
         return self._renamed(function).to_str(self.variable)  # type: ignore[no-any-return]
 
     def place_name(self, place: str) -> str:
-        """A factor of the denominator, which evidence has in the engine's variable, in the user's."""
+        """A factor of the denominator in the user's variable; evidence has it in the engine's."""
         return re.sub(rf"\b{_VARIABLE}\b", self.variable, place)
 
     def internal_place(self, place: str) -> str:
@@ -129,14 +139,16 @@ class Formulas:
         return ExtensionPoly(AlgebraicField(field.base, field.modulus, self.symbol), function.parts)
 
     def math(self, function: RatFunc | Poly) -> Math:
-        """A function or a polynomial; of one that fills more than some screens, the degrees in place of the formula."""
+        """A function or a polynomial; the degrees in place of a formula that would fill several screens."""
         function = RatFunc(function) if isinstance(function, Poly) else function
-        if _is_long(function):
-            return Math(_degrees(function), rf"\text{{{_degrees(function)}}}")
-        return Math.of(caret(self._renamed(function).to_str(self.variable)))
+        if max(map(_estimated_length, (function.num, function.den))) > 10 * MOST_CHARACTERS:
+            above, below = function.num.degree, function.den.degree
+            said = f"(too long to print: degree {above}{f' over degree {below}' * (below > 0)})"
+            return Math(said, rf"\text{{{said}}}")
+        return Math.of(caret(self.python(function)))
 
     def factor(self, function: RatFunc | Poly) -> Math:
-        """The first factor of a product: sums are in parentheses, in text quotients too."""
+        """The first factor of a product: sums in parentheses, quotients too in text."""
         value = self.math(function)
         text = f"({value.text})" if set(value.text) & set(" /") else value.text.replace("*", " ")
         is_single = value.latex.removeprefix("-").startswith((r"\frac", r"\text")) or " " not in value.text
@@ -157,51 +169,36 @@ class Formulas:
         return Math(text, latex).equals(self.math(function))
 
     def place(self, place: str) -> Math:
-        """A place: infinity, x = 2 where its factor is linear in x with a simple constant, else factor = 0."""
+        """A place: infinity, x = 2 for a factor that is linear in x with a simple constant, else factor = 0."""
         if place == "infinity":
             return Math(place, r"\infty")
         factor = self.place_name(place)
-        x = self.variable
-        root = {f"{x} - ": "", f"{x} + ": "-"}.get(factor[: len(x) + 3])
-        if root is not None:
-            root += factor[len(x) + 3 :]
-        if factor == x:
-            root = "0"
-        if root is None or x in root or " " in root:
-            return Math(f"{caret(factor)} = 0", f"{latex_text(factor)} = 0")
-        return Math.of(f"{x} = {root}")
+        x = re.escape(self.variable)
+        linear = re.fullmatch(rf"{x} ([-+]) ((?!.*{x})\S+)", factor)
+        if linear is not None:
+            return Math.of(f"{self.variable} = {'-' * (linear[1] == '+')}{linear[2]}")
+        if factor == self.variable:
+            return Math.of(f"{factor} = 0")
+        return Math(f"{caret(factor)} = 0", f"{latex_text(factor)} = 0")
 
 
 def free_name(taken: Collection[object], *candidates: str) -> str:
-    """The first of the names that isn't one of the user's letters, as F may be of a force and y0 of a value."""
+    """The first of the names that isn't taken by the user, as F may be by a force and y0 by a value."""
     letters = {*map(str, taken)}
     return next((name for name in candidates if name not in letters), candidates[0] + "_")
 
 
 def shortened(text: str) -> str:
-    """A formula of at most two screens."""
-    return text if len(text) <= _SHORTENED_ABOVE else f"{text[: _SHORTENED_ABOVE // 2]} ... ({len(text)} characters)"
+    """A formula of at most a screen, or its first half screen."""
+    return text if len(text) <= 2 * MOST_CHARACTERS else f"{text[:MOST_CHARACTERS]} ... ({len(text)} characters)"
 
 
-def _is_long(function: RatFunc) -> bool:
-    """True if the function has more terms, or longer coefficients, than anybody reads."""
-    for part in (function.num, function.den):
-        terms = part.degree + 1  # an upper bound of the coefficients other than 0, which are counted for a high degree
-        if part.degree >= LARGEST_DEGREE:
-            coefficients = part.rep.numer().coeffs() if isinstance(part, RationalPoly) else part
-            terms = sum(map(bool, coefficients))
-        if terms > LARGEST_DEGREE or terms * part.height_bits() > _LARGEST_SIZE:
-            return True
-        if parameters_of(part.field) and part.extent()[0] > _MOST_PRINTED_TERMS:
-            return True
-    return False
-
-
-def _degrees(function: RatFunc) -> str:
-    above = function.num.degree
-    below = function.den.degree
-    degrees = f"degree {above} over degree {below}" if below > 0 else f"degree {above}"
-    return f"(too long to print: {degrees})"
+def _estimated_length(part: Poly) -> int:
+    """The estimated characters of a polynomial: 8 a term for signs and powers, and the digits of its coefficients."""
+    terms = part.extent()[0]
+    if not parameters_of(part.field):
+        terms = sum(map(bool, part.rep.numer().coeffs() if isinstance(part, RationalPoly) else part))
+    return terms * (8 + part.height_bits() // 3)
 
 
 def of_sympy(expression: Any, first: Any = None) -> Math:
@@ -209,7 +206,7 @@ def of_sympy(expression: Any, first: Any = None) -> Math:
     return Math(caret(as_text(expression, first)), as_latex(expression, first))
 
 
-def rational_functions(generator: str) -> Math:
+def generated_field(generator: str) -> Math:
     """The field C(f) for an expression f in Python syntax."""
     return Math(f"C({caret(generator)})", rf"\mathbb{{C}}({latex_text(generator)})")
 
@@ -223,7 +220,7 @@ _MULTIPLE = re.compile(r"(-?)(?:(\d+)\*)?([^-+/\s]+)(?:/(\d+))?")
 
 
 def with_single_powers(text: str) -> str:
-    """Powers of powers as one: exp(a/2)^3 is exp(3*a/2), (2^(a/2))^2 is 2^a, sqrt(a)^4 is a^2; others without parentheses.
+    """Powers of powers as single ones: exp(a/2)^3 is exp(3*a/2), sqrt(a)^4 is a^2; other powers without parentheses.
 
     >>> print(with_single_powers("exp(a/2)^2*x^2 + b*(a^(1/3))^2 - sqrt(a + b)^2/exp(-a*b/4)^3"))
     exp(a)*x^2 + b*a^(2/3) - (a + b)/exp(-3*a*b/4)
@@ -235,8 +232,8 @@ def with_single_powers(text: str) -> str:
         function, inside, k, base, exponent, name, n = match.groups()
         if function == "sqrt":
             half = "" if k == "2" else f"^{int(k) // 2}"
-            product = inside if inside.isalnum() else f"({inside})"
-            return match[0] if int(k) % 2 else product + half
+            radicand = inside if inside.isalnum() else f"({inside})"
+            return match[0] if int(k) % 2 else radicand + half
         multiple = _MULTIPLE.fullmatch(inside or exponent or name)
         if multiple is None:
             return match[0]
@@ -256,7 +253,7 @@ def with_single_powers(text: str) -> str:
 
 
 def caret(text: str) -> str:
-    """The text with ^ for Python's **."""
+    """The text with ^ for **."""
     return text.replace("**", "^")
 
 
@@ -333,25 +330,19 @@ class _LatexWriter:
             return self.ready(rf"{name}\left({self.complete(match[2])}\right)")
         if match[1]:
             radicand, _, n = match[2].partition(", ")
-            if match[1] == "cbrt":
-                n = "3"
-            degree = f"[{n}]" if n else ""
-            return self.ready(rf"\sqrt{degree}{{{self.complete(radicand)}}}")
+            n = "3" if match[1] == "cbrt" else n
+            return self.ready(rf"\sqrt{f'[{n}]' if n else ''}{{{self.complete(radicand)}}}")
         inside = self.complete(match[2])
         product = rf"\left({inside}\right)" if r"\frac" in inside else f"({inside})"
         return self.ready(product, inside)
 
 
 def symbol(name: str) -> str:
-    """A name as LaTeX: Greek letters, digits at the end and what follows _ as an index; the constant I."""
+    """A name as LaTeX: Greek letters, final digits and the part after _ as an index; the constant I."""
     if name == "I":
         return r"\mathrm{i}"
-    base = name
-    index = ""
     match = re.fullmatch(r"([^\W\d_]+)_*(\w*)", name)
-    if match is not None:
-        base = match[1]
-        index = match[2].replace("_", r"\_")
+    base, index = (name, "") if match is None else (match[1], match[2].replace("_", r"\_"))
     letter = base if len(base) == 1 else rf"\mathrm{{{base}}}"
     if base in _GREEK_LETTERS.split():
         letter = rf"\{base}"

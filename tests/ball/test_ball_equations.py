@@ -13,9 +13,8 @@ from build import parametrize
 
 from kovacic import InputError, LimitExceeded
 from kovacic.ball import InRoots, RollingBall, U, X
-from kovacic.ball.derivation import PRINTED, holds, residuals, vanishes
-from kovacic.ball.paper import equations_of, explained
-from kovacic.ball.theorems import theorem
+from kovacic.ball.derivation import PRINTED, equations_of, explained, holds, residuals, vanishes
+from kovacic.ball.theorems import ball_theorem
 from kovacic.writing.breaking import breakable
 
 m, R, a, A1, A3, R1, x1, x2, D, k = sp.symbols("m R a A1 A3 R1 x1 x2 D k")
@@ -241,12 +240,12 @@ def test_numbers_that_are_too_large_are_refused_before_they_are_computed():
 
 
 def test_what_the_theorems_say():
-    assert theorem(InRoots(sp.Integer(3)))[1] == 1
-    assert theorem(InRoots(sp.Rational(1, 3)))[1] == 2
-    assert theorem(InRoots(k))[1] is None
-    assert "omega_3 = const" in theorem(InRoots(sp.Integer(1)))[0]
-    assert "constant" in theorem(RollingBall(m=1, R=1, a="1/5", A1="1/4", A3="1/3").on_plane())[0]
+    assert ball_theorem(InRoots(sp.Integer(3)))[1] == 1
+    assert ball_theorem(InRoots(sp.Rational(1, 3)))[1] == 2
+    assert ball_theorem(InRoots(k))[1] is None
+    assert "omega_3 = const" in ball_theorem(InRoots(sp.Integer(1)))[0]
+    assert "constant" in ball_theorem(RollingBall(m=1, R=1, a="1/5", A1="1/4", A3="1/3").on_plane())[0]
 
 
 def test_symbolic_parameters_leave_the_case_open():
-    assert theorem(RollingBall(m=m, R=R, a=a, A1=A1, A3=A3).on_sphere(R1))[1] is None
+    assert ball_theorem(RollingBall(m=m, R=R, a=a, A1=A1, A3=A3).on_sphere(R1))[1] is None

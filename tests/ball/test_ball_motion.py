@@ -17,11 +17,11 @@ from numpy.polynomial import chebyshev
 
 from kovacic import InputError, LimitExceeded
 from kovacic.ball import RollingBall, U
-from kovacic.ball.motion import State, solve_motion
+from kovacic.ball.motion import MotionStart, solve_motion
 from kovacic.ball.picture import draw
 
 POTENTIAL = sp.Rational(3, 2) * sp.cos(U)
-START = State(u=1.0, du=0.5, dv=0.3, n=2.0, v=0.1, theta=0.3, u1=1.2, v1=0.2)
+START = MotionStart(u=1.0, du=0.5, dv=0.3, n=2.0, v=0.1, theta=0.3, u1=1.2, v1=0.2)
 BALLS = {
     "l > 0": RollingBall(m=1, R=1, a="1/5", A1="1/4", A3="1/3"),
     "l < 0": RollingBall(m=1, R=1, a="1/5", A1="1/3", A3="1/4"),
@@ -80,7 +80,7 @@ def test_newton_and_euler_agree_on_random_bodies(seed, place):
     ball = random_body(generator)
     sphere = put(ball, random_place(generator, place, ball.R))
     u, du, dv, n, v, theta = generator.uniform(0, np.pi), *generator.normal(size=5)
-    start = State(u, du, dv, 2 * n, v, theta, 1.2, 0.2)
+    start = MotionStart(u, du, dv, 2 * n, v, theta, 1.2, 0.2)
     times = np.linspace(0, 3, 13)
     motion = solve_motion(sphere, start)
     errors = differences(motion, reference(sphere, start, times), times)
@@ -155,7 +155,7 @@ def test_every_start_has_its_motion(name):
     a, R1, (u, du, dv, n) = STARTS[name]
     moments = {"A1": "2/5", "A3": "2/5"} if a == 0 else {"A1": "1/4", "A3": "1/3"}
     sphere = put(RollingBall(m=1, R=1, a=a, **moments), R1)
-    start, times = State(u, du, dv, n), np.linspace(0, 5, 21)
+    start, times = MotionStart(u, du, dv, n), np.linspace(0, 5, 21)
     motion = solve_motion(sphere, start)
     errors = differences(motion, reference(sphere, start, times), times)
     assert max(errors.values()) < 1e-9, errors
@@ -167,7 +167,7 @@ def steady_precession(sphere):
     """v' such that u'' = 0 at u = 1 with n = 2, by bisection of Newton and Euler's u'' in the first instant."""
 
     def change(dv):
-        start = State(1.0, 0.0, dv, 2.0)
+        start = MotionStart(1.0, 0.0, dv, 2.0)
         return reference(sphere, start, np.array([0.0, 1e-3]))["u"][1] - 1.0
 
     low, high = -2.0, 1.0
@@ -183,13 +183,13 @@ def test_steady_precession(R1):
     """And motions as near to it as rounding allows: all of them are the same up to their distance."""
     sphere = put(BALLS["l > 0"], R1)
     dv, times = steady_precession(sphere), np.linspace(0, 200, 101)
-    steady = solve_motion(sphere, State(1.0, 0.0, dv, 2.0))
+    steady = solve_motion(sphere, MotionStart(1.0, 0.0, dv, 2.0))
     assert np.ptp(steady.u(times)) < 1e-8
     for distance in (1e-11, 1e-9, 1e-6):
-        near = solve_motion(sphere, State(1.0, distance, dv, 2.0))
+        near = solve_motion(sphere, MotionStart(1.0, distance, dv, 2.0))
         assert np.abs(near.u(times) - 1).max() < 10 * distance + 1e-8
         assert np.abs(near.contact(times) - steady.contact(times)).max() < 1e-6 + 1e4 * distance
-    at_rest = solve_motion(sphere, State(0.0, 0.0, 0.0, 2.0))
+    at_rest = solve_motion(sphere, MotionStart(0.0, 0.0, 0.0, 2.0))
     assert at_rest.period is None
     assert at_rest.turning_points == (0.0, 0.0)
     assert np.abs(at_rest.contact(times) - at_rest.contact(0.0)).max() < 1e-12
@@ -206,7 +206,7 @@ def random_starts(seed, count):
         u = generator.choice(
             [generator.uniform(0, np.pi), near, np.pi - near, 0.0, np.pi], p=[0.6, 0.15, 0.15, 0.05, 0.05]
         )
-        yield sphere, State(float(u), *(float(x) for x in generator.normal(size=3) * sizes))
+        yield sphere, MotionStart(float(u), *(float(x) for x in generator.normal(size=3) * sizes))
 
 
 @pytest.mark.parametrize(
@@ -334,7 +334,7 @@ def test_asymptotic_motions_are_followed_as_long_as_their_digits_last(gap):
 @pytest.mark.long
 def test_from_rest_beside_the_upright_position():
     """Up to the second time that it stands upright: u = 1e-7 to 1e-11 only shift the time by log(10^k) over the growth rate."""
-    motions = [solve_motion(SPHERE, State(u=10.0**-k, du=0, dv=0, n=0)) for k in (7, 8, 9)]
+    motions = [solve_motion(SPHERE, MotionStart(u=10.0**-k, du=0, dv=0, n=0)) for k in (7, 8, 9)]
     assert all(10 < motion.determined < np.inf for motion in motions)
     times = []
     for motion in motions:
@@ -357,7 +357,7 @@ def test_motions_that_just_turn_are_periodic():
 def test_the_start_is_where_the_state_says(R1):
     """u1 and v1 are the contact point's, inside too; the ball moves there along e_u as theta says."""
     sphere = BALLS["l > 0"].on_sphere(R1)
-    start = State(u=1.0, du=0.5, dv=0.0, n=2.0, v=0.1, theta=0.3, u1=0.4, v1=0.2)
+    start = MotionStart(u=1.0, du=0.5, dv=0.0, n=2.0, v=0.1, theta=0.3, u1=0.4, v1=0.2)
     motion = solve_motion(sphere, start)
     south = np.array([np.cos(0.4) * np.cos(0.2), np.cos(0.4) * np.sin(0.2), -np.sin(0.4)])
     east = np.array([-np.sin(0.2), np.cos(0.2), 0.0])
@@ -414,7 +414,7 @@ def test_work_is_bounded(monkeypatch):
     """A fall into a singularity, and one oscillation that takes too long, end with a reason."""
     with pytest.raises(LimitExceeded, match="can't be followed beyond t ="):
         solve_motion(SPHERE, START, potential="-1/(cos(u) - 1/3)^2")
-    monkeypatch.setattr("kovacic.ball.motion.MAX_EVALUATIONS", 100)
+    monkeypatch.setattr("kovacic.ball.motion._MOST_EVALUATIONS", 100)
     with pytest.raises(LimitExceeded, match="within 100 evaluations"):
         solve_motion(SPHERE, START)
 
@@ -504,10 +504,10 @@ def test_motion_under_other_potentials(potential):
 def test_parameters_and_starts_may_be_irrational():
     ball = RollingBall(m="sqrt(2)", R=1, a="1/5", A1="sqrt(2)/4", A3="sqrt(2)/3")
     sphere = ball.on_sphere("2*sqrt(2)")
-    start = State("sqrt(2)/2", "1/2", Fraction(-3, 10), sp.sqrt(3))
+    start = MotionStart("sqrt(2)/2", "1/2", Fraction(-3, 10), sp.sqrt(3))
     motion = solve_motion(sphere, start, potential="sqrt(2)*cos(u)")
     times = np.linspace(0, 3, 9)
-    exactly = State(np.sqrt(0.5), 0.5, -0.3, np.sqrt(3))
+    exactly = MotionStart(np.sqrt(0.5), 0.5, -0.3, np.sqrt(3))
     found = reference(sphere, exactly, times, slope=lambda x: np.sqrt(2))
     assert max(differences(motion, found, times).values()) < 1e-10
     assert motion.u(0.0).shape == ()
