@@ -1,17 +1,16 @@
 """An equation seen from the middle of a piece, x = c + H u, |u| <= 1, and the states of one of its solutions in balls.
 
-Two kinds: rational coefficients, exact (`RationalChart`), and any functions of x, by their power series (`AnalyticChart`).
 A `Region` is where a double-precision function is defined: a real interval, or a rectangle of the complex plane.
 """
 
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from fractions import Fraction
 from functools import cached_property
-from typing import Any, ClassVar, NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 from flint import acb, arb, fmpq_poly
@@ -37,15 +36,12 @@ from kovacic.limits import DEFAULT_LIMITS, Limits, check_time, count_work
 from kovacic.reading.change_of_variable import function_of_x, without_change
 from kovacic.writing.document import FORMATS, Table
 
-# Bits for ends and singular points: more than twice those of double-doubles.
-_PREC = 240
-
-MEDIAN = 8.0
-WORST = 1000.0
-"""What is promised, in units in the last place."""
-
+#: Bits for whatever becomes a double-double: more than twice those of one.
+PRECISION = 256
+#: The promised errors, in units in the last place.
+MEDIAN, WORST = 8.0, 1000.0
+#: Points that are treated together (measured: half as many take a third longer, twice as many no less).
 BLOCK = 16384
-"""Points that are treated together (measured: half as many take a third longer, as many again no less)."""
 
 
 class Measured(NamedTuple):
@@ -73,7 +69,7 @@ class Measured(NamedTuple):
 
 
 def facts(kind: str, region: Region, measured: Measured | None, **more: str) -> str:
-    """What a notebook shows of a function: where it is defined, and its error in units in the last place."""
+    """The HTML of a function for notebooks: where it is defined, and its error in units in the last place."""
     error = "not measured" if measured is None else f"{measured}, in units in the last place"
     rows = [("function", kind), ("defined on", str(region)), *more.items(), ("error", error)]
     return FORMATS["html"].render([Table((), rows)]).rstrip()
@@ -83,7 +79,7 @@ def facts(kind: str, region: Region, measured: Measured | None, **more: str) -> 
 class Region:
     """A real interval [low, high], or the closed rectangle with these corners (lower left, upper right).
 
-    `singular` says which of the two are singular points, where there is no value.
+    `singular` is True for each of the two that is a singular point, where there is no value.
     """
 
     low: complex
@@ -121,13 +117,14 @@ class Region:
         # Any point of the region will do for a value that stays masked.
         if np.ma.is_masked(points):
             points = np.ma.array(points.filled((low + high) / 2), mask=points.mask)
-        # By the extremes, but for NaN, which has the value NaN.
+        # By the extremes; fmin and fmax leave NaN out, which has the value NaN.
         planes = [(low.real, points.real, high.real), (low.imag, points.imag, high.imag)][: 1 if self.is_real else 2]
-        inside = not points.size or all(_between(*plane) for plane in planes)
-        at_singular = any(
-            singular and np.any(points == end) for end, singular in zip((low, high), self.singular, strict=True)
+        outside = points.size and any(
+            np.fmin.reduce(values, axis=None) < least or np.fmax.reduce(values, axis=None) > most
+            for least, values, most in planes
         )
-        if at_singular or not inside:
+        ends = zip((low, high), self.singular, strict=True)
+        if outside or any(singular and np.any(points == end) for end, singular in ends):
             raise InputError(
                 f"a point lies outside of the interval {(low, high)} of this function, or on a singular point"
             )
@@ -137,14 +134,6 @@ class Region:
     def interval(self) -> tuple[float, float]:
         """The ends, of a real interval."""
         return self.low.real, self.high.real
-
-
-def _between(low: float, values: Any, high: float) -> bool:
-    """True if all of the numbers among these lie there."""
-    # fmin and fmax leave NaN out.
-    least = np.fmin.reduce(values, axis=None)
-    largest = np.fmax.reduce(values, axis=None)
-    return not (least < low or largest > high)
 
 
 def in_blocks(function: Callable[[Any], Any], points: Any, block: int = BLOCK) -> Any:
@@ -190,16 +179,14 @@ def region_of(problem: NumericProblem | None, interval: tuple[object, object]) -
     return Region(complex(left, bottom), complex(right, top), singular), near
 
 
-@working_precision(_PREC)
+@working_precision(PRECISION)
 def _singular_ends(problem: NumericProblem | None, low: ExactPoint, high: ExactPoint) -> tuple[bool, bool]:
     """True for each of the two corners that is a singular point.  Raises InputError if another point may be one."""
-    at_low = False
-    at_high = False
+    at_low = at_high = False
+    a, b = to_acb(low), to_acb(high)
     if problem is None:
         return at_low, at_high
-    a = to_acb(low)
-    b = to_acb(high)
-    for root in problem.enclosures(_PREC):
+    for root in problem.enclosures(PRECISION):
         # A root that overlaps an end is taken for it; others have to be apart from the rectangle.
         is_low = root.overlaps(a)
         is_high = root.overlaps(b)
@@ -227,43 +214,73 @@ def _doubles(low: Fraction, high: Fraction, singular: tuple[bool, bool]) -> tupl
     return a, b
 
 
+#: Precision of an initial slope, for Taylor steps: its error, times the growth of the dominant solution, contaminates a
+#: recessive one.
 _SLOPE_BITS = 4000
-"""Precision of an initial slope, for Taylor steps: its error, times the growth of the dominant solution, contaminates a
-recessive one."""
 
 _COMPLEX = "functions of real numbers need an equation with real coefficients"
 
 
 @dataclass(frozen=True)
-class RationalChart:
-    """The equation a y'' + b y' + c y = f, and which solution: the options of `evaluate`."""
+class PieceChart:
+    """An equation a y'' + b y' + c y = f, and one of its solutions, by the options of `evaluate` that are `given`.
 
-    problem: NumericProblem
+    It is rational (`problem`), or has any functions of x as `coefficients`.  If these are rational in a function t of x, and
+    the equation was solved, `problem` is that in t, and `read` the equation with the change of the variable.
+    """
+
     given: dict[str, Any]
+    problem: NumericProblem | None = None
+    coefficients: Coefficients | None = None
+    read: Any = None
     branch: Exponential | None = None
 
     def region(self, interval: tuple[object, object]) -> tuple[Region, list[ExactPoint]]:
-        """See `region_of`."""
-        return region_of(self.problem, interval)
+        """See `region_of`; raises InputError if a singular point is in the interval or on the way to it."""
+        found = region_of(self._rational, interval)
+        if self.coefficients is not None and self.given and found[0].is_real:
+            self.states([as_point(end, "x") for end in found[0].interval], 3, None)
+        return found
+
+    @property
+    def _rational(self) -> NumericProblem | None:
+        """The equation if it is rational in x."""
+        return self.problem if self.coefficients is None else None
+
+    @working_precision(_SLOPE_BITS + 200)
+    def _in_t(self, x: ExactPoint) -> tuple[ExactPoint, acb]:
+        """About t, and dt/dx."""
+        if self.coefficients is None:
+            return x, acb(1)
+        t = function_of_x(self.read)
+        known = self.coefficients.at(to_acb(x))
+        return midpoint(in_balls(t, known)), in_balls(t.diff(self.coefficients.variable), known)
 
     def base(self, which: int, candidates: list[ExactPoint]) -> ExactPoint:
         """The first of the points where the logarithmic derivative number `which` is finite."""
-        return finite_base(self.problem, which, candidates)
+        assert self.problem is not None
+        places = [self._in_t(x)[0] for x in candidates]
+        return candidates[places.index(finite_base(self.problem, which, places))]
 
-    def beginning(self, which: int, base: ExactPoint) -> RationalChart:
+    def beginning(self, which: int, base: ExactPoint) -> PieceChart:
         """The solution with this logarithmic derivative, 1 at the base."""
-        branches = exponentials(self.problem)
+        assert self.problem is not None
+        branches = exponentials(self.problem) if self.coefficients is None else []
         if branches:
             return replace(self, given={"x0": base}, branch=branches[which])
-        slope = omega(self.problem, which, base, _SLOPE_BITS)
-        return replace(self, given={"x0": base, "y0": 1, "dy0": ball_from_flint(slope)})
+        place, rate = self._in_t(base)
+        slope = omega(self.problem, which, place, _SLOPE_BITS)
+        with working_precision(_SLOPE_BITS + 200):
+            return replace(self, given={"x0": base, "y0": 1, "dy0": ball_from_flint(slope * rate)})
 
     def states(self, points: Points, digits: int, limits: Limits | None, **options: Any) -> list[State]:
-        """y and dy/dx, to the given digits where that is possible."""
+        """y and dy/dx, to the given digits where that is possible; with any functions along the real axis."""
         if self.branch is not None:
             return self._closed(self.branch, points, digits)
         options |= {"digits": digits, "limits": limits, **self.given}
-        return [s.state for s in evaluate_states(self.problem, points, **options)]
+        if self.coefficients is not None:
+            options["path"] = self.given.get("path")
+        return [s.state for s in evaluate_states(self.coefficients or self.problem, points, **options)]
 
     def _closed(self, branch: Exponential, points: Points, digits: int) -> list[State]:
         """y = exp(int theta) P/P(base) and y' from the certificate: without the zeros of P, and without an integration of the
@@ -287,143 +304,81 @@ class RationalChart:
     @property
     def is_forced(self) -> bool:
         """True if there is a right-hand side."""
-        return self.problem.right is not None
+        if self.coefficients is not None:
+            return bool(self.coefficients.f != 0)
+        return self.problem is not None and self.problem.right is not None
 
-    @property
-    def _is_exact(self) -> bool:
-        """True for polynomials over Q and no right-hand side."""
-        return not self.is_forced and self.problem.is_rational
+    @cached_property
+    def _exact(self) -> Sequence[fmpq_poly]:
+        """a, b and c if they are polynomials over Q and there is no right-hand side; else nothing."""
+        problem = self._rational
+        return () if problem is None or problem.right is not None or not problem.is_rational else problem.equation
+
+    @cached_property
+    def _functions(self) -> CoefficientField:
+        """The coefficients in balls."""
+        if self.coefficients is not None:
+            return CoefficientField(self.coefficients)
+        assert self.problem is not None
+        return way_of(self.problem).functions
 
     @cached_property
     def singular(self) -> list[ExactPoint]:
-        """The midpoints of their enclosures."""
-        return self.problem.singular_points(128)
+        """The midpoints of enclosures of the singular points; of other functions none is known, but ways refuse them."""
+        return [] if self._rational is None else self._rational.singular_points(128)
+
+    @property
+    def irregular(self) -> list[ExactPoint]:
+        """Those near which solutions may be as large as exp(1/distance)."""
+        poles = () if self._rational is None else self._rational.poles(128)
+        return [midpoint(root) for root, order in poles if order > 2]
 
     @cached_property
     def is_uniform(self) -> bool:
         """True if the equation on a piece depends on its size alone: with constant coefficients."""
-        return self._is_exact and all(part.degree() < 1 for part in self.problem.equation)
-
-    def local(self, centre: ExactPoint, e: int, terms: int) -> list[list[arb]]:
-        """See `_equation_series`."""
-        if not self._is_exact:
-            return _equation_series(way_of(self.problem).functions, centre, e, terms)
-        line = fmpq_poly([centre.x, power_of_two(e)])
-        found = [[arb(v) for v in _expanded(part, line, terms)] for part in self.problem.equation]
-        # a, H b and H^2 c over a(c).
-        factors = [arb((1, k * e)) / found[0][0] for k in range(3)]
-        return [[v * factor for v in part] for part, factor in zip(found, factors, strict=True)]
-
-    @property
-    def irregular(self) -> list[ExactPoint]:
-        """Those singular points near which solutions may be as large as exp(1/distance)."""
-        return [midpoint(root) for root, order in self.problem.poles(128) if order > 2]
+        return bool(self._exact) and all(part.degree() < 1 for part in self._exact)
 
     def is_regular(self, centre: ExactPoint, e: int) -> bool:
-        """True if the disc with the scale 2^e, and four times as much, is free of singular points."""
+        """True if four times the disc with the scale 2^e is free of singular points, or other functions are provably analytic
+        in twice the disc."""
+        if self.coefficients is not None:
+            with working_precision(64):
+                return self._functions.sizes(centre, arb((1, e + 1))) is not None
         return all((point - centre).norm_squared() > power_of_two(2 * e + 4) for point in self.singular)
 
-
-@dataclass(frozen=True)
-class AnalyticChart:
-    """y'' + b y' + c y = f with any functions of x, and which solution: the options of `evaluate`.
-
-    Where the equation is rational in t, a function of x, and was solved, `problem` is that in t.
-    """
-
-    coefficients: Coefficients
-    given: dict[str, Any]
-    equation: Any
-    problem: NumericProblem | None = None
-
-    @cached_property
-    def _functions(self) -> CoefficientField:
-        return CoefficientField(self.coefficients)
-
-    @property
-    def is_forced(self) -> bool:
-        """True if there is a right-hand side."""
-        return bool(self.coefficients.f != 0)
-
-    # None is known: a way through one is refused.
-    singular: ClassVar[list[ExactPoint]] = []
-    irregular: ClassVar[list[ExactPoint]] = []
-    is_uniform: ClassVar[bool] = False  # no piece has the equation of another one
-
-    def region(self, interval: tuple[object, object]) -> tuple[Region, list[ExactPoint]]:
-        """See `region_of`; raises InputError where a singular point is in the interval or on the way to it."""
-        found = region_of(None, interval)
-        if self.given and found[0].is_real:
-            self.states([as_point(end.real, "x") for end in (found[0].low, found[0].high)], 3, None)
-        return found
-
-    @working_precision(_SLOPE_BITS + 200)
-    def _in_t(self, x: ExactPoint) -> tuple[ExactPoint, acb]:
-        """About t, and dt/dx."""
-        t = function_of_x(self.equation)
-        known = self.coefficients.at(to_acb(x))
-        return midpoint(in_balls(t, known)), in_balls(t.diff(self.coefficients.variable), known)
-
-    def base(self, which: int, candidates: list[ExactPoint]) -> ExactPoint:
-        """The first of the points where the logarithmic derivative number `which` is finite."""
-        assert self.problem is not None
-        points = [self._in_t(x)[0] for x in candidates]
-        return candidates[points.index(finite_base(self.problem, which, points))]
-
-    def beginning(self, which: int, base: ExactPoint) -> AnalyticChart:
-        """The solution with this logarithmic derivative, 1 at the base."""
-        assert self.problem is not None
-        place, rate = self._in_t(base)
-        slope = omega(self.problem, which, place, _SLOPE_BITS)
-        with working_precision(_SLOPE_BITS + 200):
-            return replace(self, given={"x0": base, "y0": 1, "dy0": ball_from_flint(slope * rate)})
-
-    def states(self, points: Points, digits: int, limits: Limits | None, **options: Any) -> list[State]:
-        """y and dy/dx along the real axis, to the given digits where that is possible."""
-        options |= {"digits": digits, "limits": limits, **self.given}
-        options["path"] = self.given.get("path")
-        return [s.state for s in evaluate_states(self.coefficients, points, **options)]
-
-    def is_regular(self, centre: ExactPoint, e: int) -> bool:
-        """True if the coefficients are provably analytic in the disc with twice the scale 2^e."""
-        with working_precision(64):
-            return self._functions.sizes(centre, arb((1, e + 1))) is not None
-
     def local(self, centre: ExactPoint, e: int, terms: int) -> list[list[arb]]:
-        """See `_equation_series`."""
-        return _equation_series(self._functions, centre, e, terms)
+        """a, H b, H^2 c and H^2 f over a(c), the first `terms` terms in u; NaN if they aren't finite.
 
-
-def _equation_series(functions: CoefficientField, centre: ExactPoint, e: int, terms: int) -> list[list[arb]]:
-    """a, H b, H^2 c and H^2 f over a(c), the first `terms` terms in u; NaN where they aren't finite."""
-    parts = functions.series(centre, e, terms)
-    if parts is None:
-        return [[arb(1)], [], [arb("nan")], []]
-    (_, *a), *others = ([_real_value(acb(v)) for v in part.coeffs()] or [arb(0)] for part in parts)
-    return [[arb(1), *a], *others]
-
-
-def _real_value(value: acb) -> arb:
-    """Of a coefficient or of the right-hand side; raises `InputError` where it isn't real."""
-    if not value.imag.contains(0):
-        raise InputError(_COMPLEX, hint="evaluate takes others")
-    return value.real
-
-
-PieceChart = RationalChart | AnalyticChart
+        f is left out where it is zero and all are polynomials.  Raises `InputError` unless they are real.
+        """
+        if self._exact:
+            line = fmpq_poly([centre.x, power_of_two(e)])
+            found = [[arb(v) for v in _expanded(part, line, terms)] for part in self._exact]
+            # a, H b and H^2 c over a(c).
+            factors = [arb((1, k * e)) / found[0][0] for k in range(3)]
+            return [[v * factor for v in part] for part, factor in zip(found, factors, strict=True)]
+        parts = self._functions.series(centre, e, terms)
+        if parts is None:
+            return [[arb(1)], [], [arb("nan")], []]
+        rows = [[acb(v) for v in part.coeffs()] or [acb(0)] for part in parts]
+        if not all(v.imag.contains(0) for row in rows for v in row):
+            raise InputError(_COMPLEX, hint="evaluate takes others")
+        # The first one is of a/a(c) - 1.
+        (_, *a), *others = ([v.real for v in row] for row in rows)
+        return [[arb(1), *a], *others]
 
 
 def chart_of(equation: object, given: dict[str, Any], params: Params, *, constants: bool = True) -> PieceChart:
     """The chart of an equation, as `evaluate` takes it; right-hand sides and constants only where a solution is `given`."""
     try:
-        return RationalChart(_real_problem(equation, params, constants), given)
+        return PieceChart(given, _real_problem(equation, params, constants))
     except NotRational:
         pass
     coefficients = coefficients_of_any(equation, params, DEFAULT_LIMITS)
     problem = None
     if isinstance(equation, Answer) and not constants:
         problem = _real_problem(without_change(equation), params, constants)
-    return AnalyticChart(coefficients, given, getattr(equation, "equation", None), problem)
+    return PieceChart(given, problem, coefficients, getattr(equation, "equation", None))
 
 
 def _real_problem(equation: object, params: Params, constants: bool) -> NumericProblem:
@@ -434,7 +389,7 @@ def _real_problem(equation: object, params: Params, constants: bool) -> NumericP
 
 
 def _expanded(polynomial: fmpq_poly, line: fmpq_poly, terms: int) -> list[Any]:
-    """The first coefficients of the composition with a line: of two, the powers of a long one are never made."""
+    """The first coefficients of the composition with a line: for two, the powers of a long line are never made."""
     centre, scale = line[0], line[1]
     if terms == 2:
         return [polynomial(centre), polynomial.derivative()(centre) * scale]

@@ -1,11 +1,11 @@
 """A solution as a curve for a picture: proven values as dense as it oscillates, or its envelope where that can't be drawn.
 
 In the normal form u'' = S u, y = u exp(-int beta), beta = b/(2a), a solution oscillates with the local frequency
-q = sqrt(-S) where S < 0.  There are _PER_PERIOD samples of y and y' for each period 2 pi/q, so that nothing is seen that isn't
-there, and at least as many as asked for.  Between samples runs the cubic with their values and slopes; it is
-compared with one more value in the middle of each interval, and the interval is halved until they agree.
+q = sqrt(-S) where S < 0.  There are 12 samples of y and y' for each period 2 pi/q, so that nothing is seen that isn't there,
+and at least the requested number.  Between samples runs the cubic with their values and slopes; it is compared with one more
+value in the middle of each interval, and the interval is halved until they agree.
 
-Where a period would be drawn on less than _FINEST of the picture's width, only the envelope is given:
+Where a period would be drawn on less than 1/125 of the picture's width, only the envelope is given:
     A = sqrt(u^2 + u'^2/q^2) exp(-int beta) = sqrt(y^2 + (y' + beta y)^2/q^2),
 which is the amplitude up to a relative error of about S'/(4 q^3), small where S changes little within a period.
 """
@@ -29,23 +29,10 @@ from kovacic.limits import check_time
 
 Floats = NDArray[np.float64]
 Complexes = NDArray[np.complex128]
-Solution = Callable[[Points], Sequence[Any]]  # y and y' in balls at points
+SolutionStates = Callable[[Points], Sequence[Any]]  # y and y' in balls at points
 
-_PER_PERIOD = 12
-#: Periods shorter than this share of the picture's width are shown by their envelope.
-_FINEST = 1 / 125
-#: A stretch with fewer periods than this is drawn, however short they are.
-_FEWEST = 10
-#: Points of an envelope across the whole width, and of the grid on which S is looked at.
-_ENVELOPE = 300
-_GRID = 800
-#: The cubic between two samples may be off by this share of the size of the solution nearby.
-_TOLERANCE = 2e-3
-#: How often an interval is halved, and how many samples a curve has at the most.
-_HALVINGS = 14
-_MOST = 400_000
-#: Points that are drawn for one interval between samples.
-_DRAWN = 6
+#: Samples of a curve: each costs some 50 microseconds and 100 bytes.
+_MOST_SAMPLES = 400_000
 
 
 class Arc(NamedTuple):
@@ -63,7 +50,7 @@ class Arc(NamedTuple):
     def drawn(self) -> tuple[Floats, Complexes]:
         """Points so dense that straight lines between them are as good as the cubics."""
         h = np.diff(self.x)[:, None]
-        t = np.arange(_DRAWN) / _DRAWN
+        t = np.arange(6) / 6
         # The basis of the cubics on [0, 1]: values and slopes at both ends.
         value = (1 + 2 * t) * (1 - t) ** 2
         slope = t * (1 - t) ** 2
@@ -100,7 +87,7 @@ class CurveCoefficients(NamedTuple):
         return np.sqrt(np.maximum(-self.S, 0.0))
 
 
-def coefficients(chart: PieceChart, points: Points) -> CurveCoefficients:
+def curve_coefficients(chart: PieceChart, points: Points) -> CurveCoefficients:
     """By y'' + b y' + c y = f/a at each point, divided by a: S = b'/2 + b^2/4 - c."""
     rows = []
     for point in points:
@@ -118,7 +105,7 @@ def arcs(
     interval: tuple[Fraction, Fraction],
     width: Fraction,
     points: int,
-    states: Solution,
+    states: SolutionStates,
 ) -> list[Arc | Envelope]:
     """The curve over an interval without singular points, of a picture of this width with this many samples or more.
 
@@ -127,18 +114,18 @@ def arcs(
     _check_count(points)
     # S is looked at in equidistant points, and in nearer and nearer ones beside singular points.
     low, high = interval
-    count = max(8, round(_GRID * (high - low) / width))
+    count = max(8, round(800 * (high - low) / width))
     chosen = {low + (high - low) * Fraction(k, count) for k in range(count + 1)}
     chosen.update(Fraction(x) for x in _beside_singular_points(chart, float(low), float(high)))
-    here = coefficients(chart, [ExactPoint(x) for x in sorted(chosen)])
+    here = curve_coefficients(chart, [ExactPoint(x) for x in sorted(chosen)])
     if not np.isfinite(here.S).all():  # there the states raise the reason, or nothing oscillates
         states([ExactPoint(Fraction(float(at))) for at in here.x[~np.isfinite(here.S)]])
         here = here._replace(S=np.nan_to_num(here.S))
-    finest = _FINEST * float(width)
     # The envelope is that of a solution of the homogeneous equation.
-    too_fine = (here.frequency * finest > 2 * np.pi) & (not chart.is_forced)
+    too_fine = (here.frequency * float(width) / 125 > 2 * np.pi) & (not chart.is_forced)
     for first, last in _stretches(too_fine):
-        if _periods(here.x[first : last + 1], here.frequency[first : last + 1]) < _FEWEST:
+        # A few periods are drawn, however short they are.
+        if _periods(here.x[first : last + 1], here.frequency[first : last + 1]) < 10:
             too_fine[first : last + 1] = False
     found: list[Arc | Envelope] = []
     for first, last in _stretches(too_fine):
@@ -168,10 +155,10 @@ def _stretches(kind: NDArray[np.bool_]) -> list[tuple[int, int]]:
     return [(first, last) for first, last in pairwise(ends) if first < last]
 
 
-def _arc(part: CurveCoefficients, width: Fraction, points: int, states: Solution) -> Arc:
+def _arc(part: CurveCoefficients, width: Fraction, points: int, states: SolutionStates) -> Arc:
     """Samples by the local frequency, then halved where the cubic between two isn't good enough."""
-    # As many as were asked for on the whole width, and _PER_PERIOD in each period.
-    density = np.maximum(points / float(width), _PER_PERIOD * part.frequency / (2 * np.pi))
+    # The requested number on the whole width, and 12 in each period.
+    density = np.maximum(points / float(width), 12 * part.frequency / (2 * np.pi))
     steps = np.maximum(density[1:], density[:-1]) * np.diff(part.x)
     # How many samples there are up to each point; they are equidistant in that.
     reached = np.concatenate([[0.0], np.cumsum(steps)])
@@ -182,29 +169,25 @@ def _arc(part: CurveCoefficients, width: Fraction, points: int, states: Solution
     doubtful = np.ones(len(arc.x) - 1, dtype=bool)
     # Near zeros the cubic may be off by a share of the usual size.
     usual = float(np.median(np.abs(arc.y)))
-    for _ in range(_HALVINGS):
-        if not doubtful.any():
-            break
+    while doubtful.any():
         arc, doubtful = _halved(arc, doubtful, usual, states)
     return arc
 
 
-def _halved(arc: Arc, doubtful: NDArray[np.bool_], usual: float, states: Solution) -> tuple[Arc, NDArray[np.bool_]]:
+def _halved(
+    arc: Arc, doubtful: NDArray[np.bool_], usual: float, states: SolutionStates
+) -> tuple[Arc, NDArray[np.bool_]]:
     """One more sample in the middle of each doubtful interval; both halves stay doubtful where the cubic missed it."""
-    left = np.flatnonzero(doubtful)
-    right = left + 1
-    h = arc.x[right] - arc.x[left]
-    middles = arc.x[left] + h / 2
+    middles = arc.x[:-1] + np.diff(arc.x) / 2
     # Neighbouring doubles have no double between them.
-    inside = (middles > arc.x[left]) & (middles < arc.x[right])
-    left = left[inside]
+    left = np.flatnonzero(doubtful & (middles > arc.x[:-1]) & (middles < arc.x[1:]))
     right = left + 1
-    h, middles = h[inside], middles[inside]
+    h, middles = arc.x[right] - arc.x[left], middles[left]
     _check_count(len(arc.x) + len(middles))
     new = _with_samples(middles, states)
     # The cubic with these values and slopes, in the middle.
     cubic = (arc.y[left] + arc.y[right]) / 2 + h * (arc.dy[left] - arc.dy[right]) / 8
-    allowed = _TOLERANCE * np.maximum(np.abs(new.y), usual) + new.radius
+    allowed = 2e-3 * np.maximum(np.abs(new.y), usual) + new.radius
     missed = np.abs(cubic - new.y) > allowed
     merged = Arc(*(np.insert(known, right, one) for known, one in zip(arc, new, strict=True)))
     still = np.zeros(len(merged.x) - 1, dtype=bool)
@@ -215,12 +198,12 @@ def _halved(arc: Arc, doubtful: NDArray[np.bool_], usual: float, states: Solutio
     return merged, still
 
 
-def _envelope(chart: PieceChart, part: CurveCoefficients, width: Fraction, states: Solution) -> Envelope:
+def _envelope(chart: PieceChart, part: CurveCoefficients, width: Fraction, states: SolutionStates) -> Envelope:
     low = part.x[0]
     high = part.x[-1]
-    count = max(8, int(_ENVELOPE * (high - low) / float(width)))
+    count = max(8, int(300 * (high - low) / float(width)))
     x = np.unique(np.append(np.linspace(low, high, count + 1), _beside_singular_points(chart, float(low), float(high))))
-    here = coefficients(chart, [ExactPoint(Fraction(float(at))) for at in x])
+    here = curve_coefficients(chart, [ExactPoint(Fraction(float(at))) for at in x])
     samples = _with_samples(x, states)
     q = here.frequency
     # u' exp(-int beta) = y' + beta y.
@@ -236,7 +219,7 @@ def _periods(x: Floats, frequency: Floats) -> float:
     return float(np.trapezoid(frequency, x) / (2 * np.pi))
 
 
-def _with_samples(x: Floats, states: Solution) -> Arc:
+def _with_samples(x: Floats, states: SolutionStates) -> Arc:
     found = states([ExactPoint(Fraction(float(at))) for at in x])
     balls = [[finite_ball(value) for value in state] for state in found]
     try:
@@ -249,5 +232,5 @@ def _with_samples(x: Floats, states: Solution) -> Arc:
 
 
 def _check_count(count: int) -> None:
-    if count > _MOST:
-        raise LimitExceeded(f"the curve needs more than {_MOST} samples", limit="samples")
+    if count > _MOST_SAMPLES:
+        raise LimitExceeded(f"the curve needs more than {_MOST_SAMPLES} samples", limit="samples")

@@ -1,11 +1,11 @@
 """Double-double numbers hi + lo, good to about 100 bits, and complex numbers of them or of plain arrays.
 
-One piece of code serves both arithmetics: its variable is a NumPy array of doubles, and so are its results, or a `Pair` of such
-arrays.  Constants are Pairs of floats; beside an array they count as doubles, but for differences, which subtract both halves
-and so keep their digits near a zero.
+One piece of code serves both arithmetics: its variable and its results are NumPy arrays of doubles, or `Pair`s of such arrays.
+Constants are Pairs of floats; with an array they count as doubles, but for differences, which subtract both halves and so keep
+their digits near a zero.
 
 Nothing is proven here: the errors are those of the usual analyses (a few units of 2^-104 relative to the result of each
-operation), as long as no product leaves the range of a double; `split` brings numbers to size 1 before they are squared.
+operation), if no product leaves the range of a double; `split` brings numbers to size 1 before they are squared.
 
 - log(v): v = 2^e m with m in [sqrt(1/2), sqrt(2)), t the multiple of 1/64 next to m, s = (m - t)/(m + t), |s| < 0.006:
   log(v) = e log 2 + log t + 2 (s + s^3/3 + ... + s^13/13).
@@ -27,7 +27,8 @@ from flint import acb, arb
 
 from kovacic.algebra.precision import working_precision
 
-_SPLIT = 134217729.0  # 2^27 + 1
+#: Binary exponents up to here stay in the numbers: doubles have 1023, and products need room.
+ROOM = 900
 
 
 def two_sum(a: Any, b: Any) -> Pair:
@@ -42,8 +43,8 @@ def two_product(a: Any, b: Any) -> Pair:
     """a b exactly, unless it over- or underflows."""
     # Dekker: halves of 26 bits, whose products are exact.
     p = a * b
-    x = _SPLIT * a
-    y = _SPLIT * b
+    x = (2.0**27 + 1) * a
+    y = (2.0**27 + 1) * b
     ah = x - (x - a)
     bh = y - (y - b)
     al = a - ah
@@ -69,10 +70,9 @@ class Pair:
         return Pair(self.hi[index], self.lo[index])
 
     def __add__(self, other: Any) -> Any:
-        # Beside an array the low half is below its last place.
+        # The low half is below the last place of an array.
         if isinstance(other, np.ndarray):
             return other + self.hi
-        # both halves exactly first
         s = two_sum(self.hi, other.hi)
         t = two_sum(self.lo, other.lo)
         s = two_sum(s.hi, s.lo + t.hi)

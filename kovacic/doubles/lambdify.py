@@ -23,7 +23,7 @@ from flint import acb
 
 from kovacic.algebra.precision import working_precision
 from kovacic.api import find_answer
-from kovacic.doubles.chart import Measured, PieceChart, RationalChart, Region, chart_of
+from kovacic.doubles.chart import PRECISION, Measured, PieceChart, Region, chart_of
 from kovacic.doubles.product_form import ProductForm, product_form
 from kovacic.doubles.tabulate import TabulatedFunction, table_of
 from kovacic.enclosure.ball import ball_from_flint
@@ -35,33 +35,18 @@ from kovacic.errors import InputError, LimitExceeded, warn_user
 from kovacic.limits import DEFAULT_LIMITS, Limits, bounded_work, limited
 from kovacic.numbers.exact import exact_real, whole
 
-TINY = 2.0**-960
-HUGE = 2.0**1020
-"""Where values count."""
-
-_DIGITS = 50
-# For errors of values that have 50 digits.
-_PREC = 240
-_BITS = 166
-"""The bits of 50 digits."""
-
-_MOST_WORK = 1_500_000
-"""Steps of Taylor's method, or values of closed forms, times their bits: for the reference values of one measurement."""
-
-_SAMPLES = 24
-_ZEROS = 3
-_WORST = 4
-"""Points at which a function is measured, zeros that are looked at from both sides, and points that are suspected."""
-
-_MANY = 400
-_EACH = 8
-_BESIDE = 0.01
-"""Parts of a region, points of each that suspects are chosen from, and the distance from a zero over that to the next one."""
-
+#: The sizes of values whose errors count.
+TINY, HUGE = 2.0**-960, 2.0**1020
+#: Digits of the reference values.
+_DIGITS_OF_REFERENCE = 50
+#: Steps of Taylor's method, or values of closed forms, times their bits, for the reference values of one measurement: 20 s.
+_MOST_WORK_FOR_REFERENCE = 1_500_000
+#: The least distance from a zero at which errors are measured, over that to the next zero.
+_BESIDE_ZEROS = 0.01
+#: The solutions that `solutions` prints.
 _PRINTED = ("y1", "y2")
-"""Solutions as they are printed."""
 
-Function = ProductForm | TabulatedFunction
+DoubleFunction = ProductForm | TabulatedFunction
 
 
 @limited
@@ -72,7 +57,7 @@ def lambdify(
     careful: bool | None = None,
     check: bool = True,
     **keywords: Unpack[Keywords],
-) -> Function:
+) -> DoubleFunction:
     """A solution as a vectorised NumPy function in double precision, with its error measured.
 
     Real solutions give doubles, others complex doubles.  A function keeps no state: threads may share it.  Making one sets
@@ -149,9 +134,8 @@ def lambdify(
     0.223890779141
     """
     initial, accuracy, path, params, var = Request.of("lambdify", keywords, unused=("digits", "method"))
-    limits = accuracy.limits
-    which = initial.which
-    start, number = _question(initial, path)
+    limits, which = accuracy.limits, initial.which
+    start, number = _start_or_number(initial, path)
     chart = _chart(with_variable(solution, var, limits, params), start, params, limits)
     region, candidates = chart.region(interval)
     base = None
@@ -173,10 +157,10 @@ def lambdify(
     return replace(function, measured=found)
 
 
-def _question(initial: Start, path: Path) -> tuple[dict[str, Any], int]:
-    """The keywords of the start and the path, if there are any, and else the number of the solution."""
+def _start_or_number(initial: Start, path: Path) -> tuple[dict[str, Any], int]:
+    """The keywords of the start and the path, if there are any, or else the number of the solution."""
     which = initial.which
-    start = fields_of(initial) if path is None else {**fields_of(initial), "path": path}
+    start = fields_of(initial) | ({} if path is None else {"path": path})
     if isinstance(which, str) and which in _PRINTED:
         if len(start) > 1:
             raise InputError(f"which={which!r} is a solution without initial values")
@@ -200,7 +184,7 @@ def _printed(solution: object, which: str, candidates: Sequence[ExactPoint], par
         raise InputError(f"which={which!r} needs what kovacic.solve returns for an equation with closed forms")
     values = {sympy.Symbol(name): sympy.Rational(exact_real(value, name)) for name, value in (params or {}).items()}
     y = pair[_PRINTED.index(which)].xreplace(values)
-    with working_precision(_PREC):
+    with working_precision(PRECISION):
         for point in candidates:
             value, slope, _ = jet(y, sympy.Symbol(solution.variable), to_acb(point))  # type: ignore[attr-defined]
             if value.is_finite() and slope.is_finite():
@@ -236,24 +220,23 @@ class _Job:
     base: ExactPoint | None
     limits: Limits | None
 
-    def function(self, *, careful: bool, plain: Function | None = None) -> Function:
+    def function(self, *, careful: bool, plain: DoubleFunction | None = None) -> DoubleFunction:
         """The solution in double-doubles or plain doubles, `plain` if that is known."""
-        if isinstance(plain, ProductForm):
-            return replace(plain, careful=careful)  # the factors are the same
-        if self.base is not None and isinstance(self.chart, RationalChart):
-            with working_precision(_PREC):
-                form = product_form(self.chart.problem, self.number, self.region, self.base)
-            if form is not None:
-                return replace(form, careful=careful)
+        form = plain if isinstance(plain, ProductForm) else None  # the factors are the same
+        problem = self.chart.problem
+        if form is None and self.base is not None and problem is not None and self.chart.coefficients is None:
+            form = product_form(problem, self.number, self.region, self.base)
+        if form is not None:
+            return replace(form, careful=careful)
         if not self.region.is_real:
             raise InputError("complex arguments need a solution of case 1", hint="evaluate treats every complex point")
         return table_of(self.chart, self.region, careful, self.limits)
 
-    def measured(self, function: Function) -> tuple[Measured | None, str]:
-        """The error of the function, and what a user is to be told of it: nothing if it is as small as promised."""
+    def measured(self, function: DoubleFunction) -> tuple[Measured | None, str]:
+        """The error of the function, and a complaint unless it is as small as promised."""
         unknown = "the error of this function couldn't be measured"
         try:
-            with bounded_work(_MOST_WORK):
+            with bounded_work(_MOST_WORK_FOR_REFERENCE):
                 start = self.chart.given if self.base is None else None
                 found = measure(function, self.chart, start=start, limits=self.limits)
         except LimitExceeded as limit:
@@ -266,7 +249,7 @@ class _Job:
 
 
 def measure(
-    function: Function,
+    function: DoubleFunction,
     equation: object,
     points: Sequence[Any] | Any = None,
     *,
@@ -285,67 +268,79 @@ def measure(
         chart = chart.beginning(which, function.base)
     extra = np.empty(0)
     if points is None:
-        zeros, gaps = _zeros(function)
-        points = samples(function, (zeros, gaps))
-        extra = _suspects(function, zeros, gaps)
+        near = _zeros_and_gaps(function)
+        points, extra = measured_points(function, near), _suspects(function, *near)
     # Suspects count for the worst error, not for the median.
     given = np.append(np.atleast_1d(points), extra)
-    found = [complex(v) for v in function(given)]
-    reference = [
-        y for y, _ in chart.states([as_point(complex(x), "x") for x in given], _DIGITS, limits, method="taylor")
-    ]
-    if not all(y.contains(0) or y.rel_accuracy_bits() >= _BITS for y in reference):
+    found = function(given)
+    places = [as_point(complex(x), "x") for x in given]
+    reference = [y for y, _ in chart.states(places, _DIGITS_OF_REFERENCE, limits, method="taylor")]
+    if not all(y.contains(0) or y.rel_accuracy_bits() >= _DIGITS_OF_REFERENCE * math.log2(10) for y in reference):
         raise LimitExceeded("the reference values weren't found to 50 digits", limit="digits")
-    with working_precision(_PREC):
+    with working_precision(PRECISION):
         errors = _errors(found, reference, normed=bool(start))
     typical = [e for e in errors[: len(errors) - extra.size] if e is not None]
     counted = [e for e in errors if e is not None]
     return Measured(float(np.median(typical or [math.inf])), max(counted, default=math.inf), len(counted))
 
 
-def _errors(found: list[complex], reference: list[acb], *, normed: bool) -> list[float | None]:
-    """In units in the last place, None if the solution may be 0; unless `normed`, up to the factor that fits the most."""
-    pairs = list(zip(found, reference, strict=True))
-    quotients = [(acb(v) / y).mid() for v, y in pairs if TINY < _size(v) < math.inf and not y.contains(0)]
+def _errors(found: Any, reference: list[acb], *, normed: bool) -> list[float | None]:
+    """In units in the last place, None if the solution may be 0 or is beyond the range of normal doubles.
+
+    Unless `normed`, up to the factor that fits most of them.
+    """
+    with np.errstate(all="ignore"):
+        sizes = np.abs(found)
+    triples = [(complex(v), size, y) for v, size, y in zip(found, sizes, reference, strict=True)]
+    quotients = [(acb(v) / y).mid() for v, size, y in triples if TINY < size < math.inf and not y.contains(0)]
     if not quotients:
         return []
     factor = acb(1)
     if not normed:  # the median by the real or the imaginary parts, whichever is the larger of the first one
         part = "real" if abs(quotients[0].real) >= abs(quotients[0].imag) else "imag"
         factor = sorted(quotients, key=attrgetter(part))[len(quotients) // 2]
-    return [_units(v, y, factor) for v, y in pairs]
+
+    def units(value: complex, size: float, y: acb) -> float | None:
+        exact = (y * factor).mid()
+        if y.contains(0) or not TINY < abs(exact) < HUGE:
+            return None
+        if not math.isfinite(size):
+            return math.inf
+        return float(abs(value - exact) / float(np.spacing(float(abs(exact)))))
+
+    return [units(*triple) for triple in triples]
 
 
-def samples(function: Function, near: tuple[Any, Any] | None = None) -> Any:
+def measured_points(function: DoubleFunction, near: tuple[Any, Any] | None = None) -> Any:
     """The points at which a function is measured, wherever its errors are: see `lambdify`."""
     region: Region = function.region
-    low = region.low
     size = region.high - region.low
+
+    def shares(count: int) -> Any:
+        """No round shares of the interval, at which solutions are often 0."""
+        return (np.arange(count) + 0.5) / (count + 0.13)
+
     if not region.is_real:
-        share = (np.arange(_SAMPLES) + 0.5) / (_SAMPLES + 0.13)
-        return low + size.real * share + 1j * size.imag * ((share * 7.3) % 1)
+        return region.low + size.real * shares(24) + 1j * size.imag * ((shares(24) * 7.3) % 1)
     left, right = (size.real / 1000 * singular for singular in region.singular)
-    zeros, gaps = near or _zeros(function)
-    used = _ZEROS if len(zeros) else 0
-    chosen = np.unique(np.linspace(0, len(zeros) - 1, used).astype(int))
-    beside = [zeros[chosen] + way * gaps[chosen] for way in (-_BESIDE, _BESIDE)]
-    count = _SAMPLES - 2 - 2 * len(chosen)
-    # No round shares of the interval, at which solutions are often 0.
-    between = low.real + size.real * (np.arange(count) + 0.5) / (count + 0.13)
-    return np.concatenate([[low.real + left, region.high.real - right], *beside, between])
+    zeros, gaps = near or _zeros_and_gaps(function)
+    chosen = np.unique(np.linspace(0, len(zeros) - 1, 3 if len(zeros) else 0).astype(int))
+    beside = [zeros[chosen] + way * gaps[chosen] for way in (-_BESIDE_ZEROS, _BESIDE_ZEROS)]
+    between = region.low.real + size.real * shares(24 - 2 - 2 * len(chosen))
+    return np.concatenate([[region.low.real + left, region.high.real - right], *beside, between])
 
 
-def _suspects(function: Function, zeros: Any, gaps: Any) -> Any:
+def _suspects(function: DoubleFunction, zeros: Any, gaps: Any) -> Any:
     """The points where plain arithmetic differs most from double-doubles, a constant factor apart, out of thousands: none is
     nearer to a zero than a hundredth of the distance to the next one."""
-    if not isinstance(function, Function) or function.careful:
+    if not isinstance(function, DoubleFunction) or function.careful:
         return np.empty(0)
     exact = replace(function, careful=True)
-    points = _grid(function)
+    points = _dense_points(function)
     if len(zeros):
-        starts, stops = (np.searchsorted(zeros + way * gaps, points) for way in (-_BESIDE, _BESIDE))
+        starts, stops = (np.searchsorted(zeros + way * gaps, points) for way in (-_BESIDE_ZEROS, _BESIDE_ZEROS))
         # As near to zeros as is measured, where plain doubles lose most.
-        beside = [zeros + way * _BESIDE * gaps for way in (-2.0, -1.5, -1.2, -1.0, 1.0, 1.2, 1.5, 2.0)]
+        beside = [zeros + way * _BESIDE_ZEROS * gaps for way in (-2.0, -1.5, -1.2, -1.0, 1.0, 1.2, 1.5, 2.0)]
         points = np.concatenate([points[starts == stops], *beside])
     with np.errstate(all="ignore"):
         y = exact(points)
@@ -358,25 +353,26 @@ def _suspects(function: Function, zeros: Any, gaps: Any) -> Any:
         factor = np.median(quotients) if within.size else 1
         # |f/y - factor| |y| in units in the last place of y.
         errors = np.abs(quotients - factor) * sizes / np.spacing(sizes)
-    return points[within[np.argsort(errors)[-_WORST:]]]
+    return points[within[np.argsort(errors)[-4:]]]
 
 
-def _grid(function: Function) -> Any:
+def _dense_points(function: DoubleFunction) -> Any:
     """Thousands of points all over the region, and on each piece of a table."""
     region = function.region
     low = region.low.real
     size = region.high - region.low
-    knots = np.append(getattr(function, "edges", ()), low + size.real * np.linspace(0, 1, _MANY + 1))
+    # Eight points, at no round shares, in each of 400 parts.
+    knots = np.append(getattr(function, "edges", ()), low + size.real * np.linspace(0, 1, 401))
     knots = np.unique(np.clip(knots, low, region.high.real))
-    x = (knots[:-1, None] + np.diff(knots)[:, None] * (np.arange(_EACH) + 0.53) / (_EACH + 0.07)).reshape(-1)
+    x = (knots[:-1, None] + np.diff(knots)[:, None] * (np.arange(8) + 0.53) / 8.07).reshape(-1)
     return x if region.is_real else x + 1j * (region.low.imag + size.imag * (np.arange(x.size) * 0.618 % 1))
 
 
-def _zeros(function: Function) -> tuple[Any, Any]:
+def _zeros_and_gaps(function: DoubleFunction) -> tuple[Any, Any]:
     """Changes of sign of a real function on an interval, and the distances to the next ones or the ends; none of others."""
-    if isinstance(function, Function):
+    if isinstance(function, DoubleFunction):
         function = replace(function, careful=False)
-    x = _grid(function)
+    x = _dense_points(function)
     y = function(x)
     if np.iscomplexobj(y):
         return np.empty(0), np.empty(0)
@@ -395,21 +391,3 @@ def _zeros(function: Function) -> tuple[Any, Any]:
         b = np.where(is_left, b, between)
     gaps = np.diff([function.region.low.real, *zeros, function.region.high.real])
     return zeros, np.minimum(gaps[:-1], gaps[1:])
-
-
-def _units(value: complex, y: acb, factor: acb) -> float | None:
-    """The error of one value; None if the solution may be 0, or is beyond the range of normal doubles."""
-    if y.contains(0):
-        return None
-    exact = (y * factor).mid()
-    size = abs(exact)
-    if not TINY < size < HUGE:
-        return None
-    if not math.isfinite(_size(value)):
-        return math.inf
-    return float(abs(value - exact) / float(np.spacing(float(size))))
-
-
-def _size(value: complex) -> float:
-    """|value|, infinite or NaN where it is; Python's `abs` raises beyond the doubles, and for a NaN after any overflow."""
-    return math.hypot(value.real, value.imag)

@@ -28,9 +28,10 @@ from flint import acb
 
 from kovacic.algebra.precision import working_precision
 from kovacic.algebra.ratfunc import RatFunc
-from kovacic.doubles.chart import Measured, Region, facts, in_blocks
+from kovacic.doubles.chart import PRECISION, Measured, Region, facts, in_blocks
 from kovacic.doubles.double_double import (
     LOG_2,
+    ROOM,
     Complex,
     Pair,
     absolute,
@@ -48,11 +49,6 @@ from kovacic.enclosure.points import ExactPoint, as_point, to_acb
 from kovacic.enclosure.problem import NumericProblem
 from kovacic.errors import LimitExceeded
 
-# For zeros, residues and phases before they become double-doubles.
-_PREC = 240
-_MULTIPLIED_OUT = 8
-"""Powers up to here are multiplied out, if they are integers."""
-
 
 @dataclass(frozen=True)
 class RootFactor:
@@ -68,9 +64,9 @@ class RootFactor:
 
     @property
     def whole(self) -> int | None:
-        """The power, where that is a small integer."""
+        """The power, if it is an integer up to 8 in absolute value: it is multiplied out."""
         k = self.power.re.hi
-        is_small = self.power.im is None and abs(k) <= _MULTIPLIED_OUT
+        is_small = self.power.im is None and abs(k) <= 8
         return round(k) if is_small and k == round(k) else None
 
     @property
@@ -97,10 +93,6 @@ class RationalFunction:
         return terms
 
 
-_ROOM = 900.0
-"""Bits that a plain product may grow by before its binary exponent is taken out."""
-
-
 @dataclass(frozen=True)
 class ProductForm:
     """A solution as a product of powers and an exponential: call it with a number or an array.
@@ -118,7 +110,7 @@ class ProductForm:
     exponent : RationalFunction
         In the exponential.
     is_real : bool
-        Is the function real?  Then pairs of conjugate factors are merged.
+        True for a real function: pairs of conjugate factors are merged.
     careful : bool
         Double-doubles; else it is plain double arithmetic.
     measured : Measured or None
@@ -175,7 +167,7 @@ class ProductForm:
         P = self.branch.P
         D = theta.den
         slope = replace(self.branch, theta=theta - RatFunc(D.derivative(), D), P=theta.num * P + D * P.derivative())
-        with working_precision(_PREC):
+        with working_precision(PRECISION):
             found = form_of(slope, self.region, self.base)
             if found is None:
                 raise LimitExceeded("the zeros of the derivative weren't found", limit="digits")
@@ -289,7 +281,7 @@ class _Product:
         self.careful = careful
         self.value: Complex | None = None
         self.binary: Any = 0
-        self.bits = 0.0
+        self.bits = 0.0  # by which it may have grown since its binary exponent was taken out
         self.degree_bits = math.log2(reach + 2.0)
 
     def multiply(self, f: RootFactor, growth: list[Complex]) -> None:
@@ -341,7 +333,7 @@ class _Product:
         if self.value is None:
             self.value = piece
             return
-        if self.careful or self.bits > _ROOM:  # the binary exponent, before the product may leave the range of doubles
+        if self.careful or self.bits > ROOM:  # the binary exponent, before the product may leave the range of doubles
             self.value, shift = split(self.value)
             self.binary = self.binary + shift
             self.bits = degree * self.degree_bits
@@ -363,31 +355,22 @@ def _turn(growth: Complex) -> Complex:
     return Complex(c - rest * s, s + rest * c)
 
 
-_SAME = 2.0**-60
-"""An exponent this close to 0 is 0: others were separated from it at a far higher precision."""
-
-_FEW_ZEROS = 60
-_MAX_ZEROS = 200
-_SHORT = 2000.0
-"""Zeros take degree^4 time, and may be lost.  With a polynomial of a degree between these a solution is tabulated on an
-interval where it grows and oscillates by less than exp(2000), with one of a higher degree always."""
+#: Zeros of a polynomial of this degree take half a second, which grows like the fourth power of the degree.
+_MOST_ZEROS = 200
 
 
+@working_precision(PRECISION)
 def product_form(problem: NumericProblem, which: int, region: Region, base: ExactPoint) -> ProductForm | None:
-    """The solution number `which` as a product, at a working precision of some 200 bits; None if there is no such form.
-
-    None means cases 2 and 3, and polynomials of degree above 60 where a table is better.
-    """
+    """The solution number `which` as a product; None in cases 2 and 3, and if a table serves better."""
     branches = exponentials(problem)
-    if not branches:
+    if not branches or branches[which].P.degree > _MOST_ZEROS:
         return None
-    branch = branches[which]
-    degree = branch.P.degree
-    is_short = False
-    if degree > _FEW_ZEROS and region.is_real:
-        ends = (as_point(end.real, "an end") for end in (region.low, region.high))
-        is_short = foreseen_growth(frequency(problem.system), *ends) < _SHORT
-    return None if is_short or degree > _MAX_ZEROS else form_of(branch, region, base)
+    if branches[which].P.degree > 60 and region.is_real:
+        # Beside many factors a table is evaluated faster, unless it has many pieces: where y grows by more than exp(2000).
+        ends = (as_point(end, "an end") for end in region.interval)
+        if foreseen_growth(frequency(problem.system), *ends) < 2000:
+            return None
+    return form_of(branches[which], region, base)
 
 
 def form_of(branch: Exponential, region: Region, base: ExactPoint) -> ProductForm | None:
@@ -395,7 +378,7 @@ def form_of(branch: Exponential, region: Region, base: ExactPoint) -> ProductFor
     c = branch.constant()
     roots = zeros(branch.P, c)
     if sum(k for _, k in roots) < branch.P.degree:
-        return None  # not all were found
+        return None
     theta = LogDerivative.make(branch.theta, c)
     powers = [(pole.zeta, pole.coefficients[0]) for pole in theta.poles] + [(z, acb(k)) for z, k in roots]
     coefficients = [*theta.num.coeffs(), *theta.den.coeffs(), *embed(branch.P, c).coeffs()]
@@ -421,7 +404,8 @@ def _root_factors(powers: list[tuple[acb, acb]], base: acb, is_real: bool) -> tu
     """The factors (x - zeta)^power; for a real function, those of the closed upper half-plane, with their conjugates."""
     found = []
     for zeta, power in powers:
-        if power.abs_upper() < _SAME or (is_real and zeta.imag < 0):
+        # Other exponents were separated from 0 at a far higher precision.
+        if power.abs_upper() < 2.0**-60 or (is_real and zeta.imag < 0):
             continue
         d = base - zeta
         # (base - zeta)/turn = |base - zeta| > 0.

@@ -21,6 +21,7 @@ table ends at 2^-46 of the larger end, so that the centres of the pieces are dou
 from __future__ import annotations
 
 import math
+import sys
 from bisect import bisect_right
 from dataclasses import dataclass, field, replace
 from fractions import Fraction
@@ -35,8 +36,19 @@ from numpy.polynomial import chebyshev
 
 from kovacic.algebra.precision import working_precision
 from kovacic.algebra.rationals import to_fmpq
-from kovacic.doubles.chart import BLOCK, Measured, PieceChart, Region, chart_of, facts, in_blocks
-from kovacic.doubles.double_double import Complex, Pair, complex_array, double, folded, halves, horner, scaled, two_sum
+from kovacic.doubles.chart import BLOCK, PRECISION, Measured, PieceChart, Region, chart_of, facts, in_blocks
+from kovacic.doubles.double_double import (
+    ROOM,
+    Complex,
+    Pair,
+    complex_array,
+    double,
+    folded,
+    halves,
+    horner,
+    scaled,
+    two_sum,
+)
 from kovacic.enclosure.evaluate import with_variable
 from kovacic.enclosure.frame import log2
 from kovacic.enclosure.points import ExactPoint, power_of_two
@@ -44,25 +56,19 @@ from kovacic.enclosure.request import Keywords, Request, fields_of
 from kovacic.errors import InputError, LimitExceeded
 from kovacic.limits import Limits, check_time, limited, limits_of
 
-# For coefficients and states before they become double-doubles.
-_PREC = 300
-_GROWTH = 12.0
-"""The sums of the coefficients of y1 and y2 are at most this large."""
-_PIECES = 25
-_TOGETHER = 10_000
-_SMALLEST = -1000
-"""Pieces for each unit of the limit `unknown_degree`: 500,000 by default, of a kilobyte and 0.3 ms each (measured);
-how many are treated together, which takes some 10 kilobytes each; their least binary exponent."""
-_GAP = 2.0**-46
-"""A table begins at this share of the larger end beside a singular point."""
-_ROOM = 900
-_CROWD = 1000
-"""Binary exponents up to here stay in the coefficients; fewer points to a piece are treated together (measured)."""
+#: Pieces for each unit of the limit `unknown_degree`: 500,000 by default, of a kilobyte and 0.3 ms each (measured).
+_MOST_PIECES = 25
+#: Pieces that are treated together, some 10 kilobytes each.
+_PIECES_TOGETHER = 10_000
+#: Points to a piece from which on each piece is treated alone (measured).
+_POINTS_FOR_ONE_PIECE = 1000
+#: Bits after the binary point where the argument is a single number.
+_FIXED_POINT = 112
 
 
 class Variant(NamedTuple):
-    """Terms of the series, those after which they must have ended, those that are kept, digits of the states, the bits below
-    the largest coefficient that count."""
+    """Terms of the series, those that must be small at their end, those that are kept, digits of the states, and the bits
+    below the largest coefficient that count."""
 
     terms: int
     tested: int
@@ -71,51 +77,41 @@ class Variant(NamedTuple):
     bits: int
 
 
-_FIXED = 112
-"""Bits after the binary point, where a single number is the argument."""
-
 _CAREFUL = Variant(48, 48, 34, 60, 96)
 _PLAIN = Variant(48, 32, 22, 22, 60)
 Cell = tuple[fmpq, int]  # c, and e where H = 2^e
 
 
-class _Whole(NamedTuple):
-    """The coefficients of a polynomial from the highest one down: integers, over 2^shift; or plain doubles, without a shift."""
+class _OnePiece(NamedTuple):
+    """The coefficients of a polynomial from the highest one down, for single numbers: integers, over 2^shift; or doubles,
+    without a shift."""
 
     numbers: list[Any]
     shift: int | None
 
     @classmethod
-    def of(cls, table: Any, careful: bool) -> _Whole:
+    def of(cls, table: Any, careful: bool) -> _OnePiece:
         """From high and low halves by terms."""
         if not careful:
-            return cls([float(value) for value in table[0, ::-1]], None)
-        halves_ = [(Fraction(float(high)) + Fraction(float(low))) for high, low in table.T[::-1]]
-        size = max(map(abs, halves_), default=Fraction(0))
-        shift = _FIXED - (size.numerator.bit_length() - size.denominator.bit_length())
-        unit = Fraction(2) ** shift
-        return cls([round(value * unit) for value in halves_], shift)
+            return cls(table[0, ::-1].tolist(), None)
+        exact = [Fraction(high) + Fraction(low) for high, low in table.T[::-1].tolist()]
+        size = max(map(abs, exact))
+        shift = _FIXED_POINT - (size.numerator.bit_length() - size.denominator.bit_length())
+        return cls([round(value * Fraction(2) ** shift) for value in exact], shift)
 
     def at(self, u: int, power: int) -> float:
-        """The value at u, over 2^_FIXED, times 2^power."""
+        """The value at u, over 2^_FIXED_POINT, times 2^power; infinite beyond the doubles."""
+        total: Any = 0
         if self.shift is None:
-            place = ldexp(u, -_FIXED)
-            value = 0.0
+            total = horner(self.numbers, ldexp(u, -_FIXED_POINT))
+        else:
+            power -= self.shift
             for number in self.numbers:
-                value = value * place + number
-            return _scaled_float(value, power)
-        total = 0
-        for number in self.numbers:
-            total = (total * u >> _FIXED) + number
-        return _scaled_float(total, power - self.shift)
-
-
-def _scaled_float(value: float, power: int) -> float:
-    """value 2^power, infinite beyond the doubles."""
-    try:
-        return ldexp(value, power)
-    except OverflowError:
-        return math.copysign(math.inf, value)
+                total = (total * u >> _FIXED_POINT) + number
+        try:
+            return ldexp(total, power)
+        except OverflowError:
+            return math.copysign(math.inf, total)
 
 
 @dataclass(frozen=True, eq=False)
@@ -158,7 +154,7 @@ class TabulatedFunction:
     coefficients: Any
     careful: bool = True
     measured: Measured | None = None
-    _whole: dict[int, list[_Whole]] = field(default_factory=dict, init=False)
+    _alone: dict[int, list[_OnePiece]] = field(default_factory=dict, init=False)
 
     def __call__(self, x: Any) -> Any:
         """y(x), of the shape of x; inf or 0 where the value is beyond the doubles, and NaN for NaN.
@@ -183,7 +179,7 @@ class TabulatedFunction:
             return self._single(float(x))
         points = self.region.points(x)
         # Many points to a piece are treated piece by piece, for which longer blocks pay.
-        block = 4 * BLOCK if points.size > _CROWD * self.centres.size else BLOCK // 2
+        block = 4 * BLOCK if points.size > _POINTS_FOR_ONE_PIECE * self.centres.size else BLOCK // 2
         return in_blocks(self._values, points, block)
 
     def __repr__(self) -> str:
@@ -205,7 +201,7 @@ class TabulatedFunction:
         product = Pair(*self.coefficients[:, :, 1:].swapaxes(0, 1)) * Pair(factors[:, None])
         table = np.array([product.hi, product.lo]).swapaxes(0, 1)
         power = self.powers - self.exponents
-        kept = np.where(np.abs(power) > _ROOM, power, 0)
+        kept = np.where(np.abs(power) > ROOM, power, 0)
         table = np.ldexp(table, power - kept)
         table.flags.writeable = False
         return replace(self, coefficients=table, powers=kept, measured=None)
@@ -214,14 +210,12 @@ class TabulatedFunction:
         """The value at one number within the interval, without arrays."""
         edges, centres, exponents, powers = self._lists
         k = bisect_right(edges, x)
-        if k not in self._whole:
-            self._whole[k] = [_Whole.of(part[:, :, k], self.careful) for part in self.coefficients]
-        e = exponents[k]
-        # x - centre = high + low exactly [two_sum], then in units of 2^-_FIXED.
-        high = x - centres[k]
-        low = (x - (high - (high - x))) - (centres[k] + (high - x))
-        u = int(ldexp(high, _FIXED - e)) + int(ldexp(low, _FIXED - e))
-        values = [part.at(u, powers[k]) for part in self._whole[k]]
+        if k not in self._alone:
+            self._alone[k] = [_OnePiece.of(part[:, :, k], self.careful) for part in self.coefficients]
+        # x - centre exactly, in units of 2^-_FIXED_POINT of the piece.
+        offset = two_sum(x, -centres[k])
+        u = sum(int(ldexp(half, _FIXED_POINT - exponents[k])) for half in (offset.hi, offset.lo))
+        values = [part.at(u, powers[k]) for part in self._alone[k]]
         return values[0] if len(values) == 1 else complex(*values)
 
     @cached_property
@@ -234,7 +228,9 @@ class TabulatedFunction:
         index = np.searchsorted(self.edges, flat, side="right")
         found = np.zeros((len(self.coefficients), flat.size))  # real and imaginary part
         runs: list[tuple[Any, Any]] = [(slice(None), index)]
-        if index.size >= _CROWD * self.centres.size:  # piece by piece, so that the coefficients are numbers
+        if (
+            index.size >= _POINTS_FOR_ONE_PIECE * self.centres.size
+        ):  # piece by piece, so that the coefficients are numbers
             order = np.argsort(index, kind="stable")
             ends = np.searchsorted(index[order], np.arange(self.centres.size + 1))
             runs = [(order[ends[k] : ends[k + 1]], k) for k in np.flatnonzero(np.diff(ends))]
@@ -299,14 +295,14 @@ def table_of(chart: PieceChart, region: Region, careful: bool, limits: Limits | 
         raise InputError("a table needs an interval of the real axis")
     region = _beside_singular_ends(chart, region)
     variant = _CAREFUL if careful else _PLAIN
-    with working_precision(_PREC):
-        cells, found = _pieces(chart, region, variant, limits)
+    with working_precision(PRECISION):
+        cells, found = _cells(chart, region, variant, limits)
     rows = []
-    for first in range(0, len(cells), _TOGETHER):
-        some = slice(first, first + _TOGETHER)
+    for first in range(0, len(cells), _PIECES_TOGETHER):
+        some = slice(first, first + _PIECES_TOGETHER)
         # series: (terms, solutions, pieces), states: ((y, H y'), parts, pieces), coefficients: (terms, parts, pieces).
         series = Pair(*np.stack(found[some], axis=-1))
-        states, powers = _states(chart, cells[some], variant, limits)
+        states, powers = _scaled_states(chart, cells[some], variant, limits)
         coefficients = series[:, 0, None] * states[0] + series[:, 1, None] * states[1]
         if chart.is_forced:
             own = scaled(series[:, 2, None], -powers)
@@ -335,24 +331,21 @@ def table_of(chart: PieceChart, region: Region, careful: bool, limits: Limits | 
 
 def _beside_singular_ends(chart: PieceChart, region: Region) -> Region:
     """The interval without neighbourhoods of singular ends.  Raises `InputError` for an irregular one."""
-    ends = (region.low.real, region.high.real)
-    gap = _GAP * max(map(abs, ends))
-    moved = []
-    for end, inward, is_singular in zip(ends, (gap, -gap), region.singular, strict=True):
-        if is_singular and any(abs(complex(point) - end) <= gap for point in chart.irregular):
-            raise InputError(
-                "an end of the interval is an irregular singular point",
-                hint="a table ends beside it; choose an end at some distance",
-            )
-        moved.append(complex(end + inward if is_singular else end))
-    low, high = moved
-    return Region(low, high)
+    low, high = region.interval
+    gap = 2.0**-46 * max(abs(low), abs(high))
+    ends = [end for end, is_singular in zip(region.interval, region.singular, strict=True) if is_singular]
+    if any(abs(complex(point) - end) <= gap for end in ends for point in chart.irregular):
+        raise InputError(
+            "an end of the interval is an irregular singular point",
+            hint="a table ends beside it; choose an end at some distance",
+        )
+    return Region(complex(low + gap * region.singular[0]), complex(high - gap * region.singular[1]))
 
 
-def _pieces(chart: PieceChart, region: Region, variant: Variant, limits: Limits | None) -> tuple[list[Cell], list[Any]]:
+def _cells(chart: PieceChart, region: Region, variant: Variant, limits: Limits | None) -> tuple[list[Cell], list[Any]]:
     """The pieces from left to right, no more than the limits allow, and the series on them."""
-    low, high = (fmpq(*end.as_integer_ratio()) for end in (region.low.real, region.high.real))
-    most = limits_of(limits).unknown_degree * _PIECES
+    low, high = (fmpq(*end.as_integer_ratio()) for end in region.interval)
+    most = limits_of(limits).unknown_degree * _MOST_PIECES
     # The first piece contains the interval, off the round numbers, at which solutions may be zero: that couldn't be told from
     # other small values.
     start, length = Fraction(region.low.real), Fraction(region.high.real) - Fraction(region.low.real)
@@ -369,11 +362,11 @@ def _pieces(chart: PieceChart, region: Region, variant: Variant, limits: Limits 
         check_time()
         inside = [cell for cell in untried if low <= cell[0] <= high]  # values are inside only
         halved = [cell for cell in untried if not low <= cell[0] <= high]
-        for first in range(0, len(inside), _TOGETHER):
-            some = inside[first : first + _TOGETHER]  # of one size
+        for first in range(0, len(inside), _PIECES_TOGETHER):
+            some = inside[first : first + _PIECES_TOGETHER]  # of one size
             # Pieces of one size have the same series, then.
             tried = some[:1] if chart.is_uniform else some
-            series = _series(chart, tried, variant) * (len(some) // len(tried))
+            series = _series_on(chart, tried, variant) * (len(some) // len(tried))
             done += [pair for pair in zip(some, series, strict=True) if pair[1] is not None]
             halved += [cell for cell, item in zip(some, series, strict=True) if item is None]
         untried = [half for cell in halved for half in _halves(cell, low, high)]
@@ -383,15 +376,14 @@ def _pieces(chart: PieceChart, region: Region, variant: Variant, limits: Limits 
 
 def _halves(cell: Cell, low: fmpq, high: fmpq) -> list[Cell]:
     """Those that meet the interval.  Raises `LimitExceeded` where they are too small."""
-    c = cell[0]
-    e = cell[1] - 1
-    if e < _SMALLEST:
+    c, e = cell[0], cell[1] - 1
+    if e < sys.float_info.min_exp:
         raise LimitExceeded("no piece of positive size was found for the table", limit="unknown_degree")
     half = power_of_two(e)
     return [(m, e) for m in (c - half, c + half) if m + half > low and m - half < high]
 
 
-def _series(chart: PieceChart, cells: list[Cell], variant: Variant) -> list[Any]:
+def _series_on(chart: PieceChart, cells: list[Cell], variant: Variant) -> list[Any]:
     """y1, y2, and beside a right-hand side y3, on each of these pieces: high and low halves, terms, series.
 
     None for a piece on which they don't end or grow too much.  The equation a y'' + b y' + c y = f has the coefficients of u^j
@@ -418,7 +410,7 @@ def _series(chart: PieceChart, cells: list[Cell], variant: Variant) -> list[Any]
         sizes = np.abs(z[0, : variant.tested])
         # By four terms, since some equations have zeros in between: even solutions, or every fourth power only.
         converges = (sizes[-4:].max(0) <= sizes.max(0) * 2.0**-variant.bits).all(0)
-        is_bounded = (sizes[:, :2].sum(0) <= _GROWTH).all(0)
+        is_bounded = (sizes[:, :2].sum(0) <= 12).all(0)
     return [z[..., k] if will_do else None for k, will_do in enumerate(converges & is_bounded)]
 
 
@@ -451,12 +443,12 @@ def _lowering(terms: int, kept: int) -> Any:
     return np.array([np.pad(row, (0, kept - len(row))) for row in rows]).T
 
 
-def _states(chart: PieceChart, cells: list[Cell], variant: Variant, limits: Limits | None) -> tuple[Pair, Any]:
+def _scaled_states(chart: PieceChart, cells: list[Cell], variant: Variant, limits: Limits | None) -> tuple[Pair, Any]:
     """(y, H y') at the centres over powers of two, an array of both, parts and pieces; and these powers."""
     balls = chart.states([ExactPoint(c) for c, _ in cells], variant.digits, limits)
     numbers = list[arb]()
     powers = np.zeros(len(cells), dtype=int)
-    with working_precision(_PREC):
+    with working_precision(PRECISION):
         for k, ((_, e), (y, dy)) in enumerate(zip(cells, balls, strict=True)):
             row = (y, dy * arb((1, e)))
             # The larger of |y| and |H y'|: a power of two about that is taken out of both.
@@ -472,6 +464,6 @@ def _states(chart: PieceChart, cells: list[Cell], variant: Variant, limits: Limi
         # From (halves, pieces, (y, H y'), (re, im)) to (halves, (y, H y'), (re, im), pieces).
         table = halves(numbers).reshape(2, len(cells), 2, 2).transpose(0, 2, 3, 1)
     # Small powers go into the coefficients, which stay doubles.
-    kept = np.where(np.abs(powers) > _ROOM, powers, 0)
+    kept = np.where(np.abs(powers) > ROOM, powers, 0)
     # Imaginary parts that are all zero are left out.
     return scaled(Pair(*table[:, :, : 1 + table[:, :, 1].any()]), powers - kept), kept

@@ -33,7 +33,7 @@ from kovacic.enclosure.points import Constant, Number, are_real, in_balls, to_ba
 from kovacic.enclosure.precision import PointValue
 from kovacic.enclosure.problem import Coefficients, NumericProblem, as_problem, change_of
 from kovacic.enclosure.request import Params
-from kovacic.enclosure.start import Origin
+from kovacic.enclosure.start import ReadStart
 from kovacic.equation import Equation
 from kovacic.errors import LimitExceeded, NotRational
 from kovacic.limits import Limits
@@ -265,11 +265,11 @@ class Substitution:
         """dt/dx at a number, at the working precision in force."""
         return in_balls(self.t.diff(self.x), {self.x: to_ball(x)})
 
-    def start(self, x0: Number, data: tuple[Number, Number]) -> Origin:
+    def start(self, x0: Number, data: tuple[Number, Number]) -> ReadStart:
         """The start in t with these values of y and y'."""
         y, dy = data
         slope = Constant("y'/t'", lambda: to_ball(dy) / self.slope(x0), dy.fixed or x0.fixed)
-        return Origin(self.image(x0), (y, slope))
+        return ReadStart(self.image(x0), (y, slope))
 
     def is_real(self, numbers: Sequence[Number]) -> bool:
         """True if these numbers, and t and its derivative there, are real."""

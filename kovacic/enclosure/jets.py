@@ -2,8 +2,8 @@
 
 The guarantee: for every point of the disc the returned balls contain the exact solution there.
 
-The mathematics.  With x = z + H u the equation is A y'' + B y' + C y = F, ' = d/du, A = a/a(z), B = H b/a(z), C = H^2 c/a(z),
-F = H^2 f/a(z).  Where a function is analytic for |u| <= R, bounded by M, which balls show (a box that contains the disc), its
+With x = z + H u, H = 2^e, the equation is A y'' + B y' + C y = F, ' = d/du, A = a/a(z), B = H b/a(z), C = H^2 c/a(z),
+F = H^2 f/a(z).  Where a function is analytic for |u| <= R, bounded by M, which a box that contains the disc shows, its
 coefficients are at most M R^-n [Cauchy], and the rest of its series after N terms is at most M R^-N R/(R - 1) for |u| <= 1.
 The coefficients themselves are those of power series in balls.  A polynomial has no rest: a isn't 1 where b and c would be over
 a polynomial.
@@ -20,17 +20,13 @@ absolute values; the rests of A, B, C and F are added.  With |A| >= mu the error
 
 by comparison with the solution z of z'' = beta z' + gamma z + rho, z(0) = z'(0) = 0, z <= z' <= rho exp(lambda) on [0, 1].
 
-Symbols: z centre, H = 2^e scale, u = (x - z)/H.
-
 Reference: R. E. Moore, "Interval Analysis", Prentice-Hall 1966, chapter 11 (series in intervals); W. Walter, "Differential and
 Integral Inequalities", Springer 1970 (the comparison).
 
-Removable singularities of coefficients: sin(x)/x at 0, (1 - cos(x))/x^2, x/(exp(x) - 1), cot(x) - 1/x.
-
-A coefficient is a quotient n/d of functions that are analytic at z, and vanish there to the orders k and l at least: this is
-decided exactly, by their derivatives at z as SymPy evaluates them (sin(0) = 0).  With N = n/(x - z)^k and D = d/(x - z)^l it
-is (x - z)^(k - l) N/D, and N and D are analytic where n and d are.  Where g = n or d has the series sum g_j u^j at z,
-u = x - z, and is bounded by M for |u| <= R, which balls show,
+Removable singularities of coefficients: sin(x)/x at 0, (1 - cos(x))/x^2, x/(exp(x) - 1), cot(x) - 1/x.  A coefficient is a
+quotient n/d of functions that are analytic at z, and vanish there to the orders k and l at least: this is decided exactly, by
+their derivatives at z as SymPy evaluates them (sin(0) = 0).  With N = n/(x - z)^k and D = d/(x - z)^l it is
+(x - z)^(k - l) N/D.  Where g = n or d has the series sum g_j u^j at z, u = x - z, and is bounded by M for |u| <= R,
 
     g/u^k = sum_(j<T) g_(j+k) u^j + tail,    |tail| <= M R^-k 2^(1-T)    for |u| <= R/2                              [Cauchy],
 
@@ -40,6 +36,7 @@ with the first k coefficients 0 exactly.  Farther from z it is the quotient itse
 from __future__ import annotations
 
 import math
+from collections import defaultdict
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import lru_cache
@@ -51,20 +48,11 @@ from flint import acb, acb_poly, acb_series, arb, arb_poly, ctx, fmpq
 from kovacic.algebra.precision import series_length, working_precision
 from kovacic.closed_form.jets import BallEvaluator
 from kovacic.enclosure.frame import log2
-from kovacic.enclosure.points import ExactPoint, are_real, around_zero, to_acb
+from kovacic.enclosure.points import ExactPoint, are_real, around_zero, binary_exponent, to_acb
 from kovacic.enclosure.problem import Coefficients
-from kovacic.enclosure.way import DiscStep, Local
-from kovacic.errors import LimitExceeded
-from kovacic.limits import check_time
+from kovacic.enclosure.way import DiscStep, Local, check_terms
+from kovacic.limits import MOST_TRIALS, check_time, manageable
 
-_MOST = 12
-"""The highest order of a zero that is looked for."""
-_LONGEST = 60
-"""Coefficients of a polynomial that is moved to the middle of a ball, at most."""
-# Within this distance of a zero a quotient is taken from its series.
-_NEAR = arb(0.5)
-_NEAREST = 60
-"""Binary exponents of distances to the next singularity that are tried."""
 _QUOTIENTS = {
     sympy.tan: lambda u: sympy.sin(u) / sympy.cos(u),
     sympy.cot: lambda u: sympy.cos(u) / sympy.sin(u),
@@ -73,9 +61,6 @@ _QUOTIENTS = {
     sympy.coth: lambda u: sympy.cosh(u) / sympy.sinh(u),
     sympy.csch: lambda u: 1 / sympy.sinh(u),
 }
-
-
-_WAVES = (sympy.sin, sympy.cos)
 
 
 class Divided(sympy.Function):  # type: ignore[misc]
@@ -98,9 +83,9 @@ def without_removable(e: Any, x: Any) -> Any:
     over: list[Any] = []  # zeros and their orders, as arguments of `Divided`
     under: list[Any] = []
     power = sympy.Integer(1)
-    for zero in _zeros(numerator, x) | _zeros(denominator, x):
-        k = _order(numerator, x, zero)
-        m = _order(denominator, x, zero)
+    for zero in _rational_zeros(numerator, x) | _rational_zeros(denominator, x):
+        k = _order_of_zero(numerator, x, zero)
+        m = _order_of_zero(denominator, x, zero)
         if k > 0 and m > 0:
             over += [zero, k]
             under += [zero, m]
@@ -108,7 +93,7 @@ def without_removable(e: Any, x: Any) -> Any:
     return power * Divided(numerator, x, *over) / Divided(denominator, x, *under) if over else e
 
 
-def _zeros(product: Any, x: Any) -> set[Any]:
+def _rational_zeros(product: Any, x: Any) -> set[Any]:
     """The zeros of linear factors over Q of its polynomial factors."""
     found: set[Any] = set()
     for factor in sympy.Mul.make_args(product):
@@ -118,14 +103,18 @@ def _zeros(product: Any, x: Any) -> set[Any]:
     return found
 
 
-def _order(function: Any, x: Any, zero: Any) -> int:
-    """The number of derivatives, from the function itself on, that are 0 at the point."""
+def _order_of_zero(function: Any, x: Any, zero: Any) -> int:
+    """A lower bound of the order of the zero: of a sum the number of derivatives, from itself on, that are 0 there."""
+    if function.is_Mul:
+        return sum(_order_of_zero(factor, x, zero) for factor in function.args)
+    if function.is_Pow and function.exp.is_Integer:
+        return max(0, int(function.exp)) * _order_of_zero(function.base, x, zero)
     # Exact, by automatic evaluation: sin(0) is 0.  What isn't seen to be 0 isn't divided.
-    for k in range(_MOST):
-        if function.xreplace({x: zero}) != 0:
-            return k
+    order = 0
+    while function.xreplace({x: zero}) == 0 and order < MOST_TRIALS and manageable(function):
         function = function.diff(x)
-    return _MOST
+        order += 1
+    return order
 
 
 class CoefficientEvaluator(BallEvaluator):
@@ -150,7 +139,7 @@ class CoefficientEvaluator(BallEvaluator):
             middle = acb(x.mid())
             return acb_poly(list(map(self, coefficients)))(acb_poly([middle, 1]))(x - middle)
         found = super()._evaluated(e)
-        if e.func not in _WAVES:
+        if e.func not in (sympy.sin, sympy.cos):
             return found
         z: Any = self(e.args[0])
         middle = acb(z.mid())
@@ -163,7 +152,7 @@ class CoefficientEvaluator(BallEvaluator):
         function, symbol, *rest = e.args
         x = self.values[symbol]
         pairs = list(zip(map(self, rest[::2]), map(int, rest[1::2]), strict=True))
-        near = next((pair for pair in pairs if _is_near(x, pair[0])), None)
+        near = next((pair for pair in pairs if _is_close(x, pair[0])), None)
         value = self(function) if near is None else self._near(function, symbol, x, *near)
         for zero, k in pairs:
             if (zero, k) != near:
@@ -177,7 +166,7 @@ class CoefficientEvaluator(BallEvaluator):
         # Around the zero, so far that |u| <= 2 is within; the function is bounded on twice that.
         reach = (abs(centre) + 2 * abs(scale)).upper()
         # At the zero itself any reach will do for which the disc is free of other singularities.
-        reaches = [arb((1, -k)) for k in range(1, _NEAREST)] if reach.is_zero() else [reach]
+        reaches = [arb((1, -k)) for k in range(1, ctx.prec)] if reach.is_zero() else [reach]
         for reach in reaches:
             # A bound in a disc; infinite unless the function is proven to be analytic there.
             box = zero + around_zero(2 * reach, real=False)
@@ -210,50 +199,41 @@ def _polynomial_coefficients(e: Any, x: Any) -> list[Any] | None:
     """Those of a polynomial of some degree from 2 on, from low to high; None for other expressions."""
     if not e.is_polynomial(x):
         return None
-    found: list[Any] = sympy.Poly(e, x).all_coeffs()[::-1]
-    return found if 2 < len(found) <= _LONGEST else None
+    polynomial = sympy.Poly(e, x)
+    # One of a high degree usually has few terms, which are evaluated as they stand.
+    found: list[Any] = polynomial.all_coeffs()[::-1] if polynomial.degree() < 60 else []
+    return found if len(found) > 2 else None
 
 
-def _is_near(x: Any, zero: acb) -> bool:
-    """True if the quotient is better taken from the series."""
+def _is_close(x: Any, zero: acb) -> bool:
+    """True unless the quotient is sharp: beyond a distance of 1/2, and for a ball that is narrow beside it."""
     if isinstance(x, acb_series):
-        return not abs(x[0] - zero) > _NEAR + 2 * abs(x[1])
-    # The quotient itself is sharp only where the ball is narrow beside its distance.
+        return not abs(x[0] - zero) > 2 * abs(x[1]) + 0.5
     distance = abs(x - zero)
-    return not (distance.lower() > _NEAR and distance.lower() > distance.rad())
+    return not (distance.lower() > 0.5 and distance.lower() > distance.rad())
 
 
-_ROUGH = 64
-"""Bits of bounds."""
-# Radii over the scale on which functions are bounded: on a larger one fewer terms are needed, if it is free.
-_RADII = (2, 3, 4, 6, 8, 12, 16)
-_LEAF = 6
-_DOUBLINGS = 40
-_QUIET = 8
-"""Terms of the recurrence that are computed one by one, how often that is doubled at most, and the small ones at its end."""
-_TERMS = 2
-_MOST_TERMS = 40
-"""Terms for each bit, at most: of the coefficients in a disc, and of a solution."""
-_SPARE = 28
-_LEAST = 0.25
-"""mu, at least."""
-_BOX = 4.0
-"""Bounds by boxes are too large by this factor."""
-_SHARE = 6
-"""A disc's coefficients are seen to be real on an interval that is smaller by this power of two."""
+#: Bits of bounds.
+_BITS_OF_BOUNDS = 64
+#: Bits for roundings, beside those of the growth.
+_SPARE_BITS = 28
+#: Bounds by boxes are too large by about this factor.
+_EXCESS_OF_BOXES = 4.0
+#: Terms of a recurrence that are computed one by one.
+_ONE_BY_ONE = 6
+#: Successive slopes that are small at the end of a series.
+_SMALL_AT_THE_END = 8
 
 
 @dataclass(frozen=True)
 class Jets:
-    """A~ - 1, B~, C~, F~ in the disc around `centre`, bounds of the rests, mu and lambda, for solutions to so many `bits`, at
-    this `precision`."""
+    """A~ - 1, B~, C~, F~ in the disc around `centre`, bounds of the rests, mu (`least`) and lambda (`rate`), for solutions to
+    this number of `bits`, computed at this `precision`."""
 
     centre: ExactPoint
     e: int
-    # Those of A - 1, B, C and F, in this order.
     parts: Sequence[Any]
     rests: Sequence[arb]
-    # mu and lambda
     least: arb
     rate: arb
     bits: int
@@ -288,7 +268,8 @@ class CoefficientField:
 
     def is_real(self, centre: ExactPoint, e: int) -> bool:
         """True if the coefficients, analytic in the disc with the scale 2^e, are proven to be real on its real diameter."""
-        return centre.is_real() and are_real(self.all_values(to_acb(centre) + arb(0, arb((1, e - _SHARE)))))
+        # By the identity theorem a short interval tells of the whole diameter.
+        return centre.is_real() and are_real(self.all_values(to_acb(centre) + arb(0, arb((1, e - 6)))))
 
     def is_regular(self, x: acb) -> bool:
         """True if the coefficients are provably analytic on the ball."""
@@ -301,70 +282,62 @@ class CoefficientField:
     def crowd(self, x: acb, e: int, steepest: float) -> float:
         """The least number of discs on a unit of length at x, by the largest scale up to 2^e whose bounds `jets` admits; NaN if
         there is none."""
-        with working_precision(_ROUGH):
-            for k in range(_DOUBLINGS):
+        with working_precision(_BITS_OF_BOUNDS):
+            for k in range(_BITS_OF_BOUNDS):
                 h = arb((1, e - k))
                 near = _sizes(self.values(x + around_zero(h, real=False), analytic=True))
-                if near is not None and _rate(near[0] * h, near[1] * h * h) <= _BOX * steepest:
+                if near is not None and _growth_rate(near, h) <= _EXCESS_OF_BOXES * steepest:
                     return float(1 / (2 * h))
         return math.nan
 
     def jets(self, centre: ExactPoint, e: int, prec: int, steepest: float) -> Jets | None:
         """The series for solutions to about 2^-prec; None if the disc of twice this scale has a singularity, lambda is above
         `steepest`, or a function grows so much that its series would be long or cancel."""
-        square = centre.norm_squared()
         # Bits by which the centre is longer than what is to be seen around it.
-        longer = max(0, (square.p.bit_length() - square.q.bit_length()) // 2 - e)
-        with working_precision(_ROUGH + longer):
+        longer = max(0, binary_exponent(centre.norm_squared()) // 2 - e) if centre != ExactPoint(0) else 0
+        with working_precision(_BITS_OF_BOUNDS + longer):
             h = arb((1, e))
             near = self.sizes(centre, h)
-            # |b|, |c| and |f| over |a| in the disc: with h, h^2 and h^2 they bound B, C and F over A for |u| <= 1.
-            if near is None or not _rate(near[0] * h, near[1] * h * h) <= _BOX * steepest:
+            rate = arb(0) if near is None else _growth_rate(near, h)
+            if near is None or not rate <= _EXCESS_OF_BOXES * steepest:
                 return None
             inner = self.sizes(centre, h / 4)
             # Beside a solution of size 1 what is smaller needn't be followed.
             if inner is None or not near[2] * h * h <= (inner[2] * h * h).max(arb(1)) * arb(steepest).exp():
                 return None
-            rate = _rate(near[0] * h, near[1] * h * h)
-            growth = int(1.4427 * min(steepest, float(rate)))  # log2(e): in bits
-            bits = prec + growth + _SPARE
+            growth = int(min(steepest, float(rate)) / math.log(2))  # in bits
+            bits = prec + growth + _SPARE_BITS
             # An error of dy/du counts for y beyond a small disc, over its size; but not where the coefficients are small.
             lost = max(0, min(-e, int(-log2(rate)))) if rate > 0 else 0
             # The rests are multiplied by the sum of the |a_k|, which is as large as the growth, and by that of the error.
-            precision = bits + growth + _SPARE
-            found = self._truncated(centre, h, precision + lost)
-            if found is None:
-                return None
-            terms, rests = found
+            precision = bits + growth + _SPARE_BITS
+            terms, rests = self._truncated(centre, h, precision + lost)
         with working_precision(precision + longer):
-            parts = self.series(centre, e, terms)
+            parts = self.series(centre, e, terms) if terms else None
         if parts is None:
             return None
-        with working_precision(_ROUGH):
+        with working_precision(_BITS_OF_BOUNDS):
             a = self._evaluator(to_acb(centre))(self._parts[0])
             rests = [(rest / abs(a).lower()).upper() for rest in rests]
-            sizes = [
-                sum((abs(value) for value in part.coeffs()), rest) for part, rest in zip(parts, rests, strict=True)
-            ]
+            sizes = [_absolute_values(part.coeffs())(1) + rest for part, rest in zip(parts, rests, strict=True)]
             # |A| >= 1 - |A - 1|.
             least = (1 - sizes[0]).lower()
-            if not least > _LEAST:
+            if not least > 0.25:
                 return None
-            # Bounds of |B/A| and |C/A|.
-            beta, gamma = ((size / least).upper() for size in sizes[1:3])
-            rate = _rate(beta, gamma)
+            rate = _growth_rate([(size / least).upper() for size in sizes[1:]], arb(1))
         return Jets(centre, e, parts, rests, least, rate, bits, precision) if rate <= steepest else None
 
-    def _truncated(self, centre: ExactPoint, h: arb, bits: int) -> tuple[int, list[arb]] | None:
+    def _truncated(self, centre: ExactPoint, h: arb, bits: int) -> tuple[int, list[arb]]:
         """The number of terms of A, B, C and F that leaves rests below 2^-bits, and bounds of the rests, times a(z).
 
-        None if there is a singularity within twice the disc, or functions are as large as exp(bits) beside the way.
+        It is 0 if there is a singularity within twice the disc, or functions are as large as 2^bits beside the way.
         """
         longest = max(degree or 0 for degree in self._degrees) + 1
         if None not in self._degrees:
             return longest, [arb(0)] * len(self._parts)
         found = []
-        for radius in _RADII:
+        # On a larger disc that is free of singularities fewer terms are needed.
+        for radius in (2, 3, 4, 6, 8, 12, 16):
             sizes = _sizes(self.all_values(_box(centre, h * radius), analytic=True))
             if sizes is None:
                 break
@@ -379,7 +352,7 @@ class CoefficientField:
             share = arb(radius) ** (1 - terms) / (radius - 1)
             found.append((terms, [(size * share).upper() for size in scaled]))
         terms, rests = min(found, key=lambda choice: choice[0], default=(0, []))
-        return (max(terms, longest), rests) if 0 < terms <= _TERMS * bits else None
+        return (max(terms, longest), rests) if 0 < terms <= 2 * bits else (0, [])
 
     def series(self, centre: ExactPoint, e: int, terms: int) -> list[Any] | None:
         """The first `terms` coefficients of A - 1, B, C and F, or None if they aren't finite."""
@@ -414,8 +387,9 @@ def _sizes(values: list[Any]) -> list[arb] | None:
     return found if all(size.is_finite() for size in found) else None
 
 
-def _rate(beta: arb, gamma: arb) -> arb:
-    """lambda."""
+def _growth_rate(sizes: Sequence[arb], h: arb) -> arb:
+    """lambda, by bounds of |b| and |c| over |a|: beta = h |b| and gamma = h^2 |c|."""
+    beta, gamma = sizes[0] * h, sizes[1] * h * h
     return ((beta + (beta * beta + 4 * gamma).sqrt()) / 2).upper()
 
 
@@ -430,13 +404,13 @@ def step_of(jets: Jets, enter: ExactPoint, leave: ExactPoint) -> DiscStep:
     return DiscStep(
         enter,
         leave,
-        (_solved(jets, 0), _solved(jets, 1)),
-        own=None if is_homogeneous else _solved(jets, None),
-        area=_solved(without_c, 1) if has_area else None,
+        (_solution(jets, 0), _solution(jets, 1)),
+        own=None if is_homogeneous else _solution(jets, None),
+        area=_solution(without_c, 1) if has_area else None,
     )
 
 
-def _solved(jets: Jets, start: int | None) -> Local:
+def _solution(jets: Jets, start: int | None) -> Local:
     """The solution with the state (1, 0) or (0, 1) at the centre, or with the right-hand side and (0, 0)."""
     A, B, C, F = jets.parts
     number = arb if isinstance(F, arb_poly) else acb
@@ -447,24 +421,21 @@ def _solved(jets: Jets, start: int | None) -> Local:
         values = _Recurrence((A, B, C), right, first, jets.bits).values
         scale = arb((1, jets.e if start == 1 else 0))  # the slope 1 in x
         poly = type(F)(values) * scale
-    with working_precision(_ROUGH):
-        error = (_defect(jets, values, right) * jets.rate.exp() * scale).upper()
+    with working_precision(_BITS_OF_BOUNDS):
+        # rho: the defect has no terms below u^(n - 2) but the rests.
+        y = _absolute_values(values)
+        slope = y.derivative()
+        rho = arb(0) if right.degree() < 0 else jets.rests[3]
+        total = _absolute_values(right.coeffs())
+        for part, rest, series in zip(jets.parts, jets.rests, (slope.derivative(), slope, y), strict=False):
+            total += _absolute_values(part.coeffs()) * series
+            rho += rest * series(1)
+        rho += sum(total.coeffs()[len(values) - 2 :], arb(0))
+        error = (rho / jets.least * jets.rate.exp() * scale).upper()
     return Local(jets.centre, jets.e, poly, error, error, fmpq(1), jets.precision)
 
 
-def _defect(jets: Jets, values: list[Any], right: Any) -> arb:
-    """A bound rho of the defect for |u| <= 1."""
-    y = _absolute(values)
-    slope = y.derivative()
-    rho = arb(0) if right.degree() < 0 else jets.rests[3]
-    total = _absolute(right.coeffs())
-    for part, rest, series in zip(jets.parts, jets.rests, (slope.derivative(), slope, y), strict=False):
-        total += _absolute(part.coeffs()) * series
-        rho += rest * series(1)
-    return ((rho + sum(total.coeffs()[len(values) - 2 :], arb(0))) / jets.least).upper()
-
-
-def _absolute(values: list[Any]) -> arb_poly:
+def _absolute_values(values: list[Any]) -> arb_poly:
     """The polynomial with the absolute values as its coefficients: at 1 it bounds that with the values for |u| <= 1."""
     return arb_poly([abs(value).upper() for value in values])
 
@@ -484,22 +455,26 @@ class _Recurrence:
         # A goes with Y'', B with Y' and C with Y.
         series = self.bends, self.slopes, self.values
         self.terms = [(part.coeffs(), known) for part, known in zip(parts, series, strict=True) if part.degree() >= 0]
-        self.sums = [-value for value in right.coeffs()]
-        self._extend(_LEAF)
-        self.least = max(_QUIET + 2, len(self.sums), *(len(part) for part, _ in self.terms), 0)
-        self.small = arb((1, -bits))
-        self.most = _MOST_TERMS * bits + 400
+        zero = first[0] * 0
+        self.sums = defaultdict(lambda: zero, {k: -value for k, value in enumerate(right.coeffs())})
+        self.least = max(_SMALL_AT_THE_END + 2, len(self.sums), *(len(part) for part, _ in self.terms), 0)
+        self.bits = bits
         self.ended = False
-        self._continue(0, _LEAF << _DOUBLINGS)
+        self._continue(0, _ONE_BY_ONE << 40)  # no series is so long
 
     def _continue(self, low: int, high: int) -> None:
         """The steps k = low, ..., high - 1, or up to the end, where what comes from j < low is in the sums."""
-        if self.ended:
-            return
-        if high - low > _LEAF:
+        if high - low > _ONE_BY_ONE:
             middle = (low + high) // 2
             self._continue(low, middle)
-            self._give(low, middle, high)
+            if self.ended:
+                return
+            # What comes from j = low, ..., middle - 1 to the sums k = middle, ..., high - 1.
+            product = self.kind([])
+            for part, series in self.terms:
+                product += self.kind(part[: high - low]) * self.kind(series[low:middle])
+            for k, value in enumerate(product.coeffs()[middle - low : high - low], start=middle):
+                self.sums[k] += value
             self._continue(middle, high)
             return
         for k in range(low, high):
@@ -512,24 +487,6 @@ class _Recurrence:
             self.slopes.append(-total / (k + 1))
             self.values.append(self.slopes[-1] / (k + 2))
         check_time()
-        count = len(self.values)
-        if count > self.most:
-            raise LimitExceeded(f"a Taylor expansion needs more than {self.most} terms", limit="unknown_degree")
-        last = self.slopes[-_QUIET:]  # where these are small, the others are, too
-        self.ended = count > self.least and all(abs(value) < self.small for value in last)
-
-    def _give(self, low: int, middle: int, high: int) -> None:
-        """To the sums k = middle, ..., high - 1 what comes from j = low, ..., middle - 1."""
-        if self.ended:
-            return
-        count = high - low
-        product = self.kind([])
-        for part, series in self.terms:
-            product += self.kind(part[:count]) * self.kind(series[low:middle])
-        self._extend(high)
-        for k, value in enumerate(product.coeffs()[middle - low : count], start=middle):
-            self.sums[k] += value
-
-    def _extend(self, length: int) -> None:
-        """Extend the sums to at least this length."""
-        self.sums += [self.values[0] * 0] * (length - len(self.sums))
+        check_terms(len(self.values), self.bits)
+        last = self.slopes[-_SMALL_AT_THE_END:]  # where these are small, the others are, too
+        self.ended = len(self.values) > self.least and all(abs(value) < arb((1, -self.bits)) for value in last)

@@ -15,12 +15,9 @@ from kovacic.enclosure.points import ExactPoint, Number, Points, binary_exponent
 from kovacic.enclosure.problem import NumericProblem
 from kovacic.enclosure.rational import ClosedWay, sides
 from kovacic.enclosure.singular import Singular
-from kovacic.enclosure.start import Origin
+from kovacic.enclosure.start import ReadStart
 from kovacic.enclosure.way import States, Traveller, Way
 from kovacic.errors import InputError
-
-_MARGIN = 1 + power_of_two(-16)  # more than the errors of singular points that are known to 256 bits
-_KEPT = 4  # precisions at which the beginning of a journey is kept for the next targets
 
 
 @dataclass(frozen=True, eq=False)
@@ -33,7 +30,7 @@ class Journey:
     """
 
     way: Way
-    start: Origin
+    start: ReadStart
     vertices: tuple[Number, ...] = ()
     chain: bool = False
     side: str | None = None
@@ -55,8 +52,8 @@ class Journey:
         """The states at the targets, to about `prec` bits: exact points are travelled, the midpoints of balls."""
         key = closed, prec
         if key not in self._begun:
-            # A higher precision begins anew; the lower ones may be asked for again.
-            if len(self._begun) >= _KEPT:
+            # A higher precision begins anew; a few lower ones are kept for the next targets.
+            if len(self._begun) >= 4:
                 self._begun.clear()
             self._begun[key] = self._begin(closed, prec)
         traveller = self._begun[key]
@@ -99,7 +96,7 @@ class Journey:
         found: States = {}
         for waiting in sides(traveller.here, list(dict.fromkeys(stops))):
             one = traveller
-            for detour in _joined(_detours(one.here, waiting[-1], singular), waiting, singular):
+            for detour in _joined_detours(_detours(one.here, waiting[-1], singular), waiting, singular):
                 # Before the place, in the direction of the way: they are reached before the detour begins.
                 nearer = [stop for stop in waiting if detour.sign * (stop.x - detour.place) < 0]
                 found |= one.fan(nearer)
@@ -123,24 +120,19 @@ class _Detour:
     end: Any
     sign: int
 
-    @property
-    def _centre(self) -> Any:
-        return (self.begin + self.end) / 2
-
-    @property
-    def _radius(self) -> Any:
-        return abs(self.end - self.begin) / 2
-
     def corners(self, side: str) -> tuple[ExactPoint, ...]:
         """Where the axis is left, the corner "above" or "below" it, and where it is reached again."""
         # A right angle at the corner: the triangle is as high as half its base.
-        top = ExactPoint(self._centre, self._radius if side == "above" else -self._radius)
+        height = abs(self.end - self.begin) / 2
+        top = ExactPoint((self.begin + self.end) / 2, height if side == "above" else -height)
         return ExactPoint(self.begin), top, ExactPoint(self.end)
 
     def is_free(self, singular: Points) -> bool:
-        """True if no singular point beside the real axis lies in the triangle |x - centre| + |y| <= radius, or near it."""
-        least = self._radius * _MARGIN
-        return all(p.is_real() or abs(p.x - self._centre) + abs(p.y) > least for p in singular)
+        """True if no singular point beside the real axis lies in the triangle, or near it."""
+        # There 2 |x - centre| + 2 |y| is at most the base; singular points are known to far more than 16 bits.
+        ends = self.begin + self.end
+        least = abs(self.end - self.begin) * (1 + power_of_two(-16))
+        return all(p.is_real() or abs(2 * p.x - ends) + 2 * abs(p.y) > least for p in singular)
 
 
 def _detours(here: ExactPoint | Singular, last: ExactPoint, singular: Points) -> Iterator[_Detour]:
@@ -170,7 +162,7 @@ def _detours(here: ExactPoint | Singular, last: ExactPoint, singular: Points) ->
         yield _Detour(place, centre - sign * radius, centre + sign * radius, sign)
 
 
-def _joined(detours: Iterator[_Detour], stops: Points, singular: Points) -> list[_Detour]:
+def _joined_detours(detours: Iterator[_Detour], stops: Points, singular: Points) -> list[_Detour]:
     """Those without stops between their places become one, if no other singular point is between them and that."""
     found: list[_Detour] = []
     for detour in detours:

@@ -30,7 +30,7 @@ from kovacic.enclosure.problem import NumericProblem, as_problem
 from kovacic.enclosure.rational import way_for
 from kovacic.enclosure.request import Accuracy, Params, digits_and_limits
 from kovacic.enclosure.singular import Singular
-from kovacic.enclosure.start import place_of
+from kovacic.enclosure.start import singular_place
 from kovacic.enclosure.way import Traveller
 from kovacic.errors import InputError, LimitExceeded
 from kovacic.limits import Budget, Limits, check_time, limited
@@ -209,7 +209,7 @@ def _end(problem: NumericProblem, value: object) -> ExactPoint | Singular:
     """An end of a path: a point where the equation is regular stays one."""
     if not problem.is_rational:
         return as_point(value, "an end of the path of an equation whose constants aren't rational")
-    place = place_of(problem, value, "a vertex")
+    place = singular_place(problem, value, "a vertex")
     return place.near if place.is_ordinary else place
 
 

@@ -1,8 +1,8 @@
 """Exact points of the complex plane: Gaussian rationals, read from every kind of number.
 
-Others are known by balls: constants such as sqrt(2) and pi to every precision, and the balls that users have.  SymPy
-expressions of numbers, and of numbers and x, are computed by FLINT's balls, operation by operation: nothing of SymPy's own
-numerical evaluation, whose digits aren't proven, goes in.
+Others are known by balls: constants such as sqrt(2) and pi to every precision, and the users' own balls.  SymPy
+expressions of numbers, and of numbers and x, are computed by FLINT's balls, operation by operation, without SymPy's own
+numerical evaluation, whose digits aren't proven.
 """
 
 from __future__ import annotations
@@ -36,8 +36,7 @@ def kept_at_precision(maxsize: int) -> Callable[[Callable[P, R]], Callable[P, R]
 
         @wraps(compute)
         def called(*arguments: P.args, **keywords: P.kwargs) -> R:
-            # Keywords would make two keys of one call.
-            assert not keywords
+            assert not keywords  # they would make two keys of one call
             return kept(ctx.prec, *arguments)
 
         called.cache_clear = kept.cache_clear  # type: ignore[attr-defined]  # as of every cache
@@ -56,7 +55,7 @@ class ExactPoint:
 
     x: Any
     y: Any
-    fixed: ClassVar[bool] = False  # known to every precision, unlike some of a `Constant`
+    fixed: ClassVar[bool] = False  # known to every precision, unlike a `Constant` that is a user's ball
 
     def __init__(self, re: Any, im: Any = 0) -> None:
         if type(re) is not fmpq:
@@ -104,7 +103,7 @@ class ExactPoint:
         return self.x * self.x + self.y * self.y
 
     def height_bits(self) -> int:
-        """The length of the longest of the integers that it is made of."""
+        """The length of the longest integer in it."""
         return max(int(self.x.height_bits()), int(self.y.height_bits()))
 
     def __complex__(self) -> complex:
@@ -149,6 +148,7 @@ def root_below(square: Any, bits: int) -> Any:
 
 
 def _short(value: Fraction) -> str:
+    """The exact value in at most 24 characters, else 15 digits."""
     text = str(value) if value.numerator.bit_length() + value.denominator.bit_length() < 100 else ""
     if 0 < len(text) <= 24:
         return text
@@ -274,7 +274,7 @@ def _symbolic(value: Any, name: str) -> Number | None:
 
 
 def _given_ball(value: Any) -> acb | None:
-    """The ball that the user has: ours (without importing it), python-flint's or mpmath's; None for anything else."""
+    """A ball of the user's: ours (without importing it), python-flint's or mpmath's; None for anything else."""
     if hasattr(value, "to_flint") and not value.is_exact():
         return acb(value.to_flint())
     if isinstance(value, arb | acb):

@@ -1,4 +1,4 @@
-"""Raising the working precision until the enclosures are as small as was asked for, or until they can't be.
+"""Raising the working precision until the enclosures have the requested digits, or can't have them.
 
 First digits + guard bits, then as many bits more as were missing.
 """
@@ -6,6 +6,7 @@ First digits + guard bits, then as many bits more as were missing.
 from __future__ import annotations
 
 import logging
+import math
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from itertools import repeat
@@ -24,20 +25,18 @@ from kovacic.limits import Limits
 from kovacic.numbers.numerals import in_a_message
 
 _LOG = logging.getLogger(__name__)
-_BITS_PER_DIGIT = 3.3219280948873626  # log2(10)
-_STEP = 64
-"""Taylor's method raises its precision by multiples of this number of bits."""
+_BITS_PER_DIGIT = math.log2(10)
 
 
 class AccuracyWarning(UserWarning):
-    """An enclosure is wider than asked for; the message says why."""
+    """An enclosure is wider than requested; the message says why."""
 
 
 @dataclass(frozen=True, eq=False)
 class PointValue:
     """The solution at one point: enclosures of y and y' (`state`, finite), and how they were obtained.
 
-    `missing` are the bits of y that are missing for the digits asked for; if there are any, `note` says why.
+    `missing` are the bits of y that are missing for the requested digits; if there are any, `note` says why.
     """
 
     x: Number
@@ -97,17 +96,14 @@ def raise_precision(
         if run.finite:
             previous = run
         more = run.missing + 16
-        if closed is None:  # other points find what was expanded at the same precision
-            more = -(-more // _STEP) * _STEP
+        if closed is None:  # by multiples of 64, so that points of other calls share the expansions
+            more = -(-more // 64) * 64
         bits = min(bits + more, ceiling)
 
 
 @dataclass(frozen=True)
 class _Run:
-    """What one precision gave: without values if the balls aren't all finite.
-
-    `lacking` of them have too few digits, by at most `missing` bits.
-    """
+    """The values at one precision, none if the balls aren't all finite; `lacking` of them lack up to `missing` bits."""
 
     values: tuple[PointValue, ...]
     lacking: int
@@ -123,9 +119,7 @@ class _Run:
             states = journey.states(targets, closed, route.bits)
             lacking = [_missing_bits(y, route.digits, route.bits, doubled=doubled) for y, _ in states]
             finite = all(y.is_finite() and dy.is_finite() for y, dy in states)
-            values: tuple[PointValue, ...] = ()
-            if finite:
-                values = tuple(map(PointValue, targets, states, lacking, repeat(route)))
+            values = tuple(map(PointValue, targets, states, lacking, repeat(route))) if finite else ()
         _LOG.info(
             "run %d, %d bits: %d of %d points to %d digits",
             *(route.runs, route.bits, lacking.count(0), len(lacking), route.digits),
@@ -133,21 +127,19 @@ class _Run:
         return cls(values, len(lacking) - lacking.count(0), max(lacking, default=0), route, finite)
 
     def is_stalled(self, previous: _Run | None) -> bool:
-        """Where a higher precision hasn't halved the balls, their size comes from the initial values."""
+        """True if a higher precision hasn't halved the balls: their size comes from the initial values."""
         if previous is None or not self.finite:
             return False
-        for before, value in zip(previous.values, self.values, strict=True):
-            # A ball around 0 may at first tell of nothing but a precision that was too low.
-            is_telling = self.route.runs > 2 or not value.y.contains_zero()
-            is_final = value.missing == 0 or (is_telling and 2 * arb(value.y.rad) > arb(before.y.rad))
-            if not is_final:
-                return False
-        return True
+        lacking = [pair for pair in zip(previous.values, self.values, strict=True) if pair[1].missing]
+        # A ball around 0 may at first be wide just because the precision was too low.
+        if self.route.runs <= 2 and any(value.y.contains_zero() for _, value in lacking):
+            return False
+        return all(2 * arb(value.y.rad) > arb(before.y.rad) for before, value in lacking)
 
     def explained(self, limit: str | None = None) -> tuple[PointValue, ...]:
-        """The values; those with fewer digits than were asked for with a note, which is the limit or what their balls tell.
+        """The values; those that lack digits with a note, which is the limit or a reason that their balls give.
 
-        Raises LimitExceeded where there are none.
+        Raises LimitExceeded if there are none.
         """
         if not self.finite:
             raise LimitExceeded("no finite enclosure was found up to the highest precision", limit="digits")
@@ -170,19 +162,19 @@ def _missing_bits(y: acb, digits: int, prec: int, *, doubled: bool) -> int:
         return max(0, goal - int(y.rel_accuracy_bits()))
     if doubled:
         return prec
-    # if the solution is the recessive one, twice the growth of the others is lost
+    # If the solution is the recessive one, twice the growth of the others is lost.
     return max(prec, 2 * _lost(y, prec) + goal - prec)
 
 
 def _lost(y: acb, prec: int) -> int:
-    """By how many bits other solutions grow, seen by an enclosure that contains zero."""
+    """The bits by which other solutions grow, as far as an enclosure that contains zero tells."""
     largest = y.abs_upper()
-    # A solution of size 1 would be off by about 2^-prec: what the ball is larger by is growth.
+    # A solution of size 1 would be off by about 2^-prec: a wider ball comes from growth.
     return 0 if largest == 0 else max(0, upper_exponent(largest) + prec)
 
 
 def _growth(result: PointValue) -> int:
-    """By how many bits other solutions grow, as far as this value tells."""
+    """The bits by which other solutions grow, as far as this value tells."""
     return _lost(result.state[0], result.route.bits) if result.y.contains_zero() else 0
 
 

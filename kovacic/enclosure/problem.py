@@ -1,4 +1,4 @@
-"""What is to be evaluated: the user's equation as a system for its normal form, with its gauge, its right-hand side, the
+"""Numerical problems: the user's equation as a system for its normal form, with its gauge, its right-hand side, the
 values of its constants and parameters, and a decision where there is one.
 
 Constants may be known by balls: algebraic ones such as sqrt(2), and irrational values of parameters.  Then the solutions are
@@ -45,9 +45,6 @@ from kovacic.equation import Change, Equation, Parsed, parameters_of
 from kovacic.errors import InputError, LimitExceeded, NotRational
 from kovacic.numbers.numerals import as_text
 
-_SHOWN = 64  # bits after the binary point of a singular point that is named
-_SHARP = 700  # bits at which a leading coefficient is told from zero
-
 
 def gauged(S: RatFunc, gamma: RatFunc) -> tuple[RatFunc, RatFunc, RatFunc]:
     """a, b and c of a z'' + b z' + c z = 0, where y'' = S y, z = g y and gamma = g'/g."""
@@ -70,7 +67,7 @@ def check_apart(points: Iterable[acb], a: acb, b: acb) -> None:
     for point in points:
         ratio = (b - point) / (a - point)  # negative or 0 on the segment only
         if not (ratio.real > 0 or not ratio.imag.contains(0)):
-            place = midpoint(point).rounded(-_SHOWN)
+            place = midpoint(point).rounded(-64)
             raise InputError(
                 f"the path runs through the singular point near {place}, or so near that its constants don't tell",
                 hint="go around it: path='above', or path=[...] with a vertex off the axis",
@@ -80,11 +77,11 @@ def check_apart(points: Iterable[acb], a: acb, b: acb) -> None:
 
 def _at(polynomial: Any, values: list[acb]) -> acb_poly:
     """A polynomial over Z in x and the parameters at these values of the latter."""
-    columns: dict[int, acb] = {}
+    total = acb_poly([])
     for exponents, coefficient in polynomial.to_dict().items():
         power, *others = map(int, exponents)  # that of x, and those of the parameters
-        columns[power] = columns.get(power, acb(0)) + math.prod(map(pow, values, others), start=acb(coefficient))
-    return acb_poly([columns.get(k, acb(0)) for k in range(max(columns, default=-1) + 1)])
+        total += acb_poly([0] * power + [math.prod(map(pow, values, others), start=acb(coefficient))])
+    return total
 
 
 @kept_at_precision(maxsize=32)
@@ -96,9 +93,6 @@ def root_of(field: AlgebraicField) -> acb:
         raise InputError(f"which root of {field.modulus} the constant {field.name} is isn't known")
     rep = QQ.poly([c for c in modulus if c is not None]).rep
     return root_near(rep.numer(), acb(*(arb(to_fmpq(part)) for part in field.approximation)))
-
-
-_BITS = 40  # to which constants are known where nothing was asked for
 
 
 @dataclass(frozen=True)
@@ -172,7 +166,7 @@ class NumericProblem:
     @cached_property
     def is_real(self) -> bool:
         """True if the coefficients of S and of the gauge are real; the right-hand side may be complex."""
-        with working_precision(_BITS):
+        with working_precision(40):
             polynomials = [part for function in (self.S, self.gauge) for part in (function.num, function.den)]
             return all(are_real(self._embed(part).coeffs()) for part in polynomials)
 
@@ -183,7 +177,7 @@ class NumericProblem:
 
     def check(self) -> None:
         """Raise InputError unless numerator and denominator of S are known, with a leading coefficient of the latter."""
-        with working_precision(_SHARP):
+        with working_precision(700):  # of which far fewer are lost to cancellation
             # A parameter may be so wide that the degree of the denominator isn't known.
             num, den = (part.coeffs() for part in self.polynomials())
             if not all(c.is_finite() for c in (*num, *den)) or den[-1].contains(0):
@@ -222,7 +216,7 @@ class NumericProblem:
         return self._poles_of(self.S, prec)
 
     def _poles_of(self, function: RatFunc, prec: int) -> Zeros:
-        """Those of a function, with exact multiplicities; raises LimitExceeded where they can't be told apart."""
+        """Those of a function, with exact multiplicities; raises LimitExceeded if they can't be told apart."""
         if self.is_rational:
             return System.of(function).roots("den", prec)
         with working_precision(2 * prec):
@@ -234,8 +228,8 @@ class NumericProblem:
         return found
 
     def enclosures(self, prec: int) -> list[acb]:
-        """Those of the singular points of the user's equation: the poles of S, of the gauge and of a rational right-hand side,
-        some perhaps several times."""
+        """Enclosures of the singular points of the user's equation: the poles of S, of the gauge and of a rational right-hand
+        side, some perhaps several times."""
         return [root for function in self._functions for root, _ in self._poles_of(function, prec)]
 
     def polynomials(self) -> tuple[acb_poly, acb_poly]:
@@ -263,30 +257,31 @@ class NumericProblem:
 
     def singular_points(self, prec: int) -> list[ExactPoint]:
         """The midpoints of their enclosures, each once; on the real axis exactly where the singular point is."""
-        found: list[acb] = []
-        for root in self.enclosures(prec):
-            if not any(root.overlaps(other) for other in found):
-                found.append(root)
-        return [midpoint(root) for root in found]
+        roots = self.enclosures(prec)
+        return [midpoint(root) for k, root in enumerate(roots) if not any(map(root.overlaps, roots[:k]))]
 
 
 def as_problem(
     equation: object, params: Params = None, *, forced: bool = False, constants: bool = False
 ) -> NumericProblem:
-    """The numerical problem that `equation` stands for, with these values of its parameters; see
-    `kovacic.enclosure.evaluate.evaluate` for what is accepted.  Only with `forced` may it have a right-hand side, and only
-    with `constants` coefficients that aren't rational."""
+    """The numerical problem of an equation as `kovacic.evaluate` accepts it, with these values of its parameters.
+
+    Only with `forced` may it have a right-hand side, and only with `constants` coefficients that aren't rational.
+    """
     if isinstance(equation, NumericProblem):
         return equation
     if isinstance(equation, Coefficients):
         raise NotRational(f"numerical evaluation needs coefficients that are rational in {equation.variable} here")
-    if params is not None or not isinstance(equation, Answer | str):
-        found = read_problem(equation, params)
-    else:  # answers and text are read once
-        known = problem_of(equation) if isinstance(equation, Answer) else _of_text(equation)
+    # Answers and text are read once.
+    if params is None and isinstance(equation, Answer):
+        found = problem_of(equation)
+    elif params is None and isinstance(equation, str):
+        known = _problem_of_text(equation)
         if isinstance(known, NotRational):
             raise known.with_traceback(None)
         found = known
+    else:
+        found = read_problem(equation, params)
     if found.right is not None and not forced:
         raise InputError("an equation without a right-hand side is needed here")
     if not (found.is_rational or constants):
@@ -308,7 +303,7 @@ def problem_of(answer: Answer) -> NumericProblem:
 
 
 @lru_cache(maxsize=64)
-def _of_text(equation: str) -> NumericProblem | NotRational:
+def _problem_of_text(equation: str) -> NumericProblem | NotRational:
     """The problem, or why there is none."""
     try:
         return read_problem(equation)
@@ -318,13 +313,9 @@ def _of_text(equation: str) -> NumericProblem | NotRational:
 
 def read_problem(equation: object, params: Params = None) -> NumericProblem:
     """As `as_problem`, whatever its coefficients and its right-hand side are."""
-    found: Answer | Parsed
-    if isinstance(equation, Answer | Parsed):
-        found = equation
-    else:
-        from kovacic.reading.read import read_input
+    from kovacic.reading.read import read_input
 
-        found = read_input(equation)
+    found = equation if isinstance(equation, Answer | Parsed) else read_input(equation)
     S = found.S
     given = found.equation or Equation(S * 0 + 1, S * 0, -S, S * 0)
     if given.change is not None:
@@ -378,10 +369,7 @@ def values_of_parameters(
     names = tuple(name for name in names if name not in known)
     if set(given) == set(names):
         return known | given
-    wanted = ", ".join(names) or "no parameter"
-    hint = "leave params out"
-    shell = "leave --param out"
-    if names:
-        hint = f"params={dict.fromkeys(names, 3)}, for instance"
-        shell = " ".join(f"--param {name}=3" for name in names) + ", for instance"
-    raise InputError(f"values are needed for {wanted}; given are {', '.join(given) or 'none'}", hint=hint, shell=shell)
+    hint = f"params={dict.fromkeys(names, 3)}, for instance" if names else "leave params out"
+    shell = " ".join(f"--param {name}=3" for name in names) + ", for instance" if names else "leave --param out"
+    needed = f"values are needed for {', '.join(names) or 'no parameter'}"
+    raise InputError(f"{needed}; given are {', '.join(given) or 'none'}", hint=hint, shell=shell)

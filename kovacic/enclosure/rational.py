@@ -11,7 +11,7 @@ Solutions that oscillate towards infinity, over any distance in one step: by amp
 
 The guarantee: from `edge` on, on its half of the real axis, every state that is carried lies in the ball that is returned.
 
-The mathematics.  Let S be real and S ~ -c x^d for x to infinity, c > 0 and d >= -1 (to minus infinity: S(-x) instead).  With
+Let S be real and S ~ -c x^d for x to infinity, c > 0 and d >= -1 (to minus infinity: S(-x) instead).  With
 any smooth f > 0 and phi' = sqrt(c) f,
 
     w = f^(-1/2) (cos phi, sin phi)    solves    w'' = S~ w,    S~ = -c f^2 + 3/4 (f'/f)^2 - f''/(2 f),
@@ -55,21 +55,19 @@ from kovacic.enclosure.matrices import (
     multiply,
     real_part,
 )
-from kovacic.enclosure.points import ExactPoint, Points, around_zero, power_of_two, to_acb
+from kovacic.enclosure.points import ExactPoint, Points, are_real, around_zero, power_of_two, to_acb
 from kovacic.enclosure.problem import NumericProblem
 from kovacic.enclosure.singular import Singular
 from kovacic.enclosure.splitting import is_split
-from kovacic.enclosure.start import logarithmic_derivative
+from kovacic.enclosure.start import recessive_rate
 from kovacic.enclosure.transport import growth_of_disc, walk
 from kovacic.enclosure.way import MAX_DISCS, Forecast, Homogeneous, States, Traveller, Way, WayStep, position
 from kovacic.limits import check_time, count_work
 
-_WORTH = 4  # times as many radians as bits, on the whole way: with fewer, discs are as fast
-_DOUBLINGS = 64  # of the least abscissa at which the series can be that sharp: singular points far away
-_MOST_TERMS = 2000
-_BITS = 64
-# Beyond the precision of a way, for the phase and for products.
-_GUARD = 40
+#: Terms of the series for the amplitude: powers of polynomials over Q of this degree take about a second.
+_MOST_TERMS_OF_AMPLITUDE = 2000
+#: Beyond the precision of a way, for the phase and for products.
+_BITS_FOR_PRODUCTS = 40
 
 
 @dataclass(frozen=True)
@@ -91,7 +89,7 @@ class Oscillation:
     def fundamental(self, x: ExactPoint) -> Matrix:
         """w and dw/dx at a point of the half line."""
         abscissa = self.sign * x.x
-        bits = self.prec + _GUARD + max(0, int(_phase_bits(self.c, self.d, abscissa)))
+        bits = self.prec + _BITS_FOR_PRODUCTS + max(0, int(_phase_bits(self.c, self.d, abscissa)))
         with working_precision(bits):
             t = 1 / arb(abscissa)
             # f = x^(d/2) T(1/x), and f' = x^(d/2) t (d/2 T - t T') with t = 1/x.
@@ -115,8 +113,13 @@ class Oscillation:
             return acb(y1), acb(y2), acb(dy1), acb(dy2)
 
 
+def _is_worth_while(phase_bits: float, prec: int) -> bool:
+    """True for four times as many radians as bits on the whole way, and more: with fewer, discs are as fast."""
+    return phase_bits > math.log2(4 * prec)
+
+
 def _phase_bits(c: Any, d: int, abscissa: Any) -> float:
-    """log2 of about the phase at an abscissa."""
+    """About log2 of the phase at an abscissa."""
     return log2(arb(c)) / 2 + (d / 2 + 1) * log2(arb(abscissa)) - math.log2(d / 2 + 1)
 
 
@@ -127,7 +130,7 @@ def _half_power(x: arb, d: int) -> arb:
 
 @dataclass(frozen=True)
 class Swing(Homogeneous):
-    """The step from one point of the half line to another: a `WayStep`."""
+    """The step from one point of the half line to another."""
 
     oscillation: Oscillation
     enter: ExactPoint
@@ -135,19 +138,17 @@ class Swing(Homogeneous):
 
     @property
     def matrix(self) -> Matrix:
-        """The matrix of the step."""
-        first, second = (self.local(state).state(self.leave) for state in ((acb(1), acb(0)), (acb(0), acb(1))))
-        return fundamental(first, second)
+        """From the state where the step begins to that where it ends."""
+        return fundamental(*(self.local(state).state(self.leave) for state in ((acb(1), acb(0)), (acb(0), acb(1)))))
 
     def local(self, state: State) -> Swinging:
         """The solution on the half line, from its state where the step begins."""
         count_work(self.oscillation.prec)
-        with working_precision(self.oscillation.prec + _GUARD):
+        with working_precision(self.oscillation.prec + _BITS_FOR_PRODUCTS):
             C = apply(inverse(self.oscillation.fundamental(self.enter)), state)
             # |C| changes by at most (exp(I) - 1) |C|, over whichever part of the half line.
             error = (self.oscillation.change * (abs(C[0]).upper() + abs(C[1]).upper())).upper()
-        real = C[0].imag.is_zero() and C[1].imag.is_zero()
-        off = around_zero(error, real=real)
+        off = around_zero(error, real=are_real(C))
         return Swinging(self.oscillation, (C[0] + off, C[1] + off))
 
 
@@ -162,7 +163,7 @@ class Swinging:
         """(y, dy/dx); raises ArithmeticError elsewhere."""
         if not self.oscillation.reaches(x):
             raise ArithmeticError("the target lies outside of its half line")
-        with working_precision(self.oscillation.prec + _GUARD):
+        with working_precision(self.oscillation.prec + _BITS_FOR_PRODUCTS):
             return apply(self.oscillation.fundamental(x), self.constants)
 
 
@@ -174,9 +175,8 @@ def swing_from(system: System, near: ExactPoint, end: ExactPoint, prec: int) -> 
     edge = near if found.reaches(near) else ExactPoint(found.sign * found.edge)
     # The share of the phase at the end that lies between both: about as many radians are on the way.
     share = (end - edge).x / end.x
-    if share > 0 and _phase_bits(found.c, found.d, abs(end.x)) + log2(arb(share)) > math.log2(_WORTH * prec):
-        return edge
-    return end
+    is_long = share > 0 and _is_worth_while(_phase_bits(found.c, found.d, abs(end.x)) + log2(arb(share)), prec)
+    return edge if is_long else end
 
 
 def swing(system: System, a: ExactPoint, b: ExactPoint, prec: int) -> Swing:
@@ -187,26 +187,26 @@ def swing(system: System, a: ExactPoint, b: ExactPoint, prec: int) -> Swing:
 
 
 def _towards(system: System, end: ExactPoint, prec: int) -> Oscillation | None:
-    """The solutions on the half line on which the end lies, where the way there may be worth while."""
+    """The solutions on the half line of the end, if amplitude and phase may be the faster way there."""
     d = len(system.num) - len(system.den)
     if d < -1 or not system.num or end.x == 0:
         return None
     sign = 1 if end.x > 0 else -1
     # S(sign x) ~ -c x^d for x to infinity.
     c = -fmpq(system.num[-1], system.den[-1]) * sign ** abs(d)
-    with working_precision(_BITS):
-        if c < 0 or not _phase_bits(c, d, abs(end.x)) > math.log2(_WORTH * prec):
+    with working_precision(64):
+        if c < 0 or not _is_worth_while(_phase_bits(c, d, abs(end.x)), prec):
             return None
     return _oscillation(system, sign, prec)
 
 
 @lru_cache(maxsize=64)
 def _oscillation(system: System, sign: int, prec: int) -> Oscillation | None:
-    """The solutions on one half line; None if singular points far away leave no sharp series, or it would be long."""
+    """The solutions on one half line; None if the series would be long."""
     d = len(system.num) - len(system.den)
     half = fmpq(d, 2)
     length = math.ceil((prec / 4 + 10) * (d / 2 + 1))  # enough at twice the least phase at which the series is so sharp
-    if length > _MOST_TERMS:
+    if length > _MOST_TERMS_OF_AMPLITUDE:
         return None
     num, den = ([fmpq(v) * sign**k / system.den[-1] for k, v in enumerate(part)] for part in (system.num, system.den))
     num, den = ([v * sign ** (len(den) - 1) for v in part] for part in (num, den))  # S(sign x), and den with the head 1
@@ -219,14 +219,14 @@ def _oscillation(system: System, sign: int, prec: int) -> Oscillation | None:
     V = U * (half - 1) - t * U.derivative()
     n, D = (fmpq_poly(part[::-1]) for part in (num, den))
     E = D * (T**4 * -c + t ** (d + 2) * (U * U * fmpq(3, 4) - T * V / 2)) - n * T * T
-    with working_precision(_BITS):
+    with working_precision(64):
         sizes = [[abs(arb(v)) for v in part.coeffs()] for part in (E, T, D)]
-        least = (math.log2(prec) - 1 - _phase_bits(c, d, fmpq(1))) / (d / 2 + 1)
-        for e in range(int(least), int(least) + _DOUBLINGS):
-            change = _change(sizes, c, d, arb((1, e)))
-            if change is not None and change < arb((1, -prec)):
-                return Oscillation(sign, d, c, T, power_of_two(e), change, prec)
-    return None
+        # Farther out where there are singular points.
+        e = int((math.log2(prec) - 1 - _phase_bits(c, d, fmpq(1))) / (d / 2 + 1))
+        while (change := _change(sizes, c, d, arb((1, e)))) is None or not change < arb((1, -prec)):
+            check_time()
+            e += 1
+    return Oscillation(sign, d, c, T, power_of_two(e), change, prec)
 
 
 def _modulus(num: Sequence[Any], den: Sequence[Any], half: Any, length: int) -> list[Any]:
@@ -333,7 +333,7 @@ class RationalWay(Way):
     def decay_rate(self, x: ExactPoint) -> acb:
         prec = self.prec + 20
         normal = replace(self.problem, gauge=self.problem.gauge * 0)
-        rate = logarithmic_derivative(RationalWay(normal, prec), self.problem.system, x, prec)
+        rate = recessive_rate(RationalWay(normal, prec), self.problem.system, x, prec)
         return rate + self.gauge.value(to_acb(x))
 
     def departure(self, point: Singular, stop: ExactPoint, needed: tuple[bool, bool]) -> tuple[ExactPoint, Matrix]:
@@ -416,15 +416,14 @@ def way_for(problem: NumericProblem) -> Way:
 
 
 def side_of(here: ExactPoint, stop: ExactPoint) -> bool | None:
-    """True to the right on the real axis, False to the left; None if one of the points lies beside it."""
+    """True for a stop to the right on the real axis, False to the left; None unless both points lie on it."""
     return bool(stop.x >= here.x) if here.is_real() and stop.is_real() else None
 
 
 def sides(here: ExactPoint | Singular, stops: Points) -> list[list[ExactPoint]]:
     """The stops by straight ways that are shared: those on the same side on the real axis, in the order of visit (from
     infinity the farthest first), and each of the others alone."""
-    is_inverted = isinstance(here, Singular) and here.inverted
-    origin = here.near if isinstance(here, Singular) else here
+    origin, is_inverted = (here.near, here.inverted) if isinstance(here, Singular) else (here, False)
     groups: dict[Any, list[ExactPoint]] = {}
     for stop in sorted(stops, key=lambda stop: position(origin, stop), reverse=is_inverted):
         side = side_of(origin, stop)

@@ -1,4 +1,4 @@
-"""Which solution is meant, and how accurately: the two objects that every numerical function accepts, and their shorthand."""
+"""Which solution, and how accurately: the two objects that every numerical function accepts, and their shorthand."""
 
 from __future__ import annotations
 
@@ -120,7 +120,6 @@ class Request(NamedTuple):
 
         Raises `TypeError` for other keywords, as Python does, with the nearest name, and for the fields that are `unused`.
         """
-        # What a call has no use for it doesn't know.
         known = [name for name in Keywords.__annotations__ if name not in unused]
         start = _object(Start, keywords.get("initial"))
         accuracy = _object(Accuracy, keywords.get("accuracy"))
@@ -140,14 +139,14 @@ class Request(NamedTuple):
 
 
 def _object(kind: type[Any], given: object) -> Any:
-    """The object that is given, or one of this kind without any fields."""
+    """The given object, or one of this kind without any fields."""
     if given is not None and not isinstance(given, kind):
         raise InputError(f"a kovacic.{kind.__name__} is expected, not {type(given).__name__!r}")
     return kind() if given is None else given
 
 
 def fields_of(given: Start | Accuracy) -> dict[str, Any]:
-    """The fields that are given, as keywords."""
+    """The fields that aren't None, as keywords."""
     return {name: value for name in given.__slots__ if (value := getattr(given, name)) is not None}
 
 
@@ -160,10 +159,10 @@ def digits_and_limits(call: str, **keywords: Any) -> tuple[int, Limits]:
 
 
 def number_of_digits(given: object, limits: Limits) -> int:
-    """As Python's integer; raises InputError unless this is a number of digits within the limits."""
+    """The digits as an integer; raises InputError unless they are positive and within the limits."""
     digits = whole(given, "digits", least=1)
+    shown = in_a_message(digits)
     if digits > limits.digits:
-        shown = in_a_message(digits)
         raise InputError(
             f"digits = {shown} is beyond the limit of {limits.digits}",
             hint=f"limits=kovacic.Limits(digits={shown})",

@@ -45,7 +45,7 @@ class Singular:
     """A regular singular point, or an ordinary one, of the user's equation.
 
     At infinity the equation is that in t = 1/x, and the point is its point 0 (`inverted`).  `minimal` is the polynomial,
-    irreducible over Q, of which the point is a zero; `near` tells it from the others, and is it where `exact`.
+    irreducible over Q, of which the point is a zero; `near` tells it from the others, and is the point itself if `exact`.
     """
 
     equation: OperatorCoefficients
@@ -118,7 +118,7 @@ class Singular:
 
     @cached_property
     def _orders(self) -> tuple[int, int, int]:
-        a, b, c = (_order(poly, self.minimal) for poly in self.equation)
+        a, b, c = (_multiplicity(poly, self.minimal) for poly in self.equation)
         return a, b, c
 
     @cached_property
@@ -126,7 +126,7 @@ class Singular:
         """The sum of the exponents and the square of their difference, as polynomials in the point, reduced by `minimal`:
         constant where they are rational."""
         first = self._orders[0]
-        alpha, beta, gamma = (_taylor(poly, first - k) for k, poly in enumerate(self.equation))
+        alpha, beta, gamma = (_taylor_coefficient(poly, first - k) for k, poly in enumerate(self.equation))
         # 1/alpha modulo the minimal polynomial: alpha isn't 0 at the point.
         inverse = alpha.xgcd(self.minimal)[1]  # P_0 = alpha theta^2 + (beta - alpha) theta + gamma
         total, product = ((part * inverse) % self.minimal for part in (alpha - beta, gamma))
@@ -134,13 +134,12 @@ class Singular:
 
     @property
     def difference(self) -> int | None:
-        """The difference of the exponents where it is an integer, decided exactly."""
-        delta = self._delta
-        return int(delta.p) if is_integer(delta) else None
+        """The difference of the exponents if it is an integer, decided exactly."""
+        return int(self._delta.p) if is_integer(self._delta) else None
 
     @property
     def _delta(self) -> Any:
-        """The difference of the exponents: a rational number where it is one, else a ball."""
+        """The difference of the exponents: a rational number if it is one, else a ball."""
         # rho^2 - s rho + p = 0 has the roots (s +- (s^2 - 4 p)^(1/2))/2.
         square = self._at(self._indicial[1])
         try:
@@ -157,7 +156,7 @@ class Singular:
         return value.real if here.imag.is_zero() else value
 
     def exponents(self) -> tuple[Any, Any]:
-        """The exponents in the order of the basis: rational numbers where they are, else balls."""
+        """The exponents in the order of the basis: rational numbers if they are such, else balls."""
         total = self._at(self._indicial[0])
         delta = self._delta
         return (total - delta) / 2, (total + delta) / 2
@@ -199,7 +198,7 @@ def power_of(t: acb, exponent: Any, log: acb) -> acb:
     return t ** int(exponent.p) if is_integer(exponent) else (acb(exponent) * log).exp()
 
 
-def _order(poly: fmpq_poly, minimal: fmpq_poly) -> int:
+def _multiplicity(poly: fmpq_poly, minimal: fmpq_poly) -> int:
     """How often `minimal` divides the polynomial (a large number for zero)."""
     if poly == 0:
         return 1 << 30
@@ -216,13 +215,11 @@ def _order(poly: fmpq_poly, minimal: fmpq_poly) -> int:
         order += 1
 
 
-def _taylor(poly: fmpq_poly, k: int) -> fmpq_poly:
+def _taylor_coefficient(poly: fmpq_poly, k: int) -> fmpq_poly:
     """The derivative of order k over k!; zero for negative k."""
-    if k < 0:
-        return fmpq_poly([])
     for n in range(1, k + 1):
         poly = poly.derivative() / n
-    return poly
+    return poly if k >= 0 else fmpq_poly([])
 
 
 def _root_in(a: fmpq_poly, ball: acb) -> tuple[fmpq_poly, ExactPoint]:

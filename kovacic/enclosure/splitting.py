@@ -1,9 +1,9 @@
 """Transition matrices to thousands of digits: binary splitting of the Taylor recurrence, and the bit-burst method.
 
-The guarantee: as for `kovacic.enclosure.taylor`, every returned matrix of balls contains the exact transition matrix from the
-centre c to the target s.  Not guaranteed: that the balls are small.
+The guarantee: every returned matrix of balls contains the exact transition matrix from the centre c to the target s.  Not
+guaranteed: that the balls are small.
 
-The mathematics.  With x = c + H u and s = c + H z the equation q(u) y'' = p(u) y of `kovacic.enclosure.frame` becomes, for
+With x = c + H u and s = c + H z the equation q(u) y'' = p(u) y of `kovacic.enclosure.frame` becomes, for
 u = z v and after clearing denominators, Q(v) y_vv = P(v) y with Q, P over Z[i] and Q_0 > 0, and the target is v = 1.  Steps
 of the recurrence for the coefficients b_m of a solution are matrices over Z[i]: with r = max(2, deg P + 2, deg Q),
 
@@ -30,9 +30,6 @@ Bit-burst.  The integers are short only if c and z are.  A target of many digits
 -> s, where s_k agrees with s to about 2^k bits: the k-th step needs 2^-k times as many terms, with coefficients 2^k times as
 long.  The last step is short enough for term by term.
 
-Symbols: c centre, H scale, s target, z = (s - c)/H, N the number of terms, m the index of the next coefficient, r the order
-of the recurrence, V its state; C, R, D a run.
-
 References: D. V. and G. V. Chudnovsky, "Computer algebra in the service of mathematical physics and number theory" (1990).
 J. van der Hoeven, "Fast evaluation of holonomic functions", Theor. Comp. Sci. 210 (1999).
 M. Mezzarobba, "NumGfun: a package for numerical and analytic computation with D-finite functions", ISSAC 2010.
@@ -52,21 +49,11 @@ from kovacic.enclosure.frame import Frame, GaussianParts, System, log2, make_fra
 from kovacic.enclosure.matrices import Matrix
 from kovacic.enclosure.points import ExactPoint, around_zero, to_acb
 from kovacic.enclosure.taylor import error_radii, expand
-from kovacic.enclosure.way import transition
-from kovacic.errors import LimitExceeded
+from kovacic.enclosure.way import check_terms, transition
 from kovacic.limits import check_time
 
-_BLOCK = 1.5  # length of the integers of a block, by the bits that are still needed (the first block: 1)
-# Splitting pays above max(1500, factor * order^3) bits, beside the real axis above three times as many; the factor without
-# and with singular points
-_LOWEST = 1500
-_ENTIRE_TERMS = 10
-_SINGULAR = 35
-_COMPLEX = 3
-_LEAST = 2000  # bits below which a block isn't shortened any more
-# Bits of the first point of a chain towards a target of many digits; each one has twice as many as the one before
-_BURST = 16
-_FEW = 128  # terms that the last step of a chain may have: it goes term by term
+#: Bits of the first point of a chain towards a target of many digits; each one has twice as many as the one before.
+_FIRST_BITS = 16
 
 
 @dataclass(frozen=True)
@@ -83,7 +70,7 @@ class Run:
 
 
 @dataclass(frozen=True)
-class Recurrence:
+class SplitRecurrence:
     """Q y_vv = P y over Z[i], with Q_0 > 0; with `mirror` the sums at -v, too."""
 
     P: GaussianParts
@@ -152,7 +139,7 @@ def _sum_series(
 ) -> tuple[Any, list[tuple[arb, arb]]]:
     """Sums in balls, rows Y, Y' (and at -v), columns b = (1, 0, ...) and (0, 1, ...), and for either column the bounds of |e|
     and |e_v|: blocks until these are about 2^-prec."""
-    steps = Recurrence(*shift(system, frame.centre, z.scaled(frame.scale)), mirror)
+    steps = SplitRecurrence(*shift(system, frame.centre, z.scaled(frame.scale)), mirror)
     m = 2
     # Errors grow with the solutions; 20 and 64 bits more for the bound and for the roundings of blocks.
     goal = prec + int(frame.bound.log2_growth) + 20
@@ -179,8 +166,7 @@ def _sum_series(
                 below = 0 if steps.is_real else rows  # where the imaginary parts stand
                 values = [[acb(sums[n, k], sums[n + below, k] if below else 0) for k in (0, 1)] for n in range(rows)]
                 return values, errors
-            if m > 40 * full + 4000:
-                raise LimitExceeded(f"a Taylor expansion needs more than {m} terms", limit="unknown_degree")
+            check_terms(m, full)
             # V falls like the terms, and with it the bits of V that count.
             needed = max(64, full + 33 + int(max(map(log2, heights))))
             length_of_block = _block_length(steps, m, needed, before)
@@ -194,7 +180,7 @@ def _sum_series(
             sums = sums + change
 
 
-def _block_length(steps: Recurrence, m: int, needed: int, before: tuple[int, int] | None) -> int:
+def _block_length(steps: SplitRecurrence, m: int, needed: int, before: tuple[int, int] | None) -> int:
     """The length of the next block: by the size of its integers, and no more than seem to be needed.
 
     `before` has m and `needed` as they were before the last block.
@@ -208,7 +194,8 @@ def _block_length(steps: Recurrence, m: int, needed: int, before: tuple[int, int
         return max(1, count)
     # As many steps as the last block took for the bits by which `needed` has fallen.
     steps_left = needed * (m - before[0]) / max(1, before[1] - needed)
-    return max(1, math.ceil(min(_BLOCK * max(needed, _LEAST) / each, steps_left)))
+    # Later blocks may be half as long again as the bits that are needed, and aren't shortened below 2,000 bits (measured).
+    return max(1, math.ceil(min(1.5 * max(needed, 2000) / each, steps_left)))
 
 
 def is_split(system: System, prec: int, *ends: ExactPoint) -> bool:
@@ -217,9 +204,9 @@ def is_split(system: System, prec: int, *ends: ExactPoint) -> bool:
     (`benchmarks/enclosure_long_series.py` measures both ways on both sides of the bound.)
     """
     order = max(2, len(system.num) + 1, len(system.den) - 1)
-    factor = _ENTIRE_TERMS if len(system.den) == 1 else _SINGULAR
-    least = max(_LOWEST, factor * order**3)
-    return prec > (least if all(end.is_real() for end in ends) else _COMPLEX * least)
+    # Without and with singular points.
+    least = max(1500, (10 if len(system.den) == 1 else 35) * order**3)
+    return prec > (least if all(end.is_real() for end in ends) else 3 * least)
 
 
 def split_legs(system: System, frame: Frame, target: ExactPoint, prec: int, *, mirror: bool = False) -> list[Matrix]:
@@ -249,22 +236,20 @@ def bit_burst(system: System, frame: Frame, target: ExactPoint, prec: int) -> li
     point within 1.6 scales of the centre.
     """
     matrices: list[Matrix] = []
-    length = step = _BURST
+    length = step = _FIRST_BITS
     while target != frame.centre:
         z = frame.seen(target)
         bits = prec + length  # the slopes are divided by the length of the step
         if z.height_bits() <= 2 * length:
             return [*matrices, *split_legs(system, frame, target, bits)]
-        if prec < _FEW * length:
+        if prec < 128 * length:  # some 128 terms: one by one
             return [*matrices, transition(expand(frame, bits), target)]
         stop = frame.centre + z.rounded(-step).scaled(frame.scale)
         if stop != frame.centre:
             matrices += split_legs(system, frame, stop, bits)
         inner = make_frame(system, stop, frame.e - step)
         assert inner is not None  # the points of the chain lie within 2^-16 scales of a disc without singular points
-        frame = inner
-        step = length
-        length = 2 * length
+        frame, step, length = inner, length, 2 * length
     return matrices
 
 
@@ -272,7 +257,7 @@ def legs(
     system: System, frame: Frame, enter: ExactPoint, leave: ExactPoint, prec: int
 ) -> tuple[list[Matrix], list[Matrix]]:
     """The factors, in order, of the matrices from the centre to both junctions of a disc."""
-    if enter == frame.centre + frame.centre - leave and frame.seen(leave).height_bits() <= 2 * _BURST:
+    if enter == frame.centre + frame.centre - leave and frame.seen(leave).height_bits() <= 2 * _FIRST_BITS:
         stop, start = split_legs(system, frame, leave, prec, mirror=True)
         return [start], [stop]
     start_factors, stop_factors = (bit_burst(system, frame, point, prec) for point in (enter, leave))

@@ -32,15 +32,14 @@ from kovacic.enclosure.way import Way
 from kovacic.errors import InputError, LimitExceeded
 from kovacic.numbers.numerals import plain_text
 
-_LARGEST_STEP = 1 << 200  # to the right of the zeros and poles of S, in search of a start for the decaying solution
 _START_HINT = "y0=... and dy0=..., or frobenius=(c1, c2), or which='regular'"
 _SHELL_STARTS = "--y0 and --dy0, or --frobenius C1,C2, or --regular"
 
 
 @dataclass(frozen=True)
-class Origin:
-    """A `Start` whose numbers were read: `data` are y and y' at `place`, or its coordinates in the Frobenius basis there; y
-    alone where `decaying`."""
+class ReadStart:
+    """A `Start` whose numbers were read: `data` are y and y' at `place`, or its coordinates in the Frobenius basis there;
+    only the first one counts where `decaying`."""
 
     place: Number | Singular
     data: tuple[Number, Number]
@@ -56,7 +55,7 @@ class Origin:
         return way.spread(self.place, (y, dy))
 
 
-def read_start(problem: NumericProblem | None, given: Start) -> Origin:
+def read_start(problem: NumericProblem | None, given: Start) -> ReadStart:
     """The solution that is given, its numbers read; without a `problem` for coefficients that are functions of x."""
     which = given.which
     if which not in (None, "regular", "decaying"):
@@ -86,22 +85,22 @@ def read_start(problem: NumericProblem | None, given: Start) -> Origin:
         if y0 is None or dy0 is None:
             raise InputError("both y0 and dy0 are needed", hint=_START_HINT, shell=_SHELL_STARTS)
         data = as_number(y0, "y0"), as_number(dy0, "dy0")
-        return Origin(as_number(given.x0, "x0"), data, decaying=is_decaying)
+        return ReadStart(as_number(given.x0, "x0"), data, decaying=is_decaying)
     assert problem is not None
-    singular = place_of(problem, given.x0, "x0")
-    return Origin(singular, _frobenius_coordinates(singular, given.frobenius))
+    singular = singular_place(problem, given.x0, "x0")
+    return ReadStart(singular, _frobenius_coordinates(singular, given.frobenius))
 
 
 def _frobenius_coordinates(place: Singular, frobenius: Sequence[object] | None) -> tuple[Number, Number]:
-    """The two that are given; without, those of the regular solution.  Raises `InputError` where there is none."""
+    """The given ones; without, those of the regular solution.  Raises `InputError` where there is none."""
     if frobenius is None:
+        frobenius = (0, 1)
         with working_precision(256):
             # Smaller than all others: with the larger exponent, or without the logarithm where they are equal.
             lower, upper = (acb(v).real for v in place.exponents())
         if place.difference is None and not lower < upper:
             said = f"no solution is smaller than all others at {place}"
             raise InputError(said, hint="give frobenius=(c1, c2)", shell="give --frobenius C1,C2")
-        frobenius = (0, 1)
     if isinstance(frobenius, str) or len(frobenius) != 2:
         raise InputError(
             "frobenius needs two coordinates",
@@ -112,19 +111,17 @@ def _frobenius_coordinates(place: Singular, frobenius: Sequence[object] | None) 
     return first, second
 
 
-def place_of(problem: NumericProblem, x0: object, name: str) -> Singular:
+def singular_place(problem: NumericProblem, x0: object, name: str) -> Singular:
     """The regular singular point, ordinary point or infinity ("oo") that the argument stands for."""
     # Infinity is a word: no number of any kind stands for it.
     if plain_text(x0) in ("oo", "inf", "+inf"):
         return Singular.at(problem, None)
     number = as_number(x0, name)
-    if isinstance(number, ExactPoint):
-        return Singular.at(problem, number)
     with working_precision(256):
-        return Singular.at(problem, number.value())
+        return Singular.at(problem, number if isinstance(number, ExactPoint) else number.value())
 
 
-def logarithmic_derivative(way: Way, system: System, x0: ExactPoint, prec: int) -> acb:
+def recessive_rate(way: Way, system: System, x0: ExactPoint, prec: int) -> acb:
     """A ball that contains y'/y at x0 of the recessive solution of the system, whose `way` this is, by equation (1).
 
     Raises InputError where no solution of y'' = S y decays in this way: S must be positive for large x, and grow or fall
@@ -147,8 +144,6 @@ def logarithmic_derivative(way: Way, system: System, x0: ExactPoint, prec: int) 
     # The ball has about exp(-2 growth): a growth of prec log(2)/2 leaves prec bits.
     while foreseen_growth(frequency(system), beyond, beyond + ExactPoint(step)) < prec * math.log(2) / 2:
         step = 2 * step
-        if step > _LARGEST_STEP:
-            raise LimitExceeded("no starting point was found for the decaying solution", limit="unknown_degree")
     far = beyond + ExactPoint(step)
     matrix = way.carried(far, x0, MapProduct()).whole()[0]
     # m = M (1, 0) and n = M (0, -1) have the values M_11 and -M_12, and n' is -M_22.

@@ -1,9 +1,9 @@
-"""One evaluation: what is asked for is read, a route is chosen by a rule, and the precision is raised until the goal is met.
+"""One evaluation: the keywords are read, a rule chooses a route, and the precision rises until the goal is met.
 
-The rule compares what Taylor's method, the closed form of case 1 and FLINT's functions cost (`kovacic.special.prices`), by
-foreseen work: no choice depends on earlier calls, and no clock decides.  How many discs Taylor's method needs is foreseen by
-the distances of singular points and |S|^(1/2) on the way.  A search for a closed form is given up where Taylor's method would
-be through; an equation given as text has to be decided for case 1.
+The rule compares the estimated costs of Taylor's method, the closed form of case 1 and FLINT's functions
+(`kovacic.special.prices`): no choice depends on earlier calls or on a clock.  The number of Taylor discs is estimated from the
+distances of singular points and |S|^(1/2) on the way.  A search for a closed form may take a fifth of what Taylor's method
+would; an equation given as text has to be decided for case 1.
 """
 
 from __future__ import annotations
@@ -37,35 +37,32 @@ from kovacic.errors import InputError, LimitExceeded, NotRational
 from kovacic.limits import DEFAULT_LIMITS, Budget, Limits, limits_of
 from kovacic.special import prices
 
+if TYPE_CHECKING:
+    from kovacic.enclosure.functions import Substitution
+
 NO_CLOSED_FORM = (
     "the method 'closed form' is for solutions of case 1 without a quadrature, and pull-backs of Airy's, Bessel's, Whittaker's "
     "and Gauss' equations over Q"
 )
 TAYLOR = "method='taylor' treats every equation"
-_SOUGHT = 0.2  # of the milliseconds that Taylor's method takes, for a decision or a search
-_DEGREE = 40  # of S, up to which an equation given as text is decided
-_UNKNOWN = 400  # degree of a polynomial that is sought for that, at most
-_SHARE = 0.3  # of the distance to a singular point: the mean radius of a disc
-_COVERED = 0.35  # of the bits of growth that a disc may have: log(2), for discs half as long as they may be (measured)
-_MOST_SEARCH = 60.0  # milliseconds of Taylor's method that count for the search for a pull-back
-_BITS = 128  # the precision at which singular points are sought beside the path, too
+_LOG = logging.getLogger(__name__)
+#: Of the milliseconds that Taylor's method takes, for a decision or a search.
+_SHARE_OF_A_SEARCH = 0.2
 Ways = tuple[tuple[ExactPoint, ExactPoint], ...]
-
-
+#: A closed form and its first precision in bits: enough where both solutions grow towards the start.
 ClosedRoute = tuple[Closed, int]
-"""A closed form and its first precision in bits: enough where both solutions grow to the start."""
 
 
 def route_of(journey: Journey, targets: Sequence[Number], method: Method | None, digits: int) -> ClosedRoute | None:
-    """The closed form, where it is asked for or the cheaper way; None for Taylor's method.
+    """The closed form, if it is required or cheaper; None for Taylor's method.
 
-    The choice depends on the horizons of the farthest targets and on their number alone.  Raises InputError where
-    a closed form is asked for and there is none.
+    The choice depends on the horizons of the farthest targets and on their number alone.  Raises InputError if
+    a closed form is required and there is none.
     """
     if method == "taylor" or not targets:
         return None
     if method is not None:
-        return _asked_for(journey, digits)
+        return _required(journey, digits)
     problem = journey.problem
     if problem is None or problem.right is not None or not problem.is_rational:
         return None
@@ -76,7 +73,7 @@ def route_of(journey: Journey, targets: Sequence[Number], method: Method | None,
     return found
 
 
-def _asked_for(journey: Journey, digits: int) -> ClosedRoute:
+def _required(journey: Journey, digits: int) -> ClosedRoute:
     """The closed form, whatever it costs."""
     problem = journey.problem
     if problem is None or problem.right is not None:
@@ -92,36 +89,32 @@ def _asked_for(journey: Journey, digits: int) -> ClosedRoute:
 
 
 def _chosen(journey: Journey, problem: NumericProblem, ways: Ways, count: int, digits: int) -> ClosedRoute | None:
-    """That of case 1, or FLINT's functions, sought for no longer than Taylor's method would take; from a singular point on
-    the functions always pay."""
+    """That of case 1, or FLINT's functions, sought for a share of the time that Taylor's method would take; from a singular
+    point on the functions always pay."""
     price = _foreseen(journey, problem, ways, count, digits)
+    sought = _SHARE_OF_A_SEARCH * price
     most = (price - prices.FIRST) / count  # for a target
     if not all(a.is_real() and b.is_real() for a, b in ways):
         most /= prices.CLOSED_BESIDE
     from_zero = isinstance(journey.place, Singular)
-    # An equation that wasn't solved is decided only as far as Taylor's method takes that long.
     S = problem.S
-    size = S.num.degree + S.den.degree
-    is_solved = problem.decision is not None
-    if not from_zero and (is_solved or (size <= _DEGREE and price >= prices.decided_from(S))):
-        foreseen = _rounded(min(_SOUGHT * prices.DEGREES * price, _UNKNOWN))
-        known = decided(problem, _UNKNOWN if is_solved or prices.has_sure_solutions(S) else min(foreseen, _UNKNOWN))
+    if not from_zero and (problem.decision is not None or price >= prices.decided_from(S)):
+        is_sure = prices.has_sure_solutions(S)
+        known = decided(problem, DEFAULT_LIMITS.unknown_degree if is_sure else _rounded(sought * prices.DEGREES))
         closed = None if known is None else closed_form_of(known)
         if closed is not None and closed.is_cheap and closed.price(digits) <= most:
             return closed, 0
-    if not from_zero and price < prices.sought_from(size):
+    if not from_zero and price < prices.sought_from(S.num.degree + S.den.degree):
         return None
-    classical = classical_of(S, _rounded(_SOUGHT * min(price, _MOST_SEARCH) / prices.UNIT))
+    classical = classical_of(S, _rounded(sought / prices.UNIT))
     if classical is None or not classical.is_cheap(digits, from_zero=from_zero):
-        return None
-    if not from_zero and classical.price(digits) > most:
         return None
     more = digits + classical.lost_digits(journey.place)
     return (classical, start_bits(more)) if from_zero or classical.price(more) <= most else None
 
 
 def _rounded(work: float) -> int:
-    """The next power of two: what is found is looked up for other targets of about the same price."""
+    """The next power of two, so that targets of about the same price share the results of a search."""
     return 1 << int(work).bit_length()
 
 
@@ -129,17 +122,18 @@ def _foreseen(journey: Journey, problem: NumericProblem, ways: Ways, count: int,
     """Estimated milliseconds of Taylor's method on these ways to this number of targets."""
     place = journey.place
     corners = [place.near if isinstance(place, Singular) else place, *map(middle, journey.vertices)]
-    with working_precision(_BITS):
-        poles = [complex(root) for root, _ in problem.poles(_BITS)]
+    with working_precision(128):
+        poles = [complex(root) for root, _ in problem.poles(128)]
         frequent = frequency(problem.system)
-    growth = growth_of_disc(start_bits(digits), alone=False) * _COVERED
+    # Of the bits of growth that a disc may have: log(2), for discs half as long as they may be (measured).
+    growth = growth_of_disc(start_bits(digits), alone=False) * 0.35
 
     def rate(x: acb) -> float:
-        """The inverse of a disc's diameter."""
+        """The inverse of a disc's diameter: its mean radius is 0.3 of the distance to a singular point."""
         here = complex(x)
         # Without the pole where a solution starts.
         near = min([abs(here - pole) for pole in poles if here != pole], default=math.inf)
-        return max(float(frequent(x).mid()) / growth, 1 / near / _SHARE) / 2
+        return max(float(frequent(x).mid()) / growth, 1 / near / 0.3) / 2
 
     size = problem.S.num.degree + problem.S.den.degree
     discs = 0.0
@@ -167,20 +161,11 @@ def _ways(journey: Journey, targets: Sequence[Number]) -> Iterator[tuple[ExactPo
         yield here, journey.way.horizon(here, stop)
 
 
-if TYPE_CHECKING:
-    from kovacic.enclosure.functions import Substitution
-
-_LOG = logging.getLogger(__name__)
-
-_NAMED_PATHS = ("chain", "above", "below")
-_APART = arb(2) ** -200  # what is nearer to a singular point can't be told from it
-
-
 @dataclass(frozen=True)
 class AskedSolution:
-    """One solution, of which values are asked for: the journey keeps what was computed for them.
+    """One solution whose values are wanted: the journey keeps what was computed for them.
 
-    `through` is a change of the variable, and the same journey in one in which the coefficients are rational.
+    `through` is a change of the variable to one in which the coefficients are rational, and the same journey in that.
     """
 
     journey: Journey
@@ -248,8 +233,7 @@ def evaluate_states(equation: object, points: Sequence[object], **given: Any) ->
 
 @lru_cache(maxsize=32, typed=True)
 def journey_of(problem: NumericProblem, path: Path, *start: Any) -> Journey:
-    """The part that doesn't depend on the targets, for the fields of a `Start`; cached, so that a further point finds the discs
-    that are there."""
+    """The part that doesn't depend on the targets, for the fields of a `Start`; cached for the discs that it keeps."""
     vertices = _vertices_of(path)
     origin = read_start(problem, Start(*start))
     _check_regular(problem, [n for n in (origin.place, *vertices) if not isinstance(n, Singular)])
@@ -261,7 +245,7 @@ def journey_of(problem: NumericProblem, path: Path, *start: Any) -> Journey:
 def analytic_journeys(
     coefficients: Coefficients, path: Path, *start: Any
 ) -> tuple[Journey, tuple[Substitution, Journey] | None]:
-    """As `journey_of` where coefficients are functions of x: in x and, if the path is straight, in t."""
+    """As `journey_of` for coefficients that are functions of x: in x and, if the path is straight, in t."""
     if path in ("above", "below"):
         hint = "path=[v1, v2, ...] goes through these vertices"
         raise InputError(f"path={path!r} isn't for equations whose coefficients are functions of x", hint=hint)
@@ -282,13 +266,11 @@ def analytic_journeys(
 
 def _vertices_of(path: Path) -> tuple[Number, ...]:
     """Those of a polygon; a path that has a name has none."""
-    if path is None:
+    if path in (None, "chain", "above", "below"):
         return ()
-    if not isinstance(path, str):
-        return tuple(as_number(vertex, "a vertex of the path") for vertex in path)
-    if path not in _NAMED_PATHS:
+    if isinstance(path, str):
         raise InputError(f"unknown path {path!r}", hint='a sequence of vertices, "chain", "above", "below", or None')
-    return ()
+    return tuple(as_number(vertex, "a vertex of the path") for vertex in path or ())
 
 
 def _check_regular(problem: NumericProblem, numbers: Sequence[Number]) -> None:
@@ -298,17 +280,18 @@ def _check_regular(problem: NumericProblem, numbers: Sequence[Number]) -> None:
             if problem.is_rational and isinstance(number, ExactPoint):
                 continue
             ball = to_ball(number)
-            if any(abs(ball - z).lower() < _APART for z in problem.enclosures(256)):
+            # At 256 bits 2^-200 can't be told from 0.
+            if any(abs(ball - z).lower() < arb((1, -200)) for z in problem.enclosures(256)):
                 raise InputError(f"{number} is a singular point of the equation, or can't be told from one")
 
 
 def _comparable(value: object) -> object:
-    """A number of NumPy's as a point: SymPy can't compare all of them with its own, when journeys are looked up."""
+    """The value; a number of NumPy's as a point, since SymPy can't compare all of them with its own in the cache."""
     return as_point(value, "a number of the start") if type(value).__module__ == "numpy" else value
 
 
 def _comparables(values: object, name: str) -> Any:
-    """A sequence of numbers as a tuple of such; a word, or None, as it is."""
+    """A sequence of numbers as a tuple of such; a word or None unchanged."""
     if values is None or isinstance(values, str):
         return values
     if isinstance(values, bytes | Mapping | Set) or not isinstance(values, Iterable):
@@ -317,7 +300,7 @@ def _comparables(values: object, name: str) -> Any:
 
 
 def _looked_up(cached: Any, *given: Any) -> Any:
-    """A function that keeps its values; of lists and FLINT's balls, which can't be looked up, computed anew."""
+    """The value of a cached function; computed anew for lists and FLINT's balls, which can't be hashed."""
     try:
         hash(given)
     except (TypeError, ValueError):

@@ -1,9 +1,8 @@
 """Taylor expansions of den y'' = num y at an ordinary point, with a proven bound of the whole error.
 
-The guarantee: for every point s on the segment that was asked for, the returned 2x2 matrix of balls contains the exact
-transition matrix from the centre c to s for the state (y, y').
+The guarantee: for every point s of the disc the solutions' states (y, y') at s are balls that contain the exact ones.
 
-The mathematics.  With x = c + H u the equation is q(u) y'' = p(u) y, q, p polynomials over Z[i] (the centre and H are
+With x = c + H u, H = h 2^e, the equation is q(u) y'' = p(u) y, q, p polynomials over Z[i] (the centre and H are
 dyadic, so nothing is rounded).  The recurrence for the coefficients,
 
     q_0 (n+2)(n+1) a_(n+2) = sum_j p_j a_(n-j) - sum_(j>=1) q_j (n+2-j)(n+1-j) a_(n+2-j),
@@ -20,8 +19,6 @@ and |e'| stay below the solution of z'' = sigma z + rho (a Volterra inequality w
 majorant covers the truncation of the series and every rounding at once, and is sharp where classical majorant series are
 not: the coefficients of 1/q never enter with absolute values.
 
-Symbols: c centre, H = h 2^e scale, u = (x - c)/H, w bits after the binary point, N the number of terms.
-
 References: M. Mezzarobba and B. Salvy, "Effective bounds for P-recursive sequences", J. Symb. Comp. 45 (2010).
 A. Neumaier, "Global, rigorous and realistic bounds for the solution of dissipative differential equations. Part I:
 Theory", Computing 52 (1994) 315-336, for bounds by the defect (the comparison used here is classical).
@@ -36,22 +33,20 @@ from flint import acb, acb_poly, arb, arb_poly, fmpz, fmpz_poly
 
 from kovacic.algebra.precision import working_precision
 from kovacic.enclosure.frame import REACH, Frame, GaussianParts, log2, norm
-from kovacic.enclosure.way import Columns, Local
-from kovacic.errors import LimitExceeded
+from kovacic.enclosure.way import Columns, Local, check_terms
 from kovacic.limits import check_time
-
-_TERMS_BETWEEN_LOOKS = 64  # from one look at the clock to the next
 
 
 def expand(frame: Frame, prec: int) -> Columns:
-    """The solutions with the states (1, 0) and (0, 1) at the centre, off by about 2^-prec in the disc (how much, they know)."""
+    """The solutions with the states (1, 0) and (0, 1) at the centre, to about 2^-prec in the disc, with their error bounds."""
     w, columns = approximations(frame, prec)
     with working_precision(w + 10):
         units = arb((1, -w)), arb((1, frame.e - w))  # the second one has the slope 1 in x
         found = []
         for (parts, defect), unit in zip(columns, units, strict=True):
-            radii = error_radii(defect * unit, frame)
-            found.append(Local(frame.centre, frame.e, polynomial(parts, unit), *radii, REACH, w + 10))
+            re, im = (None if part is None else arb_poly(fmpz_poly(part)) * unit for part in parts)
+            poly = re if im is None else acb_poly(re) + acb_poly(im) * acb(0, 1)
+            found.append(Local(frame.centre, frame.e, poly, *error_radii(defect * unit, frame), REACH, w + 10))
         return found[0], found[1]
 
 
@@ -72,7 +67,7 @@ def approximations(frame: Frame, prec: int) -> tuple[int, list[tuple[GaussianPar
     q = _cut(q, excess)
     columns = []
     for start in (0, 1):
-        terms = recurrence(p, q, w, start, 1 << quiet)
+        terms = fixed_point_series(p, q, w, start, 1 << quiet)
         columns.append((terms, _proven_defect(p, q, terms, excess, 1 << quiet) + 1))
     return w, columns
 
@@ -81,17 +76,6 @@ def _cut(parts: GaussianParts, excess: int) -> GaussianParts:
     """The coefficients without their lowest `excess` bits, which are beyond the fixed point anyway."""
     re, im = parts
     return [v >> excess for v in re], None if im is None else [v >> excess for v in im]
-
-
-def polynomial(parts: GaussianParts, unit: arb) -> Any:
-    """With these coefficients times a unit, of numbers that are real if the imaginary parts are None."""
-    re, im = (None if part is None else arb_poly(fmpz_poly(part)) * unit for part in parts)
-    return re if im is None else acb_poly(re) + acb_poly(im) * acb(0, 1)
-
-
-def _numbers(values: list[int], w: int) -> list[Any]:
-    """Python integers below some 700 bits, FLINT's above (measured: the cheaper kind)."""
-    return values if w < 700 else [fmpz(v) for v in values]
 
 
 class _Series:
@@ -105,7 +89,7 @@ class _Series:
         self.b = [*zeros, *zeros[:2]]
 
     def known(self, p_back: list[Any], q_back: list[Any]) -> Any:
-        """sum_j p_j a_(n-j) - sum_(j>=1) q_j b_(n+2-j), where a_(n+1) is the last one; p_0 and q_1 are the last ones."""
+        """sum_j p_j a_(n-j) - sum_(j>=1) q_j b_(n+2-j), where a_(n+1) is the last one, as p_0 and q_1 are in their lists."""
         a = self.a
         total = sum(map(mul, p_back, a[len(a) - 1 - len(p_back) : -1]))
         if q_back:
@@ -118,27 +102,26 @@ class _Series:
         self.b.append(term * k)
 
 
-def recurrence(p: GaussianParts, q: GaussianParts, w: int, start: int, small: int) -> GaussianParts:
+def fixed_point_series(p: GaussianParts, q: GaussianParts, w: int, start: int, small: int) -> GaussianParts:
     """The coefficients of q Y'' = p Y, real and imaginary parts (None: real), up to a run of terms below `small`.
 
     With b_n = n (n - 1) a_n,
 
         q_0 b_(n+2) = sum_j p_j a_(n-j) - sum_(j>=1) q_j b_(n+2-j).
     """
-    p_re, p_im = (_numbers((part or [])[::-1], w) for part in p)
-    q_re, q_im = (_numbers((part or [])[:0:-1], w) for part in q)
-    one, zero, q_0 = _numbers([1 << w, 0, q[0][0]], w)
+    number: Any = int if w < 700 else fmpz  # the faster kind (measured)
+    p_re, p_im = ([number(v) for v in (part or [])[::-1]] for part in p)
+    q_re, q_im = ([number(v) for v in (part or [])[:0:-1]] for part in q)
+    one, zero, q_0 = number(1 << w), number(0), number(q[0][0])
     pad = max(map(len, (p_re, p_im, q_re, q_im))) + 2
     real = _Series(pad, *((zero, one) if start else (one, zero)))
     imag = None if p[1] is q[1] is None else _Series(pad, zero, zero)
-    cap = 40 * w + 4000
     n = 0
     quiet = 0
     while quiet <= pad:
-        if n % _TERMS_BETWEEN_LOOKS == 0:
+        if n % 64 == 0:
             check_time()
-            if n > cap:
-                raise LimitExceeded(f"a Taylor expansion needs more than {cap} terms", limit="unknown_degree")
+            check_terms(n, w)
         k = (n + 1) * (n + 2)
         # (p + i p')(a + i a') = (p a - p' a') + i (p a' + p' a), and q so.
         re = real.known(p_re, q_re)

@@ -10,8 +10,8 @@ is the adjugate, since det = 1 exactly.
 The matrices E_i come from one expansion, summed term by term (`kovacic.enclosure.taylor`), or at thousands of digits from
 binary splitting (`kovacic.enclosure.splitting`).
 
-Step size: half the distance from the centre to the nearest singular point (the terms then fall like 2^-n on both sides), and
-less where the solutions grow by more than a fixed share of the working precision.
+The scale of a disc is half the distance from the centre to the nearest singular point (the terms then fall like 2^-n), or less
+where the solutions grow by more than a fixed share of the working precision.
 """
 
 from __future__ import annotations
@@ -35,12 +35,6 @@ from kovacic.limits import check_time, count_work
 
 _LOG = logging.getLogger(__name__)
 
-# Scale of a disc as a share of the distance to the nearest singular point, at most (scales are powers of two)
-_RATIO = 0.625
-# Bits by which the solutions may grow in one disc, at least, and as a share of the working precision
-_GROWTH = 100.0, 0.2
-_KEPT_GROWTH = 30.0, 0.05
-
 
 @dataclass(frozen=True)
 class Disc:
@@ -58,14 +52,13 @@ class Disc:
 
     def served(self, system: System, a: ExactPoint, stops: Sequence[ExactPoint]) -> Iterator[ExactPoint]:
         """Those stops to which the disc carries a solution from a as the straight line does: in it, and without a singular
-        point in the triangle of a, `begin` and the stop, so that both ways are homotopic; or the end of the way.
-        """
+        point in the triangle of a, `begin` and the stop, so that both ways are homotopic; or the end of the way."""
         if self.begin is None:
             return
         centre = self.frame.centre
         reach = self.frame.scale * REACH
         # The square around what is served: where it sees a without singular points between, each stop does.
-        corners = [centre + ExactPoint(x * reach, y * reach) for x in (1, -1) for y in (1, -1)]  # around what is served
+        corners = [centre + ExactPoint(x * reach, y * reach) for x in (1, -1) for y in (1, -1)]
         is_free = self.begin == a or is_apart(system, a, *corners)
         square = self.frame.scale**2
         for stop in stops:
@@ -93,7 +86,7 @@ def walk(
 ) -> Iterator[tuple[Disc, WayStep]]:
     """The discs of the straight way from a to b, with the steps in them.
 
-    `alone` says that only the end is asked for; `split`, that the matrices come from binary splitting.
+    `alone` if only the state at the end is needed, `split` for matrices from binary splitting.
     """
     _LOG.debug("from %s to %s, %d bits%s", a, b, prec, ", by binary splitting" if split else "")
     for number, disc in enumerate(cover(system, a, b, prec, alone=alone), 1):
@@ -110,11 +103,10 @@ def walk(
 def growth_of_disc(prec: int, *, alone: bool) -> float:
     """The bits by which the solutions may grow from the centre of a disc to its junctions.
 
-    It is less where the disc is kept: polynomials are shorter at its targets, and beyond the spare bits of the precision a
-    value that is small beside the others in the disc would ask for a second run.
+    They are fewer where the disc is kept: polynomials are shorter at its targets, and a value that is smaller than the others
+    in the disc by more than the spare bits of the precision would need a second run.
     """
-    least, share = _GROWTH if alone else _KEPT_GROWTH
-    return max(least, prec * share)
+    return max(100.0, 0.2 * prec) if alone else max(30.0, 0.05 * prec)
 
 
 def cover(system: System, a: ExactPoint, b: ExactPoint, prec: int, *, alone: bool = True) -> Iterator[Disc]:
@@ -198,7 +190,8 @@ class StraightPiece:
         for point in (begin, self.at(t_leave), enter, leave):
             if (point - centre).norm_squared() > square:
                 return None
-        frame = fitting(self.system, centre, e, _RATIO, self.growth)
+        # Scales are powers of two: 5/8 of the distance to a singular point allows one half.
+        frame = fitting(self.system, centre, e, 0.625, self.growth)
         return None if frame is None else Disc(frame, enter, leave, t_leave, begin)
 
     def _on_axis(self, enter: ExactPoint, e: int) -> _Placed:

@@ -1,10 +1,10 @@
 """Ways: how the solutions of an equation are carried along straight lines, disc after disc.
 
 A `Way` is an equation at some precision.  Its coefficients may be rational (`kovacic.enclosure.rational`) or analytic
-(`kovacic.enclosure.analytic`), or its solutions known in closed form; a right-hand side is part of the state that is carried.
+(`kovacic.enclosure.analytic`), or its solutions known in closed form; a right-hand side is part of the carried state.
 
-A `Ray` keeps the discs of one straight line.  Which discs these are depends on where the line begins and on its `horizon`, the
-power of two beyond the target, and on nothing else: no value depends on what was asked for before.
+A `Ray` keeps the discs of one straight line.  These depend on where the line begins and on its `horizon`, the power of two
+beyond the target, and on nothing else: no value depends on earlier calls.
 """
 
 from __future__ import annotations
@@ -17,7 +17,7 @@ from dataclasses import dataclass, field, replace
 from functools import cached_property
 from typing import Any, ClassVar, Protocol
 
-from flint import acb, acb_poly, arb, arb_poly
+from flint import acb, arb, arb_poly
 
 from kovacic.algebra.precision import working_precision
 from kovacic.enclosure.frame import foreseen_growth
@@ -47,13 +47,10 @@ from kovacic.enclosure.singular import Singular
 from kovacic.errors import InputError, LimitExceeded
 from kovacic.limits import check_duration, watched_seconds
 
-_TRIED = 16
-_WORTH = 0.2
-"""Discs and seconds after which the time of the others is known well enough to be foreseen."""
+#: Discs after which their time tells that of the others.
+_DISCS_FOR_A_FORECAST = 16
+#: Discs of one way: a minute or two at 15 digits.  A ray keeps 1/50 of them, of some kilobytes each.
 MAX_DISCS = 200_000
-_MOST_DISCS = 4000
-"""Discs that a ray keeps: some kilobytes each at 15 digits."""
-
 
 States = dict[ExactPoint, State]  # what was found, by points
 
@@ -84,38 +81,32 @@ class Local:
         if u.norm_squared() > self.reach * self.reach:
             raise ArithmeticError("the target lies outside of its disc")
         with working_precision(self.precision):
-            # dy/dx = (dy/du)/2^e.
-            h = arb((1, self.e))
-            if isinstance(self.poly, arb_poly) and u.is_real():
-                at = arb(u.x)
-                return acb(self.poly(at) + arb(0, self.error)), acb((self.slope(at) + arb(0, self.slope_error)) / h)
-            z = to_acb(u)
-            y = acb_poly(self.poly)(z) + around_zero(self.error, real=False)
-            dy = acb_poly(self.slope)(z) + around_zero(self.slope_error, real=False)
-            return y, dy / h
+            real = isinstance(self.poly, arb_poly) and u.is_real()
+            z = arb(u.x) if real else to_acb(u)
+            y = self.poly(z) + around_zero(self.error, real=real)
+            dy = self.slope(z) + around_zero(self.slope_error, real=real)
+            return y, dy / arb((1, self.e))  # dy/dx = (dy/du)/2^e
 
 
 class Followed(Protocol):
-    """A solution that is known on a part of a way."""
+    """A solution on a part of a way."""
 
     def state(self, x: ExactPoint) -> State:
         """(y, dy/dx); raises ArithmeticError elsewhere."""
 
 
 class WayStep(Protocol):
-    """A disc of a way."""
+    """A disc of a way, up to where the next one begins (`leave`).
+
+    The state there is `matrix` times that where it is entered, plus the contribution of a right-hand side, `added`.
+    """
 
     @property
-    def leave(self) -> ExactPoint:
-        """Where the next one begins."""
-
+    def leave(self) -> ExactPoint: ...
     @property
-    def matrix(self) -> Matrix:
-        """From the state where the disc is entered to that where it is left, without a right-hand side."""
-
+    def matrix(self) -> Matrix: ...
     @property
-    def added(self) -> State:
-        """What a right-hand side adds to that."""
+    def added(self) -> State: ...
 
     def local(self, state: State) -> Followed:
         """The solution in the disc, from its state where the disc is entered."""
@@ -125,6 +116,13 @@ class Homogeneous:
     """A step of an equation without a right-hand side."""
 
     added: ClassVar[State] = NOTHING
+
+
+def check_terms(count: int, bits: int) -> None:
+    """Raise `LimitExceeded` if a series to this number of bits has far more terms than the one or two a bit of most discs."""
+    most = 40 * bits + 4000
+    if count > most:
+        raise LimitExceeded(f"a Taylor expansion needs more than {most} terms", limit="unknown_degree")
 
 
 Columns = tuple[Local, Local]
@@ -140,7 +138,7 @@ def transition(columns: Columns, x: ExactPoint) -> Matrix:
 @dataclass(frozen=True, eq=False)
 class DiscStep:
     """A disc of a way by its solutions: `own` is one of the equation with its right-hand side, zero at the centre, and the
-    derivative of `area` is the Wronskian over that at the centre; without it that is constant."""
+    derivative of `area` is the Wronskian over that at the centre (None: it is constant)."""
 
     enter: ExactPoint
     leave: ExactPoint
@@ -150,7 +148,7 @@ class DiscStep:
 
     @cached_property
     def _to_centre(self) -> Matrix:
-        """From (y, y') where it is entered to that at the centre, whoever asks first at the precision of the columns."""
+        """From (y, y') where it is entered to that at the centre, at the precision of the columns whatever is in force."""
         with working_precision(self.columns[0].precision):  # FLINT rounds where it changes a sign
             m = adjugate(transition(self.columns, self.enter))
             if self.area is None:
@@ -164,23 +162,20 @@ class DiscStep:
         """From (y, y') where it is entered to where it is left, without the right-hand side."""
         return multiply(transition(self.columns, self.leave), self._to_centre)
 
-    def _particular(self, x: ExactPoint) -> State:
-        return NOTHING if self.own is None else self.own.state(x)
-
     @cached_property
     def added(self) -> State:
         """The contribution of the right-hand side: the particular solution that vanishes where the disc is entered."""
         if self.own is None:
             return NOTHING
         # With p = `own` the solution is p + M (v - p(enter)): without v, p - M p(enter).
-        y, dy = apply(self.matrix, self._particular(self.enter))
-        p, dp = self._particular(self.leave)
+        y, dy = apply(self.matrix, self.own.state(self.enter))
+        p, dp = self.own.state(self.leave)
         return p - y, dp - dy
 
     def local(self, state: State) -> Local:
         """The solution in the disc with this state where it is entered."""
         # v - p(enter) is carried by the solutions without a right-hand side, and p has the factor 1.
-        p, dp = self._particular(self.enter)
+        p, dp = NOTHING if self.own is None else self.own.state(self.enter)
         parts = [] if self.own is None else [(acb(1), self.own)]
         total: Any = arb_poly([])
         errors = [arb(0), arb(0)]
@@ -197,11 +192,10 @@ class DiscStep:
 
 @dataclass
 class Forecast:
-    """How many discs the way from a to b has, and whether the limits allow them.
+    """An estimate of how many discs the way from a to b has, and whether the limits allow them.
 
-    `rate` is |S|^(1/2), or about that: its integral on the way is foreseen, rather too small, and a disc covers at most
-    `in_a_disc` of it.  Where functions are larger beside the way, `crowd` tells the discs for a unit of length; it takes some
-    time.
+    `rate` is about |S|^(1/2): the estimate of its integral is rather too small, and a disc covers at most `in_a_disc` of it.
+    Where functions are larger beside the way, `crowd` gives the discs for a unit of length; it takes some time.
     """
 
     a: ExactPoint
@@ -216,9 +210,9 @@ class Forecast:
         """Raise `LimitExceeded` if, after this number of discs, the remaining time clearly can't suffice for the others."""
         if number > MAX_DISCS:
             raise LimitExceeded(f"the path needs more than {MAX_DISCS} steps", limit="unknown_degree")
-        # The clock tells the seconds that are left.
-        used = self.begun - watched_seconds(math.inf)
-        if not self.is_known and number >= _TRIED and not used < _WORTH:
+        used = self.begun - watched_seconds(math.inf)  # both are seconds that were left
+        # Less than 0.2 s says little of the time of a disc; without a time limit `used` is NaN, which is no less.
+        if not self.is_known and number >= _DISCS_FOR_A_FORECAST and not used < 0.2:
             self.is_known = True
             self.refuse(used / number)
 
@@ -233,14 +227,14 @@ class Forecast:
             raise LimitExceeded(f"{said}, above the limit of {MAX_DISCS}", limit="unknown_degree")
         if each and self.crowd is not None:
             least = max(least, foreseen_growth(self.crowd, self.a, self.b))
-        # _TRIED of the discs are behind.
-        check_duration(each * (least - _TRIED), way)
+        # Some of the discs are behind.
+        check_duration(each * (least - _DISCS_FOR_A_FORECAST), way)
 
 
 class Way(ABC):
     """An equation at some precision, whose solutions are carried along straight lines.
 
-    The state that is carried may be another one than the user's (y, y'): `into` and `out_of` change it.
+    The carried state may differ from the user's (y, y'): `into` and `out_of` convert between them.
     """
 
     @property
@@ -254,15 +248,15 @@ class Way(ABC):
 
     @abstractmethod
     def check(self, a: ExactPoint, b: ExactPoint) -> None:
-        """Raise InputError unless the coefficients are analytic on the straight line, as far as is known beforehand."""
+        """Raise InputError if the coefficients are known beforehand not to be analytic on the straight line."""
 
     @abstractmethod
     def forecast(self, a: ExactPoint, b: ExactPoint) -> Forecast:
-        """What the discs from a to b will take; raises LimitExceeded if it is clear that they are too many."""
+        """An estimate of the discs from a to b; raises LimitExceeded if they are clearly too many."""
 
     @abstractmethod
     def walk(self, a: ExactPoint, b: ExactPoint, *, alone: bool = False) -> Iterator[WayStep]:
-        """The discs from a towards b; `alone` says that only the end is asked for."""
+        """The discs from a towards b; `alone` if only the state at the end is needed."""
 
     @abstractmethod
     def around(self, ball: acb) -> tuple[acb, acb, acb, bool]:
@@ -289,9 +283,8 @@ class Way(ABC):
         distance = position(here, stop)
         # The least power of two that isn't smaller than the distance: it is 2^e or 2^(e + 1).
         e = binary_exponent(distance)
-        if power_of_two(e) < distance:
-            e += 1
-        return here + (stop - here).scaled(power_of_two(e) / distance)
+        far = power_of_two(e if power_of_two(e) >= distance else e + 1)
+        return here + (stop - here).scaled(far / distance)
 
     def carried(self, a: ExactPoint, b: ExactPoint, maps: MapProduct) -> MapProduct:
         """The maps to the user's state at b from those to the one at a."""
@@ -342,10 +335,7 @@ def position(here: ExactPoint, x: ExactPoint) -> Any:
 
 @dataclass
 class Ray:
-    """The discs from `here` towards `far`, made as far as somebody has asked.
-
-    `maps` lead from the start to the user's state at `here`.
-    """
+    """The discs from `here` towards `far`, as far as they were needed; `maps` lead from the start to the user's state here."""
 
     way: Way
     here: ExactPoint
@@ -359,8 +349,8 @@ class Ray:
     def _begin(self) -> None:
         self._end = self.here
         self._nearest: Any = 0  # what is nearer was forgotten
-        # Of disc k: how far from here it is left, the disc with the maps to where it is entered, and the solution in it if
-        # somebody has asked.
+        # Of disc k: how far from here it is left, the disc with the maps to where it is entered, and the solution in it if it
+        # was needed.
         self._leave: list[Any] = []
         self._passed: list[tuple[WayStep, MapProduct]] = []
         self._locals: dict[int, Followed] = {}
@@ -402,17 +392,15 @@ class Ray:
             self._passed.append((step, maps))
             self._leave.append(position(self.here, step.leave))
             self._end = step.leave
-            if len(self._passed) > _MOST_DISCS:  # the first half is forgotten
-                # Who asks for what is nearer than `_nearest` begins anew.
-                half = _MOST_DISCS // 2
-                self._nearest = self._leave[half - 1]
-                self._locals = {k - half: local for k, local in self._locals.items() if k >= half}
-                del self._leave[:half], self._passed[:half]
+            if len(self._passed) > MAX_DISCS // 50:  # all but the last one are forgotten
+                self._nearest = self._leave[-2]
+                self._locals.clear()
+                del self._leave[:-1], self._passed[:-1]
 
 
 @dataclass(frozen=True, eq=False)
 class Traveller:
-    """Where we are, and the `maps` from the start to the user's (y, y') there; with the rays from here, and who went on.
+    """A place, the `maps` from the start to the user's (y, y') there, rays from here, and travellers who went `onward`.
 
     The start is a state, or coordinates in the Frobenius basis at a singular point.
     """
@@ -431,7 +419,7 @@ class Traveller:
 
     @property
     def point(self) -> ExactPoint:
-        """The regular point where we are."""
+        """The place, which is a regular point."""
         assert isinstance(self.here, ExactPoint)
         return self.here
 
@@ -459,7 +447,7 @@ class Traveller:
         """The states at the ends of straight lines from here."""
         at_rest = {stop for stop in stops if self.is_at(stop)}
         others = [stop for stop in stops if stop not in at_rest]
-        # The way is asked for points other than this one alone: a line needs a direction.
+        # A line needs a direction.
         found = self.way.fan(self, others) if others else {}
         return found | {stop: self.resting() for stop in at_rest}
 

@@ -28,7 +28,7 @@ import numpy as np
 from kovacic import derived
 from kovacic.answer import Answer
 from kovacic.doubles.chart import PieceChart, chart_of
-from kovacic.doubles.curve import Arc, Envelope, arcs, coefficients
+from kovacic.doubles.curve import Arc, Envelope, arcs, curve_coefficients
 from kovacic.enclosure.evaluate import with_variable
 from kovacic.enclosure.functions import as_written
 from kovacic.enclosure.points import ExactPoint, as_point
@@ -531,7 +531,7 @@ def _integral_of_root(chart: PieceChart, intervals: list[tuple[Fraction, Fractio
     """The integrals of sqrt(S) where S > 0, and of sqrt(-S) elsewhere, estimated from samples."""
     growth = turning = 0.0
     for low, high in intervals:
-        here = coefficients(chart, [ExactPoint(low + (high - low) * Fraction(k, 200)) for k in range(201)])
+        here = curve_coefficients(chart, [ExactPoint(low + (high - low) * Fraction(k, 200)) for k in range(201)])
         growth += float(np.trapezoid(np.sqrt(np.maximum(here.S, 0.0)), here.x))
         turning += float(np.trapezoid(np.sqrt(np.maximum(-here.S, 0.0)), here.x))
     return growth, turning

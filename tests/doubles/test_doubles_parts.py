@@ -17,8 +17,8 @@ from published import load
 import kovacic
 from kovacic import AccuracyWarning, InputError, LimitExceeded, tabulate
 from kovacic.doubles import double_double as dd
-from kovacic.doubles.chart import BLOCK, RationalChart
-from kovacic.doubles.lambdify import lambdify, measure, samples
+from kovacic.doubles.chart import BLOCK, PieceChart
+from kovacic.doubles.lambdify import lambdify, measure, measured_points
 from kovacic.doubles.product_form import ProductForm
 from kovacic.enclosure.ball import ball_from_flint
 from kovacic.enclosure.closed_form import omega
@@ -100,7 +100,7 @@ def test_the_reference_of_case_1_is_that_of_the_taylor_route(S: str) -> None:
     """The closed form in balls, and the integration of the equation."""
     problem = as_problem(kovacic.solve(S))
     base, points = as_point("1/3", "x"), [as_point(v, "x") for v in ("1/7", "2/3", "5/8")]
-    found = RationalChart(problem, {}).beginning(0, base).states(points, 50, None)
+    found = PieceChart({}, problem).beginning(0, base).states(points, 50, None)
     slope = ball_from_flint(omega(problem, 0, base, 4000))
     exact = evaluate_states(problem, points, x0=base, y0=1, dy0=slope, digits=50)
     for (y, dy), state in zip(found, exact, strict=True):
@@ -204,13 +204,13 @@ def test_a_wrong_zero_counts_as_an_error() -> None:
 
 def test_the_ends_and_both_sides_of_zeros_are_measured() -> None:
     airy = lambdify("x", interval=(-9, 3), x0=0, y0=1, dy0=0)
-    points = np.sort(samples(airy))
+    points = np.sort(measured_points(airy))
     assert len(points) == 24
     assert (points[0], points[-1]) == (-9.0, 3.0)
     signs, steps = np.sign(airy(points)), np.diff(points)
     assert np.sum((signs[1:] != signs[:-1]) & (steps < 0.04)) == 3  # the zeros are 1 to 3 apart
     singular = lambdify(kovacic.solve("2/(x+1)^2"), interval=(-1, 1), check=False)
-    assert min(samples(singular)) == pytest.approx(-0.998)
+    assert min(measured_points(singular)) == pytest.approx(-0.998)
 
 
 def test_a_function_that_is_wrong_beside_its_zeros_only_is_seen() -> None:

@@ -14,7 +14,7 @@ from flint import acb, acb_poly, arb
 from kovacic.algebra.precision import working_precision
 from kovacic.enclosure.frame import GaussianParts, shift
 from kovacic.enclosure.frobenius import Majorant
-from kovacic.enclosure.taylor import _cut, _proven_defect, approximations, error_radii, recurrence
+from kovacic.enclosure.taylor import _cut, _proven_defect, approximations, error_radii, fixed_point_series
 
 Gauss = tuple[int, int]
 
@@ -44,7 +44,7 @@ def test_the_remainders_of_all_divisions_are_counted(p: list[int], q_0: int, sta
     """With positive coefficients all terms are, and rounded down they end in zeros: there is no other error, and it grows
     like n^3/6."""
     parts: tuple[GaussianParts, GaussianParts] = (p, None), ([q_0], None)
-    re, im = recurrence(*parts, 1500, start, 1)
+    re, im = fixed_point_series(*parts, 1500, start, 1)
     assert len(re) > 100
     bound = _proven_defect(*parts, (re, im), 0, 1)
     exact = exact_defect(*parts, re, im)
@@ -68,7 +68,7 @@ def test_the_remainders_of_all_divisions_are_counted(p: list[int], q_0: int, sta
 def test_the_last_terms_are_counted(p: GaussianParts, q: GaussianParts, bits: int, start: int) -> None:
     """The recurrence stops at terms below 2^bits, which the defect then contains, times the coefficients and n^2."""
     quiet = bits + 6
-    re, im = recurrence(p, q, 200, start, 1 << quiet)
+    re, im = fixed_point_series(p, q, 200, start, 1 << quiet)
     exact = exact_defect(p, q, re, im)
     assert exact <= _proven_defect(p, q, (re, im), 0, 1 << quiet)
     if bits and len(q[0]) > 1 and p[0]:
@@ -85,7 +85,7 @@ def test_bits_that_are_cut_off_are_counted(which: str, is_complex: bool, start: 
     p: GaussianParts = [(3 << excess) + low_p] * 2, [(1 << excess) + low_p] * 2 if is_complex else None
     q: GaussianParts = [5 << excess, (1 << excess) + low_q], [0, (2 << excess) + low_q] if is_complex else None
     trimmed = _cut(p, excess), _cut(q, excess)
-    re, im = recurrence(*trimmed, 150, start, 1 << 8)
+    re, im = fixed_point_series(*trimmed, 150, start, 1 << 8)
     exact = exact_defect(p, q, re, im)
     assert exact <= _proven_defect(*trimmed, (re, im), excess, 1 << 8)
     assert exact > len(re) ** 3 * q[0][0] << 60  # what was cut off is most of it

@@ -19,7 +19,7 @@ from kovacic import InputError, LimitExceeded, Limits, connection_matrix, evalua
 from kovacic.enclosure import rational
 from kovacic.enclosure.frame import Frame
 from kovacic.enclosure.matrices import Matrix, product
-from kovacic.enclosure.splitting import Recurrence, bit_burst, is_split, split_legs
+from kovacic.enclosure.splitting import SplitRecurrence, bit_burst, is_split, split_legs
 from kovacic.enclosure.taylor import expand
 from kovacic.enclosure.way import transition
 
@@ -70,7 +70,7 @@ def _exponent(x: flint.arb) -> int:
 
 
 @st.composite
-def equations(draw: st.DrawFn) -> Recurrence:
+def equations(draw: st.DrawFn) -> SplitRecurrence:
     """Q y'' = P y over Z, or over Z[i]."""
 
     def polynomial(most: int) -> tuple[list[int], list[int]]:
@@ -80,14 +80,16 @@ def equations(draw: st.DrawFn) -> Recurrence:
     (p, p_im), (q, q_im) = polynomial(3), polynomial(4)
     is_complex = draw(st.booleans())
     P = (p, p_im if is_complex else None)
-    return Recurrence(P, ([abs(draw(nonzero(9))), *q], [0, *q_im] if is_complex else None), mirror=draw(st.booleans()))
+    return SplitRecurrence(
+        P, ([abs(draw(nonzero(9))), *q], [0, *q_im] if is_complex else None), mirror=draw(st.booleans())
+    )
 
 
 def gaussian(parts: tuple[list[int], list[int] | None]) -> list[ExactPoint]:
     return [ExactPoint(re, im) for re, im in zip(parts[0], parts[1] or [0] * len(parts[0]), strict=True)]
 
 
-def coefficients(equation: Recurrence, start: int, count: int) -> list[ExactPoint]:
+def coefficients(equation: SplitRecurrence, start: int, count: int) -> list[ExactPoint]:
     """b_0, ..., b_(count-1) one by one, exactly."""
     P, Q = gaussian(equation.P), gaussian(equation.Q)
     b = [ExactPoint(1 - start), ExactPoint(start)]
@@ -100,7 +102,7 @@ def coefficients(equation: Recurrence, start: int, count: int) -> list[ExactPoin
 
 @pytest.mark.long
 @given(equations(), st.integers(1, 40))
-def test_a_run_gives_the_same_sums_as_step_by_step(equation: Recurrence, steps: int) -> None:
+def test_a_run_gives_the_same_sums_as_step_by_step(equation: SplitRecurrence, steps: int) -> None:
     run = equation.block(2, steps)
     r, count = equation.order, 2 + steps
     for start in (0, 1):
@@ -112,7 +114,7 @@ def test_a_run_gives_the_same_sums_as_step_by_step(equation: Recurrence, steps: 
             assert found == in_parts(expected, equation)
 
 
-def in_parts(vector: list[ExactPoint], equation: Recurrence) -> list[Fraction]:
+def in_parts(vector: list[ExactPoint], equation: SplitRecurrence) -> list[Fraction]:
     """The real parts, and then the imaginary ones of an equation that isn't real."""
     return [v.re for v in vector] + ([] if equation.is_real else [v.im for v in vector])
 
