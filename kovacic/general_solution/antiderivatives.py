@@ -1,7 +1,7 @@
-"""int g dx for the integrands that variation of parameters meets, at once, without SymPy's integration.
+"""int g dx for the integrands that variation of parameters meets, without SymPy's integration.
 
-`_RULES`, at the end, has the rules in the order in which they are tried on a term.  What none of them knows goes by parts:
-logarithms, inverse and error functions, exponential integrals, polynomials times others.
+`_RULES`, at the end, lists the rules in the order in which they are tried on a term.  What none of them covers is integrated
+by parts: logarithms, inverse and error functions, exponential integrals, polynomials times other functions.
 """
 
 from __future__ import annotations
@@ -13,7 +13,7 @@ from math import lcm
 from typing import Any
 
 import sympy
-from sympy import atan, cos, exp, log, sin
+from sympy import Add, Dummy, Integral, Mul, atan, cancel, cos, exp, expand, log, sin, sqrt
 
 from kovacic.closed_form.cuts import cuts_of
 from kovacic.equation import EULER
@@ -32,7 +32,7 @@ from kovacic.general_solution.integrands import (
     radicands,
     require,
 )
-from kovacic.general_solution.substitution import size
+from kovacic.general_solution.substitution import inverse, size
 from kovacic.general_solution.waves import beside_waves, by_coefficients, common_factor, wave_changes
 from kovacic.general_solution.zero import ball, differs_from_zero, samples
 from kovacic.limits import check_time
@@ -44,26 +44,27 @@ _BY_PARTS = (
     *(sympy.erf, sympy.erfi, sympy.Ei, sympy.Si, sympy.Ci, sympy.fresnels, sympy.fresnelc),
 )
 _SIMPLE = {exp, sin, cos}
-#: In different quadrants of the waves, and on both sides of where roots of polynomials usually become real.
-_POINTS = tuple(map(sympy.Rational, ("3/10", "6/5", "9/5", "3", "18/5", "5", "11", "-2/7", "-7/5", "-2", "-4", "-9")))
+#: In different quadrants of the waves, and on both sides of the points where roots of polynomials usually become real.
+_REAL_POINTS = tuple(
+    map(sympy.Rational, ("3/10", "6/5", "9/5", "3", "18/5", "5", "11", "-2/7", "-7/5", "-2", "-4", "-9"))
+)
 
 
 def antiderivative(integrand: Expr, x: Expr, start: Expr | None = None) -> Expr | None:
-    """int g dx, None if a term isn't of one of these kinds; an `Integral` that isn't elementary beside tangents.
+    """int g dx, or None if it isn't found; beside tangents it may contain an `Integral` that isn't elementary.
 
-    None as well where g has a value or a limit at `start`, from which a cut of the integral begins that g hasn't, as in
-    Ei(x) - log(x) for (exp(x) - 1)/x.  Nothing that is assumed of symbols is used.
+    None as well if g has a value or a limit at `start` and the integral has a branch cut there that g hasn't, as
+    Ei(x) - log(x) for (exp(x) - 1)/x.  Assumptions on symbols aren't used.
 
     >>> x = sympy.Symbol("x")
     >>> antiderivative(sympy.tan(x) ** 2 + log(x), x)
     x*log(x) - 2*x + tan(x)
     """
-    own = {sympy.Symbol(symbol.name): symbol for symbol in integrand.free_symbols | {x}}
-    plain = {symbol: letter for letter, symbol in own.items()}
+    plain = {symbol: sympy.Symbol(symbol.name) for symbol in integrand.free_symbols | {x}}
     # e exp(e x) is exp(e x + 1) for SymPy, which hides the factor: Euler's number gets a letter.
     euler = sympy.Symbol(f"{EULER}_")
+    own = inverse(plain) | {euler: sympy.E}
     powers = {power: euler**power.exp for power in integrand.atoms(exp) if power.exp.is_Integer}
-    own[euler] = sympy.E
     try:
         found = _by_rules(integrand.xreplace(plain | powers | {sympy.E: euler}), plain[x]).xreplace(own)
     except UnknownIntegral:
@@ -80,7 +81,7 @@ def antiderivative(integrand: Expr, x: Expr, start: Expr | None = None) -> Expr 
 
 
 def _by_rules(given: Expr, x: Expr) -> Expr:
-    """As a whole, or term by term, or terms together by parts; x may be a root or an exponential, which is positive."""
+    """The integral of the whole, of each term, or of several terms by parts; x may be a root or an exponential, so positive."""
     integrand = prepared(given)
     functions = _functions(integrand)
     require(functions <= _SIMPLE | set(_BY_PARTS))
@@ -89,49 +90,47 @@ def _by_rules(given: Expr, x: Expr) -> Expr:
         with suppress(UnknownIntegral):  # 1/((x - 1)*sqrt(x)) is a product before it is expanded
             return first_known(partial(rule, whole, x) for rule in rules for whole in (integrand, given))
     total = sympy.S.Zero
-    for inverse, terms in _by_inverse_functions(integrand, x).items():
+    for product, terms in _by_inverse_functions(integrand, x).items():
         check_time()
-        together = partial(_by_parts, inverse, sympy.Add(*(term / inverse for term in terms)), x)
+        together = partial(_by_parts, product, Add(*(term / product for term in terms)), x)
         total += first_known([partial(_of_terms, terms, x), together])
     return total
 
 
 def _holds_on_every_side(found: Expr, integrand: Expr, x: Expr) -> bool:
-    """True if its derivative is the integrand at real points far apart, wherever that is real."""
-    slope = found.diff(x)
-    others = next(samples(integrand.free_symbols - {x}))
-    for here in ({**others, x: point} for point in _POINTS):
-        value = ball(integrand, here)
-        if value is not None and value.imag.contains(0) and differs_from_zero(slope - integrand, here):
-            return False
-    return True
+    """True if its derivative is the integrand at distant real points at which that is real."""
+    difference = found.diff(x) - integrand
+    letters = next(samples(integrand.free_symbols - {x}))
+    values = {point: ball(integrand, {**letters, x: point}) for point in _REAL_POINTS}
+    real = [point for point, value in values.items() if value is not None and value.imag.contains(0)]
+    return not any(differs_from_zero(difference, {**letters, x: point}) for point in real)
 
 
 def _functions(expression: Expr) -> set[Any]:
-    return {f.func for f in expression.atoms(sympy.Function, sympy.Integral)}
+    return {f.func for f in expression.atoms(sympy.Function, Integral)}
 
 
 def _by_inverse_functions(integrand: Expr, x: Expr) -> dict[Expr, list[Expr]]:
-    """The terms, those with the same powers of functions that are to be differentiated together, or of polynomials."""
+    """The terms by their powers of functions that are to be differentiated, or of polynomials in terms without such."""
     groups: dict[Expr, list[Expr]] = {}
-    for term in sympy.Add.make_args(integrand):
-        factors = [factor for factor in sympy.Mul.make_args(term) if factor.has(x)]
+    for term in Add.make_args(integrand):
+        factors = [factor for factor in Mul.make_args(term) if factor.has(x)]
         powers = [factor for factor in factors if factor.as_base_exp()[0].func in _BY_PARTS]
         powers = powers or [factor for factor in factors if factor.is_polynomial(x)]
-        groups.setdefault(sympy.Mul(*powers), []).append(term)
+        groups.setdefault(Mul(*powers), []).append(term)
     return groups
 
 
 def _of_terms(terms: Iterable[Expr], x: Expr) -> Expr:
-    """Each by the first rule that knows it."""
-    return sympy.Add(*(first_known(partial(rule, term, x) for rule in _RULES.values()) for term in terms))
+    """The sum of the integrals, each by the first rule that applies."""
+    return Add(*(first_known(_RULES.values(), term, x) for term in terms))
 
 
 # ------------------------------------------------------------------------------------------------ changes of variable
 
 
 def _in_another_variable(changes: Callable[[Expr, Expr], Iterable[ChangeOfIntegrand]], term: Expr, x: Expr) -> Expr:
-    """The shortest of the integrals that are known in a new variable, back in x."""
+    """The shortest of the integrals that are found in a new variable, back in x."""
     found = []
     for change in changes(term, x):
         t, g = change.t, change.integrand
@@ -139,35 +138,34 @@ def _in_another_variable(changes: Callable[[Expr, Expr], Iterable[ChangeOfIntegr
             # in log(t), where t is exp(k x), exponentials would come back
             require(not (change.u.has(exp) and any(not (f.args[0] / t).has(t) for f in g.atoms(log))))
             require(not g.has(x))
-            integral = first_known(partial(rule, g, t) for rule in (integral_of_fraction, _by_rules))
-            require(not integral.has(sympy.Integral))  # which would have another variable
+            integral = first_known((integral_of_fraction, _by_rules), g, t)
+            require(not integral.has(Integral))  # which would have another variable
             found.append(change.back(integral))
     require(found)
     return min(found, key=size)
 
 
 def _arguments(term: Expr, x: Expr) -> Iterator[ChangeOfIntegrand]:
-    """To functions, their arguments u and bases u of powers, beside whose slope it is one of u, or where x is one of u.
+    """To functions, their arguments and bases of powers, u, where the term is u' f(u), or x is known as a function of u.
 
-    So it is for u = log(x), and for linear arguments with letters: a*asin(t) for asin(x/a), without a root of a^2.
+    It is for u = log(x), and for linear arguments with letters: a*asin(t) for asin(x/a), without a root of a^2.
     """
-    t = sympy.Dummy(real=True)
+    t = Dummy(real=True)
     functions = term.atoms(*_BY_PARTS)
     slopes = {f.args[0]: f.args[0].diff(x) for f in functions}
     lines = {u: (t - u.subs(x, 0)) / k for u, k in slopes.items() if k.free_symbols and not k.has(x)}
-    inverse = lines | {log(x): exp(t)}
+    known = lines | {log(x): exp(t)}
     own = functions | {*lines} | {f.args[0] for f in term.atoms(sympy.Function) if f.args[0].has(exp, sin, cos, log)}
     own |= {p.base for p in term.atoms(sympy.Pow) if p.exp.free_symbols and not p.exp.has(x)}
     for u in sorted((u for u in own if u.has(x) and u != x), key=str):
-        inner = term / _slope(u, x)
-        yield ChangeOfIntegrand(prepared(inner.subs(x, inverse[u])) if u in inverse else inner.subs(u, t), t, u)
+        inner = term / _slope_of_inverse(u, x)
+        yield ChangeOfIntegrand(prepared(inner.subs(x, known[u])) if u in known else inner.subs(u, t), t, u)
 
 
 def _exponentials(term: Expr, x: Expr) -> Iterator[ChangeOfIntegrand]:
-    """To u = exp(k x), of which all exponentials are powers."""
-    term = sympy.expand(term)
-    own = [e for e in term.atoms(exp) if e.has(x) and e.args[0].subs(x, 0) == 0]
-    rates = {e: e.args[0].diff(x) for e in own if not e.args[0].diff(x).has(x)}  # exp(sin(x)) isn't one of them
+    """To u = exp(k x), of which all exponentials of multiples of x are powers."""
+    term = expand(term)
+    rates = {e: rate for e in term.atoms(exp) if not (rate := expand(e.args[0] / x)).has(x)}
     k = common_factor([*rates.values()])
     if k is None:
         return
@@ -177,12 +175,12 @@ def _exponentials(term: Expr, x: Expr) -> Iterator[ChangeOfIntegrand]:
     powers = [rates[e] / k for e in inner & {*rates}]
     if powers and all(power.is_negative for power in powers):
         k = -k
-    t = sympy.Dummy(positive=True)
+    t = Dummy(positive=True)
     in_t = term.xreplace({e: t ** (rate / k) for e, rate in rates.items()}) / (k * t)
     yield ChangeOfIntegrand(prepared(in_t), t, exp(k * x))
 
 
-def _roots(term: Expr, x: Expr) -> Iterator[ChangeOfIntegrand]:
+def _root_of_line(term: Expr, x: Expr) -> Iterator[ChangeOfIntegrand]:
     """To t = (a x + b)^(1/q), of which all roots of functions of x are powers."""
     bases = {base for base in radicands(term) if base.has(x)}
     require(len(bases) == 1 and all(map(radicands, term.atoms(*_BY_PARTS))))
@@ -190,7 +188,7 @@ def _roots(term: Expr, x: Expr) -> Iterator[ChangeOfIntegrand]:
     slope = line.diff(x)
     require(not slope.has(x))
     q = lcm(*(int(power.exp.q) for power in term.atoms(sympy.Pow) if power.base == line and power.exp.is_Rational))
-    t = sympy.Dummy(positive=True)
+    t = Dummy(positive=True)
     inner = term.subs(x, (t**q - line.subs(x, 0)) / slope) * q * t ** (q - 1) / slope
     yield ChangeOfIntegrand(inner, t, sympy.root(line, q))
 
@@ -198,52 +196,51 @@ def _roots(term: Expr, x: Expr) -> Iterator[ChangeOfIntegrand]:
 # ------------------------------------------------------------------------------------------------------------ by parts
 
 
-def _by_parts(inverse: Expr, g: Expr, x: Expr) -> Expr:
-    """int g l dx = G l - int G l' dx for a product l of inverse functions and the like, or of polynomials, if G is simpler.
+def _by_parts(product: Expr, g: Expr, x: Expr) -> Expr:
+    """int g l dx = G l - int G l' dx for a product l of powers of inverse functions and the like, or of polynomials.
 
-    g = k l' + H' with a constant k gives k l^(m+1)/(m+1) + int H' l^m dx beside l^m, and H takes the place of G.
+    If g = k l' + H' with a constant k, int g l^m dx = k l^(m+1)/(m+1) + int H' l^m dx, and H takes the place of G.
     """
-    powers = [factor.as_base_exp() for factor in sympy.Mul.make_args(inverse)]
-    require(inverse != 1 and all(m.is_Integer and m > 0 for _, m in powers))
-    if isinstance(inverse, log) and g.is_rational_function(x):
+    powers = [factor.as_base_exp() for factor in Mul.make_args(product)]
+    require(product != 1 and all(m.is_Integer and m > 0 for _, m in powers))
+    if isinstance(product, log) and g.is_rational_function(x):
         with suppress(UnknownIntegral):
-            return _beside_logarithm(inverse, g, x)
+            return _beside_logarithm(product, g, x)
     G = _by_rules(g, x)
-    require(not G.has(sympy.Integral, sympy.RootSum))
+    require(not G.has(Integral, sympy.RootSum))
     total = sympy.S.Zero
     function, m = powers[0]
-    k = sympy.expand(G).coeff(function)
+    k = expand(G).coeff(function)
     if len(powers) == 1 and k != 0 and not k.has(x):
         total = k * function ** (m + 1) / (m + 1)
-        G = sympy.expand(G - k * function)
-    left = sympy.Add(*(m * _slope(function, x) * inverse / function * G for function, m in powers))
-    is_simple = _functions(G) <= _SIMPLE
-    require(is_simple or inverse.is_polynomial(x))
-    # term by term, else: functions of G that go by parts would come back to it
-    rest = _by_rules(left, x) if is_simple else _of_terms(sympy.Add.make_args(prepared(left)), x)
-    require(not inverse.is_polynomial(x) or not rest.has(sympy.Integral))
-    return sympy.Add(total, *(part * inverse for part in sympy.Add.make_args(G)), -rest)
+        G = expand(G - k * function)
+    left = Add(*(m * _slope_of_inverse(function, x) * product / function * G for function, m in powers))
+    is_simple, is_polynomial = _functions(G) <= _SIMPLE, product.is_polynomial(x)
+    require(is_simple or is_polynomial)
+    # functions of G by parts would lead back here: without that, each term by a rule
+    rest = _by_rules(left, x) if is_simple else _of_terms(Add.make_args(prepared(left)), x)
+    require(not (is_polynomial and rest.has(Integral)))
+    return Add(total, *(part * product for part in Add.make_args(G)), -rest)
 
 
-def _slope(function: Expr, x: Expr) -> Expr:
+def _slope_of_inverse(function: Expr, x: Expr) -> Expr:
     """1/sqrt(x^2 + 1) for log(x + sqrt(x^2 + 1)), and a/sqrt(b^2 - a^2 x^2) for asin(a x/sqrt(b^2))."""
-    slope = sympy.cancel(function.diff(x))
+    slope = cancel(function.diff(x))
     if isinstance(function, log):
         return sympy.powsimp(sympy.radsimp(slope))
     if slope.free_symbols == {x} or slope.is_rational_function(x):
         return slope
-    P, square = sympy.fraction(sympy.cancel(1 / slope**2))
-    c = sympy.powdenest(sympy.sqrt(square), force=True)
-    is_right = P.is_polynomial(x) and sympy.cancel(slope.subs(x, 0) * sympy.sqrt(P.subs(x, 0)) / c) == 1
-    return c / sympy.sqrt(sympy.expand(P)) if is_right else slope
+    P, square = sympy.fraction(cancel(1 / slope**2))
+    c = sympy.powdenest(sqrt(square), force=True)
+    is_right = P.is_polynomial(x) and cancel(slope.subs(x, 0) * sqrt(P.subs(x, 0)) / c) == 1
+    return c / sqrt(expand(P)) if is_right else slope
 
 
 def _beside_logarithm(logarithm: Expr, g: Expr, x: Expr) -> Expr:
-    """int R log(u) dx, where a partial fraction of R has a dilogarithm."""
-    fractions = sympy.Add.make_args(sympy.apart(g, x))
-    known = {fraction: dilogarithm(logarithm.args[0], fraction, x) for fraction in fractions}
-    require(set(known.values()) != {None})
-    return sympy.Add(*(_by_parts(logarithm, f, x) if found is None else found for f, found in known.items()))
+    """int R log(u) dx, where a partial fraction of R leads to a dilogarithm."""
+    known = {R: dilogarithm(logarithm.args[0], R, x) for R in Add.make_args(sympy.apart(g, x))}
+    require(any(known.values()))
+    return Add(*(found or _by_parts(logarithm, R, x) for R, found in known.items()))
 
 
 # ------------------------------------------------------------------------------------------------------------ tangents
@@ -251,7 +248,7 @@ def _beside_logarithm(logarithm: Expr, g: Expr, x: Expr) -> Expr:
 
 def _beside_tangents(term: Expr, x: Expr) -> Expr:
     """int q + (a + b s)/c dx for a wave c with simple zeros: at these s = 1 or -1, and residues must be constant [Risch]."""
-    below = [f.base for f in sympy.Mul.make_args(term) if f.is_Pow and f.exp == -1 and f.base.func in (sin, cos)]
+    below = [f.base for f in Mul.make_args(term) if f.is_Pow and f.exp == -1 and f.base.func in (sin, cos)]
     require(len(below) == 1)
     (c,) = below
     s = (cos if c.func is sin else sin)(c.args[0])
@@ -259,13 +256,13 @@ def _beside_tangents(term: Expr, x: Expr) -> Expr:
     (_, q), rest = sympy.reduced(term * c, [s**2 + c**2 - 1, c], s, c)
     residues = [rest.xreplace({s: sympy.Integer(sign)}) for sign in (1, -1)]
     require(not rest.has(log, atan) and all(residue.has(x) and not residue.has(sin, cos) for residue in residues))
-    return _by_rules(q, x) + sympy.Integral(rest / c, x)
+    return _by_rules(q, x) + Integral(rest / c, x)
 
 
 # --------------------------------------------------------------------------------------------------------------- rules
 
 
-#: int g dx for a term g of x, by what each rule knows.  Each raises `UnknownIntegral`.
+#: int g dx for a term g of x, by its class.  Each rule raises `UnknownIntegral` for other terms.
 _RULES: dict[str, Callable[[Expr, Expr], Expr]] = {
     "int P exp(r x) cos(w x) dx: undetermined coefficients": by_coefficients,
     "int f(u) u' dx = int f(u) du": partial(_in_another_variable, _arguments),
@@ -274,7 +271,7 @@ _RULES: dict[str, Callable[[Expr, Expr], Expr]] = {
     "products of powers and exponentials of rational functions": integral_of_product,
     "int R cos(u) dx: Si and Ci for linear u, Fresnel functions for quadratic u": beside_waves,
     "int q + (a + b s)/c dx where the second part isn't elementary": _beside_tangents,
-    "int f(x, u^(1/q)) dx for u = a x + b: in t = u^(1/q)": partial(_in_another_variable, _roots),
+    "int f(x, u^(1/q)) dx for u = a x + b: in t = u^(1/q)": partial(_in_another_variable, _root_of_line),
     "int x^s cos(c x^m) dx: 1F2": power_beside_wave,
     "int f(x) cos(u) dx: Ei, erf and gamma functions of complex arguments": in_complex_exponentials,
     "int x^s exp(c x^m) dx: incomplete gamma functions": incomplete_gamma,

@@ -11,6 +11,7 @@ from contextlib import suppress
 from typing import Any
 
 import sympy
+from sympy import Symbol, Tuple, oo, simplify
 
 from kovacic.enclosure.request import Accuracy, digits_and_limits
 from kovacic.errors import InputError, LimitExceeded
@@ -35,7 +36,7 @@ from kovacic.sturm_liouville.solve import Eigenproblem
 
 Expr = Any  # SymPy publishes no types
 PARAMETER = "lambda"
-_INFINITE_ENDS = {"oo": sympy.oo, "+oo": sympy.oo, "inf": sympy.oo, "-oo": -sympy.oo, "-inf": -sympy.oo}
+_INFINITE_ENDS = {"oo": oo, "+oo": oo, "inf": oo, "-oo": -oo, "-inf": -oo}
 
 
 @limited
@@ -131,7 +132,7 @@ def read_eigenproblem(
     limits: Limits = DEFAULT_LIMITS,
 ) -> Eigenproblem:
     """The problem of `eigenvalues`, whose levels can then be computed one by one.  Raises `InputError`."""
-    values = {sympy.Symbol(str(k)): read_expression(exact_text(value, str(k))) for k, value in (params or {}).items()}
+    values = {Symbol(str(k)): read_expression(exact_text(value, str(k))) for k, value in (params or {}).items()}
     equation, conditions = apart(equation, conditions)
     function, coefficients = _linear_in_parameter(equation, var, parameter, values, limits)
     x = function.args[0]
@@ -145,7 +146,7 @@ def read_eigenproblem(
     problem = SturmProblem(x, pieces, wishes, wrap, B, sign)
     if wrap and any(end.is_infinite for end in problem.ends):
         raise InputError("periodic conditions need a finite interval")
-    if wrap and sympy.simplify(sympy.integrate(problem.B, (problem.x, *problem.ends))) != 0:
+    if wrap and simplify(sympy.integrate(problem.B, (problem.x, *problem.ends))) != 0:
         raise InputError("with p(a) different from p(b) periodic conditions don't belong to a symmetric problem")
     return Eigenproblem(problem, parameter)
 
@@ -157,10 +158,10 @@ def _linear_in_parameter(
     source = source_of(equation, var, limits, equation=True, names=words_among((parameter, *map(str, values))))
     parts, _ = parts_of(source, limits)
     a, b, c, rest = (sympy.sympify(part).xreplace(values) for part in parts)
-    x = sympy.Symbol(source.variable)
-    symbol = _parameter_among(sympy.Tuple(a, b, c).free_symbols - {x}, parameter)
-    c1 = sympy.simplify(c.diff(symbol))
-    if rest != 0 or sympy.Tuple(a, b, c1).has(symbol):
+    x = Symbol(source.variable)
+    symbol = _parameter_among(Tuple(a, b, c).free_symbols - {x}, parameter)
+    c1 = simplify(c.diff(symbol))
+    if rest != 0 or Tuple(a, b, c1).has(symbol):
         raise InputError(
             f"a y'' + b y' + (c0 + {parameter} c1) y = 0 is expected, linear in y and in {parameter}",
             hint=f"where {parameter}^2 stands, call that {parameter}",
@@ -203,7 +204,7 @@ def _interval_ends(conditions: Sequence[Condition], domain: Sequence[Any] | None
                 hint="params={...} gives values",
                 shell="--param NAME=NUMBER gives a value",
             )
-    ends = ([*points] or [-sympy.oo, sympy.oo]) if domain is None else read_domain(domain)
+    ends = ([*points] or [-oo, oo]) if domain is None else read_domain(domain)
     if not points <= {*ends}:
         raise InputError("the conditions are at points that aren't the ends of the domain")
     if len(ends) != 2:
@@ -226,15 +227,12 @@ def read_domain(domain: Sequence[Any]) -> list[Expr]:
 
 def _position_of(end: Expr) -> float:
     if end.is_infinite:
-        return float("inf") if end is sympy.oo else -float("inf")
+        return float("inf") if end is oo else -float("inf")
     return float(ball(end).mid())
 
 
 def wishes_of(conditions: Sequence[Condition], ends: tuple[Expr, Expr]) -> tuple[int, tuple[Wish, Wish]]:
-    """Whether the conditions are periodic (1), antiperiodic (-1) or separated (0), and those at the two ends.
-
-    Raises `InputError` for others.
-    """
+    """1 for periodic conditions, -1 for antiperiodic and 0 for separated ones, and these.  Raises `InputError` for others."""
     for condition in conditions:
         if condition.value not in (None, 0):
             raise InputError(
@@ -272,20 +270,20 @@ def eigenfunctions(question: Question) -> tuple[Expr, list[str]] | None:
     parameter = next((s for s in c.free_symbols if s.name in _PARAMETERS), None)
     if parameter is None or right != 0:
         return None
-    B, c = sympy.simplify(b / a), sympy.simplify(c / a)
-    c1 = sympy.simplify(c.diff(parameter))
-    letters = sympy.Tuple(B, c1).free_symbols.union(*(condition.free_symbols for condition in question.conditions))
+    B, c = simplify(b / a), simplify(c / a)
+    c1 = simplify(c.diff(parameter))
+    letters = Tuple(B, c1).free_symbols.union(*(condition.free_symbols for condition in question.conditions))
     if c1 == 0 or parameter in letters:
         return None
-    c0 = sympy.simplify(c - parameter * c1)
+    c0 = simplify(c - parameter * c1)
     taken = {s.name for s in letters | c0.free_symbols}
-    n = sympy.Symbol(next(name for name in _NUMBERS if name not in taken), integer=True)
+    n = Symbol(next(name for name in _NUMBERS if name not in taken), integer=True)
     sign = -1 if _with_positive_symbols(c1).is_negative else 1
     found = family(x, B, c0, sign * c1, sign * parameter, ends, wrap or wishes, n=n)
     if found is None:
         return None
     residues = (y.diff(x, 2) + B * y.diff(x) + (c0 + sign * found.value * c1) * y for y in found.functions)
-    if any(sympy.simplify(residue) != 0 for residue in residues):
+    if any(simplify(residue) != 0 for residue in residues):
         return None
     constants = free_constants(2, *letters, c0, question.function)
     y = sympy.Add(*(constant * function for constant, function in zip(constants, found.functions, strict=False)))
@@ -316,7 +314,7 @@ def _homogeneous_conditions(question: Question) -> tuple[tuple[Expr, Expr], int,
 
 def _with_positive_symbols(e: Expr) -> Expr:
     """With positive symbols."""
-    return e.xreplace({s: sympy.Symbol(s.name, positive=True) for s in e.free_symbols})
+    return e.xreplace({s: Symbol(s.name, positive=True) for s in e.free_symbols})
 
 
 def _said_of_eigenvalue(found: EigenvalueFamily, parameter: Expr, sign: int) -> str:

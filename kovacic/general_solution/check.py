@@ -34,7 +34,7 @@ from kovacic.closed_form.jets import ANTIDERIVATIVES, MATHIEU, jet
 from kovacic.errors import VerificationFailed
 from kovacic.general_solution.behaviour import Approach, have_values, is_refuted
 from kovacic.general_solution.question import Condition, Question
-from kovacic.general_solution.steps import JUMPING, between, break_points, in_steps, on_piece, taken_apart
+from kovacic.general_solution.steps import JUMPING, between, break_points, in_steps, on_piece, split_at_jumps
 from kovacic.general_solution.zero import NOT_EVALUATED, ball, fitting_samples, known_jet, opposite, residual, samples
 from kovacic.limits import check_time
 
@@ -204,7 +204,7 @@ def _is_wrong_across(claim: SolutionClaim, point: Expr, *sides: Expr) -> bool:
     """
     x = claim.x
     *rates, f = claim.rates
-    apart = taken_apart(in_steps(f, x), x) if have_values(rates, x, point) else None
+    apart = split_at_jumps(in_steps(f, x), x) if have_values(rates, x, point) else None
     if apart is None or any(n >= len(rates) for here in apart.impulses.values() for n in here):
         return False
     at = ball(point)

@@ -21,6 +21,7 @@ from functools import cached_property
 from typing import Any
 
 import sympy
+from sympy import Eq, Mul
 
 from kovacic.closed_form.cuts import arguments_with_cuts, common_place
 from kovacic.decision import Status
@@ -65,12 +66,12 @@ from kovacic.general_solution.question import (
     with_values,
 )
 from kovacic.general_solution.riccati import solved_riccati
-from kovacic.general_solution.substitution import size
+from kovacic.general_solution.substitution import inverse, size
 from kovacic.general_solution.systems import LinearSystem, read_system, solved_system
 from kovacic.general_solution.textbook import in_book_form, without_homogeneous
 from kovacic.general_solution.zero import is_identically_zero
 from kovacic.general_solution.zero_set import ZeroSet
-from kovacic.limits import DEFAULT_LIMITS, Budget, Limits, limited
+from kovacic.limits import DEFAULT_LIMITS, MOST_CHARACTERS, Budget, Limits, limited
 from kovacic.numbers.numerals import as_text
 from kovacic.reading.notations import ParserTokens
 from kovacic.reading.pieces import Paste
@@ -78,12 +79,10 @@ from kovacic.reading.read import declared
 from kovacic.reading.symbolic import read_equations
 
 Expr = Any  # SymPy publishes no types
-#: The most exceptional cases in which an equation is solved.
+#: The most exceptional cases in which an equation is solved: the solutions in one of three have two exceptions in turn.
 _MOST_CASES = 2
-#: Names of the one method.
+#: Names of the only method.
 _HINTS = ("default", "best", "kovacic")
-#: Characters; beside a longer formula another one is offered.
-SCREEN = 600
 
 
 @limited
@@ -105,67 +104,67 @@ def dsolve(
 ) -> Any:
     """The general solution of a linear equation of second order as a SymPy `Eq(y(x), ...)` with constants C1 and C2.
 
-    Or of a Riccati equation w' = p + q w + r w^2, with one constant C1, which may be infinite.
+    Also that of a linear or Riccati equation w' = p + q w + r w^2, with one constant C1, which may be infinite for Riccati's.
 
-    What is returned has been put into the equation (numerically, at points) and into the conditions.  With parameters it
-    holds for generic values; what SymPy knows of the user's symbols (integer, positive, ...) is used throughout.
+    The result has been put into the equation (numerically, at points) and into the conditions.  With parameters it holds for
+    generic values.  The assumptions of the user's symbols (integer, positive, ...) are used throughout.
 
     Parameters
     ----------
     eq : sympy.Eq, sympy.Expr or str
         The equation, an expression that is zero, or text.  Coefficients may be rational in x, in exp(k x), sines, ... of
         multiples of k x, or in a power x^k.  Every part without x is a constant.  The right-hand side may be any function of
-        x, with jumps and impulses at constant points.  y''/y = x is multiplied out.  SymPy's floats are the decimals that
-        they are written as, and the answer has floats then; a decimal in a text is an exact number.  A list of one equation
+        x, with jumps and impulses at constant points.  y''/y = x is multiplied out.  SymPy's floats are read as the decimals
+        that are printed, and the answer has floats then; a decimal in a text is an exact number.  A list of one equation
         gives a list of one answer.
     func : y(x) or y, optional
-        The unknown function, where more than one function of x occurs; or a list of it.
+        The unknown function, if more than one function of x occurs; or a list of it.
     hint : str, optional
-        "default", "best" and "kovacic" mean the same: there is one method.
+        "default", "best" or "kovacic", which mean the same: there is one method.
     simplify, x0, n : optional
-        As for `sympy.dsolve`, and without effect: its last step of simplification, and series, aren't used here.
+        As for `sympy.dsolve`, and without effect.
     ics : mapping or str, optional
-        Conditions.  The constants that they determine are found exactly; those that stay are free.
+        Conditions.  The constants that they determine are found exactly; the others stay free.
 
         - Values as for `sympy.dsolve`, {y(0): 1, y(x).diff(x).subs(x, 0): 2}, or as text, "y(0)=1, y'(0)=2" or
-          {"y(0)": 1, "y'(0)": 2}, at one point or at several.  At an impulse or a step they are those just before it; where
-          a parameter may put it on the point, the answer has Heaviside(u, 0), which is 0 there.
+          {"y(0)": 1, "y'(0)": 2}, at one point or at several.  At an impulse or a step they are those just before it; if a
+          parameter may put it on the point, the answer has Heaviside(u, 0), which is 0 there.
         - Linear conditions: periodic, {y(0): y(2*pi)} or "y'(0)=y'(2*pi)"; Robin's, "y'(0)=h*y(0)".
         - At a singular point, and at oo and -oo, y(a) = v says that y tends to v, and y(a) = "bounded" that y is bounded,
           from the side on which the other points are, else from the right: {"y(0)": "bounded", "y(oo)": 0}.
     xi, eta : None
-        As for `sympy.dsolve`: they belong to Lie's method, which isn't used here, and stay None.
+        For compatibility with `sympy.dsolve`: they belong to Lie's method, which isn't used here.
     var : str, optional
-        The name of the variable in a text, where it isn't clear.
+        The name of the variable in a text, if it isn't clear.
     parameters : sequence of str, optional
-        Names of parameters that have more than one letter, as "EI" or "mass"; other such names are refused.
+        Names of parameters that have more than one letter, such as "EI" or "mass"; other such names are refused.
     assume : mapping, optional
-        What is known of parameters, by name, as for `kovacic.solve`: {"n": "natural", "k": "positive", "l": ">=1"}.  It is used
-        beside the assumptions of SymPy's symbols.
+        Assumptions on parameters, by name, as for `kovacic.solve`: {"n": "natural", "k": "positive", "l": ">=1"}.  They add to
+        those of SymPy's symbols.
     limits : Limits, optional
         Bounds on the input and on the work.
 
     Returns
     -------
     sympy.Eq
-        y(x) and the solution.  An integral that isn't done stays an `Integral`.
+        y(x) and the solution; for a system a list.  An integral that isn't found stays an `Integral`.
 
     Warns
     -----
     UserWarning
-        Where particular values of parameters give more solutions, or none: with the condition and what holds then (the
-        answer is for the others).  Where other solutions are independent if an integer is negative: with these.  Where
-        special functions were taken, and it isn't proven that there is no Liouvillian solution, because a limit was
-        reached.  Where the answer couldn't be checked, because a function can't be evaluated.
+        If particular values of parameters give more solutions, or none: with the condition and the solutions then (the
+        answer is for the others).  If other solutions are independent for a negative integer: with these.  If special
+        functions were taken without a proof that there is no Liouvillian solution, because a limit was reached.  If the
+        answer couldn't be checked, because a function can't be evaluated.
 
     Raises
     ------
     InputError
-        For what isn't such an equation; where no solution has the given values; and for points on two sides of a singular
-        point.  It is a `ValueError`.
+        For any other equation, if no solution has the given values, and for points on two sides of a singular point.  It is
+        a `ValueError`.
     NotImplementedError
-        Where no solutions are found, with the reason, or where a limit was reached; and where a question about a constant,
-        or about the behaviour at a singular point, isn't decided.
+        If no solutions are found, with the reason, or a limit was reached; and if a question about a constant, or about the
+        behaviour at a singular point, isn't decided.
 
     Examples
     --------
@@ -210,7 +209,7 @@ def dsolve(
     """
     if hint not in _HINTS:
         others = "sympy.dsolve has other methods, and this one after kovacic.register()"
-        raise InputError(f"there is no method {hint!r} here, only {', '.join(_HINTS)}", hint=others)
+        raise InputError(f"unknown hint {hint!r}; available: {', '.join(_HINTS)}", hint=others)
     if xi is not None or eta is not None:
         raise InputError("xi and eta belong to Lie's method, which isn't used here", hint="call sympy.dsolve")
     answer = answer_to(eq, func, ics=ics, var=var, parameters=parameters, assume=assume, limits=limits)
@@ -221,13 +220,10 @@ def dsolve(
 
 
 def in_special_functions(found: Any, eq: Any, func: Any = None, **given: Any) -> Any:
-    """What `dsolve` has `found`, in special functions: where that is more than a screen, and they take less than half of it.
-
-    None if they take more, or none are known.  Arguments as for `dsolve`.
-    """
+    """A long solution `found` by `dsolve` in special functions, if they take less than half of its characters; else None."""
     length = len(as_text(found.rhs))
-    with suppress(NotImplementedError, InputError):
-        if length > SCREEN:
+    if length > MOST_CHARACTERS:
+        with suppress(NotImplementedError, InputError):
             other = answer_to(eq, func, special=True, **given).eq
             return other if len(as_text(other.rhs)) < length / 2 else None
     return None
@@ -245,21 +241,21 @@ def answer_to(
     limits: Limits = DEFAULT_LIMITS,
     special: bool = False,
 ) -> ProblemAnswer:
-    """The answer of `dsolve` as an object: with the pair it is made of, what it needs, and what was checked.
+    """The answer of `dsolve` as an object, with the pair it is made of, its domain of validity, and the checks.
 
     Parameters
     ----------
     eq, func, ics, var, parameters, assume, limits
         As for `dsolve`.
     special : bool
-        Special functions also where there are Liouvillian solutions.
+        True for special functions even if there are Liouvillian solutions.
 
     Returns
     -------
     ProblemAnswer
-        Its `eq` is what `dsolve` returns, its `notices` are the warnings of `dsolve`.  Of an equation of second order it is a
-        `SecondOrderAnswer`, unless an eigenvalue problem with an integer was recognised; of first order a `FirstOrderAnswer`;
-        of a system a `SystemAnswer`, whose `eq` is a list.
+        Its `eq` is the result of `dsolve`, its `notices` are the warnings of `dsolve`.  For an equation of second order it is a
+        `SecondOrderAnswer`, unless an eigenvalue problem with an integer was recognised; for first order a `FirstOrderAnswer`;
+        for a system a `SystemAnswer`, whose `eq` is a list.
 
     Raises
     ------
@@ -274,7 +270,7 @@ def answer_to(
     >>> print(answer.validity)
     v + w != 0, v - w != 0, w != 0
 
-    What holds in an exceptional case:
+    In an exceptional case:
 
     >>> answer = answer_to("x*y'' + (c - x)*y' - a*y = 0")
     >>> print(answer.validity)
@@ -285,7 +281,7 @@ def answer_to(
     c is a positive integer | C1*hyper((a,), (c,), x) + C2*hyper((a, a - c + 1), (), -1/x)/x**a
     c is a nonpositive integer | C1*x**(1 - c)*hyper((a - c + 1,), (2 - c,), x) + C2*hyper((a, a - c + 1), (), -1/x)/x**a
     """
-    # before the time is used up, which the answer may take
+    # first, since the answer may take all of the time
     is_of_euler = isinstance(eq, str) and any(_has_euler(tokens) for tokens in Paste(eq).equations)
     eq, ics, assume = with_values(eq, ics, assume, limits)
     answer = _Asked(limits, var, parameters, assume, special).answer(eq, func, ics)
@@ -293,7 +289,7 @@ def answer_to(
 
 
 def _has_euler(tokens: ParserTokens) -> bool:
-    """True for e alone, or with a number for its exponent, as an author may write it for a parameter."""
+    """True for e alone, or with a number as its exponent, which may be meant as a parameter."""
     return any(
         token[:2] == ("NAME", EULER) and (after.text not in ("^", "**") or exponent.kind == "NUMBER")
         for token, after, exponent in zip(tokens, tokens[1:], [*tokens[2:], tokens[-1]], strict=False)
@@ -302,10 +298,7 @@ def _has_euler(tokens: ParserTokens) -> bool:
 
 @dataclass(frozen=True)
 class _Asked:
-    """How something is asked: with these bounds, of these names; `special` functions only, or in an exceptional case.
-
-    Where an answer is that in an exceptional case of another one, its own such cases are only named.
-    """
+    """The settings of a question; `is_exceptional` if it is an exceptional case of another one: then its own are only named."""
 
     limits: Limits
     var: str | None = None
@@ -319,7 +312,7 @@ class _Asked:
         return Budget(self.limits)
 
     def answer(self, eq: Any, func: Any = None, ics: Any = None) -> ProblemAnswer:
-        """The answer for an equation of first or second order, or a system of two equations: a list, or a text with several."""
+        """The answer for an equation, or a system of two equations of first order: a list, or a text with several."""
         with self.budget.watched():
             try:
                 return self._answer(eq, func, ics)
@@ -347,16 +340,15 @@ class _Asked:
             question = read_question(eq, func, ics, self.var, self.limits, self.parameters, self.assume)
         except InputError as reason:
             eq, ics = apart(eq, ics)
-            found = None
-            with suppress(InputError):
+            try:
                 found = read_first_order(eq, func, self.var, self.limits, names)
-            if found is None:
+            except InputError:
                 raise reason from None
             return self._of_first_order(found, eq, ics)
         return self._of_second_order(question)
 
     def _of_first_order(self, problem: FirstOrderEquation | LinearSystem, eq: Any, ics: Any) -> ProblemAnswer:
-        """The answer for one equation, or for two; `eq` is what was given."""
+        """The answer for one equation, or for two; `eq` is the input."""
         values = as_mapping(ics)
         problem = problem.with_values(values)
         known = known_letters(self.assume, problem.x, problem.letters, problem.conditions)
@@ -368,16 +360,16 @@ class _Asked:
             if (problem.q + problem.r).has(sympy.DiracDelta):
                 what = f"in {problem.reading} an impulse is multiplied by {problem.function}, which jumps there"
                 raise InputError(what, hint="solve the equation on either side, and give the ratio of the values there")
-            solved = solved_linear(problem) if problem.is_linear else solved_riccati(problem, solver)
-        eqs = [sympy.Eq(f, w, evaluate=False) for f, w in zip(problem.functions, solved.values, strict=True)]
+            solved = solved_linear(problem) if problem.r == 0 else solved_riccati(problem, solver)
+        eqs = [Eq(f, w, evaluate=False) for f, w in zip(problem.functions, solved.values, strict=True)]
         exceptions = (f"this holds unless {said}" for said in self.where_zero(solved.zeros, problem.at, eqs))
         notices = [*dict.fromkeys([*problem.guesses, *exceptions, *solved.notices])]
-        eqs = [eq.xreplace({symbol: own for own, symbol in known.items()}) for eq in eqs]
+        eqs = [eq.xreplace(inverse(known)) for eq in eqs]
         if isinstance(problem, LinearSystem):
             return SystemAnswer(eqs, notices, known=known, exceptional=solved.of_pair)
         (found,) = eqs
         if has_floats(eq, values):
-            found = sympy.Eq(found.lhs, with_floats(found.rhs), evaluate=False)
+            found = Eq(found.lhs, with_floats(found.rhs), evaluate=False)
         return FirstOrderAnswer(found, notices, problem, known=known, exceptional=solved.of_pair)
 
     def _of_second_order(self, question: Question) -> ProblemAnswer:
@@ -402,13 +394,12 @@ class _Asked:
         formulas: Sequence[Expr],
         where: str = "",
     ) -> Iterator[str]:
-        """The solutions where a letter makes one of `zeros` zero, in words `where`, unless the `formulas` hold there as well.
+        """Sentences about the solutions where one of `zeros` is zero, in words `where`, unless the `formulas` hold there too.
 
-        `at` gives equation, function and conditions, as for `answer_to`, for values of letters.
+        `at` gives equation, function and conditions as for `answer_to`, for values of letters.
         """
         sets = [*map(ZeroSet, zeros)]
         places = [(place, factor) for zero in sets for factor in zero.factors for place in exceptional_cases(factor)]
-        # With more of them the solutions in one case have the others for exceptions.
         if self.is_exceptional or len(places) > _MOST_CASES or not all(place.values for place, _ in places):
             left = [where or " or ".join(map(str, sets))] if sets else []
         else:
@@ -420,13 +411,10 @@ class _Asked:
                 elif said:
                     yield f"{place}, where {said}"
         if left:
-            yield f"{' or '.join(left)}: give such values for the solutions there"
+            yield f"{' or '.join(left)}: substitute such values for the solutions there"
 
     def _said_at(self, place: Exceptional, at: Callable[..., Any], formulas: Sequence[Expr]) -> str | None:
-        """The solutions in one case, sought in half of the remaining time, so that the answer isn't lost; None if not found.
-
-        Nothing is said where the formulas hold.
-        """
+        """The solutions in one case, "" if the formulas hold there, None if they aren't found in half of the time left."""
         try:
             equation, function, conditions = at(place.values)
             there = _Asked(self.budget.share(0.5).limits, is_exceptional=True).answer(equation, function, conditions)
@@ -436,7 +424,7 @@ class _Asked:
             return None
         if there.notices:
             return None
-        here = [sympy.Eq(eq.lhs, eq.rhs.subs(place.values), evaluate=False) for eq in formulas]
+        here = [Eq(eq.lhs, eq.rhs.subs(place.values), evaluate=False) for eq in formulas]
         letters = sympy.Tuple(equation, *conditions.items()).free_symbols
         if _are_same(here, there.equations, letters):
             return ""
@@ -453,21 +441,21 @@ class _Family:
 
     @cached_property
     def names(self) -> tuple[Expr, Expr]:
-        """C1 and C2, or the next of these names that nothing else has."""
+        """C1 and C2, or the next unused names."""
         given = (self.question.function, *map(sympy.Symbol, self.question.symbols))
         of_conditions = (symbol for condition in self.question.conditions for symbol in condition.free_symbols)
         c1, c2 = free_constants(2, self.basis.y1, self.basis.y2, self.particular, *given, *of_conditions)
         return c1, c2
 
     def member(self, constants: tuple[Expr, Expr]) -> Expr:
-        """That with these constants in the user's symbols, factors that y1 and y2 share before the sum."""
-        first, second = map(sympy.Mul.make_args, (self.basis.y1, self.basis.y2))
+        """The solution with these constants in the user's symbols, common factors of y1 and y2 before the sum."""
+        first, second = map(Mul.make_args, (self.basis.y1, self.basis.y2))
         common = [factor for factor in first if factor in second and 0 not in constants]
         summands = (
-            sympy.Mul(constant, *(factor for factor in factors if factor not in common))
+            Mul(constant, *(factor for factor in factors if factor not in common))
             for constant, factors in zip(constants, (first, second), strict=True)
         )
-        general = sympy.Mul(*common, sympy.Add(*summands)) + self.particular
+        general = Mul(*common, sympy.Add(*summands)) + self.particular
         if self.question.conditions:
             general = min(general, sympy.expand_mul(general, deep=False), key=size)
         return with_letters_of_integration(self.question.own(general))
@@ -475,13 +463,13 @@ class _Family:
     def answer(
         self, value: Expr, notices: Sequence[str], unchecked: Sequence[str], determined: Determined | None = None
     ) -> SecondOrderAnswer:
-        """The answer with this value, as the user writes it."""
+        """The answer with this value, in the user's symbols."""
         rests_on = (self.question, self.basis, self.particular, self.names, determined)
         eq = self.question.written(value)
         if self.basis.natural is not None:  # the others are said, unless their constants are determined
-            said = f"this holds where {as_text(self.basis.natural)} >= 0"
+            said = f"this holds for {as_text(self.basis.natural)} >= 0"
             if self.basis.otherwise is None or self.particular != 0 or determined is not None:
-                said += ": give such values for the solutions elsewhere"
+                said += ": substitute such values for the solutions elsewhere"
             else:
                 other = self.question.written(replace(self, basis=self.basis.otherwise).member(self.names))
                 said += f"; elsewhere, {other.lhs} = {other.rhs}"
@@ -489,7 +477,7 @@ class _Family:
         return SecondOrderAnswer(eq, [*notices], *rests_on, unchecked=tuple(unchecked), ask=answer_to)
 
     def said(self, case: ParameterCase, answer: Expr, asked: _Asked) -> Iterable[str]:
-        """The solutions for particular values of the parameters, of which the answer is the one for all others."""
+        """Sentences about the solutions for particular parameters; the answer is for all others."""
         where = case.where(answer)
         if case.outcome is Outcome.OPEN:
             formula = self.question.written(answer).xreplace(self.question.renamed)
@@ -513,10 +501,7 @@ class _Contradiction(InputError):
 
 
 def _are_same(formulas: Sequence[Expr], others: Sequence[Expr], letters: Collection[Expr]) -> bool:
-    """True for equal formulas, and for families p + C u and q + C v of one function, with a constant u/v and (p - q)/v.
-
-    All symbols but the letters and the variable are constants of the families.
-    """
+    """True for equal formulas, and for one p + C u and q + C v with constant u/v and (p - q)/v; C isn't one of the letters."""
     pairs = [(one.rhs, other.rhs) for one, other in zip(formulas, others, strict=True)]
     x = formulas[0].lhs.args[0]
     constants = {symbol for pair in pairs for e in pair for symbol in e.free_symbols} - {*letters, x}

@@ -9,11 +9,11 @@ from collections.abc import Iterator, Mapping, Sequence
 from typing import Any
 
 import sympy
+from sympy import Integer, Symbol
 
 from kovacic.equation import parameters_of
 from kovacic.errors import InputError, NotLinear
 from kovacic.general_solution.answer import FirstOrderAnswer, SecondOrderAnswer
-from kovacic.general_solution.constants import Determined
 from kovacic.general_solution.dsolve import answer_to
 from kovacic.general_solution.particular import right_hand_side
 from kovacic.general_solution.question import Condition
@@ -45,9 +45,9 @@ def explain(
 ) -> str:
     """The steps to the solution of an equation of first or second order with its right-hand side and its values.
 
-    Normal form, two solutions, their Wronskian, variation of parameters, the equations for the constants; for an equation
-    of first order the integrating factor, or the linear equation of second order that Riccati's becomes.  How the two
-    solutions are found is in `Solution.explain`.
+    These are the normal form, two solutions, their Wronskian, variation of parameters, and the equations for the constants;
+    for first order the integrating factor, or the linear equation of second order that a Riccati equation becomes.
+    `Solution.explain` shows how the two solutions are found.
 
     Parameters
     ----------
@@ -88,7 +88,7 @@ def explain(
 
 
 def is_problem(text: str) -> bool:
-    """True for a text with values, with a right-hand side, or with an equation that isn't a linear one of second order."""
+    """True for a text with values or a right-hand side, or with an equation that isn't linear of second order."""
     paste = Paste(text)
     if not paste.is_equation or paste.conditions or len(paste.scans("equation")) > 1:
         return paste.is_equation
@@ -99,22 +99,22 @@ def is_problem(text: str) -> bool:
     return found is not None and not found.is_homogeneous
 
 
-def _named(name: str, value: Expr) -> Formula:
+def _definition(name: str, value: Expr) -> Formula:
     return Formula(_with_names("{}", name).equals(of_sympy(value)))
 
 
 def _with_names(template: str, *names: object, latex: str = "") -> Math:
-    """A formula with names in its places, and by another template in LaTeX if that is given."""
-    shown = [of_sympy(sympy.Symbol(str(name))).latex for name in names]
+    """The template with names in its places; LaTeX may have a template of its own."""
+    shown = [of_sympy(Symbol(str(name))).latex for name in names]
     return Math(template.format(*names), (latex or template).format(*shown))
 
 
-def _equation(
+def _equation_blocks(
     name: str, coefficients: Sequence[Expr], right: Expr, conditions: Sequence[Condition] = ()
 ) -> Iterator[Block]:
-    """The derivatives of `name` with these coefficients, from y on, equal the right-hand side; and the values."""
+    """The equation with these coefficients of y, y', ..., y being `name`, and its values."""
     powers = [*enumerate(coefficients)]
-    terms = [_times(c, name + "'" * k) for k, c in reversed(powers) if c != 0]
+    terms = [_coefficient_times(c, name + "'" * k) for k, c in reversed(powers) if c != 0]
     text, latex = (" + ".join(parts).replace("+ -", "- ") for parts in zip(*terms, strict=True))
     yield Formula(Math(text, latex).equals(of_sympy(right)))
     if conditions:
@@ -122,19 +122,19 @@ def _equation(
         yield say("with ", Math.of(said), ".")
 
 
-def _times(c: Expr, y: str) -> tuple[str, str]:
+def _coefficient_times(c: Expr, y: str) -> tuple[str, str]:
     """c y as text and as LaTeX, sums and quotients in parentheses."""
     sign = "-" if c.could_extract_minus_sign() else ""
     factor = of_sympy(-c if sign else c)
     text = f"({factor.text})" if {" ", "/"} & {*factor.text} else factor.text
     latex = rf"\left({factor.latex}\right)" if c.is_Add else factor.latex
     if factor.text == "1":
-        return sign + y, sign + of_sympy(sympy.Symbol(y)).latex
+        return sign + y, sign + of_sympy(Symbol(y)).latex
     return f"{sign}{text}*{y}", f"{sign}{latex} {of_sympy(sympy.Symbol(y)).latex}"
 
 
 def _steps(answer: SecondOrderAnswer) -> Iterator[Block]:
-    """For an equation of second order."""
+    """The steps for an equation of second order."""
     question = answer.question
     solution = answer.basis.solution
     assert solution is not None
@@ -147,7 +147,7 @@ def _steps(answer: SecondOrderAnswer) -> Iterator[Block]:
     yield Heading("The equation")
     if question.equation.change is None:
         B, C = map(own, answer.basis.rates)
-        yield from _equation(y, (C, B, sympy.Integer(1)), F, question.conditions)
+        yield from _equation_blocks(y, (C, B, Integer(1)), F, question.conditions)
         if solution.gauge:
             yield Heading("Normal form")
             yield from ExplanationWriter(solution).normal_form(y)[1]
@@ -165,10 +165,10 @@ def _steps(answer: SecondOrderAnswer) -> Iterator[Block]:
     u, v = ("y1", "y2") if {"y1", "y2"}.isdisjoint(map(str, taken)) else ("u1", "u2")
     f, w, particular = (free_name(taken, *names) for names in (("F", "R", "G"), ("W", "D"), ("y0", "y_p", "u_p")))
     pair = {u: own(answer.basis.y1), v: own(answer.basis.y2)}
-    yield from (_named(name, value) for name, value in pair.items())
+    yield from (_definition(name, value) for name, value in pair.items())
     W = own(answer.basis.wronskian)
     yield say("Their Wronskian ", _with_names("{0} {1}' - {0}' {1}", u, v), " is")
-    yield _named(w, W)
+    yield _definition(w, W)
     if F != 0:
         yield Heading("Variation of parameters")
         yield say("A solution with the right-hand side ", _with_names("{}", f), " is")
@@ -181,43 +181,35 @@ def _steps(answer: SecondOrderAnswer) -> Iterator[Block]:
             quotient = _with_names("{} {}/{}", name, f, w, latex=r"\frac{{{} {}}}{{{}}}")
             yield Formula(quotient.equals(of_sympy(integrand)))
         yield say("Up to multiples of ", _with_names("{}", u), " and ", _with_names("{}", v), " it is")
-        yield _named(particular, own(answer.particular))
+        yield _definition(particular, own(answer.particular))
     if answer.determined is not None:
         yield Heading("The constants")
         c1, c2 = answer.names
         whole = "{} = {} {} + {} {}" if F == 0 else "{} = {} {} + {} {} + {}"
         yield say(_with_names(whole, y, c1, u, c2, v, particular), " has the given values where")
-        yield from dict.fromkeys(_constants(answer, answer.determined))
-
-
-def _constants(answer: SecondOrderAnswer, determined: Determined) -> Iterator[Formula]:
-    """The equations for the constants, and their values."""
-    c1, c2 = answer.names
-    for row in determined.rows:
-        if (row.u, row.v) != (0, 0):
-            yield Formula(of_sympy(row.u * c1 + row.v * c2).equals(of_sympy(row.r)))
-    for name, value in zip(answer.names, determined.generic.values, strict=True):
-        if value != name:
-            yield _named(str(name), value)
+        rows = [row for row in answer.determined.rows if (row.u, row.v) != (0, 0)]
+        conditions = [Formula(of_sympy(row.u * c1 + row.v * c2).equals(of_sympy(row.r))) for row in rows]
+        values = zip(answer.names, answer.determined.generic.values, strict=True)
+        yield from dict.fromkeys([*conditions, *(_definition(str(c), value) for c, value in values if value != c)])
 
 
 def _steps_of_first_order(answer: FirstOrderAnswer) -> Iterator[Block]:
-    """A linear equation by its integrating factor, one of Riccati's by the linear equation that it becomes."""
+    """The steps for a linear equation, by its integrating factor, and a Riccati equation, by a linear one of second order."""
     equation = answer.equation
     w, x = equation.function, equation.x
     name = str(w.func)
     taken = {name, *equation.letters, *(s for condition in equation.conditions for s in condition.free_symbols)}
     p, h, c = (free_name(taken, *names) for names in (("p", "f", "g", "R"), ("h", "H"), ("c", "v", "z")))
-    square = equation.r * sympy.Symbol(name) ** equation.power
+    square = equation.r * Symbol(name) ** equation.power
     yield Heading("The equation")
-    yield from _equation(name, (-equation.q, sympy.Integer(1)), equation.p + square, equation.conditions)
-    if equation.is_linear:
+    yield from _equation_blocks(name, (-equation.q, Integer(1)), equation.p + square, equation.conditions)
+    if equation.r == 0:
         yield Heading("The integrating factor")
         yield say("The equation without its right-hand side ", _with_names("{}", p), " has the solution")
-        yield _named(h, equation.homogeneous())
+        yield _definition(h, equation.homogeneous())
         if equation.p == 0:
             return
-        constant = equation.constant(sympy.Tuple(*map(sympy.Symbol, map(str, taken))).free_symbols)
+        constant = equation.constant(sympy.Tuple(*map(Symbol, map(str, taken))).free_symbols)
         yield say(
             f"With {name} = {h} {c} it says that {c}' = {p}/{h}, so {name} = {h} ({constant} + int {p}/{h}), where"
         )
@@ -230,11 +222,11 @@ def _steps_of_first_order(answer: FirstOrderAnswer) -> Iterator[Block]:
         linear_one = equation.of_power
         m = free_name(taken, "m", "k", "s")
         yield say(f"{z} = {name}^{m} makes it linear, where")
-        yield _named(m, 1 - equation.power)
-        yield from _equation(z, (-linear_one.q, sympy.Integer(1)), linear_one.p)
+        yield _definition(m, 1 - equation.power)
+        yield from _equation_blocks(z, (-linear_one.q, Integer(1)), linear_one.p)
         return
     linear, u = linear_equation(equation)
     r = free_name(taken, "r", "q", "R")
     yield say(f"{name} = -{z}'/({r} {z}), {r} the coefficient of {name}^2, makes it linear:")
-    yield from _equation(z, [linear.lhs.coeff(u.diff(x, k) if k else u) for k in range(3)], sympy.Integer(0))
+    yield from _equation_blocks(z, [linear.lhs.coeff(u.diff(x, k) if k else u) for k in range(3)], Integer(0))
     yield say(f"Of the two constants of {z} only their quotient matters.")

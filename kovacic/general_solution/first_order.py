@@ -15,7 +15,7 @@ from functools import cached_property
 from typing import Any, NamedTuple, Self
 
 import sympy
-from sympy import Integer, cosh, sinh
+from sympy import Dummy, Integer, Symbol, cancel, cosh, expand, powsimp, sinh
 from sympy.core.function import AppliedUndef
 
 from kovacic.closed_form.atoms import Atoms, display, is_seen_negative
@@ -25,7 +25,7 @@ from kovacic.errors import InputError, VerificationFailed
 from kovacic.general_solution.antiderivatives import antiderivative
 from kovacic.general_solution.behaviour import have_values, value_at
 from kovacic.general_solution.check import SolutionClaim, is_finite, jumps
-from kovacic.general_solution.integrands import NUMBERS, radicands, ratfunc
+from kovacic.general_solution.integrands import NUMBERS, ratfunc
 from kovacic.general_solution.particular import starting_at, turned_at, with_letters_of_integration
 from kovacic.general_solution.question import Condition, ConditionReader, conditions_at, exact, free_constants
 from kovacic.general_solution.steps import JUMPING, Apart, in_parts
@@ -41,20 +41,16 @@ from kovacic.reading.symbolic import expression_of, function_of
 from kovacic.special.choice import shortest
 
 Expr = Any  # SymPy publishes no types
-_ZERO, _TWO = Integer(0), Integer(2)
+_ZERO = Integer(0)
 #: r and n of a linear equation.
-LINEAR = (_ZERO, _TWO)
-#: Answers an equation of second order for a function, with conditions.
+LINEAR = (_ZERO, Integer(2))
+#: Solves an equation of second order for a function, with conditions.
 Solver = Callable[[Expr, Expr, Mapping[Expr, Expr]], Any]
 
 
 @dataclass(frozen=True)
 class OfFirstOrder:
-    """One equation of first order, or two.
-
-    `entries` are the coefficients, `asked` the conditions, each with the function that it is on; `guesses` say what was guessed
-    when a text was read.
-    """
+    """One equation of first order, or two, with their coefficients, and conditions with the functions that these are on."""
 
     functions: tuple[Expr, ...]
     entries: tuple[Expr, ...]
@@ -72,7 +68,7 @@ class OfFirstOrder:
         return replace(self, functions=functions, entries=entries, asked=asked)
 
     def with_values(self, ics: Mapping[Any, Any]) -> Self:
-        """With conditions.  Raises `InputError` for one that isn't on one of several functions."""
+        """With conditions.  Raises `InputError` for one on none of several functions."""
         functions = {str(f.func): f for f in self.functions}
         first, *others = functions
         asked = []
@@ -84,10 +80,11 @@ class OfFirstOrder:
         return replace(self, asked=tuple(asked))
 
     def at(self, values: Mapping[Expr, Expr]) -> tuple[tuple[Expr, ...], tuple[Expr, ...], dict[Expr, Any]]:
-        """Equations, functions and conditions, as for `dsolve`, for particular values of letters."""
-        pairs = zip(self.functions, self.slopes(), strict=True)
-        equations = tuple(f.diff(self.x) - slope.subs(values) for f, slope in pairs)
-        return equations, self.functions, conditions_at(values, self.asked)
+        """Equations, functions and conditions as for `dsolve`, for particular values of letters."""
+        equations = [
+            f.diff(self.x) - slope.subs(values) for f, slope in zip(self.functions, self.slopes(), strict=True)
+        ]
+        return tuple(equations), self.functions, conditions_at(values, self.asked)
 
     @property
     def x(self) -> Expr:
@@ -117,15 +114,15 @@ class FirstOrderEquation(OfFirstOrder):
 
     @property
     def reading(self) -> str:
-        """The reading in one line: y' = k*y, y(x), parameters k."""
-        w = sympy.Symbol(self.function.func.__name__)
+        """One line: y' = k*y, y(x), parameters k."""
+        w = Symbol(self.function.func.__name__)
         names = ", ".join(sorted({*self.letters} - {self.x.name}))
         line = f"{w}' = {as_text(self.p + self.q * w + self.r * w**self.power)}, {self.function}".replace("**", "^")
         return f"{line}, parameters {names}" if names else line
 
     @cached_property
     def value(self) -> tuple[Any, Any]:
-        """a and v for w(a) = v, None and None without.  Raises `InputError` for other conditions, and for more than one."""
+        """a and v for w(a) = v, or None twice without a condition.  Raises `InputError` for others, and for more than one."""
         if not self.asked:
             return None, None
         condition = self.conditions[0]
@@ -142,21 +139,17 @@ class FirstOrderEquation(OfFirstOrder):
         asked = tuple((w, replace(condition, value=condition.value**m)) for w, condition in self.asked)
         return FirstOrderEquation(self.functions, (m * self.r, m * self.q, *LINEAR), asked)
 
-    @property
-    def is_linear(self) -> bool:
-        return bool(self.r == 0)
-
     def homogeneous(self) -> Expr:
         """h with h'/h = q, real at the `place`."""
         return _exponential_of_integral(self.q, self.x, self.value[0], self.place)
 
     def constant(self, taken: Set[Expr] = frozenset()) -> Expr:
-        """C1, or the next of these names that is neither in the equation nor taken."""
+        """C1, or the next name that is neither in the equation nor taken."""
         return free_constants(1, *self.entries, self.function, *taken)[0]
 
     @cached_property
     def place(self) -> Expr | None:
-        """Where solutions are to be real: at the value, else at 0, or half way to a pole on the right of it if 0 is one."""
+        """Where solutions are to be real: the point of the value, else 0, or half way to a pole on its right if 0 is one."""
         start, _ = self.value
         if start is not None or have_values(self.entries, self.x, _ZERO):
             return start or _ZERO
@@ -169,7 +162,7 @@ class FirstOrderEquation(OfFirstOrder):
 
     @cached_property
     def is_regular(self) -> bool:
-        """True without a value, and if the coefficients have values at its point, so that it determines one solution."""
+        """True without a value, or if the coefficients have values at its point, so that it determines one solution."""
         start, _ = self.value
         return start is None or have_values(self.entries, self.x, start)
 
@@ -184,8 +177,8 @@ def is_unit(coefficient: Expr, x: Expr, point: Expr) -> bool:
 
 def read_first_order(
     eq: Any, func: Any, var: str | None, limits: Limits, names: Collection[str] = ()
-) -> FirstOrderEquation | None:
-    """The equation, None if it isn't of this kind; `names` are declared.  Raises `InputError` for what can't be read."""
+) -> FirstOrderEquation:
+    """The equation; `names` are declared.  Raises `InputError` for what can't be read or is of another kind."""
     guesses: tuple[str, ...] = ()
     if isinstance(eq, str | Paste):
         unknown = None if func is None else str(func).partition("(")[0]
@@ -193,54 +186,54 @@ def read_first_order(
         guesses = source.guesses
         if source.tokens is not None and "OPERATOR" in source.tokens.kinds:  # (D + 2) y = 0
             (b, c, rest), _ = parts_of(source, limits, order=1)
-            function = sympy.Function(source.unknown)(sympy.Symbol(source.variable))
-            entries = (_quotient_by_terms(-rest, b), _quotient_by_terms(-c, b), *LINEAR)
-            return FirstOrderEquation((function,), entries, (), guesses)
-        eq = expression_of(source, limits)
-    if not isinstance(eq, sympy.Basic):
-        return None
+            func = sympy.Function(source.unknown)(Symbol(source.variable))
+            eq = b * func.diff() + c * func + rest
+        else:
+            eq = expression_of(source, limits)
+    _require_first_order(isinstance(eq, sympy.Basic))
     whole = exact(eq.lhs - eq.rhs if isinstance(eq, sympy.Equality) else eq)
     function = func if isinstance(func, AppliedUndef) else function_of(whole)
     t = function.args[0]
-    if len(function.args) != 1 or not t.is_Symbol or str(var or t) != str(t) or not is_finite(whole):
-        return None
-    found = _in_powers(whole, function)
-    return found and replace(found, guesses=guesses)
+    _require_first_order(len(function.args) == 1 and t.is_Symbol and str(var or t) == str(t) and is_finite(whole))
+    return FirstOrderEquation((function,), _in_powers(whole, function), (), guesses)
 
 
-def _in_powers(whole: Expr, function: Expr) -> FirstOrderEquation | None:
-    """From an expression that is zero: its numerator has w' times one power of w, and up to one power beside 1 and w."""
+def _require_first_order(holds: bool) -> None:
+    if not holds:
+        raise InputError("an equation w' = p + q w + r w^n is expected")
+
+
+def _in_powers(whole: Expr, function: Expr) -> tuple[Expr, Expr, Expr, Expr]:
+    """p, q, r, n of an expression that is zero: its numerator has w' times one power of w, and one power beside 1 and w."""
     x = function.args[0]
-    slope, w = sympy.Dummy(), sympy.Dummy()
+    slope, w = Dummy(), Dummy()
     plain = whole.subs(function.diff(x), slope).subs(function, w)
-    if any(e.has(slope, w, function.func) for e in plain.atoms(sympy.Derivative, AppliedUndef)):
-        return None
-    plain = sympy.expand(sympy.numer(sympy.together(plain)))
+    _require_first_order(not any(e.has(slope, w, function.func) for e in plain.atoms(sympy.Derivative, AppliedUndef)))
+    plain = expand(sympy.numer(sympy.together(plain)))
     plain = plain.replace(lambda e: e.is_Pow and e.base.has(w), lambda e: sympy.expand_power_base(e, force=True))
     coefficients = by_functions(plain, lambda f: not f.has(slope, w))
     leading, others = sympy.sift(coefficients, lambda f: f.has(slope), binary=True)
-    if len(leading) != 1 or leading[0].diff(slope).has(slope):
-        return None
+    _require_first_order(len(leading) == 1)
     below = leading[0].diff(slope)
     right = {f / below: _quotient_by_terms(-coefficients[f], coefficients[leading[0]]) for f in others}
     p, q = (right.pop(f, _ZERO) for f in (sympy.S.One, w))
     f, r = next(iter(right.items()), (w**2, _ZERO))
     base, power = f.as_base_exp()
-    if len(right) > 1 or base != w or power.has(x, w) or (power != 2 and p != 0):
-        return None
-    return FirstOrderEquation((function,), (p, q, r, sympy.cancel(power)))
+    is_of_this_form = len(right) < 2 and base == w and not power.has(x, w) and (power == 2 or p == 0)
+    _require_first_order(is_of_this_form and not below.has(slope))
+    return p, q, r, cancel(power)
 
 
 def _quotient_by_terms(numerator: Expr, denominator: Expr) -> Expr:
-    """In lowest terms, with letters for functions that jump, which SymPy can't cancel."""
-    return changed_beside(numerator.atoms(*JUMPING), numerator, lambda plain: sympy.cancel(plain / denominator))
+    """The quotient in lowest terms, with letters for functions that jump, which SymPy can't cancel."""
+    return changed_beside(numerator.atoms(*JUMPING), numerator, lambda plain: cancel(plain / denominator))
 
 
 # ------------------------------------------------------------------------------------------------------------ solving
 
 
-class Solved(NamedTuple):
-    """w(x), or x(t) and y(t), checked; what is to be said beside, zeros of denominators, and exceptions of the pair in it."""
+class CheckedSolution(NamedTuple):
+    """w(x), or x(t) and y(t), checked, with notices and zeros of denominators; `of_pair`: see `ProblemAnswer.exceptional`."""
 
     values: tuple[Expr, ...]
     notices: list[str]
@@ -248,57 +241,45 @@ class Solved(NamedTuple):
     of_pair: tuple[Expr, ...] = ()
 
 
-def solved_linear(equation: FirstOrderEquation, taken: Set[Expr] = frozenset()) -> Solved:
-    """The solution by (1); its constant isn't one of the symbols `taken`.
-
-    Raises `InputError` for a value that no solution has, and `NotImplementedError` where a question isn't decided.
-    """
-    p, q, x = equation.p, equation.q, equation.x
+def solved_linear(equation: FirstOrderEquation, taken: Set[Expr] = frozenset()) -> CheckedSolution:
+    """The solution by (1), with a constant that isn't `taken`.  Raises `InputError` for a value that no solution has."""
+    p, q, x, place = equation.p, equation.q, equation.x, equation.place
     start, _ = equation.value
-    place = equation.place
-    h = equation.homogeneous()
-    if place is not None:
-        h = starting_at(turned_at(place, h, (-q,), _ZERO, x), x, start)
+    h = starting_at(turned_at(place, equation.homogeneous(), (-q,), _ZERO, x), x, start)
     if start is not None and p == 0:
         h = _beside_value(h, x, start)
-    particular = _of_parts(in_parts(p, x), h, x, start)
-    if place is not None:
-        particular = turned_at(place, particular, (-q,), p, x)
-        in_factors = with_roots_of_factors(particular, x, place) if radicands(particular) else particular
-        if in_factors != particular and in_factors.is_rational_function(x):
-            particular = sympy.cancel(in_factors)
+    particular = turned_at(place, _of_parts(in_parts(p, x), h, x, start), (-q,), p, x)
+    in_factors = particular if place is None else with_roots_of_factors(particular, x, place)
+    if in_factors != particular and in_factors.is_rational_function(x):
+        particular = cancel(in_factors)
     constant = _constant_through(equation, h, particular, equation.constant(taken))
     whole = constant * h + particular
-    w = shortest([*sums(whole, x), h * (constant + sympy.powsimp(particular / h))])
+    w = shortest([*sums(whole, x), h * (constant + powsimp(particular / h))])
     if start is not None:
         w = with_letters_of_integration(in_book_form(w, x))
-    return Solved((w,), check_first_order(equation, w), zeros_of(w, x, (p, q)))
+    return CheckedSolution((w,), check_first_order(equation, w), zeros_of(w, x, (p, q)))
 
 
-def with_letters(answer: Any, own: Set[Expr]) -> tuple[Expr, tuple[Expr, ...]]:
-    """A solution with letters for C1 and C2, which may be symbols of a value or of its point, too; and these letters."""
-    letters = {symbol: sympy.Dummy(symbol.name) for symbol in sorted(answer.eq.rhs.free_symbols - own, key=str)}
+def with_letters_for_constants(answer: Any, own: Set[Expr]) -> tuple[Expr, tuple[Expr, ...]]:
+    """A solution with letters for C1 and C2, since a value or its point may have these symbols too; and the letters."""
+    letters = {symbol: Dummy(symbol.name) for symbol in sorted(answer.eq.rhs.free_symbols - own, key=str)}
     return answer.eq.rhs.xreplace(letters), tuple(letters.values())
 
 
 def zeros_of(w: Expr, x: Expr, coefficients: Sequence[Expr], of_pair: Iterable[Expr] = ()) -> list[Expr]:
-    """Denominators without x that may vanish for values of parameters at which the equation has no pole.
+    """Where w is exceptional though the equation isn't: irreducible factors of denominators without x, and `of_pair`."""
 
-    So may `of_pair`: where one of these vanishes, the two solutions in w are dependent.
-    """
-    given = _constant_denominators(sympy.Tuple(*coefficients), x)
-    others = dict.fromkeys([*_constant_denominators(w, x), *of_pair])
+    def constant_denominators(e: Expr) -> list[Expr]:
+        powers = (p for p in e.atoms(sympy.Pow) if p.exp.could_extract_minus_sign() and not p.base.has_free(x))
+        bases = {base for p in powers for base in ZeroSet(p.base).factors}
+        return sorted((b for b in bases if b.free_symbols <= e.free_symbols), key=str)  # no letter of integration
+
+    given = constant_denominators(sympy.Tuple(*coefficients))
+    others = dict.fromkeys([*constant_denominators(w), *of_pair])
     return [factor for factor in others if factor not in given and -factor not in given]
 
 
-def _constant_denominators(e: Expr, x: Expr) -> list[Expr]:
-    """The denominators without x that may be zero, by their irreducible factors."""
-    powers = (p for p in e.atoms(sympy.Pow) if p.exp.could_extract_minus_sign() and not p.base.has_free(x))
-    bases = {base for p in powers for base in ZeroSet(p.base).factors}
-    return sorted((b for b in bases if b.free_symbols <= e.free_symbols), key=str)  # no letter of integration
-
-
-#: c and h with h'/h = c f(u) for these functions f.
+#: For a function f: c and h with h'/h = f/c, c = 1 or -1.
 _ANTILOGARITHMS: dict[Any, tuple[int, Callable[[Expr], Expr]]] = {
     sympy.tanh: (1, cosh),
     sympy.coth: (1, sinh),
@@ -311,13 +292,10 @@ _ANTILOGARITHMS: dict[Any, tuple[int, Callable[[Expr], Expr]]] = {
 
 
 def _exponential_of_integral(q: Expr, x: Expr, start: Expr | None, place: Expr | None) -> Expr:
-    """h with h'/h = q: a product of powers and an exponential where q is rational beside tan(k x), tanh(k x), ...
-
-    Powers are real at the place, unless q is singular there; integrals begin at the start.
-    """
-    own = {sympy.Symbol(symbol.name): symbol for symbol in q.free_symbols}
+    """h with h'/h = q, for a rational q, with c tan(k x), c tanh(k x), ..., a product of powers that are real at `place`."""
+    own = {Symbol(symbol.name): symbol for symbol in q.free_symbols}
     rest, powers = [], []
-    for term in sympy.Add.make_args(sympy.expand(q)):
+    for term in sympy.Add.make_args(expand(q)):
         c, f = term.as_independent(x, as_Add=False)
         slope = f.args[0].diff(x) if f.func in _ANTILOGARITHMS else x
         if slope.has(x):
@@ -332,12 +310,12 @@ def _exponential_of_integral(q: Expr, x: Expr, start: Expr | None, place: Expr |
         is_known = place is not None and have_values([q], x, place)
         atoms = Atoms(x, at=place if is_known else None, own=lambda e: e.xreplace(own))
         h = display(product(rate), atoms).xreplace(NUMBERS | own)
-        return h.replace(lambda e: e.is_Add, sympy.expand)  # as in p
-    return sympy.exp(_of_parts(in_parts(q, x), sympy.Integer(1), x, start))
+        return h.replace(lambda e: e.is_Add, expand)  # as in p
+    return sympy.exp(_of_parts(in_parts(q, x), Integer(1), x, start))
 
 
 def _beside_value(h: Expr, x: Expr, start: Expr) -> Expr:
-    """With (u(x)/u(a))^e for u^e, real on the side of a, where letters leave the sign of u(a) open."""
+    """h with (u(x)/u(a))^e for u^e, real on the side of a, where the sign of u(a) depends on letters."""
 
     def is_open(e: Expr) -> bool:
         there = e.base.subs(x, start) if e.is_Pow and e.base.has(x) and not e.exp.is_Integer else _ZERO
@@ -347,7 +325,7 @@ def _beside_value(h: Expr, x: Expr, start: Expr) -> Expr:
 
 
 def _of_parts(p: Apart, h: Expr, x: Expr, start: Expr | None) -> Expr:
-    """h int p/h dx, where an integral that isn't known begins at `start`; steps and impulses in p are taken one by one.
+    """h int p/h dx, with steps and impulses in p one by one; an integral that isn't found begins at `start`.
 
     g H(x - a) gives H(x - a) h int_a^x g/h, and s delta(x - a) gives H(x - a) s h(x)/h(a).
     """
@@ -366,16 +344,16 @@ def _integrated(p: Expr, h: Expr, x: Expr, start: Expr | None) -> Expr:
     """h int p/h dx."""
     if p == 0:
         return _ZERO
-    integral = antiderivative(sympy.powsimp(p / h), x, start)
+    integral = antiderivative(powsimp(p / h), x, start)
     if integral is not None and not jumps(h * integral, x, [h, 1 / h, p]):
         if (p / h).has(sinh, cosh):
             integral = in_hyperbolic_functions(integral)
-        return starting_at(shortest([sympy.powsimp(sympy.expand(h * integral)), h * integral]), x, start)
-    return starting_at(h * sympy.Integral(sympy.powsimp(sympy.expand(p / h)), x), x, start)
+        return starting_at(shortest([powsimp(expand(h * integral)), h * integral]), x, start)
+    return starting_at(h * sympy.Integral(powsimp(expand(p / h)), x), x, start)
 
 
 def _constant_through(equation: FirstOrderEquation, h: Expr, particular: Expr, free: Expr) -> Expr:
-    """C with C h(a) + particular(a) = v; `free` where every C gives it, at a singular point a, and without a value."""
+    """C with C h(a) + particular(a) = v; `free` without a value, and if every C satisfies it, at a singular point a."""
     x = equation.x
     a, v = equation.value
     if a is None:
@@ -386,7 +364,7 @@ def _constant_through(equation: FirstOrderEquation, h: Expr, particular: Expr, f
         raise InputError(f"at most one solution is finite at {a}, a singular point of the equation")
     rest, there = v - value_at(particular, x, a), value_at(h, x, a)
     if equation.is_regular or not is_zero(there):
-        return sympy.powsimp(rest / there)
+        return powsimp(rest / there)
     if is_zero(rest):
         return free
     raise _without_value(a)
@@ -396,18 +374,15 @@ def _without_value(a: Expr) -> InputError:
     return InputError(f"there is no solution with this value at {a}, a singular point of the equation")
 
 
-# ------------------------------------------------------------------------------------------------------------- check
-
-
 def check_first_order(equation: FirstOrderEquation, w: Expr) -> list[str]:
-    """One sentence per check that could not be carried out.  Raises `VerificationFailed` where w is seen to be wrong.
+    """One sentence per check that could not be carried out.  Raises `VerificationFailed` if w is wrong.
 
-    w' - (q + r w^(n - 1)) w = p, where w^(n - 1) is u^(k (n - 1)) for w = u^k: it holds for u > 0.
+    The claim is w' - (q + r w^(n - 1)) w = p, where w^(n - 1) is u^(k (n - 1)) for w = u^k: it holds for u > 0.
 
-    Raises `InputError` where w hasn't the value at a singular point, as no solution needs to have it.
+    Raises `InputError` if w doesn't have the given value at a singular point, where there may be no such solution.
     """
     u, k = w.as_base_exp()
-    rate = equation.q + equation.r * u ** sympy.cancel(k * (equation.power - 1))
+    rate = equation.q + equation.r * u ** cancel(k * (equation.power - 1))
     coefficients = (_ZERO, Integer(1), -rate, equation.p)
     try:
         return SolutionClaim(equation.x, w, coefficients, equation.conditions, equation.reading).check()

@@ -1,4 +1,4 @@
-"""A basis of the solutions of the homogeneous equation: Liouvillian, or in special functions; and why there is none."""
+"""A basis of the solutions of the homogeneous equation: Liouvillian, or in special functions; or the reason for having none."""
 
 from __future__ import annotations
 
@@ -8,6 +8,7 @@ from functools import partial
 from typing import Any
 
 import sympy
+from sympy import Symbol
 
 from kovacic.algebra.function_field import FunctionPoly
 from kovacic.closed_form.check import are_independent
@@ -33,12 +34,10 @@ from kovacic.special.search import BySign, by_sign, special_functions
 from kovacic.special.writer import Wanted, WrittenPair
 
 Expr = Any  # SymPy publishes no types
-#: How many sets of values of parameters are said.
-_MOST_REGIONS = 6
 
 
 class NothingKnown(NotImplementedError):
-    """No solutions are known; `is_proven` says whether it is proven that none is Liouvillian."""
+    """No solutions are known; `is_proven` is True if it is proven that none is Liouvillian."""
 
     def __init__(self, reason: str, *, is_proven: bool) -> None:
         super().__init__(reason)
@@ -46,17 +45,17 @@ class NothingKnown(NotImplementedError):
 
 
 def find_basis(question: Question, budget: Budget, *, special: bool = False) -> Basis:
-    """Liouvillian solutions if there are any, unless `special`; else special functions.
-
-    Raises `NotImplementedError` without.
-    """
-    solution = decide(question, budget)
+    """Liouvillian solutions if there are any, unless `special`; else special functions.  Raises `NotImplementedError`."""
+    known, limits = question.assumptions, budget.share(1).limits
+    solution = solve(question.equation, limits=limits)
+    if solution.status is Status.NONE_EXISTS and known.concerns_exponents:
+        solution = solve(question.equation, assume=known.to_dict(), limits=limits)
     if solution.case is not None and not special:
         is_changed = question.equation.change is not None
         form = solutions(
             solution.S, solution.decision, solution.gauge, solution.variable, budget, is_changed=is_changed
         )
-        # under the assumptions on letters
+        # with what is assumed of letters
         below = [question.own(b) for f in sympy.Tuple(*form).atoms(sympy.hyper) for b in f.bq]
         has_poles = any(b.is_integer and not b.is_positive for b in below)
         if not has_poles and not any(question.own(condition) == 0 for condition in form.undefined):
@@ -76,7 +75,7 @@ def _basis(question: Question, solution: Solution, pair: WrittenPair) -> Basis:
     """The solutions in the user's variable."""
     equation = question.equation
     if is_in_power(equation):  # whose exponent has plain symbols
-        plain = {symbol: sympy.Symbol(name) for name, symbol in question.parameters.items()}
+        plain = {symbol: Symbol(name) for name, symbol in question.parameters.items()}
         pair = pair.mapped(lambda e: e.xreplace(plain))
     y1, y2 = (y.xreplace(NUMBERS) for y in pair_in_x(equation, *pair))
     rests_on = (equation, question.own, partial(_stated, equation, pair), pair.undefined, solution)
@@ -93,9 +92,9 @@ def _basis(question: Question, solution: Solution, pair: WrittenPair) -> Basis:
 
 
 def _stated(equation: Equation, pair: WrittenPair) -> Expr | None:
-    """The Wronskian in the user's variable, of members without the constants that `solution_in_x` drops."""
+    """The Wronskian in the user's variable of the members as `solution_in_x` writes them, up to constant factors; or None."""
     W = pair.wronskian
-    if W is None or equation.change is None or not sympy.Tuple(*pair).has(sympy.Symbol(equation.variable)):
+    if W is None or equation.change is None or not sympy.Tuple(*pair).has(Symbol(equation.variable)):
         return W
     if any(is_turned(equation, y) for y in pair):  # by constants that are left out
         return None
@@ -111,20 +110,8 @@ def _stated(equation: Equation, pair: WrittenPair) -> Expr | None:
     return in_x(equation, W) * slope * constants if short is None else short
 
 
-def decide(question: Question, budget: Budget) -> Solution:
-    """What the engine says, with the assumptions where they may matter."""
-    found = solve(question.equation, limits=budget.share(1).limits)
-    known = question.assumptions
-    if found.status is Status.NONE_EXISTS and known.concerns_exponents:
-        return solve(question.equation, assume=known.to_dict(), limits=budget.share(1).limits)
-    return found
-
-
 def _in_special_functions(question: Question, solution: Solution, budget: Budget) -> WrittenPair | BySign:
-    """Special functions, or Mathieu's; analytic at ordinary points, where Bessel's functions of roots would jump.
-
-    By the sign of an integer where that is what is known; or where it gives names, and these or their behaviour is asked for.
-    """
+    """Special functions, analytic at ordinary points; by the sign of an integer if that is needed, or gives shorter ones."""
     is_positive = all(e.is_positive for e in (question.function.args[0], *given_points(question)))
     has_values = bool(question.conditions) and not limit_points(question)  # all at ordinary points
     places = _real_places(question)
@@ -135,10 +122,10 @@ def _in_special_functions(question: Question, solution: Solution, budget: Budget
     pair = found.pair
     if has_values and any(symbol.is_integer for symbol in question.parameters.values()):
         of_any_letters = special_functions(replace(request, symbols={}), budget)
-        pair = _without_exceptions(of_any_letters.pair, sympy.Symbol(solution.variable)) or pair
-    # no particular solution is asked for
-    is_asked = question.equation.is_homogeneous and not has_values
-    if pair is None or is_asked:
+        pair = _without_exceptions(of_any_letters.pair, Symbol(solution.variable)) or pair
+    # neither a particular solution nor a value is needed
+    is_bare = question.equation.is_homogeneous and not has_values
+    if pair is None or is_bare:
         halves = by_sign(request, budget)
         if halves is not None:
             return halves
@@ -148,15 +135,15 @@ def _in_special_functions(question: Question, solution: Solution, budget: Budget
     if pair is None:
         reason = f"{no_solution(solution, question.assumptions)}; {found}"
         raise NothingKnown(reason, is_proven=solution.status is Status.NONE_EXISTS)
-    if is_positive and is_asked:
+    if is_positive and is_bare:
         pair = _without_second_kind(pair)
-    if solution.case is not None and not are_independent(pair.y1, pair.y2, sympy.Symbol(solution.variable)):
+    if solution.case is not None and not are_independent(pair.y1, pair.y2, Symbol(solution.variable)):
         raise NotImplementedError(f"{no_solution(solution, question.assumptions)}; {found}")
     return pair
 
 
 def _real_places(question: Question) -> tuple[Fraction, ...]:
-    """Values of the variable at which solutions are to be real: that at which the conditions are, if it is rational."""
+    """Values of the variable at which solutions are to be real: the point of the conditions, if it is rational."""
     equation = question.equation
     if question.conditions and equation.change is None:
         start = start_of(question, limit_points(question))
@@ -166,7 +153,7 @@ def _real_places(question: Question) -> tuple[Fraction, ...]:
 
 
 def _without_exceptions(pair: WrittenPair | None, x: Expr) -> WrittenPair | None:
-    """A pair that is defined and independent for all values of the letters, as that about an ordinary point; else None."""
+    """The pair if it is defined and independent for all values of the letters, like one about an ordinary point; else None."""
     if pair is None or pair.undefined or pair.wronskian is None:
         return None
     constant = pair.wronskian.as_independent(x, as_Add=False)[0]
@@ -184,7 +171,7 @@ def _without_second_kind(pair: WrittenPair) -> WrittenPair:
 
 
 def no_solution(solution: Solution, known: Assumptions = NOTHING_ASSUMED) -> str:
-    """Why there is no closed form, in a sentence; with parameters, for which values there is one."""
+    """The reason for having no closed form; with parameters, the values for which there is one."""
     if solution.status is Status.UNDECIDED:
         return f"undecided: {solution.reason}"
     names = ", ".join(parameters_of(solution.S.field))
@@ -199,8 +186,6 @@ def no_solution(solution: Solution, known: Assumptions = NOTHING_ASSUMED) -> str
     is_complete = found.complete is True
     regions = [region for region in found.regions if region.case is not None and region.defined]
     if regions:
-        listed = [f"{region.statement} (case {region.case})" for region in regions[:_MOST_REGIONS]]
-        if not is_complete or len(regions) > _MOST_REGIONS:
-            listed.append("...")
-        return f"{said}\nthere is one where {'; '.join(listed)}: give such values"
+        listed = "; ".join(f"{region.statement} (case {region.case})" for region in regions)
+        return f"{said}\nthere is one where {listed}{'' if is_complete else '; ...'}: substitute such values"
     return f"{said}; nor is there for any others ({found.theory})" if is_complete else said

@@ -1,6 +1,6 @@
-"""Integrands as the engine reads them, products of powers and exponentials and rational functions, and their integrals.
+"""Integrals of rational functions, and of products of powers and exponentials, by the engine; and those in special functions.
 
-Others are special functions: incomplete gamma and Fresnel functions, dilogarithms, complex exponentials.
+These are incomplete gamma functions, hypergeometric series, dilogarithms, and complex exponentials for waves.
 
 References: DLMF 7.2(iii), 8.2, 25.12.
 """
@@ -10,11 +10,10 @@ from __future__ import annotations
 from collections.abc import Callable, Iterable
 from contextlib import suppress
 from dataclasses import dataclass
-from functools import partial
 from typing import Any
 
 import sympy
-from sympy import cos, cot, csc, exp, log, sec, sin, tan
+from sympy import Add, cancel, cos, cot, csc, exp, expand, log, pi, powsimp, sec, sin, sqrt, tan
 from sympy.functions.elementary.hyperbolic import HyperbolicFunction
 from sympy.simplify.fu import TR1, TR2
 
@@ -26,36 +25,34 @@ from kovacic.closed_form.integrals import integral, logarithms
 from kovacic.closed_form.product import product
 from kovacic.equation import EULER, PI
 from kovacic.errors import InputError
-from kovacic.general_solution.substitution import changed_beside, expanded_size, size
-from kovacic.limits import check_duration
+from kovacic.general_solution.substitution import changed_beside, expanded_size
+from kovacic.limits import check_duration, manageable
 from kovacic.reading.read import read_input
 
 Expr = Any  # SymPy publishes no types
 #: SymPy's time for a subexpression of what it expands.
 _PART_SECONDS = 2e-5
-#: The longest constant with parameters that is written in one form, in subexpressions.
-_LONGEST = 200
 #: The numbers that are parameters in coefficients.
-NUMBERS = {sympy.Symbol(PI): sympy.pi, sympy.Symbol(EULER): sympy.E}
-#: More complex exponentials than these are harder to read than the integral.
-_MOST_EXPONENTIALS = 4
+NUMBERS = {sympy.Symbol(PI): pi, sympy.Symbol(EULER): sympy.E}
+#: A sum of more functions of complex arguments is harder to read than the integral that it equals.
+MOST_COMPLEX = 4
 
 
 class UnknownIntegral(Exception):
-    """An integral isn't found in the way that was tried."""
+    """The method that was tried doesn't find the integral."""
 
 
 def require(holds: Any) -> None:
-    """Raises `UnknownIntegral` where a condition for a way to an integral doesn't hold."""
+    """Raise `UnknownIntegral` unless a condition of a method holds."""
     if not holds:
         raise UnknownIntegral
 
 
-def first_known(attempts: Iterable[Callable[[], Expr]]) -> Expr:
-    """The integral by the first attempt that succeeds.  Raises `UnknownIntegral` if none does."""
-    for attempt in attempts:
+def first_known(methods: Iterable[Callable[..., Expr]], *arguments: Expr) -> Expr:
+    """The integral by the first method that finds it.  Raises `UnknownIntegral` if none does."""
+    for method in methods:
         with suppress(UnknownIntegral):
-            return attempt()
+            return method(*arguments)
     raise UnknownIntegral
 
 
@@ -69,14 +66,15 @@ class ChangeOfIntegrand:
     u: Expr
 
     def back(self, found: Expr) -> Expr:
-        """A function of t in x; with powers of v for exponentials of r t + s where u = log(v), but exp(-t^2) stays one."""
-        if isinstance(self.u, exp):
-            found = found.subs(log(self.t), self.u.args[0])
+        """A function of t in x; with v^r e^s for e^(r t + s) where u = log(v), but exp(-t^2) stays an exponential."""
+        v = self.u.args[0]
 
         def power(e: Expr) -> Expr:
             rate = e.diff(self.t)
-            return exp(e) if rate.has(self.t) else self.u.args[0] ** rate * exp(e.subs(self.t, 0))
+            return exp(e) if rate.has(self.t) else v**rate * exp(e.subs(self.t, 0))
 
+        if isinstance(self.u, exp):
+            found = found.subs(log(self.t), v)
         if isinstance(self.u, log):
             found = found.replace(exp, power)
         return found.subs(self.t, self.u)
@@ -89,19 +87,19 @@ def prepared(integrand: Expr) -> Expr:
         integrand = TR2(TR1(integrand))
     # SymPy would multiply (x + 1)^(-3/2) out, in the denominator, and write log(x/(1 - x) + 1/(1 - x)).
     quotients = [f for f in integrand.atoms(log) if f.args[0].is_Mul and sympy.denom(f.args[0]).is_Add]
-    roots = [power for power in integrand.atoms(sympy.Pow) if power.exp.is_Rational and not power.exp.is_Integer]
-    powers = [power for power in roots if power.exp < -1 and power.base.is_Add]
+    roots = [p for p in integrand.atoms(sympy.Pow) if p.exp.is_Rational and not p.exp.is_Integer]
+    powers = [root for root in roots if root.exp < -1 and root.base.is_Add]
 
     def expanded(rest: Expr) -> Expr:
         check_duration(_PART_SECONDS * expanded_size(rest), "expanding an integrand")
-        return sympy.expand(rest, power_exp=False)
+        return expand(rest, power_exp=False)
 
     return changed_beside((*quotients, *powers), integrand, expanded)
 
 
 def radicands(expression: Expr) -> list[Expr]:
-    """What stands under roots: the bases of its powers with exponents that are fractions."""
-    return [p.base for p in expression.atoms(sympy.Pow) if p.exp.is_Rational and not p.exp.is_Integer]
+    """The bases of its powers with fractions as exponents."""
+    return [power.base for power in expression.atoms(sympy.Pow) if power.exp.is_Rational and not power.exp.is_Integer]
 
 
 def integral_of_product(term: Expr, x: Expr) -> Expr:
@@ -114,86 +112,72 @@ def integral_of_product(term: Expr, x: Expr) -> Expr:
     require(functions or len(parts) != 1 or all(n.diff(x).has(x) for n, _ in split.values()))
     for base, (n, d) in split.items():
         term = term.replace(lambda e: e.is_Pow and e.base == base, lambda e: n**e.exp * d**-e.exp)  # noqa: B023
+    polynomials = [sympy.Poly(base, x) for base in radicands(term) if base.has(x) and base.is_polynomial(x)]
     # roots of a - x and the like are real for x -> -oo
-    odd = [polynomial for polynomial in _polynomial_radicands(term, x) if polynomial.degree() % 2]
+    odd = [polynomial for polynomial in polynomials if polynomial.degree() % 2]
     if odd and all(polynomial.LC().is_negative for polynomial in odd):
         return -integral_of_product(term.subs(x, -x), x).subs(x, -x)
-    return _integral_by_rate(term, x)
-
-
-def _integral_by_rate(term: Expr, x: Expr) -> Expr:
-    """int g dx for g = K h with a rational h'/h: K int h dx."""
-    rate = ratfunc(_rate(term, x), x)
-    if rate is None:
-        raise UnknownIntegral
-    polynomials = _polynomial_radicands(term, x)
     at = None
     if polynomials and all(p.LC().is_positive for p in polynomials):
         at = sympy.oo  # where sqrt(x^2 - 1) and the like are real
     elif polynomials and not any(p.free_symbols_in_domain for p in polynomials):
         at = common_place(x, {p: p.as_expr() for p in polynomials})
+    # the term is a constant times h, which has its logarithmic derivative
     atoms = Atoms(x, at=at)
-    h = product(rate)
+    h = product(_as_ratfunc(logarithmic_derivative(term, x), x))
     scale, shown = factors(h, atoms)
     # SymPy's arithmetic with algebraic numbers takes minutes
     found = None if sympy.Tuple(*shown).has(sympy.CRootOf) else integral(h, atoms)
     if found is None:
         raise UnknownIntegral
-    return sympy.expand(_constant_value(term, scale * sympy.Mul(*shown), x) * found, deep=False)
+    return expand(_constant_value(term, scale * sympy.Mul(*shown), x) * found, deep=False)
 
 
 def _constant_value(term: Expr, other: Expr, x: Expr) -> Expr:
-    """The value of a ratio that doesn't depend on x, where it has one, and the term a real one if it can be."""
+    """The constant term/other, at a point where it has a value and the term a real one, if possible."""
     points = (2, 3, 5, sympy.S.Half, -sympy.S.Half)
     for point in sorted(points, key=lambda point: term.subs(x, point).is_real is False):
-        value = sympy.powsimp((term / other).subs(x, point))
-        if value.free_symbols and size(value) <= _LONGEST:  # without terms that cancel
-            value = sympy.cancel(value)
+        value = powsimp((term / other).subs(x, point))
+        if value.free_symbols and manageable(value):  # without terms that cancel
+            value = cancel(value)
         if value != 0 and not value.has(sympy.nan, sympy.zoo):
             return value
     raise UnknownIntegral
 
 
-def _polynomial_radicands(term: Expr, x: Expr) -> list[Expr]:
-    """Polynomials in x whose roots are factors."""
-    return [sympy.Poly(base, x) for base in radicands(term) if base.has(x) and base.is_polynomial(x)]
-
-
-def _rate(g: Expr, x: Expr) -> Expr:
-    """The logarithmic derivative, by factors; that of t (1 + u/t + ...) for a sum t + u + ..."""
-    first, *others = sympy.Add.make_args(g)
-    quotients = ((term / first).replace(exp, lambda u: exp(sympy.cancel(u))) for term in others)
-    whole = sympy.Add(1, *quotients)
-    rate = whole.diff(x) / whole
-    for base, e in first.as_powers_dict().items():
-        if not base.has(x):
-            rate += e.diff(x) * log(base)
-        elif base.is_Add and base.has(exp) and e.is_Rational:  # as in exp(-x)/(x + 1), which SymPy expands
-            rate += e * _rate(base, x)
-        else:
-            rate += e * base.diff(x) / base
-    return rate
+def logarithmic_derivative(e: Expr, x: Expr) -> Expr:
+    """e'/e by factors, in a short form."""
+    if isinstance(e, cos):
+        return -e.args[0].diff(x) * tan(e.args[0])
+    if e.is_Mul:
+        return Add(*(logarithmic_derivative(part, x) for part in e.args))
+    if e.is_Pow and not e.exp.has(x):
+        return e.exp * logarithmic_derivative(e.base, x)
+    rate = e.diff(x) / e
+    return cancel(rate) if rate.is_rational_function(x) else powsimp(sympy.factor_terms(rate))
 
 
 def integral_of_fraction(g: Expr, x: Expr) -> Expr:
     """By partial fractions, for a rational function of x."""
     K, rest = g.as_independent(x, as_Add=False)  # roots of numbers in a factor stay as they are
-    r = ratfunc(rest, x)
-    if r is None:
-        raise UnknownIntegral
     atoms = Atoms(x)
-    parts = decompose(r)
-    return K * (atoms.sum(parts.exact) + sympy.Add(*logarithms(parts.residues, atoms))).xreplace(NUMBERS)
+    parts = decompose(_as_ratfunc(rest, x))
+    return K * (atoms.sum(parts.exact) + Add(*logarithms(parts.residues, atoms))).xreplace(NUMBERS)
 
 
 def ratfunc(expression: Expr, x: Expr) -> RatFunc | None:
-    """A rational function, over a field with pi as a parameter; None for anything else."""
-    if not expression.is_rational_function(x):
-        return None
+    """The expression as a rational function, pi and e being parameters of its field; None for other expressions."""
+    with suppress(UnknownIntegral):
+        return _as_ratfunc(expression, x)
+    return None
+
+
+def _as_ratfunc(expression: Expr, x: Expr) -> RatFunc:
+    require(expression.is_rational_function(x))
     try:
         return read_input(expression, var=x.name).S
     except InputError:
-        return None
+        raise UnknownIntegral from None
 
 
 # -------------------------------------------------------------------------------------------------- special functions
@@ -220,13 +204,13 @@ def incomplete_gamma(term: Expr, x: Expr) -> Expr:
     # exp(d + c t^m) for t = a x + b
     t = sympy.Dummy()
     d, c, m = _single_power(exponent.subs(x, (t - line.subs(x, 0)) / slope), t)
-    e = sympy.cancel((s + 1) / m)
+    e = cancel((s + 1) / m)
     if e == sympy.S.Half:  # u = t^(s+1): t^s dt is du/(s + 1)
-        function, root = (sympy.erf, sympy.sqrt(-c)) if is_seen_negative(c) else (sympy.erfi, sympy.sqrt(c))
-        found = sympy.sqrt(sympy.pi) * function(root * t ** (s + 1)) / (2 * root * (s + 1))
+        function, root = (sympy.erf, sqrt(-c)) if is_seen_negative(c) else (sympy.erfi, sqrt(c))
+        found = sqrt(pi) * function(root * t ** (s + 1)) / (2 * root * (s + 1))
     elif is_seen_negative(c) or e.is_Integer:  # for an integer e it is elementary, or has Ei
         z = -c * t**m
-        found = -sympy.powsimp(t ** (s + 1) * z**-e) * sympy.uppergamma(e, z) / m
+        found = -powsimp(t ** (s + 1) * z**-e) * sympy.uppergamma(e, z) / m
     else:
         found = t ** (s + 1) / (s + 1) * hypergeometric((e,), (e + 1,), c * t**m)
     return (K / slope * exp(d) * found).xreplace({t: line})
@@ -250,8 +234,8 @@ def power_beside_wave(term: Expr, x: Expr) -> Expr:
     require(wave.func in (sin, cos) and base == x and not s.has(x))
     d, c, m = _single_power(wave.args[0], x)
     if wave.func is cos:  # sin(u + d) = sin(u) cos(d) + cos(u) sin(d)
-        d += sympy.pi / 2
-    e = sympy.cancel((s + 1) / m)
+        d += pi / 2
+    e = cancel((s + 1) / m)
     require(not any(value.is_Integer and not value.is_positive for value in (e / 2, (e + 1) / 2)))  # a logarithm
     z = -((c * x**m) ** 2) / 4
     half = sympy.S.Half
@@ -262,7 +246,7 @@ def power_beside_wave(term: Expr, x: Expr) -> Expr:
 
 def _single_power(e: Expr, t: Expr) -> tuple[Expr, Expr, Expr]:
     """d, c and m with e = d + c t^m."""
-    d, single = sympy.expand(e).as_independent(t, as_Add=True)
+    d, single = expand(e).as_independent(t, as_Add=True)
     c, power = single.as_independent(t, as_Add=False)
     base, m = power.as_base_exp()
     require(base == t and not m.has(t) and m != 0)
@@ -287,7 +271,7 @@ def dilogarithm(u: Expr, g: Expr, x: Expr) -> Expr | None:
     s = u.subs(x, x - base / slope).expand()
     if s == 0 or s.has(x):
         return None
-    w = sympy.expand(u / s)
+    w = expand(u / s)
     if s.is_positive:
         return k / slope * (log(s) * log(base) - sympy.polylog(2, 1 - w))
     return k / slope * (log(u) * log(1 - w) + sympy.polylog(2, w))
@@ -295,7 +279,6 @@ def dilogarithm(u: Expr, g: Expr, x: Expr) -> Expr | None:
 
 def in_complex_exponentials(term: Expr, x: Expr) -> Expr:
     """Waves as sums of exponentials: Ei, error functions and incomplete gamma functions of complex arguments."""
-    parts = sympy.Add.make_args(sympy.expand(term.rewrite((sin, cos), exp), power_exp=False))
-    require(term.has(sin, cos) and len(parts) <= _MOST_EXPONENTIALS)
-    rules = (integral_of_product, incomplete_gamma)
-    return sympy.Add(*(first_known(partial(rule, part, x) for rule in rules) for part in parts))
+    parts = Add.make_args(expand(term.rewrite((sin, cos), exp), power_exp=False))
+    require(term.has(sin, cos) and len(parts) <= MOST_COMPLEX)
+    return Add(*(first_known((integral_of_product, incomplete_gamma), part, x) for part in parts))

@@ -1,4 +1,4 @@
-"""A particular solution of an inhomogeneous equation, by the cheapest way that there is.
+"""A particular solution of an inhomogeneous equation, by the cheapest method that applies.
 
 Step functions and impulses: with W = y1 y2' - y1' y2 and the kernel K(x, a) = (y1(a) y2(x) - y2(a) y1(x))/W(a), the solution of
 y'' + b y' + c y = 0 with K = 0 and K' = 1 at x = a, a solution for
@@ -29,7 +29,7 @@ from typing import Any
 
 import sympy
 from flint import arb
-from sympy import DiracDelta, Heaviside, cos, cosh, exp, expand, log, powsimp, sin, sinh, sympify
+from sympy import Add, DiracDelta, Heaviside, Symbol, cos, cosh, exp, expand, log, powsimp, sin, sinh, sympify
 from sympy.core.function import AppliedUndef
 
 from kovacic.algebra.factors import combination
@@ -48,7 +48,7 @@ from kovacic.general_solution.basis import Basis
 from kovacic.general_solution.behaviour import have_values, value_at, values_at
 from kovacic.general_solution.check import is_finite, jumps
 from kovacic.general_solution.constants import tidy
-from kovacic.general_solution.integrands import NUMBERS, ChangeOfIntegrand, prepared, ratfunc
+from kovacic.general_solution.integrands import MOST_COMPLEX, NUMBERS, ChangeOfIntegrand, prepared, ratfunc
 from kovacic.general_solution.steps import JUMPING, in_parts
 from kovacic.general_solution.substitution import by_functions, size
 from kovacic.general_solution.textbook import is_constant
@@ -58,18 +58,12 @@ from kovacic.general_solution.zero import points, residual
 from kovacic.reading.change_of_variable import slope_squared
 
 Expr = Any  # SymPy publishes no types
-#: The most terms of a right-hand side that are treated one by one.
-_LARGEST_SUM = 30
-#: Functions that appear with complex arguments, and how many of these are better than an integral.
-_COMPLEX = (sympy.Ei, sympy.expint, sympy.erf, sympy.erfi, sympy.uppergamma, sympy.lowergamma)
-_MOST_COMPLEX = 4
+#: Functions that integrals have with complex arguments.
+_OF_COMPLEX_ARGUMENTS = (sympy.Ei, sympy.expint, sympy.erf, sympy.erfi, sympy.uppergamma, sympy.lowergamma)
 
 
 def particular_solution(basis: Basis, start: Expr | None) -> Expr:
-    """A polynomial, by undetermined coefficients, or by variation of parameters, whose integrals begin at `start`.
-
-    Raises `NotImplementedError` for an impulse at a singular point.
-    """
+    """A solution, with integrals from `start` on.  Raises `NotImplementedError` for an impulse at a singular point."""
     right = right_hand_side(basis.equation)
     if right == 0:
         return sympy.Integer(0)
@@ -77,15 +71,13 @@ def particular_solution(basis: Basis, start: Expr | None) -> Expr:
     total = [_step_response(g, basis, a) for a, g in apart.steps.items()]
     total += [_impulse_response(strengths, basis, a) for a, strengths in apart.impulses.items()]
     if apart.plain != 0:
-        total.append(_solved(basis, apart.plain, start))
-    return sympy.Add(*total)
+        total.append(_plain_response(basis, apart.plain, start))
+    return Add(*total)
 
 
 def right_hand_side(equation: Equation) -> Expr:
     """F of y'' + B y' + C y = F, in the user's variable."""
-    if equation.is_homogeneous:
-        return sympy.Integer(0)
-    t = sympy.Symbol(equation.variable)
+    t = Symbol(equation.variable)
     a = Atoms(t).ratio(equation.a).xreplace(NUMBERS)
     f = Atoms(t).sum(equation.f).xreplace(NUMBERS)
     h = sympy.sympify(equation.h or 0).xreplace(NUMBERS)
@@ -96,36 +88,33 @@ def right_hand_side(equation: Equation) -> Expr:
     return in_x(equation, sympy.factor(f / a * slope_squared(equation))) + h
 
 
-def _solved(basis: Basis, right: Expr, start: Expr | None) -> Expr:
-    """A solution for a right-hand side without jumps, by the cheapest way, and integrals from a point on where they stay."""
+def _plain_response(basis: Basis, right: Expr, start: Expr | None) -> Expr:
+    """A solution for a right-hand side without jumps; integrals that stay begin at `start`."""
     found = None
     with suppress(LimitExceeded):
         found = _without_integrals(basis, right)
     if found is None:
         found = with_integrals(basis, right, start)
     is_open = found.has(sympy.Integral) and basis.equation.change is None
-    terms = sympy.Add.make_args(prepared(right)) if is_open else ()
+    terms = Add.make_args(prepared(right)) if is_open else ()
     # not exp(x)/x and 1/x apart, which aren't defined at 0, where the difference may be
-    if not 1 < len(terms) <= _LARGEST_SUM or not (start is None or have_values(terms, basis.x, start)):
+    if len(terms) < 2 or not (start is None or have_values(terms, basis.x, start)):
         return found
-    parts = {_solved(basis, term, start): term for term in terms}
+    parts = {_plain_response(basis, term, start): term for term in terms}
     left, known = sympy.sift(parts, lambda part: part.has(sympy.Integral), binary=True)
     if left and known:
-        known.append(with_integrals(basis, sympy.Add(*map(parts.get, left)), start))
-    return sympy.Add(*known) if known else found
+        known.append(with_integrals(basis, Add(*map(parts.get, left)), start))
+    return Add(*known) if known else found
 
 
 def _without_integrals(basis: Basis, right: Expr) -> Expr | None:
-    """A polynomial in the variable of the equation, in which the whole right-hand side is rational.
-
-    Or by undetermined coefficients, of an equation in x with constant coefficients, or of Euler's.
-    """
+    """A polynomial in the equation's variable, or by undetermined coefficients (also Euler's equations); else None."""
     x = basis.x
     equation = basis.equation
     in_t = None if equation.h else equation.f / equation.a
     polynomial = _polynomial_solution(equation, ratfunc(right, x) if equation.change is None else in_t)
     if polynomial is not None:
-        t = Atoms(sympy.Symbol(equation.variable))
+        t = Atoms(Symbol(equation.variable))
         found = in_x(equation, t.poly(polynomial).xreplace(NUMBERS))
         return _without_homogeneous(basis, expand(in_waves(found))) if found.has(sympy.I) else found
     if equation.change is not None:
@@ -152,13 +141,13 @@ def _of_euler(basis: Basis, b: Expr, c: Expr, right: Expr) -> Expr | None:
     if any(is_seen_negative(cut.subs(x, root + 1)) for cut in cuts):  # real on the left of the root
         u, m = -u, -m
     t = sympy.Dummy(real=True)
-    inner = right.subs(x, (sympy.exp(t) - u) / m + x).replace(lambda e: e.is_Add, sympy.expand)
-    found = undetermined(beta - 1, gamma, sympy.exp(2 * t) * inner / m**2, t)
-    return None if found is None else ChangeOfIntegrand(inner, t, sympy.log(u)).back(found)
+    inner = right.subs(x, (exp(t) - u) / m + x).replace(lambda e: e.is_Add, expand)
+    found = undetermined(beta - 1, gamma, exp(2 * t) * inner / m**2, t)
+    return None if found is None else ChangeOfIntegrand(inner, t, log(u)).back(found)
 
 
 def _polynomial_solution(equation: Equation, right: RatFunc | None) -> Poly | None:
-    """A polynomial y with y'' + (b/a) y' + (c/a) y = right, of a degree at most two above that of a right, or None."""
+    """A polynomial y with a y'' + b y' + c y = a right, or None if there is none of the expected degree."""
     field = equation.a.field
     if right is None or not (right.field == field or field.extends(right.field)):
         return None
@@ -166,24 +155,23 @@ def _polynomial_solution(equation: Equation, right: RatFunc | None) -> Poly | No
     denominators = equation.a.den * equation.b.den * equation.c.den * whole.den
     a, b, c, f = ((value * denominators).num for value in (equation.a, equation.b, equation.c, whole))
     x = field.poly([0, 1])
-    lowest = min(p.degree for p in (a, b, c) if p)
-    height = max(f.degree - lowest, 0) + 2
-    powers: list[Any] = [x**k for k in range(height + 1)]
+    highest = max(f.degree - min(p.degree for p in (a, b, c) if p), 0) + 2
+    powers: list[Any] = [x**k for k in range(highest + 1)]
     found = combination(f, [a * p.derivative().derivative() + b * p.derivative() + c * p for p in powers])
     return None if found is None else sum(map(mul, powers, found), f * 0)
 
 
 def _step_response(g: Expr, basis: Basis, a: Expr) -> Expr:
-    """By (2); where the equation is singular at the step with any solution p: H(x - a) p is one on each side."""
+    """By (2), or H(x - a) p for any solution p if the equation is singular at the step, as it is a solution on each side."""
     x = basis.x
     if not have_values(basis.rates, x, a):
-        return Heaviside(x - a) * _solved(basis, g, None)
-    p = _solved(basis, g, a)
+        return Heaviside(x - a) * _plain_response(basis, g, None)
+    p = _plain_response(basis, g, a)
     return Heaviside(x - a) * _from_rest(p, basis, *values_at(p, x, a), a)
 
 
 def _from_rest(p: Expr, basis: Basis, value: Expr, rate: Expr, a: Expr) -> Expr:
-    """p - u for the solution u of the homogeneous equation with u(a), u'(a) = value, rate: p(a) and p'(a), for a step."""
+    """p - u for the solution u of the homogeneous equation with u(a) = value, u'(a) = rate."""
     x = basis.x
     wronskian = tidy(value_at(basis.wronskian, x, a))  # a limit where t(x) alone is singular
     if wronskian == 0 or not is_finite(wronskian):
@@ -191,18 +179,15 @@ def _from_rest(p: Expr, basis: Basis, value: Expr, rate: Expr, a: Expr) -> Expr:
     (u, du), (v, dv) = (values_at(y, x, a) for y in (basis.y1, basis.y2))
     first = (value * dv - rate * v) / wronskian
     second = (rate * u - value * du) / wronskian
-    return sympy.powsimp(p - tidy(first) * basis.y1 - tidy(second) * basis.y2)
+    return powsimp(p - tidy(first) * basis.y1 - tidy(second) * basis.y2)
 
 
 def _impulse_response(strengths: Mapping[int, Expr], basis: Basis, a: Expr) -> Expr:
-    """A solution for sum of r_n delta^(n)(x - a): H(x - a) u + sum of d_j delta^(j)(x - a), by (3) from the highest n down.
-
-    Raises `NotImplementedError` where the equation, or the right-hand side, is singular.
-    """
+    """H(x - a) u + sum of d_j delta^(j)(x - a), a solution for the sum of r_n delta^(n)(x - a), by (3) from the highest n."""
     x = basis.x
     if not have_values(basis.rates, x, a) or not all(map(is_finite, strengths.values())):
         said = f"undecided: an impulse at {x} = {a}, a singular point of the equation"
-        raise NotImplementedError(f"{said}: there, solutions and their slopes have no values that could jump")
+        raise NotImplementedError(f"{said}: solutions and their slopes have no values there that could jump")
     B, C = basis.rates
     rest = defaultdict(lambda: sympy.Integer(0), strengths)
     singular = sympy.Integer(0)
@@ -221,7 +206,7 @@ def _impulse_response(strengths: Mapping[int, Expr], basis: Basis, a: Expr) -> E
 
 
 class DefiniteIntegral(sympy.Integral):  # type: ignore[misc]
-    """SymPy's, for integrals between numbers that aren't done, which say that they aren't numbers.
+    """An integral between numbers that doesn't call itself a number.
 
     SymPy orders the terms of a sum by the values of the numbers among their factors, so that printing, comparing or asking for
     a sign would integrate numerically, for minutes [`Expr.as_terms`].  `evalf` still does.
@@ -234,7 +219,7 @@ class DefiniteIntegral(sympy.Integral):  # type: ignore[misc]
 
 
 def with_integrals(basis: Basis, right: Expr, start: Expr | None) -> Expr:
-    """A solution of y'' + ... = right; integrals that aren't known stay, and begin at `start` unless it is None."""
+    """A solution by variation of parameters; integrals that aren't found stay, and begin at `start` unless it is None."""
     x = basis.x
     integrands = [powsimp(y * right / basis.wronskian) for y in (basis.y2, basis.y1)]
     known = _known_integrals(basis, integrands, start)
@@ -252,10 +237,7 @@ def with_integrals(basis: Basis, right: Expr, start: Expr | None) -> Expr:
 
 
 def _known_integrals(basis: Basis, integrands: Sequence[Expr], start: Expr | None) -> list[Any]:
-    """The integrals that are known within the limits, without exponential integrals that jump on the real axis.
-
-    None of them with more than a few special functions of complex arguments, which are harder to read than an integral.
-    """
+    """The integrals, each None if it isn't found within the limits; both None if they have too many complex arguments."""
     known: list[Any] = [None, None]
     poles = [basis.own(rate) for rate in basis.rates]
 
@@ -268,12 +250,12 @@ def _known_integrals(basis: Basis, integrands: Sequence[Expr], start: Expr | Non
         known = [antiderivative(integrand, basis.x, start) for integrand in integrands]
         # the two differ by pi i on either side of the axis [DLMF 6.2.3], and -u crosses only the positive one
         known = [e and e.replace(is_crossing, lambda f: -sympy.expint(1, -f.args[0])) for e in known]
-    functions = set().union(*(integral.atoms(*_COMPLEX) for integral in known if integral is not None))
-    return known if sum(bool(f.has(sympy.I)) for f in functions) <= _MOST_COMPLEX else [None, None]
+    functions = set().union(*(integral.atoms(*_OF_COMPLEX_ARGUMENTS) for integral in known if integral is not None))
+    return known if sum(bool(f.has(sympy.I)) for f in functions) <= MOST_COMPLEX else [None, None]
 
 
 def _checked(basis: Basis, parts: Sequence[Any], right: Expr) -> Expr | None:
-    """y2 times the second integral minus y1 times the first, in the shortest form, if that is a solution."""
+    """y2 times the second integral minus y1 times the first in its shortest form; None if that isn't a solution."""
     whole = expand(basis.y2 * parts[1] - basis.y1 * parts[0])
     if any(power.exp.free_symbols - {basis.x} for power in whole.atoms(sympy.Pow)):  # x x^a
         whole = powsimp(whole)
@@ -298,31 +280,31 @@ def _is_right(basis: Basis, y: Expr, right: Expr) -> bool:
 def _without_homogeneous(basis: Basis, total: Expr) -> Expr:
     """A sum without the terms that are multiples of y1 or y2."""
     members = (basis.y1, basis.y2)
-    terms = sympy.Add.make_args(total)
+    terms = Add.make_args(total)
     own = (term for term in terms if not any(is_constant(term / y, basis.x) for y in members))
-    return sympy.factor_terms(sympy.Add(*own))
+    return sympy.factor_terms(Add(*own))
 
 
 def _gathered(form: Expr, x: Expr) -> Expr:
-    """The sum, with the rational functions that stand before the same function as one fraction."""
+    """The sum, with one fraction for the rational functions before each function."""
 
     def shortened(fraction: Expr) -> Expr:
         is_whole = fraction.is_polynomial(x) and (fraction.has(x) or not fraction.free_symbols)
         return fraction if is_whole else sympy.factor(fraction)
 
     groups = by_functions(form, lambda factor: factor.is_rational_function(x))
-    return sympy.Add(*(rest * shortened(fraction) for rest, fraction in groups.items()))
+    return Add(*(rest * shortened(fraction) for rest, fraction in groups.items()))
 
 
 def starting_at(y: Expr, x: Expr, start: Expr | None) -> Expr:
-    """With integrals from a point on in the place of antiderivatives, unless it is None."""
+    """With integrals from `start` on for antiderivatives, unless it is None."""
     return y.replace(
         lambda e: isinstance(e, sympy.Integral) and e.limits == (sympy.Tuple(x),), lambda e: _open(e.function, x, start)
     )
 
 
 def _open(integrand: Expr, x: Expr, start: Expr | None) -> Expr:
-    """The unevaluated integral, from `start` on with a variable that doesn't occur."""
+    """The unevaluated integral, from `start` on unless that is None."""
     if start is None:
         return sympy.Integral(integrand, x)
     s = _letter(integrand, start)
@@ -331,12 +313,12 @@ def _open(integrand: Expr, x: Expr, start: Expr | None) -> Expr:
 
 def _letter(*parts: Expr) -> Expr:
     """A variable of integration that doesn't occur in the parts."""
-    taken = {symbol.name for symbol in sympy.Tuple(*parts).atoms(sympy.Symbol)}
-    return next(sympy.Symbol(name) for name in chain("st", map("s{}".format, count())) if name not in taken)
+    taken = {symbol.name for symbol in sympy.Tuple(*parts).atoms(Symbol)}
+    return next(Symbol(name) for name in chain("st", map("s{}".format, count())) if name not in taken)
 
 
 def with_letters_of_integration(y: Expr) -> Expr:
-    """With variables of integration that no parameter of y has, as the value s in s exp(x) + Integral(.., (s, 0, x))."""
+    """With variables of integration whose names no parameter has: s exp(x) + Integral(.., (s, 0, x)) has one s too many."""
     parameters = {symbol.name for symbol in y.free_symbols}
 
     def renamed(integral: Expr) -> Expr:
@@ -351,22 +333,24 @@ def with_letters_of_integration(y: Expr) -> Expr:
 
 
 def turned_at(
-    place: Expr, y: Expr, coefficients: tuple[Expr, ...], right: Expr, x: Expr, own: Callable[[Expr], Expr] = sympify
+    place: Expr | None,
+    y: Expr,
+    coefficients: tuple[Expr, ...],
+    right: Expr,
+    x: Expr,
+    own: Callable[[Expr], Expr] = sympify,
 ) -> Expr:
-    """A solution in which log(-u), (-u)^e stand for arguments u < 0 at the place, if it is one; else the given one."""
-    turned = all_turned(y, x, place, own)
+    """The solution with log(-u), (-u)^e for arguments u < 0 at the place, if that is one; else the given one."""
+    turned = y if place is None else all_turned(y, x, place, own)
     return turned if turned != y and is_solution(turned, coefficients, right, x) else y
 
 
 def is_solution(y: Expr, coefficients: tuple[Expr, ...], right: Expr, x: Expr) -> bool:
-    """True if y satisfies an equation at points in each quadrant and on the axis, to 50 digits.
-
-    y'' + (b/a) y' + (c/a) y = right for two coefficients, y' + c y = right for one.
-    """
+    """True if y'' + b y' + c y = right, or y' + c y = right for one coefficient, at points in each quadrant, to 50 digits."""
     given = y.atoms(AppliedUndef, *JUMPING) | right.atoms(AppliedUndef, *JUMPING)
-    # An exponential function for each that is given by its name, or jumps: the formula holds for any function.
+    # An exponential for each function that is given by its name, or jumps: the formula holds for any function.
     functions = enumerate(sorted(given, key=str))
-    sample = {f: sympy.exp(sympy.Rational(k + 1, 3) * x) for k, f in functions if f.has(x)}
+    sample = {f: exp(sympy.Rational(k + 1, 3) * x) for k, f in functions if f.has(x)}
     if sample:
         y = y.xreplace(sample)
         right = right.xreplace(sample)

@@ -24,6 +24,7 @@ from functools import reduce
 from typing import Any
 
 import sympy
+from sympy import Add, cancel, expand, powsimp
 
 from kovacic.algebra.poly import Poly
 from kovacic.algebra.ratfunc import RatFunc
@@ -36,55 +37,48 @@ from kovacic.errors import InputError
 from kovacic.general_solution.antiderivatives import antiderivative
 from kovacic.general_solution.behaviour import value_at
 from kovacic.general_solution.first_order import (
+    CheckedSolution,
     FirstOrderEquation,
-    Solved,
     Solver,
     check_first_order,
     is_unit,
     read_first_order,
     solved_linear,
-    with_letters,
+    with_letters_for_constants,
     zeros_of,
 )
-from kovacic.general_solution.integrands import NUMBERS, ratfunc
+from kovacic.general_solution.integrands import NUMBERS, logarithmic_derivative, ratfunc
 from kovacic.general_solution.question import free_constants
-from kovacic.general_solution.substitution import by_functions, size
+from kovacic.general_solution.substitution import by_functions
 from kovacic.general_solution.textbook import in_book_form, over_one_denominator
 from kovacic.general_solution.waves import rational_in_waves
 from kovacic.general_solution.zero import is_zero
-from kovacic.limits import DEFAULT_LIMITS, Budget, Limits, check_time, limited
+from kovacic.limits import DEFAULT_LIMITS, MOST_SUBEXPRESSIONS, Budget, Limits, check_time, limited, manageable
 from kovacic.numbers.numerals import as_latex, plain_text
 from kovacic.reading.read import read_coefficients
 from kovacic.solution import Solution, solve
 from kovacic.special.choice import shortest
 
 Expr = Any  # SymPy publishes no types
-#: The longest solution with Bessel functions, in subexpressions, that is differentiated by their recurrences.
-_LONGEST = 400
-#: The largest sum of exponents with which E is integrated: partial fractions of order 1,000 take 20 s.
-_HIGHEST = 100
-#: C_(nu+s) from C_(nu-s) and 2 nu C_nu/z, for s = 1 and s = -1 [DLMF 10.6.1, 10.29.1].
-_NEIGHBOURS: dict[Any, Callable[[int, Expr, Expr], Expr]] = {
-    sympy.besselj: lambda s, other, term: term - other,
-    sympy.bessely: lambda s, other, term: term - other,
-    sympy.besseli: lambda s, other, term: other - s * term,
-    sympy.besselk: lambda s, other, term: other + s * term,
+#: The sign e(s) in C_nu' = e(s) C_(nu-s) - s nu C_nu/z for s = 1 and s = -1 [DLMF 10.6.2, 10.29.2].
+_SIGN_OF_NEIGHBOUR: dict[Any, Callable[[int], int]] = {
+    sympy.besselj: lambda s: s,
+    sympy.bessely: lambda s: s,
+    sympy.besseli: lambda s: 1,
+    sympy.besselk: lambda s: -1,
 }
 
 
 def linear_equation(equation: FirstOrderEquation) -> tuple[Expr, Expr]:
-    """The linear equation for u, and u(x)."""
+    """The linear equation for u, and u(x), whose name is w_ for w(x)."""
     x = equation.x
     u = sympy.Function(f"{equation.function.func}_")(x)
-    slope = sympy.cancel(equation.q + equation.r.diff(x) / equation.r)
-    return sympy.Eq(u.diff(x, 2) - slope * u.diff(x) + sympy.cancel(equation.p * equation.r) * u, 0), u
+    slope = cancel(equation.q + equation.r.diff(x) / equation.r)
+    return sympy.Eq(u.diff(x, 2) - slope * u.diff(x) + cancel(equation.p * equation.r) * u, 0), u
 
 
-def solved_riccati(equation: FirstOrderEquation, solver: Solver) -> Solved:
-    """The solution; `solver` is `answer_to`, for the linear equation.
-
-    Raises `NotImplementedError` for a value at a point where neither linear equation is known to be regular.
-    """
+def solved_riccati(equation: FirstOrderEquation, solver: Solver) -> CheckedSolution:
+    """The solution.  Raises `NotImplementedError` for a value at a point where no linear equation is seen to be regular."""
     x = equation.x
     start, _ = equation.value
     constants: tuple[Expr, ...] = ()
@@ -97,8 +91,12 @@ def solved_riccati(equation: FirstOrderEquation, solver: Solver) -> Solved:
         if start is None and equation.power.is_odd:
             notices.append(f"-{equation.function} is a solution, too")
     else:
-        is_inverted = _is_inverted(equation)
         p, q, r, n = equation.entries
+        # (1) is solved if only that is regular at the value, or has the simpler coefficients
+        if start is None:
+            is_inverted = p != 0 and not p.has(x) and r.has(x)
+        else:
+            is_inverted = not is_unit(r, x, start) and is_unit(p, x, start)
         solved_for = replace(equation, entries=(-r, -q, -p, n)) if is_inverted else equation  # for 1/w
         u, constants, linear = _solved_linear(equation, solved_for, solver)
         notices = linear.notices
@@ -111,7 +109,7 @@ def solved_riccati(equation: FirstOrderEquation, solver: Solver) -> Solved:
     w = shortest(forms).xreplace(dict.fromkeys(constants, equation.constant()))
     if len(constants) < 2:
         w = in_book_form(w, x)
-    return Solved((w,), notices + check_first_order(equation, w), zeros, exceptions)
+    return CheckedSolution((w,), notices + check_first_order(equation, w), zeros, exceptions)
 
 
 def _of_bernoulli(equation: FirstOrderEquation) -> Expr:
@@ -127,17 +125,13 @@ def _of_bernoulli(equation: FirstOrderEquation) -> Expr:
         return u ** (1 / m)
     u /= v**m
     u = next(over_one_denominator(u, equation.x), u)  # which doesn't divide by v
-    return v * sympy.powsimp(u) ** (1 / m)  # the branch with the sign of v
+    return v * powsimp(u) ** (1 / m)  # the branch with the sign of v
 
 
 def _solved_linear(
     equation: FirstOrderEquation, solved_for: FirstOrderEquation, solver: Solver
 ) -> tuple[Expr, tuple[Expr, ...], Any]:
-    """u, its free constants, and the answer of the solver.
-
-    For a value at an ordinary point it is the solution with values of u and u'; else all of them, or those through the
-    value.  Raises `NotImplementedError` where u1, u2, -u1'/r or -u2'/r has no value there that is found.
-    """
+    """u, its free constants, and the answer of the solver: one solution u for a value at an ordinary point, or all of them."""
     x = equation.x
     a, v = equation.value
     linear, u = linear_equation(solved_for)
@@ -146,7 +140,7 @@ def _solved_linear(
         there = (v, equation.p) if solved_for is not equation else (sympy.S.One, -equation.r * v)
         start = {e.subs(x, a): value.subs(x, a) for e, value in zip((u, u.diff()), there, strict=True)}
     answer = solver(linear, u, start)
-    solution, constants = with_letters(answer, sympy.Tuple(linear, *start.items()).free_symbols)
+    solution, constants = with_letters_for_constants(answer, sympy.Tuple(linear, *start.items()).free_symbols)
     if a is not None and not start:  # those of C1 u1 + C2 u2 for which -u'/r is v u at a: one, or all
         basis = [solution.diff(constant) for constant in constants]
         first, second = (value_at(-y.diff(x) / equation.r, x, a) - v * value_at(y, x, a) for y in basis)
@@ -155,46 +149,38 @@ def _solved_linear(
     return solution, constants, answer
 
 
-def _is_inverted(equation: FirstOrderEquation) -> bool:
-    """True if the linear equation for 1/w, (1), is solved: if only that is regular, or has the simpler coefficients."""
-    p, r, x = equation.p, equation.r, equation.x
-    start, _ = equation.value
-    if start is None:
-        return bool(p != 0 and not p.has(x) and r.has(x))
-    return not is_unit(r, x, start) and is_unit(p, x, start)
-
-
 # -------------------------------------------------------------------------------------------------------------- forms
 
 
 def _forms(u: Expr, constants: Sequence[Expr], equation: FirstOrderEquation) -> Iterator[Expr]:
     """w = -u'/(r u) as a sum over the factors of u, and by (2) for each solution with a rational omega."""
     x = equation.x
-    yield _sum([-term / equation.r for term in sympy.Add.make_args(_rate_of(u, constants, x))], x)
+    yield _sum([-term / equation.r for term in Add.make_args(_rate_of(u, constants, x))], x)
     if len(constants) < 2:
         return
     slope = ratfunc(equation.q + equation.r.diff(x) / equation.r, x)
     for u1 in map(u.diff, constants):
-        omega = ratfunc(_rate(u1, x), x)
+        omega = ratfunc(logarithmic_derivative(u1, x), x)
         if slope is None or omega is None or slope.field != omega.field:
             continue
         powers = product(slope - omega - omega)
         E = display(powers, Atoms(x)).xreplace(NUMBERS)
         V = None
-        if sum(abs(float(power.rational_exponent or 0)) * power.base.degree for power in powers.powers) <= _HIGHEST:
+        fractions = sum(abs(float(power.rational_exponent or 0)) * power.base.degree for power in powers.powers)
+        if fractions <= MOST_SUBEXPRESSIONS:
             V = antiderivative(E, x)
         # E is written before the quotient, too: an integral that stays has it in the same form
-        V = sympy.Integral(E, x) if V is None else sympy.factor_terms(_sum(sympy.Add.make_args(V), x))
+        V = sympy.Integral(E, x) if V is None else sympy.factor_terms(_sum(Add.make_args(V), x))
         rational = -Atoms(x).ratio(omega).xreplace(NUMBERS) / equation.r
         yield _sum([rational, -E / (equation.r * (constants[0] + V))], x)
 
 
 def _sum(terms: Sequence[Expr], x: Expr) -> Expr:
     """The rational terms as one fraction or in partial fractions; the others with theirs in lowest terms."""
-    parts = by_functions(sympy.Add(*terms), lambda factor: factor.is_rational_function(x))
-    total = sympy.cancel(parts.pop(sympy.S.One, sympy.S.Zero))
+    parts = by_functions(Add(*terms), lambda factor: factor.is_rational_function(x))
+    total = cancel(parts.pop(sympy.S.One, sympy.S.Zero))
     rest = (sympy.factor(rational) * function for function, rational in parts.items())
-    return sympy.Add(shortest([total, sympy.apart(total, x)]), *rest)
+    return Add(shortest([total, sympy.apart(total, x)]), *rest)
 
 
 def _rate_of(u: Expr, constants: Sequence[Expr], x: Expr) -> Expr:
@@ -203,49 +189,36 @@ def _rate_of(u: Expr, constants: Sequence[Expr], x: Expr) -> Expr:
     if len(constants) == 2:
         c1, c2 = constants
         u = u.subs(sympy.atan(c2 / c1), -c1).subs(c2, 1)
-    if u.has(*_NEIGHBOURS) and size(u) <= _LONGEST:
-        return sympy.powsimp(sympy.factor_terms(_slope(u, x)) / u)
-    return _rate(u, x)
+    if u.has(*_SIGN_OF_NEIGHBOUR) and manageable(u):
+        return powsimp(sympy.factor_terms(_slope_by_neighbours(u, x)) / u)
+    return logarithmic_derivative(u, x)
 
 
 def _single_wave(factor: Expr, x: Expr) -> Expr:
-    """cos(z - atan(b/a)), of which a cos(z) + b sin(z) is a multiple; any other factor itself."""
+    """cos(z - atan(b/a)) for a multiple a cos(z) + b sin(z) of it; any other factor itself."""
     for wave in factor.atoms(sympy.cos) if factor.is_Add else ():
         sine = sympy.sin(*wave.args)
         a, b = factor.coeff(wave), factor.coeff(sine)
-        is_wave = a != 0 and not (a.has(x) or b.has(x)) and sympy.expand(factor - a * wave - b * sine) == 0
-        if is_wave and sympy.expand(a**2 + b**2) != 0:
-            return sympy.cos(wave.args[0] - sympy.atan(sympy.cancel(b / a)))
+        is_wave = a != 0 and not (a.has(x) or b.has(x)) and expand(factor - a * wave - b * sine) == 0
+        if is_wave and expand(a**2 + b**2) != 0:
+            return sympy.cos(wave.args[0] - sympy.atan(cancel(b / a)))
     return factor
 
 
-def _rate(factor: Expr, x: Expr) -> Expr:
-    """The logarithmic derivative, in a short form."""
-    if isinstance(factor, sympy.cos):
-        return -factor.args[0].diff(x) * sympy.tan(factor.args[0])
-    if factor.is_Mul:
-        return sympy.Add(*(_rate(part, x) for part in factor.args))
-    if factor.is_Pow and not factor.exp.has(x):
-        return factor.exp * _rate(factor.base, x)
-    rate = factor.diff(x) / factor
-    if rate.is_rational_function(x):
-        return sympy.cancel(rate)
-    return sympy.powsimp(sympy.factor_terms(rate))
-
-
-def _slope(y: Expr, x: Expr) -> Expr:
+def _slope_by_neighbours(y: Expr, x: Expr) -> Expr:
     """y', where z^nu J_nu has the slope z^nu J_(nu-1) z', and z^nu J_(-nu) has -z^nu J_(1-nu) z'; with Y, I, K likewise."""
-    slope = y.diff(x)
-    for f in sorted(y.atoms(*_NEIGHBOURS), key=str):
+    letters = {f: sympy.Dummy() for f in sorted(y.atoms(*_SIGN_OF_NEIGHBOUR), key=str) if f.has(x)}
+    linear = y.xreplace(letters)
+    terms = [linear.xreplace(dict.fromkeys(letters.values(), 0)).diff(x)]
+    for f, letter in letters.items():
         nu, z = f.args
         is_negative = nu.could_extract_minus_sign() if nu.is_positive is None else not nu.is_positive
-        step = -1 if is_negative else 1
-        other = _NEIGHBOURS[f.func](step, f.func(nu - step, z), 2 * nu / z * f)
-        slope = slope.xreplace({f.func(nu + step, z): other})
-    letters = {f: sympy.Dummy() for f in slope.atoms(*_NEIGHBOURS) if f.has(x)}
-    linear = slope.xreplace(letters)
-    rest = linear.xreplace(dict.fromkeys(letters.values(), 0))
-    return sympy.Add(rest, *(sympy.powsimp(sympy.cancel(linear.diff(letter))) * f for f, letter in letters.items()))
+        s = -1 if is_negative else 1
+        factor = linear.diff(letter)
+        own = factor.diff(x) - s * nu * z.diff(x) / z * factor
+        other = _SIGN_OF_NEIGHBOUR[f.func](s) * z.diff(x) * factor
+        terms += [powsimp(cancel(c)) * g for c, g in ((own, f), (other, f.func(nu - s, z)))]
+    return Add(*terms)
 
 
 # ----------------------------------------------------------------------------------- rational and algebraic solutions
@@ -266,7 +239,7 @@ class RiccatiSolutions:
     polynomial : sympy.Expr or None
         A polynomial in w with the algebraic solutions of least degree as its roots.
     all_algebraic : bool or None
-        Are all solutions algebraic?  None if that wasn't determined.
+        True if all solutions are algebraic; None if that wasn't determined.
     solution : Solution
         The answer for the linear equation.
 
@@ -347,9 +320,9 @@ def solve_riccati(
         if all_algebraic:  # w for u = y1 + C1 y2
             y1, y2 = solution.solutions
             u = y1 + free_constants(1, y1, y2, factor)[0] * y2
-            family = sympy.cancel(sympy.powsimp(sympy.expand(-u.diff(atoms.x) / (factor * u))))
+            family = cancel(powsimp(expand(-u.diff(atoms.x) / (factor * u))))
         if group is None or group.order not in (1, 2):  # else infinitely many are rational
-            rational = tuple(sympy.cancel(-(omega + gauge) / factor) for omega in _rational_omegas(solution, atoms))
+            rational = tuple(cancel(-(omega + gauge) / factor) for omega in _rational_omegas(solution, atoms))
     elif solution.case is not None:
         polynomial = _polynomial(solution, linear.gauge, R, atoms)
     return RiccatiSolutions(rational, family, polynomial, all_algebraic, solution)
@@ -359,7 +332,7 @@ def _read_coefficients(p: Any, q: Any, r: Any, var: str | None, limits: Limits) 
     """r, q and p as the coefficients a, b and c of an equation; `p` alone may be Riccati's equation."""
     if q is None and r is None:
         equation = read_first_order(p, None, var, limits)
-        if equation is None or equation.is_linear or equation.power != 2:
+        if equation.r == 0 or equation.power != 2:
             raise InputError(f"{p} isn't a Riccati equation", hint="write w' = p + q*w + r*w^2, or give p, q and r")
         p, q, r, _ = equation.entries
         var = equation.x.name
@@ -373,10 +346,7 @@ def _read_coefficients(p: Any, q: Any, r: Any, var: str | None, limits: Limits) 
 
 
 def _polynomial(solution: Solution, gauge: RatFunc, factor: RatFunc, atoms: Atoms) -> Any:
-    """The polynomial of omega = -r w - gauge in w, without a common factor, over Q with coprime integers.
-
-    None if that for omega isn't known.
-    """
+    """The polynomial of omega = -r w - gauge in w, without a common factor; None if that in omega isn't known."""
     if solution.riccati is None:
         return None
     field = solution.riccati.coefficients[0].field
@@ -390,7 +360,7 @@ def _polynomial(solution: Solution, gauge: RatFunc, factor: RatFunc, atoms: Atom
     numerators = over_common_denominator(by_powers)
     common = reduce(Poly.gcd, numerators)
     w = sympy.Symbol("w")
-    found = sympy.Add(*(atoms.poly(a // common) * w**k for k, a in enumerate(numerators)))
+    found = Add(*(atoms.poly(a // common) * w**k for k, a in enumerate(numerators)))
     return sympy.Poly(found, w, atoms.x).primitive()[1].eject(atoms.x).as_expr() if field == QQ else found
 
 

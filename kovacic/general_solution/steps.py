@@ -17,13 +17,12 @@ from collections import defaultdict
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from functools import reduce
-from itertools import accumulate, pairwise
+from itertools import pairwise
 from math import comb
-from operator import mul
 from typing import Any, NamedTuple
 
 import sympy
-from sympy import DiracDelta, Heaviside, exp
+from sympy import Add, DiracDelta, Heaviside, Integer, Mul, Piecewise, Rational, exp, expand, oo
 from sympy.logic.boolalg import And, Or
 from sympy.solvers.inequalities import solve_poly_inequality
 
@@ -50,9 +49,7 @@ _IDENTITIES: dict[Any, Callable[..., Expr]] = {
     Heaviside: lambda u, *_: Heaviside(u),
     DiracDelta: DiracDelta,
 }
-JUMPING = (*_IDENTITIES, sympy.Piecewise)
-#: The largest degree of a polynomial whose sign is asked for.
-_LARGEST_DEGREE = 8
+JUMPING = (*_IDENTITIES, Piecewise)
 #: Functions without singular points on the real line.
 _ANALYTIC = (
     *(exp, sympy.sin, sympy.cos, sympy.sinh, sympy.cosh, sympy.tanh, sympy.sech, sympy.atan, sympy.asinh),
@@ -70,7 +67,7 @@ class Apart:
 
     def without_impulses(self, x: Expr) -> Expr:
         """The sum of the other parts."""
-        return sympy.Add(self.plain, *(g * Heaviside(x - a) for a, g in self.steps.items()))
+        return Add(self.plain, *(g * Heaviside(x - a) for a, g in self.steps.items()))
 
 
 class HeavisidePlace(NamedTuple):
@@ -86,11 +83,11 @@ def place_of(jump: Expr, x: Expr) -> HeavisidePlace | None:
     slope = inner.diff(x)
     if slope.has(x) or not slope.is_nonzero:
         return None
-    return HeavisidePlace(sympy.expand(x - inner / slope), slope)
+    return HeavisidePlace(expand(x - inner / slope), slope)
 
 
 def jump_points(e: Expr, x: Expr) -> list[Expr]:
-    """The places of the steps and impulses in an expression, each once."""
+    """The distinct places of the steps and impulses in an expression."""
     places = (place_of(jump, x) for jump in sorted(e.atoms(Heaviside, DiracDelta), key=str))
     return [*dict.fromkeys(place.a for place in filter(None, places))]
 
@@ -103,23 +100,23 @@ def with_single_steps(e: Expr) -> Expr:
     )
 
 
-def taken_apart(right: Expr, x: Expr) -> Apart | None:
-    """The parts of a right-hand side; None if a jump isn't at a constant, or products of jumps aren't known.
+def split_at_jumps(right: Expr, x: Expr) -> Apart | None:
+    """The parts of a right-hand side; None if a jump isn't at a constant, or a product of jumps isn't one of these.
 
-    H(x - a) H(x - b) = H(x - max(a, b)); beside an impulse every step is 0 or 1, and
+    H(x - a) H(x - b) = H(x - max(a, b)); at the place of an impulse every step is 0 or 1, and
 
     g delta^(n) = sum of (-1)^k C(n, k) g^(k)(a) delta^(n - k),    delta^(n)(s u) = delta^(n)(u)/(|s| s^n).
     """
     steps: defaultdict[Expr, Expr] = defaultdict(int)
     impulses: defaultdict[Expr, defaultdict[int, Expr]] = defaultdict(lambda: defaultdict(int))
-    for term in map(with_single_steps, sympy.Add.make_args(sympy.expand(right))):
-        jumps = [factor for factor in sympy.Mul.make_args(term) if factor.has(*JUMPING) and factor.has(x)]
+    for term in map(with_single_steps, Add.make_args(expand(right))):
+        jumps = [factor for factor in Mul.make_args(term) if factor.has(*JUMPING) and factor.has(x)]
         deltas, others = sympy.sift(jumps, lambda jump: isinstance(jump, DiracDelta), binary=True)
         places = [place_of(delta, x) for delta in deltas]
         if len(places) > 1 or None in places or not all(_is_simple(step, x) for step in others):
             return None
-        begin = sympy.Max(*(sympy.expand(x - step.args[0]) for step in others))  # -oo without steps
-        g = term / sympy.Mul(*jumps)
+        begin = sympy.Max(*(expand(x - step.args[0]) for step in others))  # -oo without steps
+        g = term / Mul(*jumps)
         if not deltas:
             steps[begin] += g
             continue
@@ -132,16 +129,13 @@ def taken_apart(right: Expr, x: Expr) -> Apart | None:
             strength = (-1) ** k * comb(n, k) * g.diff(x, k).subs(x, a) / (abs(slope) * slope**n)
             if strength != 0 and side.is_positive:
                 impulses[a][n - k] += strength
-    plain = steps.pop(-sympy.oo, sympy.S.Zero)
+    plain = steps.pop(-oo, sympy.S.Zero)
     return Apart(plain, {a: g for a, g in steps.items() if g != 0}, impulses)
 
 
 def in_parts(right: Expr, x: Expr) -> Apart:
-    """The parts of a right-hand side; all of it is plain where its jumps aren't known, as of |sin(x)|.
-
-    Raises `NotImplementedError` where an impulse is among these.
-    """
-    found = taken_apart(in_steps(right, x), x) if right.has(*JUMPING) else None
+    """The parts of a right-hand side; all is plain if its jumps aren't known, as for |sin(x)|, and there is no impulse."""
+    found = split_at_jumps(in_steps(right, x), x) if right.has(*JUMPING) else None
     if found is None and right.has(DiracDelta):
         raise NotImplementedError("undecided: an impulse times a jump at the same point, or at one that isn't known")
     return Apart(right, {}, {}) if found is None else found
@@ -151,7 +145,7 @@ def in_parts(right: Expr, x: Expr) -> Apart:
 
 
 def in_steps(right: Expr, x: Expr) -> Expr:
-    """The right-hand side in terms of Heaviside(x - a) and DiracDelta(x - a, n) alone, as far as possible.
+    """The right-hand side in terms of Heaviside(x - a) and DiracDelta(x - a, n), as far as possible.
 
     >>> x = sympy.Symbol("x")
     >>> in_steps(abs(x - 1), x)
@@ -168,18 +162,18 @@ def in_steps(right: Expr, x: Expr) -> Expr:
         return found
     # sqrt(|x|) isn't analytic: sqrt(-x), which it is on one side, isn't real on the other
     outside = found.replace(lambda e: _is_function(e) and is_analytic(e, x), lambda e: _with_steps_outside(e, x))
-    return with_single_steps(sympy.expand(outside))
+    return with_single_steps(expand(outside))
 
 
 def is_analytic(e: Expr, x: Expr) -> bool:
-    """True if it is seen to be analytic on the whole line, on either side of its steps."""
-    plain = (sympy.Symbol, sympy.Add, sympy.Mul, Heaviside)
+    """True if it is seen to be analytic on the whole line but for its steps."""
+    plain = (sympy.Symbol, Add, Mul, Heaviside)
     others = [part for part in sympy.preorder_traversal(e) if part.has(x) and not isinstance(part, plain)]
     return all(_is_function(p) or (p.is_Pow and p.exp.is_Integer and p.exp > 0) for p in others)
 
 
 def _is_function(e: Expr) -> bool:
-    """exp, sin and the like, or a power with a positive number for its base."""
+    """True for exp, sin and the like, and powers of positive numbers."""
     if e.is_Pow:
         return bool(e.base.is_positive and e.base.is_number)
     return isinstance(e, _ANALYTIC)
@@ -188,48 +182,42 @@ def _is_function(e: Expr) -> bool:
 def _with_steps_outside(e: Expr, x: Expr) -> Expr:
     """F(H) = F(0) + (F(1) - F(0)) H, for one step after the other."""
     for step in sorted((step for step in e.atoms(Heaviside) if step.has(x)), key=str):
-        before, after = (e.xreplace({step: sympy.Integer(k)}) for k in (0, 1))
+        before, after = (e.xreplace({step: Integer(k)}) for k in (0, 1))
         e = before + (after - before) * step
     return e
 
 
 def _at_points(e: Expr, x: Expr) -> Expr:
     """With H(x - a) for other steps H(u), where the zeros of u are known."""
-    return e.replace(lambda e: isinstance(e, Heaviside) and e.has(x), lambda e: above(e.args[0], x))
+    return e.replace(lambda e: isinstance(e, Heaviside) and e.has(x), lambda e: heaviside_of(e.args[0], x))
 
 
 def _in_heavisides(e: Expr, x: Expr) -> Expr:
-    """A function that jumps in terms of H(u) and impulses; the same where that isn't known.
-
-    Raises `InputError` where no case of one that is given by cases holds.
-    """
-    if not isinstance(e, sympy.Piecewise):
+    """A function that jumps in terms of H(u) and impulses.  Raises `InputError` for cases with a gap between them."""
+    if not isinstance(e, Piecewise):
         return _IDENTITIES[e.func](*e.args)
-    values, conditions = zip(*e.args, strict=True)
-    *alone, missing = _alone([_indicator(condition, x) for condition in conditions])
+    total = gap = sympy.Dummy()
+    for value, condition in reversed(e.args):
+        on = _indicator(condition, x)
+        total = on * value + (1 - on) * total
     # with parameters that is tried at one value of each
-    missing = missing.subs(next(samples(e.free_symbols - {x})))
+    missing = expand(total).diff(gap).subs(next(samples(e.free_symbols - {x})))
     has_gap = any(on_piece(missing, x, point) != 0 for point in between(break_points(missing, x)))
-    if has_gap or sympy.nan in values:
+    if has_gap or total.has(sympy.nan):
         raise InputError(f"{e} has no value where no case holds", hint="add a last case, such as (0, True)")
-    return sympy.Add(*map(mul, values, alone))
-
-
-def _alone(indicators: Sequence[Expr]) -> list[Expr]:
-    """Where a condition holds and none of those before; at the end, where none holds."""
-    rests = [*accumulate(indicators, lambda rest, on: rest * (1 - on), initial=sympy.Integer(1))]
-    return [*map(mul, indicators, rests), rests[-1]]
+    return total.xreplace({gap: sympy.S.Zero})
 
 
 def _indicator(condition: Expr, x: Expr) -> Expr:
-    """1 where a condition holds, and 0 where it doesn't, but for single values of x."""
-    if isinstance(condition, And | Or):
-        parts = [_indicator(part, x) for part in condition.args]
-        return sympy.Mul(*parts) if isinstance(condition, And) else 1 - _alone(parts)[-1]
+    """1 where a condition holds and 0 where it doesn't, except at single values of x."""
+    if isinstance(condition, And):
+        return Mul(*(_indicator(part, x) for part in condition.args))
+    if isinstance(condition, Or):
+        return 1 - Mul(*(1 - _indicator(part, x) for part in condition.args))
     if not isinstance(condition, sympy.Rel) or not condition.has(x):
-        return sympy.Piecewise((1, condition), (0, True))
+        return Piecewise((1, condition), (0, True))
     if isinstance(condition, sympy.Eq | sympy.Ne):
-        return sympy.Integer(isinstance(condition, sympy.Ne))
+        return Integer(isinstance(condition, sympy.Ne))
     return Heaviside(condition.gts - condition.lts)
 
 
@@ -238,54 +226,53 @@ def _is_simple(e: Expr, x: Expr) -> bool:
     return isinstance(e, DiracDelta) or (isinstance(e, Heaviside) and e.args[0].diff(x) == 1)
 
 
-def above(u: Expr, x: Expr) -> Expr:
-    """1 where u > 0 and 0 where u < 0, as a sum of H(x - a); H(u) if the zeros of u aren't known.
+def heaviside_of(u: Expr, x: Expr) -> Expr:
+    """H(u), 1 where u > 0 and 0 where u < 0, as a sum of H(x - a) if the zeros of u are known.
 
     >>> x = sympy.Symbol("x")
-    >>> above(4 - x**2, x)
+    >>> heaviside_of(4 - x**2, x)
     -Heaviside(x - 2) + Heaviside(x + 2)
     """
-    u = sympy.expand(u)
+    u = expand(u)
     slope = u.diff(x)
     if any(step.has(x) for step in u.atoms(Heaviside)):
-        apart = taken_apart(_at_points(_with_steps_outside(Heaviside(u), x), x), x)
+        apart = split_at_jumps(_at_points(_with_steps_outside(Heaviside(u), x), x), x)
         return Heaviside(u) if apart is None else apart.without_impulses(x)
     if not slope.has(x) and (slope.is_positive or slope.is_negative):
-        step = Heaviside(x - sympy.expand(x - u / slope))
+        step = Heaviside(x - expand(x - u / slope))
         return step if slope.is_positive else 1 - step
-    domain = sympy.Poly(u, x).domain if u.is_polynomial(x) else None
-    if domain not in (sympy.ZZ, sympy.QQ) or sympy.degree(u, x) > _LARGEST_DEGREE:
+    if not u.is_polynomial(x) or sympy.Poly(u, x).domain not in (sympy.ZZ, sympy.QQ):
         return Heaviside(u)
-    beyond = {-sympy.oo: sympy.Integer(1), sympy.oo: sympy.Integer(0)}
+    beyond = {-oo: Integer(1), oo: Integer(0)}
     intervals = solve_poly_inequality(sympy.Poly(u, x), ">")
     ends = ((on.start, on.end) for on in intervals)
-    return sympy.Add(*(beyond.get(a, Heaviside(x - a)) - beyond.get(b, Heaviside(x - b)) for a, b in ends))
+    return Add(*(beyond.get(a, Heaviside(x - a)) - beyond.get(b, Heaviside(x - b)) for a, b in ends))
 
 
 # ------------------------------------------------------------------------------------------------- between the jumps
 
 
 def break_points(expression: Expr, x: Expr) -> list[Expr]:
-    """The points where functions of an expression jump, as far as they are known, from left to right."""
+    """The known points where functions in an expression jump, from left to right."""
     parts = sympy.Tuple(*(_at_points(_in_heavisides(e, x), x) for e in expression.atoms(*JUMPING) if e.has(x)))
     return sorted((a for a in jump_points(parts, x) if a.is_number and a.is_real), key=lambda a: float(a.evalf()))
 
 
 def between(breaks: Sequence[Expr]) -> list[Expr]:
-    """A rational point between each two breaks, and one beyond them on either side."""
+    """A rational point between each two breaks, and one beyond them on each side."""
     if not breaks:
-        return [sympy.Rational(41, 89)]
-    values = [sympy.Rational(str(point.evalf(12))) for point in breaks]
+        return [Rational(41, 89)]
+    values = [Rational(str(point.evalf(12))) for point in breaks]
     inner = [(3 * left + 2 * right) / 5 for left, right in pairwise(values)]
-    return [values[0] - sympy.Rational(41, 89), *inner, values[-1] + sympy.Rational(23, 71)]
+    return [values[0] - Rational(41, 89), *inner, values[-1] + Rational(23, 71)]
 
 
 def on_piece(expression: Expr, x: Expr, point: Expr) -> Expr:
-    """The expression near a rational point that is no break, without functions that jump there."""
+    """The expression near a rational point that is no break, without functions that jump."""
 
     def near(jump: Expr) -> Expr:
         if isinstance(jump, DiracDelta):
-            return sympy.Integer(0)
+            return Integer(0)
         if isinstance(jump, Heaviside):
             return (1 + sympy.sign(jump.args[0].subs(x, point))) / 2
         plain = _in_heavisides(jump, x)

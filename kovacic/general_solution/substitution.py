@@ -7,29 +7,22 @@ from __future__ import annotations
 
 import math
 from collections import defaultdict
-from collections.abc import Callable, Iterable
-from dataclasses import dataclass, replace
+from collections.abc import Callable, Iterable, Mapping
 from functools import reduce
-from operator import mul
 from typing import Any
 
 import sympy
+from sympy import Add, Mul, hyper
 from sympy.simplify.fu import TR8
 
 from kovacic.closed_form.atoms import antiderivative_parameters, hypergeometric, sign_of_root
 from kovacic.limits import check_time
 
 Expr = Any  # SymPy publishes no types
-_ZERO = sympy.Integer(0)
-_ONE = sympy.Integer(1)
-#: Mathieu's odd function, and the slope of his even one, which SymPy leaves as they are at 0.
+#: Mathieu's odd function, and the slope of his even one, which SymPy doesn't evaluate at 0.
 _ODD = (sympy.mathieus, sympy.mathieucprime)
-#: Not a value.
-_OPEN = {sympy.nan, sympy.zoo, sympy.oo, -sympy.oo}
-#: From which on terms and exponent of a power aren't counted.
-_MANY = 10**4
-#: A power of the variable with its coefficient has so many subexpressions.
-_MONOMIAL = 5
+#: What isn't a value.
+_NOT_FINITE = {sympy.nan, sympy.zoo, sympy.oo, -sympy.oo}
 
 
 def finite_value(expression: Expr, x: Expr, point: Expr) -> Expr | None:
@@ -46,53 +39,48 @@ def finite_value(expression: Expr, x: Expr, point: Expr) -> Expr | None:
         value = expression.xreplace(totals).subs(x, point)
     except TypeError:  # SymPy has compared a part that isn't a number
         return None
-    if value.has(sympy.hyper, sympy.Integral, *_ODD):
+    if value.has(hyper, sympy.Integral, *_ODD):
         value = _at_zero(value)
     powers = (power for power in value.atoms(sympy.Pow) if power.base == 0 and not power.exp.is_nonnegative)
     zeros = {power: sign_of_root(power.exp) for power in powers}
-    value = value.xreplace(dict.fromkeys(zeros, _ZERO))
-    is_known = {1} >= {*zeros.values()} and not any(map(_may_diverge, value.atoms(sympy.hyper)))
-    return value if is_known and _OPEN.isdisjoint(value.atoms()) else None
+    value = value.xreplace(dict.fromkeys(zeros, sympy.S.Zero))
+    is_known = {1} >= {*zeros.values()} and not any(map(_may_diverge, value.atoms(hyper)))
+    return value if is_known and _NOT_FINITE.isdisjoint(value.atoms()) else None
 
 
 def slope(expression: Expr, x: Expr) -> Expr:
-    """What SymPy's `diff` gives, with a look at the clock at each term and factor: it takes seconds where there are many."""
+    """SymPy's `diff`, with a look at the clock at each term and factor: it takes seconds where there are many."""
     check_time()
     if expression.is_Add:
-        return sympy.Add(*[slope(term, x) for term in expression.args])
+        return Add(*[slope(term, x) for term in expression.args])
     if expression.is_Mul:
         factors = expression.args
-        slopes = [(i, slope(factor, x)) for i, factor in enumerate(factors)]
-        products = [(*factors[:i], inner, *factors[i + 1 :]) for i, inner in slopes if inner != 0]
-        return sympy.Add(*(math.prod(product, start=_ONE) for product in products))
-    if expression.is_Pow and expression.exp.is_Number:
-        inner = slope(expression.base, x)
-        return expression * (inner * expression.exp / expression.base)
-    if isinstance(expression, sympy.hyper):
+        products = ((*factors[:i], slope(factor, x), *factors[i + 1 :]) for i, factor in enumerate(factors))
+        return Add(*(math.prod(product, start=sympy.S.One) for product in products))
+    if isinstance(expression, hyper):
         z = expression.argument
         for e, b in antiderivative_parameters(expression):  # z F' + e F is e times the function without e and b
             rest = hypergeometric((*expression.ap, b), (*expression.bq, e), z)
             return e * (rest - expression) * z.diff(x) / z
     if expression.has(sympy.Abs):  # of what is real, else SymPy writes real and imaginary parts
         real = {symbol: sympy.Dummy(real=True) for symbol in expression.free_symbols}
-        own = {dummy: symbol for symbol, dummy in real.items()}
-        return expression.xreplace(real).diff(real.get(x, x)).xreplace(own)
+        return expression.xreplace(real).diff(real.get(x, x)).xreplace(inverse(real))
     return expression.diff(x)
 
 
 def _may_diverge(f: Expr) -> bool:
-    """True for a hypergeometric function at 1, a singular point, unless its series is seen to converge there, or to end."""
-    excess = sympy.Add(*f.bq) - sympy.Add(*f.ap)
+    """True for a hypergeometric series at its singular point 1, unless it is seen to converge there, or to end."""
+    excess = Add(*f.bq) - Add(*f.ap)
     is_polynomial = any(a.is_integer and a.is_nonpositive for a in f.ap)
     return f.argument == 1 and len(f.ap) == len(f.bq) + 1 and not (excess.is_positive or is_polynomial)
 
 
 def _at_zero(value: Expr) -> Expr:
-    """With the values of series and odd functions of 0, and of integrals over nothing, which SymPy leaves as they are."""
-    value = value.replace(lambda e: isinstance(e, sympy.hyper) and e.argument == 0, lambda e: _ONE)
-    value = value.replace(lambda e: isinstance(e, _ODD) and e.args[-1] == 0, lambda e: _ZERO)
+    """With the values of series and odd functions at 0, and of integrals over a point, which SymPy doesn't evaluate."""
+    value = value.replace(lambda e: isinstance(e, hyper) and e.argument == 0, lambda e: sympy.S.One)
+    value = value.replace(lambda e: isinstance(e, _ODD) and e.args[-1] == 0, lambda e: sympy.S.Zero)
     return value.replace(
-        lambda e: isinstance(e, sympy.Integral) and e.limits[0][1:2] == e.limits[0][2:], lambda e: _ZERO
+        lambda e: isinstance(e, sympy.Integral) and e.limits[0][1:2] == e.limits[0][2:], lambda e: sympy.S.Zero
     )
 
 
@@ -103,17 +91,22 @@ def in_single_waves(e: Expr) -> Expr:
 
 def by_functions(total: Expr, is_coefficient: Callable[[Expr], Any]) -> dict[Expr, Expr]:
     """The coefficients in a sum of products by what they stand before, the other factors."""
-    found: dict[Expr, Expr] = defaultdict(lambda: _ZERO)
-    for term in sympy.Add.make_args(total):
-        own, others = sympy.sift(sympy.Mul.make_args(term), lambda factor: bool(is_coefficient(factor)), binary=True)
-        found[sympy.Mul(*others)] += sympy.Mul(*own)
+    found: dict[Expr, Expr] = defaultdict(lambda: sympy.S.Zero)
+    for term in Add.make_args(total):
+        own, others = sympy.sift(Mul.make_args(term), lambda factor: bool(is_coefficient(factor)), binary=True)
+        found[Mul(*others)] += Mul(*own)
     return found
+
+
+def inverse(mapping: Mapping[Expr, Expr]) -> dict[Expr, Expr]:
+    """The keys by their values."""
+    return {value: key for key, value in mapping.items()}
 
 
 def changed_beside(parts: Iterable[Expr], e: Expr, change: Callable[[Expr], Expr]) -> Expr:
     """An expression changed with a letter for each of the parts, which stay."""
     letters = {part: sympy.Dummy() for part in parts}
-    return change(e.xreplace(letters)).xreplace({letter: part for part, letter in letters.items()})
+    return change(e.xreplace(letters)).xreplace(inverse(letters))
 
 
 # ---------------------------------------------------------------------------------------------------------------- size
@@ -122,32 +115,6 @@ def changed_beside(parts: Iterable[Expr], e: Expr, change: Callable[[Expr], Expr
 def size(expression: Expr) -> int:
     """The number of subexpressions."""
     return 1 + sum(map(size, expression.args))
-
-
-@dataclass(frozen=True)
-class _Size:
-    """Terms and subexpressions at most, and the degree of a polynomial in the variable, infinite for anything else."""
-
-    terms: float
-    parts: float
-    degree: float
-
-    def __mul__(self, other: _Size) -> _Size:
-        """A part of a factor is written beside every term of the other one; like powers of the variable are gathered."""
-        degree = self.degree + other.degree
-        terms = self.terms * other.terms
-        parts = self.parts * other.terms + other.parts * self.terms + terms
-        return _Size(min(terms, degree + 1), min(parts, _MONOMIAL * (degree + 1)), degree)
-
-    def __pow__(self, k: int) -> _Size:
-        """Each term has at most k of the terms of the base as factors; SymPy writes all of them before it gathers any."""
-        terms = 1.0
-        if self.terms > 1:
-            if self.terms * k >= _MANY:
-                return _Size(math.inf, math.inf, math.inf)
-            terms = math.comb(int(self.terms) + k - 1, k)  # the monomials of degree k in so many letters
-        parts = terms * min(k, self.terms) * (self.parts / self.terms + 2)
-        return _Size(terms, parts, self.degree * k)
 
 
 def expanded_size(expression: Expr) -> float:
@@ -161,24 +128,33 @@ def expanded_size(expression: Expr) -> float:
     52.0
     """
     has_one_symbol = len(expression.free_symbols) == 1
-    return float(_expression_size(expression, 1 if has_one_symbol else math.inf).parts)
+    return float(_expansion(expression, 1 if has_one_symbol else math.inf)[1])
 
 
-def _expression_size(expression: Expr, degree: float) -> _Size:
-    """`degree`: that of a symbol."""
-    if expression.is_Symbol:
-        return _Size(1, 1, degree)
-    if expression.is_Number:
-        return _Size(1, 1, 0)
-    inner = [_expression_size(part, degree) for part in expression.args]
-    parts = sum(one.parts for one in inner)
-    if expression.is_Add:
-        return _Size(sum(one.terms for one in inner), parts, max(one.degree for one in inner))
-    if expression.is_Mul:
-        return reduce(mul, sorted(inner, key=lambda part: part.degree))
-    if expression.is_Pow and expression.exp.is_Rational and expression.exp >= 1:
-        power = inner[0] ** int(expression.exp)
-        if expression.exp.is_Integer:
-            return power
-        return replace(power, degree=math.inf)  # u^(7/3) is expanded as u^2 u^(1/3)
-    return _Size(1, 1 + parts, math.inf)
+def _expansion(e: Expr, degree: float) -> tuple[float, float, float]:
+    """Terms and subexpressions at most when it is expanded, and its degree in symbols of this one, infinite for functions."""
+    if e.is_Symbol or e.is_Number:
+        return 1, 1, degree if e.is_Symbol else 0
+    inner = [_expansion(part, degree) for part in e.args]
+    terms, parts, degrees = zip(*inner, strict=True) if inner else ((), (), ())
+    if e.is_Add:
+        return sum(terms), sum(parts), max(degrees)
+    if e.is_Mul:
+        return reduce(_times, sorted(inner, key=lambda factor: factor[2]))  # polynomials first
+    if e.is_Pow and e.exp.is_Rational and e.exp >= 1:
+        count, k = terms[0], int(e.exp)
+        if count > 1 and count * k >= 10**4:
+            return math.inf, math.inf, math.inf
+        # SymPy writes all monomials of degree k in the terms before it gathers any; each has at most k of them as factors
+        monomials = math.comb(count + k - 1, k)
+        whole = degrees[0] * k if e.exp.is_Integer else math.inf  # u^(7/3) is expanded as u^2 u^(1/3)
+        return monomials, monomials * min(k, count) * (parts[0] / count + 2), whole
+    return 1, 1 + sum(parts), math.inf
+
+
+def _times(u: tuple[float, float, float], v: tuple[float, float, float]) -> tuple[float, float, float]:
+    """A part of a factor is written beside every term of the other one; like powers of the variable are gathered."""
+    (n, parts, degree), (m, others, other_degree) = u, v
+    total = degree + other_degree
+    # c x^n has five subexpressions
+    return min(n * m, total + 1), min(parts * m + others * n + n * m, 5 * (total + 1)), total

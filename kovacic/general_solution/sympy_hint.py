@@ -1,7 +1,7 @@
-"""The method "kovacic" for `sympy.dsolve`, beside SymPy's own.
+"""The method "kovacic" for `sympy.dsolve`, in addition to SymPy's own.
 
-SymPy keeps its methods in `solver_map`, classes by their names, which are called hints; the first that matches is the default.
-The order of the hints stands a second time in the tuple `allhints`, under two names.
+`solver_map` has SymPy's methods, classes by their hints; the first that matches is the default.  The tuple `allhints`, which
+has two names, repeats the order of the hints.
 """
 
 from __future__ import annotations
@@ -23,9 +23,9 @@ HINT = "kovacic"
 def register() -> None:
     """Make `sympy.dsolve` know this package's method: `hint="kovacic"`, and the default wherever it finds the solution.
 
-    From then on `classify_ode` names it first, `hint="all"` and `hint="best"` try it, and initial and boundary values are
-    put in by SymPy itself, as for its own methods (`kovacic.dsolve` has its own way, which knows more: free constants, and
-    why there is no solution).  An equation that it can't solve is left to SymPy's methods.  Twice is the same as once.
+    From then on `classify_ode` names it first, and `hint="all"` and `hint="best"` try it.  Initial and boundary values are
+    put in by SymPy, as for its own methods (`kovacic.dsolve` does more: it leaves constants free, and says why there is no
+    solution).  An equation that it can't solve is left to SymPy's methods.  A second call has no effect.
 
     Returns
     -------
@@ -45,13 +45,13 @@ def register() -> None:
     if HINT in solver_map:
         return
     others = dict(solver_map)
-    solver_map.clear()  # the dictionary is known under several names: it is changed, not replaced
+    solver_map.clear()  # it is changed, not replaced: several modules refer to it
     solver_map.update({HINT: KovacicSolver, **others})
     _set_hints((HINT, *names.allhints))
 
 
 def unregister() -> None:
-    """Undo `register`; nothing happens where it wasn't called.
+    """Undo `register`, if it was called.
 
     Returns
     -------
@@ -73,7 +73,7 @@ def _set_hints(hints: tuple[str, ...]) -> None:
 
 
 class KovacicSolver(SingleODESolver):  # type: ignore[misc]
-    """SymPy asks first whether a method matches, and then for the solution; here that is the same question."""
+    """The method: it matches if it finds the solution, which SymPy asks for afterwards."""
 
     hint = HINT
     has_integral = False
@@ -94,10 +94,7 @@ class KovacicSolver(SingleODESolver):  # type: ignore[misc]
 
 
 class OpenIntegral(sympy.Integral):  # type: ignore[misc]
-    """An integral that was tried, and stays: SymPy calls `doit` on solutions, which may take minutes.
-
-    `Integral(*e.args).doit()` tries SymPy's rules.
-    """
+    """An integral that stays: SymPy calls `doit` on solutions, for minutes perhaps; `Integral(*e.args).doit()` still works."""
 
     def doit(self, **hints: Any) -> Expr:
         return self

@@ -1,4 +1,4 @@
-"""Systems of two linear equations of first order, by a cyclic vector.
+"""Systems of two linear equations of first order, by elimination.
 
 For x' = a x + b y + f, y' = c x + d y + g with b != 0 the second unknown is y = (x' - a x - f)/b, and x satisfies
 
@@ -10,11 +10,12 @@ x'(t0) = a x + b y + f there; where b(t0) = 0 equation (1) is singular though th
 
 from __future__ import annotations
 
-from collections.abc import Collection, Sequence, Set
+from collections.abc import Collection, Sequence
 from dataclasses import replace
 from typing import Any
 
 import sympy
+from sympy import Add, Tuple, cancel
 from sympy.core.function import AppliedUndef
 from sympy.solvers.ode.systems import ODEOrderError, linear_ode_to_matrix
 from sympy.solvers.solveset import NonlinearError
@@ -26,19 +27,19 @@ from kovacic.general_solution.behaviour import value_at
 from kovacic.general_solution.constants import Outcome, Row, determine
 from kovacic.general_solution.first_order import (
     LINEAR,
+    CheckedSolution,
     FirstOrderEquation,
     OfFirstOrder,
-    Solved,
     Solver,
     check_first_order,
     is_unit,
     solved_linear,
-    with_letters,
+    with_letters_for_constants,
     zeros_of,
 )
 from kovacic.general_solution.question import exact, free_constants
-from kovacic.general_solution.steps import JUMPING, in_steps, taken_apart
-from kovacic.general_solution.substitution import size, slope
+from kovacic.general_solution.steps import JUMPING, in_steps, split_at_jumps
+from kovacic.general_solution.substitution import inverse, size, slope
 from kovacic.general_solution.textbook import in_book_form, sums
 from kovacic.general_solution.zero import is_zero
 from kovacic.general_solution.zero_set import ZeroSet
@@ -66,26 +67,26 @@ class LinearSystem(OfFirstOrder):
         """Equation (1) for the first unknown, b not zero."""
         a, b, c, d, f, g = self.entries
         x, t = self.functions[0], self.x
-        first, zeroth = map(sympy.cancel, eliminated(((a, b), (c, d)), t))
-        right = f.diff(t) + b * g - (d + sympy.cancel(b.diff(t) / b)) * f
+        first, zeroth = map(cancel, eliminated(((a, b), (c, d)), t))
+        right = f.diff(t) + b * g - (d + cancel(b.diff(t) / b)) * f
         return sympy.Eq(x.diff(t, 2) + first * x.diff(t) + zeroth * x, right)
 
     def second(self, x: Expr) -> Expr:
-        """The second unknown where the first one is x, b not zero."""
+        """The second unknown, from the first one, b not zero."""
         a, b, _, _, f, _ = self.entries
         y = sympy.expand_mul((slope(x, self.x) - a * x - f) / b, deep=False)
-        integrals, plain = sympy.sift(sympy.Add.make_args(y), lambda term: term.has(sympy.Integral), binary=True)
-        if integrals:  # the integrands that are left of their slopes cancel: exp(t) exp(t^3 - t) is exp(t^3)
-            joined = sympy.powsimp(sympy.Add(*plain)).replace(sympy.exp, lambda power: sympy.exp(sympy.expand(power)))
-            y = sympy.Add(*integrals, joined)
-        apart = taken_apart(y, self.x) if y.has(sympy.DiracDelta) else None
+        integrals, plain = sympy.sift(Add.make_args(y), lambda term: term.has(sympy.Integral), binary=True)
+        if integrals:  # their integrands in x' cancel: exp(t) exp(t^3 - t) is exp(t^3)
+            joined = sympy.powsimp(Add(*plain)).replace(sympy.exp, lambda power: sympy.exp(sympy.expand(power)))
+            y = Add(*integrals, joined)
+        apart = split_at_jumps(y, self.x) if y.has(sympy.DiracDelta) else None
         # H u has the slope H u' + u(a) delta, where u(a) is zero or what an impulse in f brings.
         if apart and all(is_zero(strength) for here in apart.impulses.values() for strength in here.values()):
             return apart.without_impulses(self.x)
         return y
 
     def alone(self, other: Expr) -> FirstOrderEquation:
-        """The equation of the first unknown, with its conditions, where the second one is known."""
+        """The equation of the first unknown, with its conditions, for a known second one."""
         a, b, _, _, f, _ = self.entries
         x = self.functions[0]
         of_x = tuple((function, condition) for function, condition in self.asked if function == x)
@@ -102,7 +103,7 @@ class LinearSystem(OfFirstOrder):
 
 
 def read_system(equations: Sequence[Any], functions: Sequence[Any] | None) -> LinearSystem:
-    """The system that two SymPy equations, or expressions that are zero, are.  Raises `InputError` for anything else."""
+    """The system of two SymPy equations, or expressions that are zero.  Raises `InputError` for anything else."""
     if len(equations) != 2:
         raise InputError(
             f"{len(equations)} equations: systems of two equations of first order are solved here",
@@ -116,24 +117,22 @@ def read_system(equations: Sequence[Any], functions: Sequence[Any] | None) -> Li
     try:
         (mass, A), b = linear_ode_to_matrix(whole, [x, y], t, 1)
     except ODEOrderError:
-        raise InputError(
-            "a system of equations of first order is expected", hint="for higher order call sympy.dsolve"
-        ) from None
+        hint = "for higher order call sympy.dsolve"
+        raise InputError("a system of equations of first order is expected", hint=hint) from None
     except NonlinearError:
-        raise NotLinear(
-            "the system isn't linear in its unknowns", hint="the equations are x' = a x + b y + f, y' = c x + d y + g"
-        ) from None
-    determinant = sympy.cancel(mass.det())
+        hint = "the equations are x' = a x + b y + f, y' = c x + d y + g"
+        raise NotLinear("the system isn't linear in its unknowns", hint=hint) from None
+    determinant = cancel(mass.det())
     if determinant == 0:
         raise InputError("the equations don't determine both derivatives", hint="for such systems call sympy.dsolve")
     inverse = mass.adjugate() / determinant
-    matrix, right = ((inverse * part).applyfunc(sympy.cancel) for part in (A, b))
+    matrix, right = ((inverse * part).applyfunc(cancel) for part in (A, b))
     return LinearSystem((x, y), (*matrix, *(in_steps(e, t) for e in right)))
 
 
 def _unknowns(whole: Sequence[Expr], functions: Sequence[Any] | None) -> tuple[Expr, Expr]:
     """x(t) and y(t): those that are given, or the functions that are differentiated."""
-    system = sympy.Tuple(*whole)
+    system = Tuple(*whole)
     found = [*(functions or sorted({e.expr for e in system.atoms(sympy.Derivative)}, key=str))]
     if len(found) != 2 or not all(isinstance(f, AppliedUndef) and len(f.args) == 1 for f in found):
         raise InputError("two unknown functions are expected", hint="give them as func=[x(t), y(t)]")
@@ -146,32 +145,32 @@ def _unknowns(whole: Sequence[Expr], functions: Sequence[Any] | None) -> tuple[E
     return x, y
 
 
-def solved_system(given: LinearSystem, solver: Solver) -> Solved:
-    """x(t) and y(t), put into both equations and into the values.
-
-    Raises `InputError` for values that no solution has, and `NotImplementedError` where nothing is found.
-    """
+def solved_system(given: LinearSystem, solver: Solver) -> CheckedSolution:
+    """x(t) and y(t), put into both equations.  Raises `InputError` for values that no solution has."""
     for condition in given.conditions:
         if not condition.is_value or condition.terms[0].order:
             raise InputError(f"{condition.text}: a system has values of its unknowns")
     is_swapped = _is_swapped(given)
     system = given.swapped if is_swapped else given
+    without_values = replace(system, asked=())
     t, b, values = system.x, system.entries[1], system.values
-    taken = sympy.Tuple(t, *system.entries).free_symbols.union(*(c.free_symbols for c in system.conditions))
-    is_open = bool(system.asked)  # the values aren't put in yet
-    exceptions: list[Expr] = []
+    taken = Tuple(t, *system.entries).free_symbols.union(*(c.free_symbols for c in system.conditions))
     zeros: list[Expr] = []
+    exceptions: list[Expr] = []
+    is_open = bool(system.asked)  # the values are put in afterwards
     if b == 0:
         is_open = len(system.swapped.alone(sympy.S.Zero).asked) > 1  # two values of y determine x
-        pair, notices = _one_after_the_other(replace(system, asked=()) if is_open else system, taken)
+        triangular = without_values if is_open else system
+        first = solved_linear(triangular.alone(sympy.S.Zero), taken)
+        second = solved_linear(triangular.swapped.alone(*first.values), taken | first.values[0].free_symbols)
+        pair, notices = Tuple(*first.values, *second.values), first.notices + second.notices
     elif values is not None and is_unit(b, t, values[0]):
         is_open = False
         pair, notices = _through_values(system, values, solver)
     else:
         answer = solver(system.equation, system.functions[0], {})
-        notices = answer.notices
-        x, _ = with_letters(answer, taken)
-        pair = sympy.Tuple(x, system.second(x))
+        x, _ = with_letters_for_constants(answer, taken)
+        pair, notices = Tuple(x, system.second(x)), answer.notices
         exceptions = [e.xreplace(answer.own) for e in answer.pair_exceptions]
     constants = sorted(pair.free_symbols - taken, key=str)
     if is_open:
@@ -182,31 +181,23 @@ def solved_system(given: LinearSystem, solver: Solver) -> Solved:
         exceptions = [e for e in exceptions if any(vanishes_with(e, *solutions) for solutions in functions_left)]
     renamed = dict(zip(left, free_constants(len(left), *taken, *system.functions), strict=True))
     x, y = (_with_constants_apart(e, renamed.values(), t) for e in pair.xreplace(renamed))
-    found = zeros_of(sympy.Tuple(x, y), t, system.entries, exceptions)
+    found = zeros_of(Tuple(x, y), t, system.entries, exceptions)
     found += [zero for zero in zeros if not {*ZeroSet(zero).factors} <= {*found}]
-    plain = replace(system, asked=())
-    unchecked = check_first_order(plain.alone(y), x) + check_first_order(plain.swapped.alone(x), y)
-    return Solved((y, x) if is_swapped else (x, y), notices + unchecked, found, tuple(exceptions))
-
-
-def _one_after_the_other(system: LinearSystem, taken: Set[Expr]) -> tuple[Expr, list[str]]:
-    """For b = 0: x from its own equation and value, then y, whose equation has what is left of x in it."""
-    first = solved_linear(system.alone(sympy.S.Zero), taken)
-    second = solved_linear(system.swapped.alone(*first.values), taken | first.values[0].free_symbols)
-    return sympy.Tuple(*first.values, *second.values), first.notices + second.notices
+    notices += check_first_order(without_values.alone(y), x) + check_first_order(without_values.swapped.alone(x), y)
+    return CheckedSolution((y, x) if is_swapped else (x, y), notices, found, tuple(exceptions))
 
 
 def _with_constants_apart(value: Expr, constants: Collection[Expr], t: Expr) -> Expr:
-    """In a short form, the terms with free constants, in which it is linear, apart from the others."""
+    """A short form of a solution, in which terms with free constants stand apart from the others."""
     if not value.has(*constants):
         return in_book_form(value, t)
-    homogeneous = sympy.Add(*(constant * value.diff(constant) for constant in constants))
+    homogeneous = Add(*(constant * value.diff(constant) for constant in constants))
     rest = value.subs(dict.fromkeys(constants, 0))
-    return sympy.Add(*(shortest([*sums(part, t)]) for part in (homogeneous, rest)))
+    return Add(*(shortest([*sums(part, t)]) for part in (homogeneous, rest)))
 
 
 def _is_swapped(system: LinearSystem) -> bool:
-    """True if x is eliminated instead: if b is zero there, if f jumps or isn't known and g is, or if c is simpler than b."""
+    """True if y is solved for first: if b is zero at the values, if f isn't smooth and g is, or if c is simpler than b."""
     _, b, c, _, *right = system.entries
     if b == 0 or c == 0:
         return bool(b != 0)  # the unknown whose equation stands alone comes first
@@ -226,12 +217,12 @@ def _through_values(system: LinearSystem, values: tuple[Expr, Expr, Expr], solve
     letters = {f: sympy.Dummy() for f in slope_there.atoms(AppliedUndef)}  # g(t0), for a given function g
     ics = {x.subs(system.x, point): first, x.diff().subs(system.x, point): slope_there.xreplace(letters)}
     answer = solver(system.equation, x, ics)
-    solution = answer.eq.rhs.xreplace({letter: f for f, letter in letters.items()})
-    return sympy.Tuple(solution, system.second(solution)), answer.notices
+    solution = answer.eq.rhs.xreplace(inverse(letters))
+    return Tuple(solution, system.second(solution)), answer.notices
 
 
 def _with_constants(system: LinearSystem, pair: Expr, constants: Sequence[Expr]) -> tuple[Expr, list[Expr]]:
-    """With the constants that the values determine, and expressions in parameters that are zero where that is otherwise."""
+    """The pair with the constants that the values determine, and expressions that are zero for exceptional parameters."""
     c1, c2 = constants
     rows = []
     for f, condition in system.asked:

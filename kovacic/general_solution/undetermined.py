@@ -12,20 +12,18 @@ resonance Q has a degree one or two higher, and no part that solves the homogene
 from __future__ import annotations
 
 from collections import defaultdict
-from collections.abc import Sequence
 from math import perm
 from typing import Any
 
 import sympy
-from sympy import cos, cosh, sin, sinh
+from sympy import Add, cancel, cos, cosh, expand, sin, sinh
 
 from kovacic.general_solution.substitution import in_single_waves, size
+from kovacic.limits import check_time
 
 Expr = Any  # SymPy publishes no types
 #: i
 _I = sympy.Dummy("i")
-#: The largest degree of a polynomial, and number of terms, that is solved for.
-_LARGEST = 200
 
 
 def undetermined(b: Expr, c: Expr, right: Expr, x: Expr) -> Expr | None:
@@ -40,17 +38,17 @@ def undetermined(b: Expr, c: Expr, right: Expr, x: Expr) -> Expr | None:
         return None
     total = []
     for rate, P in polynomials.items():
-        Q = _solved(b, c, rate, P)
+        Q = _response(b, c, rate, P)
         if Q is None:
             return None
-        A, B = _parts(sympy.Add(*(coefficient * x**k for k, coefficient in Q.items())))
-        rho, omega = _parts(rate)
+        A, B = _real_and_imaginary(Add(*(coefficient * x**k for k, coefficient in Q.items())))
+        rho, omega = _real_and_imaginary(rate)
         total.append(sympy.powdenest(sympy.exp(rho * x)) * _wave_terms(A, B, omega * x))
-    return sympy.Add(*total)
+    return Add(*total)
 
 
-def _parts(value: Expr) -> tuple[Expr, Expr]:
-    """u and v of u + i v."""
+def _real_and_imaginary(value: Expr) -> tuple[Expr, Expr]:
+    """u and v for u + i v."""
     return value.xreplace({_I: sympy.S.Zero}), value.diff(_I)
 
 
@@ -68,85 +66,68 @@ def _wave_terms(A: Expr, B: Expr, angle: Expr) -> Expr:
     common = sympy.lcm(*denominators)
     if not common.free_symbols or not common.is_polynomial():
         return expanded
-    numerators = [sympy.cancel(part * common) for part in (A, -B)]
+    numerators = [cancel(part * common) for part in (A, -B)]
     shared = sympy.gcd(*numerators)
-    first, second = (sympy.cancel(part / shared) for part in numerators)
+    first, second = (cancel(part / shared) for part in numerators)
     joined = sympy.factor(shared / common) * (first * cos(angle) + second * sin(angle))
     return min(expanded, joined, key=size)
 
 
 def _polynomials(right: Expr, x: Expr) -> dict[Expr, dict[int, Expr]] | None:
-    """By the rates rho + i omega the coefficients of x^k in the P beside exp((rho + i omega) x); a real part is meant.
-
-    None for another right-hand side.
-    """
-    summands = _summands(right, x)
-    if summands is None:
-        return None
+    """For each rate lambda the coefficients of P by the powers of x, where the real part is meant; None for another form."""
+    if not all(power.exp.is_Integer and power.exp > 0 for power in right.atoms(sympy.Pow) if power.base.has(x)):
+        return None  # before it is expanded
+    right = expand(right.rewrite((sinh, cosh), sympy.exp))
+    if right.has(sin, cos):
+        right = in_single_waves(right)
     result: dict[Expr, dict[int, Expr]] = defaultdict(lambda: defaultdict(lambda: sympy.S.Zero))
-    for summand in summands:
+    for summand in Add.make_args(right):
         coefficient, rest = summand.as_independent(x, as_Add=False)
-        degree = 0
-        rate = sympy.S.Zero
+        degree, rate = 0, sympy.S.Zero
         for factor in sympy.Mul.make_args(rest):
             base, exponent = factor.as_base_exp()
-            is_wave = factor.func in (sin, cos)
-            constant, slope = _line(factor.args[0] if is_wave else exponent, x)
-            if base == x and exponent.is_Integer and 0 <= exponent <= _LARGEST:
+            if base == x and exponent.is_Integer:
                 degree += int(exponent)
-            elif slope.has(x) or (is_wave and rate.has(_I)) or (not is_wave and base.has(x)):
+                continue
+            is_wave = factor.func in (sin, cos)
+            constant, linear = expand(factor.args[0] if is_wave else exponent).as_independent(x, as_Add=True)
+            slope = expand(linear / x)
+            if slope.has(x) or (rate.has(_I) if is_wave else base.has(x)):
                 return None
-            elif is_wave:
+            if is_wave:
                 rate += _I * slope
                 # the sine is the cosine of an angle that is pi/2 less
                 c, s = cos(constant), sin(constant)
                 coefficient *= c + _I * s if factor.func is cos else s - _I * c
             else:
-                coefficient *= base**constant
                 rate += slope * sympy.log(base)
+                coefficient *= base**constant
         result[rate][degree] += coefficient
     return result
 
 
-def _summands(right: Expr, x: Expr) -> Sequence[Expr] | None:
-    """Products with one wave at most; none of 0.  None if powers of functions of x aren't natural, or there are too many."""
-    exponents = [power.exp for power in right.atoms(sympy.Pow) if power.base.has(x)]
-    if not all(exponent.is_Integer and exponent > 0 for exponent in exponents):
-        return None  # before it is expanded
-    right = sympy.expand(right.rewrite((sinh, cosh), sympy.exp))
-    if right.has(sin, cos):
-        right = in_single_waves(right)
-    summands: tuple[Expr, ...] = sympy.Add.make_args(right) if right != 0 else ()
-    return summands if len(summands) <= _LARGEST else None
-
-
-def _line(expression: Expr, x: Expr) -> tuple[Expr, Expr]:
-    """p and q of p + q x, where q has x if the expression is no line."""
-    constant, linear = sympy.expand(expression).as_independent(x, as_Add=True)
-    return constant, sympy.Add(*(term / x for term in sympy.Add.make_args(linear)))
-
-
-def _solved(b: Expr, c: Expr, rate: Expr, P: dict[int, Expr]) -> dict[int, Expr] | None:
+def _response(b: Expr, c: Expr, rate: Expr, P: dict[int, Expr]) -> dict[int, Expr] | None:
     """Q of equation (1); None if u^2 + v^2 = 0 for a factor u + i v other than 0."""
-    factors = [_constant(factor) for factor in (rate**2 + b * rate + c, 2 * rate + b, sympy.S.One)]
+    factors = [_reduced(factor) for factor in (rate**2 + b * rate + c, 2 * rate + b, sympy.S.One)]
     m = next(k for k, factor in enumerate(factors) if factor != 0)
     conjugate = factors[m].xreplace({_I: -_I})
-    norm = _constant(factors[m] * conjugate)
+    norm = _reduced(factors[m] * conjugate)
     if norm == 0:
         return None
     Q: dict[int, Expr] = defaultdict(lambda: sympy.S.Zero)
     for n in range(max(P), -1, -1):
-        rest = P[n] - sympy.Add(*(perm(n + j, j) * factors[j] * Q[n + j] for j in range(m + 1, 3)))
-        Q[n + m] = _constant(conjugate * rest / (norm * perm(n + m, m)))
+        check_time()
+        rest = P[n] - Add(*(perm(n + j, j) * factors[j] * Q[n + j] for j in range(m + 1, 3)))
+        Q[n + m] = _reduced(conjugate * rest / (norm * perm(n + m, m)))
     return Q
 
 
-def _constant(value: Expr) -> Expr:
+def _reduced(value: Expr) -> Expr:
     """A product of three factors as u + i v, in forms that show whether u and v are zero."""
-    expanded = sympy.expand(value)
+    expanded = expand(value)
     powers = [expanded.coeff(_I, k) for k in range(4)]
     u, v = (
-        part if part.is_Rational else sympy.radsimp(sympy.cancel(part), symbolic=False)
+        part if part.is_Rational else sympy.radsimp(cancel(part), symbolic=False)
         for part in (powers[0] - powers[2], powers[1] - powers[3])
     )
     u, v = (sympy.S.Zero if part.is_number and part.equals(0) else part for part in (u, v))

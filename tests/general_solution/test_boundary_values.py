@@ -497,12 +497,12 @@ def test_an_answer_that_holds_in_an_exceptional_case_has_none(equation: str, ics
         # whether there are solutions at such values isn't known for the integral
         (
             "y'' + k^2*y = 1/(1+x^4), y(0) = 0, y(L) = 0",
-            "sin(L*k) = 0 and k != 0: give such values for the solutions there",
+            "sin(L*k) = 0 and k != 0: substitute such values for the solutions there",
         ),
         # an integral from 1 to 3 is divided by sqrt(k - n^2), another has that inside
         (
             "y'' + 2*n*y' + k*y = x^k, y(1) = p, y(3) = q",
-            "sin(2*sqrt(k - n**2)) = 0 and k - n**2 != 0: give such values",
+            "sin(2*sqrt(k - n**2)) = 0 and k - n**2 != 0: substitute such values",
         ),
         # (17/4)^(5/7), for generic values, would have larger numerators
         (
@@ -525,7 +525,7 @@ def test_the_answer_is_kept_where_an_exceptional_case_takes_too_long() -> None:
             notices |= {*kovacic.answer_to("y'' + k^2*y = 0", ics="y'(0)=1", limits=limits).notices}
         if "this holds unless k = 0, where y(x) = C1 + x" in notices:
             break
-    assert "this holds unless k = 0: give such values for the solutions there" in notices
+    assert "this holds unless k = 0: substitute such values for the solutions there" in notices
 
 
 @parametrize(

@@ -257,7 +257,7 @@ def test_letters_in_denominators_are_named() -> None:
         ("x' = -k*x, y' = k*x - m*y, x(0) = 1, y(0) = 0", ["k = m, where x(t) = exp(-m*t), y(t) = m*t*exp(-m*t)"]),
         ("x' = k*x, y' = x + c*y, x(0) = 0, y(0) = 1", []),  # x = 0, and what y is divided by isn't there
         ("x' = y, y' = -k^2*x, x(0) = 0, y(0) = 1", ["k = 0, where x(t) = t, y(t) = 1"]),
-        ("y' = a*y + b*exp(c*x) + x", ["a = 0 or a - c = 0: give such values for the solutions there"]),
+        ("y' = a*y + b*exp(c*x) + x", ["a = 0 or a - c = 0: substitute such values for the solutions there"]),
     ],
 )
 def test_what_holds_where_a_denominator_vanishes_is_said(text: str, said: list[str]) -> None:
@@ -364,7 +364,7 @@ def test_an_impulse_times_a_function_that_jumps_there_has_no_value(text: str) ->
 
 def test_where_the_solutions_of_a_system_with_letters_are_real_and_independent() -> None:
     with pytest.warns(
-        UserWarning, match=r"unless b = -\(a - d\)\*\*2/\(4\*c\), where x\(t\) = .*|unless b = 0: give such values"
+        UserWarning, match=r"unless b = -\(a - d\)\*\*2/\(4\*c\), where x\(t\) = .*|unless b = 0: substitute such values"
     ):
         found = kovacic.dsolve("x' = a*x + b*y, y' = c*x + d*y")
     assert str(kovacic.validity(found)) == "-a**2 + 2*a*d - 4*b*c - d**2 > 0, b != 0"

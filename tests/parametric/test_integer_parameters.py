@@ -29,7 +29,7 @@ def _halves(equation: Any) -> tuple[Any, Any, Any]:
     if not caught:
         return None, found, None
     (said,) = (str(warning.message) for warning in caught)
-    holds, elsewhere = said.removeprefix("this holds where ").split("; elsewhere, y(x) = ")
+    holds, elsewhere = said.removeprefix("this holds for ").split("; elsewhere, y(x) = ")
     own = {symbol.name: symbol for symbol in equation.free_symbols}
     return sympy.sympify(holds[: -len(" >= 0")], own), found, sympy.sympify(elsewhere, own)
 
