@@ -28,11 +28,11 @@ from kovacic.general_solution.integrands import (
     integral_of_fraction,
     integral_of_product,
     power_beside_wave,
-    prepared,
+    prepared_integrand,
     radicands,
     require,
 )
-from kovacic.general_solution.substitution import inverse, size
+from kovacic.general_solution.substitution import inverted, size
 from kovacic.general_solution.waves import beside_waves, by_coefficients, common_factor, wave_changes
 from kovacic.general_solution.zero import ball, differs_from_zero, samples
 from kovacic.limits import check_time
@@ -63,7 +63,7 @@ def antiderivative(integrand: Expr, x: Expr, start: Expr | None = None) -> Expr 
     plain = {symbol: sympy.Symbol(symbol.name) for symbol in integrand.free_symbols | {x}}
     # e exp(e x) is exp(e x + 1) for SymPy, which hides the factor: Euler's number gets a letter.
     euler = sympy.Symbol(f"{EULER}_")
-    own = inverse(plain) | {euler: sympy.E}
+    own = inverted(plain) | {euler: sympy.E}
     powers = {power: euler**power.exp for power in integrand.atoms(exp) if power.exp.is_Integer}
     try:
         found = _by_rules(integrand.xreplace(plain | powers | {sympy.E: euler}), plain[x]).xreplace(own)
@@ -82,7 +82,7 @@ def antiderivative(integrand: Expr, x: Expr, start: Expr | None = None) -> Expr 
 
 def _by_rules(given: Expr, x: Expr) -> Expr:
     """The integral of the whole, of each term, or of several terms by parts; x may be a root or an exponential, so positive."""
-    integrand = prepared(given)
+    integrand = prepared_integrand(given)
     functions = _functions(integrand)
     require(functions <= _SIMPLE | set(_BY_PARTS))
     if functions <= {exp}:
@@ -159,7 +159,7 @@ def _arguments(term: Expr, x: Expr) -> Iterator[ChangeOfIntegrand]:
     own |= {p.base for p in term.atoms(sympy.Pow) if p.exp.free_symbols and not p.exp.has(x)}
     for u in sorted((u for u in own if u.has(x) and u != x), key=str):
         inner = term / _slope_of_inverse(u, x)
-        yield ChangeOfIntegrand(prepared(inner.subs(x, known[u])) if u in known else inner.subs(u, t), t, u)
+        yield ChangeOfIntegrand(prepared_integrand(inner.subs(x, known[u])) if u in known else inner.subs(u, t), t, u)
 
 
 def _exponentials(term: Expr, x: Expr) -> Iterator[ChangeOfIntegrand]:
@@ -177,7 +177,7 @@ def _exponentials(term: Expr, x: Expr) -> Iterator[ChangeOfIntegrand]:
         k = -k
     t = Dummy(positive=True)
     in_t = term.xreplace({e: t ** (rate / k) for e, rate in rates.items()}) / (k * t)
-    yield ChangeOfIntegrand(prepared(in_t), t, exp(k * x))
+    yield ChangeOfIntegrand(prepared_integrand(in_t), t, exp(k * x))
 
 
 def _root_of_line(term: Expr, x: Expr) -> Iterator[ChangeOfIntegrand]:
@@ -218,7 +218,7 @@ def _by_parts(product: Expr, g: Expr, x: Expr) -> Expr:
     is_simple, is_polynomial = _functions(G) <= _SIMPLE, product.is_polynomial(x)
     require(is_simple or is_polynomial)
     # functions of G by parts would lead back here: without that, each term by a rule
-    rest = _by_rules(left, x) if is_simple else _of_terms(Add.make_args(prepared(left)), x)
+    rest = _by_rules(left, x) if is_simple else _of_terms(Add.make_args(prepared_integrand(left)), x)
     require(not (is_polynomial and rest.has(Integral)))
     return Add(total, *(part * product for part in Add.make_args(G)), -rest)
 

@@ -25,7 +25,7 @@ from sympy.functions.special.bessel import BesselBase
 from kovacic.algebra.precision import working_digits
 from kovacic.closed_form.atoms import sign_of_root
 from kovacic.closed_form.jets import ANTIDERIVATIVES
-from kovacic.general_solution.steps import place_of
+from kovacic.general_solution.steps import jump_place
 from kovacic.general_solution.substitution import finite_value, size, slope
 from kovacic.general_solution.zero import NOT_EVALUATED, agree, ball, is_zero, known_jet, opposite, samples
 from kovacic.limits import check_time
@@ -482,7 +482,7 @@ def _just_before(e: Expr, jump: Expr, x: Expr, point: Expr, order: int) -> Expr:
     """The value of a step or an impulse just before the point; as H(u, 0) where parameters may put the point on the step."""
     if isinstance(jump, sympy.DiracDelta):
         return _ZERO
-    place = place_of(jump, x)
+    place = jump_place(jump, x)
     is_one_before = place is not None and bool(place.slope.is_negative)  # H(s (x - a)) is 1 before a
     step = sympy.Heaviside(sympy.expand(jump.args[0].subs(x, point)), int(is_one_before))
     if place is None or not isinstance(step, sympy.Heaviside):

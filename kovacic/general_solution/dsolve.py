@@ -66,7 +66,7 @@ from kovacic.general_solution.question import (
     with_values,
 )
 from kovacic.general_solution.riccati import solved_riccati
-from kovacic.general_solution.substitution import inverse, size
+from kovacic.general_solution.substitution import inverted, size
 from kovacic.general_solution.systems import LinearSystem, read_system, solved_system
 from kovacic.general_solution.textbook import in_book_form, without_homogeneous
 from kovacic.general_solution.zero import is_identically_zero
@@ -364,7 +364,7 @@ class _Asked:
         eqs = [Eq(f, w, evaluate=False) for f, w in zip(problem.functions, solved.values, strict=True)]
         exceptions = (f"this holds unless {said}" for said in self.where_zero(solved.zeros, problem.at, eqs))
         notices = [*dict.fromkeys([*problem.guesses, *exceptions, *solved.notices])]
-        eqs = [eq.xreplace(inverse(known)) for eq in eqs]
+        eqs = [eq.xreplace(inverted(known)) for eq in eqs]
         if isinstance(problem, LinearSystem):
             return SystemAnswer(eqs, notices, known=known, exceptional=solved.of_pair)
         (found,) = eqs

@@ -80,7 +80,7 @@ class ChangeOfIntegrand:
         return found.subs(self.t, self.u)
 
 
-def prepared(integrand: Expr) -> Expr:
+def prepared_integrand(integrand: Expr) -> Expr:
     """Expanded, in sines, cosines and exponentials."""
     integrand = integrand.rewrite(HyperbolicFunction, exp)
     if integrand.has(tan, cot, sec, csc):
@@ -124,7 +124,7 @@ def integral_of_product(term: Expr, x: Expr) -> Expr:
         at = common_place(x, {p: p.as_expr() for p in polynomials})
     # the term is a constant times h, which has its logarithmic derivative
     atoms = Atoms(x, at=at)
-    h = product(_as_ratfunc(logarithmic_derivative(term, x), x))
+    h = product(_as_ratfunc(relative_slope(term, x), x))
     scale, shown = factors(h, atoms)
     # SymPy's arithmetic with algebraic numbers takes minutes
     found = None if sympy.Tuple(*shown).has(sympy.CRootOf) else integral(h, atoms)
@@ -145,14 +145,14 @@ def _constant_value(term: Expr, other: Expr, x: Expr) -> Expr:
     raise UnknownIntegral
 
 
-def logarithmic_derivative(e: Expr, x: Expr) -> Expr:
+def relative_slope(e: Expr, x: Expr) -> Expr:
     """e'/e by factors, in a short form."""
     if isinstance(e, cos):
         return -e.args[0].diff(x) * tan(e.args[0])
     if e.is_Mul:
-        return Add(*(logarithmic_derivative(part, x) for part in e.args))
+        return Add(*(relative_slope(part, x) for part in e.args))
     if e.is_Pow and not e.exp.has(x):
-        return e.exp * logarithmic_derivative(e.base, x)
+        return e.exp * relative_slope(e.base, x)
     rate = e.diff(x) / e
     return cancel(rate) if rate.is_rational_function(x) else powsimp(sympy.factor_terms(rate))
 

@@ -48,7 +48,7 @@ from kovacic.general_solution.basis import Basis
 from kovacic.general_solution.behaviour import have_values, value_at, values_at
 from kovacic.general_solution.check import is_finite, jumps
 from kovacic.general_solution.constants import tidy
-from kovacic.general_solution.integrands import MOST_COMPLEX, NUMBERS, ChangeOfIntegrand, prepared, ratfunc
+from kovacic.general_solution.integrands import MOST_COMPLEX, NUMBERS, ChangeOfIntegrand, prepared_integrand, ratfunc
 from kovacic.general_solution.steps import JUMPING, in_parts
 from kovacic.general_solution.substitution import by_functions, size
 from kovacic.general_solution.textbook import is_constant
@@ -96,7 +96,7 @@ def _plain_response(basis: Basis, right: Expr, start: Expr | None) -> Expr:
     if found is None:
         found = with_integrals(basis, right, start)
     is_open = found.has(sympy.Integral) and basis.equation.change is None
-    terms = Add.make_args(prepared(right)) if is_open else ()
+    terms = Add.make_args(prepared_integrand(right)) if is_open else ()
     # not exp(x)/x and 1/x apart, which aren't defined at 0, where the difference may be
     if len(terms) < 2 or not (start is None or have_values(terms, basis.x, start)):
         return found
@@ -224,7 +224,7 @@ def with_integrals(basis: Basis, right: Expr, start: Expr | None) -> Expr:
     integrands = [powsimp(y * right / basis.wronskian) for y in (basis.y2, basis.y1)]
     known = _known_integrals(basis, integrands, start)
     if None not in known:
-        whole = _checked(basis, known, right)
+        whole = _shortest_solution(basis, known, right)
         if whole is not None:
             return starting_at(whole, x, start)
     for integrals in (known, [None, None]):
@@ -254,7 +254,7 @@ def _known_integrals(basis: Basis, integrands: Sequence[Expr], start: Expr | Non
     return known if sum(bool(f.has(sympy.I)) for f in functions) <= MOST_COMPLEX else [None, None]
 
 
-def _checked(basis: Basis, parts: Sequence[Any], right: Expr) -> Expr | None:
+def _shortest_solution(basis: Basis, parts: Sequence[Any], right: Expr) -> Expr | None:
     """y2 times the second integral minus y1 times the first in its shortest form; None if that isn't a solution."""
     whole = expand(basis.y2 * parts[1] - basis.y1 * parts[0])
     if any(power.exp.free_symbols - {basis.x} for power in whole.atoms(sympy.Pow)):  # x x^a

@@ -27,7 +27,7 @@ from kovacic.general_solution.behaviour import Approach, have_values
 from kovacic.general_solution.integrands import NUMBERS
 from kovacic.general_solution.particular import right_hand_side, starting_at, turned_at
 from kovacic.general_solution.question import Question
-from kovacic.general_solution.steps import is_analytic, jump_points, place_of
+from kovacic.general_solution.steps import is_analytic, jump_place, jump_points
 from kovacic.general_solution.validity import needs_of
 from kovacic.general_solution.zero import is_zero
 from kovacic.limits import check_time
@@ -204,7 +204,7 @@ def one_sided(question: Question) -> tuple[Question, list[str]]:
     steps = {step for step in sympy.Tuple(*parts).atoms(sympy.Heaviside) if step.has(x)}
     points = given_points(question)
     for step in sorted(steps, key=str):
-        place = place_of(step, x)
+        place = jump_place(step, x)
         if place is None or place.slope.is_positive is None or not is_singular(question, place.a):
             continue
         is_left = bool(points) and (points[0] - place.a).is_negative is True

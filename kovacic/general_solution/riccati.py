@@ -47,13 +47,13 @@ from kovacic.general_solution.first_order import (
     with_letters_for_constants,
     zeros_of,
 )
-from kovacic.general_solution.integrands import NUMBERS, logarithmic_derivative, ratfunc
+from kovacic.general_solution.integrands import NUMBERS, ratfunc, relative_slope
 from kovacic.general_solution.question import free_constants
 from kovacic.general_solution.substitution import by_functions
 from kovacic.general_solution.textbook import in_book_form, over_one_denominator
 from kovacic.general_solution.waves import rational_in_waves
 from kovacic.general_solution.zero import is_zero
-from kovacic.limits import DEFAULT_LIMITS, MOST_SUBEXPRESSIONS, Budget, Limits, check_time, limited, manageable
+from kovacic.limits import DEFAULT_LIMITS, MOST_CHARACTERS, Budget, Limits, check_time, limited, manageable
 from kovacic.numbers.numerals import as_latex, plain_text
 from kovacic.reading.read import read_coefficients
 from kovacic.solution import Solution, solve
@@ -155,27 +155,27 @@ def _solved_linear(
 def _forms(u: Expr, constants: Sequence[Expr], equation: FirstOrderEquation) -> Iterator[Expr]:
     """w = -u'/(r u) as a sum over the factors of u, and by (2) for each solution with a rational omega."""
     x = equation.x
-    yield _sum([-term / equation.r for term in Add.make_args(_rate_of(u, constants, x))], x)
+    yield _with_rational_part([-term / equation.r for term in Add.make_args(_rate_of(u, constants, x))], x)
     if len(constants) < 2:
         return
     slope = ratfunc(equation.q + equation.r.diff(x) / equation.r, x)
     for u1 in map(u.diff, constants):
-        omega = ratfunc(logarithmic_derivative(u1, x), x)
+        omega = ratfunc(relative_slope(u1, x), x)
         if slope is None or omega is None or slope.field != omega.field:
             continue
         powers = product(slope - omega - omega)
         E = display(powers, Atoms(x)).xreplace(NUMBERS)
         V = None
         fractions = sum(abs(float(power.rational_exponent or 0)) * power.base.degree for power in powers.powers)
-        if fractions <= MOST_SUBEXPRESSIONS:
+        if 20 * fractions <= MOST_CHARACTERS:  # of some twenty characters each; of order 80 they take 10 s
             V = antiderivative(E, x)
         # E is written before the quotient, too: an integral that stays has it in the same form
-        V = sympy.Integral(E, x) if V is None else sympy.factor_terms(_sum(Add.make_args(V), x))
+        V = sympy.Integral(E, x) if V is None else sympy.factor_terms(_with_rational_part(Add.make_args(V), x))
         rational = -Atoms(x).ratio(omega).xreplace(NUMBERS) / equation.r
-        yield _sum([rational, -E / (equation.r * (constants[0] + V))], x)
+        yield _with_rational_part([rational, -E / (equation.r * (constants[0] + V))], x)
 
 
-def _sum(terms: Sequence[Expr], x: Expr) -> Expr:
+def _with_rational_part(terms: Sequence[Expr], x: Expr) -> Expr:
     """The rational terms as one fraction or in partial fractions; the others with theirs in lowest terms."""
     parts = by_functions(Add(*terms), lambda factor: factor.is_rational_function(x))
     total = cancel(parts.pop(sympy.S.One, sympy.S.Zero))
@@ -191,7 +191,7 @@ def _rate_of(u: Expr, constants: Sequence[Expr], x: Expr) -> Expr:
         u = u.subs(sympy.atan(c2 / c1), -c1).subs(c2, 1)
     if u.has(*_SIGN_OF_NEIGHBOUR) and manageable(u):
         return powsimp(sympy.factor_terms(_slope_by_neighbours(u, x)) / u)
-    return logarithmic_derivative(u, x)
+    return relative_slope(u, x)
 
 
 def _single_wave(factor: Expr, x: Expr) -> Expr:
@@ -324,7 +324,7 @@ def solve_riccati(
         if group is None or group.order not in (1, 2):  # else infinitely many are rational
             rational = tuple(cancel(-(omega + gauge) / factor) for omega in _rational_omegas(solution, atoms))
     elif solution.case is not None:
-        polynomial = _polynomial(solution, linear.gauge, R, atoms)
+        polynomial = _polynomial_in_w(solution, linear.gauge, R, atoms)
     return RiccatiSolutions(rational, family, polynomial, all_algebraic, solution)
 
 
@@ -345,7 +345,7 @@ def _read_coefficients(p: Any, q: Any, r: Any, var: str | None, limits: Limits) 
     return given
 
 
-def _polynomial(solution: Solution, gauge: RatFunc, factor: RatFunc, atoms: Atoms) -> Any:
+def _polynomial_in_w(solution: Solution, gauge: RatFunc, factor: RatFunc, atoms: Atoms) -> Any:
     """The polynomial of omega = -r w - gauge in w, without a common factor; None if that in omega isn't known."""
     if solution.riccati is None:
         return None

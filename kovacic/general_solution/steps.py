@@ -77,7 +77,7 @@ class HeavisidePlace(NamedTuple):
     slope: Expr
 
 
-def place_of(jump: Expr, x: Expr) -> HeavisidePlace | None:
+def jump_place(jump: Expr, x: Expr) -> HeavisidePlace | None:
     """The place of a step or an impulse of s (x - a) with constants s and a, s real; None for others."""
     inner = jump.args[0]
     slope = inner.diff(x)
@@ -88,7 +88,7 @@ def place_of(jump: Expr, x: Expr) -> HeavisidePlace | None:
 
 def jump_points(e: Expr, x: Expr) -> list[Expr]:
     """The distinct places of the steps and impulses in an expression."""
-    places = (place_of(jump, x) for jump in sorted(e.atoms(Heaviside, DiracDelta), key=str))
+    places = (jump_place(jump, x) for jump in sorted(e.atoms(Heaviside, DiracDelta), key=str))
     return [*dict.fromkeys(place.a for place in filter(None, places))]
 
 
@@ -112,7 +112,7 @@ def split_at_jumps(right: Expr, x: Expr) -> Apart | None:
     for term in map(with_single_steps, Add.make_args(expand(right))):
         jumps = [factor for factor in Mul.make_args(term) if factor.has(*JUMPING) and factor.has(x)]
         deltas, others = sympy.sift(jumps, lambda jump: isinstance(jump, DiracDelta), binary=True)
-        places = [place_of(delta, x) for delta in deltas]
+        places = [jump_place(delta, x) for delta in deltas]
         if len(places) > 1 or None in places or not all(_is_simple(step, x) for step in others):
             return None
         begin = sympy.Max(*(expand(x - step.args[0]) for step in others))  # -oo without steps

@@ -22,7 +22,7 @@ Expr = Any  # SymPy publishes no types
 #: Mathieu's odd function, and the slope of his even one, which SymPy doesn't evaluate at 0.
 _ODD = (sympy.mathieus, sympy.mathieucprime)
 #: What isn't a value.
-_NOT_FINITE = {sympy.nan, sympy.zoo, sympy.oo, -sympy.oo}
+_WITHOUT_VALUE = {sympy.nan, sympy.zoo, sympy.oo, -sympy.oo}
 
 
 def finite_value(expression: Expr, x: Expr, point: Expr) -> Expr | None:
@@ -45,7 +45,7 @@ def finite_value(expression: Expr, x: Expr, point: Expr) -> Expr | None:
     zeros = {power: sign_of_root(power.exp) for power in powers}
     value = value.xreplace(dict.fromkeys(zeros, sympy.S.Zero))
     is_known = {1} >= {*zeros.values()} and not any(map(_may_diverge, value.atoms(hyper)))
-    return value if is_known and _NOT_FINITE.isdisjoint(value.atoms()) else None
+    return value if is_known and _WITHOUT_VALUE.isdisjoint(value.atoms()) else None
 
 
 def slope(expression: Expr, x: Expr) -> Expr:
@@ -64,7 +64,7 @@ def slope(expression: Expr, x: Expr) -> Expr:
             return e * (rest - expression) * z.diff(x) / z
     if expression.has(sympy.Abs):  # of what is real, else SymPy writes real and imaginary parts
         real = {symbol: sympy.Dummy(real=True) for symbol in expression.free_symbols}
-        return expression.xreplace(real).diff(real.get(x, x)).xreplace(inverse(real))
+        return expression.xreplace(real).diff(real.get(x, x)).xreplace(inverted(real))
     return expression.diff(x)
 
 
@@ -98,7 +98,7 @@ def by_functions(total: Expr, is_coefficient: Callable[[Expr], Any]) -> dict[Exp
     return found
 
 
-def inverse(mapping: Mapping[Expr, Expr]) -> dict[Expr, Expr]:
+def inverted(mapping: Mapping[Expr, Expr]) -> dict[Expr, Expr]:
     """The keys by their values."""
     return {value: key for key, value in mapping.items()}
 
@@ -106,7 +106,7 @@ def inverse(mapping: Mapping[Expr, Expr]) -> dict[Expr, Expr]:
 def changed_beside(parts: Iterable[Expr], e: Expr, change: Callable[[Expr], Expr]) -> Expr:
     """An expression changed with a letter for each of the parts, which stay."""
     letters = {part: sympy.Dummy() for part in parts}
-    return change(e.xreplace(letters)).xreplace(inverse(letters))
+    return change(e.xreplace(letters)).xreplace(inverted(letters))
 
 
 # ---------------------------------------------------------------------------------------------------------------- size
@@ -140,7 +140,7 @@ def _expansion(e: Expr, degree: float) -> tuple[float, float, float]:
     if e.is_Add:
         return sum(terms), sum(parts), max(degrees)
     if e.is_Mul:
-        return reduce(_times, sorted(inner, key=lambda factor: factor[2]))  # polynomials first
+        return reduce(_product_size, sorted(inner, key=lambda factor: factor[2]))  # polynomials first
     if e.is_Pow and e.exp.is_Rational and e.exp >= 1:
         count, k = terms[0], int(e.exp)
         if count > 1 and count * k >= 10**4:
@@ -152,7 +152,7 @@ def _expansion(e: Expr, degree: float) -> tuple[float, float, float]:
     return 1, 1 + sum(parts), math.inf
 
 
-def _times(u: tuple[float, float, float], v: tuple[float, float, float]) -> tuple[float, float, float]:
+def _product_size(u: tuple[float, float, float], v: tuple[float, float, float]) -> tuple[float, float, float]:
     """A part of a factor is written beside every term of the other one; like powers of the variable are gathered."""
     (n, parts, degree), (m, others, other_degree) = u, v
     total = degree + other_degree

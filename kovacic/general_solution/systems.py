@@ -39,7 +39,7 @@ from kovacic.general_solution.first_order import (
 )
 from kovacic.general_solution.question import exact, free_constants
 from kovacic.general_solution.steps import JUMPING, in_steps, split_at_jumps
-from kovacic.general_solution.substitution import inverse, size, slope
+from kovacic.general_solution.substitution import inverted, size, slope
 from kovacic.general_solution.textbook import in_book_form, sums
 from kovacic.general_solution.zero import is_zero
 from kovacic.general_solution.zero_set import ZeroSet
@@ -217,7 +217,7 @@ def _through_values(system: LinearSystem, values: tuple[Expr, Expr, Expr], solve
     letters = {f: sympy.Dummy() for f in slope_there.atoms(AppliedUndef)}  # g(t0), for a given function g
     ics = {x.subs(system.x, point): first, x.diff().subs(system.x, point): slope_there.xreplace(letters)}
     answer = solver(system.equation, x, ics)
-    solution = answer.eq.rhs.xreplace(inverse(letters))
+    solution = answer.eq.rhs.xreplace(inverted(letters))
     return Tuple(solution, system.second(solution)), answer.notices
 
 

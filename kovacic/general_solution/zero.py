@@ -23,7 +23,7 @@ from flint import acb, arb, fmpq
 from kovacic.algebra.precision import working_digits
 from kovacic.closed_form.check import DIGITS
 from kovacic.closed_form.jets import ARBITRARY, jet
-from kovacic.general_solution.integrands import prepared
+from kovacic.general_solution.integrands import prepared_integrand
 from kovacic.general_solution.substitution import in_single_waves, size
 from kovacic.reading.parser import excerpt
 
@@ -230,7 +230,7 @@ def is_identically_zero(value: Expr) -> bool:
     """True if it is provably zero: a sum of monomials in exponentials, waves and logarithms, or a number made of roots."""
     if size(value) > _LARGEST:
         return False
-    numerator = sympy.numer(sympy.together(prepared(value)))  # a sum of waves, as sin(a) cos(b) isn't
+    numerator = sympy.numer(sympy.together(prepared_integrand(value)))  # a sum of waves, as sin(a) cos(b) isn't
     if in_single_waves(numerator) == 0:
         return True
     spread = sympy.expand_log(sympy.expand(numerator, power_base=True), force=False, factor=True)

@@ -16,7 +16,7 @@ from sympy import atan, cos, exp, log, sin, sqrt
 import kovacic
 from kovacic.closed_form.jets import jet
 from kovacic.general_solution import antiderivatives
-from kovacic.general_solution.integrands import UnknownIntegral, incomplete_gamma, prepared
+from kovacic.general_solution.integrands import UnknownIntegral, incomplete_gamma, prepared_integrand
 
 x = sympy.Symbol("x")
 POINTS = (acb(fmpq(3, 10), fmpq(1, 7)), acb(fmpq(6, 5)), acb(fmpq(17, 10), fmpq(-1, 9)))
@@ -41,7 +41,7 @@ def integrands(count: int) -> Iterator[Any]:
     for k in range(count):
         u = choice(INNER)
         beside = [u.diff(x), choice(INNER), choice(OUTER)(choice(INNER))][k % 3]
-        whole = prepared(choice(OUTER)(u) * beside)
+        whole = prepared_integrand(choice(OUTER)(u) * beside)
         yield from sympy.Add.make_args(whole)
 
 

@@ -364,7 +364,8 @@ def test_an_impulse_times_a_function_that_jumps_there_has_no_value(text: str) ->
 
 def test_where_the_solutions_of_a_system_with_letters_are_real_and_independent() -> None:
     with pytest.warns(
-        UserWarning, match=r"unless b = -\(a - d\)\*\*2/\(4\*c\), where x\(t\) = .*|unless b = 0: substitute such values"
+        UserWarning,
+        match=r"unless b = -\(a - d\)\*\*2/\(4\*c\), where x\(t\) = .*|unless b = 0: substitute such values",
     ):
         found = kovacic.dsolve("x' = a*x + b*y, y' = c*x + d*y")
     assert str(kovacic.validity(found)) == "-a**2 + 2*a*d - 4*b*c - d**2 > 0, b != 0"

@@ -129,8 +129,8 @@ def test_the_arguments_of_sympy() -> None:
 @pytest.mark.parametrize(
     ("arguments", "said"),
     [
-        ({"hint": "2nd_power_series_ordinary"}, "no method '2nd_power_series_ordinary'"),
-        ({"hint": "all"}, "no method 'all'"),
+        ({"hint": "2nd_power_series_ordinary"}, "unknown hint '2nd_power_series_ordinary'"),
+        ({"hint": "all"}, "unknown hint 'all'"),
         ({"xi": x, "eta": 1}, "Lie's method"),
         ({"func": [y(x), sympy.Function("z")(x)]}, "one function is expected, and there are 2"),
     ],

@@ -36,7 +36,7 @@ from kovacic.batch.records import Item, Job
 from kovacic.batch.worker import solve_item
 from kovacic.enclosure.frame import foreseen_growth, frequency
 from kovacic.enclosure.log_derivative import _principal_part
-from kovacic.general_solution.integrands import prepared
+from kovacic.general_solution.integrands import prepared_integrand
 from kovacic.general_solution.substitution import finite_value, slope
 from kovacic.limits import check_time, limited, may_be_late, watched_seconds
 from kovacic.verify.local import points
@@ -474,9 +474,9 @@ def test_an_expansion_is_foreseen_wherever_sums_are_multiplied(power: str, outsi
         return sympy.Mul(*bases) ** sympy.Rational(power) * sympy.sympify(outside.replace("^", "**"))
 
     with controlled(), Budget(Limits(seconds=1)).watched():
-        assert prepared(integrand(2)) != 0
+        assert prepared_integrand(integrand(2)) != 0
         with pytest.raises(LimitExceeded, match="expanding an integrand"):
-            prepared(integrand(12))
+            prepared_integrand(integrand(12))
 
 
 @pytest.mark.parametrize(
@@ -497,9 +497,9 @@ def test_an_expansion_is_foreseen_where_a_long_factor_stands_in_many_terms(kind:
         return sympy.Mul(*waves) * factor[kind]
 
     with controlled(), Budget(Limits(seconds=1)).watched():
-        assert prepared(integrand(1)) != 0
+        assert prepared_integrand(integrand(1)) != 0
         with pytest.raises(LimitExceeded, match="expanding an integrand"):
-            prepared(integrand(40))
+            prepared_integrand(integrand(40))
 
 
 @pytest.mark.parametrize("outside", [pytest.param("1", marks=pytest.mark.long), "sin(x)", "exp(x^2)"])
@@ -507,7 +507,7 @@ def test_a_product_of_polynomials_is_no_long_expansion(outside: str) -> None:
     """Powers of the variable are gathered: 31 terms, and not 2^30."""
     product = sympy.Mul(*[x + k for k in range(1, 31)]) * sympy.sympify(outside.replace("^", "**"))
     with controlled(), Budget(Limits(seconds=1)).watched():
-        assert len(sympy.Add.make_args(prepared(product))) == 31
+        assert len(sympy.Add.make_args(prepared_integrand(product))) == 31
 
 
 def test_a_limit_of_zero_is_a_limit() -> None:
