@@ -260,9 +260,13 @@ def _riccati(equation: Any, limits: Limits) -> object:
 
 
 def _sampled(equation: Any, limits: Limits) -> object:
-    from kovacic.views.plot import sample
+    from kovacic.enclosure.request import Request
+    from kovacic.limits import Budget
+    from kovacic.views.plot import sampled_curve
 
-    return sample(equation, "-0.7", "0.6", digits=40, limits=limits)
+    with Budget(limits).watched():
+        request = Request.of("sample", {"digits": 40, "limits": limits})
+        return sampled_curve(equation, "-0.7", "0.6", 400, request)
 
 
 def _batched(equation: Any, limits: Limits) -> object:

@@ -406,9 +406,9 @@ class Solution(Answer):
         >>> answer.explain(format="html", solutions=False)[:15]
         '<!doctype html>'
         """
-        from kovacic.views.explain import explain
+        from kovacic.views.explain import explain_answer
 
-        return explain(self, format=format, solutions=solutions)
+        return explain_answer(self, format=format, solutions=solutions)
 
     def citation(self, *, style: str = "text") -> str:
         """The publications that the answer rests on, one after the other.

@@ -97,9 +97,9 @@ class Conditions(ParametricAnswer):
         <BLANKLINE>
         mu = +-2 mod 6.
         """
-        from kovacic.views.theorem import theorem
+        from kovacic.views.theorem import theorem_text
 
-        return theorem(self, format=format)
+        return theorem_text(self, format=format)
 
     def latex(self) -> str:
         r"""The partition as a LaTeX `cases` environment; what isn't proven to be complete is said to hold for generic values.

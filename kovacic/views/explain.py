@@ -20,7 +20,7 @@ from kovacic.engine.places import Problem
 from kovacic.engine.riccati import residue
 from kovacic.equation import parameters_of
 from kovacic.errors import KovacicError, LimitExceeded
-from kovacic.limits import bounded_work
+from kovacic.limits import MOST_CHARACTERS, bounded_work
 from kovacic.numbers.numerals import digits
 from kovacic.views.bibliography import references
 from kovacic.views.sentences import (
@@ -34,6 +34,7 @@ from kovacic.views.sentences import (
     verdict_of,
 )
 from kovacic.views.steps import Steps
+from kovacic.writing.breaking import LINE
 from kovacic.writing.document import (
     FORMATS,
     Block,
@@ -61,10 +62,6 @@ _BY_INVARIANT = {
     Structure.OCTAHEDRAL: "an invariant of degree 8, the least one of the binary octahedral group",
     Structure.ICOSAHEDRAL: "an invariant of degree 12, the least one of the binary icosahedral group",
 }
-#: Longer solutions stand in their own part only.
-_SHORT_SOLUTION = 200
-#: Characters; a longer polynomial of omega is given by its recurrence.
-_LONG_OMEGA = 5000
 #: e_k = E_k/f, by equation (1) of `engine.riccati` divided by f.
 _OMEGA_BY_RECURRENCE = (
     Math(
@@ -77,19 +74,17 @@ _OMEGA_BY_RECURRENCE = (
     ),
 )
 _PICTURE = "A picture"
-#: Longer equations aren't in the title.
-_LONGEST_TITLE = 60
 #: Steps of Taylor's method times their bits, or values of closed forms: some seconds.
 _PICTURE_WORK = 400_000
 
 
-def explain(answer: Answer, *, format: str = "text", solutions: bool = True) -> str:
+def explain_answer(answer: Answer, *, format: str = "text", solutions: bool = True) -> str:
     """The derivation, as `Solution.explain` describes it."""
     chosen = format_of(format)
     blocks = document(answer, solutions=solutions)
     if format != "html":
         return chosen.render(blocks)
-    # The equation and the answer, a table of contents, and the rest.
+    # The equation and the answer (the first two headings), a table of contents, and the rest.
     picture = "" if answer.series else _picture(answer)  # values of these solutions differ by thousands of digits
     starts = [k for k, block in enumerate(blocks) if isinstance(block, Heading)]
     titles = [block.text for block in blocks[starts[2] :] if isinstance(block, Heading)]
@@ -113,29 +108,29 @@ def document(answer: Answer, *, solutions: bool = True) -> list[Block]:
         steps.search,
         writer.cases,
     ]
-    if answer.series is not None:
-        parts.append(writer.series)
-    elif answer.status is Status.LIOUVILLIAN:
-        parts += [writer.certificate, writer.omega]
+    if answer.status is Status.LIOUVILLIAN:
+        parts.append(writer.certificate)
+    if answer.riccati is not None:
+        parts.append(writer.omega)
     if solutions and answer.status is not Status.UNDECIDED:
         parts.append(writer.closed_form)
     blocks: list[Block] = []
     for part in (*parts, writer.group, writer.check, writer.bibliography):
         try:
-            blocks.extend(part())  # those before a limit stay
+            blocks.extend(part())  # a limit ends the part, but keeps the blocks before it
         except LimitExceeded as limit:
             blocks.append(say(f"The rest of this part isn't written out: {limit}."))
     return blocks
 
 
 def _picture(answer: Answer) -> str:
-    """A picture of solutions, or why there is none; empty without values, NumPy or matplotlib."""
+    """A picture of solutions, or the limit that prevented it; empty without values, NumPy or matplotlib."""
     heading = FORMATS["html"].heading(_PICTURE, 2)
     try:
         figure, caption = _figure(answer)
     except LimitExceeded as limit:
-        said = FORMATS["html"].render([say(f"There is no picture: {limit}.")])
-        return f"\n{heading}\n\n{said}\n"
+        why = FORMATS["html"].render([say(f"There is no picture: {limit}.")])
+        return f"\n{heading}\n\n{why}\n"
     except (KovacicError, ImportError, OverflowError):
         return ""
     figure.savefig(drawing := StringIO(), format="svg", metadata={"Date": None})
@@ -144,7 +139,7 @@ def _picture(answer: Answer) -> str:
 
 
 def _figure(answer: Answer) -> tuple[Any, str]:
-    """Solutions near the singular points on the real axis, or nearer to their middle, and the caption."""
+    """Solutions near the singular points on the real axis, or on a shorter interval about their middle, and the caption."""
     from kovacic.enclosure.problem import as_problem
     from kovacic.views.plot import modest_window, plot
 
@@ -174,7 +169,7 @@ class ExplanationWriter:
         equation = self.answer.equation
         about = equation_of(answer).text if answer.change is None else answer.text
         title = "Kovacic's algorithm"
-        yield Heading(f"{title} for {about}" if len(about) <= _LONGEST_TITLE else title, 1)
+        yield Heading(f"{title} for {about}" if len(about) <= LINE else title, 1)
         if answer.change is not None:
             t = Math.of(answer.variable).equals(Math.of(answer.change.expression))
             yield say(f"{answer.text}, which becomes an equation with rational coefficients in ", t, ":")
@@ -192,7 +187,7 @@ class ExplanationWriter:
             yield say("The case and the group are those over ", generated_field(answer.change.expression), ".")
 
     def normal_form(self, y: str) -> tuple[str, list[Block]]:
-        """The name of the unknown in the normal form, and the substitution that leads to it, and the form itself."""
+        """The name of the unknown in the normal form, the substitution that leads to it, and the form itself."""
         answer = self.answer
         x = answer.variable
         taken = {x, y, *parameters_of(answer.S.field)}
@@ -209,7 +204,7 @@ class ExplanationWriter:
         return v, blocks
 
     def verdict(self, *, solutions: bool) -> Iterator[Block]:
-        """The answer in short."""
+        """The answer in brief."""
         found, more = verdict_of(self.answer)
         yield Heading("The answer")
         before, name, after = more.partition("omega = y'/y")
@@ -217,9 +212,9 @@ class ExplanationWriter:
         yield say(f"{found[0].upper()}{found[1:]}: {before}", *omega, f"{after}.")
         if not solutions or self.answer.status is Status.UNDECIDED:
             return
-        with suppress(LimitExceeded):  # of which the part with the solutions tells
+        with suppress(LimitExceeded):  # the part with the solutions reports it
             pair, _ = solutions_of(self.answer)
-            if all(len(y.text) <= _SHORT_SOLUTION for _, y in pair):
+            if all(len(y.text) <= MOST_CHARACTERS for _, y in pair):  # longer ones have only their own part
                 yield from (Formula(name.equals(y)) for name, y in pair)
 
     def cases(self) -> Iterator[Block]:
@@ -233,7 +228,7 @@ class ExplanationWriter:
             yield say("Nothing is left but SL2(C): the equation has no Liouvillian solution, and this is a proof.")
         elif decision.series is not None:
             yield say(
-                "A theta of the paper's families has a P; the recurrence for its coefficients has two terms, and ends."
+                "A theta of the paper's families has a P: the two-term recurrence for its coefficients terminates."
             )
         elif decision.invariant is not None:
             yield say(f"There is {_BY_INVARIANT[decision.structure]}. So it is {_CASES[decision.structure]}:")
@@ -245,69 +240,48 @@ class ExplanationWriter:
             )
 
     def _exclusion(self, exclusion: Exclusion) -> Paragraph:
-        sentence: list[str | Math] = [f"Not {_CASES[exclusion.structure]}: "]
-        for k, evidence in enumerate(exclusion.evidence):
-            if k:
-                sentence.append("; ")
-            sentence += reason(evidence, self.formulas)
+        sentence: list[str | Math] = []
+        for evidence in exclusion.evidence:
+            sentence += ["; ", *reason(evidence, self.formulas)]
             if isinstance(evidence, NoInvariant | NoRationalOmega) and evidence.prime is not None:
                 sentence.append(f", for polynomials of degree at most {evidence.degree}")
-        return say(*sentence, ".")
+        return say(f"Not {_CASES[exclusion.structure]}: ", *sentence[1:], ".")
 
     def certificate(self) -> Iterator[Block]:
-        form = self.answer.semi_invariant
-        case = self.answer.case
-        assert form is not None
+        """theta and P, or for a P that is too long its powers."""
+        form, series, case = self.answer.semi_invariant, self.answer.series, self.answer.case
         assert case is not None
         P = self.steps.P
         yield Heading(f"theta and {P} of the answer")
-        theta = Math("theta", r"\theta")
-        yield say(self.steps.degree(case), f" = {form.P.degree}, and with ", theta, " and ", Math.of(P), ":")
-        yield Formula(self.formulas.named("theta", r"\theta", form.theta))
-        yield Formula(self.formulas.named(P, P, form.P))
-
-    def series(self) -> Iterator[Block]:
-        """theta, and the P that isn't listed."""
-        series = self.answer.series
-        assert series is not None
-        P = self.steps.P
-        yield Heading(f"theta and {P} of the answer")
-        yield say(
-            self.steps.degree(1),
-            " is the degree of ",
-            Math.of(P),
-            ", which is of ",
-            *powers_in(series, self.formulas),
-            ".",
-        )
-        yield Formula(self.formulas.named("theta", r"\theta", series.theta))
-        yield from self._constants()
+        if series is not None:
+            powers = powers_in(series, self.formulas)
+            yield say(self.steps.degree(case), " is the degree of ", Math.of(P), ", which is of ", *powers, ".")
+            yield Formula(self.formulas.named("theta", r"\theta", series.theta))
+            yield from self._constants()
+        if form is not None:
+            theta = Math("theta", r"\theta")
+            yield say(self.steps.degree(case), f" = {form.P.degree}, and with ", theta, " and ", Math.of(P), ":")
+            yield Formula(self.formulas.named("theta", r"\theta", form.theta))
+            yield Formula(self.formulas.named(P, P, form.P))
 
     def omega(self) -> Iterator[Block]:
-        riccati = self.answer.riccati
+        """omega, or its polynomial; one that would fill screens by its recurrence."""
+        riccati, form = self.answer.riccati, self.answer.semi_invariant
         assert riccati is not None
+        assert form is not None
         omega = omega_math(riccati, self.formulas)
+        w, m, P = self.formulas.unknown, riccati.degree, self.steps.P
         yield Heading("omega = y'/y")
-        if riccati.degree == 1:
-            P = self.steps.P
+        if m == 1:
             sum_of_two = Math(f"omega = theta + {P}'/{P}", rf"\omega = \theta + \frac{{{P}'}}{{{P}}}")
             yield Formula(sum_of_two.equals(omega))
         else:
-            yield say(
-                f"omega is a root {self.formulas.unknown} of the irreducible polynomial of degree {riccati.degree}"
-            )
-            form = self.answer.semi_invariant
-            assert form is not None
-            if len(omega.text) <= _LONG_OMEGA or form.degree != riccati.degree:
+            yield say(f"omega is a root {w} of the irreducible polynomial of degree {m}")
+            if len(omega.text) <= 5 * MOST_CHARACTERS or form.degree != m:
                 yield Formula(omega)
             else:
-                w, m = self.formulas.unknown, riccati.degree
-                yield Formula(
-                    Math(
-                        f"sum_(k=0)^{m} (-1)^k e_k {w}^({m}-k) = 0",
-                        rf"\sum_{{k=0}}^{{{m}}} (-1)^k e_k {w}^{{{m}-k}} = 0",
-                    )
-                )
+                text = f"sum_(k=0)^{m} (-1)^k e_k {w}^({m}-k) = 0"
+                yield Formula(Math(text, rf"\sum_{{k=0}}^{{{m}}} (-1)^k e_k {w}^{{{m}-k}} = 0"))
                 yield say("with ", Math(f"m = {m}", f"m = {m}"), " and")
                 yield from map(Formula, _OMEGA_BY_RECURRENCE)
         yield from self._constants()
@@ -332,7 +306,7 @@ class ExplanationWriter:
             return
         yield Heading("The Galois group")
         name = Math(group.name, group.latex)
-        order = ""  # infinite, or not even bounded from below
+        order = ""  # for an infinite order, and for one without a lower bound
         if group.order is not None:
             order = f", of order {digits(group.order)}"
         elif group.order_at_least is not None:

@@ -18,10 +18,9 @@ Keys may be added within schema 1; none is removed or changes its meaning.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Mapping
 from contextlib import suppress
 from dataclasses import dataclass, replace
-from functools import partial
 from typing import Any
 
 from kovacic import derived
@@ -41,11 +40,10 @@ from kovacic.decision import (
     RiccatiPolynomial,
     Rule,
     SemiInvariant,
-    Status,
     Structure,
     TerminatingSeries,
 )
-from kovacic.equation import EULER, PI, Change, Equation, Parsed, parameters_of
+from kovacic.equation import EULER, PI, Equation, Parsed, parameters_of
 from kovacic.errors import InputError, LimitExceeded, VerificationFailed
 from kovacic.limits import Limits
 from kovacic.numbers.numerals import as_text, for_json
@@ -78,7 +76,7 @@ def dumps(answer: Answer, *, full: bool = False) -> str:
 
 
 def loads(text: str | Mapping[str, Any], *, unverified: bool = False) -> Answer:
-    """The answer that `dumps` wrote, given as text or as the object that it stands for; verified again, whatever it says.
+    """The answer that `dumps` wrote, as text or as the JSON object; verified again, whatever it claims.
 
     Redundant keys must agree, the group must be the one that is computed anew, and solutions must solve the equation.
     `seconds`, `notices`, the evidence for the group and the user's own keys aren't checked.
@@ -107,17 +105,15 @@ def to_dict(answer: Answer, *, full: bool = False) -> dict[str, Any]:
     """The answer as a JSON object of plain Python values."""
     names = Formulas(answer.variable, answer.S.field)
     decision = answer.decision
-    conditions = None
+    conditions = riccati = constants = None
     if parameters_of(answer.S.field):
         from kovacic.parametric.restriction import generic_conditions
 
         conditions = {key: [*map(str, functions)] for key, functions in vars(generic_conditions(answer)).items()}
-    riccati: dict[str, Any] | None = None
     if decision.riccati is not None:
-        riccati = {"variable": names.unknown, "degree": decision.riccati.degree, "coefficients": None}
-        if full or decision.riccati.degree < _LEAST_BY_RECURRENCE:
-            riccati["coefficients"] = [*map(names.python, decision.riccati.coefficients)]
-    constants = None
+        is_written = full or decision.riccati.degree < _LEAST_BY_RECURRENCE
+        coefficients = [*map(names.python, decision.riccati.coefficients)] if is_written else None
+        riccati = {"variable": names.unknown, "degree": decision.riccati.degree, "coefficients": coefficients}
     if answer.constants is not None:
         constants = {"symbol": names.symbol, "minimal_polynomial": answer.constants.to_str(names.symbol)}
     data: dict[str, Any] = {
@@ -136,8 +132,8 @@ def to_dict(answer: Answer, *, full: bool = False) -> dict[str, Any]:
         "proof": _proof(decision, names),
         "notices": list(answer.notices),
         "seconds": answer.seconds,
-        "equation": _unless_none(answer.equation, _given_equation),
-        "gauge": _unless_none(answer.equation, lambda equation: names.python(equation.gauge)),
+        "equation": answer.equation and _given_equation(answer.equation),
+        "gauge": answer.equation and names.python(answer.equation.gauge),
     }
     if full:
         data["group"] = group_dict(answer)
@@ -153,14 +149,13 @@ def _proof(decision: Decision, names: Formulas) -> dict[str, Any]:
     if decision.semi_invariant is not None and decision.riccati is not None:
         semi_invariant = {**_form_dict(decision.semi_invariant, names), "D": names.python(decision.riccati.D)}
     series = {}
-    if decision.series is not None:
-        found = decision.series
+    if (found := decision.series) is not None:
         powers = {name: for_json(getattr(found, name)) for name in ("step", "degree", "lowest")}
         series["series"] = {"theta": names.python(found.theta), "centre": names.python(found.centre), **powers}
     return {
-        "structure": _unless_none(decision.structure, lambda structure: structure.value),
+        "structure": decision.structure and decision.structure.value,
         "semi_invariant": semi_invariant,
-        "invariant": _unless_none(decision.invariant, partial(_form_dict, names=names)),
+        "invariant": decision.invariant and _form_dict(decision.invariant, names),
         "excluded": [
             {
                 "structure": exclusion.structure.value,
@@ -187,10 +182,10 @@ def group_dict(answer: Answer) -> dict[str, Any] | None:
         return None
     data: dict[str, Any] = {
         "name": group.name,
-        "order": _unless_none(group.order, for_json),
+        "order": group.order and for_json(group.order),
         "finite": group.finite,
         "family": group.kind.value,
-        "n": _unless_none(group.n, for_json),
+        "n": group.n and for_json(group.n),
     }
     f = group.function
     if f is not None:
@@ -211,8 +206,7 @@ def group_dict(answer: Answer) -> dict[str, Any] | None:
 
 def from_dict(data: Mapping[str, Any]) -> Answer:
     """The answer that `to_dict` made into an object: S and the equation are read from the input, as `solve` reads them."""
-    variable = _typed(data, "variable", str)
-    text = _typed(data, "input", str)
+    variable, text = (_typed(data, key, str) for key in ("variable", "input"))
     parsed = _read_again(data, text, variable)
     decision = _decision(data, parsed.S, variable)
     notices = tuple(_typed({"notice": notice}, "notice", str) for notice in data["notices"])
@@ -222,9 +216,9 @@ def from_dict(data: Mapping[str, Any]) -> Answer:
     if data.get("letters"):
         from kovacic.reading.symbolic import written_expression
 
-        for name, said in data["letters"].items():
-            with suppress(InputError):  # a function that texts don't have: the letter stays
-                letters = (*letters, (name, written_expression(said)))
+        for name, meaning in data["letters"].items():
+            with suppress(InputError):  # a function that the reader doesn't know: the letter stays
+                letters = (*letters, (name, written_expression(meaning)))
     answer = Answer(text, variable, parsed.S, decision, notices, verified, seconds, parsed.equation, letters=letters)
     if verified and not _typed(data, "verified", bool):
         raise ValueError("the answer is marked as failing its check, but passes it")
@@ -262,35 +256,25 @@ def _decision(data: Mapping[str, Any], S: RatFunc, variable: str) -> Decision:
         raise ValueError("omega needs its polynomial and the semi-invariant")
     over_S = _AnswerReader.over(S.field, variable)
     over_constants = over_S.extended(data["constants"])
-    form = _unless_none(proof["semi_invariant"], over_constants.semi_invariant)
-    structure = _unless_none(proof["structure"], Structure)
     names = Formulas(variable, S.field)
     exclusions = tuple(
         Exclusion(Structure(entry["structure"]), tuple(_read_evidence(item, names) for item in entry["evidence"]))
         for entry in proof["excluded"]
     )
-    invariant = _unless_none(proof["invariant"], over_S.semi_invariant)
-    riccati = None
-    if form is not None:
+    form = riccati = None
+    if has_form:
+        form = over_constants.semi_invariant(proof["semi_invariant"])
         D = over_constants.poly(proof["semi_invariant"]["D"])
         riccati = _riccati(S, form, D, data["riccati"], over_constants)
-    decision = Decision(
-        structure=structure,
+    return Decision(
+        structure=None if proof["structure"] is None else Structure(proof["structure"]),
         exclusions=exclusions,
-        invariant=invariant,
+        invariant=None if proof["invariant"] is None else over_S.semi_invariant(proof["invariant"]),
         semi_invariant=form,
         riccati=riccati,
         undecided=_typed(proof, "undecided", str, type(None)),
-        series=_unless_none(proof.get("series"), over_constants.series),
+        series=over_constants.series(proof["series"]) if "series" in proof else None,
     )
-    if Status(data["status"]) is not decision.status or data["case"] != decision.case:
-        raise ValueError("status or case contradict the proof")
-    return decision
-
-
-def _unless_none(value: Any, read: Callable[[Any], Any]) -> Any:
-    """The value that is read, or None if there is none."""
-    return None if value is None else read(value)
 
 
 #: Keys that are compared by value, keys that are ignored or checked elsewhere, and keys that may be absent.
@@ -303,7 +287,7 @@ _GROUP_EVIDENCE = {"form", "function", "orders"}
 
 
 def _demand_the_same(found: Any, written: Any, path: str) -> None:
-    """Raise `ValueError` if a value differs from what we would write; `path` is its place in the answer, "" at the top."""
+    """Raise `ValueError` if a value differs from the one that we would write; `path` is its place in the answer."""
     are_lists = isinstance(written, list) and isinstance(found, list)
     if isinstance(written, Mapping) and isinstance(found, Mapping):
         differing = set(written) - set(found) - _MAY_BE_ABSENT
@@ -323,9 +307,9 @@ def _demand_the_same(found: Any, written: Any, path: str) -> None:
 def _check_normal_form(answer: Answer, *, verified: bool) -> None:
     """Raise `ValueError` unless P is monic and D the product of the factors to half the orders of the poles.
 
-    Where the answer is `verified`, P of the rational form has to be monic, too, and a form of degree 2 that of omega.
+    In a `verified` answer P of the rational form has to be monic, too, and a form of degree 2 that of omega.
     """
-    form, riccati, F = (getattr(answer.decision, name) for name in ("semi_invariant", "riccati", "invariant"))
+    form, riccati, F = answer.semi_invariant, answer.riccati, answer.decision.invariant
     if form is None or riccati is None:
         return
     D = answer.S.field.poly([1])
@@ -339,8 +323,8 @@ def _check_normal_form(answer: Answer, *, verified: bool) -> None:
         raise ValueError("P of the invariant isn't in its normal form")
     if riccati.degree > 1:
         return
-    # omega = A/(P D) is a root of the polynomial of F = y1 y2, which is W^2 - B_1/(B_0 D) W + B_2/(B_0 D^2): the second
-    # solution is F/y1 then.  Another rational form would be a right one, too, but not that of this omega.
+    # omega = A/(P D) is a root of the polynomial of F = y1 y2, W^2 - B_1/(B_0 D) W + B_2/(B_0 D^2): the second solution is
+    # F/y1 then.  Another rational form would be valid, too, but not that of this omega.
     B = form_numerators(answer.S, F, riccati.D)
     P, A = riccati.numerators
     if B is None or len(B) != 3 or B[0] * A * A - B[1] * A * P + B[2] * P * P:
@@ -354,10 +338,10 @@ def _check_group(answer: Answer, data: Mapping[str, Any] | None) -> None:
     found = group_dict(answer)
     if found is None:
         raise ValueError("the answer names a group, but none can be determined")
-    said = {key: value for key, value in data.items() if key not in _GROUP_EVIDENCE}
+    claimed = {key: value for key, value in data.items() if key not in _GROUP_EVIDENCE}
     # Older versions write neither the family nor n.
     facts = {key: found[key] for key in _GROUP_FACTS if key in data or key in ("name", "order", "finite")}
-    _demand_the_same(said, facts, "group")
+    _demand_the_same(claimed, facts, "group")
 
 
 def _check_solutions(answer: Answer, texts: Any) -> None:
@@ -374,7 +358,7 @@ def _check_solutions(answer: Answer, texts: Any) -> None:
     from kovacic.closed_form.check import are_independent, is_numerical_solution
     from kovacic.reading.symbolic import written_expression
 
-    # Another version may write them in another way, but not in another variable.
+    # Another version may write them differently, but not in another variable.
     if not isinstance(texts, list) or len(texts) != 2 or not all(isinstance(text, str) for text in texts):
         raise ValueError("two solutions are expected")
     variable = Symbol(answer.variable)
@@ -407,9 +391,9 @@ def _given_equation(equation: Equation) -> dict[str, Any]:
         "text": equation.text(caret=False),
         "unknown": equation.unknown,
         **coefficients,
-        "h": _unless_none(equation.h, as_text),
+        "h": None if equation.h is None else as_text(equation.h),
         "field": _field_dict(equation.a.field),
-        "change": _unless_none(equation.change, Change.to_dict),
+        "change": equation.change and equation.change.to_dict(),
     }
 
 
@@ -427,7 +411,7 @@ def _field_dict(field: Field) -> dict[str, Any] | None:
 
 
 def _is_field(data: Mapping[str, Any] | None, field: Field) -> bool:
-    """True if this is what `_field_dict` writes; older versions didn't say which root is meant."""
+    """True if `_field_dict` writes this; older versions didn't specify the root."""
     written = _field_dict(field)
     if written is None or data is None:
         return written is data
@@ -436,15 +420,15 @@ def _is_field(data: Mapping[str, Any] | None, field: Field) -> bool:
 
 @dataclass(frozen=True)
 class _AnswerReader(WrittenReader):
-    """Reads the output of `to_dict` for a decision."""
+    """Reads the functions in the output of `to_dict`."""
 
     @classmethod
     def over(cls, field: Field, variable: str) -> _AnswerReader:
-        """A reader that knows the variable, the parameters, and the algebraic constant of a field."""
+        """A reader of the variable, the parameters, and the algebraic constant of a field."""
         return cls(field, {**generators(field), variable: VARIABLE}, _ARITHMETIC)
 
     def extended(self, constants: Mapping[str, Any] | None) -> _AnswerReader:
-        """A reader that also knows omega's constant c.  Raises `ValueError` if K[c] is no field: a gcd might not terminate."""
+        """A reader of omega's constant c, too.  Raises `ValueError` if K[c] is no field: a gcd might not terminate."""
         if constants is None:
             return self
         symbol = constants["symbol"]
@@ -517,8 +501,6 @@ def _read_evidence(data: Mapping[str, Any], names: Formulas) -> Evidence:
 
 def _typed(data: Mapping[str, Any], key: str, *types: type) -> Any:
     """The value of this key.  Raises `ValueError` for another type; a truth value isn't a number."""
-    value = data[key]
-    is_unwanted_truth = isinstance(value, bool) and bool not in types
-    if is_unwanted_truth or not isinstance(value, types):
-        raise ValueError(f"{key} can't be {value!r}")
-    return value
+    if type(data[key]) not in types:
+        raise ValueError(f"{key} can't be {data[key]!r}")
+    return data[key]

@@ -1,21 +1,22 @@
 """Pictures of solutions: real and imaginary part over an interval of the real axis, with the singular points marked.
 
 The curves are midpoints of proven enclosures, as dense as the solution oscillates, and cubics between them that were
-compared with further values; the error band is drawn where it is visible.  Where an oscillation is too fine for the
-picture, its envelope is drawn instead (`kovacic.doubles.curve`), and the legend says so.  Beyond a singular point on the
-axis the solution is the continuation through the upper half-plane.
+compared with further values; the error band is drawn if it is visible.  An oscillation that is too fine for the picture is
+drawn as its envelope (`kovacic.doubles.curve`), and the legend says so.  Beyond a singular point on the axis the solution is
+the continuation through the upper half-plane.
 
-Nothing is claimed that isn't drawn: a formula enters the legend after it was compared with its curve, and the axis is linear;
-where it is cut off, its name says at which size.
+A formula enters the legend only after comparison with its curve.  The axis is linear; if it is cut off, its label says at
+which size.
 
-matplotlib is needed (the extra `plot`) and imported here only, with a canvas of its own: no window is opened,
-and neither the backend nor the state of pyplot is touched.
+matplotlib (the extra `plot`) gets a canvas of its own: no window is opened, and neither the backend nor the state of pyplot
+is touched.
 """
 
 from __future__ import annotations
 
 import math
 from collections.abc import Mapping, Sequence
+from contextlib import suppress
 from dataclasses import dataclass, replace
 from fractions import Fraction
 from io import BytesIO
@@ -36,13 +37,13 @@ from kovacic.enclosure.problem import Coefficients
 from kovacic.enclosure.request import Keywords, Request, Start, fields_of
 from kovacic.equation import Parsed
 from kovacic.errors import InputError, NotRational
-from kovacic.limits import limited, limits_of
+from kovacic.limits import MOST_CHARACTERS, limited, limits_of
 from kovacic.numbers.exact import has_long_numbers, whole
 from kovacic.numbers.numerals import as_text, plain_text
 from kovacic.reading.names import words_among
 from kovacic.reading.read import read_input
 from kovacic.reading.symbolic import read_expression
-from kovacic.views.sentences import normal_form
+from kovacic.views.sentences import equation_of
 from kovacic.writing.formula import latex_text, of_sympy
 from kovacic.writing.maps import FARTHEST
 
@@ -50,33 +51,26 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
-#: The curve ends this share of its interval before a singular point: beside an irregular one, solutions are as large as
+#: The curve ends this share of its interval before a singular point: near an irregular one, solutions are as large as
 #: exp(1/distance).
 _SINGULAR_GAP = Fraction(1, 256)
 _IRREGULAR_GAP = Fraction(1, 16)
 
-#: Characters of a formula in the legend, of an entry of a legend in two columns, and of the equation in the title.
-_LONGEST_LABEL = 50
-_LONGEST_IN_COLUMNS = 55
-_TITLE_LENGTH = 100
-#: Characters of a formula that SymPy evaluates where the curves start; powers of long numbers take it minutes.
-_LONGEST_EVALUATED = 2000
-#: Points of each stretch at which a formula is compared with its curve, and the share of its size by which it may differ.
-_FORMULA_POINTS = 3
-_FORMULA_AGREEMENT = 1e-6
+#: Characters of a formula in the legend, and of an entry of a legend in two columns; the width of a picture has twice as many.
+_LABEL_WIDTH = 50
 #: The share of the height from which on an error is drawn.
-_SEEN = 2e-3
-#: Beside a singular point, up to this share of the width, a solution may be as large as it likes without being drawn whole.
+_VISIBLE_SHARE = 2e-3
+#: Up to this share of the width from a singular point, large values don't count for the height of the picture.
 _NEAR_SINGULAR = 0.05
 _NEAR_IRREGULAR = 0.2
-#: The least size of a solution that is drawn, and the inverse of the largest.
-_LEAST = 1e-300
-#: The largest integral of sqrt|S| over a picture that nobody has chosen, and how often its interval is halved at most.
+#: Solutions whose sizes are in this range, and its inverse, are drawn in doubles.
+_LEAST_SIZE = 1e-300
+#: The largest integral of sqrt|S| over an interval that the user hasn't chosen.
 _MODEST = 100
-_HALVINGS = 24
-#: Of two solutions one that is this many times as large as the other is drawn times a power of ten: it is known up to a factor.
+#: If one of two solutions is this many times as large as the other, it is drawn times a power of ten: a solution is one up to
+#: a factor.
 _MUCH_LARGER = 30
-#: The axis is cut off if the largest value is more than this many times the typical size: cosh isn't cut.
+#: The axis is cut off if the largest value is more than this many times the typical size: cosh isn't cut off.
 _RANGE = 4
 
 
@@ -90,7 +84,7 @@ class SampledCurve:
     initial: Start  # the values that were missing among them
 
     def times(self, factor: float) -> SampledCurve:
-        """That of a multiple of the solution."""
+        """The curve of a multiple of the solution."""
         return replace(self, runs=tuple(tuple(part.times(factor) for part in run) for run in self.runs))
 
     @property
@@ -107,24 +101,11 @@ class SampledCurve:
         return max((float(np.abs(arc.y).max()) for arc in self.arcs), default=0.0)
 
 
-@limited
-def sample(
-    equation: object,
-    start: object,
-    stop: object,
-    *,
-    points: int = 400,
-    **keywords: Unpack[Keywords],
-) -> SampledCurve:
-    """The solution over [start, stop] in proven values; the arguments are those of `plot`.
+def sampled_curve(equation: object, start: object, stop: object, points: int, request: Request) -> SampledCurve:
+    """The requested solution over [start, stop] in proven values.
 
-    Raises `InputError` if start isn't below stop, and what `evaluate` raises.
+    Raises `InputError` if start isn't below stop, and the exceptions of `evaluate`.
     """
-    return _sampled(equation, start, stop, points, Request.of("sample", keywords, unused=("path",)))
-
-
-def _sampled(equation: object, start: object, stop: object, points: int, request: Request) -> SampledCurve:
-    """As `sample`, of the solution that is described."""
     initial, accuracy, _, params, var = request
     a, b = _interval_of(start, stop)
     points = whole(points, "points", least=2)
@@ -179,7 +160,7 @@ def _regular_intervals(chart: PieceChart, a: Fraction, b: Fraction) -> list[tupl
 
 
 def _middle_of_the_longest(intervals: list[tuple[Fraction, Fraction]]) -> Fraction:
-    """The middle, or a number of one digit near it, which the legend can show."""
+    """The middle, or a simpler number near it, which the legend can show."""
     low, high = max(intervals, key=lambda interval: interval[1] - interval[0])
     middle = (low + high) / 2
     plain = middle.limit_denominator(9)
@@ -268,7 +249,7 @@ def plot(
     axes.set_title(title, pad=18)  # room for the denominators of formulas
     _cut_axis(axes, lines, high - low)
     _, names = axes.get_legend_handles_labels()
-    ncols = 2 if max(map(len, names)) <= _LONGEST_IN_COLUMNS else 1
+    ncols = 2 if max(map(len, names)) <= _LABEL_WIDTH else 1
     size = "large" if any(r"\frac" in name for name in names) else "medium"
     figure.legend(loc="outside lower center", ncols=ncols, frameon=False, fontsize=size)
     if output is not None:
@@ -283,16 +264,13 @@ def plot(
 
 
 def _typeset(latex: str, otherwise: str | None = None) -> str:
-    """A formula for matplotlib's subset of LaTeX; text, by default the LaTeX itself, if it is outside of that subset."""
+    """A formula in matplotlib's subset of LaTeX; text, by default the LaTeX itself, for one outside of that subset."""
     from matplotlib.mathtext import MathTextParser
 
-    formula = f"${latex}$"
-    try:
+    with suppress(ValueError):
         if latex:
-            MathTextParser("path").parse(formula)
-            return formula
-    except ValueError:
-        pass
+            MathTextParser("path").parse(f"${latex}$")
+            return f"${latex}$"
     return (latex if otherwise is None else otherwise).replace("$", r"\$")
 
 
@@ -300,18 +278,13 @@ def _title(equation: object, given: object, params: Mapping[str, object] | None)
     """The equation, and the values of parameters; nothing for coefficients without a text of their own."""
     text = given.text if isinstance(given, Answer) else given
     latex = ""
-    if isinstance(equation, Answer | Parsed):
-        if equation.equation is None:
-            formula = normal_form(equation)
-            text = formula.text
-            latex = formula.latex
-        elif equation.equation.change is None:
-            text = str(equation.equation)
-            latex = latex_text(equation.equation.text(caret=False))
     # After a change of variable the equation isn't the given one: then the user's text stands above the picture.
-    if isinstance(text, str) and not latex and "\\" not in text:
+    if isinstance(equation, Answer | Parsed) and (equation.equation is None or equation.equation.change is None):
+        formula = equation_of(equation)
+        text, latex = formula.text, formula.latex
+    elif isinstance(text, str) and "\\" not in text:
         latex = latex_text(text)
-    if not isinstance(text, str) or len(text) > _TITLE_LENGTH:
+    if not isinstance(text, str) or len(text) > 2 * _LABEL_WIDTH:
         return ""
     values = [f"{name} = {plain_text(value)}" for name, value in (params or {}).items()]
     latex = latex.replace(r"\frac", r"\dfrac")
@@ -348,7 +321,7 @@ def _curves(
         found = _solution_curves(equation, start, stop, points, request) if is_homogeneous else []
         if found:
             return found
-    curve = _sampled(equation, start, stop, points, request)
+    curve = sampled_curve(equation, start, stop, points, request)
     return [(_Label(_name_by_values(_axis_names(equation)[1], curve.initial)), curve)]
 
 
@@ -361,22 +334,19 @@ def _name_by_values(y: str, initial: Start) -> str:
     if initial.frobenius is not None:
         c1, c2 = map(plain_text, initial.frobenius)
         return f"{_typeset(y)} = ({c1}) {_typeset(f'{y}_1')} + ({c2}) {_typeset(f'{y}_2')} of the Frobenius basis at {place}"
-    value = "1" if initial.y0 is None else plain_text(initial.y0)
-    shown = f"{y}({at}) = {value}"
-    latex = latex_text(shown)
+    values = [f"{y}({at}) = {'1' if initial.y0 is None else plain_text(initial.y0)}"]
     if initial.which is None:
-        slope = plain_text(initial.dy0)
-        shown = f"{shown}, {y}'({at}) = {slope}"
-        latex += r",\ " + latex_text(f"{y}'({at}) = {slope}")
-    if len(shown) > _LONGEST_LABEL:
+        values.append(f"{y}'({at}) = {plain_text(initial.dy0)}")
+    shown = ", ".join(values)
+    if len(shown) > _LABEL_WIDTH:
         return _typeset(y)
-    said = _typeset(latex, shown)
-    return f"{_typeset(y)} decaying, {said}" if initial.which == "decaying" else f"{_typeset(y)}, where {said}"
+    typeset = _typeset(r",\ ".join(map(latex_text, values)), shown)
+    return f"{_typeset(y)} decaying, {typeset}" if initial.which == "decaying" else f"{_typeset(y)}, where {typeset}"
 
 
 @dataclass(frozen=True)
 class _Label:
-    """The name of a solution in the legend, its formula in LaTeX if that is known and short, and the factor of the curve."""
+    """The name of a solution in the legend, its formula in LaTeX if it is known and short, and the factor of the curve."""
 
     name: str
     formula: str = ""
@@ -384,13 +354,12 @@ class _Label:
 
     def of_part(self, part: str) -> str:
         """The entry of the real or the imaginary part, or, for "", of a real solution."""
+        equation = _typeset(f"{self.name.strip('$')} = {self.formula}", "") if self.formula else ""
         if self.factor:
-            defined = rf"{self.name.strip('$')} = {self.formula}" if self.formula else ""
-            return f"{_typeset(self.factor)} {self.name}" + (defined and rf", {_typeset(defined, '')}")
-        if not self.formula:
-            return f"{part} {self.name}".strip()
-        equation = _typeset(f"{self.name.strip('$')} = {self.formula}", "") or self.name
-        return f"{part} {self.name}, {equation}" if part else equation
+            return f"{_typeset(self.factor)} {self.name}" + f", {equation}" * bool(self.formula)
+        if part:
+            return f"{part} {self.name}" + f", {equation or self.name}" * bool(self.formula)
+        return equation or self.name
 
 
 def _solution_curves(
@@ -422,18 +391,18 @@ def _solution_curves(
             at = as_point(request.start.x0, "x0").re
         place = sympy.Rational(at.numerator, at.denominator)
         functions = _real_functions(unknown, [sympy.N(f.subs(x, place), digits) for y in pair for f in (y, y.diff(x))])
-        # Other solutions are drawn where doubles don't hold these.
-        if not functions or not all(_LEAST < sum(map(abs, values)) < 1 / _LEAST for _, values in functions):
+        # Other solutions are drawn if these are beyond the range of doubles.
+        if not functions or not all(_LEAST_SIZE < sum(map(abs, values)) < 1 / _LEAST_SIZE for _, values in functions):
             return []
         for curves, (name, values) in zip(found, functions, strict=True):
             initial = Start(at, str(values[0]), str(values[1]))
-            curves.append((name, _sampled(answer, low, high, points, request._replace(start=initial))))
+            curves.append((name, sampled_curve(answer, low, high, points, request._replace(start=initial))))
     labelled = []
     for curves, y in zip(found, pair, strict=True):
         names = list(dict.fromkeys(name for name, _ in curves))
         curve = replace(curves[0][1], runs=tuple(run for _, part in curves for run in part.runs))
         text = of_sympy(y)
-        is_shown = len(text.text) <= _LONGEST_LABEL and not names[0].startswith(("Re", "Im")) and _agrees(y, x, curve)
+        is_shown = len(text.text) <= _LABEL_WIDTH and not names[0].startswith(("Re", "Im")) and _agrees(y, x, curve)
         if len(names) > 1:
             names = [f"{name} ({_typeset(latex_text(f'x = {part.initial.x0}'))})" for name, part in curves]
         labelled.append((_Label(", ".join(names), text.latex if is_shown else ""), curve))
@@ -457,7 +426,8 @@ def _evaluable_pair(answer: Answer, x: Any, params: Mapping[str, object]) -> lis
     except InputError:  # an enclosure, which no formula has
         return []
     pair = [y.subs(letters) for y in (derived.special(answer) if form is None else form)]
-    is_long = any(has_long_numbers(y) or len(as_text(y)) > _LONGEST_EVALUATED for y in pair)
+    # Powers of long numbers take SymPy minutes.
+    is_long = any(has_long_numbers(y) or len(as_text(y)) > 2 * MOST_CHARACTERS for y in pair)
     both = sympy.Tuple(*pair)
     return [] if is_long or both.has(sympy.Integral) or not both.free_symbols <= {x} else pair
 
@@ -465,7 +435,7 @@ def _evaluable_pair(answer: Answer, x: Any, params: Mapping[str, object]) -> lis
 def _real_functions(unknown: str, values: Sequence[Any]) -> list[tuple[str, Sequence[Any]]]:
     """Two independent functions with their values and slopes: y1 and y2, whose data are given, or parts of them.
 
-    Empty where the data aren't numbers, or dependent, as for some values of parameters.
+    Empty if the data aren't numbers, or are dependent, as for some values of parameters.
     """
     import sympy
 
@@ -487,8 +457,7 @@ def _real_functions(unknown: str, values: Sequence[Any]) -> list[tuple[str, Sequ
 
 
 def _independent(solutions: Sequence[tuple[str, Sequence[Any]]]) -> list[tuple[str, Sequence[Any]]]:
-    """The first solution, and the first one that isn't a multiple of it, by values and slopes to 30 digits; empty if there is
-    none."""
+    """The first solution and the first one that isn't a multiple of it, by values and slopes to 30 digits; or nothing."""
     first, *others = solutions
     y1, dy1 = first[1]
     for second in others:
@@ -504,9 +473,9 @@ def _agrees(y: Any, x: Any, curve: SampledCurve) -> bool:
 
     largest = curve.largest
     for arc in curve.arcs:
-        for k in np.linspace(0, len(arc.x) - 1, _FORMULA_POINTS).astype(int):
+        for k in np.linspace(0, len(arc.x) - 1, 3).astype(int):
             value = sympy.N(y.subs(x, sympy.Rational(float(arc.x[k]))), 15)
-            allowed = _FORMULA_AGREEMENT * largest + float(arc.radius[k])
+            allowed = 1e-6 * largest + float(arc.radius[k])
             if not value.is_number or not abs(complex(value) - arc.y[k]) <= allowed:
                 return False
     return True
@@ -515,11 +484,11 @@ def _agrees(y: Any, x: Any, curve: SampledCurve) -> bool:
 def modest_window(answer: Answer, low: Fraction, high: Fraction) -> tuple[Fraction, Fraction] | None:
     """[low, high], or a shorter interval about its middle, over which the integral of sqrt|S| isn't large.
 
-    So solutions oscillate at most some dozens of times, and grow by at most as many digits.  None without such an interval.
+    So solutions oscillate at most some dozens of times, and grow by at most as many digits.  None if 23 halvings find none.
     """
     chart = chart_of(answer, {}, None)
     middle = (low + high) / 2
-    for k in range(_HALVINGS):
+    for k in range(24):
         half = (high - low) / 2 ** (k + 1)
         a, b = middle - half, middle + half
         if sum(_integral_of_root(chart, _regular_intervals(chart, a, b))) <= _MODEST:
@@ -558,13 +527,13 @@ class _DrawnPart:
             x, y = arc.drawn()
             axes.plot(x, self.values(y), linewidth=1.5, color=colour, label=label)
             label = "_"  # once in the legend
-            if arc.radius.max() > _SEEN * largest:
+            if arc.radius.max() > _VISIBLE_SHARE * largest:
                 low, high = self.values(arc.y) - arc.radius, self.values(arc.y) + arc.radius
                 axes.fill_between(arc.x, low, high, color=colour, alpha=0.25, linewidth=0, label="error band")
         for envelope in self.curve.envelopes:
             size = self.amplitude(envelope)
-            said = f"{self.label}: envelope of {envelope.periods:,.0f} oscillations"
-            axes.fill_between(envelope.x, -size, size, color=colour, alpha=0.35, linewidth=0.8, label=said)
+            label = f"{self.label}: envelope of {envelope.periods:,.0f} oscillations"
+            axes.fill_between(envelope.x, -size, size, color=colour, alpha=0.35, linewidth=0.8, label=label)
 
     def sizes(self, width: float) -> tuple[float, float]:
         """The typical size, and the largest value.
@@ -599,7 +568,7 @@ def _drawn_parts(label: _Label, curve: SampledCurve) -> list[_DrawnPart]:
 
 
 def _cut_axis(axes: Axes, lines: list[_DrawnPart], width: float) -> None:
-    """Cut the axis off where a solution grows so much that the others, or its own oscillation, wouldn't be seen."""
+    """Cut the axis off if a solution grows so much that the others, or its own oscillation, would be invisible."""
     sizes, largest = np.transpose([line.sizes(width) for line in lines])
     height = max(sizes.max(), largest[largest <= _RANGE * sizes.max()].max(initial=0.0))
     if largest.max() > _RANGE * height > 0:

@@ -35,7 +35,7 @@ def formulas_of(answer: Answer | Parsed) -> Formulas:
     return Formulas(answer.variable, answer.S.field)
 
 
-def equation_of(answer: Answer) -> Math:
+def equation_of(answer: Answer | Parsed) -> Math:
     """The equation as given."""
     equation = answer.equation
     if equation is None:

@@ -17,7 +17,7 @@ from kovacic.algebra.function_field import FunctionField
 from kovacic.decision import Structure
 from kovacic.equation import PI, Equation
 from kovacic.errors import InputError, LimitExceeded
-from kovacic.limits import DEFAULT_LIMITS, Budget
+from kovacic.limits import DEFAULT_LIMITS, MOST_CHARACTERS, Budget
 from kovacic.parametric import prose
 from kovacic.parametric.assumptions import WORDS
 from kovacic.parametric.cases import Case, charts_of, outside, solvable_cases, vanishing, within
@@ -44,38 +44,32 @@ from kovacic.reading.read import read_input
 from kovacic.reading.source import source_of
 from kovacic.views.bibliography import literature
 from kovacic.writing.document import Block, Formula, Heading, Sentence, Table, format_of, say
-from kovacic.writing.formula import Formulas, Math, free_name, generated_field, latex_text, of_sympy
+from kovacic.writing.formula import Formulas, Math, free_name, generated_field, joined, latex_text, of_sympy
 
-#: What the signs in a solution are called, those that aren't parameters.
+#: Letters for the signs in a solution; those of parameters are skipped.
 _SIGN_LETTERS = ("epsilon", "zeta", "eta", "kappa", "iota", "tau", "upsilon", "chi")
-#: Solutions that are written one by one; more are written with symbols for their signs.
-_ONE_BY_ONE = 2
-#: Alternatives from which on they stand in a table.
-_TABLE = 3
-#: Characters of Delta_d above which nobody prints it.
-_LONGEST_DETERMINANT = 240
 _PROOF_HEADING = Heading("Proof")
 _REFERENCES = Heading("References")
 _NOUNS = ("integer", "half-integer")
 
 
-def theorem(answer: ParametricAnswer, *, format: str = "text") -> str:
+def theorem_text(answer: ParametricAnswer, *, format: str = "text") -> str:
     """The theorem as "text", "markdown", "latex" (the body of a document that defines theorem and proof) or "html".
 
     Raises `ValueError` for another format.
     """
     chosen = format_of(format)
-    if format == "latex":
-        written = blocks(answer)
-        start, end = written.index(_PROOF_HEADING), written.index(_REFERENCES)
-        # The references keep their heading.
-        environments = ("theorem", written[1:start]), ("proof", written[start + 1 : end])
-        # Ragged lines, as in `explain`, end with their group: they aren't left behind in the author's document.
-        parts = [
-            f"\\begin{{{name}}}\\raggedright\n{chosen.render(inside)}\\end{{{name}}}\n" for name, inside in environments
-        ]
-        return "\n".join([*parts, f"{{{chosen.render(written[end:])}\\par}}\n"])
-    return chosen.document(f"y'' = {answer.right.text}", blocks(answer))
+    written = blocks(answer)
+    if format != "latex":
+        return chosen.document(f"y'' = {answer.right.text}", written)
+    start, end = written.index(_PROOF_HEADING), written.index(_REFERENCES)
+    # The references keep their heading.
+    environments = ("theorem", written[1:start]), ("proof", written[start + 1 : end])
+    # Ragged lines, as in `explain`, end with their group: they aren't left behind in the author's document.
+    parts = [
+        f"\\begin{{{name}}}\\raggedright\n{chosen.render(inside)}\\end{{{name}}}\n" for name, inside in environments
+    ]
+    return "\n".join([*parts, f"{{{chosen.render(written[end:])}\\par}}\n"])
 
 
 def blocks(answer: ParametricAnswer) -> list[Block]:
@@ -118,7 +112,7 @@ class _TheoremWriter:
     # The hypothesis
 
     def _hypothesis(self, claim: str) -> Iterator[Block]:
-        """The equation, and in the same sentence what is claimed."""
+        """The equation and, in the same sentence, the claim."""
         equation = self.answer.equation
         given = self._given()
         yield say(*self._about_parameters(), "The equation")
@@ -147,10 +141,7 @@ class _TheoremWriter:
         yield say(f"Each of these equations {claim}")
 
     def _given(self) -> Math | None:
-        """The equation as the user wrote it; None without a text that is read as this one.
-
-        An algebraic constant with a letter for it, alpha, is one in the equation, too.
-        """
+        """The equation as the user wrote it, if its text can be read again; None also for a letter in place of a constant."""
         answer = self.answer
         if any(map(str.isidentifier, answer.constant.names)):
             return None
@@ -167,14 +158,14 @@ class _TheoremWriter:
 
     @property
     def _unknown(self) -> str:
-        """That of the normal form: y where that is the equation itself."""
+        """The unknown of the normal form: y if that is the equation itself."""
         equation = self.answer.equation
         if equation is None or equation.is_normal_form:
             return "y"
         return free_name({equation.unknown, *self.answer.parameters}, "v", "u", "z")
 
     def _about_parameters(self) -> list[str | Math]:
-        """`Let a and b be complex numbers, b > 0, a != 1. `; nothing where there are no parameters."""
+        """`Let a and b be complex numbers, b > 0, a != 1. `; nothing without parameters."""
         names = [name for name in self.answer.parameters if name != PI]
         if not names:
             return []
@@ -188,13 +179,11 @@ class _TheoremWriter:
         return [*sentence, ". "]
 
     def _exceptions(self) -> Iterator[Block]:
-        """The values that are left out, but for those that the hypothesis excludes."""
+        """The values that are left out, except those that the hypothesis excludes."""
         for region in self.left_out:
             if _is_unequal(region):
                 continue
-            why = "the equation isn't defined there"
-            if region.defined:
-                why = f"what holds there isn't known, {region.complete}"
+            why = f"not decided, {region.complete}" if region.defined else "the equation isn't defined there"
             yield say("Values with ", *_sentence_of(region.statement), f" are left out: {why}.")
 
     def _assumed(self, name: str) -> list[str | Math]:
@@ -255,13 +244,13 @@ class _TheoremWriter:
 
     def _case(self, case: Case, number: str) -> Iterator[Block]:
         rows = _table_rows(case)
-        without = _exclusions(case.without)
+        without = _without(case.without)
         if rows:
             yield say(f"{number}one row of the table holds", *without, ":")
             yield Table(("where", "condition"), rows)
         else:
             yield say(number, *_sentence_of(case.statement), *without, ".")
-        # The rows of Schwarz's table that are meant, for the exponent differences that depend on the parameters.
+        # The relevant rows of Schwarz's table, for exponent differences that depend on the parameters.
         for part in _schwarz_in(case.statement):
             names, differences = part.resolved()
             heads: list[Sentence] = [Math.of(name) for name in names]
@@ -283,7 +272,7 @@ class _TheoremWriter:
         for region, block in zip(case.regions, blocks, strict=True):
             if block:
                 meeting = [one for one in before if within(one, charts_of(region.statement))]
-                yield say("For ", *_sentence_of(region.statement), *_exclusions(meeting), ":")
+                yield say("For ", *_sentence_of(region.statement), *_without(meeting), ":")
             yield from block
             before += vanishing([region.statement])
 
@@ -305,7 +294,7 @@ class _TheoremWriter:
             if not poles:
                 return
             yield say(*prose.phrase(f"For {' or '.join(poles)}:"))
-        if len(solutions) > _ONE_BY_ONE:
+        if len(solutions) > 2:  # one formula with symbols for the signs
             together = general(region.formulas, self.signs)
             if together is not None:
                 solutions = [together]
@@ -323,12 +312,12 @@ class _TheoremWriter:
             yield Formula(self._named_solution(row.solution))
 
     def _with_degree(self, solution: PolynomialSolution, case: Case) -> Iterator[Block]:
-        """A formula, with symbols for signs maybe, where its degree, which gets a name, is a natural number."""
+        """A formula, maybe with symbols for signs, and the condition that its degree, a letter, is a natural number."""
         if not solution.degree.free_symbols:
             yield Formula(self._named_solution(solution))
             return
-        said = re.findall(r"[^\W\d]\w*", case.statement.text())
-        taken = [*map(str, solution.y.free_symbols), *self.answer.parameters, *said]
+        names = re.findall(r"[^\W\d]\w*", case.statement.text())
+        taken = [*map(str, solution.y.free_symbols), *self.answer.parameters, *names]
         letter = sympy.Symbol(free_letter(taken))
         y = solution.y.xreplace({solution.degree: letter})
         degree = of_sympy(self._collected(solution.degree))
@@ -373,14 +362,14 @@ class _TheoremWriter:
 
     @property
     def _variable(self) -> str:
-        """The user's."""
+        """The user's variable."""
         return self.change.variable if self.change else self.answer.variable
 
     def _collected(self, expression: sympy.Expr) -> sympy.Expr:
         """A sum as one fraction whose numerator is sorted by the signs: -(epsilon*(c - 1) + zeta*(a + b - c) + 1)/2."""
         by_sign = sympy.collect(sympy.expand(expression), self.signs, evaluate=False)
         terms: list[tuple[sympy.Rational, sympy.Expr]] = []
-        for sign, coefficient in by_sign.items():  # the minus of each is in the number, none before the rest
+        for sign, coefficient in by_sign.items():  # a minus goes to the number, not to the rest
             number, other = sympy.factor(coefficient).as_coeff_Mul()
             is_turned = other.could_extract_minus_sign()
             terms.append((-number, -other * sign) if is_turned else (number, other * sign))
@@ -395,8 +384,8 @@ class _TheoremWriter:
     # Delta_d
 
     def _delta(self, cases: list[Case]) -> Iterator[Block]:
-        """What Delta_d is, and its first values."""
-        #: The letter of the degree, by the degree m of the invariant.
+        """The definition of Delta_d."""
+        # The letter of the degree, by the degree m of the invariant.
         naturals = [natural for case in cases for region in case.regions for natural in region.naturals]
         letters = {natural.m: natural.letter for natural in reversed(naturals)}
         for m, letter in sorted(letters.items()):
@@ -408,7 +397,7 @@ class _TheoremWriter:
             yield say(Math.of(f"Delta_{letter}").equals(Math("0", "0")), what, Math.of(letter), " zeros.")
 
     def _delta_of_omega(self, d: str) -> Iterator[Block]:
-        """Where omega is rational: the equation of the polynomial of degree d."""
+        """The equation of the polynomial of degree d for a rational omega."""
         P = f"P_{d}"
         # One of the determinants that are printed may stand for several polynomials.
         has_systems = any(
@@ -445,7 +434,7 @@ class _TheoremWriter:
 
 
 def _equation_key(equation: Equation | None) -> tuple[str, str]:
-    """An equation, over whichever field, and its change of variable; empty where there is none."""
+    """An equation, over any field, and its change of variable."""
     if equation is None:
         return "", ""
     return str(equation), equation.change.expression if equation.change else ""
@@ -455,9 +444,7 @@ def _enumerated(parts: list[Math]) -> list[str | Math]:
     """`a, b and c`."""
     if len(parts) < 2:
         return [*parts]
-    *first, last = parts
-    found = [said for part in first for said in (part, ", ")]
-    return [*found[:-1], " and ", last]
+    return [*joined(", ", parts[:-1]), " and ", parts[-1]]
 
 
 def _choice_of_signs(signs: list[sympy.Symbol]) -> list[str | Math]:
@@ -468,7 +455,7 @@ def _choice_of_signs(signs: list[sympy.Symbol]) -> list[str | Math]:
 
 
 def _group(verdict: RegionVerdict) -> list[str | Math]:
-    """Its name, and what the theorem of Morales and Ramis needs."""
+    """Its name, and its identity component, for the theorem of Morales and Ramis."""
     component = verdict.identity_component
     return ["The group is ", *verdict.group_in_words, ". Its identity component is ", *component, "."]
 
@@ -481,8 +468,8 @@ def _is_unequal(region: ParameterRegion) -> bool:
     return not region.defined and isinstance(region.statement, Vanishes)
 
 
-def _exclusions(others: Sequence[Statement]) -> list[str | Math]:
-    """What must not hold: `, and a != 1` where all of it are equations, else `, and not: ...` for each."""
+def _without(others: Sequence[Statement]) -> list[str | Math]:
+    """Statements that must not hold: `, and a != 1` if all of them are equations, else `, and not: ...` for each."""
     are_equations = len(vanishing(others)) == len(others)
     found: list[str | Math] = []
     for other in others:
@@ -494,10 +481,10 @@ def _exclusions(others: Sequence[Statement]) -> list[str | Math]:
 
 
 def _table_rows(case: Case) -> list[list[Sentence]]:
-    """Rows for many alternatives "k = 3, and ..."; none where a sentence says it."""
+    """Rows for three or more alternatives "k = 3, and ..."; none for a statement of another form."""
     statement = case.statement
     parts = statement.parts if isinstance(statement, Either) else ()
-    if len(parts) < _TABLE:
+    if len(parts) < 3:
         return []
     rows: list[list[Sentence]] = []
     for part in parts:
@@ -509,19 +496,19 @@ def _table_rows(case: Case) -> list[list[Sentence]]:
 
 
 def _schwarz_in(statement: Statement) -> list[Schwarz]:
-    """The parts of a statement that a table says: not that of two half-integers."""
+    """The parts of a statement that need Schwarz's table: all but that of two half-integers."""
     parts: Iterable[Statement] = statement.parts if isinstance(statement, Both | Either) else (statement,)
     found = [part for part in parts if isinstance(part, Schwarz)]
     return [part for part in found if part.structures != (Structure.IMPRIMITIVE,)]
 
 
 def _determinant_table(natural: Natural, number: int) -> Iterator[Block]:
-    """The first determinants: d, where it is the degree, and Delta_d in factors; as far as they can be printed."""
+    """The first determinants, as far as they can be printed: d, the places where it is the degree, and Delta_d in factors."""
     rows: list[list[Sentence]] = []
     delta = Math.of(f"Delta_{natural.letter}")
     for d in range(number):
         found = natural.values(d)
-        if any(len(value) > _LONGEST_DETERMINANT for value in found):
+        if any(len(value) > MOST_CHARACTERS // 4 for value in found):  # too wide for a table
             break
         if {*found} == {NO_FORMULA}:
             yield say(delta, f" is given by {NO_FORMULA}.")

@@ -1,8 +1,8 @@
 r"""Escapes untrusted text, one function per output format; `kovacic.errors.visible` is that for a terminal.
 
-Equations, names and messages may come from anybody: a file, a message, an answer in JSON that was changed by hand.  A terminal
-would obey escape sequences in them, and a reader would be misled by marks that reverse the direction of writing; LaTeX would
-obey \input, and browsers <script> and links.
+Equations, names and messages may come from anybody: a file, an answer in JSON that was changed by hand.  A terminal would
+obey escape sequences in them, marks that reverse the direction of writing would mislead a reader, LaTeX would obey \input, and
+browsers <script> and links.
 """
 
 from __future__ import annotations
@@ -14,7 +14,6 @@ from typing import Any
 
 from kovacic.errors import visible
 
-_DELETE = "\x7f"
 _LATEX = {
     "\\": r"\textbackslash{}",
     "^": r"\textasciicircum{}",
@@ -32,7 +31,7 @@ _MARKDOWN_PATTERN = re.compile(r"[\\`*_\[\]<>$|#]")
 
 
 def in_one_line(text: str) -> str:
-    """The text for a terminal, with the ends of lines escaped as well."""
+    """The text for a terminal, with line ends escaped as well."""
     return visible(text).replace("\n", r"\n")
 
 
@@ -74,8 +73,6 @@ def json_line(data: Any, default: Callable[[Any], str] | None = None) -> str:
     '{"note": "\u03bb \\u202e"}'
     """
     line = json.dumps(data, ensure_ascii=False, default=default)
-    if line.isascii() and _DELETE not in line:  # JSON has escaped the other control characters; megabytes take a moment
-        return line
     if line.isprintable():
         return line
     return "".join(char if char.isprintable() else json.dumps(char)[1:-1] for char in line)

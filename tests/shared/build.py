@@ -35,15 +35,16 @@ from kovacic.closed_form.structure import Triangular
 from kovacic.enclosure.frame import System, make_frame
 from kovacic.enclosure.points import ExactPoint
 from kovacic.enclosure.problem import as_problem
+from kovacic.enclosure.request import Request
 from kovacic.enclosure.states import evaluate_states
 from kovacic.engine.places import analyse
 from kovacic.galois import Ground
-from kovacic.limits import Budget, bounded_work
+from kovacic.limits import Budget, bounded_work, limited
 from kovacic.reading.read import read_input
 from kovacic.reading.symbolic import read_expression
 from kovacic.solution.conditions import Conditions
 from kovacic.verify import verify
-from kovacic.views.plot import sample
+from kovacic.views.plot import SampledCurve, sampled_curve
 
 __all__ = [
     "COMMANDS",
@@ -92,6 +93,12 @@ def function(text: Any, var: str | None = "x") -> RatFunc:
 def ball_to_flint(ball: Any) -> acb:
     """A ball as python-flint's, complex even where it is real."""
     return acb(ball.to_flint())
+
+
+@limited
+def sample(equation: object, start: object, stop: object, *, points: int = 400, **keywords: Any) -> SampledCurve:
+    """The curve of a picture, with the arguments of `kovacic.plot`."""
+    return sampled_curve(equation, start, stop, points, Request.of("sample", keywords, unused=("path",)))
 
 
 def equation(text: Any, var: str | None = None) -> Equation:
