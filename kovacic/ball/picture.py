@@ -9,8 +9,7 @@ from typing import Any
 import numpy as np
 from scipy.spatial.transform import Rotation
 
-from kovacic.ball.dynamics import Array
-from kovacic.ball.motion import Motion
+from kovacic.ball.motion import Array, Motion
 
 _BLUE, _ORANGE, _GREY, _GREEN = "#1f5f99", "#d9731a", "#8a8a8a", "#2f7d4f"
 

@@ -215,8 +215,7 @@ def _simulate(sphere: Any, given: Mapping[str, Any]) -> list[AnswerRow]:
     with needs("numeric", "a motion"):
         import numpy as np
 
-        from kovacic.ball.dynamics import as_float
-        from kovacic.ball.motion import MotionStart, solve_motion
+        from kovacic.ball.motion import MotionStart, as_float, solve_motion
         from kovacic.ball.picture import draw
 
     time = as_float(given["end"], "the time")

@@ -452,7 +452,7 @@ class ParametricAnswer:
     @property
     def right(self) -> Math:
         """S y."""
-        return Formulas(self.variable, self.S.field).times(self.S, "y", "y")
+        return Formulas(self.variable, self.S.field).times(self.S, "y")
 
 
 @lru_cache(maxsize=16)

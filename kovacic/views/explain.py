@@ -46,7 +46,7 @@ from kovacic.writing.document import (
     format_of,
     say,
 )
-from kovacic.writing.formula import Math, caret, free_name, generated_field, latex_text, shortened
+from kovacic.writing.formula import Math, caret, free_name, generated_field, joined, latex_text, shortened
 
 _CASES = {
     Structure.REDUCIBLE: "case 1 (the group is reducible, omega rational)",
@@ -198,7 +198,7 @@ class ExplanationWriter:
         gamma = Math(f"gamma = -{b}/(2{a})", rf"\gamma = -\frac{{{b}}}{{2{a}}}")
         blocks: list[Block] = [
             say("With ", substitution, ", ", gamma, f"{meaning}, it becomes its normal form for {v}:"),
-            Formula(self.formulas.named("gamma", r"\gamma", answer.gauge)),
+            Formula(self.formulas.named("gamma", answer.gauge)),
             Formula(normal_form(answer, v)),
         ]
         return v, blocks
@@ -232,7 +232,7 @@ class ExplanationWriter:
             )
         elif decision.invariant is not None:
             yield say(f"There is {_BY_INVARIANT[decision.structure]}. So it is {_CASES[decision.structure]}:")
-            yield Formula(self.formulas.named("F", "F", rational_form(decision.invariant, self.steps.problem)))
+            yield Formula(self.formulas.named("F", rational_form(decision.invariant, self.steps.problem)))
         else:
             yield say(
                 "There is no invariant of degree 2, so at most one omega is rational; its expansion at one place "
@@ -256,13 +256,13 @@ class ExplanationWriter:
         if series is not None:
             powers = powers_in(series, self.formulas)
             yield say(self.steps.degree(case), " is the degree of ", Math.of(P), ", which is of ", *powers, ".")
-            yield Formula(self.formulas.named("theta", r"\theta", series.theta))
+            yield Formula(self.formulas.named("theta", series.theta))
             yield from self._constants()
         if form is not None:
-            theta = Math("theta", r"\theta")
-            yield say(self.steps.degree(case), f" = {form.P.degree}, and with ", theta, " and ", Math.of(P), ":")
-            yield Formula(self.formulas.named("theta", r"\theta", form.theta))
-            yield Formula(self.formulas.named(P, P, form.P))
+            names = joined(" and ", map(Math.of, ("theta", P)))
+            yield say(self.steps.degree(case), f" = {form.P.degree}, and with ", *names, ":")
+            yield Formula(self.formulas.named("theta", form.theta))
+            yield Formula(self.formulas.named(P, form.P))
 
     def omega(self) -> Iterator[Block]:
         """omega, or its polynomial; one that would fill screens by its recurrence."""
@@ -282,7 +282,7 @@ class ExplanationWriter:
             else:
                 text = f"sum_(k=0)^{m} (-1)^k e_k {w}^({m}-k) = 0"
                 yield Formula(Math(text, rf"\sum_{{k=0}}^{{{m}}} (-1)^k e_k {w}^{{{m}-k}} = 0"))
-                yield say("with ", Math(f"m = {m}", f"m = {m}"), " and")
+                yield say("with ", Math.of(f"m = {m}"), " and")
                 yield from map(Formula, _OMEGA_BY_RECURRENCE)
         yield from self._constants()
 

@@ -45,7 +45,7 @@ def equation_of(answer: Answer | Parsed) -> Math:
 
 def normal_form(answer: Answer | Parsed, y: str = "y") -> Math:
     """y'' = S y."""
-    return Math(f"{y}''", f"{y}''").equals(formulas_of(answer).times(answer.S, y, y))
+    return Math.of(f"{y}''").equals(formulas_of(answer).times(answer.S, y))
 
 
 def omega_math(riccati: RiccatiPolynomial, formulas: Formulas) -> Math:
@@ -54,17 +54,14 @@ def omega_math(riccati: RiccatiPolynomial, formulas: Formulas) -> Math:
         return formulas.math(-riccati.coefficients[0])
     w = formulas.unknown
     m = riccati.degree
-    lines = [Math(f"{w}^{m}", f"{w}^{{{m}}}")]
+    lines = [Math.of(f"{w}^{m}")]
     for k, coefficient in reversed([*enumerate(riccati.coefficients[:m])]):
         if not coefficient:
             continue
         sign = "-" if formulas.math(coefficient).text.removeprefix("(").startswith("-") else "+"
         positive = coefficient if sign == "+" else -coefficient
-        if k == 0:
-            value = formulas.factor(positive)
-        else:
-            power = Math(w, w) if k == 1 else Math(f"{w}^{k}", f"{w}^{{{k}}}")
-            value = formulas.times(positive, power.text, power.latex)
+        power = w if k == 1 else f"{w}^{k}"
+        value = formulas.times(positive, power) if k else formulas.factor(positive)
         lines.append(Math(f"{sign} {value.text}", f"{sign} {value.latex}"))
     return Math.lines([*lines[:-1], lines[-1].equals(Math("0", "0"))])
 
@@ -150,7 +147,7 @@ def solutions_of(answer: Answer) -> tuple[list[tuple[Math, Math]], tuple[str, ..
     form = derived.closed_form(answer)
     pair: Iterable[Any] = derived.special(answer) if form is None else form
     y = "y" if answer.equation is None else answer.equation.unknown
-    names = [Math(f"{y}{k}", f"{y}_{{{k}}}") for k in (1, 2)]
+    names = [Math(f"{y}{k}", f"{latex_text(y)}_{{{k}}}") for k in (1, 2)]
     return list(zip(names, map(of_sympy, pair), strict=False)), () if form is None else form.notes
 
 

@@ -164,7 +164,7 @@ class Steps:
         for point, choices in zip(search.points, search.choices, strict=True):
             inside = ", ".join(self._shown(choice.value).text for choice in choices)
             rows.append([self._point(point), Math(f"{{{inside}}}", rf"\{{{inside}\}}")])
-        return Table(("place", Math("E", "E")), rows)
+        return Table(("place", Math.of("E")), rows)
 
     def _counted(self, search: Search, case: int) -> Block:
         """Step 2: the number of families of exponents, and of those with a natural number d."""
@@ -237,7 +237,7 @@ class Steps:
 
     def _trial(self, family: Family) -> Iterator[Block]:
         d = natural(family.d)
-        yield Formula(Math("theta", r"\theta").equals(self._shown(family.theta)))
+        yield Formula(Math.of("theta").equals(self._shown(family.theta)))
         # A coefficient without unknowns is a number, and not 0: it excludes P at once.
         unknowns = set(family.unknowns)
         impossible = next((value for value in family.conditions if not unknowns & value.free_symbols), None)

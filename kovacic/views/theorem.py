@@ -44,7 +44,7 @@ from kovacic.reading.read import read_input
 from kovacic.reading.source import source_of
 from kovacic.views.bibliography import literature
 from kovacic.writing.document import Block, Formula, Heading, Sentence, Table, format_of, say
-from kovacic.writing.formula import Formulas, Math, free_name, generated_field, joined, latex_text, of_sympy
+from kovacic.writing.formula import Formulas, Math, caret, free_name, generated_field, joined, latex_text, of_sympy
 
 #: Letters for the signs in a solution; those of parameters are skipped.
 _SIGN_LETTERS = ("epsilon", "zeta", "eta", "kappa", "iota", "tau", "upsilon", "chi")
@@ -206,7 +206,7 @@ class _TheoremWriter:
     def _changed_variable(self) -> Math:
         assert self.change
         expression = self.change.expression
-        return Math.of(self.answer.variable).equals(Math(expression.replace("**", "^"), latex_text(expression)))
+        return Math.of(self.answer.variable).equals(Math(caret(expression), latex_text(expression)))
 
     def _substitution(self, v: str) -> Math:
         equation = self.answer.equation
@@ -221,11 +221,11 @@ class _TheoremWriter:
 
     def _normal_form(self, y: str) -> Math:
         S = self.answer.S
-        right = Formulas(self.answer.variable, S.field).times(S, y, y)
-        if isinstance(S.field, FunctionField) and S:
-            fractions = Math.of(partial_fractions(S, self.answer.variable))
-            right = Math(f"({fractions.text}) {y}", rf"\left({fractions.latex}\right) {y}")
-        return Math(f"{y}''", f"{y}''").equals(right)
+        if not (isinstance(S.field, FunctionField) and S):
+            return Math.of(f"{y}''").equals(Formulas(self.answer.variable, S.field).times(S, y))
+        fractions = Math.of(partial_fractions(S, self.answer.variable))
+        right = Math(f"({fractions.text}) {y}", rf"\left({fractions.latex}\right) {latex_text(y)}")
+        return Math.of(f"{y}''").equals(right)
 
     # What is claimed
 
@@ -341,9 +341,8 @@ class _TheoremWriter:
             solution = next(region.formulas.of([solution]))
         yield Formula(self._named_solution(replace(solution, y=P * solution.y)))
         degree = Math.of(natural.letter).equals(of_sympy(self._collected(solution.degree)))
-        in_t: list[str | Math] = []
-        if self._variable != self.answer.variable:
-            in_t = [" in ", Math.of(self.answer.variable)]
+        is_changed = self._variable != self.answer.variable
+        in_t: list[str | Math] = [" in ", Math.of(self.answer.variable)] if is_changed else []
         signs = _choice_of_signs(self._signs_in(solution))
         yield say("with a polynomial ", Math.of(P.name), *in_t, " of degree ", degree, *signs, ".")
 
@@ -358,7 +357,7 @@ class _TheoremWriter:
             lambda e: e.is_Pow and e.exp.free_symbols & {*self.signs},
             lambda e: sympy.Pow(e.base, self._collected(e.exp), evaluate=False),
         )
-        return Math("y", "y").equals(of_sympy(y, first=sympy.Symbol(self._variable)))
+        return Math.of("y").equals(of_sympy(y, first=sympy.Symbol(self._variable)))
 
     @property
     def _variable(self) -> str:
@@ -399,19 +398,20 @@ class _TheoremWriter:
     def _delta_of_omega(self, d: str) -> Iterator[Block]:
         """The equation of the polynomial of degree d for a rational omega."""
         P = f"P_{d}"
-        # One of the determinants that are printed may stand for several polynomials.
-        has_systems = any(
-            determinant.system
+        determinants = (
+            determinant
             for region in self.answer.regions
             for natural in region.naturals
             for k in range(len(region.determinants))
             for determinant in natural.determinants(k)
         )
-        several = [" (all of the polynomials in parentheses vanish, where there are several)"] * has_systems
+        solvable = ", has a solution"
+        if any(
+            determinant.system for determinant in determinants
+        ):  # one that is printed stands for several polynomials
+            solvable += " (all of the polynomials in parentheses vanish, where there are several)"
         what = " vanishes exactly where the linear system for the coefficients of "
-        yield say(
-            Math.of(f"Delta_{d}"), what, Math.of(P), ", of degree ", Math.of(d), ", has a solution", *several, ":"
-        )
+        yield say(Math.of(f"Delta_{d}"), what, Math.of(P), ", of degree ", Math.of(d), f"{solvable}:")
         yield Formula(Math.of(f"{P}'' + 2 theta {P}' + (theta' + theta^2 - S) {P} = 0"))
         yield say("with ", Math.of("theta"), " the logarithmic derivative of ", Math.of(f"{self._unknown}/{P}"), ".")
 

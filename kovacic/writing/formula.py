@@ -155,18 +155,18 @@ class Formulas:
         latex = value.latex if is_single else rf"\left({value.latex}\right)"
         return Math(text, latex)
 
-    def times(self, function: RatFunc | Poly, text: str, latex: str) -> Math:
+    def times(self, function: RatFunc | Poly, name: str) -> Math:
         """`function * name`: 0, -y, 2 x y, (1/x) y, (x + 1) y."""
         if not function:
             return Math("0", "0")
-        value = self.factor(function)
+        value, y = self.factor(function), Math.of(name)
         if value.text in ("1", "-1"):
-            return Math(value.text[:-1] + text, value.latex[:-1] + latex)
-        return Math(f"{value.text} {text}", f"{value.latex} {latex}")
+            return Math(value.text[:-1] + y.text, value.latex[:-1] + y.latex)
+        return Math(f"{value.text} {y.text}", f"{value.latex} {y.latex}")
 
-    def named(self, text: str, latex: str, function: RatFunc | Poly) -> Math:
+    def named(self, name: str, function: RatFunc | Poly) -> Math:
         """`name = function`."""
-        return Math(text, latex).equals(self.math(function))
+        return Math.of(name).equals(self.math(function))
 
     def place(self, place: str) -> Math:
         """A place: infinity, x = 2 for a factor that is linear in x with a simple constant, else factor = 0."""
