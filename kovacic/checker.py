@@ -29,7 +29,7 @@ What "checked" means, for an S over K(x), K = Q or a number field, given by an i
 Every key is either looked at, or named after "not checked", or refused.  What the keys that aren't looked at say is for the
 reader to compare: `input` and `equation.text` with a, b and c, or with S.
 
-To be read from the end: `Answer.check` is the table of contents.
+To be read from the end: `CheckedAnswer.check` is the table of contents.
 
 J. Kovacic, J. Symb. Comp. 2 (1986); F. Ulmer & J.-A. Weil, ibid. 22 (1996); M. van Hoeij, ibid. 24 (1997).
 """
@@ -66,8 +66,8 @@ from flint import (
 )
 from flint import nmod_poly as nmod
 
-LONGEST = 10_000  # the largest degrees, and the most terms of a series, that are computed with
-PRIMES = [q for q in range(2**60 + 33, 2**60 + 20_000, 2) if fmpz(q).is_prime()]
+LARGEST_COMPUTED = 10_000  # the largest degrees, and the most terms of a series, that are computed with
+LARGE_PRIMES = [q for q in range(2**60 + 33, 2**60 + 20_000, 2) if fmpz(q).is_prime()]
 
 
 class Unreadable(Exception):
@@ -107,7 +107,7 @@ def is_whole(value: Any) -> bool:
 
 def affordable(size: Any, what: str) -> int:
     """The size; gives up where it would make a computation too long, or isn't known."""
-    if size is None or size > LONGEST:
+    if size is None or size > LARGEST_COMPUTED:
         raise NotImplementedError(f"{what} is too large")
     return int(size)
 
@@ -129,7 +129,7 @@ POINTS = [
 
 
 #: How a generator's value follows from those before it, and its derivative from itself.
-Ball = Callable[[Callable[[Any], Any]], Any]
+BallRule = Callable[[Callable[[Any], Any]], Any]
 Slope = Callable[[Any], Any]
 
 
@@ -137,7 +137,7 @@ class Refined(Exception):
     """A function occurs with a root of a higher order than was known: the formulas are read again."""
 
 
-class Function:
+class TowerFunction:
     """num/den in the generators of a tower, reduced by their algebraic relations."""
 
     def __init__(self, tower: Tower, num: Any, den: Any = 1) -> None:
@@ -169,22 +169,22 @@ class Function:
             raise NotImplementedError("too long")
         return f * g
 
-    def __mul__(self, other: Function) -> Function:
-        return Function(self.tower, self.product(self.num, other.num), self.product(self.den, other.den))
+    def __mul__(self, other: TowerFunction) -> TowerFunction:
+        return TowerFunction(self.tower, self.product(self.num, other.num), self.product(self.den, other.den))
 
-    def __truediv__(self, other: Function) -> Function:
-        return Function(self.tower, self.product(self.num, other.den), self.product(self.den, other.num))
+    def __truediv__(self, other: TowerFunction) -> TowerFunction:
+        return TowerFunction(self.tower, self.product(self.num, other.den), self.product(self.den, other.num))
 
-    def __add__(self, other: Function) -> Function:
+    def __add__(self, other: TowerFunction) -> TowerFunction:
         if self.den == other.den:
-            return Function(self.tower, self.num + other.num, self.den)
+            return TowerFunction(self.tower, self.num + other.num, self.den)
         num = self.product(self.num, other.den) + self.product(other.num, self.den)
-        return Function(self.tower, num, self.product(self.den, other.den))
+        return TowerFunction(self.tower, num, self.product(self.den, other.den))
 
-    def __sub__(self, other: Function) -> Function:
+    def __sub__(self, other: TowerFunction) -> TowerFunction:
         return self + other * self.tower.number(-1)
 
-    def to_the(self, n: int) -> Function:
+    def to_the(self, n: int) -> TowerFunction:
         """The n-th power."""
         leading = str(self.num.leading_coefficient()).strip("1") if self.num else ""
         affordable(abs(n) * max(len(leading), *self.num.degrees(), *self.den.degrees(), 1), "a power")
@@ -196,10 +196,10 @@ class Function:
                 power = power * base
         return power
 
-    def derivative(self) -> Function:
+    def derivative(self) -> TowerFunction:
         above, below = self.tower.slope(self.num), self.tower.slope(self.den)
-        den = Function(self.tower, self.den)
-        return (above - Function(self.tower, self.num) / den * below) / den
+        den = TowerFunction(self.tower, self.den)
+        return (above - TowerFunction(self.tower, self.num) / den * below) / den
 
 
 class Tower:
@@ -215,19 +215,19 @@ class Tower:
         self.has_functions = ring is TOWER
         self.one = ring.constant(1)
         self.free = list(ring.gens())
-        self.slopes: list[Function] = []
-        self.values: list[Ball] = []
+        self.slopes: list[TowerFunction] = []
+        self.values: list[BallRule] = []
         self.relations: list[Any] = []
         self.made: dict[str, Any] = {}
-        self.families: dict[str, list[Function]] = {}
-        self.arcsines: dict[str, Function] = {}
+        self.families: dict[str, list[TowerFunction]] = {}
+        self.arcsines: dict[str, TowerFunction] = {}
         # the roots of a function that occur, as their least common multiple
         self.orders = {} if orders is None else orders
         self.x = self.new("x", lambda _: self.number(1), lambda at: None)
         self.names = {variable: self.x}
 
-    def number(self, value: Any) -> Function:
-        return Function(self, self.ring.constant(value))
+    def number(self, value: Any) -> TowerFunction:
+        return TowerFunction(self, self.ring.constant(value))
 
     def normal(self, f: Any) -> Any:
         """f, reduced by the relations; their leading terms are powers of different generators."""
@@ -235,7 +235,7 @@ class Tower:
             f = divmod(f, relation)[1]
         return f
 
-    def new(self, key: str, slope: Slope, ball: Ball, relation: Slope | None = None) -> Any:
+    def new(self, key: str, slope: Slope, ball: BallRule, relation: Slope | None = None) -> Any:
         """The generator t under this key; its derivative is slope(t), and a monic relation(t) is zero."""
         if key in self.made:
             return self.made[key]
@@ -244,7 +244,7 @@ class Tower:
         t = self.free.pop()
         if relation is not None:
             self.relations.insert(0, relation(t))  # the largest generator is reduced first
-        self.made[key] = function = Function(self, t)
+        self.made[key] = function = TowerFunction(self, t)
         i = len(self.values)
         self.slopes.append(self.number(0))
         self.values.append(ball)
@@ -255,36 +255,36 @@ class Tower:
         """A constant with this value, about which no more is known than the relation."""
         return self.new(key, lambda _: self.number(0), lambda at: acb("nan") if value is None else value, relation)
 
-    def adjoin(self, name: str, constant: Function) -> None:
+    def adjoin(self, name: str, constant: TowerFunction) -> None:
         """A name for a constant."""
         demand(name not in self.names, "the names are different")
         self.names[name] = constant
 
-    def slope(self, f: Any) -> Function:
+    def slope(self, f: Any) -> TowerFunction:
         """The derivative of a polynomial in the generators."""
         total = self.number(0)
         last = self.ring.nvars() - 1
         for i, slope in enumerate(self.slopes):
             part = f.derivative(last - i)
             if part != 0 and slope.num != 0:
-                total = total + Function(self, part) * slope
+                total = total + TowerFunction(self, part) * slope
         return total
 
-    def balls(self, f: Function) -> list[Any]:
+    def balls(self, f: TowerFunction) -> list[Any]:
         """Around the values at some points, where the function has one."""
         return [value for value in (self.at(point, f) for point in POINTS) if value.is_finite()]
 
-    def is_refuted(self, f: Function) -> bool:
+    def is_refuted(self, f: TowerFunction) -> bool:
         """The function is nonzero at two points, and at none does it seem to be zero: a formula may hold on one side only."""
         balls = self.balls(f)
         seem_zero = [ball for ball in balls if ball.contains(0) and abs(ball).upper() < 1e-9]
         return not seem_zero and sum(not ball.contains(0) for ball in balls) > 1
 
-    def at(self, x: Any, function: Function) -> Any:
+    def at(self, x: Any, function: TowerFunction) -> Any:
         """A ball around the value at x."""
         values: list[Any] = []
 
-        def value(f: Function) -> Any:
+        def value(f: TowerFunction) -> Any:
             return inside(f.num) / inside(f.den)
 
         def inside(f: Any) -> Any:
@@ -303,7 +303,7 @@ class Tower:
 
     # --------------------------------------------------------------------------------- what formulas are made of
 
-    def read(self, text: str, **bound: Function) -> Any:
+    def read(self, text: str, **bound: TowerFunction) -> Any:
         """The formula in these letters."""
         return Reader(text, self, bound).value()
 
@@ -315,7 +315,7 @@ class Tower:
             raise Refined
         return known
 
-    def power(self, base: Function, exponent: Function) -> Function:
+    def power(self, base: TowerFunction, exponent: TowerFunction) -> TowerFunction:
         e = exponent.rational
         if e is not None and e.q == 1:
             return base.to_the(int(e.p))
@@ -334,31 +334,31 @@ class Tower:
                 found = found * self.root(self.number(prime), int(e.q)).to_the(int(e.p) * int(k))
         return found
 
-    def root(self, base: Function, q: int) -> Function:
+    def root(self, base: TowerFunction, q: int) -> TowerFunction:
         """base^(1/q) for base = n/d: t/d for the root t of n d^(Q-1), an integral one, or a power of that."""
         Q = self.order(base.key, q)
         radicand = self.normal(base.num * base.den ** (Q - 1))
-        slope = self.slope(radicand) / Function(self, radicand) / self.number(Q)
-        den = Function(self, base.den)
+        slope = self.slope(radicand) / TowerFunction(self, radicand) / self.number(Q)
+        den = TowerFunction(self, base.den)
         key = f"{Q}-th root of {base.key}"
         root = self.new(
             key, lambda t: t * slope, lambda at: at(base) ** (acb(1) / Q) * at(den), lambda t: t**Q - radicand
         )
-        power: Function = (root / den).to_the(Q // q)
+        power: TowerFunction = (root / den).to_the(Q // q)
         return power
 
-    def exp(self, u: Function) -> Function:
+    def exp(self, u: TowerFunction) -> TowerFunction:
         """The product over the terms c m of u, m a quotient of products of generators."""
         found = self.number(1)
         for powers, c in u.num.to_dict().items():
-            term = Function(self, TOWER.from_dict({powers: fmpq(1)}), u.den)
+            term = TowerFunction(self, TOWER.from_dict({powers: fmpq(1)}), u.den)
             Q = self.order(f"exp {term.key}", int(c.q))
             part = term / self.number(Q)
             root = self.new(f"exp {part.key}", partial(mul, part.derivative()), partial(exp_at, part))
             found = found * root.to_the(int(c * Q))
         return found
 
-    def generator_number(self, function: Function) -> int:
+    def generator_number(self, function: TowerFunction) -> int:
         return int(self.ring.nvars()) - 1 - int(function.num.degrees().index(1))
 
     def called(self, name: str, arguments: list[Any]) -> Any:
@@ -377,7 +377,7 @@ class Tower:
                 return member
         raise NotImplementedError(name)
 
-    def family(self, name: str, arguments: list[Any]) -> list[Function]:
+    def family(self, name: str, arguments: list[Any]) -> list[TowerFunction]:
         """F, and perhaps G, which are known by their derivatives."""
         letters, *members = FAMILIES[name]
         bound = dict(zip(letters.split(), arguments, strict=False))
@@ -397,28 +397,28 @@ class Tower:
         return self.families[key]
 
 
-def family_key(name: str, arguments: list[Function]) -> str:
+def family_key(name: str, arguments: list[TowerFunction]) -> str:
     return " ".join([name, *(value.key for value in arguments)])
 
 
-def at_arguments(arguments: list[Function], ball: Callable[..., Any], at: Slope) -> Any:
+def at_arguments(arguments: list[TowerFunction], ball: Callable[..., Any], at: Slope) -> Any:
     return ball(*map(at, arguments))
 
 
-def exp_at(u: Function, at: Slope) -> Any:
+def exp_at(u: TowerFunction, at: Slope) -> Any:
     return at(u).exp()
 
 
-def integral(tower: Tower, f: Function, variable: Function) -> Any:
+def antiderivative(tower: Tower, f: TowerFunction, variable: TowerFunction) -> Any:
     """An antiderivative: any one, so that its value at a point may be any number."""
-    if not isinstance(variable, Function):
+    if not isinstance(variable, TowerFunction):
         raise NotImplementedError("a definite integral")
     demand(variable.key == tower.x.key, "an integral is one by the variable")
     value = acb(len(tower.values), 1) / 3
     return tower.new(f"integral {f.key}", lambda _: f, lambda at: value)
 
 
-def over_q(f: Function, letter: Function) -> Any:
+def over_q(f: TowerFunction, letter: TowerFunction) -> Any:
     """The polynomial over Q in a generator that this is."""
     i = letter.num.degrees().index(1)
     others = f.num.degrees()[:i] + f.num.degrees()[i + 1 :]
@@ -440,7 +440,7 @@ def monic_irreducible(p: Any) -> Any:
     return p / p.leading_coefficient()
 
 
-def root_of(tower: Tower, polynomial: Function, index: Function) -> Any:
+def indexed_root(tower: Tower, polynomial: TowerFunction, index: TowerFunction) -> Any:
     """A root of a polynomial over Q that is irreducible; it has a value where it is real, and these come first, in order."""
     p = monic_irreducible(over_q(polynomial, tower.x))
     real = sorted((root.real for root, _ in p.complex_roots() if root.imag == 0), key=float)
@@ -453,16 +453,16 @@ def at_generator(p: Any, t: Any) -> Any:
     return sum((t**k * p[k] for k in range(p.degree() + 1)), start=0 * t)
 
 
-def root_sum(tower: Tower, polynomial: Function, term: tuple[Function, Function]) -> Any:
+def root_sum(tower: Tower, polynomial: TowerFunction, term: tuple[TowerFunction, TowerFunction]) -> Any:
     """The sum of c(a) log(x - a) over the roots a of p; its derivative has the residues c(a), and is (c p' modulo p)/p."""
     a, body = term
     slope = body.derivative()  # -c(a)/(a - x)
     p = over_q(polynomial, a)
     if slope.den != a.num - tower.x.num or p.gcd(p.derivative()).degree() > 0:
         raise NotImplementedError("RootSum")
-    c = -over_q(Function(tower, slope.num), a)
+    c = -over_q(TowerFunction(tower, slope.num), a)
     x = tower.x.num
-    derivative = Function(tower, at_generator(c * p.derivative() % p, x), at_generator(p, x))
+    derivative = TowerFunction(tower, at_generator(c * p.derivative() % p, x), at_generator(p, x))
 
     def ball(at: Any) -> Any:
         terms = (acb_poly(c.coeffs())(root) * (at(tower.x) - root).log() for root, _ in p.complex_roots())
@@ -471,7 +471,7 @@ def root_sum(tower: Tower, polynomial: Function, term: tuple[Function, Function]
     return tower.new(f"sum {p} {c}", lambda _: derivative, ball)
 
 
-def hypergeometric(tower: Tower, *arguments: Any) -> Any:
+def hypergeometric_value(tower: Tower, *arguments: Any) -> Any:
     """pFq, where the parameters above are a list, and those below; from a known one if they differ by 1, as for derivatives."""
     lists = [part for part in arguments if isinstance(part, tuple)]
     name = "F".join(str(len(part)) for part in lists) or "pFq"
@@ -502,7 +502,7 @@ ABBREVIATIONS = {
 Member = tuple[str, Callable[..., Any]]
 
 
-def bessel(kind: str, above: str, below: str) -> tuple[str, Member, Member]:
+def bessel_family(kind: str, above: str, below: str) -> tuple[str, Member, Member]:
     """F = C_n and G = C_(n+1): F' = n F/u +- G and G' = +-F - (n + 1) G/u [DLMF 10.6.2, 10.29.2]."""
     C = f"bessel_{kind}"
     first = f"n/u*F {above} G", lambda n, u: getattr(u, C)(n)
@@ -527,10 +527,10 @@ FAMILIES: dict[str, tuple[Any, ...]] = {
     "lowergamma": ("s u", ("u**(s - 1)*exp(-u)", lambda s, u: u.gamma_lower(s))),
     "airyai airyaiprime": ("u", ("G", lambda u: u.airy()[0]), ("u*F", lambda u: u.airy()[1])),
     "airybi airybiprime": ("u", ("G", lambda u: u.airy()[2]), ("u*F", lambda u: u.airy()[3])),
-    "besselj": bessel("j", "-", ""),
-    "bessely": bessel("y", "-", ""),
-    "besseli": bessel("i", "+", ""),
-    "besselk": bessel("k", "-", "-"),
+    "besselj": bessel_family("j", "-", ""),
+    "bessely": bessel_family("y", "-", ""),
+    "besseli": bessel_family("i", "+", ""),
+    "besselk": bessel_family("k", "-", "-"),
     # 1F1(s; s + 1; u) = s u^(-s) int u^(s - 1) exp(u) du
     "1F1+": ("s u", ("s*(exp(u) - F)/u", lambda s, u: u.hypgeom_1f1(s, s + 1))),
     # Kummer's and Gauss' equations, with F' = (a b/c) F with all parameters larger by 1
@@ -560,11 +560,11 @@ CONSTANTS: dict[str, Callable[[Tower], Any]] = {
 CALLS: dict[str, Callable[..., Any]] = {
     "exp": Tower.exp,
     "root": lambda tower, u, n: tower.power(u, tower.number(1) / n),
-    "Integral": integral,
-    "CRootOf": root_of,
+    "Integral": antiderivative,
+    "CRootOf": indexed_root,
     "Lambda": lambda tower, a, body: (a, body),
     "RootSum": root_sum,
-    "hyper": hypergeometric,
+    "hyper": hypergeometric_value,
 }
 
 #: How strongly an operator binds, and what it does.
@@ -651,7 +651,7 @@ def degree(f: Any) -> int:
     return int(f.degrees()[2]) if f != 0 else -1
 
 
-def by_power(f: Any, i: int) -> dict[int, Any]:
+def by_powers(f: Any, i: int) -> dict[int, Any]:
     """The coefficients of the powers of the i-th generator."""
     parts = dict[int, dict[Any, Any]]()
     for powers, value in f.to_dict().items():
@@ -663,12 +663,12 @@ def by_power(f: Any, i: int) -> dict[int, Any]:
 def over_k(f: Any) -> dict[int, Any]:
     """The polynomials over Q in x that belong to the powers of t."""
     demand(f == 0 or f.degrees()[0] == 0, "the constants lie in the field")
-    return {power: in_one_variable(part, 2) for power, part in by_power(f, 1).items()}
+    return {power: in_one_variable(part, 2) for power, part in by_powers(f, 1).items()}
 
 
 def is_monic(f: Any) -> bool:
     """True if the leading coefficient is 1."""
-    return bool(by_power(f, 2)[degree(f)] == 1)
+    return bool(by_powers(f, 2)[degree(f)] == 1)
 
 
 def modulo(f: Any, q: int) -> Any:
@@ -691,12 +691,12 @@ def image(f: Any, q: int, t: int, point: int) -> Any:
     return total.compose(nmod([point % q, 1], q)) if point else total
 
 
-def simple_roots(p: Any, q: int) -> list[int]:
+def simple_roots_modulo(p: Any, q: int) -> list[int]:
     """The simple roots of a polynomial over Q modulo q, in order."""
     return sorted(int(root) for root, k in reduced(p, q).roots() if k == 1)
 
 
-class Point:
+class AlgebraicPoint:
     """A root r of a polynomial over K: t and r in Q[g]/P, with g = r + shift t, and all of its conjugates over K."""
 
     def __init__(self, modulus: Any, P: Any, t: Any, r: Any, shift: int = 0) -> None:
@@ -743,9 +743,9 @@ class Point:
             found.append((value - sum(map(mul, found, den[n:0:-1]), start=fmpq_poly(0))) * inverse % self.P)
         return found
 
-    def roots(self, moduli: Iterable[int] = PRIMES) -> Iterator[tuple[int, int]]:
+    def roots(self, moduli: Iterable[int] = LARGE_PRIMES) -> Iterator[tuple[int, int]]:
         """The primes modulo which P has a simple root, and the least one."""
-        return ((q, roots[0]) for q in moduli if (roots := simple_roots(self.P, q)))
+        return ((q, roots[0]) for q in moduli if (roots := simple_roots_modulo(self.P, q)))
 
     def image(self, f: Any, q: int, g: int) -> Any:
         """f(t, r + z) in z modulo q, for a root g of P."""
@@ -765,14 +765,14 @@ class Point:
         return X2**self.size - PLANE.from_dict({(0, *e): c for e, c in zip(exponents, solved, strict=True)})
 
 
-def at_root(modulus: Any, P: Any, k: int, R: Any, slope: Any, shift: int) -> Point:
+def at_root(modulus: Any, P: Any, k: int, R: Any, slope: Any, shift: int) -> AlgebraicPoint:
     """The point for a factor P^k of R(x, s), with the derivative of R by s."""
     rest = P ** (k - 1)
     t = -(slope // rest) * (R.derivative() // rest).xgcd(P)[1] % P
-    return Point(modulus, P, t, (X - shift * t) % P, shift)
+    return AlgebraicPoint(modulus, P, t, (X - shift * t) % P, shift)
 
 
-def points_of(f: Any, modulus: Any) -> list[tuple[Point, int]]:
+def points_of(f: Any, modulus: Any) -> list[tuple[AlgebraicPoint, int]]:
     """The roots of a polynomial over K, and their multiplicities.
 
     With R the norm of f(x - s t), a polynomial in x and s, R(r + s t, s) = 0, so that t = -R_s/R_x at x = r + s t [Rouillier,
@@ -782,11 +782,11 @@ def points_of(f: Any, modulus: Any) -> list[tuple[Point, int]]:
         return []
     if modulus.degree() == 1:
         factors = in_one_variable(f, 2).factor()[1]
-        return [(Point(modulus, p / p.leading_coefficient(), 0 * X, X % p), k) for p, k in factors]
+        return [(AlgebraicPoint(modulus, p / p.leading_coefficient(), 0 * X, X % p), k) for p, k in factors]
     relation = at_generator(modulus, T)
     for shift in range(40):
         norm = relation.resultant(f.compose(C, T, X2 - (C + shift) * T), "t")
-        parts = by_power(norm, 0)
+        parts = by_powers(norm, 0)
         R, slope = (in_one_variable(parts.get(k, 0 * C), 2) for k in (0, 1))
         found = [(at_root(modulus, p / p.leading_coefficient(), k, R, slope, shift), k) for p, k in R.factor()[1]]
         are_roots = all(value == 0 for point, k in found for value in [point.at(relation), *point.taylor(f, k)])
@@ -813,10 +813,10 @@ def frobenius(E: Any, M: Any, e: int, count: int, q: int) -> tuple[Any, bool]:
     return nmod(a, q), True
 
 
-class Place(Point):
+class LocalPlace(AlgebraicPoint):
     """A point with the multiplicity k in den, where S = num/den; infinity as z = 0 for S(1/z)/z^4."""
 
-    def __init__(self, point: Point, k: int, num: Any, den: Any, infinite: bool = False) -> None:
+    def __init__(self, point: AlgebraicPoint, k: int, num: Any, den: Any, infinite: bool = False) -> None:
         super().__init__(point.modulus, point.P, point.t, point.r, point.shift)
         self.k = k
         self.num = num
@@ -970,16 +970,16 @@ class Place(Point):
         return nmod(w, q)
 
 
-def places_of(num: Any, den: Any, modulus: Any) -> list[Place]:
+def all_places(num: Any, den: Any, modulus: Any) -> list[LocalPlace]:
     """All poles of num/den, and infinity, which is the last one even if it is an ordinary point."""
-    found = [Place(point, k, num, den) for point, k in points_of(den, modulus)]
+    found = [LocalPlace(point, k, num, den) for point, k in points_of(den, modulus)]
     if any(place.at(num) == 0 for place in found):
         raise NotImplementedError("a fraction that isn't in lowest terms")
     k = degree(num) - degree(den) + 4 if num != 0 else 0
-    at_infinity = Point(modulus, modulus, X % modulus, fmpq_poly(0))
+    at_infinity = AlgebraicPoint(modulus, modulus, X % modulus, fmpq_poly(0))
     top = backwards(num) * X2 ** max(-k, 0)
     bottom = backwards(den) * X2 ** max(k, 0)
-    return [*found, Place(at_infinity, max(k, 0), top, bottom, infinite=True)]
+    return [*found, LocalPlace(at_infinity, max(k, 0), top, bottom, infinite=True)]
 
 
 def backwards(f: Any) -> Any:
@@ -991,7 +991,7 @@ def backwards(f: Any) -> Any:
 # ------------------------------------------------------------------------------------------- structures
 
 
-class Structure(NamedTuple):
+class GroupStructure(NamedTuple):
     """Kovacic's case, the degree of omega, the degree of a rational form, and, if finite and primitive, the orders in PGL2."""
 
     case: int
@@ -1001,16 +1001,16 @@ class Structure(NamedTuple):
 
 
 STRUCTURES = {
-    "reducible": Structure(1, 1, 2),
-    "imprimitive": Structure(2, 2, 4),
-    "tetrahedral": Structure(3, 4, 6, (1, 2, 3)),
-    "octahedral": Structure(3, 6, 8, (1, 2, 3, 4)),
-    "icosahedral": Structure(3, 12, 12, (1, 2, 3, 5)),
+    "reducible": GroupStructure(1, 1, 2),
+    "imprimitive": GroupStructure(2, 2, 4),
+    "tetrahedral": GroupStructure(3, 4, 6, (1, 2, 3)),
+    "octahedral": GroupStructure(3, 6, 8, (1, 2, 3, 4)),
+    "icosahedral": GroupStructure(3, 12, 12, (1, 2, 3, 5)),
 }
 
 
 #: What is said of places in the necessary conditions, and what it means at each of them.
-RULES: dict[str, tuple[str, Callable[[Place, Structure], bool]]] = {
+RULES: dict[str, tuple[str, Callable[[LocalPlace, GroupStructure], bool]]] = {
     # The two solutions there are conjugate over the Laurent series, and so are their omegas.
     "ramified": (
         "an irregular singular point is ramified, so no solution has a rational logarithmic derivative",
@@ -1052,13 +1052,13 @@ RULES: dict[str, tuple[str, Callable[[Place, Structure], bool]]] = {
 class Exclusions:
     """What the group of y'' = S y isn't."""
 
-    def __init__(self, S: Function, modulus: Any) -> None:
+    def __init__(self, S: TowerFunction, modulus: Any) -> None:
         affordable(max(degree(S.num), degree(S.den)), "the degree of S")
         self.num = S.num
         self.den = S.den
         self.tower = S.tower
         self.modulus = modulus
-        self.places = places_of(S.num, S.den, modulus)
+        self.places = all_places(S.num, S.den, modulus)
 
     def hold(self, structure: str, evidence: list[Any]) -> None:
         """The group doesn't have this structure, by the evidence.
@@ -1103,7 +1103,7 @@ class Exclusions:
         else:
             demand(named, f"a place is {item['rule']}")
 
-    def place(self, name: str) -> Place:
+    def place(self, name: str) -> LocalPlace:
         """The place with this factor, or "infinity"."""
         demand(isinstance(name, str), "a place has a name")
         if name == "infinity":
@@ -1139,7 +1139,7 @@ class Exclusions:
         if room < 0:
             return 0
         n = affordable(room + m + 6, f"the number of zeros of a form of degree {m}")
-        roots = ((q, simple_roots(self.modulus, q)) for q in ([prime] if prime else PRIMES))
+        roots = ((q, simple_roots_modulo(self.modulus, q)) for q in ([prime] if prime else LARGE_PRIMES))
         q, images = next((q, images) for q, images in roots if images)
         demand(q > 2 * n and fmpz(q).is_prime(), "the modulus is a large prime")
         dimensions = []
@@ -1147,7 +1147,7 @@ class Exclusions:
             c = point
             if c is None:
                 den = image(self.den, q, t, 0)
-                c = next(c for c in range(LONGEST + 1) if int(den(c)))
+                c = next(c for c in range(LARGEST_COMPUTED + 1) if int(den(c)))
             forms = self.forms_modulo(m, n, q, t, c)
             rows = [[int(form[j]) for j in range(room + 1, n)] for form in forms]
             dimensions.append(m + 1 - int(nmod_mat(rows, q).rank()))
@@ -1189,7 +1189,7 @@ class Exclusions:
         apart = [place for place in self.places if place.tells_solutions_apart]
         place = self.place(name) if name else apart[0]
         demand(place in apart, "the place tells the solutions apart")
-        q, g = next(place.roots([prime] if prime else PRIMES), (0, 0))
+        q, g = next(place.roots([prime] if prime else LARGE_PRIMES), (0, 0))
         demand(q > 10**6 and fmpz(q).is_prime(), "the place has a root modulo a large prime")
         zeros, _ = self.zeros
         den = place.image(place.den, q, g)
@@ -1247,20 +1247,20 @@ class Exclusions:
 
 
 @dataclass(frozen=True)
-class Form:
+class FormOfSolutions:
     """F = y_1 ... y_m in the solutions with F'/F = slope and prod (W - y_i'/y_i) = sum (-1)^k N_k/G^k W^(m-k)."""
 
-    slope: Function
+    slope: TowerFunction
     G: Any
     N: list[Any]
 
     @property
-    def discriminant(self) -> Function:
+    def discriminant(self) -> TowerFunction:
         """(y1'/y1 - y2'/y2)^2, of degree 2; zero for F = y1^2."""
-        return Function(self.slope.tower, self.N[1] ** 2 - 4 * self.N[2], self.G**2)
+        return TowerFunction(self.slope.tower, self.N[1] ** 2 - 4 * self.N[2], self.G**2)
 
 
-def form(data: dict[str, Any], m: int, S: Function) -> Form:
+def form(data: dict[str, Any], m: int, S: TowerFunction) -> FormOfSolutions:
     """The form of degree m with F'/F = theta + P'/P.
 
     By N_0 = 1, (k + 1) N_(k+1) = G N_k' + (N_1 - k G') N_k - (m - k + 1) G^2 S N_(k-1) there is one exactly if N_(m+1) = 0
@@ -1275,15 +1275,15 @@ def form(data: dict[str, Any], m: int, S: Function) -> Form:
     T = S.num * (G * G // S.den)
     first = slope.num * (G // slope.den)
     if any(f.degrees()[i] for f in (G, T, first) if f != 0 for i in (0, 1)):
-        N = numerators(m, lambda f: f.derivative(2), tower.normal, G, T, first)
+        N = omega_numerators(m, lambda f: f.derivative(2), tower.normal, G, T, first)
     else:  # polynomials in x alone are far faster
         alone = (in_one_variable(f, 2) for f in (G, T, first))
-        N = [at_generator(f, X2) for f in numerators(m, lambda f: f.derivative(), lambda f: f, *alone)]
+        N = [at_generator(f, X2) for f in omega_numerators(m, lambda f: f.derivative(), lambda f: f, *alone)]
     demand(N.pop() == 0, f"there is this form of degree {m}")
-    return Form(slope, G, N)
+    return FormOfSolutions(slope, G, N)
 
 
-def numerators(
+def omega_numerators(
     m: int, derivative: Callable[[Any], Any], normal: Callable[[Any], Any], G: Any, T: Any, first: Any
 ) -> list[Any]:
     """N_0, ..., N_(m+1), for T = G^2 S and the given N_1."""
@@ -1294,7 +1294,7 @@ def numerators(
     return N
 
 
-def logarithmic_poles(slope: Function, modulus: Any) -> list[tuple[Point, int, list[Any]]]:
+def logarithmic_poles(slope: TowerFunction, modulus: Any) -> list[tuple[AlgebraicPoint, int, list[Any]]]:
     """The poles of F'/F, for a rational F; v != 0, its order there; and z F'/F as a series of max(v, 1) terms.
 
     Only a rational F passes: its poles are simple, and the residues integers.
@@ -1313,7 +1313,7 @@ def logarithmic_poles(slope: Function, modulus: Any) -> list[tuple[Point, int, l
     return found
 
 
-def inverse_has_an_integral(poles: list[tuple[Point, int, list[Any]]]) -> bool:
+def inverse_has_an_integral(poles: list[tuple[AlgebraicPoint, int, list[Any]]]) -> bool:
     """True if 1/F is the derivative of a rational function.  It has no residues.
 
     1/F = g/z^v, and z F'/F = v + h_1 z + ..., so that z g' = -(h_1 z + ...) g, and the residue is g_(v-1).
@@ -1331,7 +1331,7 @@ def inverse_has_an_integral(poles: list[tuple[Point, int, list[Any]]]) -> bool:
 
 #: The order of the finite groups, for n = 1.
 SIZES = {"cyclic": 1, "dicyclic": 4, "tetrahedral": 24, "octahedral": 48, "icosahedral": 120}
-NAMES = {
+GROUP_NAMES = {
     "cyclic": "mu_{n}",
     "cyclic1": "trivial",
     "additive": "G_a extended by mu_{n}",
@@ -1347,7 +1347,7 @@ NAMES = {
 }
 
 #: A family of subgroups of SL2(C), and its n.
-Family = tuple[str, int | None]
+GroupFamily = tuple[str, int | None]
 
 
 def as_json(number: int | None) -> int | str | None:
@@ -1361,14 +1361,14 @@ def check_group(group: dict[str, Any], family: str, n: int | None, used: set[str
     order = SIZES[family] * (n or 1) if family in SIZES else None
     size = as_json(order)
     degree = as_json(n)
-    name = NAMES.get(f"{family}{degree}", NAMES[family]).format(n=degree, order=size)
+    name = GROUP_NAMES.get(f"{family}{degree}", GROUP_NAMES[family]).format(n=degree, order=size)
     expected = {"name": name, "order": size, "finite": order is not None, "family": family, "n": degree}
     for key in set(expected) & set(group):
         demand_equal(group[key], expected[key], f"the {key} of the group")
     demand(set(group) & {"function", "orders"} == used, "the group needs this evidence")
 
 
-def reducible_group(places: list[Place], F: Form | None) -> Family:
+def reducible_group(places: list[LocalPlace], F: FormOfSolutions | None) -> GroupFamily:
     """The upper triangular matrices with c on the diagonal, c^n = 1 or any c, or fewer: F is the rational form of degree 2.
 
     y1^n is rational exactly if n omega has integral residues and no other poles; these residues are exponents, (1 + Delta)/2 or
@@ -1396,11 +1396,11 @@ class Imprimitive:
     """
 
     exclusions: Exclusions
-    slope: Function
-    H: Function
+    slope: TowerFunction
+    H: TowerFunction
     group: dict[str, Any]
 
-    def decide(self) -> tuple[Family, set[str]]:
+    def decide(self) -> tuple[GroupFamily, set[str]]:
         """The family, and the evidence that was used."""
         infinite = "infinite dihedral", None
         # an irregular place, or an exponent difference that isn't rational: an element of infinite order
@@ -1433,7 +1433,7 @@ class Imprimitive:
         shown = {self.order_modulo(entry["prime"], entry["order"]) for entry in orders}
         demand(len(shown) > 1, "the order isn't finite")
 
-    def function(self, data: Any) -> Family:
+    def function(self, data: Any) -> GroupFamily:
         """n log u is half the logarithm of f = prod (a + b y)^e over its conjugate, plus the integral of w dx/y, y^2 = h.
 
         The differential of this is an identity of rational functions, up to the sign of u.  With w = 0, and a norm of f that is
@@ -1442,13 +1442,13 @@ class Imprimitive:
         """
         demand_keys(data, "the function", "multiple h pieces rest")
         tower = self.H.tower
-        f = CurveFunction(self.exclusions.modulus, data, tower)
-        n = whole(data["multiple"])
+        f = FunctionOnCurve(self.exclusions.modulus, data, tower)
+        n = whole_exponent(data["multiple"])
         demand(n > 0, "a multiple of log u is taken")
-        rest = polynomial(tower.read(data["rest"]), f.modulus)
-        total = f.logarithmic_derivative() + Function(tower, rest)
+        rest = polynomial_over_k(tower.read(data["rest"]), f.modulus)
+        total = f.logarithmic_derivative() + TowerFunction(tower, rest)
         demand(
-            (total * total - self.H * Function(tower, f.h * n**2)).num == 0,
+            (total * total - self.H * TowerFunction(tower, f.h * n**2)).num == 0,
             "the differential of f is that of a power of u",
         )
         if rest != 0:
@@ -1459,17 +1459,17 @@ class Imprimitive:
         return "dicyclic", n
 
     @cached_property
-    def points(self) -> list[tuple[Place, int]]:
+    def points(self) -> list[tuple[LocalPlace, int]]:
         """The zeros and the poles of the differential H dx^2, and their orders, that at infinity too."""
         num, den = self.H.num, self.H.den
         S = self.exclusions
         orders = [(point, order_at(point, num) - k) for point, k in points_of(den, S.modulus)]
         orders += [(point, k) for point, k in points_of(num, S.modulus) if point.at(den) != 0]
-        found = [(Place(point, order_at(point, S.den), S.num, S.den), order) for point, order in orders]
+        found = [(LocalPlace(point, order_at(point, S.den), S.num, S.den), order) for point, order in orders]
         return [*((place, order) for place, order in found if order), (S.places[-1], degree(den) - degree(num) - 4)]
 
     @property
-    def poles(self) -> list[Place]:
+    def poles(self) -> list[LocalPlace]:
         """Those of eta; an ordinary point has the difference 1."""
         return [place for place, order in self.points if order <= -2]
 
@@ -1481,7 +1481,7 @@ class Imprimitive:
         demand(is_whole(q) and is_whole(n) and n > 0, "prime and order are integers")
         demand(2 < q < 2**63 and fmpz(q).is_prime(), "an order is one modulo an odd prime")
         smaller = [n // int(p) for p, _ in fmpz(n).factor()]
-        for t in simple_roots(self.exclusions.modulus, q):
+        for t in simple_roots_modulo(self.exclusions.modulus, q):
             with suppress(AssertionError):  # several primes of K lie over q, and some of them may be bad ones
                 group, D = self.class_of_poles(q, t)
                 is_zero = {k: group.multiple(k, D).u.degree() == 0 for k in [n, *smaller]}
@@ -1489,7 +1489,7 @@ class Imprimitive:
                     return int(n)
         raise AssertionError(f"{n} is the order modulo {q}")
 
-    def not_a_square(self, leading: int, factors: list[tuple[Place, int, Any]], q: int) -> tuple[int, int]:
+    def not_a_square(self, leading: int, factors: list[tuple[LocalPlace, int, Any]], q: int) -> tuple[int, int]:
         """An r modulo q with H(r) = leading prod f(r)^order that is no square, and this value."""
         for r in range(q):
             values = [(int(f(r)), order) for _, order, f in factors]
@@ -1499,14 +1499,14 @@ class Imprimitive:
                     return r, H
         raise AssertionError(f"{q} is a good prime")
 
-    def class_of_poles(self, q: int, t: int) -> tuple[ClassGroup, Points]:
+    def class_of_poles(self, q: int, t: int) -> tuple[ClassGroup, DivisorPoints]:
         """The curve modulo q, and D: P - P' is 2 P, up to what stands for 0.
 
         With x = r + 1/z, where H(r) isn't a square, no place is at infinity, and H dx^2 = N/M dz^2 is H(r) times the product of
         the factors of the places to their orders.  With N M = h T^2 and y = M sqrt(N/M)/T, the residue of eta over a root of f
         is d = y (T/f) / (f' M/f^2).
         """
-        num, den = (in_one_variable(by_power(f, 2)[degree(f)], 1) for f in (self.H.num, self.H.den))
+        num, den = (in_one_variable(by_powers(f, 2)[degree(f)], 1) for f in (self.H.num, self.H.den))
         modulus = self.exclusions.modulus
         leading = int(modulo(num * den.xgcd(modulus)[1] % modulus, q)(t))
         *finite, (_, at_infinity) = self.points
@@ -1528,17 +1528,17 @@ class Imprimitive:
                 poles.append((f, place.difference))
         demand(distinct.gcd(distinct.derivative()).degree() == 0, f"{q} is a good prime: no points meet")
         group = ClassGroup(h)
-        D = Points(one, 0 * one)
+        D = DivisorPoints(one, 0 * one)
         l = lcm(*(int(difference.q) for _, difference in poles))  # noqa: E741
         for f, difference in poles:
             d = int(difference.p) * pow(int(difference.q), -1, q)
             y = d * f.derivative() * (M // f**2) * (T // f % f).xgcd(f)[1] % f
             demand((y * y - h) % f == 0, "the residues are exponent differences")
-            D = group.together(D, group.multiple(2 * int(l * difference), Points(f, y)))
+            D = group.together(D, group.multiple(2 * int(l * difference), DivisorPoints(f, y)))
         return group, D
 
 
-def order_at(point: Point, f: Any) -> int:
+def order_at(point: AlgebraicPoint, f: Any) -> int:
     """The multiplicity of a root; f isn't zero."""
     order = 0
     while point.at(f) == 0:
@@ -1547,7 +1547,7 @@ def order_at(point: Point, f: Any) -> int:
     return order
 
 
-def whole(value: Any) -> int:
+def whole_exponent(value: Any) -> int:
     """An integer, or the text of a long one."""
     if isinstance(value, str) and value.isdecimal():
         return int(fmpz(value))
@@ -1555,14 +1555,14 @@ def whole(value: Any) -> int:
     return int(value)
 
 
-def polynomial(value: Function, modulus: Any) -> Any:
+def polynomial_over_k(value: TowerFunction, modulus: Any) -> Any:
     """The polynomial over K that is this value."""
     demand(degree(value.den) == 0 and value.num.degrees()[0] <= 0, "a polynomial has no denominator")
     inverse = in_one_variable(value.den, 1).xgcd(modulus)[1]
     return value.tower.normal(value.num * at_generator(inverse, T))
 
 
-class Piece(NamedTuple):
+class CurvePiece(NamedTuple):
     """(a + b y)^exponent on a curve y^2 = h."""
 
     exponent: int
@@ -1570,9 +1570,11 @@ class Piece(NamedTuple):
     b: Any
 
     @classmethod
-    def read(cls, data: dict[str, Any], tower: Tower, modulus: Any) -> Piece:
+    def read(cls, data: dict[str, Any], tower: Tower, modulus: Any) -> CurvePiece:
         demand_keys(data, "a piece", "exponent a b")
-        return cls(whole(data["exponent"]), *(polynomial(tower.read(data[name]), modulus) for name in "ab"))
+        return cls(
+            whole_exponent(data["exponent"]), *(polynomial_over_k(tower.read(data[name]), modulus) for name in "ab")
+        )
 
     def value(self, x: int, y: int, q: int) -> int:
         """At a point modulo q, over the norm to the power of the integral part of exponent/2; 0 where a norm is 0."""
@@ -1582,24 +1584,24 @@ class Piece(NamedTuple):
         return pow(even + odd, self.exponent, q) * pow(norm, -(self.exponent // 2), q) % q if norm else 0
 
 
-class CurveFunction:
+class FunctionOnCurve:
     """f, the product of the pieces, on the curve y^2 = h."""
 
     def __init__(self, modulus: Any, data: dict[str, Any], tower: Tower) -> None:
         self.modulus = modulus
         self.tower = tower
-        self.h = polynomial(tower.read(data["h"]), modulus)
-        self.pieces = [Piece.read(entry, tower, modulus) for entry in the_list(data["pieces"], "the pieces")]
+        self.h = polynomial_over_k(tower.read(data["h"]), modulus)
+        self.pieces = [CurvePiece.read(entry, tower, modulus) for entry in the_list(data["pieces"], "the pieces")]
         is_squarefree = all(k == 1 for _, k in points_of(self.h, modulus))
         demand(degree(self.h) >= 3 and is_squarefree, "h has no square factor")
 
-    def logarithmic_derivative(self) -> Function:
+    def logarithmic_derivative(self) -> TowerFunction:
         """R, where R dx/y is half of d log of f over its conjugate."""
         h = self.h
         total = self.tower.number(0)
         for e, a, b in self.pieces:
             odd = (b.derivative(2) * h + b * h.derivative(2) * fmpq(1, 2)) * a - a.derivative(2) * b * h
-            total += Function(self.tower, odd * e, a * a - h * b * b)
+            total += TowerFunction(self.tower, odd * e, a * a - h * b * b)
         return total
 
     @cached_property
@@ -1608,7 +1610,7 @@ class CurveFunction:
         return self.tower.normal(prod((a * a - self.h * b * b for e, a, b in self.pieces if e % 2), start=X2**0))
 
     @cached_property
-    def roots_of_norms(self) -> list[tuple[Point, int]]:
+    def roots_of_norms(self) -> list[tuple[AlgebraicPoint, int]]:
         """The roots of G, where that norm is a constant times G^2."""
         roots = points_of(self.norms, self.modulus)
         demand(all(k % 2 == 0 for _, k in roots), "the norm of f is a square")
@@ -1622,7 +1624,7 @@ class CurveFunction:
         affordable(exponent // 10**9, "a prime factor of the order")
         first = exponent * (2**41 // exponent) + 1
         moduli = (q for q in range(first, 2**62, exponent) if fmpz(q).is_prime())
-        good = ((q, t) for q in moduli for t in simple_roots(self.modulus, q)[:1])
+        good = ((q, t) for q in moduli for t in simple_roots_modulo(self.modulus, q)[:1])
         for q, t in islice(good, 30):
             classes = {pow(value, (q - 1) // exponent, q) for value in self.values(q, t)}
             if len(classes) > 1:
@@ -1635,7 +1637,7 @@ class CurveFunction:
         demand(h.gcd(h.derivative()).degree() == 0, f"{q} is a good prime")
         factors = (image(point.minimal, q, t, 0) ** k for point, k in self.roots_of_norms)
         G = prod(factors, start=nmod([1], q))
-        pieces = [Piece(e, image(a, q, t, 0), image(b, q, t, 0)) for e, a, b in self.pieces]
+        pieces = [CurvePiece(e, image(a, q, t, 0), image(b, q, t, 0)) for e, a, b in self.pieces]
         for x in range(60):
             square = fmpz(int(h(x)))
             root = int(G(x))
@@ -1648,7 +1650,7 @@ class CurveFunction:
                     yield value
 
 
-class Points(NamedTuple):
+class DivisorPoints(NamedTuple):
     """The points over the roots of u, with y = v there, no two of them conjugate: what they are is told by (u, y - v)."""
 
     u: Any
@@ -1665,15 +1667,15 @@ class ClassGroup:
 
     h: Any
 
-    def multiple(self, n: int, E: Points) -> Points:
+    def multiple(self, n: int, E: DivisorPoints) -> DivisorPoints:
         """n E, by halving n."""
         if n == 0:
-            return Points(self.h**0, self.h * 0)
+            return DivisorPoints(self.h**0, self.h * 0)
         half = self.multiple(n // 2, E)
         double = self.together(half, half)
         return self.together(double, E) if n % 2 else double
 
-    def together(self, E: Points, F: Points) -> Points:
+    def together(self, E: DivisorPoints, F: DivisorPoints) -> DivisorPoints:
         """The sum: the ideal of the products of (u, y - v) for both, without the conjugate points over the roots of d."""
         common, a, b = E.u.xgcd(F.u)
         d, c, e = common.xgcd(E.v + F.v)
@@ -1681,12 +1683,12 @@ class ClassGroup:
         v = c * a * (E.u // d) * F.v + c * b * (F.u // d) * E.v + e * (E.v * F.v + self.h) // d
         return self.reduced(u, v % u)
 
-    def reduced(self, u: Any, v: Any) -> Points:
+    def reduced(self, u: Any, v: Any) -> DivisorPoints:
         """y - v has further zeros, and their conjugates the same class: fewer points, as long as v has the degree to spare."""
         while u.degree() > self.h.degree() // 2:
             u = (self.h - v * v) // u
             v = -v % u
-        return Points(u, v)
+        return DivisorPoints(u, v)
 
 
 # ------------------------------------------------------------------------------------------- answers
@@ -1770,7 +1772,7 @@ def read_formulas(texts: list[str], variable: str, field: NumberField | None = N
             pass
 
 
-class Answer:
+class CheckedAnswer:
     """One line: the JSON object, the names in its expressions, and S."""
 
     def __init__(self, data: dict[str, Any]) -> None:
@@ -1932,7 +1934,7 @@ class Answer:
             demand_equal(entry["case"], STRUCTURES[entry["structure"]].case, "the case of an exclusion")
             self.exclusions.hold(entry["structure"], entry["evidence"])
 
-    def omega(self, n: int) -> Form:
+    def omega(self, n: int) -> FormOfSolutions:
         """The polynomial of omega is that of a form f of degree n, over K(c); f.
 
         Of degree 6 and 12 it needn't be written out: N_0, ..., N_n follow from f.
@@ -1974,12 +1976,12 @@ class Answer:
         theta, centre = (tower.read(data[name]) for name in ("theta", "centre"))
         demand(centre.den == 1 and degree(centre.num) < 1, "the centre is a constant")
         demand(self.data["constants"] is None or theta.num.degrees()[0] > 0, "c occurs in theta")
-        step, highest, lowest = (whole(data[name]) for name in ("step", "degree", "lowest"))
+        step, highest, lowest = (whole_exponent(data[name]) for name in ("step", "degree", "lowest"))
         demand(step > 0 and 0 <= lowest <= highest and (highest - lowest) % step == 0, "these are powers in steps")
         zeroth = theta.derivative() + theta * theta - self.S
         second = theta.den * (zeroth.den // zeroth.den.gcd(theta.den))
         parts = (zeroth.num * (second // zeroth.den), 2 * theta.num * (second // theta.den), second)
-        moved = [by_power(tower.normal(f.compose(C, T, X2 + centre.num)), 2) for f in parts]
+        moved = [by_powers(tower.normal(f.compose(C, T, X2 + centre.num)), 2) for f in parts]
         powers = sorted({power - i for i, f in enumerate(moved) for power, value in f.items() if value != 0})
         demand(len(powers) == 2 and powers[1] - powers[0] == step, "the recurrence has two terms")
         V, U = ([f.get(power + i, 0 * C) for i, f in enumerate(moved)] for power in powers)
@@ -1987,7 +1989,7 @@ class Answer:
             demand(tower.normal(a * (k * (k - 1)) + b * k + c) == 0, "P begins and ends at roots of the recurrence")
         c, b, a = U
         # The roots of U add up to 1 - b/a.
-        other = None if a == 0 else Function(tower, a - b, a).rational
+        other = None if a == 0 else TowerFunction(tower, a - b, a).rational
         divisors = range(lowest, highest, step)
         demand(
             other is None or other.q != 1 or int(other.p) - highest not in divisors,
@@ -2017,12 +2019,12 @@ class Answer:
         D = self.tower.read(semi_invariant["D"])
         places = [(place, (place.k + 1) // 2) for place in self.exclusions.places[:-1]]
         for place, order in places:
-            demand(any(place.at(part) != 0 for part in by_power(P, 0).values()), "P has its zeros at ordinary points")
+            demand(any(place.at(part) != 0 for part in by_powers(P, 0).values()), "P has its zeros at ordinary points")
             demand(all(value == 0 for value in place.taylor(D.num, order)), "D is the denominator of omega")
         is_product = degree(D.num) == sum(place.size * order for place, order in places)
         demand(D.den == 1 and is_monic(D.num) and is_product, "D is the denominator of omega")
 
-    def rational_form(self, m: int) -> Form | None:
+    def rational_form(self, m: int) -> FormOfSolutions | None:
         """The rational form of degree m that shows the structure; a reducible group with one omega only has none."""
         data = self.proof["invariant"]
         if data is None:
@@ -2033,12 +2035,12 @@ class Answer:
         logarithmic_poles(F.slope, self.exclusions.modulus)
         return F
 
-    def group(self, f: Form | None, F: Form | None) -> None:
+    def group(self, f: FormOfSolutions | None, F: FormOfSolutions | None) -> None:
         """The group is the one that is named: SL2, a finite primitive one, or found by the forms."""
         group = self.data["group"]
         used = set[str]()
         demand_keys(group, "the group", "name order finite", "family n function orders")
-        family: Family = self.structure or "SL2", None
+        family: GroupFamily = self.structure or "SL2", None
         if self.structure == "reducible":
             family = reducible_group(self.exclusions.places, F)
         elif self.structure == "imprimitive" and f is not None:
@@ -2070,7 +2072,7 @@ def verdict(line: str) -> str:
         if data["proof"]["undecided"] is not None:
             return f"not checked: the answer is undecided: {data['proof']['undecided']!r}"
         with ctx.workprec(333):
-            return f"checked: {Answer(data).check()}"
+            return f"checked: {CheckedAnswer(data).check()}"
     except (json.JSONDecodeError, Unreadable) as error:
         return f"unreadable: {error}"
     except AssertionError as claim:
@@ -2092,7 +2094,7 @@ def verdicts(lines: Iterator[str], seconds: float = 60) -> Iterator[str]:
                 yield from chain([f"not checked: it takes more than {seconds:g} s"], verdicts(lines, seconds))
 
 
-def main(files: list[str]) -> int:
+def check_files(files: list[str]) -> int:
     """Check all lines of the files; the exit status."""
     statuses: set[int] = set()
     sys.stdin = sys.stdin or io.StringIO()  # one that is closed is empty
@@ -2111,4 +2113,4 @@ def main(files: list[str]) -> int:
 
 
 if __name__ == "__main__":
-    sys.exit(main(sys.argv[1:]))
+    sys.exit(check_files(sys.argv[1:]))

@@ -103,11 +103,11 @@ def solve(
 
 def _assignments(answer: Solution, language: str) -> Iterator[str]:
     """The equation and the verdict as a comment, and any two solutions, in Mathematica, Maple or Julia."""
-    from kovacic.writing.code import LANGUAGES, as_code
+    from kovacic.writing.code import CODE_LANGUAGES, as_code
 
-    yield LANGUAGES[language].comment.format(answer)
+    yield CODE_LANGUAGES[language].comment.format(answer)
     for k, y in enumerate(answer.solutions or answer.special, start=1):
-        yield LANGUAGES[language].assignment.format(f"y{k}", as_code(y, language))
+        yield CODE_LANGUAGES[language].assignment.format(f"y{k}", as_code(y, language))
 
 
 def _print_refusal(text: str, error: KovacicError) -> None:
@@ -333,9 +333,9 @@ def check(files: tuple[str, ...]) -> int:
     Exit status: 0 all checked, 1 one refuted, 2 a file or a line unreadable or nothing to check, 3 one not checked; the first
     of 1, 2, 3 that applies.
     """
-    from kovacic.checker import main
+    from kovacic.checker import check_files
 
-    return main(list(files))
+    return check_files(list(files))
 
 
 @click.command()

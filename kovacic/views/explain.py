@@ -26,12 +26,12 @@ from kovacic.views.bibliography import references
 from kovacic.views.sentences import (
     equation_of,
     formulas_of,
-    normal_form,
+    normal_form_of,
     omega_math,
     powers_in,
     reason,
     solutions_of,
-    verdict_of,
+    verdict_in_words,
 )
 from kovacic.views.steps import Steps
 from kovacic.writing.breaking import LINE
@@ -46,7 +46,7 @@ from kovacic.writing.document import (
     format_of,
     say,
 )
-from kovacic.writing.formula import Math, caret, free_name, generated_field, joined, latex_text, shortened
+from kovacic.writing.formula import Math, caret, free_name, generated_field, latex_text, separated, shortened
 
 _CASES = {
     Structure.REDUCIBLE: "case 1 (the group is reducible, omega rational)",
@@ -199,13 +199,13 @@ class ExplanationWriter:
         blocks: list[Block] = [
             say("With ", substitution, ", ", gamma, f"{meaning}, it becomes its normal form for {v}:"),
             Formula(self.formulas.named("gamma", answer.gauge)),
-            Formula(normal_form(answer, v)),
+            Formula(normal_form_of(answer, v)),
         ]
         return v, blocks
 
     def verdict(self, *, solutions: bool) -> Iterator[Block]:
         """The answer in brief."""
-        found, more = verdict_of(self.answer)
+        found, more = verdict_in_words(self.answer)
         yield Heading("The answer")
         before, name, after = more.partition("omega = y'/y")
         omega = [Math(name, r"\omega = y'/y")] if name else []
@@ -259,7 +259,7 @@ class ExplanationWriter:
             yield Formula(self.formulas.named("theta", series.theta))
             yield from self._constants()
         if form is not None:
-            names = joined(" and ", map(Math.of, ("theta", P)))
+            names = separated(" and ", map(Math.of, ("theta", P)))
             yield say(self.steps.degree(case), f" = {form.P.degree}, and with ", *names, ":")
             yield Formula(self.formulas.named("theta", form.theta))
             yield Formula(self.formulas.named(P, form.P))

@@ -20,7 +20,7 @@ from kovacic.decision import (
 from kovacic.equation import Parsed
 from kovacic.errors import LimitExceeded
 from kovacic.numbers.numerals import as_text, in_a_message
-from kovacic.writing.formula import Formulas, Math, caret, joined, latex_text, of_sympy
+from kovacic.writing.formula import Formulas, Math, caret, latex_text, of_sympy, separated
 
 #: Degree of P up to which solutions are written out.
 _HIGHEST_WRITTEN = 300
@@ -39,11 +39,11 @@ def equation_of(answer: Answer | Parsed) -> Math:
     """The equation as given."""
     equation = answer.equation
     if equation is None:
-        return normal_form(answer)
+        return normal_form_of(answer)
     return Math(str(equation), latex_text(equation.text(caret=False)))
 
 
-def normal_form(answer: Answer | Parsed, y: str = "y") -> Math:
+def normal_form_of(answer: Answer | Parsed, y: str = "y") -> Math:
     """y'' = S y."""
     return Math.of(f"{y}''").equals(formulas_of(answer).times(answer.S, y))
 
@@ -73,7 +73,7 @@ def powers_in(series: TerminatingSeries, formulas: Formulas) -> Iterator[str | M
     yield from (f"degree {highest}, with powers of ", t, f" down to {lowest} in steps of {step}")
 
 
-def plain(parts: Iterable[str | Math]) -> str:
+def as_plain_text(parts: Iterable[str | Math]) -> str:
     """A sentence as text."""
     return "".join(part.text if isinstance(part, Math) else part for part in parts)
 
@@ -87,7 +87,7 @@ def omega_lines(answer: Answer) -> list[str]:
     if roots is not None and omega.text == formulas.symbol:
         return [f"omega = {roots}"]
     if series is not None:
-        theta, powers = formulas.math(series.theta).text, plain(powers_in(series, formulas))
+        theta, powers = formulas.math(series.theta).text, as_plain_text(powers_in(series, formulas))
         lines = [f"omega = theta + P'/P with theta = {theta} and P of {powers}"]
     elif riccati is None or riccati.degree == 1:
         lines = [f"omega = {omega.text}"]
@@ -117,7 +117,7 @@ def reason(evidence: Evidence, formulas: Formulas) -> Iterator[str | Math]:
     if isinstance(evidence, NecessaryCondition):
         yield evidence.rule.value
         if evidence.places:
-            yield from (" (at ", *joined(", ", map(formulas.place, evidence.places)), ")")
+            yield from (" (at ", *separated(", ", map(formulas.place, evidence.places)), ")")
     elif isinstance(evidence, NoInvariant):
         m = evidence.invariant_degree
         if evidence.prime is None:
@@ -151,7 +151,7 @@ def solutions_of(answer: Answer) -> tuple[list[tuple[Math, Math]], tuple[str, ..
     return list(zip(names, map(of_sympy, pair), strict=False)), () if form is None else form.notes
 
 
-def verdict_of(answer: Answer) -> tuple[str, str]:
+def verdict_in_words(answer: Answer) -> tuple[str, str]:
     """The verdict, and the case or the reason."""
     if answer.assumed and answer.reason is not None:
         return SOLVABLE, answer.reason

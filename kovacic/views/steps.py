@@ -22,7 +22,7 @@ from kovacic.limits import Budget, check_time
 from kovacic.numbers.numerals import as_text
 from kovacic.views.sentences import formulas_of
 from kovacic.writing.document import SCREEN_LINES, Block, Formula, Heading, Sentence, Table, say
-from kovacic.writing.formula import Math, free_name, joined, latex_text, of_sympy
+from kovacic.writing.formula import Math, free_name, latex_text, of_sympy, separated
 
 # d from the chosen exponents, and the equations for P, by case [Kovacic 1986, sections 3.1, 4.1 and 5.1].
 _DEGREE_OF_P = {
@@ -110,7 +110,7 @@ class Steps:
         for case, condition in _CONDITIONS.items():
             # The condition of case 2 has to hold at some pole only; the others fail at certain places.
             failing = [place for place in self.places if case != 2 and not _allowed(case, [place])]
-            places = joined(", ", (self.formulas.place(str(place)) for place in failing))
+            places = separated(", ", (self.formulas.place(str(place)) for place in failing))
             verdict = "holds" if _allowed(case, self.places) else "fails"
             rows.append([str(case), condition, [verdict + " at " * bool(failing), *places]])
         yield Table(("case", "condition", "verdict"), rows)

@@ -15,16 +15,16 @@ from kovacic.views.sentences import (
     NOT_DECIDED,
     SOLVABLE,
     UNSOLVABLE,
+    as_plain_text,
     equation_of,
     formulas_of,
-    normal_form,
+    normal_form_of,
     of_degree,
     omega_lines,
     omega_math,
-    plain,
     reason,
     solutions_of,
-    verdict_of,
+    verdict_in_words,
 )
 from kovacic.writing.escaped import in_one_line
 from kovacic.writing.formula import Math, shortened
@@ -68,8 +68,8 @@ def render(
     is_gauged = answer.equation is not None and not answer.equation.is_normal_form
     if is_gauged:
         over = "" if answer.change is None else f", over {answer.change.field}"
-        yield f"  normal form: {normal_form(answer).text}, to which case and omega belong{over}"
-    said, more = verdict_of(answer)
+        yield f"  normal form: {normal_form_of(answer).text}, to which case and omega belong{over}"
+    said, more = verdict_in_words(answer)
     yield f"  {style(said, _ROLES[said])}: {visible(more)}"
     if solutions is not None:
         yield from _indented(solutions)
@@ -141,7 +141,7 @@ def _lines_of_exclusions(answer: Answer) -> Iterator[str]:
     formulas = formulas_of(answer)
     grouped: dict[tuple[int, str], list[str]] = {}
     for exclusion in answer.proof:
-        reasons = "; ".join(plain(reason(evidence, formulas)) for evidence in exclusion.evidence)
+        reasons = "; ".join(as_plain_text(reason(evidence, formulas)) for evidence in exclusion.evidence)
         grouped.setdefault((exclusion.structure.case, reasons), []).append(exclusion.structure.value)
     for (case, reasons), structures in grouped.items():
         which = f" ({', '.join(structures)})" if case == 3 else ""
@@ -164,8 +164,8 @@ def html_view(answer: Answer) -> str:
 
     rows: list[tuple[Sentence, Sentence]] = [("equation", equation_of(answer))]
     if answer.equation is not None and not answer.equation.is_normal_form:
-        rows.append(("normal form", normal_form(answer)))
-    found, more = verdict_of(answer)
+        rows.append(("normal form", normal_form_of(answer)))
+    found, more = verdict_in_words(answer)
     if found == NOT_DECIDED:
         found = f"undecided: {more}"
     elif answer.assumed:  # the reason names the assumptions

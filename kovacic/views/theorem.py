@@ -44,7 +44,7 @@ from kovacic.reading.read import read_input
 from kovacic.reading.source import source_of
 from kovacic.views.bibliography import literature
 from kovacic.writing.document import Block, Formula, Heading, Sentence, Table, format_of, say
-from kovacic.writing.formula import Formulas, Math, caret, free_name, generated_field, joined, latex_text, of_sympy
+from kovacic.writing.formula import Formulas, Math, caret, free_name, generated_field, latex_text, of_sympy, separated
 
 #: Letters for the signs in a solution; those of parameters are skipped.
 _SIGN_LETTERS = ("epsilon", "zeta", "eta", "kappa", "iota", "tau", "upsilon", "chi")
@@ -444,7 +444,7 @@ def _enumerated(parts: list[Math]) -> list[str | Math]:
     """`a, b and c`."""
     if len(parts) < 2:
         return [*parts]
-    return [*joined(", ", parts[:-1]), " and ", parts[-1]]
+    return [*separated(", ", parts[:-1]), " and ", parts[-1]]
 
 
 def _choice_of_signs(signs: list[sympy.Symbol]) -> list[str | Math]:

@@ -88,7 +88,7 @@ class _Language:
     comment: str
 
 
-LANGUAGES = {
+CODE_LANGUAGES = {
     "mathematica": _Language(
         "Mathematica",
         MCodePrinter,
@@ -154,9 +154,9 @@ def as_code(expression: Expr, language: str) -> str:
     >>> print(kovacic.as_code(y1, "maple"))
     x^(1/4)*(1 - x)^(1/3)*hypergeom([-1/12, 1/4], [1/2], x)
     """
-    chosen = LANGUAGES.get(language)
+    chosen = CODE_LANGUAGES.get(language)
     if chosen is None:
-        raise InputError(f"unknown language {language!r}", hint=f"the languages are {', '.join(LANGUAGES)}")
+        raise InputError(f"unknown language {language!r}", hint=f"the languages are {', '.join(CODE_LANGUAGES)}")
     expression = sympy.sympify(expression, strict=True)
     for name in sorted(symbol.name for symbol in expression.free_symbols):
         is_pattern = "_" in name and language == "mathematica"

@@ -26,7 +26,7 @@ _GREEK_LETTERS = (
     "phi chi psi omega Gamma Delta Theta Lambda Xi Sigma Upsilon Phi Psi Omega"
 )
 # Signs between functions, which are replaced first.
-_RELATIONS = [
+_RELATION_SIGNS = [
     (re.compile(r" in ([ZN])\b"), r" \\in \\mathbb{\1}"),
     (re.compile(r"\+- *"), r"\\pm "),
     (re.compile("!="), r"\\ne"),
@@ -89,7 +89,7 @@ class Math:
         return Math(f"{self.text} = {value.text}", f"{self.latex} = {value.latex}")
 
 
-def joined(separator: str, parts: Iterable[str | Math]) -> list[str | Math]:
+def separated(separator: str, parts: Iterable[str | Math]) -> list[str | Math]:
     """The parts of a sentence with a separator between them."""
     return [piece for part in parts for piece in (separator, part)][1:]
 
@@ -277,7 +277,7 @@ def latex_text(text: str) -> str:
     if modulus:
         congruence = latex_text(form).replace("=", r"\equiv")
         return rf"{congruence} \pmod{{{latex_text(modulus)}}}"
-    for pattern, replacement in _RELATIONS:
+    for pattern, replacement in _RELATION_SIGNS:
         text = pattern.sub(replacement, text)
     writer = _LatexWriter()
     found = 1

@@ -71,7 +71,7 @@ def test_a_form_with_irrational_residues_isnt_rational() -> None:
 def test_two_points_of_branching_are_enough() -> None:
     """Exponent differences 1/2, 1/2, 1/3: dicyclic, and no fewer than two places can branch."""
     solution = solve(transform.hypergeometric(Fraction(1, 2), Fraction(1, 2), Fraction(1, 3)))
-    exclusions = checker.Answer(json.loads(solution.to_json(full=True))).exclusions
+    exclusions = checker.CheckedAnswer(json.loads(solution.to_json(full=True))).exclusions
     statement = checker.RULES["too_few_branch_points"][0]
     for places in (["x", "x - 1"], ["x"], []):
         item = {
@@ -102,7 +102,7 @@ def test_constants_and_one_pole(S: str, name: str) -> None:
 @pytest.mark.parametrize("S", ["1/x", "1 - 1/(4*x^2)", "1/x - 1/(4*x^2)", "x + 1/x", "35/(4*x^2) - 1"])
 def test_logarithms_at_simple_poles_and_where_exponents_differ_by_integers(S: str) -> None:
     """They exclude all groups but two: a proof says so, or finds room for fewer forms."""
-    exclusions = checker.Answer(json.loads(kovacic.solve(S).to_json())).exclusions
+    exclusions = checker.CheckedAnswer(json.loads(kovacic.solve(S).to_json())).exclusions
     assert next(place for place in exclusions.places if place.name == "x").logarithm
     assert checker.verdict(kovacic.solve(S).to_json(full=True)).startswith("checked: S from input; case; group")
 
@@ -121,7 +121,7 @@ def test_logarithms_at_simple_poles_and_where_exponents_differ_by_integers(S: st
 )
 def test_dimensions_of_forms_are_exact(S: str, m: int, dimension: int) -> None:
     """All of them for a trivial group, powers of y1 y2 for G_m, none for Borel's, those of mu_3 and of Q8."""
-    exclusions = checker.Answer(json.loads(kovacic.solve(S, var="x").to_json())).exclusions
+    exclusions = checker.CheckedAnswer(json.loads(kovacic.solve(S, var="x").to_json())).exclusions
     assert exclusions.dimension(m) == dimension
 
 
@@ -166,11 +166,11 @@ X = RatFunc(QQ.poly([0, 1]))
 def test_a_rational_omega_is_found_from_every_place(omega: RatFunc) -> None:
     """Its expansion is among those that the solutions can have, at irregular places, at regular and at conjugate ones."""
     data = json.loads(solve(transform.from_omega(omega)).to_json())
-    exclusions = checker.Answer(data).exclusions
+    exclusions = checker.CheckedAnswer(data).exclusions
     places = [place for place in exclusions.places if place.tells_solutions_apart]
     assert places
     for place in places:
-        q, _ = next(place.roots(checker.PRIMES))
+        q, _ = next(place.roots(checker.LARGE_PRIMES))
         name = "infinity" if place.infinite else str(place.minimal).replace("^", "**")
         with flint.ctx.workprec(333), pytest.raises(AssertionError, match="no expansion of omega"):
             exclusions.no_expansion(q, name)
@@ -209,7 +209,7 @@ def test_exponents_at_conjugate_places() -> None:
     """S = (8 + 4 x)/(x^2-2)^2: Delta^2 = 1 + 4 (8 + 4 r)/(4 * 2) = 5 + 2 r at r = sqrt(2) and at -sqrt(2)."""
     S = checker.rational_functions("x", None).read("(8 + 4*x)/(x**2 - 2)**2")
     with flint.ctx.workprec(333):
-        place = checker.places_of(S.num, S.den, checker.X)[0]
+        place = checker.all_places(S.num, S.den, checker.X)[0]
         found = sorted(float(half.real) for half in place.half_differences(flint.acb(0)))
         expected = [float((5 + sign * 2 * flint.arb(2).sqrt()).sqrt() / 2) for sign in (-1, 1)]
         assert found == pytest.approx(expected, rel=1e-14)
@@ -227,7 +227,7 @@ def test_the_status_is_the_gravest_verdict(tmp_path: Path, capsys: pytest.Captur
     for names, status in (("right", 0), ("right wrong none", 1), ("none right other", 2), ("right other", 3)):
         file = tmp_path / "answers.jsonl"
         file.write_text("\n".join(lines[name] for name in names.split()), encoding="utf-8")
-        assert checker.main([str(file)]) == status
+        assert checker.check_files([str(file)]) == status
     assert "refuted" in capsys.readouterr().out
 
 
@@ -331,7 +331,7 @@ def test_the_command(stdin: str, status: int, said: str) -> None:
 
 
 def test_a_file_that_is_missing(capsys: pytest.CaptureFixture[str]) -> None:
-    assert checker.main(["there_is_no_such_file"]) == 2
+    assert checker.check_files(["there_is_no_such_file"]) == 2
     said = capsys.readouterr()
     assert said.out == ""
     assert "there_is_no_such_file" in said.err
@@ -702,7 +702,7 @@ def test_exponents_at_irregular_places_of_any_order(nu: int, e: int) -> None:
     omega = x**-nu + e / x
     S = checker.rational_functions("x", None).read(str(omega.derivative() + omega * omega))
     with flint.ctx.workprec(333):
-        (half,) = checker.places_of(S.num, S.den, checker.X)[0].half_differences(flint.acb(0))
+        (half,) = checker.all_places(S.num, S.den, checker.X)[0].half_differences(flint.acb(0))
         assert (2 * half).contains(abs(2 * e - nu)) or (2 * half).contains(-abs(2 * e - nu))
         assert half.rad() < 1e-20
     assert flint.ctx.cap == 10
@@ -829,7 +829,7 @@ def test_every_function_has_the_derivative_and_the_relations_of_its_values() -> 
         tower, _ = checker.read_formulas([text], "x")
         x, h = checker.POINTS[0], checker.arb(2) ** -60
         for k, t in enumerate(reversed(checker.TOWER.gens()[-len(tower.values) :])):
-            function = checker.Function(tower, t)
+            function = checker.TowerFunction(tower, t)
             difference = (tower.at(x + h, function) - tower.at(x - h, function)) / (2 * h)
             is_integral = "Integral" in text and k == len(tower.values) - 1
             is_letter = "RootSum" in text and k in (1, 2)  # a, and log(x - a)
@@ -838,7 +838,7 @@ def test_every_function_has_the_derivative_and_the_relations_of_its_values() -> 
                 k,
             )
         for relation in tower.relations:  # a function whose polynomial isn't reduced is its value
-            unreduced = object.__new__(checker.Function)
+            unreduced = object.__new__(checker.TowerFunction)
             unreduced.tower, unreduced.num, unreduced.den = tower, relation, checker.TOWER.constant(1)
             assert abs(tower.at(x, unreduced)) < 1e-60, text
 

@@ -11,7 +11,7 @@ from build import QQ, RatFunc, generated, parametrize
 from hypothesis import given
 
 import kovacic
-from kovacic.views.sentences import formulas_of, normal_form
+from kovacic.views.sentences import formulas_of, normal_form_of
 from kovacic.writing.breaking import breakable, pieces
 from kovacic.writing.formula import Formulas, latex_text
 
@@ -109,7 +109,7 @@ def test_latex_of_functions_with_parameters_has_their_denominators(S: str) -> No
     ],
 )
 def test_the_normal_form_is_written_as_a_mathematician_would(S: str, text: str, latex: str) -> None:
-    shown = normal_form(kovacic.solve(S, var="x"))
+    shown = normal_form_of(kovacic.solve(S, var="x"))
     assert (shown.text, shown.latex) == (f"y'' = {text}", f"y'' = {latex}")
 
 
