@@ -1,4 +1,4 @@
-"""A second opinion on answers of kovacic: reads them as JSON lines and proves them anew, sharing no code with the program.
+"""An independent check of kovacic's answers: reads them as JSON lines and proves them anew, sharing no code with the program.
 
     python checker.py answers.jsonl          (or kovacic check answers.jsonl; "-" reads standard input)
 
@@ -10,9 +10,9 @@ For each line one of
     unreadable: why                          (no JSON, or a key twice in one object)
 
 Exit status: 0 all checked, 1 one refuted, 2 one unreadable, or nothing to check, 3 one not checked.
-It needs Python 3.11 and python-flint alone.  It changes FLINT's global precision, so it is for one thread of a process.
+It needs only Python 3.11 and python-flint.  It changes FLINT's global precision, so it must run in one thread of a process.
 
-What "checked" means, for an S over K(x), K = Q or a number field, given by an irreducible polynomial:
+The meaning of "checked", for an S over K(x), K = Q or a number field, given by an irreducible polynomial:
 - S from input: S was given, with + - * / ^ and parentheses, and is this one.
 - y'' = S y from a, b, c, and gauge: S = (b/a)'/2 + (b/a)^2/4 - c/a and gauge = -b/(2a), where an equation was given.
 - case, omega, of a "yes": the product of W - omega over the conjugates of omega = y'/y belongs to a form in the solutions, over
@@ -22,14 +22,14 @@ What "checked" means, for an S over K(x), K = Q or a number field, given by an i
   at places of S, or by the absence of a rational form in the solutions (a rank modulo a prime can only be smaller than over
   K) and, if reducible, of a single rational omega (its expansion, modulo a prime, isn't that of a rational function with few
   poles).
-- group: its family, n, order and name follow from the above, and from the evidence that is given for it.
-- solutions: both satisfy the equation, by exact differentiation, and their Wronskian isn't zero.  A function that isn't known
-  here is named ("solutions[1] (zeta)"), and so is what differentiation alone doesn't prove, as relations between roots that
-  depend on their branches ("solutions[1]"); what is nonzero at several points is refuted.
-Every key is either looked at, or named after "not checked", or refused.  What the keys that aren't looked at say is for the
-reader to compare: `input` and `equation.text` with a, b and c, or with S.
+- group: its family, n, order and name follow from the above and from its evidence.
+- solutions: both satisfy the equation, by exact differentiation, and their Wronskian isn't zero.  A solution with an unknown
+  function is named ("solutions[1] (zeta)"), and so is one that differentiation alone doesn't prove, as relations between roots
+  depend on their branches ("solutions[1]"); a residual that is nonzero at several points is refuted.
+Every key is looked at, or named after "not checked", or refused.  The reader has to compare those that aren't looked at:
+`input` and `equation.text` with a, b and c, or with S.
 
-To be read from the end: `CheckedAnswer.check` is the table of contents.
+Read it from the end: `CheckedAnswer.check` is the table of contents.
 
 J. Kovacic, J. Symb. Comp. 2 (1986); F. Ulmer & J.-A. Weil, ibid. 22 (1996); M. van Hoeij, ibid. 24 (1997).
 """
@@ -66,7 +66,7 @@ from flint import (
 )
 from flint import nmod_poly as nmod
 
-LARGEST_COMPUTED = 10_000  # the largest degrees, and the most terms of a series, that are computed with
+LARGEST_COMPUTED = 10_000  # the largest degrees, and numbers of terms of a series, in a computation
 LARGE_PRIMES = [q for q in range(2**60 + 33, 2**60 + 20_000, 2) if fmpz(q).is_prime()]
 
 
@@ -75,21 +75,21 @@ class Unreadable(Exception):
 
 
 def demand(holds: Any, claim: str) -> None:
-    """Refute the answer unless this holds."""
+    """Refute the answer unless the claim holds."""
     if not holds:
         raise AssertionError(claim)
 
 
 def demand_equal(found: Any, expected: Any, what: str) -> None:
-    """Refute the answer unless this is found, and of the same type: true isn't 1."""
+    """Refute the answer unless the two are equal and of the same type: true isn't 1."""
     demand(repr(found) == repr(expected), f"{what} is {expected!r}")
 
 
 def demand_keys(data: Any, what: str, required: str, optional: str = "") -> None:
     """Refute the answer unless this is an object with the required keys, and no others than the optional ones."""
     demand(isinstance(data, dict), f"{what} is an object")
-    missing = set(required.split()) - set(data)
-    unknown = set(data) - set(required.split()) - set(optional.split())
+    missing = {*required.split()} - {*data}
+    unknown = {*data} - {*required.split(), *optional.split()}
     demand(not missing, f"{what} has the key {min(missing, default='')!r}")
     demand(not unknown, f"{what} has a key {ascii(min(unknown, default=''))[:60]}")
 
@@ -106,7 +106,7 @@ def is_whole(value: Any) -> bool:
 
 
 def affordable(size: Any, what: str) -> int:
-    """The size; gives up where it would make a computation too long, or isn't known."""
+    """The size; gives up on one that is unknown, or would make a computation too long."""
     if size is None or size > LARGEST_COMPUTED:
         raise NotImplementedError(f"{what} is too large")
     return int(size)
@@ -114,27 +114,27 @@ def affordable(size: Any, what: str) -> int:
 
 # ------------------------------------------------------------------------------------------- formulas
 
-#: The ring of all that is rational in x, a generator t of the number field, and a constant c of omega; x is its last generator.
+#: Polynomials in x (the last generator), a generator t of the number field, and a constant c of omega.
 PLANE = fmpq_mpoly_ctx.get(("c", "t", "x"), Ordering.lex)
 C, T, X2 = PLANE.gens()
 X = fmpq_poly([0, 1])
-#: A ring for solutions.  Its last generator is x; a function in a formula gets one that is larger than those of its argument.
+#: A ring for solutions.  Its last generator is x; each function in a formula gets a larger one than its argument has.
 TOWER = fmpq_mpoly_ctx.get(tuple(f"t{i}" for i in range(48)), Ordering.lex)
 #: The most products of terms in one multiplication.
 MOST_PRODUCTS = 10**5
-#: Points at which a formula that isn't proven is tried, one beside each half axis; exact ones, with few binary digits.
+#: Exact points, one near each half axis, at which an unproven formula is evaluated.
 POINTS = [
     acb(re, im) for re, im in ((1.375, 0.1875), (-0.8125, 0.3125), (0.1875, 1.125), (-0.25, -1.4375), (3.6875, -0.375))
 ]
 
 
-#: How a generator's value follows from those before it, and its derivative from itself.
+#: The rules for a generator's value, from those before it, and for its derivative, from itself.
 BallRule = Callable[[Callable[[Any], Any]], Any]
 Slope = Callable[[Any], Any]
 
 
 class Refined(Exception):
-    """A function occurs with a root of a higher order than was known: the formulas are read again."""
+    """A function occurs with a root of a new order: the formulas have to be read again."""
 
 
 class TowerFunction:
@@ -159,7 +159,7 @@ class TowerFunction:
 
     @property
     def rational(self) -> Any:
-        """The rational number that this is, else None."""
+        """The value as a rational number, else None."""
         if self.num.is_constant() and self.den.is_constant():
             return self.num.leading_coefficient() if self.num else fmpq(0)
         return None
@@ -203,11 +203,10 @@ class TowerFunction:
 
 
 class Tower:
-    """Functions of x, each a polynomial over Q in those before it, or known by its derivative, a rational function of all.
+    """Functions of x, each a root of a polynomial in those before it, or given by its derivative, a rational function of all.
 
-    What is 0 by these rules is the zero function, whichever branches are meant.  Between functions there may be relations
-    that aren't known here, so that something else may be zero as well.  Over the small ring there are x and constants alone.
-    By their derivatives alone the generators are known to a proof, and by their values, balls, to a refutation.
+    An expression that is 0 by these rules is the zero function on all branches.  There may be further relations between the
+    functions, so that others may be zero as well.  Proofs use the derivatives alone, refutations the values, as balls.
     """
 
     def __init__(self, variable: str, ring: Any = TOWER, orders: dict[str, int] | None = None) -> None:
@@ -221,7 +220,7 @@ class Tower:
         self.made: dict[str, Any] = {}
         self.families: dict[str, list[TowerFunction]] = {}
         self.arcsines: dict[str, TowerFunction] = {}
-        # the roots of a function that occur, as their least common multiple
+        # the least common multiple of the orders of the roots of each function
         self.orders = {} if orders is None else orders
         self.x = self.new("x", lambda _: self.number(1), lambda at: None)
         self.names = {variable: self.x}
@@ -252,7 +251,7 @@ class Tower:
         return function
 
     def constant(self, key: str, relation: Slope | None = None, value: Any = None) -> Any:
-        """A constant with this value, about which no more is known than the relation."""
+        """A constant with this value, which may satisfy a relation."""
         return self.new(key, lambda _: self.number(0), lambda at: acb("nan") if value is None else value, relation)
 
     def adjoin(self, name: str, constant: TowerFunction) -> None:
@@ -271,11 +270,11 @@ class Tower:
         return total
 
     def balls(self, f: TowerFunction) -> list[Any]:
-        """Around the values at some points, where the function has one."""
+        """The values at `POINTS`, as far as they are finite."""
         return [value for value in (self.at(point, f) for point in POINTS) if value.is_finite()]
 
     def is_refuted(self, f: TowerFunction) -> bool:
-        """The function is nonzero at two points, and at none does it seem to be zero: a formula may hold on one side only."""
+        """True if the function is nonzero at two points, and nowhere seems to be zero: a formula may hold on one side only."""
         balls = self.balls(f)
         seem_zero = [ball for ball in balls if ball.contains(0) and abs(ball).upper() < 1e-9]
         return not seem_zero and sum(not ball.contains(0) for ball in balls) > 1
@@ -301,14 +300,14 @@ class Tower:
             values.append(ball(value) if values else x)
         return value(function)
 
-    # --------------------------------------------------------------------------------- what formulas are made of
+    # --------------------------------------------------------------------------------- parts of formulas
 
     def read(self, text: str, **bound: TowerFunction) -> Any:
         """The formula in these letters."""
         return Reader(text, self, bound).value()
 
     def order(self, key: str, q: int) -> int:
-        """The order of the root of a function from which all of its roots in the formulas are powers."""
+        """The order Q such that all roots of this function in the formulas are powers of its Q-th root."""
         known = self.orders.get(key, 1)
         if known % q:
             self.orders[key] = affordable(lcm(known, q), "a root")
@@ -354,12 +353,11 @@ class Tower:
             term = TowerFunction(self, TOWER.from_dict({powers: fmpq(1)}), u.den)
             Q = self.order(f"exp {term.key}", int(c.q))
             part = term / self.number(Q)
-            root = self.new(f"exp {part.key}", partial(mul, part.derivative()), partial(exp_at, part))
+            root = self.new(
+                f"exp {part.key}", partial(mul, part.derivative()), partial(lambda u, at: at(u).exp(), part)
+            )
             found = found * root.to_the(int(c * Q))
         return found
-
-    def generator_number(self, function: TowerFunction) -> int:
-        return int(self.ring.nvars()) - 1 - int(function.num.degrees().index(1))
 
     def called(self, name: str, arguments: list[Any]) -> Any:
         """The function of this name."""
@@ -378,7 +376,7 @@ class Tower:
         raise NotImplementedError(name)
 
     def family(self, name: str, arguments: list[Any]) -> list[TowerFunction]:
-        """F, and perhaps G, which are known by their derivatives."""
+        """F, and perhaps G, given by their derivatives."""
         letters, *members = FAMILIES[name]
         bound = dict(zip(letters.split(), arguments, strict=False))
         is_rational = all(value.rational is not None for letter, value in bound.items() if letter != "u")
@@ -386,14 +384,17 @@ class Tower:
             raise NotImplementedError(name)
         key = family_key(name, arguments)
         if key not in self.families:
-            balls = {F: partial(at_arguments, arguments, ball) for F, (_, ball) in zip("FG", members, strict=False)}
+            balls = {
+                F: partial(lambda ball, at: ball(*map(at, arguments)), ball)
+                for F, (_, ball) in zip("FG", members, strict=False)
+            }
             found = {F: self.new(f"{F} of {key}", lambda _: self.number(0), ball) for F, ball in balls.items()}
             self.families[key] = list(found.values())
             if name == "cos sin":
                 self.relations.insert(0, self.read("F**2 + G**2 - 1", **found).num)
             for function, (slope, _) in zip(found.values(), members, strict=True):
                 by_x = self.read(slope, **bound, **found) * bound["u"].derivative()
-                self.slopes[self.generator_number(function)] = by_x
+                self.slopes[self.ring.nvars() - 1 - function.num.degrees().index(1)] = by_x
         return self.families[key]
 
 
@@ -401,16 +402,8 @@ def family_key(name: str, arguments: list[TowerFunction]) -> str:
     return " ".join([name, *(value.key for value in arguments)])
 
 
-def at_arguments(arguments: list[TowerFunction], ball: Callable[..., Any], at: Slope) -> Any:
-    return ball(*map(at, arguments))
-
-
-def exp_at(u: TowerFunction, at: Slope) -> Any:
-    return at(u).exp()
-
-
 def antiderivative(tower: Tower, f: TowerFunction, variable: TowerFunction) -> Any:
-    """An antiderivative: any one, so that its value at a point may be any number."""
+    """An antiderivative: any one, so its value at a point may be any number."""
     if not isinstance(variable, TowerFunction):
         raise NotImplementedError("a definite integral")
     demand(variable.key == tower.x.key, "an integral is one by the variable")
@@ -419,7 +412,7 @@ def antiderivative(tower: Tower, f: TowerFunction, variable: TowerFunction) -> A
 
 
 def over_q(f: TowerFunction, letter: TowerFunction) -> Any:
-    """The polynomial over Q in a generator that this is."""
+    """The function as a polynomial over Q in a generator."""
     i = letter.num.degrees().index(1)
     others = f.num.degrees()[:i] + f.num.degrees()[i + 1 :]
     if any(others) or not f.den.is_constant():
@@ -441,7 +434,7 @@ def monic_irreducible(p: Any) -> Any:
 
 
 def indexed_root(tower: Tower, polynomial: TowerFunction, index: TowerFunction) -> Any:
-    """A root of a polynomial over Q that is irreducible; it has a value where it is real, and these come first, in order."""
+    """A root of an irreducible polynomial over Q; the real ones come first, in order, and have a value."""
     p = monic_irreducible(over_q(polynomial, tower.x))
     real = sorted((root.real for root, _ in p.complex_roots() if root.imag == 0), key=float)
     value = acb(dict(enumerate(real)).get(int(index.rational), "nan"))
@@ -472,7 +465,7 @@ def root_sum(tower: Tower, polynomial: TowerFunction, term: tuple[TowerFunction,
 
 
 def hypergeometric_value(tower: Tower, *arguments: Any) -> Any:
-    """pFq, where the parameters above are a list, and those below; from a known one if they differ by 1, as for derivatives."""
+    """pFq of two lists of parameters; by a known one if they differ by 1, as for derivatives."""
     lists = [part for part in arguments if isinstance(part, tuple)]
     name = "F".join(str(len(part)) for part in lists) or "pFq"
     *parameters, z = *chain(*lists), *arguments[len(lists) :]
@@ -509,7 +502,7 @@ def bessel_family(kind: str, above: str, below: str) -> tuple[str, Member, Membe
     return "n u", first, (f"{below}F - (n + 1)/u*G", lambda n, u: getattr(u, C)(n + 1))
 
 
-#: Functions of u and of rational parameters: the arguments, and the derivatives by u and the values of F, or of F and G.
+#: Functions of u and of rational parameters: the arguments, and for F, or F and G, the derivative by u and the value.
 FAMILIES: dict[str, tuple[Any, ...]] = {
     "log": ("u", ("1/u", acb.log)),
     "atan": ("u", ("1/(1 + u**2)", acb.atan)),
@@ -548,10 +541,10 @@ FAMILIES: dict[str, tuple[Any, ...]] = {
         ),
     ),
 }
-#: These functions by F with all parameters larger by 1, and G = F': by their equations, for (a b/c) F is their derivative.
+#: A function in terms of F, the one with all parameters larger by 1, and G = F', by its equation: (a b/c) F is its derivative.
 NEIGHBOURS = {"1F1": "(u*G + (c - u)*F)/c", "2F1": "(u*(1 - u)*G + (c - (a + b + 1)*u)*F)/c"}
 CONSTANTS: dict[str, Callable[[Tower], Any]] = {
-    # between pi and other numbers no relation is known
+    # no relation between pi and other numbers is used
     "pi": lambda tower: tower.constant("pi", value=acb.pi()),
     "E": lambda tower: tower.exp(tower.number(1)),
     "I": lambda tower: tower.read("sqrt(-1)"),
@@ -567,7 +560,7 @@ CALLS: dict[str, Callable[..., Any]] = {
     "hyper": hypergeometric_value,
 }
 
-#: How strongly an operator binds, and what it does.
+#: The precedence of an operator, and its function.
 OPERATIONS: dict[str, tuple[int, Callable[[Any, Any], Any]]] = {
     "+": (1, add),
     "-": (1, sub),
@@ -594,7 +587,7 @@ class Reader:
         return value
 
     def expression(self, least: int) -> Any:
-        """As far as operators bind at least so strongly."""
+        """The expression as far as its operators have at least this precedence."""
         value = self.operand()
         while self.tokens[-1] in OPERATIONS and OPERATIONS[self.tokens[-1]][0] >= least:
             operator = self.tokens.pop()
@@ -616,7 +609,7 @@ class Reader:
         return self.tower.number(fmpq(fmpz(token))) if token.isdecimal() else self.named(token)
 
     def listed(self) -> tuple[list[Any], bool]:
-        """The expressions up to ")", and True if there is a comma: they form a tuple."""
+        """The expressions up to ")", and True for a tuple, that is, with a comma."""
         values = []
         has_commas = False
         while self.tokens[-1] != ")":
@@ -678,14 +671,14 @@ def modulo(f: Any, q: int) -> Any:
 
 
 def reduced(f: Any, q: int) -> Any:
-    """The same; the degree must be kept."""
+    """A polynomial over Q modulo q, which must keep its degree."""
     image = modulo(f, q)
     demand(image.degree() == f.degree(), f"{q} is a good prime")
     return image
 
 
 def image(f: Any, q: int, t: int, point: int) -> Any:
-    """f(z + point) in z modulo q, for a polynomial over K, of which t is the generator's image; the degree must be kept."""
+    """f(z + point) in z modulo q, for a polynomial over K whose generator has the image t; the degree must be kept."""
     total = sum((modulo(part, q) * pow(t, power, q) for power, part in over_k(f).items()), start=nmod([0], q))
     demand(total.degree() == degree(f), f"{q} is a good prime")
     return total.compose(nmod([point % q, 1], q)) if point else total
@@ -776,7 +769,7 @@ def points_of(f: Any, modulus: Any) -> list[tuple[AlgebraicPoint, int]]:
     """The roots of a polynomial over K, and their multiplicities.
 
     With R the norm of f(x - s t), a polynomial in x and s, R(r + s t, s) = 0, so that t = -R_s/R_x at x = r + s t [Rouillier,
-    AAECC 9 (1999)].  Whether the shift s is a good one shows by the result.
+    AAECC 9 (1999)].  The result shows whether the shift s is a good one.
     """
     if degree(f) <= 0:
         return []
@@ -799,7 +792,7 @@ def points_of(f: Any, modulus: Any) -> list[tuple[AlgebraicPoint, int]]:
 
 
 def frobenius(E: Any, M: Any, e: int, count: int, q: int) -> tuple[Any, bool]:
-    """The series a with t^e a a solution of t^2 E y'' = M y modulo q; False where it would need a logarithm."""
+    """The series a such that t^e a solves t^2 E y'' = M y modulo q; False if that would need a logarithm."""
     top = [int(c) for c in E.coeffs()]
     bottom = [int(c) for c in M.coeffs()] or [0]
     a = [1]
@@ -866,8 +859,11 @@ class LocalPlace(AlgebraicPoint):
 
     @cached_property
     def logarithm(self) -> bool:
-        """True if there is provably a logarithm: at a simple pole, for Delta = 0, and for Delta = n > 0 if the series with the
-        smaller exponent can't be continued at its n-th term, modulo a prime."""
+        """True if there is provably a logarithm.
+
+        At a simple pole, for Delta = 0, and for Delta = n > 0 if modulo a prime the series with the smaller exponent can't be
+        continued at its n-th term.
+        """
         if self.k == 1 or self.difference == 0:
             return True
         if self.k != 2 or self.difference is None or self.difference.q > 1:
@@ -882,7 +878,7 @@ class LocalPlace(AlgebraicPoint):
         return not frobenius(*self.local(g, q), (1 - n) * pow(2, -1, q) % q, n + 1, q)[1]
 
     def is_not_a_square(self) -> bool:
-        """True if `leading` is no square in K(r).  Proven by a prime modulo which it isn't one."""
+        """True if `leading` is no square in K(r), proven by a prime modulo which it isn't one."""
         return any(fmpz(int(reduced(self.leading, q)(g))).jacobi(q) == -1 for q, g in islice(self.roots(), 40))
 
     def least_valuation(self, m: int) -> Any:
@@ -934,7 +930,7 @@ class LocalPlace(AlgebraicPoint):
             yield self.continued(first, s, count, q)
 
     def first_coefficients(self, s0: int, q: int) -> list[int]:
-        """What w can begin with: one of the square roots of s_0 at an irregular place, one of the exponents at a regular one.
+        """The possible first coefficients of w: square roots of s_0 at an irregular place, exponents at a regular one.
 
         With a logarithm omega belongs to the solution without, which has the larger exponent.
         """
@@ -951,7 +947,7 @@ class LocalPlace(AlgebraicPoint):
         return [(1 + sign * delta) * half % q for sign in ((1,) if self.logarithm else (1, -1))]
 
     def continued(self, first: int, s: Any, count: int, q: int) -> Any:
-        """w with this first coefficient: z^(2 nu) (omega' + omega^2) = s, a term after the other.
+        """w with this first coefficient, term by term from z^(2 nu) (omega' + omega^2) = s.
 
         The coefficient of z^j in z^(2 nu) omega' is (j - 2 nu + 1) w_(j - nu + 1), and contains w_j itself where nu = 1.
         """
@@ -1009,7 +1005,7 @@ STRUCTURES = {
 }
 
 
-#: What is said of places in the necessary conditions, and what it means at each of them.
+#: The necessary conditions: their statement, and its meaning at each place that is named.
 RULES: dict[str, tuple[str, Callable[[LocalPlace, GroupStructure], bool]]] = {
     # The two solutions there are conjugate over the Laurent series, and so are their omegas.
     "ramified": (
@@ -1050,7 +1046,7 @@ RULES: dict[str, tuple[str, Callable[[LocalPlace, GroupStructure], bool]]] = {
 
 
 class Exclusions:
-    """What the group of y'' = S y isn't."""
+    """Structures that the group of y'' = S y doesn't have."""
 
     def __init__(self, S: TowerFunction, modulus: Any) -> None:
         affordable(max(degree(S.num), degree(S.den)), "the degree of S")
@@ -1088,7 +1084,7 @@ class Exclusions:
         demand((conditions, forms, omegas) in ((1, 0, 0), without_a_form), f"the group isn't {structure}")
 
     def condition(self, structure: str, item: dict[str, Any]) -> None:
-        """The rule holds at each of the places that are named; or these are all that can branch, fewer than two points."""
+        """The rule holds at each place that is named; or these are all that can branch, fewer than two points."""
         demand_keys(item, "a necessary condition", "kind rule places statement")
         statement, holds = RULES[item["rule"]]
         demand_equal(item["statement"], statement, "the statement")
@@ -1132,8 +1128,8 @@ class Exclusions:
     def dimension(self, m: int, prime: int | None = None, point: int | None = None) -> int:
         """An upper bound for the dimension of the rational forms of degree m, from expansions modulo a prime.
 
-        At an ordinary point a form is a sum of y1^(m-i) y2^i; divided by prod p^v it is a polynomial of degree `room`, so that
-        its terms beyond that are zero: as many equations as one likes, whose rank modulo a prime isn't larger than over K.
+        At an ordinary point a form is a sum of y1^(m-i) y2^i; divided by prod p^v it is a polynomial of degree at most `room`,
+        so its later terms are zero: any number of equations, whose rank modulo a prime isn't larger than over K.
         """
         room = self.room(m)
         if room < 0:
@@ -1179,7 +1175,7 @@ class Exclusions:
         else:
             demand(is_whole(prime) and name, "a prime and a place belong to a degree")
         zeros, is_bound = self.zeros
-        if not is_bound:  # of irrational exponents over another field the program knows less
+        if not is_bound:  # otherwise the program may have another bound
             demand_equal(item["degree"], zeros, "the largest number of zeros")
         if zeros >= 0:
             self.no_expansion(prime, name)
@@ -1356,7 +1352,7 @@ def as_json(number: int | None) -> int | str | None:
 
 
 def check_group(group: dict[str, Any], family: str, n: int | None, used: set[str]) -> None:
-    """Everything that is said of the group follows from its family; the evidence that is given is what was used."""
+    """Every claim about the group follows from its family, and the evidence is what was used."""
     demand_keys(group, "the group", "name order finite", "family n function orders")
     order = SIZES[family] * (n or 1) if family in SIZES else None
     size = as_json(order)
@@ -1651,7 +1647,7 @@ class FunctionOnCurve:
 
 
 class DivisorPoints(NamedTuple):
-    """The points over the roots of u, with y = v there, no two of them conjugate: what they are is told by (u, y - v)."""
+    """The points over the roots of u with y = v, no two of them conjugate, given by the ideal (u, y - v)."""
 
     u: Any
     v: Any
@@ -1661,8 +1657,8 @@ class DivisorPoints(NamedTuple):
 class ClassGroup:
     """The classes of divisors on y^2 = h modulo a prime, where h has an even degree and its first coefficient is no square.
 
-    The two points at infinity are conjugate, so that Points E of an even degree stand for the class of E less deg E/2 times
-    both; each class has Points of the degree deg h/2 at most, and 0 those without a point only [Cantor, Math. Comp. 48 (1987)].
+    The two points at infinity are conjugate, so points E of even degree stand for the class of E minus deg E/2 times both;
+    each class has points of degree at most deg h/2, and 0 only the empty set [Cantor, Math. Comp. 48 (1987)].
     """
 
     h: Any
@@ -1694,7 +1690,7 @@ class ClassGroup:
 # ------------------------------------------------------------------------------------------- answers
 
 REQUIRED = "schema input variable S status case riccati constants verified proof notices seconds"
-#: The other keys that an answer has; whatever else is there belongs to the user, as the lines and names of a batch.
+#: The other keys of an answer; any further ones are the user's, as the lines and names of a batch.
 OPTIONAL = "field letters equation gauge generic_conditions group solutions"
 NOT_LOOKED_AT = ("input", "notices", "seconds")
 NOT_LOOKED_AT_IN_THE_EQUATION = ("change", "f", "h", "text", "unknown")
@@ -1788,7 +1784,7 @@ class CheckedAnswer:
         self.exclusions = Exclusions(self.S, X if self.field is None else self.field.modulus)
 
     def check(self) -> str:
-        """Prove everything that is claimed; what was looked at, and what wasn't."""
+        """Prove every claim; the result names what was looked at, and what wasn't."""
         self.heading()
         checked = self.equation()
         self.case()
@@ -1810,7 +1806,7 @@ class CheckedAnswer:
         return f"{'; '.join(checked)}; not checked: {', '.join([*self.not_looked_at(checked), *unproven])}"
 
     def solutions(self) -> tuple[list[str], list[str]]:
-        """Two independent solutions: what was proven, and what was neither proven nor refuted."""
+        """Two independent solutions: the claims that were proven, and those that were neither proven nor refuted."""
         texts = self.data.get("solutions")
         if texts is None:
             return [], []
@@ -1843,7 +1839,7 @@ class CheckedAnswer:
         return ["solutions"], []
 
     def coefficients(self) -> list[str] | None:
-        """Those of the equation that the solutions solve, a, b and c; None where the variable was changed."""
+        """The coefficients a, b, c of the equation of the solutions; None after a change of variable."""
         equation: Any = self.data.get("equation")
         if equation is None:
             return ["1", "0", f"-({self.data['S']})"]
@@ -1852,7 +1848,7 @@ class CheckedAnswer:
         return [equation["a"], equation["b"], equation["c"]]
 
     def heading(self) -> None:
-        """What is said in more than one place is the same."""
+        """Keys that repeat each other agree."""
         data = self.data
         structure = self.structure
         demand_equal(data["verified"], True, "what the answer says of its own check")
@@ -1888,7 +1884,7 @@ class CheckedAnswer:
         return ["y'' = S y from a, b, c", "gauge"]
 
     def input(self) -> list[str]:
-        """Where S itself was given, in the notation that can be read here, it is this S; any other notation isn't looked at."""
+        """S is that of the input, if S itself was given, in a notation that can be read here."""
         text = self.data["input"]
         demand(isinstance(text, str), "the input is a text")
         text = text.replace("^", "**")
@@ -1907,7 +1903,7 @@ class CheckedAnswer:
         return []
 
     def not_looked_at(self, checked: list[str]) -> Iterator[str]:
-        """The keys that have no part in what was checked."""
+        """The keys without a part in the check."""
         looked_at = "input" if "S from input" in checked else ""
         yield from (key for key in NOT_LOOKED_AT if key in self.data and key != looked_at)
         equation = self.data.get("equation") or {}
@@ -2062,7 +2058,7 @@ def no_number(name: str) -> None:
 
 
 def verdict(line: str) -> str:
-    """What is to be said of one line."""
+    """The verdict on one line."""
     try:
         data = json.loads(line, object_pairs_hook=once, parse_constant=no_number)
         if not isinstance(data, dict) or repr(data.get("schema")) != "1":
@@ -2084,7 +2080,7 @@ def verdict(line: str) -> str:
 
 
 def verdicts(lines: Iterator[str], seconds: float = 60) -> Iterator[str]:
-    """The verdicts, found by a process that is ended, and replaced, where a line takes longer."""
+    """The verdicts, found by a process that is replaced if a line takes longer."""
     with multiprocessing.Pool(1) as pool:
         for line in lines:
             try:
