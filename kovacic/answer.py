@@ -1,7 +1,7 @@
 """The frozen data of an answer: the input, the decision, and properties that can be read off from these.
 
 Everything that has to be computed from an answer (its group, closed forms, ...) is a function in a room of its own, whose
-result is kept by `computed_once`: views and other users of an answer take this data, and depend on nothing above it.
+result is kept by `computed_once`: views and other users of an answer depend on this data, and on nothing above it.
 """
 
 from __future__ import annotations
@@ -22,7 +22,7 @@ _Computed = TypeVar("_Computed")
 
 
 class KnownParameters(Protocol):
-    """The assumptions about the parameters, as far as an answer uses them; `kovacic.parametric` has the class."""
+    """The assumptions about the parameters as an answer uses them; `kovacic.parametric` has the class."""
 
     def __bool__(self) -> bool:
         """True if anything was assumed."""
@@ -35,7 +35,7 @@ class KnownParameters(Protocol):
 
 @dataclass(frozen=True, repr=False)
 class Answer:
-    """The frozen data of an answer for one equation y'' = S y; `Solution`, which adds the methods, tells what each field is."""
+    """The frozen data of an answer for one equation y'' = S y; `Solution`, which adds the methods, describes each field."""
 
     text: str
     variable: str

@@ -95,12 +95,10 @@ def find_answer(
 def _text_of(S: Any, parsed: Parsed) -> str:
     """The input as given; in our own spelling if it is no text, or if constants became parameters.
 
-    After a change of variable the equation is another one: then SymPy's text of the input is taken.
+    After a change of variable the equation is another one: then the text is SymPy's of the input.
     """
     is_changed = parsed.equation is not None and parsed.equation.change is not None
-    if parsed.letters and not is_changed:
-        return parsed.text
-    if isinstance(S, str):
+    if isinstance(S, str) and (is_changed or not parsed.letters):
         return S.strip()
     if not is_changed or isinstance(S, Equation):
         return parsed.text
@@ -161,7 +159,7 @@ def _read_question(
     parameters: Sequence[str],
     limits: Limits,
 ) -> tuple[Any, Parsed, Mapping[Any, Any] | None]:
-    """The input with the values among the assumptions, as given and as it was read, and the other assumptions."""
+    """The input with the values among the assumptions, as given and as read, and the other assumptions."""
     names = declared(parameters, assume)
     given = {name: value for name, value in coefficients.items() if value is not None}
     if S is None and coefficients:
@@ -184,7 +182,7 @@ def _read_question(
 def _decided(
     parsed: Parsed, S: Any, assume: Mapping[Any, Any] | None, budget: Budget, *, certify: bool
 ) -> tuple[Decision, tuple[str, ...], bool, Assumptions | None]:
-    """The decision, the notices, whether it is proven for all values with the assumptions, and the assumptions as read."""
+    """The decision, the notices, True if it is proven for all values with the assumptions, and the assumptions as read."""
     decision = decide_structure(parsed.S, budget, certify=certify)
     if assume is None and parsed.S.field.ground == QQ:
         return decision, parsed.notices, False, None

@@ -1,6 +1,6 @@
-"""The `Solution` that `solve` returns: an answer with everything that can be asked of it as methods.
+"""The `Solution` that `solve` returns: an answer with all views of it as methods.
 
-This is the top: the methods call the rooms in which the views are computed, and no room knows of this class.
+This is the top: the methods call the rooms in which the views are computed, and no room knows this class.
 """
 
 from __future__ import annotations
@@ -45,12 +45,12 @@ class Solution(Answer):
     S : RatFunc
         The coefficient.
     decision : Decision
-        The claim with its certificates: the data behind `status`, `case`, `riccati`, `proof` and so on.
+        The claim with its certificates: the data of `status`, `case`, `riccati`, `proof` and so on.
     notices : tuple of str
         Notes on how the input was read: decimals taken as exact fractions, names taken as parameters, ...
     verified : bool
         True if the decision has passed its independent check, as each decided answer of `solve` has; False for an undecided
-        one, and for an answer that `from_json` read with `unverified` and that fails the check.
+        one, and for an answer that fails the check, which only `from_json` with `unverified` returns.
     seconds : float or None
         Wall-clock time of reading, deciding and verifying together; None for an answer that was read from JSON.
     equation : Equation or None
@@ -58,7 +58,7 @@ class Solution(Answer):
     assumed : bool
         True if a theorem proves the answer for all values with the assumptions, `known`, except those that the notices name.
     limits : Limits
-        Those of each view that is computed later: one that would take longer raises `LimitExceeded`, and the groups are None.
+        The limits of each view: one that would take longer raises `LimitExceeded`, and the groups are None.
     known : Assumptions or None
         The assumptions about the parameters.
 
@@ -76,7 +76,6 @@ class Solution(Answer):
 
     @classmethod
     def _of(cls, answer: Answer) -> Solution:
-        """The answer with its methods."""
         solution = cls.__new__(cls)
         solution.__dict__.update(answer.__dict__)
         return solution
@@ -111,7 +110,7 @@ class Solution(Answer):
 
     @property
     def special(self) -> SpecialFunctions:
-        """Two solutions in Airy's, Bessel's, Kummer's or Gauss' functions, or which classes of these were searched in vain.
+        """Two solutions in Airy's, Bessel's, Kummer's or Gauss' functions, or the classes that were searched in vain.
 
         Assumptions about parameters are used: hermite(n, x) for natural n.  An exhausted limit is a value, `stopped`.
         """
@@ -152,6 +151,7 @@ class Solution(Answer):
             from kovacic.enclosure.evaluate import evaluate
             from kovacic.enclosure.request import Request
 
+            # Unknown keywords are refused in the name of this method; `derivative` is one of `evaluate` alone.
             Request.of("at", {name: value for name, value in keywords.items() if name != "derivative"})
             return evaluate(self, x, **keywords)
 
@@ -256,7 +256,7 @@ class Solution(Answer):
         Returns
         -------
         Agreement
-            `verdict` is False (a proof that it isn't this group), True, or None if matrices can't tell; `reason` says why.
+            `verdict` is False (a proof that it isn't this group), True, or None if matrices can't tell, with the `reason`.
 
         Raises
         ------
@@ -306,18 +306,13 @@ class Solution(Answer):
 
     @limited
     def to_json(self, *, full: bool = False) -> str:
-        """The answer as one line of JSON, schema 1, which `from_json` reads and verifies again.
+        """The answer as one line of JSON, schema 1 (`kovacic/views/schema.json`), which `from_json` reads and verifies again.
 
         Parameters
         ----------
         full : bool
-            True adds what has to be computed: the group, two solutions in closed form, and the coefficients of the polynomial
-            of omega if its degree is 6 or 12.  False by default.
-
-        Returns
-        -------
-        str
-            ASCII without a line break; `kovacic/views/schema.json` describes it.
+            True adds the group, two solutions in closed form, and the coefficients of the polynomial of omega if its degree
+            is 6 or 12.  False by default.
 
         Raises
         ------
@@ -350,7 +345,7 @@ class Solution(Answer):
         Parameters
         ----------
         text : str or mapping
-            The line of JSON, or the object that it stands for.
+            The line of JSON, or its object.
         limits : Limits
             Bounds on the work; by default those of `Limits()`.
         unverified : bool
@@ -359,7 +354,7 @@ class Solution(Answer):
         Returns
         -------
         Solution
-            Equal to the one that was written; `seconds` and `notices` are copied from the text unchecked.
+            Equal to the one that was written; `seconds` and `notices` aren't checked.
 
         Raises
         ------
@@ -381,10 +376,10 @@ class Solution(Answer):
 
     @limited
     def explain(self, *, format: str = "text", solutions: bool = True) -> str:
-        """The derivation as a reader of Kovacic's paper follows it: the paper's steps, then the claims of this package.
+        """The derivation for a reader of Kovacic's paper: the paper's steps, then the claims of this package.
 
-        The text says which formulas are too long to be printed, and which parts would have taken longer than the limits allow.
-        In HTML, formulas that there is no time to typeset stand as text.
+        It names the formulas that are too long to be printed, and the parts that would have taken longer than the limits allow;
+        in HTML, formulas that there is no time to typeset are text.
 
         Parameters
         ----------
@@ -393,7 +388,7 @@ class Solution(Answer):
             self-contained page in ASCII, with MathML and, for rational coefficients if matplotlib is installed, a picture of
             real solutions.  Any other raises `ValueError`.
         solutions : bool
-            False leaves the closed forms out, which take the most time.  True by default.
+            False omits the closed forms, which take the most time.  True by default.
 
         Examples
         --------
@@ -411,7 +406,7 @@ class Solution(Answer):
         return explain_answer(self, format=format, solutions=solutions)
 
     def citation(self, *, style: str = "text") -> str:
-        """The publications that the answer rests on, one after the other.
+        """The publications that the answer rests on.
 
         Parameters
         ----------

@@ -1,4 +1,4 @@
-"""`kovacic.conditions`: for which values of the parameters is the equation solvable, with the solution at each."""
+"""`kovacic.conditions`: the parameter values for which an equation is solvable, with the solution at each."""
 
 from __future__ import annotations
 
@@ -49,7 +49,7 @@ class Conditions(ParametricAnswer):
         samples : int
             The number of points: 200 by default, fewer if the time is over.
         seed : int
-            The same points for the same seed, 1 by default.
+            Determines the points; 1 by default.
 
         Returns
         -------
@@ -102,12 +102,7 @@ class Conditions(ParametricAnswer):
         return theorem_text(self, format=format)
 
     def latex(self) -> str:
-        r"""The partition as a LaTeX `cases` environment; what isn't proven to be complete is said to hold for generic values.
-
-        Returns
-        -------
-        str
-            A formula without delimiters.
+        r"""The partition as a LaTeX `cases` environment, without delimiters; one that isn't proven to be complete says so.
 
         Examples
         --------
@@ -133,27 +128,22 @@ class Conditions(ParametricAnswer):
         steps: int = 48,
         fixed: Mapping[str, Any] | None = None,
     ) -> Any:
-        """A map of two parameters, or a strip for one, coloured by what the regions claim.
+        """A map of two parameters, or a strip for one, coloured by the claims of the regions.
 
-        It needs matplotlib (the extra `plot`).  Nothing is ever shown on a screen: a new figure has the Agg backend.
+        It needs matplotlib (the extra `plot`); no window is opened.
 
         Parameters
         ----------
         axes : matplotlib.axes.Axes
             Where to draw; by default a new figure.
         parameters : sequence of str
-            Which one or two; by default the first ones.
+            One or two names; by default the first ones.
         ranges : sequence of pairs
-            From and to, for each of them.
+            The ends of the range of each.
         steps : int
             Points in either direction: 48 by default.
         fixed : mapping
             The values of all other parameters.
-
-        Returns
-        -------
-        matplotlib.axes.Axes
-            Those that were drawn into.
 
         Raises
         ------
@@ -175,17 +165,12 @@ class Conditions(ParametricAnswer):
         return plot_map(self, axes, parameters, ranges, steps, fixed)
 
     def text(self, *, all: bool = False) -> str:
-        """The partition in lines: regions in a row with the same case are written together.
+        """The partition in lines, as `str` gives it: successive regions with the same case are written together.
 
         Parameters
         ----------
         all : bool
             Write every region; by default at most a screen of them.
-
-        Returns
-        -------
-        str
-            `str` gives the same.
 
         Examples
         --------
@@ -205,12 +190,7 @@ class Conditions(ParametricAnswer):
 
     @limited
     def explain(self) -> str:
-        """The partition, and for each region what it follows from: exponents, degrees, and solutions where they are known.
-
-        Returns
-        -------
-        str
-            Lines.
+        """The partition, and the reasons for each region: exponents, degrees, and solutions if they are known.
 
         Examples
         --------

@@ -1,8 +1,8 @@
 r"""Long formulas in LaTeX, written so that TeX can break their lines.
 
-TeX breaks a formula in a paragraph after + and =, but not inside of \frac{}{}, \sqrt{}, \left( \right), a power or braces.
-Where one of these is wider than a line, it is written on the line: (x + 1)/(x - 1), (x + 1)^{1/2}, \exp(...), plain
-parentheses.  Everything narrower is unchanged.
+TeX breaks a formula in a paragraph after + and =, but not inside \frac{}{}, \sqrt{}, \left( \right), a power or braces.
+If one of these is too wide, it is written on the line: (x + 1)/(x - 1), (x + 1)^{1/2}, \exp(...), plain parentheses.
+Everything narrower is unchanged.
 """
 
 from __future__ import annotations
@@ -18,8 +18,7 @@ LINE = 60
 _LATEX_TOKEN = re.compile(r"\\[A-Za-z]+|\\.|\d+|.", re.DOTALL)
 _BETWEEN_FACTORS = re.compile(r"(?:(?<=[})])(?<!_\{1\})|(?<=[^\w\\]\w)) *(?=\\sqrt|\\left|\\bigl|{}_)|(?<=[})]) (?=\()")
 _FRACTION_COMMANDS = (r"\frac", r"\tfrac")
-_WITH_NAME = (r"\operatorname", r"\text", r"\mathrm", r"\mathbb", r"\begin", r"\end", "_")
-_WITH_ARGUMENT = (*_WITH_NAME, "^")
+_WITH_ARGUMENT = (r"\operatorname", r"\text", r"\mathrm", r"\mathbb", r"\begin", r"\end", "_", "^")
 _WIDTHS = {"+": 2.4, "-": 2.4, "=": 2.4, r"\cos": 3, r"\sin": 3, r"\exp": 3}
 _NO_WIDTH = ("", "{", "}", "$", " ", r"\left", r"\right", r"\displaystyle", r"\,", r"\;")
 
@@ -42,7 +41,7 @@ def breakable(latex: str, line: float = LINE) -> str:
 
 
 def pieces(latex: str) -> list[str]:
-    """The parts of a breakable formula between the places where its lines may be broken; a sign begins one."""
+    """The parts of a breakable formula between possible line breaks; a sign begins a part."""
     found = [""]
     depth = 0
     before = ""
@@ -102,17 +101,15 @@ class _LineBreaker:
 
     def written(self, nodes: list[Node]) -> str:
         written = ""
-        k = 0
-        while k < len(nodes):
-            end = _end_of_construct(nodes, k)
-            construct = nodes[k:end]
+        while nodes:
+            end = _length_of_construct(nodes)
+            construct, nodes = nodes[:end], nodes[end:]
             # e^{...} with an exponent that has to be broken becomes exp(...).
             exponent = _nodes_of_argument(construct, 1) if construct[0] == "^" and len(construct) > 1 else []
             if written.endswith("e") and _width(exponent) > self.most:
                 written = rf"{written[:-1]}\exp\bigl({self.written(exponent)}\bigr)"
             else:
                 written += self._construct(construct)
-            k = end
         return written
 
     def _construct(self, nodes: list[Node]) -> str:
@@ -122,8 +119,8 @@ class _LineBreaker:
             return self.written(first) if _width(first) > self.most else _verbatim(nodes)
         if first == r"\sqrt":
             return self._root(nodes)
-        if first == r"\left":
-            return self._parentheses(nodes)
+        if first == r"\left" and nodes[1] == "(" and _width(nodes[2:-2]) > self.most:
+            return rf"\bigl({self._inside(nodes[2:-2])}\bigr)"
         if first in _FRACTION_COMMANDS and _width(nodes) > self.most:
             return f"{self._factor(_nodes_of_argument(nodes, 1))}/\\allowbreak {self._factor(_nodes_of_argument(nodes, 2))}"
         if first.isdigit() and len(first) > self.most / 2:
@@ -137,13 +134,6 @@ class _LineBreaker:
             return _verbatim(nodes)
         index = _verbatim(nodes[2:-2]) or "2"
         return rf"\bigl({self.written(inside)}\bigr)^{{1/{index}}}"
-
-    def _parentheses(self, nodes: list[Node]) -> str:
-        r"""\left( ... \right)."""
-        inner = nodes[2:-2]
-        if nodes[1] != "(" or _width(inner) <= self.most:
-            return _verbatim(nodes)
-        return rf"\bigl({self._inside(inner)}\bigr)"
 
     def _inside(self, nodes: list[Node]) -> str:
         """Between parentheses; parameters and argument of a hypergeometric function in one line, with semicolons."""
@@ -165,19 +155,16 @@ class _LineBreaker:
         return written if is_power or len(parts) == end else rf"\bigl({written}\bigr)"
 
 
-def _end_of_construct(nodes: list[Node], k: int) -> int:
-    """The index behind the construct that begins at k: a command with its arguments, a group, or a token."""
-    node = nodes[k]
-    if node == r"\sqrt":
-        has_index = nodes[k + 1 : k + 2] == ["["]
-        return nodes.index("]", k) + 2 if has_index else k + 2
-    if node == r"\left":
-        return _matching_right(nodes, k + 1) + 2
-    if node in _FRACTION_COMMANDS:
-        return k + 3
-    if node in _WITH_ARGUMENT:
-        return k + 2
-    return k + 1
+def _length_of_construct(nodes: list[Node]) -> int:
+    """The number of nodes of the first construct: a command with its arguments, a group, or a token."""
+    first = nodes[0]
+    if first == r"\sqrt":
+        return nodes.index("]") + 2 if nodes[1:2] == ["["] else 2
+    if first == r"\left":
+        return _matching_right(nodes, 1) + 2
+    if first in _FRACTION_COMMANDS:
+        return 3
+    return 2 if first in _WITH_ARGUMENT else 1
 
 
 def _matching_right(nodes: list[Node], k: int) -> int:

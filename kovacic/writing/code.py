@@ -1,4 +1,4 @@
-"""SymPy expressions as code of Mathematica, Maple and Julia: SymPy's printers, with our own names where theirs are wrong.
+"""SymPy expressions as code of Mathematica, Maple and Julia, by SymPy's printers with corrections.
 
 Maple's elliptic integrals take the sine of the amplitude and the modulus k, m = k^2, where SymPy has the amplitude and m.
 Julia's functions are those of SpecialFunctions.jl, HypergeometricFunctions.jl (pFq) and Elliptic.jl.  Functions that a language
@@ -197,8 +197,10 @@ def _printer(language: _Language) -> Any:
 
 
 def _pattern_arguments(expr: Expr) -> tuple[Expr, ...]:
-    """The arguments for a pattern: of a simple integral the integrand, the variable, and the ends if it has any; of a sum over
-    roots p, f(a) and a, which is no letter of f."""
+    """The arguments for a pattern.
+
+    Of an integral: the integrand, the variable, and the ends if there are any; of a sum over roots: p, f(a), a new letter a.
+    """
     if isinstance(expr, sympy.Integral) and len(expr.limits) == 1:
         return (expr.function, *expr.limits[0])
     if isinstance(expr, sympy.RootSum):

@@ -1,6 +1,6 @@
-"""A map of two parameters as matplotlib draws it: a coloured cell around each point, and a legend of what occurs.
+"""A map of two parameters by matplotlib: a coloured cell around each point, and a legend.
 
-matplotlib is imported here only, with a canvas of its own: no window is opened, and the state of pyplot isn't touched.
+matplotlib gets a canvas of its own: no window is opened, and the state of pyplot isn't touched.
 """
 
 from __future__ import annotations
@@ -16,8 +16,6 @@ from kovacic.numbers.numerals import in_a_message
 
 #: The range of doubles, in which pictures are drawn.
 FARTHEST = 10**300
-#: Cells of a map, as many as the pixels of a large screen.
-_MOST_CELLS = 4_000_000
 
 
 @dataclass(frozen=True)
@@ -36,8 +34,8 @@ def edges(values: Sequence[Fraction]) -> list[float]:
 
 
 def check_size(height: int, width: int) -> None:
-    """Raise `InputError` for a map of more points than a screen has pixels."""
-    if height * width > _MOST_CELLS:
+    """Raise `InputError` for a map of more points than a large screen has pixels."""
+    if height * width > 4_000_000:
         raise InputError(f"a map of {in_a_message(height)} x {in_a_message(width)} points is too large for a picture")
 
 
@@ -58,7 +56,7 @@ def draw_cells(
     cells: Sequence[Sequence[int]],
     kinds: Sequence[CellKind],
 ) -> list[Any]:
-    """Rows of numbers of `kinds`, from below; a single row without values `upwards`.  Returns the legend of what occurs."""
+    """Rows of numbers of `kinds`, from below; a single row without values `upwards`.  Returns the entries of the legend."""
     from matplotlib.colors import BoundaryNorm, ListedColormap
     from matplotlib.patches import Patch
 
