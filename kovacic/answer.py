@@ -93,7 +93,7 @@ class Answer:
 
     @property
     def omega(self) -> RatFunc | None:
-        """omega = y'/y where it is rational (case 1), else None.  The solution is exp(int omega dx)."""
+        """omega = y'/y if it is rational (case 1), else None.  The solution is exp(int omega dx)."""
         riccati = self.decision.riccati
         return -riccati.coefficients[0] if riccati is not None and riccati.degree == 1 else None
 

@@ -94,7 +94,7 @@ def solutions(answer: Answer) -> tuple[Any, ...]:
 def special(answer: Answer) -> SpecialFunctions:
     """Two solutions in Airy's, Bessel's, Kummer's or Gauss' functions, or which classes of these were searched in vain.
 
-    What was assumed about parameters is used: hermite(n, x) for natural n.  An exhausted limit is a value, `stopped`.
+    Assumptions about parameters are used: hermite(n, x) for natural n.  An exhausted limit is a value, `stopped`.
     """
     from kovacic.special.search import special_functions
     from kovacic.special.writer import Wanted
@@ -113,7 +113,7 @@ def special(answer: Answer) -> SpecialFunctions:
 
 
 def _in_given_symbols(answer: Answer, found: Any) -> Any:
-    """`found` with y1 and y2 in what the letters for constants stand for."""
+    """`found` with the constants in place of their letters in y1 and y2."""
     if not answer.letters:
         return found
     from sympy import Symbol

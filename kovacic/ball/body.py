@@ -231,7 +231,7 @@ class Rolling:
 class InRoots(Rolling):
     """All balls with R/R1 = rho, a SymPy expression, and different roots x1, x2 of D: D/l = (x - x1)(x - x2).
 
-    Of the body, only A3/A1 occurs besides.
+    The only other parameter of the body in the equations is A3/A1.
     """
 
     def __init__(self, rho: sp.Expr) -> None:

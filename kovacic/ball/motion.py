@@ -417,7 +417,7 @@ def _contact_frame(ball: Dynamics, state: MotionStart) -> Array:
 
 
 def _follow(ball: Dynamics, force: Force, y: Array, rate: float) -> dict[str, Any]:
-    """Fields of `Motion`: one oscillation from y, some time of a steady motion, or an asymptotic one as far as it is known."""
+    """Fields of `Motion`: one oscillation from y, some time of a steady motion, or an asymptotic one as far as determined."""
 
     def distances(states: Array) -> Array:
         return unsteadiness(states, np.array(ball.rates(force.slope, states)), rate)

@@ -52,12 +52,12 @@ def draw(motion: Motion, times: Array, file: Path | str, *, title: str = "") -> 
     axes.legend(loc="upper right", ncols=3, fontsize=9)
     figure.suptitle(title)
     target = Path(file).resolve()  # through a symbolic link, which stays one
-    beside = target.with_name(f"{target.stem}.{os.getpid()}{target.suffix}")
+    unfinished = target.with_name(f"{target.stem}.{os.getpid()}{target.suffix}")
     try:
-        figure.savefig(beside)
-        beside.replace(target)
+        figure.savefig(unfinished)
+        unfinished.replace(target)
     finally:
-        beside.unlink(missing_ok=True)
+        unfinished.unlink(missing_ok=True)
 
 
 def _draw_path(axes: Any, points: Array, kappa: float) -> None:

@@ -184,9 +184,9 @@ class Solution(Answer):
         interval : pair of numbers
             The ends of an interval without singular points, or opposite corners of a rectangle.
         careful : bool, optional
-            Whether products are computed with compensation for rounding.
+            True compensates for rounding in products, False doesn't; chosen by default.
         check : bool
-            Whether the error is measured.
+            False skips the measurement of the error.
 
         Examples
         --------

@@ -1,6 +1,6 @@
 """The literature, and the references that an answer rests on.
 
-`references.bib`, beside this file, has the publications, with a field `use` that says for what this package uses each.
+`references.bib`, next to this file, has the publications; the field `use` says what this package uses each for.
 """
 
 from __future__ import annotations

@@ -1,4 +1,4 @@
-"""Answers as JSON, schema 1: a contract, described by `schema.json` beside this file.
+"""Answers as JSON, schema 1: a contract, described by `schema.json` next to this file.
 
     {"schema": 1, "input": "2", "variable": "x", "S": "2", "status": "liouvillian", "case": 1,
      "riccati": {"variable": "w", "degree": 1, "coefficients": ["-c", "1"]},
@@ -8,11 +8,11 @@
 Coefficients run from low to high, in Python/SymPy syntax in the variable and the symbol of the constants; the last one is
 "1".  Those of degree 6 and 12 are null unless requested: they follow from the semi-invariant by the recurrence of
 `kovacic.verify.identity`, and would be most of the answer.
-`proof` has the data for a check beside the polynomial: the semi-invariant of omega as prod D^... exp(int theta) P, or, where
-P is too long, both being null, `series`, theta with the powers that P has about a point; the
-rational invariant that was found, the evidence against everything excluded, and the reason of an undecided equation.
+`proof` has the further data for a check: the semi-invariant of omega as prod D^... exp(int theta) P, or for a P that is too
+long, both being null, `series`, theta with the powers in P about a point; the rational invariant; the evidence against
+everything excluded; and the reason of an undecided equation.
 `group`, on request, has the name, the order, and the family of the group with its parameter n; on a curve of positive genus
-also the function, in pieces, that shows whether it is finite, or the orders modulo primes that show an infinite one.
+also the function, in pieces, that shows whether it is finite, or the orders modulo primes that show an infinite group.
 Keys may be added within schema 1; none is removed or changes its meaning.
 """
 

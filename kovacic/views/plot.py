@@ -80,8 +80,8 @@ class SampledCurve:
 
     runs: tuple[tuple[Arc | Envelope, ...], ...]
     singular: tuple[complex, ...]
-    irregular: tuple[complex, ...]  # those among them beside which solutions are as large as exp(1/distance)
-    initial: Start  # the values that were missing among them
+    irregular: tuple[complex, ...]  # those near which solutions are as large as exp(1/distance)
+    initial: Start  # with the default values
 
     def times(self, factor: float) -> SampledCurve:
         """The curve of a multiple of the solution."""

@@ -168,14 +168,14 @@ class Steps:
 
     def _counted(self, search: Search, case: int) -> Block:
         """Step 2: the number of families of exponents, and of those with a natural number d."""
-        said = f"{search.total} family of exponents" if search.total == 1 else f"{search.total} families of exponents"
+        count = f"{search.total} {'family' if search.total == 1 else 'families'} of exponents"
         if search.natural is not None:
-            said += f", {self.d} is a natural number in {search.natural or 'none'} of them"
-            if case == 2:
-                said += " (with an odd e)"
+            count += f", {self.d} is a natural number in {search.natural or 'none'} of them" + " (with an odd e)" * (
+                case == 2
+            )
         if parameters_of(self.formulas.field):
-            said += " for generic parameters"
-        return say("Step 2: ", self.degree(case), f"; {said}.")
+            count += " for generic parameters"
+        return say("Step 2: ", self.degree(case), f"; {count}.")
 
     def _families(self, search: Search, families: Sequence[Family]) -> Iterator[Block]:
         """The exponents of each, d, and P if there is one."""
@@ -204,8 +204,8 @@ class Steps:
             yield say("Step 3 isn't written out: it would take too long, or too many square roots at once.")
         if tried:
             yield say(f"Step 3: {self.P} of degree {self.d}, with")
-            for said in _EQUATIONS[case]:
-                yield Formula(Math(said.text.replace("P", self.P), said.latex.replace("P", self.P)))
+            for equation in _EQUATIONS[case]:
+                yield Formula(Math(equation.text.replace("P", self.P), equation.latex.replace("P", self.P)))
         for family in tried[-SCREEN_LINES:]:
             yield from self._trial(family)
 

@@ -69,8 +69,8 @@ def render(
     if is_gauged:
         over = "" if answer.change is None else f", over {answer.change.field}"
         yield f"  normal form: {normal_form_of(answer).text}, to which case and omega belong{over}"
-    said, more = verdict_in_words(answer)
-    yield f"  {style(said, _ROLES[said])}: {visible(more)}"
+    found, more = verdict_in_words(answer)
+    yield f"  {style(found, _ROLES[found])}: {visible(more)}"
     if solutions is not None:
         yield from _indented(solutions)
     if answer.riccati is not None or answer.series is not None:
@@ -102,11 +102,11 @@ def _how_verified(answer: Answer) -> str:
     if answer.status is Status.NONE_EXISTS:
         return "every exclusion was recomputed by independent code"
     if answer.status is Status.UNDECIDED:
-        return "what was excluded before the limit was recomputed by independent code"
+        return "every exclusion before the limit was recomputed by independent code"
     if answer.series is not None:
         return "the recurrence for P, and where it ends, were recomputed by independent code"
     if answer.proof:
-        return "omega' + omega^2 = S holds exactly, and what was excluded was recomputed by independent code"
+        return "omega' + omega^2 = S holds exactly, and every exclusion was recomputed by independent code"
     return "omega' + omega^2 = S holds exactly"
 
 

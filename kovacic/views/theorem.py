@@ -100,12 +100,11 @@ class _TheoremWriter:
         yield from self._exceptions()
         equation = self.answer.equation
         if equation is not None and (self.change or not equation.is_normal_form):
-            said: list[str | Math] = ["Cases and groups are those"]
-            if not equation.is_normal_form:
-                said.append(" of the normal form")
-            if self.change:  # the field isn't C(x)
-                said += [" over ", generated_field(self.change.expression)]
-            yield say(*said, ".")
+            of = " of the normal form" * (not equation.is_normal_form)
+            over: list[str | Math] = (
+                [" over ", generated_field(self.change.expression)] if self.change else []
+            )  # a field other than C(x)
+            yield say(f"Cases and groups are those{of}", *over, ".")
         yield from self._delta(cases)
         yield from self._proof()
 
@@ -189,8 +188,8 @@ class _TheoremWriter:
     def _assumed(self, name: str) -> list[str | Math]:
         """`, n a nonnegative integer, E > 0`."""
         found: list[str | Math] = []
-        said = self.answer.assumptions.of(name).words
-        words = [word for word in said if word in WORDS]
+        assumed = self.answer.assumptions.of(name).words
+        words = [word for word in assumed if word in WORDS]
         if words:
             # The adjectives, and then the noun: nonnegative integer.
             nouns = [word for word in words if word in _NOUNS]
@@ -198,7 +197,7 @@ class _TheoremWriter:
             kind = " ".join([*(word for word in words if word not in _NOUNS), *(nouns or [usual])])
             article = "an" if kind[0] in "aeio" else "a"
             found += [", ", Math.of(name), f" {article} {kind}"]
-        for bound in (bound for bound in said if bound not in WORDS):
+        for bound in (word for word in assumed if word not in WORDS):
             sign = bound.rstrip("0123456789/+-")
             found += [", ", Math.of(f"{name} {sign} {bound.removeprefix(sign)}")]
         return found
@@ -227,7 +226,7 @@ class _TheoremWriter:
         right = Math(f"({fractions.text}) {y}", rf"\left({fractions.latex}\right) {latex_text(y)}")
         return Math.of(f"{y}''").equals(right)
 
-    # What is claimed
+    # The claim
 
     def _claim(self, cases: list[Case]) -> str:
         is_complete = self.answer.complete is True
@@ -514,7 +513,7 @@ def _determinant_table(natural: Natural, number: int) -> Iterator[Block]:
             yield say(delta, f" is given by {NO_FORMULA}.")
             return
         for value, places in found.items():
-            said: Sentence = value if value == NO_FORMULA else Math.of(value)
-            rows.append([str(d), [*places], said])
+            shown: Sentence = value if value == NO_FORMULA else Math.of(value)
+            rows.append([str(d), [*places], shown])
     if rows:
         yield Table([Math.of(natural.letter), "where", delta], rows)

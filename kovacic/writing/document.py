@@ -179,7 +179,7 @@ def mathml(latex: str, display: str = "inline") -> str:
 
     check_time()
     written = convert(latex, display=display)
-    # Browsers set no space beside the name of a function: t sin x would be tsinx.
+    # Browsers set no space around the name of a function: t sin x would be tsinx.
     written = re.sub(
         r"(</m(?:i|n|row|sup|sub|sqrt|root|frac)>)((?:<msup>)?<mi>[a-z]{2,}</mi>)", rf"\1{_THIN}\2", written
     )
