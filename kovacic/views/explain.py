@@ -296,8 +296,7 @@ class ExplanationWriter:
         if found:
             yield Heading("Solutions" if self.answer.case else "Solutions in special functions")
         for name, y in found:
-            text = shortened(y.text)
-            yield Formula(name.equals(y if text == y.text else Math(text, r"\text{(too long to print)}")))
+            yield Formula(name.equals(y.shortened))
         yield from (say(f"Note: {note}.") for note in notes)
 
     def group(self) -> Iterator[Block]:

@@ -18,12 +18,9 @@ from kovacic.decision import (
     TerminatingSeries,
 )
 from kovacic.equation import Parsed
-from kovacic.errors import LimitExceeded
 from kovacic.numbers.numerals import as_text, in_a_message
 from kovacic.writing.formula import Formulas, Math, caret, latex_text, of_sympy, separated
 
-#: Degree of P up to which solutions are written out.
-_HIGHEST_WRITTEN = 300
 #: Verdicts.
 SOLVABLE = "Liouvillian solutions exist"
 UNSOLVABLE = "no Liouvillian solution exists"
@@ -141,9 +138,6 @@ def solutions_of(answer: Answer) -> tuple[list[tuple[Math, Math]], tuple[str, ..
 
     Raises `LimitExceeded` for formulas that are too long to be printed, and if the time is over.
     """
-    semi = answer.semi_invariant
-    if semi is not None and semi.P.degree > _HIGHEST_WRITTEN:
-        raise LimitExceeded(f"P has the degree {semi.P.degree}; --json --full has it", limit="degree")
     form = derived.closed_form(answer)
     pair: Iterable[Any] = derived.special(answer) if form is None else form
     y = "y" if answer.equation is None else answer.equation.unknown

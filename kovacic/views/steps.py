@@ -228,7 +228,7 @@ class Steps:
 
     def _shown(self, value: Any) -> Math:
         check_time()
-        return of_sympy(in_sympy(value, self.x))
+        return of_sympy(in_sympy(value, self.x)).shortened
 
     def _point(self, point: SingularPoint) -> Math:
         if point.at is None:

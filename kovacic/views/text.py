@@ -27,7 +27,7 @@ from kovacic.views.sentences import (
     verdict_in_words,
 )
 from kovacic.writing.escaped import in_one_line
-from kovacic.writing.formula import Math, shortened
+from kovacic.writing.formula import Math
 
 if TYPE_CHECKING:
     from kovacic.writing.document import Sentence
@@ -125,7 +125,7 @@ def solution_lines(answer: Answer) -> Iterator[str]:
     equation: two in special functions, if any were found.
     """
     found, notes = _solutions_in_time(answer)
-    named = [f"{name.text} = {shortened(value.text)}" for name, value in found]
+    named = [name.equals(value.shortened).text for name, value in found]
     if answer.case is not None:
         yield from named
     elif named:
@@ -186,8 +186,8 @@ def _rows_of_solutions(answer: Answer) -> Iterator[tuple[Sentence, Sentence]]:
     """Two solutions, notes, and how the closed form was checked."""
     found, notes = _solutions_in_time(answer)
     for name, value in found:
-        text = shortened(value.text)
-        yield name, value if text == value.text else Math(text, "")
+        short = value.shortened
+        yield name, value if short == value else Math(short.text, "")
     for note in notes:
         yield "note", note
     form = derived.closed_form(answer) if found else None

@@ -101,9 +101,9 @@ class _TheoremWriter:
         equation = self.answer.equation
         if equation is not None and (self.change or not equation.is_normal_form):
             of = " of the normal form" * (not equation.is_normal_form)
-            over: list[str | Math] = (
-                [" over ", generated_field(self.change.expression)] if self.change else []
-            )  # a field other than C(x)
+            over = ("", Math("", ""))
+            if self.change:  # the field isn't C(x)
+                over = (" over ", generated_field(self.change.expression))
             yield say(f"Cases and groups are those{of}", *over, ".")
         yield from self._delta(cases)
         yield from self._proof()

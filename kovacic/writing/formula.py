@@ -85,6 +85,12 @@ class Math:
         """The LaTeX of each line."""
         return self.latex.removeprefix(_FIRST_LINE).removesuffix(_LAST_LINE).split(_NEXT_LINE)
 
+    @property
+    def shortened(self) -> Math:
+        """The formula if its text is at most a screen long, else the beginning of the text."""
+        text = shortened(self.text)
+        return self if text == self.text else Math(text, r"\text{(too long to print)}")
+
     def equals(self, value: Math) -> Math:
         return Math(f"{self.text} = {value.text}", f"{self.latex} = {value.latex}")
 
