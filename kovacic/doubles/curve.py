@@ -93,31 +93,25 @@ def curve_coefficients(chart: PieceChart, points: Points) -> CurveCoefficients:
     for point in points:
         check_time()
         a, b, c, *_ = ([float(v.mid()) for v in part] + [0.0, 0.0] for part in chart.local(point, 0, 2))
-        # (b/a)' at the point, where a = 1.
-        slope_of_b = b[1] - b[0] * a[1]
-        rows.append((b[0] / 2, slope_of_b / 2 + b[0] ** 2 / 4 - c[0]))
-    beta, S = np.array(rows).T
-    return CurveCoefficients(np.array([float(point.re) for point in points]), beta, S)
+        # (b/a)' = b' - b a' at the point, where a = 1.
+        rows.append((float(point.re), b[0] / 2, (b[1] - b[0] * a[1]) / 2 + b[0] ** 2 / 4 - c[0]))
+    return CurveCoefficients(*np.array(rows).T)
 
 
 def arcs(
-    chart: PieceChart,
-    interval: tuple[Fraction, Fraction],
-    width: Fraction,
-    points: int,
-    states: SolutionStates,
+    chart: PieceChart, interval: tuple[Fraction, Fraction], width: Fraction, points: int, states: SolutionStates
 ) -> list[Arc | Envelope]:
     """The curve over an interval without singular points, of a picture of this width with this many samples or more.
 
     `states` gives y and y' in balls.  Raises `LimitExceeded` where more than 400,000 samples would be needed.
     """
     _check_count(points)
-    # S is looked at in equidistant points, and in nearer and nearer ones beside singular points.
+    # S is computed at equidistant points, and at nearer and nearer ones beside singular points.
     low, high = interval
     count = max(8, round(800 * (high - low) / width))
-    chosen = {low + (high - low) * Fraction(k, count) for k in range(count + 1)}
-    chosen.update(Fraction(x) for x in _beside_singular_points(chart, float(low), float(high)))
-    here = curve_coefficients(chart, [ExactPoint(x) for x in sorted(chosen)])
+    equidistant = {low + (high - low) * Fraction(k, count) for k in range(count + 1)}
+    beside = map(Fraction, _beside_singular_points(chart, float(low), float(high)))
+    here = curve_coefficients(chart, [ExactPoint(x) for x in sorted(equidistant.union(beside))])
     if not np.isfinite(here.S).all():  # there the states raise the reason, or nothing oscillates
         states([ExactPoint(Fraction(float(at))) for at in here.x[~np.isfinite(here.S)]])
         here = here._replace(S=np.nan_to_num(here.S))
@@ -156,7 +150,7 @@ def _stretches(kind: NDArray[np.bool_]) -> list[tuple[int, int]]:
 
 
 def _arc(part: CurveCoefficients, width: Fraction, points: int, states: SolutionStates) -> Arc:
-    """Samples by the local frequency, then halved where the cubic between two isn't good enough."""
+    """Samples by the local frequency, and in the middle of intervals on which the cubic isn't good enough."""
     # The requested number on the whole width, and 12 in each period.
     density = np.maximum(points / float(width), 12 * part.frequency / (2 * np.pi))
     steps = np.maximum(density[1:], density[:-1]) * np.diff(part.x)
@@ -191,18 +185,17 @@ def _halved(
     missed = np.abs(cubic - new.y) > allowed
     merged = Arc(*(np.insert(known, right, one) for known, one in zip(arc, new, strict=True)))
     still = np.zeros(len(merged.x) - 1, dtype=bool)
-    # Each sample that was inserted moves the next ones by one.
-    places = right + np.arange(len(right))  # of the new samples
-    still[places[missed] - 1] = True
-    still[places[missed]] = True
+    # The places of the new samples: each one that was inserted moves the next ones by one.
+    places = (right + np.arange(len(right)))[missed]
+    still[places - 1] = still[places] = True
     return merged, still
 
 
 def _envelope(chart: PieceChart, part: CurveCoefficients, width: Fraction, states: SolutionStates) -> Envelope:
-    low = part.x[0]
-    high = part.x[-1]
+    """The amplitude at 300 points across the whole width, and beside singular points."""
+    low, high = float(part.x[0]), float(part.x[-1])
     count = max(8, int(300 * (high - low) / float(width)))
-    x = np.unique(np.append(np.linspace(low, high, count + 1), _beside_singular_points(chart, float(low), float(high))))
+    x = np.unique(np.append(np.linspace(low, high, count + 1), _beside_singular_points(chart, low, high)))
     here = curve_coefficients(chart, [ExactPoint(Fraction(float(at))) for at in x])
     samples = _with_samples(x, states)
     q = here.frequency
@@ -210,12 +203,12 @@ def _envelope(chart: PieceChart, part: CurveCoefficients, width: Fraction, state
     velocity = samples.dy + here.beta * samples.y
     # There is no envelope where nothing oscillates.
     turned = np.divide(velocity, q, out=np.full_like(velocity, np.nan), where=q != 0)
-    real = np.hypot(samples.y.real, turned.real)
-    imaginary = np.hypot(samples.y.imag, turned.imag)
+    real, imaginary = np.hypot(samples.y.real, turned.real), np.hypot(samples.y.imag, turned.imag)
     return Envelope(x, real, imaginary, _periods(part.x, part.frequency))
 
 
 def _periods(x: Floats, frequency: Floats) -> float:
+    """The number of periods."""
     return float(np.trapezoid(frequency, x) / (2 * np.pi))
 
 

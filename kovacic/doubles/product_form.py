@@ -9,10 +9,9 @@
 - |turn_j| = 1, and (x - zeta_j)/turn_j > 0 at the middle of the interval, so that the principal power is the continuous
   one along the straight line from there: a quotient of points on a line that misses 0 never meets the negative real axis.
 
-In the careful variant the arithmetic is that of double-doubles: huge exponents, and factors that cancel, cost neither range nor
-digits.  Plain doubles lose half a unit in the last place for each factor, the rounding error of the exponent times its size,
-and values whose factors leave the range of doubles, although they don't.  Nothing is proven about rounding errors here;
-`kovacic.doubles.lambdify` measures them.
+With the careful arithmetic of double-doubles, huge exponents and factors that cancel cost neither range nor digits.  Plain
+doubles lose half a unit in the last place for each factor, the rounding error of the exponent times its size, and values whose
+factors leave the range of doubles, although they don't.  `kovacic.doubles.lambdify` measures the errors; none is proven.
 """
 
 from __future__ import annotations
@@ -66,13 +65,12 @@ class RootFactor:
     def whole(self) -> int | None:
         """The power, if it is an integer up to 8 in absolute value: it is multiplied out."""
         k = self.power.re.hi
-        is_small = self.power.im is None and abs(k) <= 8
-        return round(k) if is_small and k == round(k) else None
+        return round(k) if self.power.im is None and abs(k) <= 8 and k == round(k) else None
 
     @property
     def is_natural(self) -> bool:
         """True if the power is a small nonnegative integer."""
-        return self.whole is not None and self.whole >= 0
+        return self.whole in range(9)
 
 
 @dataclass(frozen=True)
@@ -262,15 +260,15 @@ class ProductForm:
             product.multiply(f, growth)
         nothing = 0.0 * x.real  # of the shape of x, where no term is
         total = sum(growth, Complex(_with_low_part(nothing) if careful else nothing))
-        if self.is_real:
-            total = Complex(total.re)
         value = product.value or Complex(np.ones(x.shape))
-        return (value if self.constant is None else value * self.constant), product.binary, total
+        if self.constant is not None:
+            value *= self.constant
+        return value, product.binary, Complex(total.re) if self.is_real else total
 
 
 def _with_low_part(v: Any) -> Any:
-    """The numbers as double-doubles."""
-    return v if isinstance(v, Pair) else Pair(v, 0.0 * v)
+    """The doubles as double-doubles."""
+    return Pair(v, 0.0 * v)
 
 
 class _Product:
@@ -312,20 +310,18 @@ class _Product:
                 pieces = [math.prod(pieces[1:], start=d).reciprocal()]
             for piece in pieces:
                 self._times(piece, degree)
-        elif is_real and power.im is None and not self.careful:
+            return
+        if is_real and power.im is None and not self.careful:
             self._times(Complex(np.power(d.re, power.re.hi)), 0)  # exact but for one rounding, unlike a logarithm
-        else:
-            growth.append(power * self._logarithm(d, e, f.turn))
-
-    def _logarithm(self, d: Complex, e: Any, turn: Complex) -> Complex:
-        """The logarithm of 2^e d, continuous along a line."""
-        if d.im is None:
+            return
+        # The logarithm of 2^e d, continuous along a line.
+        if is_real:
             logarithm = Complex(log(d.re))
         else:
-            logarithm = Complex(log(d.re * d.re + d.im * d.im) * Pair(0.5), angle(d * turn.conjugate()))
+            logarithm = Complex(log(d.re * d.re + d.im * d.im) * Pair(0.5), angle(d * f.turn.conjugate()))
         if self.careful:
             logarithm += Complex(LOG_2 * Pair(0.0 + e))
-        return logarithm
+        growth.append(power * logarithm)
 
     def _times(self, piece: Complex, degree: int) -> None:
         # 2^degree_bits bounds a linear factor on the region.
@@ -344,14 +340,9 @@ def _turn(growth: Complex) -> Complex:
     """exp(i im)."""
     if growth.im is None:
         return Complex(1.0)
-    t = growth.im
+    t, rest = (growth.im.hi, growth.im.lo) if isinstance(growth.im, Pair) else (growth.im, 0.0)
     # exp(i (t + rest)) = exp(i t)(1 + i rest).
-    rest: Any = 0.0
-    if isinstance(growth.im, Pair):
-        t = growth.im.hi
-        rest = growth.im.lo
-    c = np.cos(t)
-    s = np.sin(t)
+    c, s = np.cos(t), np.sin(t)
     return Complex(c - rest * s, s + rest * c)
 
 

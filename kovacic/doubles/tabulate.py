@@ -35,7 +35,6 @@ from flint import arb, fmpq
 from numpy.polynomial import chebyshev
 
 from kovacic.algebra.precision import working_precision
-from kovacic.algebra.rationals import to_fmpq
 from kovacic.doubles.chart import BLOCK, PRECISION, Measured, PieceChart, Region, chart_of, facts, in_blocks
 from kovacic.doubles.double_double import (
     ROOM,
@@ -56,8 +55,6 @@ from kovacic.enclosure.request import Keywords, Request, fields_of
 from kovacic.errors import InputError, LimitExceeded
 from kovacic.limits import Limits, check_time, limited, limits_of
 
-#: Pieces for each unit of the limit `unknown_degree`: 500,000 by default, of a kilobyte and 0.3 ms each (measured).
-_MOST_PIECES = 25
 #: Pieces that are treated together, some 10 kilobytes each.
 _PIECES_TOGETHER = 10_000
 #: Points to a piece from which on each piece is treated alone (measured).
@@ -77,8 +74,6 @@ class Variant(NamedTuple):
     bits: int
 
 
-_CAREFUL = Variant(48, 48, 34, 60, 96)
-_PLAIN = Variant(48, 32, 22, 22, 60)
 Cell = tuple[fmpq, int]  # c, and e where H = 2^e
 
 
@@ -283,18 +278,17 @@ def tabulate(
     -0.177596771314338
     """
     initial, accuracy, path, params, var = Request.of("tabulate", keywords, unused=("digits", "method"))
-    chart = chart_of(
-        with_variable(equation, var, accuracy.limits, params), {**fields_of(initial), "path": path}, params
-    )
+    equation = with_variable(equation, var, accuracy.limits, params)
+    chart = chart_of(equation, {**fields_of(initial), "path": path}, params)
     return table_of(chart, chart.region((start, stop))[0], careful, accuracy.limits)
 
 
 def table_of(chart: PieceChart, region: Region, careful: bool, limits: Limits | None) -> TabulatedFunction:
-    """As `tabulate`, within a budget that is watched."""
+    """As `tabulate`, within a watched budget."""
     if not region.is_real:
         raise InputError("a table needs an interval of the real axis")
     region = _beside_singular_ends(chart, region)
-    variant = _CAREFUL if careful else _PLAIN
+    variant = Variant(48, 48, 34, 60, 96) if careful else Variant(48, 32, 22, 22, 60)
     with working_precision(PRECISION):
         cells, found = _cells(chart, region, variant, limits)
     rows = []
@@ -345,16 +339,16 @@ def _beside_singular_ends(chart: PieceChart, region: Region) -> Region:
 def _cells(chart: PieceChart, region: Region, variant: Variant, limits: Limits | None) -> tuple[list[Cell], list[Any]]:
     """The pieces from left to right, no more than the limits allow, and the series on them."""
     low, high = (fmpq(*end.as_integer_ratio()) for end in region.interval)
-    most = limits_of(limits).unknown_degree * _MOST_PIECES
+    # 500,000 by default, of a kilobyte and 0.3 ms each (measured).
+    most = 25 * limits_of(limits).unknown_degree
     # The first piece contains the interval, off the round numbers, at which solutions may be zero: that couldn't be told from
-    # other small values.
-    start, length = Fraction(region.low.real), Fraction(region.high.real) - Fraction(region.low.real)
-    e = math.frexp(float(length))[1]
-    scale = Fraction(2) ** e
-    # Centres are doubles: multiples of a unit in the last place, or of 2^-24 of the first piece.
-    grain = max(scale / 2**24, Fraction(math.ulp(max(-region.low.real, region.high.real))))
+    # other small values.  Centres are doubles: multiples of a unit in the last place, or of 2^-24 of the first piece.
+    e = math.frexp(float(high - low))[1]
+    scale = power_of_two(e)
+    grain = max(scale / 2**24, fmpq(*math.ulp(max(-region.low.real, region.high.real)).as_integer_ratio()))
     # From 53/128 2^e before the interval to 203/128 2^e behind its begin: its length is below 2^e.
-    untried: list[Cell] = [(to_fmpq((start // grain - scale * Fraction(53, 128) // grain) * grain + scale), e)]
+    before = (low / grain).floor() - (scale * fmpq(53, 128) / grain).floor()
+    untried: list[Cell] = [(before * grain + scale, e)]
     done: list[tuple[Cell, Any]] = []
     while untried:
         if len(untried) + len(done) > most:
@@ -390,16 +384,14 @@ def _series_on(chart: PieceChart, cells: list[Cell], variant: Variant) -> list[A
     at a[j], b[j + 1] and c[j + 2].
     """
     terms = variant.terms
-    count = 2 if not chart.is_forced else 3
-    size = len(cells)
     nothing = [[arb(1)], [], [arb("nan")], []]  # too near to a singular point
     equations = []
     for c, e in cells:
         check_time()
         equations.append(chart.local(ExactPoint(c), e, terms) if chart.is_regular(ExactPoint(c), e) else nothing)
     length = max(2, *(len(part) + i for local in equations for i, part in enumerate(local[:3])))
-    numbers = np.zeros((2, 3, length, size))
-    source = np.zeros((2, terms, count, size))
+    numbers = np.zeros((2, 3, length, len(cells)))
+    source = np.zeros((2, terms, 3 if chart.is_forced else 2, len(cells)))
     for k, local in enumerate(equations):
         for i, part in enumerate(local[:3]):
             numbers[:, i, i : i + len(part), k] = halves(part)

@@ -244,14 +244,11 @@ def as_number(value: Any, name: str) -> Number:
         if not fixed.is_finite():
             raise InputError(f"{name} isn't a finite ball: {value}")
         # An exact ball is a point, known to every precision.
-        if fixed.real.is_exact() and fixed.imag.is_exact():
-            return midpoint(fixed)
-        return Constant(str(value), lambda: fixed, True)
+        return midpoint(fixed) if fixed.is_exact() else Constant(str(value), lambda: fixed, True)
     try:
         return as_point(value, name)
     except InputError:
-        found = _symbolic(value, name)
-        if found is None:
+        if (found := _symbolic(value, name)) is None:
             raise
         return found
 
@@ -279,15 +276,12 @@ def _given_ball(value: Any) -> acb | None:
         return acb(value.to_flint())
     if isinstance(value, arb | acb):
         return acb(value)
-    if getattr(value, "_mpci_", None):  # mpmath's complex intervals
-        re, im = value._mpci_
-        return acb(_of_interval(re), _of_interval(im))
-    if hasattr(value, "_mpi_"):
-        return acb(_of_interval(value._mpi_))
-    return None
+    # mpmath's intervals, complex and real ones.
+    intervals = getattr(value, "_mpci_", None) or ([value._mpi_] if hasattr(value, "_mpi_") else None)
+    return None if intervals is None else acb(*map(_ball_of_interval, intervals))
 
 
-def _of_interval(interval: Any) -> arb:
+def _ball_of_interval(interval: Any) -> arb:
     """The ball with the ends of an mpmath interval, (sign, mantissa, exponent, bits) each."""
     # In mpmath zero has the exponent 0, and infinity another one, both without a mantissa.
     if any(not mantissa and exponent for _, mantissa, exponent, _ in interval):

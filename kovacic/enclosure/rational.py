@@ -64,7 +64,7 @@ from kovacic.enclosure.transport import growth_of_disc, walk
 from kovacic.enclosure.way import MAX_DISCS, Forecast, Homogeneous, States, Traveller, Way, WayStep, position
 from kovacic.limits import check_time, count_work
 
-#: Terms of the series for the amplitude: powers of polynomials over Q of this degree take about a second.
+#: Terms of the series for the amplitude: this number takes one or two seconds, twice as many take ten (measured).
 _MOST_TERMS_OF_AMPLITUDE = 2000
 #: Beyond the precision of a way, for the phase and for products.
 _BITS_FOR_PRODUCTS = 40

@@ -8,6 +8,7 @@ by division by the polynomial, irreducible over Q, of which the point is a zero.
 
 from __future__ import annotations
 
+from contextlib import suppress
 from dataclasses import dataclass
 from functools import cached_property
 from typing import Any, ClassVar
@@ -87,11 +88,13 @@ class Singular:
 
     def value(self) -> acb:
         """The point, in a ball of the working precision in force (0 for infinity)."""
+        here = to_acb(self.near)
         if self.exact:
-            return to_acb(self.near)
+            return here
         # The zero of the minimal polynomial next to `near`.
-        roots = [root for root, _ in complex_zeros(self.minimal.numer())]
-        return min(roots, key=lambda root: float(abs(root - to_acb(self.near)).mid()))
+        return min(
+            (root for root, _ in complex_zeros(self.minimal.numer())), key=lambda root: float(abs(root - here).mid())
+        )
 
     def is_at(self, x: ExactPoint) -> bool:
         """True if x is provably this point."""
@@ -142,10 +145,10 @@ class Singular:
         """The difference of the exponents: a rational number if it is one, else a ball."""
         # rho^2 - s rho + p = 0 has the roots (s +- (s^2 - 4 p)^(1/2))/2.
         square = self._at(self._indicial[1])
-        try:
-            return square.sqrt() if isinstance(square, fmpq) else acb(square).sqrt()
-        except DomainError:  # no square of a rational number
-            return acb(square).sqrt()
+        with suppress(DomainError):  # no square of a rational number
+            if isinstance(square, fmpq):
+                return square.sqrt()
+        return acb(square).sqrt()
 
     def _at(self, poly: fmpq_poly) -> Any:
         """The value of a reduced polynomial: rational where it is constant, real where the point is."""
@@ -206,13 +209,12 @@ def _multiplicity(poly: fmpq_poly, minimal: fmpq_poly) -> int:
     rest = poly.numer()
     divisor = minimal.numer()
     order = 0
-    while True:
-        check_time()
-        try:
+    with suppress(DomainError):  # there is a remainder
+        while True:
+            check_time()
             rest = rest / divisor
-        except DomainError:  # it leaves a remainder
-            return order
-        order += 1
+            order += 1
+    return order
 
 
 def _taylor_coefficient(poly: fmpq_poly, k: int) -> fmpq_poly:

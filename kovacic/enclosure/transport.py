@@ -30,7 +30,6 @@ from kovacic.enclosure.points import ExactPoint, binary_exponent, power_of_two, 
 from kovacic.enclosure.splitting import legs
 from kovacic.enclosure.taylor import expand
 from kovacic.enclosure.way import DiscStep, Homogeneous, Local, WayStep
-from kovacic.errors import LimitExceeded
 from kovacic.limits import check_time, count_work
 
 _LOG = logging.getLogger(__name__)
@@ -119,20 +118,13 @@ def cover(system: System, a: ExactPoint, b: ExactPoint, prec: int, *, alone: boo
     enter = a
     guess = None
     while t < 1:
-        check_time()
         disc = piece.next_disc(t, enter, guess)
         if disc is None:  # the junction beside the path is too far from it for a disc that fits: back to the path
             yield from (replace(disc, begin=None) for disc in cover(system, enter, piece.at(t), prec))
             enter = piece.at(t)
         else:
             yield disc
-            guess = disc.frame.e
-            t = disc.t_leave
-            enter = disc.leave
-
-
-_Placed = tuple[ExactPoint, ExactPoint, Any]
-"""Where a disc has its centre and where it would be left, with the parameter of the latter."""
+            guess, t, enter = disc.frame.e, disc.t_leave, disc.leave
 
 
 @dataclass(frozen=True)
@@ -153,10 +145,9 @@ class StraightPiece:
 
         None if the junction `enter` lies off the path and no disc down to an eighth of the last one (`guess`) contains both.
         """
-        remaining = (1 - t) ** 2 * (self.b - self.a).norm_squared()
         # 2^e is about the rest of the way.
-        e = binary_exponent(remaining) // 2
-        if not _reaches_end(remaining, e):  # a scale at which the last disc never comes would be taken again and again
+        e = binary_exponent((1 - t) ** 2 * (self.b - self.a).norm_squared()) // 2
+        if not self._reaches_end(t, e):  # a scale at which the last disc never comes would be taken again and again
             e += 1
         near = distance_lower(self.system, enter)
         if near is not None:  # H <= 5/8 (distance here + H), so H <= 5/3 of the distance here
@@ -165,56 +156,45 @@ class StraightPiece:
         steepest = largest_exponent(self.system, enter) if guess is None else guess + 2
         if steepest is not None:
             e = min(e, steepest)
-        for _ in range(20_000):
-            check_time()
-            disc = self._disc(t, enter, e)
-            if disc is not None:
-                return disc
+        # Singular points are apart from the way: a disc that is small enough fits.
+        while (disc := self._disc(t, enter, e)) is None:
             e -= 1
             if guess is not None and e < guess - 3 and enter != self.at(t):
                 return None
-        raise LimitExceeded("no disc of positive size was found for the next step", limit="unknown_degree")
+        return disc
 
     def _disc(self, t: Any, enter: ExactPoint, e: int) -> Disc | None:
         """The disc of scale 2^e that is entered at t; None if it doesn't fit."""
-        if _reaches_end((1 - t) ** 2 * (self.b - self.a).norm_squared(), e):
+        check_time()
+        step = self.b - self.a
+        if self._reaches_end(t, e):
             centre, leave, t_leave = self.at((1 + t) / 2).rounded(e - 4), self.b, fmpq(1)
         elif self.a.is_real() and self.b.is_real():
-            centre, leave, t_leave = self._on_axis(enter, e)
+            # One scale ahead, rounded towards the junction behind: a nearest point may lie beyond the scale from there.
+            sign = 1 if step.x > 0 else -1
+            unit, grain = power_of_two(e), power_of_two(e - 4)
+            centre = ExactPoint(sign * (((sign * enter.x + unit) / grain).floor() * grain))
+            leave = ExactPoint(centre.x + sign * unit)
+            t_leave = (leave.x - self.a.x) / step.x
         else:
-            centre, leave, t_leave = self._beside(t, e)
+            # Ahead by short dyadic parameters, just below 2^e/|b - a| and twice as much: a sixteenth less, since centre and
+            # junctions are rounded.
+            square = power_of_two(2 * e) / step.norm_squared()
+            forward = root_below(square, 12) * fmpq(15, 16)
+            grain = power_of_two(binary_exponent(square) // 2 - 8)
+            t_leave = t + (forward * fmpq(31, 16) / grain).floor() * grain
+            centre, leave = self.at(t + forward).rounded(e - 4), self.at(t_leave).rounded(e - 4)
         if not t < t_leave <= 1:
             return None
         begin = self.at(t)
-        square = power_of_two(2 * e)
-        for point in (begin, self.at(t_leave), enter, leave):
-            if (point - centre).norm_squared() > square:
-                return None
+        corners = (begin, self.at(t_leave), enter, leave)
+        if any((point - centre).norm_squared() > power_of_two(2 * e) for point in corners):
+            return None
         # Scales are powers of two: 5/8 of the distance to a singular point allows one half.
         frame = fitting(self.system, centre, e, 0.625, self.growth)
         return None if frame is None else Disc(frame, enter, leave, t_leave, begin)
 
-    def _on_axis(self, enter: ExactPoint, e: int) -> _Placed:
-        """One scale ahead, rounded towards the junction behind: a nearest point may lie beyond the scale from there."""
-        step = self.b.x - self.a.x
-        sign = 1 if step > 0 else -1
-        unit = power_of_two(e)
-        grain = power_of_two(e - 4)
-        centre = ExactPoint(sign * (((sign * enter.x + unit) / grain).floor() * grain))
-        leave = ExactPoint(centre.x + sign * unit)
-        return centre, leave, (leave.x - self.a.x) / step
-
-    def _beside(self, t: Any, e: int) -> _Placed:
-        """Ahead by short dyadic parameters, just below 2^e/|b - a| and twice as much."""
-        square = power_of_two(2 * e) / (self.b - self.a).norm_squared()
-        # 2^e as a share of the way, and a sixteenth less, since centre and junctions are rounded.
-        forward = root_below(square, 12) * fmpq(15, 16)
-        grain = power_of_two(binary_exponent(square) // 2 - 8)
-        t_leave = t + (forward * fmpq(31, 16) / grain).floor() * grain
-        return self.at(t + forward).rounded(e - 4), self.at(t_leave).rounded(e - 4), t_leave
-
-
-def _reaches_end(square: Any, e: int) -> bool:
-    """True if a disc of scale 2^e contains, with room to spare, a way whose length has this square."""
-    # (length/2)^2 <= 9/10 4^e: the last disc has its centre in the middle.
-    return bool(square <= power_of_two(2 * e + 2) * fmpq(9, 10))
+    def _reaches_end(self, t: Any, e: int) -> bool:
+        """True if a disc of scale 2^e with its centre in the middle contains the rest of the way, with room to spare."""
+        # (length/2)^2 <= 9/10 4^e.
+        return bool((1 - t) ** 2 * (self.b - self.a).norm_squared() <= power_of_two(2 * e + 2) * fmpq(9, 10))

@@ -23,10 +23,16 @@ CASES: list[tuple[str, float, float, Callable[[float], float], float]] = [
     ("x*cot(x)", -1, 1, lambda x: x / math.tan(x), 1),
     ("sin(x)/x*sqrt(x + 1/9)", 0, 1, lambda x: math.sin(x) / x * math.sqrt(x + 1 / 9), 1 / 3),
     ("(1 - cos(x))/x^2/(x + 10^(-4))", 0, 0.1, lambda x: 2 * (math.sin(x / 2) / x) ** 2 / (x + 1e-4), 5e3),
+    ("9^5*(sin(x) - x)^5/x^15", -1, 1, lambda x: (9 * sine_less_x(x)) ** 5, -(1.5**5)),  # a zero of order 15
 ]
 
 
-@parametrize(("coefficient", "x0", "x", "function", "limit"), CASES, ordinary=(0, 4), long=2)
+def sine_less_x(x: float) -> float:
+    """(sin(x) - x)/x^3."""
+    return sum((-1) ** k * x ** (2 * k - 2) / math.factorial(2 * k + 1) for k in range(1, 12))
+
+
+@parametrize(("coefficient", "x0", "x", "function", "limit"), CASES, ordinary=(0, 4, 7), long=2)
 def test_removable_singularities_are_on_the_way(
     coefficient: str, x0: float, x: float, function: Callable[[float], float], limit: float
 ) -> None:
