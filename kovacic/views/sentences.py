@@ -136,7 +136,7 @@ def reason(evidence: Evidence, formulas: Formulas) -> Iterator[str | Math]:
 def solutions_of(answer: Answer) -> tuple[list[tuple[Math, Math]], tuple[str, ...]]:
     """Names and formulas of two solutions, and notes; in special functions if there is no Liouvillian one, empty if unknown.
 
-    Raises `LimitExceeded` for formulas that are too long to be printed, and if the time is over.
+    Raises `LimitExceeded` if the time is over.
     """
     form = derived.closed_form(answer)
     pair: Iterable[Any] = derived.special(answer) if form is None else form
