@@ -24,8 +24,8 @@ from kovacic.equation import ENERGY
 from kovacic.errors import LimitExceeded, NotRational
 from kovacic.limits import Budget, Limits, limited
 from kovacic.numbers.exact import whole
-from kovacic.parametric.api import DEFAULT_DEGREE
 from kovacic.parametric.assumptions import check_mapping
+from kovacic.parametric.natural import DEFAULT_DEGREE
 from kovacic.reading.read import declared
 
 _POLYNOMIAL = "each solution that is square integrable at both ends has a polynomial in it"

@@ -41,7 +41,7 @@ from kovacic.parametric.api import conditions_of
 from kovacic.parametric.natural import Natural
 from kovacic.parametric.parametric_answer import ParametricAnswer
 from kovacic.parametric.regions import ParameterRegion
-from kovacic.parametric.solutions import PolynomialSolution, jacobi, translated, weight_by_signs
+from kovacic.parametric.solutions import PolynomialSolution, jacobi, translated_solution, weight_by_signs
 from kovacic.parametric.statements import Statement, Vanishes
 from kovacic.sturm_liouville.problem import point_between
 
@@ -391,7 +391,7 @@ class _ClosedFormSearch(ClosedForms):
         question = self.question
         x, t = sympy.Symbol(question.variable), question.t
         equation = question.parsed.equation
-        wave = question.plain(solution.y if equation is None else translated(solution.y, equation))
+        wave = question.plain(solution.y if equation is None else translated_solution(solution.y, equation))
         # The factors of y that are polynomials in t, but for those that vanish at an end: they have the zeros of y.
         P = sympy.Mul(*(f.as_base_exp()[0] for f in sympy.Mul.make_args(solution.y) if f.is_polynomial(t)))
         assert question.real is not None

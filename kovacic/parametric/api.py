@@ -1,10 +1,8 @@
-"""For which values of the parameters is the equation solvable?  From the input to `ParametricAnswer`, and its check.
+"""The values of the parameters for which an equation is solvable: from the input to a `ParametricAnswer`, and its check.
 
-Conditions as printed are compared with the engine and its kernel at exact points inside and outside of the regions.
-
-A claim is evaluated at the point, and has to agree with the statement it was made of; the verdict with what the engine finds
-and the kernel verifies there; each formula has to solve the equation that was given.  One point in each region is compared
-before conditions leave, more by `compare`.
+Printed conditions are compared with the engine and its kernel at exact points inside and outside of the regions.  There a claim
+has to agree with the statement from which it was made, the verdict with the engine's result, which the kernel verifies, and
+each formula has to solve the given equation.  One point in each region is always compared, more by `check_at_samples`.
 """
 
 from __future__ import annotations
@@ -33,13 +31,29 @@ from kovacic.equation import Equation, Parsed, over, parameters_of
 from kovacic.errors import InputError, LimitExceeded, VerificationFailed
 from kovacic.limits import Budget, Limits
 from kovacic.numbers.exact import whole
-from kovacic.parametric.assumptions import Assumptions, read_assumptions
-from kovacic.parametric.cases import equation_at, normal_form
-from kovacic.parametric.claims import Claim, DegreeExists, IntegerFamily, Several
-from kovacic.parametric.functions import ParameterPoint, coefficients_in, degrees, irreducible_factors, over_parameters
+from kovacic.parametric.assumptions import COMPARED_BITS, Assumptions, read_assumptions
+from kovacic.parametric.claims import (
+    Claim,
+    DegreeExists,
+    IntegerFamily,
+    ParameterPoint,
+    Several,
+    coefficients_in,
+    degrees,
+    irreducible_factors,
+    over_parameters,
+)
+from kovacic.parametric.natural import DEFAULT_DEGREE
 from kovacic.parametric.parametric_answer import ParametricAnswer
 from kovacic.parametric.partition import derived
-from kovacic.parametric.regions import ABELIAN, NOT_ABELIAN, ParameterRegion, verdict_of
+from kovacic.parametric.regions import (
+    ABELIAN,
+    NOT_ABELIAN,
+    ParameterRegion,
+    equation_at,
+    normal_form_equation,
+    verdict_from_engine,
+)
 from kovacic.parametric.restriction import Letters, nonzero, own_parameters, spelled, transcendental, with_free_constant
 from kovacic.parametric.solutions import Carried
 from kovacic.parametric.statements import ALWAYS, Statement, Vanishes
@@ -50,7 +64,7 @@ from kovacic.reading.substitution import with_assumed_values
 
 @dataclass(frozen=True)
 class CheckReport:
-    """The outcome of `kovacic.solution.conditions.Conditions.check`: true when every sample agrees.
+    """The outcome of `kovacic.solution.conditions.Conditions.check`: true if every sample agrees.
 
     Attributes
     ----------
@@ -59,7 +73,7 @@ class CheckReport:
     open : int
         The number of points for which the regions claim nothing.
     disagreements : tuple of str
-        What is printed falsely, a sentence each that begins with the point.
+        One sentence per false statement, beginning with the point.
     """
 
     inside: int
@@ -71,16 +85,8 @@ class CheckReport:
         return not self.disagreements
 
 
-#: Samples of a region, one of which has to lie in no region before it.
-_ATTEMPTS = 4
-#: Bits with which formulas are compared.
-_PRECISION = 192
-#: Degrees of P up to which formulas are compared whose coefficients depend on the parameters.
-_LARGEST = 1
-
-
 def check_each_region(found: ParametricAnswer) -> None:
-    """Compare what is printed at a point in each region, on each stratum and outside: `VerificationFailed` if it is false."""
+    """Check the printed claims at a point in each region, on each stratum and outside; raises `VerificationFailed`."""
     sampler = Sampler(found.constant, found.names, found.assumptions, Random(1))
     points = [sampler.point_in(found, region) for region in (*found.regions, None)]
     strata = chain.from_iterable(_strata(region.statement.claim) for region in found.regions)
@@ -91,8 +97,8 @@ def check_each_region(found: ParametricAnswer) -> None:
             raise VerificationFailed(f"conditions failed their own check at {point}: {wrong}; please report it")
 
 
-def compare(found: ParametricAnswer, samples: int, seed: int) -> CheckReport:
-    """Compares what is printed with engine and kernel at this number of points, or fewer if time runs out."""
+def check_at_samples(found: ParametricAnswer, samples: int, seed: int) -> CheckReport:
+    """Compare the printed claims with engine and kernel at this number of points, or fewer if time runs out."""
     sampler = Sampler(found.constant, found.names, found.assumptions, Random(seed))
     points = islice(sampler.points([region.statement for region in found.regions]), 20 * samples)
     counts = Counter[str](inside=0, outside=0, open=0)
@@ -111,7 +117,7 @@ def compare(found: ParametricAnswer, samples: int, seed: int) -> CheckReport:
 
 
 def _strata(claim: Claim) -> Iterator[FunctionPoly]:
-    """The functions of the parameters that are denominators in what is printed: it isn't defined at their zeros."""
+    """The functions of the parameters that are denominators in a printed claim."""
     if isinstance(claim, IntegerFamily):
         below = over_parameters(claim.value.cleared()[1])
         yield from (factor for factor in irreducible_factors(below) if not factor.degree)
@@ -122,7 +128,7 @@ def _strata(claim: Claim) -> Iterator[FunctionPoly]:
 
 
 def contradictions(found: ParametricAnswer, point: ParameterPoint) -> Iterator[str]:
-    """What is printed falsely at a point, in a sentence each."""
+    """The printed claims that are false at a point, one sentence each."""
     inside = found.region_at(point)
     for region in found.regions:
         holds = region is inside
@@ -135,12 +141,12 @@ def contradictions(found: ParametricAnswer, point: ParameterPoint) -> Iterator[s
         return
     answer = found.answer_at(point)
     if answer.status is not Status.UNDECIDED and answer.case != predicted.case:
-        yield f"{predicted} is printed, {verdict_of(answer.decision)} is found"
+        yield f"{predicted} is printed, {verdict_from_engine(answer.decision)} is found"
     # The kernel has verified the group of the answer.
-    said = predicted.abelian
-    known = group(answer) if said in (ABELIAN, NOT_ABELIAN) else None
-    if known is not None and known.dimension is not None and (known.dimension < 2) is not (said == ABELIAN):
-        yield f"the identity component is printed as {said}, and the group is {known}"
+    printed = predicted.abelian
+    known = group(answer) if printed in (ABELIAN, NOT_ABELIAN) else None
+    if known is not None and known.dimension is not None and (known.dimension < 2) is not (printed == ABELIAN):
+        yield f"the identity component is printed as {printed}, and the group is {known}"
     if inside is not None and inside.case == 1:
         yield from _false_formulas(found, inside, point, answer.S)
 
@@ -148,18 +154,17 @@ def contradictions(found: ParametricAnswer, point: ParameterPoint) -> Iterator[s
 def _false_formulas(
     found: ParametricAnswer, region: ParameterRegion, point: ParameterPoint, S: RatFunc
 ) -> Iterator[str]:
-    """The solutions of a region that provably don't solve the equation at a rational point."""
+    """The solutions of a region that provably don't solve the equation at a rational point, one sentence each."""
     x = sympy.Dummy()
     values = {sympy.Symbol(name): value.to_sympy(x) for name, value in zip(point.names, point.values, strict=True)}
-    equation = normal_form(S, found.variable) if found.equation is None else equation_at(found.equation, point)
+    equation = normal_form_equation(S, found.variable) if found.equation is None else equation_at(found.equation, point)
     formulas = region.formulas
     if point.field != QQ or found.letters or equation is None or not isinstance(formulas, Carried):
         return
-    natural = [part for part in region.naturals if part.m == 1]
-    listed = chain.from_iterable(part.numbers_at(point) for part in natural)
-    numbers: list[int | None] = [number for number in listed if number <= _LARGEST]
-    for number in numbers if natural else [None]:
-        # Formulas that aren't meant at these values aren't even translated to the equation that was given.
+    # For larger degrees the coefficients of P, functions of the parameters, take long.
+    degrees_of_P = chain.from_iterable(part.numbers_at(point) for part in region.naturals if part.m == 1)
+    for number in [d for d in degrees_of_P if d <= DEFAULT_DEGREE] if region.naturals else [None]:
+        # Formulas for other values aren't even translated to the given equation.
         meant = [solution for solution in formulas.found(number) if solution.at(values) is not None]
         for solution in formulas.of(meant):
             y = solution.at(values)
@@ -176,7 +181,7 @@ def _is_false(y: Any, S: RatFunc, equation: Equation, values: Mapping[Any, Any])
         x = user_variable(equation)
         t = function_of_x(equation).xreplace(values)
     try:
-        with working_precision(_PRECISION):
+        with working_precision(COMPARED_BITS):
             return not residual(y, x, S, equation.gauge, acb(fmpq(13, 7)), inner=t).contains(0)
     except (NotImplementedError, ZeroDivisionError, ValueError, TypeError):  # functions without balls
         return False
@@ -184,7 +189,7 @@ def _is_false(y: Any, S: RatFunc, equation: Equation, values: Mapping[Any, Any])
 
 @dataclass(frozen=True)
 class Sampler:
-    """Points with small coordinates: values of the `names` that the assumptions admit, beside the `start`, which is fixed."""
+    """Points with small coordinates: the fixed `start`, and values of the `names` that the assumptions admit."""
 
     start: ParameterPoint
     names: Sequence[str]
@@ -192,21 +197,21 @@ class Sampler:
     random: Random
 
     def points(self, statements: Sequence[Statement]) -> Iterator[ParameterPoint | None]:
-        """Every other one where one of the statements holds; None if an attempt failed."""
+        """Points at which one of the statements holds alternate with any points; None is a failed attempt."""
         for statement in cycle(statements or [ALWAYS]):
             yield self.point(statement)
             yield self.point(ALWAYS)
 
     def point_in(self, found: ParametricAnswer, region: ParameterRegion | None) -> ParameterPoint | None:
-        """One that belongs to no region before, None: to no region; None if a few attempts find none."""
-        for _ in range(_ATTEMPTS):
+        """A point of this region, or of none for None; None if four attempts fail."""
+        for _ in range(4):
             point = self.point(ALWAYS if region is None else region.statement)
             if point is not None and found.region_at(point) is region:
                 return point
         return None
 
     def point(self, statement: Statement) -> ParameterPoint | None:
-        """An admitted one at which the statement holds; None if an attempt failed."""
+        """An admitted point at which the statement holds; None if the attempt failed."""
         values = dict(zip(self.start.names, self.start.values, strict=True))
         values |= {name: QQ.poly([self.assumptions.of(name).sample(self.random)]) for name in self.names}
         field = self.start.field
@@ -223,7 +228,10 @@ class Sampler:
         return point if is_admitted and statement.holds(point) else None
 
     def _solve_for_zero(self, function: FunctionPoly, values: dict[str, Poly], field: Field, free: list[str]) -> Field:
-        """Choose one free parameter so that the function vanishes; the field of all values.  `ValueError` if none does it."""
+        """Choose one free parameter so that the function vanishes, and return the field of all values.
+
+        Raises `ValueError` if no parameter can be chosen.
+        """
         names = function.field.names
         powers = dict(zip(names, degrees(function), strict=True))
         candidates = [name for name in free if powers.get(name, 0) > 0]
@@ -235,19 +243,14 @@ class Sampler:
             if equation.degree < 1:
                 continue
             factor = self.random.choice([f for f, _ in field.factor(equation)])
-            is_alone = len(free) == len(names) == 1
-            if factor.degree > 1 and not (is_alone and field == QQ):
+            # The only parameter may be algebraic.
+            if factor.degree > 1 and not (len(free) == len(names) == 1 and field == QQ):
                 continue
-            # A root in its field, or in an extension.
             value = -factor[0] if factor.degree == 1 else AlgebraicField(QQ, factor, "alpha").generator
             values[name] = value
             free.remove(name)
             return value.field
         raise ValueError("no parameter can be chosen")
-
-
-#: The largest d for which the determinants of conditions with a natural number d are computed.
-DEFAULT_DEGREE = 2
 
 
 def find_conditions(
@@ -259,7 +262,7 @@ def find_conditions(
     limits: Limits,
     names: Sequence[str] = (),
 ) -> ParametricAnswer:
-    """What `kovacic.conditions` returns, as data: arguments and exceptions are the same."""
+    """The result of `kovacic.conditions` as data, with the same arguments and exceptions."""
     with Budget(limits).watched():
         parsed = read_input(S, var=var, limits=limits, exponentials=True, names=names)
         given = parsed
@@ -270,7 +273,7 @@ def find_conditions(
         what = "S has no parameters"
         if parsed is not given:
             what = "every parameter has a value"
-        elif var is None and parsed.S.degree:  # one was taken for x, maybe
+        elif var is None and parsed.S.degree:  # a parameter may have been taken for x
             what += f": {parsed.variable} is taken for the variable"
         hint = "solve decides equations without parameters;"
         python = f"{hint} var= says which name is the variable"
@@ -288,9 +291,9 @@ def find_conditions(
 def conditions_of(
     parsed: Parsed, known: Assumptions, max_degree: int | None, limits: Limits, letters: Letters = ()
 ) -> ParametricAnswer:
-    """The conditions for an input that was read; `max_degree` None: by theorems only."""
+    """The conditions for an input that was read; without a `max_degree` by theorems only."""
     budget = Budget(limits)
-    if parsed.equation is not None:  # an algebraic constant of the gauge is one of the answer
+    if parsed.equation is not None:  # algebraic constants of the gauge belong to the answer, too
         parsed = replace(parsed, S=over(parsed.S, parsed.equation.a.field))
     _, shown, constant = with_free_constant(parsed.S)
     notices = [notice for notice in parsed.notices if notice in parsed.guesses or "parameter" not in notice]
@@ -321,16 +324,16 @@ def conditions_of(
 def under_assumptions(
     parsed: Parsed, decision: Decision, known: Assumptions, limits: Limits, *, certify: bool
 ) -> tuple[Decision, str, bool]:
-    """The decision where the assumptions hold, a sentence that says for which of these values, and True if that is proven.
+    """The decision under the assumptions, a sentence about the values for which it holds, and True if that is proven.
 
-    Where the assumptions imply another case, that is the decision if no certificate is asked for.  Else there is none, because
-    omega depends on the value of a parameter, so that no single omega is the answer; its reason says the case, which is proven.
+    If the assumptions imply another case than the generic one, that is the decision without a certificate.  With one it is
+    undecided, because omega depends on the values of the parameters; its reason names the case, which is proven.
     """
     if decision.status is Status.UNDECIDED:
         return decision, "", False
     answer = conditions_of(parsed, known, None, limits)
     if answer.complete is not True:
-        return decision, f"whether all values with {known} are generic ones isn't known ({answer.theory})", False
+        return decision, f"values with {known} may not be generic ({answer.theory})", False
     if answer.generic.case != decision.case:
         if not certify:
             return Decision(answer.generic.structure, ()), "", True

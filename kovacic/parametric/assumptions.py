@@ -1,10 +1,10 @@
-"""What is known about the parameters, and what follows from it for a statement about them.
+"""Assumptions about the parameters, and what follows from them for a statement.
 
 A parameter can be known to lie in a class s + m Z ("integer", "odd", "even", "half-integer"), to be rational or irrational, not
 an integer, not zero, or a real number with rational bounds ("positive", "negative", ">=1/2").  A conclusion holds at all values
-with these properties; None if none follows.
+with these properties; None means that nothing follows.
 
-One parameter's are read from words: "positive integer", "noninteger", ">=1/2", "!=1", "<sqrt(2)".
+Assumptions are read from words: "positive integer", "noninteger", ">=1/2", "!=1", "<sqrt(2)".
 """
 
 from __future__ import annotations
@@ -27,16 +27,18 @@ from kovacic.algebra.poly import Poly
 from kovacic.algebra.precision import working_precision
 from kovacic.algebra.rationals import QQ
 from kovacic.errors import InputError
-from kovacic.parametric.functions import (
+from kovacic.limits import MOST_TRIALS
+from kovacic.parametric.claims import (
     INTEGERS,
     NO_CONSTANT,
     Classes,
     ParameterPoint,
     common_divisor,
     degrees,
-    element,
+    denominator,
     numerator,
     over_parameters,
+    rational_number,
 )
 from kovacic.reading.read import read_input
 
@@ -48,27 +50,24 @@ _CLASSES = {
 }
 #: Words for signs, as the relations that they abbreviate.
 INEQUALITIES = {"positive": ">0", "negative": "<0", "nonnegative": ">=0", "nonpositive": "<=0"}
-_RELATIONS = {"nonzero": "!=0", **INEQUALITIES}
+_RELATION_OF_WORD = {"nonzero": "!=0", **INEQUALITIES}
 WORDS = (*_CLASSES, "rational", "irrational", "noninteger", "nonzero", *INEQUALITIES)
 _RATIONAL = r"[+-]?\d{1,1000}(?:/0*[1-9]\d{0,999})?"
 _BOUND = re.compile(rf"(>=|<=|>|<)({_RATIONAL}|[^\s<>=]*[a-z(][^\s<>=]*)")
 _UNEQUAL = re.compile(rf"!=({_RATIONAL})")
-#: Bits of the balls that are compared.
-_PRECISION = 512
-#: Numbers of a class between two bounds that are tried one by one.
-_TRIED = 1000
-_DENOMINATORS = (1, 1, 2, 2, 3, 4, 5, 6)
-#: What SymPy calls numbers that aren't 0, and others, on a side of it.
+#: Precision, in bits, at which balls are compared.
+COMPARED_BITS = 512
+#: SymPy's names for the numbers on one side of 0, without 0 and with it.
 _SIGNS = {1: ("positive", "nonnegative"), -1: ("negative", "nonpositive")}
-#: The words that are names of SymPy's, too, without those for a sign, which bounds say.
+#: The words that SymPy uses, too; signs follow from the bounds.
 _NAMED = {*WORDS} - {*INEQUALITIES, "half-integer"}
 
 
 @dataclass(frozen=True)
 class Bound:
-    """`sign * (value - end)` isn't negative, nor zero where the bound is strict.
+    """`sign * (value - end)` is nonnegative, and positive if the bound is strict.
 
-    For an end that isn't rational, sqrt(2), it is a rational number on the other side, nearby.
+    An irrational bound such as sqrt(2) is replaced by a weaker rational one nearby.
     """
 
     sign: int
@@ -76,17 +75,17 @@ class Bound:
     strict: bool
 
     def admits(self, number: Fraction) -> bool:
-        """True unless the number is beyond the bound."""
+        """True if the number respects the bound."""
         distance = self.sign * (number - self.end)
         return distance > 0 or (distance == 0 and not self.strict)
 
     def excludes(self, value: Any) -> bool:
         """True if a real ball provably lies on the wrong side."""
-        with working_precision(_PRECISION):
+        with working_precision(COMPARED_BITS):
             return bool((value - arb(fmpq(self.end.numerator, self.end.denominator))) * self.sign < 0)
 
     def among(self, numbers: Classes) -> Bound:
-        """The bound for numbers of a single class, by the nearest of them."""
+        """The bound in terms of the nearest number of a single class."""
         (start,) = numbers.residues
         steps = (self.end - start) / numbers.modulus
         nearest = start + (ceil(steps) if self.sign > 0 else floor(steps)) * numbers.modulus
@@ -97,13 +96,13 @@ class Bound:
 
 @dataclass(frozen=True)
 class Known:
-    """What is known about one parameter: some of `WORDS`, and inequalities such as ">=1/2"; all of it holds."""
+    """The assumptions about one parameter: some of `WORDS`, and relations such as ">=1/2"."""
 
     words: tuple[str, ...] = ()
 
     @cached_property
     def classes(self) -> tuple[Classes, ...]:
-        """Those that contain it."""
+        """The classes that contain it."""
         return tuple(_CLASSES[word] for word in self.words if word in _CLASSES)
 
     @cached_property
@@ -118,19 +117,15 @@ class Known:
             return True
         return False if "irrational" in self.words else None
 
-    @property
-    def noninteger(self) -> bool:
-        return "noninteger" in self.words
-
     @cached_property
     def excluded(self) -> frozenset[Fraction]:
-        """Single numbers that it isn't."""
+        """Single numbers that it differs from."""
         return frozenset(Fraction(match[1]) for match in map(_UNEQUAL.fullmatch, self.relations) if match)
 
     @cached_property
     def relations(self) -> tuple[str, ...]:
-        """The words, relations in the place of those that abbreviate one."""
-        return tuple(_RELATIONS.get(word, word) for word in self.words)
+        """The words, with those that abbreviate a relation replaced by it."""
+        return tuple(_RELATION_OF_WORD.get(word, word) for word in self.words)
 
     @cached_property
     def inequalities(self) -> tuple[Bound, ...]:
@@ -149,15 +144,17 @@ class Known:
         return not self.admits_number(Fraction(0))
 
     def admits_number(self, number: Fraction) -> bool:
-        """True if it may be this rational number."""
-        if self.rational is False or number in self.excluded or (self.noninteger and number.denominator == 1):
+        """True unless it provably differs from this rational number."""
+        if self.rational is False or number in self.excluded:
+            return False
+        if number.denominator == 1 and "noninteger" in self.words:
             return False
         is_in_classes = all(numbers.contains(number) for numbers in self.classes)
         return is_in_classes and all(bound.admits(number) for bound in self.inequalities)
 
     def admits(self, value: Poly) -> bool:
-        """True if it may have this value.  An algebraic number of which any conjugate may be meant has no sign."""
-        number = value.field.rational_value(value)
+        """True unless it provably has another value.  An algebraic number known up to conjugation has no sign."""
+        number = rational_number(value)
         if number is not None:
             return self.admits_number(number)
         if self.rational is True:
@@ -172,27 +169,28 @@ class Known:
         """A small rational number, in the known class if there is one."""
         if self.coset is not None:
             return self.coset.residues[0] + random.randint(-6, 6) * self.coset.modulus
-        denominator = random.choice(_DENOMINATORS)
+        denominator = random.choice((1, 1, 2, 2, 3, 4, 5, 6))
         return Fraction(random.randint(-6 * denominator, 6 * denominator), denominator)
 
     def may_be_among(self, numbers: Classes) -> bool:
         """False if it provably is none of these numbers."""
         if not all(map(numbers.meet, self.classes)):
             return False
-        if self.rational is False or (self.noninteger and numbers.are_covered_by(INTEGERS)):
+        if self.rational is False or ("noninteger" in self.words and numbers.are_covered_by(INTEGERS)):
             return False
         ends = {bound.sign: bound.end for bound in self.bounds}
         if len(ends) < 2:
             return True
-        first, last = ([(ends[sign] - residue) / numbers.modulus for residue in numbers.residues] for sign in (1, -1))
-        tried = [range(ceil(low), floor(high) + 1) for low, high in zip(first, last, strict=True)]
-        if sum(map(len, tried)) > _TRIED:
-            return True
-        pairs = zip(numbers.residues, tried, strict=True)
-        return any(self.admits_number(residue + k * numbers.modulus) for residue, steps in pairs for k in steps)
+        tried: list[Fraction] = []  # the numbers between the bounds
+        for residue in numbers.residues:
+            first, last = ((ends[sign] - residue) / numbers.modulus for sign in (1, -1))
+            if last - first > MOST_TRIALS:
+                return True
+            tried += [residue + k * numbers.modulus for k in range(ceil(first), floor(last) + 1)]
+        return any(map(self.admits_number, tried))
 
     def is_contradiction(self) -> bool:
-        """True if no number is provably left: two kinds of numbers, or bounds, that exclude one another."""
+        """True if provably no number is left: two kinds of numbers, or bounds, exclude one another."""
         if not all(map(self.may_be_among, self.classes)) or ("irrational" in self.words and self.rational is True):
             return True
         ends = {bound.sign: bound.end for bound in self.bounds}
@@ -202,7 +200,7 @@ class Known:
         return any(word.replace("<", ">") in self.words for word in self.words if re.match("<[^=]", word))
 
     def sympy_properties(self) -> list[str]:
-        """What SymPy has names for; of bounds, what they say of the sign."""
+        """The properties for which SymPy has names, among them the sign that follows from the bounds."""
         words = [word for word in self.words if word in _NAMED]
         if "half-integer" in self.words:
             words += ["rational", "noninteger"]
@@ -214,7 +212,7 @@ class Known:
 
 
 def words_of(symbol: Any) -> list[str]:
-    """What SymPy knows of a symbol, without what follows from the rest: a kind of number, a sign, and that it isn't 0."""
+    """SymPy's assumptions on a symbol, without those that others imply: a kind of number, a sign, not 0."""
     kinds = ("odd", "even", "integer", "irrational", "rational")
     words = [kind for kind in kinds if getattr(symbol, f"is_{kind}")][:1]
     if symbol.is_integer is False and "irrational" not in words:
@@ -232,7 +230,7 @@ def is_relation(word: str) -> bool:
 
 @lru_cache(maxsize=256)
 def _stated_bound(word: str) -> Bound:
-    """What a relation says.  Raises `InputError` for an end that isn't a real number, or too large."""
+    """The bound that a relation states.  Raises `InputError` for an end that isn't a real number, or too large."""
     match = _BOUND.fullmatch(word)
     assert match is not None
     sign = 1 if ">" in word else -1
@@ -243,19 +241,19 @@ def _stated_bound(word: str) -> Bound:
     ball = enclosure(number.num[0]) if is_number else None
     if ball is None or not ball.imag.contains(0):
         raise InputError(f"{match[2]!r} isn't a real number", hint="bounds are numbers, such as 1/2 and sqrt(2)")
-    with working_precision(_PRECISION):
+    with working_precision(COMPARED_BITS):
         end = (ball.real.lower() if sign > 0 else ball.real.upper()).fmpq()
     return Bound(sign, Fraction(int(end.p), int(end.q)), strict=True)
 
 
-#: Words for others, or for nothing that is used.  A natural number can be 0: what holds then holds for those who begin with 1.
+#: Words that stand for others, or for nothing usable.  A natural number may be 0 here: what holds then also holds from 1 on.
 _ABBREVIATIONS: dict[str, tuple[str, ...]] = {"natural": ("nonnegative", "integer"), "real": (), "complex": ()}
 _NO_BOUND = Bound(1, Fraction(0), False)
 
 
 @dataclass(frozen=True)
 class Assumptions:
-    """The assumptions on the parameters, by name, and the value of the algebraic constant among these, if there is one."""
+    """The assumptions on the parameters by name, and the value of the algebraic constant among the parameters, if any."""
 
     known: tuple[tuple[str, Known], ...] = ()
     constant: ParameterPoint = NO_CONSTANT
@@ -266,10 +264,10 @@ class Assumptions:
 
     @property
     def concerns_exponents(self) -> bool:
-        return any(known.classes or known.rational is False or known.noninteger for _, known in self.known)
+        return any(known.classes or {"irrational", "noninteger"} & {*known.words} for _, known in self.known)
 
     def of(self, name: str) -> Known:
-        """What is known about the parameter of this name."""
+        """The assumptions about the parameter of this name."""
         return dict(self.known).get(name, Known())
 
     def also(self, name: str, words: tuple[str, ...]) -> Assumptions:
@@ -297,7 +295,7 @@ class Assumptions:
         return ", ".join(parts)
 
     def symbols(self) -> dict[str, Any]:
-        """SymPy's symbols with these properties, by name."""
+        """SymPy symbols with these properties, by name."""
         from sympy import Symbol
 
         return {name: Symbol(name, **dict.fromkeys(known.sympy_properties(), True)) for name, known in self.known}
@@ -306,45 +304,43 @@ class Assumptions:
         """Whether the value of a form is one of the numbers: True (always), False (never) or None."""
         value = self.value_of(form)
         if value is not None:
-            number = value.field.rational_value(value)
+            number = rational_number(value)
             return number is not None and numbers.contains(number)
         values = self._class_of(form)
         if values is not None and values.are_covered_by(numbers):
             return True
-        is_apart = self.is_irrational(form) or (values is not None and not values.meet(numbers))
+        if self.is_irrational(form) or (values is not None and not values.meet(numbers)):
+            return False
         linear = linear_of(form)
-        if linear is not None and linear.parameter is not None:
-            is_apart = is_apart or not self.of(linear.parameter).may_be_among(linear.solutions(numbers))
-        return False if is_apart else None
+        if (
+            linear is None
+            or linear.parameter is None
+            or self.of(linear.parameter).may_be_among(linear.solutions(numbers))
+        ):
+            return None
+        return False
 
     def vanishes(self, function: FunctionPoly) -> bool | None:
         """Whether the function vanishes: True (always), False (never) or None."""
         value = self.value_of(function)
         if value is not None:
             return not value
-        return False if self._is_nowhere_zero(function) else None
-
-    def _is_nowhere_zero(self, function: FunctionPoly) -> bool:
-        """True if this follows from classes, a root that isn't admitted, factors, irrationality or a sign."""
+        above = numerator(function)
+        linear = linear_of(above)
         values = self._class_of(function)
-        if values is not None and not values.contains(Fraction(0)):
-            return True
-        linear = linear_of(numerator(function))
+        nowhere_zero = self.is_irrational(function) or (values is not None and not values.contains(Fraction(0)))
         if linear is not None and linear.parameter is not None:
             (root,) = linear.solutions(INTEGERS).residues  # where the value is 0
-            if not self.of(linear.parameter).admits_number(root):
-                return True
-        if len(function.num) == 1:  # a product
-            return all(self.of(name).nonzero for name in parameters_of(function))
-        above = numerator(function)
-        return self.is_irrational(function) or self.is_positive(above) or self.is_positive(-1 * above)
+            nowhere_zero = nowhere_zero or not self.of(linear.parameter).admits_number(root)
+        if len(above.num) == 1:  # a product of powers of parameters
+            nowhere_zero = nowhere_zero or all(self.of(name).nonzero for name in parameters_in(function))
+        nowhere_zero = nowhere_zero or self.is_positive(above) or self.is_positive(-above)
+        return False if nowhere_zero else None
 
     def value_of(self, function: FunctionPoly) -> Poly | None:
-        """The value of a polynomial in the parameters that have a value; None for any other."""
+        """The value of a function of the parameters that have a value; None for any other."""
         fixed = dict(zip(self.constant.names, self.constant.values, strict=True))
-        below = element(function.field, function.den)
-        used = {*parameters_of(function), *parameters_of(below)}
-        if not used <= fixed.keys():
+        if not {*parameters_in(function), *parameters_in(denominator(function))} <= fixed.keys():
             return None
         return function.value_at([fixed.get(name, 0) for name in function.field.names], self.constant.field)
 
@@ -355,13 +351,13 @@ class Assumptions:
         """
         if not form.den.is_constant():
             return False
-        choices: dict[str, tuple[Bound, ...]] = dict.fromkeys(form.field.names, (_NO_BOUND,))
-        choices |= {name: self.of(name).bounds for name in parameters_of(form)}
-        return any(_is_positive_beyond(bounds, form, or_zero=or_zero) for bounds in product(*choices.values()))
+        used = parameters_in(form)
+        choices = (self.of(name).bounds if name in used else (_NO_BOUND,) for name in form.field.names)
+        return any(_is_positive_beyond(bounds, form, or_zero=or_zero) for bounds in product(*choices))
 
     def _class_of(self, form: FunctionPoly) -> Classes | None:
-        """A class that contains all values of a function that isn't a number; None if a class isn't known."""
-        known = {name: self.of(name).coset for name in parameters_of(form)}
+        """A class that contains all values of a function that isn't a number; None if no class is known."""
+        known = {name: self.of(name).coset for name in parameters_in(form)}
         classes = {name: numbers for name, numbers in known.items() if numbers is not None}
         if len(classes) < len(known):
             return None
@@ -372,7 +368,7 @@ class Assumptions:
         return INTEGERS if are_integers and form.den.is_one() else None
 
     def is_irrational(self, form: Poly) -> bool:
-        """A linear form in which one parameter is irrational and the others are rational."""
+        """True for a linear form in which one parameter is irrational and the others are rational."""
         linear = linear_of(over_parameters(form))
         if linear is None:
             return False
@@ -392,11 +388,11 @@ class LinearCombination:
 
     @property
     def parameter(self) -> str | None:
-        """The name of the only one; None if there are several, or none."""
+        """The name of the only parameter; None if there are several, or none."""
         return next(iter(self.factors)) if len(self.factors) == 1 else None
 
     def values(self, known: Mapping[str, Classes]) -> Classes:
-        """A class that contains the values, for parameters in single classes; one occurs at least."""
+        """A class that contains the values, for at least one parameter, each in a single class."""
         start = self.constant + sum(factor * known[name].residues[0] for name, factor in self.factors.items())
         steps = [abs(factor) * known[name].modulus for name, factor in self.factors.items()]
         return Classes((start,), reduce(common_divisor, steps))
@@ -418,7 +414,7 @@ def linear_of(form: FunctionPoly) -> LinearCombination | None:
     return LinearCombination(factors.pop("", Fraction(0)), factors)
 
 
-def parameters_of(form: FunctionPoly) -> list[str]:
+def parameters_in(form: FunctionPoly) -> list[str]:
     """The parameters in the numerator."""
     return [name for name, k in zip(form.field.names, degrees(form), strict=True) if k]
 
@@ -426,8 +422,8 @@ def parameters_of(form: FunctionPoly) -> list[str]:
 def read_assumptions(assume: Mapping[Any, str] | None, S: Any, names: tuple[str, ...]) -> Assumptions:
     """From `{"n": "positive integer"}`, and from the assumptions on the SymPy symbols in S.
 
-    Raises `InputError` for a name that isn't a parameter, and for a word that isn't one of `WORDS` ("real" and "complex" say
-    nothing that could be used).
+    Raises `InputError` for a name that isn't a parameter, a word that isn't one of `WORDS` ("real" and "complex" are accepted
+    and not used), and for assumptions that contradict one another.
     """
     check_mapping(assume)
     words: dict[str, list[str]] = {name: [] for name in names}
@@ -448,13 +444,13 @@ def read_assumptions(assume: Mapping[Any, str] | None, S: Any, names: tuple[str,
 
 
 def check_mapping(assume: object) -> None:
-    """Raises `InputError` for what can't be assumptions."""
+    """Raises `InputError` unless assumptions are a mapping."""
     if assume is not None and not isinstance(assume, Mapping):
         raise InputError(f"assumptions are a mapping, not {assume!r}", hint='assume={"n": "integer"}')
 
 
 def check_values(given: Mapping[str, Any], names: tuple[str, ...]) -> None:
-    """Raises `InputError` unless each of the parameters has a value, and nothing else."""
+    """Raises `InputError` unless values are given for exactly these parameters."""
     missing = ", ".join(name for name in names if name not in given)
     unknown = ", ".join(name for name in given if name not in names)
     if missing or unknown:
@@ -463,7 +459,7 @@ def check_values(given: Mapping[str, Any], names: tuple[str, ...]) -> None:
 
 
 def _read_words(what: object) -> list[str]:
-    """The words of an assumption.  Raises `InputError` for others, and for bounds that aren't real numbers."""
+    """The words of an assumption.  Raises `InputError` for unknown ones, and for bounds that aren't real numbers."""
     text = re.sub(r"([<>]=?|!=)\s+", r"\1", str(what))
     text = re.sub(r"!=0(?![\d/])", "nonzero", text)
     given = text.replace(",", " ").split()
@@ -471,7 +467,7 @@ def _read_words(what: object) -> list[str]:
     unknown = [word for word in words if word not in WORDS and not is_relation(word)]
     if unknown or not given:
         hint = f"known are {', '.join((*_ABBREVIATIONS, *WORDS))}, >=1/2, !=1, a value"
-        raise InputError(f"{' '.join(unknown) or what!r} isn't an assumption that is known", hint=hint)
+        raise InputError(f"{' '.join(unknown) or what!r} isn't a known assumption", hint=hint)
     for word in filter(_BOUND.fullmatch, words):
         _stated_bound(word)
     return words

@@ -1,8 +1,8 @@
-"""What is printed of a statement: claims, each true or false at a point in the way in which a reader takes it.
+"""Functions of the parameters, classes of rational numbers, and the claims that are printed about them.
 
-A statement is decided by its equations, a claim by what was made of them: a parameter as a function of an integer, a sum of
-square roots, a table.  So the two can be compared at points, and each claim that leaves is.  `integers` makes claims, `prose`
-writes them.
+A claim is true or false at each point, as a reader understands it.  A statement is decided by its equations, a claim by what
+was made of them: a parameter as a function of an integer, a sum of square roots, a table.  The two can be compared at points,
+and every printed claim is.  `integers` makes claims, `prose` writes them.
 """
 
 from __future__ import annotations
@@ -13,25 +13,242 @@ from dataclasses import dataclass, replace
 from fractions import Fraction
 from functools import reduce
 from itertools import chain, product
-from typing import ClassVar, NamedTuple
+from math import gcd
+from typing import Any, ClassVar, NamedTuple
 
 from kovacic.algebra.extension import AlgebraicField, ExtensionPoly, norm
 from kovacic.algebra.function_field import FunctionField, FunctionPoly
 from kovacic.algebra.poly import Field, Poly
 from kovacic.algebra.ratfunc import RatFunc
-from kovacic.algebra.rationals import QQ
+from kovacic.algebra.rationals import QQ, to_fraction
+from kovacic.algebra.sparse import by_power, factorisation
 from kovacic.equation import parameters_of
-from kovacic.parametric.functions import NATURALS, Classes, ParameterPoint, lifted, over_parameters, roots
+
+
+def over_parameters(value: Poly) -> FunctionPoly:
+    """The polynomial, whose field is known to be some Q(t); raises `TypeError` if it isn't."""
+    if not isinstance(value, FunctionPoly):
+        raise TypeError("a function over Q(t) is expected")
+    return value
+
+
+def in_field(function: Poly, field: FunctionField) -> FunctionPoly:
+    """The function over a field that contains its parameters, if there are any."""
+    if not isinstance(function, FunctionPoly):
+        return over_parameters(function.over(field))
+    return over_parameters(function.value_at([*map(field.generator, function.field.names)], field))
+
+
+def with_free_generator(polynomial: Poly, larger: FunctionField) -> FunctionPoly:
+    """The polynomial with the generator of its field replaced by the last parameter of the larger field."""
+    assert isinstance(polynomial, ExtensionPoly)
+    generator = larger.generator(larger.names[-1])
+    return reduce(
+        lambda total, part: total * generator + in_field(part, larger), reversed(polynomial.parts), larger.poly([])
+    )
+
+
+def element(field: FunctionField, num: Any) -> FunctionPoly:
+    """A polynomial in x and the parameters over Z, as one over Q(t)."""
+    return FunctionPoly(field, num, field.context.constant(1))
+
+
+def numerator(function: FunctionPoly) -> FunctionPoly:
+    return element(function.field, function.num)
+
+
+def denominator(function: FunctionPoly) -> FunctionPoly:
+    return element(function.field, function.den)
+
+
+def irreducible_factors(function: Poly) -> list[FunctionPoly]:
+    """The irreducible factors over Q of the numerator of an element of Q(t)."""
+    known = over_parameters(function)
+    return [element(known.field, factor) for factor, _ in factorisation(known.num)[1]]
+
+
+def polynomial_factors(polynomial: Poly) -> list[FunctionPoly]:
+    """The different monic irreducible factors of a polynomial over Q(t)."""
+    return [over_parameters(factor) for factor, _ in polynomial.field.factor(polynomial)]
+
+
+def denominators(polynomial: Poly) -> list[FunctionPoly]:
+    """The denominators of the coordinates of a polynomial over an extension of Q(t), as elements of Q(t)."""
+    return [element(leaf.field, leaf.den) for leaf in polynomial.leaves() if isinstance(leaf, FunctionPoly)]
+
+
+def union(lists: Iterable[Iterable[FunctionPoly]]) -> list[FunctionPoly]:
+    """The different polynomials of several lists, in order."""
+    return [*dict.fromkeys(chain.from_iterable(lists))]
+
+
+def degrees(function: FunctionPoly) -> tuple[int, ...]:
+    """The degrees of the numerator in the parameters."""
+    return tuple(map(int, function.num.degrees()[1:]))
+
+
+def powers_of(function: FunctionPoly, i: int) -> dict[int, FunctionPoly]:
+    """The coefficients of the powers of parameter number i in the numerator."""
+    return {power: element(function.field, part) for power, part in by_power(function.num, 1 + i).items()}
+
+
+def on_zeros(function: FunctionPoly, zero: FunctionPoly) -> FunctionPoly:
+    """The function on the zeros of another one, without a parameter for which a linear equation is solved there."""
+    field = function.field
+    for i, power in enumerate(degrees(zero)):
+        parts = powers_of(zero, i)
+        if power == 1 and parts[1].num.is_constant():
+            values = [*map(field.generator, field.names)]
+            values[i] = -parts.get(0, 0 * parts[1]) / parts[1]
+            return over_parameters(numerator(function).value_at(values, field))
+    return function
+
+
+def on_linear_zeros(function: FunctionPoly, zeros: Iterable[FunctionPoly]) -> FunctionPoly:
+    """The function with linear equations inserted: -4 b for a^2 - 4 b if a is one of the zeros."""
+    for zero in zeros:
+        if zero != function and sum(degrees(zero)) == 1:
+            function = on_zeros(function, zero)
+    return function
+
+
+def roots(polynomial: Poly) -> list[Poly]:
+    """The roots in the field, a multiple one several times."""
+    found = []
+    for factor, multiplicity in polynomial.field.factor(polynomial):
+        if factor.degree == 1:
+            found += [-factor[0]] * multiplicity
+    return found
+
+
+def coefficients_in(function: FunctionPoly, i: int, values: Sequence[Poly], field: Field) -> list[Poly]:
+    """The coefficients of the powers of parameter number i in the numerator, low to high, at values of the others."""
+    parts = powers_of(function, i)
+    return [parts.get(k, 0 * function).value_at(values, field) for k in range(max(parts) + 1)]
+
+
+def without_parameter(i: int, names: Sequence[str]) -> tuple[Field, list[Poly]]:
+    """The field of the other parameters, Q if there are none, and all of them as its elements: 0 for number i."""
+    others = (*names[:i], *names[i + 1 :])
+    if not others:
+        return QQ, [QQ.poly([0])]
+    field = FunctionField(others)
+    values: list[Poly] = [*map(field.generator, others)]
+    values.insert(i, field.poly([0]))
+    return field, values
+
+
+def rational_number(constant: Poly) -> Fraction | None:
+    """The number, if the constant is a rational one."""
+    return constant.field.rational_value(constant)
+
+
+def laurent_constant_term(function: Poly) -> Fraction:
+    """The constant term of the Laurent series at 0 of a function of the parameters."""
+    return to_fraction(function.rational_coefficients()[0]) if function else Fraction(0)
+
+
+class ScaledForm(NamedTuple):
+    """A function of the parameters is form/scale + shift.
+
+    The form has no constant term (in a Laurent series at 0), and coprime coefficients of which the first is positive.
+    """
+
+    form: FunctionPoly
+    scale: Fraction
+    shift: Fraction
+
+
+def scaled_form(function: Poly) -> ScaledForm:
+    """The form of a function that isn't a number."""
+    shift = laurent_constant_term(function)
+    form = over_parameters(function) - shift
+    above, below = ([*map(int, part.coeffs())] for part in (form.num, form.den))
+    sign = 1 if above[0] > 0 else -1
+    scale = Fraction(gcd(*below), gcd(*above) * sign)
+    return ScaledForm(form * scale, scale, shift)
+
+
+@dataclass(frozen=True)
+class ParameterPoint:
+    """Values of the parameters, in the order of the names: constants of one field, Q or Q(alpha), or functions of others."""
+
+    names: tuple[str, ...]
+    values: tuple[Poly, ...]
+    field: Field = QQ
+
+    @classmethod
+    def generic(cls, field: FunctionField) -> ParameterPoint:
+        """The parameters themselves, which can have all values."""
+        return cls(field.names, tuple(map(field.generator, field.names)), field)
+
+    def at(self, function: FunctionPoly) -> Poly:
+        """The value of a polynomial over Q(t).  Raises `ZeroDivisionError` if it isn't defined."""
+        chosen = [self.values[self.names.index(name)] for name in function.field.names]
+        return function.value_at(chosen, self.field)
+
+    def restricted(self, S: RatFunc) -> RatFunc:
+        """S at the point.  Raises `ZeroDivisionError` if S isn't defined there."""
+        return RatFunc(*(self.at(over_parameters(part)) for part in S.cleared()))
+
+    def __str__(self) -> str:
+        return ", ".join(f"{name} = {value.to_str()}" for name, value in zip(self.names, self.values, strict=True))
+
+
+#: The point of no algebraic constant.
+NO_CONSTANT = ParameterPoint((), ())
+
+
+@dataclass(frozen=True)
+class Classes:
+    """The rational numbers congruent to one of the `residues` modulo a number; `least` bounds them from below, if it does."""
+
+    residues: tuple[Fraction, ...]
+    modulus: Fraction
+    least: int | None = None
+
+    @classmethod
+    def of(cls, residues: Iterable[Fraction | int], modulus: Fraction | int) -> Classes:
+        return cls(tuple(map(Fraction, residues)), Fraction(modulus))
+
+    def contains(self, number: Fraction) -> bool:
+        if self.least is not None and number < self.least:
+            return False
+        return any((number - residue) % self.modulus == 0 for residue in self.residues)
+
+    def modulo(self, multiple: Fraction) -> list[Fraction]:
+        """The residues modulo a multiple of the modulus."""
+        return [residue + k * self.modulus for residue in self.residues for k in range(int(multiple / self.modulus))]
+
+    def meet(self, other: Classes) -> bool:
+        """True if a number is in both, bounds aside."""
+        step = common_divisor(self.modulus, other.modulus)
+        return any((first - second) % step == 0 for first, second in product(self.residues, other.residues))
+
+    def are_covered_by(self, other: Classes) -> bool:
+        """True if each of the numbers belongs to the others, which have no bound."""
+        return all(map(other.contains, self.modulo(common_multiple(self.modulus, other.modulus))))
+
+
+INTEGERS = Classes.of([0], 1)
+NATURALS = Classes((Fraction(0),), Fraction(1), 0)
+
+
+def common_divisor(a: Fraction, b: Fraction) -> Fraction:
+    """The largest number of which both are integral multiples; a and b are not negative."""
+    return Fraction(gcd(a.numerator * b.denominator, b.numerator * a.denominator), a.denominator * b.denominator)
+
+
+def common_multiple(a: Fraction, b: Fraction) -> Fraction:
+    """The least positive integral multiple of both; a and b are positive."""
+    return a * b / common_divisor(a, b)
 
 
 class Claim(ABC):
-    """A statement about the parameters, true exactly where a reader finds it true."""
+    """A statement about the parameters, as a reader understands it."""
 
     def holds(self, point: ParameterPoint) -> bool:
-        """True if it is true at the point; a formula that isn't defined there makes it false.
-
-        Of a statement on a chart: True only if it provably holds at all values of the chart.
-        """
+        """True if it holds at the point, where all of its formulas are defined, or provably at all values of a chart."""
         try:
             return self._holds(point)
         except ZeroDivisionError:
@@ -41,7 +258,7 @@ class Claim(ABC):
     def _holds(self, point: ParameterPoint) -> bool: ...
 
     def numbers_at(self, point: ParameterPoint) -> Iterable[Fraction | int]:
-        """The integers for which it is true at the point, of a claim about one."""
+        """The integers for which a claim about an integer holds at the point."""
         return ()
 
 
@@ -63,7 +280,7 @@ class IsNonzero(Claim):
 
 @dataclass(frozen=True)
 class Several(Claim):
-    """Made of others: one truth value of a part decides."""
+    """A combination of claims, decided by one part with the truth value `decisive`."""
 
     parts: tuple[Claim, ...]
     decisive: ClassVar[bool]
@@ -90,13 +307,13 @@ class InClasses(Claim):
     numbers: Classes
 
     def _holds(self, point: ParameterPoint) -> bool:
-        number = rational(point.at(self.form))
+        number = rational_number(point.at(self.form))
         return number is not None and self.numbers.contains(number)
 
 
 @dataclass(frozen=True)
 class SumOfRoots(Claim):
-    """`mean`, +- the square roots of the `squares`, is one of the numbers for a choice of the signs."""
+    """`mean` +- the square roots of the `squares` is one of the numbers, for some choice of the signs."""
 
     mean: FunctionPoly
     squares: tuple[Poly, ...]
@@ -110,7 +327,7 @@ class SumOfRoots(Claim):
 
 @dataclass(frozen=True)
 class Free:
-    """At n = `root` f isn't defined, and the condition is that `zero` vanishes, whatever the parameter is."""
+    """At n = `root` f isn't defined; there the condition is that `zero` vanishes, and the parameter is free."""
 
     root: FunctionPoly
     zero: FunctionPoly
@@ -118,7 +335,7 @@ class Free:
 
 @dataclass(frozen=True)
 class ForInteger(Claim):
-    """True for one of some integers: the subclass says for which."""
+    """A claim that holds for one of some integers, the `numbers_at` a point."""
 
     letter: str
 
@@ -128,10 +345,7 @@ class ForInteger(Claim):
 
 @dataclass(frozen=True)
 class IntegerFamily(ForInteger):
-    """`parameter = value`, a function of n, for an n that is one of the numbers.
-
-    `poles` are what is said of the n at which the value isn't defined.
-    """
+    """`parameter = value`, a function of n, for an n that is one of the numbers; `poles` are the n without a value."""
 
     parameter: str
     value: RatFunc
@@ -140,14 +354,14 @@ class IntegerFamily(ForInteger):
 
     def along(self, line: FunctionPoly, numbers: Classes) -> IntegerFamily:
         """The family after the substitution of line(n) for n, n among other numbers, with the poles that may occur then."""
-        moved = [replace(pole, root=over_parameters((pole.root - line[0]) / line[1])) for pole in self.poles]
-        possible = (p for p in moved if (number := rational(p.root)) is None or numbers.contains(number))
+        moved = [replace(pole, root=(pole.root - line[0]) / line[1]) for pole in self.poles]
+        possible = (p for p in moved if (number := rational_number(p.root)) is None or numbers.contains(number))
         return replace(self, value=self.value(RatFunc(line)), numbers=numbers, poles=tuple(possible))
 
     def numbers_at(self, point: ParameterPoint) -> Iterator[Fraction]:
-        """The poles named in messages are among them."""
+        """The solutions n of value(n) = parameter, and the poles at which the condition holds."""
         for zero in self.poles:
-            number = rational(point.at(zero.root))
+            number = rational_number(point.at(zero.root))
             if number is not None and self.numbers.contains(number) and not point.at(zero.zero):
                 yield number
         above, below = (point.at(over_parameters(part)) for part in self.value.cleared())
@@ -167,11 +381,6 @@ class EquationFor(ForInteger):
         return filter(self.numbers.contains, rational_roots(point.at(self.equation)))
 
 
-def rational(constant: Poly) -> Fraction | None:
-    """The number, where it is rational."""
-    return constant.field.rational_value(constant)
-
-
 def rational_roots(polynomial: Poly) -> list[Fraction]:
     """The rational roots of a polynomial over Q or an extension of it."""
     common = polynomial
@@ -179,7 +388,7 @@ def rational_roots(polynomial: Poly) -> list[Fraction]:
         common = reduce(lambda a, b: a.gcd(b), common.parts)
     if common.degree < 1:
         return []
-    return [*dict.fromkeys(number for number in map(QQ.rational_value, roots(common)) if number is not None)]
+    return [number for number in dict.fromkeys(map(QQ.rational_value, roots(common))) if number is not None]
 
 
 def signed_sums(squares: Sequence[Poly], constant: Poly | Fraction, field: Field) -> Poly:
@@ -188,7 +397,7 @@ def signed_sums(squares: Sequence[Poly], constant: Poly | Fraction, field: Field
 
 
 def with_signed_root(total: Poly, square: Poly) -> Poly:
-    """The squarefree polynomial whose roots are those of another one, plus and minus the square root."""
+    """The squarefree polynomial whose roots are those of `total` plus and minus the square root."""
     field = total.field
     root = AlgebraicField(field, field.poly([-square, 0, 1])).generator  # formally, if there is one in the field
     total = norm(total(root.field.poly([0, 1]) + root))
@@ -199,7 +408,7 @@ def with_signed_root(total: Poly, square: Poly) -> Poly:
 
 
 class ExponentRoot(NamedTuple):
-    """sqrt(square), of which multiples k occur with an integer k, |k| <= largest."""
+    """sqrt(square), which occurs times an integer k, |k| <= largest."""
 
     square: Poly
     largest: int
@@ -207,7 +416,7 @@ class ExponentRoot(NamedTuple):
 
 @dataclass(frozen=True)
 class Numbers:
-    """The possible degrees of P, or numbers of zeros of a form, by the exponents: constant + sum of k times a root.
+    """The degrees of P, or numbers of zeros of a form, that the exponents allow: constant + sum of k times a root.
 
     The roots are over the `field`, the `base` or a quadratic extension of it.  With `only_signs` each k is 1 or -1.
     """
@@ -223,7 +432,7 @@ class Numbers:
         """The k, up to their signs."""
         return product(*(range(int(self.only_signs), root.largest + 1) for root in self.roots))
 
-    def equation(self, multiples: Sequence[int]) -> Poly:
+    def equation(self, multiples: Sequence[int]) -> FunctionPoly:
         """The polynomial over the base, or a multiple, whose roots are constant + sums of +- k times a root for these k."""
         squares = [k * k * root.square for k, root in zip(multiples, self.roots, strict=True) if k]
         total = self.base.poly([0, 1]) - self.constant
@@ -233,31 +442,23 @@ class Numbers:
             sums = signed_sums(conjugate, self.constant, self.field)
             first, second = sums.parts
             total = norm(sums) if second else first
-        return reduce(with_signed_root, squares, total)
-
-    def at(self, point: ParameterPoint, multiples: Sequence[int]) -> list[Fraction]:
-        """The rational ones for these k at a point."""
-        if self.field != self.base:
-            return rational_roots(point.at(over_parameters(self.equation(multiples))))
-        chosen = [(k, over_parameters(root.square)) for k, root in zip(multiples, self.roots, strict=True) if k]
-        squares = [k * k * point.at(square) for k, square in chosen]
-        return rational_roots(signed_sums(squares, self.constant, point.field))
+        return over_parameters(reduce(with_signed_root, squares, total))
 
     @property
     def squares(self) -> list[FunctionPoly]:
-        """Those of the roots, in which that of the extension is one more parameter."""
+        """The squares of the roots, with the generator of the extension as one more parameter."""
         squares = [root.square for root in self.roots]
         if self.field != self.base:
             assert isinstance(self.field, AlgebraicField)
             name = "I" if self.field.name == "sqrt(-1)" else self.field.name
             larger = FunctionField((*parameters_of(self.base), name))
-            squares = [lifted(square, larger) for square in squares]
+            squares = [with_free_generator(square, larger) for square in squares]
         return [*map(over_parameters, squares)]
 
 
 @dataclass(frozen=True)
 class DegreeBySum(ForInteger):
-    """d is one of the numbers; `has_zero`: all k can be 0.  The `names` are those of the k, without them each is 1 or -1."""
+    """d is one of the numbers; `has_zero`: all k can be 0.  `names` are those of the k; without names each is 1 or -1."""
 
     sums: Numbers
     names: tuple[str, ...] = ()
@@ -266,17 +467,17 @@ class DegreeBySum(ForInteger):
     def numbers_at(self, point: ParameterPoint) -> Iterator[Fraction]:
         for multiples in self.sums.choices:
             if any(multiples) or self.has_zero:
-                yield from filter(NATURALS.contains, self.sums.at(point, multiples))
+                yield from filter(NATURALS.contains, rational_roots(point.at(self.sums.equation(multiples))))
 
 
 @dataclass(frozen=True)
 class DegreeExists(Claim):
-    """For one of the natural numbers that `degree` allows, a polynomial or an invariant of degree m exists."""
+    """For one of the natural numbers that `degree` allows, there is a polynomial P, or an invariant of degree m."""
 
     letter: str
     degree: Claim
     m: int
-    #: Decides whether something with one of these numbers of zeros exists at a point: Delta_d is a determinant.
+    #: True if something with one of these numbers of zeros exists at a point, which means that Delta_d vanishes.
     exists: Callable[[ParameterPoint, Sequence[int]], bool]
 
     def _holds(self, point: ParameterPoint) -> bool:

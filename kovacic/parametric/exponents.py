@@ -4,14 +4,13 @@ At a regular place theta has the residue (1 +- Delta)/2; at an irregular one its
 that follows [Kovacic 1986, sec. 3.1].  With theta = R/D, D P'' + 2 R P' + ((R' D - R D' + R^2 - T)/D) P = 0 is a system for the
 coefficients of P.  The roots Delta and sqrt S need lie in no field that is given: conjugate poles are split, and square roots
 adjoined, one after the other.  A system over such an extension is one over the field below for the coordinates of P, and it has
-a solution where one of the conjugate systems has one; which of them is told by P itself, whose coefficients follow from the
-highest one.  In the same way the valuations at all places leave a system for the P of a rational form of degree m.
+a solution where one of the conjugate systems has one; P itself tells which, since its coefficients follow from the highest one.
+In the same way the valuations at all places leave a system for the P of a rational form of degree m.
 
-At which values of the parameters does the rank of a matrix over Q[t] drop?
-
-Where the generic rank is r, it drops exactly at the common zeros of the r-minors.  A hypersurface of such values is among the
-zeros of each minor that isn't 0; one at whose random point the rank is r isn't one.  Which of these values really are special
-is for the engine to say.  First the constant entries are used as pivots, which changes a rank by the same number at all values.
+The rank of a matrix over Q[t], generically r, drops exactly at the common zeros of the r-minors.  A hypersurface of such values
+is among the zeros of each minor that isn't 0; one at whose random point the rank is r is none.  Which of these values really
+are special is for the engine to say.  First the constant entries are used as pivots, which changes the rank by the same number
+at all values.
 """
 
 from __future__ import annotations
@@ -42,18 +41,23 @@ from kovacic.engine.places import Kind, Place, Problem, analyse
 from kovacic.engine.riccati import Form, singular_part
 from kovacic.equation import parameters_of
 from kovacic.errors import LimitExceeded
-from kovacic.limits import bounded_work, check_time, count_work
-from kovacic.parametric.claims import ExponentRoot, Numbers
-from kovacic.parametric.functions import element, in_field, irreducible_factors, lifted, over_parameters
+from kovacic.limits import MOST_TRIALS, bounded_work, check_time, count_work
+from kovacic.parametric.claims import (
+    ExponentRoot,
+    Numbers,
+    element,
+    in_field,
+    irreducible_factors,
+    over_parameters,
+    rational_number,
+    with_free_generator,
+)
 
-#: Minors up to which all of them are computed.
-_MINORS = 60
-#: Products of terms for the determinants of one matrix: those of some seconds.
-_WORK = 10**7
+#: Products of terms for the determinants of one matrix, some seconds' worth.
+_MOST_TERM_PRODUCTS = 10**7
 
 
-def _product(first: Any, second: Any) -> Any:
-    """Counted as work."""
+def _counted_product(first: Any, second: Any) -> Any:
     count_work(len(first) * len(second))
     return first * second
 
@@ -62,8 +66,8 @@ def _product(first: Any, second: Any) -> Any:
 class RankConditions:
     """Where a rank drops: where one of the irreducible `polynomials` vanishes, or all of the `system`.
 
-    The system is empty where that happens nowhere else, and None if it wasn't computed.  `deficient`: the images are
-    linearly dependent for all values.
+    The system is empty if that happens nowhere else, and None if it wasn't computed.  `deficient`: the images are linearly
+    dependent for all values.
     """
 
     polynomials: tuple[FunctionPoly, ...] = ()
@@ -71,34 +75,34 @@ class RankConditions:
     deficient: bool = False
 
 
-#: Nowhere, and those that weren't computed.
+#: The rank drops nowhere; conditions that weren't computed.
 NOWHERE = RankConditions()
-OPEN = RankConditions(system=None)
+NOT_COMPUTED = RankConditions(system=None)
 
 
 def rank_conditions(images: Sequence[Poly], field: Field) -> RankConditions:
-    """Where polynomials span less than generically: over Q(t) or, on a hypersurface in parameter space, over its field.
+    """Where polynomials span less than generically, over Q(t) or the field of a hypersurface in parameter space.
 
-    On a hypersurface the algebraic parameter is one more parameter, and the conditions are said modulo its equation.
+    On a hypersurface the algebraic parameter is one more parameter, and the conditions hold modulo its equation.
     """
     surface = None
     if isinstance(field, AlgebraicField):
         larger = FunctionField((*parameters_of(field.base), field.name))
         surface = over_parameters(in_field(field.modulus, larger)(larger.generator(field.name))).num
-        images = [lifted(image, larger) for image in images]
+        images = [with_free_generator(image, larger) for image in images]
     try:
-        with bounded_work(_WORK):
-            return _conditions([*map(over_parameters, images)], surface)
+        with bounded_work(_MOST_TERM_PRODUCTS):
+            return _minor_conditions([*map(over_parameters, images)], surface)
     except LimitExceeded as limit:
         if limit.limit != "work":
             raise
-        return OPEN
+        return NOT_COMPUTED
 
 
-def _conditions(images: Sequence[FunctionPoly], surface: Any) -> RankConditions:
-    """By all minors of the size of the rank, if there aren't too many, or else by two of them.
+def _minor_conditions(images: Sequence[FunctionPoly], surface: Any) -> RankConditions:
+    """Conditions by all minors of the size of the rank, or by two of them if there are too many.
 
-    The rank at a random point is a lower bound, and the generic rank but for a probability of about 2**-60.
+    The rank at a random point is a lower bound, and differs from the generic rank with a probability of about 2**-60.
     """
     # By powers of x, without denominators.
     smaller = without_constant_pivots([by_power(image.num, 0) for image in images])
@@ -112,25 +116,27 @@ def _conditions(images: Sequence[FunctionPoly], surface: Any) -> RankConditions:
     if rank == 0:
         return RankConditions(deficient=deficient)
     has_one_parameter = surface is None and len(field.names) == 1
-    most = 1 if has_one_parameter else _MINORS
-    # Columns are to be chosen, too, or rows in too many ways.
+    most = 1 if has_one_parameter else MOST_TRIALS
+    # If columns would have to be chosen, too, or rows in too many ways.
     if rank < len(rows[0]) or comb(len(rows), rank) > most:
-        polynomials = _common_factors(rows, rank, point, field) if surface is None else ()
+        polynomials = _factors_of_minors(rows, rank, point, field) if surface is None else ()
         return RankConditions(polynomials, () if has_one_parameter else None, deficient)
     minors = [*filter(None, (_determinant([[*row] for row in chosen]) for chosen in combinations(rows, rank)))]
     if surface is not None and len(minors) > 1:
         return RankConditions((), tuple(element(field, minor) for minor in minors), deficient)
     common = reduce(lambda a, b: a.gcd(b), minors)
     factors = tuple(irreducible_factors(element(field, common)))
-    # The system of what is left of the minors, without powers, the shortest first.
+    # The system of the cofactors of the minors, without powers, the shortest first.
     rests = [irreducible_factors(element(field, minor // common)) for minor in minors]
     system = {reduce(mul, parts) for parts in rests} if all(rests) else set()
     shortest_first = sorted(system, key=lambda function: (len(function.num), str(function)))
     return RankConditions(factors, tuple(shortest_first), deficient)
 
 
-def _common_factors(rows: list[list[Any]], rank: int, point: _Point, field: FunctionField) -> tuple[FunctionPoly, ...]:
-    """The irreducible factors that all minors of this size have in common: those of two minors, where the rank is smaller."""
+def _factors_of_minors(
+    rows: list[list[Any]], rank: int, point: _ModularPoint, field: FunctionField
+) -> tuple[FunctionPoly, ...]:
+    """The irreducible factors that all minors of this size share: those of two minors at whose zeros the rank is smaller."""
     common = _minor(rows, point)
     if not common.is_constant():
         common = common.gcd(_minor(rows[::-1], point))
@@ -138,41 +144,41 @@ def _common_factors(rows: list[list[Any]], rank: int, point: _Point, field: Func
     return tuple(factor for factor in factors if _random_point(field, factor.num).values(rows).rank() < rank)
 
 
-def _minor(rows: list[list[Any]], point: _Point) -> Any:
+def _minor(rows: list[list[Any]], point: _ModularPoint) -> Any:
     """The minor of the first rows and columns that are independent at the point."""
     chosen = [rows[i] for i in _pivots(point.values(rows).transpose())]
     columns = _pivots(point.values(chosen))
     return _determinant([[row[k] for k in columns] for row in chosen])
 
 
-class _Point(NamedTuple):
+class _ModularPoint(NamedTuple):
     """Values of the parameters modulo a prime."""
 
     prime: int
     parameters: list[int]
 
     def values(self, rows: list[list[Any]]) -> Any:
-        """The matrix with these rows, there."""
+        """The matrix with these rows at the point."""
         entries = [int(entry(0, *self.parameters)) % self.prime for entry in chain.from_iterable(rows)]
         return nmod_mat(len(rows), len(rows[0]), entries, self.prime)
 
 
-def _random_point(field: FunctionField, equation: Any = None) -> _Point:
-    """A point at which a polynomial in the parameters vanishes, if there is one."""
+def _random_point(field: FunctionField, equation: Any = None) -> _ModularPoint:
+    """A random point, one at which a polynomial in the parameters vanishes if an `equation` is given."""
     random = Random(1)
-    for p in primes():  # a surface such as a^2 + 1 = 0 has points for every other one
+    for p in primes():  # modulo every other prime a surface such as a^2 + 1 = 0 has points
         check_time()
         point = [random.randrange(p) for _ in field.names]
         if equation is None:
-            return _Point(p, point)
+            return _ModularPoint(p, point)
+        # The last parameter that occurs is a root; it is variable number `last`, after x, and parameter number last - 1.
         last = max(k for k, degree in enumerate(equation.degrees()) if degree)
         parts = by_power(equation, last)
-        # Of the equation for the last parameter that occurs.
         coefficients = [int(parts.get(k, 0 * equation)(0, *point)) % p for k in range(max(parts) + 1)]
         found = nmod_poly(coefficients, p).roots()
         if found:
             point[last - 1] = int(found[0][0])
-            return _Point(p, point)
+            return _ModularPoint(p, point)
     raise AssertionError("the sequence of primes is infinite")
 
 
@@ -184,18 +190,18 @@ def _pivots(matrix: Any) -> list[int]:
 
 
 class WithoutPivots(NamedTuple):
-    """A matrix whose rank is smaller than that of another one, by the number of rows that were `eliminated`."""
+    """A matrix whose rank is smaller than that of the original one by the number of `eliminated` rows."""
 
     rows: list[list[Any]]
     eliminated: int
 
 
 def without_constant_pivots(columns: list[dict[int, Any]]) -> WithoutPivots:
-    """A smaller matrix, without zero rows and columns, and by how much its rank is smaller.
+    """A smaller matrix without zero rows and columns, for a matrix that is given by the entries of its columns.
 
-    The columns are given by their entries.  A constant entry clears its column, and its row and column are left out then;
-    among them the one that touches the fewest entries is chosen [Markowitz 1957].  A matrix for a polynomial P is banded,
-    so that this is the elimination of its coefficients by their recurrence.
+    A constant entry clears its column, and its row and column are left out then; the one that touches the fewest entries is
+    chosen first [Markowitz 1957].  A matrix for a polynomial P is banded, so that this eliminates its coefficients by their
+    recurrence.
     """
     rows = [{k: column[i] for k, column in enumerate(columns) if column.get(i)} for i in sorted(set().union(*columns))]
     eliminated = 0
@@ -221,12 +227,14 @@ def _cleared(row: dict[int, Any], k: int, chosen: dict[int, Any]) -> dict[int, A
     pivot, factor = chosen[k], row[k]
     zero = 0 * pivot
     columns = row.keys() | chosen.keys()
-    combined = {j: _product(pivot, row.get(j, zero)) - _product(factor, chosen.get(j, zero)) for j in columns}
+    combined = {
+        j: _counted_product(pivot, row.get(j, zero)) - _counted_product(factor, chosen.get(j, zero)) for j in columns
+    }
     return _primitive({j: entry for j, entry in combined.items() if entry})
 
 
 def _primitive(row: dict[int, Any]) -> dict[int, Any]:
-    """A multiple with coprime coefficients, the first one positive: otherwise pivots would grow exponentially."""
+    """The multiple with coprime coefficients, the first one positive; pivots would grow exponentially without this."""
     coefficients = [int(c) for entry in row.values() for c in entry.coeffs()]
     content = -gcd(*coefficients) if coefficients[:1] < [0] else gcd(*coefficients)
     return row if content in (0, 1) else {j: entry // content for j, entry in row.items()}
@@ -241,24 +249,26 @@ def _determinant(rows: list[list[Any]]) -> Any:
         if pivot is None:
             return rows[k][k]
         rows[k], rows[pivot] = rows[pivot], rows[k]
-        for i, j in product(range(k + 1, n), repeat=2):  # minors in the place of the entries below
+        for i, j in product(range(k + 1, n), repeat=2):  # minors take the place of the entries below
             check_time()
-            minor = _product(rows[k][k], rows[i][j]) - _product(rows[i][k], rows[k][j])
+            minor = _counted_product(rows[k][k], rows[i][j]) - _counted_product(rows[i][k], rows[k][j])
             rows[i][j] = minor if previous is None else minor // previous
         previous = rows[k][k]
     return rows[-1][-1]
 
 
-#: The degree of the extension that the exponents may need, and singular points up to which all choices are tried.
-_DEGREE = 16
-_POINTS = 8
+#: The degree of the extension that the exponents may need.
+_MOST_CONJUGATES = 16
 #: The degree of a hypersurface in its parameter up to which roots are looked for in its field: factoring there is slow.
 _SURFACE = 2
 
 
 @dataclass(frozen=True)
 class LocalPart:
-    """exponent/u - main(1/u)/u^2, u the `factor` x - c; at infinity (None) it is main(x), and the exponent that of 1/x."""
+    """The part of theta at a point: exponent/u - main(1/u)/u^2 with u = x - c, the `factor`.
+
+    At infinity, where the factor is None, it is main(x), and the exponent is that of 1/x.
+    """
 
     factor: Poly | None
     exponent: Poly
@@ -273,8 +283,8 @@ class LocalPart:
 
 
 @dataclass(frozen=True)
-class Exponents:
-    """A choice at each point of the `problem`, whose singular points are rational over the field of the choice."""
+class ChosenExponents:
+    """A choice of exponents at each singular point of the `problem`; the points are rational over the `field`."""
 
     problem: Problem
     field: Field
@@ -282,7 +292,7 @@ class Exponents:
 
     @property
     def degree(self) -> Poly:
-        """The degree of P."""
+        """The degree of P, by Fuchs' relation."""
         return 1 - sum((part.exponent for part in self.parts), self.field.poly([]))
 
     @property
@@ -293,7 +303,7 @@ class Exponents:
         return D, 2 * R, (R.derivative() * D - R * D.derivative() + R * R - T) // D
 
     def images(self, d: int) -> list[Poly]:
-        """Those of 1, x, ..., x^d."""
+        """The images of 1, x, ..., x^d under the operator."""
         second, first, zeroth = self.operator
         found = []
         for k in range(d + 1):
@@ -305,8 +315,8 @@ class Exponents:
     def conditions(self, d: int, below: Field) -> RankConditions:
         """The condition for a polynomial P of this degree, over the field below.
 
-        The map is one over each field below, from the basis of the extension times 1, x, ...; the coordinates of an image are
-        put into one polynomial, one behind the other for each power.
+        The map is linear over each field below, from the basis of the extension times 1, x, ...; for each power of x the
+        coordinates of an image follow one another in one polynomial.
         """
         images = self.images(d)
         level = self.field
@@ -319,7 +329,7 @@ class Exponents:
 
 
 def degrees_of_solutions(problem: Problem) -> Numbers | None:
-    """The degrees of P in exp(int theta) P; None where different exponents at conjugate points need too large an extension."""
+    """The degrees of P in exp(int theta) P; None if different exponents at conjugate points need too large an extension."""
     apart = with_points_apart(problem)
     if apart is None:
         return None
@@ -333,13 +343,13 @@ def degrees_of_solutions(problem: Problem) -> Numbers | None:
 
 def zeros_of_forms(problem: Problem, m: int) -> Numbers | None:
     """The numbers of zeros of rational forms of an even degree m; None if some place leaves none, and as for solutions."""
-    roots: list[ExponentRoot] = []
-    room = m
     apart = with_points_apart(problem)
     if apart is None:
         return None
+    roots: list[ExponentRoot] = []
+    room = m
     for place in apart.places:
-        if place.kind is Kind.REGULAR and apart.field.rational_value(place.difference_squared) is None:
+        if place.kind is Kind.REGULAR and rational_number(place.difference_squared) is None:
             largest = m // 2 * place.degree
             roots.append(ExponentRoot(place.difference_squared, largest))
             room -= largest
@@ -352,27 +362,27 @@ def zeros_of_forms(problem: Problem, m: int) -> Numbers | None:
 
 
 def _difference_squared(place: Place) -> Poly:
-    """The square of the exponent difference at a singular place: a constant where it is the same at conjugate points."""
+    """The square of the exponent difference at a singular place: a constant if it is the same at conjugate points."""
     return place.difference_squared if place.kind is Kind.REGULAR else irregular_difference_squared(place)
 
 
-def choices_of_degree(problem: Problem, d: int) -> list[Exponents] | None:
+def choices_of_degree(problem: Problem, d: int) -> list[ChosenExponents] | None:
     """The choices that give P this degree; None if there are too many, or their roots need too large an extension."""
-    places = places_of(problem)
-    if places is None:
+    choices = exponent_choices(problem)
+    if choices is None:
         return None
-    chosen = (Exponents(places.problem, places.field, parts) for parts in product(*places.parts))
-    return [exponents for exponents in chosen if exponents.field.rational_value(exponents.degree) == d]
+    chosen = (ChosenExponents(choices.problem, choices.field, parts) for parts in product(*choices.parts))
+    return [exponents for exponents in chosen if rational_number(exponents.degree) == d]
 
 
 def conditions_of_degree(problem: Problem, d: int) -> list[RankConditions]:
-    """For each of these choices, where there is a P of the degree, over the field of the problem; open without choices."""
+    """For each choice that gives P this degree, where such a P exists, over the field of the problem; open without choices."""
     chosen = choices_of_degree(problem, d)
-    return [OPEN] if chosen is None else [exponents.conditions(d, problem.field) for exponents in chosen]
+    return [NOT_COMPUTED] if chosen is None else [exponents.conditions(d, problem.field) for exponents in chosen]
 
 
 @dataclass(frozen=True)
-class Places:
+class PossibleExponents:
     """One or two choices at each singular point, rational over the field."""
 
     problem: Problem
@@ -385,12 +395,15 @@ def is_too_large(field: Field) -> bool:
     return field.ground != QQ and field.absolute_degree > _SURFACE
 
 
-def places_of(problem: Problem) -> Places | None:
-    """The choices differ by a root: the exponent difference, or the root of a leading coefficient."""
+def exponent_choices(problem: Problem) -> PossibleExponents | None:
+    """The choices, which differ by the sign of a root: the exponent difference, or the root of a leading coefficient.
+
+    None if there are too many, or they need too large an extension.
+    """
     points = sum(place.degree for place in singular_places(problem))
-    if is_too_large(problem.field) or points > _POINTS:
+    if is_too_large(problem.field) or 2**points > MOST_TRIALS:
         return None
-    largest = _DEGREE * problem.field.absolute_degree
+    largest = _MOST_CONJUGATES * problem.field.absolute_degree
     split = problem  # over an extension over which its singular points are rational
     while factor := next((place.factor for place in split.finite_places if place.degree > 1), None):
         if split.field.absolute_degree * factor.degree > largest:
@@ -407,8 +420,8 @@ def places_of(problem: Problem) -> Places | None:
             return None
         roots.append(root)
     S = RatFunc(split.S.num.over(field), split.S.den.over(field), reduced=True)
-    parts = [_local_parts(place, S, root.over(field)) for place, root in zip(singular, roots, strict=True)]
-    return Places(split, field, parts)
+    parts = [_parts_at(place, S, root.over(field)) for place, root in zip(singular, roots, strict=True)]
+    return PossibleExponents(split, field, parts)
 
 
 def singular_places(problem: Problem) -> list[Place]:
@@ -427,10 +440,7 @@ def _with_root_of(factor: Poly, problem: Problem) -> Problem:
 
 
 def with_points_apart(problem: Problem) -> Problem | None:
-    """The problem itself, or with two rational points where exponents differ at conjugate ones: None unless these are two.
-
-    Then its field is a quadratic extension.
-    """
+    """The problem, over a quadratic extension if exponents differ at two conjugate points; None if at more of them."""
     conjugate = [place for place in singular_places(problem) if place.degree > 1 and place.kind is not Kind.RAMIFIED]
     if all(_difference_squared(place).degree <= 0 for place in conjugate):
         return problem
@@ -445,8 +455,8 @@ def _at_infinity(place: Place, S: RatFunc) -> Poly:
     return S.num * x // S.den
 
 
-def _local_parts(place: Place, S: RatFunc, root: Poly) -> list[LocalPart]:
-    """The two local parts of theta; one where the exponents are equal."""
+def _parts_at(place: Place, S: RatFunc, root: Poly) -> list[LocalPart]:
+    """The two local parts of theta; one if the exponents are equal."""
     x = root.field.poly([0, 1])
     factor = None if place.at_infinity else place.factor.over(root.field)
     if place.kind is Kind.REGULAR:
@@ -463,9 +473,9 @@ def _local_parts(place: Place, S: RatFunc, root: Poly) -> list[LocalPart]:
 
 
 def form_conditions(problem: Problem, m: int) -> RankConditions:
-    """Where there are more rational forms of degree m than generically, whether or not there are logarithms there.
+    """Where there are more rational forms of degree m than generically, with or without logarithms.
 
-    The map P -> A_(m+1) takes 1, x, ..., x^N to polynomials that span less.
+    There the images of 1, x, ..., x^N under P -> A_(m+1) span less.
     """
     bound = bounds(problem, m, logarithms=False)
     if bound is None:

@@ -1,15 +1,15 @@
-"""How functions of the parameters are written, in the shortest of their usual forms.
+"""Functions of the parameters, written in the shortest of their usual forms.
 
 A quotient f/g is one of polynomials, a product of irreducible factors, a sum of terms over a monomial
 (-n^2 - b^2/(4*n^2)), or a polynomial in one parameter with coefficients in factors (n + k*n*(n - 1)/2).
 
-In a product of powers each irreducible factor stands once, up to constant factors.  A solution is one up to a constant, so that
-(1 - x)^e and (x - 1)^e count as the same, and the sign that comes first stays:
+In a product of powers each irreducible factor stands once, up to constant factors.  Solutions are determined up to a constant,
+so that (1 - x)^e and (x - 1)^e count as the same, and the first sign is kept:
 
     x^(1/2)*(x^2 - 1)^(1/4)*(1 - x)^(3/4)  ->  sqrt(x)*(1 - x)*(x + 1)^(1/4)
 
-A text that the user wrote is a formula with its sums, products and parentheses as they stand in it, in one spelling, and as
-LaTeX: it is made of the tokens that the parser reads.
+The user's own text becomes a formula with its sums, products and parentheses unchanged, in one spelling, and as LaTeX: it is
+made of the tokens that the parser reads.
 """
 
 from __future__ import annotations
@@ -27,24 +27,23 @@ from kovacic.algebra.function_field import FunctionPoly
 from kovacic.algebra.poly import Poly
 from kovacic.algebra.ratfunc import RatFunc
 from kovacic.algebra.sparse import by_power, factorisation
+from kovacic.limits import MOST_CHARACTERS
 from kovacic.numbers.numerals import as_text, digits
-from kovacic.parametric.functions import element, over_parameters
+from kovacic.parametric.claims import element, over_parameters
 from kovacic.reading.lexer import PRIME, SUPERSCRIPT_DIGITS
 from kovacic.reading.names import is_function
 from kovacic.reading.naming import Source
 from kovacic.writing.formula import Math, caret, latex_text, with_single_powers
 
-#: Terms up to which a quotient is written as a sum.
-_TERMS = 4
-#: How much longer a quotient may become so that its denominator is in factors.
+#: Characters by which a formula may become longer so that its denominator is in factors.
 _FOR_FACTORS = 4
 #: A power of the variable before powers of parameters, as flint writes a term.
 _VARIABLE_FIRST = r"\b(x(?:\^\d+)?)\*(t\d+(?:\^\d+)?(?:\*t\d+(?:\^\d+)?)*)"
-#: A power of a polynomial in the parameters, flint's.
-Power = tuple[Any, int]
+#: A polynomial in the parameters, flint's, with an exponent.
+FlintPower = tuple[Any, int]
 
 
-def shown(function: FunctionPoly | RatFunc, variable: str = "x") -> str:
+def expanded_form(function: FunctionPoly | RatFunc, variable: str = "x") -> str:
     """In ordinary notation, with ^ for powers, as a quotient of expanded polynomials."""
     return with_single_powers(caret(function.to_str(variable)))
 
@@ -53,25 +52,27 @@ def shifted(text: str, value: Poly) -> str:
     """`text - value`: x - 2, x + 1/2, x - (a + b)."""
     if not value:
         return text
-    amount = shown(value) if isinstance(value, FunctionPoly) else caret(as_text(value.to_sympy(sympy.Symbol("x"))))
+    amount = (
+        expanded_form(value) if isinstance(value, FunctionPoly) else caret(as_text(value.to_sympy(sympy.Symbol("x"))))
+    )
     return f"{text} - {in_sum(amount)}".replace("- -", "+ ")
 
 
-def written(function: Poly | RatFunc, letter: str = "x") -> str:
+def shortest_form(function: Poly | RatFunc, letter: str = "x") -> str:
     """The shortest of the usual forms, with its denominator in factors; `letter` is the name of the polynomial variable."""
     above, below, names = _as_quotient(function, letter)
     forms = [*_written_forms(above, below)]
-    best = min((_sum(form, names) for form in forms), key=len)
+    best = min((_sum_text(form, names) for form in forms), key=len)
     has_sum_below = re.search(r"/\([^()]* [+-] [^()]*\)", best) is not None
-    in_factors = _sum(forms[-1], names)
+    in_factors = _sum_text(forms[-1], names)
     return in_factors if has_sum_below and len(in_factors) <= len(best) + _FOR_FACTORS else best
 
 
 def partial_fractions(S: RatFunc, variable: str) -> str:
-    """S, not zero, as a polynomial in the variable and fractions with powers of the irreducible factors of its denominator."""
+    """S != 0 as a polynomial in the variable plus fractions with powers of the irreducible factors of its denominator."""
     whole, rest = divmod(S.num, S.den)
     degrees = (k for k in range(whole.degree, -1, -1) if whole[k])
-    terms = [written(S.field.poly([0] * k + [whole[k]]), variable) for k in degrees]
+    terms = [shortest_form(S.field.poly([0] * k + [whole[k]]), variable) for k in degrees]
     for factor, k in S.field.factor(S.den):
         power = factor**k
         above = rest * (S.den // power).inverse_modulo(power) % power
@@ -80,8 +81,8 @@ def partial_fractions(S: RatFunc, variable: str) -> str:
             above, digit = divmod(above, factor)
             if digit:
                 top, bottom, names = _as_quotient(RatFunc(digit, factor**j), variable)
-                terms.insert(start, _sum([_factored(top, bottom)], names))
-    return _joined(terms)
+                terms.insert(start, _sum_text([_term_in_factors(top, bottom)], names))
+    return _joined_terms(terms)
 
 
 class SidesOfEquation(NamedTuple):
@@ -90,10 +91,10 @@ class SidesOfEquation(NamedTuple):
 
 
 def sides_of_equation(function: FunctionPoly) -> SidesOfEquation:
-    """The equation that a function vanishes, solved for a power of a parameter if one is alone.
+    """The equation that a function vanishes, solved for a power of a parameter if possible.
 
-    That is t = f for a linear equation, with the coefficient 1 or -1 of t if there is one; else t^k = f, a product of linear
-    factors.  Two terms of higher degree have two sides.
+    That is t = f for a linear equation, preferably with the coefficient 1 or -1 of t, or t^k = f, a product of linear factors.
+    Two terms of higher degree stand on two sides.
     """
     above, _, names = _as_quotient(function, "x")
     is_linear = above.total_degree() == 1
@@ -103,17 +104,17 @@ def sides_of_equation(function: FunctionPoly) -> SidesOfEquation:
         if not parts.keys() <= {0, degree} or not parts[degree].is_constant():
             continue
         quotient = (-parts.get(0, 0 * above), parts[degree])
-        values = [*_written_forms(*quotient)] if is_linear else [[_factored(*quotient)]]
+        values = [*_written_forms(*quotient)] if is_linear else [[_term_in_factors(*quotient)]]
         if is_linear or all(factor.total_degree() == 1 for factor, _ in values[0][0].top):
             has_fractions = is_linear and abs(int(parts[degree].leading_coefficient())) != 1
-            left = _polynomial(above.context().gen(i) ** degree, names)
-            right = min((_sum(form, names) for form in values), key=len)
+            left = _polynomial_text(above.context().gen(i) ** degree, names)
+            right = min((_sum_text(form, names) for form in values), key=len)
             solved.append((has_fractions, SidesOfEquation(left, right)))
     if solved:
         return min(solved, key=lambda one: one[0])[1]
     negative = {exponents: -int(c) for exponents, c in above.to_dict().items() if int(c) < 0}
     moved = above.context().from_dict(negative if len(above) == 2 and len(negative) == 1 else {})
-    return SidesOfEquation(_polynomial(above + moved, names), _polynomial(moved, names))
+    return SidesOfEquation(_polynomial_text(above + moved, names), _polynomial_text(moved, names))
 
 
 def root_written(square: Poly, factor: str = "") -> str:
@@ -129,7 +130,7 @@ def root_written(square: Poly, factor: str = "") -> str:
     (top, odd), (bottom, under) = ([part.num for part in parts] for parts in squares)
     if int(odd.leading_coefficient()) < 0 and not under.is_constant():
         odd, under = -odd, -under
-    return _sum([replace(_factored(top, bottom), root=odd, under=under, name=factor)], names)
+    return _sum_text([replace(_term_in_factors(top, bottom), root=odd, under=under, name=factor)], names)
 
 
 class _Quotient(NamedTuple):
@@ -141,7 +142,7 @@ class _Quotient(NamedTuple):
 
 
 def _as_quotient(function: Poly | RatFunc, letter: str) -> _Quotient:
-    """A function as such a quotient; the polynomial variable comes first."""
+    """A function as a quotient over Z, the polynomial variable first."""
     quotient = function if isinstance(function, RatFunc) else RatFunc(function)
     above, below = map(over_parameters, quotient.cleared())
     return _Quotient(above.num, below.num, (letter, *above.field.names))
@@ -149,23 +150,23 @@ def _as_quotient(function: Poly | RatFunc, letter: str) -> _Quotient:
 
 @dataclass(frozen=True)
 class _FormulaTerm:
-    """A number, times a name maybe, times powers of polynomials over others, times sqrt(root)/sqrt(under)."""
+    """number * name * prod(top)/prod(bottom) * sqrt(root)/sqrt(under)."""
 
     number: Fraction
-    top: tuple[Power, ...] = ()
-    bottom: tuple[Power, ...] = ()
+    top: tuple[FlintPower, ...] = ()
+    bottom: tuple[FlintPower, ...] = ()
     root: Any = 1
     under: Any = 1
     name: str = ""
 
 
 def _written_forms(above: Any, below: Any) -> Iterator[list[_FormulaTerm]]:
-    """Sums of terms that are equal to the quotient of two polynomials over Z; the last one is in factors, if it isn't 0."""
+    """Sums of terms that equal the quotient of two polynomials over Z; the last one is in factors, unless it is 0."""
     forms = [[_FormulaTerm(Fraction(1), ((above, 1),), ((below, 1),))]]
-    most = 2 if below.is_constant() else _TERMS
-    if len(below) == 1 and 1 < len(above) <= most:  # each of a few terms over a monomial
+    # Each term over a monomial; only two of them over a number.
+    if len(below) == 1 and len(above) > 1 and (len(above) == 2 or not below.is_constant()):
         single = [above.context().from_dict({exponents: c}) for exponents, c in above.to_dict().items()]
-        forms.append([_factored(term, below) for term in single])
+        forms.append([_term_in_factors(term, below) for term in single])
     yield from forms if below.is_constant() else reversed(forms)
     if not above:
         return
@@ -173,11 +174,11 @@ def _written_forms(above: Any, below: Any) -> Iterator[list[_FormulaTerm]]:
         parts = by_power(above, i)
         if len(parts) == 2:
             generator = above.context().gen(i)
-            yield [_factored(part * generator**power, below) for power, part in sorted(parts.items())]
-    yield [_factored(above, below)]
+            yield [_term_in_factors(part * generator**power, below) for power, part in sorted(parts.items())]
+    yield [_term_in_factors(above, below)]
 
 
-def _factored(above: Any, below: Any) -> _FormulaTerm:
+def _term_in_factors(above: Any, below: Any) -> _FormulaTerm:
     """The quotient of two polynomials, the first one not zero, in irreducible factors."""
     common = above.gcd(below)
     number, top = factorisation(above // common)
@@ -185,15 +186,15 @@ def _factored(above: Any, below: Any) -> _FormulaTerm:
     return _FormulaTerm(Fraction(number, divisor), tuple(top), tuple(bottom))
 
 
-def _sum(terms: Sequence[_FormulaTerm], names: Sequence[str]) -> str:
-    return _joined(_term(term, names) for term in terms) or "0"
+def _sum_text(terms: Sequence[_FormulaTerm], names: Sequence[str]) -> str:
+    return _joined_terms(_term(term, names) for term in terms) or "0"
 
 
-def _joined(terms: Iterable[str]) -> str:
+def _joined_terms(terms: Iterable[str]) -> str:
     return " + ".join(terms).replace("+ -", "- ")
 
 
-def _polynomial(polynomial: Any, names: Sequence[str]) -> str:
+def _polynomial_text(polynomial: Any, names: Sequence[str]) -> str:
     """The expanded polynomial, in the order of its terms; the variable stands behind the parameters."""
     reordered = re.sub(_VARIABLE_FIRST, r"\2*\1", str(polynomial))
 
@@ -211,35 +212,35 @@ def _polynomial(polynomial: Any, names: Sequence[str]) -> str:
 
 def _term(term: _FormulaTerm, names: Sequence[str]) -> str:
     """A quotient of products; a sum alone needs no parentheses."""
-    top = _pieces(abs(term.number.numerator), term.top, term.root, names)
+    top = _factor_texts(abs(term.number.numerator), term.top, term.root, names)
     if term.name:
         top.insert(abs(term.number.numerator) != 1, term.name)
-    bottom = _pieces(term.number.denominator, term.bottom, term.under, names)
+    bottom = _factor_texts(term.number.denominator, term.bottom, term.under, names)
     sign = "-" if term.number < 0 else ""
     above = "*".join(top) or "1"
     if bottom:
         # Behind a slash only a single name, number, power, root or sum in parentheses stands without further ones.
         below = "*".join(bottom)
-        is_closed = "*" not in outside(below)
+        is_closed = "*" not in outside_parentheses(below)
         return f"{sign}{above}/{below if is_closed else f'({below})'}"
     return sign + above if sign else alone(above)
 
 
-def _pieces(number: int, factors: tuple[Power, ...], root: Any, names: Sequence[str]) -> list[str]:
+def _factor_texts(number: int, factors: tuple[FlintPower, ...], root: Any, names: Sequence[str]) -> list[str]:
     """The factors of a product, none for 1; sums are in parentheses."""
     pieces = [digits(number)] if number != 1 else []
     for factor, k in factors:
         if factor != 1:
-            text = in_product(_polynomial(factor, names))
+            text = in_product(_polynomial_text(factor, names))
             pieces.append(text if k == 1 else f"{text}^{k}")
     if root != 1:
-        text = alone(_polynomial(root, names))
+        text = alone(_polynomial_text(root, names))
         pieces.append("I" if text == "-1" else f"sqrt({text})")
     return pieces
 
 
-def outside(text: str) -> str:
-    """What stands outside of all parentheses."""
+def outside_parentheses(text: str) -> str:
+    """The text outside of all parentheses."""
     count = 1
     while count:
         text, count = re.subn(r"[({][^(){}]*[)}]", "", text)
@@ -248,21 +249,21 @@ def outside(text: str) -> str:
 
 def alone(text: str) -> str:
     """A side of an equation: (a^(1/3)), a parameter, without its parentheses."""
-    return text[1:-1] if text.startswith("(") and not outside(text) else text
+    return text[1:-1] if text.startswith("(") and not outside_parentheses(text) else text
 
 
 def in_sum(text: str) -> str:
-    """A term behind a sign: a sum in parentheses, where it isn't within some."""
-    return f"({text})" if re.search(" [+-] ", outside(text)) else text
+    """A term after a sign: a sum in parentheses, unless it has some."""
+    return f"({text})" if re.search(" [+-] ", outside_parentheses(text)) else text
 
 
 def in_product(text: str) -> str:
-    """A factor of a product: sums and what begins with a minus in parentheses."""
+    """A factor of a product: in parentheses if it is a sum or begins with a minus."""
     return f"({text})" if text.startswith("-") else in_sum(text)
 
 
 class _Powers:
-    """Powers of polynomials in x, by their monic multiples: how the bases are shown, and the exponents."""
+    """Powers of polynomials in x: the bases as they are shown, and the exponents, by the monic multiples of the bases."""
 
     def __init__(self, x: Any) -> None:
         self.x = x
@@ -278,7 +279,7 @@ class _Powers:
         self.exponents[key] = self.exponents.get(key, sympy.Integer(0)) + exponent
 
     def multiply_factors(self, base: Any, e: Any) -> None:
-        """By the irreducible factors of a rational function, raised to a power."""
+        """Multiply by the irreducible factors of a rational function, raised to a power."""
         for part, sign in zip(sympy.fraction(sympy.together(base)), (1, -1), strict=True):
             number, factors = sympy.factor_list(part)
             factors = [(factor, k) for factor, k in factors if factor.has(self.x)]
@@ -287,7 +288,7 @@ class _Powers:
                 self.multiply(-factor if is_turned else factor, sign * k * e)
 
     def join_conjugates(self) -> None:
-        """(x - i)^e (x + i)^f (x^2 + 1)^g with the exponents e + g and f + g; as one power of x^2 + 1 where these are equal."""
+        """Write (x - i)^e (x + i)^f (x^2 + 1)^g with the exponents e + g and f + g; as one power if these are equal."""
         with_roots = [key for key in self.exponents if has_roots(key) and sympy.degree(key, self.x) == 1]
         for first, second in combinations(with_roots, 2):
             whole = sympy.expand(first * second)
@@ -302,10 +303,10 @@ class _Powers:
                 self.exponents |= dict(zip((first, second), parts, strict=True))
 
 
-def gathered(y: Any, x: Any) -> Any:
+def with_gathered_powers(y: Any, x: Any) -> Any:
     """A product with each irreducible factor of the bases of its powers once, and one exponential; else y itself.
 
-    Factors without x are constants, and left out.
+    Constant factors are left out.
     """
     if not isinstance(y, sympy.Mul | sympy.Pow):
         return y
@@ -334,7 +335,7 @@ def gathered(y: Any, x: Any) -> Any:
 
 
 def has_roots(expression: Any) -> bool:
-    """True if i, or a root of something else, occurs."""
+    """True if i, or another root, occurs."""
     return expression.has(sympy.I) or _has_radicals(expression)
 
 
@@ -343,7 +344,7 @@ def _has_radicals(expression: Any) -> bool:
 
 
 def shorter_sum(exponent: Any) -> Any:
-    """A sum without terms that cancel; its rational part is one fraction where that is shorter."""
+    """A sum without terms that cancel, its rational part as one fraction if that is shorter."""
     terms = sympy.expand(exponent)
     roots, rational = sympy.sift(sympy.Add.make_args(terms), _has_radicals, binary=True)
     if all(sympy.denom(term).is_number for term in rational):  # a polynomial already
@@ -354,11 +355,9 @@ def shorter_sum(exponent: Any) -> Any:
     return sympy.Add(fraction, *roots)
 
 
-#: Characters of a text above which nobody prints it unexpanded.
-_LONGEST = 1000
 #: A gap between operands, which is a product; one around a sign between them, or any other.
 _PRODUCT = re.compile(r"(?<=[\w').]) (?=[\w(.])")
-_GAP = re.compile(r"(?<=[\w').]) ([-+=]) | ")
+_SPACE = re.compile(r"(?<=[\w').]) ([-+=]) | ")
 #: A number, a name or a power of one in parentheses that aren't those of a call or of a base.
 _IN_PARENTHESES = re.compile(r"(?<![\w'])\((\w+'*|\w+\^\w+(?=\)(?!\^)))\)")
 #: A sign behind an operator, and the power of a power, which would need parentheses.
@@ -366,11 +365,11 @@ _UNCLEAR = re.compile(r"[*/^+-] ?[+-]|\^(?:\w+|\([^()]*\))\^")
 
 
 def unexpanded(source: Source) -> Math | None:
-    """The equation, or y'' = S y for S alone; None if there is no text, a long one, or one that isn't written like this.
+    """The user's equation, or y'' = S y for S alone; None without a text, and for a long one.
 
-    Derivatives as calls, several arguments, 1e-3, 2*-x and x^2^3 aren't.
+    Texts with derivatives as calls, several arguments, 1e-3, 2*-x or x^2^3 give None, too.
     """
-    if source.tokens is None or len(source.text or "") > _LONGEST:
+    if source.tokens is None or len(source.text or "") > MOST_CHARACTERS:
         return None
     pieces: list[str] = []
     for kind, piece in zip(source.tokens.kinds, source.tokens.pieces, strict=True):
@@ -381,8 +380,8 @@ def unexpanded(source: Source) -> Math | None:
         raised = "^" if kind == "SUPERSCRIPT" else ""
         pieces.append(raised + caret(piece).translate(SUPERSCRIPT_DIGITS) + ("" if kind == "HEAD" else " "))
     text = _PRODUCT.sub("*", "".join(pieces))
-    text = _GAP.sub(lambda gap: f" {gap[1]} " if gap[1] else "", text)
-    is_sum = re.search("[-+]", outside(text)) is not None
+    text = _SPACE.sub(lambda gap: f" {gap[1]} " if gap[1] else "", text)
+    is_sum = re.search("[-+]", outside_parentheses(text)) is not None
     text = re.sub(r"\^(-\w+)", r"^(\1)", text)
     count = 1
     while count:

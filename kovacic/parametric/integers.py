@@ -2,8 +2,8 @@
 
 For a polynomial of degree 1 that is: a form in the parameters is congruent to one of some rational numbers.
 
-Such a condition is solved for a parameter: f(n; t) = 0 with an integer n becomes t = value(n), and what is said elsewhere.
-With f = slope t + rest, the slope and the rest without a common factor, there are three strata [section 23 of the theory]:
+Such a condition is solved for a parameter: f(n; t) = 0 with an integer n becomes t = value(n), with other statements elsewhere.
+For f = slope t + rest, the slope and the rest without a common factor, there are three strata [section 23 of the theory]:
 
 - slope != 0, and t = -rest/slope;
 - slope = rest = 0, where t is free;
@@ -30,52 +30,43 @@ from kovacic.algebra.poly import Poly
 from kovacic.algebra.ratfunc import RatFunc
 from kovacic.algebra.rationals import QQ
 from kovacic.equation import ENERGY
+from kovacic.limits import MOST_TRIALS
 from kovacic.parametric import prose
 from kovacic.parametric.assumptions import Assumptions
 from kovacic.parametric.claims import (
+    INTEGERS,
+    NATURALS,
     AllOf,
     AnyOf,
     Claim,
+    Classes,
     EquationFor,
     Free,
     InClasses,
     IntegerFamily,
     IsNonzero,
     IsZero,
-    SumOfRoots,
-    rational,
-    rational_roots,
-)
-from kovacic.parametric.formulas import written
-from kovacic.parametric.functions import (
-    INTEGERS,
-    NATURALS,
-    Classes,
     ParameterPoint,
+    SumOfRoots,
     common_multiple,
-    constant_term,
     degrees,
-    element,
+    denominator,
     irreducible_factors,
-    lifted,
-    normal_form,
+    laurent_constant_term,
     numerator,
     on_zeros,
     over_parameters,
+    polynomial_factors,
     powers_of,
+    rational_number,
+    rational_roots,
     roots,
+    scaled_form,
+    with_free_generator,
 )
+from kovacic.parametric.formulas import shortest_form
 from kovacic.parametric.restriction import everywhere, with_free_constant
-from kovacic.parametric.statements import ALWAYS, NEVER, Setting, Statement, Vanishes, all_of, decided, either
-
-#: Weights of the lengths of f(n) and of the condition on n, and the cost of solving for a later parameter.
-_WEIGHT = 3
-_WORDS = 2
-_LATER = 10
-#: What it costs, for each stratum of which something has to be said.
-_STRATUM = 20
-#: Integers that are tried one by one.
-_MOST_INTEGERS = 1000
+from kovacic.parametric.statements import ALWAYS, NEVER, Setting, Statement, Vanishes, all_of, either, reduced_statement
 
 
 class Stratum(NamedTuple):
@@ -86,20 +77,20 @@ class Stratum(NamedTuple):
 
 
 class IntegerCondition(NamedTuple):
-    """A claim, and the strata on which the same has to be said of another equation."""
+    """A claim, and the strata on which it has to be stated of another equation."""
 
     claim: Claim
     strata: tuple[Stratum, ...] = ()
 
 
 #: f(n; t) = 0 for a parameter t: it is a function of n, or free at one of the family's poles or on one of the strata.
-Solved = tuple[IntegerFamily, tuple[Stratum, ...]]
+SolvedForParameter = tuple[IntegerFamily, tuple[Stratum, ...]]
 
 
-def solve_for(name: str, equation: FunctionPoly, letter: str) -> Solved | None:
-    """All solutions of an irreducible equation in n over Q(t) by values of one parameter.
+def solve_for(name: str, equation: FunctionPoly, letter: str, setting: Setting) -> SolvedForParameter | None:
+    """All solutions of an irreducible equation in n over Q(t) by values of one parameter, as far as the setting needs them.
 
-    None if the parameter isn't linear in it, and where its coefficient vanishes at the n of an equation of higher degree.
+    None if the parameter isn't linear in it, or if its coefficient has a factor of higher degree in n.
     """
     i = equation.field.names.index(name)
     if degrees(equation)[i] != 1:
@@ -107,65 +98,56 @@ def solve_for(name: str, equation: FunctionPoly, letter: str) -> Solved | None:
     parts = powers_of(equation, i)
     slope = parts[1]
     rest = parts.get(0, 0 * slope)
-    undefined = irreducible_factors(element(equation.field, equation.den))
-    poles: list[Free] = []
-    strata: list[Stratum] = []
+    undefined = irreducible_factors(denominator(equation))
+    known = setting.assumptions
+    poles, strata = list[Free](), list[Stratum]()
     for factor in irreducible_factors(slope):
         if factor.degree > 1:
             return None
         if factor.degree == 1:
-            root = over_parameters(-factor[0] / factor[1])
+            root = -factor[0] / factor[1]
             zeros = irreducible_factors(rest(root))
-            if zeros:
-                poles.append(Free(root, over_parameters(reduce(mul, zeros))))
-        elif factor not in undefined:
+            if zeros and known.vanishes(reduce(mul, zeros)) is not False:
+                poles.append(Free(root, reduce(mul, zeros)))
+        elif factor not in undefined and not setting.covers(factor):
             strata.append(Stratum(factor, on_zeros(rest, factor)))
     poles.sort(key=lambda pole: str(pole.root))
-    return IntegerFamily(letter, name, -RatFunc(rest, slope), INTEGERS, tuple(poles)), tuple(strata)
+    value = -RatFunc(rest, slope)
+    if known.constant.names:  # without the constant in denominators: sqrt(2), not 2/sqrt(2)
+        value = with_free_constant(everywhere(equation.field, known.constant).restricted(value)).shown
+    return IntegerFamily(letter, name, value, INTEGERS, tuple(poles)), tuple(strata)
 
 
-def all_solved(equation: FunctionPoly, letter: str, setting: Setting) -> list[Solved]:
-    """The equation solved for each parameter for which that is possible, but for the fixed ones: what is left to say."""
-    names = [name for name in equation.field.names if name not in setting.fixed]
-    found: list[Solved] = []
-    for family, strata in filter(None, (solve_for(name, equation, letter) for name in names)):
-        poles = tuple(pole for pole in family.poles if setting.assumptions.vanishes(pole.zero) is not False)
-        value = family.value
-        if setting.assumptions.constant.names:  # without the constant in denominators: sqrt(2), not 2/sqrt(2)
-            value = with_free_constant(everywhere(equation.field, setting.assumptions.constant).restricted(value)).shown
-        left = tuple(stratum for stratum in strata if not setting.covers(stratum.zero))
-        found.append((replace(family, value=value, poles=poles), left))
-    return found
+def all_solved(equation: FunctionPoly, letter: str, setting: Setting) -> list[SolvedForParameter]:
+    """The equation solved for each parameter for which that is possible, except for the fixed ones."""
+    names = (name for name in equation.field.names if name not in setting.fixed)
+    return [*filter(None, (solve_for(name, equation, letter, setting) for name in names))]
 
 
 # ------------------------------------------------------------------------------- an equation for an integer
 
 
-def integer_condition(
-    equation: FunctionPoly,
-    numbers: Classes,
-    letter: str,
-    setting: Setting,
-) -> IntegerCondition:
-    """The statement that one of the numbers is a root of a polynomial in N over Q(t): a spectrum, square roots, or both."""
+def integer_condition(equation: FunctionPoly, numbers: Classes, letter: str, setting: Setting) -> IntegerCondition:
+    """The condition that one of the numbers is a root of a polynomial in N over Q(t): a spectrum, square roots, or both."""
     spectrum = _spectrum(equation, numbers, letter, setting)
-    sums = _roots(equation, numbers, setting.assumptions.constant)
+    sums = _roots_as_sum(equation, numbers, setting.assumptions.constant)
     if sums is None or (isinstance(spectrum.claim, IntegerFamily) and (len(sums.squares) < 2 or not spectrum.strata)):
         return spectrum
     return IntegerCondition(sums)
 
 
 def _spectrum(equation: FunctionPoly, numbers: Classes, letter: str, setting: Setting) -> IntegerCondition:
-    """A parameter as a function of n, by the cheapest way to choose n; the equation itself if no parameter is linear."""
+    """A parameter as a function of n, in the shortest form; the equation itself if no parameter is linear."""
     known = all_solved(equation, letter, setting)
     energies = [solved for solved in known if solved[0].parameter == ENERGY]
     found: list[tuple[int, bool, IntegerCondition]] = []
     for k, (solved, strata) in enumerate(energies or known):
         for family in _integer_choices(equation, solved, numbers):
-            text = written(family.value, family.letter)
-            said = prose.text_of(prose.phrase(prose.numbers_of(family)))
-            cost = _LATER * k + _STRATUM * len(strata) + _WEIGHT * len(text) + _WORDS * len(said)
-            # Of n and -n that by which f(1) = 1, if there is one: n + k*n*(n - 1)/2, as Yoshida and Morales & Ramis have it.
+            text = shortest_form(family.value, family.letter)
+            condition = prose.text_of_words(prose.phrase(prose.numbers_of(family)))
+            # Weights chosen by eye: a formula counts more than words, and both less than a later parameter or a stratum.
+            cost = 10 * k + 20 * len(strata) + 3 * len(text) + 2 * len(condition)
+            # Of n and -n the one with f(1) = 1, if there is one: n + k*n*(n - 1)/2, as Yoshida and Morales & Ramis write it.
             above, below = (part(Fraction(1)) for part in (family.value.num, family.value.den))
             is_numbered_otherwise = not below or above != below
             found.append((cost, is_numbered_otherwise, IntegerCondition(family, strata)))
@@ -184,13 +166,13 @@ def _integer_choices(equation: FunctionPoly, family: IntegerFamily, numbers: Cla
         yield family.along(N, numbers)
     modulus = numbers.modulus
     if is_line and (modulus < 3 or not is_mirrored):
-        # The residue and its neighbours for r, and both signs of s for the modulus 1.
+        # r is the residue or a neighbour; for the modulus 1 both signs of s are tried.
         pairs = product((1, -1), (0, -1, 1)) if modulus == 1 else [(1, 0), (1, -1)]
         for sign, shift in pairs:
             yield family.along(N * (sign * modulus) + first + modulus * shift, INTEGERS)
 
 
-def _roots(equation: FunctionPoly, numbers: Classes, constant: ParameterPoint) -> SumOfRoots | None:
+def _roots_as_sum(equation: FunctionPoly, numbers: Classes, constant: ParameterPoint) -> SumOfRoots | None:
     """The roots as a mean +- the square roots of one, two or three squares, for an equation of degree 2, 4 or 8."""
     if equation.degree not in (2, 4, 8):
         return None
@@ -201,49 +183,36 @@ def _roots(equation: FunctionPoly, numbers: Classes, constant: ParameterPoint) -
     if squares is None:
         return None
     if constant.names:
-        mean = lifted(mean, field)
-        squares = [lifted(square, field) for square in squares]
-    middle = over_parameters(mean)
-    whole = floor(constant_term(middle) / numbers.modulus) * numbers.modulus
-    return SumOfRoots(over_parameters(middle - whole), tuple(squares), numbers)
+        mean = with_free_generator(mean, field)
+        squares = [with_free_generator(square, field) for square in squares]
+    whole = floor(laurent_constant_term(mean) / numbers.modulus) * numbers.modulus
+    return SumOfRoots(over_parameters(mean) - whole, tuple(squares), numbers)
 
 
 def squares_of_roots(shifted: Poly) -> list[Poly] | None:
-    """Those of which the roots of a monic even polynomial are sums, with all signs, of square roots."""
+    """The squares of numbers whose sums with all signs are the roots of a monic even polynomial of degree 2, 4 or 8."""
     k = shifted.degree
     if any(shifted[i] for i in range(1, k, 2)):
         return None
     if k == 2:
         return [-shifted[0]]
-    if k == 8:
-        return _three_squares(shifted)
-    difference = shifted.field.sqrt(shifted[0])
-    if difference is None:
-        return None
-    total = -shifted[2] / 2
-    return [(total + difference) / 2, (total - difference) / 2]
-
-
-def _three_squares(shifted: Poly) -> list[Poly] | None:
-    """By ((z - s1)^2 - 4 s2)^2 - 64 s3 z with z = N^2, s_i the symmetric functions of the three squares."""
+    if k == 4:  # sums of sqrt(a) and sqrt(b): z^2 - 2 (a + b) z + (a - b)^2 with z = N^2
+        total, difference = -shifted[2] / 2, shifted.field.sqrt(shifted[0])
+        return None if difference is None else [(total + difference) / 2, (total - difference) / 2]
+    # ((z - s1)^2 - 4 s2)^2 - 64 s3 z, s_i the elementary symmetric functions of three squares.
     s1 = -shifted[6] / 4
     s2 = (6 * s1 * s1 - shifted[4]) / 8
     s3 = (16 * s1 * s2 - 4 * s1**3 - shifted[2]) / 64
-    if shifted[0] != (s1 * s1 - 4 * s2) ** 2:
-        return None
     squares = roots(shifted.field.poly([-s3, s2, -s1, 1]))
-    return squares if len(squares) == 3 else None
+    return squares if len(squares) == 3 and shifted[0] == (s1 * s1 - 4 * s2) ** 2 else None
 
 
 # ------------------------------------------------------------------------------- equations for a natural number
 
 
 def natural_root(equations: Sequence[FunctionPoly], letter: str, setting: Setting) -> AnyOf:
-    """The statement that a natural number d solves one of the equations, each solved for a parameter if possible.
-
-    The alternatives on strata are last.
-    """
-    parts: list[Claim] = []
+    """The claim that a natural number d solves one of the equations, each solved for a parameter if possible; strata last."""
+    parts = list[Claim]()
     where: dict[FunctionPoly, list[FunctionPoly]] = {}
     for equation in equations:
         solved = _spectrum(equation, NATURALS, letter, setting)
@@ -261,8 +230,8 @@ def may_be_natural(factor: Poly) -> bool:
     return numbers is None or any(map(NATURALS.contains, rational_roots(numbers)))
 
 
-#: What integers are called, the first that isn't a parameter.
-LETTERS = "nNmMkKjJ"
+#: Names for integers, of which the first that isn't a parameter is used.
+INTEGER_LETTERS = "nNmMkKjJ"
 
 
 @dataclass(frozen=True)
@@ -279,23 +248,23 @@ class Congruence(Statement):
 
     @classmethod
     def make(cls, equation: FunctionPoly, residues: Iterable[Fraction | int], modulus: Fraction | int) -> Congruence:
-        """Normalised, with the least modulus, by N -> a N + b.
+        """The congruence normalised by N -> a N + b, with the least modulus.
 
-        A form gets no constant term (in a Laurent series at 0) and coprime coefficients; else that of the mean of the roots
-        lies in (-1, 0], and the classes are symmetric about it if the equation is.  Equations that differ by N -> +-N + b with
-        an integer b become the same.
+        A form gets no constant term (in a Laurent series at 0) and coprime coefficients; for higher degrees the constant term
+        of the mean of the roots comes into (-1, 0], and the classes are symmetric about it if the equation is.  Equations that
+        differ by N -> +-N + b with an integer b become the same.
         """
         classes = {*map(Fraction, residues)}
         m = Fraction(modulus)
         k = equation.degree
         if k == 1:
-            form, scale, offset = normal_form(-equation[0] / equation[1])  # the root N = form/scale + offset
+            form, scale, offset = scaled_form(-equation[0] / equation[1])  # the root N = form/scale + offset
             scaled = {(residue - offset) * scale for residue in classes}
-            return cls._with_least_modulus(over_parameters(form.field.poly([0, 1]) - form), scaled, abs(m * scale))
+            return cls._with_least_modulus(form.field.poly([0, 1]) - form, scaled, abs(m * scale))
         Z = equation.field.poly([0, 1])
-        mean = constant_term(-equation[k - 1] / (k * equation.lc))
+        mean = laurent_constant_term(-equation[k - 1] / (k * equation.lc))
         forms: list[tuple[Fraction, str, FunctionPoly, set[Fraction]]] = []
-        for sign in (1, -1):  # Z = sign N - shift, by which the mean comes into (-1, 0], and as far from 0 as possible
+        for sign in (1, -1):  # Z = sign N - shift brings the mean into (-1, 0], as far from 0 as possible
             shift = ceil(sign * mean)
             moved = over_parameters(equation((Z + shift) * sign) * sign**k)
             forms.append((shift - sign * mean, str(moved), moved, {sign * residue - shift for residue in classes}))
@@ -308,7 +277,7 @@ class Congruence(Statement):
 
     @classmethod
     def _with_least_modulus(cls, equation: FunctionPoly, classes: Iterable[Fraction], modulus: Fraction) -> Congruence:
-        """k classes modulo m may be one modulo m/k, which is an integer where the numbers are integers."""
+        """With k classes modulo m as one modulo m/k if possible, m/k an integer if the numbers are integers."""
         known = {residue % modulus for residue in classes}
         for k in range(len(known), 1, -1):
             if equation.degree != 1 and modulus % k != 0:
@@ -325,18 +294,18 @@ class Congruence(Statement):
     @property
     def form(self) -> FunctionPoly | None:
         """The form that is congruent to one of the numbers; None for an equation of higher degree."""
-        return over_parameters(-self.equation[0]) if self.equation.degree == 1 else None
+        return -self.equation[0] if self.equation.degree == 1 else None
 
     @property
     def numbers(self) -> Classes:
-        """Those of which N has to be one."""
+        """The numbers of which N has to be one."""
         return Classes(self.residues, self.modulus)
 
     def _holds(self, point: ParameterPoint) -> bool:
         return self.holds_for(point.at(self.equation)) is True
 
     def holds_for(self, equation: Poly) -> bool | None:
-        """True if the equation has one of the roots, False if not; None if it contains parameters."""
+        """True if the equation has one of the numbers as a root, False if not; None if it contains parameters."""
         numbers = without_parameters(equation)
         return None if numbers is None else any(map(self.numbers.contains, rational_roots(numbers)))
 
@@ -354,7 +323,7 @@ class Congruence(Statement):
         made = Congruence.make(self.equation, self.numbers.modulo(common) + other.numbers.modulo(common), common)
         return replace(made, setting=self.setting)
 
-    def _decided(self, assumptions: Assumptions) -> bool | None:
+    def _truth(self, assumptions: Assumptions) -> bool | None:
         if self.form is not None:
             return assumptions.meets_classes(self.form, self.numbers)
         value = assumptions.value_of(self.equation)
@@ -366,8 +335,8 @@ class Congruence(Statement):
         return False if is_irrational else None
 
     def under(self, assumptions: Assumptions) -> Statement:
-        """The values of an integer parameter t, of which only finitely many make (a t + b)/(c t + d) so integral."""
-        known = decided(self._decided(assumptions), self)
+        """The statement as values of an integer parameter t, if it occurs in a (a t + b)/(c t + d), c != 0."""
+        known = reduced_statement(self, self._truth(assumptions))
         if self.form is None or known is not self:
             return known
         largest = lcm(self.modulus.denominator, *(residue.denominator for residue in self.residues))
@@ -390,39 +359,36 @@ class Congruence(Statement):
         return InClasses(self.form, self.numbers)
 
     def _solved(self, equation: FunctionPoly, numbers: Classes) -> Claim:
-        """An equation for an integer, with what holds where the parameter for which it was solved is free."""
+        """The claim for an equation for an integer, with that for strata on which the solved parameter is free."""
         found = integer_condition(equation, numbers, self.letter, self.setting)
         there = (
             all_of((Vanishes(zero), integer_roots(rest, numbers.residues, numbers.modulus)))
             for zero, rest in found.strata
         )
         claims = [found.claim, *(one.avoiding(self.setting).claim for one in there if one != NEVER)]
-        said = claims[0] if len(claims) == 1 else AnyOf(tuple(claims))
-        # Where a parameter was solved for, the denominators of the equation are gone.
-        return self._where_defined(said, equation) if isinstance(found.claim, IntegerFamily) else said
-
-    def _where_defined(self, said: Claim, equation: FunctionPoly) -> Claim:
-        """With the denominators of the equation, which solving it cleared, where no earlier region has their zeros."""
+        claim = claims[0] if len(claims) == 1 else AnyOf(tuple(claims))
+        if not isinstance(found.claim, IntegerFamily):
+            return claim
+        # Solving for a parameter cleared the denominators, whose zeros are excluded unless earlier regions contain them.
+        below = irreducible_factors(denominator(equation))
         above = numerator(equation)
-        below = irreducible_factors(element(equation.field, equation.den))
         zeros = [(factor, zero) for factor in below for zero in irreducible_factors(on_zeros(above, factor))]
         uncovered = dict.fromkeys(factor for factor, zero in zeros if not self.setting.covers(factor, zero))
-        guards = map(IsNonzero, uncovered)
-        return AllOf((said, *guards)) if uncovered else said
+        return AllOf((claim, *map(IsNonzero, uncovered))) if uncovered else claim
 
     def _one_class(self, form: FunctionPoly) -> Claim:
         """The claim that a form is congruent to one number."""
         (residue,) = self.residues
         modulus = self.modulus
         below = modulus.denominator
-        multiple = over_parameters(form * below)
+        multiple = form * below
         remainder = residue * below
         if modulus.numerator == 1:
-            return InClasses(over_parameters(multiple - remainder), INTEGERS)
+            return InClasses(multiple - remainder, INTEGERS)
         if modulus.numerator == 2 and remainder.denominator == 1:
             return InClasses(multiple, Classes.of([remainder], 2))
         scale = lcm(residue.denominator, below)
-        equation = over_parameters(form * scale - form.field.poly([0, 1]))
+        equation = form * scale - form.field.poly([0, 1])
         has_several_parameters = sum(map(bool, degrees(equation))) > 1
         if has_several_parameters and all_solved(equation, self.letter, self.setting):
             return self._solved(equation, Classes.of([residue * scale], modulus * scale))
@@ -430,15 +396,15 @@ class Congruence(Statement):
 
 
 def at_integers(form: FunctionPoly, largest: int, assumptions: Assumptions) -> list[tuple[Vanishes, Fraction]] | None:
-    """Where (a t + b)/(c t + d) has values with denominators up to the largest, for an integer parameter t, and these values.
+    """The integers t at which (a t + b)/(c t + d) has a denominator up to the largest, with these values.
 
-    c isn't 0; None for any other form, and where there might be too many.  The denominator is that of c t + d divided by a
-    divisor of a d - b c.
+    Here t is an integer parameter, and c isn't 0.  The denominator at t is that of c t + d divided by a divisor of a d - b c.
+    None for any other form, and if there may be too many values.
     """
     used = [k for k, degree in enumerate(map(int, (form.num * form.den).degrees())) if degree]
     if len(used) != 1:
         return None
-    (k,) = used
+    (k,) = used  # variable number k is parameter number k - 1
     t = form.field.generator(form.field.names[k - 1])
     if not assumptions.meets_classes(t, INTEGERS):
         return None
@@ -447,27 +413,27 @@ def at_integers(form: FunctionPoly, largest: int, assumptions: Assumptions) -> l
         return None
     a, b, c, d = (part.get(power, 0) for part in (above, below) for power in (1, 0))
     most = largest * abs(a * d - b * c)
-    if most > _MOST_INTEGERS:
-        return None
     end = (most + abs(d)) // abs(c)
+    if end > MOST_TRIALS:
+        return None
     values = {n: Fraction(a * n + b, c * n + d) for n in range(-end, end + 1) if c * n + d}
-    places = ((Vanishes(over_parameters(t - n)), value) for n, value in values.items() if value.denominator <= largest)
+    places = ((Vanishes(t - n), value) for n, value in values.items() if value.denominator <= largest)
     return [(here, value) for here, value in places if here.under(assumptions) != NEVER]
 
 
-def free_letter(names: Collection[str], preferred: str = LETTERS) -> str:
-    """A name for an integer that isn't one of the names."""
+def free_letter(names: Collection[str], preferred: str = INTEGER_LETTERS) -> str:
+    """A name for an integer that differs from these names."""
     return next(letter for letter in chain(preferred, map("n{}".format, count())) if letter not in names)
 
 
 def integer_roots(equation: FunctionPoly, residues: Iterable[Fraction | int], modulus: Fraction | int) -> Statement:
-    """The condition that a polynomial in N over Q(t) has a rational root in these classes (integer unless the degree is 1)."""
+    """The statement that a polynomial in N over Q(t) has a rational root in these classes (integer unless the degree is 1)."""
     classes = {r % modulus for r in residues}
-    statements: list[Statement] = []
-    for factor, _ in equation.field.factor(equation):
+    statements = list[Statement]()
+    for factor in polynomial_factors(equation):
         numbers = without_parameters(factor)
         if numbers is None:
-            statements.append(Congruence.make(over_parameters(factor), classes, modulus))
+            statements.append(Congruence.make(factor, classes, modulus))
         elif any(root % modulus in classes for root in rational_roots(numbers)):
             return ALWAYS
     return either(*statements)
@@ -477,6 +443,5 @@ def without_parameters(polynomial: Poly) -> Poly | None:
     """The polynomial over Q, or over its number field; None if a coefficient has parameters."""
     if polynomial.field.ground == QQ:
         return polynomial
-    values = [rational(coefficient) for coefficient in polynomial]
-    known = [value for value in values if value is not None]
-    return QQ.poly(known) if len(known) == len(values) else None
+    known = [value for value in map(rational_number, polynomial) if value is not None]
+    return QQ.poly(known) if len(known) == polynomial.degree + 1 else None

@@ -1,9 +1,9 @@
 """Statements with a natural number in them: "b = 2 d + 2 for a natural number d, and Delta_d(a, c) = 0".
 
 The exponents leave finitely many polynomials over Q(t), and d, the degree of P (or the number of zeros of an invariant), is a
-natural root of one of them.  Where d is given, P exists exactly where a determinant Delta_d vanishes: that of a banded system
-for its coefficients.  There are infinitely many of them; each is computed on demand, and at a point with a natural root the
-system has numbers for entries, and its rank decides.
+natural root of one of them.  For a given d, P exists exactly where the determinant Delta_d of a banded system for its
+coefficients vanishes.  Each of these infinitely many determinants is computed on demand; at a point with a natural root the
+entries are numbers, and the rank decides.
 
 References: P. Acosta-Humanez & D. Blazquez-Sanz, DCDS-B 10 (2008); A. V. Turbiner, Comm. Math. Phys. 118 (1988) 467.
 """
@@ -30,10 +30,27 @@ from kovacic.errors import LimitExceeded
 from kovacic.limits import Budget
 from kovacic.parametric import prose
 from kovacic.parametric.assumptions import Assumptions
-from kovacic.parametric.claims import AnyOf, Claim, DegreeBySum, DegreeExists, EquationFor, IsZero, rational_roots
+from kovacic.parametric.claims import (
+    INTEGERS,
+    NATURALS,
+    NO_CONSTANT,
+    AnyOf,
+    Claim,
+    DegreeBySum,
+    DegreeExists,
+    EquationFor,
+    IsZero,
+    ParameterPoint,
+    degrees,
+    irreducible_factors,
+    over_parameters,
+    polynomial_factors,
+    rational_roots,
+    union,
+)
 from kovacic.parametric.exponents import (
+    NOT_COMPUTED,
     NOWHERE,
-    OPEN,
     RankConditions,
     choices_of_degree,
     conditions_of_degree,
@@ -42,36 +59,26 @@ from kovacic.parametric.exponents import (
     is_too_large,
     zeros_of_forms,
 )
-from kovacic.parametric.formulas import in_sum, shown
-from kovacic.parametric.functions import (
-    INTEGERS,
-    NATURALS,
-    NO_CONSTANT,
-    ParameterPoint,
-    degrees,
-    irreducible_factors,
-    over_parameters,
-    union,
-)
-from kovacic.parametric.integers import free_letter, natural_root
+from kovacic.parametric.formulas import expanded_form, in_sum
+from kovacic.parametric.integers import free_letter, natural_root, without_parameters
 from kovacic.parametric.prose import Words
 from kovacic.parametric.restriction import Hypersurface, everywhere, hypersurface, in_lowest_powers
 from kovacic.parametric.solutions import PolynomialSolution, solution_of_degree
 from kovacic.parametric.statements import NEVER, Setting, Statement
 
-#: The largest number that is tried for an example.
-_EXAMPLES = 2
-#: What is said of Delta_d where the exponents need too large an extension.
-NO_FORMULA = "no polynomial, as the exponents are irrational: at each point the rank of its linear system decides"
+#: The largest d for which the determinants of conditions with a natural number d are computed unasked, and sampled.
+DEFAULT_DEGREE = 2
+#: The text of Delta_d if the exponents need too large an extension.
+WITHOUT_FORMULA = "no polynomial, as the exponents are irrational: at each point the rank of its linear system decides"
 
 
 @dataclass(frozen=True)
 class Determinant:
     """Delta_d where the exponents give d: P exists exactly where it vanishes.
 
-    `exponents` vanishes where d is the degree.  `factors` are the irreducible factors of Delta_d: none where it is 1, and P
-    exists nowhere, or only where all of the polynomials in `system` vanish, since there are more equations than unknowns.
-    `factors` is None if it has no formula in the parameters: the exponents need too large an extension of their field.
+    `exponents` vanishes where d is the degree.  `factors` are the irreducible factors of Delta_d.  There are none if it is 1,
+    and P exists nowhere, or, with more equations than unknowns, only where all polynomials in `system` vanish.  `factors` is
+    None without a formula in the parameters, since the exponents need too large an extension of their field.
     """
 
     exponents: FunctionPoly
@@ -85,10 +92,10 @@ class Determinant:
 
     def __str__(self) -> str:
         if self.factors is None:
-            return NO_FORMULA
-        parts = sorted(map(shown, self.factors), key=len)
+            return WITHOUT_FORMULA
+        parts = sorted(map(expanded_form, self.factors), key=len)
         if self.system:
-            parts.append(f"({', '.join(map(shown, self.system))})")
+            parts.append(f"({', '.join(map(expanded_form, self.system))})")
         return "*".join(map(in_sum, parts) if len(parts) > 1 else parts) or "1"
 
 
@@ -96,9 +103,9 @@ class Determinant:
 class Natural(Statement):
     """For a natural number that the exponents allow, an invariant of degree m with that number of zeros exists.
 
-    The number is a root of one of the `factors`, None if there are too many sums of exponents to list them.  m = 1 is a
-    solution with a rational omega, whose zeros are those of P.  `structure` is that of the group where the invariant exists
-    and no structure before it has been found.
+    The number is a root of one of the `factors`, None if there are too many sums of exponents to list them.  m = 1 stands for
+    a solution with a rational omega, whose zeros are those of P.  `structure` is that of the group where the invariant exists
+    and no earlier structure was found.
     """
 
     S: RatFunc
@@ -106,7 +113,7 @@ class Natural(Statement):
     factors: tuple[FunctionPoly, ...] | None
     structure: Structure
     setting: Setting = field(default=Setting(), compare=False)
-    #: The algebraic number among the parameters, if there is one: as the setting has it, and compared.
+    #: The algebraic number among the parameters, if there is one: that of the setting, but compared.
     constant: ParameterPoint = NO_CONSTANT
 
     def avoiding(self, setting: Setting) -> Statement:
@@ -118,28 +125,22 @@ class Natural(Statement):
 
     @property
     def equations(self) -> tuple[FunctionPoly, ...]:
-        """A number of zeros may be anything where they aren't listed: 0 stands for that."""
+        """The factors; 0, which says nothing, if they aren't listed."""
         return (0 * over_parameters(self.S.num),) if self.factors is None else self.factors
-
-    @property
-    def field(self) -> FunctionField:
-        return over_parameters(self.S.num).field
 
     def rewritten(self, change: Callable[[FunctionPoly], FunctionPoly]) -> Statement:
         S = RatFunc(change(over_parameters(self.S.num)), change(over_parameters(self.S.den)))
         if self.factors is None:
             return replace(self, S=S)
-        factored = (one.field.factor(one) for one in map(change, self.factors))
-        factors = union([over_parameters(factor) for factor, _ in one] for one in factored)
-        return replace(self, S=S, factors=tuple(factors))
+        return replace(self, S=S, factors=tuple(union(map(polynomial_factors, map(change, self.factors)))))
 
     def numbers_at(self, point: ParameterPoint) -> list[int]:
-        """The natural numbers that the exponents allow at a point, as far as they are listed."""
+        """The natural numbers that the listed exponents allow at a point."""
         roots = chain.from_iterable(rational_roots(point.at(factor)) for factor in self.factors or ())
         return sorted(map(int, {*filter(NATURALS.contains, roots)}))
 
     def _holds(self, point: ParameterPoint) -> bool:
-        """Decided by the rank of the systems at a point."""
+        """True if the rank of a system at the point says so."""
         if point.field.ground != QQ:
             return False
         numbers = self.numbers_at(point)
@@ -150,11 +151,11 @@ class Natural(Statement):
         return _exists(point.restricted(self.S), self.m, numbers)
 
     def determinants(self, number: int) -> tuple[Determinant, ...]:
-        """Delta for one natural number, for each way in which the exponents give it."""
+        """Delta_d for one natural number d, for each way in which the exponents give it."""
         return _determinants(self, number)
 
     def given(self, number: int) -> Iterator[tuple[FunctionPoly, Hypersurface, RatFunc]]:
-        """Where the exponents give the number, that is, a function vanishes: it, its zeros and S there; all values for 0."""
+        """Each function at whose zeros the exponents give the number, its zeros (all values for 0), and S there."""
         equations = [over_parameters(factor(Fraction(number))) for factor in self.factors or ()]
         for exponents in union(irreducible_factors(value) if value else [value] for value in equations):
             surface = hypersurface(exponents) if exponents else everywhere(exponents.field, self.constant)
@@ -168,22 +169,20 @@ class Natural(Statement):
         """Solutions with a P of this degree, for each way in which the exponents give it and P can exist."""
         if number is None or self.m > 1:
             return ()
-        found: list[PolynomialSolution | None] = []
+        found: dict[PolynomialSolution | None, None] = {}
         for exponents, surface, S in self.given(number):
             if surface.curve or is_too_large(S.field):
                 continue
-            found += [
-                solution_of_degree(choice, number, variable, exponents)
-                for choice in choices_of_degree(analyse(S, Budget()), number) or ()
-                # One has equations for P that exclude one another: b = 6 and b = 9/2.
-                if S.field.ground == QQ or choice.conditions(number, S.field) != NOWHERE
-            ]
-        return tuple(dict.fromkeys(filter(None, found)))
+            for choice in choices_of_degree(analyse(S, Budget()), number) or ():
+                # The equations for P may exclude one another: b = 6 and b = 9/2.
+                if S.field.ground == QQ or choice.conditions(number, S.field) != NOWHERE:
+                    found[solution_of_degree(choice, number, variable, exponents)] = None
+        return tuple(filter(None, found))
 
     def values(self, number: int) -> dict[str, Words]:
-        """What Delta is for a number, in the parameters, each with the equations for the exponents where it is that.
+        """The values of Delta_d for a number d, each with the equations for the exponents under which it has this value.
 
-        There is no equation where it is that for all values.  Where one Delta is 0, no other one says more.
+        There are no equations if it has this value everywhere.  If one Delta_d is 0, no other one says more.
         """
         found: dict[str, dict[IsZero, None]] = {}
         determinants = self.determinants(number)
@@ -200,14 +199,15 @@ class Natural(Statement):
         if not self.factors:
             return []
         factor = random.choice(self.factors)
-        number = random.randint(0, _EXAMPLES)
-        if not any(degrees(factor)):
-            root = factor.field.rational_value(-factor[0] / factor[1]) if factor.degree == 1 else None
-            if root is None or not NATURALS.contains(root):
+        number = random.randint(0, DEFAULT_DEGREE)
+        numbers = without_parameters(factor)
+        if numbers is not None:
+            naturals = [*filter(NATURALS.contains, rational_roots(numbers))]
+            if not naturals:
                 return []
-            number = int(root)
-        determinants = self.determinants(number) if self.m == 1 else ()  # of invariants the numbers of zeros say enough
-        found = [one for one in determinants if one.factors or one.system]
+            number = int(naturals[0])
+        # For invariants the numbers of zeros are enough.
+        found = [one for one in self.determinants(number) if one.factors or one.system] if self.m == 1 else []
         if not found:
             return [*filter(None, [over_parameters(factor(Fraction(number)))])]
         chosen = random.choice(found)
@@ -215,7 +215,7 @@ class Natural(Statement):
         return [*filter(None, [chosen.exponents, *zeros])]
 
     def under(self, assumptions: Assumptions) -> Statement:
-        """With the equations for d that can have a natural root."""
+        """The statement with those equations for d that can have a natural root."""
         if self.factors is None:
             return self
         found: list[FunctionPoly] = []
@@ -223,42 +223,37 @@ class Natural(Statement):
             if factor.degree == 1 and assumptions.meets_classes(-factor[0] / factor[1], INTEGERS) is False:
                 continue
             # A polynomial with a positive constant term and no negative coefficient is positive for all d >= 0.
-            coefficients = enumerate(map(over_parameters, factor))
-            if not all(assumptions.is_positive(c, or_zero=k > 0) for k, c in coefficients):
+            if not all(assumptions.is_positive(c, or_zero=k > 0) for k, c in enumerate(factor)):
                 found.append(factor)
         return replace(self, factors=tuple(found)) if found else NEVER
 
     @cached_property
     def claim(self) -> Claim:
-        # Equations for the number, each solved for a parameter; sums of exponents where one with parameters can't be.
+        # Equations for the number, each solved for a parameter, or sums of exponents if one with parameters can't be.
         listed = natural_root(self.factors or (), self.letter, self.setting)
         unsolved = [part.equation for part in listed.parts if isinstance(part, EquationFor)]
-        is_open = self.factors is None or any(any(degrees(equation)) for equation in unsolved)
-        degree = (self._by_exponents() if is_open else None) or listed
+        degree: Claim = listed
+        numbers = None
+        if self.factors is None or any(any(degrees(equation)) for equation in unsolved):
+            problem = analyse(self.S, Budget())
+            numbers = degrees_of_solutions(problem) if self.m == 1 else zeros_of_forms(problem, self.m)
+        if numbers is not None:  # d + 1 = +-sqrt(b)/2 +- c, or d = 6 + j*a + k*b with integers j and k
+            has_zero = self.factors is None or problem.field.poly([-numbers.constant, 1]) in self.factors
+            letters = list[str]()
+            for _ in () if numbers.only_signs else numbers.roots:
+                letters.append(free_letter([self.letter, *self.setting.names, *letters], "jkmnl"))
+            degree = DegreeBySum(self.letter, numbers, tuple(letters), has_zero)
         return DegreeExists(self.letter, degree, self.m, self.exists)
-
-    def _by_exponents(self) -> Claim | None:
-        """The degrees as sums of exponents: `d + 1 = +-sqrt(b)/2 +- c`, or `d = 6 + j*a + k*b` with integers j and k."""
-        problem = analyse(self.S, Budget())
-        numbers = degrees_of_solutions(problem) if self.m == 1 else zeros_of_forms(problem, self.m)
-        if numbers is None:
-            return None
-        distance = over_parameters(problem.field.poly([-numbers.constant, 1]))
-        has_zero = self.factors is None or distance in self.factors
-        letters: list[str] = []
-        for _ in () if numbers.only_signs else numbers.roots:
-            letters.append(free_letter([self.letter, *self.setting.names, *letters], "jkmnl"))
-        return DegreeBySum(self.letter, numbers, tuple(letters), has_zero)
 
 
 @lru_cache(maxsize=64)
 def _determinants(statement: Natural, number: int) -> tuple[Determinant, ...]:
-    """Computed once for samples, lists and theorems."""
+    """The determinants for one number, computed once for samples, lists and theorems."""
     found: dict[Determinant, None] = {}
     for exponents, surface, S in statement.given(number):
         has_free_constant = bool(statement.constant.names and exponents) and isinstance(surface.field, AlgebraicField)
         if statement.m == 1 and (has_free_constant or is_too_large(S.field)):
-            choices = [OPEN]
+            choices = [NOT_COMPUTED]
         elif S.field.ground == QQ:  # no parameter is left
             choices = [RankConditions(deficient=_exists(S, statement.m, [number]))]
         elif statement.m > 1:
@@ -286,7 +281,7 @@ def _exists(S: RatFunc, m: int, numbers: Sequence[int]) -> bool:
 
 @lru_cache(maxsize=256)
 def _has_solution(S: RatFunc, number: int) -> bool:
-    """True if there is a solution with a P of this degree; cached, for several statements need it."""
+    """True if there is a solution with a P of this degree; cached because several statements need it."""
     chosen = choices_of_degree(analyse(S, Budget()), number)
     if chosen is None:
         raise LimitExceeded(f"the exponents of y'' = ({S}) y need too large an extension", limit="degree")
@@ -295,4 +290,5 @@ def _has_solution(S: RatFunc, number: int) -> bool:
 
 @lru_cache(maxsize=256)
 def _has_form(S: RatFunc, m: int) -> bool:
+    """True if there is an invariant of degree m."""
     return not isinstance(invariants(analyse(S, Budget()), m), NoInvariant)

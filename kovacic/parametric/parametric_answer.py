@@ -1,4 +1,4 @@
-"""What `kovacic.conditions` returns: the regions of parameter space, what holds at a point, and JSON."""
+"""The answer of `kovacic.conditions`: the regions of parameter space, the verdict at a point, and JSON."""
 
 from __future__ import annotations
 
@@ -22,13 +22,12 @@ from kovacic.limits import DEFAULT_LIMITS, Budget, Limits, limited
 from kovacic.numbers.exact import whole
 from kovacic.parametric import record
 from kovacic.parametric.assumptions import NOTHING_ASSUMED, Assumptions, check_values, read_assumptions
-from kovacic.parametric.cases import settled
-from kovacic.parametric.functions import NO_CONSTANT, ParameterPoint, over_parameters
+from kovacic.parametric.claims import NO_CONSTANT, ParameterPoint, over_parameters
 from kovacic.parametric.natural import Determinant
 from kovacic.parametric.partition import derived
-from kovacic.parametric.regions import Limited, ParameterRegion, RegionVerdict, Theory
+from kovacic.parametric.regions import Limited, ParameterRegion, RegionVerdict, Theory, settled_regions
 from kovacic.parametric.restriction import Letters, everywhere, setting_of, values_of_letters
-from kovacic.parametric.solutions import Later, Origin
+from kovacic.parametric.solutions import Later, SolutionsByDegree
 from kovacic.parametric.statements import Statement
 from kovacic.reading.constants import with_root
 from kovacic.reading.read import read_input
@@ -37,16 +36,16 @@ from kovacic.reading.symbolic import read_expression
 from kovacic.writing.escaped import json_line
 from kovacic.writing.formula import Formulas, Math
 
-#: A number for each parameter by name or symbol, or the point that they make up.
+#: A number for each parameter by name or symbol, or a point with these numbers.
 Values = Mapping[Any, Any] | ParameterPoint
 
 
 @dataclass(frozen=True)
 class ParametricAnswer:
-    """For which values of its parameters y'' = S y has Liouvillian solutions: frozen and picklable.
+    """The values of the parameters for which y'' = S y has Liouvillian solutions: frozen and picklable.
 
-    `str` has the regions in lines, and a notebook shows them as cases.  The regions are tried in their order: the first one
-    whose statement holds decides.  All of it holds for values with the `assumptions`.
+    `str` lists the regions in lines, and a notebook shows them as cases.  The regions are tried in their order: the first one
+    whose statement holds decides.  All of it holds for values that satisfy the `assumptions`.
 
     Attributes
     ----------
@@ -57,28 +56,28 @@ class ParametricAnswer:
     parameters : tuple of str
         The names of the parameters.
     generic : RegionVerdict
-        What holds where no region's statement does.
+        The verdict outside of all regions.
     regions : tuple of ParameterRegion
         The other values, in their order.
     complete : bool or str
-        True where the list is proven to be complete, else a sentence such as "up to degree 12 (...)".
+        True if the list is proven to be complete, else a sentence such as "up to degree 12 (...)".
     theory : Theory
-        By which theorems, a str; `sources` are the keys of the publications.
+        The theorems that prove it, a str; `sources` are the keys of the publications.
     limits : Limits
-        They hold for what is asked later, too.
+        The limits of this call and of later questions.
     notices : tuple of str
-        What was noticed when the input was read.
+        Remarks on the input.
     assumptions : Assumptions
-        What was assumed about the parameters.
+        The assumptions about the parameters.
     constant : ParameterPoint
         The value of the algebraic constant in S.
     equation : Equation or None
-        The equation of which y'' = S y is the normal form, maybe in a function of the user's variable, its `change`; None if
-        S itself was given.  Solutions of the regions solve that equation, and S speaks of the normal form.
+        The equation of which y'' = S y is the normal form, possibly in a function of the user's variable, its `change`; None
+        if S itself was given.  Solutions of the regions solve that equation, while S belongs to the normal form.
     letters : tuple
-        Parameters of S that stand for others, sqrt(a) and exp(a): their names, and the SymPy expressions.
+        Parameters of S that stand for expressions, sqrt(a) and exp(a): their names, and the SymPy expressions.
     given : str
-        The text that was read, with the values in it that were given; empty where there wasn't one.
+        The text that was read, with given values inserted; empty if there was none.
 
     Examples
     --------
@@ -131,7 +130,7 @@ class ParametricAnswer:
         Raises
         ------
         InputError
-            Where a parameter has no value, or one that contradicts an assumption.
+            If a parameter has no value, or one that contradicts an assumption.
 
         Examples
         --------
@@ -159,9 +158,9 @@ class ParametricAnswer:
         Raises
         ------
         InputError
-            For what isn't a natural number, or where no region has such a condition.
+            If the number isn't natural, or no region has such a condition.
         LimitExceeded
-            Where it takes longer than the limits allow.
+            If it takes longer than the limits allow.
 
         Examples
         --------
@@ -170,19 +169,16 @@ class ParametricAnswer:
         >>> [str(delta) for delta in quartic.determinant(1)]
         ['a^4 - 8*a^2*c + 32*a + 16*c^2', 'a^4 - 8*a^2*c + 32*a + 16*c^2']
         """
-        natural = [*chain.from_iterable(region.naturals for region in self.regions)]
+        natural = [statement for region in self.regions for statement in region.naturals]
         if not natural:
             raise InputError("no condition has a natural number in it")
-        number = whole(number, "the natural number d")
-        found: list[Determinant] = []
+        d = whole(number, "the natural number d")
         with Budget(self.limits).watched():
-            for statement in natural:
-                found += statement.determinants(number)
-        return tuple(found)
+            return tuple(chain.from_iterable(statement.determinants(d) for statement in natural))
 
     @limited
     def case_at(self, values: Values) -> int | None:
-        """The case at a point; where the regions claim nothing (see `complete`), the equation is decided there.
+        """The case at a point; if the regions claim nothing (see `complete`), the equation is decided there.
 
         Parameters
         ----------
@@ -197,9 +193,9 @@ class ParametricAnswer:
         Raises
         ------
         InputError
-            Where S isn't defined, or a parameter has no value.
+            If S isn't defined there, or a parameter has no value.
         LimitExceeded
-            Where it isn't decided within the limits.
+            If it isn't decided within the limits.
 
         Examples
         --------
@@ -236,7 +232,7 @@ class ParametricAnswer:
         Raises
         ------
         InputError
-            Where S isn't defined, or a parameter has no value.
+            If S isn't defined there, or a parameter has no value.
 
         Examples
         --------
@@ -257,7 +253,7 @@ class ParametricAnswer:
         return replace(answer, verified=verified)
 
     def predicted(self, values: Values) -> RegionVerdict | None:
-        """What the regions claim at a point; None if S isn't defined.
+        """The claim of the regions at a point; None if S isn't defined there.
 
         Parameters
         ----------
@@ -267,7 +263,7 @@ class ParametricAnswer:
         Returns
         -------
         RegionVerdict or None
-            Its `known` is False where the regions aren't complete and none contains the point.
+            Its `known` is False if the regions aren't complete and none contains the point.
 
         Examples
         --------
@@ -288,7 +284,7 @@ class ParametricAnswer:
         return RegionVerdict(self.generic.structure, known=False)
 
     def point(self, values: Values) -> ParameterPoint:
-        """The values of the parameters as constants of one field; a point is taken as it is, here and wherever values are.
+        """The values of the parameters as constants of one field; a point is returned unchanged.
 
         Parameters
         ----------
@@ -298,12 +294,12 @@ class ParametricAnswer:
         Returns
         -------
         ParameterPoint
-            What `region_at`, `case_at`, `answer_at` and `predicted` take, too.
+            A point, which `region_at`, `case_at`, `answer_at` and `predicted` accept, too.
 
         Raises
         ------
         InputError
-            Where a parameter has no value, or one that contradicts an assumption.
+            If a parameter has no value, or one that contradicts an assumption.
 
         Examples
         --------
@@ -387,7 +383,7 @@ class ParametricAnswer:
 
     @classmethod
     def from_json(cls, text: str | Mapping[str, Any]) -> ParametricAnswer:
-        """The conditions that `to_json` wrote; solutions of regions are found anew when they are asked for.
+        """The conditions that `to_json` wrote; solutions of regions are found anew on demand.
 
         Parameters
         ----------
@@ -397,12 +393,12 @@ class ParametricAnswer:
         Returns
         -------
         ParametricAnswer
-            Of the class that it is called on.
+            An object of the class that it is called on.
 
         Raises
         ------
         InputError
-            For other data.
+            For any other data.
 
         Examples
         --------
@@ -428,7 +424,7 @@ class ParametricAnswer:
             reader = record.StatementReader(field)
             read = [*map(reader.region, data["regions"])]
             assumptions = read_assumptions(data["assumptions"] or None, None, names)
-            regions = settled(read, setting_of(variable, field.names, constant, letters, assumptions))
+            regions = settled_regions(read, setting_of(variable, field.names, constant, letters, assumptions))
             answer = cls(
                 variable=variable,
                 parameters=parameters,
@@ -456,23 +452,23 @@ class ParametricAnswer:
 
 
 @lru_cache(maxsize=16)
-def _origins(answer: ParametricAnswer) -> dict[Statement, Origin | None]:
-    """The solutions of the regions, by their statements, found from S."""
-    # An algebraic constant isn't a parameter there.
+def _origins(answer: ParametricAnswer) -> dict[Statement, SolutionsByDegree | None]:
+    """The solutions of the regions by their statements, found from S."""
+    # An algebraic constant isn't a parameter of this S.
     S = everywhere(over_parameters(answer.S.num).field, answer.constant).restricted(answer.S)
     found = derived(S, answer.variable, answer.equation, answer.assumptions, Budget(answer.limits), 0, answer.letters)
     return {region.statement: region.formulas for region in found.regions}
 
 
-def _origin_of(answer: ParametricAnswer, statement: Statement) -> Origin | None:
+def _origin_of(answer: ParametricAnswer, statement: Statement) -> SolutionsByDegree | None:
     return _origins(answer).get(statement)
 
 
 def _point(names: tuple[str, ...], values: list[Any], constant: ParameterPoint, limits: Limits) -> ParameterPoint:
-    """Constants of one field, from SymPy's numbers, together with the constant of S."""
+    """SymPy's numbers as constants of one field, together with the constant of S."""
     import sympy
 
-    # As coefficients of powers of x_ they are read together.
+    # Read together, as coefficients of powers of x_, they lie in one field.
     x = sympy.Symbol("x_")
     terms = [value * x**k for k, value in enumerate(values)]
     read = read_input(sympy.Add(*terms), var="x_", limits=limits).S

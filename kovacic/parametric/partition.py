@@ -1,7 +1,7 @@
-"""The partition of parameter space: which theory applies, the regions in their order, and the degenerate values.
+"""The partition of parameter space: the theory that applies, the regions in their order, and the degenerate values.
 
-What holds for generic values has limits everywhere.  An omega of degree m over the algebraic closure of Q(t)(x) is a root of a
-binary form F(y, y') of degree m, with polynomials in x as coefficients, whose derivative along the solutions is a multiple of
+Liouvillian solutions for generic values specialise.  An omega of degree m over the algebraic closure of Q(t)(x) is a root of
+a binary form F(y, y') of degree m, with polynomials in x as coefficients, whose derivative along the solutions is a multiple of
 it, F' = lambda F with a rational function lambda.  Let S be defined at t0, take a valuation ring of the constants that
 dominates t0, and scale F so that its coefficients are integral and not all in the maximal ideal.  Then lambda is integral
 (if pi lambda were the first integral multiple, pi F' = pi lambda F would vanish in the residue field, but neither pi lambda
@@ -13,13 +13,13 @@ Darboux' transformation gives an equation with an apparent singularity the cases
 and W free of E and W' + W^2 = V - E0.  For every E other than E0 the map y -> y' - W y takes the solutions to those of
 v'' = (V - 2 W' - E) v, and v -> v' + W v takes them back, times E0 - E.  W is rational, so one equation has Liouvillian
 solutions where the other one has, with the same case and group.  At a pole with the exponents -m and m + 1, the same for all E,
-and W = -m/(x - c) + ..., V - 2 W' has the coefficient m (m - 1) where V has m (m + 1).
+and W = -m/(x - c) + ..., V has the coefficient m (m + 1), and V - 2 W' has m (m - 1).
 
 On a hypersurface such as 4 w^2 + 1 = 0 no parameter is eliminated, but one is a number there.  S over Q(t)(w) is a slice of
-S over Q(t, w) with a free w, whose partition holds on the slice; so it is where a form in two parameters vanishes, on
+S over Q(t, w) with a free w, whose partition holds on the slice; likewise where a form in two parameters vanishes, on
 a^2 + b^2 = 0 with w = a/b.
 
-Last, each region is said once, under assumptions, with solutions of the given equation.
+Finally each region is stated once, under the assumptions, with solutions of the given equation.
 
 References: G. Darboux, C. R. Acad. Sci. 94 (1882) 1456; D. Gomez-Ullate, Y. Grandati & R. Milson, J. Phys. A 47 (2014) 015203.
 """
@@ -44,36 +44,51 @@ from kovacic.engine.places import Kind, Problem, analyse
 from kovacic.equation import Equation, parameters_of
 from kovacic.errors import LimitExceeded
 from kovacic.galois import group_of
-from kovacic.limits import Budget, bounded_work, count_work
-from kovacic.parametric import cases, restriction, riemann
+from kovacic.limits import Budget
+from kovacic.parametric import restriction, riemann
 from kovacic.parametric.assumptions import Assumptions
-from kovacic.parametric.functions import (
+from kovacic.parametric.claims import (
     degrees,
+    denominator,
     denominators,
-    element,
     in_field,
     irreducible_factors,
     over_parameters,
     powers_of,
+    rational_number,
     union,
 )
 from kovacic.parametric.integers import without_parameters
 from kovacic.parametric.natural import Natural
-from kovacic.parametric.regions import Limited, ParameterRegion, RegionVerdict, Theorem, Theory, verdict_of
-from kovacic.parametric.search import Findings, degree_equation, search
+from kovacic.parametric.regions import (
+    Limited,
+    ParameterRegion,
+    RegionVerdict,
+    Theorem,
+    Theory,
+    equations_on,
+    normal_form_equation,
+    settled_regions,
+    vanishing,
+    verdict_from_engine,
+    without_empty,
+    without_implied_equations,
+    without_redundant,
+)
+from kovacic.parametric.search import Findings, degree_equation, search_special_values
 from kovacic.parametric.solutions import Carried, PolynomialSolution, derivative, given, solutions_there
 from kovacic.parametric.statements import ALWAYS, NEVER, Setting, Vanishes, all_of
-from kovacic.parametric.theorems import kimura, martinet_ramis
+from kovacic.parametric.theorems import kimura_theorem, martinet_ramis
 from kovacic.reading.change_of_variable import function_of_x, user_variable
 from kovacic.writing.formula import caret
 
 #: Degrees of P up to which an E0 is looked for.
-_DEGREE = 4
+_DEGREE_AT_E0 = 4
 
 
 @dataclass(frozen=True)
 class Transformation:
-    """`special` vanishes where E = E0; S for all other values is as `simpler`, unless one of the `exceptions` vanishes."""
+    """`special` vanishes where E = E0; elsewhere S is as solvable as `simpler`, unless one of the `exceptions` vanishes."""
 
     special: FunctionPoly
     W: RatFunc
@@ -88,18 +103,15 @@ def carried_back(W: RatFunc, variable: str, solution: PolynomialSolution) -> Pol
 
 
 def transformation(problem: Problem) -> Transformation | None:
-    """One that lowers the apparent singularities; None if none is found."""
+    """A transformation that lowers the apparent singularities; None if none is found."""
     before = _apparent(problem)
-    energies = _energies(problem.S) if before else []
-    if not energies:
-        return None
-    for special, W in _rational_logarithmic_derivatives(problem, energies):
+    for special, W in _rational_logarithmic_derivatives(problem) if before else ():
         simpler = problem.S - 2 * W.derivative()
         after = analyse(simpler, problem.budget)
         if _apparent(after) < before:
             own, others = map(restriction.undefined, (problem, after))
-            exceptions = [own, irreducible_factors(W.cleared()[1].lc), others]
-            return Transformation(special, W, simpler, tuple(union(exceptions)))
+            exceptions = union([own, irreducible_factors(W.cleared()[1].lc), others])
+            return Transformation(special, W, simpler, tuple(exceptions))
     return None
 
 
@@ -114,35 +126,32 @@ def _energies(S: RatFunc) -> list[int]:
     """The numbers of the parameters E with S = V - c E, c a number and V free of E."""
     above, below = map(over_parameters, S.cleared())
     linear = (i for i, powers in enumerate(zip(degrees(above), degrees(below), strict=True)) if powers == (1, 0))
-    slopes = ((i, RatFunc(powers_of(above, i)[1], below * element(above.field, above.den))) for i in linear)
-    return [i for i, c in slopes if c.is_polynomial and S.field.rational_value(c.num) is not None]
+    slopes = ((i, RatFunc(powers_of(above, i)[1], below * denominator(above))) for i in linear)
+    return [i for i, c in slopes if c.is_polynomial and rational_number(c.num) is not None]
 
 
-def _rational_logarithmic_derivatives(problem: Problem, energies: list[int]) -> Iterator[tuple[FunctionPoly, RatFunc]]:
-    """`(E - E0, W)` with a W free of E, where the exponents give a P of small degree: that of a solution for E = E0."""
-    equation = degree_equation(problem)
+def _rational_logarithmic_derivatives(problem: Problem) -> Iterator[tuple[FunctionPoly, RatFunc]]:
+    """`(E - E0, W)` with a W free of E, for solutions for E = E0 in which P has a small degree."""
+    energies = _energies(problem.S)
+    equation = degree_equation(problem) if energies else None
     if equation is None:
         return
-    for special in chain.from_iterable(irreducible_factors(equation(Fraction(d))) for d in range(_DEGREE + 1)):
+    for special in chain.from_iterable(irreducible_factors(equation(Fraction(d))) for d in range(_DEGREE_AT_E0 + 1)):
         linear = (i for i in energies if degrees(special)[i] == 1 and powers_of(special, i)[1].num.is_constant())
         for i in islice(linear, 1):
             surface = restriction.hypersurface(special, i)
             riccati = decide(surface.restricted(problem.S), problem.budget).riccati
-            if riccati is None or riccati.degree > 1:
-                continue
-            W = -riccati.coefficients[0]
-            if W.field == surface.field:
-                yield special, RatFunc(*(surface.back(part, special.field) for part in W.cleared()))
+            if riccati is not None and riccati.degree == 1 and riccati.coefficients[0].field == surface.field:
+                omega = RatFunc(*(surface.back(part, special.field) for part in riccati.coefficients[0].cleared()))
+                yield special, -omega
 
 
-#: Strata of parameter space up to which they are examined: Heun's general equation, in six parameters, has some hundreds.
-_STRATA = 4000
-_UNKNOWN = RegionVerdict(None, known=False)
+_NOT_EXAMINED = RegionVerdict(None, known=False)
 
 
 @dataclass(frozen=True)
 class Partition:
-    """Regions, tried in order; `generic` holds where none of them does, `complete` as for a region."""
+    """Regions, tried in order; `generic` holds where none of them does; `complete` is as for a region."""
 
     generic: RegionVerdict
     complete: bool | str
@@ -153,7 +162,7 @@ class Partition:
     def of(
         cls, theory: Theory, regions: Iterable[ParameterRegion], generic: RegionVerdict, complete: bool | str = True
     ) -> Partition:
-        """The regions that hold somewhere, up to the first that is everything: in the end what is generic."""
+        """The regions that hold somewhere, up to the first that holds everywhere, which may be the generic verdict."""
         held = [one for one in (*regions, ParameterRegion(ALWAYS, generic, complete)) if one.statement != NEVER]
         kept = tuple(takewhile(lambda one: one.statement != ALWAYS, held))
         rest = held[len(kept)]
@@ -163,7 +172,7 @@ class Partition:
 
 @dataclass(frozen=True, kw_only=True)
 class Settings(Setting):
-    """The limits, and how far to go: `only_theorems` leaves everything else undecided.  What is covered isn't examined."""
+    """The budget, and `only_theorems` to leave everything else undecided.  Covered zeros aren't examined."""
 
     budget: Budget
     variable: str
@@ -171,17 +180,17 @@ class Settings(Setting):
 
 
 def partition(S: RatFunc, settings: Settings) -> Partition:
-    """The partition for S over Q(t), or the single verdict for an S without parameters in it."""
-    count_work(1)
+    """The partition for S over Q(t), or the single verdict for an S without parameters."""
+    settings.budget.check()
     num, den = map(without_parameters, (S.num, S.den))
-    if num is not None and den is not None:  # no parameter is left: 0 for k (1 + g/x) at k = 0
+    if num is not None and den is not None:  # no parameter is left in k (1 + g/x) at k = 0
         numbers = RatFunc(num, den)
         decision = decide(numbers, settings.budget)
-        verdict = verdict_of(decision, group_of(numbers, decision) if decision.structure else None)
+        verdict = verdict_from_engine(decision, group_of(numbers, decision) if decision.structure else None)
         return Partition(verdict, verdict.known or str(decision.undecided), Theory("the engine"))
-    verdict = verdict_of(decide(S, settings.budget, certify=False))
+    verdict = verdict_from_engine(decide(S, settings.budget, certify=False))
     if isinstance(S.field, AlgebraicField):
-        # Functions on a hypersurface; see the head of this module for case 1.
+        # Functions on a hypersurface; the head of this module explains case 1.
         is_reducible = verdict.structure is Structure.REDUCIBLE
         has_number = isinstance(S.field.base, FunctionField) and without_parameters(S.field.modulus) is not None
         if has_number and not is_reducible and not settings.assumptions.constant.names:
@@ -194,7 +203,7 @@ def partition(S: RatFunc, settings: Settings) -> Partition:
 
 
 def _without_common_factors(S: RatFunc, assumptions: Assumptions) -> RatFunc:
-    """S over Q(t, alpha) without those that numerator and denominator have where alpha is the number that is assumed."""
+    """S over Q(t, alpha) in the lowest terms that it has where alpha is the assumed number."""
     number = assumptions.constant
     if not isinstance(S.field, FunctionField) or len(S.field.names) < 2 or S.field.names[-1:] != number.names:
         return S
@@ -202,34 +211,34 @@ def _without_common_factors(S: RatFunc, assumptions: Assumptions) -> RatFunc:
 
 
 def _on_slice(S: RatFunc, settings: Settings) -> Partition:
-    """The partition for S over Q(t)(alpha), alpha a number, by that over Q(t, alpha); over Q(t) it is S's own."""
+    """The partition for S over Q(t)(alpha), alpha a number, by that over Q(t, alpha); for S over Q(t) its own."""
     lifted, _, number = restriction.with_free_constant(S)
     known = replace(settings.assumptions, constant=number)
-    with settings.budget.watched(), bounded_work(_STRATA):
+    with settings.budget.watched():
         found = partition(lifted, replace(settings, covered=(), assumptions=known))
     # With high powers of the constant replaced by means of its minimal polynomial.
     reduced = partial(restriction.in_lowest_powers, constant=number)
-    left = (cases.without_implied(one.statement.rewritten(reduced)).under(known) for one in found.regions)
+    left = (without_implied_equations(one.statement.rewritten(reduced)).under(known) for one in found.regions)
     regions = (replace(one, statement=statement) for one, statement in zip(found.regions, left, strict=True))
     under = Partition.of(found.theory, regions, found.generic, found.complete)
     if under.generic.known:
         return under
-    return replace(under, generic=verdict_of(decide(S, settings.budget, certify=False)))
+    return replace(under, generic=verdict_from_engine(decide(S, settings.budget, certify=False)))
 
 
 def _by_theory(S: RatFunc, expected: RegionVerdict, settings: Settings) -> Partition:
     problem = analyse(S, settings.budget)
-    if expected.structure is Structure.REDUCIBLE:  # where S is defined: see the head of this module
+    if expected.structure is Structure.REDUCIBLE:  # and so wherever S is defined, by the head of this module
         is_constant = problem.S.is_polynomial and problem.S.num.degree <= 0
-        is_simple = is_constant or riemann.is_fuchsian(problem)  # orders of poles don't matter
+        is_simple = is_constant or riemann.has_regular_points_only(problem)  # orders of poles don't matter
         changes = restriction.confluence if is_simple else restriction.structure_changes
         if {*changes(problem)} <= {*restriction.undefined(problem)}:
-            expected = riemann.verdict(problem, Structure.REDUCIBLE)
+            expected = riemann.verdict_by_exponents(problem, Structure.REDUCIBLE)
         always = ParameterRegion(ALWAYS, expected)
         name = Theory("a rational omega for generic values, and so for all", "Kov86")
         theorem: Theorem | None = Theorem(name, restriction.undefined(problem), [always])
     else:
-        theorem = kimura(problem, settings.variable) or martinet_ramis(problem, settings.variable)
+        theorem = kimura_theorem(problem, settings.variable) or martinet_ramis(problem, settings.variable)
     if theorem is not None:
         return _by_theorem(problem, theorem, expected, settings)
     if settings.only_theorems:
@@ -241,7 +250,7 @@ def _by_theory(S: RatFunc, expected: RegionVerdict, settings: Settings) -> Parti
 
 
 def _by_theorem(problem: Problem, theorem: Theorem, expected: RegionVerdict, settings: Settings) -> Partition:
-    """The regions up to the first that is everything, whose verdict is the generic one."""
+    """The regions up to the first that holds everywhere, whose verdict is the generic one."""
     at_exceptions = _on_zeros(problem.S, theorem.exceptions, settings)
     found = Partition.of(theorem.name, chain(at_exceptions, theorem.regions), RegionVerdict(None))
     case = found.generic.case
@@ -254,9 +263,9 @@ def _by_theorem(problem: Problem, theorem: Theorem, expected: RegionVerdict, set
 
 
 def _by_transformation(problem: Problem, found: Transformation, settings: Settings) -> Partition:
-    """The regions of the simpler equation, behind those of the values at which the transformation isn't possible."""
+    """The regions of the simpler equation, after those of the values at which the transformation isn't possible."""
     regions = [*_on_zeros(problem.S, found.exceptions, settings)]
-    regions += _pieces(problem.S, found.special, settings)
+    regions += _regions_where_zero(problem.S, found.special, settings)
     inner = partition(found.simpler, settings)
     back = partial(carried_back, found.W, settings.variable)
     origins = ((one, one.formulas and Carried(one.formulas, (back,))) for one in inner.regions if one.defined)
@@ -266,14 +275,14 @@ def _by_transformation(problem: Problem, found: Transformation, settings: Settin
 
 
 def _by_candidates(problem: Problem, expected: RegionVerdict, settings: Settings) -> Partition:
-    """The regions where S changes, those of the candidates, those with a natural number, as far as the limits allow."""
-    regions: list[ParameterRegion] = []
+    """The regions where S changes, those of the candidates, and those with a natural number, as far as the limits allow."""
+    regions = list[ParameterRegion]()
     findings = Findings(Theory("polynomial conditions"))
     complete: bool | str = True
     try:
         changes = restriction.structure_changes(problem)
         regions.extend(_on_zeros(problem.S, changes, settings))
-        findings = search(problem)
+        findings = search_special_values(problem)
         if expected.structure is Structure.IMPRIMITIVE:
             findings.candidates += _discriminants(problem, settings)
         elif expected.structure is not None:
@@ -288,9 +297,9 @@ def _by_candidates(problem: Problem, expected: RegionVerdict, settings: Settings
     for statement, structure in findings.conditions:
         is_reducible = structure is Structure.REDUCIBLE
         if expected.structure is not None and not is_reducible:
-            continue  # it isn't smaller
-        verdict = riemann.verdict(problem, structure) if is_reducible else RegionVerdict(structure)
-        if structure.case == 3:  # it leaves the group open
+            continue  # no smaller group
+        verdict = riemann.verdict_by_exponents(problem, structure) if is_reducible else RegionVerdict(structure)
+        if structure.case == 3:  # an invariant of degree 12 leaves the group open
             verdict = replace(verdict, family="binary tetrahedral, octahedral or icosahedral")
         origin = None
         if isinstance(statement, Natural):
@@ -302,11 +311,11 @@ def _by_candidates(problem: Problem, expected: RegionVerdict, settings: Settings
 
 
 def _discriminants(problem: Problem, settings: Settings) -> list[FunctionPoly]:
-    """Where the two solutions in a generic semi-invariant y1 y2 can coincide: where a constant, w^2, vanishes."""
+    """Functions that vanish where the two solutions in a generic semi-invariant y1 y2 coincide."""
     riccati = decide(problem.S, settings.budget).riccati
     if riccati is None or riccati.P.field != problem.field:
         return []
-    # The discriminant of W^2 - A1/(P D) W + A2/(P D^2) is w^2 / (y1 y2)^2 with a constant w^2.
+    # The discriminant of W^2 - A1/(P D) W + A2/(P D^2) is w^2 / (y1 y2)^2 with a constant w^2, which vanishes there.
     P = riccati.P
     (_, first, second) = riccati.numerators
     elements = [(first * first - 4 * P * second).lc, *denominators(P), *denominators(first), *denominators(second)]
@@ -316,25 +325,25 @@ def _discriminants(problem: Problem, settings: Settings) -> list[FunctionPoly]:
 def _on_zeros(
     S: RatFunc, functions: Iterable[FunctionPoly], settings: Settings, expected: RegionVerdict | None = None
 ) -> Iterator[ParameterRegion]:
-    """Regions for the zeros of functions: of all where the generic theory doesn't apply, and the limits may leave unknown ones.
+    """Regions for the zeros of functions, at which the generic theory doesn't apply; the limits may leave them unknown.
 
-    Where a verdict is expected, these are the zeros at which something else holds, or isn't known.
+    If a verdict is expected, these are the zeros at which something else holds, or nothing is known.
     """
     for function in functions:
         if settings.covers(function):
             continue
         try:
-            found = _pieces(S, function, settings)
+            found = _regions_where_zero(S, function, settings)
         except LimitExceeded as limit:
             if expected is not None:
                 raise
-            found = [ParameterRegion(Vanishes(function), _UNKNOWN, Limited.by(limit))]
+            found = [ParameterRegion(Vanishes(function), _NOT_EXAMINED, Limited.by(limit))]
         if expected is None or not all(one.verdict.known and one.case == expected.case for one in found):
             yield from found
             settings = settings.also(function)
 
 
-def _pieces(S: RatFunc, function: FunctionPoly, settings: Settings) -> list[ParameterRegion]:
+def _regions_where_zero(S: RatFunc, function: FunctionPoly, settings: Settings) -> list[ParameterRegion]:
     """The regions that make up the zeros of a polynomial, in their order."""
     settings.budget.check()
     regions = _inside(S, function, settings)
@@ -343,9 +352,9 @@ def _pieces(S: RatFunc, function: FunctionPoly, settings: Settings) -> list[Para
 
 
 def _missed(S: RatFunc, function: FunctionPoly, settings: Settings) -> list[ParameterRegion]:
-    """Regions for the zeros of a polynomial at which the parameter to be eliminated can have any value.
+    """Regions for the zeros of a polynomial at which the eliminated parameter can have any value.
 
-    There a second polynomial g vanishes, so that they are the zeros of the first one on g = 0, and those that are missed there.
+    There a second polynomial g vanishes, so that these are the zeros of the first one on g = 0, and those missed there.
     """
     first = Vanishes(function)
     regions = list[ParameterRegion]()
@@ -357,28 +366,28 @@ def _missed(S: RatFunc, function: FunctionPoly, settings: Settings) -> list[Para
         except ZeroDivisionError:
             restricted = None
         if restricted is None or not isinstance(rest, FunctionPoly):
-            regions += _also(_pieces(S, other, settings), first)
+            regions += _also(_regions_where_zero(S, other, settings), first)
             continue
         regions += _also(_missed(S, other, settings), first)
         for factor in irreducible_factors(rest):
-            regions += _also(_pieces(restricted, factor, settings.on(surface)), first, Vanishes(other))
+            regions += _also(_regions_where_zero(restricted, factor, settings.on(surface)), first, Vanishes(other))
     return regions
 
 
 def _also(regions: Iterable[ParameterRegion], *conditions: Vanishes) -> list[ParameterRegion]:
-    """The parts of regions, of fewer parameters maybe, where more conditions hold."""
+    """The parts of regions, which may be about fewer parameters, where more conditions hold."""
     lift = partial(in_field, field=conditions[0].function.field)
     return [replace(r, statement=all_of((*conditions, r.statement.rewritten(lift)))) for r in regions]
 
 
 def _inside(S: RatFunc, function: FunctionPoly, settings: Settings) -> list[ParameterRegion]:
-    """The regions where a polynomial vanishes, except for the points that `missed` is about; the last one is all the rest."""
+    """The regions where a polynomial vanishes, except for the `missed` points; the last one is all the rest."""
     statement = Vanishes(function)
     surface = restriction.hypersurface(function)
     try:
         restricted = _without_common_factors(surface.restricted(S), settings.assumptions)
     except ZeroDivisionError:
-        return [ParameterRegion(statement, _UNKNOWN, defined=False)]
+        return [ParameterRegion(statement, _NOT_EXAMINED, defined=False)]
     inner = partition(restricted, settings.on(surface))
     rest = ParameterRegion(ALWAYS, inner.generic, inner.complete)
     if inner.complete is not True:
@@ -391,14 +400,13 @@ def _inside(S: RatFunc, function: FunctionPoly, settings: Settings) -> list[Para
     if surface.curve:
         back = partial(surface.back, field=function.field)
         *regions, rest = (_without_curve(region, back) for region in (*regions, rest))
-    said = rest.defined, rest.verdict, rest.complete
-    while regions and (regions[-1].defined, regions[-1].verdict, regions[-1].complete) == said:
+    while regions and replace(regions[-1], statement=ALWAYS) == rest:
         regions.pop()  # it needn't be named
     return _also([*regions, rest], statement)
 
 
 def _without_curve(region: ParameterRegion, back: Callable[[FunctionPoly], FunctionPoly]) -> ParameterRegion:
-    """The region in the original parameters, without formulas in those of a curve, which aren't the user's."""
+    """The region in the original parameters, without formulas in the parameters of a curve, which the user doesn't know."""
     verdict = region.verdict
     if verdict.family and "`" in verdict.family:
         verdict = replace(verdict, family=None)
@@ -414,45 +422,44 @@ def derived(
     max_degree: int | None,
     letters: restriction.Letters = (),
 ) -> Partition:
-    """The partition of parameter space for S; `max_degree` None: by theorems only, else Delta_d is shown up to this d."""
+    """The partition of parameter space for S; Delta_d is shown up to `max_degree`, which is None for theorems only."""
     settings = Settings(budget=budget, variable=variable, only_theorems=max_degree is None, assumptions=known)
     found = _on_slice(S, settings)
     regions = found.regions
     with budget.watched(), suppress(LimitExceeded):
-        regions = cases.without_empty(regions)
-        regions = cases.without_redundant(regions, found.generic if found.complete is True else None)
+        regions = without_empty(regions)
+        regions = without_redundant(regions, found.generic if found.complete is True else None)
     lifted, _, constant = restriction.with_free_constant(S)
-    own = equation or cases.normal_form(lifted, variable)
+    own = equation or normal_form_equation(lifted, variable)
     # In solutions the constant is SymPy's number.
     x = sympy.Symbol(variable)
-    numbers = zip(constant.names, (value.to_sympy(x) for value in constant.values), strict=True)
-    meanings = (*letters, *numbers)
+    meanings = (
+        *letters,
+        *((name, value.to_sympy(x)) for name, value in zip(constant.names, constant.values, strict=True)),
+    )
     setting = restriction.setting_of(variable, parameters_of(lifted.field), constant, letters, known)
-    finished = [_finished(region, own, max_degree, budget, meanings) for region in cases.settled(regions, setting)]
+    finished = [_finished(region, own, max_degree, budget, meanings) for region in settled_regions(regions, setting)]
     return replace(found, regions=tuple(finished))
 
 
 def _finished(
     region: ParameterRegion, equation: Equation, max_degree: int | None, budget: Budget, letters: restriction.Letters
 ) -> ParameterRegion:
-    """With solutions of the equation that was given, and the degree up to which determinants are shown."""
+    """The region with solutions of the given equation, and the degree up to which determinants are shown."""
     statement = region.statement
-    if not region.defined and equation.change and _is_constant(equation, cases.vanishing(statement.conjuncts)):
-        family = f"`{equation.variable} = {caret(equation.change.expression)}` is constant there: assume this value"
-        region = replace(region, verdict=replace(region.verdict, family=family))
+    if not region.defined and equation.change:
+        # The variable as a function of the user's variable may be constant on the zeros of a function: x^n for n = 0.
+        factors = sympy.Mul.make_args(sympy.factor(function_of_x(equation).diff(x := user_variable(equation))))
+        zeros = [zero.function.to_sympy(x) for zero in vanishing(statement.conjuncts)]
+        if any(sympy.cancel(factor / zero).is_number for factor in factors for zero in zeros):
+            family = f"`{equation.variable} = {caret(equation.change.expression)}` is constant there: assume this value"
+            region = replace(region, verdict=replace(region.verdict, family=family))
     if region.formulas is not None:
-        pieces = tuple(partial(given, *piece) for piece in cases.equations_on(region.statement, equation))
-        # With an algebraic constant the statement knows its value; the origin is about all values.
+        pieces = tuple(partial(given, *piece) for piece in equations_on(region.statement, equation))
+        # With an algebraic constant the statement knows its value, and the origin doesn't.
         origin = region.formulas
         if isinstance(statement, Natural) and statement.constant.names:
             origin = partial(statement.solutions, equation.variable)
         region = replace(region, origin=Carried(origin, pieces, letters) if pieces else None)
     has_determinants = isinstance(statement, Natural) and statement.m == 1
     return replace(region, shown_degree=max_degree if has_determinants else None, limits=budget.limits)
-
-
-def _is_constant(equation: Equation, zeros: Iterable[Vanishes]) -> bool:
-    """True if the variable, as a function of the user's, is constant where a function vanishes: x^n where n = 0."""
-    x = user_variable(equation)
-    slope = sympy.Mul.make_args(sympy.factor(function_of_x(equation).diff(x)))
-    return any(sympy.cancel(part / zero.function.to_sympy(x)).is_number for zero in zeros for part in slope)

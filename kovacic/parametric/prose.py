@@ -1,7 +1,7 @@
 """Claims in words and formulas: the one place where a statement about parameters becomes a sentence.
 
 Each kind of claim has a writer, which makes one line with formulas between backquotes.  A line becomes a tuple of words and
-formulas, `Math`, which has its LaTeX beside its text; every format is made from it.
+formulas, each a `Math` with text and LaTeX, from which every format is made.
 """
 
 from __future__ import annotations
@@ -15,9 +15,11 @@ from kovacic.algebra.poly import Poly
 from kovacic.algebra.ratfunc import RatFunc
 from kovacic.algebra.rationals import QQ
 from kovacic.parametric.claims import (
+    INTEGERS,
     AllOf,
     AnyOf,
     Claim,
+    Classes,
     DegreeBySum,
     DegreeExists,
     EquationFor,
@@ -26,6 +28,12 @@ from kovacic.parametric.claims import (
     IsNonzero,
     IsZero,
     SumOfRoots,
+    degrees,
+    irreducible_factors,
+    laurent_constant_term,
+    numerator,
+    over_parameters,
+    rational_number,
 )
 from kovacic.parametric.formulas import (
     alone,
@@ -33,17 +41,8 @@ from kovacic.parametric.formulas import (
     in_sum,
     root_written,
     shifted,
+    shortest_form,
     sides_of_equation,
-    written,
-)
-from kovacic.parametric.functions import (
-    INTEGERS,
-    Classes,
-    constant_term,
-    degrees,
-    irreducible_factors,
-    numerator,
-    over_parameters,
 )
 from kovacic.writing.formula import Math
 
@@ -52,34 +51,29 @@ Words = tuple[str | Math, ...]
 
 
 def phrase(literal: str) -> Words:
-    """Words and formulas, written in one line: formulas stand between backquotes."""
+    """The words and formulas in a line with formulas between backquotes."""
     pieces = enumerate(literal.split("`"))
     return tuple(Math.of(piece) if k % 2 else piece for k, piece in pieces if piece)
 
 
-def text(claim: Claim) -> str:
-    """In one line."""
-    return text_of(sentence(claim))
-
-
-def latex(claim: Claim) -> str:
-    """In LaTeX, without dollar signs."""
+def latex_of_claim(claim: Claim) -> str:
+    """The claim in LaTeX, without dollar signs."""
     parts = (part.latex if isinstance(part, Math) else rf"\text{{{part}}} " for part in sentence(claim))
     return "".join(parts).strip()
 
 
-def text_of(words: Words) -> str:
+def text_of_words(words: Words) -> str:
     return "".join(part.text if isinstance(part, Math) else part for part in words)
 
 
 @lru_cache(maxsize=1024)
 def sentence(claim: Claim) -> Words:
     """The claim in words and formulas."""
-    return phrase(_line(claim))
+    return phrase(_claim_line(claim))
 
 
-def _line(claim: Claim) -> str:
-    """By the writer of its kind."""
+def _claim_line(claim: Claim) -> str:
+    """The line by the writer for this kind of claim."""
     return next(WRITERS[kind](claim) for kind in type(claim).__mro__ if kind in WRITERS)
 
 
@@ -87,17 +81,17 @@ def _line(claim: Claim) -> str:
 
 
 def equals(name: str, value: Poly | RatFunc, letter: str) -> str:
-    """`E = f(n)`, in the shortest form of the function."""
-    return f"{alone(name)} = {written(value, letter)}"
+    """E = f(n), with the function in its shortest form."""
+    return f"{alone(name)} = {shortest_form(value, letter)}"
 
 
-def _listed(formulas: Sequence[str]) -> str:
+def _alternatives(formulas: Sequence[str]) -> str:
     """`a`, `b` or `c`."""
     *several, last = (f"`{formula}`" for formula in formulas)
     return " or ".join([*filter(None, [", ".join(several)]), last])
 
 
-#: Classes of integers that have a name, by the modulus and the residues.
+#: Classes of integers that have a name.
 _PROSE_OF_KIND = {
     INTEGERS: "an integer",
     Classes.of([0], 2): "an even integer",
@@ -106,7 +100,7 @@ _PROSE_OF_KIND = {
 
 
 def _congruent(form: str, numbers: Classes) -> str:
-    """`n = 1, 2 mod 5`, or `n = +-1/6, 1/2 mod 1` where r and -r come in pairs."""
+    """`n = 1, 2 mod 5`, or `n = +-1/6, 1/2 mod 1` if r and -r come in pairs."""
     residues, modulus = numbers.residues, numbers.modulus
     texts = [*map(str, residues)]
     if {-residue % modulus for residue in residues} == {*residues}:
@@ -117,72 +111,71 @@ def _congruent(form: str, numbers: Classes) -> str:
 
 
 def _kind(numbers: Classes, letter: str = "") -> str:
-    """What an integer of these is, maybe with its name: "an odd integer n", "an integer not divisible by 3"."""
-    noun = _PROSE_OF_KIND.get(numbers, "an integer")
+    """The kind of such an integer, with its name if it has one: "an odd integer n", "an integer not divisible by 3"."""
     name = f" `{letter}`" if letter else ""
     if numbers in _PROSE_OF_KIND:
-        return noun + name
+        return _PROSE_OF_KIND[numbers] + name
     if numbers.residues == tuple(range(1, int(numbers.modulus))):
-        return f"{noun}{name} not divisible by {numbers.modulus}"
-    return f"{noun} `{_congruent(letter, numbers)}`"
+        return f"an integer{name} not divisible by {numbers.modulus}"
+    return f"an integer `{_congruent(letter, numbers)}`"
 
 
 # ------------------------------------------------------------------------------- claims
 
 
-def equation(zero: FunctionPoly, relation: str = "=") -> Math:
-    """The equation that a function vanishes, solved for a parameter if that is simple; or that it doesn't, with !=."""
+def equation_of_zeros(zero: FunctionPoly, relation: str = "=") -> Math:
+    """The equation that a function vanishes, or the inequation with !=, solved for a parameter if that is simple."""
     sides = sides_of_equation(zero)
     return Math.of(f"{alone(sides.left)} {relation} {sides.right}")
 
 
-def _equation(claim: IsZero | IsNonzero) -> str:
-    return f"`{equation(claim.function, '=' if isinstance(claim, IsZero) else '!=').text}`"
+def _zero_or_not(claim: IsZero | IsNonzero) -> str:
+    return f"`{equation_of_zeros(claim.function, '=' if isinstance(claim, IsZero) else '!=').text}`"
 
 
 def _modulo_integers(form: FunctionPoly) -> str:
-    """2*n - 1/2: of the constant term only what it is modulo 1."""
-    constant = constant_term(form)
+    """2*n - 1/2: the form with its constant term reduced modulo 1."""
+    constant = laurent_constant_term(form)
     shift = f" - {-constant % 1}" if constant.denominator > 1 else ""
-    return written(form - constant) + shift
+    return shortest_form(form - constant) + shift
 
 
 def _in_classes(claim: InClasses) -> str:
     numbers = claim.numbers
     if numbers == INTEGERS:
         return f"`{_modulo_integers(claim.form)} in Z`"
-    form = written(claim.form)
+    form = shortest_form(claim.form)
     if numbers in _PROSE_OF_KIND:
         return f"`{form}` is {_kind(numbers)}"
     return f"`{_congruent(form, numbers)}`"
 
 
-def _roots(claim: SumOfRoots) -> str:
-    """The sum, without what it is."""
-    mean = [written(claim.mean)] if claim.mean else []
+def _sum_of_roots(claim: SumOfRoots) -> str:
+    """The formula of the sum."""
+    mean = [shortest_form(claim.mean)] if claim.mean else []
     return " +- ".join([*mean, *map(root_written, claim.squares)])
 
 
 def _head(family: IntegerFamily | EquationFor) -> str:
-    """`E = f(n)`, and what is said of poles."""
+    """`E = f(n)`, with its poles."""
     if isinstance(family, EquationFor):
         return _unsolved(family)
     return f"`{equals(family.parameter, family.value, family.letter)}`{_about_poles([family])}"
 
 
-def poles_of(families: Iterable[IntegerFamily]) -> list[str]:
+def poles_in_words(families: Iterable[IntegerFamily]) -> list[str]:
     """`Z = 0` where `n = l`, for each pole, each once."""
     found: dict[str, None] = {}
     for family in families:
         for pole in family.poles:
-            texts = [*map(written, irreducible_factors(pole.zero))]
+            texts = [*map(shortest_form, irreducible_factors(pole.zero))]
             product = texts[0] if len(texts) == 1 else "*".join(map(in_product, texts))
             found[f"`{product} = 0` where `{equals(family.letter, pole.root, family.letter)}`"] = None
     return [*found]
 
 
 def _about_poles(families: Iterable[IntegerFamily]) -> str:
-    poles = poles_of(families)
+    poles = poles_in_words(families)
     return f" ({', '.join(poles)})" if poles else ""
 
 
@@ -192,48 +185,46 @@ def numbers_of(family: IntegerFamily | EquationFor) -> str:
 
 
 def _unsolved(claim: EquationFor) -> str:
-    """`d = 5` without parameters, else that the numerator vanishes."""
+    """`d = 5` without parameters, otherwise the equation that the numerator vanishes."""
     f = claim.equation
     if not any(degrees(f)) and f.degree == 1:
         return f"`{equals(claim.letter, -f[0] / f[1], claim.letter)}`"
-    return f"`{written(numerator(f), claim.letter)} = 0`"
+    return f"`{shortest_form(numerator(f), claim.letter)} = 0`"
 
 
 # ------------------------------------------------------------------------------- several claims
 
 
 def _all_of(claim: AllOf) -> str:
-    said: list[str] = []
-    for part in claim.parts:
-        # Alternatives are in parentheses, unless they are those of one value.
-        is_long = isinstance(part, AnyOf) and _of_one_value(part.parts) is None
-        said.append(f"({_line(part)})" if is_long else _line(part))
-    return ", and ".join(said)
+    # Alternatives are in parentheses, unless they are values of one parameter.
+    are_long = (isinstance(part, AnyOf) and _of_one_value(part.parts) is None for part in claim.parts)
+    parts = zip(are_long, map(_claim_line, claim.parts), strict=True)
+    return ", and ".join(f"({line})" if is_long else line for is_long, line in parts)
 
 
 def _any_of(claim: AnyOf) -> str:
-    """Alternatives, what is common to all of them said once."""
+    """Alternatives, with their common parts stated once."""
     parts = claim.parts
     for together in (_of_one_value, _of_common_numbers, _of_one_kind):
         found = together(parts)
         if found is not None:
             return found
-    # A comma, or a "for", stands in all others.
+    # All others contain a comma or a "for".
     are_short = all(
         isinstance(part, IsZero | SumOfRoots)
         or (isinstance(part, InClasses) and (len(part.numbers.residues) == 1 or part.numbers in _PROSE_OF_KIND))
         for part in parts
     )
-    return (" or " if are_short else ", or ").join(map(_line, parts))
+    return (" or " if are_short else ", or ").join(map(_claim_line, parts))
 
 
 def _of_one_value(parts: Sequence[Claim]) -> str | None:
-    """`n = 0` or `-1`, where all are equations with the same left side."""
+    """`n = 0` or `-1`, if all are equations with the same left side."""
     sides = [sides_of_equation(part.function) for part in parts if isinstance(part, IsZero)]
     if not 1 < len(sides) == len(parts) or len({side.left for side in sides}) > 1:
         return None
     first, *others = (side.right for side in sides)
-    return _listed([f"{sides[0].left} = {first}", *others])
+    return _alternatives([f"{sides[0].left} = {first}", *others])
 
 
 def _of_common_numbers(parts: Sequence[Claim]) -> str | None:
@@ -251,9 +242,9 @@ def _of_one_kind(parts: Sequence[Claim]) -> str | None:
     numbers: set[Classes] = set()
     for part in parts:
         if isinstance(part, SumOfRoots):
-            forms.append(_roots(part))
+            forms.append(_sum_of_roots(part))
         elif isinstance(part, InClasses) and part.numbers != INTEGERS and part.numbers in _PROSE_OF_KIND:
-            forms.append(written(part.form))
+            forms.append(shortest_form(part.form))
         elif isinstance(part, InClasses) and part.numbers == INTEGERS and len(parts) > 2:
             forms.append(_modulo_integers(part.form))
         else:
@@ -261,16 +252,16 @@ def _of_one_kind(parts: Sequence[Claim]) -> str | None:
         numbers.add(part.numbers)
     if len(numbers) != 1:
         return None
-    return f"{'one of ' if len(forms) > 2 else ''}{_listed(forms)} is {_kind(numbers.pop())}"
+    return f"{'one of ' if len(forms) > 2 else ''}{_alternatives(forms)} is {_kind(numbers.pop())}"
 
 
 # ------------------------------------------------------------------------------- natural numbers
 
 
-def _alternatives(claim: AnyOf, letter: str) -> str:
-    """`b = +-2*(d + 1)`, `n = 2*d, 2*d + 1 or -2*d - 3`, `n or -n - 1 = 2*d or 2*d + 1`, and what holds on strata."""
+def _natural_alternatives(claim: AnyOf, letter: str) -> str:
+    """`b = +-2*(d + 1)`, `n = 2*d, 2*d + 1 or -2*d - 3`, `n or -n - 1 = 2*d or 2*d + 1`, and the claims on strata."""
     by_name: dict[str, list[IntegerFamily]] = {}
-    said: list[str] = []
+    said = list[str]()
     strata = ""
     for part in claim.parts:
         if isinstance(part, IntegerFamily):
@@ -279,7 +270,7 @@ def _alternatives(claim: AnyOf, letter: str) -> str:
             said.append(_unsolved(part))
         elif isinstance(part, AllOf):
             there, where = part.parts
-            strata += f", or {_natural_numbers(there, letter)} where {_line(where)}"
+            strata += f", or {_natural_numbers(there, letter)} where {_claim_line(where)}"
     for name, families in by_name.items():
         said.append(_one_of(name, [family.value for family in families], letter) + _about_poles(families))
     return " or ".join(said) + strata
@@ -287,17 +278,17 @@ def _alternatives(claim: AnyOf, letter: str) -> str:
 
 def _natural_numbers(claim: Claim, letter: str) -> str:
     """The natural numbers that the exponents allow."""
-    return _alternatives(claim, letter) if isinstance(claim, AnyOf) else _line(claim)
+    return _natural_alternatives(claim, letter) if isinstance(claim, AnyOf) else _claim_line(claim)
 
 
 def _one_of(name: str, functions: Sequence[RatFunc], letter: str) -> str:
     """The phrase that a parameter is one of the functions; c + f and c - f, c free of the integer, are one formula `c +- f`.
 
-    Where they come in pairs whose sum is a number c, that it or c minus it is one: n or -n - 1 in Lame's equation.
+    For functions in pairs with the same sum, a number c, it or c minus it is one of them: n or -n - 1 in Lame's equation.
     """
 
     def begins_with_minus(f: RatFunc) -> bool:
-        return written(f, letter).lstrip("(").startswith("-")
+        return shortest_form(f, letter).lstrip("(").startswith("-")
 
     said: list[str] = []
     left = [*functions]
@@ -307,37 +298,36 @@ def _one_of(name: str, functions: Sequence[RatFunc], letter: str) -> str:
         start = f"`{name}` or "
         pairs = [sorted((f, RatFunc(total) - f), key=str) for f in functions]
         left = [*dict.fromkeys(min(pair, key=begins_with_minus) for pair in pairs)]
-        name = written(total - total.field.generator(name), letter)
+        name = shortest_form(total - total.field.generator(name), letter)
     while left:
         f = left.pop(0)
         other = next((g for g in left if _have_a_center(f, g)), None)
         if other is None:
-            said.append(written(f, letter))
+            said.append(shortest_form(f, letter))
             continue
         left.remove(other)
         center = (f + other) / 2
-        value = in_sum(written(min(other - center, f - center, key=begins_with_minus), letter))
-        said.append(f"{written(center, letter)} +- {value}" if center else f"+-{value}")
-    return start + _listed([f"{name} = {said[0]}", *said[1:]])
+        value = in_sum(shortest_form(min(other - center, f - center, key=begins_with_minus), letter))
+        said.append(f"{shortest_form(center, letter)} +- {value}" if center else f"+-{value}")
+    return start + _alternatives([f"{name} = {said[0]}", *said[1:]])
 
 
 def _sum_in_pairs(functions: Sequence[RatFunc]) -> FunctionPoly | None:
-    """A number, not 0, of which each function has another one that makes it up; None without one, or with two pairs."""
+    """The number, not 0, that is the sum of each function and another one; None if there is none, or a single pair."""
     if len(functions) < 4:
         return None
     for other in functions[1:]:
         total = functions[0] + other
-        is_number = total.is_polynomial and total.field.rational_value(total.num) is not None
+        is_number = total.is_polynomial and rational_number(total.num) is not None
         if total and is_number and all(total - f in functions and 2 * f != total for f in functions):
             return over_parameters(total.num)
     return None
 
 
 def _have_a_center(f: RatFunc, g: RatFunc) -> bool:
-    """True where their sum is 0, or a function of the parameters without the integer in it."""
+    """True if their sum is 0, or a function of the parameters, without the integer, that isn't a number."""
     total = f + g
-    is_free = total.num.degree <= 0 and total.den.degree <= 0
-    return not total or (is_free and total.field.rational_value(total.num) is None)
+    return not total or (total.num.degree == total.den.degree == 0 and rational_number(total.num) is None)
 
 
 def _degree_by_sum(claim: DegreeBySum) -> str:
@@ -360,12 +350,12 @@ def _degree_exists(claim: DegreeExists) -> str:
 
 #: How each kind of claim is written; `riemann` adds its own.
 WRITERS: dict[type, Callable[[Any], str]] = {
-    IsZero: _equation,
-    IsNonzero: _equation,
+    IsZero: _zero_or_not,
+    IsNonzero: _zero_or_not,
     AllOf: _all_of,
     AnyOf: _any_of,
     InClasses: _in_classes,
-    SumOfRoots: lambda claim: f"`{_roots(claim)}` is {_kind(claim.numbers)}",
+    SumOfRoots: lambda claim: f"`{_sum_of_roots(claim)}` is {_kind(claim.numbers)}",
     IntegerFamily: lambda claim: _head(claim) + numbers_of(claim),
     EquationFor: lambda claim: _head(claim) + numbers_of(claim),
     DegreeBySum: _degree_by_sum,

@@ -1,9 +1,9 @@
 """Conditions as data, and back: `{"kind": "lattice", "form": "n - 1/2", "modulus": 1}`.
 
-Functions of the parameters are written in Python's syntax.  The kinds: "zero" (a function vanishes), "lattice" (a form is
-congruent to one of the residues, 0 where there are none), "integer root" and "natural number" (equations in an unknown, which
-has a root among these integers, null where there are too many; and an invariant of the degree exists there), "schwarz", "and",
-"or".
+Functions of the parameters are written in Python's syntax.  The kinds are "zero" (a function vanishes), "lattice" (a form is
+congruent to one of the residues, 0 if there are none), "integer root" (an equation in an unknown has one of these integers as a
+root), "natural number" (one of several equations, null for too many, has a natural root, and an invariant of the degree
+exists), "schwarz", "and", "or".
 """
 
 from __future__ import annotations
@@ -22,7 +22,7 @@ from kovacic.equation import Change, Equation, parameters_of
 from kovacic.errors import InputError
 from kovacic.limits import Limits
 from kovacic.numbers.numerals import as_text, for_json, fraction
-from kovacic.parametric.functions import NO_CONSTANT, ParameterPoint, over_parameters
+from kovacic.parametric.claims import NO_CONSTANT, ParameterPoint, over_parameters
 from kovacic.parametric.integers import Congruence, free_letter
 from kovacic.parametric.natural import Natural
 from kovacic.parametric.regions import ParameterRegion, RegionVerdict
@@ -33,7 +33,7 @@ from kovacic.reading.constants import Constants
 from kovacic.reading.differential import WrittenReader, written_equation
 from kovacic.reading.expression import parse_with
 
-#: What was written by the package was within its limits.
+#: Limits that everything written by the package respects.
 _LIMITS = Limits(degree=10**6, bits=10**8, digits=10**7, text_length=10**8, exponent=10**6)
 
 
@@ -47,7 +47,15 @@ def statement_data(statement: Statement) -> dict[str, Any]:
         structures = [structure.value for structure in statement.structures]
         return {"kind": "schwarz", "unknown": "Z", "squares": statement.cubic.to_str("Z"), "structures": structures}
     if isinstance(statement, Congruence):
-        return _congruence_data(statement)
+        residues = [*map(_json_number, statement.residues)]
+        modulus = _json_number(statement.modulus)
+        numbers: dict[str, Any] = {"modulus": modulus, "residues": residues}
+        if statement.form is None:
+            letter = statement.letter
+            return {"kind": "integer root", "unknown": letter, "equation": statement.equation.to_str(letter), **numbers}
+        if len(residues) > 1:
+            return {"kind": "lattice", "form": statement.form.to_str("x"), **numbers}
+        return {"kind": "lattice", "form": (statement.form - statement.residues[0]).to_str("x"), "modulus": modulus}
     assert isinstance(statement, Natural)
     letter = statement.letter
     x = free_letter(parameters_of(statement.S.field), "xzt")
@@ -60,20 +68,6 @@ def statement_data(statement: Statement) -> dict[str, Any]:
         "variable": x,
         "S": statement.S.to_str(x),
     }
-
-
-def _congruence_data(statement: Congruence) -> dict[str, Any]:
-    """The residues of a form are left out where that is 0, after a shift."""
-    residues = statement.residues
-    numbers = {"modulus": _json_number(statement.modulus), "residues": [*map(_json_number, residues)]}
-    form = statement.form
-    if form is None:
-        letter = statement.letter
-        return {"kind": "integer root", "unknown": letter, "equation": statement.equation.to_str(letter), **numbers}
-    if len(residues) == 1:
-        form = over_parameters(form - residues[0])
-        del numbers["residues"]
-    return {"kind": "lattice", "form": form.to_str("x"), **numbers}
 
 
 def _json_number(value: Fraction) -> int | str:
@@ -107,7 +101,7 @@ def region_data(region: ParameterRegion) -> dict[str, Any]:
 
 
 def equation_data(equation: Equation | None) -> dict[str, Any] | None:
-    """The equation that was given, as text, and the function of the user's variable that its variable is."""
+    """The given equation as text, and its variable as a function of the user's variable."""
     if equation is None:
         return None
     change = equation.change and equation.change.to_dict()
@@ -117,7 +111,7 @@ def equation_data(equation: Equation | None) -> dict[str, Any] | None:
 def equation_from(
     data: Mapping[str, Any] | None, variable: str, names: tuple[str, ...], constant: ParameterPoint
 ) -> Equation | None:
-    """What `equation_data` wrote, over the field of these parameters and the constant."""
+    """The equation that `equation_data` wrote, over the field of these parameters and the constant."""
     if data is None:
         return None
     read = written_equation(data["text"], variable, data["unknown"], Constants(_LIMITS, constant.field, (), names))
@@ -134,7 +128,7 @@ def constant_data(constant: ParameterPoint) -> dict[str, Any]:
 
 
 def constant_from(data: Mapping[str, Any]) -> ParameterPoint:
-    """What `constant_data` wrote.  Raises `InputError` for what isn't an irreducible polynomial."""
+    """The constant that `constant_data` wrote.  Raises `InputError` unless its polynomial is irreducible."""
     if data["constant"] is None:
         return NO_CONSTANT
     root = data["constant_root"]
@@ -149,7 +143,7 @@ def constant_from(data: Mapping[str, Any]) -> ParameterPoint:
 
 @dataclass(frozen=True)
 class StatementReader:
-    """Functions of the parameters, and statements about them; parameters with the name of a formula are constants, sqrt(2)."""
+    """A reader for functions of the parameters, and statements about them; parameters named sqrt(2) are constants."""
 
     field: FunctionField
 
@@ -199,5 +193,5 @@ class StatementReader:
 
 
 def _residues(data: Mapping[str, Any]) -> tuple[Fraction, ...]:
-    """The classes; that of 0 where none are written."""
+    """The classes; without residues that of 0."""
     return tuple(map(Fraction, data.get("residues", [0])))

@@ -3,14 +3,14 @@
 Polynomials in the parameters tell where S isn't defined, and where poles merge, vanish or change their order.  The engine
 computes over Q(t).  Where these polynomials don't vanish, S has the same poles with the same orders, and a positive answer
 specialises: omega's polynomial is defined there and solves the Riccati equation.  Exponent differences that depend on the
-parameters count as irrational numbers; where one of them becomes rational, and the other listed conditions hold, more can be
-solvable than generically, and `kovacic.conditions` says where exactly.
+parameters count as irrational numbers; where one of them becomes rational, and the other listed conditions hold, the equation
+may be solvable though it isn't generically, and `kovacic.conditions` says where exactly.
 
 S over Q(t)(alpha), alpha an algebraic number, is S over Q(t, alpha) at one value of the parameter alpha.  A partition of the
 larger space that is right at all of its points is right on the slice, and if it is complete there it is complete here.
 
-Parameters that stand for constants, sqrt(a) or exp(a/2), have the names of what they stand for.  The engine computes with a
-letter for each; in all that is printed, in values and in solutions they are the user's own.
+Parameters that stand for constants, sqrt(a) or exp(a/2), are named after them.  The engine computes with a letter for each;
+in everything printed, in values and in solutions they are the user's own.
 """
 
 from __future__ import annotations
@@ -18,7 +18,6 @@ from __future__ import annotations
 import re
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
-from functools import partial
 from itertools import chain, combinations, count
 from math import gcd
 from typing import Any, NamedTuple
@@ -38,20 +37,22 @@ from kovacic.equation import PI, Parsed, parameters_of
 from kovacic.errors import InputError
 from kovacic.limits import Budget
 from kovacic.numbers.numerals import as_text
-from kovacic.parametric import functions
+from kovacic.parametric import claims
 from kovacic.parametric.assumptions import Assumptions
-from kovacic.parametric.formulas import shown
-from kovacic.parametric.functions import (
+from kovacic.parametric.claims import (
     NO_CONSTANT,
     ParameterPoint,
     degrees,
+    denominator,
     element,
     in_field,
     irreducible_factors,
-    lifted,
     over_parameters,
+    rational_number,
     union,
+    with_free_generator,
 )
+from kovacic.parametric.formulas import expanded_form
 from kovacic.parametric.statements import Setting
 from kovacic.writing.formula import caret, with_single_powers
 
@@ -77,14 +78,14 @@ def structure_changes(problem: Problem) -> list[FunctionPoly]:
 
 @dataclass(frozen=True)
 class GenericConditions:
-    """For which values of the parameters an answer holds; true where there is a condition.
+    """Conditions on the parameters under which an answer holds; false without any condition.
 
     Attributes
     ----------
     nonzero : tuple
         Polynomials in the parameters that must not vanish.
     irrational_squares : tuple
-        Squares of differences of exponents, which were taken for irrational.
+        Squares of exponent differences that were assumed to be irrational.
 
     Examples
     --------
@@ -101,13 +102,13 @@ class GenericConditions:
         return bool(self.nonzero or self.irrational_squares)
 
     def __str__(self) -> str:
-        parts = [f"{shown(f)} != 0" for f in self.nonzero]
-        parts += [f"sqrt({shown(f)}) isn't rational" for f in self.irrational_squares]
+        parts = [f"{expanded_form(f)} != 0" for f in self.nonzero]
+        parts += [f"sqrt({expanded_form(f)}) isn't rational" for f in self.irrational_squares]
         return ", ".join(parts) or "none"
 
 
 def generic_conditions(answer: Answer) -> GenericConditions:
-    """The conditions of an answer over Q(t); empty where there are no parameters, or where assumptions make it proven.
+    """The conditions of an answer over Q(t); none without parameters, or if assumptions prove the answer.
 
     >>> import kovacic
     >>> print(generic_conditions(kovacic.solve("(m^2*x^4 + (2*n + 1)*m*x^2 + n^2 - n)/x^2")))
@@ -119,16 +120,16 @@ def generic_conditions(answer: Answer) -> GenericConditions:
     changes = [structure_changes(problem)]
     riccati = answer.riccati
     series = answer.series
-    # Where a polynomial in omega's equation isn't defined; multiples of P are, whatever its recurrence divides by.
+    # The polynomials in omega's equation have to be defined; P is up to a factor, whatever its recurrence divides by.
     defining = [] if riccati is None else [riccati.P, riccati.D, *riccati.numerators]
     if series is not None:
         defining = [series.theta.num, series.theta.den, series.centre]
-    changes += [irreducible_factors(_down(d)) for part in defining for d in functions.denominators(part)]
+    changes += [irreducible_factors(_down(d)) for part in defining for d in claims.denominators(part)]
     constants = answer.constants
     if constants is not None:
         changes.append(_common_zeros(constants, constants.derivative()))
     squares = [place.delta_squared for place in problem.places if place.kind is Kind.REGULAR]
-    irrational = [_down(square) for square in squares if square and problem.field.rational_value(square) is None]
+    irrational = [_down(square) for square in squares if square and rational_number(square) is None]
     return GenericConditions(tuple(union(changes)), tuple(union([irrational])))
 
 
@@ -150,19 +151,17 @@ def _down(constant: Poly) -> FunctionPoly:
 
 @dataclass(frozen=True)
 class Hypersurface(ParameterPoint):
-    """Where an irreducible polynomial in the parameters vanishes: their values over a field of fewer ones, or an extension.
+    """The zeros of an irreducible polynomial in the parameters: their values over a field of fewer ones, or an extension.
 
-    The zeros of the `leading` functions (of fewer parameters) aren't covered, and `missed` are functions of which one vanishes
-    at each zero that isn't covered.  On a curve that is given by new parameters these are named in `curve`, with their values
-    as functions of the original ones.
+    At each zero that isn't covered one of the `missed` functions vanishes.  A `curve` has new parameters, named with their
+    values as functions of the original ones.
     """
 
-    leading: tuple[FunctionPoly, ...] = ()
     missed: tuple[FunctionPoly, ...] = ()
     curve: tuple[tuple[str, FunctionPoly], ...] = ()
 
     def back(self, function: Poly, field: FunctionField) -> FunctionPoly:
-        """A function of fewer parameters, or of those of the curve, in the original ones, which are those of the field."""
+        """A function of fewer parameters, or of those of the curve, in the original parameters, those of the field."""
         if not self.curve:
             return in_field(function, field)
         values = {name: field.generator(name) for name in field.names} | dict(self.curve)
@@ -173,13 +172,13 @@ class Hypersurface(ParameterPoint):
 def hypersurface(function: FunctionPoly, eliminated: int | None = None) -> Hypersurface:
     """Values of the parameters at which an irreducible polynomial vanishes.
 
-    A parameter that occurs linearly is eliminated: the given one, or one with a constant coefficient if there is one; else one
-    becomes algebraic over the others, unless the zeros are a curve with a parameter.  A linear one with the coefficient A in
-    A t + B misses the zeros of A; these are zeros of the polynomial only if there are two others, since A and B are coprime.
+    A parameter that occurs linearly is eliminated: the given one, or preferably one with a constant coefficient; otherwise one
+    becomes algebraic over the others, unless the zeros are a rational curve.  Eliminating t from A t + B misses the zeros of A;
+    these are zeros of the polynomial only if there are two other parameters, since A and B are coprime.
     """
     names = function.field.names
     powers = degrees(function)
-    leading = {i: functions.powers_of(function, i)[k] for i, k in enumerate(powers) if k}
+    leading = {i: claims.powers_of(function, i)[k] for i, k in enumerate(powers) if k}
     linear = [i for i in leading if powers[i] == 1 and eliminated in (None, i)]
     if linear:  # constants come first, then the shortest
         i = min(linear, key=lambda i: (not leading[i].num.is_constant(), len(leading[i].num)))
@@ -188,21 +187,21 @@ def hypersurface(function: FunctionPoly, eliminated: int | None = None) -> Hyper
         if curve is not None:
             return curve
         i = min(leading, key=lambda i: powers[i])
-    smaller, values = functions.without_parameter(i, names)
-    coefficients = functions.coefficients_in(function, i, values, smaller)
+    smaller, values = claims.without_parameter(i, names)
+    coefficients = claims.coefficients_in(function, i, values, smaller)
     if powers[i] == 1:
         values[i] = -coefficients[0] / coefficients[1]
-        zeros = tuple(irreducible_factors(leading[i]))
-        return Hypersurface(names, tuple(values), smaller, zeros, zeros if len(leading) > 2 else ())
+        missed = irreducible_factors(leading[i]) if len(leading) > 2 else []
+        return Hypersurface(names, tuple(values), smaller, tuple(missed))
     extension = AlgebraicField(smaller, smaller.poly(coefficients).monic(), names[i])
     values[i] = extension.generator
     return Hypersurface(names, tuple(value.over(extension) for value in values), extension)
 
 
 def _with_weights(function: FunctionPoly) -> Hypersurface | None:
-    """v^q = theta u^p with coprime p and q, theta a number, by T, which isn't defined at u = v = 0; None for other functions.
+    """The curve v^q = theta u^p, p and q coprime, theta a number, by T, undefined at u = v = 0; None for other functions.
 
-    With a q - b p = 1 these are u = theta^b T^q and v = theta^a T^p, where T = u^a/v^b.
+    With a q - b p = 1 it is u = theta^b T^q and v = theta^a T^p, where T = u^a/v^b.
     """
     names = function.field.names
     used = [(name, n) for name, n in zip(names, degrees(function), strict=True) if n]
@@ -229,13 +228,13 @@ def _with_weights(function: FunctionPoly) -> Hypersurface | None:
     x, y = map(function.field.generator, (u, v))
     curve = ((letter, x**a * y if b < 0 else x**a / y**b), (number, y**q / x**p))
     on_curve = tuple(values[name].over(theta.field) for name in names)
-    return Hypersurface(names, on_curve, theta.field, (T,), (x,), curve)
+    return Hypersurface(names, on_curve, theta.field, (x,), curve)
 
 
 class WithFreeConstant(NamedTuple):
-    """S with its algebraic constant as one more parameter, the same as it is shown, and the value of this parameter.
+    """S with its algebraic constant as one more parameter, as it is shown, and the value of this parameter.
 
-    `S` has its denominator in factors: with a free constant it needn't be a square where it is one.
+    The denominator of `S` is lifted factor by factor, so that squares remain squares with a free constant.
     """
 
     S: RatFunc
@@ -253,45 +252,45 @@ def with_free_constant(S: RatFunc) -> WithFreeConstant:
     while name in names:
         name += "_"
     larger = FunctionField((*names, name))
-    factors = [lifted(S.den.lc, larger)]
-    factors += [lifted(factor, larger) ** k for factor, k in field.factor(S.den)]
-    num = lifted(S.num, larger)
-    modulus = QQ.poly([field.base.rational_value(c) or 0 for c in field.modulus])
+    factors = [with_free_generator(S.den.lc, larger)]
+    factors += [with_free_generator(factor, larger) ** k for factor, k in field.factor(S.den)]
+    num = with_free_generator(S.num, larger)
+    modulus = QQ.poly([rational_number(c) or 0 for c in field.modulus])
     numbers = AlgebraicField(QQ, modulus, field.name, field.approximation)
     point = ParameterPoint((name,), (numbers.generator,), numbers)
-    return WithFreeConstant(RatFunc(num, product(factors)), RatFunc(num, lifted(S.den, larger)), point)
+    return WithFreeConstant(RatFunc(num, product(factors)), RatFunc(num, with_free_generator(S.den, larger)), point)
 
 
 def in_lowest_powers(function: FunctionPoly, constant: ParameterPoint) -> FunctionPoly:
-    """The function with its numerator in lowest powers of the constant, the last parameter of its field, if there is one."""
+    """The function with the lowest powers of the constant, the last parameter of its field if there is one."""
     if not constant.names:
         return function
     field = function.field
-    total = lifted(everywhere(field, constant).at(functions.numerator(function)), field)
-    return over_parameters(total / element(field, function.den))
+    total = with_free_generator(everywhere(field, constant).at(claims.numerator(function)), field)
+    return over_parameters(total / denominator(function))
 
 
 def everywhere(field: FunctionField, constant: ParameterPoint) -> Hypersurface:
-    """All values of the parameters of a field, where the last one of them is the constant, if there is one."""
+    """All values of the parameters of a field, the last of which is the constant, if there is one."""
     numbers = constant.field
     if not isinstance(numbers, AlgebraicField):
         return Hypersurface(field.names, tuple(map(field.generator, field.names)), field)
     *others, name = field.names
     base = FunctionField(tuple(others))
-    modulus = base.poly([QQ.rational_value(c) or 0 for c in numbers.modulus])
+    modulus = base.poly([rational_number(c) or 0 for c in numbers.modulus])
     extension = AlgebraicField(base, modulus, name, numbers.approximation)
     values = [extension.embed(base.generator(other)) for other in others]
     return Hypersurface(field.names, (*values, extension.generator), extension)
 
 
-#: Names of parameters that aren't the user's, with what they stand for.
+#: Names of parameters that aren't the user's, with the expressions that they stand for.
 Letters = tuple[tuple[str, Any], ...]
 
 
 def spelled(parsed: Parsed) -> tuple[Parsed, Letters]:
-    """The input over the field whose parameters are called like what they stand for; as it is without letters.
+    """The input with each letter renamed after the expression that it stands for.
 
-    Beside an algebraic constant the letters stay.
+    Nothing changes without letters, or with an algebraic constant.
     """
     field = parsed.S.field
     if not isinstance(field, FunctionField) or not parsed.letters:
@@ -303,7 +302,12 @@ def spelled(parsed: Parsed) -> tuple[Parsed, Letters]:
         is_power = meaning.is_Pow and meaning.exp != sympy.S.Half and meaning.base != sympy.E
         spellings[name] = f"({text})" if is_power else text
     letters = tuple((spellings[name], meanings[name]) for name in field.names if name in meanings)
-    renamed = partial(_in_other_names, field=FunctionField(tuple(spellings.get(name, name) for name in field.names)))
+    larger = FunctionField(tuple(spellings.get(name, name) for name in field.names))
+
+    def renamed(function: RatFunc) -> RatFunc:
+        parts = map(over_parameters, (function.num, function.den))
+        return RatFunc(*(FunctionPoly(larger, part.num, part.den) for part in parts), reduced=True)
+
     equation = parsed.equation
     if equation is not None:
         a, b, c, f = map(renamed, (equation.a, equation.b, equation.c, equation.f))
@@ -314,14 +318,8 @@ def spelled(parsed: Parsed) -> tuple[Parsed, Letters]:
     return replace(parsed, S=renamed(parsed.S), equation=equation, notices=notices, letters=()), letters
 
 
-def _in_other_names(function: RatFunc, field: FunctionField) -> RatFunc:
-    """The function with other names for the parameters."""
-    parts = map(over_parameters, (function.num, function.den))
-    return RatFunc(*(FunctionPoly(field, part.num, part.den) for part in parts), reduced=True)
-
-
 def own_parameters(names: Sequence[str], letters: Letters) -> tuple[str, ...]:
-    """The user's parameters: those in what letters stand for, in the place of the letters."""
+    """The user's parameters: letters are replaced by the parameters in their meanings."""
     meanings = dict(letters)
     symbols = (meanings[name].free_symbols if name in meanings else [sympy.Symbol(name)] for name in names)
     return tuple(dict.fromkeys(chain.from_iterable(sorted(one.name for one in several) for several in symbols)))
@@ -336,20 +334,20 @@ def transcendental(names: Sequence[str], letters: Letters) -> list[str]:
 def setting_of(
     variable: str, names: tuple[str, ...], constant: ParameterPoint, letters: Letters, assumptions: Assumptions
 ) -> Setting:
-    """How statements about these parameters are printed: nothing is solved for the constant among them, nor for pi and e."""
+    """The setting for statements about these parameters, in which nothing is solved for the constant, pi and e."""
     fixed = (*constant.names, *transcendental(names, letters))
     taken = variable, *names, *own_parameters(names, letters)
     return Setting(taken, fixed, assumptions=replace(assumptions, constant=constant))
 
 
 def nonzero(letters: Letters) -> list[str]:
-    """The letters for exponentials, and powers of numbers, which have no zeros."""
+    """The letters for exponentials and for powers of numbers, which have no zeros."""
     bases = [(name, meaning, meaning.as_base_exp()[0]) for name, meaning in letters]
     return [name for name, c, base in bases if isinstance(c, sympy.exp) or (base.is_number and base.is_nonzero)]
 
 
 def values_of_letters(values: Mapping[str, Any], letters: Letters) -> dict[str, Any]:
-    """The values of the letters where the user's parameters have these, SymPy's.
+    """The values of the letters at values of the user's parameters, as SymPy expressions.
 
     Raises `InputError` for what isn't an algebraic number.
     """
@@ -358,6 +356,6 @@ def values_of_letters(values: Mapping[str, Any], letters: Letters) -> dict[str, 
     for name, meaning in letters:
         value = meaning.subs(numbers)
         if not value.is_algebraic:
-            raise InputError(f"{name} is {value} there, which isn't known to be an algebraic number")
+            raise InputError(f"{name} is {value} there, which may not be an algebraic number")
         found[name] = value
     return found

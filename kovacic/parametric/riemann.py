@@ -35,17 +35,17 @@ from kovacic.decision import Structure
 from kovacic.engine.places import Kind, Problem, rational_square_root
 from kovacic.parametric import prose
 from kovacic.parametric.assumptions import Assumptions
-from kovacic.parametric.exponents import singular_places
-from kovacic.parametric.formulas import in_sum, root_written, shown
-from kovacic.parametric.functions import (
+from kovacic.parametric.claims import (
     ParameterPoint,
     common_multiple,
     irreducible_factors,
-    normal_form,
     on_zeros,
     over_parameters,
     roots,
+    scaled_form,
 )
+from kovacic.parametric.exponents import singular_places
+from kovacic.parametric.formulas import expanded_form, in_sum, root_written
 from kovacic.parametric.integers import Congruence, at_integers, integer_roots, squares_of_roots, without_parameters
 from kovacic.parametric.prose import Words
 from kovacic.parametric.regions import RegionVerdict, borel, reducible
@@ -53,8 +53,6 @@ from kovacic.parametric.statements import ALWAYS, NEVER, Statement, all_of, eith
 from kovacic.writing.formula import Math, latex_text
 
 _F = Fraction
-#: The largest denominator in Schwarz's table.
-LARGEST = 5
 
 
 class _SchwarzRow(NamedTuple):
@@ -65,7 +63,7 @@ class _SchwarzRow(NamedTuple):
     is_even: bool
 
 
-#: Schwarz's rows: number, structure, differences, and what the sum of the integer parts is.
+#: Schwarz's rows: number, structure, differences, parity of the sum of the integer parts.
 _ROWS = """
     2 tetrahedral 1/2 1/3 1/3 any
     3 tetrahedral 2/3 1/3 1/3 even
@@ -89,10 +87,10 @@ _SCHWARZ = {
 }
 
 
-def kimura(differences: Sequence[Fraction | None]) -> Structure | None:
-    """The structure for three exponent differences (None, or missing: not rational, or not reducible).
+def kimura_structure(differences: Sequence[Fraction | None]) -> Structure | None:
+    """The structure for three exponent differences; one that isn't rational, in an irreducible equation, is None or missing.
 
-    >>> kimura((Fraction(1, 2), Fraction(1, 3), Fraction(1, 4)))
+    >>> kimura_structure((Fraction(1, 2), Fraction(1, 3), Fraction(1, 4)))
     <Structure.OCTAHEDRAL: 'octahedral'>
     """
     known = [difference for difference in differences if difference is not None]
@@ -101,11 +99,11 @@ def kimura(differences: Sequence[Fraction | None]) -> Structure | None:
         return Structure.REDUCIBLE
     if sum(difference.denominator == 2 for difference in known) >= 2:
         return Structure.IMPRIMITIVE
-    return _TABLE.get(_difference_key(known))
+    return _STRUCTURES_BY_KEY.get(_difference_key(known))
 
 
 def _sixtieths(difference: Fraction) -> Fraction:
-    """From 0 to 60, an integer where the denominator is one of the table: the number up to its sign modulo 2."""
+    """The difference up to its sign modulo 2, from 0 to 60: an integer for a denominator of the table."""
     residue = 60 * difference % 120
     return min(residue, 120 - residue)
 
@@ -115,7 +113,7 @@ def _difference_key(differences: Sequence[Fraction]) -> tuple[Fraction, ...]:
 
 
 #: Schwarz's rows, for the exponent differences up to signs modulo 2 in sixtieths, sorted.
-_TABLE = {
+_STRUCTURES_BY_KEY = {
     _difference_key([r + q for r, q in zip(row.differences, integers, strict=True)]): row.structure
     for row in _SCHWARZ.values()
     for integers in product((0, 1), repeat=3)
@@ -123,16 +121,15 @@ _TABLE = {
 }
 
 
-#: The group where all exponents are rational, and a solution has a rational omega.
+#: The largest denominator in Schwarz's table.
+LARGEST_DENOMINATOR = max(difference.denominator for row in _SCHWARZ.values() for difference in row.differences)
+#: The group if all exponents are rational, and a solution has a rational omega.
 _CYCLIC = "finite cyclic, or `G_a` extended by a finite cyclic group"
 
 
 @dataclass(frozen=True)
 class Schwarz(Statement):
-    """The exponent differences, whose squares are the roots of `cubic`, belong to these structures in Schwarz's table.
-
-    What is printed names them, and the rows.
-    """
+    """The exponent differences, whose squares are the roots of `cubic`, belong to these structures in Schwarz's table."""
 
     cubic: FunctionPoly
     structures: tuple[Structure, ...]
@@ -140,7 +137,7 @@ class Schwarz(Statement):
     def _holds(self, point: ParameterPoint) -> bool:
         if point.field.ground != QQ:
             return False
-        return kimura([*map(rational_square_root, roots(point.at(self.cubic)))]) in self.structures
+        return kimura_structure([*map(rational_square_root, roots(point.at(self.cubic)))]) in self.structures
 
     @property
     def equations(self) -> tuple[FunctionPoly, ...]:
@@ -150,11 +147,10 @@ class Schwarz(Statement):
         return replace(self, cubic=change(self.cubic))
 
     def sample(self, random: Random) -> list[FunctionPoly]:
-        """Equations that give the exponent differences values from a row of the table; [] where they aren't rational in t."""
-        rows = [key for key, structure in _TABLE.items() if structure in self.structures]
-        values = [_F(1, 2), _F(3, 2), _F(random.randint(1, 9), random.randint(2, 9))]  # two half-integers
-        if rows:
-            values = [_F(k, 60) for k in random.choice(rows)]
+        """Equations that give the exponent differences values from a row of the table; [] if they aren't rational in t."""
+        rows = [key for key, structure in _STRUCTURES_BY_KEY.items() if structure in self.structures]
+        two_half_integers = (30, 90, _F(60 * random.randint(1, 9), random.randint(2, 9)))  # without a row in the table
+        values = [_F(k) / 60 for k in (random.choice(rows) if rows else two_half_integers)]
         random.shuffle(values)
         known = [*filter(None, map(_rational_root, dict.fromkeys(roots(self.cubic))))]
         if len(known) != 3:
@@ -162,28 +158,28 @@ class Schwarz(Statement):
         return [root - value for root, value in zip(known, values, strict=True)]
 
     def under(self, assumptions: Assumptions) -> Statement:
-        """At each value of an integer parameter for which its exponent difference has a denominator of the table."""
+        """The statement at each integer t for which an exponent difference with t has a denominator of the table."""
         for difference in filter(None, map(_rational_root, roots(self.cubic))):
-            known = at_integers(difference, LARGEST, assumptions)
+            known = at_integers(difference, LARGEST_DENOMINATOR, assumptions)
             if known is not None:
                 there = ((here, on_zeros(self.cubic, here.function).monic()) for here, _ in known)
                 return either(*(all_of((here, _in_rows(cubic, self.structures))) for here, cubic in there))
         return self
 
     def line(self) -> str:
-        """Which differences are in which rows."""
+        """The claim that these differences are in these rows."""
         known = differences(self.cubic)
         if self.structures == (Structure.IMPRIMITIVE,) and known.names is not None:
             return known.two_half_integers
         rows = [number for number, row in _SCHWARZ.items() if row.structure in self.structures]
         which = f"rows {rows[0]}-{rows[-1]}" if rows else "row 1 (two half-integers)"
-        names = known.names or (f"(the square roots of the roots of {shown(self.cubic, 'Z')})",)
-        return f"the exponent differences {_listed(names)} are in Schwarz's {which}"
+        names = known.names or (f"(the square roots of the roots of {expanded_form(self.cubic, 'Z')})",)
+        return f"the exponent differences {_in_backquotes(names)} are in Schwarz's {which}"
 
     def resolved(self) -> ResolvedDifferences:
-        """The classes modulo 1 or 2, up to signs, of two differences beside a constant one, with their names.
+        """The names of two differences next to a constant one, and their classes modulo 1 or 2 up to signs.
 
-        Else no names, and the rows of Schwarz's table: the differences modulo 1, and whether the sum of the integers is even.
+        Otherwise no names, and the rows of Schwarz's table: the differences modulo 1, and the parity of the sum of integers.
         """
         known = differences(self.cubic)
         third = known.constants[0] if len(known.constants) == 1 else None
@@ -197,11 +193,11 @@ class Schwarz(Statement):
         return ResolvedDifferences([], rows)
 
     def _rows_beside(self, third: Fraction) -> list[tuple[Structure, list[Words]]]:
-        """The classes of the other two differences, in sixtieths up to signs: modulo 2, or modulo 1 where these say it."""
+        """The classes of the other two differences, in sixtieths up to signs: modulo 1 if these suffice, else modulo 2."""
         pairs = product(range(61), repeat=2)
-        table = ((_TABLE.get(_difference_key([_F(u, 60), _F(v, 60), third])), u, v) for u, v in pairs)
+        table = ((_STRUCTURES_BY_KEY.get(_difference_key([_F(u, 60), _F(v, 60), third])), u, v) for u, v in pairs)
         found = [(structure, u, v) for structure, u, v in table if structure in self.structures]
-        # The same structures for u and 1 - u, and for v and 1 - v: they are those of the differences modulo 1.
+        # If u and 1 - u have the same structures, and so v and 1 - v, these depend on the differences modulo 1 only.
         is_symmetric = {*found} == {(s, 60 - u, v) for s, u, v in found} == {(s, u, 60 - v) for s, u, v in found}
         lattice = "Z" if is_symmetric else "2*Z"
         found.sort(key=lambda pair: (self.structures.index(pair[0]), pair[1], pair[2]))
@@ -221,7 +217,7 @@ prose.WRITERS[Schwarz] = Schwarz.line
 
 
 class ResolvedDifferences(NamedTuple):
-    """The names of exponent differences, and what they are for each structure; without names, rows of Schwarz's table."""
+    """The names of exponent differences, and their classes for each structure; without names, rows of Schwarz's table."""
 
     names: list[str]
     rows: list[tuple[Structure, list[Words]]]
@@ -234,46 +230,43 @@ def _class(sixtieths: int, lattice: str) -> Words:
     return (Math(f"{number} + {lattice}", f"{latex_text(number)} + {latex}"),)
 
 
-def _listed(names: Iterable[str]) -> str:
+def _in_backquotes(names: Iterable[str]) -> str:
     return ", ".join(f"`{name}`" for name in names)
 
 
 @dataclass(frozen=True)
 class Differences:
-    """The exponent differences whose squares are the roots of a cubic: what they are called, and those without parameters."""
+    """The exponent differences whose squares are the roots of a cubic: their names, and those without parameters."""
 
-    #: Sums of square roots; None if one isn't.
+    #: Sums of square roots; None if one isn't such a sum.
     names: tuple[str, ...] | None
-    #: Those of the names that aren't rational numbers.
+    #: The names of those that aren't rational numbers.
     free: tuple[str, ...]
-    #: Rational numbers, and None for irrational ones.
+    #: Those without parameters: rational numbers, and None for irrational ones.
     constants: tuple[Fraction | None, ...]
 
     @property
     def two_half_integers(self) -> str:
-        """ "Two of them are half-integers", given that no constant one is."""
-        twice = [name for name in self.free if self.free.count(name) > 1]
-        if twice or len(self.free) == 1:
-            return f"`{(twice or self.free)[0]}` is a half-integer"
+        """The claim that two of them are half-integers, of which none is constant."""
         if len(self.free) == 2:
             return f"`{self.free[0]}` and `{self.free[1]}` are half-integers"
-        return f"two of {_listed(self.free)} are half-integers"
+        return f"two of {_in_backquotes(self.free)} are half-integers"
 
     @property
     def rational(self) -> str:
-        """ "They are rational", said of those that aren't numbers, and where a solution has a rational omega.
+        """The claim that they are rational, about those that aren't numbers, if a solution has a rational omega.
 
-        A sum of +- all of them is an integer there, so that a single one with a root is rational where the others are.
+        Then a sum of +- all of them is an integer, so that a single one with a root is rational if the others are.
         """
         if self.names is None:
             return "the exponent differences are rational"
         roots = [name for name in self.free if "sqrt" in name]
         free = [*dict.fromkeys(name for name in self.free if [name] != roots)] or roots
-        return f"{_listed(free)} {'is' if len(free) == 1 else 'are'} rational"
+        return f"{_in_backquotes(free)} {'is' if len(free) == 1 else 'are'} rational"
 
     @property
     def imprimitive_group(self) -> str:
-        """Dicyclic or the infinite dihedral one, by the difference of three that stands beside two half-integers."""
+        """The dicyclic or the infinite dihedral group, by the third difference next to two half-integers."""
         halves = [constant for constant in self.constants if constant is not None and constant.denominator == 2]
         beside = [*(constant for constant in self.constants if constant not in halves), *halves[2:]]
         if len(self.constants) >= 2 and beside:
@@ -284,7 +277,7 @@ class Differences:
 
 @lru_cache(maxsize=64)
 def differences(cubic: FunctionPoly) -> Differences:
-    """By the factors of the cubic: those without parameters, and those with."""
+    """The differences by the factors of the cubic."""
     names: list[str | None] = []
     free: list[str | None] = []
     constants: list[Fraction | None] = []
@@ -302,7 +295,7 @@ def differences(cubic: FunctionPoly) -> Differences:
 
 
 def _square_roots_of_roots(factor: Poly) -> list[str] | None:
-    """Those of Z - a: sqrt(a); of Z^2 + b Z + r^2: sqrt((-b + 2 r)/4) +- sqrt((-b - 2 r)/4); None for any other."""
+    """sqrt(a) for Z - a, sqrt((-b + 2 r)/4) +- sqrt((-b - 2 r)/4) for Z^2 + b Z + r^2; None for any other factor."""
     squares = squares_of_roots(factor(factor.field.poly([0, 0, 1]))) if factor.degree < 3 else None
     if squares is None:
         return None
@@ -310,42 +303,40 @@ def _square_roots_of_roots(factor: Poly) -> list[str] | None:
     return [f"{first} {sign} {in_sum(second)}" for second in others for sign in "+-"] or [first]
 
 
-def is_fuchsian(problem: Problem) -> bool:
+def has_regular_points_only(problem: Problem) -> bool:
     return all(place.kind in (Kind.ORDINARY, Kind.REGULAR) for place in problem.places)
 
 
 def singular_points(problem: Problem) -> int:
-    """How many there are on the sphere."""
+    """The number of singular points on the sphere."""
     return sum(place.degree for place in singular_places(problem))
 
 
 def squares_of_differences(problem: Problem) -> FunctionPoly:
-    """The monic polynomial over Q(t) whose roots are the squares of the exponent differences, three at least."""
-    cubic = problem.field.poly([1])
-    for place in singular_places(problem):
-        cubic = cubic * characteristic_polynomial(place.difference_squared, place.factor)
-    ordinary = max(3 - cubic.degree, 0)  # at which the difference is 1
-    return over_parameters(cubic * problem.field.poly([-1, 1]) ** ordinary)
+    """The monic polynomial over Q(t) whose roots are the squares of the exponent differences, at least three."""
+    ordinary = max(3 - singular_points(problem), 0)  # points at which the difference is 1
+    squares = (characteristic_polynomial(one.difference_squared, one.factor) for one in singular_places(problem))
+    return over_parameters(reduce(mul, squares, problem.field.poly([-1, 1]) ** ordinary))
 
 
-def verdict(problem: Problem, structure: Structure) -> RegionVerdict:
+def verdict_by_exponents(problem: Problem, structure: Structure) -> RegionVerdict:
     """The family of the groups with this structure, and where the identity component of a reducible one is abelian.
 
-    It holds for values of the parameters at which the singular points are as they are generically.  All residues of a
+    The verdict holds for values of the parameters at which the singular points are the generic ones.  All residues of a
     logarithmic derivative of a solution come from the exponents and from zeros, so that its constant multiples are rational
-    logarithmic derivatives exactly where the exponents are rational, and none is beside an irregular point.  With two singular
-    points the solutions are powers.  On the curve w^2 = F of an imprimitive equation, which is rational because it has two
-    branch points, the same holds for the third difference.
+    logarithmic derivatives exactly if the exponents are rational, and never with an irregular point.  With two singular points
+    the solutions are powers.  On the curve w^2 = F of an imprimitive equation, which is rational because it has two branch
+    points, the same holds for the third difference.
 
     With a polynomial S that isn't a constant, y1 = P1 exp(q) and y2 = P2 exp(-q) can't both be solutions, since their Wronskian
     has the degree of q' P1 P2: the group is Borel's [Acosta-Humanez & Blazquez-Sanz 2008].
     """
-    if structure is Structure.REDUCIBLE and not is_fuchsian(problem):
+    if structure is Structure.REDUCIBLE and not has_regular_points_only(problem):
         if not problem.S.is_polynomial:
             return borel("two solutions have rational logarithmic derivatives")
         if problem.S.num.degree > 0:
             return borel()
-        zeros = " or ".join(f"`{prose.equation(zero).text}`" for zero in irreducible_factors(problem.S.num))
+        zeros = " or ".join(f"`{prose.equation_of_zeros(zero).text}`" for zero in irreducible_factors(problem.S.num))
         return reducible(f"`G_m`, or trivial where {zeros}" if zeros else "`G_m`")
     cubic = squares_of_differences(problem)
     known = differences(cubic)
@@ -354,7 +345,7 @@ def verdict(problem: Problem, structure: Structure) -> RegionVerdict:
     if structure is not Structure.REDUCIBLE:
         return RegionVerdict(structure)
     if len(known.constants) >= cubic.degree - 1 and None not in known.constants:
-        return reducible(_CYCLIC)  # the last one is rational, too: its sum with them is an integer
+        return reducible(_CYCLIC)  # the last one is rational, too, since its sum with the others is an integer
     if singular_points(problem) <= 2:
         return reducible(f"{_CYCLIC}, where {known.rational}; else `G_m`")
     return reducible(
@@ -363,49 +354,46 @@ def verdict(problem: Problem, structure: Structure) -> RegionVerdict:
     )
 
 
-def structures(problem: Problem) -> Iterator[tuple[Structure, Statement]]:
-    """Each structure with the statement that says when the group has it and none of those before."""
-    if singular_points(problem) <= 2:
-        yield Structure.REDUCIBLE, ALWAYS
-        return
+def kimura_statements(problem: Problem) -> Iterator[tuple[Structure, Statement]]:
+    """Each structure with the statement under which the group has it, and no earlier one."""
     cubic = squares_of_differences(problem)
     s1, s2, s3 = -cubic[2], cubic[1], -cubic[0]
     z = over_parameters(cubic.field.poly([0, 0, 1]))
     sums = over_parameters(((z - s1) ** 2 - 4 * s2) ** 2 - 64 * s3 * z)  # its roots N are the four sums, up to signs
     yield Structure.REDUCIBLE, integer_roots(sums, [1], 2)
     constants = differences(cubic).constants
-    always = kimura(constants)
+    always = kimura_structure(constants)
     if always is not None:
         yield always, ALWAYS
         return
-    known = [constant for constant in constants if constant is not None]
-    residues = {*map(_sixtieths, known)}
-    possible = {structure for row, structure in _TABLE.items() if residues <= {*row} and len(known) == len(constants)}
-    for structure in (Structure.IMPRIMITIVE, Structure.TETRAHEDRAL, Structure.OCTAHEDRAL, Structure.ICOSAHEDRAL):
-        if len(constants) < 3 and structure in {Structure.IMPRIMITIVE, *possible}:
+    # Structures with a row that contains all constant differences, none of them irrational.
+    residues = {None if constant is None else _sixtieths(constant) for constant in constants}
+    possible = {structure for row, structure in _STRUCTURES_BY_KEY.items() if residues <= {*row}}
+    for structure in Structure if len(constants) < 3 else ():
+        if structure in possible or structure is Structure.IMPRIMITIVE:
             yield structure, _in_table(cubic, structure)
 
 
 def _in_rows(cubic: FunctionPoly, structures: Sequence[Structure]) -> Statement:
-    """The statement that the exponent differences are in the rows of one of the structures, also where all are numbers."""
+    """The statement that the exponent differences are in the rows of one of the structures, also if all are numbers."""
     if without_parameters(cubic) is None:
         return either(*(_in_table(cubic, structure) for structure in structures))
-    return ALWAYS if kimura([*map(rational_square_root, roots(cubic))]) in structures else NEVER
+    return ALWAYS if kimura_structure([*map(rational_square_root, roots(cubic))]) in structures else NEVER
 
 
 def _in_table(cubic: FunctionPoly, structure: Structure) -> Statement:
-    """The statement that the exponent differences are in the rows of the structure, by one function where that says them."""
+    """The statement that the exponent differences are in the rows of the structure, by one function if possible."""
     by_one_function = _by_one_function(cubic, structure)
     if by_one_function is not None:
         return by_one_function
     if structure is Structure.IMPRIMITIVE:
         beside = sum(d is not None and d.denominator == 2 for d in differences(cubic).constants)
-        # One with parameters beside a half-integer, or two that are equal: the square is N^2/4 with an odd N.
+        # A difference with parameters, and a constant half-integer or an equal difference: the square is N^2/4, N odd.
         powers = cubic.field.factor(cubic)
         free = [factor for factor, k in powers if k + beside > 1 and without_parameters(factor) is None]
         if free:
-            squares = (over_parameters(factor(cubic.field.poly([0, 0, _F(1, 4)]))) for factor in free)
-            return either(*(integer_roots(square, [1], 2) for square in squares))
+            squares = (factor(cubic.field.poly([0, 0, _F(1, 4)])) for factor in free)
+            return either(*(integer_roots(over_parameters(square), [1], 2) for square in squares))
     return Schwarz(cubic, (structure,))
 
 
@@ -417,19 +405,19 @@ def has_denominator(square: Poly, denominator: int) -> Statement:
 
 
 def _rational_root(square: Poly) -> FunctionPoly | None:
-    """The square root, where it is a rational function of the parameters."""
+    """The square root, if it is a rational function of the parameters."""
     root = square.field.sqrt(square)
     return None if root is None else over_parameters(root)
 
 
 def _by_one_function(cubic: FunctionPoly, structure: Structure) -> Statement | None:
-    """Where the equation has this structure, and isn't reducible, for differences that are lines a w + b in one w; else None.
+    """Where the irreducible equation has this structure, if the differences are lines a w + b in one w; else None.
 
     w or its square is a rational function of the parameters.
     """
     constants = differences(cubic).constants
     free = [over_parameters(square) for square in roots(cubic) if without_parameters(square) is None]
-    rational = [normal_form(one) for one in filter(None, map(_rational_root, free))]
+    rational = [scaled_form(one) for one in filter(None, map(_rational_root, free))]
     lines = [(1 / scale, shift) for form, scale, shift in rational if form == rational[0].form]
     if not rational:
         ratios = (rational_square_root(square / free[0]) for square in free)
@@ -439,13 +427,13 @@ def _by_one_function(cubic: FunctionPoly, structure: Structure) -> Statement | N
     period = reduce(common_multiple, (2 / abs(slope) for slope, _ in lines))
     # The w modulo the period with this structure: of those at which a line has a denominator of the table.
     values = [_F(k, 60) for k in range(int(60 * period * max(abs(slope) for slope, _ in lines)))]
-    known = [value for value in values if value.denominator <= LARGEST]
+    known = [value for value in values if value.denominator <= LARGEST_DENOMINATOR]
     tried = {(value - shift) / slope % period for slope, shift in lines for value in known}
-    admitted = [w for w in sorted(tried) if kimura([*constants, *(a * w + b for a, b in lines)]) is structure]
+    admitted = [w for w in sorted(tried) if kimura_structure([*constants, *(a * w + b for a, b in lines)]) is structure]
     if admitted and rational:
         return Congruence.make(over_parameters(cubic.field.poly([0, 1]) - rational[0].form), admitted, period)
-    # Only w^2 is known: w and -w are the same.
-    statements: list[Statement] = []
+    # Only w^2 is known, so w and -w are equivalent.
+    statements = list[Statement]()
     for denominator in sorted({w.denominator for w in admitted}):
         D = lcm(denominator, period.denominator)
         residues = [int(D * w) for w in admitted if w.denominator == denominator]

@@ -1,12 +1,12 @@
-"""Candidates for special values from the exponents: all of them where the exponents are constant, else up to a degree.
+"""Candidates for special values from the exponents: all of them if the exponents are constant, else up to a degree.
 
 A form F = Q0 P of degree m in the solutions, with a known Q0 and deg P <= N, exists for those parameter values at which the
 linear map P -> A_(m+1) of `kovacic.engine.riccati` has a kernel; a solution exp(int theta) P, deg P = d, where
 P -> P'' + 2 theta P' + (theta' + theta^2 - S) P has one.  Where no exponent depends on the parameters, N is known.
 
-Else in case 1 the degree d of P satisfies 2 (1 - d) = sum of the weights + sum of +- the exponent differences.  Where the sum
-doesn't depend on the parameters, P exists under polynomial conditions.  Where it does, d is a natural number that is a root of
-a polynomial over Q(t), and P exists where a determinant Delta_d vanishes: a statement with a natural number in it, which says
+Otherwise the degree d of P in case 1 satisfies 2 (1 - d) = sum of the weights + sum of +- the exponent differences.  If the sum
+doesn't depend on the parameters, P exists under polynomial conditions.  If it does, d is a natural number that is a root of a
+polynomial over Q(t), and P exists where a determinant Delta_d vanishes: a statement with a natural number in it, which says
 exactly when.  Cases 2 and 3 are treated in the same way through the invariants of degree 4 and 12 and their number of zeros.
 """
 
@@ -23,9 +23,16 @@ from kovacic.algebra.poly import Poly
 from kovacic.algebra.recurrence import FieldSeries
 from kovacic.decision import Structure
 from kovacic.engine.places import Kind, Place, Problem
-from kovacic.limits import check_time
+from kovacic.limits import MOST_TRIALS, check_time
 from kovacic.parametric import exponents, riemann
-from kovacic.parametric.functions import degrees, irreducible_factors, over_parameters
+from kovacic.parametric.claims import (
+    degrees,
+    irreducible_factors,
+    over_parameters,
+    polynomial_factors,
+    rational_number,
+    union,
+)
 from kovacic.parametric.integers import may_be_natural
 from kovacic.parametric.natural import Natural
 from kovacic.parametric.regions import Theory
@@ -33,21 +40,13 @@ from kovacic.parametric.restriction import hypersurface
 from kovacic.parametric.statements import NEVER, Statement, all_of
 from kovacic.parametric.theorems import mean_of_singular_points
 
-#: Combinations of exponents above which invariants aren't examined.
-_COMBINATIONS = 400
-#: Exponent differences up to which the obstruction to a solution without logarithm is computed.
-_SERIES = 8
-#: Singular points of Heun's equation.
-_HEUN = 4
-#: A rational form of this degree has a linear factor with a rational omega; one of degree 4 is that of case 2, maybe.
-_SHOWS_CASE_1 = 2
-#: Degrees of invariants, each with a structure of the groups that it is examined for.
+#: Degrees of invariants, each with a structure of the groups for which it is examined.
 Degrees = list[tuple[int, Structure]]
 
 
 @dataclass
 class Findings:
-    """Candidates for special values, conditions for structures, and what limits completeness (sentences)."""
+    """Candidates for special values, conditions for structures, and phrases for what isn't proven."""
 
     theory: Theory
     candidates: list[FunctionPoly] = field(default_factory=list)
@@ -55,27 +54,27 @@ class Findings:
     unproven: list[str] = field(default_factory=list)
 
     def add(self, found: exponents.RankConditions) -> bool:
-        """The candidates that a matrix gives; False where there can be more special values.
+        """Add the candidates that a matrix gives; False if there can be more special values.
 
-        Where all functions of a system vanish, one of them does: its zeros are examined as a whole.
+        All zeros of one function of a system are examined, since they contain those of the system.
         """
-        self.candidates += found.polynomials
         examined = _examinable(found.system or ())
-        self.candidates += examined or []
+        self.candidates += [*found.polynomials, *(examined or [])]
         return examined is not None or found.system == ()
 
 
 def _examinable(functions: Iterable[FunctionPoly]) -> list[FunctionPoly] | None:
-    """The factors of the first function on whose zeros everything is found; None without one."""
-    return next((factors for factors in map(irreducible_factors, functions) if all(map(_is_eliminated, factors))), None)
+    """The factors of the first function on whose zeros all special values are found; None without one."""
+
+    def is_examinable(
+        function: FunctionPoly,
+    ) -> bool:  # in one parameter, or with zeros that are given by rational functions
+        return sum(map(bool, degrees(function))) == 1 or isinstance(hypersurface(function).field, FunctionField)
+
+    return next((factors for factors in map(irreducible_factors, functions) if all(map(is_examinable, factors))), None)
 
 
-def _is_eliminated(function: FunctionPoly) -> bool:
-    """True if its vanishing leaves rational functions of fewer parameters, or numbers where one parameter occurs."""
-    return sum(map(bool, degrees(function))) == 1 or isinstance(hypersurface(function).field, FunctionField)
-
-
-def search(problem: Problem) -> Findings:
+def search_special_values(problem: Problem) -> Findings:
     """Candidates for the special values of the parameters.
 
     The exponents say which degrees of invariants are examined; a logarithm leaves fewer of them, and each one gives equations
@@ -83,20 +82,20 @@ def search(problem: Problem) -> Findings:
     """
     wanted = _degrees_that_decide(problem)
     if wanted is not None:
-        said = "exponents that don't depend on the parameters: invariants of bounded degree"
-        findings = Findings(Theory(said, "UW96", "HW97"))
+        name = "exponents that don't depend on the parameters: invariants of bounded degree"
+        findings = Findings(Theory(name, "UW96", "HW97"))
     else:
         findings = Findings(Theory("the exponents, and polynomials of bounded or natural degree", "Kov86", "AMW11"))
         _add_reducible(problem, findings)
         wanted = _degrees_that_are_possible(problem)
-    # Where an exponent difference is a positive integer, there is a logarithm, and so only case 1 or none, unless the
-    # obstruction to a solution without one vanishes: its zeros are examined as a whole.
+    # An exponent difference that is a positive integer means a logarithm, and so case 1 or none, unless the obstruction to a
+    # solution without one vanishes: its zeros are examined as a whole.
     obstructions = filter(None, map(_obstruction, problem.places))
     candidates = _examinable(map(over_parameters, obstructions)) if wanted else None
     if candidates is not None:
         findings.candidates += candidates
         wanted = [(m, structure) for m, structure in wanted if structure is Structure.REDUCIBLE]
-    #: The equations for the number of zeros, for each degree where there is anything to say.
+    #: The equations for the number of zeros by the degree; None if there are too many.
     equations: dict[int, tuple[FunctionPoly, ...] | None] = {}
     for m, pairs in groupby(wanted, itemgetter(0)):
         factors = _equations_for_zeros(problem, m, findings)
@@ -107,8 +106,9 @@ def search(problem: Problem) -> Findings:
         else:
             equations[m] = factors
     known = [(m, structure) for m, structure in wanted if m in equations]
-    shown = [(m, structure) for m, structure in known if structure is not Structure.REDUCIBLE or m <= _SHOWS_CASE_1]
-    if len(shown) < len(known):  # a reducible group has an invariant of degree m, which doesn't show that it is one
+    # A rational form of degree 2 has a linear factor with a rational omega, one of higher degree may be that of case 2 or 3.
+    shown = [(m, structure) for m, structure in known if structure is not Structure.REDUCIBLE or m <= 2]
+    if len(shown) < len(known):
         _add_reducible(problem, findings)
     half_integers = _all_half_integers(problem)
     if half_integers != NEVER:
@@ -119,11 +119,11 @@ def search(problem: Problem) -> Findings:
 
 
 def _degrees_that_decide(problem: Problem) -> Degrees | None:
-    """Degrees m such that every Liouvillian equation with these exponents has a rational form of one of them, and its group.
+    """Degrees m such that every Liouvillian equation with these exponents has a rational form of one of them, with its group.
 
-    2 and q for the reducible ones, q the common denominator of the exponents: if y1 = prod (x - c)^(e_c) P is the only
-    solution with a rational omega, y1^q is rational; 4 for the imprimitive ones; 12 for the primitive ones.  None if an
-    exponent difference isn't a rational number.
+    These are 2 and q for reducible groups, q the common denominator of the exponents: if y1 = prod (x - c)^(e_c) P is the only
+    solution with a rational omega, y1^q is rational; 4 for imprimitive ones; 12 for primitive ones.  None if an exponent
+    difference isn't a rational number.
     """
     places = [place for place in problem.places if place.kind in (Kind.REGULAR, Kind.UNRAMIFIED)]
     known = [(1 + place.delta) / 2 for place in places if place.delta is not None]
@@ -137,10 +137,10 @@ def _degrees_that_decide(problem: Problem) -> Degrees | None:
 def _obstruction(place: Place) -> Poly | None:
     """The right side of the recurrence n (n - Delta) c_n = ... at n = Delta, which has to vanish, from the smaller exponent on.
 
-    None unless the place is a rational pole of order 2, and Delta a small positive integer.
+    None unless the place is a rational pole of order 2, and Delta a positive integer.
     """
     delta = place.delta
-    if delta is None or delta not in range(1, _SERIES + 1) or place.order != 2 or place.degree > 1:
+    if not delta or delta.denominator > 1 or place.order != 2 or place.degree > 1:
         return None
     field = place.factor.field
     t = field.poly([0, 1]) - place.factor[0]
@@ -156,19 +156,19 @@ def _obstruction(place: Place) -> Poly | None:
 
 
 def _degrees_that_are_possible(problem: Problem) -> Degrees:
-    """4 where two places can be branch points of case 2 for some values of the parameters; 12 where case 3 isn't excluded."""
-    # Where a logarithm is there for all values, that leaves only case 1 or none: a simple pole, and a double exponent.
+    """4 if two places can be branch points of case 2 for some values of the parameters; 12 unless case 3 is excluded."""
+    # A simple pole, or a double exponent, means a logarithm for all values, which leaves only case 1 or none.
     if any(place.order == 1 or (place.order == 2 and place.delta == 0) for place in problem.places):
         return []
     found: Degrees = []
-    # The square root of an invariant needs two branch points, whose exponent differences are half-integers or aren't known.
+    # The square root of an invariant needs two branch points, whose exponent differences are half-integers or unknown.
     halves = [p for p in problem.places if p.kind is Kind.REGULAR and (p.delta is None or p.delta.denominator == 2)]
     ramified = [place for place in problem.places if place.kind is Kind.RAMIFIED]
     if sum(place.degree for place in halves + ramified) >= 2:
         found.append((4, Structure.IMPRIMITIVE))
-    # Each exponent difference may be one of Schwarz's table.
-    are_possible = all(place.delta is None or place.delta.denominator <= riemann.LARGEST for place in problem.places)
-    if riemann.is_fuchsian(problem) and are_possible:
+    denominators = [place.delta.denominator for place in problem.places if place.delta is not None]
+    are_possible = max(denominators, default=1) <= riemann.LARGEST_DENOMINATOR  # of Schwarz's table
+    if riemann.has_regular_points_only(problem) and are_possible:
         found.append((12, Structure.TETRAHEDRAL))
     return found
 
@@ -187,7 +187,7 @@ def _is_ramified(problem: Problem) -> bool:
 
 
 def _add_reducible(problem: Problem, findings: Findings) -> None:
-    """Where there is a solution with a rational omega: candidates for each degree of P that is a number, else a statement."""
+    """Add the values with a rational omega: candidates for each degree of P that is a number, and a statement for others."""
     if _is_ramified(problem) or _is_excluded_by_symmetry(problem):
         return
     equation = degree_equation(problem)
@@ -195,15 +195,13 @@ def _add_reducible(problem: Problem, findings: Findings) -> None:
         findings.unproven.append("case 1 where the exponents at conjugate points differ")
         return
     factors: list[FunctionPoly] = []
-    for factor, _ in problem.field.factor(equation):
-        if not may_be_natural(factor):
-            continue
-        # Of a degree that is a number nothing is left to say where the candidates are the only special values.
-        number = problem.field.rational_value(-factor[0]) if factor.degree == 1 else None
-        found = [exponents.OPEN] if number is None else exponents.conditions_of_degree(problem, int(number))
-        are_complete = [findings.add(conditions) for conditions in found]
+    for factor in filter(may_be_natural, polynomial_factors(equation)):
+        # For a degree that is a number no statement is needed if the candidates are the only special values.
+        number = rational_number(-factor[0]) if factor.degree == 1 else None
+        found = [exponents.NOT_COMPUTED] if number is None else exponents.conditions_of_degree(problem, int(number))
+        are_complete = [findings.add(conditions) for conditions in found]  # all of them have to be added
         if not all(are_complete):
-            factors.append(over_parameters(factor))
+            factors.append(factor)
     if factors:
         natural = Natural(problem.S, 1, tuple(factors), Structure.REDUCIBLE)
         findings.conditions.append((natural, natural.structure))
@@ -216,7 +214,7 @@ def _all_half_integers(problem: Problem) -> Statement:
     sum l_i (l_i + 1) p(z - w_i) in x = p(z), l_i the integers nearest to the differences, of which two solutions have an
     elliptic product [Darboux, C. R. Acad. Sci. 94 (1882); Treibich & Verdier 1990].
     """
-    if not riemann.is_fuchsian(problem) or riemann.singular_points(problem) != _HEUN:
+    if not riemann.has_regular_points_only(problem) or riemann.singular_points(problem) != 4:
         return NEVER
     squares = [place.difference_squared for place in exponents.singular_places(problem)]
     known = [riemann.has_denominator(square, 2) for square in squares if square.degree <= 0]
@@ -242,15 +240,14 @@ def _is_excluded_by_symmetry(problem: Problem) -> bool:
 def _equations_for_zeros(problem: Problem, m: int, findings: Findings) -> tuple[FunctionPoly, ...] | None:
     """Equations for the number of zeros of invariants of degree m; None if there are too many combinations of exponents.
 
-    The constant number is left out where the candidates that are added for it are all that is special.
+    The constant number is left out if the candidates that are added for it are all of its special values.
     """
     complete = findings.add(exponents.form_conditions(problem, m))
     numbers = exponents.zeros_of_forms(problem, m)
     if numbers is None:
         return ()
-    if prod(root.largest + 1 for root in numbers.roots) > _COMBINATIONS:
+    if prod(root.largest + 1 for root in numbers.roots) > MOST_TRIALS:
         return None
-    factors = [] if complete else [problem.field.poly([-numbers.constant, 1])]
-    for sums in map(numbers.equation, filter(any, numbers.choices)):
-        factors += [factor for factor, _ in problem.field.factor(sums) if may_be_natural(factor)]
-    return tuple(map(over_parameters, dict.fromkeys(factors)))
+    constant = [] if complete else [over_parameters(problem.field.poly([-numbers.constant, 1]))]
+    sums = map(numbers.equation, filter(any, numbers.choices))
+    return tuple(union([constant, *(filter(may_be_natural, polynomial_factors(equation)) for equation in sums)]))

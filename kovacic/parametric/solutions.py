@@ -1,13 +1,13 @@
 """Solutions for all parameters of a region at once, as SymPy expressions in the user's equation and variable.
 
-They have a polynomial of Jacobi or Laguerre in them whose degree has to be a natural number, or a polynomial of given degree
-whose coefficients are functions of the parameters.  Square roots of parameters are SymPy's, of which one value is meant, and
-the conditions say for which of the two signs y is a solution.
+They contain a Jacobi or Laguerre polynomial whose degree has to be a natural number, or a polynomial of given degree whose
+coefficients are functions of the parameters.  Square roots of parameters are SymPy's: one value is meant, and the conditions
+tell for which of the two signs y is a solution.
 
-Rows are solutions in the integer of a condition: for L = n (5 n + 3)/2, other formulas for n = 0, 2, 4, ... than for
-n = 1, 3, 5, ...  A formula with a choice of signs asks for a natural number d.  Where the parameter is f(n), the square roots
-are functions of n, so that d is a n + b with numbers a and b for some choices of the signs, and each of these is the solution
-for a progression.
+Rows are solutions in the integer of a condition: for L = n (5 n + 3)/2, the formulas for n = 0, 2, 4, ... differ from those for
+n = 1, 3, 5, ...  A formula with a choice of signs needs a natural number d.  With the parameter f(n), the square roots are
+functions of n, so that d is a n + b with numbers a and b for some choices of the signs, and each of these is the solution for a
+progression.
 """
 
 from __future__ import annotations
@@ -17,6 +17,7 @@ from dataclasses import dataclass, replace
 from fractions import Fraction
 from functools import lru_cache, reduce
 from itertools import product
+from math import lcm
 from typing import Any, NamedTuple
 
 import sympy
@@ -38,10 +39,19 @@ from kovacic.limits import Budget
 from kovacic.numbers.exact import has_long_numbers
 from kovacic.numbers.numerals import as_text
 from kovacic.parametric import prose
-from kovacic.parametric.claims import AllOf, AnyOf, Claim, IntegerFamily, IsNonzero
-from kovacic.parametric.exponents import Exponents, places_of
-from kovacic.parametric.formulas import gathered, shorter_sum
-from kovacic.parametric.functions import element, irreducible_factors, over_parameters
+from kovacic.parametric.claims import (
+    AllOf,
+    AnyOf,
+    Claim,
+    IntegerFamily,
+    IsNonzero,
+    element,
+    irreducible_factors,
+    over_parameters,
+    rational_number,
+)
+from kovacic.parametric.exponents import ChosenExponents, exponent_choices
+from kovacic.parametric.formulas import shorter_sum, with_gathered_powers
 from kovacic.parametric.integers import free_letter
 from kovacic.parametric.prose import Words
 from kovacic.parametric.restriction import Letters
@@ -69,8 +79,8 @@ class jacobi(sympy.Function):  # type: ignore[misc]  # noqa: N801
             return None
         terms = []
         for s in range(int(n) + 1):
-            coefficient = _binomial(n + a, n - s) * _binomial(n + b, s)
-            terms.append(coefficient * ((z - 1) / 2) ** s * ((z + 1) / 2) ** (n - s))
+            binomials = sympy.ff(n + a, n - s) * sympy.ff(n + b, s) / (sympy.factorial(n - s) * sympy.factorial(s))
+            terms.append(binomials * ((z - 1) / 2) ** s * ((z + 1) / 2) ** (n - s))
         return sympy.Add(*terms)
 
     def fdiff(self, argindex: int = 4) -> Any:
@@ -86,9 +96,9 @@ class jacobi(sympy.Function):  # type: ignore[misc]  # noqa: N801
         return rf"P_{{{n}}}^{{\left({a}, {b}\right)}}\left({z}\right){power}"
 
 
-#: The derivatives of polynomials by others whose degrees are natural, too, for n = 0, where SymPy's have no value
+#: Derivatives of orthogonal polynomials by others of natural degree, also for n = 0, where SymPy's derivatives have no value
 #: [DLMF 18.9.24, 18.9.25 and 18.9.1].
-_DERIVATIVES: dict[Any, Callable[..., Any]] = {
+_DERIVATIVES_BY_NATURAL_DEGREE: dict[Any, Callable[..., Any]] = {
     sympy.assoc_laguerre: lambda n, a, z: (
         (n + 1) / z * sympy.assoc_laguerre(n + 1, a - 1, z) + (1 - a / z) * sympy.assoc_laguerre(n, a, z)
     ),
@@ -97,27 +107,24 @@ _DERIVATIVES: dict[Any, Callable[..., Any]] = {
 
 
 def derivative(y: Any, x: Any) -> Any:
-    """The derivative of a solution, with polynomials whose degrees are natural where that of the solution is."""
-    letters = {polynomial: sympy.Dummy() for polynomial in y.atoms(*_DERIVATIVES)}
+    """The derivative of a solution, with polynomials whose degrees are natural if that of the solution is."""
+    letters = {polynomial: sympy.Dummy() for polynomial in y.atoms(*_DERIVATIVES_BY_NATURAL_DEGREE)}
     plain = y.xreplace(letters)
     terms = [plain.diff(x)]
     for polynomial, letter in letters.items():
         *_, z = polynomial.args
-        terms.append(plain.diff(letter) * _DERIVATIVES[polynomial.func](*polynomial.args) * z.diff(x))
+        by_z = _DERIVATIVES_BY_NATURAL_DEGREE[polynomial.func](*polynomial.args)
+        terms.append(plain.diff(letter) * by_z * z.diff(x))
     return sympy.Add(*terms).xreplace({letter: polynomial for polynomial, letter in letters.items()})
-
-
-def _binomial(top: Any, k: Any) -> Any:
-    """The polynomial top (top - 1) ... (top - k + 1)/k!."""
-    return sympy.Mul(*((top - j) / (j + 1) for j in range(int(k))))
 
 
 @dataclass(frozen=True)
 class PolynomialSolution:
     """y solves the equation where `degree` is a natural number and all of the `conditions` vanish.
 
-    SymPy expressions in the variable and the parameters; `where` says the same in words.  `jacobi` are the two parameters of a
-    polynomial of Jacobi's, which vanishes identically where `jacobi` says; there, another solution of the region doesn't.
+    All are SymPy expressions in the variable and the parameters; `where` gives the conditions in words.  `jacobi` are the two
+    parameters of a Jacobi polynomial in y, which vanishes identically for some negative integers; there, another solution of
+    the region doesn't.
     """
 
     y: Any
@@ -127,15 +134,15 @@ class PolynomialSolution:
     jacobi: tuple[Any, ...] = ()
 
     def at(self, values: Mapping[Any, Any]) -> Any:
-        """y at values of the parameters, by symbol; None if it isn't one of the solutions there, or vanishes identically."""
-        degree = natural(self.degree.xreplace(values))
+        """y at values of the parameters, by symbol; None if it is no solution there, or vanishes identically."""
+        degree = natural_value(self.degree.xreplace(values))
         if degree is None or any(condition.xreplace(values) != 0 for condition in self.conditions):
             return None
         y = self.y.xreplace({self.degree: degree}).xreplace(values)
         return None if y == 0 else y
 
     def with_values(self, values: Mapping[Any, Any]) -> PolynomialSolution:
-        """The solution with other expressions in the place of the parameters, by symbol."""
+        """The solution with parameters replaced by other expressions, by symbol."""
         conditions = tuple(condition.xreplace(values) for condition in self.conditions)
         parameters = tuple(parameter.xreplace(values) for parameter in self.jacobi)
         y, degree = self.y.xreplace(values), self.degree.xreplace(values)
@@ -148,39 +155,39 @@ class PolynomialSolution:
         exclusion = self.exclusion(letter)
         if exclusion and not self.degree.is_Symbol:
             degree = f"{letter} = {degree}"
-        where = self.where or f"{degree} is a natural number{prose.text_of(exclusion)}"
+        where = self.where or f"{degree} is a natural number{prose.text_of_words(exclusion)}"
         return f"y = {caret(as_text(self.y))} where {where}"
 
     def exclusion(self, d: str) -> Words:
-        """Where y vanishes identically for the degree d; () where it never does."""
-        if not self.jacobi or any(a.is_number and natural(-a - 1) is None for a in self.jacobi):
+        """The values at which y vanishes identically for the degree d; () if it never does."""
+        if not self.jacobi or any(a.is_number and natural_value(-a - 1) is None for a in self.jacobi):
             return ()
         a, b = (caret(as_text(parameter)) for parameter in self.jacobi)
         name = str(self.degree) if self.degree.is_Symbol else d
         return prose.phrase(f", unless `{a}` and `{b}` are integers from `-{name}` to -1 with a sum below `-{name}`")
 
 
-def natural(number: Any) -> Any:
-    """The natural number that a constant is, also as a sum of roots, sqrt(3 + sqrt(5)) + sqrt(3 - sqrt(5)); None for others."""
+def natural_value(number: Any) -> Any:
+    """The constant if it is a natural number, also as a sum of roots, sqrt(3 + 2*sqrt(2)) - sqrt(2); None for any other."""
     if number.is_number and number.is_finite and not number.is_Rational:
         S = read_input(number, var="x_").S
-        exact = S.field.rational_value(S.num[0] / S.den[0])
+        exact = rational_number(S.num[0] / S.den[0])
         number = number if exact is None else sympy.Rational(exact)
     return number if number.is_Integer and number >= 0 else None
 
 
-#: From the degree d, if there is one to be chosen.
-Origin = Callable[[int | None], tuple[PolynomialSolution, ...]]
+#: Solutions for a degree d, or for None if no degree has to be chosen.
+SolutionsByDegree = Callable[[int | None], tuple[PolynomialSolution, ...]]
 
 
 @dataclass(frozen=True)
 class Later:
-    """An origin that is found when it is asked for, None if there is none."""
+    """An origin that is found on demand; None if there is none."""
 
-    find: Callable[[], Origin | None]
+    find: Callable[[], SolutionsByDegree | None]
 
 
-#: The solution for signs, numbers +-1 or symbols for them.
+#: The solution for signs, which are numbers +-1 or symbols.
 BySigns = Callable[[Sequence[Any]], PolynomialSolution]
 
 
@@ -196,23 +203,23 @@ class Signed:
         if by_signs is None:
             return ()
         found = map(by_signs, product((1, -1), repeat=self.signs))
-        possible = (one for one in found if one.degree.free_symbols or natural(one.degree) is not None)
+        possible = (one for one in found if one.degree.free_symbols or natural_value(one.degree) is not None)
         return tuple(dict.fromkeys(possible))
 
     def general(self, signs: Sequence[Any]) -> PolynomialSolution | None:
-        """All of them in one, with symbols for the signs."""
+        """All solutions as one formula, with symbols for the signs."""
         by_signs = self.formula()
         return None if by_signs is None else by_signs(signs[: self.signs])
 
 
 @dataclass(frozen=True)
 class Carried:
-    """The solutions of another equation, changed into those of this equation, on each piece of a region.
+    """The solutions of another equation, transformed into those of this one on each piece of a region.
 
-    `letters` are parameters with what they stand for.
+    `letters` are parameters with the expressions that they stand for.
     """
 
-    origin: Origin
+    origin: SolutionsByDegree
     changes: tuple[Callable[[PolynomialSolution], PolynomialSolution], ...]
     letters: Letters = ()
 
@@ -220,27 +227,24 @@ class Carried:
         return tuple(self.of(self.found(number)))
 
     def found(self, number: int | None) -> tuple[PolynomialSolution, ...]:
-        """Those of the other equation."""
+        """The solutions of the other equation."""
         return _found(self.origin, number)
 
     def of(self, solutions: Iterable[PolynomialSolution]) -> Iterator[PolynomialSolution]:
-        """Solutions of the other equation, on each piece."""
+        """Solutions of this equation from those of the other one, on each piece, in the user's parameters."""
+        meanings = {sympy.Symbol(name): meaning for name, meaning in self.letters}
         for solution, change in product(solutions, self.changes):
-            yield self.spelled(change(solution))
+            yield change(solution).with_values(meanings)
 
     def general(self, signs: Sequence[Any]) -> PolynomialSolution | None:
-        """All of them in one, with symbols for the signs; None if there is no such formula."""
-        found = general(self.origin, signs)
+        """All solutions as one formula, with symbols for the signs; None if there is no such formula."""
+        found = general_formula(self.origin, signs)
         return None if found is None or len(self.changes) > 1 else next(self.of([found]))
-
-    def spelled(self, solution: PolynomialSolution) -> PolynomialSolution:
-        """The solution in the user's parameters."""
-        return solution.with_values({sympy.Symbol(name): meaning for name, meaning in self.letters})
 
 
 @lru_cache(maxsize=64)
-def _found(origin: Origin, number: int | None) -> tuple[PolynomialSolution, ...]:
-    """Asked once for the check and for each view."""
+def _found(origin: SolutionsByDegree, number: int | None) -> tuple[PolynomialSolution, ...]:
+    """The solutions of an origin, computed once for the check and for each view."""
     return origin(number)
 
 
@@ -248,9 +252,9 @@ def _found(origin: Origin, number: int | None) -> tuple[PolynomialSolution, ...]
 def given(equation: Equation, zeros: tuple[FunctionPoly, ...], solution: PolynomialSolution) -> PolynomialSolution:
     """A solution of the normal form as one of the equation, on the piece of a region where functions vanish.
 
-    With its degree and its conditions: where t = x^m, the roots in them are those of the translated y.
+    For t = x^m the roots in its degree and its conditions are those in the translated y.
     """
-    y = translated(solution.y, equation)
+    y = translated_solution(solution.y, equation)
     degree = solution.degree
     conditions = solution.conditions
     if is_in_power(equation):
@@ -259,62 +263,63 @@ def given(equation: Equation, zeros: tuple[FunctionPoly, ...], solution: Polynom
         conditions = tuple(with_roots_of_factors(condition, x) for condition in conditions)
     x = sympy.Symbol(equation.variable)
     conditions = (*conditions, *(zero.to_sympy(x) for zero in zeros))
-    where = ", ".join(filter(None, [solution.where, *(prose.equation(zero).text for zero in zeros)]))
+    where = ", ".join(filter(None, [solution.where, *(prose.equation_of_zeros(zero).text for zero in zeros)]))
     return replace(solution, y=y, degree=degree, conditions=conditions, where=where)
 
 
-def translated(y: Any, equation: Equation) -> Any:
+def translated_solution(y: Any, equation: Equation) -> Any:
     """A solution of the normal form times the gauge factor, and in the user's variable."""
     variable = sympy.Symbol(equation.variable)
     if equation.gauge:
         y = y * display(product_of_powers(equation.gauge), Atoms(variable))
-    y = solution_in_x(equation, gathered(y, variable))
-    return y.as_independent(user_variable(equation), as_Add=False)[1]  # a constant factor says nothing
+    y = solution_in_x(equation, with_gathered_powers(y, variable))
+    return y.as_independent(user_variable(equation), as_Add=False)[1]  # without its constant factor
 
 
-def general(origin: Origin | None, signs: Sequence[Any]) -> PolynomialSolution | None:
+def general_formula(origin: SolutionsByDegree | None, signs: Sequence[Any]) -> PolynomialSolution | None:
     """The formula with symbols for the signs, or None."""
     together = getattr(origin, "general", None)
     return None if together is None else together(signs)
 
 
 def weight_by_signs(problem: Problem, variable: str) -> Signed | None:
-    """exp(int theta), by which P of the `degree` is a solution, for all choices of the exponents, which signs choose.
+    """exp(int theta), whose product with a P of the `degree` is a solution; the signs choose the exponents.
 
     None if the exponents need too large an extension, or other roots than square roots.
     """
-    places = places_of(problem)
-    if places is None or not has_radicals(places.field):
+    choices = exponent_choices(problem)
+    if choices is None or not has_radicals(choices.field):
         return None
-    parts = places.parts
     x = sympy.Symbol(variable)
 
     def by_signs(signs: Sequence[Any]) -> PolynomialSolution:
         y = degree = sympy.Integer(1)
-        left = list(signs)
-        for choices in parts:
-            # The first one for the sign 1, the other one, if there is one, for -1.
-            sign = left.pop(0) if len(choices) > 1 else 1
-            first, other = (choice.exponent.to_sympy(x) for choice in (choices[0], choices[-1]))
-            exponent = sympy.factor((first + other) / 2) + sign * sympy.factor((first - other) / 2)
-            y *= _local_factor(choices[0].factor, exponent, sign * choices[0].main.to_sympy(x), x)
+        left = iter(signs)
+        for first, *others in choices.parts:
+            # The first exponent belongs to the sign 1, the other one, if there is one, to -1.
+            sign = next(left) if others else 1
+            e, other = (part.exponent.to_sympy(x) for part in (first, *others, first)[:2])
+            exponent = sympy.factor((e + other) / 2) + sign * sympy.factor((e - other) / 2)
+            y *= _local_factor(first.factor, exponent, sign * first.main.to_sympy(x), x)
             degree -= exponent
         return PolynomialSolution(y, sympy.expand(degree))
 
-    return Signed(lambda: by_signs, sum(len(choices) > 1 for choices in parts))
+    return Signed(lambda: by_signs, sum(len(parts) > 1 for parts in choices.parts))
 
 
-def solution_of_degree(exponents: Exponents, d: int, variable: str, given: FunctionPoly) -> PolynomialSolution | None:
+def solution_of_degree(
+    exponents: ChosenExponents, d: int, variable: str, given: FunctionPoly
+) -> PolynomialSolution | None:
     """exp(int theta) P for one choice of exponents, where `given` vanishes and P exists.
 
-    None if P doesn't follow from its degree, where it exists for no values, and where a root isn't a radical.
+    None if the degree doesn't determine P, if P exists for no values, and if a root isn't a radical.
     """
     if not has_radicals(exponents.field):
         return None
     found = descended(*exponents.operator, d)
     if found is None or found.free is not None:
         return None
-    alternatives = [*map(_conditions, filter(None, found.rest))]
+    alternatives = [*map(_vanishing_factors, filter(None, found.rest))]
     if [] in alternatives:  # it exists nowhere
         return None
     x = sympy.Symbol(variable)
@@ -323,7 +328,7 @@ def solution_of_degree(exponents: Exponents, d: int, variable: str, given: Funct
         exponent = sympy.factor(part.exponent.to_sympy(x))
         y *= _local_factor(part.factor, exponent, part.main.to_sympy(x), x)
     conditions = [given.to_sympy(x)] if given else []
-    where = dict.fromkeys([prose.equation(given).text] if given else [])
+    where = dict.fromkeys([prose.equation_of_zeros(given).text] if given else [])
     for factors in alternatives:
         conditions.append(sympy.Mul(*(factor.to_sympy(x) for factor in factors)))
         where[" or ".join(f"{caret(as_text(factor.to_sympy(x)))} = 0" for factor in factors)] = None
@@ -331,9 +336,9 @@ def solution_of_degree(exponents: Exponents, d: int, variable: str, given: Funct
 
 
 def solutions_there(S: RatFunc, variable: str, _: int | None = None) -> tuple[PolynomialSolution, ...]:
-    """The solutions with a rational omega where S has some, by the engine; `degree` is that of the P in the first one.
+    """The solutions with a rational omega that the engine finds; `degree` is that of the P in the first one.
 
-    () where the constants in it are no square roots, or have long numbers, or the exponents at conjugate points differ.
+    () if the constants in it are no square roots, or have long numbers, or the exponents at conjugate points differ.
     """
     decision = decide(S, Budget())
     riccati = decision.riccati
@@ -341,7 +346,7 @@ def solutions_there(S: RatFunc, variable: str, _: int | None = None) -> tuple[Po
         return ()
     omega = -riccati.coefficients[0]
     atoms = Atoms(sympy.Symbol(variable))
-    if isinstance(S.field, AlgebraicField):  # that of a hypersurface: a parameter is its generator
+    if isinstance(S.field, AlgebraicField):  # the field of a hypersurface, whose generator is a parameter
         atoms.call(S.field, sympy.Symbol(S.field.name))
     y = product_of_powers(omega)
     if y.roots:
@@ -379,10 +384,10 @@ def has_radicals(field: Field) -> bool:
     return True
 
 
-def _conditions(value: Poly) -> list[Poly]:
-    """Functions of which one has to vanish so that a constant other than 0 does; [] where it is a number.
+def _vanishing_factors(value: Poly) -> list[Poly]:
+    """Functions of which one has to vanish so that a constant other than 0 does; [] for a number.
 
-    Over an extension: common factors of the coordinates, and the rest.
+    Over an extension these are the common factors of the coordinates, and the rest.
     """
     if value.field.ground == QQ:
         return []
@@ -395,17 +400,13 @@ def _conditions(value: Poly) -> list[Poly]:
     return factors if is_product_of_roots else [*factors, value * element(field, denominator) / content]
 
 
-def root(square: Poly) -> Any:
+def root_in_sympy(square: Poly) -> Any:
     """The square root of a constant, up to its sign."""
     inside = square.field.sqrt(square)
     x = sympy.Symbol("x")
     if inside is not None:
         return sympy.expand(inside.to_sympy(x))
     return sympy.sqrt(sympy.factor(square.to_sympy(x)))
-
-
-#: Integers up to which it is checked that each belongs to a progression.
-_CHECKED = 12
 
 
 @dataclass(frozen=True)
@@ -420,11 +421,11 @@ class Progression:
         return distance % self.step == 0 and distance * self.step >= 0
 
     def without(self, values: Iterable[FunctionPoly]) -> tuple[Progression, list[FunctionPoly]]:
-        """The progression without those at its beginning, and the others that may belong to it."""
+        """The progression without the values at its beginning, and the other values that may belong to it."""
         start = self.start
         left = []
         for value in values:
-            number = value.field.rational_value(value)
+            number = rational_number(value)
             if number == start:
                 start += self.step
             elif number is None or self.contains(number):
@@ -432,7 +433,7 @@ class Progression:
         return Progression(start, self.step), left
 
     def said(self, letter: str) -> str:
-        """Even `n >= 0`, `n <= -1`, or `n = 1, 4, 7, ...`."""
+        """The progression in words: even `n >= 0`, `n <= -1`, or `n = 1, 4, 7, ...`."""
         if abs(self.step) > 2:
             listed = (str(self.start + k * self.step) for k in range(3))
             return f"`{letter} = {', '.join(listed)}, ...`"
@@ -448,7 +449,7 @@ class SolutionRow(NamedTuple):
 
 
 def families_of(claim: Claim) -> list[IntegerFamily]:
-    """The alternatives, where each is the parameter as a function of an integer, maybe beside what isn't 0; none for others."""
+    """The alternatives if each gives a parameter as a function of an integer, whatever else doesn't vanish; else none."""
     together = claim.parts if isinstance(claim, AllOf) else (claim,)
     said = [part for part in together if not isinstance(part, IsNonzero)]
     if len(said) != 1:
@@ -459,9 +460,9 @@ def families_of(claim: Claim) -> list[IntegerFamily]:
 
 
 def rows_of(solutions: Iterable[PolynomialSolution], family: IntegerFamily, letters: Letters = ()) -> list[SolutionRow]:
-    """A row for each progression; none unless they make up all integers of the family.
+    """A row for each progression; none unless these make up all integers of the family.
 
-    The letters stand for others in the solutions, and are replaced in the family.
+    The letters, which the solutions don't contain, are replaced in the family by their meanings.
     """
     n = sympy.Symbol(family.letter)
     value = family.value.to_sympy(n)
@@ -480,19 +481,22 @@ def rows_of(solutions: Iterable[PolynomialSolution], family: IntegerFamily, lett
         if there.exclusion(family.letter):
             return []
         rows += [SolutionRow(progression, there) for progression in progressions]
-    numbers = [number for number in range(-_CHECKED, _CHECKED + 1) if family.numbers.contains(Fraction(number))]
+    # Beyond all starts the rows repeat with the least common multiple of the steps and the modulus.
+    period = lcm(family.numbers.modulus.numerator, *(row.numbers.step for row in rows))
+    end = period + max((abs(row.numbers.start) for row in rows), default=0)
+    numbers = [number for number in range(-end, end + 1) if family.numbers.contains(Fraction(number))]
     if not all(any(row.numbers.contains(number) for row in rows) for number in numbers):
         return []
     return sorted(rows, key=lambda row: (row.numbers.step < 0, abs(row.numbers.start)))
 
 
 def _progressions(degree: Any, n: Any, family: IntegerFamily) -> Iterator[Progression]:
-    """The integers of the family for which the degree a n + b is natural; none for another degree."""
+    """The integers n of the family for which the degree a n + b is natural; none for any other degree."""
     linear = degree.as_poly(n)
     if linear is None or linear.degree() != 1 or not linear.domain.is_QQ | linear.domain.is_ZZ:
         return
     a, b = (Fraction(int(number.p), int(number.q)) for number in linear.all_coeffs())
-    # n = (d - b)/a for d = 0, 1, ...: in the classes again after `period` steps.
+    # n = (d - b)/a for d = 0, 1, ... is in the same class again after `period` steps.
     period = (family.numbers.modulus * abs(a)).numerator
     for d in range(period):
         first = (d - b) / a
@@ -501,6 +505,6 @@ def _progressions(degree: Any, n: Any, family: IntegerFamily) -> Iterator[Progre
 
 
 def _without_roots(expression: Any) -> Any:
-    """The expression with polynomials in the place of square roots of squares; the sign of each is chosen anyway."""
+    """The expression with square roots of squares replaced by polynomials, whose signs are free anyway."""
     found = with_roots_of_factors(expression, sympy.Dummy())
     return found.replace(lambda e: e.is_Pow and e.exp.has(sympy.Symbol), lambda e: e.base ** shorter_sum(e.exp))

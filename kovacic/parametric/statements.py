@@ -17,13 +17,21 @@ from typing import Self
 from kovacic.algebra.function_field import FunctionField, FunctionPoly
 from kovacic.parametric import prose
 from kovacic.parametric.assumptions import NOTHING_ASSUMED, Assumptions
-from kovacic.parametric.claims import AllOf, AnyOf, Claim, IsZero, Several
-from kovacic.parametric.functions import ParameterPoint, irreducible_factors, with_values
+from kovacic.parametric.claims import (
+    AllOf,
+    AnyOf,
+    Claim,
+    IsZero,
+    ParameterPoint,
+    Several,
+    irreducible_factors,
+    on_linear_zeros,
+)
 
 
 @dataclass(frozen=True)
 class Setting:
-    """What a statement is printed beside.
+    """The context in which a statement is printed.
 
     No integer is called like one of the `names`; nothing is solved for one of the `fixed` ones, which are constants; nothing is
     said of the common zeros of functions that are `covered`, because they belong to earlier regions, or that the assumptions
@@ -37,18 +45,18 @@ class Setting:
 
     def covers(self, *zeros: FunctionPoly) -> bool:
         """True if an earlier region contains the common zeros of the functions, or there are none."""
-        is_excluded = any(self.assumptions.vanishes(zero) is False for zero in zeros)
-        # As an earlier region says them, and as they are.
-        common = {*zeros}
+        if any(self.assumptions.vanishes(zero) is False for zero in zeros):
+            return True
+        common = {*zeros}  # and the same functions as an earlier region writes them, with the values on the other zeros
         for zero in zeros:
-            there = with_values(zero, zeros)
+            there = on_linear_zeros(zero, zeros)
             factors = irreducible_factors(there) if there else []
             if len(factors) == 1:
                 common.update(factors)
-        return is_excluded or any(known <= common for known in self.covered)
+        return any(known <= common for known in self.covered)
 
     def also(self, *zeros: FunctionPoly) -> Self:
-        """Behind the regions of the common zeros of functions: what lies in these zeros needn't be examined again."""
+        """The setting after the regions of the common zeros of functions, which needn't be examined again."""
         return replace(self, covered=(*self.covered, frozenset(zeros)))
 
     def on(self, chart: ParameterPoint) -> Self:
@@ -64,42 +72,45 @@ class Statement(Claim):
 
     @property
     def claim(self) -> Claim:
-        """What is printed: the statement itself, if it can be."""
+        """The claim that is printed: the statement itself, unless it is solved for something."""
         return self
 
     @property
     def conjuncts(self) -> tuple[Statement, ...]:
-        """The statements that hold together: the parts of a `Both`, or this one."""
+        """The parts of a `Both`, which hold together, or the statement itself."""
         return (self,)
 
     @property
     def alternatives(self) -> tuple[Statement, ...]:
-        """The statements of which one has to hold: the parts of an `Either`, or this one."""
+        """The parts of an `Either`, of which one has to hold, or the statement itself."""
         return (self,)
 
     def text(self) -> str:
-        return prose.text(self.claim)
+        return prose.text_of_words(prose.sentence(self.claim))
 
     def latex(self) -> str:
         """Without dollar signs."""
-        return prose.latex(self.claim)
+        return prose.latex_of_claim(self.claim)
 
     def merged(self, other: Statement) -> Statement | None:
-        """Both statements in one (either holds), where they are about the same function; else None."""
+        """One statement that either holds, if both are about the same function; else None."""
         return None
 
     def under(self, assumptions: Assumptions) -> Statement:
-        """The statement reduced by the assumptions: ALWAYS or NEVER where they decide it."""
+        """The statement reduced by the assumptions: ALWAYS or NEVER if they decide it."""
         return self
 
     @property
+    @abstractmethod
     def equations(self) -> tuple[FunctionPoly, ...]:
-        """Functions of which one vanishes, or equations for a number of which one has a root, where the statement holds."""
-        return ()
+        """Functions of which one vanishes where the statement holds, or equations for a number of which one has a root.
+
+        For several statements these are all of their functions.
+        """
 
     @property
     def field(self) -> FunctionField | None:
-        """The field of its functions, or None without any."""
+        """The field of its functions; None for a statement without functions."""
         return next((one.field for one in self.equations), None)
 
     @abstractmethod
@@ -131,18 +142,18 @@ class Vanishes(IsZero, Statement):
         return [self.function]
 
     def under(self, assumptions: Assumptions) -> Statement:
-        return decided(assumptions.vanishes(self.function), self)
+        return reduced_statement(self, assumptions.vanishes(self.function))
 
 
 @dataclass(frozen=True)
 class _Several(Several, Statement):
-    """A statement made of others."""
+    """A combination of statements, `Either` or `Both`."""
 
     parts: tuple[Statement, ...]
 
     @property
-    def field(self) -> FunctionField | None:
-        return next((part.field for part in self.parts if part.field is not None), None)
+    def equations(self) -> tuple[FunctionPoly, ...]:
+        return tuple(chain.from_iterable(part.equations for part in self.parts))
 
     @cached_property
     def claim(self) -> Claim:
@@ -182,26 +193,25 @@ class Both(_Several, AllOf):
 
 
 def all_of(statements: Iterable[Statement]) -> Statement:
-    """The statement that all of them hold, without repetitions; a single one is returned as it is."""
+    """The statement that all of them hold, each once."""
     different = dict.fromkeys(chain.from_iterable(one.conjuncts for one in statements))
     if NEVER in different:
         return NEVER
     return next(iter(different)) if len(different) == 1 else Both(tuple(different))
 
 
-#: What is true everywhere, and nowhere.
+#: The statements that hold everywhere, and nowhere.
 ALWAYS = Both(())
 NEVER = Either(())
 
 
-def decided(truth: bool | None, statement: Statement) -> Statement:
-    """ALWAYS or NEVER where it is known to be true or false, else the statement."""
-    known = {True: ALWAYS, False: NEVER}
-    return statement if truth is None else known[truth]
+def reduced_statement(statement: Statement, truth: bool | None) -> Statement:
+    """ALWAYS or NEVER for a statement that is known to be true or false, else the statement."""
+    return {True: ALWAYS, False: NEVER, None: statement}[truth]
 
 
 def either(*statements: Statement) -> Statement:
-    """One statement that says that at least one of them holds; those about one form are merged."""
+    """The statement that at least one of them holds; those about the same function are merged."""
     if ALWAYS in statements:
         return ALWAYS
     merged: list[Statement] = []

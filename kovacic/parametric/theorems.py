@@ -63,20 +63,19 @@ from kovacic.algebra.ratfunc import RatFunc
 from kovacic.decision import Structure
 from kovacic.engine.places import Kind, Place, Problem, analyse, rational_square_root
 from kovacic.parametric import restriction, riemann
-from kovacic.parametric.claims import signed_sums
+from kovacic.parametric.claims import irreducible_factors, over_parameters, signed_sums
 from kovacic.parametric.exponents import singular_places
-from kovacic.parametric.formulas import has_roots, in_sum, root_written, shifted, shorter_sum, written
-from kovacic.parametric.functions import irreducible_factors, over_parameters
+from kovacic.parametric.formulas import has_roots, in_sum, root_written, shifted, shorter_sum, shortest_form
 from kovacic.parametric.integers import integer_roots
 from kovacic.parametric.regions import ParameterRegion, RegionVerdict, Theorem, Theory, borel, reducible
-from kovacic.parametric.solutions import BySigns, Origin, PolynomialSolution, Signed, jacobi, root
+from kovacic.parametric.solutions import BySigns, PolynomialSolution, Signed, SolutionsByDegree, jacobi, root_in_sympy
 from kovacic.parametric.statements import Statement, all_of
 from kovacic.reading.symbolic import written_expression
 
 
 @dataclass(frozen=True)
 class Coordinate:
-    """z = s^n; `base` is s in words, and y = weight * v with the solution v in s: `weight` is 1 or x - p."""
+    """z = s^n; `base` is the text of s, and y = weight * v with the solution v in s: `weight` is 1 or x - p."""
 
     base: str
     n: int = 1
@@ -104,10 +103,10 @@ class Symmetric(NamedTuple):
 
 
 def symmetries(problem: Problem, variable: str) -> Iterator[Symmetric]:
-    """Coordinates s, n the largest number for which s^2 S, with S in this coordinate, is a function of z = s^n.
+    """Coordinates s, with the largest n for which s^2 S, with S in this coordinate, is a function of z = s^n.
 
-    They are found by the fixed points that can belong to a group of Moebius maps: the first is infinity, or a pole.  The
-    other one is the mean of the poles where the first is infinity, or of the zeros if there are none.
+    They are found by the fixed points that a group of Moebius maps can have: the first one is infinity, or a pole.  With it at
+    infinity, the other one is the mean of the poles, or of the zeros if there are no poles.
     """
     x = RatFunc(problem.field.poly([0, 1]))
     rational_poles = [-place.factor[0] for place in problem.finite_places if place.degree == 1]
@@ -124,7 +123,7 @@ def symmetries(problem: Problem, variable: str) -> Iterator[Symmetric]:
         parts = (square.num, square.den)
         n = gcd(*(i for part in parts for i, coefficient in enumerate(part) if coefficient))  # powers that occur
         coordinate = Coordinate(shifted(base, center), n, weight)
-        # As polynomials in s^n; numbers for n = 0.
+        # As polynomials in s^n, or numbers for n = 0.
         num, den = (problem.field.poly([part[i] for i in range(0, part.degree + 1, n or 1)]) for part in parts)
         yield Symmetric(coordinate, num, den)
 
@@ -135,9 +134,9 @@ def mean_of_singular_points(S: RatFunc) -> Poly | None:
     return None if points.degree < 1 else -points[points.degree - 1] / (points.lc * points.degree)
 
 
-def kimura(problem: Problem, variable: str) -> Theorem | None:
-    """Kimura's theorem, where the equation or its quotient has at most three singular points, and regular ones."""
-    if not riemann.is_fuchsian(problem):
+def kimura_theorem(problem: Problem, variable: str) -> Theorem | None:
+    """Kimura's theorem, if the equation or its quotient has at most three singular points, all of them regular."""
+    if not riemann.has_regular_points_only(problem):
         return None
     powers = (one for one in symmetries(problem, variable) if one.coordinate.n > 1)
     quotients = ((one.coordinate, one.quotient(problem)) for one in powers)
@@ -147,23 +146,23 @@ def kimura(problem: Problem, variable: str) -> Theorem | None:
         points = "singular points" if coordinate.n == 1 else f"singular points in `{coordinate}`"
         origin = Signed(partial(jacobi_formula, equation, coordinate, variable), 3)
         name = Theory(f"at most three regular {points}: Kimura's theorem", "Kim69")
-        return Theorem(name, restriction.confluence(problem), structures(equation, coordinate.n, origin))
+        return Theorem(name, restriction.confluence(problem), kimura_regions(equation, coordinate.n, origin))
     return None
 
 
-def structures(problem: Problem, n: int, origin: Origin) -> Iterator[ParameterRegion]:
-    """As `riemann.structures`, for the equation in x, with the family of the groups where the structure doesn't say it.
+def kimura_regions(problem: Problem, n: int, origin: SolutionsByDegree) -> Iterator[ParameterRegion]:
+    """The regions by `riemann.kimura_statements` for the equation in z = x^n, with the groups over C(x).
 
-    `origin` has the solutions where the equation in z = x^n is reducible.
+    `origin` has the solutions if the equation in z is reducible.
     """
-    for structure, statement in riemann.structures(problem):
-        # Where an equation in z = x^n with this structure is one with a smaller group in x, with other solutions.
+    for structure, statement in riemann.kimura_statements(problem):
+        # Equations in z with this structure that have a smaller group over C(x), and other solutions.
         if structure is Structure.IMPRIMITIVE and n % 2 == 0:
             yield ParameterRegion(_with_denominators(problem, (2, 2)), RegionVerdict(Structure.REDUCIBLE))
         if structure is Structure.TETRAHEDRAL and n % 3 == 0:
             quaternion = RegionVerdict(Structure.IMPRIMITIVE, family="the quaternion group")
             yield ParameterRegion(_with_denominators(problem, (3, 3, 2)), quaternion)
-        verdict = riemann.verdict(problem, structure)
+        verdict = riemann.verdict_by_exponents(problem, structure)
         if structure is Structure.OCTAHEDRAL and n % 2 == 0:
             verdict = replace(verdict, family="binary tetrahedral, or octahedral")
         yield ParameterRegion(statement, verdict, origin=origin if structure is Structure.REDUCIBLE else None)
@@ -171,63 +170,64 @@ def structures(problem: Problem, n: int, origin: Origin) -> Iterator[ParameterRe
 
 def jacobi_formula(problem: Problem, coordinate: Coordinate, variable: str) -> BySigns | None:
     """Equation (1) for signs f, g, h; None if three singular points are conjugate."""
-    n = coordinate.n
     base = written_expression(coordinate.base)
     weight = written_expression(coordinate.weight)
     points = _three_points(problem, sympy.Symbol(variable))
     if points is None:
         return None
     (c, first), (c1, second), (c2, third) = points
-    z = base**n
-    if c2 is None:
-        argument = 1 - 2 * sympy.factor((z - c) / (c1 - c))
-        if has_roots(c) and not has_roots(sympy.expand(c + c1)):  # conjugate points
-            argument = sympy.factor(c + c1 - 2 * z) / sympy.expand(c1 - c)
-        last = sympy.Integer(1)
-    else:
+    z = base**coordinate.n
+    last = sympy.Integer(1)
+    if c2 is not None:
         argument = 1 - 2 * sympy.factor((z - c) * (c1 - c2) / ((z - c2) * (c1 - c)))
         last = z - c2
+    elif has_roots(c) and not has_roots(sympy.expand(c + c1)):  # conjugate points
+        argument = sympy.factor(c + c1 - 2 * z) / sympy.expand(c1 - c)
+    else:
+        argument = 1 - 2 * sympy.factor((z - c) / (c1 - c))
 
     def by_signs(signs: Sequence[Any]) -> PolynomialSolution:
         f, g, h = signs
         degree = shorter_sum((-1 - f * first - g * second - h * third) / 2)
-        e = sympy.expand((1 + f * first) / 2)
-        e1 = sympy.expand((1 + g * second) / 2)
-        own = -sympy.Rational(n - 1, 2)
-        powers = base**own * _positive(z, c) ** e * _positive(z, c1) ** e1 * last ** sympy.expand(1 - e - e1)
+        e, e1 = (sympy.expand((1 + difference) / 2) for difference in (f * first, g * second))
+        own = -sympy.Rational(coordinate.n - 1, 2)
+        powers = (
+            base**own
+            * _positive_difference(z, c) ** e
+            * _positive_difference(z, c1) ** e1
+            * last ** sympy.expand(1 - e - e1)
+        )
         y = weight * powers * jacobi(degree, f * first, g * second, argument)
         return PolynomialSolution(y, degree, jacobi=(f * first, g * second))
 
     return by_signs
 
 
-#: A singular point, None at infinity, and its exponent difference.
-_Point = tuple[Any, Any]
+#: A singular point (None at infinity) and its exponent difference.
+_PointWithDifference = tuple[Any, Any]
 
 
-def _three_points(problem: Problem, x: Any) -> list[_Point] | None:
-    """The singular points, an ordinary infinity among them if there are two; None if they aren't three, or are conjugate."""
-    points: list[_Point] = []
-    for place in singular_places(problem):
-        if place.degree <= 2:
-            points += _points_of(place, x)
+def _three_points(problem: Problem, x: Any) -> list[_PointWithDifference] | None:
+    """Three singular points, an ordinary infinity among them if need be; None if there are others, or all are conjugate."""
+    places = (place for place in singular_places(problem) if place.degree <= 2)
+    points = [*chain.from_iterable(_points_with_differences(place, x) for place in places)]
     if len(points) == 2 and problem.infinity.kind is Kind.ORDINARY:
         points.append((None, sympy.Integer(1)))
     return points if len(points) == 3 else None
 
 
-def _points_of(place: Place, x: Any) -> list[_Point]:
-    """One point, or the two roots of a quadratic factor, at which the square q x + r of the difference is conjugate, too."""
+def _points_with_differences(place: Place, x: Any) -> list[_PointWithDifference]:
+    """One point, or the roots of a quadratic factor; the square of the difference is q x + r at these."""
     square = place.difference_squared
     points = roots_of(place, x)
     if len(points) == 1:
-        return [(points[0], root(square))]
+        return [(points[0], root_in_sympy(square))]
     slope, constant = square[1].to_sympy(x), square[0].to_sympy(x)
-    return [(c, _square_root(sympy.together(sympy.expand(slope * c) + constant))) for c in points]
+    return [(c, _simplified_square_root(sympy.together(sympy.expand(slope * c) + constant))) for c in points]
 
 
 def roots_of(place: Place, x: Any) -> list[Any]:
-    """The points of a place of degree 1 or 2, None for infinity."""
+    """The points of a place of degree 1 or 2; infinity is None."""
     if place.at_infinity:
         return [None]
     if place.degree == 1:
@@ -238,8 +238,8 @@ def roots_of(place: Place, x: Any) -> list[Any]:
     return [(-linear + sign * radical) / 2 for sign in (1, -1)]
 
 
-def _square_root(square: Any) -> Any:
-    """Without a radical where it is a square over Q(i)."""
+def _simplified_square_root(square: Any) -> Any:
+    """The square root, without a radical for a square over Q(i)."""
     if not square.has(sympy.I) or not square.is_polynomial():
         return sympy.sqrt(square)
     constant, factors = sympy.factor_list(square, extension=sympy.I)
@@ -248,13 +248,13 @@ def _square_root(square: Any) -> Any:
     return sympy.sqrt(constant) * sympy.prod(factor ** (k // 2) for factor, k in factors)
 
 
-def _positive(z: Any, c: Any) -> Any:
-    """z - c, or c - z for a positive number c: what is positive at small z."""
+def _positive_difference(z: Any, c: Any) -> Any:
+    """z - c, or c - z for a positive number c, so that it is positive at small z > 0."""
     return c - z if c.is_positive else z - c
 
 
 def _with_denominators(problem: Problem, denominators: tuple[int, ...]) -> Statement:
-    """When the exponent differences at 0, at infinity and at the third point have these denominators."""
+    """The statement that the exponent differences at 0, at infinity and at the third point have these denominators."""
     squares = [problem.field.poly([1])] * 3
     for place in singular_places(problem):
         third = 2 if place.factor[0] else 0
@@ -263,8 +263,8 @@ def _with_denominators(problem: Problem, denominators: tuple[int, ...]) -> State
 
 
 @dataclass(frozen=True)
-class Confluent:
-    """Equation (2): the coordinate in which it has this form, and the coefficients."""
+class ConfluentForm:
+    """Equation (2): the coordinate in which S has this form, and the coefficients."""
 
     coordinate: Coordinate
     b: Poly
@@ -272,15 +272,15 @@ class Confluent:
     q: Poly
 
 
-def laguerre_formula(form: Confluent, variable: str) -> BySigns | None:
+def laguerre_formula(form: ConfluentForm, variable: str) -> BySigns | None:
     """Equation (3) for signs e, f; None for q = 0."""
     if not form.q:
         return None
     x = sympy.Symbol(variable)
     s = written_expression(form.coordinate.base)
     weight = written_expression(form.coordinate.weight)
-    rate = root(form.q)
-    delta = root(1 + 4 * form.b)
+    rate = root_in_sympy(form.q)
+    delta = root_in_sympy(1 + 4 * form.b)
     beta = form.r.to_sympy(x) / rate
     n = form.coordinate.n
 
@@ -295,10 +295,10 @@ def laguerre_formula(form: Confluent, variable: str) -> BySigns | None:
 
 
 def martinet_ramis(problem: Problem, variable: str) -> Theorem | None:
-    """The theorem, where s^2 S is b + r z + q z^2; where it is b + q s^(2n), 2n is the order of the symmetry."""
-    if riemann.singular_points(problem) > 2 or riemann.is_fuchsian(problem):
+    """The theorem of Martinet & Ramis, if s^2 S is b + r z + q z^2 in z = s^n."""
+    if riemann.singular_points(problem) > 2 or riemann.has_regular_points_only(problem):
         return None
-    form = _confluent(problem, variable)
+    form = _confluent_form(problem, variable)
     if form is None:
         return None
     author = "Whittaker" if form.q else "Bessel"
@@ -307,32 +307,32 @@ def martinet_ramis(problem: Problem, variable: str) -> Theorem | None:
     # N = +-beta +- Delta is n modulo 2n; for q = 0, N = 2 Delta.
     delta_squared = 1 + 4 * form.b
     squares = [form.r * form.r / form.q, delta_squared] if form.q else [4 * delta_squared]
+    n = form.coordinate.n
     verdict = RegionVerdict(Structure.IMPRIMITIVE, family="the infinite dihedral group")
     if form.q:
-        verdict = _whittaker(squares[0], delta_squared, form.coordinate.n)
+        verdict = _whittaker_group(squares[0], delta_squared, n)
     equation = signed_sums(squares, Fraction(0), form.b.field)
-    n = form.coordinate.n
     region = ParameterRegion(integer_roots(over_parameters(equation), [n], 2 * n), verdict, origin=origin)
     return Theorem(name, [*restriction.undefined(problem), *irreducible_factors(form.q or form.r)], [region])
 
 
-def _whittaker(beta_squared: Poly, delta_squared: Poly, n: int) -> RegionVerdict:
+def _whittaker_group(beta_squared: Poly, delta_squared: Poly, n: int) -> RegionVerdict:
     """The group of a reducible equation (2) for q != 0."""
     delta = rational_square_root(delta_squared / n**2)
     if not beta_squared:
         return reducible("`G_m`")
     if delta is not None and (delta.denominator > 1 or not delta):
         return borel()
-    where = f"`{written(beta_squared)} < {written(delta_squared)}`"
+    where = f"`{shortest_form(beta_squared)} < {shortest_form(delta_squared)}`"
     return borel(where if delta is not None else f"`{root_written(delta_squared / n**2)}` is an integer and {where}")
 
 
-def _confluent(problem: Problem, variable: str) -> Confluent | None:
-    """The first coordinate in which s^2 S is a polynomial of degree 1 or 2; without r, in the root of z."""
+def _confluent_form(problem: Problem, variable: str) -> ConfluentForm | None:
+    """The form in the first coordinate in which s^2 S is a polynomial of degree 1 or 2 in z; b + r z with even n has r = 0."""
     fitting = (one for one in symmetries(problem, variable) if one.den.degree == 0 and one.num.degree in (1, 2))
     for coordinate, num, den in fitting:
         b, r, q = (num[k] / den[0] for k in range(3))
         if not q and coordinate.n % 2 == 0:
-            return Confluent(replace(coordinate, n=coordinate.n // 2), b, q, r)
-        return Confluent(coordinate, b, r, q)
+            return ConfluentForm(replace(coordinate, n=coordinate.n // 2), b, q, r)
+        return ConfluentForm(coordinate, b, r, q)
     return None

@@ -8,7 +8,8 @@ from typing import Any
 
 from kovacic.limits import DEFAULT_LIMITS, Limits, limited, limits_of
 from kovacic.numbers.exact import whole
-from kovacic.parametric.api import DEFAULT_DEGREE, CheckReport, compare, find_conditions
+from kovacic.parametric.api import CheckReport, check_at_samples, find_conditions
+from kovacic.parametric.natural import DEFAULT_DEGREE
 from kovacic.parametric.parametric_answer import ParametricAnswer, Values
 from kovacic.reading.read import declared
 from kovacic.solution import Solution
@@ -63,7 +64,7 @@ class Conditions(ParametricAnswer):
         >>> bool(report), report.inside + report.outside
         (True, 20)
         """
-        return compare(self, whole(samples, "samples"), whole(seed, "seed", least=None))
+        return check_at_samples(self, whole(samples, "samples"), whole(seed, "seed", least=None))
 
     def theorem(self, *, format: str = "text") -> str:
         r"""The conditions as the theorem that a paper prints: hypothesis, cases with groups and solutions, proof, references.

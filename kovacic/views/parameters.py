@@ -10,8 +10,8 @@ from typing import Any
 from kovacic.errors import InputError, visible
 from kovacic.numbers.exact import exact_real, whole
 from kovacic.numbers.numerals import plain_text
-from kovacic.parametric.cases import in_lines
 from kovacic.parametric.parametric_answer import ParametricAnswer
+from kovacic.parametric.regions import in_lines
 from kovacic.writing.document import SCREEN_LINES
 from kovacic.writing.maps import FARTHEST, CellKind, check_size, draw_cells, new_axes
 

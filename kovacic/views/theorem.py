@@ -20,13 +20,21 @@ from kovacic.errors import InputError, LimitExceeded
 from kovacic.limits import DEFAULT_LIMITS, MOST_CHARACTERS, Budget
 from kovacic.parametric import prose
 from kovacic.parametric.assumptions import WORDS
-from kovacic.parametric.cases import Case, charts_of, outside, solvable_cases, vanishing, within
 from kovacic.parametric.claims import IntegerFamily
-from kovacic.parametric.formulas import partial_fractions, unexpanded, written
+from kovacic.parametric.formulas import partial_fractions, shortest_form, unexpanded
 from kovacic.parametric.integers import free_letter
-from kovacic.parametric.natural import NO_FORMULA, Natural
+from kovacic.parametric.natural import WITHOUT_FORMULA, Natural
 from kovacic.parametric.parametric_answer import ParametricAnswer
-from kovacic.parametric.regions import ParameterRegion, RegionVerdict
+from kovacic.parametric.regions import (
+    Case,
+    ParameterRegion,
+    RegionVerdict,
+    charts_of,
+    regions_without_claim,
+    solvable_cases,
+    vanishing,
+    within,
+)
 from kovacic.parametric.restriction import spelled
 from kovacic.parametric.riemann import Schwarz
 from kovacic.parametric.solutions import (
@@ -34,7 +42,7 @@ from kovacic.parametric.solutions import (
     PolynomialSolution,
     SolutionRow,
     families_of,
-    general,
+    general_formula,
     rows_of,
     weight_by_signs,
 )
@@ -83,7 +91,7 @@ class _TheoremWriter:
         self.change = answer.equation and answer.equation.change
         self.is_solvable = answer.generic.known and answer.generic.case is not None
         self.cases = solvable_cases(answer.regions)
-        self.left_out = [*outside(answer.regions)]
+        self.left_out = [*regions_without_claim(answer.regions)]
         self.signs = [sign for sign in map(sympy.Symbol, _SIGN_LETTERS) if sign.name not in answer.parameters]
 
     def blocks(self) -> Iterator[Block]:
@@ -174,7 +182,7 @@ class _TheoremWriter:
             sentence += self._assumed(name)
         for region in filter(_is_unequal, self.left_out):
             assert isinstance(region.statement, Vanishes)
-            sentence += [", ", prose.equation(region.statement.function, "!=")]
+            sentence += [", ", prose.equation_of_zeros(region.statement.function, "!=")]
         return [*sentence, ". "]
 
     def _exceptions(self) -> Iterator[Block]:
@@ -289,12 +297,12 @@ class _TheoremWriter:
         if rows and all(rows):
             for family, found in zip(families, rows, strict=True):
                 yield from self._in_rows(family, found, are_several=len(rows) > 1)
-            poles = prose.poles_of(families)
+            poles = prose.poles_in_words(families)
             if not poles:
                 return
             yield say(*prose.phrase(f"For {' or '.join(poles)}:"))
         if len(solutions) > 2:  # one formula with symbols for the signs
-            together = general(region.formulas, self.signs)
+            together = general_formula(region.formulas, self.signs)
             if together is not None:
                 solutions = [together]
         for solution in solutions:
@@ -306,7 +314,7 @@ class _TheoremWriter:
         start = f"`{prose.equals(family.parameter, family.value, n)}`, " if are_several else ""
         for row in rows:
             progression, roots = row.numbers.without(pole.root for pole in family.poles)
-            without = "".join(f", `{n} != {written(root, n)}`" for root in roots)
+            without = "".join(f", `{n} != {shortest_form(root, n)}`" for root in roots)
             yield say(*prose.phrase(f"For {start}{progression.said(n)}{without}:"))
             yield Formula(self._named_solution(row.solution))
 
@@ -473,7 +481,7 @@ def _without(others: Sequence[Statement]) -> list[str | Math]:
     found: list[str | Math] = []
     for other in others:
         if are_equations and isinstance(other, Vanishes):
-            found += [", and ", prose.equation(other.function, "!=")]
+            found += [", and ", prose.equation_of_zeros(other.function, "!=")]
         else:
             found += [", and not: ", *_sentence_of(other)]
     return found
@@ -509,11 +517,11 @@ def _determinant_table(natural: Natural, number: int) -> Iterator[Block]:
         found = natural.values(d)
         if any(len(value) > MOST_CHARACTERS // 4 for value in found):  # too wide for a table
             break
-        if {*found} == {NO_FORMULA}:
-            yield say(delta, f" is given by {NO_FORMULA}.")
+        if {*found} == {WITHOUT_FORMULA}:
+            yield say(delta, f" is given by {WITHOUT_FORMULA}.")
             return
         for value, places in found.items():
-            shown: Sentence = value if value == NO_FORMULA else Math.of(value)
+            shown: Sentence = value if value == WITHOUT_FORMULA else Math.of(value)
             rows.append([str(d), [*places], shown])
     if rows:
         yield Table([Math.of(natural.letter), "where", delta], rows)

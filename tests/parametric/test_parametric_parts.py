@@ -20,27 +20,25 @@ from kovacic import Structure
 from kovacic.algebra.function_field import FunctionPoly
 from kovacic.parametric import prose
 from kovacic.parametric.assumptions import read_assumptions
-from kovacic.parametric.cases import without_empty
-from kovacic.parametric.claims import DegreeExists
+from kovacic.parametric.claims import DegreeExists, over_parameters
 from kovacic.parametric.exponents import without_constant_pivots
-from kovacic.parametric.formulas import root_written, written
-from kovacic.parametric.functions import over_parameters
+from kovacic.parametric.formulas import root_written, shortest_form
 from kovacic.parametric.integers import Congruence, natural_root
-from kovacic.parametric.regions import ParameterRegion, RegionVerdict
+from kovacic.parametric.regions import ParameterRegion, RegionVerdict, without_empty
 from kovacic.parametric.restriction import hypersurface
-from kovacic.parametric.riemann import kimura
+from kovacic.parametric.riemann import kimura_structure
 from kovacic.parametric.statements import Setting, Statement, Vanishes, all_of
 
 F = Fraction
 
 
 def test_schwarz_table_has_the_parities() -> None:
-    assert kimura((F(2, 3), F(1, 3), F(1, 3))) is Structure.TETRAHEDRAL
-    assert kimura((F(2, 3) + 1, F(1, 3), F(1, 3))) is Structure.REDUCIBLE
-    assert kimura((F(2, 5), F(2, 5), F(2, 5))) is Structure.ICOSAHEDRAL
-    assert kimura((F(2, 5), F(2, 5), F(7, 5))) is None
-    assert kimura((F(1, 2), F(5, 2), None)) is Structure.IMPRIMITIVE
-    assert kimura((None, F(1, 3), F(1, 3))) is None
+    assert kimura_structure((F(2, 3), F(1, 3), F(1, 3))) is Structure.TETRAHEDRAL
+    assert kimura_structure((F(2, 3) + 1, F(1, 3), F(1, 3))) is Structure.REDUCIBLE
+    assert kimura_structure((F(2, 5), F(2, 5), F(2, 5))) is Structure.ICOSAHEDRAL
+    assert kimura_structure((F(2, 5), F(2, 5), F(7, 5))) is None
+    assert kimura_structure((F(1, 2), F(5, 2), None)) is Structure.IMPRIMITIVE
+    assert kimura_structure((None, F(1, 3), F(1, 3))) is None
 
 
 @given(matrices=st.integers(0, 10**9))
@@ -147,7 +145,7 @@ def random_quotients() -> list[RatFunc]:
 def test_functions_are_read_back_as_they_are_written() -> None:
     n = sympy.Symbol("n")
     for function in random_quotients():
-        text = written(function, "n")
+        text = shortest_form(function, "n")
         meant = function.num.to_sympy(n) / function.den.to_sympy(n)
         assert sympy.cancel(sympy.sympify(text.replace("^", "**")) - meant) == 0, text
 
@@ -209,7 +207,7 @@ def test_symmetric_families_are_written_once(functions: list, total: int, expect
 def degrees_as_text(equations: list[FunctionPoly]) -> str:
     """Which d are roots of the equations."""
     claim = DegreeExists("d", natural_root(equations, "d", Setting()), 1, lambda *_: True)
-    return prose.text(claim).removesuffix(", d in N, and Delta_d = 0")
+    return prose.text_of_words(prose.sentence(claim)).removesuffix(", d in N, and Delta_d = 0")
 
 
 def test_a_family_without_its_mirror_image_is_not_merged() -> None:

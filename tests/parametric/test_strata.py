@@ -23,8 +23,7 @@ from printed import printed_verdict, wrongly_printed
 import kovacic
 from kovacic.decision import Structure
 from kovacic.parametric import solutions
-from kovacic.parametric.claims import DegreeExists
-from kovacic.parametric.functions import Classes
+from kovacic.parametric.claims import Classes, DegreeExists
 from kovacic.parametric.integers import integer_condition
 from kovacic.parametric.natural import Natural
 from kovacic.parametric.regions import RegionVerdict
@@ -93,12 +92,12 @@ PLANTED: dict[str, tuple[str, str, Callable[..., Any]]] = {
     ),
     "a gauge is the generic one": (
         "(1+L*x)*y''+b*y'+c*y=0",
-        "kovacic.parametric.cases.equation_at",
+        "kovacic.parametric.regions.equation_at",
         lambda equation, point: equation,
     ),
     "a formula is another function": (
         "(1+L*x)*y''+b*y'+c*y=0",
-        "kovacic.parametric.solutions.translated",
+        "kovacic.parametric.solutions.translated_solution",
         lambda y, equation: y + x**7,
     ),
     "a group is too small": ("k*(1+g/x)", "kovacic.parametric.theorems.borel", lambda *_, **__: G_M),

@@ -15,8 +15,7 @@ from parametric_cases import FAMILIES
 from parametric_texts import RANGE, NotReadError, numbers_said, says
 
 from kovacic.parametric.api import Sampler
-from kovacic.parametric.claims import DegreeExists
-from kovacic.parametric.functions import ParameterPoint
+from kovacic.parametric.claims import DegreeExists, ParameterPoint
 from kovacic.parametric.natural import Natural
 from kovacic.parametric.parametric_answer import ParametricAnswer
 from kovacic.parametric.regions import ParameterRegion

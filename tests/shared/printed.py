@@ -16,10 +16,9 @@ from kovacic.decision import Status
 from kovacic.engine.decide import decide
 from kovacic.limits import Budget
 from kovacic.parametric.api import Sampler
-from kovacic.parametric.cases import Case, solvable_cases
-from kovacic.parametric.functions import ParameterPoint
+from kovacic.parametric.claims import ParameterPoint
 from kovacic.parametric.parametric_answer import ParametricAnswer
-from kovacic.parametric.regions import RegionVerdict
+from kovacic.parametric.regions import Case, RegionVerdict, solvable_cases
 
 _SMALL = (0, 1, -1, 2, Fraction(1, 2), -2, 3)
 

@@ -20,9 +20,9 @@ from parametric_cases import hypergeometric
 
 import kovacic
 from kovacic.parametric.api import Sampler
-from kovacic.parametric.cases import solvable_cases
-from kovacic.parametric.prose import text_of
-from kovacic.parametric.riemann import Schwarz, kimura
+from kovacic.parametric.prose import text_of_words
+from kovacic.parametric.regions import solvable_cases
+from kovacic.parametric.riemann import Schwarz, kimura_structure
 from kovacic.parametric.solutions import families_of
 from kovacic.parametric.statements import Both, Either, Statement
 from kovacic.views.theorem import blocks
@@ -163,14 +163,14 @@ def schwarz_parts(statement: Statement) -> Iterator[Schwarz]:
 def test_rows_beside_a_constant_difference_are_those_of_the_table(third: Fraction) -> None:
     answer = kovacic.conditions(hypergeometric(("l", "m", str(third))), var="x")
     parts = [part for region in answer.regions for part in schwarz_parts(region.statement)]
-    rows = [(kind, [*map(text_of, words)]) for part in parts for kind, words in part.resolved().rows]
+    rows = [(kind, [*map(text_of_words, words)]) for part in parts for kind, words in part.resolved().rows]
     for l, m in product((Fraction(i, 60) for i in range(-7, 150, 3)), repeat=2):  # noqa: E741
         found = {
             kind
             for kind, texts in rows
             if all(_lies_in(value, text) for value, text in zip((l, m), texts, strict=True))
         }
-        structure = kimura((l, m, third))
+        structure = kimura_structure((l, m, third))
         is_primitive = structure is not None and structure.case == 3
         assert found == ({structure} if is_primitive else set()), (l, m)
 
