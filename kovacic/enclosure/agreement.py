@@ -13,9 +13,9 @@ finite groups, and with A, B running through generators of H and their products,
     within N(T) => [A^2, B^2] = 1 (squares are diagonal),           finite   => tr A = 2 cos(2 pi k/m), not 2 unless A = 1,
 
 so a ball that excludes one of these excludes the groups on its left.  All three together prove that the group is SL2(C).
-A finite group is enumerated: under the claim the traces are those of G, two elements are equal when the trace of their
-quotient is 2, and that number of balls that exclude the others decides equality; then H must have as many elements of each
-trace as G.
+A finite group is enumerated: if the claim holds, the traces are those of G, and two elements are equal exactly when the trace
+of their quotient is 2, which a ball that excludes the other traces decides; then H must have as many elements of each trace
+as G.
 
 References: M. van der Put and M. F. Singer, "Galois Theory of Linear Differential Equations" (2003), ch. 5; Kovacic (1986).
 """
@@ -23,10 +23,9 @@ References: M. van der Put and M. F. Singer, "Galois Theory of Linear Differenti
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Callable, Iterable
 from dataclasses import dataclass
-from enum import IntEnum
 from fractions import Fraction
+from functools import cached_property
 from itertools import combinations
 
 from flint import acb, acb_mat, arb, fmpq, fmpz
@@ -34,19 +33,18 @@ from flint import acb, acb_mat, arb, fmpq, fmpz
 from kovacic import derived
 from kovacic.algebra.precision import working_precision
 from kovacic.answer import Answer
+from kovacic.enclosure.matrices import adjugate
 from kovacic.enclosure.monodromy import LocalMonodromy, monodromy
 from kovacic.enclosure.problem import NumericProblem, as_problem
 from kovacic.enclosure.request import Accuracy
 from kovacic.errors import InputError
 from kovacic.galois import Group, GroupKind
-from kovacic.limits import Limits
+from kovacic.limits import MOST_TRIALS, Limits
 
-_LARGEST = 400  # the largest finite group that is enumerated
-_MOST_PRODUCTS = 12  # the number of products that are compared with one another
-_BITS = 400
-_LARGEST_POWER = 1 << 60  # of a matrix of balls, which says nothing any more
+_MATRIX_BITS = 400
+_LARGEST_POWER = 1 << 60  # FLINT takes exponents of a machine word, and balls of such powers say nothing
 _TWO = acb(2)
-_HIGHEST_ORDER = 120  # eigenvalues are compared with roots of unity up to this order
+_UNIT_MATRIX = acb_mat([[1, 0], [0, 1]])
 _DIAGONAL = (GroupKind.CYCLIC, GroupKind.MULTIPLICATIVE)
 _TRIANGULAR = (*_DIAGONAL, GroupKind.ADDITIVE, GroupKind.BOREL)
 #: The eigenvalues are roots of unity of one order, which is the group's n.
@@ -63,14 +61,14 @@ _PRIMITIVE = {
 
 @dataclass(frozen=True)
 class Agreement:
-    """What `Solution.compare_with_monodromy` returns.
+    """Verdict of `Solution.compare_with_monodromy`.
 
     Attributes
     ----------
     verdict : bool or None
         True, False (a proof that it isn't this group), or None, where the matrices can't tell.
     reason : str
-        What was seen, in a sentence.
+        What the matrices showed, in a sentence.
     """
 
     verdict: bool | None
@@ -98,13 +96,13 @@ def agrees_with_group(
     group = derived.group(answer) if group is None else group
     if group is None:
         raise InputError("the equation is undecided, so there is no group to compare with")
-    fuchsian = is_fuchsian(as_problem(answer, constants=True))
+    fuchsian = has_regular_places(as_problem(answer, constants=True))
     if not fuchsian and group.finite:
         return Agreement(False, "an irregular singular point makes the group infinite")
-    return compare(monodromy(answer, accuracy=accuracy, digits=digits, limits=limits), group, fuchsian)
+    return verdict_on_matrices(monodromy(answer, accuracy=accuracy, digits=digits, limits=limits), group, fuchsian)
 
 
-def is_fuchsian(problem: NumericProblem) -> bool:
+def has_regular_places(problem: NumericProblem) -> bool:
     """True if all singular points, infinity among them, are regular."""
     num, den = problem.polynomials()
     # S = O(1/x^2) at infinity, and poles of order 2 at most [Fuchs].
@@ -112,32 +110,30 @@ def is_fuchsian(problem: NumericProblem) -> bool:
     return is_infinity_regular and all(multiplicity <= 2 for _, multiplicity in problem.poles(64))
 
 
-def compare(local: tuple[LocalMonodromy, ...], group: Group, fuchsian: bool) -> Agreement:
+def verdict_on_matrices(local: tuple[LocalMonodromy, ...], group: Group, fuchsian: bool) -> Agreement:
     """The verdict from the matrices; `fuchsian` says that their Zariski closure is the group."""
-    with working_precision(_BITS):
+    with working_precision(_MATRIX_BITS):
         generators = [item.acb_mat() for item in local]
         angles = _angles(group)
         if angles is not None:
-            return _Enumeration(group, angles).verdict(generators)
+            return _by_enumeration(generators, group, angles)
         if not generators:
             return Agreement(None, "there is no finite singular point, so the monodromy is trivial")
         # The generators and their products in pairs; with one generator, itself and its square.
         longer = [generators[0] ** 2] if len(generators) == 1 else _products(generators)
-        # As many as can be compared with one another, but all generators.
-        words = [*generators, *longer][: max(_MOST_PRODUCTS, len(generators))]
-        return _by_conditions(words, group, fuchsian)
+        return _by_conditions([*generators, *longer], group, fuchsian)
 
 
 def _inverse(m: acb_mat) -> acb_mat:
     """The inverse of a matrix of determinant 1."""
-    return acb_mat([[m[1, 1], -m[0, 1]], [-m[1, 0], m[0, 0]]])
+    return acb_mat(2, 2, adjugate(tuple(m.entries())))
 
 
 def _angles(group: Group) -> Counter[Fraction] | None:
     """The numbers of elements with the eigenvalues exp(+-2 pi i angle), or None for an infinite or a large group."""
     if group.kind in _PRIMITIVE:
         return Counter({Fraction(angle): count for angle, count in _PRIMITIVE[group.kind].items()})
-    if group.order is None or group.n is None or group.order > _LARGEST:
+    if group.order is None or group.n is None or group.order > MOST_TRIALS:
         return None
     if group.kind is GroupKind.CYCLIC:
         return _angles_of_roots(group.n)
@@ -146,77 +142,44 @@ def _angles(group: Group) -> Counter[Fraction] | None:
 
 
 def _angles_of_roots(n: int) -> Counter[Fraction]:
-    """The angles of the n-th roots of unity; a root and its inverse have one."""
-    # exp(2 pi i turn) and its inverse are the eigenvalues of one element, or of two with the same trace.
-    turns = [Fraction(k, n) for k in range(n)]
-    return Counter(min(turn, 1 - turn) for turn in turns)
+    """The angles of the n-th roots of unity, from 0 to 1/2: a root and its inverse are the eigenvalues of one matrix."""
+    return Counter(Fraction(min(k, n - k), n) for k in range(n))
 
 
-class _Element(IntEnum):
-    """Conclusions from the ball of an element: its trace isn't 2, may be 2, or is 2, and the element is the identity or isn't.
-
-    Beside known elements a larger kind comes before a smaller one: an element that is known is no other.
-    """
-
-    OTHER = 0
-    UNCLEAR = 1
-    IDENTITY = 2
-    UNIPOTENT = 3
-
-
-class _Enumeration:
-    """The elements of the monodromy group that are known, under the claim that it is the group with these angles."""
-
-    def __init__(self, group: Group, angles: Counter[Fraction]) -> None:
-        self.group = group
-        self.angles = angles
-        self.traces = {angle: _trace_of_turn(angle) for angle in angles}
-        self.order = sum(angles.values())
-        self.elements = [acb_mat([[1, 0], [0, 1]])]
-        self.found = Counter([Fraction(0)])
-
-    def add(self, candidate: acb_mat) -> Agreement | None:
-        """Another product of generators; a verdict where it contradicts the claim, or can't be told from other elements."""
-        # Those of the claimed traces that this one may be.
-        angles = [angle for angle, value in self.traces.items() if candidate.trace().overlaps(value)]
-        if not angles:
-            return Agreement(False, f"the monodromy group has an element whose trace isn't one of {self.group}")
-        beside_known = max(self._kind(candidate * _inverse(element)) for element in self.elements)
-        if beside_known is _Element.UNIPOTENT:
-            return Agreement(False, f"the monodromy group has a unipotent element, unlike {self.group}")
-        if beside_known is _Element.UNCLEAR or len(angles) > 1:
+def _by_enumeration(generators: list[acb_mat], group: Group, angles: Counter[Fraction]) -> Agreement:
+    """The verdict on a finite group with these angles: in the end no product with a generator is a new element."""
+    traces = {angle: _trace_of_turn(angle) for angle in angles}
+    elements = [_UNIT_MATRIX]
+    found = Counter([Fraction(0)])
+    # `elements` grows meanwhile.
+    for candidate in (generator * element for element in elements for generator in generators):
+        possible = _possible_angles(candidate, traces)
+        if not possible:
+            return Agreement(False, f"the monodromy group has an element whose trace isn't one of {group}")
+        # If the claim holds, quotients of elements have the trace 2 only if they are 1.
+        quotients = [candidate * _inverse(element) for element in elements]
+        beside = [_possible_angles(quotient, traces) for quotient in quotients]
+        equal = [quotient for quotient, angles_there in zip(quotients, beside, strict=True) if angles_there == [0]]
+        if not all(map(_may_be_identity, equal)):
+            return Agreement(False, f"the monodromy group has a unipotent element, unlike {group}")
+        may_be_equal = any(0 in angles_there for angles_there in beside)
+        if len(possible) > 1 or (may_be_equal and not equal):
             return Agreement(None, "the matrices aren't known well enough to tell the elements apart")
-        if beside_known is _Element.OTHER:
-            self.elements.append(candidate)
-            self.found[angles[0]] += 1
-        if len(self.elements) > self.order:
-            return Agreement(False, f"the monodromy group has more elements than {self.group}")
-        return None
+        if not equal:
+            elements.append(candidate)
+            found[possible[0]] += 1
+        if len(elements) > sum(angles.values()):
+            return Agreement(False, f"the monodromy group has more elements than {group}")
+    count = len(elements)
+    if found != angles:
+        return Agreement(False, f"the monodromy group has {count} elements, with other traces than {group}")
+    plural = "element" if count == 1 else "elements"
+    return Agreement(True, f"the monodromy group has {count} {plural}, with the traces of {group}")
 
-    def _kind(self, element: acb_mat) -> _Element:
-        """Which an element is whose trace is one of these."""
-        trace = element.trace()
-        # Beside another element, the trace of the quotient is 2 only if both are equal, or if the group is infinite.
-        if not trace.overlaps(_TWO):
-            return _Element.OTHER
-        if any(trace.overlaps(value) for angle, value in self.traces.items() if angle):
-            return _Element.UNCLEAR
-        if _may_be_identity(element):
-            return _Element.IDENTITY
-        return _Element.UNIPOTENT
 
-    def verdict(self, generators: list[acb_mat]) -> Agreement:
-        """The verdict on all elements, by their traces: in the end no product with a generator is a new one."""
-        for element in self.elements:  # which grows meanwhile
-            for generator in generators:
-                verdict = self.add(generator * element)
-                if verdict is not None:
-                    return verdict
-        count = len(self.elements)
-        if self.found != self.angles:
-            return Agreement(False, f"the monodromy group has {count} elements, with other traces than {self.group}")
-        plural = "element" if count == 1 else "elements"
-        return Agreement(True, f"the monodromy group has {count} {plural}, with the traces of {self.group}")
+def _possible_angles(m: acb_mat, traces: dict[Fraction, acb]) -> list[Fraction]:
+    """The angles whose traces the matrix may have."""
+    return [angle for angle, value in traces.items() if m.trace().overlaps(value)]
 
 
 @dataclass(frozen=True)
@@ -224,30 +187,34 @@ class _Possible:
     """Which of the conditions (1) the balls leave open, for matrices of the monodromy group: False is a proof."""
 
     words: list[acb_mat]
-    commutators: list[acb_mat]
-    commuting: bool
-    reducible: bool
-    monomial: bool
 
-    @classmethod
-    def of(cls, words: list[acb_mat]) -> _Possible:
-        commutators = _commutators(words)
-        return cls(
-            words,
-            commutators,
-            commuting=_may_be_identities(commutators),
-            reducible=all(c.trace().overlaps(_TWO) for c in commutators),
-            monomial=_may_be_identities(_commutators([word**2 for word in words])),
-        )
+    @cached_property
+    def commutators(self) -> list[acb_mat]:
+        """Those of all pairs."""
+        return _commutators(self.words)
+
+    @cached_property
+    def commuting(self) -> bool:
+        """True if the group may be diagonal."""
+        return all(map(_may_be_identity, self.commutators))
+
+    @cached_property
+    def reducible(self) -> bool:
+        """True if there may be a common eigenvector."""
+        return all(c.trace().overlaps(_TWO) for c in self.commutators)
+
+    def monomial(self) -> bool:
+        """True if the group may lie in N(T)."""
+        return all(map(_may_be_identity, _commutators([word**2 for word in self.words])))
 
     def torsion(self) -> bool:
         """True if all eigenvalues may be roots of unity."""
-        orders = range(1, _HIGHEST_ORDER + 1)  # that are tried
+        orders = range(1, MOST_TRIALS + 1)
         return all(any(_may_have_order(word, k) for k in orders) for word in self.words)
 
     def unipotent(self, n: int) -> bool:
         """True if all n-th powers may be 1."""
-        return n >= _LARGEST_POWER or _may_be_identities(word**n for word in self.words)
+        return n >= _LARGEST_POWER or all(_may_be_identity(word**n) for word in self.words)
 
     def primitive(self) -> bool:
         """True if one of the three finite groups is possible."""
@@ -257,12 +224,12 @@ class _Possible:
 
 def _by_conditions(words: list[acb_mat], group: Group, fuchsian: bool) -> Agreement:
     """An infinite group (or a large one): the conditions (1)."""
-    possible = _Possible.of(words)
+    possible = _Possible(words)
     contradiction = _contradiction(possible, group, fuchsian)
     if contradiction is not None:
         return Agreement(False, f"{contradiction} {group}")
     if group.kind is GroupKind.SL2:  # only a group in no proper algebraic subgroup is dense
-        if possible.reducible or possible.monomial or possible.primitive():
+        if possible.reducible or possible.monomial() or possible.primitive():
             return Agreement(None, "the monodromy matrices alone don't exclude every smaller group")
         return Agreement(True, "the monodromy matrices generate a group that is dense in SL2")
     if not fuchsian:
@@ -273,14 +240,13 @@ def _by_conditions(words: list[acb_mat], group: Group, fuchsian: bool) -> Agreem
 
 
 def _contradiction(possible: _Possible, group: Group, fuchsian: bool) -> str | None:
-    """Why the monodromy can't be that of the group, as a sentence that its name ends; None if nothing says so."""
-    for kinds, holds, said in (
-        (_TRIANGULAR, possible.reducible, "the monodromy matrices have no common eigenvector, unlike"),
-        (_DIAGONAL, possible.commuting, "the monodromy matrices don't commute, unlike"),
-        (_IMPRIMITIVE, possible.monomial, "the squares of the monodromy matrices don't commute, unlike those of"),
-    ):
-        if group.kind in kinds and not holds:
-            return said
+    """The reason why the group isn't this one, as a sentence that ends with its name; None if nothing disproves it."""
+    if group.kind in _TRIANGULAR and not possible.reducible:
+        return "the monodromy matrices have no common eigenvector, unlike"
+    if group.kind in _DIAGONAL and not possible.commuting:
+        return "the monodromy matrices don't commute, unlike"
+    if group.kind in _IMPRIMITIVE and not possible.monomial():
+        return "the squares of the monodromy matrices don't commute, unlike those of"
     if group.n is not None and group.kind in _WITH_ROOTS_OF_UNITY:
         if not all(_may_have_order(word, group.n) for word in possible.words):
             return "an eigenvalue of a monodromy matrix isn't a root of unity of"
@@ -291,25 +257,27 @@ def _contradiction(possible: _Possible, group: Group, fuchsian: bool) -> str | N
 
 def _may_be_smaller(possible: _Possible, group: Group) -> bool:
     """True if the closure of the monodromy may be a proper subgroup of this infinite group, in which it lies."""
-    n = group.n or 1
-    tried: dict[GroupKind, Callable[[], bool]] = {
-        GroupKind.MULTIPLICATIVE: possible.torsion,
-        GroupKind.ADDITIVE: lambda: possible.commuting and possible.unipotent(n),
-        GroupKind.BOREL: lambda: possible.commuting or possible.torsion(),
-        GroupKind.INFINITE_DIHEDRAL: lambda: possible.reducible or possible.torsion(),
+    # G_a extended by mu_n: a smaller n was excluded, and finite subgroups are cyclic.
+    if group.kind is GroupKind.ADDITIVE:
+        return possible.commuting and possible.unipotent(group.n or 1)
+    # The eigenvalues of a smaller group are roots of unity, or it is abelian or reducible.  Of other groups nothing is tried.
+    in_smaller = {
+        GroupKind.MULTIPLICATIVE: False,
+        GroupKind.BOREL: possible.commuting,
+        GroupKind.INFINITE_DIHEDRAL: possible.reducible,
     }
-    return tried.get(group.kind, lambda: True)()  # of the others nothing is tried
+    return in_smaller.get(group.kind, True) or possible.torsion()
 
 
 def _may_have_order(m: acb_mat, k: int) -> bool:
-    """True if the eigenvalues may be k-th roots of unity, which balls can't refute for a large k."""
+    """True if the eigenvalues may be k-th roots of unity."""
     return k >= _LARGEST_POWER or bool((m**k).trace().overlaps(_TWO))
 
 
 def _is_proper_order(words: list[acb_mat], n: int) -> bool:
     """True if the orders of the eigenvalues, n-th roots of unity, provably have a common multiple less than n."""
     # The n/p-th powers are p-th roots of unity, whose real parts are at most cos(2 pi/p) unless they are 1.
-    primes = [int(p) for p, _ in fmpz(n).factor()] if n <= _LARGEST else []
+    primes = [int(p) for p, _ in fmpz(n).factor()] if n <= MOST_TRIALS else []
     bounds = [(n // p, _trace_of_turn(Fraction(1, p)).real) for p in primes]
     return any(all((word**k).trace().real > bound for word in words) for k, bound in bounds)
 
@@ -323,19 +291,13 @@ def _commutators(words: list[acb_mat]) -> list[acb_mat]:
 
 
 def _may_be_identity(m: acb_mat) -> bool:
-    return bool(m.overlaps(acb_mat([[1, 0], [0, 1]])))
-
-
-def _may_be_identities(matrices: Iterable[acb_mat]) -> bool:
-    return all(map(_may_be_identity, matrices))
+    return bool(m.overlaps(_UNIT_MATRIX))
 
 
 def _may_be_in(m: acb_mat, kind: GroupKind) -> bool:
-    """True if the matrix may be an element of this primitive group.  In a finite group only +-1 have their traces."""
-    if m.trace().overlaps(_TWO):
-        return _may_be_identity(m)
-    # -1, whose square is 1.
-    if m.trace().overlaps(-_TWO):
+    """True if the matrix may be an element of this primitive group."""
+    # In a finite group only +-1 have the traces +-2, and the squares of both are 1.
+    if m.trace().overlaps(_TWO) or m.trace().overlaps(-_TWO):
         return _may_be_identity(m**2)
     return any(bool(m.trace().overlaps(_trace_of_turn(Fraction(angle)))) for angle in _PRIMITIVE[kind])
 

@@ -11,12 +11,12 @@ bounded: with |b| <= B, |c| <= C and |f| <= F on a piece of length r, for any s 
     (exp(K r) - 1) (max(|y|, s |y'|) + s F/K)    [Gronwall].                                                               (1)
 
 Two kinds of equations have steps over any distance.  Constant coefficients, and a right-hand side of powers, exponentials and
-waves: one step to every target.  With t = x - u the functions t^k exp(alpha t) of the right-hand side and of its derivatives
-form a vector g with g' = J g, and f = w g.  On the way from u to v
+waves: one step to every target.  For f = sum P(x) exp(alpha x) the functions P^(k)(x) exp(alpha x) form a vector g with
+g' = J g, and f = w g is the sum of those with k = 0.  On the way from u to v
 
-    (y, y', g)' = A (y, y', g),    A = (0, 1, 0; -c, -b, w; 0, 0, J),    (y, y', g)(v) = exp((v - u) A) (y, y', g)(u);
+    (y, y', g)' = A (y, y', g),    A = (0, 1, 0; -c, -b, w; 0, 0, J),    (y, y', g)(v) = exp((v - u) A) (y, y', g)(u).
 
-at u the functions with k = 0 are 1 and the others 0.  FLINT's exponential of a matrix is a ball around the exact one.
+FLINT's exponential of a matrix is a ball around the exact one.
 
 Coefficients with a common period T: any number of periods in one step.  With the map P from the state at a to that at a + T,
 affine where there is a right-hand side, and R from a to a + r, the map to a + n T + r is R P^n [Floquet].  T is known by a
@@ -59,15 +59,13 @@ from kovacic.enclosure.way import Forecast, States, Traveller, Way, WayStep, spr
 from kovacic.errors import InputError, LimitExceeded
 from kovacic.limits import check_time, count_work
 
-_STEEPEST = 40.0
-_SHARE = 0.15
-"""The growth exp(lambda) in one disc: lambda is at most so large, or that share of the bits."""
 # Steps as small as 2^-60 of what lies behind and ahead: a singular point is there.
-_LEAST = 60
-_EDGE = 16
-"""The piece beside an end where the coefficients aren't analytic is 2^-16 of the way over 2^bits."""
-_START = 512
-"""Binary exponents that are tried from the length of the way downwards, at its first point."""
+_SMALLEST_STEP_BITS = 60
+_FEWEST_PERIODS = 4  # from which on they are taken in one step
+_PERIODIC = (sympy.sin, sympy.cos, sympy.tan, sympy.cot, sympy.sec, sympy.csc, sympy.exp)
+# Length of g.  At 20 the matrices take as long as the discs to x = 20 (y'' + y = x^19, 15 ms), at 40 five times as long.
+_MOST_RIGHT_TERMS = 20
+_MOST_LOST_BITS = 10_000  # on a long way: 2.6 s there with three terms, and 44 s with 40,000 bits
 
 
 @dataclass(frozen=True)
@@ -94,14 +92,14 @@ class Edge:
 
     @property
     def matrix(self) -> Matrix:
-        """From where it is entered to where it is left, without the right-hand side."""
+        """From where it is entered to where it is left, for the homogeneous equation."""
         b, c, _ = self.values
         starts = (acb(1), acb(0)), (acb(0), acb(1))
         return fundamental(*(spread((b, c, acb(0)), self.length, start, real=self.real) for start in starts))
 
     @property
     def added(self) -> State:
-        """What the right-hand side adds."""
+        """The contribution of the right-hand side."""
         return spread(self.values, self.length, NOTHING, real=self.real)
 
     def local(self, state: State) -> Resting:
@@ -124,12 +122,17 @@ class Resting:
 class AnalyticWay(Way):
     """An equation by the power series of its coefficients and its right-hand side.
 
-    `problem` has its left-hand side where that is rational: its singular points are known, then.
+    `problem` has its left-hand side if that is rational: then its singular points are known.
     """
 
     functions: CoefficientField
     problem: NumericProblem | None = None
     prec: int = 64
+
+    @property
+    def steepest(self) -> float:
+        """The largest lambda of a disc, in which solutions grow by exp(lambda)."""
+        return max(40.0, 0.15 * self.prec)
 
     @property
     def is_exact(self) -> bool:
@@ -141,12 +144,11 @@ class AnalyticWay(Way):
     def check(self, a: ExactPoint, b: ExactPoint) -> None:
         if self.problem is not None:
             self.problem.check_segment(a, b)
-        # Between the ends the discs decide; at them values are enough.
-        for name, end in (("start", a), ("end", b)):
+        # Between the ends the discs decide; at the ends values are enough.
+        undefined = "the coefficients have" if self.problem is None else "the right-hand side has"
+        for end in (a, b):
             if not all(value.is_finite() for value in self.functions.values(to_acb(end))):
-                said = f"the coefficients have no value at the {name} {end} of the path"
-                if self.problem is not None:
-                    said = f"the right-hand side has no value at {end}, an end of the path"
+                said = f"{undefined} no value at {end}, an end of the path"
                 raise InputError(said, hint="choose a point beside it")
 
     def forecast(self, a: ExactPoint, b: ExactPoint) -> Forecast:
@@ -155,9 +157,8 @@ class AnalyticWay(Way):
             b_value, c_value, _ = self.functions.values(x)
             return float(abs(b_value).max(abs(c_value).sqrt()).mid())
 
-        steepest = max(_STEEPEST, _SHARE * self.prec)
         e = (binary_exponent((b - a).norm_squared()) + 1) // 2
-        found = Forecast(a, b, rate, 2 * steepest, lambda x: self.functions.crowd(x, e, steepest))
+        found = Forecast(a, b, rate, 2 * self.steepest, lambda x: self.functions.crowd(x, e, self.steepest))
         found.refuse()
         return found
 
@@ -170,13 +171,12 @@ class AnalyticWay(Way):
         return b, c, f, are_real(self.functions.values(ball))
 
     def walk(self, a: ExactPoint, b: ExactPoint, *, alone: bool = False) -> Iterator[WayStep]:
-        # As a share of the way.
-        edge = power_of_two(-self.prec - _EDGE)
+        # A piece beside an end where the coefficients aren't analytic, as a share of the way.
+        edge = power_of_two(-self.prec - 16)
         length = b - a
         first = a if self.functions.is_regular(to_acb(a)) else a + length.scaled(edge)
         last = b if self.functions.is_regular(to_acb(b)) else b - length.scaled(edge)
         if first != a:
-            # The first piece has no series at its end, and is as short as the precision.
             yield Edge.of(self.functions, a, first)
         yield from self._discs(first, last)
         if last != b:
@@ -197,26 +197,21 @@ class AnalyticWay(Way):
             while True:
                 half = min(root_below(power_of_two(2 * e) / square, 12), rest / 2)  # 2^e as a share of the length
                 centre = a + length.scaled(t + half)
-                jets = self.functions.jets(centre, e, self.prec, max(_STEEPEST, _SHARE * self.prec))
+                jets = self.functions.jets(centre, e, self.prec, self.steepest)
                 if jets is not None:
                     break
                 e -= 1
-                _check_size(a, b, t, e, max(_START, 2 * self.prec))
+                _check_size(a, b, t, e, max(512, 2 * self.prec))
             enter = a + length.scaled(t)
             t += 2 * half
             yield step_of(jets, enter, b if t == 1 else a + length.scaled(t))
 
 
 def _check_size(a: ExactPoint, b: ExactPoint, t: Any, e: int, start: int) -> None:
-    """Raise InputError where steps are too small for what lies behind, or 2^-start of the way, and ahead: a singular point is
-    there."""
-    square = (b - a).norm_squared()
-    behind = square * t * t
-    ahead = square * (1 - t) ** 2
+    """Raise InputError if steps are so small beside the ways behind and ahead that there must be a singular point."""
     # Nothing lies behind the first disc: there 2^-start of the way counts.
-    if t == 0:
-        behind = square * power_of_two(-2 * start)
-    if power_of_two(2 * (e + _LEAST)) < min(behind, ahead):
+    shortest = min(t or power_of_two(-start), 1 - t)
+    if power_of_two(2 * (e + _SMALLEST_STEP_BITS)) < (b - a).norm_squared() * shortest * shortest:
         where = to_acb(a + (b - a).scaled(t)).mid()
         with working_precision(64):
             shown = (where.real if where.imag.is_zero() else where).str(10, radius=False)
@@ -225,13 +220,6 @@ def _check_size(a: ExactPoint, b: ExactPoint, t: Any, e: int, start: int) -> Non
             hint="go around it through the complex plane, e.g. path=[...] with a vertex off the axis; "
             "the result depends on the side",
         )
-
-
-_FEWEST_PERIODS = 4
-"""Periods from which on they are taken in one step."""
-_LOST = 64
-"""Precisions rise by multiples of this number of bits."""
-_WAVES = (sympy.sin, sympy.cos, sympy.tan, sympy.cot, sympy.sec, sympy.csc, sympy.exp)
 
 
 @dataclass(frozen=True, eq=False)
@@ -245,37 +233,37 @@ class PeriodicWay(AnalyticWay):
         return abs(in_balls(self.period, self.functions.coefficients.at(sympy.Integer(0))))
 
     def _periods(self, a: ExactPoint, b: ExactPoint) -> int:
-        """The whole periods from a to b, about, negative to the left; 0 beside the real axis."""
+        """The approximate number of whole periods from a to b, negative to the left; 0 beside the real axis."""
         if not (a.is_real() and b.is_real()):
             return 0
         with working_precision(64 + (b - a).height_bits()):
-            # Rounded down, also to the left: what is left goes to the right, and is shorter than a period.
+            # Rounded down, also to the left: the rest of the way goes to the right, and is shorter than a period.
             return int((arb((b - a).x) / self._length()).mid().floor().unique_fmpz())
 
     def carried(self, a: ExactPoint, b: ExactPoint, maps: MapProduct) -> MapProduct:
         n = self._periods(a, b)
         if abs(n) < _FEWEST_PERIODS:
             return super().carried(a, b, maps)
-        # Where P isn't diagonal, P^m is of the size m, and its square loses log2(m) bits and some more; n T loses those of n.
+        # If P isn't diagonal, P^m is of the size m, and its square loses log2(m) bits and some more; n T loses those of n.
         squares = n.bit_length()
-        lost = -(-squares * (squares + 12) // (2 * _LOST)) * _LOST
+        lost = squares * (squares + 12) // 2
         with working_precision(ctx.prec + lost):
             way = replace(self, prec=self.prec + lost)
             step = self._length() * (1 if n > 0 else -1)
             key = a, n > 0, lost
             if key not in self._maps:
                 self._maps[key] = way._map(a, Constant("a period later", lambda: to_acb(a) + step))
-            power = MapProduct().whole()
-            square = self._maps[key]
-            # P^|n| by its binary digits, the lowest one first: `square` is P^(2^j).
-            for bit in reversed(bin(abs(n))[2:]):
-                power = compose(square, power) if bit == "1" else power
-                square = compose(square, square)
+            period = self._maps[key]
+            power = period
+            # P^|n| by the binary digits of |n| after the first one.
+            for bit in bin(abs(n))[3:]:
+                power = compose(power, power)
+                power = compose(period, power) if bit == "1" else power
             rest = way._map(a, Constant("less than a period later", lambda: to_acb(b) - step * abs(n)))
             return maps.after(*compose(rest, power))
 
     def _map(self, a: ExactPoint, number: Constant) -> Affine:
-        """From the state at a to that at a number in a ball."""
+        """The map from the state at a to that at a number in a ball."""
         stop = middle(number)
         maps = MapProduct() if stop == a else super().carried(a, stop, MapProduct())
         M, particular = maps.whole()
@@ -292,9 +280,9 @@ class PeriodicWay(AnalyticWay):
 
 
 def period_of(coefficients: Coefficients) -> Any:
-    """A period of functions of waves of commensurable frequencies; None if none is seen."""
+    """A period of functions of waves with commensurable frequencies, or None."""
     x = coefficients.variable
-    waves = sorted({e for part in coefficients.all_parts for e in part.atoms(*_WAVES) if e.has(x)}, key=str)
+    waves = sorted({e for part in coefficients.all_parts for e in part.atoms(*_PERIODIC) if e.has(x)}, key=str)
     known = {e: sympy.Dummy() for e in waves}
     if not waves or any(part.xreplace(known).has(x) for part in coefficients.all_parts):
         return None
@@ -309,18 +297,15 @@ def period_of(coefficients: Coefficients) -> Any:
     return period if value.is_finite() and value.imag.is_zero() and not value.contains(0) else None
 
 
-_LARGEST = 12
-"""The length of g, at most: matrices of these sizes cost less than a disc."""
-_LONGEST = 10_000
-"""Bits by which the precision may rise for a long way: half a second (measured)."""
-Term = tuple[Any, tuple[Any, ...]]
+ExponentialTerm = tuple[Any, tuple[Any, ...]]
 
 
 @dataclass(frozen=True, eq=False)
 class ConstantWay(AnalyticWay):
-    """The right-hand side is the sum of the `terms` exp(alpha x) P(x): alpha, and the coefficients of P from low to high."""
+    """An equation with constant coefficients, whose right-hand side is the sum of the `terms` exp(alpha x) P(x): alpha, and the
+    coefficients of P from low to high."""
 
-    terms: tuple[Term, ...] = ()
+    terms: tuple[ExponentialTerm, ...] = ()
 
     def carried(self, a: ExactPoint, b: ExactPoint, maps: MapProduct) -> MapProduct:
         check_time()
@@ -329,34 +314,32 @@ class ConstantWay(AnalyticWay):
         start = to_acb(a)
         values = self.functions.coefficients.at(start)
         p, q, _ = self.functions.values(start)
-        weights, rates = [], []
-        for alpha, polynomial in self.terms:  # in powers of x - a
-            # P(x) exp(alpha x) = P(a + t) exp(alpha a) exp(alpha t), t = x - a.
-            rate = in_balls(alpha, values)
-            moved = acb_poly([in_balls(weight, values) for weight in polynomial])(acb_poly([start, 1]))
-            weights += [moved[k] * (rate * start).exp() for k in range(len(polynomial))]
-            rates += [(rate, k) for k in range(len(polynomial))]
-        size = max((abs(weight).mid() for weight in weights), default=arb(0))
-        unit = acb(size) if size > 0 else acb(1)  # A large weight would make the whole matrix large.
-        A = acb_mat(2 + len(rates), 2 + len(rates))
-        # y' = y', y'' = -q y - p y' + w g.
+        size = 2 + sum(len(polynomial) for _, polynomial in self.terms)
+        A, begin = acb_mat(size, size), acb_mat(size, 1)  # the latter is (0, 0, g(a))
+        # y' = y', y'' = -q y - p y' + f.
         A[0, 1], A[1, 0], A[1, 1] = acb(1), -q, -p
-        for row, ((rate, k), weight) in enumerate(zip(rates, weights, strict=True), 2):
-            A[1, row] = weight / unit
-            A[row, row] = rate
-            if k > 0:  # (t^k exp(alpha t))' = alpha t^k exp(alpha t) + k t^(k-1) exp(alpha t)
-                A[row, row - 1] = acb(k)
+        row = 2
+        for alpha, polynomial in self.terms:
+            rate = in_balls(alpha, values)
+            P = acb_poly([in_balls(weight, values) for weight in polynomial])
+            A[1, row] = acb(1)
+            for k in range(len(polynomial)):
+                if k > 0:  # (P^(k-1) exp(alpha x))' = alpha P^(k-1) exp(alpha x) + P^(k) exp(alpha x)
+                    A[row - 1, row] = acb(1)
+                A[row, row] = rate
+                begin[row, 0] = P(start) * (rate * start).exp()
+                P = P.derivative()
+                row += 1
         # (v - u) A is halved until it is small, and as many squares make a ball a few times as wide each.
-        size = sum((abs(entry) for entry in A.entries()), arb(1)) * abs(to_acb(b - a))
-        lost = 4 * max(0, upper_exponent(size))
-        if lost > _LONGEST:
+        growth = sum((abs(entry) for entry in A.entries()), arb(1)) * abs(to_acb(b - a))
+        lost = 4 * max(0, upper_exponent(growth))
+        if lost > _MOST_LOST_BITS:
             raise LimitExceeded(f"the way is so long that values lose {lost} bits", limit="digits")
         with working_precision(ctx.prec + lost):
             E = (A * to_acb(b - a)).exp()
-        # At a the functions t^k exp(alpha t) with k = 0 are 1 and the others 0: these columns are added up.
-        ones = [column for column, (_, k) in enumerate(rates, 2) if k == 0]
+            particular = E * begin
         matrix: Matrix = (E[0, 0], E[0, 1], E[1, 0], E[1, 1])
-        first, second = (sum((E[row, column] for column in ones), acb(0)) * unit for row in (0, 1))
+        first, second = particular[0, 0], particular[1, 0]
         if a.is_real() and b.is_real() and self.functions.is_real(a, 0):
             matrix = real_part(matrix)
             first, second = acb(first.real), acb(second.real)
@@ -367,7 +350,7 @@ class ConstantWay(AnalyticWay):
 
 
 def constant_way(coefficients: Coefficients, problem: NumericProblem | None = None) -> AnalyticWay:
-    """The way by matrices where there is one, else that by power series, over many periods at once where there are any."""
+    """The way by matrices if there is one, else by power series, many periods at a time if the coefficients are periodic."""
     functions = CoefficientField(coefficients)
     x = coefficients.variable
     a, b, c, f = coefficients.all_parts
@@ -378,8 +361,8 @@ def constant_way(coefficients: Coefficients, problem: NumericProblem | None = No
     return AnalyticWay(functions, problem) if period is None else PeriodicWay(functions, problem, period=period)
 
 
-def _right_side_terms(f: Any, x: Any) -> tuple[Term, ...] | None:
-    """The terms of a right-hand side; None for another one.
+def _right_side_terms(f: Any, x: Any) -> tuple[ExponentialTerm, ...] | None:
+    """The terms of a right-hand side, or None if it has others or too many.
 
     The logarithmic derivative of w x^k exp(alpha x) is alpha + k/x; a constant quotient w proves that a term is one.
     """
@@ -394,12 +377,12 @@ def _right_side_terms(f: Any, x: Any) -> tuple[Term, ...] | None:
         known = weights.setdefault(alpha, {})
         known[int(k)] = known.get(int(k), sympy.Integer(0)) + weight
     found = [(alpha, tuple(w.get(k, sympy.Integer(0)) for k in range(max(w) + 1))) for alpha, w in weights.items()]
-    return tuple(found) if sum(len(polynomial) for _, polynomial in found) <= _LARGEST else None
+    return tuple(found) if sum(len(polynomial) for _, polynomial in found) <= _MOST_RIGHT_TERMS else None
 
 
 @lru_cache(maxsize=32)
 def way_of(problem: NumericProblem) -> AnalyticWay:
-    """The way of an equation with a right-hand side beside rational coefficients, or constants that are known by balls."""
+    """The way of an equation with rational coefficients and a right-hand side, or with constants known by balls."""
     equation = problem.right
     if equation is None:
         atoms = _Letters(sympy.Symbol("the variable"))  # no parameter has this name
@@ -419,15 +402,13 @@ def way_of(problem: NumericProblem) -> AnalyticWay:
 
 
 class _Letters(Atoms):
-    """With the generators of algebraic fields as symbols, whose values are `constants`."""
+    """Atoms with the generators of algebraic fields as symbols, whose values by their names are `constants`."""
 
     @cached_property
     def constants(self) -> dict[str, Number]:
-        """By their names."""
         return {}
 
     def generator(self, field: Any) -> Any:
-        """A symbol."""
         assert isinstance(field, AlgebraicField)
         self.constants[field.name] = Constant(field.name, lambda: root_of(field))
         return sympy.Symbol(field.name)

@@ -5,7 +5,7 @@ The guarantee: the exact value lies within `radius` of the midpoint (a disc in t
 hashable, comparable, picklable, and as precise as the computation that made it.
 
 Not guaranteed: that the radius is the smallest possible one, and that two different balls stand for different numbers
-(`overlaps` answers whether they can be equal).
+(`overlaps` tells whether they can be equal).
 
 Reference: J. van der Hoeven, "Ball arithmetic", in: Logical Approaches to Barriers in Computing and Complexity (2010).
 F. Johansson, "Arb: efficient arbitrary-precision midpoint-radius interval arithmetic", IEEE Trans. Comp. 66 (2017).
@@ -17,22 +17,21 @@ import math
 import re
 from collections.abc import Callable
 from dataclasses import dataclass, field
-from decimal import MAX_EMAX, MIN_EMIN, Context, Decimal, localcontext
+from decimal import Decimal
 from fractions import Fraction
+from operator import add, le, lt, mul, sub, truediv
 from typing import Any, Literal
 
-from flint import acb, arb
+from flint import acb, arb, fmpz
 
 from kovacic.algebra.precision import working_precision
 from kovacic.algebra.rationals import to_fmpq
 from kovacic.enclosure.points import ExactPoint, as_number, as_point, to_ball
 from kovacic.errors import InputError, LimitExceeded
+from kovacic.limits import DEFAULT_LIMITS
 from kovacic.numbers.exact import whole
 
 Dyadic = tuple[int, int]  # a dyadic rational (m, e), the number m 2^e; m is odd, or (0, 0) stands for zero
-_DECIMAL_BITS = 10_000  # largest |exponent| that is written out in decimals
-_FRACTION_BITS = 10_000_000  # largest |exponent| that is written out as a fraction: 2^(10^12) would fill the memory
-_DECIMAL_EXPONENT = 18  # characters of an exponent that Python's decimals can have
 _SHOWN_DIGITS = 40  # digits in the representation, and of exact numbers
 
 
@@ -64,16 +63,16 @@ def _above(number: Dyadic) -> float:
     return value if arb(value) >= arb(number) else math.nextafter(value, math.inf)
 
 
+def _check_exponent(exponent: int) -> None:
+    # A number such as 2^(10^12) would fill the memory.
+    if abs(exponent) > DEFAULT_LIMITS.bits:
+        raise OverflowError(f"a number near 2^{exponent} isn't written out")
+
+
 def _to_fraction(number: Dyadic) -> Fraction:
     mantissa, exponent = number
-    if abs(exponent) > _FRACTION_BITS:
-        raise OverflowError(f"a number near 2^{exponent} isn't written out as a fraction")
+    _check_exponent(exponent)
     return Fraction(mantissa) * Fraction(2) ** exponent
-
-
-def _log10(number: Dyadic, exponent: int) -> float:
-    """log10 of |m| 2^e over 2^exponent: e alone may be too large for a double."""
-    return (math.log2(abs(number[0])) + (number[1] - exponent)) * math.log10(2)
 
 
 def _operator(compute: Callable[[acb, acb], acb]) -> Callable[[Ball, object], Ball]:
@@ -87,13 +86,13 @@ class Route:
     Attributes
     ----------
     digits : int
-        How many were asked for.
+        The number of digits that was requested.
     method : str
         "taylor" or "closed form".
     bits : int
         The working precision of the last run.
     runs : int
-        How often the precision was raised, and one.
+        The number of runs, each with a higher precision.
     """
 
     digits: int
@@ -111,16 +110,16 @@ class Route:
 class Ball:
     """A number known up to a proven error: the exact value z satisfies |z - midpoint| <= radius.
 
-    A ball whose radius isn't finite (nothing is known) doesn't exist: what would make one raises.  Balls are immutable and
-    hashable, with `+ - * / **` and comparisons that return True, False, or None if that isn't certain.  `str` has all digits
-    that are known and a radius that covers what was rounded; `format` takes what a Decimal takes.
+    The radius is always finite: an operation that would leave nothing known raises.  Balls are immutable and hashable, with
+    `+ - * / **` and comparisons that return True, False, or None if neither is certain.  `str` has all known digits and a
+    radius that covers the rounding; `format` takes the formats of a Decimal.
 
     Attributes
     ----------
     re, im, rad : pair of int
         Midpoint and radius, dyadic rationals (m, e), m 2^e.
     real : bool
-        Is the exact value certainly real?
+        True if the exact value is certainly real.
     route : Route or None
         How a value of a solution was computed; None for other balls.
 
@@ -159,7 +158,7 @@ class Ball:
 
     @classmethod
     def of(cls, value: object) -> Ball:
-        """The ball of a number; a ball is returned as it is.
+        """The ball of a number; a ball is returned unchanged.
 
         Parameters
         ----------
@@ -169,7 +168,7 @@ class Ball:
         Raises
         ------
         InputError
-            For what isn't a finite number.
+            For anything but a finite number.
 
         Examples
         --------
@@ -180,8 +179,7 @@ class Ball:
         """
         number = as_number(value, "the number")
         # Constants to 100 digits and some more; a long integer exactly.
-        parts = (number.re, number.im) if isinstance(number, ExactPoint) else ()
-        with working_precision(400 + max((part.numerator.bit_length() for part in parts), default=0)):
+        with working_precision(400 + (number.height_bits() if isinstance(number, ExactPoint) else 0)):
             found = ball_from_flint(to_ball(number))
         if found is None:
             raise InputError(f"{value} isn't finite")
@@ -228,7 +226,7 @@ class Ball:
         Parameters
         ----------
         number : number or Ball
-            int, Fraction, float, complex, Decimal, decimal text, mpmath or SymPy rational; or a ball, as a whole.
+            int, Fraction, float, complex, Decimal, decimal text, mpmath or SymPy rational; or a ball, all of it.
 
         Examples
         --------
@@ -238,8 +236,7 @@ class Ball:
         if isinstance(number, Ball):
             return _reaches(self, number, -1)
         point = as_point(number, "the number")
-        (re, im) = self.midpoint
-        return bool((point - ExactPoint(re, im)).norm_squared() <= to_fmpq(_to_fraction(self.rad) ** 2))
+        return bool((point - ExactPoint(*self.midpoint)).norm_squared() <= to_fmpq(_to_fraction(self.rad) ** 2))
 
     def overlaps(self, other: object) -> bool:
         """True if the two exact values may be equal; False proves that they differ.
@@ -247,7 +244,7 @@ class Ball:
         Parameters
         ----------
         other : number or Ball
-            The other one.
+            The other value.
 
         Examples
         --------
@@ -258,18 +255,16 @@ class Ball:
 
     @property
     def digits(self) -> float:
-        """Correct decimal digits, -log10(radius / |midpoint|); inf for an exact ball, 0 or less where nothing is known.
+        """Correct decimal digits, -log10(radius / |midpoint|); inf for an exact ball, 0 or less if none is known.
 
         >>> Ball((1, 0), rad=(1, -10)).digits > 3
         True
         """
-        if self.rad[0] == 0:
+        if self.is_exact():
             return math.inf
-        unit = self.rad[1]
-        sizes = [_log10(part, unit) for part in (self.re, self.im) if part[0] != 0]
-        if not sizes:
-            return -math.inf
-        return max(sizes) - _log10(self.rad, unit)
+        with working_precision(64):
+            share = abs(arb(self.re)).max(abs(arb(self.im))) / arb(self.rad)
+            return float(share.log() / arb(10).log()) if share > 0 else -math.inf
 
     def __float__(self) -> float:
         if not self.real:
@@ -280,7 +275,7 @@ class Ball:
         return self.mid
 
     def to_mpmath(self) -> Any:
-        """The midpoint as an mpmath number (mpf where `real`, else mpc), exactly: with as many bits as it has.
+        """The exact midpoint as an mpmath number, mpf if `real`, else mpc.
 
         Examples
         --------
@@ -309,7 +304,7 @@ class Ball:
         return interval(self.re) if self.real else mpmath.iv.mpc(interval(self.re), interval(self.im))
 
     def to_flint(self) -> arb | acb:
-        """The ball as python-flint's: arb where `real`, else an acb that contains it; the radius may be larger by its rounding.
+        """The ball as python-flint's: arb if `real`, else an acb that contains it; the radius may be larger by its rounding.
 
         Examples
         --------
@@ -322,16 +317,15 @@ class Ball:
     def to_dict(self) -> dict[str, str]:
         """A disc in which the exact value lies, as decimal text: "re" and "im" of its midpoint, and "radius".
 
-        The midpoint is rounded to some digits more than are known, and the radius covers that.  It is what
-        `kovacic evaluate --json` prints.
+        The midpoint is rounded to some digits more than are known, and the radius covers the rounding.
+        `kovacic evaluate --json` prints it.
 
         Examples
         --------
         >>> Ball((3, -1), rad=(1, -30)).to_dict()
         {'re': '1.500000000000', 'im': '0', 'radius': '9.4e-10'}
         """
-        re, im, radius = self._decimal_disc(self._shown_digits(4))
-        return {"re": re, "im": im, "radius": radius}
+        return dict(zip(("re", "im", "radius"), self._decimal_disc(self._shown_digits(4)), strict=True))
 
     @property
     def lower(self) -> float:
@@ -359,7 +353,7 @@ class Ball:
         with working_precision(max(64, bits) + 32):
             found = ball_from_flint(compute(ball_to_flint(self), ball_to_flint(second)))
         if found is None:
-            raise ZeroDivisionError("nothing is known of the result: is an operand zero, as far as is known?")
+            raise ZeroDivisionError("nothing is known about the result: an operand may be zero")
         return found
 
     def __neg__(self) -> Ball:
@@ -368,52 +362,48 @@ class Ball:
     def __abs__(self) -> Ball:
         return self._combined(0, lambda z, _: acb(abs(z)))
 
-    __add__ = __radd__ = _operator(lambda x, y: x + y)
-    __sub__ = _operator(lambda x, y: x - y)
+    __add__ = __radd__ = _operator(add)
+    __sub__ = _operator(sub)
     __rsub__ = _operator(lambda x, y: y - x)
-    __mul__ = __rmul__ = _operator(lambda x, y: x * y)
-    __truediv__ = _operator(lambda x, y: x / y)
+    __mul__ = __rmul__ = _operator(mul)
+    __truediv__ = _operator(truediv)
     __rtruediv__ = _operator(lambda x, y: y / x)
 
     def __pow__(self, other: object) -> Ball:
-        """Principal powers; whole ones of anything."""
-        if isinstance(other, int):
-            return self._combined(other, lambda x, _: x**other)
-        return self._combined(other, lambda x, y: x**y)
+        """Principal powers; integer powers of any ball."""
+        return self._combined(other, lambda x, y: x ** (other if isinstance(other, int) else y))
 
     def __lt__(self, other: object) -> bool | None:
-        """True or False where that is certain for all numbers of the balls, else None; so for <=, > and >=."""
-        return self._order(other, strict=True)
+        """True or False if that is certain for all numbers of the balls, else None; likewise <=, > and >=."""
+        return self._compared(other, lt)
 
     def __le__(self, other: object) -> bool | None:
-        return self._order(other, strict=False)
+        return self._compared(other, le)
 
     def __ge__(self, other: object) -> bool | None:
-        return _as_ball(other)._order(self, strict=False)
+        return _as_ball(other)._compared(self, le)
 
     def __gt__(self, other: object) -> bool | None:
-        return _as_ball(other)._order(self, strict=True)
+        return _as_ball(other)._compared(self, lt)
 
-    def _order(self, other: object, *, strict: bool) -> bool | None:
+    def _compared(self, other: object, relation: Callable[[arb, arb], bool]) -> bool | None:
         second = _as_ball(other)
         self._demand_real()
         second._demand_real()
         low, high = _ends(self.re, self.rad)
         other_low, other_high = _ends(second.re, second.rad)
-        # Ends are exact, so these comparisons are; ends that touch decide <= alone.
-        if arb(high) < arb(other_low) or (not strict and high == other_low):
+        # Ends are exact, and so are these comparisons: certain for all numbers, or for none.
+        if relation(arb(high), arb(other_low)):
             return True
-        if arb(other_high) < arb(low) or (strict and other_high == low):
-            return False
-        return None
+        return None if relation(arb(low), arb(other_high)) else False
 
     def equals(self, other: object) -> bool | None:
-        """True if the exact value is that number.
+        """True if the exact value is certainly this number.
 
         Parameters
         ----------
         other : number or Ball
-            The other one.
+            The other value.
 
         Returns
         -------
@@ -432,10 +422,7 @@ class Ball:
 
     def __format__(self, spec: str) -> str:
         """The midpoint in the format of a Decimal (".30f"), real and imaginary part; without a format as `str`."""
-        if not spec:
-            return str(self)
-        re, im = (format(_decimal(part), spec) for part in (self.re, self.im))
-        return self._as_number(re, im)
+        return self._as_number(*(format(_decimal(part), spec) for part in (self.re, self.im))) if spec else str(self)
 
     def __str__(self) -> str:
         """All digits that are known, and a radius that covers what was rounded; 40 digits of an exact number."""
@@ -478,27 +465,16 @@ def _as_ball(number: object) -> Ball:
 
 
 def _rounded_up(radius: arb) -> str:
-    """A decimal number of two digits that isn't below this one."""
-    if radius == 0:
-        return "0"
-    text: str = radius.str(2, radius=False)
-    if arb(text).lower() >= radius:
-        return text
-    mantissa, _, exponent = text.partition("e")
-    # Decimal has no such exponents; a unit of the second digit is a tenth of the mantissa.
-    if len(exponent) > _DECIMAL_EXPONENT:
-        return f"{Decimal(mantissa) + Decimal('0.1')}e{exponent}"
-    near = Decimal(text)
-    unit = Decimal((0, (1,), int(near.as_tuple().exponent)))
-    with localcontext(Context(prec=_SHOWN_DIGITS, Emax=MAX_EMAX, Emin=MIN_EMIN)):
-        return str(near + unit).lower()
+    """The smallest decimal number of two digits that isn't below this one."""
+    # A percent of it is at most a unit of the second digit, so that none is left out.
+    nearby: list[str] = [(radius * (100 + k) / 100).str(2, radius=False) for k in range(12)]
+    return next(text for text in nearby if arb(text).lower() >= radius)
 
 
 def _ends(middle: Dyadic, rad: Dyadic) -> tuple[Dyadic, Dyadic]:
     """middle - rad and middle + rad, exactly."""
     e = min(middle[1], rad[1])
-    if max(middle[1], rad[1]) - e > _FRACTION_BITS:
-        raise OverflowError("midpoint and radius are too far apart to be added")
+    _check_exponent(max(middle[1], rad[1]) - e)
     # Both as integers over 2^-e, e the smaller exponent.
     m = middle[0] << (middle[1] - e)
     r = rad[0] << (rad[1] - e)
@@ -508,28 +484,23 @@ def _ends(middle: Dyadic, rad: Dyadic) -> tuple[Dyadic, Dyadic]:
 def _decimal(number: Dyadic) -> Decimal:
     """The exact decimal number."""
     mantissa, exponent = number
-    if abs(exponent) > _DECIMAL_BITS:
-        raise OverflowError(f"a number near 2^{exponent} isn't written out in decimals")
-    # m 2^e = (m 5^-e) 10^e for negative e
-    scaled = abs(mantissa) * 5**-exponent if exponent < 0 else abs(mantissa) * 2**exponent
-    return Decimal((int(mantissa < 0), tuple(map(int, str(scaled))), min(exponent, 0)))
+    _check_exponent(exponent)
+    # m 2^e = (m 5^-e) 10^e for negative e; FLINT writes integers of any length.
+    scaled = fmpz(mantissa) * (fmpz(5) ** -exponent if exponent < 0 else fmpz(2) ** exponent)
+    return Decimal(f"{scaled}e{min(exponent, 0)}")
 
 
 def _reaches(a: Ball, b: Ball, sign: int) -> bool:
-    """True if the distance of the midpoints is at most the radius of a plus `sign` times that of b, decided exactly.
-
-    First with a few hundred bits, which tell where the exponents are too far apart for fractions.
-    """
-    with working_precision(256):
-        reach = arb(a.rad) + sign * arb(b.rad)
-        distance = (arb(a.re) - arb(b.re)) ** 2 + (arb(a.im) - arb(b.im)) ** 2
-        if reach < 0 or distance > reach * reach:
-            return False
-        if reach >= 0 and distance <= reach * reach:
-            return True
-    rest = _to_fraction(a.rad) + sign * _to_fraction(b.rad)
-    step = [_to_fraction(x) - _to_fraction(y) for x, y in ((a.re, b.re), (a.im, b.im))]
-    return rest >= 0 and step[0] ** 2 + step[1] ** 2 <= rest**2
+    """True if the distance of the midpoints is at most the radius of a plus `sign` times that of b, decided exactly."""
+    for bits in (256, 4 * DEFAULT_LIMITS.bits):  # with so many bits nothing is rounded, unless the exponents are huge
+        with working_precision(bits):
+            reach = arb(a.rad) + sign * arb(b.rad)
+            distance = (arb(a.re) - arb(b.re)) ** 2 + (arb(a.im) - arb(b.im)) ** 2
+            if reach < 0 or distance > reach * reach:
+                return False
+            if reach >= 0 and distance <= reach * reach:
+                return True
+    raise OverflowError("the balls can't be compared: their exponents are too far apart")
 
 
 def ball_from_flint(value: acb | arb, route: Route | None = None) -> Ball | None:
@@ -537,17 +508,13 @@ def ball_from_flint(value: acb | arb, route: Route | None = None) -> Ball | None
     if not value.is_finite():
         return None
     z = acb(value)
-    re = z.real
-    im = z.imag
-    if im.is_zero():
-        return Ball(_man_exp(re.mid()), (0, 0), _man_exp(re.rad()), True, route)
+    a = z.real.rad()
+    b = z.imag.rad()
     # The disc around a rectangle: its radius is half the diagonal, rounded up.
     with working_precision(60):
-        a = re.rad()
-        b = im.rad()
         half_diagonal = a + b if a.is_zero() or b.is_zero() else (a * a + b * b).sqrt()
-        rad = half_diagonal.upper()
-    return Ball(_man_exp(re.mid()), _man_exp(im.mid()), _man_exp(rad), False, route)
+        re, im, rad = map(_man_exp, (z.real.mid(), z.imag.mid(), half_diagonal.upper()))
+    return Ball(re, im, rad, bool(z.imag.is_zero()), route)
 
 
 def finite_ball(value: acb | arb, route: Route | None = None) -> Ball:

@@ -17,7 +17,9 @@ divided by its value and multiplied by t to the exponent it is the Frobenius sol
 from __future__ import annotations
 
 import math
+import sys
 from collections.abc import Callable
+from contextlib import suppress
 from dataclasses import dataclass
 from functools import cached_property, lru_cache
 from typing import Any
@@ -34,28 +36,24 @@ from kovacic.enclosure.matrices import Matrix, State, fundamental, inverse, mult
 from kovacic.enclosure.points import ExactPoint, kept_at_precision, to_acb
 from kovacic.enclosure.singular import Singular, power_of
 from kovacic.errors import LimitExceeded
-from kovacic.limits import Budget, Limits, bounded_work
+from kovacic.limits import MOST_TRIALS, Budget, Limits, bounded_work
 from kovacic.special.pullback import Pullback, StandardForm
 from kovacic.special.search import find
 
-_BITS = 64  # in which the course of a leg is proven
-_MOST_LEG_PIECES = 400  # into which a leg is cut for that, at most
-_TRIED = 1, 2, 4  # multiples of the working precision at which a matrix may become finite
+_LEG_BITS = 64  # in which the course of a leg is proven
 _MOST_FROM_ZERO = 2_000  # digits up to which the functions cost less than the series at a singular point (measured)
-_DEGREE = 24  # of S, up to which a pull-back is sought
-UNBOUNDED = 1 << 62  # units of work
-_LARGEST = 1_000  # parameters of special functions up to which a call of FLINT, which can't be stopped, is short
+_NO_GAUGE = RatFunc(QQ.poly([]))
+_LARGEST_PARAMETER = 1_000  # of special functions, up to which a call of FLINT, which can't be stopped, is short
 
 
 class NotServed(Exception):
-    """The values on this leg aren't proven by FLINT's functions."""
+    """Raised where FLINT's functions don't prove the values on a leg."""
 
 
 @lru_cache(maxsize=64)
-def classical_of(S: RatFunc, work: int = UNBOUNDED) -> Classical | None:
-    """The standard equation that S is pulled back from over Q; None if none is found with this effort, or if its
-    parameters are large."""
-    if S.field != QQ or S.num.degree + S.den.degree > _DEGREE:
+def classical_of(S: RatFunc, work: int = sys.maxsize) -> Classical | None:
+    """The standard equation that S is pulled back from over Q, or None if none with short parameters is found in this work."""
+    if S.field != QQ:
         return None
     budget = Budget(Limits(constants=1))
     with bounded_work(work):
@@ -65,7 +63,7 @@ def classical_of(S: RatFunc, work: int = UNBOUNDED) -> Classical | None:
     found = search.pullback
     if found is None or found.f.field != QQ:
         return None
-    is_short = all(abs(square) < _LARGEST**2 for square in found.equation.parameters)
+    is_short = all(abs(square) < _LARGEST_PARAMETER**2 for square in found.equation.parameters)
     return Classical(found) if is_short else None
 
 
@@ -79,33 +77,31 @@ class Classical:
         return f"FLINT's functions: {self.pullback.equation.name} equation in {self.pullback.f}"
 
     def price(self, digits: float) -> float:
-        """That of a target."""
+        """The estimated cost of a target."""
         return self.pullback.equation.cost.target(digits)
 
     def lost_digits(self, start: ExactPoint | Singular) -> float:
-        """About: by Y(b) Y(a)^-1 for b beside a, where both solutions are of the size g and their Wronskian isn't; none from a
-        singular point on.
+        """The approximate number of digits lost by Y(b) Y(a)^-1; none from a singular point on.
 
-        The determinant loses the digits of g^2, and the product of the matrices as many.
+        If both solutions are of the size g near a and their Wronskian isn't, the determinant loses the digits of g^2, and the
+        product of the matrices as many.
         """
         if isinstance(start, Singular):
             return 0.0
-        try:
-            with working_precision(_BITS):
-                y1, y2, dy1, dy2 = _solutions_at_start(self, start, False).at(start)
-                # The two products in the Wronskian y1 dy2 - y2 dy1.
-                squares = [float(abs(y * dy).mid().log()) for y, dy in ((y1, dy2), (y2, dy1)) if abs(y * dy).mid() > 0]
-        except NotServed:
-            return 0.0
-        return max(0.0, 2 * max(squares, default=0.0) / math.log(10))
+        with suppress(NotServed), working_precision(_LEG_BITS):
+            y1, y2, dy1, dy2 = _solutions_at_start(self, start, False).at(start)
+            # The larger product in the Wronskian y1 dy2 - y2 dy1 is about g^2, which counts twice.
+            product = abs(y1 * dy2).max(abs(y2 * dy1)).mid()
+            return 2 * float(product.log()) / math.log(10) if product > 1 else 0.0
+        return 0.0
 
     def is_cheap(self, digits: int, *, from_zero: bool) -> bool:
-        """True if they cost less than the Taylor route, for a start at a zero of f or another."""
+        """True if the functions cost less than the Taylor route; `from_zero` says that the start is a zero of f."""
         return digits <= max(self.pullback.equation.cost.most, _MOST_FROM_ZERO if from_zero else 0)
 
     def coordinate(self, point: ExactPoint) -> int:
         """The number of the standard coordinate that serves best at the point."""
-        n, d = (value_at(poly, point) for poly in self.fraction)
+        n, d = (polynomial_at(poly, point) for poly in self.fraction)
         return self.pullback.equation.coordinate(n, d)
 
     @property
@@ -139,13 +135,13 @@ class Classical:
 
 
 Closed = CaseOneForm | Classical
-"""The ways that share nothing with Taylor's method."""
+"""The routes that share nothing with Taylor's method."""
 
 
 def _settled(compute: Callable[[], Matrix], bits: int) -> Matrix:
     """A finite matrix, computed with these bits or a few times as many: two solutions may be nearly dependent."""
-    for more in _TRIED:
-        with working_precision(more * bits):
+    for factor in (1, 2, 4):
+        with working_precision(factor * bits):
             matrix = compute()
         if all(entry.is_finite() for entry in matrix):
             return matrix
@@ -154,7 +150,7 @@ def _settled(compute: Callable[[], Matrix], bits: int) -> Matrix:
 
 @kept_at_precision(maxsize=64)
 def _solutions_at_start(classical: Classical, a: ExactPoint, is_zero: bool) -> Solutions:
-    """The solutions from a, perhaps an ordinary zero of f, on."""
+    """The solutions from a on; `is_zero` says that a is an ordinary zero of f."""
     form = _form(classical, classical.coordinate(a))
     return Solutions.make(form, a, (fmpq(0), fmpq(1)) if is_zero else None)
 
@@ -170,29 +166,22 @@ def _frobenius(classical: Classical, point: Singular, gauge: RatFunc, needed: tu
         raise NotServed
     with working_precision(_sharper(ctx.prec)):
         x0 = point.near.x
-        (lower, upper) = point.exponents()
+        lower, upper = point.exponents()
         form = _form(classical, classical.coordinate(point.near))
     if form.n(x0) != 0 or form.d(x0) == 0:  # f isn't zero there
         raise NotServed
-    if form.powers[0][0] == 0 or not acb(upper).imag.is_zero():
+    may_have_logarithm = needed[0] and point.difference is not None  # the dominant solution
+    if may_have_logarithm or form.powers[0][0] == 0 or not acb(upper).imag.is_zero():
         raise NotServed
-    # The dominant solution may have a logarithm.
-    if needed[0] and point.difference is not None:
-        raise NotServed
-    return Solutions.make(form, point.near, (lower, upper), _without_pole(gauge, point.near), needed)
-
-
-@lru_cache(maxsize=64)
-def _without_pole(gauge: RatFunc, point: ExactPoint) -> RatFunc | None:
-    """Without the part c/(x - x0), at most a simple pole; None for zero."""
-    # c = (gauge t) at the point; an ordinary point has c = 0.
-    t = QQ.poly([-point.re, 1])
-    return (gauge - (gauge * t)(point.re) / t) or None
+    # The gauge without its part c/t, at most a simple pole with c = (gauge t)(x0); c is 0 at an ordinary point.
+    t = QQ.poly([-point.near.re, 1])
+    regular = gauge - (gauge * t)(point.near.re) / t
+    return Solutions.make(form, point.near, (lower, upper), regular, needed)
 
 
 def _ordinary_zero(form: StandardForm, a: ExactPoint, b: ExactPoint) -> ExactPoint | None:
-    """A zero of f on a real leg that is an ordinary point of y'' = S y: where f^(1/2 +- mu) has the orders 1/2 +- 1/2."""
-    if not (a.is_real() and b.is_real()) or form.n.degree() < 2 or form.powers[0][0] == 0:
+    """A zero of f on a real leg where y'' = S y is regular: there f^(1/2 +- mu) has the orders 1/2 +- 1/2."""
+    if not (a.is_real() and b.is_real()):
         return None
     low, high = sorted((a.x, b.x))
     doubled = 2 * form.powers[0][0] - 1  # 2 mu, or -2 mu
@@ -202,17 +191,17 @@ def _ordinary_zero(form: StandardForm, a: ExactPoint, b: ExactPoint) -> ExactPoi
 
 @dataclass(frozen=True, eq=False)
 class Solutions:
-    """The solutions (1) on straight ways from a point, with the powers that are 1 there, times a gauge that is 1 there; or with
-    `exponents` Frobenius solutions, to the exponents in this order: then `factors` and `gauge` are without the powers of t.
+    """The solutions (1) on straight ways from a point, with powers and a gauge that are 1 there; or with `exponents` the
+    Frobenius solutions to the exponents in this order: then `factors` and `gauge` are without the powers of t.
 
-    `factors` are those of W, n, d - n and d that aren't constant, with their exponents in either solution.
+    `factors` are those of W, n, d - n and d that aren't constant, with derivatives and their exponents in either solution.
     """
 
     form: StandardForm
     point: ExactPoint
     factors: tuple[tuple[fmpq_poly, fmpq_poly, tuple[Any, Any]], ...]
     exponents: tuple[Any, Any] | None
-    gauge: RatFunc | None
+    gauge: RatFunc
     needed: tuple[bool, bool]
 
     @classmethod
@@ -221,12 +210,11 @@ class Solutions:
         form: StandardForm,
         point: ExactPoint,
         exponents: tuple[Any, Any] | None = None,
-        gauge: RatFunc | None = None,
+        gauge: RatFunc = _NO_GAUGE,
         needed: tuple[bool, bool] = (True, True),
     ) -> Solutions:
         """The solutions that are needed (in the order of the exponents)."""
-        n = form.n
-        d = form.d
+        n, d = form.n, form.d
         factors = []
         for poly, powers in zip((n.derivative() * d - n * d.derivative(), n, d - n, d), form.exponents, strict=True):
             if exponents is not None:
@@ -243,8 +231,7 @@ class Solutions:
         return inverse(self.at(self.point))
 
     def at(self, x: ExactPoint) -> Matrix:
-        """The values and slopes at x (the columns: the two solutions; zero where one isn't needed), perhaps not finite; raises
-        NotServed."""
+        """The values and slopes at x, perhaps not finite, a column for each solution (zero if not needed); raises NotServed."""
         if self.exponents is not None:
             if self.point == x:  # an ordinary point, where the second solution in the form's order is 1
                 # There E = 1, and the slope of the first solution is that of the factors alone.
@@ -255,17 +242,15 @@ class Solutions:
         return fundamental(*self._states(x, (True, True)))
 
     def _states(self, x: ExactPoint, needed: tuple[bool, bool]) -> list[State]:
-        """With the powers, in the order of the form."""
+        """The solutions and slopes at x with the powers, in the order of the form."""
         form = self.form
         logs = [_followed(poly, self.point, x) for poly, *_ in self.factors]
         if x != self.point:
             _avoids(form, self.point, x, needed[::-1])
-        n = value_at(form.n, x)
-        d = value_at(form.d, x)
-        dn, dd = (value_at(poly, x) for poly in form.derivatives)
+        n, d, dn, dd = (polynomial_at(poly, x) for poly in (form.n, form.d, *form.derivatives))
         # f' = (n' d - n d')/d^2.
         slope = acb((dn - n / d * dd) / d)
-        rates = [acb(value_at(derivative, x) / value_at(poly, x)) for poly, derivative, _ in self.factors]
+        rates = [acb(polynomial_at(derivative, x) / polynomial_at(poly, x)) for poly, derivative, _ in self.factors]
         found = []
         for i, (E, dE) in enumerate(form.values(acb(n / d), needed)):
             exponents = [powers[i] for _, _, powers in self.factors]
@@ -276,15 +261,12 @@ class Solutions:
         return found
 
     def _frobenius(self, x: ExactPoint, exponents: tuple[Any, Any]) -> list[State]:
+        check_segment(System.of(self.gauge), self.point, x)
+        theta = log_derivative(self.gauge)
+        growth = theta.growth(to_acb(self.point), to_acb(x))
+        rate = theta.value(to_acb(x))
         t = to_acb(x - self.point)
-        growth = acb(1)
-        rate = acb(0)
         columns = []
-        if self.gauge is not None:
-            check_segment(System.of(self.gauge), self.point, x)
-            theta = log_derivative(self.gauge)
-            growth = theta.growth(to_acb(self.point), to_acb(x))
-            rate = theta.value(to_acb(x))
         # A form has the solution with the larger exponent first, a Frobenius basis second.
         first, second = self._states(x, self.needed[::-1])
         for (y, dy), exponent in zip((second, first), exponents, strict=True):
@@ -299,7 +281,7 @@ class Solutions:
         return columns
 
 
-def value_at(poly: fmpq_poly, x: ExactPoint) -> Any:
+def polynomial_at(poly: fmpq_poly, x: ExactPoint) -> Any:
     """A rational number at a rational point, else a ball."""
     return poly(x.x) if x.is_real() else acb_poly(poly)(to_acb(x))
 
@@ -310,48 +292,48 @@ def _sharper(bits: int) -> int:
 
 
 def _followed(poly: fmpq_poly, a: ExactPoint, b: ExactPoint) -> acb:
-    """The logarithm of p(b)/p(a) that is continued from 0 along the segment; raises NotServed if p may have a zero there.
+    """The logarithm of p(b)/p(a), continued from 0 along the segment; raises NotServed if p may have a zero there.
 
     The quotients (x - zeta)/(a - zeta) run along straight lines from 1, so their principal logarithms are the continuous ones
-    and add up to the logarithm.  So its imaginary part is known to a few digits, and which multiple of pi i is to be added to
-    the principal logarithm of p(b)/p(a) or of its negative.
+    and add up to the logarithm.  So its imaginary part is known to a few digits, which determine the multiple of pi i to be
+    added to the principal logarithm of p(b)/p(a) or of its negative.
     """
     # 0 where the way begins at a zero of f, of 1 - f or a pole.
-    start = value_at(poly, a)
+    start = polynomial_at(poly, a)
     if start == 0:
         raise NotServed
-    ratio = acb(value_at(poly, b) / start)
+    ratio = acb(polynomial_at(poly, b) / start)
     if poly.degree() == 1:
         if not _off(ratio):
             raise NotServed
         return ratio.log()
-    with working_precision(_BITS):
+    with working_precision(_LEG_BITS):
         x = to_acb(a)
         y = to_acb(b)
-        zeros = System((), tuple(map(int, poly.numer().coeffs()))).roots("den", _BITS)
+        zeros = System((), tuple(map(int, poly.numer().coeffs()))).roots("den", _LEG_BITS)
         quotients = [((y - zeta) / (x - zeta), k) for zeta, k in zeros]
         if not all(_off(quotient) for quotient, _ in quotients):
             raise NotServed
         angle = sum((quotient.log().imag * k for quotient, k in quotients), arb(0))
-    # log p(b)/p(a) = log(+-ratio) + i pi turns: an odd number of half turns where the sign was changed.
-    back = ratio.real.mid() < 0
-    beside = -ratio if back else ratio  # away from the cut of the principal logarithm
-    log = beside.log()
-    turns = ((angle - log.imag) / arb.pi()).unique_fmpz()
-    if turns is None or bool(turns % 2) is not back:
+    # log p(b)/p(a) = log(+-ratio) + i pi half_turns, an odd number of half turns for the negative ratio.
+    is_negative = ratio.real.mid() < 0
+    log = (-ratio if is_negative else ratio).log()  # away from the cut of the principal logarithm
+    half_turns = ((angle - log.imag) / arb.pi()).unique_fmpz()
+    if half_turns is None or bool(half_turns % 2) is not is_negative:
         raise NotServed
-    return log + acb(0, arb.pi() * turns) if turns else log
+    return log + acb(0, arb.pi() * half_turns)
 
 
-def _check_pieces(a: ExactPoint, b: ExactPoint, allowed: Callable[[acb], bool]) -> None:
-    """Raise NotServed unless the condition holds on the balls of a bounded number of pieces of the segment."""
+def _check_slit(over: acb_poly, under: acb_poly, a: ExactPoint, b: ExactPoint) -> None:
+    """Raise NotServed unless balls on pieces of the segment prove that the quotient is neither 0 nor negative there."""
     start = to_acb(a)
     step = to_acb(b - a)
     waiting = [(0, 0)]  # k and depth: the piece from k/2^depth to (k + 1)/2^depth
-    for _ in range(_MOST_LEG_PIECES):
+    for _ in range(MOST_TRIALS):
         k, depth = waiting.pop()
-        # A ball on the segment with the middle (2 k + 1)/2^(depth + 1) of it: half the piece is its radius.
-        if not allowed(start + step * acb(arb((2 * k + 1, -depth - 1), (1, -depth - 1)))):
+        # A ball around the middle (2 k + 1)/2^(depth + 1) of the piece, with half of it as its radius.
+        x = start + step * acb(arb((2 * k + 1, -depth - 1), (1, -depth - 1)))
+        if not _off(over(x) / under(x)):
             waiting += [(2 * k + 1, depth + 1), (2 * k, depth + 1)]
         if not waiting:
             return
@@ -364,19 +346,17 @@ def _off(z: acb) -> bool:
 
 
 def _avoids(form: StandardForm, a: ExactPoint, b: ExactPoint, needed: tuple[bool, bool]) -> None:
-    """Raise NotServed unless the segment is proven not to meet a slit.  That of z is the second solution's only.
+    """Raise NotServed unless the segment is proven not to meet a slit; that of z concerns the second solution only.
 
     On the real axis z and 1 - z keep their signs, since their numerators and denominators have no zeros (`_followed`).
     """
-    # z and 1 - z are these over d; each has its slit.
-    tops = (form.n, form.d - form.n)
-    for c, top, is_met in zip(form.slits, tops, (needed[0], True), strict=True):
-        if c is None or not is_met:
+    # z and 1 - z are these numerators over d; each has its slit.
+    for c, top, matters in zip(form.slits, (form.n, form.d - form.n), (needed[0], True), strict=True):
+        if c is None or not matters:
             continue
         if a.is_real() and b.is_real():
             if top(a.x) / form.d(a.x) <= 0:
                 raise NotServed
-            continue
-        with working_precision(_BITS):
-            over, under = acb_poly(top) * c, acb_poly(form.d)
-            _check_pieces(a, b, lambda x, over=over, under=under: _off(over(x) / under(x)))  # type: ignore[misc]
+        else:
+            with working_precision(_LEG_BITS):
+                _check_slit(acb_poly(top) * c, acb_poly(form.d), a, b)

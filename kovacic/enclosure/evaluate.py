@@ -63,16 +63,15 @@ def evaluate(equation: object, x: object, *, derivative: bool = False, **keyword
         S of y'' = S y (text, SymPy expression, rational function, or a pair of coefficient lists from low to high), an equation
         a y'' + b y' + c y = f, or a solution of this package.  All of them may have exp, log, sqrt, sin, tan, erf, ... in
         them: then with y0 and dy0, by Taylor's method, where b/a, c/a and f/a are analytic along the path; at the ends of a
-        line they need a value only, as sqrt(x) at 0.
-        There may be algebraic constants; then no bound is lost, but the start is at a regular point.
+        line they need a value only, as sqrt(x) at 0.  With algebraic constants the start is at a regular point.
     x : number, sequence or array
-        Where: a number, a sequence of numbers, or a NumPy array.
+        The point or points: a number, a sequence of numbers, or a NumPy array.
     derivative : bool
         With True pairs (y, y') of balls come back.  False by default.
     initial : Start
         The solution: `Start` describes its fields, x0, y0, dy0, which and frobenius, which are keywords here as well.
     accuracy : Accuracy
-        How accurately: the fields of `Accuracy`, which are digits, method and limits, are keywords as well.
+        The accuracy; the fields of `Accuracy`, digits, method and limits, are keywords as well.
     path : str or sequence of numbers
         By default the straight line from x0 to each x (from infinity: along the line through 0); through a singular point it
         is refused.  "above" or "below" says on which side of the real axis to go around; [v1, v2, ...] goes through these
@@ -94,12 +93,12 @@ def evaluate(equation: object, x: object, *, derivative: bool = False, **keyword
         A singular point or branch cut at an end or on the path, with its place; an irregular one as the start; digits out of
         range; a number that isn't finite; an unknown method.
     LimitExceeded
-        Where nothing could be said within the limits.
+        If the limits don't suffice for any enclosure.
 
     Warns
     -----
     AccuracyWarning
-        Where the ball is wider than was asked for, with the reason.
+        Where the ball is wider than requested, with the reason.
 
     Examples
     --------
@@ -128,7 +127,7 @@ def evaluate(equation: object, x: object, *, derivative: bool = False, **keyword
 
 
 class Prepared:
-    """One solution, of which values are asked for: made by `prepared`, called with points."""
+    """One solution as a function of points, made by `prepared`."""
 
     def __init__(self, question: Any, start: Start) -> None:
         self._question = question
@@ -157,11 +156,11 @@ class Prepared:
         Parameters
         ----------
         x : number, sequence or array
-            Where, as for `evaluate`.
+            The point or points, as for `evaluate`.
         derivative : bool
             With True pairs of balls, y and y', come back.  False by default.
         digits : int
-            The accuracy of this call; by default that of the solution.
+            The accuracy of this call, by default that of the solution.
 
         Examples
         --------
@@ -197,8 +196,8 @@ class Prepared:
 
         points: Any = np.asarray(x, dtype=object)
         mask: Any = np.ma.getmaskarray(np.ma.asanyarray(x))
-        # A point that isn't equal to itself is NaN, which stays; what is masked isn't computed.
-        wanted = [k for k, point in enumerate(points.flat) if point == point and not mask.flat[k]]  # NaN is no number
+        # A point that isn't equal to itself is NaN, which stays; masked points aren't computed.
+        wanted = [k for k, point in enumerate(points.flat) if point == point and not mask.flat[k]]
         values = np.full(points.size, math.nan, dtype=object)
         for k, value in zip(wanted, self._at([points.flat[k] for k in wanted], derivative), strict=True):
             values[k] = value
@@ -216,11 +215,11 @@ class Prepared:
 
 @limited
 def prepared(equation: object, **keywords: Unpack[Keywords]) -> Prepared:
-    """A solution as a function whose values are balls: what was expanded for one value serves the next ones.
+    """A solution as a function whose values are balls: expansions made for one value serve the next ones.
 
-    A value of an interval that was passed is that of a polynomial, with its proven error, and takes some tenths of a
-    millisecond; the interval grows with the questions.  The solution may be called from several threads, which wait for one
-    another.  Raises what `evaluate` raises for the start; calls return and raise what it does for their points.
+    On intervals passed before, a value is that of a polynomial with its proven error, and takes some tenths of a millisecond.
+    The solution may be called from several threads, which wait for one another.  Raises what `evaluate` raises for the start;
+    calls return and raise what it does for their points.
 
     Parameters
     ----------
@@ -253,7 +252,7 @@ def _prepared(equation: object, request: Request) -> Prepared:
 
 
 def with_variable(equation: object, var: object, limits: Limits | None = None, params: Params = None) -> object:
-    """The equation, read with this name of its variable; as it was given where none is named.  Warns of what is guessed."""
+    """The equation read with this variable, or unchanged if none is named.  Warns about guesses."""
     declared = words_among(params or ())
     limits = limits_of(limits)
     if isinstance(equation, str):

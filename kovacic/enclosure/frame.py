@@ -1,4 +1,4 @@
-"""The normal form, its singular points, and how it is seen from the centre of a disc, with bounds there.
+"""The normal form, its singular points, and the equation seen from the centre of a disc, with bounds there.
 
 With x = c + H u the equation is q(u) y'' = p(u) y over Z[i]: `shift` gives it exactly.  A `Frame` has this equation for a disc
 |u| <= 1 without singular points (and 2^-16 more, for rounded points), and the majorant z'' = sigma z + rho of
@@ -27,18 +27,25 @@ from typing import Any, Literal
 
 from flint import acb, acb_poly, arb, arb_poly, fmpq_poly, fmpz_poly
 
-from kovacic.algebra.embedding import complex_zeros
+from kovacic.algebra.embedding import Zeros, complex_zeros
 from kovacic.algebra.precision import working_precision
 from kovacic.algebra.ratfunc import RatFunc
 from kovacic.algebra.rationals import RationalPoly, foresee_move, to_fraction
+from kovacic.enclosure.matrices import Affine, apply
 from kovacic.enclosure.points import ExactPoint, midpoint, power_of_two, to_acb
 from kovacic.errors import InputError
 from kovacic.limits import check_time
 
 _DISTANCE_BITS = 40  # relative bits to which the distances of singular points are known
-_SHORT = 10**9  # the largest denominator of a singular point that messages name exactly
-_EXACT = 400  # bits from which on it is worth while to decide exactly whether a point is singular
-Zeros = tuple[tuple[acb, int], ...]  # zeros with their multiplicities
+_FRAME_BITS = 64
+_RINGS = 8
+REACH = 1 + power_of_two(-16)  # radius of the disc on which bounds hold, in scales
+_MOST_GROWTH = 2400  # growth of the majorant, in logarithms, at most
+# Shares of a way at which a rate is sampled.
+_NEAR_ENDS = [2.0**-k for k in (5, 6, 7, 8, 10, 12, 16, 24, 40)]
+_MARKS = sorted([0.0, 1.0, *(k / 16 for k in range(1, 16)), *_NEAR_ENDS, *(1 - t for t in _NEAR_ENDS)])
+# Real and imaginary parts of the coefficients; None if all of the latter are zero
+GaussianParts = tuple[list[int], list[int] | None]
 Which = Literal["num", "den"]
 
 
@@ -46,7 +53,8 @@ Which = Literal["num", "den"]
 class System:
     """den y'' = num y: integer coefficients, low to high, without a common factor, den not zero.
 
-    >>> System.make((2, 0), (0, 0, 4))   # S = 2/(4 x^2)
+    >>> from kovacic.algebra.rationals import QQ
+    >>> System.of(RatFunc(QQ.poly([2]), QQ.poly([0, 0, 4])))   # S = 2/(4 x^2)
     System(num=(1,), den=(0, 0, 2))
     """
 
@@ -54,33 +62,17 @@ class System:
     den: tuple[int, ...]
 
     @classmethod
-    def make(cls, num: tuple[int, ...], den: tuple[int, ...]) -> System:
-        """The system in lowest terms; raises InputError if den is zero."""
-        p = fmpz_poly(list(num))
-        q = fmpz_poly(list(den))
-        if q == 0:
-            raise InputError("the denominator of S is zero")
-        common = p.gcd(q)
-        # The denominator gets a positive leading coefficient.
-        if q.leading_coefficient() < 0:
-            common = common * -1
-        num, den = (tuple(int(c) for c in (part // common).coeffs()) for part in (p, q))
-        return cls(num, den)
-
-    @classmethod
     def of(cls, function: RatFunc) -> System:
         """A rational function over Q, as num/den; raises InputError over another field."""
-        num = function.num
-        den = function.den
-        if not isinstance(num, RationalPoly) or not isinstance(den, RationalPoly):
+        if not isinstance(function.num, RationalPoly) or not isinstance(function.den, RationalPoly):
             raise InputError(
                 "numerical evaluation needs S with rational coefficients (no parameters, no algebraic constants)"
             )
-        # (p/d1)/(q/d2) = p d2/(q d1) with integer coefficients.
-        p = num.rep
-        q = den.rep
-        whole = (p.numer() * q.denom(), q.numer() * p.denom())
-        return cls.make(*(tuple(int(c) for c in part.coeffs()) for part in whole))
+        # (p/d1)/(q/d2) = p d2/(q d1) with integer coefficients, where p and q are coprime.
+        p, q = function.num.rep, function.den.rep
+        num, den = p.numer() * q.denom(), q.numer() * p.denom()
+        content = math.gcd(int(num.content()), int(den.content()))
+        return cls(*(tuple(int(c) for c in (part // content).coeffs()) for part in (num, den)))
 
     def polynomial(self, which: Which) -> acb_poly:
         """Numerator or denominator, at the working precision in force."""
@@ -105,7 +97,7 @@ class System:
 
     def roots(self, which: Which, prec: int) -> Zeros:
         """Enclosures of the zeros of numerator or denominator at about `prec` bits, with multiplicities."""
-        # Few different precisions, since many near ones are asked for.
+        # Rounded up to a power of two, so that nearby precisions share the cache.
         return _isolated(getattr(self, which), max(64, 1 << (prec - 1).bit_length()))
 
     def is_singular(self, point: ExactPoint) -> bool:
@@ -134,7 +126,7 @@ def offsets(system: System, centre: ExactPoint) -> Zeros:
             found = tuple((root - here, k) for root, k in system.roots("den", prec))
         if all(d.rel_accuracy_bits() >= _DISTANCE_BITS for d, _ in found):
             return found
-        if prec > _EXACT and system.is_singular(centre):
+        if system.is_singular(centre):
             raise InputError(f"the point {centre} is a singular point of the equation")
         prec *= 2
 
@@ -146,7 +138,7 @@ def distance_lower(system: System, centre: ExactPoint) -> arb | None:
 
 
 def is_apart(system: System, *points: ExactPoint) -> bool:
-    """True if no singular point lies in the convex hull of these: in some direction each is beyond all of them."""
+    """True if no singular point lies in the convex hull of these: each is beyond all of them in some direction."""
     with working_precision(128):
         left = [root for root, _ in system.roots("den", 128)]
         for a, b in combinations(points, 2):
@@ -158,22 +150,15 @@ def is_apart(system: System, *points: ExactPoint) -> bool:
 
 
 def _not_beyond(zeros: list[acb], points: Sequence[ExactPoint], direction: ExactPoint) -> list[acb]:
-    """Those of the zeros that in this direction aren't certain to be beyond all points."""
+    """The zeros that aren't certain to be beyond all points in this direction."""
     reach = [direction.x * p.x + direction.y * p.y for p in points]
-    low = arb(min(reach))
-    high = arb(max(reach))
-    x = arb(direction.x)
-    y = arb(direction.y)
-    found = []
-    for z in zeros:
-        place = x * z.real + y * z.imag
-        if not (low > place or place > high):
-            found.append(z)
-    return found
+    low, high, x, y = map(arb, (min(reach), max(reach), direction.x, direction.y))
+    places = [(z, x * z.real + y * z.imag) for z in zeros]
+    return [z for z, place in places if not (low > place or place > high)]
 
 
 def check_segment(system: System, a: ExactPoint, b: ExactPoint) -> None:
-    """Raise InputError if the closed segment from a to b contains a singular point, with that point and the distances."""
+    """Raise InputError if the closed segment from a to b contains a singular point; the message names it and its distance."""
     if len(system.den) == 1:
         return
     for name, point in (("start", a), ("end", b)):
@@ -198,8 +183,7 @@ def check_segment(system: System, a: ExactPoint, b: ExactPoint) -> None:
 
 
 def _first_meeting(system: System, a: ExactPoint, b: ExactPoint) -> tuple[str, float] | None:
-    """The first singular point on the segment, whose ends aren't singular, by its name, and the share of the way to it; None
-    where there is none.
+    """The name of the first singular point on the segment, whose ends are regular, and the share of the way to it; or None.
 
     Exact: with z = x or, on a vertical line, z = iy for its points, den(z + ...) = A + i B with A, B in Q[x] or Q[y]; the line
     is singular where gcd(A, B), on the real axis the denominator itself, has a real zero.
@@ -228,47 +212,32 @@ def _first_meeting(system: System, a: ExactPoint, b: ExactPoint) -> tuple[str, f
 
 
 def name_of(system: System, point: acb) -> str:
-    """The singular point in this ball, in words: its exact value where that is a short Gaussian rational, else 12 digits."""
+    """The singular point in this ball, in words: its exact value if that is a short Gaussian rational, else 12 digits."""
     middle = midpoint(point)
-    guess = ExactPoint(*(part.limit_denominator(_SHORT) for part in (middle.re, middle.im)))
+    guess = ExactPoint(*(part.limit_denominator(10**9) for part in (middle.re, middle.im)))
     if point.overlaps(to_acb(guess)) and system.is_singular(guess):
         return str(guess)
     re, im = (part.mid().str(12, radius=False) + "..." for part in (point.real, point.imag))
     return re if point.imag.contains(0) else f"{re} + {im}i"
 
 
-# Real and imaginary parts of the coefficients; None if all of the latter are zero
-GaussianParts = tuple[list[int], list[int] | None]
-_BITS = 64
-_RINGS = 8
-REACH = 1 + power_of_two(-16)  # radius of the disc on which bounds hold, in scales
-_MOST_GROWTH = 2400  # growth of the majorant, in logarithms, at most
-# Shares of a way at which a rate is looked at.
-_NEAR = [2.0**-k for k in (5, 6, 7, 8, 10, 12, 16, 24, 40)]
-_MARKS = sorted([0.0, 1.0, *(k / 16 for k in range(1, 16)), *_NEAR, *(1 - t for t in _NEAR)])
-_LARGEST = 900  # growth of the majorant in a disc, in bits
-
-
 def shift(system: System, centre: ExactPoint, scale: ExactPoint) -> tuple[GaussianParts, GaussianParts]:
     """p and q of the exact equation q y'' = p y in the variable (x - centre)/scale, with q_0 > 0, without a common factor."""
     q = system.along("den", centre, scale)
     p = system.along("num", centre, scale)
-    re = q[0][0]
-    im = q[1][0]
-    # q_0 times its conjugate is positive.
-    turn = ExactPoint(re, -im)  # makes q_0 positive
-    if im == 0:
-        turn = ExactPoint(1) if re > 0 else ExactPoint(-1)
+    # q_0 times its conjugate is positive; if q_0 is real its sign suffices.
+    re, im = q[0][0], q[1][0]
+    turn = ExactPoint(re, -im) if im != 0 else ExactPoint(1 if re > 0 else -1)
     # y_uu = scale^2 y_xx: p is multiplied by scale^2, and both by the turn.
-    parts = [*_times(p, scale * scale * turn), *_times(q, turn)]
+    parts = [*_multiplied(p, scale * scale * turn), *_multiplied(q, turn)]
     common = math.lcm(*(int(part.denom()) for part in parts))
-    whole = [(part * common).numer() for part in parts]
-    content = math.gcd(*(int(part.content()) for part in whole))
-    p_re, p_im, q_re, q_im = ([int(c) for c in (part // content).coeffs()] for part in whole)
+    integral = [(part * common).numer() for part in parts]
+    content = math.gcd(*(int(part.content()) for part in integral))
+    p_re, p_im, q_re, q_im = ([int(c) for c in (part // content).coeffs()] for part in integral)
     return _gaussian_parts(p_re, p_im), _gaussian_parts(q_re, q_im)
 
 
-def _times(part: tuple[fmpq_poly, fmpq_poly], factor: ExactPoint) -> tuple[fmpq_poly, fmpq_poly]:
+def _multiplied(part: tuple[fmpq_poly, fmpq_poly], factor: ExactPoint) -> tuple[fmpq_poly, fmpq_poly]:
     # (A + i B)(x + i y).
     return part[0] * factor.x - part[1] * factor.y, part[0] * factor.y + part[1] * factor.x
 
@@ -280,7 +249,7 @@ def _gaussian_parts(re: list[int], im: list[int]) -> GaussianParts:
     return re + [0] * (size - len(re)), im + [0] * (size - len(im))
 
 
-def norm(parts: GaussianParts) -> int:
+def coefficient_sum(parts: GaussianParts) -> int:
     """The sum of the absolute values of the coefficients (of both parts), a bound of the polynomial for |u| <= 1."""
     re, im = parts
     return sum(map(abs, re)) + sum(map(abs, im or []))
@@ -324,19 +293,21 @@ class Frame:
 
 
 def make_frame(system: System, centre: ExactPoint, e: int) -> Frame | None:
-    """The frame of the equation at `centre` with scale 2^e; None if a singular point can't be excluded from the disc, or the
-    solutions grow too much there.  Raises InputError at a singular point."""
-    with working_precision(_BITS):
+    """The frame of the equation at `centre` with scale 2^e; raises InputError at a singular point.
+
+    None if a singular point can't be excluded from the disc, or if the solutions grow too much there.
+    """
+    with working_precision(_FRAME_BITS):
         poles = [((abs(d) * arb((1, -e))).lower(), k) for d, k in offsets(system, centre)]
         if any(not size > 1 for size, _ in poles):
             return None
         p, q = shift(system, centre, ExactPoint(power_of_two(e)))
-        bound = _bound(p, q[0][0], poles)
+        bound = _defect_bound(p, q[0][0], poles)
         return None if bound is None else Frame(centre, e, p, q, bound)
 
 
-def _bound(p: GaussianParts, q_0: int, poles: list[tuple[arb, int]]) -> DefectBound | None:
-    """The bounds, for the sizes of the poles; None if they would be too large."""
+def _defect_bound(p: GaussianParts, q_0: int, poles: list[tuple[arb, int]]) -> DefectBound | None:
+    """The bounds for poles of these sizes and multiplicities, or None if the solutions may grow too much."""
     sizes = [arb(a * a + b * b).sqrt().upper() for a, b in zip(p[0], p[1] or [0] * len(p[0]), strict=True)]
     majorant = arb_poly(sizes) * (1 / arb(q_0))
 
@@ -353,68 +324,45 @@ def _bound(p: GaussianParts, q_0: int, poles: list[tuple[arb, int]]) -> DefectBo
     rings = min(_RINGS, 1 + int(float(sigma.sqrt().upper())))  # growth by exp(1) in each, or more
     # The majorant is constant on each ring: its largest value, at the outer end.
     delta = arb(REACH) / rings
-    error = (arb(0), arb(0))  # z and z' for z'' = sigma z + 1
-    growth = (arb(1), arb(1))  # and for z'' = sigma z
+    error: Any = (arb(0), arb(0))  # z and z' for z'' = sigma z + 1
+    growth: Any = (arb(1), arb(1))  # and for z'' = sigma z
     for j in range(rings):
         _, sigma = bounds(delta * (j + 1))
-        ring = _Ring.of(sigma, delta)
-        error = ring.forced(error)
-        growth = ring.carried(growth)
+        matrix, added = _over_a_ring(sigma, delta)
+        growth = apply(matrix, growth)
+        value, slope = apply(matrix, error)
+        error = value + added[0], slope + added[1]
     total = max(growth[0].upper(), growth[1].upper())
-    if not total < arb((1, _LARGEST)):
-        return None
     return DefectBound((error[0] / least).upper(), (error[1] / least).upper(), log2(least), log2(total))
 
 
-@dataclass(frozen=True)
-class _Ring:
-    """z'' = sigma z over a ring of width delta: with t = sigma^(1/2) delta, cosh t, delta sinh(t)/t and
-    delta^2 (cosh t - 1)/t^2."""
-
-    sigma: arb
-    cosh: arb
-    rise: arb
-    push: arb
-
-    @classmethod
-    def of(cls, sigma: arb, delta: arb) -> _Ring:
-        """The numbers, also for sigma = 0."""
-        t = sigma.sqrt() * delta
-        if not t > 0:
-            return cls(sigma, arb(1), delta, delta * delta * (arb(1) / 2))
-        # cosh t - 1 = 2 sinh(t/2)^2, without cancellation.
-        return cls(sigma, t.cosh(), delta * (t.sinh() / t), delta * delta * (2 * ((t / 2).sinh() / t) ** 2))
-
-    def carried(self, z: tuple[arb, arb]) -> tuple[arb, arb]:
-        """(z, z') at its outer end, from those at its inner end."""
-        return z[0] * self.cosh + z[1] * self.rise, z[0] * self.sigma * self.rise + z[1] * self.cosh
-
-    def forced(self, z: tuple[arb, arb]) -> tuple[arb, arb]:
-        """(z, z') at the outer end for z'' = sigma z + 1, from those at the inner end."""
-        value, slope = self.carried(z)
-        return value + self.push, slope + self.rise
+def _over_a_ring(sigma: arb, delta: arb) -> Affine:
+    """The map of (z, z') for z'' = sigma z + 1 over a ring of width delta, from its inner to its outer end."""
+    # With t = sigma^(1/2) delta: cosh t, delta sinh(t)/t and delta^2 (cosh t - 1)/t^2, where cosh t - 1 = 2 sinh(t/2)^2.
+    t = sigma.sqrt() * delta
+    cosh = t.cosh()
+    rise, push = delta, delta * delta / 2
+    if t > 0:
+        rise = delta * (t.sinh() / t)
+        push = delta * delta * (2 * ((t / 2).sinh() / t) ** 2)
+    return (cosh, rise, sigma * rise, cosh), (push, rise)
 
 
 def fitting(system: System, centre: ExactPoint, e: int, share: float, growth: float) -> Frame | None:
-    """The frame at `centre` with scale 2^e, where this is at most `share` of the distance to a singular point, and the
-    solutions grow by at most 2^growth; else None."""
+    """The frame at `centre` with scale 2^e if this is at most `share` of the distance to a singular point and the solutions
+    grow by at most 2^growth; else None."""
     if system.is_singular(centre):
         return None
     near = distance_lower(system, centre)
     if near is not None and not near * share >= arb((1, e)):
         return None
     frame = make_frame(system, centre, e)
-    if frame is None or frame.bound.log2_growth > growth:
-        return None
-    return frame
+    return None if frame is None or frame.bound.log2_growth > growth else frame
 
 
 def largest_exponent(system: System, point: ExactPoint) -> int | None:
-    """No disc that contains the point has a frame with a larger exponent e: 4^e |S(point)| is below its majorant.
-
-    None if S vanishes there, may vanish, or isn't defined.
-    """
-    with working_precision(_BITS):
+    """The largest exponent e of a frame whose disc may contain the point, or None if S may vanish or isn't defined there."""
+    with working_precision(_FRAME_BITS):
         here = to_acb(point)
         # A frame needs sigma < _MOST_GROWTH^2 for its sigma >= |p/q|, which is 4^e |S| at the point.
         size = abs(system.polynomial("num")(here)).lower()
@@ -425,10 +373,10 @@ def largest_exponent(system: System, point: ExactPoint) -> int | None:
 def foreseen_growth(rate: Callable[[acb], Any], a: ExactPoint, b: ExactPoint) -> float:
     """The integral of `rate` |dx| along the segment from a to b, by the lower sum on pieces that get shorter towards both ends.
 
-    No bound: between two marks the function counts as its smaller value there, and where it is NaN as nothing.  With |S|^(1/2)
-    it tells by how much solutions grow or oscillate.
+    Not a bound: between two marks the function counts as the smaller of its values there, and NaN as none.  For |S|^(1/2) it
+    estimates by how much solutions grow or oscillate.
     """
-    with working_precision(_BITS):
+    with working_precision(_FRAME_BITS):
         start = to_acb(a)
         step = to_acb(b - a)
         length = abs(step)
@@ -449,7 +397,7 @@ def frequency(system: System) -> Callable[[acb], arb]:
 
 
 def log2(value: arb) -> float:
-    """log2 of the midpoint of a ball, a positive number of any size; infinite where that isn't a double."""
+    """log2 of the midpoint of a ball, a positive number of any size; infinite if that isn't a double."""
     mantissa, exponent = value.mid().man_exp()
     if not mantissa:
         return -math.inf

@@ -47,19 +47,16 @@ from flint import acb, acb_poly, arb, ctx, fmpq
 
 from kovacic.algebra.precision import working_precision
 from kovacic.enclosure.frame import log2
-from kovacic.enclosure.matrices import Matrix, State
+from kovacic.enclosure.matrices import NOTHING, Matrix, State, fundamental
 from kovacic.enclosure.points import ExactPoint, around_zero, power_of_two
 from kovacic.enclosure.singular import Operator, Singular, power_of
 from kovacic.errors import InputError, LimitExceeded
-from kovacic.limits import check_time
+from kovacic.limits import MOST_TRIALS, check_time
 from kovacic.special.pullback import is_integer
 
 _LOG = logging.getLogger(__name__)
 
-_STRIDE = 16  # terms between two looks at the tail
-_GROWTH = 0.2  # growth of the majorant in bits as a share of the working precision, at most
-# The difference of exponents up to which a logarithm that isn't there is noticed: N terms in exact numbers
-_MOST_SOUGHT_TERMS = 400
+_GROWTH_SHARE = 0.2  # growth of the majorant in bits as a share of the working precision, at most
 LogPair = tuple[Any, Any]  # u + v log t
 
 
@@ -85,26 +82,25 @@ class Majorant:
         return cls(rho, beta.upper(), gamma.upper(), inverse.upper())
 
     def growth(self, n: int, delta: arb, size: arb, t: arb) -> tuple[arb, arb]:
-        """(1 - t/rho)^(-1 - C/kappa) and kappa for the terms from n on; `size` bounds |lambda|, and `delta` |delta| where its
-        real part is negative, else it's 0: then |n + delta| >= n."""
+        """(1 - t/rho)^(-1 - C/kappa) and kappa for the terms from n on.
+
+        `size` bounds |lambda|, and `delta` |delta| if its real part is negative; else it's 0, since |n + delta| >= n.
+        """
         kappa = (1 - delta / n) / (1 + (2 + delta / n) / (n - delta))
         C = self.gamma / n + self.beta * (1 + (size + 1) / n)
         return (1 - t / self.rho) ** (-1 - C / kappa), kappa
 
 
 def radius(point: Singular, prec: int, distance: arb) -> tuple[int, Majorant]:
-    """The disc |t| <= 2^e in which the series are summed, 2^e at most about `distance`: e, and the bounds for it.
+    """The disc |t| <= 2^e in which the series are summed: e, and the bounds for it.
 
-    At most half the distance to the next singular point; there A is at least half of A_0 even with absolute values, so that the
-    recurrence loses no digits, and the majorant grows by a share of the precision only.
+    2^e is at most about `distance`, and half the distance to the next singular point.  On the disc sum |A_j t^j| <= |A_0| for
+    j > 0, so that the recurrence loses no digits, and the majorant grows by a share of the precision only.
     """
     op = point.operator().in_balls()
     neighbours = point.neighbours()
-    near = min((d.abs_lower() for d, _ in neighbours), default=None)
-    # No larger than the way needs, and at most half the distance to the next singular point.
-    e = math.ceil(log2(distance))
-    if near is not None:
-        e = min(e, math.floor(log2(near)) - 1)
+    near = min((math.floor(log2(d.abs_lower())) for d, _ in neighbours), default=math.inf)
+    e = int(min(math.ceil(log2(distance)), near - 1))
     lower, upper = (acb(v) for v in point.exponents())
     delta = abs(upper - lower).upper()
     size = max(abs(lower).upper(), abs(upper).upper())
@@ -114,7 +110,7 @@ def radius(point: Singular, prec: int, distance: arb) -> tuple[int, Majorant]:
             # On the circle |t| = 3/2 r, at most 3/4 of the distance to the next singular point.
             bound = Majorant.make(op, neighbours, r * 3 / 2)
             factor, _ = bound.growth(max(_terms_before_bound(delta), prec // 2), delta, size, r)
-            if factor > 0 and log2(factor) < max(60.0, _GROWTH * prec):
+            if factor > 0 and log2(factor) < max(60.0, _GROWTH_SHARE * prec):
                 return e, bound
         e -= 1
     raise LimitExceeded("no disc around the singular point was found", limit="unknown_degree")
@@ -131,15 +127,15 @@ def _terms_before_bound(delta: arb) -> int:
 
 
 def junction(point: Singular, towards: ExactPoint, prec: int) -> tuple[ExactPoint, Majorant]:
-    """Where the straight way to `towards` leaves the disc (or the end itself, if that's inside), and the bounds for it."""
+    """The point where the straight way to `towards` leaves the disc, or its end if that's inside, and the disc's bounds."""
     with working_precision(64):
         t = abs(point.offset(towards))
         if not t.is_finite() or t.contains(0):
-            raise InputError(f"{towards} can't be reached: it's a singular point or 0, seen from {point}")
+            raise InputError(f"{towards} can't be reached from {point}: it's a singular point or 0")
         e, bound = radius(point, prec, t.upper())
         if t <= arb((1, e)):
             return towards, bound
-        # 2^share of the way to `towards` is in the disc; at infinity t = 1/x.
+        # 2^share of the way to `towards` is in the disc; at infinity x grows as t = 1/x shrinks.
         share = math.floor(log2(arb((1, e)) / t))
     if point.inverted:
         return towards.scaled(power_of_two(-share)), bound
@@ -159,26 +155,26 @@ def basis(
 
     Solutions that aren't `needed` are zero.
     """
-    with working_precision(int(prec * (1 + _GROWTH)) + 100):
+    with working_precision(int(prec * (1 + _GROWTH_SHARE)) + 100):
         _LOG.debug("Frobenius series at %s, up to %s, %d bits", point, last, prec)
         t = point.offset(last)
         end = point.offset(towards)
         if not (t / end).real > 0:
             raise LimitExceeded(f"{last} can't be told from the singular point {point}", limit="digits")
         log = end.log() + (t / end).log()  # continued along the segment
-        states = [(acb(0), acb(0)), (acb(0), acb(0))]
+        states = [NOTHING, NOTHING]
         for k, solution in _expansions(point, last, bound, prec, needed).items():
             states[k] = solution.at(t, log)
-        first, second = states
-        # slopes: dy/dx = theta y / t, and -t theta y for t = 1/x
+        # Slopes: dy/dx = theta y / t, and -t theta y for t = 1/x.
         factor = -t if point.inverted else 1 / t
-        return first[0], second[0], first[1] * factor, second[1] * factor
+        first, second = ((y, theta_y * factor) for y, theta_y in states)
+        return fundamental(first, second)
 
 
 def _expansions(
     point: Singular, last: ExactPoint, bound: Majorant, prec: int, needed: Sequence[bool]
 ) -> dict[int, FrobeniusSeries]:
-    """The solutions in the disc up to `last` that are needed, by their numbers."""
+    """The needed solutions in the disc up to `last`, by their numbers."""
     lower, upper = point.exponents()
     length = abs(point.offset(last)).upper()
     op = point.operator()
@@ -186,10 +182,11 @@ def _expansions(
     delta = abs(acb(upper) - lower).upper()
     N = point.difference
     dominant = _Beginning(lower, delta, N, start=(0, 1) if N == 0 else (1, 0))
-    if N and point.is_rational and N <= _MOST_SOUGHT_TERMS:  # whether there is a logarithm costs little, then
-        terms: list[LogPair] = [(fmpq(1), fmpq(0))]  # of the smaller exponent, in exact numbers
+    # A few terms of the smaller exponent, in exact numbers, decide whether there is a logarithm.
+    if N and point.is_rational and N <= MOST_TRIALS:
+        terms: list[LogPair] = [(fmpq(1), fmpq(0))]
         while len(terms) <= N:
-            terms.append(_next(op, lower + len(terms), terms, dominant))
+            terms.append(_next_term(op, lower + len(terms), terms, dominant))
         dominant = replace(dominant, logarithm=bool(terms[N][1] != 0))
     beginnings = dominant, _Beginning(upper, arb(0))
     return {k: _expand(balls, beginnings[k], length, bound, prec) for k in (0, 1) if needed[k]}
@@ -199,8 +196,8 @@ def _expansions(
 class _Beginning:
     """A solution that begins with t^exponent (u + v log t), (u, v) = `start`.
 
-    `delta` bounds the difference of the exponents where the other one is the larger one, else it's 0.  P_0 vanishes at the term
-    of the number `resonance`, if there is one; `logarithm` says that a logarithm may begin there.
+    `delta` bounds the difference of the exponents if the other one is larger, else it's 0.  P_0 vanishes at the term with the
+    number `resonance`, if there is one; `logarithm` says that a logarithm may begin there.
     """
 
     exponent: Any
@@ -211,39 +208,36 @@ class _Beginning:
 
 
 def limit(point: Singular, start: State) -> State:
-    """y and y' at the point itself, for coordinates in the basis; raises InputError where one is infinite."""
-    # At the point itself t is 0: which way the series would go doesn't matter.
+    """y and y' at the point itself, for coordinates in the basis; raises InputError if one is infinite."""
+    # At the point itself t is 0, and the direction of the way doesn't matter.
     beside = point.near + ExactPoint(1)
     last, bound = junction(point, beside, 64)
     needed = [not coordinate.is_zero() for coordinate in start]
-    total = (acb(0), acb(0))
+    total = NOTHING
     for k, solution in _expansions(point, last, bound, max(64, ctx.prec), needed).items():
-        powers = [solution.derivative_at_zero(order) for order in (0, 1)]
-        if powers[0] is None or powers[1] is None:
+        y, dy = (solution.derivative_at_zero(order) for order in (0, 1))
+        if y is None or dy is None:
             raise InputError(f"y or y' is infinite at the singular point {point}", hint="choose a point beside it")
-        total = total[0] + start[k] * powers[0], total[1] + start[k] * powers[1]
+        total = total[0] + start[k] * y, total[1] + start[k] * dy
     return total
 
 
-def _apply(op: Operator, j: int, nu: Any, a: LogPair) -> LogPair:
+def _apply_term(op: Operator, j: int, nu: Any, a: LogPair) -> LogPair:
     """P_j(nu + eps) a."""
-    A = op.A[j]
-    B = op.B[j]
-    C = op.C[j]
-    (u, v) = a
+    A, B, C = op.A[j], op.B[j], op.C[j]
+    u, v = a
     # P_j(nu + eps) = P_j(nu) + P_j'(nu) eps, and eps (u, v) = (v, 0).
     value = (A * nu + B) * nu + C
     return value * u + (2 * A * nu + B) * v, value * v
 
 
-def _next(op: Operator, nu: Any, terms: list[LogPair], beginning: _Beginning) -> LogPair:
+def _next_term(op: Operator, nu: Any, terms: list[LogPair], beginning: _Beginning) -> LogPair:
     """a_n by equation (1), n the number of `terms`."""
     n = len(terms)
     f0 = f1 = op.A[0] * 0
     for j in range(1, min(n, len(op.A) - 1) + 1):
-        p, q = _apply(op, j, nu - j, terms[n - j])
-        f0 = f0 - p
-        f1 = f1 - q
+        p, q = _apply_term(op, j, nu - j, terms[n - j])
+        f0, f1 = f0 - p, f1 - q
     slope = 2 * op.A[0] * nu + op.B[0]
     # There P_0 is P_0' eps: it gives P_0' v = f0, and u may be chosen.
     if n == beginning.resonance:
@@ -256,8 +250,8 @@ def _next(op: Operator, nu: Any, terms: list[LogPair], beginning: _Beginning) ->
 
 @dataclass(frozen=True)
 class FrobeniusSeries:
-    """t^exponent (U(t) + V(t) log t), with bounds of what is missing in the second factor of y and of theta y, over max(1,
-    |log t|), on the disc for which they were made."""
+    """t^exponent (U(t) + V(t) log t) on a disc, with bounds of the errors of the second factor in y and theta y, over
+    max(1, |log t|)."""
 
     exponent: Any
     lam: Any
@@ -266,7 +260,7 @@ class FrobeniusSeries:
     errors: tuple[arb, arb]
 
     def derivative_at_zero(self, k: int) -> acb | None:
-        """The limit of the derivative of order k = 0 or 1 for t to 0; None if it is infinite."""
+        """The limit of the derivative of order k = 0 or 1 for t to 0, or None if it is infinite."""
         exponent = self.exponent
         if is_integer(exponent) and 0 <= exponent <= k:
             # t^p sum U_m t^m: the derivative of order k at 0 is k! U_(k - p), and k! is 1.
@@ -277,10 +271,9 @@ class FrobeniusSeries:
 
     def at(self, t: acb, log: acb) -> tuple[acb, acb]:
         """y and theta y at t, with the logarithm of t."""
-        U = self.U
-        V = self.V
-        lam = acb(self.lam)
+        U, V, lam = self.U, self.V, acb(self.lam)
         value = U(t) + V(t) * log
+        # theta = t d/dt, and theta (t^lam log t) = t^lam (lam log t + 1).
         slope = lam * U(t) + t * U.derivative()(t)
         slope += (lam * V(t) + t * V.derivative()(t)) * log + V(t)
         real = t.imag.is_zero() and value.imag.is_zero() and slope.imag.is_zero()
@@ -293,25 +286,22 @@ class FrobeniusSeries:
 
 def _expand(op: Operator, beginning: _Beginning, length: arb, bound: Majorant, prec: int) -> FrobeniusSeries:
     """The solution with this beginning for |t| <= length."""
-    exponent = beginning.exponent
+    exponent = acb(beginning.exponent)
     with working_precision(64):
-        size = abs(acb(exponent)).upper()
-    first = max(_terms_before_bound(beginning.delta), len(op.A), (beginning.resonance or 0) + 1)
-    # Real numbers where the equation and the exponent are real.
-    kind = type(op.A[0])
-    if not isinstance(exponent, fmpq) and not acb(exponent).imag.is_zero():
-        kind = acb
-    lam = kind(exponent) if kind is acb or isinstance(exponent, fmpq) else kind(acb(exponent).real)
+        size = abs(exponent).upper()
+    # Real numbers if the equation and the exponent are real.
+    is_real = isinstance(op.A[0], arb) and exponent.imag.is_zero()
+    kind, lam = (arb, exponent.real) if is_real else (acb, exponent)
     terms: list[LogPair] = [(kind(beginning.start[0]), kind(beginning.start[1]))]
+    # The number of the first term from which on the bound holds.
+    first = max(_terms_before_bound(beginning.delta), len(op.A), (beginning.resonance or 0) + 1)
     cap = 40 * prec + 4000 + 4 * first
-    # Before these many terms there is no bound.
-    more = first
     while True:
-        for _ in range(more):
-            check_time()
-            terms.append(_next(op, lam + len(terms), terms, beginning))
-        more = _STRIDE
+        check_time()
+        terms.append(_next_term(op, lam + len(terms), terms, beginning))
         n = len(terms)
+        if n <= first or (n - first) % 16 != 1:  # the tail is bounded at every sixteenth term
+            continue
         with working_precision(64):
             defect = _tail_defect(op, lam, terms, length)
             factor, kappa = bound.growth(n, beginning.delta, size, length)
@@ -319,20 +309,20 @@ def _expand(op: Operator, beginning: _Beginning, length: arb, bound: Majorant, p
         # F bounds sum n E_n t^n: the values are off by F/n at most, and theta y by F (1 + (|lambda| + 1)/n).
         if arb((1, -prec - 20)) > F:
             U, V = (acb_poly([pair[k] for pair in terms]) for k in (0, 1))
-            return FrobeniusSeries(exponent, lam, U, V, ((F / n).upper(), (F * (1 + (size + 1) / n)).upper()))
+            return FrobeniusSeries(beginning.exponent, lam, U, V, ((F / n).upper(), (F * (1 + (size + 1) / n)).upper()))
         if n > cap:
             raise LimitExceeded(f"a Frobenius expansion needs more than {cap} terms", limit="unknown_degree")
 
 
 def _tail_defect(op: Operator, lam: Any, terms: list[LogPair], length: arb) -> arb:
-    """A bound of sum |R_n| t^(n - N) for |t| <= length: what the terms give to the equations of the next ones."""
+    """A bound of sum |R_n| t^(n - N) for |t| <= length: the contributions of the terms to the equations of later ones."""
     n = len(terms)
     order = len(op.A) - 1
     zero = type(lam)(0)
     total = arb(0)
     for m in range(order):
-        # P_j with j > m reaches from the terms that are there, n - 1 the last one, to the equation of t^(n + m).
-        pairs = [_apply(op, j, lam + (n + m - j), terms[n + m - j]) for j in range(m + 1, order + 1)]
+        # P_j with j > m takes a known term, n - 1 or an earlier one, to the equation of t^(n + m).
+        pairs = [_apply_term(op, j, lam + (n + m - j), terms[n + m - j]) for j in range(m + 1, order + 1)]
         u, v = (abs(sum(part, zero)).upper() for part in zip(*pairs, strict=True))
         total += (u + v) * length**m
     return total

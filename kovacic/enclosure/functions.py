@@ -1,5 +1,4 @@
-"""Equations y'' + b y' + c y = f whose coefficients are functions of x that aren't rational: what they are, as expressions, and
-values in another variable.
+"""Equations y'' + b y' + c y = f whose coefficients are functions of x that aren't rational, and values in another variable.
 
 Where an equation is rational in t = exp(k x), sin(k x), ... it is Y'' + p Y' + q Y = r in t, reduced exactly, and with
 t'^2 = k^2 sigma(t), sigma a polynomial, so that t'' = k^2 sigma'(t)/2,
@@ -12,12 +11,13 @@ written in sin(u) and cos(u), since a pole of t alone is none of the equation.  
 An equation that is rational in t = exp(k x + c) is evaluated in t.  The guarantee is that of `kovacic.enclosure.journey`, for
 y(x) = Y(t(x)).  Where k and x are real, t is real, positive and monotone: a segment of the x-axis is mapped onto a segment of
 the t-axis, so that the straight way in t continues the same solution.  Points are carried through as balls, and
-y' = t' Y'.  What a wave exp(i k x) makes of a segment is no segment; its discs in x serve as well.
+y' = t' Y'.  A wave exp(i k x) doesn't map segments onto segments; there discs in x serve as well.
 """
 
 from __future__ import annotations
 
 from collections.abc import Collection, Sequence
+from contextlib import suppress
 from dataclasses import dataclass, replace
 from functools import lru_cache
 from typing import Any
@@ -43,7 +43,7 @@ from kovacic.reading.source import parts_of, source_of
 
 
 def coefficients_of_any(equation: Any, params: Params, limits: Limits) -> Coefficients:
-    """Those of an equation whose coefficients aren't rational: a text, a SymPy expression, or what was read or solved.
+    """The coefficients of an equation that isn't rational: a text, a SymPy expression, or one that was read or solved.
 
     Raises InputError for what isn't a linear equation of second order, or lacks values of its parameters.
     """
@@ -52,7 +52,7 @@ def coefficients_of_any(equation: Any, params: Params, limits: Limits) -> Coeffi
     if change_of(equation) is not None:
         found = _of_parsed(equation)
     elif isinstance(equation, str):
-        found = _of_text(equation, limits)
+        found = _coefficients_of_text(equation, limits)
     else:
         found = _of_input(equation, limits)
     return found.given(params)
@@ -62,12 +62,12 @@ _WITH_POLES = (sympy.tan, sympy.cot, sympy.sec, sympy.csc, sympy.tanh, sympy.cot
 
 
 @lru_cache(maxsize=64)
-def _of_text(text: str, limits: Limits) -> Coefficients:
+def _coefficients_of_text(text: str, limits: Limits) -> Coefficients:
     return _of_input(text, limits)
 
 
 def _of_input(equation: Any, limits: Limits) -> Coefficients:
-    """As they are written where nothing can cancel; else in t, where what cancels is known."""
+    """The coefficients as written if nothing can cancel; else by way of t, where common factors are removed."""
     parsed = None
     try:
         parsed = read_input(equation, limits=limits, exponentials=True)
@@ -86,19 +86,20 @@ def _of_input(equation: Any, limits: Limits) -> Coefficients:
 
 def _nothing_cancels(part: Any, x: Any) -> bool:
     """True if at most one term is singular anywhere, a constant times a power of one function, as in cos(x) + 2*tan(x/5)^2."""
-    singular = []
-    for term in sympy.Add.make_args(part):
-        has_inverse = any(p.exp.is_negative and p.base.has(x) for p in term.atoms(sympy.Pow))
-        if has_inverse or term.has(*_WITH_POLES):
-            singular.append(term)
+
+    def is_singular(term: Any) -> bool:
+        inverses = (power for power in term.atoms(sympy.Pow) if power.exp.is_negative)
+        return term.has(*_WITH_POLES) or any(power.base.has(x) for power in inverses)
+
+    singular = [term for term in sympy.Add.make_args(part) if is_singular(term)]
     if len(singular) != 1:
         return not singular
-    factors = [factor for factor in sympy.Mul.make_args(singular[0]) if factor.has(x)]
-    return len(factors) <= 1 and all(isinstance(f.as_base_exp()[0], sympy.Function) for f in factors)
+    _, varying = singular[0].as_independent(x, as_Add=False)
+    return varying == 1 or isinstance(varying.as_base_exp()[0], sympy.Function)
 
 
 def _of_parsed(parsed: Any) -> Coefficients:
-    """Without letters for constants."""
+    """The coefficients of an equation in t, without letters for constants."""
     found = in_the_given_variable(parsed.equation)
     # A letter may stand in the meaning of a later one: the last one is replaced first.
     for letter, meaning in reversed(getattr(parsed, "letters", ())):
@@ -108,7 +109,7 @@ def _of_parsed(parsed: Any) -> Coefficients:
 
 
 def as_written(equation: Any, var: Any, limits: Limits, names: Collection[str] = ()) -> Coefficients:
-    """What stands there, over the coefficient of y''."""
+    """The coefficients as written, over that of y''."""
     name = None if var is None else str(var)
     source = source_of(equation, name, limits, names=names)
     # a y'' + b y' + c y + rest = 0.
@@ -122,7 +123,7 @@ def in_the_given_variable(equation: Equation) -> Coefficients:
     t = function_of_x(equation)
     x = user_variable(equation)
     h = equation.h or 0  # over the coefficient of y'', in x
-    if not is_of_a_line(equation):  # t' b/a - t''/t', t'^2 c/a and t'^2 f/a, as they are
+    if not is_of_a_line(equation):  # t' b/a - t''/t', t'^2 c/a and t'^2 f/a
         atoms = Atoms(sympy.Dummy("t"))
         p, q, r = (
             atoms.ratio(part / equation.a).xreplace({atoms.x: t}) for part in (equation.b, equation.c, equation.f)
@@ -131,23 +132,22 @@ def in_the_given_variable(equation: Equation) -> Coefficients:
         return Coefficients(x, slope * p - slope.diff(x) / slope, slope**2 * q, slope**2 * r + h)
     # u = k x + c, rate = k.  In u equation (1) is y.. + t. (p - sigma'/(2 sigma)) y. + sigma q y = sigma r; in x
     # the middle coefficient is multiplied by k, the others by k^2.
-    rate = t.args[0].diff(x)
+    rate, slope = t.args[0].diff(x), t.diff(x)
     field = equation.a.field
     sigma = RatFunc(_sigma(t, field))
     b = equation.b / equation.a - sigma.derivative() / (2 * sigma)
     c = sigma * equation.c / equation.a
     f = sigma * equation.f / equation.a
-    slope = t.diff(x)
     # t. = 1 + t^2 is taken into the bracket, so that one quotient of sines and cosines is left.
     if t.func is sympy.tan:  # a polynomial in t
         slope = rate
         b *= RatFunc(field.poly([1, 0, 1]))
     if t.func is sympy.exp and t.has(sympy.I):
         T = RatFunc(field.poly([0, 1]))
-        parts = _wave_quotient(t, b * T, rate), _wave_quotient(t, c, rate**2), _wave_quotient(t, f, rate**2)
+        p, q, r = _wave_quotient(t, b * T, rate), _wave_quotient(t, c, rate**2), _wave_quotient(t, f, rate**2)
     else:
-        parts = slope * _in(t, b), rate**2 * _in(t, c), rate**2 * _in(t, f)
-    return Coefficients(x, parts[0], parts[1], parts[2] + h)
+        p, q, r = slope * _in_t(t, b), rate**2 * _in_t(t, c), rate**2 * _in_t(t, f)
+    return Coefficients(x, p, q, r + h)
 
 
 def _sigma(t: Any, field: Field) -> Poly:
@@ -158,8 +158,8 @@ def _sigma(t: Any, field: Field) -> Poly:
     return field.poly([int(c) for c in reversed(coefficients)])
 
 
-def _in(t: Any, function: RatFunc) -> Any:
-    """A rational function of t, as an expression; 1 - cos(u)^2 in its denominator is sin(u)^2, which balls know better."""
+def _in_t(t: Any, function: RatFunc) -> Any:
+    """A rational function of t, as an expression; 1 - cos(u)^2 in its denominator becomes sin(u)^2, sharper in balls."""
     if not function:
         return sympy.Integer(0)
     atoms = Atoms(sympy.Dummy("t"))
@@ -193,10 +193,10 @@ def _wave_quotient(t: Any, function: RatFunc, factor: Any) -> Any:
     # The sum may be 0; i times the difference makes D its own reversed conjugate as well.
     w = first + last or sympy.I * (first - last)
     above = [w * factor * c for c in atoms.coefficients(function.num)]
-    return _waves(above, half, u) / _waves([w * c for c in below], half, u)
+    return _by_waves(above, half, u) / _by_waves([w * c for c in below], half, u)
 
 
-def _waves(coefficients: Sequence[Any], shift: Any, u: Any) -> Any:
+def _by_waves(coefficients: Sequence[Any], shift: Any, u: Any) -> Any:
     """sum c_k exp(i (k - shift) u), by cosines and sines."""
     angles = ((c, sympy.expand((k - shift) * u)) for k, c in enumerate(coefficients))
     return sympy.expand(sympy.Add(*(c * (sympy.cos(angle) + sympy.I * sympy.sin(angle)) for c, angle in angles)))
@@ -212,24 +212,23 @@ def _without_factor(poly: Poly, factor: Poly) -> tuple[Poly, int]:
 
 
 def _in_sines(u: Any, function: RatFunc, atoms: Atoms) -> Any:
-    """A rational function of tan(u) by sin(u) and cos(u): polynomials in tan(u) times powers of cos(u), 1 + tan(u)^2 the latter
-    alone."""
+    """A rational function of tan(u) by sin(u) and cos(u), where 1 + tan(u)^2 is a power of cos(u) alone."""
     denominator, count = _without_factor(function.den, function.field.poly([1, 0, 1]))
     # tan = sin/cos: a polynomial of degree n is a form of degree n in sin and cos, over cos^n; 1 + tan^2 = cos^-2.
     powers = 2 * count + denominator.degree - function.num.degree
 
     def homogeneous(poly: Poly) -> Any:
-        """sum c_k sin(u)^k cos(u)^(n - k) by waves: powers of both cancel, and balls don't see it."""
+        """sum c_k sin(u)^k cos(u)^(n - k) by waves, since powers of both may cancel, which balls don't see."""
         n = poly.degree
         e = sympy.Dummy("exp(iu)")
         sine, cosine = (e**2 - 1) / (2 * sympy.I), (e**2 + 1) / 2  # times e
         terms = (c * sine**k * cosine ** (n - k) for k, c in enumerate(atoms.coefficients(poly)) if c != 0)
-        return _waves(sympy.Poly(sympy.Add(*terms), e).all_coeffs()[::-1], n, u)
+        return _by_waves(sympy.Poly(sympy.Add(*terms), e).all_coeffs()[::-1], n, u)
 
     return homogeneous(function.num) / homogeneous(denominator) * sympy.cos(u) ** powers
 
 
-_BITS = 64
+_REALNESS_BITS = 64
 
 
 @dataclass(frozen=True)
@@ -242,7 +241,7 @@ class Substitution:
 
     @classmethod
     def of(cls, coefficients: Coefficients) -> Substitution | None:
-        """None unless the equation is rational in an exponential of x."""
+        """The substitution of an equation that is rational in an exponential of x, or None."""
         changed: Any = coefficients.changed
         # Letters for constants would be parameters of the equation in t.
         if changed is None or getattr(changed, "letters", None):
@@ -251,11 +250,10 @@ class Substitution:
         if t.func is not sympy.exp or t.free_symbols != {coefficients.variable}:
             return None
         values: dict[str, object] = dict(coefficients.values)
-        try:
+        with suppress(NotRational):
             problem = as_problem(without_change(changed), values or None, forced=True, constants=True)
-        except NotRational:
-            return None
-        return cls(t, coefficients.variable, problem)
+            return cls(t, coefficients.variable, problem)
+        return None
 
     def image(self, x: Number) -> Number:
         """t at a number, to every precision that this has."""
@@ -266,19 +264,19 @@ class Substitution:
         return in_balls(self.t.diff(self.x), {self.x: to_ball(x)})
 
     def start(self, x0: Number, data: tuple[Number, Number]) -> ReadStart:
-        """The start in t with these values of y and y'."""
+        """The start in t for these values of y and y'."""
         y, dy = data
         slope = Constant("y'/t'", lambda: to_ball(dy) / self.slope(x0), dy.fixed or x0.fixed)
         return ReadStart(self.image(x0), (y, slope))
 
     def is_real(self, numbers: Sequence[Number]) -> bool:
         """True if these numbers, and t and its derivative there, are real."""
-        with working_precision(_BITS):
+        with working_precision(_REALNESS_BITS):
             return are_real([f(x) for x in numbers for f in (to_ball, lambda x: to_ball(self.image(x)), self.slope)])
 
     def seen(self, target: Number, value: PointValue) -> PointValue:
         """The value at t(target) as one at the target: y' = t' Y'."""
-        # The state has 40 bits more than its route: the slope has to have as many.
-        with working_precision(value.route.bits + 2 * _BITS):
+        # The state has 40 bits more than its route, and the slope needs as many.
+        with working_precision(value.route.bits + 128):
             y, dy = value.state
             return replace(value, x=target, state=(y, dy * self.slope(target)))

@@ -30,25 +30,22 @@ from kovacic.limits import check_time
 @kept_at_precision(maxsize=32)
 def conjugates(field: Field) -> list[acb | None]:
     """The embeddings of K(c) over K = Q as values of c at the working precision in force; [None] for Q itself."""
-    return [root for root, _ in _roots(field.modulus)] if isinstance(field, AlgebraicField) else [None]
+    return [root for root, _ in _isolated_roots(field.modulus)] if isinstance(field, AlgebraicField) else [None]
 
 
-def _roots(poly: Poly) -> tuple[tuple[acb, int], ...]:
-    """Certified isolation of the zeros of a polynomial over Q."""
+def _isolated_roots(poly: Poly) -> tuple[tuple[acb, int], ...]:
+    """Enclosures of the zeros of a polynomial over Q by certified isolation."""
     assert isinstance(poly, RationalPoly)
     return complex_zeros(poly.rep.numer())
 
 
 def embed(poly: Poly, c: acb | None) -> acb_poly:
     """The polynomial with ball coefficients."""
-    total = acb_poly([])
-    power = acb_poly([1])
     parts: tuple[Any, ...] = poly.parts if isinstance(poly, ExtensionPoly) else (poly,)
-    # The parts go with 1, c, c^2, ...
-    for part in parts:
-        total += acb_poly(part.rep) * power
-        if c is not None:
-            power *= c
+    # The parts are the coefficients of 1, c, c^2, ...; over Q there is one.
+    total = acb_poly([])
+    for part in reversed(parts):
+        total = acb_poly(part.rep) + (0 if c is None else total * c)
     return total
 
 
@@ -57,13 +54,13 @@ def zeros(poly: Poly, c: acb | None) -> list[tuple[acb, int]]:
     if poly.degree < 1:
         return []
     if not isinstance(poly, ExtensionPoly):
-        return list(_roots(poly))
+        return list(_isolated_roots(poly))
     result = []
     for p, k in squarefree_factors(poly):
         factor = p.monic()
         # A factor with coefficients in Q is isolated as such: its balls don't depend on c.
         rational, *rest = factor.parts
-        found = sharp_roots(embed(factor, c)) if any(rest) else [root for root, _ in _roots(rational)]
+        found = sharp_roots(embed(factor, c)) if any(rest) else [root for root, _ in _isolated_roots(rational)]
         result += [(root, k) for root in found]
     return result
 
@@ -90,7 +87,7 @@ class Pole:
 
 @dataclass(frozen=True)
 class LogDerivative:
-    """theta = primitive' + sum over the poles: balls, at the precision of the moment when it was made."""
+    """theta = primitive' + sum over the poles = num/den, in balls of the precision at which it was made."""
 
     primitive: acb_poly
     poles: tuple[Pole, ...]
@@ -114,8 +111,7 @@ class LogDerivative:
         """int_a^b theta along the straight segment."""
         total = self.primitive(b) - self.primitive(a)
         for pole in self.poles:
-            u = b - pole.zeta
-            v = a - pole.zeta
+            u, v = b - pole.zeta, a - pole.zeta
             residue = pole.coefficients[0]
             if not residue.is_zero():
                 total += residue * (u / v).log(analytic=analytic)
@@ -131,9 +127,9 @@ class LogDerivative:
 
 @kept_at_precision(maxsize=32)
 def log_derivative(theta: RatFunc, embedding: int = 0) -> LogDerivative:
-    """Partial fractions at the precision in force, kept: the certificate and the gauge of one problem in many calls.
+    """The partial fractions of theta at the precision in force, kept for many calls with the same certificate and gauge.
 
-    Constants are embedded by the conjugate number `embedding`, rational ones by any.
+    Algebraic constants are embedded by the conjugate number `embedding`.
     """
     # Over Q there is one value, None.
     values = conjugates(theta.field)
@@ -143,21 +139,18 @@ def log_derivative(theta: RatFunc, embedding: int = 0) -> LogDerivative:
 def _principal_part(num: acb_poly, den: acb_poly, zeta: acb, k: int) -> tuple[acb, ...]:
     """The coefficients of t^-1, ..., t^-k of num/den at x = zeta + t, a zero of den of multiplicity exactly k."""
     check_time()
-    # num/den = t^-k top/bottom, and found[n] is the coefficient of t^(n - k).
-    top = _taylor(num, zeta, k)
-    bottom = _taylor(den, zeta, 2 * k)[k:]  # the first k coefficients are exactly zero
+    # num/den = t^-k top/bottom, and found[n] is the coefficient of t^(n - k).  FLINT's series end after `flint.ctx.cap` terms.
+    top = _taylor_coefficients(num, zeta, k)
+    bottom = _taylor_coefficients(den, zeta, 2 * k)[k:]  # the first k coefficients are exactly zero
     found: list[acb] = []
-    for n in range(k):  # not by FLINT's series, which end after `flint.ctx.cap` terms
+    for n in range(k):
         rest = sum((c * found[n - j] for j, c in enumerate(bottom[1 : n + 1], start=1)), acb(0))
         found.append((top[n] - rest) / bottom[0])
-    return tuple(reversed(found))
+    return tuple(found[::-1])
 
 
-def _taylor(poly: acb_poly, point: acb, count: int) -> list[acb]:
-    """The first coefficients in powers of x - point: by derivatives while they are few, since FLINT computes all of them."""
-    if 4 * count >= poly.length():
-        whole = poly(acb_poly([point, 1]))
-        return [whole[n] for n in range(count)]
+def _taylor_coefficients(poly: acb_poly, point: acb, count: int) -> list[acb]:
+    """The first coefficients in powers of x - point, by derivatives: FLINT would compute all of them."""
     found: list[acb] = []
     derivative = poly
     factorial = fmpz(1)

@@ -1,6 +1,6 @@
 """2x2 matrices of balls that act on states (y, y'), and products of many affine maps: a right-hand side adds a state.
 
-With k factors one after the other ball arithmetic would lose up to k bits ("wrapping"); balanced products lose O(log k).
+A product of k factors, one after the other, may lose k bits in ball arithmetic ("wrapping"); balanced products lose O(log k).
 """
 
 from __future__ import annotations
@@ -61,7 +61,7 @@ def compose(second: Affine, first: Affine) -> Affine:
 
 
 class MapProduct:
-    """A_k ... A_1 for maps A v = M v + p: a binary counter of partial products, so that every prefix is O(log k) factors."""
+    """A_k ... A_1 for maps A v = M v + p: a binary counter of partial products, O(log k) factors for every prefix."""
 
     def __init__(self, *parts: tuple[int, Affine]) -> None:
         self._parts = parts  # sizes are falling powers of two, the earliest factors first

@@ -1,6 +1,6 @@
 """Local exponents and monodromy matrices around the singular points, as enclosures, and what must hold between them.
 
-The guarantee: each ball contains the exact entry, for the loop that is described by `loop`.
+The guarantee: each ball contains the exact entry for the loop `loop`.
 
 Mathematics.  At a double pole zeta of S with b = lim (x - zeta)^2 S the exponents are 1/2 +- sqrt(1/4 + b); around it a
 solution basis is multiplied by a matrix M with determinant 1 and trace -2 cos(pi Delta), Delta = sqrt(1 + 4 b) (whether or
@@ -36,14 +36,14 @@ from kovacic.errors import InputError, LimitExceeded
 from kovacic.limits import Budget, Limits, check_time, limited
 
 BallMatrix = tuple[tuple[Ball, Ball], tuple[Ball, Ball]]
-_Polygon = tuple[
-    ExactPoint | Singular, list[ExactPoint], ExactPoint | Singular
-]  # the first end, vertices, the last end
+_End = ExactPoint | Singular
+_Polygon = tuple[_End, list[ExactPoint], _End]  # the first end, vertices, the last end
+_Places = list[tuple[ExactPoint, Any]]  # points, each with the largest radius of a square around it
 
 
 @dataclass(frozen=True)
 class LocalMonodromy:
-    """One singular point, and what a solution becomes on the way around it.
+    """One singular point, and the matrix of the way around it.
 
     Attributes
     ----------
@@ -52,13 +52,13 @@ class LocalMonodromy:
     multiplicity : int
         That of the pole of S.
     exponents : pair of Ball, or None
-        None at an irregular singular point (multiplicity 3 or more).
+        The local exponents; None at an irregular singular point (multiplicity 3 or more).
     trace : Ball or None
         -2 cos(pi Delta), from the exponents.
     loop : tuple of ExactPoint
         Once counter-clockwise around this point alone, from and to the base point.
     matrix : pair of pairs of Ball
-        It acts on (y, y') at the base point.
+        The action of the loop on (y, y') at the base point.
 
     Examples
     --------
@@ -98,7 +98,7 @@ class LocalMonodromy:
 
     @property
     def consistent(self) -> bool:
-        """False would disprove the computation: the trace of the matrix and the exponents, and the determinant 1."""
+        """True if the matrix may have the determinant 1 and the trace given by the exponents; False would disprove it."""
         with working_precision(1000):
             m = self.acb_mat()
             return m.det().contains(1) and (self.trace is None or m.trace().overlaps(ball_to_flint(self.trace)))
@@ -133,8 +133,8 @@ def connection_matrix(
     digits: int | None = None,
     limits: Limits | None = None,
 ) -> tuple[tuple[Ball, Ball], tuple[Ball, Ball]]:
-    """Balls around the rows of the matrix that turns coordinates at the first point of `path` into those at the last one, of
-    the same solution continued along this polygon.
+    """Balls around the rows of the matrix that turns coordinates of a solution at the first point of `path` into those at the
+    last one, where the solution is continued along this polygon.
 
     Parameters
     ----------
@@ -145,18 +145,18 @@ def connection_matrix(
         in its Frobenius basis, as for `kovacic.evaluate`.  A path to or from infinity goes along the line through 0 and its
         neighbour.
     params : mapping
-        Values of the parameters by name; where these are balls, the radii are what they allow.
+        Values of the parameters by name; if these are balls, the radii depend on theirs.
     var : str
         The name of the variable, where the equation is text or a SymPy expression.
     accuracy, digits, limits
-        The fields of `Accuracy`, but a method: the radii are at most 10^-digits relative to the largest entry.
+        The fields of `Accuracy`, except the method: the radii are at most 10^-digits relative to the largest entry.
 
     Raises
     ------
     InputError
         For fewer than two vertices, and for a path through a singular point.
     LimitExceeded
-        Where a limit is reached first.
+        If the limits don't suffice.
 
     Examples
     --------
@@ -182,7 +182,7 @@ def connection_matrix(
             goal = max((entry.abs_upper() for entry in entries), key=float) * arb(10) ** -digits
             sharp = all(entry.real.rad() + entry.imag.rad() <= goal for entry in entries)
             balls = [ball for ball in map(ball_from_flint, entries) if ball is not None]
-        # An entry isn't finite: the precision was too low.
+        # Entries that aren't finite need a much higher precision.
         if len(balls) < 4:
             prec += prec // 2
         elif sharp or not problem.is_exact:
@@ -192,21 +192,21 @@ def connection_matrix(
 
 
 def _polygon(problem: NumericProblem, path: Sequence[object]) -> _Polygon:
-    """The polygon through these vertices; a vertex is inserted between two singular points alone."""
+    """The polygon through these vertices; a vertex is inserted if there are only two singular points."""
     if len(path) < 2:
         raise InputError("a path needs at least two vertices")
-    first, last = (_end(problem, value) for value in (path[0], path[-1]))
+    first, last = (_end_of_path(problem, value) for value in (path[0], path[-1]))
     middle = [as_point(v, "a vertex") for v in path[1:-1]]
     if len(path) == 2 and isinstance(first, Singular) and isinstance(last, Singular):
         if first.inverted or last.inverted:
             raise InputError("a path between a singular point and infinity needs a vertex", hint="e.g. [0, 1j, 'oo']")
-        # Between two neighbourhoods: each is left towards an ordinary point.
+        # Each neighbourhood is left towards an ordinary point.
         middle = [(first.near + last.near).scaled(fmpq(1, 2)).rounded(-64)]
     return first, middle, last
 
 
-def _end(problem: NumericProblem, value: object) -> ExactPoint | Singular:
-    """An end of a path: a point where the equation is regular stays one."""
+def _end_of_path(problem: NumericProblem, value: object) -> _End:
+    """An end of a path, a `Singular` only if it is a singular point."""
     if not problem.is_rational:
         return as_point(value, "an end of the path of an equation whose constants aren't rational")
     place = singular_place(problem, value, "a vertex")
@@ -216,7 +216,7 @@ def _end(problem: NumericProblem, value: object) -> ExactPoint | Singular:
 def _connection(problem: NumericProblem, way: _Polygon, prec: int) -> Matrix:
     """The matrix to about `prec` bits."""
     first, middle, end = way
-    # Both coordinates are 1, so that both columns are computed; only the matrix is taken.
+    # Both coordinates are 1, so that both columns are computed.
     traveller = Traveller(way_for(problem).at(prec), first, (acb(1), acb(1)))
     for vertex in middle:
         traveller = traveller.moved(vertex)
@@ -252,7 +252,7 @@ def monodromy(
     var : str
         The name of the variable, where the equation is text or a SymPy expression.
     accuracy, digits, limits
-        The accuracy of the matrices: the fields of `Accuracy`, but a method.
+        The accuracy of the matrices: the fields of `Accuracy`, except the method.
 
     Raises
     ------
@@ -270,15 +270,15 @@ def monodromy(
     problem = replace(given, gauge=given.gauge * 0, right=None)  # the normal form
     budget = Budget(limits)
     result = []
-    for loop, z in _loops(_places(problem)):
+    for loop, z in _loops(_singular_places(problem)):
         budget.check()
         matrix = connection_matrix(problem, loop, digits=digits, limits=budget.share(1).limits)
         result.append(_local(problem, z, loop, matrix, digits))
     return tuple(result)
 
 
-def _places(problem: NumericProblem) -> list[tuple[ExactPoint, Any]]:
-    """Rational approximations of the singular points, each with half the distance to its neighbour (1 if alone)."""
+def _singular_places(problem: NumericProblem) -> _Places:
+    """Rational approximations of the singular points, each with half the distance to its neighbour, at most 1."""
     points = [midpoint(root) for root, _ in problem.poles(64)]
     places = []
     for i, p in enumerate(points):
@@ -289,43 +289,43 @@ def _places(problem: NumericProblem) -> list[tuple[ExactPoint, Any]]:
     return places
 
 
-def _loops(places: list[tuple[ExactPoint, Any]]) -> list[tuple[tuple[ExactPoint, ...], ExactPoint]]:
-    """Loops from one base point with the points that they enclose, in the order of their directions (left ones first).
+def _loops(places: _Places) -> list[tuple[tuple[ExactPoint, ...], ExactPoint]]:
+    """Loops from one base point with the points that they enclose, ordered by their directions from left to right.
 
     The squares around the points keep off the segments to the others, so the segments are a star with the points at its ends.
     """
     if not places:
         return []
-    stars = [(base, *_star(base, places)) for base in _bases(places)]
+    stars = [(base, *_star(base, places)) for base in _base_points(places)]
     base, radii, share = max(stars, key=lambda star: star[2])
     if share == 0:
         raise LimitExceeded("no base point was found that sees the singular points apart", limit="unknown_degree")
     loops = []
     for (z, _), radius in zip(places, radii, strict=True):
-        # A segment to a square around the point, the square counter-clockwise, and the segment back.
-        # Towards the base point, and then a quarter turn at a time.
+        # A segment to a square around the point, the square counter-clockwise, and the segment back.  The first corner lies
+        # towards the base point, the others follow by quarter turns.
         corners = [(base - z).scaled(root_below(radius * radius / (base - z).norm_squared(), 1))]
         for _ in range(4):
             corners.append(corners[-1] * ExactPoint(0, 1))
         loops.append(((base, *(z + corner for corner in corners), base), z))
-    # By the tangent of the angle at the base point, which lies above all: from the left to the right.
+    # By the tangent of the angle at the base point, which lies above all of them.
     return sorted(loops, key=lambda item: (item[1].x - base.x) / (base.y - item[1].y))
 
 
-def _bases(places: list[tuple[ExactPoint, Any]]) -> Iterator[ExactPoint]:
+def _base_points(places: _Places) -> Iterator[ExactPoint]:
     """Some points above all of the singular ones."""
     centres = [z for z, _ in places]
     spread = max(abs(p.x - q.x) + abs(p.y - q.y) for p in centres for q in centres)
     top = max(z.y for z in centres) + max(fmpq(1), spread)
     middle = sum((z.x for z in centres), fmpq(0)) / len(centres)
-    # Beside the middle, by shares that see equally spaced points and mirrored ones in different directions.
+    # Beside the middle, by shares that put equally spaced points and mirrored ones in different directions.
     for shift in (1, -3, 10, -17, 29, -41):
         yield ExactPoint(middle + (spread * shift + 1) / 97, top).rounded(binary_exponent(spread) - 10)
 
 
-def _star(base: ExactPoint, places: list[tuple[ExactPoint, Any]]) -> tuple[list[Any], Any]:
-    """The radii of squares around the singular points that keep off the segments from the base to the others; and the least of
-    the radii over what is allowed."""
+def _star(base: ExactPoint, places: _Places) -> tuple[list[Any], Any]:
+    """The radii of squares around the singular points that keep off the segments from the base to the others, and the least
+    ratio of a radius to the largest allowed one."""
     centres = [z for z, _ in places]
     radii = []
     for z, largest in places:
@@ -337,9 +337,8 @@ def _star(base: ExactPoint, places: list[tuple[ExactPoint, Any]]) -> tuple[list[
 
 def _distance_below(point: ExactPoint, a: ExactPoint, b: ExactPoint) -> Any:
     """A rational number not above the distance of the point from the segment, and at least half of it."""
-    step = b - a
-    offset = point - a
-    # The parameter of the foot of the perpendicular; the nearest point of the segment is at the nearer end beyond it.
+    step, offset = b - a, point - a
+    # The parameter of the foot of the perpendicular; beyond an end of the segment that end is nearest.
     t = (offset.x * step.x + offset.y * step.y) / step.norm_squared()
     nearest = step.scaled(min(max(t, fmpq(0)), fmpq(1)))
     return root_below((offset - nearest).norm_squared(), 1)
@@ -348,8 +347,7 @@ def _distance_below(point: ExactPoint, a: ExactPoint, b: ExactPoint) -> Any:
 def _local(
     problem: NumericProblem, z: ExactPoint, loop: tuple[ExactPoint, ...], matrix: BallMatrix, digits: int
 ) -> LocalMonodromy:
-    # 3.33 bits a digit, and some more than the matrix has.
-    prec = int(digits * 3.33) + 60
+    prec = int(digits * 3.33) + 60  # some bits more than the matrix has
     with working_precision(prec):
         near = to_acb(z)
         root, multiplicity = min(problem.poles(prec), key=lambda item: float((item[0] - near).abs_upper()))

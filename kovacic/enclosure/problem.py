@@ -18,7 +18,7 @@ from typing import Any
 
 from flint import acb, acb_poly, arb, ctx, fmpq_poly, fmpz_poly
 
-from kovacic.algebra.embedding import root_near
+from kovacic.algebra.embedding import Zeros, root_near
 from kovacic.algebra.extension import AlgebraicField, ExtensionPoly
 from kovacic.algebra.factors import squarefree_factors
 from kovacic.algebra.function_field import FunctionPoly
@@ -28,7 +28,7 @@ from kovacic.algebra.ratfunc import RatFunc
 from kovacic.algebra.rationals import QQ, RationalPoly, to_fmpq
 from kovacic.answer import Answer, computed_once
 from kovacic.decision import Decision
-from kovacic.enclosure.frame import System, Zeros, check_segment
+from kovacic.enclosure.frame import System, check_segment
 from kovacic.enclosure.log_derivative import sharp_roots
 from kovacic.enclosure.points import (
     ExactPoint,

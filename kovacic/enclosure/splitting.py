@@ -45,7 +45,7 @@ from typing import Any
 from flint import acb, arb, arb_mat, fmpz_mat
 
 from kovacic.algebra.precision import working_precision
-from kovacic.enclosure.frame import Frame, GaussianParts, System, log2, make_frame, norm, shift
+from kovacic.enclosure.frame import Frame, GaussianParts, System, coefficient_sum, log2, make_frame, shift
 from kovacic.enclosure.matrices import Matrix
 from kovacic.enclosure.points import ExactPoint, around_zero, to_acb
 from kovacic.enclosure.taylor import error_radii, expand
@@ -98,7 +98,7 @@ class SplitRecurrence:
 
     def size(self, m: int) -> int:
         """An upper bound of sum |coefficient| for the step to m."""
-        return norm(self.P) + m * m * norm(self.Q)
+        return coefficient_sum(self.P) + m * m * coefficient_sum(self.Q)
 
     def step(self, m: int) -> Run:
         """The step to m; rows of R: Y, Y' and with `mirror` their values at -v."""

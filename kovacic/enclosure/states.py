@@ -102,7 +102,7 @@ def _chosen(journey: Journey, problem: NumericProblem, ways: Ways, count: int, d
         is_sure = prices.has_sure_solutions(S)
         known = decided(problem, DEFAULT_LIMITS.unknown_degree if is_sure else _rounded(sought * prices.DEGREES))
         closed = None if known is None else closed_form_of(known)
-        if closed is not None and closed.is_cheap and closed.price(digits) <= most:
+        if closed is not None and closed.is_elementary and closed.price(digits) <= most:
             return closed, 0
     if not from_zero and price < prices.sought_from(S.num.degree + S.den.degree):
         return None

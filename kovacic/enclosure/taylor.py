@@ -32,7 +32,7 @@ from typing import Any
 from flint import acb, acb_poly, arb, arb_poly, fmpz, fmpz_poly
 
 from kovacic.algebra.precision import working_precision
-from kovacic.enclosure.frame import REACH, Frame, GaussianParts, log2, norm
+from kovacic.enclosure.frame import REACH, Frame, GaussianParts, coefficient_sum, log2
 from kovacic.enclosure.way import Columns, Local, check_terms
 from kovacic.limits import check_time
 
@@ -57,7 +57,7 @@ def approximations(frame: Frame, prec: int) -> tuple[int, list[tuple[GaussianPar
     q = frame.q
     bound = frame.bound
     q_0 = q[0][0]
-    loss = max(0.0, log2(arb(norm(q)) / q_0) - bound.log2_least)
+    loss = max(0.0, log2(arb(coefficient_sum(q)) / q_0) - bound.log2_least)
     quiet = 6 + int(loss)  # rounding errors keep the terms above about 2^loss units: they count as zero below 2^quiet
     # For the loss and the growth of errors, and 3 log2(N) for the sum of N remainders of the size q_0 N^2.
     w = prec + quiet + int(loss + bound.log2_growth) + 12 + 3 * max(6, prec.bit_length() + 1)
@@ -149,9 +149,9 @@ def _proven_defect(p: GaussianParts, q: GaussianParts, column: GaussianParts, ex
     n = len(column[0])
     width = max(len(p[0]), len(q[0])) + 3
     # The first sum is that of the remainders, the second one what the last terms give to later equations.
-    total = q[0][0] * n**3 + 2 * small * width * (n * n * norm(q) + norm(p))
+    total = q[0][0] * n**3 + 2 * small * width * (n * n * coefficient_sum(q) + coefficient_sum(p))
     if excess:
-        total += 2 * int(norm(column)) * (len(p[0]) + len(q[0]) * n * n)
+        total += 2 * int(coefficient_sum(column)) * (len(p[0]) + len(q[0]) * n * n)
     return int(total) << excess
 
 

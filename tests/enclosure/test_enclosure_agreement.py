@@ -8,7 +8,7 @@ from published import load
 
 import kovacic
 from kovacic import monodromy
-from kovacic.enclosure.agreement import agrees_with_group, compare, is_fuchsian
+from kovacic.enclosure.agreement import agrees_with_group, has_regular_places, verdict_on_matrices
 from kovacic.galois import Group, GroupKind
 
 OCTAHEDRAL = "(-135*x^2 + 115*x - 108)/(576*x^4 - 1152*x^3 + 576*x^2)"
@@ -56,10 +56,10 @@ FINITE += [claimed(kind) for kind in (GroupKind.TETRAHEDRAL, GroupKind.OCTAHEDRA
 @parametrize("name", sorted(GROUPS), ordinary=0, long=(0, 6))
 def test_a_wrong_finite_group_is_disproved(name: str) -> None:
     S = published_S(GROUPS[name])
-    matrices, fuchsian = monodromy(S), is_fuchsian(as_problem(S))
+    matrices, fuchsian = monodromy(S), has_regular_places(as_problem(S))
     for group in FINITE:
         if str(group) != name:
-            assert compare(matrices, group, fuchsian).verdict is False, str(group)
+            assert verdict_on_matrices(matrices, group, fuchsian).verdict is False, str(group)
 
 
 @parametrize(

@@ -8,7 +8,7 @@ from types import SimpleNamespace
 from typing import Any
 
 import pytest
-from build import ExactPoint, System, make_frame, parametrize
+from build import ExactPoint, System, make_frame, parametrize, system_of
 from flint import acb, acb_poly, arb
 
 from kovacic.algebra.precision import working_precision
@@ -95,7 +95,7 @@ def test_bits_that_are_cut_off_are_counted(which: str, is_complex: bool, start: 
 @pytest.mark.parametrize("centre", [ExactPoint(Fraction(1, 2)), ExactPoint(Fraction(1, 4), Fraction(3, 8))])
 @pytest.mark.parametrize(
     "system",
-    [System.make((0, 1), (1,)), System.make((3, 0, -1), (2, 1, 1)), System.make((10**30 + 1, 7), (10**40 + 3, 0, 5))],
+    [system_of((0, 1), (1,)), system_of((3, 0, -1), (2, 1, 1)), system_of((10**30 + 1, 7), (10**40 + 3, 0, 5))],
     ids=["Airy", "poles", "long coefficients"],
 )
 def test_expansions_know_their_defect(system: System, centre: ExactPoint, prec: int) -> None:
@@ -113,7 +113,7 @@ def test_expansions_know_their_defect(system: System, centre: ExactPoint, prec: 
 def test_the_error_of_values_and_slopes(k: Fraction, e: int) -> None:
     """e'' = k^2 e + rho, e(0) = e'(0) = 0: e = rho (cosh(k x) - 1)/k^2 and e' = rho sinh(k x)/k are reached."""
     square = Fraction(k) ** 2
-    system, centre = System.make((square.numerator,), (square.denominator,)), ExactPoint(Fraction(0))
+    system, centre = system_of((square.numerator,), (square.denominator,)), ExactPoint(Fraction(0))
     frame = make_frame(system, centre, e)
     assert frame is not None
     q_0 = shift(system, centre, ExactPoint(frame.scale))[1][0][0]

@@ -14,7 +14,7 @@ from typing import Any
 import flint
 import mpmath
 import pytest
-from build import Budget, ExactPoint, System, as_problem, make_frame
+from build import Budget, ExactPoint, System, as_problem, make_frame, system_of
 from flint import acb, acb_poly, arb, arb_poly, ctx, fmpq, fmpq_poly
 from hypothesis import assume, example, given, settings
 from hypothesis import strategies as st
@@ -82,7 +82,7 @@ def test_what_isnt_an_exact_finite_number_is_refused(bad: object) -> None:
 def test_the_shifted_equation_is_the_equation(
     num: list[int], re: Fraction, im: Fraction, step: Fraction, turn: Fraction, den: tuple[int, ...]
 ) -> None:
-    system = System.make(tuple(num), den)
+    system = system_of(tuple(num), den)
     re, im = Fraction(round(re * 64), 64), Fraction(round(im * 64), 64)
     centre = ExactPoint(re, im)
     scale = ExactPoint(step, turn)
@@ -163,11 +163,11 @@ def random_system(rng: random.Random) -> System:
     degree = rng.randint(0, 4)
     den = [rng.choice([-3, -1, 0, 1, 2, 7]) for _ in range(degree)] + [rng.choice([1, 2, 5])]
     num = [rng.choice([-9, -1, 0, 1, 4, 10**3]) for _ in range(rng.randint(0, 4))]
-    return System.make(tuple(num), tuple(den))
+    return system_of(tuple(num), tuple(den))
 
 
 def test_an_irrational_singular_point_on_the_path_is_found_and_a_near_miss_isnt() -> None:
-    system = System.make((1,), (-2, 0, 1))  # +-sqrt 2
+    system = system_of((1,), (-2, 0, 1))  # +-sqrt 2
     with pytest.raises(InputError, match=r"1\.41421356"):
         check_segment(system, ExactPoint(Fraction(0)), ExactPoint(Fraction(2)))
     tiny = Fraction(1, 10**40)
@@ -175,7 +175,7 @@ def test_an_irrational_singular_point_on_the_path_is_found_and_a_near_miss_isnt(
 
 
 def discs(pole: Fraction, a: ExactPoint, b: ExactPoint) -> int:
-    system = System.make((3,), (-pole.numerator, pole.denominator))
+    system = system_of((3,), (-pole.numerator, pole.denominator))
     with Budget(Limits(seconds=5)).watched():
         return sum(1 for _ in cover(system, a, b, 74))
 
@@ -209,7 +209,7 @@ def test_a_complex_path_comes_to_its_end(k: int) -> None:
     """Where the rest of the way is just longer than the disc that was tried, the next one has to be larger."""
     a, b = ExactPoint(Fraction(59, 64), Fraction(47, 64)), ExactPoint(Fraction(-63, 64), Fraction(13, 32))
     ends = [ExactPoint(p.re + Fraction(k, 97), p.im).scaled(Fraction(2) ** (k - 3)) for p in (a, b)]
-    system = System.make((0, 1), (1,))
+    system = system_of((0, 1), (1,))
     with Budget(Limits(seconds=5)).watched():
         assert sum(1 for _ in cover(system, ends[0], ends[1], 223)) < 400
         if k == 0:
@@ -220,7 +220,7 @@ def test_a_complex_path_comes_to_its_end(k: int) -> None:
 def test_no_path_takes_fewer_steps_than_are_foreseen(seed: int) -> None:
     rng = Random(seed)
     num = tuple(rng.randrange(-9, 10) * 10 ** rng.randrange(0, 6) for _ in range(rng.randrange(1, 4)))
-    system = System.make((*num, 1), (1, 0, 1) if rng.random() < 0.5 else (1,))
+    system = system_of((*num, 1), (1, 0, 1) if rng.random() < 0.5 else (1,))
     a, b = (ExactPoint(Fraction(rng.randrange(-40, 41), 4), Fraction(rng.randrange(2, 9), 8)) for _ in "ab")
     steps = len(list(cover(system, a, b, 60)))
     assert foreseen_growth(frequency(system), a, b) <= 2 * 110 * math.log(2) * steps
@@ -236,7 +236,7 @@ def test_no_path_takes_fewer_steps_than_are_foreseen(seed: int) -> None:
     ],
 )
 def test_the_growth_is_the_integral_of_the_root(num: Any, den: Any, a: int, b: int, exact: float) -> None:
-    found = foreseen_growth(frequency(System.make(num, den)), ExactPoint(a), ExactPoint(b))
+    found = foreseen_growth(frequency(system_of(num, den)), ExactPoint(a), ExactPoint(b))
     assert exact * 0.5 <= found <= exact
 
 
@@ -254,8 +254,8 @@ def test_the_growth_is_the_integral_of_the_root(num: Any, den: Any, a: int, b: i
 def test_a_singular_point_has_its_exact_name(den: tuple[int, ...], a: Any, b: Any, name: str) -> None:
     ends = [as_point(v, "x") for v in (a, b)]
     with pytest.raises(InputError, match=name):
-        check_segment(System.make((1,), den), *ends)
-    check_segment(System.make((1,), den), *(end + ExactPoint(Fraction(0), Fraction(9)) for end in ends))
+        check_segment(system_of((1,), den), *ends)
+    check_segment(system_of((1,), den), *(end + ExactPoint(Fraction(0), Fraction(9)) for end in ends))
 
 
 @dataclass(frozen=True)

@@ -9,7 +9,17 @@ from itertools import pairwise
 
 import flint
 import pytest
-from build import ExactPoint, System, as_problem, ball_to_flint, evaluate_states, generated, make_frame, parametrize
+from build import (
+    ExactPoint,
+    System,
+    as_problem,
+    ball_to_flint,
+    evaluate_states,
+    generated,
+    make_frame,
+    parametrize,
+    system_of,
+)
 from clocks import interrupted
 from hypothesis import assume, given
 from hypothesis import strategies as st
@@ -23,8 +33,8 @@ from kovacic.enclosure.splitting import SplitRecurrence, bit_burst, is_split, sp
 from kovacic.enclosure.taylor import expand
 from kovacic.enclosure.way import transition
 
-AIRY = System.make((0, 1), (1,))
-LEGENDRE = System.make((-13, 0, 4), (9, 0, -18, 0, 9))  # nu = 1/3: S = -(4/9 (1 - x^2) + 1)/(1 - x^2)^2
+AIRY = system_of((0, 1), (1,))
+LEGENDRE = system_of((-13, 0, 4), (9, 0, -18, 0, 9))  # nu = 1/3: S = -(4/9 (1 - x^2) + 1)/(1 - x^2)^2
 DIGITS = 5000
 
 
@@ -145,7 +155,7 @@ def test_both_ways_agree_for_equations_of_every_case(example: Example, a: ExactP
 
 def random_system(rng: random.Random) -> System:
     den = [rng.choice([-3, -1, 1, 2, 7]) for _ in range(rng.randint(0, 3))] + [rng.choice([1, 2, 5])]
-    return System.make(tuple(rng.choice([-9, -1, 0, 1, 4, 99]) for _ in range(rng.randint(0, 3))), tuple(den))
+    return system_of(tuple(rng.choice([-9, -1, 0, 1, 4, 99]) for _ in range(rng.randint(0, 3))), tuple(den))
 
 
 @parametrize("seed", range(10), ordinary=1, long=(1, 2))

@@ -81,6 +81,7 @@ __all__ = [
     "run",
     "run_and_exit",
     "sample",
+    "system_of",
     "verify",
 ]
 
@@ -88,6 +89,11 @@ __all__ = [
 def function(text: Any, var: str | None = "x") -> RatFunc:
     """The rational function of a text or a SymPy expression."""
     return read_input(text, var=var).S
+
+
+def system_of(num: Iterable[int], den: Iterable[int]) -> System:
+    """The normal form den y'' = num y with these coefficients, from low to high."""
+    return System.of(RatFunc(QQ.poly([*num]), QQ.poly([*den])))
 
 
 def ball_to_flint(ball: Any) -> acb:
