@@ -161,7 +161,7 @@ def number_of(solution: Any, row: Row) -> int:
     """The number of the solution y, by its logarithmic derivative at the middle of the points."""
     import mpmath
 
-    from kovacic.enclosure.closed_form import exponentials, omega
+    from kovacic.enclosure.closed_form import exponential_solutions, omega
     from kovacic.enclosure.points import as_point
     from kovacic.enclosure.problem import as_problem
 
@@ -169,7 +169,7 @@ def number_of(solution: Any, row: Row) -> int:
     with mpmath.workdps(60):
         value, slope = reference(row.y, Fraction(x))
         wanted = complex(slope / value)
-    found = [complex(omega(problem, k, as_point(x, "x"), 60)) for k in range(len(exponentials(problem)))]
+    found = [complex(omega(problem, k, as_point(x, "x"), 60)) for k in range(len(exponential_solutions(problem)))]
     return min(range(len(found)), key=lambda k: abs(found[k] - wanted))
 
 

@@ -20,7 +20,7 @@ from kovacic.algebra.rationals import foresee_move
 from kovacic.answer import Answer
 from kovacic.enclosure.analytic import way_of
 from kovacic.enclosure.ball import ball_from_flint
-from kovacic.enclosure.closed_form import Exponential, exponentials, finite_base, omega
+from kovacic.enclosure.closed_form import Exponential, exponential_solutions, finite_base, omega
 from kovacic.enclosure.frame import name_of
 from kovacic.enclosure.functions import coefficients_of_any
 from kovacic.enclosure.jets import CoefficientField
@@ -265,7 +265,7 @@ class PieceChart:
     def beginning(self, which: int, base: ExactPoint) -> PieceChart:
         """The solution with this logarithmic derivative, 1 at the base."""
         assert self.problem is not None
-        branches = exponentials(self.problem) if self.coefficients is None else []
+        branches = exponential_solutions(self.problem) if self.coefficients is None else []
         if branches:
             return replace(self, given={"x0": base}, branch=branches[which])
         place, rate = self._in_t(base)

@@ -41,9 +41,9 @@ from kovacic.doubles.double_double import (
     log,
     split,
 )
-from kovacic.enclosure.closed_form import Exponential, exponentials
+from kovacic.enclosure.closed_form import Exponential, exponential_solutions
 from kovacic.enclosure.frame import foreseen_growth, frequency
-from kovacic.enclosure.log_derivative import LogDerivative, embed, zeros
+from kovacic.enclosure.log_derivative import LogDerivative, embed, enclosed_zeros
 from kovacic.enclosure.points import ExactPoint, as_point, to_acb
 from kovacic.enclosure.problem import NumericProblem
 from kovacic.errors import LimitExceeded
@@ -353,7 +353,7 @@ _MOST_ZEROS = 200
 @working_precision(PRECISION)
 def product_form(problem: NumericProblem, which: int, region: Region, base: ExactPoint) -> ProductForm | None:
     """The solution number `which` as a product; None in cases 2 and 3, and if a table serves better."""
-    branches = exponentials(problem)
+    branches = exponential_solutions(problem)
     if not branches or branches[which].P.degree > _MOST_ZEROS:
         return None
     if branches[which].P.degree > 60 and region.is_real:
@@ -367,7 +367,7 @@ def product_form(problem: NumericProblem, which: int, region: Region, base: Exac
 def form_of(branch: Exponential, region: Region, base: ExactPoint) -> ProductForm | None:
     """The product of a solution, at the working precision in force; None if not all zeros of its polynomial are found."""
     c = branch.constant()
-    roots = zeros(branch.P, c)
+    roots = enclosed_zeros(branch.P, c)
     if sum(k for _, k in roots) < branch.P.degree:
         return None
     theta = LogDerivative.make(branch.theta, c)

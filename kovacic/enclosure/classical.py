@@ -32,7 +32,7 @@ from kovacic.algebra.rationals import QQ
 from kovacic.enclosure.closed_form import CaseOneForm
 from kovacic.enclosure.frame import System, check_segment
 from kovacic.enclosure.log_derivative import log_derivative
-from kovacic.enclosure.matrices import Matrix, State, fundamental, inverse, multiply
+from kovacic.enclosure.matrices import Matrix, State, fundamental, inverse_matrix, multiply
 from kovacic.enclosure.points import ExactPoint, kept_at_precision, to_acb
 from kovacic.enclosure.singular import Singular, power_of
 from kovacic.errors import LimitExceeded
@@ -130,7 +130,7 @@ class Classical:
         if zero is None:
             return multiply(start.at(b), start.coordinates)
         basis = _solutions_at_start(self, zero, True)
-        coordinates = basis.coordinates if a == zero else inverse(basis.at(a))
+        coordinates = basis.coordinates if a == zero else inverse_matrix(basis.at(a))
         return multiply(basis.at(b), coordinates)
 
 
@@ -228,7 +228,7 @@ class Solutions:
     @cached_property
     def coordinates(self) -> Matrix:
         """The matrix from (y, y') at the point to coordinates in these solutions."""
-        return inverse(self.at(self.point))
+        return inverse_matrix(self.at(self.point))
 
     def at(self, x: ExactPoint) -> Matrix:
         """The values and slopes at x, perhaps not finite, a column for each solution (zero if not needed); raises NotServed."""

@@ -27,7 +27,7 @@ from kovacic.algebra.ratfunc import RatFunc
 from kovacic.decision import SemiInvariant
 from kovacic.enclosure.frame import check_segment
 from kovacic.enclosure.log_derivative import LogDerivative, conjugates, embed, log_derivative, sharp_roots
-from kovacic.enclosure.matrices import Matrix, State, fundamental, inverse, multiply
+from kovacic.enclosure.matrices import Matrix, State, fundamental, inverse_matrix, multiply
 from kovacic.enclosure.points import ExactPoint, kept_at_precision, to_acb
 from kovacic.enclosure.problem import NumericProblem
 from kovacic.engine.decide import decide_reducible
@@ -145,11 +145,11 @@ class CaseOneForm:
         first, second = (y.states(to_acb(a), to_acb(b)) for y in self.branches)
         # Y(b) Y(a)^-1, with the two solutions as columns.
         start, end = (fundamental(y, z) for y, z in zip(first, second, strict=True))
-        return multiply(end, inverse(start))
+        return multiply(end, inverse_matrix(start))
 
 
 @lru_cache(maxsize=64)
-def decided(problem: NumericProblem, degree: int) -> NumericProblem | None:
+def with_decision(problem: NumericProblem, degree: int) -> NumericProblem | None:
     """The problem with a decision that has a Liouvillian solution, or None.
 
     An equation that wasn't solved is decided for case 1, with polynomials of at most this degree and the work for that.
@@ -181,7 +181,7 @@ def closed_form_of(problem: NumericProblem) -> CaseOneForm | None:
     )
 
 
-def exponentials(problem: NumericProblem) -> list[Exponential]:
+def exponential_solutions(problem: NumericProblem) -> list[Exponential]:
     """The solutions of case 1 with a rational logarithmic derivative, with the gauge in it; empty in the other cases."""
     closed = closed_form_of(problem)
     if closed is None:
@@ -195,7 +195,7 @@ def omegas(problem: NumericProblem, x0: ExactPoint) -> list[acb]:
     The list is empty if the precision is too low to tell the roots of the polynomial of omega apart.
     """
     z = to_acb(x0)
-    if found := exponentials(problem):
+    if found := exponential_solutions(problem):
         return [branch.omega(z) for branch in found]
     assert problem.decision is not None
     riccati = problem.decision.riccati

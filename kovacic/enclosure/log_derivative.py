@@ -49,7 +49,7 @@ def embed(poly: Poly, c: acb | None) -> acb_poly:
     return total
 
 
-def zeros(poly: Poly, c: acb | None) -> list[tuple[acb, int]]:
+def enclosed_zeros(poly: Poly, c: acb | None) -> list[tuple[acb, int]]:
     """Enclosures of the distinct zeros, with multiplicities (certified isolation; multiplicities are exact)."""
     if poly.degree < 1:
         return []
@@ -100,7 +100,7 @@ class LogDerivative:
         quotient, rest = divmod(theta.num, theta.den)
         num = embed(rest, c)
         den = embed(theta.den, c)
-        parts = tuple(Pole(zeta, _principal_part(num, den, zeta, k)) for zeta, k in zeros(theta.den, c))
+        parts = tuple(Pole(zeta, _principal_part(num, den, zeta, k)) for zeta, k in enclosed_zeros(theta.den, c))
         return cls(embed(quotient, c).integral(), parts, embed(theta.num, c), den)
 
     def value(self, x: acb) -> acb:

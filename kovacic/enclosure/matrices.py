@@ -32,7 +32,7 @@ def adjugate(m: Matrix) -> Matrix:
     return d, -b, -c, a
 
 
-def inverse(m: Matrix) -> Matrix:
+def inverse_matrix(m: Matrix) -> Matrix:
     """The inverse of any regular matrix."""
     determinant = m[0] * m[3] - m[1] * m[2]
     return m[3] / determinant, -m[1] / determinant, -m[2] / determinant, m[0] / determinant
@@ -94,7 +94,7 @@ class MapProduct:
         return total
 
 
-def product(matrices: list[Matrix]) -> Matrix:
+def matrix_product(matrices: list[Matrix]) -> Matrix:
     """M_k ... M_1 for the list [M_1, ..., M_k]."""
     total = MapProduct()
     for matrix in matrices:

@@ -23,7 +23,7 @@ from kovacic.algebra.precision import working_precision
 from kovacic.enclosure.ball import Ball, ball_from_flint, ball_to_flint, finite_ball
 from kovacic.enclosure.evaluate import with_variable
 from kovacic.enclosure.frobenius import basis, junction
-from kovacic.enclosure.matrices import Matrix, inverse, multiply
+from kovacic.enclosure.matrices import Matrix, inverse_matrix, multiply
 from kovacic.enclosure.points import ExactPoint, as_point, binary_exponent, midpoint, root_below, to_acb
 from kovacic.enclosure.precision import start_bits
 from kovacic.enclosure.problem import NumericProblem, as_problem
@@ -225,7 +225,7 @@ def _connection(problem: NumericProblem, way: _Polygon, prec: int) -> Matrix:
     here = traveller.point
     last, bound = junction(end, here, prec)
     there = basis(end, last, here, bound, prec)
-    return multiply(inverse(there), traveller.moved(last).maps.whole()[0])
+    return multiply(inverse_matrix(there), traveller.moved(last).maps.whole()[0])
 
 
 @limited

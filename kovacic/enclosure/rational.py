@@ -51,7 +51,7 @@ from kovacic.enclosure.matrices import (
     State,
     apply,
     fundamental,
-    inverse,
+    inverse_matrix,
     multiply,
     real_part,
 )
@@ -145,7 +145,7 @@ class Swing(Homogeneous):
         """The solution on the half line, from its state where the step begins."""
         count_work(self.oscillation.prec)
         with working_precision(self.oscillation.prec + _BITS_FOR_PRODUCTS):
-            C = apply(inverse(self.oscillation.fundamental(self.enter)), state)
+            C = apply(inverse_matrix(self.oscillation.fundamental(self.enter)), state)
             # |C| changes by at most (exp(I) - 1) |C|, over whichever part of the half line.
             error = (self.oscillation.change * (abs(C[0]).upper() + abs(C[1]).upper())).upper()
         off = around_zero(error, real=are_real(C))

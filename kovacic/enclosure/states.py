@@ -21,7 +21,7 @@ from flint import acb, arb
 
 from kovacic.algebra.precision import working_precision
 from kovacic.enclosure.classical import Closed, NotServed, classical_of
-from kovacic.enclosure.closed_form import closed_form_of, decided
+from kovacic.enclosure.closed_form import closed_form_of, with_decision
 from kovacic.enclosure.frame import foreseen_growth, frequency
 from kovacic.enclosure.journey import Journey
 from kovacic.enclosure.points import ExactPoint, Number, as_number, as_point, middle, to_ball
@@ -78,7 +78,7 @@ def _required(journey: Journey, digits: int) -> ClosedRoute:
     problem = journey.problem
     if problem is None or problem.right is not None:
         raise InputError("the method 'closed form' is for equations without a right-hand side", hint="method='taylor'")
-    known = decided(problem, DEFAULT_LIMITS.unknown_degree)
+    known = with_decision(problem, DEFAULT_LIMITS.unknown_degree)
     closed = None if known is None else closed_form_of(known)
     if closed is not None and closed.is_elementary and isinstance(journey.place, ExactPoint):
         return closed, 0
@@ -100,7 +100,7 @@ def _chosen(journey: Journey, problem: NumericProblem, ways: Ways, count: int, d
     S = problem.S
     if not from_zero and (problem.decision is not None or price >= prices.decided_from(S)):
         is_sure = prices.has_sure_solutions(S)
-        known = decided(problem, DEFAULT_LIMITS.unknown_degree if is_sure else _rounded(sought * prices.DEGREES))
+        known = with_decision(problem, DEFAULT_LIMITS.unknown_degree if is_sure else _rounded(sought * prices.DEGREES))
         closed = None if known is None else closed_form_of(known)
         if closed is not None and closed.is_elementary and closed.price(digits) <= most:
             return closed, 0

@@ -25,7 +25,7 @@ from typing import Any
 from flint import fmpq
 
 from kovacic.enclosure.frame import REACH, Frame, System, distance_lower, fitting, is_apart, largest_exponent, log2
-from kovacic.enclosure.matrices import Matrix, State, adjugate, multiply, product
+from kovacic.enclosure.matrices import Matrix, State, adjugate, matrix_product, multiply
 from kovacic.enclosure.points import ExactPoint, binary_exponent, power_of_two, root_below
 from kovacic.enclosure.splitting import legs
 from kovacic.enclosure.taylor import expand
@@ -93,7 +93,7 @@ def walk(
         count_work(prec)
         if split:
             # E(leave) E(enter)^-1: the determinants are 1.
-            start, stop = map(product, legs(system, disc.frame, disc.enter, disc.leave, prec))
+            start, stop = map(matrix_product, legs(system, disc.frame, disc.enter, disc.leave, prec))
             yield disc, Split(disc.leave, multiply(stop, adjugate(start)))
         else:
             yield disc, DiscStep(disc.enter, disc.leave, expand(disc.frame, prec))

@@ -28,7 +28,7 @@ from strategies import Example, examples, fractions, integers, nonzero
 from kovacic import InputError, LimitExceeded, Limits, connection_matrix, evaluate
 from kovacic.enclosure import rational
 from kovacic.enclosure.frame import Frame
-from kovacic.enclosure.matrices import Matrix, product
+from kovacic.enclosure.matrices import Matrix, matrix_product
 from kovacic.enclosure.splitting import SplitRecurrence, bit_burst, is_split, split_legs
 from kovacic.enclosure.taylor import expand
 from kovacic.enclosure.way import transition
@@ -54,7 +54,7 @@ def both_ways(system: System, path: list[ExactPoint], prec: int) -> tuple[Matrix
                 for a, b in pairwise(path):
                     way.check(a, b)
                 matrices.append(
-                    product([step.matrix for a, b in pairwise(path) for step in way.walk(a, b, alone=True)])
+                    matrix_product([step.matrix for a, b in pairwise(path) for step in way.walk(a, b, alone=True)])
                 )
             except InputError:
                 assume(False)
@@ -203,7 +203,7 @@ def test_a_chain_of_doubling_steps_is_one_step(disc: tuple[Frame, ExactPoint], t
     target = target + ExactPoint(tiny)
     (alone,) = split_legs(LEGENDRE, frame, target, 2500)
     chain = bit_burst(LEGENDRE, frame, target, 2500)
-    matrix = product(chain)
+    matrix = matrix_product(chain)
     assert len(chain) > 1
     assert overlap(alone, matrix)
     assert lost_bits(matrix, 2500) <= 8
@@ -221,7 +221,7 @@ def test_the_slopes_of_the_short_last_steps_of_a_chain_lose_nothing() -> None:
     with flint.ctx.workprec(prec + 40):
         chain = bit_burst(AIRY, frame, target, prec)
         alone = transition(expand(frame, prec), target)
-        assert overlap(product(chain), alone)
+        assert overlap(matrix_product(chain), alone)
     assert all(lost_bits(matrix, prec) <= 0 for matrix in chain)
 
 

@@ -51,7 +51,7 @@ from kovacic.closed_form.structure import covariants
 from kovacic.decision import SemiInvariant
 from kovacic.enclosure.closed_form import CaseOneForm, closed_form_of
 from kovacic.enclosure.log_derivative import LogDerivative, conjugates, embed
-from kovacic.enclosure.matrices import Matrix, adjugate, fundamental, multiply, product
+from kovacic.enclosure.matrices import Matrix, adjugate, fundamental, matrix_product, multiply
 from kovacic.enclosure.points import ExactPoint, as_point, to_acb
 from kovacic.enclosure.problem import as_problem
 from kovacic.engine.riccati import Form, normalised
@@ -86,7 +86,7 @@ def transition(solution: Solution, vertices: Sequence[object], prec: int) -> Mat
                 matrices += pair_leg(solution.S, decision.semi_invariant, a, b)
             else:
                 matrices += klein_leg(charts(solution.S, decision.structure, decision.invariant), a, b)
-        return product(matrices)
+        return matrix_product(matrices)
 
 
 @dataclass(frozen=True)
