@@ -202,7 +202,7 @@ class Planter(ast.NodeVisitor):
         if isinstance(node.op, ast.USub | ast.Not) and self.offer(node, f"without the sign in {ast.unparse(node)}"):
             node.op = ast.UAdd() if isinstance(node.op, ast.USub) else node.op
             if isinstance(node.op, ast.Not):
-                node.operand = ast.UnaryOp(ast.Not(), node.operand)
+                node.operand = ast.copy_location(ast.UnaryOp(ast.Not(), node.operand), node)
         self.generic_visit(node)
 
     def visit_Constant(self, node: ast.Constant) -> None:

@@ -68,9 +68,11 @@ def draw_levels(
     energies = [level.energy for level in levels]
     ground, highest = min(energies), max(energies)
     V = _values(potential, x)
-    depth = ground - float(np.nanmin(V))
-    unit = max(abs(ground), 1.0)
-    spread = (highest - ground) / max(len(levels) - 1, 1) or (depth / 2 if 0 < depth < 30 * unit else unit)
+    k = int(np.nanargmin(V))
+    depth = ground - float(V[k])
+    # The minimum is that of a well, whose depth is the scale of a single level, and no sample beside a pole of V.
+    is_well = depth > 0 and 0 < k < len(V) - 1 and np.nanmax(V[k - 1 : k + 2]) - V[k] < depth / 10
+    spread = (highest - ground) / max(len(levels) - 1, 1) or (depth / 2 if is_well else max(abs(ground), 1.0))
     figure = Figure(figsize=(8, 5.5), layout="constrained")
     axes = figure.add_subplot()
     axes.plot(x, V, color="black", lw=1.4, label=f"V({variable})")

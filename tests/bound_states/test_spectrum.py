@@ -302,7 +302,7 @@ WITH_CONDITIONS = [
 ]
 
 
-@parametrize(("V", "domain", "boundary", "energies", "complete"), WITH_CONDITIONS, ordinary=(0, 3), long=4)
+@parametrize(("V", "domain", "boundary", "energies", "complete"), WITH_CONDITIONS, ordinary=(0, 3, 5), long=4)
 def test_conditions_at_an_end(V: str, domain: Any, boundary: str, energies: Any, complete: bool) -> None:
     """Neumann's at the middle of a symmetric potential gives its even levels; Robin's may have one below the infimum of V."""
     found = kovacic.spectrum(V, domain=domain, boundary=boundary)
@@ -338,6 +338,13 @@ def test_numeric_levels_obey_the_conditions() -> None:
 def test_conditions_that_are_refused(V: str, options: Any) -> None:
     with pytest.raises(kovacic.InputError):
         kovacic.spectrum(V, **options)
+
+
+def test_a_wave_function_may_be_asked_to_vanish_at_a_wall_that_rises_without_bound() -> None:
+    """There one solution decays, and the condition chooses it, as it does without being given."""
+    given, own = (kovacic.spectrum("x^2 + 1/x^4", domain=HALF, boundary=wish) for wish in ("y(0) = 0", None))
+    assert given.complete == own.complete
+    assert given.levels == own.levels
 
 
 def test_functions_in_pieces_have_numeric_levels() -> None:
@@ -1152,14 +1159,15 @@ def test_an_impulse_is_an_arrow_and_the_legend_hides_nothing() -> None:
         kovacic.spectrum("abs(x)").plot()
 
 
-def test_a_long_tail_does_not_hide_the_well() -> None:
-    """y = exp(-1/x)/x falls as 1/x; V has its minimum between 1/4 and 1/2, and its maximum at 2."""
-    axes = kovacic.spectrum("2/x^2 - 4/x^3 + 1/x^4", domain=HALF).plot().axes[0]
+@pytest.mark.parametrize("c", [1, 100])
+def test_a_long_tail_does_not_hide_the_well(c: int) -> None:
+    """y = exp(-1/x)/x falls as 1/x; V has its minimum between 1/4 and 1/2, its maximum at 2; c^2 V(c x) the same over c."""
+    axes = kovacic.spectrum(f"2/x^2 - 4/({c}*x^3) + 1/({c}^2*x^4)", domain=HALF).plot().axes[0]
     (left, right), (bottom, top) = axes.get_xlim(), axes.get_ylim()
-    assert 0 <= left < 0.1
-    assert 4 < right < 20
-    assert bottom < -11
-    assert 0.1 < top < 10
+    assert 0 <= left < 0.1 / c
+    assert 4 / c < right < 20 / c
+    assert bottom < -11 * c**2
+    assert 0.1 * c**2 < top < 10 * c**2
 
 
 def test_numeric_waves_go_on_beyond_the_cut() -> None:

@@ -92,6 +92,11 @@ def test_both_routes_agree_on_random_legs(kind: str) -> None:
     assert agree_on(kind, 1, 60) > 15
 
 
+@pytest.mark.parametrize("kind", ["Airy", "Bessel", "Whittaker", "Gauss"])
+def test_both_routes_agree_on_a_few_legs(kind: str) -> None:
+    assert agree_on(kind, 2, 12) > 1
+
+
 @parametrize("ends", [("0", "1/2"), ("1/2", "0"), ("0", "-1/3"), ("-1/3", "1/2"), ("1/4", "1/2")], ordinary=2)
 @pytest.mark.parametrize(("slope", "order"), [(0, 2), (1, 2), (Fraction(-1, 2), 2), (1, 3), (Fraction(1, 2), 5)])
 def test_a_leg_from_to_and_through_an_ordinary_zero_of_the_function(

@@ -406,6 +406,7 @@ def test_the_envelope_of_bessels_functions_is_their_amplitude() -> None:
     bessel = "x^2*y'' + x*y' + x^2*y = 0"
     values = {"y0": "0.765197686557966551449717526103", "dy0": "-0.440050585744933515959682203719"}
     (envelope,) = sample(bessel, 1, 2000, x0=1, **values).envelopes
+    assert envelope.x[-1] == 2000
     at = np.geomspace(1.5, 2000, 400)
     assert np.interp(at, envelope.x, envelope.real) == pytest.approx(np.abs(hankel1(0, at)), rel=0.1)
     assert np.interp(at[100:], envelope.x, envelope.real) == pytest.approx(np.abs(hankel1(0, at[100:])), rel=0.02)

@@ -244,6 +244,18 @@ def test_integers_at_which_a_spectrum_has_no_value_are_not_lost() -> None:
     assert "where" not in kovacic.conditions("a*x^8 + mu*x^3", var="x").text()  # n = 4, 6 mod 10 isn't 0
 
 
+def test_no_row_of_schwarz_has_the_difference_1() -> None:
+    assert "Schwarz" not in kovacic.conditions("a/x^2 + b/(x*(x-1))", var="x").text()  # 1 has exponents 0 and 1
+    assert "Schwarz" in kovacic.conditions("a/x^2 + b/(x*(x-1)) + c/(x-1)^2", var="x").text()
+
+
+def test_jacobi_polynomials_have_powers_of_1_minus_x() -> None:
+    """As on the interval on which they are orthogonal [DLMF 18.3]."""
+    answer = kovacic.conditions("x*(1-x)*y'' + (c-2*x)*y' - m*y = 0", var="x")
+    powers = {str(s).partition("*jacobi")[0] for region in answer.regions for s in region.solution()}
+    assert {"y = (1 - x)^(c - 1)", "y = x^(1 - c)*(1 - x)^(c - 1)"} <= powers
+
+
 def test_constants_are_never_solved_for() -> None:
     for S in ("sqrt(2)*x^2 + a^2 + b/x^2", "(a*sqrt(2)+1)*x^2+a*x+b", "sqrt(2)*x^2 + a^2"):
         answer = kovacic.conditions(S, var="x")

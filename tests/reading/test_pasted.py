@@ -746,6 +746,7 @@ def test_a_named_equation_beside_another_belongs_to_the_system() -> None:
     [
         ("xy'' + 2y' + xy = 0", "xy was read as x\\*y"),
         ("r*y'' + y' + r*y = 0", "r is taken for the variable"),
+        ("y'' - 2^-tau*y = 0", "tau is taken for the variable"),
         ("y'' + y = sin x/2", "sin x/2 was read as \\(sin x\\)/2"),
         (r"u'' + u = \sin n\pi x/L", "was read as"),
         ("y'' + 2jωy' + y = 0", "the imaginary unit is I"),
