@@ -13,6 +13,8 @@ from kovacic.parametric.natural import DEFAULT_DEGREE
 from kovacic.parametric.parametric_answer import ParametricAnswer, Values
 from kovacic.reading.read import declared
 from kovacic.solution import Solution
+from kovacic.views.parameters import conditions_latex, conditions_text, explain_conditions, plot_map
+from kovacic.views.theorem import theorem_text
 
 
 class Conditions(ParametricAnswer):
@@ -98,8 +100,6 @@ class Conditions(ParametricAnswer):
         <BLANKLINE>
         mu = +-2 mod 6.
         """
-        from kovacic.views.theorem import theorem_text
-
         return theorem_text(self, format=format)
 
     def latex(self) -> str:
@@ -112,8 +112,6 @@ class Conditions(ParametricAnswer):
         >>> print(bessel.latex().partition("cases} ")[2])
         \text{case 1} & n - \frac{1}{2} \in \mathbb{Z} \\ \text{no Liouvillian solution} & \text{otherwise} \end{cases}
         """
-        from kovacic.views.parameters import conditions_latex
-
         return conditions_latex(self)
 
     def _repr_latex_(self) -> str:
@@ -161,8 +159,6 @@ class Conditions(ParametricAnswer):
         >>> strip.get_xlabel(), strip.get_ylabel()
         ('n', '')
         """
-        from kovacic.views.parameters import plot_map
-
         return plot_map(self, axes, parameters, ranges, steps, fixed)
 
     def text(self, *, all: bool = False) -> str:
@@ -185,8 +181,6 @@ class Conditions(ParametricAnswer):
         >>> print(kovacic.conditions("n/x^2 + k").text(all=True).splitlines()[0])
         y'' = ((k*x^2 + n)/x^2) y, parameters n, k
         """
-        from kovacic.views.parameters import conditions_text
-
         return conditions_text(self, all=all)
 
     @limited
@@ -200,8 +194,6 @@ class Conditions(ParametricAnswer):
         >>> print(bessel.explain().splitlines()[-1])
           y = x^(1/2 - n)*exp(-I*x)*assoc_laguerre(n - 1/2, -2*n, 2*I*x) where n - 1/2 is a natural number
         """
-        from kovacic.views.parameters import explain_conditions
-
         return explain_conditions(self)
 
     def __str__(self) -> str:

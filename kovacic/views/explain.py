@@ -25,7 +25,6 @@ from kovacic.numbers.numerals import digits
 from kovacic.views.bibliography import references
 from kovacic.views.sentences import (
     equation_of,
-    formulas_of,
     normal_form_of,
     omega_math,
     powers_in,
@@ -99,13 +98,12 @@ def explain_answer(answer: Answer, *, format: str = "text", solutions: bool = Tr
 def document(answer: Answer, *, solutions: bool = True) -> list[Block]:
     """The blocks of the explanation."""
     writer = ExplanationWriter(answer)
-    steps = writer.steps
     parts: list[Callable[[], Iterator[Block]]] = [
         writer.equation,
         partial(writer.verdict, solutions=solutions),
-        steps.local_data,
-        steps.necessary,
-        steps.search,
+        writer.local_data,
+        writer.necessary,
+        writer.search,
         writer.cases,
     ]
     if answer.status is Status.LIOUVILLIAN:
@@ -156,13 +154,8 @@ def _figure(answer: Answer) -> tuple[Any, str]:
     return figure, "Solutions on an interval that is short, since they oscillate or grow fast beyond it."
 
 
-class ExplanationWriter:
-    """The parts of the explanation of an answer, as blocks."""
-
-    def __init__(self, answer: Answer) -> None:
-        self.answer = answer
-        self.formulas = formulas_of(answer)
-        self.steps = Steps(answer)
+class ExplanationWriter(Steps):
+    """The parts of the explanation of an answer, as blocks; the paper's steps are those of the base class."""
 
     def equation(self) -> Iterator[Block]:
         answer = self.answer
@@ -232,7 +225,7 @@ class ExplanationWriter:
             )
         elif decision.invariant is not None:
             yield say(f"There is {_BY_INVARIANT[decision.structure]}. So it is {_CASES[decision.structure]}:")
-            yield Formula(self.formulas.named("F", rational_form(decision.invariant, self.steps.problem)))
+            yield Formula(self.formulas.named("F", rational_form(decision.invariant, self.problem)))
         else:
             yield say(
                 "There is no invariant of degree 2, so at most one omega is rational; its expansion at one place "
@@ -251,16 +244,16 @@ class ExplanationWriter:
         """theta and P, or for a P that is too long its powers."""
         form, series, case = self.answer.semi_invariant, self.answer.series, self.answer.case
         assert case is not None
-        P = self.steps.P
+        P = self.P
         yield Heading(f"theta and {P} of the answer")
         if series is not None:
             powers = powers_in(series, self.formulas)
-            yield say(self.steps.degree(case), " is the degree of ", Math.of(P), ", which is of ", *powers, ".")
+            yield say(self.degree(case), " is the degree of ", Math.of(P), ", which is of ", *powers, ".")
             yield Formula(self.formulas.named("theta", series.theta))
             yield from self._constants()
         if form is not None:
             names = separated(" and ", map(Math.of, ("theta", P)))
-            yield say(self.steps.degree(case), f" = {form.P.degree}, and with ", *names, ":")
+            yield say(self.degree(case), f" = {form.P.degree}, and with ", *names, ":")
             yield Formula(self.formulas.named("theta", form.theta))
             yield Formula(self.formulas.named(P, form.P))
 
@@ -270,7 +263,7 @@ class ExplanationWriter:
         assert riccati is not None
         assert form is not None
         omega = omega_math(riccati, self.formulas)
-        w, m, P = self.formulas.unknown, riccati.degree, self.steps.P
+        w, m, P = self.formulas.unknown, riccati.degree, self.P
         yield Heading("omega = y'/y")
         if m == 1:
             sum_of_two = Math(f"omega = theta + {P}'/{P}", rf"\omega = \theta + \frac{{{P}'}}{{{P}}}")

@@ -441,11 +441,9 @@ def _real_functions(unknown: str, values: Sequence[Any]) -> list[tuple[str, Sequ
 
     if not all(value.is_number and value.is_finite for value in values):
         return []
-    named = [(_typeset(f"{unknown}_1"), values[:2]), (_typeset(f"{unknown}_2"), values[2:])]
-    if len(_independent(named)) < 2:
-        return []
     parts = []
-    for name, data in named:
+    for k, data in ((1, values[:2]), (2, values[2:])):
+        name = _typeset(f"{unknown}_{k}")
         if all(value.is_real for value in data):
             parts.append((name, data))
             continue

@@ -56,7 +56,7 @@ _LOCAL_TYPES = {
 
 
 class Steps:
-    """The steps for one answer."""
+    """The paper's steps for one answer, as blocks."""
 
     def __init__(self, answer: Answer) -> None:
         self.answer = answer
