@@ -98,11 +98,6 @@ def _surface() -> Any:
     return sp.Matrix([PRINTED["8"][name] for name in "xyz"])
 
 
-def _with_D(*keys: str) -> dict[str, sp.Expr]:
-    """The printed formulas under these numbers, with the printed value of D."""
-    return {name: value.xreplace({D: PRINTED["system"]["D"]}) for key in keys for name, value in PRINTED[key].items()}
-
-
 def _direction_cosines() -> Any:
     """The printed direction cosines: e_u, e_v, e_n as columns in the axes of the ball."""
     return sp.Matrix(3, 3, [PRINTED["1"][f"c{column}{row}"] for row in (1, 2, 3) for column in (1, 2, 3)])
@@ -112,36 +107,28 @@ _BALL_CLOCK = {u: du, v: dv}
 _SPHERE_CLOCK = {u1: du1, v1: dv1, theta: dtheta}
 
 
-def _surface_and_frame() -> Iterator[tuple[str, list[Any]]]:
-    """(8) and (1): the surface is a sphere about its centre; its fundamental forms; the direction cosines."""
-    forms = PRINTED["8"]
-    r = _surface()
+def _kinematics() -> Iterator[tuple[str, list[Any]]]:
+    """(8), (1), (2), (5), (4): the surface is a sphere; its fundamental forms; the direction cosines; rolling."""
+    forms, five = PRINTED["8"], PRINTED["5"]
+    r, c = _surface(), _direction_cosines()
     r_u, r_v = r.diff(u), r.diff(v)
-    e_u, e_v, e_n = (_direction_cosines()[:, k] for k in range(3))
+    e_u, e_v, e_n = (c[:, k] for k in range(3))
     from_centre = r - sp.Matrix([0, 0, a])
     first = [r_u.dot(r_u) - forms["E"], r_u.dot(r_v), r_v.dot(r_v) - forms["G"]]
     second = [r_u.diff(u).dot(e_n) - forms["L"], r_u.diff(v).dot(e_n), r_v.diff(v).dot(e_n) - forms["N"]]
     yield "(8)", [from_centre.dot(from_centre) - R**2, *first, *second]
     # sqrt(E) = R and sqrt(G) = R sin u.
     yield "(1)", [*(R * e_u - r_u), *(R * sin(u) * e_v - r_v), *(e_u.cross(e_v) - e_n)]
-
-
-def _kinematics() -> Iterator[tuple[str, list[Any]]]:
-    """(2), (4) and (5)."""
-    five = PRINTED["5"]
-    c = _direction_cosines()
     rolling = {du1: PRINTED["2"]["u1'"], dv1: PRINTED["2"]["v1'"]}
     # The frame at the contact point in terms of (u1, v1, theta): the meridian and the circle on the sphere, turned by theta.
     out = sp.Matrix([sin(u1) * cos(v1), sin(u1) * sin(v1), cos(u1)])
-    south = out.diff(u1)
-    east = sp.Matrix([-sin(v1), cos(v1), 0])
+    south, east = out.diff(u1), sp.Matrix([-sin(v1), cos(v1), 0])
     in_space = sp.Matrix.hstack(-sin(theta) * south + cos(theta) * east, cos(theta) * south + sin(theta) * east, -out)
-    slip = c.T * rate(_surface(), _BALL_CLOCK) - in_space.T * rate(R1 * out, _SPHERE_CLOCK)
+    slip = c.T * rate(r, _BALL_CLOCK) - in_space.T * rate(R1 * out, _SPHERE_CLOCK)
     yield "(2)", list(slip.xreplace(rolling))
     in_frame = _turning(in_space, _SPHERE_CLOCK) - _turning(c, _BALL_CLOCK)
-    along = in_frame[0].xreplace(rolling) - five["tau"] * dv
-    across = in_frame[1].xreplace(rolling) - five["sigma"] * du
-    yield "(5)", [along, across, in_frame[2] - five["n"]]
+    along, across, about = in_frame - sp.Matrix([five["tau"] * dv, five["sigma"] * du, five["n"]])
+    yield "(5)", [along.xreplace(rolling), across.xreplace(rolling), about]  # the printed n has u1' and v1' itself
     omega = c * sp.Matrix([tau * dv, sigma * du, n])
     yield "(4)", [omega[i] - PRINTED["4"][f"omega_{i + 1}"] for i in range(3)]
 
@@ -174,36 +161,33 @@ def _dynamics() -> Iterator[tuple[str, list[Any]]]:
 
 
 def _elimination() -> Iterator[tuple[str, list[Any]]]:
-    """(9), (10), the system in n and omega_3, and (11)."""
-    K = PRINTED["6"]
-    in_K = {symbol: K[symbol.name] for symbol in (K11, K22, K23, K33)}
-    nine = {name: value.xreplace(in_K) for name, value in PRINTED["9"].items()}
+    """(9), (10), the system in n and omega_3, (11), (12), (13); the matrices act on (v', n)."""
+    in_K = {symbol: PRINTED["6"][symbol.name] for symbol in (K11, K22, K23, K33)}
+    K = sp.Matrix([[K22, K23], [K23, K33]]).xreplace(in_K)
     momenta = {T_du: K11 * du, T_dv: K22 * dv + K23 * n, T_n: K33 * n + K23 * dv}
-    of_v, of_n = (PRINTED["7"][name].xreplace(momenta).xreplace(in_K) for name in ("dTheta_v'/dt", "dTheta_n/dt"))
-    yield "(9)", [of_v - (nine["a1"] * n + nine["b1"] * dv) * du, of_n - (nine["a2"] * n + nine["b2"] * dv) * du]
-    # d/dt = u' d/du, and the derivatives of K22, K23, K33 go to the right-hand side.
-    named = {sp.Symbol(name): value for name, value in nine.items()}
-    ten = {name: value.xreplace(named) for name, value in PRINTED["10"].items()}
-    first = nine["a1"] * n + nine["b1"] * dv - (sp.diff(K["K23"], u) * n + sp.diff(K["K22"], u) * dv)
-    second = nine["a2"] * n + nine["b2"] * dv - (sp.diff(K["K33"], u) * n + sp.diff(K["K23"], u) * dv)
-    yield "(10)", [ten["a1'"] * n + ten["b1'"] * dv - first, ten["a2'"] * n + ten["b2'"] * dv - second]
-    p = _with_D("system", "11")
+    forces = (
+        sp.Matrix([PRINTED["7"][name] for name in ("dTheta_v'/dt", "dTheta_n/dt")]).xreplace(momenta).xreplace(in_K)
+    )
+    entries = sp.symbols("b1 a1 b2 a2")
+    nine = sp.Matrix(2, 2, [PRINTED["9"][entry.name] for entry in entries]).xreplace(in_K)
+    ten = sp.Matrix(2, 2, [PRINTED["10"][f"{entry.name}'"] for entry in entries])
+    ten = ten.xreplace(dict(zip(entries, nine, strict=True)))
+    speeds = sp.Matrix([dv, n])
+    yield "(9)", list(forces - nine * speeds * du)
+    # d/dt = u' d/du, and K' goes to the right-hand side.
+    yield "(10)", list((ten - nine + K.diff(u)) * speeds)
+    p = {
+        name: value.xreplace({D: PRINTED["system"]["D"]})
+        for key in ("system", "11")
+        for name, value in PRINTED[key].items()
+    }
     # v' from the third of (4), in which c23 = 0.
-    slope = (cos(u) * n - w3) / (PRINTED["5"]["tau"] * sin(u))
+    speeds = sp.Matrix([(cos(u) * n - w3) / (PRINTED["5"]["tau"] * sin(u)), n])
     along = {u: 1, n: p["a1"] * n + p["a2"] * w3, w3: p["b1"] * n + p["b2"] * w3}
-    rates = along[n], rate(slope, along)
-    parts = [
-        K["K23"] * rates[0] + K["K22"] * rates[1] - ten["a1'"] * n - ten["b1'"] * slope,
-        K["K33"] * rates[0] + K["K23"] * rates[1] - ten["a2'"] * n - ten["b2'"] * slope,
-    ]
-    yield "a1, a2, b1, b2", parts
+    yield "a1, a2, b1, b2", list(K * rate(speeds, along) - ten * speeds)
     d1, d2 = eliminated(((p["b2"], p["b1"]), (p["a2"], p["a1"])), u)  # n is eliminated
     yield "(11)", [p["d1"] - d1, p["d2"] - d2]
-
-
-def _in_the_roots() -> Iterator[tuple[str, list[Any]]]:
-    """(12) and (13): the roots in place of m and a; their sum gives a, and their product is linear in 1/m."""
-    p = _with_D("11")
+    # The roots in place of m and a: their sum gives a, and their product is linear in 1/m.
     offset = -R * (A3 - A1) * (x1 + x2) / (2 * A3)
     mass = A1 * A3 / (R**2 * (A3 - A1) * x1 * x2 - A1 * R**2 - A3 * offset**2)
     place = InRoots(R / R1)
@@ -215,7 +199,7 @@ def _in_the_roots() -> Iterator[tuple[str, list[Any]]]:
 
 def residuals() -> Iterator[tuple[str, list[Any]]]:
     """Expressions that vanish if the formulas are right: for each number in `PRINTED`, and for (12) and (13)."""
-    for part in (_surface_and_frame, _kinematics, _dynamics, _elimination, _in_the_roots):
+    for part in (_kinematics, _dynamics, _elimination):
         yield from part()
 
 
