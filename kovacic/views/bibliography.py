@@ -15,7 +15,7 @@ from kovacic.decision import Decision, NoInvariant, NoRationalOmega, Structure
 
 
 class Reference(dict[str, str]):
-    """One publication: the fields of its BibTeX entry, its `key`, and for what this package uses it (`use`)."""
+    """One publication: the fields of its BibTeX entry, its `key`, and its `use` in this package."""
 
     def text(self) -> str:
         where = f"{self['journal']} {self.get('volume', '')}".strip()
@@ -42,7 +42,7 @@ def literature() -> dict[str, Reference]:
 
 
 def references(answer: Answer) -> tuple[Reference, ...]:
-    """The publications that the answer rests on, and its group if that was computed."""
+    """The publications that the answer rests on, and those of its group if that was computed."""
     used = ["Kov86", *_for_the_decision(answer.decision)]
     if answer.case == 3:
         used.append("SU93")
@@ -76,4 +76,4 @@ def citation(answer: Answer, *, style: str = "text") -> str:
         return "\n".join(reference.text() for reference in references(answer))
     if style == "bibtex":
         return "\n\n".join(reference.bibtex() for reference in references(answer))
-    raise ValueError(f"the style is 'text' or 'bibtex', not {style!r}")
+    raise ValueError(f"unknown style {style!r}; available: 'text', 'bibtex'")

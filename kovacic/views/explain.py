@@ -297,12 +297,12 @@ class ExplanationWriter(Steps):
         if group is None:
             return
         yield Heading("The Galois group")
-        name = Math(group.name, group.latex)
         order = ""  # for an infinite order, and for one without a lower bound
         if group.order is not None:
             order = f", of order {digits(group.order)}"
         elif group.order_at_least is not None:
             order = f", of order at least {group.order_at_least} if it is finite"
+        name = Math(group.name, group.latex)
         about = f", {group.description}{order}: {group.ground.value}."
         yield say("The differential Galois group of the normal form is ", name, about)
         given = derived.equation_group(self.answer) if self.answer.gauge else None

@@ -103,9 +103,9 @@ def _simple_roots(modulus: Poly) -> str | None:
     constant, *middle = modulus.coefficients()[:-1]
     if middle != [0]:
         return None
-    unit = "i" if constant > 0 else ""
-    root = "" if abs(constant) == 1 else f"sqrt({as_text(abs(constant))})"
-    written = "*".join(part for part in (unit, root) if part)
+    unit = ["i"] if constant > 0 else []
+    root = [] if abs(constant) == 1 else [f"sqrt({as_text(abs(constant))})"]
+    written = "*".join(unit + root)
     return f"{written} or -{written}"
 
 
@@ -126,11 +126,8 @@ def reason(evidence: Evidence, formulas: Formulas) -> Iterator[str | Math]:
     elif evidence.prime is None:
         yield "the exponents leave no room for a rational omega"
     else:
-        yield from (
-            "no rational omega, by its expansion at ",
-            formulas.place(evidence.place),
-            f" modulo {evidence.prime}",
-        )
+        place = formulas.place(evidence.place)
+        yield from ("no rational omega, by its expansion at ", place, f" modulo {evidence.prime}")
 
 
 def solutions_of(answer: Answer) -> tuple[list[tuple[Math, Math]], tuple[str, ...]]:

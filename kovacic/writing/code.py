@@ -1,6 +1,6 @@
 """SymPy expressions as code of Mathematica, Maple and Julia, by SymPy's printers with corrections.
 
-Maple's elliptic integrals take the sine of the amplitude and the modulus k, m = k^2, where SymPy has the amplitude and m.
+Maple's elliptic integrals take the sine of the amplitude and the modulus k, m = k^2; SymPy's the amplitude and m.
 Julia's functions are those of SpecialFunctions.jl, HypergeometricFunctions.jl (pFq) and Elliptic.jl.  Functions that a language
 lacks, or has with another meaning (the branches of Maple's LegendreP are others), are refused.
 """
@@ -75,7 +75,7 @@ _PATTERNS: dict[str, dict[str, str]] = {
 
 @dataclass(frozen=True)
 class _Language:
-    """Its name, SymPy's printer, its brackets around arguments and lists, and names with a meaning of their own."""
+    """The name, SymPy's printer, brackets around arguments and lists, and the names that have a meaning in the language."""
 
     name: str
     printer: Any
@@ -156,7 +156,7 @@ def as_code(expression: Expr, language: str) -> str:
     """
     chosen = CODE_LANGUAGES.get(language)
     if chosen is None:
-        raise InputError(f"unknown language {language!r}", hint=f"the languages are {', '.join(CODE_LANGUAGES)}")
+        raise InputError(f"unknown language {language!r}", hint=f"available: {', '.join(CODE_LANGUAGES)}")
     expression = sympy.sympify(expression, strict=True)
     for name in sorted(symbol.name for symbol in expression.free_symbols):
         is_pattern = "_" in name and language == "mathematica"

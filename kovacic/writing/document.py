@@ -66,7 +66,7 @@ Block = Heading | Paragraph | Formula | Table
 
 @dataclass(frozen=True)
 class Format:
-    """The functions that write the parts of a document; `table` gets rows of cells as text, the head first."""
+    """The functions that write the parts of a document; `table` takes rows of cells as text, the head first."""
 
     heading: Callable[[str, int], str]
     math: Callable[[Math], str]
@@ -174,7 +174,7 @@ _THIN = "<mspace width='.17em'/>"
 
 
 def mathml(latex: str, display: str = "inline") -> str:
-    """The presentation MathML of a formula in LaTeX, which browsers show without a script or a font from elsewhere."""
+    """The presentation MathML of a formula in LaTeX, which browsers show without scripts or external fonts."""
     from latex2mathml.converter import convert
 
     check_time()
@@ -212,7 +212,7 @@ def _html_math(math: Math) -> str:
 
 
 def _html_line(latex: str) -> str:
-    """In a line; a formula that is wider than a page as many small ones, between which browsers break the line."""
+    """A formula in a line; one that is wider than a page becomes many small ones, between which browsers break the line."""
     if width(latex) <= 1.5 * LINE:
         return mathml(latex)
     # A sign at the beginning is one of the sum, not of its first term: empty braces before it say so.
@@ -267,14 +267,14 @@ FORMATS = {
 
 
 def format_of(name: str) -> Format:
-    """The format of this name.  Raises `ValueError` for any other."""
+    """The format with this name.  Raises `ValueError` for an unknown one."""
     if name not in FORMATS:
-        raise ValueError(f"the format is one of {', '.join(FORMATS)}, not {name!r}")
+        raise ValueError(f"unknown format {name!r}; available: {', '.join(FORMATS)}")
     return FORMATS[name]
 
 
 def _page(title: str, body: str) -> str:
-    """A page of HTML in ASCII that needs nothing from elsewhere; its styles are for itself, where it stands in a notebook."""
+    """A self-contained page of HTML in ASCII; its styles apply to itself alone, also within a notebook."""
     font = b64encode(get_data("kovacic.writing", "math.woff2") or b"").decode("ascii")
     written = _HTML.substitute(title=escaped.html(title), font=font, body=body)
     return written.encode("ascii", "xmlcharrefreplace").decode()

@@ -333,7 +333,7 @@ def test_other_formats(form: str) -> None:
         assert "<math" in theorem
     else:
         assert theorem.count("$$") % 2 == 0
-    with pytest.raises(ValueError, match="the format is one of"):
+    with pytest.raises(ValueError, match="unknown format"):
         conditions("weber").theorem(format="word")
 
 
