@@ -31,7 +31,7 @@ class Structure(Enum):
     OCTAHEDRAL = "octahedral"
     ICOSAHEDRAL = "icosahedral"
 
-    # That of an object, where Enum's would be called in each lookup.
+    # By identity: Enum's own hash is a Python function, called in each lookup.
     __hash__ = object.__hash__
 
     @property
@@ -41,7 +41,7 @@ class Structure(Enum):
 
 
 class Rule(Enum):
-    """The necessary conditions that can fail; the value is the sentence about the failure that users read."""
+    """The necessary conditions that can fail; the value is the message to the user."""
 
     RAMIFIED = "an irregular singular point is ramified, so no solution has a rational logarithmic derivative"
     LOGARITHM = (
@@ -81,9 +81,9 @@ class NoInvariant:
 class NoRationalOmega:
     """There is no unique rational omega = R/D + P'/P.
 
-    The degree of P is at most `degree` by the exponents; if that is negative nothing else is needed (prime None).
-    Else, modulo `prime`, none of the expansions that omega can have at the least root of the factor `place` ("infinity" for
-    infinity) is that of a rational function of the bounded degree.
+    The exponents bound the degree of P by `degree`; a negative bound is proof enough (prime None).  Else, modulo `prime`, no
+    possible expansion of omega at the least root of the factor `place` ("infinity" for infinity) is that of a rational
+    function of the bounded degree.
     """
 
     degree: int
@@ -93,10 +93,10 @@ class NoRationalOmega:
 
 @dataclass(frozen=True)
 class NoTerminatingSeries:
-    """There is no rational omega = theta + P'/P: of all theta that the exponents allow, none has a P.
+    """There is no rational omega = theta + P'/P: no theta that the exponents allow has a P.
 
-    Those with a natural number for the degree of P are `count`, and for each of them the recurrence for the coefficients of
-    P about a pole or the centre of all poles has two terms and meets an obstruction, or doesn't end.
+    For `count` of these the degree of P would be a natural number, and for each of them the recurrence for the coefficients
+    of P about a pole or the centre of all poles has two terms and meets an obstruction, or doesn't terminate.
     """
 
     count: int
@@ -112,9 +112,9 @@ class Exclusion:
     Attributes
     ----------
     structure : Structure
-        The one that is excluded.
+        The excluded structure.
     evidence : tuple
-        Each a necessary condition that fails, an invariant that doesn't exist, or an omega that doesn't.
+        Necessary conditions that fail, and invariants or an omega that don't exist.
     """
 
     structure: Structure
@@ -130,9 +130,9 @@ class SemiInvariant:
     Attributes
     ----------
     degree : int
-        That of the form, and so the number of the conjugates.
+        The degree of the form, and so the number of conjugates.
     theta : RatFunc
-        Its poles are at those of S, and at infinity.
+        Its poles are those of S, and infinity.
     P : Poly
         Its zeros are ordinary points.
 
@@ -156,7 +156,7 @@ class SemiInvariant:
 
 @dataclass(frozen=True)
 class TerminatingSeries:
-    """A solution y = exp(int theta) P whose P has too many terms to be written out, and is known by its recurrence.
+    """A solution y = exp(int theta) P with a P of too many terms to be written out, given by its recurrence.
 
     P = t^degree + ... + c t^lowest in steps of `step`, t = x - centre: the equation for P, P'' + 2 theta P' +
     (theta' + theta^2 - S) P = 0, is a relation between the coefficients of two powers of t, and determines it.
@@ -226,8 +226,8 @@ class Decision:
     """The engine's outcome: the structure that the group has, or None, and everything that was excluded before it.
 
     `semi_invariant` and `riccati` belong to omega; `invariant` is the rational form that showed the structure (None if
-    omega was found without one); where P would be too long, a `series` takes their place.  `undecided` is a sentence when a
-    limit was reached, and then nothing but the exclusions is claimed.
+    omega was found without one); a `series` replaces them if P would be too long.  `undecided` is a sentence if a limit was
+    reached: then only the exclusions are claimed.
     """
 
     structure: Structure | None
@@ -263,8 +263,8 @@ class Piece:
 class CurveFunction:
     """A function f, the product of its pieces up to a function of x alone, on the curve y^2 = h.
 
-    `multiple` * d log(y1/y2) = df/f + `rest` dx/y: without a rest (y1/y2)^multiple is f; with one, since it is holomorphic,
-    no power of y1/y2 is a function.
+    `multiple` * d log(y1/y2) = df/f + `rest` dx/y: (y1/y2)^multiple is f if the rest is 0; otherwise, since the rest is
+    holomorphic, no power of y1/y2 is a function.
     """
 
     multiple: int
@@ -277,11 +277,11 @@ class CurveFunction:
 class GroupClaim:
     """A claim about the group: its family, as in `kovacic.galois.GroupKind`, the parameter n, and its size.
 
-    `order` is None for an infinite group, and for one whose order wasn't determined; then the dimension is None as well.
+    `order` is None for an infinite group; if it wasn't determined, the dimension is None as well.
 
-    `form` is a rational form of degree 2 for a reducible group, where the decision has none.  For an imprimitive one on a curve
-    of positive genus, `function` shows whether it is finite; or `orders` has primes, with orders modulo them, for an infinite
-    one.
+    `form` is a rational form of degree 2 for a reducible group, if the decision has none.  For an imprimitive group on a curve
+    of positive genus, `function` proves that it is finite or infinite; or `orders`, primes with orders modulo them, prove
+    that it is infinite.
     """
 
     family: str

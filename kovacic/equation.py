@@ -25,14 +25,14 @@ from kovacic.numbers.numerals import as_text
 
 DEFAULT_VARIABLE = "x"
 
-# The unknown function of y'' = S y: a variable only where the caller says so.
+# The unknown function of y'' = S y: a variable only if the caller says so.
 UNKNOWN = "y"
 
-#: Transcendental numbers, which are parameters in a coefficient: a claim for generic values holds for a transcendental one.
+#: Transcendental numbers are parameters in coefficients: a claim for generic values holds for transcendental ones.
 PI = "pi"
 EULER = "e"
 
-# Not the variable unless the caller says so: the energy, a parameter.
+# The energy: a parameter, unless the caller says that it is the variable.
 ENERGY = "E"
 
 
@@ -89,8 +89,8 @@ class Equation:
     variable, unknown : str
         The names of x and y.
     change : Change or None
-        The variable as a function of the user's, where coefficients in exp(k x) were given.  Then h is in the user's
-        variable: the part of the right-hand side apart from f, divided by the coefficient of y''.
+        The variable as a function of the user's, for coefficients in exp(k x).  Then h is in the user's variable: the part of
+        the right-hand side apart from f, divided by the coefficient of y''.
 
     Raises
     ------
@@ -182,8 +182,8 @@ class Equation:
 class Parsed:
     """S as a rational function, the name of its variable, and notices about the reading.
 
-    `equation` is the given equation, None if S itself was given.  `letters` are the parameters that stand for constants, as
-    SymPy expressions: sin_theta for sin(theta).  `guesses` are those of the notices that are about guesses.
+    `equation` is None if S itself was given.  `letters` are the parameters that stand for constants, with their meanings as
+    SymPy expressions: sin_theta for sin(theta).  `guesses` are the notices about guesses.
     """
 
     S: RatFunc
