@@ -5,8 +5,8 @@ the angle between the u-line there and the v1-line.  E, F, G and L, M, N are the
 its outward normal.  `PRINTED` has the paper's formulas under its numbers (1) to (11), general ones specialized to the ball.
 
 The derivation holds for all values of the parameters.  The two velocities of the contact point in the frame (e_u, e_v, e_n)
-agree (rolling without slipping): that gives (2).  The angular velocity is that of the frame in space, known by (u1, v1, theta),
-less that in the ball, known by (u, v): (4), (5).  The equations of motion (7) are d'Alembert's principle for the velocities
+agree (rolling without slipping): (2).  The angular velocity is that of the frame in space, given by (u1, v1, theta), minus that
+in the ball, given by (u, v): (4), (5).  The equations of motion (7) are d'Alembert's principle for the velocities
 u', v', n that rolling leaves free; the rest follows by elimination.  `residuals` are the differences between printed and
 derived formulas, and `holds` decides that they vanish, in the engine's field of rational functions.  The accelerations are
 unique, since the matrix of K22, K23, K33 is positive definite.

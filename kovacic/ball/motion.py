@@ -1,20 +1,16 @@
 """The motion of the ball from any start: u(t), omega_3(t), n(t), the contact point, the attitude, the reaction.
 
-Symbols as in `kovacic.ball.body`; x = cos u.  With omega_3(x) and n(x) in closed form the motion is a quadrature,
-t = int dx/sqrt(W(x)), which is singular at turning points, near the poles of the ball and where the motion is steady.
-In the ball's own axes the same motion has no singularity.  With s the unit vector from the centre to the contact point, omega
-the angular velocity, r = R s + a e_3 (from the centre of mass to the contact point), and b such that the centre of mass has
-the acceleration -(omega' x r) - b, Euler's equations about the contact point are
+Symbols as in `kovacic.ball.body`; x = cos u.  The quadrature t = int dx/sqrt(W(x)) is singular at turning points, poles, and
+for steady motions; in the ball's own axes nothing is.  With s the unit vector from the centre to the contact point, omega the
+angular velocity, r = R s + a e_3 (from the centre of mass to the contact point), and b such that the centre of mass has the
+acceleration -(omega' x r) - b, Euler's equations about the contact point are
     (1 + rho) s' = s x omega,   J omega' - m r x (r x omega') = J omega x omega - m r x b + V_x/(1 + rho) s x e_3,
 where x = s_3, n = omega . s [E. J. Routh, Advanced Dynamics of a System of Rigid Bodies, ch. V].  They are integrated over one
-oscillation of x, to about 5e-14.  One period T later the ball is where it was, but for a rotation: s and omega are turned
-about the axis by an angle Delta, and with B' = B [omega]x, B(0) = 1,
-    s(t + T) = Rz(Delta) s(t),   B(t + k T) = G^k B(t) Rz(-k Delta),   G = B(T) Rz(Delta),
-so that 10^4 oscillations cost what one does.  omega_3 and n are given by their closed form, at x(t), and not by the
-integration: `Motion.defects` compares the two.
-
-V is a function of cos u alone, the place of the contact point on the body, as for a force towards the centre of the sphere, or
-for gravity on a plane.  A uniform field over a sphere is none: it depends on the place there.
+oscillation of x, to about 5e-14.  One period T later s and omega are turned about the axis by an angle Delta, and with
+B' = B [omega]x, B(0) = 1,
+    s(t + T) = Rz(Delta) s(t),   B(t + k T) = G^k B(t) Rz(-k Delta),   G = B(T) Rz(Delta):
+10^4 oscillations cost as much as one.  omega_3 and n are given by their closed form; `Motion.defects` compares it with the
+integration.  V is a function of cos u alone, as for a force towards the centre of the sphere, or gravity on a plane.
 """
 
 from __future__ import annotations
@@ -62,11 +58,7 @@ class Force:
 
     @classmethod
     def of(cls, V: sp.Expr, g: float | None = None) -> Force:
-        """The force with the potential V(u).
-
-        Raises `InputError` for a V that isn't finite on 0 <= u <= pi, or isn't even about both poles, as functions of cos u
-        are: the force would jump there.
-        """
+        """The force with the potential V(u).  Raises `InputError` unless V is finite, and even about both poles."""
         value, slope = (sp.lambdify(U, f, modules="numpy", cse=True) for f in (V, sp.diff(V, U)))
         u = np.linspace(0.0, np.pi, 33)
         with np.errstate(all="ignore"):
@@ -81,10 +73,10 @@ class Force:
 
     @classmethod
     def gravity(cls, sphere: BallOnSphere, g: Quantity) -> Force:
-        """A force m g at the centre of mass that presses the ball to the fixed surface; a negative g pulls it off.
+        """A force m g at the centre of mass towards the centre of the sphere, away from it inside, downwards on a plane.
 
-        It points to the centre of the sphere, away from it inside, and downwards on a plane.  The centre of mass is at the
-        distance d/|k| from the sphere's, d^2 = 1 + a^2 k^2 + 2 a k cos u, 1/k = R1 + R; V is m g (d - 1)/k.
+        A negative g pulls the ball off.  The centre of mass is at the distance d/|k| from the sphere's,
+        d^2 = 1 + a^2 k^2 + 2 a k cos u, 1/k = R1 + R; V is m g (d - 1)/k.
         """
         m, R, a, _, _ = sphere.ball.parameters
         strength = exact_quantity(g, "g")
@@ -230,10 +222,9 @@ class MotionStart:
     """Position and velocity at time 0: angles in radians, rates in radians per unit of time, n the spin; floats or exact.
 
     v is the longitude of the contact point on the body, u1 and v1 are its colatitude and longitude on the sphere (Cartesian
-    coordinates on the plane), theta is the angle from the direction of growing v1 to that of growing u on the body,
-    e_u = -sin(theta) e_u1 + cos(theta) e_v1.  At a pole, u = 0 or pi, the meridian v is the one in which the contact point
-    leaves it with the speed u'.  Inside a sphere, where R1 < 0, the paper's (u1, v1) are those of the antipode; here they are
-    the contact point's.
+    coordinates on the plane), theta is the angle from e_v1 to e_u, e_u = -sin(theta) e_u1 + cos(theta) e_v1.  At a pole, u = 0
+    or pi, the contact point leaves in the meridian v with the speed u'.  Inside a sphere the paper's (u1, v1) are those of the
+    antipode; here they are the contact point's.
     """
 
     u: Any
@@ -250,13 +241,11 @@ class MotionStart:
 class Motion:
     """A motion; its methods take times, an array of any shape or a number, negative ones too, and 0 is the start.
 
-    `period` is the time of one oscillation of x = cos u; None for a steady motion, with constant u, and for an asymptotic
-    one.  `determined` is the time up to which the digits of an asymptotic motion are known, from 0; other times raise
-    `LimitExceeded`.  It is infinite for every other motion.
-    `turning_points` are the least and the largest u: 0 or pi, up to rounding, for a path through a pole.
-    The last index of a result is that of the vector.  Errors are about 5e-14 times the number of oscillations; beyond 10^5
-    of these, `LimitExceeded` is raised.  `approach` is the least distance from an unstable steady motion relative to the
-    greatest: if it is small, neighbouring motions part, and one passage multiplies errors by 1/approach^2.
+    `period` is the time of one oscillation of x = cos u; None for a steady motion, with constant u, and for an asymptotic one,
+    whose digits are known from 0 to `determined`; other times raise `LimitExceeded`, as do those beyond 10^5 oscillations.
+    Errors are about 5e-14 times the number of oscillations.  `turning_points` are the least and the largest u: 0 or pi for a
+    path through a pole.  The last index of a result is that of the vector.  `approach` is the least distance from an unstable
+    steady motion relative to the greatest: one passage multiplies errors by 1/approach^2.
     """
 
     ball: Dynamics
@@ -370,9 +359,8 @@ def solve_motion(
     """The motion from `start` at t = 0 under a force of strength m g (default: g = 1), or with a potential energy V(u).
 
     `Force.gravity` says where the force points; V is text or SymPy, a smooth function of cos u.  Rolling is enforced, also
-    where the reaction would have to pull: see `Motion.reaction`.
-    Every start has a motion, at the poles and steady ones included.  Asymptotic ones, which come as near as 1e-6 to an
-    unstable steady motion, depend on digits that floats don't have: they are followed up to `Motion.determined`.
+    where the reaction would have to pull.  Every start has a motion; asymptotic ones, which come as near as 1e-6 to an unstable
+    steady motion, depend on digits that floats don't have.
     Raises `InputError` for symbolic parameters, numbers out of range and potentials that aren't smooth.
 
     >>> from kovacic.ball.body import RollingBall
