@@ -1,7 +1,8 @@
-"""What `dsolve` knows and an `Eq` can't carry: the pair, a particular solution, where they hold, and what holds elsewhere."""
+"""The answer of `dsolve` beyond an `Eq`: the pair, a particular solution, where they hold, and the exceptional cases."""
 
 from __future__ import annotations
 
+from collections import deque
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import suppress
 from dataclasses import dataclass, field, replace
@@ -14,35 +15,24 @@ from kovacic.errors import InputError
 from kovacic.general_solution.basis import Basis
 from kovacic.general_solution.constants import Determined
 from kovacic.general_solution.first_order import FirstOrderEquation
-from kovacic.general_solution.question import Question, symbols_that_know
+from kovacic.general_solution.question import Question, with_assumptions
 from kovacic.general_solution.substitution import size
 from kovacic.general_solution.validity import Validity, needed_for
 from kovacic.general_solution.zero import differs_from_zero, samples
-from kovacic.general_solution.zero_set import ZeroSet
+from kovacic.general_solution.zero_set import ZeroSet, poles_of
 
 Expr = Any  # SymPy publishes no types
-#: Answers by their equations, of systems by the first, and how many of them.
-_GIVEN: dict[Expr, ProblemAnswer] = {}
-_MOST_GIVEN = 100
+#: The last answers, the newest first, for `validity` of their equations.
+_GIVEN: deque[ProblemAnswer] = deque(maxlen=100)
 
 
 @dataclass(frozen=True)
 class Exceptional:
-    """Particular values of a letter, for which the two solutions of an answer are no pair.
+    """Particular values of a letter, for which the two solutions of an answer are dependent or undefined."""
 
-    Attributes
-    ----------
-    where : str
-        Which values: "c = 1", "c is a positive integer".
-    values : mapping
-        A letter and its value.
-    example : mapping
-        One of several values of a letter.
-    assume : mapping
-        What to assume of a letter, as for `dsolve`, where it is no single value.
-    """
-
+    #: The values in words: "c = 1", "c is a positive integer".
     where: str
+    #: A letter and its value; or one of its values as an example, and assumptions on it, as for `dsolve`.
     values: Mapping[Expr, Expr] = field(default_factory=dict)
     example: Mapping[Expr, Expr] = field(default_factory=dict, kw_only=True)
     assume: Mapping[str, str] = field(default_factory=dict)
@@ -50,7 +40,7 @@ class Exceptional:
 
     @cached_property
     def answer(self) -> ProblemAnswer | None:
-        """The answer for these values; None if none is found."""
+        """The answer for these values, or None if none is found."""
         if self._ask is None or not (self.values or self.assume):
             return None
         with suppress(InputError, NotImplementedError):
@@ -70,11 +60,11 @@ class ProblemAnswer:
     eq : sympy.Eq
         y(x) = ..., what `dsolve` returns.
     notices : list of str
-        What is to be said beside: the warnings of `dsolve`.
+        The warnings of `dsolve`.
     unchecked : tuple of str
-        Why the answer couldn't be put into the equation, or into a condition; empty where it was.
+        One sentence per check that could not be carried out.
     known : mapping
-        Symbols that know what was assumed, for the user's own.
+        Symbols that carry the assumptions, by the user's own.
     exceptional : tuple of sympy.Expr
         Exceptions of the pair from which a system or a Riccati equation has its solutions.
     """
@@ -98,7 +88,7 @@ class ProblemAnswer:
 
     @property
     def own(self) -> dict[Expr, Expr]:
-        """The user's symbols for those that know what was assumed."""
+        """The user's symbols, by those that carry the assumptions."""
         return {symbol: user for user, symbol in self.known.items()}
 
     @property
@@ -108,11 +98,11 @@ class ProblemAnswer:
 
     @property
     def exceptions(self) -> tuple[Exceptional, ...]:
-        """The values of letters for which the general solution isn't made of this pair, and what holds there."""
+        """The values of letters for which the general solution isn't made of this pair, with the answers there."""
         return ()
 
-    def relations_beside(self, eq: Expr) -> tuple[Expr, ...]:
-        """Relations that the solution needs and the formula doesn't show, in symbols that carry the assumptions."""
+    def hidden_relations(self, eq: Expr) -> tuple[Expr, ...]:
+        """Relations that the solution needs but the formula doesn't show, in symbols that carry the assumptions."""
         return ()
 
     @cached_property
@@ -121,7 +111,7 @@ class ProblemAnswer:
         eqs = [eq.xreplace(self.known) for eq in self.equations]
         found = needed_for([eq.rhs for eq in eqs], eqs[0].lhs.args[0], self.pair_exceptions)
         return Validity(
-            tuple(relation.xreplace(self.own) for relation in (*found.real, *self.relations_beside(eqs[0]))),
+            tuple(relation.xreplace(self.own) for relation in (*found.real, *self.hidden_relations(eqs[0]))),
             tuple(e.xreplace(self.own) for e in found.exceptions),
             found.has_real_parts,
         )
@@ -129,29 +119,19 @@ class ProblemAnswer:
 
 @dataclass(frozen=True, repr=False)
 class SecondOrderAnswer(ProblemAnswer):
-    """y = C1 y1 + C2 y2 + y0.
+    """y = C1 y1 + C2 y2 + y0."""
 
-    Attributes
-    ----------
-    question : Question
-        The equation, its conditions, and the user's symbols.
-    basis : Basis
-        y1 and y2 with their Wronskian, and `exceptions`: for which letters they are no basis.
-    particular : sympy.Expr
-        y0.
-    names : tuple of sympy.Symbol
-        C1 and C2.
-    determined : Determined or None
-        What the conditions make of C1 and C2, for generic letters and for particular ones; None without conditions.
-    ask : callable
-        Answers another question about the same function: `answer_to`.
-    """
-
+    #: The equation, its conditions, and the user's symbols.
     question: Question
+    #: y1 and y2 with their Wronskian, and `exceptions`: expressions that are zero where they are no basis.
     basis: Basis
+    #: y0.
     particular: Expr
+    #: C1 and C2.
     names: tuple[Expr, Expr]
+    #: C1 and C2 by the conditions, for generic letters and for particular ones; None without conditions.
     determined: Determined | None
+    #: Answers another question about the same function: `answer_to`.
     ask: Callable[..., ProblemAnswer] = field(kw_only=True, repr=False, compare=False)
 
     @property
@@ -171,24 +151,22 @@ class SecondOrderAnswer(ProblemAnswer):
         found = map(self.question.own, self.basis.undefined) if members & value.atoms(sympy.Function) else ()
         solution = self.question.own(value)
         free = [solution.diff(name) for name in self.names if solution.has(name)]
-        has_poles = self.eq.has(sympy.gamma)
-        zeros = (
-            e
-            for e in self.basis.dependent
-            if (has_poles and isinstance(1 / e, sympy.gamma)) or any(vanishes_with(e, y) for y in free)
-        )
-        return (*found, *zeros)
+
+        def is_exception(zero: Expr) -> bool:
+            is_pole = self.eq.has(sympy.gamma) and isinstance(1 / zero, sympy.gamma)
+            return is_pole or any(vanishes_with(zero, y) for y in free)
+
+        return (*found, *filter(is_exception, self.basis.dependent))
 
     @cached_property
     def exceptions(self) -> tuple[Exceptional, ...]:
         if self.determined is not None:
             return ()
         zeros = dict.fromkeys([*self.basis.dependent, *self.basis.exceptions])
-        cases = (case for zero in zeros for case in exceptional_cases(zero))
-        return tuple(replace(case, _ask=self._there) for case in cases)
+        return tuple(replace(case, _ask=self._answer_in) for zero in zeros for case in exceptional_cases(zero))
 
-    def _there(self, case: Exceptional) -> ProblemAnswer:
-        """For particular values of letters, or with something more assumed of them."""
+    def _answer_in(self, case: Exceptional) -> ProblemAnswer:
+        """The answer for particular values of letters, or with further assumptions on them."""
         equation, function, _ = self.question.at(case.values)
         return self.ask(equation.xreplace(self.own), function.xreplace(self.own), assume=case.assume)
 
@@ -199,8 +177,8 @@ class FirstOrderAnswer(ProblemAnswer):
 
     equation: FirstOrderEquation
 
-    def relations_beside(self, eq: Expr) -> tuple[Expr, ...]:
-        """u >= 0 for the w = u^k, k = 1/(1 - n) an integer, that solves Bernoulli's equation where w^(1/k) is u."""
+    def hidden_relations(self, eq: Expr) -> tuple[Expr, ...]:
+        """u >= 0 for w = u^k, k = 1/(1 - n) an integer, which solves Bernoulli's equation only where w^(1/k) is u."""
         w, n, x = eq.rhs, self.equation.power, eq.lhs.args[0]
         if n.is_integer or not (1 / (1 - n)).is_integer or w == 0:
             return ()
@@ -222,18 +200,16 @@ class SystemAnswer(ProblemAnswer):
 
 
 def exceptional_cases(zero: Expr) -> Iterator[Exceptional]:
-    """Where an expression in letters is zero: a value of one of them, or integers, for sin(pi l) and 1/gamma(l)."""
-    integers: list[tuple[Expr, str]] = []
+    """The values of letters where an expression is zero: one of a letter, or integers, for sin(pi l) and 1/gamma(+-l)."""
+    number, signs = zero, []
     if isinstance(zero, sympy.sin):
-        integers = [(zero.args[0] / sympy.pi, sign) for sign in ("positive", "nonpositive")]
-    elif isinstance(1 / zero, sympy.gamma):
-        integers = [((1 / zero).args[0], "nonpositive"), (-(1 / zero).args[0], "nonnegative")]
-    integers = [(number, sign) for number, sign in integers if number.is_Symbol]
-    for number, sign in integers:
-        if getattr(number, f"is_{sign}") is not False:
+        number, signs = zero.args[0] / sympy.pi, ["positive", "nonpositive"]
+    elif poles := poles_of(zero):
+        number, signs = poles[0], ["nonnegative" if poles[1] > 0 else "nonpositive"]
+    if signs and number.is_Symbol:
+        for sign in (sign for sign in signs if getattr(number, f"is_{sign}") is not False):
             example = {number: sympy.Integer(sign == "positive")}
             yield Exceptional(f"{number} is a {sign} integer", assume={number.name: f"{sign} integer"}, example=example)
-    if integers:
         return
     slopes = {letter: sympy.factor(zero.diff(letter)) for letter in sorted(zero.free_symbols, key=str)}
     linear = [k for k, slope in slopes.items() if not slope.has(k) and not (slope.is_Add and slope.free_symbols)]
@@ -247,56 +223,53 @@ def exceptional_cases(zero: Expr) -> Iterator[Exceptional]:
 
 
 def vanishes_with(zero: Expr, *functions: Expr) -> bool:
-    """False if in each case in which `zero` is 0 one of the functions is seen not to be."""
-
-    def is_seen_nonzero(case: Exceptional) -> bool:
+    """False if in each case in which `zero` is 0 one of the functions is seen to differ from 0."""
+    for case in exceptional_cases(zero):
         values = case.values or case.example
         there = [y.subs(values) for y in functions if values]
-        return any(differs_from_zero(y, next(samples(y.free_symbols))) for y in there)
-
-    return not all(map(is_seen_nonzero, exceptional_cases(zero)))
+        if not any(differs_from_zero(y, next(samples(y.free_symbols))) for y in there):
+            return True
+    return False
 
 
 def remember(answer: ProblemAnswer) -> None:
-    """Keep an answer of which only the equation is returned, for `validity`."""
-    _GIVEN[answer.equations[0]] = answer
-    while len(_GIVEN) > _MOST_GIVEN:
-        del _GIVEN[next(iter(_GIVEN))]
+    """Keep an answer for `validity` when only its equation is returned."""
+    _GIVEN.appendleft(answer)
 
 
 def given_answer(eq: Expr) -> ProblemAnswer | None:
-    """The answer from which `dsolve` returned this equation, if it is one of the last."""
-    return _GIVEN.get(eq)
+    """The answer from which `dsolve` returned this equation, or the first one of a system, if it is one of the last."""
+    return next((answer for answer in _GIVEN if answer.equations[0] == eq), None)
 
 
 def validity(solution: Any, assume: Mapping[Any, Any] | None = None) -> Validity:
-    """What a solution needs to be real and valid: an interval, and exceptional values of parameters.
+    """The domain of validity of a solution: where it is real and valid, and exceptional values of parameters.
 
-    The relations are read off the formula, part by part: arguments of roots, of logarithms and of other functions with a cut
-    lie beside that, and denominators aren't zero.  Roots are SymPy's: x^(1/3) is complex for x < 0.  They are sufficient for
-    real symbols; where complex parts cancel, they aren't necessary.  Where the two solutions are dependent, or one of them is
-    undefined, is known to the answer that the formula is from.
-    What is assumed of symbols is used; `real` is `false` alone where it makes a part complex.  That gamma(a) and other
-    functions of parameters alone may have poles isn't said.
+    The relations are read off the formula, part by part: arguments of roots, logarithms and other functions stay off branch
+    cuts, and denominators aren't zero.  Roots are SymPy's: x^(1/3) is complex for x < 0.  They are sufficient for real symbols,
+    but not necessary if complex parts cancel.  Where the two solutions are dependent, or one of them is undefined, is known
+    only for answers of `dsolve`.
+    Assumptions on symbols are used; `real` is `false` alone if they make a part complex.  Poles of gamma(a) and other functions
+    of parameters alone aren't mentioned.
 
     Parameters
     ----------
     solution : ProblemAnswer, sympy.Eq or list of sympy.Eq
-        What `answer_to` or `dsolve` returns.  Of an `Eq` that `dsolve` didn't return lately the formula alone is known.
+        An answer of `answer_to` or `dsolve`.  For another `Eq`, or one of long ago, the formula alone is examined.
     assume : mapping, optional
-        What was assumed of parameters, as given to `dsolve`, whose answer has the user's own symbols: {"k": "positive"}.
-        What it excludes isn't said; names that don't occur in the solution are passed over.
+        Assumptions on parameters, as given to `dsolve`, whose answer has the user's own symbols: {"k": "positive"}.
+        Cases that they exclude aren't mentioned; names that don't occur in the solution are ignored.
 
     Returns
     -------
     Validity
-        `real`, relations, and `exceptions`, expressions in the parameters that must not be zero.  It is false where nothing
-        is needed.
+        `real`, relations, and `exceptions`, expressions in the parameters that must not be zero.  It is false if there are
+        none.
 
     Raises
     ------
     InputError
-        For what isn't such an equation.
+        If `solution` isn't such an equation.
 
     Examples
     --------
@@ -318,8 +291,7 @@ def validity(solution: Any, assume: Mapping[Any, Any] | None = None) -> Validity
     (x,) = eqs[0].lhs.args
     value = sympy.Tuple(*(eq.rhs for eq in eqs))
     own = {symbol.name: symbol for symbol in value.free_symbols}
-    said = {name: what for name, what in (assume or {}).items() if str(name) in own}
-    symbols = symbols_that_know(said, own)
+    symbols = with_assumptions({name: words for name, words in (assume or {}).items() if str(name) in own}, own)
     given = given_answer(eqs[0])
     exceptions = [] if given is None else [e.xreplace(given.own).xreplace(symbols) for e in given.pair_exceptions]
     return needed_for(value.xreplace(symbols), x.xreplace(symbols), exceptions)

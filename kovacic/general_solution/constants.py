@@ -1,15 +1,15 @@
 """The constants C1, C2 that linear conditions determine: u C1 + v C2 = r for each condition, by rank.
 
-The rank of the matrix with the rows (u, v) is 2 if a minor isn't zero, 1 if an entry isn't and all minors are; with the
-column r it must be the same.  Then one solution, or a family with free constants; else there is none.  Where a minor is zero
-for particular values of the parameters alone, the answer is the one for all others, and the particular case is said beside.
+The rank of the matrix with the rows (u, v) is 2 if a minor isn't zero, 1 if an entry isn't and all minors are.  If it is the
+same with the column r, there is one solution, or a family with free constants; else there is none.  If a minor is zero only
+for particular values of the parameters, the answer is for all others, and a notice has the particular case.
 
-A condition l(y) = v with a linear l gives the row (l(y1), l(y2), v - l(y0)), where everything is in the user's symbols, so
-that sin(n pi) is 0 before anything is compared.
+A condition l(y) = v with a linear l gives the row (l(y1), l(y2), v - l(y0)), in the user's symbols, so that sin(n pi) is 0
+before anything is compared.
 
-At a singular point and at infinity y is bounded, or tends to v.  If y1 and y2 are, the limits are such a row.  Else let y2 be
-the larger one, r = lim y1/y2: then C2 + r C1 = 0, and y = C1 (y1 - r y2).  As (y1 - r y2)/y2 tends to 0 and has the slope
--W/y2^2, the limit of y1 - r y2 is by L'Hospital's rule that of W/y2'.
+At a singular point and at infinity y is bounded, or tends to v.  If y1 and y2 are bounded, their limits are such a row.  Else
+let y2 be the larger one, r = lim y1/y2: then C2 + r C1 = 0, and y = C1 (y1 - r y2).  As (y1 - r y2)/y2 tends to 0 and has the
+slope -W/y2^2, the limit of y1 - r y2 is by L'Hospital's rule that of W/y2'.
 """
 
 from __future__ import annotations
@@ -23,7 +23,7 @@ from types import MappingProxyType
 from typing import Any, NamedTuple
 
 import sympy
-from sympy import acos, atan, cos, cosh, exp, log, sin, sinh, tan, tanh
+from sympy import Mul, S, acos, atan, cos, cosh, exp, expand, gamma, log, oo, sin, sinh, tan, tanh
 from sympy.simplify.fu import TR2i
 
 from kovacic.errors import InputError
@@ -33,14 +33,11 @@ from kovacic.general_solution.question import Condition, Question
 from kovacic.general_solution.substitution import finite_value, in_single_waves, size
 from kovacic.general_solution.zero import Zero, is_nowhere_zero, when_zero
 from kovacic.general_solution.zero_set import ZeroSet
-from kovacic.limits import check_time
+from kovacic.limits import check_time, manageable
 
 Expr = Any  # SymPy publishes no types
-#: Functions whose values are simplified, in constants of up to `_LONGEST` subexpressions.
+#: Functions in which constants are simplified as rational expressions.
 _ELEMENTARY = {exp, log, sin, cos, tan, sinh, cosh, tanh, atan, acos}
-_LONGEST = 200
-_ZERO = sympy.Integer(0)
-_ONE = sympy.Integer(1)
 
 
 class Row(NamedTuple):
@@ -56,7 +53,7 @@ class Row(NamedTuple):
 
 
 class Outcome(Enum):
-    """One solution or a family; none; or what depends on more than the case says."""
+    """One solution or a family; none; or open, since it depends on more than the case says."""
 
     SOLUTIONS = "solutions"
     NONE = "none"
@@ -65,15 +62,14 @@ class Outcome(Enum):
 
 @dataclass(frozen=True)
 class ParameterCase:
-    """What the conditions determine where all of `zeros` are zero; without any, for generic values of the parameters.
+    """The solutions of the conditions where all of `zeros` are zero; without any, for generic values of the parameters.
 
-    `values` are those of C1 and C2, in terms of the ones that stay free, where there are solutions; and there are only if
-    all of `needed` are zero, too.
+    `values` are C1 and C2, in terms of those that stay free; there are solutions only if all of `needed` are zero, too.
     """
 
     zeros: tuple[Expr, ...]
     outcome: Outcome
-    values: tuple[Expr, Expr] = (sympy.Integer(0), sympy.Integer(0))
+    values: tuple[Expr, Expr] = (S.Zero, S.Zero)
     needed: tuple[Expr, ...] = ()
 
     @property
@@ -81,13 +77,13 @@ class ParameterCase:
         """True unless one of `zeros` is seen not to be zero for any values."""
         return all(map(ZeroSet, self.zeros))
 
-    def where(self, answer: Expr = sympy.S.Zero) -> str:
-        """The case in words, beside the answer for all other values."""
+    def where(self, answer: Expr = S.Zero) -> str:
+        """The case in words, in the functions of the answer for all other values."""
         return " and ".join(ZeroSet(zero).said(answer) for zero in self.zeros)
 
 
 class Determined(NamedTuple):
-    """What the conditions determine for generic values of the parameters, and for particular ones."""
+    """The solutions of the conditions for generic values of the parameters, and for particular ones."""
 
     generic: ParameterCase
     particular: list[ParameterCase]
@@ -96,13 +92,12 @@ class Determined(NamedTuple):
 
 
 def determine(
-    rows: Sequence[Row], names: tuple[Expr, Expr], wronskian: Expr | None = None, scale: Expr = sympy.S.One
+    rows: Sequence[Row], names: tuple[Expr, Expr], wronskian: Expr | None = None, scale: Expr = S.One
 ) -> Determined:
-    """The generic case and the particular ones.  `wronskian`: that at the point where both y and y' are given, in this order.
+    """The generic case and the particular ones.  Raises `NotImplementedError` if it isn't decided whether a constant is zero.
 
-    `scale` is the Wronskian at a point: where it is zero the solutions are dependent, and that isn't a case of the conditions.
-
-    Raises `NotImplementedError` where it can't be told whether a constant is zero.
+    `wronskian` is that at a point where y and y' are given, in this order; `scale` is the Wronskian at some point: where it is
+    zero the solutions are dependent, which isn't a case of the conditions.
 
     >>> k, C1, C2 = sympy.symbols("k C1 C2")
     >>> generic, others, _ = determine([Row(1, 0, 0), Row(cos(k), sin(k), 0)], (C1, C2))
@@ -112,7 +107,7 @@ def determine(
     minor: tuple[Expr, Zero, Sequence[Row]] | None
     if wronskian is None:
         pairs = combinations(rows, 2)
-        minor = _nonzero((first.u * second.v - first.v * second.u, (first, second)) for first, second in pairs)
+        minor = _nonzero_entry((first.u * second.v - first.v * second.u, (first, second)) for first, second in pairs)
     else:
         minor = wronskian, Zero.NEVER, rows[:2]
     if minor is None:
@@ -122,7 +117,7 @@ def determine(
     c1 = tidy((first.r * second.v - first.v * second.r) / value)
     c2 = tidy((first.u * second.r - first.r * second.u) / value)
     others = [row for row in rows if row is not first and row is not second]
-    found = _split(_Solved((c1, c2), [row.rest(c1, c2) for row in others]))
+    found = _split(_SolvedConditions((c1, c2), [row.rest(c1, c2) for row in others]))
     if when is Zero.SOMETIMES:  # then the case of rank one, as far as it follows from the minor's being zero
         case = ParameterCase((), Outcome.OPEN)
         with suppress(NotImplementedError):  # undecided there, which says nothing about all other values
@@ -134,35 +129,32 @@ def determine(
     return found
 
 
-class _Solved(NamedTuple):
-    """Values of the constants, all that must be zero for them to be a solution, and `pivot`, by which they are divided."""
+class _SolvedConditions(NamedTuple):
+    """Values of C1 and C2, expressions that must be zero for them to be a solution, and `pivot`, by which they are divided."""
 
     values: tuple[Expr, Expr]
     needed: Sequence[Expr]
-    pivot: Expr = sympy.S.One
+    pivot: Expr = S.One
 
 
-def _nonzero(candidates: Iterable[tuple[Expr, Any]]) -> tuple[Expr, Zero, Any] | None:
-    """The first value that is never zero if there is one, else the first that isn't always zero; with what belongs to it."""
+def _nonzero_entry(candidates: Iterable[tuple[Expr, Any]]) -> tuple[Expr, Zero, Any] | None:
+    """The first pair whose value is never zero, or else isn't always zero, with the `Zero` between value and origin."""
     sometimes = None
-    for value, what in candidates:
+    for value, origin in candidates:
         when = when_zero(value)
         if when is Zero.NEVER:
-            return value, when, what
+            return value, when, origin
         if when is Zero.SOMETIMES:
-            sometimes = sometimes or (value, when, what)
+            sometimes = sometimes or (value, when, origin)
     return sometimes
 
 
-def _of_rank_one(rows: Sequence[Row], names: tuple[Expr, Expr]) -> _Solved:
-    """One equation for both constants; all rows must be multiples of it.
-
-    It is solved for a constant whose coefficient isn't zero, preferably never, and alone in the row.
-    """
+def _of_rank_one(rows: Sequence[Row], names: tuple[Expr, Expr]) -> _SolvedConditions:
+    """A row, of which all must be multiples, solved for a constant with a nonzero coefficient that is alone, preferably."""
     entries = [(row[k], (k, row)) for row in rows for k in (1, 0)]
-    found = _nonzero(sorted(entries, key=lambda entry: 0 not in entry[1][1][:2]))
+    found = _nonzero_entry(sorted(entries, key=lambda entry: 0 not in entry[1][1][:2]))
     if found is None:
-        return _Solved(names, [row.r for row in rows])
+        return _SolvedConditions(names, [row.r for row in rows])
     pivot, when, (k, row) = found
     others = [other for other in rows if other is not row]
     norm = None if when is Zero.NEVER else _norm(row)
@@ -170,35 +162,30 @@ def _of_rank_one(rows: Sequence[Row], names: tuple[Expr, Expr]) -> _Solved:
         # (C1, C2) = r (u, v)/(u^2 + v^2) + C (v, -u): the multiple of the row, and all that is orthogonal to it
         c1 = tidy(row.r * row.u / norm) + row.v * names[0]
         c2 = tidy(row.r * row.v / norm) - row.u * names[0]
-        return _Solved((c1, c2), [other.rest(c1, c2).subs(names[0], 0) for other in others])
+        return _SolvedConditions((c1, c2), [other.rest(c1, c2).subs(names[0], 0) for other in others])
     # C1 = r/u - v/u C2 with a free C2 for k = 0, C2 = r/v - u/v C1 with a free C1 for k = 1
     solved = tidy(row.r / pivot) - tidy(row[1 - k] / pivot) * names[1 - k]
     values = (names[0], solved) if k else (solved, names[1])
-    return _Solved(values, [other[k] * row.r - other.r * pivot for other in others], pivot)
+    return _SolvedConditions(values, [other[k] * row.r - other.r * pivot for other in others], pivot)
 
 
 def _norm(row: Row) -> Expr | None:
-    """u^2 + v^2, or 1 for r = 0, where u and v may be zero, each alone, and never are together; else None."""
+    """u^2 + v^2, or 1 for r = 0, if u and v may be zero, but not both; else None."""
     if 0 in (row.u, row.v):
         return None
-    if row.r == 0 and _are_gammas_without_common_poles(row):
-        return _ONE
+    # 1/gamma(a) and 1/gamma(b) are never zero together if a - b isn't an integer
+    factors = (Mul.make_args(entry) for entry in (row.u, row.v))
+    u, v = (1 / Mul(*(factor for factor in entry if not is_nowhere_zero(factor))) for entry in factors)
+    if row.r == 0 and isinstance(u, gamma) and isinstance(v, gamma):
+        difference = expand(u.args[0] - v.args[0])
+        if difference.is_number and difference.is_integer is False:
+            return S.One
     norm = sympy.factor_terms(in_single_waves(row.u**2 + row.v**2))
     return norm if is_nowhere_zero(norm) else None
 
 
-def _are_gammas_without_common_poles(row: Row) -> bool:
-    """True if u and v are multiples of 1/gamma(a) and 1/gamma(b), never zero together, since a - b isn't an integer."""
-    factors = (sympy.Mul.make_args(entry) for entry in (row.u, row.v))
-    u, v = (1 / sympy.Mul(*(factor for factor in entry if not is_nowhere_zero(factor))) for entry in factors)
-    if not isinstance(u, sympy.gamma) or not isinstance(v, sympy.gamma):
-        return False
-    difference = sympy.expand(u.args[0] - v.args[0])
-    return bool(difference.is_number and difference.is_integer is False)
-
-
-def _split(found: _Solved) -> Determined:
-    """The generic case, and those of the parameters for which more is possible or less."""
+def _split(found: _SolvedConditions) -> Determined:
+    """The generic case, and particular parameters for which there are more solutions or fewer."""
     particular = [ParameterCase((found.pivot,), Outcome.OPEN)] if when_zero(found.pivot) is Zero.SOMETIMES else []
     whens = {value: when_zero(value) for value in found.needed}
     sometimes = tuple(value for value, when in whens.items() if when is Zero.SOMETIMES)
@@ -206,26 +193,26 @@ def _split(found: _Solved) -> Determined:
     none = ParameterCase((), Outcome.NONE)
     if Zero.NEVER in whens.values():
         return Determined(none, particular)
-    # generic parameters don't meet what only particular ones do
+    # generic parameters don't satisfy what only particular ones do
     return Determined(none, [generic, *particular]) if sometimes else Determined(generic, particular)
 
 
 def tidy(value: Any) -> Any:
-    """A shorter form of a constant, where that is known at once."""
+    """A shorter form of a constant, if it takes little time."""
     check_time()
     value = sympy.sympify(value, strict=True)
     powers = value.atoms(sympy.Pow)
     functions = {f.func for f in value.atoms(sympy.Function)}
-    is_opaque = value.has(sympy.RootSum, sympy.Integral) or size(value) > _LONGEST
+    is_opaque = value.has(sympy.RootSum, sympy.Integral) or not manageable(value)
     has_irrational_power = any(not power.exp.is_Rational and not power.base.is_Symbol for power in powers)
     is_product_of_powers = not value.free_symbols and functions <= {exp, log} and not value.has(sympy.Add)
     if value.is_Rational or is_opaque or has_irrational_power or is_product_of_powers:
         return value
     if not functions:
-        shorten = sympy.cancel if value.free_symbols or value.has(sympy.E) else sympy.expand
+        shorten = sympy.cancel if value.free_symbols or value.has(sympy.E) else expand
         return sympy.radsimp(shorten(value), symbolic=False)
     if not functions <= _ELEMENTARY:
-        return min((value, sympy.expand(value), in_single_waves(value)), key=size)
+        return min((value, expand(value), in_single_waves(value)), key=size)
     return min(map(TR2i, (value, sympy.cancel(value))), key=size)
 
 
@@ -240,12 +227,7 @@ def constants_of(
     limits: dict[Expr, Approach],
     steps: Mapping[Expr, Expr] = MappingProxyType({}),
 ) -> Determined:
-    """What the conditions determine: for generic parameters, and for particular ones.
-
-    `steps` are values of steps at the points of the conditions.
-
-    Raises `NotImplementedError` where too little is known about the solutions.
-    """
+    """The constants by the conditions, with values of `steps`.  Raises `NotImplementedError` if too little is known."""
     solutions = [question.own(y) for y in (basis.y1, basis.y2, particular)]
     rows: list[Row] = []
     exceptional: set[Expr] = set()
@@ -261,15 +243,14 @@ def constants_of(
             exceptional |= zeros
     scale = question.own(basis.constant)
     if scale.is_zero or scale.has(sympy.Function, sympy.Integral, question.x):  # it isn't elementary
-        scale = _ONE
+        scale = S.One
     found = determine(rows, names, _wronskian(question, basis, rows, limits), scale)
-    for symbol in sorted(exceptional, key=str):
-        found.particular.append(ParameterCase((symbol,), Outcome.OPEN))
+    found.particular.extend(ParameterCase((symbol,), Outcome.OPEN) for symbol in sorted(exceptional, key=str))
     return found._replace(rows=tuple(rows))
 
 
 def _wronskian(question: Question, basis: Basis, rows: Sequence[Row], limits: dict[Expr, Approach]) -> Expr | None:
-    """For y and y' at one point, given first: the determinant, which isn't zero, in a form that is short; else None."""
+    """The determinant, which isn't zero, in a short form if y and y' at one point are given first; else None."""
     terms = [condition.terms[0] for condition in question.conditions[:2] if condition.is_value]
     places = {term.point for term in terms}
     if {term.order for term in terms} != {0, 1} or len(places) != 1 or not places.isdisjoint(limits):
@@ -285,21 +266,15 @@ def _wronskian(question: Question, basis: Basis, rows: Sequence[Row], limits: di
 
 
 def _limit_place(condition: Condition, limits: dict[Expr, Approach]) -> Approach | None:
-    """Where the condition is one on a limit; None for values at ordinary points.
-
-    Raises `InputError` for what is both, and where y is to be bounded at an ordinary point.
-    """
-    at_limits = [term for term in condition.terms if term.point in limits]
-    if not at_limits:
-        if condition.value is None:
-            point = condition.terms[0].point
-            raise InputError(f"{condition.text}: {point} is an ordinary point, where every solution is bounded")
-        return None
-    place = at_limits[0].point
-    if len(condition.terms) > 1 or at_limits[0].coefficient != 1:
-        said = f"{place} is a singular point, or infinite"
-        raise InputError(f"{condition.text}: {said}; there, y and y' are given apart", hint="write y(0) = bounded")
-    return limits[place]
+    """The place of a condition on a limit; None for values at ordinary points.  Raises `InputError` if it is both."""
+    place = next((point for point in condition.points if point in limits), None)
+    if place is None and condition.value is None:
+        point = condition.points[0]
+        raise InputError(f"{condition.text}: {point} is an ordinary point, where every solution is bounded")
+    if place is not None and (len(condition.terms) > 1 or condition.terms[0].coefficient != 1):
+        reason = f"{place} is a singular point, or infinite"
+        raise InputError(f"{condition.text}: {reason}; there, y and y' are given apart", hint="write y(0) = bounded")
+    return None if place is None else limits[place]
 
 
 @dataclass(frozen=True)
@@ -320,23 +295,24 @@ class _Limit:
 
     def is_allowed(self, limit: Expr) -> bool:
         """True if y may behave like this.  A value excludes oscillations as well."""
-        return limit != sympy.oo and (limit != OSCILLATING or self.condition.value is None)
+        return limit != oo and (limit != OSCILLATING or self.condition.value is None)
 
     def rows(self, y1: Expr, y2: Expr, y0: Expr) -> list[Row]:
-        """What the condition says of C1 and C2.  Raises `UnknownLimit`."""
-        first, second, rest = (self.of(y) for y in (y1, y2, y0))
+        """Equations for C1 and C2.  Raises `UnknownLimit`."""
+        rest = self.of(y0)
         if not self.is_allowed(rest):
             return self._with_a_large_particular(y1, y2, y0)
+        first, second = self.of(y1), self.of(y2)
         found = []
         if not self.is_allowed(first):
-            first = _ZERO
-            found.append(Row(_ONE, _ZERO, _ZERO))
+            first = S.Zero
+            found.append(Row(S.One, S.Zero, S.Zero))
         if not self.is_allowed(second):
-            second = _ZERO
-            found.append(Row(_ZERO, _ONE, _ZERO))
-        ratio = self.of(y1 / y2) if len(found) == 2 else sympy.oo
-        # of other sizes, or waves in other phases, no combination is smaller
-        if ratio not in (0, sympy.oo, OSCILLATING):
+            second = S.Zero
+            found.append(Row(S.Zero, S.One, S.Zero))
+        ratio = self.of(y1 / y2) if len(found) == 2 else oo
+        # with different sizes, or waves of different phases, no combination is smaller
+        if ratio not in (0, oo, OSCILLATING):
             if self.order:
                 raise UnknownLimit("the slope of a combination of solutions of the same size isn't known")
             smaller = self.of(self.W / y2.diff(self.x))  # the limit of y1 - r y2
@@ -346,26 +322,23 @@ class _Limit:
         return found if value is None else [*found, Row(first, second, value - rest)]
 
     def _with_a_large_particular(self, y1: Expr, y2: Expr, y0: Expr) -> list[Row]:
-        """Where y0 isn't allowed: r = lim y0/y for the larger one of y1 and y2, and y0 - r y in its place."""
+        """The rows if y0 isn't allowed: with y0 - r y for y0, where r = lim y0/y for the larger one of y1 and y2."""
         for k, y in enumerate((y1, y2)):
             ratio = self.of(y0 / y)
-            if ratio not in (0, sympy.oo, OSCILLATING):
-                shifted = self.rows(y1, y2, sympy.expand(y0 - ratio * y))  # with C + r in the place of C
+            if ratio not in (0, oo, OSCILLATING):
+                shifted = self.rows(y1, y2, expand(y0 - ratio * y))  # for C + r, where C is the constant of y
                 return [row._replace(r=row.r - row[k] * ratio) for row in shifted]
         if any(self.of(y) == self.of(y0) and self.of(y0 / y) == OSCILLATING for y in (y1, y2)):
             raise UnknownLimit("the particular solution oscillates as others do")
-        return [Row(_ZERO, _ZERO, _ONE)]  # no solution
+        return [Row(S.Zero, S.Zero, S.One)]  # no solution
 
 
 def _rows_of_limit(limit: _Limit, solutions: Sequence[Expr]) -> tuple[list[Row], set[Expr]]:
-    """The rows, and symbols that were taken for positive where it is only known that they aren't negative."""
+    """The rows, and nonnegative symbols that were taken for positive ones."""
     parts = sympy.Tuple(*(y.diff(limit.x, limit.order) for y in solutions), limit.W)
     symbols = sorted(parts.free_symbols - {limit.x}, key=str)
-    natural = {
-        s: sympy.Dummy(s.name, integer=s.is_integer, positive=True)
-        for s in symbols
-        if s.is_nonnegative and not s.is_positive
-    }
+    nonnegative = (s for s in symbols if s.is_nonnegative and not s.is_positive)
+    natural = {s: sympy.Dummy(s.name, integer=s.is_integer, positive=True) for s in nonnegative}
     for positive in ({}, natural):
         *forms, W = parts.xreplace(positive)
         back = {dummy: symbol for symbol, dummy in positive.items()}
@@ -375,16 +348,15 @@ def _rows_of_limit(limit: _Limit, solutions: Sequence[Expr]) -> tuple[list[Row],
             reason = unknown
         else:
             return [Row(*sympy.Tuple(*row).xreplace(back)) for row in rows], {*positive}
-    said = f"undecided: the solutions' behaviour at {limit.place.point}: {reason}"
+    message = f"undecided: the solutions' behaviour at {limit.place.point}: {reason}"
     open_signs = [f"{s}=positive" for s in symbols if s.is_positive is None and s.is_negative is None]
     if open_signs:
-        said += f"; assumptions may decide it, as {', '.join(open_signs)}"
-    raise NotImplementedError(said)
+        message += f"; assumptions may decide it, as {', '.join(open_signs)}"
+    raise NotImplementedError(message)
 
 
 def _without_gammas(ratio: Expr) -> Row:
-    """r C1 + C2 = 0, for r = p/q as p C1 + q C2 = 0 with 1/gamma, which has values everywhere, in the place of gamma."""
+    """r C1 + C2 = 0, for r = p/q as p C1 + q C2 = 0 with 1/gamma, which has values everywhere, for gamma."""
     p, q = sympy.fraction(sympy.powsimp(ratio))
-    gammas = [f for f in ratio.atoms(sympy.gamma) if f.free_symbols]
-    common = sympy.Mul(*gammas)
-    return Row(p / common, q / common, _ZERO)
+    common = Mul(*(f for f in ratio.atoms(gamma) if f.free_symbols))
+    return Row(p / common, q / common, S.Zero)

@@ -1,10 +1,10 @@
-"""Where the conditions are given, the singular points about these, and solutions that are real there.
+"""Where the conditions are given, the singular points near these, and solutions that are real there.
 
 Singular points are the poles of b/a and c/a, and those of f/a: a solution isn't determined on one side by its values on
 the other.  At a singular point and at infinity, a condition is one on a limit, from the side on which the others are.
 
-Singular points without parameters are found: of rational coefficients, of coefficients in t = f(k x + c) and in t = x^k,
-and of a right-hand side with polynomials, roots of x, or waves below the line.
+Singular points are found if they have no parameters: of rational coefficients, of coefficients in t = f(k x + c) and in
+t = x^k, and of a right-hand side with polynomials, roots of x, or waves in denominators.
 """
 
 from __future__ import annotations
@@ -15,29 +15,22 @@ from dataclasses import dataclass, replace
 from typing import Any
 
 import sympy
+from sympy import DiracDelta, Heaviside, S, Tuple
 
-from kovacic.algebra.poly import Poly
 from kovacic.closed_form import cuts
-from kovacic.closed_form.atoms import Atoms
 from kovacic.closed_form.form import pair_at
-from kovacic.equation import Equation
 from kovacic.errors import InputError
-from kovacic.general_solution.basis import Basis
+from kovacic.general_solution.basis import Basis, monic_coefficients
 from kovacic.general_solution.behaviour import Approach, have_values
 from kovacic.general_solution.integrands import NUMBERS
 from kovacic.general_solution.particular import right_hand_side, starting_at, turned_at
 from kovacic.general_solution.question import Question
 from kovacic.general_solution.steps import is_analytic, jump_place, jump_points
 from kovacic.general_solution.validity import needs_of
-from kovacic.general_solution.zero import is_zero
-from kovacic.limits import check_time
-from kovacic.reading.change_of_variable import function_of_x, is_in_power, is_of_a_line, user_variable
+from kovacic.limits import MOST_TRIALS, check_time
+from kovacic.reading.change_of_variable import is_in_power, is_of_a_line
 
 Expr = Any  # SymPy publishes no types
-_INFINITIES = (sympy.oo, -sympy.oo)
-#: Beside a point, how far zeros are looked for at first, and how many of them are looked at.
-_NEAR = 8
-_MOST_POINTS = 200
 
 
 def given_points(question: Question) -> list[Expr]:
@@ -47,19 +40,18 @@ def given_points(question: Question) -> list[Expr]:
 
 @dataclass(frozen=True)
 class ImpulsesInside:
-    """Places of unit impulses, taken to lie between the two points of the conditions: Green's function."""
+    """Places of impulses, taken to lie between the two points `low` and `high` of the conditions: Green's function."""
 
     places: tuple[Expr, ...] = ()
-    low: Expr = sympy.S.Zero
-    high: Expr = sympy.S.Zero
+    low: Expr = S.Zero
+    high: Expr = S.Zero
 
     @classmethod
     def of(cls, question: Question) -> ImpulsesInside:
-        """Those for which that is open, letters or beside a letter; none without two finite points, or beside steps."""
+        """The places, letters or beside a letter `high`, whose order is open; none without two finite points, or with steps."""
         points = given_points(question)
         h = sympy.sympify(question.equation.h or 0)
-        jumps = h.atoms(sympy.Heaviside, sympy.DiracDelta)
-        is_impulse = all(isinstance(jump, sympy.DiracDelta) and len(jump.args) == 1 for jump in jumps)
+        is_impulse = not h.has(Heaviside) and all(len(impulse.args) == 1 for impulse in h.atoms(DiracDelta))
         if len(points) != 2 or any(point.is_infinite for point in points) or not is_impulse:
             return cls()
         low, high = points[::-1] if (points[1] - points[0]).is_negative else points
@@ -72,43 +64,41 @@ class ImpulsesInside:
 
     @property
     def values(self) -> dict[Expr, Expr]:
-        """Those of the steps at the two points."""
-        ends = [(self.low - a, sympy.S.Zero) for a in self.places] + [(self.high - a, sympy.S.One) for a in self.places]
-        return {step: value for u, value in ends for step in (sympy.Heaviside(u), sympy.Heaviside(u, 0))}
+        """The values of the steps H(low - a) = 0 and H(high - a) = 1."""
+        ends = [(end - a, value) for a in self.places for end, value in ((self.low, 0), (self.high, 1))]
+        return {step: sympy.Integer(k) for u, k in ends for step in (Heaviside(u), Heaviside(u, 0))}
 
     @property
     def notices(self) -> list[str]:
-        def said(place: Expr) -> str:
+        """The order that was taken for granted, in words."""
+        notices = []
+        for place in self.places:
             low = "" if (place - self.low).is_positive else f"{self.low} < "
             high = "" if (self.high - place).is_positive else f" < {self.high}"
-            return f"this holds for {low}{place}{high}"
-
-        return [*map(said, self.places)]
+            notices.append(f"this holds for {low}{place}{high}")
+        return notices
 
     @property
     def numbers(self) -> dict[Expr, Expr]:
-        """Expressions for letters with which the places lie there, for all values of the letters that are left."""
+        """Expressions for letters that put the places there, for all values of the remaining letters."""
         numbers = {a: self.low + (self.high - self.low) * sympy.Rational(3, 7) for a in self.places if a.is_Symbol}
         others = [a for a in self.places if not a.is_Symbol]
         return numbers | ({self.high: sympy.Add(1, *others)} if others else {})
 
 
 def limit_points(question: Question) -> dict[Expr, Approach]:
-    """The points of the conditions at which these are conditions on limits, with the side.
-
-    Raises `InputError` where the others are on both sides.
-    """
-    infinite, others = sympy.sift(given_points(question), lambda point: point in _INFINITIES, binary=True)
-    singular = {p: Approach(p, _side(p, _points(question))) for p in others if is_singular(question, p)}
-    return {point: Approach(point) for point in infinite} | singular
-
-
-def _side(point: Expr, points: Sequence[Expr]) -> int:
-    """1 or -1: on which side of the point the others are; 1 where that isn't known."""
-    sides = {sign for other in points if (sign := sympy.sign(other - point)) in (1, -1)}
-    if len(sides) > 1:
-        raise _apart_error(point, [other for other in points if other != point])
-    return int(next(iter(sides), 1))
+    """The points of conditions on limits, with the side.  Raises `InputError` if the other points are on both sides."""
+    points = _all_points(question)
+    found = {}
+    for point in given_points(question):
+        if point.is_infinite:
+            found[point] = Approach(point)
+        elif is_singular(question, point):
+            sides = {sympy.sign(other - point) for other in points} & {1, -1}  # empty if nothing is known
+            if len(sides) > 1:
+                raise _apart_error(point, [other for other in points if other != point])
+            found[point] = Approach(point, int(next(iter(sides), 1)))
+    return found
 
 
 def _apart_error(point: Expr, points: Sequence[Expr]) -> InputError:
@@ -120,10 +110,10 @@ def start_of(question: Question, limits: dict[Expr, Approach]) -> Expr:
     """An ordinary point on the side that is meant: the first one with a condition, or one between singular points."""
     ordinary = [point for point in given_points(question) if point not in limits]
     if ordinary:
-        between = _poles_between(question, ordinary) if question.equation.change is None else ()
+        between = _suspects_between(question, ordinary) if question.equation.change is None else ()
         # beyond a removable point of f/a solutions are continued from there
-        return next((point for point, is_removable in between if is_removable), ordinary[0])
-    poles = [*rational_poles(question)]
+        return next((point for point in between if not is_singular(question, point)), ordinary[0])
+    poles = [*_suspects(question)]
     finite = [approach for approach in limits.values() if not approach.is_infinite]
     if not finite:  # an integer beyond all poles
         sign = sympy.sign(next(iter(limits)))
@@ -138,36 +128,30 @@ def start_of(question: Question, limits: dict[Expr, Approach]) -> Expr:
 
 
 def check_between(question: Question, solutions: Sequence[Expr]) -> None:
-    """Raises `InputError` where a singular point lies between points of conditions or jumps.
-
-    Solutions that are written with functions that are analytic on the whole line may be continued.
-    """
-    points = [point for point in _points(question) if point.is_extended_real]
-    whole = sympy.Tuple(*map(question.own, solutions))
-    if len(points) < 2 or (all(is_analytic(y, question.x) for y in whole) and not whole.has(sympy.Heaviside)):
+    """Raise `InputError` if a singular point lies between points of conditions or jumps, unless the solutions are analytic."""
+    points = [point for point in _all_points(question) if point.is_extended_real]
+    whole = Tuple(*map(question.own, solutions))
+    if len(points) < 2 or (all(is_analytic(y, question.x) for y in whole) and not whole.has(Heaviside)):
         return
-    for pole, is_removable in _poles_between(question, points):
-        if not is_removable:
-            raise _apart_error(pole, points)
+    for point in _suspects_between(question, points):
+        if is_singular(question, point):
+            raise _apart_error(point, points)
 
 
-def _points(question: Question) -> list[Expr]:
-    """Those of conditions, and those of jumps."""
+def _all_points(question: Question) -> list[Expr]:
+    """The points of conditions and of jumps."""
     return [*given_points(question), *jump_points(sympy.sympify(question.equation.h or 0), question.x)]
 
 
 def basis_from(question: Question, basis: Basis, start: Expr) -> Basis:
-    """Solutions that are real at `start`, with integrals that begin there.
-
-    Raises `InputError` where the points of the conditions lie on two sides of a singular point.
-    """
+    """Solutions that are real at `start`, with integrals that begin there.  Raises `InputError` as `check_between` does."""
     check_between(question, (basis.y1, basis.y2))
     basis = real_at(basis, start)
     return basis.of(*(starting_at(y, question.x, start) for y in (basis.y1, basis.y2)))
 
 
 def real_at(basis: Basis, point: Expr) -> Basis:
-    """Two solutions that are real at the point, if such are found; else the given ones."""
+    """Two solutions that are real at the point if such are found; else the given ones."""
     if basis.equation.change is not None:
         return basis
     solution, form = basis.solution, basis.form
@@ -179,13 +163,10 @@ def real_at(basis: Basis, point: Expr) -> Basis:
 
 
 def real_particular(question: Question, basis: Basis, particular: Expr, place: Expr) -> Expr:
-    """A particular solution that is real at a place, if one is found; else the given one: log(1 - x) for log(x - 1).
-
-    Raises `InputError` as `basis_from` does.
-    """
+    """A particular solution that is real at a place, as log(1 - x) for log(x - 1), if one is found; else the given one."""
     check_between(question, (basis.y1, basis.y2, particular))
     x, equation = question.x, question.equation
-    if equation.change is not None or not place.is_real or particular.has(sympy.Integral, sympy.Heaviside):
+    if equation.change is not None or not place.is_real or particular.has(sympy.Integral, Heaviside):
         return particular
     return turned_at(place, particular, basis.rates, right_hand_side(equation), x, question.own)
 
@@ -194,14 +175,13 @@ def real_particular(question: Question, basis: Basis, particular: Expr, place: E
 
 
 def one_sided(question: Question) -> tuple[Question, list[str]]:
-    """The question on the side of a singular point on which values lie, else on the right, and what is said of it.
+    """The question on the side of a singular point on which values lie, else on the right, and notices of that.
 
-    This is for steps at such a point in a root or a denominator, where one formula doesn't hold on both sides: |x|^n is
-    x^n for x > 0.
+    A step in a root or a denominator, at such a point, needs it: |x|^n is x^n for x > 0 only.
     """
     h, x, said = question.equation.h, question.x, []
-    parts = () if h is None else h.atoms(sympy.Pow, sympy.Function) - h.atoms(sympy.Heaviside, sympy.DiracDelta)
-    steps = {step for step in sympy.Tuple(*parts).atoms(sympy.Heaviside) if step.has(x)}
+    parts = () if h is None else h.atoms(sympy.Pow, sympy.Function) - h.atoms(Heaviside, DiracDelta)
+    steps = {step for step in Tuple(*parts).atoms(Heaviside) if step.has(x)}
     points = given_points(question)
     for step in sorted(steps, key=str):
         place = jump_place(step, x)
@@ -216,82 +196,58 @@ def one_sided(question: Question) -> tuple[Question, list[str]]:
 
 
 def is_singular(question: Question, point: Expr) -> bool:
-    """True for a finite pole of b/a or c/a, and where f/a has neither a value nor a limit."""
-    equation = question.equation
-    atoms = Atoms(sympy.Symbol(equation.variable))
-    at = question.own(function_of_x(equation)).subs(user_variable(equation), point)
-    values = (question.own(atoms.poly(den)).subs(atoms.x, at) for den in _denominators(equation, equation.h is None))
-    whole = right_hand_side(equation)
-    smooth = whole.xreplace(dict.fromkeys(whole.atoms(sympy.Heaviside, sympy.DiracDelta), sympy.Integer(0)))
-    is_pole = any(value.is_finite is False or is_zero(value) for value in values)
-    return is_pole or not have_values([smooth], question.x, point)
+    """True if b/a, c/a or f/a, without its jumps, has neither a value nor a limit at a finite point; and for x^k at 0."""
+    equation, x = question.equation, question.x
+    right = right_hand_side(equation)
+    smooth = right.xreplace(dict.fromkeys(right.atoms(Heaviside, DiracDelta), S.Zero))
+    parts = [*map(question.own, (*monic_coefficients(equation, x), smooth))]
+    return (point == 0 and is_in_power(equation)) or not have_values(parts, x, point)
 
 
-def _denominators(equation: Equation, with_right: bool) -> list[Poly]:
-    """Those of b/a, c/a and, if it is asked for, of the rational part of f/a that aren't constant."""
-    parts = (equation.b, equation.c, equation.f)[: 2 + with_right]
-    return [quotient.den for part in parts if (quotient := part / equation.a).den.degree > 0]
+def _suspects_between(question: Question, points: Sequence[Expr]) -> Iterator[Expr]:
+    """Points that may be singular, with some of the points on either side."""
+    suspects = _suspects(question, points)
+    return (suspect for suspect in suspects if {1, -1} <= {sympy.sign(point - suspect) for point in points})
 
 
-def _poles_between(question: Question, points: Sequence[Expr]) -> Iterator[tuple[Expr, bool]]:
-    """Singular points with some of the points on either side, and True for removable ones of f/a."""
-    for pole in rational_poles(question):
-        if {1, -1} <= {sympy.sign(point - pole) for point in points}:
-            yield pole, False
-    points = [point for point in points if point not in _INFINITIES]
-    if len(points) < 2 or not all(point.is_number for point in points):
-        return
-    first, last = sympy.Min(*points), sympy.Max(*points)
-    x = question.x
-    equation = question.equation
-    parts = [] if equation.h is None else [right_hand_side(equation)]
-    if equation.change is not None:
-        if not is_in_power(equation) and not is_of_a_line(equation):
-            raise NotImplementedError("undecided: whether a singular point lies between the points that are given")
-        if is_in_power(equation) and first < 0 < last:
-            yield sympy.Integer(0), False
-        a, b, c, f = map(question.own, question.coefficients)
-        parts = [b / a, c / a, f / a]
-    needs = {need for need in needs_of(sympy.Tuple(*parts)) if not isinstance(need, sympy.GreaterThan)}
-    for zero in sorted({need.lhs for need in needs if need.free_symbols == {x}}, key=str):
-        for point in _zeros(zero, x, first, last):
-            if point.is_number and first < point < last:
-                yield point, have_values(parts, x, point)
-
-
-def rational_poles(question: Question) -> Iterator[Expr]:
-    """The real singular points without parameters of an equation with rational coefficients."""
-    equation = question.equation
-    if equation.change is not None:
-        return
-    factors = (factor for den in _denominators(equation, True) for factor, _ in den.field.factor(den))
-    for polynomial in (question.own(Atoms(question.x).poly(factor)) for factor in factors):
-        # an i, or roots of polynomials without a formula
-        with suppress(NotImplementedError, sympy.PolynomialError):
-            is_numeric = polynomial.free_symbols == {question.x}
-            roots = sympy.real_roots(sympy.Poly(polynomial, question.x, extension=True)) if is_numeric else ()
-            yield from (root for root in dict.fromkeys(roots) if equation.h is None or is_singular(question, root))
+def _suspects(question: Question, points: Sequence[Expr] = ()) -> Iterator[Expr]:
+    """Zeros of denominators without parameters: those of polynomials, and others that lie between points."""
+    equation, x = question.equation, question.x
+    numbers = [point for point in points if point.is_number and point.is_finite]
+    if len(numbers) > 1 and not (is_in_power(equation) or is_of_a_line(equation)):
+        raise NotImplementedError("undecided: whether a singular point lies between the points that are given")
+    if is_in_power(equation):
+        yield S.Zero
+    parts = Tuple(*monic_coefficients(equation, x), right_hand_side(equation))
+    needs = (need.lhs for need in needs_of(question.own(parts)) if isinstance(need, sympy.Ne | sympy.StrictGreaterThan))
+    zeros = {factor.as_base_exp()[0] for need in needs for factor in sympy.Mul.make_args(sympy.factor(need))}
+    for zero in sorted(zeros, key=str):
+        if zero.free_symbols == {x}:
+            yield from _zeros(zero, x, sympy.Min(*numbers), sympy.Max(*numbers))
 
 
 def _zeros(e: Expr, x: Expr, first: Expr, last: Expr) -> Iterator[Expr]:
-    """Those between two numbers that SymPy finds, the first ones where there are many; of complex values the real part's.
+    """The real zeros of a polynomial; of others those between two numbers that SymPy finds, the first ones of many.
 
-    None of an expression with several functions, other than exponentials.
+    Those of the real part for complex values; none of an expression with several functions, other than exponentials.
     """
+    t = sympy.Dummy(real=True)
     functions = {f for f in e.atoms(sympy.Function) if f.has(x)}
+    e = e.xreplace({x: t})
+    e = e.as_real_imag()[0] if e.has(sympy.I) else e
+    if e.is_polynomial(t):
+        with suppress(NotImplementedError, sympy.PolynomialError):  # roots without a formula, coefficients such as pi
+            yield from dict.fromkeys(sympy.real_roots(sympy.Poly(e, t, extension=True)))
+            return
     if len(functions) > 1 and {f.func for f in functions} != {sympy.exp}:
         return  # of sin(3 x) and cos(5 x) it thinks for minutes
-    t = sympy.Dummy(real=True)
-    e = e.xreplace({x: t})
-    if e.has(sympy.I):
-        e = e.as_real_imag()[0]
-    found, width = 0, _NEAR
-    while first < last and found < _MOST_POINTS:
+    found, width = 0, 8  # twice as wide each time, since a wave has zeros without end
+    while first < last and found < MOST_TRIALS:
         check_time()
         end = sympy.Min(first + width, last)
         with suppress(NotImplementedError, ValueError, TypeError):
             zeros = sympy.solveset(e, t, sympy.Interval(first, end))
             if isinstance(zeros, sympy.FiniteSet):
-                yield from zeros
+                yield from (zero for zero in zeros if zero.is_number)
                 found += len(zeros)
         first, width = end, 2 * width

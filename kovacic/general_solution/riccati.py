@@ -50,7 +50,7 @@ from kovacic.general_solution.first_order import (
 from kovacic.general_solution.integrands import NUMBERS, ratfunc, relative_slope
 from kovacic.general_solution.question import free_constants
 from kovacic.general_solution.substitution import by_functions
-from kovacic.general_solution.textbook import in_book_form, over_one_denominator
+from kovacic.general_solution.textbook import as_quotient, in_book_form
 from kovacic.general_solution.waves import rational_in_waves
 from kovacic.general_solution.zero import is_zero
 from kovacic.limits import DEFAULT_LIMITS, MOST_CHARACTERS, Budget, Limits, check_time, limited, manageable
@@ -103,8 +103,8 @@ def solved_riccati(equation: FirstOrderEquation, solver: Solver) -> CheckedSolut
         exceptions = tuple(e.xreplace(linear.own) for e in linear.pair_exceptions)
         forms = [*_forms(u, constants, solved_for)]
         if is_inverted:  # over one denominator, which doesn't divide by 1/w
-            forms = [next(over_one_denominator(1 / w, x), 1 / w) for w in forms]
-    forms += [*over_one_denominator(forms[0], x), sympy.signsimp(forms[0]), *rational_in_waves(forms[0])]
+            forms = [as_quotient(1 / w) for w in forms]
+    forms += [as_quotient(forms[0]), sympy.signsimp(forms[0]), *rational_in_waves(forms[0])]
     forms += [-n / -d for n, d in map(sympy.fraction, forms)]
     w = shortest(forms).xreplace(dict.fromkeys(constants, equation.constant()))
     if len(constants) < 2:
@@ -124,7 +124,7 @@ def _of_bernoulli(equation: FirstOrderEquation) -> Expr:
     if start is None:
         return u ** (1 / m)
     u /= v**m
-    u = next(over_one_denominator(u, equation.x), u)  # which doesn't divide by v
+    u = as_quotient(u)  # which doesn't divide by v
     return v * powsimp(u) ** (1 / m)  # the branch with the sign of v
 
 

@@ -1,9 +1,9 @@
 """Domain of validity: where a solution is real, and which parameter values are excluded.
 
-A formula needs a relation for each part that isn't real and finite at every real x.  Powers, roots and functions have the
-values that SymPy gives them: x^(1/3), too, is complex for a negative x.  A function with a cut needs an argument u beside it.
-Where the argument has an i, as in Ei((1 + i) x), the part is complex and its conjugate is another part; what is needed then
-is that u isn't the branch point.
+A formula needs a relation for each part that isn't real and finite at every real x.  Powers, roots and functions have
+SymPy's values: x^(1/3), too, is complex for a negative x.  A function with a branch cut needs an argument u off the cut.
+Where the argument has an i, as in Ei((1 + i) x), the part is complex and its conjugate is another part; then it is enough
+that u isn't the branch point.
 
 Reference: DLMF 4.2, 4.23, 4.37 (logarithms, inverse functions), 6.4 (Ei, Ci), 8.2 (gamma functions), 10.2, 10.25 (Bessel),
 14.3 (Legendre), 15.2, 16.2 (hypergeometric functions), 19.2 (elliptic integrals), 25.12 (polylogarithms).
@@ -16,13 +16,15 @@ from dataclasses import dataclass
 from typing import Any
 
 import sympy
-from sympy import cos, sin
+from sympy import And, Dummy, GreaterThan, I, Mul, Ne, Pow, S, StrictGreaterThan, cos, expand, sift, sin, true
 from sympy.logic.boolalg import BooleanAtom
 from sympy.simplify.fu import TR5, TR6
 from sympy.solvers.inequalities import reduce_rational_inequalities
 
+from kovacic.closed_form.cuts import cut_of
 from kovacic.general_solution.substitution import in_single_waves, size
-from kovacic.general_solution.zero import agree, is_nowhere_zero, is_positive_polynomial
+from kovacic.general_solution.textbook import in_root
+from kovacic.general_solution.zero import agree, is_nowhere_zero, is_positive_polynomial, samples
 from kovacic.general_solution.zero_set import ZeroSet, inequality, poles_of, without_implied
 
 Expr = Any  # SymPy publishes no types
@@ -30,11 +32,11 @@ Expr = Any  # SymPy publishes no types
 
 @dataclass(frozen=True)
 class Validity:
-    """`real`: relations that make every part of the formula real and finite; `exceptions`: what must not be zero.
+    """`real`: relations that make every part of the formula real and finite; `exceptions`: expressions that must not be zero.
 
-    An exception depends on parameters alone: for values where it is zero a part has a zero denominator, or the two solutions of
-    a general solution become dependent, so that other formulas hold.  Where a part is complex (`has_real_parts` is false), as
-    sqrt(k) for a k that is assumed to be negative, the relations make the formula valid, and whether it is real isn't said.
+    An exception depends on parameters alone: where it is zero a part has a zero denominator, or the two solutions of a
+    general solution become dependent, so that other formulas hold.  If a part is complex (`has_real_parts` is false), as
+    sqrt(k) for a k that is assumed to be negative, the relations make the formula valid, but not necessarily real.
     """
 
     real: tuple[Expr, ...]
@@ -43,16 +45,16 @@ class Validity:
 
     @property
     def claim(self) -> str:
-        """Whether the relations make the formula "real and valid", or only "valid", since a part of it isn't real."""
+        """ "real and valid", or only "valid" if a part of the formula isn't real."""
         return "real and valid" if self.has_real_parts else "valid"
 
     def __bool__(self) -> bool:
-        """True if anything is needed."""
+        """True if there are any requirements."""
         return bool(self.real or self.exceptions)
 
     def __str__(self) -> str:
         """`x > 0, c**2 - 4*k*m != 0`."""
-        real = (inequality(r.lhs) if isinstance(r, sympy.Ne) else str(r) for r in self.real)
+        real = (inequality(r.lhs) if isinstance(r, Ne) else str(r) for r in self.real)
         implied = _nonzero_beside(self.real)
         return ", ".join([*real, *(inequality(e) for e in self.exceptions if e not in implied)])
 
@@ -60,18 +62,18 @@ class Validity:
 def needed_for(formulas: Iterable[Expr], x: Expr, exceptions: Iterable[Expr] = ()) -> Validity:
     """The requirements of formulas, part by part; `exceptions` are those of the pair of solutions in them."""
     value, roots = _without_even_roots(sympy.Tuple(*formulas), x)
-    # The bounds of an integral may be infinite; of a sum over roots SymPy can't tell.
-    plain = value.xreplace({total: sympy.Dummy() for total in value.atoms(sympy.RootSum)})
+    # The bounds of an integral may be infinite; SymPy can't tell whether a sum over roots is real.
+    plain = value.xreplace({total: Dummy() for total in value.atoms(sympy.RootSum)})
     numbers = (node for node in sympy.preorder_traversal(plain) if node.is_number)
     has_real_numbers = all(number.is_extended_real for number in numbers)
-    # Of an imaginary root they have cuts.
-    squares = (e.args[0].xreplace(roots) ** 2 for e in value.atoms(sympy.atan, sympy.asinh) if e.has(*roots))
-    needs = [need.xreplace(roots) for need in (*needs_of(value), *(_positive(1 + square) for square in squares))]
+    # atan and asinh have their cuts on the imaginary axis, where a root of something negative lies
+    cuts = (_positive(cut_of(e)) for e in value.atoms(sympy.atan, sympy.asinh) if e.has(*roots))
+    needs = [need.xreplace(roots) for need in (*needs_of(value), *cuts)]
     exceptions = tuple(exceptions)
     found = _without_what_holds(needs, x, exceptions, has_real_parts=has_real_numbers)
     if found is None:  # no x and letters make all parts real: it is a solution between the branch points
         relations = (need for need in needs if not isinstance(need, BooleanAtom))
-        apart = [need if isinstance(need, sympy.Ne) else _nonzero(need.lhs) for need in relations]
+        apart = [need if isinstance(need, Ne) else _nonzero(need.lhs) for need in relations]
         found = _without_what_holds(apart, x, exceptions, has_real_parts=False)
     assert found is not None
     return found
@@ -88,41 +90,41 @@ def _without_what_holds(
         if False in truths.values():
             return None
         parts = [part for part, is_true in truths.items() if not is_true]
-        of_letters, relations = sympy.sift(parts, lambda r: isinstance(r, sympy.Ne) and not r.has(x), binary=True)
+        of_letters, relations = sift(parts, lambda r: isinstance(r, Ne) and not r.has(x), binary=True)
         zeros = [*(factor for r in of_letters for factor in ZeroSet(r.lhs).factors), *zeros]
-        if k == 0:
+        if k == 0:  # later rounds have u > 0 for u >= 0 because of the exception u, which therefore has to stay
             said = _nonzero_beside(relations)
-        known = [r.lhs for r in relations if not isinstance(r, sympy.Ne)]
+        known = [r.lhs for r in relations if not isinstance(r, Ne)]
         nonzero = [part for zero in zeros for part in (_for_real_letters(zero, known) if has_real_parts else (zero,))]
     # x != 0 follows from a x > 0, but not from x >= 0
-    implied = {sympy.Ne: _nonzero_beside(relations), sympy.GreaterThan: _positive_among(relations)}
+    implied = {Ne: _nonzero_beside(relations), GreaterThan: _positive_among(relations)}
     shorter = [_of_cosine(r) for r in relations if r.lhs not in implied.get(r.func, ())]
-    real = _in_one_interval({(r.func, sympy.expand(r.lhs)): r for r in shorter}.values(), x)
+    real = _in_one_interval({(r.func, expand(r.lhs)): r for r in shorter}.values(), x)
     unsaid = without_implied(e for e in nonzero if e not in said)
     return None if real is None else Validity(real, unsaid, has_real_parts)
 
 
 def _parts(relation: Expr, beside: Collection[Expr], nonzero: Collection[Expr]) -> list[Expr]:
-    """Shorter relations in the place of one, beside others and beside what isn't zero; roots and powers are real.
+    """Shorter relations equivalent to one, given others (`beside`) and what isn't zero, for real roots and powers.
 
-    Without factors that have a sign: a^2 - x^2 > 0 for 1 - x^2/a^2 > 0; k > 0 and x > 0 for sqrt(k)*sqrt(x)*exp(x/2) > 0, and
-    for k*x > 0 beside k >= 0; v != 0 for v^2 > 0 and |v| > 0; x - a != 0 for a - x != 0; u > 0 for u >= 0 beside u != 0,
+    Factors of a known sign are left out: a^2 - x^2 > 0 for 1 - x^2/a^2 > 0; k > 0 and x > 0 for sqrt(k)*sqrt(x)*exp(x/2) > 0,
+    and for k*x > 0 beside k >= 0; v != 0 for v^2 > 0 and |v| > 0; x - a != 0 for a - x != 0; u > 0 for u >= 0 beside u != 0,
     also by factors, and h >= 0 for h*k >= 0 beside k > 0.
     """
     if isinstance(relation, BooleanAtom):
         return [relation]
     u = relation.lhs
-    if isinstance(relation, sympy.Ne):
-        return [sympy.Ne(-u, 0) if u.could_extract_minus_sign() else relation]
+    if isinstance(relation, Ne):
+        return [Ne(-u, 0) if u.could_extract_minus_sign() else relation]
     if u.has(sympy.tanh):  # 1 - tanh(x)^2 = 4 exp(2 x)/(exp(2 x) + 1)^2
-        u = sympy.factor(sympy.together(sympy.expand(u.rewrite(sympy.exp))))
-    if u.is_Add and u.is_rational_function() and any(p.exp.is_negative for p in u.atoms(sympy.Pow)):
+        u = sympy.factor(sympy.together(expand(u.rewrite(sympy.exp))))
+    if u.is_Add and u.is_rational_function() and any(p.exp.is_negative for p in u.atoms(Pow)):
         u = sympy.factor_terms(sympy.together(u))
-    is_strict = isinstance(relation, sympy.StrictGreaterThan) or ({*ZeroSet(u).factors} or {u}) <= {*nonzero}
-    positive, known = _positive_among(beside), {r.lhs for r in beside if isinstance(r, sympy.GreaterThan)}
+    is_strict = isinstance(relation, StrictGreaterThan) or ({*ZeroSet(u).factors} or {u}) <= {*nonzero}
+    positive, known = _positive_among(beside), {r.lhs for r in beside if isinstance(r, GreaterThan)}
     apart, rest = [], []
-    for f in sympy.Mul.make_args(u.as_content_primitive()[1]):
-        base, exponent = f.as_base_exp() if f.is_Pow else (f, sympy.S.One)
+    for f in Mul.make_args(u.as_content_primitive()[1]):
+        base, exponent = f.as_base_exp() if f.is_Pow else (f, S.One)
         if _truth(_positive(f)) or (f in positive and not is_strict):
             continue
         if isinstance(f, sympy.Abs) or exponent.is_even:
@@ -131,16 +133,16 @@ def _parts(relation: Expr, beside: Collection[Expr], nonzero: Collection[Expr]) 
             apart.append(_positive(base))
         else:
             rest.append(base if exponent.is_odd else f)
-    return [*apart, (_positive if is_strict else _not_negative)(sympy.Mul(*rest))]
+    return [*apart, (_positive if is_strict else _not_negative)(Mul(*rest))]
 
 
 def _positive_among(relations: Iterable[Expr]) -> set[Expr]:
-    return {relation.lhs for relation in relations if isinstance(relation, sympy.StrictGreaterThan)}
+    return {relation.lhs for relation in relations if isinstance(relation, StrictGreaterThan)}
 
 
 def _nonzero_beside(relations: Iterable[Expr]) -> set[Expr]:
-    """What isn't zero where something is positive: that, and its factors, with both signs."""
-    parts = [u for e in _positive_among(relations) for u in (e, *sympy.Mul.make_args(e), *ZeroSet(e).factors)]
+    """The left sides of strict inequalities, which aren't zero, and their factors, with both signs."""
+    parts = [u for e in _positive_among(relations) for u in (e, *Mul.make_args(e), *ZeroSet(e).factors)]
     return {sign * u for u in parts for sign in (1, -1)}
 
 
@@ -150,33 +152,36 @@ def _for_real_letters(zero: Expr, known: Collection[Expr]) -> Sequence[Expr]:
     Nothing for 1/gamma(1 + sqrt(r)), and r for 1/gamma(sqrt(r)): a root isn't negative, and no pole if it isn't real.
     """
     is_pole = poles_of(zero) is not None
-    roots = {p: sympy.Dummy(nonnegative=True) for p in zero.atoms(sympy.Pow) if p.exp == sympy.S.Half}
-    own = {s: p for p, s in roots.items() if is_pole or p.base in known}
-    real = {sympy.Symbol(s.name, real=True): s for s in zero.free_symbols if s.is_real is None}
+    powers = (p for p in zero.atoms(Pow) if p.exp == S.Half and (is_pole or p.base in known))
+    roots = {p: Dummy(nonnegative=True) for p in powers}
+    letters = roots | _real_letters(zero)
+    own = {letter: e for e, letter in letters.items()}
     found: list[Expr] = []
-    for factor in ZeroSet(
-        zero.xreplace({e: s for s, e in own.items()}).xreplace({e: s for s, e in real.items()})
-    ).factors:
-        pole = sympy.expand((1 / factor).args[0]) if is_pole else factor
-        root = next((s for s in own if (pole / s).is_positive), factor)
-        found += ZeroSet(root.xreplace(own).xreplace(real)).factors
+    for factor in ZeroSet(zero.xreplace(letters)).factors:
+        pole = expand((1 / factor).args[0]) if is_pole else factor
+        root = next((s for s in roots.values() if (pole / s).is_positive), factor)
+        found += ZeroSet(root.xreplace(own)).factors
     return found if sum(map(size, found)) < size(zero) else (zero,)
 
 
-def _without_even_roots(value: Expr, x: Expr) -> tuple[Expr, dict[Expr, Expr]]:
-    """With a real letter for a root of letters in which the formula is even, real for a negative radicand as well; the roots.
+def _real_letters(e: Expr) -> dict[Expr, Expr]:
+    """Real symbols for those that aren't known to be real or not."""
+    return {s: sympy.Symbol(s.name, real=True) for s in e.free_symbols if s.is_real is None}
 
-    Then it is a power series in s^2 with real coefficients, as 2F1(a + s, a - s; c; z) is, and solutions that are 1 and 0 at a
-    point, whose slopes are 0 and 1.
+
+def _without_even_roots(value: Expr, x: Expr) -> tuple[Expr, dict[Expr, Expr]]:
+    """The value with real letters s for roots of letters in which it is even, and the roots.
+
+    It is real for a negative radicand as well: a power series in s^2 with real coefficients, as 2F1(a + s, a - s; c; z) is,
+    and solutions that are 1 and 0 at a point, whose slopes are 0 and 1.
     """
     roots = {}
-    for radicand in {p.base for p in value.atoms(sympy.Pow) if (2 * p.exp).is_odd and p.free_symbols and not p.has(x)}:
-        s = sympy.Dummy(real=True)
-        in_s = value.replace(lambda e: e.is_Pow and e.base == radicand, lambda e: s ** (2 * e.exp))  # noqa: B023
+    for radicand in {p.base for p in value.atoms(Pow) if (2 * p.exp).is_odd and p.free_symbols and not p.has(x)}:
+        s = Dummy(real=True)
+        in_s = in_root(value, radicand, s)
         other = in_s.xreplace({s: -s})
-        # equal for small values of the letters
-        sample = {t: sympy.Rational(k + 2, 2 * k + 5) for k, t in enumerate(sorted(in_s.free_symbols, key=str))}
-        equal = (agree(u.xreplace(sample), v.xreplace(sample)) for u, v in zip(in_s, other, strict=True))
+        small = {letter: 1 / (number + 1) for letter, number in next(samples(in_s.free_symbols)).items()}
+        equal = (agree(u.xreplace(small), v.xreplace(small)) for u, v in zip(in_s, other, strict=True))
         if in_s == other or (in_s.has(sympy.hyper) and all(equal)):
             value = in_s
             roots[s] = sympy.sqrt(radicand)
@@ -184,36 +189,36 @@ def _without_even_roots(value: Expr, x: Expr) -> tuple[Expr, dict[Expr, Expr]]:
 
 
 def _truth(relation: Expr) -> bool | None:
-    """False for what holds for no real values of the letters, or compares what isn't real; None if that isn't seen.
+    """True or False if a relation holds for all, or for no, real values of the letters; None if that isn't seen.
 
-    True for exp(x) + 1 != 0, x^2 - x + 1 > 0 and x + sqrt(x^2 + 1) > 0: nothing has to be said then.
+    True for exp(x) + 1 != 0, x^2 - x + 1 > 0 and x + sqrt(x^2 + 1) > 0; False for an order between complex numbers.
     """
     if isinstance(relation, BooleanAtom):
         return bool(relation)
-    e = relation.lhs.xreplace({s: sympy.Dummy(real=True) for s in relation.free_symbols if s.is_real is None})
-    is_inequality = isinstance(relation, sympy.Ne)
+    e = relation.lhs.xreplace(_real_letters(relation))
+    is_inequality = isinstance(relation, Ne)
     if e.is_extended_real is False and not is_inequality:
         return False
     value = relation.func(e, 0)
     if isinstance(value, BooleanAtom):
         return bool(value)
-    if e.has(sympy.I):
-        return any(part.is_nonzero for part in sympy.expand(e).as_real_imag()) or None
-    signed = (e, -e) if is_inequality else (e,)
-    if any(is_positive_polynomial(p, or_zero=isinstance(relation, sympy.GreaterThan)) for p in signed):
+    if e.has(I):
+        return any(part.is_nonzero for part in expand(e).as_real_imag()) or None
+    signed = (e, -e)[: 1 + is_inequality]
+    if any(is_positive_polynomial(p, or_zero=isinstance(relation, GreaterThan)) for p in signed):
         return True
-    roots, others = sympy.sift(sympy.Add.make_args(e), lambda part: part.is_Pow, binary=True)
-    if len(roots) != 1 or roots[0].exp != sympy.S.Half:
+    roots, others = sift(sympy.Add.make_args(e), lambda part: part.is_Pow, binary=True)
+    if len(roots) != 1 or roots[0].exp != S.Half:
         return None
-    return sympy.expand(roots[0].base - sympy.Add(*others) ** 2).is_positive or None  # sqrt(g) > |f|
+    return expand(roots[0].base - sympy.Add(*others) ** 2).is_positive or None  # sqrt(g) > |f|
 
 
 def _in_one_interval(relations: Collection[Expr], x: Expr) -> tuple[Expr, ...] | None:
-    """x > 0 for x != 0, 1 + 1/x > 0, x + 1 > 0, leaving out what holds there; None if no interval satisfies all of them."""
-    rational, others = sympy.sift(relations, lambda r: _is_over_Q(r.lhs, x), binary=True)
+    """x > 0 for x != 0, 1 + 1/x > 0, x + 1 > 0, without relations that hold there; None if no interval satisfies all."""
+    rational, others = sift(relations, lambda r: _is_over_Q(r.lhs, x), binary=True)
     if len(relations) == 1 or not rational:
         return tuple(relations)
-    t = sympy.Dummy(real=True)
+    t = Dummy(real=True)
     where = reduce_rational_inequalities([[r.xreplace({x: t}) for r in rational]], t, relational=False)
     if where.measure == 0:
         return None
@@ -221,11 +226,11 @@ def _in_one_interval(relations: Collection[Expr], x: Expr) -> tuple[Expr, ...] |
         return tuple(relations)
     a, b = where.start, where.end
     ends = [t > a if where.left_open else t >= a, t < b if where.right_open else t <= b]
-    bounds = [bound for end in ends if (bound := end.xreplace({t: x})) != sympy.true]  # as x > -1 for a positive x is
-    p = sympy.Dummy(positive=True)
+    bounds = [bound for end in ends if (bound := end.xreplace({t: x})) != true]  # as x > -1 for a positive x is
+    p = Dummy(positive=True)
     inside = a + p if b == sympy.oo else b - p if a == -sympy.oo else (a + b * p) / (1 + p)
     places = (inside, *(end for end in (a, b) if end in where))
-    others = [r for r in others if not all(sympy.expand(r.xreplace({x: place})) == sympy.true for place in places)]
+    others = [r for r in others if not all(expand(r.xreplace({x: place})) == true for place in places)]
     return (*(bounds if len(bounds) < len(rational) else rational), *others)
 
 
@@ -237,20 +242,20 @@ def _is_over_Q(e: Expr, x: Expr) -> bool:
 
 def _of_cosine(relation: Expr) -> Expr:
     """cos(u) != 0 for (1 + sin(u))*(1 - sin(u)) > 0, and other products of sums with waves as one wave."""
-    if not isinstance(relation, sympy.StrictGreaterThan) or not relation.lhs.has(sin, cos):
+    if not isinstance(relation, StrictGreaterThan) or not relation.lhs.has(sin, cos):
         return relation
-    product = sympy.expand(relation.lhs)
+    product = expand(relation.lhs)
     powers = (square.as_base_exp() for square in (TR5(product), TR6(product)))
     of_one_wave = in_single_waves(product).as_content_primitive()[1]
     shorter = min(relation, of_one_wave > 0, key=sympy.count_ops)
-    return next((sympy.Ne(base, 0) for base, exponent in powers if exponent == 2), shorter)
+    return next((Ne(base, 0) for base, exponent in powers if exponent == 2), shorter)
 
 
 # ------------------------------------------------------------------------------------------------------ part by part
 
 
 def needs_of(e: Expr) -> Iterator[Expr]:
-    """Relations that make an expression real and finite, part by part.
+    """Relations that make an expression real and finite.
 
     >>> x = sympy.Symbol("x")
     >>> list(needs_of(1 / sympy.log(x)))
@@ -271,15 +276,15 @@ def needs_of(e: Expr) -> Iterator[Expr]:
     for argument in e.args:
         yield from needs_of(argument)
     if e.func in _NEEDS:
-        yield from sympy.And.make_args(_NEEDS[e.func](e, e.args[-1]))
+        yield from And.make_args(_NEEDS[e.func](e, e.args[-1]))
 
 
 def _of_power(e: Expr, exponent: Expr) -> Expr:
     """What a power needs whose base and exponent are real and finite."""
     if e.base.is_number or (exponent.is_nonnegative and exponent.is_integer):
-        return sympy.true
+        return true
     if exponent.is_integer:
-        return sympy.Ne(e.base, 0)
+        return Ne(e.base, 0)
     return (_not_negative if exponent.is_Rational and exponent > 0 else _positive)(e.base)
 
 
@@ -287,63 +292,59 @@ def _of_power(e: Expr, exponent: Expr) -> Expr:
 
 
 def _positive(u: Expr) -> Expr:
-    """u > 0, for a cut from 0 to -oo; of an argument with an i it is said that it isn't the branch point."""
-    return _nonzero(u) if u.has(sympy.I) else sympy.StrictGreaterThan(u, 0, evaluate=False)
+    """u > 0, for a cut from 0 to -oo; u != 0, the branch point, for an argument with an i."""
+    return _nonzero(u) if u.has(I) else StrictGreaterThan(u, 0, evaluate=False)
 
 
 def _not_negative(u: Expr) -> Expr:
-    """u >= 0, where u has no i."""
-    return sympy.true if u.has(sympy.I) else sympy.GreaterThan(u, 0, evaluate=False)
+    """u >= 0, but nothing for an argument with an i."""
+    return true if u.has(I) else GreaterThan(u, 0, evaluate=False)
 
 
 def _nonzero(u: Expr) -> Expr:
-    """u != 0, said without factors that are numbers, and without the denominator, which needs something itself."""
-    factors = sympy.Mul.make_args(sympy.numer(u).as_content_primitive()[1])
-    return sympy.Ne(sympy.Mul(*(factor for factor in factors if not factor.is_number)), 0)
+    """u != 0, without numerical factors, and without the denominator, which has needs of its own."""
+    factors = Mul.make_args(sympy.numer(u).as_content_primitive()[1])
+    return Ne(Mul(*(factor for factor in factors if not factor.is_number)), 0)
 
 
 # ----------------------------------------------------------------------------------------------------------- functions
 
 
 def _unless(is_entire: Any, need: Expr) -> Expr:
-    """Nothing for a function that is seen to be entire."""
-    return sympy.true if is_entire else need
+    """The need, except of an entire function."""
+    return true if is_entire else need
 
 
 def _of_elliptic_integral(e: Expr, last: Expr) -> Expr:
     """F, E and Pi up to phi, or pi/2: there 1 - m sin(phi)^2, and 1 - n sin(phi)^2, have no zero."""
     moduli = [last] + [e.args[0]] * isinstance(e, sympy.elliptic_pi)
-    square = sympy.sin(e.args[-2]) ** 2 if len(e.args) > len(moduli) else sympy.S.One
-    return sympy.And(*(_positive(1 - m * square) for m in moduli))
+    square = sin(e.args[-2]) ** 2 if len(e.args) > len(moduli) else 1
+    return And(*(_positive(1 - m * square) for m in moduli))
 
 
 def _of_hypergeometric(e: Expr, u: Expr) -> Expr:
-    """pFq: entire for p <= q; with a cut from 1 on for p = q + 1, from 0 on for p > q + 1; or a polynomial.
-
-    It has poles where a lower parameter is 0, -1, ....
-    """
-    defined = (sympy.Ne(1 / sympy.gamma(c), 0) for c in e.bq if c.free_symbols)
+    """pFq: a polynomial, or entire for p <= q, with a cut from 1 on for p = q + 1, from 0 on for p > q + 1."""
+    defined = (Ne(1 / sympy.gamma(c), 0) for c in e.bq if c.free_symbols)  # poles at 0, -1, ...
     is_polynomial = any(a.is_integer and a.is_nonpositive for a in e.ap)
     cut = 1 - u if len(e.ap) == len(e.bq) + 1 else -u
-    return sympy.And(_unless(is_polynomial or len(e.ap) <= len(e.bq), _positive(cut)), *defined)
+    return And(_unless(is_polynomial or len(e.ap) <= len(e.bq), _positive(cut)), *defined)
 
 
-#: What a power or a function e needs, with the last argument u.
+#: The need of a power or a function e with the last argument u.
 _NEEDS: dict[Any, Callable[[Expr, Expr], Expr]] = {
-    sympy.Pow: _of_power,
+    Pow: _of_power,
     # inverse functions, and those with poles
-    **dict.fromkeys((sympy.asin, sympy.acos), lambda e, u: _not_negative(1 - u**2)),
+    **dict.fromkeys((sympy.asin, sympy.acos), lambda e, u: _not_negative(cut_of(e))),
     sympy.acosh: lambda e, u: _not_negative(u - 1),
-    sympy.atanh: lambda e, u: _positive(1 - u**2),
-    **dict.fromkeys((sympy.tan, sympy.sec), lambda e, u: _nonzero(sympy.cos(u))),
-    **dict.fromkeys((sympy.cot, sympy.csc), lambda e, u: _nonzero(sympy.sin(u))),
+    **dict.fromkeys((sympy.tan, sympy.sec), lambda e, u: _nonzero(cos(u))),
+    **dict.fromkeys((sympy.cot, sympy.csc), lambda e, u: _nonzero(sin(u))),
     **dict.fromkeys((sympy.coth, sympy.csch, sympy.Ei), lambda e, u: _nonzero(u)),
-    # with a cut from 0 to -oo
+    # with a cut
     **dict.fromkeys(
-        (sympy.log, sympy.Ci, sympy.expint, sympy.uppergamma, sympy.lowergamma, sympy.bessely, sympy.besselk),
-        lambda e, u: _positive(u),
+        (sympy.log, sympy.Ci, sympy.expint, sympy.uppergamma, sympy.lowergamma, sympy.polylog, sympy.atanh),
+        lambda e, u: _positive(cut_of(e)),
     ),
-    sympy.polylog: lambda e, u: _positive(1 - u),
+    **dict.fromkeys((sympy.bessely, sympy.besselk), lambda e, u: _positive(u)),
     **dict.fromkeys((sympy.elliptic_k, sympy.elliptic_e, sympy.elliptic_f, sympy.elliptic_pi), _of_elliptic_integral),
     # J_n(u) is (u/2)^n times an entire function; y_n(u) is rational in u beside waves for an integer n
     **dict.fromkeys((sympy.besselj, sympy.besseli, sympy.jn), lambda e, u: _unless(e.args[0].is_integer, _positive(u))),

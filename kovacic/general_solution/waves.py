@@ -1,4 +1,4 @@
-"""Integrands with waves: changes of variable that make them rational; sine and cosine integrals, Fresnel functions.
+"""Integrands with waves (sines and cosines): changes of variable that make them rational; Si and Ci, Fresnel functions.
 
 s = sin(theta) and c = cos(theta) for a linear theta = w x + phi.  A rational function R(s, c) is one of
 
@@ -14,7 +14,7 @@ from itertools import product
 from typing import Any
 
 import sympy
-from sympy import atan, cos, log, sin, tan
+from sympy import Add, Dummy, I, S, atan, cancel, cos, expand, log, pi, sin, sqrt, tan
 from sympy.simplify.fu import TR2, TR2i
 
 from kovacic.general_solution.integrands import ChangeOfIntegrand, UnknownIntegral, integral_of_fraction, require
@@ -28,10 +28,10 @@ Expr = Any  # SymPy publishes no types
 
 
 class WaveChange(ChangeOfIntegrand):
-    """To a sine, a cosine or a tangent u of a linear angle."""
+    """The change to a sine, a cosine or a tangent u of a linear angle."""
 
     def back(self, found: Expr) -> Expr:
-        """An integral in the angle; logarithms are real for small angles where they can be."""
+        """An integral in the angle; logarithms are real for small angles if they can be."""
         early = sympy.Rational(99 if self.u.func is cos else 1, 100)
         found = found.replace(log, lambda q: log(-q if q.subs(self.t, early).is_negative else q))
         if self.u.func is tan:
@@ -40,13 +40,13 @@ class WaveChange(ChangeOfIntegrand):
 
 
 def _at_tangent(found: Expr, angle: Expr, u: Expr) -> Expr:
-    """For u = tan(angle), in sines and cosines, without jumps where the tangent has poles.
+    """A function of u = tan(angle) in sines and cosines, without jumps at the poles of the tangent.
 
     A polynomial of the degree d under a logarithm is Q(sin, cos)/cos^d, and u^2 + 1 = 1/cos^2: with log(cos^2)/2 for log(cos),
     of the same slope, the logarithms of the cosine cancel unless the integrand has poles there.
     """
     s, c = sin(angle), cos(angle)
-    in_cosine = sympy.Dummy()  # log(cos(angle)^2)
+    in_cosine = Dummy()  # log(cos(angle)^2)
     known = {arc: _continuous_angle(arc.args[0], angle, u) for arc in found.atoms(atan)}
     for logarithm in found.atoms(log):
         parts = sympy.fraction(sympy.together(logarithm.args[0]))
@@ -56,29 +56,29 @@ def _at_tangent(found: Expr, angle: Expr, u: Expr) -> Expr:
         in_waves = (in_single_waves(part.subs(u, s / c) * c**k) for part, k in zip(parts, degrees, strict=True))
         n, m = (part.as_content_primitive()[1] for part in in_waves)
         known[logarithm] = log(n / m) - sympy.Rational(degrees[0] - degrees[1], 2) * in_cosine
-    whole = sympy.expand(found.xreplace(known), deep=False).xreplace({in_cosine: 2 * log(c)})
+    whole = expand(found.xreplace(known), deep=False).xreplace({in_cosine: 2 * log(c)})
     return whole.xreplace({u**2 + 1: c**-2}).xreplace({u: s / c})
 
 
 def _continuous_angle(line: Expr, angle: Expr, u: Expr) -> Expr:
-    """atan(a tan(theta) + b), the line in u, plus pi wherever the tangent has a pole, up to a constant; else as it is.
+    """atan(a tan(theta) + b), for the line a u + b, plus pi at every pole of the tangent, up to a constant; else atan(line).
 
     (cos theta, a sin theta + b cos theta) = M v for v = (cos theta, sin theta).  M is a rotation, by the direction of
     (1 + a, b) for a > 0, times a positive definite P; so the angle of M v is theta, plus a constant, plus that from v to
     P v, which is below pi/2: D = v . P v > 0, N is the cross product of v and P v.
     """
-    line = sympy.expand(line)
+    line = expand(line)
     a, b = line.coeff(u, 1), line.coeff(u, 0)
     if a.is_negative:
         return -_continuous_angle(-line, angle, u)
-    if line != sympy.expand(a * u + b) or not a.is_positive or not b.is_real:
+    if line != expand(a * u + b) or not a.is_positive or not b.is_real:
         return atan(line)
     s, c = sin(angle), cos(angle)
     image = a * s + b * c
     along = (c * c + s * image, c * image - s * c)
     D = (1 + a) * along[0] + b * along[1]
     N = (1 + a) * along[1] - b * along[0]
-    return angle + atan(sympy.cancel(in_single_waves(N) / in_single_waves(D)))
+    return angle + atan(cancel(in_single_waves(N) / in_single_waves(D)))
 
 
 @dataclass(frozen=True)
@@ -92,53 +92,58 @@ class _InOneAngle:
 
     @classmethod
     def of(cls, e: Expr) -> _InOneAngle | None:
-        """An expression whose waves are those of multiples of an angle, the largest; None for another one."""
+        """An expression whose waves have multiples of one angle for arguments, the largest such theta; None for others."""
         waves = sorted(e.atoms(sin, cos), key=str)
         theta = common_factor([wave.args[0] for wave in waves])
         if theta is None:
             return None
-        s, c = sympy.Dummy(), sympy.Dummy()
-        return cls(e.xreplace({wave: _multiple_angle(wave, theta, s, c) for wave in waves}), s, c, theta)
+        s, c = Dummy(), Dummy()
+        in_one_angle = {}
+        for wave in waves:
+            n = int(cancel(wave.args[0] / theta))
+            sine = sympy.sign(n) * s * sympy.chebyshevu(abs(n) - 1, c)
+            in_one_angle[wave] = sympy.chebyshevt(abs(n), c) if wave.func is cos else sine
+        return cls(e.xreplace(in_one_angle), s, c, theta)
 
 
 def wave_changes(term: Expr, x: Expr) -> Iterator[WaveChange]:
-    """The changes of the module's head that make a term of waves rational, or a root of a wave stays."""
+    """The changes at the head of the module that make a term of waves rational except for a root of a wave."""
     found = _InOneAngle.of(in_waves(term))
     if found is None or found.R.has(x) or found.theta.diff(x).has(x) or not found.theta.has(x):
         return
     R, s, c, theta = found.R, found.s, found.c, found.theta
-    u = sympy.Dummy()
-    root = sympy.sqrt(1 - u**2)
+    u = Dummy()
+    root = sqrt(1 - u**2)
     square = 1 + u**2
 
     def change(f: Expr, sine: Expr, cosine: Expr, wave: Expr) -> WaveChange:
         """For int f du with the sine and the cosine in u."""
         # with a root as a factor, as the rules for roots of polynomials know it
-        in_u = sympy.cancel(f.subs({s: sine, c: cosine}) / theta.diff(x))
+        in_u = cancel(f.subs({s: sine, c: cosine}) / theta.diff(x))
         return WaveChange(sympy.together(in_u), u, wave)
 
-    is_odd_in_s, is_odd_in_c = (sympy.cancel(R + R.xreplace({wave: -wave})) == 0 for wave in (s, c))
+    is_odd_in_s, is_odd_in_c = (cancel(R + R.xreplace({wave: -wave})) == 0 for wave in (s, c))
     if is_odd_in_s:
         yield change(-R / s, root, u, cos(theta))
     if is_odd_in_c:
         yield change(R / c, u, root, sin(theta))
     if is_odd_in_s or is_odd_in_c:
         return
-    if sympy.cancel(R - R.xreplace({s: -s, c: -c})) == 0:
-        yield change(R / square, u / sympy.sqrt(square), 1 / sympy.sqrt(square), tan(theta))
+    if cancel(R - R.xreplace({s: -s, c: -c})) == 0:
+        yield change(R / square, u / sqrt(square), 1 / sqrt(square), tan(theta))
     else:
         yield change(2 * R / square, 2 * u / square, (1 - u**2) / square, tan(theta / 2))
 
 
 def in_waves(e: Expr) -> Expr:
-    """With exp(i u) = cos(u) + i sin(u)."""
-    angles = {f: sympy.expand(f.args[0] / sympy.I) for f in e.atoms(sympy.exp)}
-    return e.xreplace({f: cos(u) + sympy.I * sin(u) for f, u in angles.items() if not u.has(sympy.I)})
+    """The expression with cos(u) + i sin(u) for exp(i u)."""
+    angles = {f: expand(f.args[0] / I) for f in e.atoms(sympy.exp)}
+    return e.xreplace({f: cos(u) + I * sin(u) for f, u in angles.items() if not u.has(I)})
 
 
 def common_factor(multiples: Sequence[Expr]) -> Expr | None:
     """The largest u of which all are integer multiples, or None."""
-    ratios = [sympy.cancel(multiple / multiples[0]) for multiple in multiples]
+    ratios = [cancel(multiple / multiples[0]) for multiple in multiples]
     if not ratios or not all(ratio.is_Rational for ratio in ratios):
         return None
     return multiples[0] * reduce(sympy.gcd, ratios)  # gcd_list stops at 1, though 1/2 may follow
@@ -160,14 +165,12 @@ def rational_in_waves(e: Expr) -> list[Expr]:
 
 
 def fractions_of_waves(e: Expr, x: Expr) -> list[Expr]:
-    """With partial fractions in the cosine, and in the sine, in place of what is rational in both; none for polynomials.
+    """Forms with partial fractions in the cosine, and in the sine, for parts rational in both; none for polynomials.
 
     Of sin(x)^2/cos(x) - 1/(2 cos(x)) the second form is 1/(2 cos(x)) - cos(x), which has a multiple of cos(x) to be left out.
     """
-    e = sympy.expand(TR2(e))
-    kept = {
-        sympy.Dummy(): f for f in e.atoms(sympy.Function, sympy.Integral) if f.has(x) and not isinstance(f, sin | cos)
-    }
+    e = expand(TR2(e))
+    kept = {Dummy(): f for f in e.atoms(sympy.Function, sympy.Integral) if f.has(x) and not isinstance(f, sin | cos)}
     masked = e.xreplace({f: letter for letter, f in kept.items()})
     found = _InOneAngle.of(masked)
     if found is None or found.R.is_polynomial(found.s, found.c):
@@ -175,7 +178,7 @@ def fractions_of_waves(e: Expr, x: Expr) -> list[Expr]:
     rational = by_functions(found.R, lambda f: f.is_rational_function(found.s, found.c) and not f.has(x, *kept))
     is_halved = any(wave.args[0] == 2 * found.theta for wave in masked.atoms(sin, cos))
     forms = (
-        sympy.Add(*(other * _in_fractions(replace(found, R=R), k, doubled=doubled) for other, R in rational.items()))
+        Add(*(other * _in_fractions(replace(found, R=R), k, doubled=doubled) for other, R in rational.items()))
         for k, doubled in product((0, 1), (False, True)[: 1 + is_halved])
     )
     return [sympy.expand_mul(form).xreplace(kept) for form in forms]
@@ -185,35 +188,25 @@ def _in_fractions(given: _InOneAngle, k: int, *, doubled: bool) -> Expr:
     """A + B s with partial fractions A and B in c for k = 0, A + B c in s for k = 1, of the double angle if it can be."""
     R, s, c, theta = given.R, given.s, given.c, given.theta
     A, B = _of_square(R, s, c)
-    if doubled and all(sympy.cancel(f - f.subs(c, -c)) == 0 for f in (A, B * c)):  # c^2 = (1 + C)/2 and s c = S/2
-        A, B = (sympy.cancel(part.subs(c, sympy.sqrt((1 + c) / 2))) for part in (A, B / (2 * c)))
+    if doubled and all(cancel(f - f.subs(c, -c)) == 0 for f in (A, B * c)):  # c^2 = (1 + C)/2 and s c = S/2
+        A, B = (cancel(part.subs(c, sqrt((1 + c) / 2))) for part in (A, B / (2 * c)))
         theta *= 2
     if k == 1:
         A, B = _of_square(A + B * s, c, s)
         s, c = c, s
-    A, B = (sympy.Add.make_args(sympy.apart(part, c)) for part in (A, B))
+    A, B = (Add.make_args(sympy.apart(part, c)) for part in (A, B))
     terms = (*A, *(term * s for term in B))
     back = dict(zip((s, c), (sin(theta), cos(theta))[:: 1 - 2 * k], strict=True))
     polynomials, fractions = sympy.sift(terms, lambda term: term.is_polynomial(s, c), binary=True)
-    return in_single_waves(sympy.Add(*polynomials).xreplace(back)) + sympy.Add(*fractions).xreplace(back)
+    return in_single_waves(Add(*polynomials).xreplace(back)) + Add(*fractions).xreplace(back)
 
 
 def _of_square(R: Expr, u: Expr, v: Expr) -> tuple[Expr, Expr]:
-    """A and B, rational in v, with R = A + B u where u^2 = 1 - v^2."""
-    square = sympy.Poly(u**2 + v**2 - 1, u)
-    n, d = (sympy.rem(sympy.Poly(part, u), square) for part in sympy.fraction(sympy.together(R)))
-    conjugate = sympy.Poly(d.as_expr().subs(u, -u), u)
-    n, d = (sympy.rem(part * conjugate, square) for part in (n, d))
-    A, B = (sympy.cancel(n.coeff_monomial(u**m) / d.as_expr()) for m in (0, 1))
+    """A and B, rational in v, with R = A + B u where u^2 = 1 - v^2: the even part, and the odd one divided by u."""
+    other = R.subs(u, -u)
+    even = (cancel(part) for part in ((R + other) / 2, (R - other) / (2 * u)))
+    A, B = (cancel(part.subs(u, sqrt(1 - v**2))) for part in even)
     return A, B
-
-
-def _multiple_angle(wave: Expr, theta: Expr, s: Expr, c: Expr) -> Expr:
-    """sin(n theta) or cos(n theta) in s = sin(theta) and c = cos(theta)."""
-    n = int(sympy.cancel(wave.args[0] / theta))
-    if wave.func is cos:
-        return sympy.chebyshevt(abs(n), c)
-    return sympy.sign(n) * s * sympy.chebyshevu(abs(n) - 1, c)
 
 
 # ------------------------------------------------------------------------------------------------ beside a single wave
@@ -231,11 +224,11 @@ def beside_waves(term: Expr, x: Expr) -> Expr:
     x*sin(x**2)/2 - sqrt(2)*sqrt(pi)*fresnels(sqrt(2)*x/sqrt(pi))/4
     """
     require(term.has(sin, cos) and not term.has(sympy.exp, log, atan))
-    return sympy.Add(*(_beside_at_most_one_wave(single, x) for single in sympy.Add.make_args(in_single_waves(term))))
+    return Add(*(_beside_at_most_one_wave(single, x) for single in Add.make_args(in_single_waves(term))))
 
 
 def _beside_at_most_one_wave(term: Expr, x: Expr) -> Expr:
-    """Integral of R times at most one wave, by partial fractions k (x - c)^n; c is the vertex of a quadratic angle."""
+    """Integral of R times at most one wave, by partial fractions k (x - c)^n; a quadratic angle has its vertex at c."""
     waves = [wave for wave in term.atoms(sin, cos) if wave.has(x)]
     wave = sympy.Mul(*waves)
     R = term / wave
@@ -245,17 +238,17 @@ def _beside_at_most_one_wave(term: Expr, x: Expr) -> Expr:
     u = wave.args[0]
     m = sympy.degree(u, x) if u.is_polynomial(x) else 0
     require(m in (1, 2))
-    middle = x - u.diff(x) / u.diff(x, 2) if m == 2 else sympy.S.Zero
-    total = sympy.S.Zero
-    for fraction in sympy.Add.make_args(sympy.apart(R.subs(x, x + middle), x)):
+    middle = x - u.diff(x) / u.diff(x, 2) if m == 2 else S.Zero
+    total = S.Zero
+    for fraction in Add.make_args(sympy.apart(R.subs(x, x + middle), x)):
         k, power = fraction.as_independent(x, as_Add=False)
-        line, n = (x, sympy.S.Zero) if power == 1 else power.as_base_exp()
+        line, n = (x, S.Zero) if power == 1 else power.as_base_exp()
         slope = line.diff(x)
         require(not slope.has(x))
-        c = sympy.expand(middle + x - line / slope)
-        a, *others, d = map(sympy.expand, sympy.Poly(u.subs(x, x + c), x).all_coeffs())
+        c = expand(middle + x - line / slope)
+        a, *others, d = map(expand, sympy.Poly(u.subs(x, x + c), x).all_coeffs())
         require(not any(others))
-        phase = d + sympy.pi / 2 if wave.func is cos else d
+        phase = d + pi / 2 if wave.func is cos else d
         total += _power_beside_sine(k * slope**n, int(n), m, a, phase, x).subs(x, x - c)
     return total
 
@@ -268,10 +261,10 @@ def _power_beside_sine(k: Expr, n: int, m: int, a: Expr, d: Expr, t: Expr) -> Ex
     if n == -1:
         return k / m * cos(d) * sympy.Si(u) + k / m * sin(d) * sympy.Ci(u)
     if n == 0:
-        z = t * sympy.sqrt(2 * a / sympy.pi)
-        k *= sympy.sqrt(sympy.pi / (2 * a))
+        z = t * sqrt(2 * a / pi)
+        k *= sqrt(pi / (2 * a))
         return k * cos(d) * sympy.fresnels(z) + k * sin(d) * sympy.fresnelc(z)
-    later = d + sympy.pi / 2  # the sine of which is a cosine
+    later = d + pi / 2  # sin(u + later) = cos(u + d)
     if n < 0:
         k /= n + 1
         return k * t ** (n + 1) * sin(u + d) + _power_beside_sine(-k * m * a, n + m, m, a, later, t)
@@ -286,7 +279,7 @@ def by_coefficients(term: Expr, x: Expr) -> Expr:
     >>> by_coefficients(x * cos(x), x)
     x*sin(x) + cos(x)
     """
-    found = undetermined(sympy.Integer(0), sympy.Integer(0), term, x)
+    found = undetermined(S.Zero, S.Zero, term, x)
     if found is None:
         raise UnknownIntegral
-    return sympy.expand(found.diff(x))
+    return expand(found.diff(x))

@@ -2,8 +2,7 @@
 
 A constant is an expression in the user's own symbols, with what is assumed of them.  "Never" without parameters, and "not
 always" with them, is proven by a ball that doesn't contain zero, at values of the parameters that fit the assumptions.
-"Always" is proven by rewriting as a sum of monomials; and, for numbers made of roots, by their minimal polynomial.  All work
-is bounded by sizes.
+"Always" is proven by rewriting as a sum of monomials; and, for numbers made of roots, by their minimal polynomial.
 
 A formula is put into an equation in the same way: at points, in balls.
 """
@@ -14,32 +13,30 @@ import math
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import suppress
 from enum import Enum
-from itertools import islice
+from itertools import count, islice
 from typing import Any
 
 import sympy
 from flint import acb, arb, fmpq
+from sympy import Dummy, Poly, expand
 
 from kovacic.algebra.precision import working_digits
 from kovacic.closed_form.check import DIGITS
 from kovacic.closed_form.jets import ARBITRARY, jet
 from kovacic.general_solution.integrands import prepared_integrand
-from kovacic.general_solution.substitution import in_single_waves, size
+from kovacic.general_solution.substitution import in_single_waves
+from kovacic.limits import manageable
 from kovacic.reading.parser import excerpt
 
 Expr = Any  # SymPy publishes no types
 #: What is raised for functions that can't be evaluated.
 NOT_EVALUATED = (NotImplementedError, ZeroDivisionError, AttributeError, ValueError, TypeError)
-#: How many subexpressions a constant may have that is rewritten.
-_LARGEST = 2000
-#: How many subexpressions a sum may have of which SymPy is asked whether it is zero.
-_LARGEST_ASKED = 100
 #: The largest product of the degrees of roots in an algebraic number whose minimal polynomial is computed: some 0.2 s.
-_LARGEST_DEGREE = 64
+_LARGEST_PRODUCT_OF_DEGREES = 64
 #: Digits to which a number is compared with zero before it is rewritten at length.
 _PRECISE = 400
-#: How many values of the parameters are tried.
-_SAMPLES = 6
+#: How many values of the letters are tried.
+SAMPLES = 6
 #: Points x/101 + i y/89 in each quadrant and on the axis, where a formula is substituted: wrong branches of roots don't pass.
 _POINTS = [(137, 71), (-151, 83), (-97, -119), (163, -79), (23, 0), (67, 0), (173, 0), (431, 0), (-41, 0), (-257, 0)]
 
@@ -53,7 +50,7 @@ class Zero(Enum):
 
 
 def when_zero(value: Expr) -> Zero:
-    """When a constant is zero.  Raises `NotImplementedError` where that can't be told.
+    """Decide whether a constant is zero always, never or sometimes.  Raises `NotImplementedError` if that isn't possible.
 
     >>> n, k = sympy.Symbol("n", integer=True), sympy.Symbol("k")
     >>> when_zero(sympy.sin(n * sympy.pi)), when_zero(sympy.exp(k)), when_zero(1 - sympy.cos(n * sympy.pi))
@@ -64,9 +61,8 @@ def when_zero(value: Expr) -> Zero:
         return Zero.ALWAYS
     if is_nowhere_zero(value):
         return Zero.NEVER
-    tried = islice(samples(value.free_symbols), _SAMPLES)
-    if any(differs_from_zero(value, sample) for sample in tried):
-        # A number that isn't zero never is; what has parameters may be for other values of these.
+    if any(differs_from_zero(value, sample) for sample in islice(samples(value.free_symbols), SAMPLES)):
+        # A number that differs from zero is never zero; an expression in letters may be for other values of these.
         may_be_zero = value.free_symbols and not all(map(is_nowhere_zero, by_parity(value)))
         return Zero.SOMETIMES if may_be_zero else Zero.NEVER
     if is_identically_zero(value):
@@ -81,23 +77,16 @@ def is_zero(value: Expr) -> bool:
 
 def is_nowhere_zero(value: Expr) -> bool:
     """True if no factor can be zero: by assumptions, or because the function has no zeros."""
-    return all(_is_nonzero(factor) for factor in sympy.Mul.make_args(value))
+    bases = (factor.as_base_exp()[0] for factor in sympy.Mul.make_args(value))
+    return all(_NONZERO_IF.get(base.func, _is_nonzero_for_sympy)(base) for base in bases)
 
 
-def _is_nonzero(factor: Expr) -> bool:
-    """True if a power is provably not zero."""
-    base, exponent = factor.as_base_exp()
-    if base == sympy.E:
-        return True
-    if base.func in _WITHOUT_ZEROS:
-        return bool(_WITHOUT_ZEROS[base.func](base))
-    if base.is_Add and size(base) > _LARGEST_ASKED:  # SymPy would compute parts of it, to ever more digits
-        return False
-    return base.is_zero is False and exponent.is_finite is not False
+def _is_nonzero_for_sympy(e: Expr) -> bool:
+    return manageable(e) and e.is_zero is False  # of a long sum SymPy would compute parts to ever more digits
 
 
 def is_positive_polynomial(p: Expr, *, or_zero: bool = False) -> bool:
-    """True if that is a polynomial in real letters over Q, seen to be positive, or never negative, wherever they are.
+    """True for a polynomial in real letters over Q that is seen to be positive everywhere, or never negative.
 
     a v^2 + b v + c is if a and 4 a c - b^2 are; in one letter it is if it has no real root and is positive at 0.
 
@@ -108,33 +97,28 @@ def is_positive_polynomial(p: Expr, *, or_zero: bool = False) -> bool:
     letters = sorted(p.free_symbols, key=str)
     if not letters:
         return bool(p.is_nonnegative if or_zero else p.is_positive)
-    if not p.is_polynomial() or sympy.Poly(p, *letters).domain not in (sympy.ZZ, sympy.QQ):
+    if not p.is_polynomial() or Poly(p, *letters).domain not in (sympy.ZZ, sympy.QQ):
         return False
     for v in letters:
-        coefficients = sympy.Poly(p, v).all_coeffs()
+        coefficients = Poly(p, v).all_coeffs()
         if len(coefficients) == 3:
             a, b, c = coefficients
-            parts = (a, sympy.expand(4 * a * c - b**2))
+            parts = (a, expand(4 * a * c - b**2))
             return all(is_positive_polynomial(part, or_zero=or_zero) for part in parts)
-    return len(letters) == 1 and bool(p.subs(letters[0], 0) > 0) and sympy.Poly(p, letters[0]).count_roots() == 0
-
-
-def _bessel_is_nonzero(f: Expr) -> bool:
-    """K of a real order has no positive zero; I hasn't if the order isn't negative."""
-    order, z = f.args
-    has_zeros = isinstance(f, sympy.besseli) and not order.is_nonnegative
-    return bool(order.is_real and z.is_positive and not has_zeros)
+    return len(letters) == 1 and bool(p.subs(letters[0], 0) > 0) and Poly(p, letters[0]).count_roots() == 0
 
 
 def _gamma_is_nonzero(f: Expr) -> bool:
-    """It has no zeros; poles are excluded, too."""
-    argument = sympy.expand(f.args[0])
+    """Gamma has no zeros; poles are excluded, too."""
+    argument = expand(f.args[0])
     return bool(argument.is_positive or argument.is_integer is False)
 
 
-#: Functions, and whether one of them is known to be finite and not zero.
-_WITHOUT_ZEROS: dict[Any, Callable[[Expr], Any]] = {
-    **dict.fromkeys((sympy.besselk, sympy.besseli), _bessel_is_nonzero),
+#: Functions, with a condition for one of them to be finite and not zero.
+_NONZERO_IF: dict[Any, Callable[[Expr], Any]] = {
+    # K has no positive zero for a real order, I for one that isn't negative.
+    sympy.besselk: lambda f: f.args[0].is_real and f.args[1].is_positive,
+    sympy.besseli: lambda f: f.args[0].is_nonnegative and f.args[1].is_positive,
     sympy.gamma: _gamma_is_nonzero,
     sympy.cosh: lambda f: f.args[0].is_real,
     # Mathieu's even solution, and the slope of his odd one, at 0: where one vanished, the solution would be 0.
@@ -143,47 +127,45 @@ _WITHOUT_ZEROS: dict[Any, Callable[[Expr], Any]] = {
 
 
 def by_parity(value: Expr) -> list[Expr]:
-    """The value for even and for odd n, where that is the only symbol in a wave or a gamma function; else as it is."""
+    """The value for even and for odd n, if n alone stands in a wave or a gamma function; else the value itself."""
     alone = {f.free_symbols.pop() for f in value.atoms(sympy.sin, sympy.cos, sympy.gamma) if len(f.free_symbols) == 1}
     halved = {n for n in alone if n.is_integer and n.is_odd is None}
     if len(halved) != 1:
         return [value]
     (n,) = halved
-    even = sympy.Dummy(integer=True, positive=n.is_positive, nonnegative=n.is_nonnegative)
-    odd = sympy.Dummy(integer=True, nonnegative=n.is_nonnegative)
-    parts = [sympy.expand(value.subs(n, other)) for other in (2 * even, 2 * odd + 1)]
+    even = Dummy(integer=True, positive=n.is_positive, nonnegative=n.is_nonnegative)
+    odd = Dummy(integer=True, nonnegative=n.is_nonnegative)
+    parts = [expand(value.subs(n, other)) for other in (2 * even, 2 * odd + 1)]
     return [sympy.factor_terms(sympy.powsimp(part)) for part in parts]
 
 
 def samples(symbols: set[Expr]) -> Iterator[dict[Expr, Expr]]:
-    """Values of symbols that fit what is assumed of them, small integers, the symbols in many orders: without an end."""
+    """Endless values of symbols that fit what is assumed of them: small numbers, the symbols in many orders."""
     ordered = sorted(symbols, key=str)
-    for k in range(10**6):
+    for k in count():
         # turned round k/2 times, and backwards for odd k: which of two is the larger one may matter
         start = k // 2 % max(len(ordered), 1)
-        turned = [*ordered[start:], *ordered[:start]]
-        if k % 2:
-            turned.reverse()
-        yield {symbol: sample_value(symbol, k + 3 * position) for position, symbol in enumerate(turned)}
+        turned = [*ordered[start:], *ordered[:start]][:: 1 - 2 * (k % 2)]
+        yield {symbol: _sample_value(symbol, k + 3 * position) for position, symbol in enumerate(turned)}
 
 
-def fitting_samples(symbols: set[Expr], natural: Expr | None) -> Iterator[dict[Expr, Expr]]:
-    """Those from the second on, which is less special, for which an integer, if there is one, isn't negative."""
-    later = islice(samples(symbols), 1, 1 + 4 * _SAMPLES)
-    return (sample for sample in later if natural is None or not natural.xreplace(sample).is_negative)
+def generic_samples(symbols: set[Expr], natural: Expr | None = None) -> Iterator[dict[Expr, Expr]]:
+    """Some `samples` for which `natural` isn't negative, without the first one: the smallest integers are special."""
+    later = islice(samples(symbols), 1, 1 + 4 * SAMPLES)
+    return islice((one for one in later if natural is None or not natural.xreplace(one).is_negative), SAMPLES)
 
 
 def opposite(sample: dict[Expr, Expr]) -> dict[Expr, Expr]:
-    """The values with the other sign, where nothing is assumed of it."""
+    """The values with the other sign for symbols of unknown sign."""
     return {s: -value if {s.is_nonnegative, s.is_nonpositive} == {None} else value for s, value in sample.items()}
 
 
-def sample_value(symbol: Expr, k: int) -> Expr:
-    """The k-th value of a symbol: of integers the k-th natural number, or the k-th of those that are even or odd."""
+def _sample_value(symbol: Expr, k: int) -> Expr:
+    """The k-th value of a symbol: for integers the k-th natural number, or the k-th of those that are even or odd."""
     if symbol.is_integer:
         value = sympy.Integer(k + 1 if symbol.is_odd is None else 2 * k + 2 - symbol.is_odd)
     else:
-        # Between 1 and 2 but for k, another one for most other names.  Of short numerators, for SymPy reduces (17/4)^(5/7) to
+        # Between 1 and 2 but for k, and different for most names.  Numerators are short, since SymPy reduces (17/4)^(5/7) to
         # a root of 17^5 4^2.
         code = sum(ord(character) * 31**place for place, character in enumerate(symbol.name))
         value = sympy.Rational(102 + 2 * code % 99, 101) + k
@@ -191,11 +173,9 @@ def sample_value(symbol: Expr, k: int) -> Expr:
 
 
 def ball(value: Expr, sample: dict[Expr, Expr] | None = None) -> Any:
-    """The value of a constant in a ball, None if that can't be computed; parameters have the values of the sample."""
+    """The value of a constant as a ball, with the sample's values for letters; None if it can't be computed."""
     value = value.xreplace(sample or {})
-    if value.has(*ARBITRARY):
-        return None
-    found = known_jet(value, sympy.Dummy(), acb(0))
+    found = None if value.has(*ARBITRARY) else known_jet(value, Dummy(), acb(0))
     return found and found[0]
 
 
@@ -219,26 +199,23 @@ def differs_from_zero(value: Expr, sample: dict[Expr, Expr]) -> bool:
 
 
 def agree(value: Expr, other: Expr) -> bool:
-    """True if two expressions for a constant, found at different points, agree to 50 digits."""
-    sample = next(samples((value - other).free_symbols))
+    """True if two expressions for a constant, found at different points, agree to as many as `DIGITS` digits."""
+    difference = value - other
     with working_digits(3 * DIGITS):
-        difference = ball(value - other, sample)
-        return difference is not None and bool(abs(difference) < arb(10) ** -DIGITS)
+        found = ball(difference, next(samples(difference.free_symbols)))
+        return found is not None and bool(abs(found) < arb(10) ** -DIGITS)
 
 
 def is_identically_zero(value: Expr) -> bool:
     """True if it is provably zero: a sum of monomials in exponentials, waves and logarithms, or a number made of roots."""
-    if size(value) > _LARGEST:
-        return False
     numerator = sympy.numer(sympy.together(prepared_integrand(value)))  # a sum of waves, as sin(a) cos(b) isn't
     if in_single_waves(numerator) == 0:
         return True
-    spread = sympy.expand_log(sympy.expand(numerator, power_base=True), force=False, factor=True)
-    if sympy.expand(spread) == 0:
+    spread = sympy.expand_log(expand(numerator, power_base=True), force=False, factor=True)
+    if expand(spread) == 0:
         return True
     if value.free_symbols:
-        exponentials = sympy.expand(numerator.rewrite(sympy.exp))
-        return bool(sympy.expand(sympy.powsimp(exponentials)) == 0)
+        return bool(expand(sympy.powsimp(expand(numerator.rewrite(sympy.exp)))) == 0)
     return is_algebraic_zero(value)
 
 
@@ -249,17 +226,13 @@ def is_algebraic_zero(value: Expr) -> bool:
     True
     """
     degree = math.prod(int(root.exp.q) for root in value.atoms(sympy.Pow) if root.exp.is_Rational)
-    if not value.is_algebraic or degree > _LARGEST_DEGREE:
-        return False
-    x = sympy.Dummy()
-    return bool(sympy.minimal_polynomial(value, x) == x)
+    x = Dummy()
+    is_short = value.is_algebraic and degree <= _LARGEST_PRODUCT_OF_DEGREES
+    return bool(is_short and sympy.minimal_polynomial(value, x) == x)
 
 
 def residual(point: Any, x: Expr, y: Expr, coefficients: Sequence[Expr]) -> tuple[Any, Any]:
-    """|a y'' + b y' + c y - f| at a point, for expressions a, b, c and f in x, and the sum of the terms' absolute values.
-
-    Raises `NotImplementedError` where a part can't be evaluated, or isn't finite.
-    """
+    """|a y'' + b y' + c y - f| at a point, and the sum of the terms' absolute values.  Raises `NotImplementedError`."""
     a, b, c, f = (jet(e, x, point)[0] for e in coefficients)
     value, first, second = jet(y, x, point)
     terms = [a * second, b * first, c * value, -f]
@@ -269,5 +242,5 @@ def residual(point: Any, x: Expr, y: Expr, coefficients: Sequence[Expr]) -> tupl
 
 
 def points() -> Iterator[Any]:
-    """Those in each quadrant and on the axis."""
+    """The points of `_POINTS`, in each quadrant and on the axis."""
     return (acb(arb(fmpq(real, 101)), arb(fmpq(imaginary, 89))) for real, imaginary in _POINTS)
