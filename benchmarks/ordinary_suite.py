@@ -1,10 +1,12 @@
-"""Choose the tests of the ordinary suite: few seconds that execute every branch that all its tests execute.
+"""Choose the tests of the ordinary suite: few seconds, in which every branch is executed and every test function has a row.
 
     python benchmarks/ordinary_suite.py                  # of all tests not marked `long` or `slow` by hand, in 10 to 20 minutes
     python benchmarks/ordinary_suite.py tests/galois     # of some: arguments for pytest
 
-Needs pytest-cov.  Writes tests/data/long_tests.txt: the tests of SECONDS or more whose branches others execute in less time.
-`tests/conftest.py` marks them `long`, so that .ci/run has them.  A test that isn't listed is ordinary.
+Needs pytest-cov.  Lists the tests whose branches others execute in less time: those of LONG seconds or more in
+tests/data/long_tests.txt, those of SLOW seconds or more in slow_tests.txt.  `tests/conftest.py` marks them so: .ci/run has the
+long ones, and a release the slow ones.  The shortest row of a test function is ordinary, or long.  A test that isn't listed is
+ordinary.
 
 Method: V. Chvatal, "A greedy heuristic for the set-covering problem", Mathematics of Operations Research 4 (1979).
 """
@@ -26,9 +28,9 @@ from pathlib import Path
 import pytest
 
 ROOT = Path(__file__).resolve().parent.parent
-LISTED = ROOT / "tests/data/long_tests.txt"
-#: Of processor time: shorter tests cost less than a list of them is worth.
-SECONDS = 0.1
+#: Of processor time, measured with coverage: shorter tests cost less than a list of them is worth.
+LONG = 0.05
+SLOW = 0.5
 #: What each test costs beside its own time: its collection, its set-up.
 OVERHEAD = 0.003
 
@@ -49,7 +51,7 @@ def measured(arguments: list[str]) -> tuple[dict[str, float], dict[str, set[int]
     with tempfile.TemporaryDirectory() as folder:
         added = {
             "COVERAGE_FILE": f"{folder}/coverage",
-            "KOVACIC_LONG_TESTS": os.devnull,
+            "KOVACIC_TESTS_BY_LENGTH": folder,
             "PYTHONPATH": os.pathsep.join([str(ROOT / "benchmarks"), os.environ.get("PYTHONPATH", "")]),
             "SECONDS_OF_TESTS": folder,
         }
@@ -91,14 +93,26 @@ def covering(seconds: dict[str, float], branches: dict[str, set[int]]) -> set[st
 
 
 def main() -> None:
-    """Write the list, and print what it saves."""
+    """Write the lists, and print what they save."""
     seconds, branches = measured(sys.argv[1:])
-    chosen = covering(seconds, branches)
-    # .ci/run looks for long tests in tests/; docstrings are tested where they stand.
-    listed = [t for t in seconds if t not in chosen and seconds[t] >= SECONDS and t.startswith("tests/")]
-    LISTED.write_text("".join(f"{test}\n" for test in sorted(listed)), encoding="utf-8")
-    saved = sum(seconds[test] for test in listed)
-    print(f"{len(listed)} of {len(seconds)} tests are long, with {saved:.0f} of {sum(seconds.values()):.0f} s")
+    lengths = dict.fromkeys(covering(seconds, branches), "ordinary")
+    functions = {test.partition("[")[0] for test in lengths}
+    for test in sorted(seconds.keys() - lengths.keys(), key=seconds.__getitem__):
+        function = test.partition("[")[0]
+        is_slow = seconds[test] >= SLOW
+        # .ci/run looks for long tests in tests/; docstrings are tested where they stand.
+        if seconds[test] < LONG or not test.startswith("tests/"):
+            lengths[test] = "ordinary"
+        elif function in functions:
+            lengths[test] = "slow" if is_slow else "long"
+        else:  # the shortest row, of a function that may state what no other does
+            lengths[test] = "long" if is_slow else "ordinary"
+        functions.add(function)
+    for name in ("long", "slow"):
+        listed = sorted(test for test, length in lengths.items() if length == name)
+        (ROOT / f"tests/data/{name}_tests.txt").write_text("".join(f"{test}\n" for test in listed), encoding="utf-8")
+        saved = sum(seconds[test] for test in listed)
+        print(f"{len(listed)} of {len(seconds)} tests are {name}, with {saved:.0f} of {sum(seconds.values()):.0f} s")
 
 
 if __name__ == "__main__":

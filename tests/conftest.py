@@ -52,8 +52,8 @@ QUICK = {
     "test_written_solutions",
 }
 
-#: Tests that take a while, and whose branches other tests execute in less time: benchmarks/ordinary_suite.py writes the list.
-LONG = Path(os.environ.get("KOVACIC_LONG_TESTS", Path(__file__).parent / "data/long_tests.txt"))
+#: Where long_tests.txt and slow_tests.txt are; benchmarks/ordinary_suite.py writes them.
+BY_LENGTH = Path(os.environ.get("KOVACIC_TESTS_BY_LENGTH", Path(__file__).parent / "data"))
 
 # These are about shells, terminals and signals as POSIX has them.
 collect_ignore = (
@@ -74,10 +74,13 @@ def pytest_collection_finish() -> None:
 
 
 def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
-    long = set(LONG.read_text(encoding="utf-8").splitlines())
+    files = {name: BY_LENGTH / f"{name}_tests.txt" for name in ("long", "slow")}
+    lengths = {
+        test: name for name, file in files.items() if file.exists() for test in file.read_text("utf-8").splitlines()
+    }
     for item in items:
-        if item.nodeid in long:
-            item.add_marker(pytest.mark.long)
+        if item.nodeid in lengths:
+            item.add_marker(lengths[item.nodeid])
         named = item.path.stem in QUICK or isinstance(item, pytest.DoctestItem)
         if item.get_closest_marker("slow") or PROFILE == "fuzz":
             item.add_marker(pytest.mark.timeout(6 * 3600))
