@@ -32,11 +32,12 @@ def over_parameters(value: Poly) -> FunctionPoly:
     return value
 
 
-def in_field(function: Poly, field: FunctionField) -> FunctionPoly:
-    """The function over a field that contains its parameters, if there are any."""
+def in_field(function: Poly, field: FunctionField, others: Iterable[tuple[str, FunctionPoly]] = ()) -> FunctionPoly:
+    """The function over a field that contains its parameters, if there are any, or the values of the others."""
     if not isinstance(function, FunctionPoly):
         return over_parameters(function.over(field))
-    return over_parameters(function.value_at([*map(field.generator, function.field.names)], field))
+    values = {name: field.generator(name) for name in field.names} | dict(others)
+    return over_parameters(function.value_at([values[name] for name in function.field.names], field))
 
 
 def with_free_generator(polynomial: Poly, larger: FunctionField) -> FunctionPoly:
@@ -125,17 +126,6 @@ def coefficients_in(function: FunctionPoly, i: int, values: Sequence[Poly], fiel
     """The coefficients of the powers of parameter number i in the numerator, low to high, at values of the others."""
     parts = powers_of(function, i)
     return [parts.get(k, 0 * function).value_at(values, field) for k in range(max(parts) + 1)]
-
-
-def without_parameter(i: int, names: Sequence[str]) -> tuple[Field, list[Poly]]:
-    """The field of the other parameters, Q if there are none, and all of them as its elements: 0 for number i."""
-    others = (*names[:i], *names[i + 1 :])
-    if not others:
-        return QQ, [QQ.poly([0])]
-    field = FunctionField(others)
-    values: list[Poly] = [*map(field.generator, others)]
-    values.insert(i, field.poly([0]))
-    return field, values
 
 
 def rational_number(constant: Poly) -> Fraction | None:

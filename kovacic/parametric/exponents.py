@@ -257,8 +257,6 @@ def _determinant(rows: list[list[Any]]) -> Any:
     return rows[-1][-1]
 
 
-#: The degree of the extension that the exponents may need.
-_MOST_CONJUGATES = 16
 #: The degree of a hypersurface in its parameter up to which roots are looked for in its field: factoring there is slow.
 _SURFACE = 2
 
@@ -403,7 +401,7 @@ def exponent_choices(problem: Problem) -> PossibleExponents | None:
     points = sum(place.degree for place in singular_places(problem))
     if is_too_large(problem.field) or 2**points > MOST_TRIALS:
         return None
-    largest = _MOST_CONJUGATES * problem.field.absolute_degree
+    largest = problem.budget.limits.constants * problem.field.absolute_degree
     split = problem  # over an extension over which its singular points are rational
     while factor := next((place.factor for place in split.finite_places if place.degree > 1), None):
         if split.field.absolute_degree * factor.degree > largest:

@@ -52,9 +52,9 @@ def shifted(text: str, value: Poly) -> str:
     """`text - value`: x - 2, x + 1/2, x - (a + b)."""
     if not value:
         return text
-    amount = (
-        expanded_form(value) if isinstance(value, FunctionPoly) else caret(as_text(value.to_sympy(sympy.Symbol("x"))))
-    )
+    amount = caret(as_text(value.to_sympy(sympy.Symbol("x"))))
+    if isinstance(value, FunctionPoly):
+        amount = expanded_form(value)
     return f"{text} - {in_sum(amount)}".replace("- -", "+ ")
 
 

@@ -148,7 +148,7 @@ class Natural(Statement):
 
     def exists(self, point: ParameterPoint, numbers: Sequence[int]) -> bool:
         """True if P has one of these degrees at the point, or an invariant of degree m exists there."""
-        return _exists(point.restricted(self.S), self.m, numbers)
+        return _exists(point.restricted(self.S), self.m, () if self.m > 1 else tuple(numbers))
 
     def determinants(self, number: int) -> tuple[Determinant, ...]:
         """Delta_d for one natural number d, for each way in which the exponents give it."""
@@ -255,7 +255,7 @@ def _determinants(statement: Natural, number: int) -> tuple[Determinant, ...]:
         if statement.m == 1 and (has_free_constant or is_too_large(S.field)):
             choices = [NOT_COMPUTED]
         elif S.field.ground == QQ:  # no parameter is left
-            choices = [RankConditions(deficient=_exists(S, statement.m, [number]))]
+            choices = [RankConditions(deficient=_exists(S, statement.m, (number,)))]
         elif statement.m > 1:
             choices = [form_conditions(analyse(S, Budget()), statement.m)]
         else:
@@ -275,20 +275,16 @@ def _determinants(statement: Natural, number: int) -> tuple[Determinant, ...]:
     return tuple(found)
 
 
-def _exists(S: RatFunc, m: int, numbers: Sequence[int]) -> bool:
-    return _has_form(S, m) if m > 1 else any(_has_solution(S, number) for number in numbers)
-
-
 @lru_cache(maxsize=256)
-def _has_solution(S: RatFunc, number: int) -> bool:
-    """True if there is a solution with a P of this degree; cached because several statements need it."""
-    chosen = choices_of_degree(analyse(S, Budget()), number)
-    if chosen is None:
-        raise LimitExceeded(f"the exponents of y'' = ({S}) y need too large an extension", limit="degree")
-    return any(polynomial_solution(*exponents.operator, number) is not None for exponents in chosen)
-
-
-@lru_cache(maxsize=256)
-def _has_form(S: RatFunc, m: int) -> bool:
-    """True if there is an invariant of degree m."""
-    return not isinstance(invariants(analyse(S, Budget()), m), NoInvariant)
+def _exists(S: RatFunc, m: int, numbers: tuple[int, ...]) -> bool:
+    """True if P can have one of these degrees, or an invariant of degree m > 1 exists; cached for several statements."""
+    problem = analyse(S, Budget())
+    if m > 1:
+        return not isinstance(invariants(problem, m), NoInvariant)
+    for number in numbers:
+        chosen = choices_of_degree(problem, number)
+        if chosen is None:
+            raise LimitExceeded(f"the exponents of y'' = ({S}) y need too large an extension", limit="degree")
+        if any(polynomial_solution(*exponents.operator, number) is not None for exponents in chosen):
+            return True
+    return False

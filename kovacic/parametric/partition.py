@@ -75,15 +75,12 @@ from kovacic.parametric.regions import (
     without_implied_equations,
     without_redundant,
 )
-from kovacic.parametric.search import Findings, degree_equation, search_special_values
+from kovacic.parametric.search import SMALL_DEGREE, Findings, degree_equation, search_special_values
 from kovacic.parametric.solutions import Carried, PolynomialSolution, derivative, given, solutions_there
 from kovacic.parametric.statements import ALWAYS, NEVER, Setting, Vanishes, all_of
 from kovacic.parametric.theorems import kimura_theorem, martinet_ramis
 from kovacic.reading.change_of_variable import function_of_x, user_variable
 from kovacic.writing.formula import caret
-
-#: Degrees of P up to which an E0 is looked for.
-_DEGREE_AT_E0 = 4
 
 
 @dataclass(frozen=True)
@@ -136,7 +133,7 @@ def _rational_logarithmic_derivatives(problem: Problem) -> Iterator[tuple[Functi
     equation = degree_equation(problem) if energies else None
     if equation is None:
         return
-    for special in chain.from_iterable(irreducible_factors(equation(Fraction(d))) for d in range(_DEGREE_AT_E0 + 1)):
+    for special in chain.from_iterable(irreducible_factors(equation(Fraction(d))) for d in range(SMALL_DEGREE + 1)):
         linear = (i for i in energies if degrees(special)[i] == 1 and powers_of(special, i)[1].num.is_constant())
         for i in islice(linear, 1):
             surface = restriction.hypersurface(special, i)
@@ -433,10 +430,8 @@ def derived(
     own = equation or normal_form_equation(lifted, variable)
     # In solutions the constant is SymPy's number.
     x = sympy.Symbol(variable)
-    meanings = (
-        *letters,
-        *((name, value.to_sympy(x)) for name, value in zip(constant.names, constant.values, strict=True)),
-    )
+    numbers = zip(constant.names, (value.to_sympy(x) for value in constant.values), strict=True)
+    meanings = (*letters, *numbers)
     setting = restriction.setting_of(variable, parameters_of(lifted.field), constant, letters, known)
     finished = [_finished(region, own, max_degree, budget, meanings) for region in settled_regions(regions, setting)]
     return replace(found, regions=tuple(finished))

@@ -12,7 +12,7 @@ statement holds at all values of a chart.
 from __future__ import annotations
 
 import re
-from collections.abc import Callable, Iterable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Sequence
 from contextlib import suppress
 from dataclasses import dataclass, field, replace
 from functools import cached_property, partial, reduce
@@ -485,11 +485,6 @@ class Case:
     statement: Statement
     regions: tuple[ParameterRegion, ...]
     without: tuple[Statement, ...] = ()
-
-
-def regions_without_claim(regions: Iterable[ParameterRegion]) -> Iterator[ParameterRegion]:
-    """Regions about which a theorem makes no claim: S isn't defined there, or nothing is known."""
-    return (region for region in regions if not region.verdict.known)
 
 
 def solvable_cases(regions: Sequence[ParameterRegion]) -> list[Case]:

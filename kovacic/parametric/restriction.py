@@ -162,11 +162,7 @@ class Hypersurface(ParameterPoint):
 
     def back(self, function: Poly, field: FunctionField) -> FunctionPoly:
         """A function of fewer parameters, or of those of the curve, in the original parameters, those of the field."""
-        if not self.curve:
-            return in_field(function, field)
-        values = {name: field.generator(name) for name in field.names} | dict(self.curve)
-        known = over_parameters(function)
-        return over_parameters(known.value_at([values[name] for name in known.field.names], field))
+        return in_field(function, field, self.curve)
 
 
 def hypersurface(function: FunctionPoly, eliminated: int | None = None) -> Hypersurface:
@@ -187,7 +183,11 @@ def hypersurface(function: FunctionPoly, eliminated: int | None = None) -> Hyper
         if curve is not None:
             return curve
         i = min(leading, key=lambda i: powers[i])
-    smaller, values = claims.without_parameter(i, names)
+    others = (*names[:i], *names[i + 1 :])
+    field = FunctionField(others)
+    smaller = field if others else QQ
+    values: list[Poly] = [*map(field.generator, others)]
+    values.insert(i, smaller.poly([0]))  # until it is known
     coefficients = claims.coefficients_in(function, i, values, smaller)
     if powers[i] == 1:
         values[i] = -coefficients[0] / coefficients[1]

@@ -40,6 +40,9 @@ from kovacic.parametric.restriction import hypersurface
 from kovacic.parametric.statements import NEVER, Statement, all_of
 from kovacic.parametric.theorems import mean_of_singular_points
 
+#: The degree up to which solutions with generic parameters are expanded: a series for a/x + b + c x + x^2 takes 0.4 s up to the
+#: degree 16, 5 s up to 24, and 33 s up to 40.
+SMALL_DEGREE = 8
 #: Degrees of invariants, each with a structure of the groups for which it is examined.
 Degrees = list[tuple[int, Structure]]
 
@@ -137,10 +140,10 @@ def _degrees_that_decide(problem: Problem) -> Degrees | None:
 def _obstruction(place: Place) -> Poly | None:
     """The right side of the recurrence n (n - Delta) c_n = ... at n = Delta, which has to vanish, from the smaller exponent on.
 
-    None unless the place is a rational pole of order 2, and Delta a positive integer.
+    None unless the place is a rational pole of order 2, and Delta a small positive integer.
     """
     delta = place.delta
-    if not delta or delta.denominator > 1 or place.order != 2 or place.degree > 1:
+    if delta is None or delta not in range(1, SMALL_DEGREE + 1) or place.order != 2 or place.degree > 1:
         return None
     field = place.factor.field
     t = field.poly([0, 1]) - place.factor[0]

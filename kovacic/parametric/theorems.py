@@ -170,8 +170,7 @@ def kimura_regions(problem: Problem, n: int, origin: SolutionsByDegree) -> Itera
 
 def jacobi_formula(problem: Problem, coordinate: Coordinate, variable: str) -> BySigns | None:
     """Equation (1) for signs f, g, h; None if three singular points are conjugate."""
-    base = written_expression(coordinate.base)
-    weight = written_expression(coordinate.weight)
+    base, weight = map(written_expression, (coordinate.base, coordinate.weight))
     points = _three_points(problem, sympy.Symbol(variable))
     if points is None:
         return None
@@ -191,12 +190,8 @@ def jacobi_formula(problem: Problem, coordinate: Coordinate, variable: str) -> B
         degree = shorter_sum((-1 - f * first - g * second - h * third) / 2)
         e, e1 = (sympy.expand((1 + difference) / 2) for difference in (f * first, g * second))
         own = -sympy.Rational(coordinate.n - 1, 2)
-        powers = (
-            base**own
-            * _positive_difference(z, c) ** e
-            * _positive_difference(z, c1) ** e1
-            * last ** sympy.expand(1 - e - e1)
-        )
+        powers = base**own * last ** sympy.expand(1 - e - e1)
+        powers *= _positive_difference(z, c) ** e * _positive_difference(z, c1) ** e1
         y = weight * powers * jacobi(degree, f * first, g * second, argument)
         return PolynomialSolution(y, degree, jacobi=(f * first, g * second))
 
@@ -262,27 +257,16 @@ def _with_denominators(problem: Problem, denominators: tuple[int, ...]) -> State
     return all_of([riemann.has_denominator(*pair) for pair in zip(squares, denominators, strict=False)])
 
 
-@dataclass(frozen=True)
-class ConfluentForm:
-    """Equation (2): the coordinate in which S has this form, and the coefficients."""
-
-    coordinate: Coordinate
-    b: Poly
-    r: Poly
-    q: Poly
-
-
-def laguerre_formula(form: ConfluentForm, variable: str) -> BySigns | None:
-    """Equation (3) for signs e, f; None for q = 0."""
-    if not form.q:
+def laguerre_formula(coordinate: Coordinate, b: Poly, r: Poly, q: Poly, variable: str) -> BySigns | None:
+    """Equation (3) for signs e, f, in the coordinate in which S has the form (2); None for q = 0."""
+    if not q:
         return None
     x = sympy.Symbol(variable)
-    s = written_expression(form.coordinate.base)
-    weight = written_expression(form.coordinate.weight)
-    rate = root_in_sympy(form.q)
-    delta = root_in_sympy(1 + 4 * form.b)
-    beta = form.r.to_sympy(x) / rate
-    n = form.coordinate.n
+    n = coordinate.n
+    s, weight = map(written_expression, (coordinate.base, coordinate.weight))
+    rate = root_in_sympy(q)
+    delta = root_in_sympy(1 + 4 * b)
+    beta = r.to_sympy(x) / rate
 
     def by_signs(signs: Sequence[Any]) -> PolynomialSolution:
         e, f = signs
@@ -298,22 +282,26 @@ def martinet_ramis(problem: Problem, variable: str) -> Theorem | None:
     """The theorem of Martinet & Ramis, if s^2 S is b + r z + q z^2 in z = s^n."""
     if riemann.singular_points(problem) > 2 or riemann.has_regular_points_only(problem):
         return None
-    form = _confluent_form(problem, variable)
-    if form is None:
+    # The first coordinate in which s^2 S is a polynomial of degree 1 or 2 in z = s^n.
+    fitting = (one for one in symmetries(problem, variable) if one.den.degree == 0 and one.num.degree in (1, 2))
+    symmetric = next(fitting, None)
+    if symmetric is None:
         return None
-    author = "Whittaker" if form.q else "Bessel"
-    name = Theory(f"{author}'s equation in `{form.coordinate}`: Martinet & Ramis", "MR89", "DLR92")
-    origin = Signed(partial(laguerre_formula, form, variable), 2)
-    # N = +-beta +- Delta is n modulo 2n; for q = 0, N = 2 Delta.
-    delta_squared = 1 + 4 * form.b
-    squares = [form.r * form.r / form.q, delta_squared] if form.q else [4 * delta_squared]
-    n = form.coordinate.n
+    coordinate, num, den = symmetric
+    b, r, q = (num[k] / den[0] for k in range(3))
+    if not q and coordinate.n % 2 == 0:  # b + r s^n is b + q z^2 in z = s^(n/2)
+        coordinate, r, q = replace(coordinate, n=coordinate.n // 2), q, r
+    n = coordinate.n
+    author, squares = "Bessel", [4 * (1 + 4 * b)]  # N = 2 Delta is n modulo 2n
     verdict = RegionVerdict(Structure.IMPRIMITIVE, family="the infinite dihedral group")
-    if form.q:
-        verdict = _whittaker_group(squares[0], delta_squared, n)
-    equation = signed_sums(squares, Fraction(0), form.b.field)
-    region = ParameterRegion(integer_roots(over_parameters(equation), [n], 2 * n), verdict, origin=origin)
-    return Theorem(name, [*restriction.undefined(problem), *irreducible_factors(form.q or form.r)], [region])
+    if q:  # N = +-beta +- Delta is n modulo 2n
+        author, squares = "Whittaker", [r * r / q, 1 + 4 * b]
+        verdict = _whittaker_group(squares[0], squares[1], n)
+    name = Theory(f"{author}'s equation in `{coordinate}`: Martinet & Ramis", "MR89", "DLR92")
+    origin = Signed(partial(laguerre_formula, coordinate, b, r, q, variable), 2)
+    statement = integer_roots(over_parameters(signed_sums(squares, Fraction(0), b.field)), [n], 2 * n)
+    region = ParameterRegion(statement, verdict, origin=origin)
+    return Theorem(name, [*restriction.undefined(problem), *irreducible_factors(q or r)], [region])
 
 
 def _whittaker_group(beta_squared: Poly, delta_squared: Poly, n: int) -> RegionVerdict:
@@ -325,14 +313,3 @@ def _whittaker_group(beta_squared: Poly, delta_squared: Poly, n: int) -> RegionV
         return borel()
     where = f"`{shortest_form(beta_squared)} < {shortest_form(delta_squared)}`"
     return borel(where if delta is not None else f"`{root_written(delta_squared / n**2)}` is an integer and {where}")
-
-
-def _confluent_form(problem: Problem, variable: str) -> ConfluentForm | None:
-    """The form in the first coordinate in which s^2 S is a polynomial of degree 1 or 2 in z; b + r z with even n has r = 0."""
-    fitting = (one for one in symmetries(problem, variable) if one.den.degree == 0 and one.num.degree in (1, 2))
-    for coordinate, num, den in fitting:
-        b, r, q = (num[k] / den[0] for k in range(3))
-        if not q and coordinate.n % 2 == 0:
-            return ConfluentForm(replace(coordinate, n=coordinate.n // 2), b, q, r)
-        return ConfluentForm(coordinate, b, r, q)
-    return None

@@ -30,7 +30,6 @@ from kovacic.parametric.regions import (
     ParameterRegion,
     RegionVerdict,
     charts_of,
-    regions_without_claim,
     solvable_cases,
     vanishing,
     within,
@@ -91,7 +90,7 @@ class _TheoremWriter:
         self.change = answer.equation and answer.equation.change
         self.is_solvable = answer.generic.known and answer.generic.case is not None
         self.cases = solvable_cases(answer.regions)
-        self.left_out = [*regions_without_claim(answer.regions)]
+        self.left_out = [region for region in answer.regions if not region.verdict.known]
         self.signs = [sign for sign in map(sympy.Symbol, _SIGN_LETTERS) if sign.name not in answer.parameters]
 
     def blocks(self) -> Iterator[Block]:
