@@ -79,11 +79,6 @@ class Bound:
         distance = self.sign * (number - self.end)
         return distance > 0 or (distance == 0 and not self.strict)
 
-    def excludes(self, value: Any) -> bool:
-        """True if a real ball provably lies on the wrong side."""
-        with working_precision(COMPARED_BITS):
-            return bool((value - arb(fmpq(self.end.numerator, self.end.denominator))) * self.sign < 0)
-
     def among(self, numbers: Classes) -> Bound:
         """The bound in terms of the nearest number of a single class."""
         (start,) = numbers.residues
@@ -163,7 +158,11 @@ class Known:
         return not self.inequalities or not has_sign or self.admits_ball(enclosure(value))
 
     def admits_ball(self, ball: Any) -> bool:
-        return bool(ball.imag.contains(0)) and not any(bound.excludes(ball.real) for bound in self.inequalities)
+        """True unless the ball is provably not real, or on the wrong side of a bound."""
+        with working_precision(COMPARED_BITS):
+            ends = [(one.sign, arb(fmpq(one.end.numerator, one.end.denominator))) for one in self.inequalities]
+            is_outside = any(sign * (ball.real - end) < 0 for sign, end in ends)
+        return bool(ball.imag.contains(0)) and not is_outside
 
     def sample(self, random: Random) -> Fraction:
         """A small rational number, in the known class if there is one."""
