@@ -402,7 +402,7 @@ def family_key(name: str, arguments: list[TowerFunction]) -> str:
     return " ".join([name, *(value.key for value in arguments)])
 
 
-def antiderivative(tower: Tower, f: TowerFunction, variable: TowerFunction) -> Any:
+def any_antiderivative(tower: Tower, f: TowerFunction, variable: TowerFunction) -> Any:
     """An antiderivative: any one, so its value at a point may be any number."""
     if not isinstance(variable, TowerFunction):
         raise NotImplementedError("a definite integral")
@@ -553,7 +553,7 @@ CONSTANTS: dict[str, Callable[[Tower], Any]] = {
 CALLS: dict[str, Callable[..., Any]] = {
     "exp": Tower.exp,
     "root": lambda tower, u, n: tower.power(u, tower.number(1) / n),
-    "Integral": antiderivative,
+    "Integral": any_antiderivative,
     "CRootOf": indexed_root,
     "Lambda": lambda tower, a, body: (a, body),
     "RootSum": root_sum,
