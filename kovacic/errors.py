@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import sys
 import warnings
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator, Mapping
 from contextlib import contextmanager
 from functools import partial
 
@@ -158,3 +158,15 @@ def warn_user(text: str, category: type[Warning] = UserWarning) -> None:
         frame = frame.f_back
         level += 1
     warnings.warn(text, category, stacklevel=level)
+
+
+def former_names(module: str, names: Mapping[str, type]) -> Callable[[str], type]:
+    """A module's `__getattr__` for names of version 0.2, with a warning."""
+
+    def found(name: str) -> type:
+        if name not in names:
+            raise AttributeError(f"module {module!r} has no attribute {name!r}")
+        warn_user(f"{module}.{name} is called {names[name].__name__} now", DeprecationWarning)
+        return names[name]
+
+    return found

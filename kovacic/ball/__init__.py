@@ -7,17 +7,8 @@ equations (`derivation`, from the definitions), the closed forms of omega_3 and 
 
 from kovacic.ball.body import BallOnSphere, InRoots, RollingBall, U, X
 from kovacic.ball.theorems import BallSolution, closed_form
-from kovacic.errors import warn_user
+from kovacic.errors import former_names
 
 __all__ = ["BallOnSphere", "BallSolution", "InRoots", "RollingBall", "U", "X", "closed_form"]
 
-_FORMER_NAMES = {"Ball": RollingBall, "ClosedForm": BallSolution}
-
-
-def __getattr__(name: str) -> type:
-    """The names of version 0.2."""
-    if name not in _FORMER_NAMES:
-        raise AttributeError(f"module 'kovacic.ball' has no attribute {name!r}")
-    found = _FORMER_NAMES[name]
-    warn_user(f"kovacic.ball.{name} is called {found.__name__} now", DeprecationWarning)
-    return found
+__getattr__ = former_names(__name__, {"Ball": RollingBall, "ClosedForm": BallSolution})

@@ -429,8 +429,13 @@ def _follow(ball: Dynamics, force: Force, y: Array, rate: float) -> dict[str, An
         u = colatitude(p[3:6])
     if approach < _ASYMPTOTIC:
         rough = _integrate(ball, force, y, rate, turns=4, tolerance=10 * _RELATIVE_TOLERANCE)
+        # The last time up to which the two agree in omega and s: the rough one errs ten times as much.
+        times = np.linspace(0.0, min(solution.t[-1], rough.t[-1]), 4000)
+        scale = np.repeat([rate, 1.0], 3)[:, None]
+        difference = np.abs((solution.sol(times) - rough.sol(times))[:6] / scale).max(axis=0)
+        lost = int(np.append(difference > _ASYMPTOTIC, True).argmax())
         period = None
-        cycle = determined = _last_agreement(solution, rough, rate)
+        cycle = determined = float(times[max(lost - 1, 0)])
         u = colatitude(solution.sol(np.array([0.0, *turns[turns < cycle], cycle]))[3:6])
     return {
         "_solution": solution.sol,
@@ -440,15 +445,6 @@ def _follow(ball: Dynamics, force: Force, y: Array, rate: float) -> dict[str, An
         "approach": approach,
         "determined": determined,
     }
-
-
-def _last_agreement(fine: Any, rough: Any, rate: float) -> float:
-    """The last time up to which two integrations agree in omega and s; the rough one errs ten times as much."""
-    times = np.linspace(0.0, min(fine.t[-1], rough.t[-1]), 4000)
-    scale = np.repeat([rate, 1.0], 3)[:, None]
-    difference = np.abs((fine.sol(times) - rough.sol(times))[:6] / scale).max(axis=0)
-    lost = np.append(difference > _ASYMPTOTIC, True)
-    return float(times[max(int(lost.argmax()) - 1, 0)])
 
 
 def _integrate(

@@ -8,17 +8,10 @@ of curves of positive genus modulo primes and in `chain`, and `gauged` the group
 'mu_4'
 """
 
-from kovacic.errors import warn_user
+from kovacic.errors import former_names
 from kovacic.galois.decide import group_of
 from kovacic.galois.gauged import EquationGroup, equation_group
 from kovacic.galois.group import Ground, Group, GroupKind
 
 __all__ = ["EquationGroup", "Ground", "Group", "GroupKind", "equation_group", "group_of"]
-
-
-def __getattr__(name: str) -> type:
-    """The names of version 0.2."""
-    if name != "Kind":
-        raise AttributeError(f"module 'kovacic.galois' has no attribute {name!r}")
-    warn_user("kovacic.galois.Kind is called GroupKind now", DeprecationWarning)
-    return GroupKind
+__getattr__ = former_names(__name__, {"Kind": GroupKind})
