@@ -108,9 +108,9 @@ class _TheoremWriter:
         equation = self.answer.equation
         if equation is not None and (self.change or not equation.is_normal_form):
             of = " of the normal form" * (not equation.is_normal_form)
-            over = ("", Math("", ""))
+            over: list[str | Math] = []
             if self.change:  # the field isn't C(x)
-                over = (" over ", generated_field(self.change.expression))
+                over = [" over ", generated_field(self.change.expression)]
             yield say(f"Cases and groups are those{of}", *over, ".")
         yield from self._delta(cases)
         yield from self._proof()

@@ -60,7 +60,8 @@ def pieces(latex: str) -> list[str]:
 
 def _parsed(latex: str) -> list[Node]:
     stack: list[list[Node]] = [[]]
-    for token in _LATEX_TOKEN.findall(latex):
+    # A command's argument follows it at once, also in a formula that was broken before: \frac {a}{b}.
+    for token in _LATEX_TOKEN.findall(re.sub(r"(\\[A-Za-z]+) +(?![A-Za-z])", r"\1", latex)):
         if token == "{":
             stack.append([])
         elif token == "}" and len(stack) > 1:

@@ -43,6 +43,13 @@ def test_how_long_formulas_are_written_on_a_line(latex: str, written: str) -> No
     assert breakable(latex, 8).replace(" ", "") == written.replace(" ", "")
 
 
+def test_a_broken_formula_can_be_broken_further() -> None:
+    """As in the cells of a table, which are narrower than a line."""
+    once = r"y = \frac {x^{2} + 1}{\sqrt {x}} + \cos x"
+    assert breakable(once, 4) == breakable(once.replace(r"c {", "c{").replace(r"t {", "t{"), 4)
+    assert breakable(once, 4).count("/") == 1
+
+
 def test_the_pieces_of_a_formula_are_the_formula() -> None:
     formula = r"y = \frac{" + " + ".join(f"{10**k} x^{{{k}}}" for k in range(40)) + r"}{\sqrt{x}} - e^{x}"
     assert "".join(pieces(formula)).replace(" ", "") == breakable(formula).replace(r"\allowbreak", "").replace(" ", "")
