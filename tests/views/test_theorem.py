@@ -542,3 +542,10 @@ def test_rows_in_the_integer_beside_a_constant() -> None:
     theorem = kovacic.conditions("y''=(a*x^2/sqrt(2)+b)*y").theorem()
     assert "For n = 3, 7, 11, ...:\n\n    y = x*exp(b*x^2/(2*n))*assoc_laguerre(n/4 - 3/4, 1/2, -b*x^2/n)" in theorem
     assert "epsilon" not in theorem
+
+
+@pytest.mark.parametrize("format", ["text", "markdown", "latex"])
+def test_cases_are_said_to_be_those_of_the_normal_form(format: str) -> None:
+    """Without an empty formula where there is no change of variable."""
+    written = kovacic.conditions("y'' - 2*x*y' + 2*n*y = 0", var="x").theorem(format=format)
+    assert "Cases and groups are those of the normal form.\n" in written
