@@ -1,7 +1,7 @@
-"""Boundary problems: for which values of a parameter there are solutions other than 0.
+"""Boundary problems: the values of a parameter for which there are solutions other than 0.
 
-`kovacic.eigenvalues` has these numbers E as proven numbers.  Two homogeneous conditions at two points, and an equation with
-lambda (or mu) in it, y'' + lambda y = 0, y(0) = y(L) = 0, have `eigenfunctions`.
+`eigenvalues` has them in proven balls; `eigenfunctions` are formulas for two homogeneous conditions at two points and an
+equation with lambda (or mu) in it, such as y'' + lambda y = 0, y(0) = y(L) = 0.
 """
 
 from __future__ import annotations
@@ -55,46 +55,46 @@ def eigenvalues(
 ) -> Eigenvalues:
     """The lowest eigenvalues of a Sturm-Liouville problem, each in a proven ball, none left out.
 
-    The equation is a y'' + b y' + (c0 + lambda c1) y = 0 with real coefficients, c1/a positive or negative, and
-    without singular points inside the interval.  Eigenvalue number k is proven by counts of zeros (Sturm) in ball
-    arithmetic: below the lower end of its ball are k eigenvalues, and below the upper end k + 1.
+    The equation is a y'' + b y' + (c0 + lambda c1) y = 0 with real coefficients, c1/a positive or negative, and without
+    singular points inside the interval.  Eigenvalue number k is proven by counts of zeros (Sturm) in ball arithmetic: k
+    eigenvalues are below the lower end of its ball, and k + 1 below the upper one.
 
     Parameters
     ----------
     equation : str or sympy.Expr
         The equation, linear in the parameter: "y'' + lambda*y = 0", "-y'' + x^4*y = E*y".  Coefficients are elementary
-        functions of x; absolute values, steps and cases are taken apart.
+        functions of x; absolute values, steps and cases are split into pieces.
     conditions : str or mapping, optional
         Homogeneous ones at the two ends, as for `dsolve`: "y(0)=0, y(1)+y'(1)=0"; periodic ones, "y(0)=y(1),
-        y'(0)=y'(1)", or antiperiodic ones.  At a singular or infinite end none is needed: the solution is meant that
-        is smaller than all others; y(0) = 0, y(0) = "bounded", y(oo) = 0 say the same where they do.
+        y'(0)=y'(1)", or antiperiodic ones.  At a singular or infinite end none is needed: the solution is the one that is
+        smaller than all others, and y(0) = 0, y(0) = "bounded" or y(oo) = 0 may say so.
     parameter : str
         The name of the eigenvalue.
     domain : pair, optional
-        The ends, if the conditions don't name both; the whole line without any.
+        The ends, if the conditions don't name both; by default the whole line.
     count : int
-        The number of eigenvalues; fewer come back if there are no more.
+        The number of eigenvalues; fewer are returned if there are no more.
     var : str, optional
         The name of the variable.
     params : mapping, optional
         Values of the other parameters.
     accuracy, digits, limits
-        The fields of `Accuracy`, but a method: digits are those of each, relative to its size, or to a thousandth of
-        the mean distance of eigenvalues if that is larger.
+        The fields of `Accuracy` except a method: digits of each eigenvalue, relative to its size, or to a thousandth of the
+        mean distance of eigenvalues if that is larger.
 
     Returns
     -------
     Eigenvalues
         A sequence of `Level`, each with its `value`, a `Ball`, and the number of `zeros` of its eigenfunction.
-        `complete` says that there are no others; `notes` what was assumed, and what isn't proven.
+        `complete` is True if there are no others; `notes` list what was assumed, and what isn't proven.
 
     Raises
     ------
     InputError
-        For what isn't such a problem: a singular point inside, an end with two square integrable solutions and no
-        condition (limit circle), a potential that isn't bounded below.
+        For any other problem: with a singular point inside, an end with two square integrable solutions and no condition
+        (limit circle), or a potential that isn't bounded below.
     LimitExceeded
-        Where levels aren't found or told apart within the limits.
+        If levels aren't found or separated within the limits.
 
     Examples
     --------
@@ -131,7 +131,7 @@ def read_eigenproblem(
     params: Mapping[Any, Any] | None = None,
     limits: Limits = DEFAULT_LIMITS,
 ) -> Eigenproblem:
-    """The problem of `eigenvalues`, whose levels can then be computed one by one.  Raises `InputError`."""
+    """The problem of `eigenvalues`, with levels that are computed one by one.  Raises `InputError`."""
     values = {Symbol(str(k)): read_expression(exact_text(value, str(k))) for k, value in (params or {}).items()}
     equation, conditions = apart(equation, conditions)
     function, coefficients = _linear_in_parameter(equation, var, parameter, values, limits)
@@ -172,7 +172,7 @@ def _linear_in_parameter(
 
 
 def _parameter_among(symbols: Collection[Expr], parameter: str) -> Expr:
-    """The symbol with this name, where there is no other one.  Raises `InputError`."""
+    """The symbol with this name.  Raises `InputError` if there is none, or another one."""
     names = sorted(s.name for s in symbols)
     if parameter == PARAMETER and "λ" in names:
         parameter = "λ"
@@ -218,7 +218,7 @@ def _interval_ends(conditions: Sequence[Condition], domain: Sequence[Any] | None
 
 
 def read_domain(domain: Sequence[Any]) -> list[Expr]:
-    """Two ends, numbers, expressions or infinite.  Raises `InputError` for anything else."""
+    """Two ends: numbers, expressions or infinite.  Raises `InputError` for anything else."""
     if isinstance(domain, str) or len(domain) != 2:
         raise InputError("a domain is a pair of ends", hint='domain=(0, "oo")')
     texts = [exact_text(value, "an end of the domain") for value in domain]
@@ -260,7 +260,7 @@ def wishes_of(conditions: Sequence[Condition], ends: tuple[Expr, Expr]) -> tuple
 
 
 def eigenfunctions(question: Question) -> tuple[Expr, list[str]] | None:
-    """y, with a number n in it or lambda, and for which lambda it holds; None if that isn't the question."""
+    """y with a number n or lambda in it, and notices about the values of lambda; None if that isn't the question."""
     conditions = _homogeneous_conditions(question)
     if conditions is None:
         return None
@@ -298,7 +298,7 @@ def eigenfunctions(question: Question) -> tuple[Expr, list[str]] | None:
 
 
 def _homogeneous_conditions(question: Question) -> tuple[tuple[Expr, Expr], int, Any] | None:
-    """The two ends, and the conditions as of `wishes_of`; None for others."""
+    """The two ends, and the conditions as `wishes_of` returns them; None for others."""
     given = question.conditions
     points = sorted({point for condition in given for point in condition.points}, key=sympy.default_sort_key)
     is_homogeneous = len(given) == 2 and all(condition.value == 0 for condition in given)
@@ -313,12 +313,11 @@ def _homogeneous_conditions(question: Question) -> tuple[tuple[Expr, Expr], int,
 
 
 def _with_positive_symbols(e: Expr) -> Expr:
-    """With positive symbols."""
     return e.xreplace({s: Symbol(s.name, positive=True) for s in e.free_symbols})
 
 
 def _said_of_eigenvalue(found: EigenvalueFamily, parameter: Expr, sign: int) -> str:
-    """For which values of the parameter, which is the eigenvalue times a sign."""
+    """The values of the parameter, which is the eigenvalue times a sign, in words."""
     if found.equation is None:
         numbers = ", ".join(str(found.first + k) for k in range(3))
         return f"this holds for {parameter} = {sign * found.value} with {found.n} = {numbers}, ..."

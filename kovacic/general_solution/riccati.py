@@ -1,12 +1,12 @@
 """Riccati equations w' = p + q w + r w^2: all solutions, with one constant, and the rational and algebraic ones.
 
-By w = -u'/(r u) it is linear, u'' - (q + r'/r) u' + p r u = 0, and w(a) = v says that u'(a) = -r(a) v u(a).  Where r(a) = 0
-that equation is singular at a, though Riccati's isn't.  1/w satisfies z' = -r - q z - p z^2, which gives w = p u/u' with
+By w = -u'/(r u) it is linear, u'' - (q + r'/r) u' + p r u = 0, and w(a) = v means u'(a) = -r(a) v u(a).  If r(a) = 0 that
+equation is singular at a, though Riccati's isn't.  1/w satisfies z' = -r - q z - p z^2, which gives w = p u/u' with
 
     u'' + (q - p'/p) u' + p r u = 0,        w(a) = v where u(a) : u'(a) = v : p(a),                                   (1)
 
-regular at a where p(a) isn't 0.  Where both vanish, u and -u'/r still have values at a for all solutions u, and
-C1 u1 + C2 u2 is meant for which the second is v times the first.
+regular at a if p(a) isn't 0.  If both vanish, u and -u'/r still have values at a for all solutions u, and the solution is
+the C1 u1 + C2 u2 for which the second is v times the first.
 
 If a solution u1 has a rational omega = u1'/u1, then u = u1 (C + V) with V' = E = exp(int q + r'/r - 2 omega dx), Abel's
 formula, so that
@@ -228,14 +228,14 @@ def _slope_by_neighbours(y: Expr, x: Expr) -> Expr:
 class RiccatiSolutions:
     """All rational and algebraic solutions of w' = p + q w + r w^2, as SymPy expressions in the variable.
 
-    Iterating gives the rational ones, and a notebook shows what there is.
+    Iteration gives the rational ones.  A notebook shows all that are known.
 
     Attributes
     ----------
     rational : tuple of sympy.Expr
-        The rational solutions, where they are finitely many.
+        The rational solutions, if they are finitely many.
     family : sympy.Expr or None
-        All solutions, with a constant C1, where all are algebraic and known in closed form; C1 may be infinite.
+        All solutions, with a constant C1, if all are algebraic and known in closed form; C1 may be infinite.
     polynomial : sympy.Expr or None
         A polynomial in w with the algebraic solutions of least degree as its roots.
     all_algebraic : bool or None
@@ -280,20 +280,19 @@ def solve_riccati(
     p, q, r : str, number or sympy.Expr
         The coefficients; or `p` alone is the equation, as text or from SymPy.
     var : str
-        The name of the variable, where it isn't clear.
+        The name of the variable, if it isn't clear.
     limits : Limits
         Bounds on the input and on the work.
 
     Returns
     -------
     RiccatiSolutions
-        If the group of the linear equation is trivial or {1, -1} all solutions are rational, with a constant: then `family` has
-        them.
+        If the group of the linear equation is trivial or {1, -1}, all solutions are rational: then `family` has them.
 
     Raises
     ------
     InputError
-        For r = 0, which isn't a Riccati equation, and what `kovacic.solve` raises.
+        For r = 0, which isn't a Riccati equation, and for what `kovacic.solve` refuses.
 
     Examples
     --------

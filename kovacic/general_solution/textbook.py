@@ -286,7 +286,7 @@ def _as_one_wave(total: Expr) -> Expr:
 
 def _with_short_coefficients(e: Expr, x: Expr) -> Expr:
     """The same with quotients of letters in factors and completed squares, as in (k - m w^2)^2 + c^2 w^2."""
-    if not e.has(x):
+    if x not in e.free_symbols:  # which a `CRootOf` may have in its polynomial
         return shortest([e, *_quotients_in_factors(e)])
     if e.is_Add:
         parts = [_with_short_coefficients(part, x).as_independent(x, as_Add=False) for part in e.args]

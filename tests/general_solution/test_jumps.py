@@ -447,3 +447,11 @@ def test_a_modulus_in_a_function_is_written_as_one() -> None:
     assert str(answer.eq.rhs).startswith("sin(x)*Integral(cos(s)*sqrt(Abs(s)), (s, 0, x)) - ")
     assert not answer.validity
     assert str(kovacic.answer_to("y' + y = log(abs(x - 1))").validity) == "x - 1 != 0"
+
+
+@pytest.mark.parametrize("n", [5, 9])
+def test_a_sign_whose_zero_has_no_formula(n: int) -> None:
+    """The polynomial of a `CRootOf` may be one in x, which isn't free in it: that led to an endless recursion."""
+    place = f"x - CRootOf(x**{n} - x - 1, 0)"
+    wanted = f"C1*cos(x) + C2*sin(x) + 2*(1 - cos({place}))*Heaviside({place}) - 1"
+    assert str(kovacic.dsolve(f"y'' + y = sign(x^{n} - x - 1)").rhs) == wanted
