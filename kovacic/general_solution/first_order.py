@@ -200,7 +200,7 @@ def read_first_order(
 
 def _require_first_order(holds: bool) -> None:
     if not holds:
-        raise InputError("an equation w' = p + q w + r w^n is expected")
+        raise InputError("an equation w' = p + q w + r w^n is expected", hint="for example w' = x^2 + w^2")
 
 
 def _in_powers(whole: Expr, function: Expr) -> tuple[Expr, Expr, Expr, Expr]:

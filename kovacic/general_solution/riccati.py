@@ -20,6 +20,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, replace
+from fractions import Fraction
 from functools import reduce
 from typing import Any
 
@@ -166,7 +167,7 @@ def _forms(u: Expr, constants: Sequence[Expr], equation: FirstOrderEquation) -> 
         powers = product(slope - omega - omega)
         E = display(powers, Atoms(x)).xreplace(NUMBERS)
         V = None
-        fractions = sum(abs(float(power.rational_exponent or 0)) * power.base.degree for power in powers.powers)
+        fractions = sum(abs(power.rational_exponent or Fraction()) * power.base.degree for power in powers.powers)
         if 20 * fractions <= MOST_CHARACTERS:  # of some twenty characters each; of order 80 they take 10 s
             V = antiderivative(E, x)
         # E is written before the quotient, too: an integral that stays has it in the same form

@@ -143,7 +143,7 @@ def _expansion(e: Expr, degree: float) -> tuple[float, float, float]:
         return reduce(_product_size, sorted(inner, key=lambda factor: factor[2]))  # polynomials first
     if e.is_Pow and e.exp.is_Rational and e.exp >= 1:
         count, k = terms[0], int(e.exp)
-        if count > 1 and count * k >= 10**4:
+        if count > 1 and count * k >= 10**4:  # the binomial coefficient would be a long number
             return math.inf, math.inf, math.inf
         # SymPy writes all monomials of degree k in the terms before it gathers any; each has at most k of them as factors
         monomials = math.comb(count + k - 1, k)
