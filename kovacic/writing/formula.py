@@ -145,9 +145,9 @@ class Formulas:
         return ExtensionPoly(AlgebraicField(field.base, field.modulus, self.symbol), function.parts)
 
     def math(self, function: RatFunc | Poly) -> Math:
-        """A function or a polynomial; the degrees in place of a formula that would fill several screens."""
+        """A function or a polynomial; the degrees in place of a formula of more than some fifteen screens."""
         function = RatFunc(function) if isinstance(function, Poly) else function
-        if max(map(_estimated_length, (function.num, function.den))) > 10 * MOST_CHARACTERS:
+        if max(map(_estimated_length, (function.num, function.den))) > 30 * MOST_CHARACTERS:
             above, below = function.num.degree, function.den.degree
             said = f"(too long to print: degree {above}{f' over degree {below}' * (below > 0)})"
             return Math(said, rf"\text{{{said}}}")
