@@ -66,7 +66,9 @@ from flint import (
 )
 from flint import nmod_poly as nmod
 
-LARGEST_COMPUTED = 10_000  # the largest degrees, and numbers of terms of a series, in a computation
+LARGEST_COMPUTED = (
+    10_000  # degrees, terms of series: larger ones could fill the memory before the minute for a line is over
+)
 LARGE_PRIMES = [q for q in range(2**60 + 33, 2**60 + 20_000, 2) if fmpz(q).is_prime()]
 
 
@@ -120,7 +122,7 @@ C, T, X2 = PLANE.gens()
 X = fmpq_poly([0, 1])
 #: A ring for solutions.  Its last generator is x; each function in a formula gets a larger one than its argument has.
 TOWER = fmpq_mpoly_ctx.get(tuple(f"t{i}" for i in range(48)), Ordering.lex)
-#: The most products of terms in one multiplication.
+#: Products of terms in one multiplication: the gcd that reduces the result takes some 4 s there, and a line has a minute.
 MOST_PRODUCTS = 10**5
 #: Exact points, one near each half axis, at which an unproven formula is evaluated.
 POINTS = [
