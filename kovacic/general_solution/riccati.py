@@ -156,7 +156,7 @@ def _solved_linear(
 def _forms(u: Expr, constants: Sequence[Expr], equation: FirstOrderEquation) -> Iterator[Expr]:
     """w = -u'/(r u) as a sum over the factors of u, and by (2) for each solution with a rational omega."""
     x = equation.x
-    yield _with_rational_part([-term / equation.r for term in Add.make_args(_rate_of(u, constants, x))], x)
+    yield _with_short_fractions([-term / equation.r for term in Add.make_args(_rate_of(u, constants, x))], x)
     if len(constants) < 2:
         return
     slope = ratfunc(equation.q + equation.r.diff(x) / equation.r, x)
@@ -171,12 +171,12 @@ def _forms(u: Expr, constants: Sequence[Expr], equation: FirstOrderEquation) -> 
         if 20 * fractions <= MOST_CHARACTERS:  # of some twenty characters each; of order 80 they take 10 s
             V = antiderivative(E, x)
         # E is written before the quotient, too: an integral that stays has it in the same form
-        V = sympy.Integral(E, x) if V is None else sympy.factor_terms(_with_rational_part(Add.make_args(V), x))
+        V = sympy.Integral(E, x) if V is None else sympy.factor_terms(_with_short_fractions(Add.make_args(V), x))
         rational = -Atoms(x).ratio(omega).xreplace(NUMBERS) / equation.r
-        yield _with_rational_part([rational, -E / (equation.r * (constants[0] + V))], x)
+        yield _with_short_fractions([rational, -E / (equation.r * (constants[0] + V))], x)
 
 
-def _with_rational_part(terms: Sequence[Expr], x: Expr) -> Expr:
+def _with_short_fractions(terms: Sequence[Expr], x: Expr) -> Expr:
     """The rational terms as one fraction or in partial fractions; the others with theirs in lowest terms."""
     parts = by_functions(Add(*terms), lambda factor: factor.is_rational_function(x))
     total = cancel(parts.pop(sympy.S.One, sympy.S.Zero))
