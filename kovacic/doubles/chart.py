@@ -101,9 +101,9 @@ class Region:
         return self.low.imag == 0 == self.high.imag
 
     def points(self, x: Any) -> Any:
-        """The argument as an array of doubles or complex doubles; raises InputError where it leaves the region.
+        """The argument as an array of doubles or complex doubles; raises InputError if it leaves the region.
 
-        What is masked stays masked, and may be anything.
+        Masked entries stay masked, and may be anything.
         """
         points: Any = np.asanyarray(x) if np.ma.isMaskedArray(x) else np.asarray(x)
         if not np.issubdtype(points.dtype, np.number):
@@ -188,14 +188,12 @@ def _singular_ends(problem: NumericProblem | None, low: ExactPoint, high: ExactP
         return at_low, at_high
     for root in problem.enclosures(PRECISION):
         # A root that overlaps an end is taken for it; others have to be apart from the rectangle.
-        is_low = root.overlaps(a)
-        is_high = root.overlaps(b)
-        is_beside = root.real < a.real or root.real > b.real
-        is_above_or_below = root.imag < a.imag or root.imag > b.imag
-        if not (is_low or is_high or is_beside or is_above_or_below):
+        is_low, is_high = root.overlaps(a), root.overlaps(b)
+        outside = [root.real < a.real, root.real > b.real, root.imag < a.imag, root.imag > b.imag]
+        if not any([is_low, is_high, *outside]):
             raise InputError(f"the interval contains the singular point {name_of(problem.places, root)}")
-        at_low = at_low or is_low
-        at_high = at_high or is_high
+        at_low |= is_low
+        at_high |= is_high
     return at_low, at_high
 
 

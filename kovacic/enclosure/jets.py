@@ -206,7 +206,7 @@ def _polynomial_coefficients(e: Any, x: Any) -> list[Any] | None:
 
 
 def _is_close(x: Any, zero: acb) -> bool:
-    """True unless the quotient is sharp: beyond a distance of 1/2, and for a ball that is narrow beside it."""
+    """True unless the quotient is sharp: at a distance above 1/2, and above the radius of a ball."""
     if isinstance(x, acb_series):
         return not abs(x[0] - zero) > 2 * abs(x[1]) + 0.5
     distance = abs(x - zero)
@@ -215,7 +215,7 @@ def _is_close(x: Any, zero: acb) -> bool:
 
 #: Bits of bounds.
 _BITS_OF_BOUNDS = 64
-#: Bits for roundings, beside those of the growth.
+#: Bits for roundings, in addition to those of the growth.
 _SPARE_BITS = 28
 #: Bounds by boxes are too large by about this factor.
 _EXCESS_OF_BOXES = 4.0
@@ -280,8 +280,8 @@ class CoefficientField:
         return _sizes(self.values(_box(centre, radius), analytic=True))
 
     def crowd(self, x: acb, e: int, steepest: float) -> float:
-        """The least number of discs on a unit of length at x, by the largest scale up to 2^e whose bounds `jets` admits; NaN if
-        there is none."""
+        """The least number of discs on a unit of length at x, by the largest scale up to 2^e whose bounds `jets` admits, or NaN
+        if it admits none."""
         with working_precision(_BITS_OF_BOUNDS):
             for k in range(_BITS_OF_BOUNDS):
                 h = arb((1, e - k))
@@ -293,7 +293,7 @@ class CoefficientField:
     def jets(self, centre: ExactPoint, e: int, prec: int, steepest: float) -> Jets | None:
         """The series for solutions to about 2^-prec; None if the disc of twice this scale has a singularity, lambda is above
         `steepest`, or a function grows so much that its series would be long or cancel."""
-        # Bits by which the centre is longer than what is to be seen around it.
+        # Bits by which the centre is longer than the details around it.
         longer = max(0, binary_exponent(centre.norm_squared()) // 2 - e) if centre != ExactPoint(0) else 0
         with working_precision(_BITS_OF_BOUNDS + longer):
             h = arb((1, e))
@@ -302,7 +302,7 @@ class CoefficientField:
             if near is None or not rate <= _EXCESS_OF_BOXES * steepest:
                 return None
             inner = self.sizes(centre, h / 4)
-            # Beside a solution of size 1 what is smaller needn't be followed.
+            # Next to a solution of size 1, a right-hand side below 1 doesn't count.
             if inner is None or not near[2] * h * h <= (inner[2] * h * h).max(arb(1)) * arb(steepest).exp():
                 return None
             growth = int(min(steepest, float(rate)) / math.log(2))  # in bits
@@ -416,7 +416,7 @@ def _solution(jets: Jets, start: int | None) -> Local:
     number = arb if isinstance(F, arb_poly) else acb
     right = F if start is None else F * 0
     with working_precision(jets.precision):
-        # a_0 and a_1: 1, 0 or 0, 1; beside the right-hand side (start is None) 0, 0.
+        # a_0 and a_1: 1, 0 or 0, 1; with the right-hand side (start is None) 0, 0.
         first = [number(start == k) for k in (0, 1)]
         values = _Recurrence((A, B, C), right, first, jets.bits).values
         scale = arb((1, jets.e if start == 1 else 0))  # the slope 1 in x

@@ -1,4 +1,4 @@
-"""Where a solution is asked for, and how a state gets there: along a polygon, then along straight lines to the targets.
+"""Journeys: a state is carried from the start along a polygon, and from there along straight lines to the targets.
 
 A state is carried along each line by a `Way`.  A journey from a regular singular point begins with its Frobenius series.
 """

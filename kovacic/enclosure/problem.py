@@ -10,7 +10,7 @@ their poles, and the lines that meet none.  A constant of an extension Q(c) is t
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Mapping
+from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
 from fractions import Fraction
 from functools import cached_property, lru_cache
@@ -60,19 +60,6 @@ def cleared(a: RatFunc, b: RatFunc, c: RatFunc, *others: RatFunc) -> list[RatFun
         # The least common multiple: without what a denominator shares with the others.
         common *= part.den // common.gcd(part.den)
     return [part * RatFunc(common) for part in (a, b, c, *others)]
-
-
-def check_apart(points: Iterable[acb], a: acb, b: acb) -> None:
-    """Raise InputError unless it is certain that none of these singular points lies on the straight segment."""
-    for point in points:
-        ratio = (b - point) / (a - point)  # negative or 0 on the segment only
-        if not (ratio.real > 0 or not ratio.imag.contains(0)):
-            place = midpoint(point).rounded(-64)
-            raise InputError(
-                f"the path runs through the singular point near {place}, or so near that its constants don't tell",
-                hint="go around it: path='above', or path=[...] with a vertex off the axis",
-                shell="go around it: --path above, or --path below",
-            )
 
 
 def _at(polynomial: Any, values: list[acb]) -> acb_poly:
@@ -248,12 +235,20 @@ class NumericProblem:
         return _at(poly.num, balls) * (1 / _at(poly.den, balls)[0])
 
     def check_segment(self, a: ExactPoint, b: ExactPoint) -> None:
-        """Raise InputError if the closed segment contains a singular point of the user's equation, or may contain one where
-        constants are known by balls."""
+        """Raise InputError if the closed segment contains a singular point of the user's equation, or may contain one, as
+        constants in balls don't tell."""
         if self.is_rational:
             check_segment(self.places, a, b)
-        else:
-            check_apart(self.enclosures(ctx.prec), to_acb(a), to_acb(b))
+            return
+        for point in self.enclosures(ctx.prec):
+            ratio = (to_acb(b) - point) / (to_acb(a) - point)  # negative or 0 on the segment only
+            if not (ratio.real > 0 or not ratio.imag.contains(0)):
+                place = midpoint(point).rounded(-64)
+                raise InputError(
+                    f"the path runs through the singular point near {place}, or so near that its constants don't tell",
+                    hint="go around it: path='above', or path=[...] with a vertex off the axis",
+                    shell="go around it: --path above, or --path below",
+                )
 
     def singular_points(self, prec: int) -> list[ExactPoint]:
         """The midpoints of their enclosures, each once; on the real axis exactly where the singular point is."""

@@ -79,7 +79,7 @@ def read_start(problem: NumericProblem | None, given: Start) -> ReadStart:
         raise InputError("one start is expected", hint=_START_HINT, shell=_SHELL_STARTS)
     if given.x0 is None:
         raise InputError("the point at which the solution starts is missing", hint="x0=0, for instance", shell="--x0 0")
-    # The decaying solution is 1 at x0 by default; its slope, 0 here, is replaced by what is found.
+    # The decaying solution is 1 at x0 by default; its slope, 0 here, is computed later.
     y0, dy0 = (1 if given.y0 is None else given.y0, 0) if is_decaying else (given.y0, given.dy0)
     if is_decaying or has_values:
         if y0 is None or dy0 is None:

@@ -56,7 +56,7 @@ class Disc:
             return
         centre = self.frame.centre
         reach = self.frame.scale * REACH
-        # The square around what is served: where it sees a without singular points between, each stop does.
+        # A square that contains the disc: if no singular point lies between it and a, none does for any stop.
         corners = [centre + ExactPoint(x * reach, y * reach) for x in (1, -1) for y in (1, -1)]
         is_free = self.begin == a or is_apart(system, a, *corners)
         square = self.frame.scale**2
@@ -119,7 +119,7 @@ def cover(system: System, a: ExactPoint, b: ExactPoint, prec: int, *, alone: boo
     guess = None
     while t < 1:
         disc = piece.next_disc(t, enter, guess)
-        if disc is None:  # the junction beside the path is too far from it for a disc that fits: back to the path
+        if disc is None:  # the junction is too far off the path for a disc that fits: back to the path
             yield from (replace(disc, begin=None) for disc in cover(system, enter, piece.at(t), prec))
             enter = piece.at(t)
         else:

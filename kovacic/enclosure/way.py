@@ -223,8 +223,8 @@ class Forecast:
         size = f"exp({growth:.2g})" if growth < math.inf else "more than exp(1e308)"
         way = f"the way from {self.a} to {self.b}"
         if least > MAX_DISCS:
-            said = f"the solutions grow or oscillate by {size} on {way}, which takes {least:.2g} steps or more"
-            raise LimitExceeded(f"{said}, above the limit of {MAX_DISCS}", limit="unknown_degree")
+            reason = f"the solutions grow or oscillate by {size} on {way}, which takes {least:.2g} steps or more"
+            raise LimitExceeded(f"{reason}, above the limit of {MAX_DISCS}", limit="unknown_degree")
         if each and self.crowd is not None:
             least = max(least, foreseen_growth(self.crowd, self.a, self.b))
         # Some of the discs are behind.
@@ -271,7 +271,7 @@ class Way(ABC):
         return spread(values, abs(ball - to_acb(number.point())), state, real=real and are_real([ball, *state]))
 
     def into(self, x: ExactPoint) -> Matrix:
-        """From the user's (y, y') at x to what is carried."""
+        """From the user's (y, y') at x to the carried state."""
         return identity()
 
     def out_of(self, a: ExactPoint, x: ExactPoint) -> Matrix:
@@ -313,7 +313,8 @@ class Way(ABC):
 
 
 def spread(values: Sequence[acb], length: arb, state: State, *, real: bool) -> State:
-    """The state anywhere on a piece so long from that at a point of it; b, c and f of y'' + b y' + c y = f on it are `values`.
+    """The state anywhere on a piece of this length from that at a point of it; `values` are b, c and f of
+    y'' + b y' + c y = f on the piece.
 
     For s > 0 and K >= max(1/s, |b| + s |c|), (y, s y') changes by at most (exp(K r) - 1) (max(|y|, s |y'|) + s |f|/K)
     [equation (1) of `kovacic.enclosure.analytic`].
@@ -348,7 +349,7 @@ class Ray:
 
     def _begin(self) -> None:
         self._end = self.here
-        self._nearest: Any = 0  # what is nearer was forgotten
+        self._nearest: Any = 0  # discs that are left before this distance were forgotten
         # Of disc k: how far from here it is left, the disc with the maps to where it is entered, and the solution in it if it
         # was needed.
         self._leave: list[Any] = []
