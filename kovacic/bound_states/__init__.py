@@ -10,5 +10,5 @@ In goes V with real parameters and a domain, out comes a `Spectrum`.  Read `api`
    and writes the conditions; `without_levels` are periodic and repulsive potentials;
 3. `darboux` brings other potentials to the families; `closed_forms`: where no formula is known, the levels with a closed form,
    from the conditions on E, and are these all?
-4. `levels`: what is returned.
+4. `levels`: the result.
 """

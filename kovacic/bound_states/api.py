@@ -9,11 +9,11 @@ from typing import Any
 
 import sympy
 
-from kovacic.bound_states.asked import asked, problem_of, unsolved
+from kovacic.bound_states.asked import asked, exact_problem, unsolved
 from kovacic.bound_states.closed_forms import closed_forms
 from kovacic.bound_states.darboux import transformed
 from kovacic.bound_states.ends import Examined, examined
-from kovacic.bound_states.families import families
+from kovacic.bound_states.families import standard_levels
 from kovacic.bound_states.levels import Spectrum
 from kovacic.bound_states.numeric import check_first_levels, with_matching, with_numbers
 from kovacic.bound_states.question import Asked
@@ -78,7 +78,7 @@ def spectrum(
     parameters : sequence of str
         Names of parameters that have more than one letter, as "EI" or "mass"; other such names are refused.
     accuracy, digits, limits
-        The fields of `Accuracy`, but a method: digits are those of the lowest levels.
+        The fields of `Accuracy`, but a method: the digits apply to the lowest levels.
 
     Returns
     -------
@@ -140,7 +140,7 @@ def spectrum(
 
 def _schroedinger_spectrum(given: Asked, max_degree: int, limits: Limits) -> Spectrum:
     """The levels as far as exact methods give them.  Raises `NotRational`."""
-    question = problem_of(given, limits)
+    question = exact_problem(given, limits)
     budget = Budget(limits)
     with budget.watched():
         try:
@@ -150,9 +150,15 @@ def _schroedinger_spectrum(given: Asked, max_degree: int, limits: Limits) -> Spe
             found = known.spectrum(reason=f"undecided: {reason}")
         else:
             found = _all_levels(known, budget)
-        if not (found.complete or found.needs_boundary_condition):
-            found = _with_closed_forms(found, known, max_degree, limits)
-    return found
+        if found.complete or found.needs_boundary_condition:
+            return found
+        forms = closed_forms(known, max_degree, limits)
+    why = forms.reason if forms.complete else found.reason or forms.reason
+    found = replace(found, algebraic=tuple(forms.levels.values()), closed_forms_complete=forms.complete, reason=why)
+    if forms.complete or forms.higher is None:
+        return found
+    higher = f"there may be levels with a polynomial of degree {forms.higher}"
+    return replace(found, hint=f"{higher}: max_degree={forms.higher}", shell=f"{higher}: --max-degree {forms.higher}")
 
 
 def _all_levels(question: Examined, budget: Budget) -> Spectrum:
@@ -171,7 +177,7 @@ def _all_levels(question: Examined, budget: Budget) -> Spectrum:
         reason = "V is periodic, and no formula is known for its levels on a half line, which lie between the bands"
         return question.spectrum(reason=f"undecided: {reason}")
     try:
-        levels, name = families(question, budget)
+        levels, name = standard_levels(question, budget)
     except Uncovered:
         is_settled = not question.excluded and not question.boundary.is_mixed
         if is_settled and is_repulsive(question):
@@ -182,7 +188,7 @@ def _all_levels(question: Examined, budget: Budget) -> Spectrum:
 
 
 def _why_no_formula(question: Examined) -> str:
-    """What there is instead of a formula at an ordinary point; "" where there may be single levels."""
+    """Explains the missing formula if an end is an ordinary point; "" where single levels may be found."""
     wall = next((end.at for end in question.ends if end.is_regular), None)
     if wall is None:
         return ""
@@ -192,14 +198,3 @@ def _why_no_formula(question: Examined) -> str:
         f"undecided: the levels are the energies for which a solution {meets} at {where}, an ordinary point; a formula "
         "is known where V is constant, and where the ends are poles, infinite, or the middle of a symmetric V"
     )
-
-
-def _with_closed_forms(found: Spectrum, question: Examined, max_degree: int, limits: Limits) -> Spectrum:
-    """The spectrum with the levels that have a closed form, and what is proven about them."""
-    forms = closed_forms(question, max_degree, limits)
-    reason = forms.reason if forms.complete else found.reason or forms.reason
-    found = replace(found, algebraic=tuple(forms.levels.values()), closed_forms_complete=forms.complete, reason=reason)
-    if forms.complete or forms.higher is None:
-        return found
-    higher = f"there may be levels with a polynomial of degree {forms.higher}"
-    return replace(found, hint=f"{higher}: max_degree={forms.higher}", shell=f"{higher}: --max-degree {forms.higher}")

@@ -5,7 +5,7 @@ Text and SymPy objects are read here, once: a potential, "V(x) = ...", or Schroe
 
 Letters stand for sqrt(a), and for square roots of several numbers, while the spectrum is looked for.  One square root, or
 another root of one number, is computed with as such.  Several of them would have a common generator, that isn't written in the
-user's roots; beside sines and cosines there is I, and beside parameters a root isn't seen to be that of its square; so each
+user's roots; sines and cosines bring in I, and next to parameters a root isn't recognised as the root of its square; so each
 is a positive parameter there, and its value is put in at the end.
 """
 
@@ -40,11 +40,9 @@ from kovacic.reading.read import read_input
 from kovacic.reading.source import parts_of, source_of
 from kovacic.reading.substitution import value_text, values_among
 from kovacic.reading.symbolic import expression_of, names_of, read_expression
-from kovacic.sturm_liouville.problem import STEPS, pieces_of
+from kovacic.sturm_liouville.problem import JUMPS, stretches_of
 from kovacic.writing.formula import caret
 
-#: A root is enclosed between neighbouring multiples of the inverse of this number.
-_STEPS = 10**6
 #: V(x) = ..., V = ...
 _LEFT_SIDE = re.compile(r"\s*[VU]\s*(?:\(\s*(\w+)\s*\))?\s*=(?!=)")
 
@@ -116,16 +114,23 @@ def _with_named_roots(question: Asked) -> Asked:
         if not S.has(root):  # it occurred inside of another one
             continue
         name = next(names)
-        below = sympy.floor(root * _STEPS)
-        known[name] = f">{sympy.Rational(below, _STEPS)} <{sympy.Rational(below + 1, _STEPS)}"
+        below = sympy.floor(root * 10**6)
+        known[name] = f">{sympy.Rational(below, 10**6)} <{sympy.Rational(below + 1, 10**6)}"
         S, meanings[name] = S.xreplace({root: sympy.Symbol(name)}), root
     return replace(question, S=S, roots=meanings, assumed={**question.assumed, **known})
 
 
-def problem_of(question: Asked, limits: Limits) -> SpectralProblem:
+def exact_problem(question: Asked, limits: Limits) -> SpectralProblem:
     """The problem for exact methods.  Raises `NotRational` for a V that isn't rational in one function."""
     question = _with_named_roots(question)
-    S = _in_one_piece(question)
+    S = question.S
+    if S.has(*JUMPS):  # absolute values and steps may be one function on the domain
+        x = sympy.Symbol(question.variable)
+        pieces = () if question.letters else stretches_of(S, sympy.S.One, x, question.interval)
+        if len(pieces) != 1:
+            shown = caret(as_text(question.V))
+            raise NotRational(f"{shown} is a function in pieces, and its levels have no formula here")
+        S = pieces[0].Q
     parsed = read_input(S, var=question.variable, limits=limits, exponentials=True, names=question.names)
     # A shift, as b in 1/cosh(x - b)^2, doesn't occur in the equation in t.
     meanings = names_of(sympy.Tuple(*dict(parsed.letters).values()))
@@ -149,18 +154,6 @@ def problem_of(question: Asked, limits: Limits) -> SpectralProblem:
     )
 
 
-def _in_one_piece(question: Asked) -> Any:
-    """S without absolute values and steps, if it is one function.  Raises `NotRational` for several pieces."""
-    S = question.S
-    if not S.has(*STEPS):
-        return S
-    pieces = () if question.letters else pieces_of(S, sympy.S.One, sympy.Symbol(question.variable), question.interval)
-    if len(pieces) != 1:
-        shown = caret(as_text(question.V))
-        raise NotRational(f"{shown} is a function in pieces, and its levels have no formula here")
-    return pieces[0].Q
-
-
 def unsolved(question: Asked, reason: NotRational) -> Spectrum:
     """The problem alone, for a potential that no formulas are known for."""
     parameters = tuple(sorted(question.letters))
@@ -172,7 +165,7 @@ def unsolved(question: Asked, reason: NotRational) -> Spectrum:
 
 
 def _read(V: Any, var: str | None, energy: str, names: Sequence[str], limits: Limits) -> _Read:
-    """A text or an expression.  Raises `InputError` for what is no real potential, and no equation of Schroedinger's."""
+    """Reads a text or an expression.  Raises `InputError` unless it is a real potential or a Schroedinger equation."""
     guesses: tuple[str, ...] = ()
     if isinstance(V, str):
         left = _LEFT_SIDE.match(V)

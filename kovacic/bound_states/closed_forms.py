@@ -30,9 +30,9 @@ from sympy.utilities.iterables import sift
 from kovacic.bound_states.coordinates import Original, circle_point, near
 from kovacic.bound_states.ends import Examined, leading
 from kovacic.bound_states.energies import tidied
-from kovacic.bound_states.levels import NO_FORMULA, Algebraic
+from kovacic.bound_states.levels import NO_FORMULA_FOR_ALL, Algebraic
 from kovacic.bound_states.question import SpectralProblem
-from kovacic.bound_states.signs import Signs, Uncovered, above
+from kovacic.bound_states.signs import Signs, Uncovered, exceeds
 from kovacic.engine.places import analyse
 from kovacic.errors import LimitExceeded
 from kovacic.general_solution.antiderivatives import antiderivative
@@ -65,8 +65,6 @@ def norm_of(wave: Any, x: Any, domain: tuple[Any, Any]) -> Any:
     return norm if norm.is_positive and not norm.has(x) else None
 
 
-#: Lower bounds that are tried, each twice as far away: V may fall to -oo.
-_BOUNDS = 40
 #: The natural number in conditions.
 _NUMBER = sympy.Dummy("d")
 #: Of truth values.
@@ -83,14 +81,14 @@ class ClosedForms:
     wasn't tried.
     """
 
-    reason: str = NO_FORMULA
+    reason: str = NO_FORMULA_FOR_ALL
     levels: dict[Any, Algebraic] = field(default_factory=dict)
     complete: bool = False
     higher: int | None = None
 
 
 def closed_forms(question: Examined, max_degree: int, limits: Limits) -> ClosedForms:
-    """Those of a potential; without `ends`, where it can't be told how solutions behave there, only that there are none."""
+    """The closed forms of a potential; without `ends`, at which solutions are unknown, only a proof that there are none."""
     conditions = _solvable_conditions(question, limits)
     if conditions is None:
         return ClosedForms()
@@ -166,7 +164,7 @@ def _number_below(V: Any, t: Any, bounds: tuple[Any, ...]) -> Any:
     if not {num.domain, den.domain} <= {sympy.QQ, sympy.ZZ}:
         return -sympy.oo
     number = sympy.floor(V.subs(t, point_between(low, high)))
-    for k in range(_BOUNDS):
+    for k in range(40):  # each number is twice as far away; V may fall to -oo
         number -= 2**k
         if not any(low < root < high for root in (num - number * den).real_roots()):
             return number
@@ -197,20 +195,20 @@ class _ClosedFormSearch(ClosedForms):
         return {sympy.Symbol(name): c.to_sympy(_NUMBER) for name, c in zip(point.names, point.values, strict=True)}
 
     def of_numbers(self) -> str:
-        """All E at which a potential without parameters has a closed form, one after the other; what is proven."""
+        """Finds all E at which a potential without parameters has a closed form, and returns the statement that is proven."""
         excluded: list[Any] = []
         for region in self.conditions.regions:
             for number, polynomial in self._listed(region):
-                by_fit: dict[Any, PolynomialSolution] = {}
-                for solution in self._solutions(region, number, polynomial):
-                    by_fit.setdefault(self._fits(solution, polynomial), solution)
+                by_fit = self._by_fit(region, number, polynomial)
                 if (_ALL, _ALL) in by_fit:
                     self._add([self._level(by_fit[_ALL, _ALL], polynomial, sympy.Integer(0), [])])
                 # A solution that is meant at an end is the only one.
                 if (_ALL, _NONE) in by_fit or (_NONE, _ALL) in by_fit:
                     excluded.append(polynomial)
-                elif (_ALL, _ALL) not in by_fit:
-                    self.complete = self.complete and self._is_unsolvable(polynomial)
+                elif (_ALL, _ALL) not in by_fit:  # unless nothing is Liouvillian at the zero of a linear polynomial
+                    energy = _only_zero(polynomial, self.E)
+                    is_barred = energy is not None and self.conditions.case_at({self.question.energy: energy}) is None
+                    self.complete = self.complete and is_barred
         theory = self.conditions.theory
         zeros = " or ".join(f"{self.question.shown(polynomial)} = 0" for polynomial in dict.fromkeys(excluded))
         verb = "is square integrable" if self.question.is_limit_point else "is the smaller one"
@@ -223,9 +221,9 @@ class _ClosedFormSearch(ClosedForms):
         return f"{others}the equation has no Liouvillian solution for {energies}: {theory}"
 
     def _incomplete(self) -> str:
-        """What is known where there may be other levels."""
+        """The statement about an incomplete list of levels."""
         if not self.levels:
-            return f"{NO_FORMULA}; degrees up to {self.max_degree} were tried"
+            return f"{NO_FORMULA_FOR_ALL}; degrees up to {self.max_degree} were tried"
         others = "whether others are Liouvillian isn't known"
         if all(region.case == 1 for region in self.conditions.regions):
             others = f"each level with a closed form has a polynomial of some degree d: {self.conditions.theory}"
@@ -266,16 +264,21 @@ class _ClosedFormSearch(ClosedForms):
         ends = self.question.ends
         return bool(ends) and not any(end.is_regular for end in ends)
 
-    def _solutions(self, region: ParameterRegion, number: int | None, polynomial: Any) -> Iterator[PolynomialSolution]:
-        """The region's solutions of a degree, at all zeros of a polynomial in E, if the ends are examined."""
-        for one in region.solution(number) if self._are_examined else ():
-            if not any(sympy.rem(sympy.numer(sympy.together(f)), polynomial, self.E) for f in one.conditions):
-                yield self._at(one, polynomial)
+    def _by_fit(self, region: ParameterRegion, number: int | None, polynomial: Any) -> dict[Any, PolynomialSolution]:
+        """The region's solutions of a degree at all zeros of a polynomial in E, if the ends are examined.
 
-    def _is_unsolvable(self, polynomial: Any) -> bool:
-        """True if nothing is Liouvillian at the zero of a linear polynomial."""
-        energy = _only_zero(polynomial, self.E)
-        return energy is not None and self.conditions.case_at({self.question.energy: energy}) is None
+        By whether they are the square integrable ones at the left and at the right end, for each real zero.
+        """
+        found: dict[Any, PolynomialSolution] = {}
+        energies = sympy.Poly(polynomial, self.E).real_roots()
+        for one in region.solution(number) if self._are_examined else ():
+            if any(sympy.rem(sympy.numer(sympy.together(f)), polynomial, self.E) for f in one.conditions):
+                continue
+            solution = self._at(one, polynomial)
+            demands = demands_of(solution.y, self.question)
+            fit = (frozenset(bool(demand.subs(self.question.E, energy)) for energy in energies) for demand in demands)
+            found.setdefault(tuple(fit), solution)
+        return found
 
     def _at(self, solution: PolynomialSolution, polynomial: Any) -> PolynomialSolution:
         """The solution at the zeros of a polynomial in E, with its value if there is one zero."""
@@ -300,19 +303,16 @@ class _ClosedFormSearch(ClosedForms):
         for level in levels:
             self.levels.setdefault((level.constraint, level.polynomial, level.conditions), level)
 
-    def _fits(self, solution: PolynomialSolution, polynomial: Any) -> tuple[Any, ...]:
-        """Whether it is the square integrable solution at each end, for the real zeros of the polynomial."""
-        roots = sympy.Poly(polynomial, self.E).real_roots()
-        demands = demands_of(solution.y, self.question)
-        return tuple(frozenset(bool(demand.subs(self.question.E, root)) for root in roots) for demand in demands)
-
     def with_parameters(self) -> str:
-        """The levels with a polynomial of degree 0, 1, ..., `max_degree`; what is proven."""
-        is_settled = is_barred = self._are_examined
+        """Finds the levels with a polynomial of degree 0, 1, ..., `max_degree`, and returns the statement that is proven."""
+        if not self._are_examined:
+            self.complete = False
+            return self._incomplete()
+        is_barred = True
         exceptions: dict[str, None] = {}
-        for region in self.conditions.regions if self._are_examined else ():
+        for region in self.conditions.regions:
             ways = [*self._ways_out(region)] or [None]
-            is_settled = is_settled and all(ways)
+            self.complete = self.complete and all(ways)
             if None not in ways:
                 continue
             parts = region.statement.conjuncts
@@ -328,13 +328,12 @@ class _ClosedFormSearch(ClosedForms):
                 if not all(sympy.numer(sympy.together(f)).is_polynomial(self.E) for f in solution.conditions):
                     # With sqrt(-E) in a condition, of which one value is meant, there is no polynomial in E.
                     self.complete, self.levels, self.higher = False, {}, None
-                    return NO_FORMULA
+                    return NO_FORMULA_FOR_ALL
                 self._add(self._under_conditions(solution, zeros))
-        self.complete = is_settled
         if self.levels or not is_barred:
             return self._incomplete()
-        unless = f", unless {' or '.join(exceptions)}" if exceptions else ""
-        return f"{_BARRED}{unless}: {self.conditions.theory}" if is_settled else f"{NO_FORMULA}; {_BARRED}{unless}"
+        barred = f"{_BARRED}, unless {' or '.join(exceptions)}" if exceptions else _BARRED
+        return f"{barred}: {self.conditions.theory}" if self.complete else f"{NO_FORMULA_FOR_ALL}; {barred}"
 
     def _ways_out(self, region: ParameterRegion) -> Iterator[bool | None]:
         """For each choice of exponents: None if a solution may be square integrable at both ends; else whether it decays.
@@ -355,7 +354,7 @@ class _ClosedFormSearch(ClosedForms):
                 yield None
                 continue
             demands = [*demands_of(y, question)]
-            if sympy.false not in tidied([above(signs.real(degree), 0, strict=False), *demands], signs):
+            if sympy.false not in tidied([exceeds(signs.real(degree), 0, strict=False), *demands], signs):
                 yield None
                 continue
             ends = zip(question.ends, demands, strict=True)
@@ -472,7 +471,7 @@ def demands_of(v: Any, question: Examined) -> Iterator[Any]:
             local += 1 / u
         order, strength = leading(question.signs.real(sympy.together(local)), u)
         if order < -1:  # v ~ exp(-strength/(k u^k)) with k = -order - 1
-            yield above(strength * end.direction ** (-order - 1), 0, strict=True)
+            yield exceeds(strength * end.direction ** (-order - 1), 0, strict=True)
         else:
             exponent = strength if order == -1 else sympy.Integer(0)
             yield question.demand(end.side, sympy.Integer(end.mu), sympy.simplify(2 * exponent - 1))

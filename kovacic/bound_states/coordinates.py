@@ -38,8 +38,6 @@ _TURNING_VALUES = {"cosh": (sympy.S.One,), **dict.fromkeys(("cos", "sin"), (symp
 #: The value of t that it has inside of some domains without being analytic.
 _POLES = {"tan": (sympy.oo,)}
 _UNLOCATED = "it couldn't be determined whether V has a pole inside the domain"
-#: Longer ends of a domain aren't suggested.
-_LONGEST = 30
 
 
 @dataclass(frozen=True)
@@ -281,14 +279,22 @@ def _check_period(original: Original, poles: Sequence[Any]) -> None:
         place = caret(as_text(stop))
         message = f"V has poles on the line, one at {original.x} = {place} and others in each period of it"
         hint = "choose the domain between two neighbouring poles"
-        raise _refused(message, hint, start if len(place) <= _LONGEST else None, stop)
+        raise _refused(message, hint, start if len(place) <= 30 else None, stop)  # longer ones are no help
 
 
 def _poles(real: RealPotential) -> list[Any]:
-    """The real poles t of V, and oo for a tangent.  Raises `Uncovered` if they can't be determined."""
+    """The real poles t of V, each once, and oo for a tangent.  Raises `Uncovered` if they can't be determined."""
     signs = real.original.signs
     num, den = (sympy.Poly(part, real.t) for part in sympy.fraction(sympy.cancel(real.V)))
-    zeros = _real_zeros(den, signs)
+    if den.domain in (sympy.QQ, sympy.ZZ):
+        zeros = [*dict.fromkeys(den.real_roots())]
+    elif signs.sign(den.as_expr().xreplace({real.t: sympy.Dummy("t", real=True)})) is not None:
+        zeros = []
+    else:
+        roots = sympy.roots(den)
+        if sum(roots.values()) < den.degree() or any(root.is_real is None for root in roots):
+            raise Uncovered(_UNLOCATED)
+        zeros = [root for root in roots if root.is_real]
     if real.original.kind != "tan":
         return zeros
     if signs.sign(den.LC()) is None:  # where it vanishes there is a pole of V at the tangent's
@@ -300,26 +306,7 @@ def _refused(message: str, hint: str, start: Any, stop: Any) -> InputError:
     """The error, with a domain that is proposed if its start isn't None."""
     if start is None:
         return InputError(message, hint=hint)
-    first, last = map(_as_given, (start, stop))
+    ends = [sympy.simplify(end) for end in (start, stop)]
+    first, last = (str(end) if end.is_Integer else f'"{caret(as_text(end))}"' for end in ends)
     options = f"--from {first}" if stop == sympy.oo else f"--from {first} --to {last}"
     return InputError(message, hint=f"{hint}: domain=({first}, {last})", shell=f"{hint}: {options}")
-
-
-def _as_given(end: Any) -> str:
-    """An integer, or anything else as text in quotes."""
-    shown = sympy.simplify(end)
-    text = caret(as_text(shown))
-    return text if shown.is_Integer else f'"{text}"'
-
-
-def _real_zeros(polynomial: Any, signs: Signs) -> list[Any]:
-    """Each once.  Raises `Uncovered` where it isn't known which zeros are real."""
-    if polynomial.domain in (sympy.QQ, sympy.ZZ):
-        return [*dict.fromkeys(polynomial.real_roots())]
-    at_a_real_point = polynomial.as_expr().xreplace({polynomial.gen: sympy.Dummy("t", real=True)})
-    if signs.sign(at_a_real_point) is not None:
-        return []
-    roots = sympy.roots(polynomial)
-    if sum(roots.values()) < polynomial.degree() or any(root.is_real is None for root in roots):
-        raise Uncovered(_UNLOCATED)
-    return [root for root in roots if root.is_real]

@@ -16,10 +16,10 @@ from typing import Any
 
 import sympy
 
-from kovacic.bound_states.signs import Signs, above
+from kovacic.bound_states.signs import Signs, exceeds
 
 #: For the sign of a slope, and a strict relation.
-_RELATIONS = {(1, True): ">", (1, False): ">=", (-1, True): "<", (-1, False): "<="}
+_RELATION_SIGNS = {(1, True): ">", (1, False): ">=", (-1, True): "<", (-1, False): "<="}
 
 
 @dataclass(frozen=True)
@@ -52,7 +52,7 @@ class Root:
         if not square.has(sympy.I):
             symbol = sympy.Dummy("r", positive=True)
             radical = symbol, sympy.sqrt(sympy.factor(square))
-            return cls(square, symbol, radicals=(radical,), reality=above(square, 0, strict=positive))
+            return cls(square, symbol, radicals=(radical,), reality=exceeds(square, 0, strict=positive))
         # sqrt(re + i im) = p + i q with p = sqrt((size + re)/2) and q = im/(2 p)
         expanded = sympy.expand(square)
         re, im = sympy.factor(sympy.re(expanded)), sympy.factor(sympy.im(expanded))
@@ -66,7 +66,7 @@ class Root:
 def exact_root(square: Any) -> Any:
     """A root without radicals of what isn't a number, over Q(i) where I occurs, or None.
 
-    That of a number is p + i q with p > 0, for what isn't real: its conjugate is p - i q, and SymPy sees that p is real.
+    A root of a number that isn't real is p + i q with p > 0: its conjugate is p - i q, and SymPy sees that p is real.
     """
     if square.is_number:
         value = sympy.expand(square)
@@ -91,48 +91,49 @@ def conjugate(value: Any) -> Any:
     return value.xreplace({sympy.I: -sympy.I})
 
 
-def solved(equation: Any, roots: list[Root], E: Any) -> Iterator[tuple[Any, dict[Any, Any]]]:
+def energies_with(equation: Any, roots: list[Root], E: Any) -> Iterator[tuple[Any, dict[Any, Any]]]:
     """All E with equation = 0 for some values of the unknown roots, and these values, as functions of n.
 
     An exponent depends on E where mu >= 2.  The sum of all mu is 4, so that there are two unknown roots at most.
     """
     unknown = [root for root in roots if root.unknown and equation.has(root.value)]
     if not unknown:
-        yield from ((shortest(energy), {}) for energy in _zeros(equation, E))
+        yield from ((shortest_form(energy), {}) for energy in _zeros_in(equation, E))
         return
     root, *others = unknown
     rho = root.value
-    (E_of_rho,) = _zeros(root.square - rho**2, E)
+    (E_of_rho,) = _zeros_in(root.square - rho**2, E)
     equation = equation.subs(E, E_of_rho)
     sigma_of_rho: Any = None
     for other in others:  # sigma = sigma(rho) for the other root, whose square is D(E(rho))
-        (sigma_of_rho,) = _zeros(equation, other.value)
+        (sigma_of_rho,) = _zeros_in(equation, other.value)
         equation = other.square.subs(E, E_of_rho) - sigma_of_rho**2
-    for value in _zeros(equation, rho):
-        short = shortest(value)
-        values = {rho: short, **{other.value: shortest(sigma_of_rho.subs(rho, value)) for other in others}}
-        yield shortest(E_of_rho.subs(rho, short), E_of_rho.subs(rho, value)), values
+    for value in _zeros_in(equation, rho):
+        short = shortest_form(value)
+        values = {rho: short, **{other.value: shortest_form(sigma_of_rho.subs(rho, value)) for other in others}}
+        yield shortest_form(E_of_rho.subs(rho, short), E_of_rho.subs(rho, value)), values
 
 
-def _zeros(equation: Any, unknown: Any) -> list[Any]:
+def _zeros_in(equation: Any, unknown: Any) -> list[Any]:
     """The zeros of a function whose numerator has at most degree 2, none for a constant."""
     numerator = sympy.Poly(sympy.numer(sympy.together(equation)), unknown)
     return [] if numerator.is_ground else [*sympy.roots(numerator)]
 
 
-def shortest(*forms: Any) -> Any:
+def shortest_form(*forms: Any) -> Any:
     """The shortest of some ways to write what the forms are: as products, as sums, as partial fractions in n."""
-    known = [*chain.from_iterable(map(_without_I, forms)), *forms]
+    known = [*forms]
+    for form in forms:  # an energy with two conjugate roots is real
+        real, imaginary = form.as_real_imag() if form.has(sympy.I) else (form, sympy.S.One)
+        if sympy.cancel(sympy.together(imaginary)) == 0 and not real.has(sympy.re, sympy.im):
+            known.append(real)
     candidates = [*known, *chain.from_iterable(map(_written, known))]
     texts = {form: str(form) for form in candidates}
     best = min(candidates, key=lambda form: (form.has(sympy.I), sympy.count_ops(form), len(texts[form]), texts[form]))
-    return best.replace(_is_square_of_negative_terms, lambda e: (-e.base) ** 2)
-
-
-def _is_square_of_negative_terms(e: Any) -> bool:
-    """True for (-a - b)^2, which is (a + b)^2."""
-    return bool(
-        e.is_Pow and e.exp == 2 and all(term.could_extract_minus_sign() for term in sympy.Add.make_args(e.base))
+    # (-a - b)^2 is (a + b)^2
+    return best.replace(
+        lambda e: e.is_Pow and e.exp == 2 and all(t.could_extract_minus_sign() for t in sympy.Add.make_args(e.base)),
+        lambda e: (-e.base) ** 2,
     )
 
 
@@ -147,15 +148,6 @@ def _written(form: Any) -> Iterator[Any]:
         fractions = sympy.Add.make_args(sympy.apart(factored, n))
         # A fraction c/(b n - a)^k as +-c/(a - b n)^k where that has fewer signs, its numerator as a product.
         yield sympy.Add(*(sympy.factor(part) if part.has(n) else part for part in fractions))
-
-
-def _without_I(form: Any) -> list[Any]:
-    """The form without I if the imaginary part vanishes, as for an energy with two conjugate roots; else nothing."""
-    if not form.has(sympy.I):
-        return []
-    real, imaginary = form.as_real_imag()
-    is_real = sympy.cancel(sympy.together(imaginary)) == 0 and not real.has(sympy.re, sympy.im)
-    return [real] * is_real
 
 
 def tidied(
@@ -173,9 +165,9 @@ def tidied(
     rational = [symbol for symbol, root in radicals.items() if (root**2).is_rational_function(*root.free_symbols)]
     squares = {symbol: sympy.expand(radicals[symbol] ** 2) for symbol in rational}
     open_ones = _paired([c for c in different if signs.holds(c) is not True], signs)
-    found = [_solved(condition, signs, squares) for condition in open_ones]
+    found = [_solved_for_one(condition, signs, squares) for condition in open_ones]
     # There is the level with n = 0, if there is one with n < c.
-    least = [_solved(sympy.Gt(c.rhs, 0), signs, squares) for c in found if getattr(c, "lts", None) == signs.n]
+    least = [_solved_for_one(sympy.Gt(c.rhs, 0), signs, squares) for c in found if getattr(c, "lts", None) == signs.n]
     if _are_contradictory([*found, *least], signs):
         return (sympy.false,)
     found = [c.xreplace(radicals) for c in dict.fromkeys(found) if signs.holds(c) is not True]
@@ -220,7 +212,7 @@ def _pair(first: Any, second: Any, signs: Signs) -> Any:
     return sympy.StrictGreaterThan(s, sympy.sqrt(sympy.factor(signs.size(st))))
 
 
-def _solved(condition: Any, signs: Signs, squares: Mapping[Any, Any] = MappingProxyType({})) -> Any:
+def _solved_for_one(condition: Any, signs: Signs, squares: Mapping[Any, Any] = MappingProxyType({})) -> Any:
     """The condition for n, or else for a parameter, where it is linear in it; for (n + h)^2 where it is quadratic in n.
 
     r > c for a number c >= 0 as r^2 > c^2, where r stands for a root of one of the `squares`.
@@ -239,11 +231,11 @@ def _solved(condition: Any, signs: Signs, squares: Mapping[Any, Any] = MappingPr
     for unknown, slope, constant in _linear_forms(rest, n):
         sign = signs.sign(slope)
         if sign is not None:
-            bound = shortest(sympy.factor(-constant / slope))
+            bound = shortest_form(sympy.factor(-constant / slope))
             if sign == 1 and unknown in squares and bound.is_number and not bound.is_negative:
-                return _solved(above(squares[unknown], bound**2, strict=is_strict), signs)
-            return sympy.Rel(unknown, bound, _RELATIONS[sign, is_strict])
-    return above(shortest(rest), 0, strict=is_strict)
+                return _solved_for_one(exceeds(squares[unknown], bound**2, strict=is_strict), signs)
+            return sympy.Rel(unknown, bound, _RELATION_SIGNS[sign, is_strict])
+    return exceeds(shortest_form(rest), 0, strict=is_strict)
 
 
 def _linear_forms(rest: Any, n: Any) -> Iterator[tuple[Any, Any, Any]]:
@@ -255,4 +247,4 @@ def _linear_forms(rest: Any, n: Any) -> Iterator[tuple[Any, Any, Any]]:
             yield unknown, *coefficients
     if len(forms.get(n, ())) == 3:
         c, b, k = forms[n]
-        yield (n + shortest(sympy.factor(b / (2 * c)))) ** 2, c, k - b**2 / (4 * c)
+        yield (n + shortest_form(sympy.factor(b / (2 * c)))) ** 2, c, k - b**2 / (4 * c)

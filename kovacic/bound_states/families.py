@@ -19,13 +19,13 @@ the two others), y belongs to the same eigenvalue of A B and of B A, A and B the
 to it for A B as well, so that it is a multiple of y unless A B is a scalar, which isn't the case for almost all parameters,
 and eigenvalues are continuous.  2. z^(-e) exp(kappa z) y is entire, and Whittaker's asymptotic expansion, which holds for
 |arg z| < 3 pi/2, bounds it by a power of z everywhere: a polynomial.  3. Likewise, with |arg x| < 3 pi/4 about both ends.
-So every square integrable y is of this kind, and what is found is all there is.
+So every square integrable y is of this kind, and the list is complete.
 
 References: R. Dutt, A. Khare & U. P. Sukhatme, Amer. J. Phys. 56 (1988) 163; F. Cooper, A. Khare & U. Sukhatme, Phys. Rep. 251
 (1995) 267; DLMF 13.14, 15.10, 18.8.
 
 In the wave functions every factor |t - c| is written by its half angle, exp(theta) + 1 = 2 exp(theta/2) cosh(theta/2) and so
-on; constant factors are dropped, and the norm, a product of Gamma functions, is that of what is shown.
+on; constant factors are dropped, and the norm, a product of Gamma functions, belongs to the function as printed.
 """
 
 from __future__ import annotations
@@ -39,11 +39,11 @@ from typing import Any
 import sympy
 
 from kovacic.bound_states.ends import leading
-from kovacic.bound_states.energies import Root, conjugate, shortest, solved, tidied
+from kovacic.bound_states.energies import Root, conjugate, energies_with, shortest_form, tidied
 from kovacic.bound_states.frame import SingularFrame, Spot, frames, linear_factors
 from kovacic.bound_states.levels import Levels
 from kovacic.bound_states.question import SpectralProblem
-from kovacic.bound_states.signs import Uncovered, above
+from kovacic.bound_states.signs import Uncovered, exceeds
 from kovacic.limits import Budget
 from kovacic.parametric.solutions import jacobi
 
@@ -64,7 +64,7 @@ class WaveProduct:
 
     def shown(self) -> Any:
         """Without the constant."""
-        short = {base: shortest(power) for base, power in self.powers.items()}
+        short = {base: shortest_form(power) for base, power in self.powers.items()}
         exponent = short.pop(sympy.E, sympy.S.Zero)
         return sympy.Mul(*(base ** sympy.factor_terms(power) for base, power in short.items())) * sympy.exp(exponent)
 
@@ -116,7 +116,7 @@ def moebius(z: Any, first: Any, second: Any, third: Any) -> Any:
     return 1 - 2 * share(first) / share(third)
 
 
-def _ordered(frame: SingularFrame, roots: list[Root]) -> list[int]:
+def _order_of_points(frame: SingularFrame, roots: list[Root]) -> list[int]:
     """Which points are 1, -1 and oo: of the first two the right end, and then the other one, come first.
 
     The last one doesn't depend on E as the two others do; else it is the first that is no end.
@@ -134,7 +134,7 @@ Wave = tuple[Any, Any]
 def jacobi_wave(frame: SingularFrame, roots: list[Root], deltas: list[Any]) -> Wave:
     """The solution by Jacobi's polynomials."""
     z, n = frame.z, frame.question.signs.n
-    order = _ordered(frame, roots)
+    order = _order_of_points(frame, roots)
     w_of_z = moebius(z, *(frame.spots[k].point for k in order))
     if any(sympy.cancel(w_of_z + sympy.I * form) == 0 for form in (z, 1 / z)):  # w = -i z, or -i/z
         order[0], order[1] = order[1], order[0]
@@ -145,7 +145,7 @@ def jacobi_wave(frame: SingularFrame, roots: list[Root], deltas: list[Any]) -> W
     # (dw/dx)^2 = scale (1 - w)^mu1 (1 + w)^mu2
     slope = sympy.diff(w_of_z, z) ** 2 * frame.slope
     _, scale = leading(slope / ((1 - w_of_z) ** first.mu * (1 + w_of_z) ** second.mu), z)
-    a, b = shortest(d1), shortest(d2)
+    a, b = shortest_form(d1), shortest_form(d2)
     if w.has(sympy.I):
         powers, r, dropped = _real_powers(frame, sympy.factor(w / sympy.I), first.exponent(d1))
         y = powers * ((-sympy.I) ** n * jacobi(n, a, b, sympy.I * r))
@@ -186,12 +186,12 @@ def _real_powers(frame: SingularFrame, r: Any, e1: Any) -> tuple[Any, Any, Any]:
     theta = original.theta
     sign = sympy.cancel(r * t)
     if original.kind == "tan" and sign in (1, -1):
-        powers = sympy.sin(theta) ** shortest(-2 * p) * sympy.exp(-2 * q * sign * theta)
+        powers = sympy.sin(theta) ** shortest_form(-2 * p) * sympy.exp(-2 * q * sign * theta)
         return powers, sign * sympy.cot(theta), sympy.exp(2 * sympy.pi * q * sign)
     in_x = r.xreplace({t: original.t})
     root = 1 + in_x**2, p
     if original.kind == "sinh" and sympy.expand(r**2 - t**2) == 0:
-        root = sympy.cosh(theta), shortest(2 * p)
+        root = sympy.cosh(theta), shortest_form(2 * p)
     return sympy.Pow(*root) * sympy.exp(2 * q * sympy.atan(in_x)), in_x, sympy.S.One
 
 
@@ -207,7 +207,7 @@ def _jacobi_integral(first: tuple[Spot, Any], second: tuple[Spot, Any], n: Any, 
     plain = 2 * common / (2 * n + a + b + 1)
     left = common / a
     right = common / b
-    half_sum, half_difference = shortest((a + b) / 2), shortest((a - b) / 2)
+    half_sum, half_difference = shortest_form((a + b) / 2), shortest_form((a - b) / 2)
     known = {
         (0, 0): plain,
         (-1, 0): left,
@@ -243,8 +243,8 @@ def laguerre_wave(frame: SingularFrame, origin: Spot, values: list[Any]) -> Wave
     whole = WaveProduct().times(as_product(frame, frame.coordinate), origin.exponent(delta))
     base, m = frame.coordinate.as_base_exp()
     in_x = _argument(frame, base) ** m
-    rate = shortest(2 * kappa)
-    y = whole.shown() * sympy.exp(-rate * in_x / 2) * sympy.assoc_laguerre(n, shortest(delta), rate * in_x)
+    rate = shortest_form(2 * kappa)
+    y = whole.shown() * sympy.exp(-rate * in_x / 2) * sympy.assoc_laguerre(n, shortest_form(delta), rate * in_x)
     # (dz/dx)^2 = scale z^mu with mu = 0, 1, 2, as E z^(-mu) occurs in S_z
     scale = frame.slope / z**origin.mu
     weight = sympy.gamma(n + delta + 1) / sympy.factorial(n)
@@ -265,21 +265,18 @@ def _tidy(frame: SingularFrame, norm: Any) -> Any:
         lambda e: e.func == sympy.gamma and e.args[0].is_integer, lambda e: sympy.factorial(e.args[0] - 1)
     )
     forms = [norm] if simplified.has(sympy.sin) else [norm, simplified]
-    written = min(map(_shortened, forms), key=lambda e: len(str(e)))
-    return written if frame.fold is None else 2 * written
-
-
-def _shortened(norm: Any) -> Any:
-    """With short arguments of the Gamma functions, and short exponents."""
-    written = norm.replace(
-        lambda e: e.func in (sympy.gamma, sympy.exp), lambda e: e.func(shortest(sympy.together(e.args[0])))
-    )
-    written = written.replace(lambda e: e.is_Add and e.has(sympy.Dummy), lambda e: shortest(e))
-    for _ in range(2):  # short exponents of one base are added up
-        written = sympy.powsimp(written).replace(
-            lambda e: e.is_Pow and not e.exp.is_number, lambda e: e.base ** shortest(sympy.together(e.exp))
+    shortened = []
+    for form in forms:
+        form = form.replace(
+            lambda e: e.func in (sympy.gamma, sympy.exp), lambda e: e.func(shortest_form(sympy.together(e.args[0])))
         )
-    return written
+        form = form.replace(lambda e: e.is_Add and e.has(sympy.Dummy), shortest_form)
+        for _ in range(2):  # short exponents of one base are added up
+            form = sympy.powsimp(form).replace(
+                lambda e: e.is_Pow and not e.exp.is_number, lambda e: e.base ** shortest_form(sympy.together(e.exp))
+            )
+        shortened.append(form)
+    return min(shortened, key=lambda e: len(str(e))) * (1 if frame.fold is None else 2)
 
 
 @dataclass(frozen=True)
@@ -311,7 +308,7 @@ class ExponentForm:
         radicals = dict(chain.from_iterable(root.radicals for root in self.roots))
         are_real = [root.reality for root in self.roots]
         for signed in _choices(self.roots):
-            for energy, of_n in solved(sympy.expand(self.degree(signed) - signs.n), self.roots, question.E):
+            for energy, of_n in energies_with(sympy.expand(self.degree(signed) - signs.n), self.roots, question.E):
                 values = [root.xreplace(of_n) for root in signed]
                 known = tidied([*are_real, *self._demands(values)], signs, radicals)
                 if sympy.false not in known:
@@ -324,9 +321,9 @@ class ExponentForm:
         return zip(self.spots, values[len(values) - len(self.spots) :], strict=True)
 
     def _demands(self, values: list[Any]) -> Iterator[Any]:
-        """The conditions for the solution to be square integrable at the ends, beside those for the roots to be real."""
+        """The conditions for the solution to be square integrable at the ends; that the roots are real is another one."""
         for direction in self.outwards:
-            yield above(direction * values[0], 0, strict=True)
+            yield exceeds(direction * values[0], 0, strict=True)
         for spot, delta in self._at_spots(values):
             for side in self.frame.ends_at(spot):
                 yield self.frame.question.demand(side, spot.mu, delta)
@@ -411,14 +408,14 @@ def _choices(roots: list[Root]) -> Iterator[list[Any]]:
 
 
 def _coefficients(function: Any, frame: SingularFrame, degree: int) -> list[Any]:
-    """Those of a polynomial of this degree in z.  Raises `Uncovered` for another function."""
+    """The coefficients of a polynomial of this degree in z.  Raises `Uncovered` for any other function."""
     quotient = sympy.cancel(function)
     if sympy.denom(quotient).has(frame.z) or sympy.degree(sympy.numer(quotient), frame.z) != degree:
         raise Uncovered("the equation isn't the standard one")
     return list(sympy.Poly(quotient, frame.z).all_coeffs())
 
 
-def bessel(frame: SingularFrame) -> ExponentForm:
+def bessel_form(frame: SingularFrame) -> ExponentForm:
     """S_z = r/z + b/z^2 between 0 and oo: no solution is square integrable at both ends, and there is no degree.
 
     Where z^(-e) y is entire and y decays like exp(-2 sqrt(r z)), which holds for |arg z| < 3 pi [Martinet & Ramis], it is
@@ -435,12 +432,12 @@ _STANDARD_FORMS: dict[str, Callable[[SingularFrame], ExponentForm]] = {
     "Hermite's polynomials": oscillator,
     "Whittaker's equation": whittaker,
     "three regular singular points": three_regular_points,
-    "Bessel's equation": bessel,
+    "Bessel's equation": bessel_form,
 }
 
 
-def families(question: SpectralProblem, budget: Budget) -> tuple[tuple[Levels, ...], str]:
-    """Those of the first coordinate and standard equation that fit, and its name.  Raises `Uncovered` if none does."""
+def standard_levels(question: SpectralProblem, budget: Budget) -> tuple[tuple[Levels, ...], str]:
+    """The levels by the first coordinate and standard equation that fit, and its name.  Raises `Uncovered` if none fits."""
     for frame in frames(question, budget) if not question.original.is_circular else ():
         for name, standard_form in _STANDARD_FORMS.items():
             with suppress(Uncovered):

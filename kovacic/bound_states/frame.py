@@ -95,8 +95,13 @@ def _frame(question: SpectralProblem, base: Any, m: int, problem: Problem) -> Si
     """The problem v'' = S_z v in z = base^m."""
     signs = question.signs
     z = sympy.Dummy("Z")
-    constant, powers = _slope(question, base, m)
-    fold = _fold(question, base, m)
+    constant, powers = _squared_slope(question, base, m)
+    # dz/dx vanishes where dt/dx does, and where base does for an even m.
+    zeros = sympy.solve(sympy.numer(sympy.together(base)), question.t) if m % 2 == 0 else []
+    fold = question.original.middle(zeros)
+    if fold is not None and len({wish is None or wish.is_zero for wish in question.boundary.wishes}) > 1:
+        conditions = "the conditions at the ends aren't symmetric about"
+        raise Uncovered(f"{conditions} {question.x} = {fold}, and the equation is")
     original = question.original if fold is None else question.original.on(fold, question.domain[1])
     places = tuple(_value(base**m, question.t, original.at(side)) for side in (0, 1))
     return SingularFrame(
@@ -135,7 +140,7 @@ def linear_factors(expression: Any, z: Any) -> tuple[Any, dict[Any, Any]]:
     return constant, found
 
 
-def _slope(question: SpectralProblem, base: Any, m: int) -> tuple[Any, dict[Any, Any]]:
+def _squared_slope(question: SpectralProblem, base: Any, m: int) -> tuple[Any, dict[Any, Any]]:
     """C and the mu_c in (dz/dx)^2 = C prod (z - c)^mu_c, from the same in s, z = s^m."""
     t, s = question.t, sympy.Dummy("s")
     t_of_s = sympy.solve(base - s, t)[0]
@@ -167,15 +172,3 @@ def _spots(problem: Problem, powers: Mapping[Any, Any], places: tuple[Any, ...],
     for point, square in squares.items():
         is_there = (place == point or sympy.simplify(place - point) == 0 for place in places)
         yield Spot(point, square, powers.get(point, sympy.S.Zero), tuple(compress((0, 1), is_there)))
-
-
-def _fold(question: SpectralProblem, base: Any, m: int) -> Any:
-    """The only point inside the domain at which dz/dx vanishes, or None."""
-    # Where dt/dx = 0, and where base = 0 for an even m.
-    zeros = sympy.solve(sympy.numer(sympy.together(base)), question.t) if m % 2 == 0 else []
-    middle = question.original.middle(zeros)
-    if middle is not None and len({wish is None or wish.is_zero for wish in question.boundary.wishes}) > 1:
-        raise Uncovered(
-            f"the conditions at the ends aren't symmetric about {question.x} = {middle}, and the equation is"
-        )
-    return middle

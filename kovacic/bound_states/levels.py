@@ -1,4 +1,4 @@
-"""What `kovacic.spectrum` returns: the levels, the wave functions, and what is proven of them.
+"""The result of `kovacic.spectrum`: the levels, their wave functions, and the statements proven about them.
 
 Zeros of a polynomial, which are energies or zeros of solutions, are counted in balls that contain one root each: a root whose
 ball meets the real axis is real, since its conjugate is a root as well.
@@ -20,6 +20,7 @@ from kovacic.algebra.precision import working_precision
 from kovacic.bound_states.signs import is_admitted
 from kovacic.closed_form.jets import BallEvaluator
 from kovacic.errors import InputError, needs, visible
+from kovacic.limits import MOST_TRIALS
 from kovacic.numbers.exact import exact_text, whole
 from kovacic.numbers.numerals import as_latex, as_text
 from kovacic.parametric.assumptions import NOTHING_ASSUMED, Assumptions, check_values
@@ -31,16 +32,12 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
 
-#: Bits with which the zeros of the polynomial in a solution are counted.
-_PRECISION = 128
-
-
 def zeros_inside(P: Any, E: Any, value: Any, bounds: Any) -> int | None:
     """Number of zeros of the polynomial P between two bounds, which may be infinite, where E is an algebraic number.
 
     None if a zero and a bound aren't told apart.
     """
-    with working_precision(_PRECISION):
+    with working_precision(128):
         number = BallEvaluator({E: BallEvaluator({})(value)})
         found = acb_poly([*map(number, reversed(P.all_coeffs()))]).roots()
         low, high = (number(end).real if end.is_finite else arb(float(end)) for end in bounds)
@@ -58,17 +55,13 @@ def real_roots(polynomial: Any, E: Any) -> list[Any]:
     return sorted(root for root in found if root.is_real)
 
 
-NO_FORMULA = "undecided: no formula for all levels is known"
-#: The n that are tried for a potential without parameters: more levels than that are shown by their condition.
-_MOST = 200
-#: Longer exact energies are drawn as decimals.
-_SHORT = 12
+NO_FORMULA_FOR_ALL = "undecided: no formula for all levels is known"
+
 _SMALLER = {"friedrichs": "the smaller solution at each end (Friedrichs)"}
 #: Before none, one or two equations.
 _SOLVING: tuple[tuple[str, ...], ...] = ((), ("the levels solve",), ("the even levels solve", "the odd levels solve"))
 _ANOTHER = "V is another potential, whose levels aren't those above"
-#: Up to this many n are listed individually.
-_LISTED = 6
+_NO_CONDITION = "a boundary condition is needed, there is no spectrum without one"
 
 
 @dataclass(frozen=True)
@@ -143,8 +136,9 @@ class Levels:
         """The n of finitely many levels without parameters; None for infinitely many, and where parameters decide."""
         if any(c.free_symbols != {self.number} for c in self.conditions):
             return None
-        found = [n for n in range(_MOST) if all(c.subs(self.number, n) == sympy.true for c in self.conditions)]
-        return None if _MOST - 1 in found else tuple(found)
+        tried = range(MOST_TRIALS)  # more levels than that are shown by their condition
+        found = [n for n in tried if all(c.subs(self.number, n) == sympy.true for c in self.conditions)]
+        return None if tried[-1] in found else tuple(found)
 
     @property
     def numbers(self) -> str:
@@ -152,7 +146,7 @@ class Levels:
         known = self.members
         if known is None or known != tuple(range(len(known))):
             return "0, 1, 2, ..."
-        return ", ".join(map(str, known)) if len(known) <= _LISTED else f"0, 1, ..., {known[-1]}"
+        return ", ".join(map(str, known)) if len(known) <= 6 else f"0, 1, ..., {known[-1]}"
 
     @property
     def demands(self) -> tuple[Any, ...]:
@@ -172,11 +166,11 @@ class Levels:
         """The energy with its conditions, the wave function, the zeros and the norm, as text."""
         n = self.number
         first = f"{energy}_{n} = {_text(self.energy)}, {n} = {self.numbers}"
-        above = [condition for condition in self.demands if condition.has(n)]
-        if above:
-            first += f" with {_joined(above)}"
+        conditions = [condition for condition in self.demands if condition.has(n)]
+        if conditions:
+            first += f" with {_relations_text(conditions)}"
         if self.where:
-            first += f", where {_joined(self.where)}"
+            first += f", where {_relations_text(self.where)}"
         last = f"    {_text(self.zeros)} zeros"
         if self.norm is not None:
             last += f", norm^2 = {_text(self.norm)}"
@@ -220,7 +214,7 @@ class Algebraic:
 
     def lines(self, energy: str) -> list[str]:
         """The equation for the energies with its conditions, the wave function, and the levels that are known, as text."""
-        where = f" where {_joined(self.demands)}" if self.demands else ""
+        where = f" where {_relations_text(self.demands)}" if self.demands else ""
         first = f"d = {self.degree}{where}: {_text(self.polynomial)} = 0"
         return [first, f"    y = {_text(self.wave)}", *(f"    {energy} {state.said}" for state in self.states)]
 
@@ -354,7 +348,7 @@ class Spectrum:
         count = whole(count, "count")
         at = self._symbols_at(values or {})
         for relation in self.excluded:
-            if not _is_true(relation, at):
+            if not _are_true([relation], at):
                 continue
             if isinstance(relation, sympy.Eq):
                 raise InputError(f"where {_text(relation)} V is another potential", hint="give V with this value")
@@ -409,7 +403,7 @@ class Spectrum:
         levels = []
         for state in states:
             exact = _text(state.energy)
-            shown = exact if len(exact) <= _SHORT else f"{float(state.energy):.6g}"
+            shown = exact if len(exact) <= 12 else f"{float(state.energy):.6g}"  # the legend has room for as much
             levels.append((state.number, state.energy, function(state.wave), shown))
         levels += [(k, one.value, self.numeric.wave(k), str(one.value)) for k, one in enumerate(self.numeric[:count])]
         drawn = [DrawnLevel(float(value), wave, f"{self.energy}_{k} = {shown}") for k, value, wave, shown in levels]
@@ -479,12 +473,11 @@ class Spectrum:
 
     @property
     def _conclusion(self) -> list[str]:
-        """What holds of the list as a whole."""
+        """The statements about the list as a whole."""
         lines = []
         for relation in self.excluded:
             where = "" if relation == sympy.true else f"where {_text(relation)}: "
-            said = "a boundary condition is needed, there is no spectrum without one"
-            lines.append(f"{where}{_ANOTHER if isinstance(relation, sympy.Eq) else said}")
+            lines.append(f"{where}{_ANOTHER if isinstance(relation, sympy.Eq) else _NO_CONDITION}")
         is_proven = self.complete or self.closed_forms_complete
         all_of_them, none = "eigenfunctions with a closed form", "no eigenfunction has a closed form"
         if self.complete:
@@ -514,12 +507,9 @@ class Spectrum:
         >>> print(oscillator.latex().partition(r" \\ ")[0])
         \begin{aligned} E_{n} &= 2 n + 1,\quad n = 0, 1, 2, \ldots
         """
-        rows: list[str] = []
-        for one in self.formulas:
-            rows += one.rows(self.energy)
+        rows = [row for one in self.formulas for row in one.rows(self.energy)]
         rows += map("& {}".format, map(as_latex, self.matching))
-        if not rows:
-            rows.append(rf"&\text{{{latex(' '.join(self._conclusion))}}}")
+        rows = rows or [rf"&\text{{{latex(' '.join(self._conclusion))}}}"]
         return r"\begin{aligned} " + r" \\ ".join(rows) + r" \end{aligned}"
 
     def _repr_latex_(self) -> str:
@@ -566,22 +556,20 @@ class Spectrum:
 
 
 def _are_true(relations: Iterable[Any], values: Mapping[Any, Any]) -> bool:
-    """True if all of the relations hold at values."""
-    return all(_is_true(relation, values) for relation in relations)
-
-
-def _is_true(relation: Any, values: Mapping[Any, Any]) -> bool:
-    """A relation at values; raises `InputError` where that can't be decided, as for values that aren't real."""
-    with suppress(TypeError):  # a side is infinite, or a root of a negative number
-        found = sympy.simplify(relation.subs(values))
+    """True if all of the relations hold at values; raises `InputError` if that can't be decided."""
+    for relation in relations:
+        found = sympy.false
+        with suppress(TypeError):  # a side is infinite, or a root of a negative number
+            found = sympy.simplify(relation.subs(values))
         if found not in (sympy.true, sympy.false):
             raise InputError(f"whether {_text(found)} isn't known at these values", hint="give numbers")
-        return bool(found)
-    return False
+        if not found:
+            return False
+    return True
 
 
 #: What JSON has of an object.
-_KEYS: dict[type, tuple[str, ...]] = {
+_JSON_KEYS: dict[type, tuple[str, ...]] = {
     BoundState: ("energy", "zeros", "norm"),
     Levels: ("number", "energy", "wave", "conditions", "zeros", "norm"),
     Algebraic: ("degree", "constraint", "polynomial", "wave", "conditions", "states"),
@@ -596,8 +584,8 @@ def _data(value: Any) -> Any:
     """For JSON: formulas and relations as text, levels by their fields, that of a state without a norm that is unknown."""
     if isinstance(value, tuple):
         return [*map(_data, value)]
-    if type(value) in _KEYS:
-        found = {name: _data(getattr(value, name)) for name in _KEYS[type(value)]}
+    if type(value) in _JSON_KEYS:
+        found = {name: _data(getattr(value, name)) for name in _JSON_KEYS[type(value)]}
         if isinstance(value, BoundState) and value.norm is None:
             del found["norm"]
         return found
@@ -606,7 +594,7 @@ def _data(value: Any) -> Any:
     return value if isinstance(value, int | str | None) else _text(value)
 
 
-def _joined(relations: Iterable[Any]) -> str:
+def _relations_text(relations: Iterable[Any]) -> str:
     return ", ".join(map(_text, relations))
 
 

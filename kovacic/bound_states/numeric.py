@@ -18,12 +18,12 @@ from kovacic.bound_states.question import number_beside
 from kovacic.bound_states.signs import Signs
 from kovacic.errors import InputError, LimitExceeded, VerificationFailed
 from kovacic.general_solution.zero import residual
-from kovacic.limits import Budget, Limits
+from kovacic.limits import MOST_TRIALS, Budget, Limits
 from kovacic.numbers.exact import whole
 from kovacic.sturm_liouville.ends import is_regular
 from kovacic.sturm_liouville.families import decay, family, matching_equations
 from kovacic.sturm_liouville.levels import Eigenvalues
-from kovacic.sturm_liouville.problem import STEPS, Robin, SturmProblem, Wish, ball, pieces_of, point_between
+from kovacic.sturm_liouville.problem import JUMPS, Robin, SturmProblem, Wish, ball, point_between, stretches_of
 from kovacic.sturm_liouville.solve import Eigenproblem
 
 _IMPLICIT = "implicit: the levels are roots of this equation; a root at which a wave number vanishes may be none"
@@ -59,19 +59,19 @@ def with_numbers(found: Spectrum, levels: int | None, digits: int, limits: Limit
 def with_matching(found: Spectrum) -> Spectrum:
     """The answer for a V that is constant or linear on each of its pieces, where nothing else is known about its levels.
 
-    A formula for a constant V, also beside a delta function; else an equation by matching the solutions on both sides.
+    A formula for a constant V, with or without a delta function; else an equation from matching the solutions on both sides.
     """
     x, E = sympy.symbols([found.variable, found.energy])
     V = found.potential / found.kinetic
     is_known = any((found.complete, found.formulas, found.needs_boundary_condition))
-    if is_known or not (V.has(*STEPS) or (V.is_polynomial(x) and sympy.degree(V, x) <= 1)):
+    if is_known or not (V.has(*JUMPS) or (V.is_polynomial(x) and sympy.degree(V, x) <= 1)):
         return found
     real = Signs(found.assumptions, found.parameters).symbols
     plain = {symbol: sympy.Symbol(name) for name, symbol in real.items()}
     with suppress(InputError, NotImplementedError):
         problem = _sturm_problem(found)
         n = number_beside(*found.parameters, found.variable)
-        one = _waves(problem, E, n) or _decaying(problem, E, n)
+        one = _box_levels(problem, E, n) or _decaying(problem, E, n)
         if one is not None:
             levels = () if sympy.false in one.conditions else (one.mapped(lambda part: part.xreplace(plain)),)
             reason = _DELTA if V.has(sympy.DiracDelta) else _CONSTANT
@@ -82,7 +82,7 @@ def with_matching(found: Spectrum) -> Spectrum:
     return found
 
 
-def _waves(problem: SturmProblem, E: Any, n: Any) -> Levels | None:
+def _box_levels(problem: SturmProblem, E: Any, n: Any) -> Levels | None:
     """Of a constant V between two ends; None for others, and where the wave numbers have no formula."""
     piece, (first, last) = problem.pieces[0], problem.ends
     left, right = problem.conditions
@@ -114,12 +114,12 @@ def _decaying(problem: SturmProblem, E: Any, n: Any) -> Levels | None:
 def _sturm_problem(found: Spectrum) -> SturmProblem:
     """With the conditions that were given, and y = 0 at other regular ends, which the Friedrichs condition is there.
 
-    Its letters are symbols of which it is known what is assumed.
+    Its letters are symbols that carry the assumptions.
     """
     x = sympy.Symbol(found.variable)
     real = Signs(found.assumptions, found.parameters).real
     V, weight, *ends = map(real, (found.potential / found.kinetic, 1 / found.kinetic, *found.domain))
-    pieces = tuple(replace(piece, W=weight) for piece in pieces_of(V, sympy.S.One, x, (ends[0], ends[1])))
+    pieces = tuple(replace(piece, W=weight) for piece in stretches_of(V, sympy.S.One, x, (ends[0], ends[1])))
     problem = SturmProblem(x, pieces)
     wishes: list[Wish] = [None, None]
     for side, end in enumerate(ends):
@@ -129,11 +129,8 @@ def _sturm_problem(found: Spectrum) -> SturmProblem:
     return SturmProblem(x, pieces, (wishes[0], wishes[1]))
 
 
-#: Values that are tried for the parameters, and choices of them.
-_VALUES = (Fraction(3), Fraction(1), Fraction(7, 2), Fraction(1, 2), Fraction(12), Fraction(-2), Fraction(0))
-_CHOICES = 400
-#: Bits with which a wave function is compared.
-_PRECISION = 192
+#: Values that are tried for the parameters.
+_TRIED_VALUES = (Fraction(3), Fraction(1), Fraction(7, 2), Fraction(1, 2), Fraction(12), Fraction(-2), Fraction(0))
 
 
 def check_first_levels(found: Spectrum) -> None:
@@ -141,7 +138,7 @@ def check_first_levels(found: Spectrum) -> None:
     x = sympy.Symbol(found.variable)
     for levels in found.levels:
         alone = replace(found, levels=(levels,), algebraic=())
-        for chosen in islice(product(_VALUES, repeat=len(found.parameters)), _CHOICES):
+        for chosen in islice(product(_TRIED_VALUES, repeat=len(found.parameters)), MOST_TRIALS):
             values = dict(zip(found.parameters, chosen, strict=True))
             states: Sequence[BoundState] = ()
             with suppress(InputError):  # a value isn't admitted, or it isn't known whether the level exists
@@ -151,19 +148,15 @@ def check_first_levels(found: Spectrum) -> None:
             (state,) = states
             at = {sympy.Symbol(name): sympy.Rational(value) for name, value in values.items()}
             difference = ((found.potential - state.energy) / found.kinetic).xreplace(at)
-            if _is_wave_false(state.wave, difference, x, [end.xreplace(at) for end in found.domain]):
+            coefficients = (sympy.S.One, sympy.S.Zero, -difference, sympy.S.Zero)
+            error = acb(0)
+            has_no_balls = suppress(InputError, NotImplementedError, ZeroDivisionError, ValueError, TypeError)
+            with has_no_balls, working_precision(192):
+                inside = ball(point_between(*(end.xreplace(at) for end in found.domain)))
+                error, _ = residual(acb(inside), x, state.wave, coefficients)
+            if not error.contains(0):
                 V = found.potential.xreplace(at)
                 raise VerificationFailed(
                     f"a spectrum failed its own check at n = 0, V = {V}: E = {state.energy}; please report it"
                 )
             break
-
-
-def _is_wave_false(y: Any, difference: Any, x: Any, ends: Sequence[Any]) -> bool:
-    """True if y'' = (V - E) y provably fails at a point between the ends."""
-    coefficients = (sympy.S.One, sympy.S.Zero, -difference, sympy.S.Zero)
-    has_no_balls = suppress(InputError, NotImplementedError, ZeroDivisionError, ValueError, TypeError)
-    with has_no_balls, working_precision(_PRECISION):
-        error, _ = residual(acb(ball(point_between(*ends))), x, y, coefficients)
-        return not error.contains(0)
-    return False

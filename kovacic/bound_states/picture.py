@@ -11,17 +11,10 @@ import numpy as np
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
-Function = Callable[[Any], Any]
-#: Sample points of a curve.
-_POINTS = 1201
+ArrayFunction = Callable[[Any], Any]
+
 #: A wave function is drawn as far as it exceeds this part of its greatest modulus, or the second one if its tail is long.
 _TAILS = (0.03, 0.3)
-#: A tail is long if the window for the first of these parts is wider than that for the second by this factor: 1/x is.
-_LONG = 6
-#: The largest distance at which the end of the tails is looked for.
-_LARGEST_REACH = 4096.0
-#: Wave functions are this part of the mean distance of two levels high.
-_HEIGHT = 0.45
 
 
 @dataclass(frozen=True)
@@ -29,12 +22,12 @@ class DrawnLevel:
     """A level at its height: a real function of x for arrays, of any scale, and what the legend says."""
 
     energy: float
-    wave: Function
+    wave: ArrayFunction
     label: str
 
 
 def draw_levels(
-    potential: Function,
+    potential: ArrayFunction,
     levels: Sequence[DrawnLevel],
     domain: tuple[float, float],
     *,
@@ -64,10 +57,10 @@ def draw_levels(
     from matplotlib.figure import Figure
 
     first, last = _window(levels, domain)
-    x = np.linspace(first, last, _POINTS)[1:-1]
+    x = np.linspace(first, last, 1201)[1:-1]
     energies = [level.energy for level in levels]
     ground, highest = min(energies), max(energies)
-    V = _values(potential, x)
+    V = _real_values(potential, x)
     k = int(np.nanargmin(V))
     depth = ground - float(V[k])
     # The minimum is that of a well, whose depth is the scale of a single level, and no sample beside a pole of V.
@@ -77,8 +70,8 @@ def draw_levels(
     axes = figure.add_subplot()
     axes.plot(x, V, color="black", lw=1.4, label=f"V({variable})")
     for level in levels:
-        y = _values(level.wave, x)
-        y = y / np.nanmax(np.abs(y)) * _HEIGHT * spread
+        y = _real_values(level.wave, x)
+        y = y / np.nanmax(np.abs(y)) * 0.45 * spread
         (line,) = axes.plot(x, level.energy + y, lw=1.3, label=level.label)
         axes.fill_between(x, level.energy, level.energy + y, color=line.get_color(), alpha=0.15, lw=0)
         axes.axhline(level.energy, color=line.get_color(), lw=0.7, ls="--")
@@ -98,7 +91,7 @@ def draw_levels(
     return figure
 
 
-def _values(function: Function, x: Any) -> Any:
+def _real_values(function: ArrayFunction, x: Any) -> Any:
     """The real values, NaN where they aren't finite."""
     with np.errstate(all="ignore"):
         values = np.real(np.broadcast_to(np.asarray(function(x), dtype=complex), x.shape)).astype(float)
@@ -110,21 +103,17 @@ def _window(levels: Sequence[DrawnLevel], domain: tuple[float, float]) -> tuple[
     first, last = domain
     centre = next(end for end in (first, last, 0.0) if np.isfinite(end))
     distance, is_inside = 0.5, False
-    while not is_inside and distance < _LARGEST_REACH:
+    while not is_inside and distance < 4096:
         distance *= 2
         low, high = max(first, centre - distance), min(last, centre + distance)
-        x = np.linspace(low, high, 4 * _POINTS)[1:-1]
-        sizes = [np.nan_to_num(np.abs(_values(level.wave, x))) for level in levels]
-        wide, narrow = (_visible(x, sizes, tail) for tail in _TAILS)
+        x = np.linspace(low, high, 4801)[1:-1]
+        sizes = [np.nan_to_num(np.abs(_real_values(level.wave, x))) for level in levels]
+        # Where one of the functions exceeds a part of its maximum.
+        parts = (x[np.any([size > tail * size.max() for size in sizes], axis=0)] for tail in _TAILS)
+        wide, narrow = ((part[0], part[-1]) for part in parts)
         step = (high - low) / 50
         is_inside = (wide[0] > low + step or low == first) and (wide[1] < high - step or high == last)
-    is_long = wide[1] - wide[0] > _LONG * (narrow[1] - narrow[0])
+    is_long = wide[1] - wide[0] > 6 * (narrow[1] - narrow[0])  # that of 1/x is
     left, right = narrow if is_long else wide
     margin = 0.15 * (right - left)
     return max(left - margin, first), min(right + margin, last)
-
-
-def _visible(x: Any, sizes: Sequence[Any], tail: float) -> tuple[float, float]:
-    """The ends of the part in which one of the functions exceeds a part of its maximum."""
-    visible = x[np.any([size > tail * size.max() for size in sizes], axis=0)]
-    return visible[0], visible[-1]

@@ -10,7 +10,7 @@ import sympy
 
 from kovacic.bound_states.coordinates import Original
 from kovacic.bound_states.levels import Spectrum
-from kovacic.bound_states.signs import Signs, Uncovered, above
+from kovacic.bound_states.signs import Signs, Uncovered, exceeds
 from kovacic.equation import EULER, PI, Parsed
 from kovacic.errors import InputError
 from kovacic.general_solution.question import ConditionReader, as_mapping
@@ -39,7 +39,7 @@ class Boundary:
 
 @dataclass(frozen=True, kw_only=True)
 class Asked:
-    """-kinetic y'' + V y = E y between two ends, in plain symbols, and what is assumed beside values, which are put in.
+    """-kinetic y'' + V y = E y between two ends, in plain symbols, with the assumptions; values are already substituted.
 
     V is any elementary function; S is (V - E)/kinetic, in which `roots` are the meanings of letters, and `given` what the user
     gave, whose symbols may have assumptions.
@@ -119,11 +119,11 @@ class SpectralProblem(Asked):
             # y' = 0 for the smaller exponent, where u ~ (x - a)^2 and y is a function of it.
             if wish.alpha != 0 or mu != 1:
                 raise Uncovered("the boundary condition isn't one on exponents")
-            return above(-delta, 0, strict=False)
+            return exceeds(-delta, 0, strict=False)
         if end.is_infinite:  # mu >= 2 there, and at no finite end
-            return above(delta, mu - 2, strict=True)
+            return exceeds(delta, mu - 2, strict=True)
         # y ~ (x - a)^(1/2 + delta/(2 - mu)); at a limit point nu = delta/(2 - mu) is at least 1.
-        return above(delta, 0 if self.friedrichs or wish is not None else 2 - mu, strict=False)
+        return exceeds(delta, 0 if self.friedrichs or wish is not None else 2 - mu, strict=False)
 
     def plain(self, expression: Any) -> Any:
         """In the user's terms: plain symbols of the same names, what letters stand for, n for the number of a level."""

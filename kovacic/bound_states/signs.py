@@ -13,7 +13,7 @@ from typing import Any
 import sympy
 
 from kovacic.closed_form.jets import BallEvaluator
-from kovacic.parametric.assumptions import Assumptions, Bound, Known
+from kovacic.parametric.assumptions import Assumptions, Known
 
 
 class Uncovered(Exception):
@@ -46,7 +46,7 @@ class Signs:
         facts = self.symbols[name].assumptions0.items()  # an integer, say
         if any(getattr(value, f"is_{fact}", None) is (not is_so) for fact, is_so in facts):
             return [sympy.false]
-        return [above(b.sign * (value - sympy.Rational(b.end)), 0, strict=b.strict) for b in known.bounds]
+        return [exceeds(b.sign * (value - sympy.Rational(b.end)), 0, strict=b.strict) for b in known.bounds]
 
     def holds(self, relation: Any) -> bool | None:
         """True if a relation holds for all values, False if for none, None if neither is proven.
@@ -68,11 +68,7 @@ class Signs:
         """1 or -1 where that is the sign for all values; None otherwise."""
         if expression.is_infinite:
             return 1 if expression == sympy.oo else -1
-        if self.is_positive(expression):
-            return 1
-        if self.is_positive(-expression):
-            return -1
-        return None
+        return next((sign for sign in (1, -1) if self.is_positive(sign * expression)), None)
 
     def size(self, expression: Any) -> Any:
         """The absolute value."""
@@ -90,35 +86,31 @@ class Signs:
         """SymPy's answer to a question such as `is_positive`, from the first chart that gives one."""
         symbols = [self.symbols[name] for name in self._bounds]
         for chosen in product(*self._bounds.values()):
-            # Each parameter with bounds as one of them and a variable with a sign.
-            values = {symbol: _beyond(bound, symbol) for symbol, bound in zip(symbols, chosen, strict=True)}
+            # Each parameter with bounds is one of them plus or minus a variable of known sign, an integer if it is one.
+            values = {}
+            for symbol, bound in zip(symbols, chosen, strict=True):
+                facts = {"positive": True} if bound.strict else {"nonnegative": True}
+                if bound.end.denominator == 1 and symbol.is_integer:
+                    facts["integer"] = True
+                values[symbol] = sympy.Rational(bound.end) + bound.sign * sympy.Dummy("s", **facts)
             factored = sympy.factor(sympy.together(sympy.sympify(expression, strict=True).xreplace(values)))
             # As a product of sums of products, and in factors.
             factors = (sympy.expand(part) if part.is_Add else part for part in sympy.Mul.make_args(factored))
-            expanded = sympy.Mul(*factors, evaluate=False)
-            for form in (expanded, factored):
-                found = getattr(form, question)
-                if found is not None:
-                    return bool(found)
+            answers = (getattr(form, question) for form in (sympy.Mul(*factors, evaluate=False), factored))
+            found = next((answer for answer in answers if answer is not None), None)
+            if found is not None:
+                return bool(found)
         return None
 
 
 def is_admitted(known: Known, value: Any) -> bool:
-    """True unless a real number contradicts what is assumed."""
+    """True unless a real number contradicts the assumptions."""
     if value.is_Rational:
         return known.admits_number(Fraction(int(value.p), int(value.q)))
     return known.rational is not True and known.admits_ball(BallEvaluator({})(value))
 
 
-def _beyond(bound: Bound, symbol: Any) -> Any:
-    """The bound and a variable of known sign, an integer if the assumptions say so."""
-    facts = {"positive": True} if bound.strict else {"nonnegative": True}
-    if bound.end.denominator == 1 and symbol.is_integer:
-        facts["integer"] = True
-    return sympy.Rational(bound.end) + bound.sign * sympy.Dummy("s", **facts)
-
-
-def above(delta: Any, least: Any, *, strict: bool) -> Any:
+def exceeds(delta: Any, least: Any, *, strict: bool) -> Any:
     """delta > least, or >=; false for a delta that isn't real."""
     if delta.is_real is False:
         return sympy.false

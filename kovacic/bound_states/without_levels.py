@@ -16,12 +16,9 @@ Reference: J. Weidmann, Bull. Amer. Math. Soc. 73 (1967) 452.
 
 from __future__ import annotations
 
-from typing import Any
-
 import sympy
 
 from kovacic.bound_states.ends import Examined
-from kovacic.bound_states.signs import Signs
 
 NO_LEVELS = "a periodic potential: what decays at one end grows at the other (Floquet), the spectrum consists of bands"
 REASON = "a repulsive potential, (x - c) V'(x) <= 0 for some c: no solution is square integrable (the virial theorem)"
@@ -43,16 +40,14 @@ def is_repulsive(question: Examined) -> bool:
     slope = sympy.factor(sympy.diff(real.V, real.t))
     # V increases on the left of the centre, and falls on the right; t grows with x for a positive rate.
     halves = ((rate, (first, centre)), (-rate, (centre, last)))
-    return all(
-        half[0] == half[1] or _has_sign(slope, real.t, original.on(*half).range, sign, signs) for sign, half in halves
-    )
-
-
-def _has_sign(function: Any, t: Any, bounds: tuple[Any, Any], sign: int, signs: Signs) -> bool:
-    """True if the function isn't of the other sign between two bounds, of which one may be infinite."""
-    low, high = bounds
     s = sympy.Dummy("s", positive=True)
-    inside = low + s if low.is_finite else high - s
-    if low.is_finite and high.is_finite:
-        inside = low + (high - low) * s / (1 + s)
-    return signs.is_nonnegative(sign * function.xreplace({t: inside})) is True
+    for sign, half in halves:
+        if half[0] == half[1]:
+            continue
+        low, high = original.on(*half).range  # one of these may be infinite
+        inside = low + s if low.is_finite else high - s
+        if low.is_finite and high.is_finite:
+            inside = low + (high - low) * s / (1 + s)
+        if signs.is_nonnegative(sign * slope.xreplace({real.t: inside})) is not True:
+            return False
+    return True

@@ -21,7 +21,7 @@ from kovacic.algebra.poly import Field, Poly
 from kovacic.algebra.precision import working_precision
 from kovacic.algebra.ratfunc import RatFunc
 from kovacic.algebra.rationals import QQ
-from kovacic.closed_form.product import Factor, Product, grouped, merged
+from kovacic.closed_form.product import Factor, Product, grouped_factors, merged
 from kovacic.compatibility import cached_property
 from kovacic.limits import check_time
 from kovacic.numbers.exact import radical
@@ -386,7 +386,7 @@ def _shown(y: Product, found: list[Factor], atoms: Atoms, *, around_zero: bool) 
     """The exponents of bases with the other sign, and the factors of a product, up to contents."""
     turned: list[Expr] = []
     shown: list[Expr] = []
-    for group, exponent in grouped(found):
+    for group, exponent in grouped_factors(found):
         index = atoms.constant(exponent)
         bases = []
         for base in group:

@@ -82,7 +82,7 @@ def _is_complete(integral: CurveIntegral) -> bool:
 def _is_inverse_square(primitive: Primitive, bare: Product) -> bool:
     """True if the derivative of the integral is y^-2, up to a constant."""
     if isinstance(primitive, OpenPrimitive):
-        return True  # the integral is left as it is
+        return True  # the integral is left unevaluated
     if isinstance(primitive, CurveIntegral) and not _is_complete(primitive):
         return False
     r = primitive.integrand
@@ -174,7 +174,7 @@ def value_at(r: RatFunc, point: Any) -> Any:
 def _polynomial_value(polynomial: Poly, point: Any) -> Any:
     if isinstance(polynomial, RationalPoly):
         return acb_poly(polynomial.rep)(point)
-    # The constants as in what is shown.
+    # The constants as in the printed formulas.
     variable = Dummy()
     constants = (jet(c, variable, acb(0))[0] for c in Atoms(variable).coefficients(polynomial))
     return acb_poly(list(constants))(point)

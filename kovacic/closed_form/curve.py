@@ -95,7 +95,7 @@ class CurveIntegral:
     @property
     def integrand(self) -> RatFunc:
         """r, recomputed from the result by equation (1)."""
-        return sum((residue.logarithmic for residue in self.residues), _slope(self.exact, self.g) + self.rest)
+        return sum((residue.logarithmic for residue in self.residues), _twisted_slope(self.exact, self.g) + self.rest)
 
     @property
     def without_exact(self) -> RatFunc:
@@ -136,18 +136,18 @@ def integrate_on_curve(r: RatFunc, g: Poly) -> CurveIntegral:
             B = r.num * (cofactor * p.derivative() * (g // p)).inverse_modulo(p) % p
             C = RatFunc(B * (1 / (Fraction(1, 2) - j)), p**j)
             exact = exact + C
-            r = r - _slope(C, g)
+            r = r - _twisted_slope(C, g)
             cofactor, j = r.den.remove(p)
     while r and r.num.degree >= d - 1:
         # at infinity: ((B x^j) s)' s = (j + d/2) B x^(j + d - 1) + ...
         j = r.num.degree - d + 1
         C = RatFunc(field.poly([*[0] * j, 1]) * r.num.lc * (1 / (j + Fraction(d, 2))))
         exact = exact + C
-        r = r - _slope(C, g)
+        r = r - _twisted_slope(C, g)
     return CurveIntegral(g, exact, residues, r.num)
 
 
-def _slope(C: RatFunc, g: Poly) -> RatFunc:
+def _twisted_slope(C: RatFunc, g: Poly) -> RatFunc:
     """(C s)' s."""
     return C.derivative() * g + C * g.derivative() * Fraction(1, 2)
 
@@ -204,7 +204,7 @@ SECOND_KIND = (
 )
 NOT_TORSION = "its poles on the curve s^2 = {g} of genus {genus} don't form a torsion divisor, so it isn't elementary"
 SEVERAL = "its residues on the curve s^2 = {g} of genus {genus} aren't rational multiples of one another; not decided"
-UNDECIDED = "no function with its poles on the curve s^2 = {g} of genus {genus} was found within the limits"
+UNDECIDED_CURVE = "no function with its poles on the curve s^2 = {g} of genus {genus} was found within the limits"
 
 
 def completed(integral: CurveIntegral) -> CurveIntegral:
@@ -241,7 +241,7 @@ def _decide(integral: CurveIntegral) -> tuple[Unit, ...] | str:
     if group.kind is GroupKind.INFINITE_DIHEDRAL:
         return NOT_TORSION
     if group.kind is not GroupKind.DICYCLIC or group.function is None:
-        return UNDECIDED
+        return UNDECIDED_CURVE
     return _logarithms_of_pieces(integral, group.function, kappa_squared)
 
 
@@ -261,7 +261,7 @@ def _logarithms_of_pieces(integral: CurveIntegral, f: CurveFunction, kappa_squar
     g = integral.g
     c = f.h.field.sqrt((f.h.lc / kappa_squared[0]) / g.lc)
     if c is None:
-        return UNDECIDED
+        return UNDECIDED_CURVE
     exponents: Counter[tuple[Poly, Poly]] = Counter()
     for piece in f.pieces:
         exponents[piece.a, piece.b] += piece.exponent
@@ -271,4 +271,4 @@ def _logarithms_of_pieces(integral: CurveIntegral, f: CurveFunction, kappa_squar
         )
         if sum((unit.integrand(g) for unit in found), RatFunc(g * 0)) == integral.integrand:
             return found
-    return UNDECIDED
+    return UNDECIDED_CURVE

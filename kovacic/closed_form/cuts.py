@@ -26,10 +26,10 @@ from kovacic.closed_form.jets import jet
 from kovacic.closed_form.structure import PLACES
 
 Expr = Any  # SymPy publishes no types
-#: Puts in symbols that know what is assumed.
+#: Substitutes symbols that carry the assumptions.
 Own = Callable[[Expr], Expr]
 #: Where a pair is to be real: after the usual points, beyond all singular ones.
-_POINTS = (*map(sympy.Rational, PLACES), sympy.Integer(10**9), sympy.Integer(-(10**9)))
+_TRIED_PLACES = (*map(sympy.Rational, PLACES), sympy.Integer(10**9), sympy.Integer(-(10**9)))
 #: Functions with branch cuts, and what lies on the negative axis where they have theirs, or None if nothing does.
 _CUTS: dict[Any, Callable[[Expr], Expr | None]] = {
     **dict.fromkeys(
@@ -43,7 +43,7 @@ _CUTS: dict[Any, Callable[[Expr], Expr | None]] = {
     **dict.fromkeys((sympy.Abs, sympy.sign, sympy.Heaviside), lambda e: e.args[0] ** 2),
 }
 #: Parts of solutions that are real on one side of a singular point, beside Bessel's and hypergeometric functions.
-_TURNED = (sympy.log, sympy.Ci, sympy.lowergamma, sympy.uppergamma, sympy.Pow)
+_TURNED_FUNCTIONS = (sympy.log, sympy.Ci, sympy.lowergamma, sympy.uppergamma, sympy.Pow)
 #: For Bessel's functions of i z those of z with the same span.
 _OF_IMAGINARY = {
     sympy.besselj: sympy.besseli,
@@ -72,7 +72,7 @@ def arguments_with_cuts(y: Expr) -> dict[Expr, Expr]:
     found = {}
     for e in iterargs(y):
         cut = None
-        if isinstance(e, _TURNED):
+        if isinstance(e, _TURNED_FUNCTIONS):
             cut = cut_of(e)
         elif isinstance(e, BesselBase):
             cut = e.args[-1]
@@ -104,7 +104,7 @@ def _opposite(u: Expr, x: Expr, point: Expr, own: Own) -> Expr:
     return u.xreplace({negative[0]: -negative[0]}) if u.is_Mul and len(negative) == 1 else -u
 
 
-def with_roots_of_factors(y: Expr, x: Expr, point: Expr) -> Expr:
+def with_positive_factors(y: Expr, x: Expr, point: Expr) -> Expr:
     """sqrt(1 - x) sqrt(1 + x) for sqrt(1 - x^2) and other roots of products, with factors that are positive at the point."""
 
     def in_factors(power: Expr) -> Expr:
@@ -156,7 +156,7 @@ def common_place(x: Expr, *parts: Mapping[Expr, Expr], own: Own = sympy.sympify)
     shared = [Counter(arguments.values()) for arguments in parts]
 
     def points() -> Iterator[Expr]:
-        yield from _POINTS
+        yield from _TRIED_PLACES
         linear = (u for counts in shared for u in counts if sympy.diff(u, x).is_Rational)
         zeros = sorted({-u.subs(x, 0) / sympy.diff(u, x) for u in linear if u.subs(x, 0).is_Rational})
         yield from ((a + b) / 2 for a, b in pairwise(zeros))

@@ -34,13 +34,13 @@ class ClosedForm:
     variable : sympy.Symbol
         That of the equation.
     structure
-        What the closed form is made from as data, without SymPy, computed when it is asked for; it may change between versions.
+        What the closed form is made from as data, without SymPy, computed on first access; it may change between versions.
     gauge : RatFunc
         The logarithmic derivative of the factor that is in y1 and y2: 0 where S itself was given.
     checked : str
         "exact": the equation was verified in rational functions; what is shown has been checked at a point, too.
     notes : tuple of str
-        What was left as an integral, and why; what is to be known about the formulas.
+        Integrals that were left, with the reason, and caveats about the formulas.
     undefined : tuple of sympy.Expr
         Where one of these is zero, for values of letters, a special function has no value, or both solutions are the same.
     place : sympy.Expr or None

@@ -57,7 +57,7 @@ from kovacic.closed_form.primitive import (
     integrate,
     normalised_constant,
 )
-from kovacic.closed_form.product import Power, Product, gathered, grouped, joined, merged
+from kovacic.closed_form.product import Power, Product, gathered_powers, grouped_factors, joined, merged
 from kovacic.closed_form.structure import OnCurve, Triangular
 from kovacic.numbers.exact import radical as sqrt
 
@@ -114,8 +114,8 @@ def exponentials(form: OnCurve, atoms: Atoms) -> tuple[Expr, Expr, tuple[str, ..
     A, B = _zero_factors(form, kappa, atoms)
     if not terms.others and not terms.logarithms:
         return common * A, common * B, terms.notes
-    inner = [_times(kappa, term) for term in terms.others]
-    powers = [(base, _times(kappa, c)) for c, base in terms.logarithms]
+    inner = [_times_factor(kappa, term) for term in terms.others]
+    powers = [(base, _times_factor(kappa, c)) for c, base in terms.logarithms]
     if oscillates:
         angle = Add(*inner, *(e * log(base) for base, e in powers))
         c = sympy.cos(angle)
@@ -137,7 +137,7 @@ def _with_norms(form: OnCurve, terms: _Terms, kappa: Expr, atoms: Atoms) -> tupl
     if atoms.is_negative(ratio):
         ratio = -ratio
     first, second = (
-        display(replace(form.common, powers=gathered((*form.common.powers, *more))), atoms)
+        display(replace(form.common, powers=gathered_powers((*form.common.powers, *more))), atoms)
         for more in ([Power(p, ratio * (sign * n)) for p, n in terms.norms] for sign in (1, -1))
     )
     return first, second
@@ -153,7 +153,7 @@ def _zero_factors(form: OnCurve, kappa: Expr, atoms: Atoms) -> tuple[Expr, Expr]
     return numbers.q * A, numbers.p * B * roots
 
 
-def _times(factor: Expr, term: Expr) -> Expr:
+def _times_factor(factor: Expr, term: Expr) -> Expr:
     """factor * term with the square roots of rational numbers multiplied out."""
     number, rest = term.as_independent(*term.free_symbols, as_Add=False)
     square = sympy.expand_mul(factor**2 * number**2)
@@ -355,7 +355,7 @@ class _Curve:
 
 def _by_sine(curve: _Curve, atoms: Atoms) -> list[tuple[Poly, Expr]]:
     """By (1), from all branch points."""
-    curve = curve.moved(*_ordered(curve.roots, curve.inner is not None, atoms))
+    curve = curve.moved(*_ordered_roots(curve.roots, curve.inner is not None, atoms))
     m = -(curve.g[2] + 1).inverse()
     done = integrate_on_curve(curve.r, curve.g)
     if any(residue.factor.degree > 1 for residue in done.residues):
@@ -467,7 +467,7 @@ class _Angle:
         return of_F, [*terms, (-rho, inverse(factor * z) / factor)]
 
 
-def _ordered(roots: list[Poly], even: bool, atoms: Atoms) -> tuple[Poly, Poly | None, Poly | None]:
+def _ordered_roots(roots: list[Poly], even: bool, atoms: Atoms) -> tuple[Poly, Poly | None, Poly | None]:
     """What becomes 0, 1, and infinity (None is infinity): 0 < t < 1 for real x, and 0 < m < 1 where there is a choice."""
     shown = {a: atoms.constant(a) for a in roots}
     values = {a: float(value) for a, value in shown.items() if value.is_number and value.is_real}
@@ -494,11 +494,11 @@ def triangular(form: Triangular, atoms: Atoms) -> tuple[Expr, Expr, tuple[str, .
         integral = sympy.Integral(display(form.bare.to_power(-2), atoms, around_zero=True), atoms.x)
         return first, first * integral, (f"integral left because {primitive.reason}",)
     if not isinstance(primitive, CurveIntegral):
-        return first, _sum(_terms(form.first, primitive, parts, atoms)), ()
+        return first, _scaled_sum(_terms(form.first, primitive, parts, atoms)), ()
     named = elliptic(primitive, atoms) if primitive.reason is not None else None
     if named is not None:
         note = f"elliptic integrals because {primitive.reason}"
-        return first, _sum([_scaled(c, [*parts[1], value]) for c, value in named]), (note,)
+        return first, _scaled_sum([_scaled(c, [*parts[1], value]) for c, value in named]), (note,)
     if atoms.is_turned(primitive.g):
         primitive = _turned(primitive)
     _, value, notes = curve_integral(primitive, atoms)
@@ -526,7 +526,7 @@ def integral(h: Product, atoms: Atoms) -> Expr | None:
     return Add(*(c * e for c, e in _terms(one, primitive, (Integer(1), []), atoms)))
 
 
-def _sum(terms: list[Scaled]) -> Expr:
+def _scaled_sum(terms: list[Scaled]) -> Expr:
     """The sum up to a constant factor: coprime integer coefficients if they are commensurable, the last one positive."""
     if len(terms) == 1:
         return terms[0][1]
@@ -548,7 +548,7 @@ def _terms(
 ) -> list[Scaled]:
     """y times the integral."""
     if isinstance(primitive, ExponentialPrimitive):
-        return _with_exponential(y, primitive, first, atoms)
+        return _exponential_integrals(y, primitive, first, atoms)
     exact = primitive.parts.exact
     residues = primitive.parts.residues
     if not residues:
@@ -592,7 +592,7 @@ def logarithms(residues: Iterable[Residue], atoms: Atoms, y: Product | None = No
 
 def _are_real_before(end: Poly, y: Product, atoms: Atoms) -> bool:
     """False if a root in y, as it is written, isn't real to the left of a number and near it."""
-    roots = (base for group, e in grouped(merged(y)) if not atoms.constant(e).is_Integer for base in group)
+    roots = (base for group, e in grouped_factors(merged(y)) if not atoms.constant(e).is_Integer for base in group)
     # Where it is zero the base is negative to the left, unless it is written with the other sign.
     return all(atoms.constant(base(end)).is_positive in (None, not atoms.is_turned(base)) for base in roots)
 
@@ -601,7 +601,7 @@ def _is_at_a_point(residue: Residue) -> bool:
     return residue.is_constant and residue.factor.degree == 1
 
 
-def _with_exponential(y: Product, primitive: ExponentialPrimitive, first: Factors, atoms: Atoms) -> list[Scaled]:
+def _exponential_integrals(y: Product, primitive: ExponentialPrimitive, first: Factors, atoms: Atoms) -> list[Scaled]:
     """first * (W k + the terms with Ei, error and gamma functions, and logarithms of t^(1/n) - z)."""
     scale, parts = first
     terms = []
@@ -610,7 +610,7 @@ def _with_exponential(y: Product, primitive: ExponentialPrimitive, first: Factor
         t = primitive.t
         quotient = [(t.num, primitive.alpha), (t.den, -primitive.alpha)]
         more = [Power(p, y.field.poly([e])) for p, e in quotient if p.degree > 0]
-        whole = Product(gathered((*y.powers, *more)), y.roots, y.exponential + primitive.E(t))
+        whole = Product(gathered_powers((*y.powers, *more)), y.roots, y.exponential + primitive.E(t))
         terms.append(_scaled(*factors(whole, atoms, primitive.W(t), like=y)))
     for term in primitive.terms:
         q = atoms.sum(term.q(primitive.t))

@@ -1,4 +1,4 @@
-"""Values of SymPy expressions, with derivatives, in ball arithmetic: the numerical check of what is shown.
+"""Values of SymPy expressions, with derivatives, in ball arithmetic: the numerical check of printed formulas.
 
 The balls contain the values: nothing of SymPy's own numerical evaluation goes in, whose digits aren't proven.  A symbol has a
 ball (flint's `acb`) or, for `jet`, three terms of a Taylor series of balls (`acb_series`).
@@ -34,8 +34,7 @@ from kovacic.limits import check_duration, check_time
 BallValue = Any  # an acb or an acb_series
 #: Of a product or a quotient of power series, for each coefficient and bit: FLINT can't be stopped inside.
 _SERIES_SECONDS = 6e-8
-#: Coefficients and bits for which the time isn't foreseen: a millisecond.
-_SHORT_SERIES = 16_000
+
 
 _CONSTANTS = {
     sympy.pi: arb.pi,
@@ -61,7 +60,7 @@ _U = sympy.Dummy("u")
 
 
 class BallEvaluator:
-    """The values of expressions at given values of some symbols; those of subexpressions are kept.
+    """The values of expressions at given values of some symbols; the values of subexpressions are cached.
 
     With `analytic` a value isn't finite where the expression isn't analytic on the balls, for quadratures.
     """
@@ -145,7 +144,7 @@ class BallEvaluator:
         return self.other(e)
 
     def other(self, e: Any) -> BallValue:
-        """What isn't arithmetic and an elementary function."""
+        """Values of anything but arithmetic and elementary functions."""
         known = ", ".join((_MEROMORPHIC + _INVERSE).split())
         raise InputError(f"{e} isn't known in balls", hint=f"the functions are log, sqrt, {known}")
 
@@ -186,9 +185,7 @@ def _coarse_value(root: Any) -> complex:
 
 def _check_series() -> None:
     """Raises `LimitExceeded` where there isn't the time for another operation with such a series."""
-    size = ctx.cap * ctx.prec
-    if size > _SHORT_SERIES:
-        check_duration(_SERIES_SECONDS * size, f"a product of power series with {ctx.cap} terms")
+    check_duration(_SERIES_SECONDS * ctx.cap * ctx.prec, f"a product of power series with {ctx.cap} terms")
 
 
 def _whole_power(value: BallValue, exponent: int) -> BallValue:
@@ -212,7 +209,7 @@ def _whole_power(value: BallValue, exponent: int) -> BallValue:
 Acb = Any  # flint's acb
 
 #: Functions with the names that flint's series have for them; the last argument is the series.
-_SERIES = {
+_POWER_SERIES = {
     sympy.Ei: "ei",
     sympy.Si: "si",
     sympy.Ci: "ci",
@@ -272,18 +269,18 @@ class _Evaluator(BallEvaluator):
 
     def _special(self, e: Any) -> BallValue:
         """A special function; a constant that is none of these by SymPy's numbers."""
-        if e.func in _SERIES:
+        if e.func in _POWER_SERIES:
             *parameters, last = map(self, e.args)
-            return getattr(acb_series, _SERIES[e.func])(*parameters, _lifted(last))
+            return getattr(acb_series, _POWER_SERIES[e.func])(*parameters, _lifted(last))
         if (by_series := _BY_SERIES.get(e.func)) is not None:
             return self(by_series(*e.args))
         if isinstance(e, sympy.hyper):
             z = _lifted(self(e.argument))
-            return _taylor(z, _hypergeometric(e, self, z[0]))
-        if (rule := _DERIVATIVES.get(e.func)) is not None:
+            return _composed_series(z, _hypergeometric_jet(e, self, z[0]))
+        if (rule := _DERIVATIVES_AT.get(e.func)) is not None:
             parameter, last = map(self, e.args)
             z = _lifted(last)
-            return _taylor(z, rule(parameter, z[0]))
+            return _composed_series(z, rule(parameter, z[0]))
         if isinstance(e, MATHIEU):
             return self._of_mathieu(e)
         if not e.free_symbols:
@@ -307,8 +304,8 @@ class _Evaluator(BallEvaluator):
         f = 2 * q * (2 * z[0]).cos() - a
         values = [value, slope, f * value, f * slope - 4 * q * (2 * z[0]).sin() * value]
         if isinstance(e, sympy.mathieucprime | sympy.mathieusprime):
-            return _taylor(z, values[1:])
-        return _taylor(z, values[:3])
+            return _composed_series(z, values[1:])
+        return _composed_series(z, values[:3])
 
     def _of_sign(self, e: Any) -> BallValue:
         """|f|, the sign of f or the step H(f): for a function of the variable, near a point where it isn't zero, and real."""
@@ -349,7 +346,7 @@ def _lifted(value: BallValue) -> BallValue:
     return value
 
 
-def _taylor(z: BallValue, values: list[Acb]) -> BallValue:
+def _composed_series(z: BallValue, values: list[Acb]) -> BallValue:
     """g(z) for a series z, from g and its derivatives at the constant term."""
     step = z - z[0]
     return values[0] + step * (values[1] + step * (values[2] / 2))
@@ -371,7 +368,7 @@ def _bessel(name: str, nu: Acb, z: Acb) -> list[Acb]:
 
 
 #: (parameter, z) -> the function and its first two derivatives.
-_DERIVATIVES: dict[Any, Callable[[Acb, Acb], list[Acb]]] = {
+_DERIVATIVES_AT: dict[Any, Callable[[Acb, Acb], list[Acb]]] = {
     sympy.besselj: partial(_bessel, "bessel_j"),
     sympy.bessely: partial(_bessel, "bessel_y"),
     sympy.besseli: partial(_bessel, "bessel_i"),
@@ -388,12 +385,12 @@ def _spherical(function: Any) -> Callable[..., Any]:
     return lambda n, z: sympy.sqrt(sympy.pi / (2 * z)) * function(n + sympy.S.Half, z)
 
 
-def _laguerre(n: Any, a: Any, z: Any) -> Any:
+def _laguerre_at(n: Any, a: Any, z: Any) -> Any:
     factor = sympy.gamma(n + a + 1) / sympy.gamma(n + 1) / sympy.gamma(a + 1)
     return factor * sympy.hyper((-n,), (a + 1,), z)
 
 
-def _gegenbauer(n: Any, a: Any, z: Any) -> Any:
+def _gegenbauer_at(n: Any, a: Any, z: Any) -> Any:
     factor = sympy.gamma(n + 2 * a) / sympy.gamma(n + 1) / sympy.gamma(2 * a)
     return factor * sympy.hyper((-n, n + 2 * a), (a + sympy.S.Half,), (1 - z) / 2)
 
@@ -414,16 +411,16 @@ _BY_SERIES: dict[Any, Callable[..., Any]] = {
     sympy.elliptic_e: lambda m: sympy.elliptic_e(m).rewrite(sympy.hyper),
     sympy.jn: _spherical(sympy.besselj),
     sympy.yn: _spherical(sympy.bessely),
-    sympy.laguerre: lambda n, z: _laguerre(n, sympy.S.Zero, z),
-    sympy.assoc_laguerre: _laguerre,
-    sympy.legendre: lambda n, z: _gegenbauer(n, sympy.S.Half, z),
-    sympy.gegenbauer: _gegenbauer,
+    sympy.laguerre: lambda n, z: _laguerre_at(n, sympy.S.Zero, z),
+    sympy.assoc_laguerre: _laguerre_at,
+    sympy.legendre: lambda n, z: _gegenbauer_at(n, sympy.S.Half, z),
+    sympy.gegenbauer: _gegenbauer_at,
     sympy.assoc_legendre: _associated_legendre,
     sympy.jacobi: _jacobi,
 }
 
 
-def _hypergeometric(e: Any, value: Callable[[Any], Acb], z: Acb) -> list[Acb]:
+def _hypergeometric_jet(e: Any, value: Callable[[Any], Acb], z: Acb) -> list[Acb]:
     """The values of SymPy's `hyper` and its first two derivatives."""
     top = [value(a) for a in e.ap]
     bottom = [value(b) for b in e.bq]

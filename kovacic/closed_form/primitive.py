@@ -30,6 +30,7 @@ from kovacic.algebra.poly import Poly
 from kovacic.algebra.ratfunc import RatFunc, over_one_denominator
 from kovacic.closed_form.curve import CurveIntegral, completed, integrate_on_curve
 from kovacic.closed_form.product import Product
+from kovacic.limits import MOST_CHARACTERS
 
 
 @dataclass(frozen=True)
@@ -68,17 +69,17 @@ class ExponentialPrimitive:
     @property
     def kernel_derivative(self) -> RatFunc:
         """k'/k."""
-        return _rate(self.E, self.alpha)(self.t) * self.t.derivative()
+        return _kernel_rate(self.E, self.alpha)(self.t) * self.t.derivative()
 
     @property
     def integrand(self) -> RatFunc:
         """r, recomputed from the result by (1)."""
-        total = self.W.derivative() + self.W * _rate(self.E, self.alpha)
+        total = self.W.derivative() + self.W * _kernel_rate(self.E, self.alpha)
         total = sum((term.derivative for term in self.terms), total)
         return sum((residue.logarithmic for residue in self.poles), total)(self.t) * self.t.derivative()
 
 
-def _rate(E: RatFunc, alpha: Fraction) -> RatFunc:
+def _kernel_rate(E: RatFunc, alpha: Fraction) -> RatFunc:
     """dk/dt over k, for k = t^alpha exp(E)."""
     if not alpha:
         return E.derivative()
@@ -109,13 +110,13 @@ def integrate_exponential(r: RatFunc, E: RatFunc, alpha: Fraction = Fraction(0))
     """
     x = RatFunc(r.field.poly([0, 1]))
     apart = E.den * x.num if alpha else E.den
-    W, reduced, residues = reduce_poles(r, _rate(E, alpha), apart)
+    W, reduced, residues = reduce_poles(r, _kernel_rate(E, alpha), apart)
     at_poles = _at_poles(reduced, residues, E, alpha)
     if at_poles is None or prime_part(at_poles[0].den, apart).degree > 0:
-        return "a pole with a residue remains beside the exponential"
+        return "a pole with a residue remains next to the exponential"
     rest, terms, poles = at_poles
     levels = [term.e for term in terms]
-    candidates = [term for term in _candidates(E, alpha) if term.power != -1 or term.e not in levels]
+    candidates = [term for term in _gamma_candidates(E, alpha) if term.power != -1 or term.e not in levels]
     solved = _with_rational_part(rest, E, alpha, [term.derivative for term in candidates])
     if solved is None:
         return "it isn't a rational function times the exponential, with Ei and erf of rational functions"
@@ -160,7 +161,7 @@ def _exponential_integral(found: Residue, E: RatFunc) -> GammaTerm | None:
     return GammaTerm(found.value * Fraction(1, multiplicity), E - e, one, e, 1, -1)
 
 
-def _candidates(E: RatFunc, alpha: Fraction) -> Iterator[GammaTerm]:
+def _gamma_candidates(E: RatFunc, alpha: Fraction) -> Iterator[GammaTerm]:
     """The terms (1) that no pole tells of, with the coefficient 1."""
     one = E.field.poly([1])
     if not alpha:
@@ -213,7 +214,7 @@ def _with_rational_part(
 ) -> tuple[RatFunc, list[Poly]] | None:
     """(W, constants), r = W' + W (E' + alpha/x) + the sum of constants times candidates, or None."""
     x = r.field.poly([0, 1])
-    rate = _rate(E, alpha)
+    rate = _kernel_rate(E, alpha)
     functions = [f for f in (r, *candidates) if f]
     den = _denominator(functions, E, alpha)
     # A bound of deg num - deg den for W, from what W' + W E' gives.
@@ -244,13 +245,10 @@ def _denominator(functions: list[RatFunc], E: RatFunc, alpha: Fraction) -> Poly:
     return den
 
 
-#: A pair of solutions is short if it takes at most this number of characters, or this multiple of the shortest form.
-SHORT = 1000
+#: A pair of solutions is short if it takes at most `MOST_CHARACTERS`, or this multiple of the shortest form.
 FACTOR = 4
 #: Why an integral is left.
 LONG = "written out it would take some {} characters"
-#: Above this power of a factor in y^-2 the integral isn't computed: it would be a sum of about as many terms.
-_LARGEST_EXPONENT = 1000
 
 
 @dataclass(frozen=True)
@@ -270,7 +268,7 @@ class RationalPrimitive:
 
 @dataclass(frozen=True)
 class OpenPrimitive:
-    """The integral is left as it is, and `reason` says why."""
+    """An integral left unevaluated, with the `reason`."""
 
     reason: str
 
@@ -280,14 +278,14 @@ Primitive = RationalPrimitive | CurveIntegral | ExponentialPrimitive | OpenPrimi
 
 
 def integrate_inverse_square(y: Product) -> Primitive:
-    """int y^-2 dx; left where it would be too long beside the integral as it stands."""
+    """int y^-2 dx; left unevaluated if the result would be too long compared with the integral."""
     h = y.to_power(-2)
     # About how many terms the integral has, with coefficients of as many digits: this number squared is about its length.
     # (x - 1)^-40 (x - 2)^-2 exp(-2 x) has 42 and 2,000 characters, its power 400 has 1.5 million.
     poles = [(power.base.degree, -(power.rational_exponent or 0)) for power in h.powers]
     is_a_power = len(poles) == 1 and poles[0][0] == 1 and not h.exponential
     terms = 1 if is_a_power else sum(degree * int(order) for degree, order in poles if order > 0)
-    most = max(SHORT, FACTOR * (2 * y.length + h.length))
+    most = max(MOST_CHARACTERS, FACTOR * (2 * y.length + h.length))
     if terms**2 > 4 * most:
         return OpenPrimitive(LONG.format(terms**2))
     return integrate(h)
@@ -318,7 +316,7 @@ def _integral_or_reason(h: Product) -> Primitive | str:
         exponent = power.rational_exponent
         if exponent is None:
             return f"the exponent at {power.base} is irrational"
-        if abs(exponent) > _LARGEST_EXPONENT:
+        if abs(exponent) > MOST_CHARACTERS:  # the integral would be a sum of about as many terms
             return f"the factor {power.base} has the power {exponent} in the integrand"
         if exponent.denominator == 1:
             rational = rational * RatFunc(power.base) ** int(exponent)
@@ -327,7 +325,7 @@ def _integral_or_reason(h: Product) -> Primitive | str:
     E = h.exponential
     if E.is_polynomial and E.num.degree <= 0:
         return _without_exponential(rational, fractional)
-    return _with_exponential(rational, fractional, E)
+    return _exponential_primitive(rational, fractional, E)
 
 
 _Root = tuple[Poly, Fraction]
@@ -362,7 +360,7 @@ def _with_a_quotient(rational: RatFunc, first: _Root, second: _Root) -> Primitiv
     return found if isinstance(found, str) else replace(found, t=RatFunc(p, q))
 
 
-def _with_exponential(r: RatFunc, fractional: list[_Root], E: RatFunc) -> Primitive | str:
+def _exponential_primitive(r: RatFunc, fractional: list[_Root], E: RatFunc) -> Primitive | str:
     """int r k exp(E) dx for at most one root k of a linear polynomial, or why it is left: in x less a centre."""
     if len(fractional) > 1 or any(p.degree > 1 for p, _ in fractional):
         return "the integrand has an exponential and fractional powers of several factors"

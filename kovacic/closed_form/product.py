@@ -86,7 +86,7 @@ def written_length(*parts: object) -> int:
     return length
 
 
-def gathered(powers: Iterable[Power]) -> tuple[Power, ...]:
+def gathered_powers(powers: Iterable[Power]) -> tuple[Power, ...]:
     """The powers, every base once."""
     exponents: dict[Poly, Poly] = {}
     for power in powers:
@@ -154,7 +154,7 @@ def merged(y: Product, extra: RatFunc | None = None, *, like: Product | None = N
     return found
 
 
-def grouped(found: Sequence[Factor]) -> list[tuple[list[Poly], Poly]]:
+def grouped_factors(found: Sequence[Factor]) -> list[tuple[list[Poly], Poly]]:
     """(bases, exponent): bases under a common root together, all others alone, and (x - a)(x + a) multiplied out."""
     fractional: dict[Poly, list[Factor]] = {}
     integral: dict[Poly, list[Poly]] = {}

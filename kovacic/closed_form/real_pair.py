@@ -27,7 +27,7 @@ from kovacic.algebra.partial_fractions import Residue
 from kovacic.algebra.poly import Poly
 from kovacic.algebra.rationals import QQ
 from kovacic.closed_form.atoms import Atoms, Expr, display
-from kovacic.closed_form.product import Power, gathered
+from kovacic.closed_form.product import Power, gathered_powers
 from kovacic.closed_form.structure import Conjugate
 from kovacic.closed_form.way_back import solution_in_x
 from kovacic.engine.places import rational_square_root
@@ -67,7 +67,7 @@ def real_pair(form: Conjugate, atoms: Atoms) -> tuple[Expr, Expr]:
             phase.append(s * atoms.log_sum(residue))
         else:
             pair = turned
-    common = display(replace(form.common, powers=gathered(pair.powers)), atoms)
+    common = display(replace(form.common, powers=gathered_powers(pair.powers)), atoms)
     content = atoms.primitive(pair.A or pair.B)[0]
     A = pair.A / content
     B = pair.B / content

@@ -49,7 +49,7 @@ _INVERSE_FUNCTIONS: dict[Any, dict[Any, Any]] = {
     sympy.sinh: {sympy.asinh: lambda w: w},
     sympy.cosh: {sympy.acosh: lambda w: w},
 }
-_ROOTS: dict[Any, Any] = {
+_ROOTS_OF_SQUARES: dict[Any, Any] = {
     sympy.sin: (lambda t: 1 - t**2, sympy.cos, 1),
     sympy.cos: (lambda t: 1 - t**2, sympy.sin, 1),
     sympy.tan: (lambda t: 1 + t**2, sympy.cos, -1),
@@ -60,12 +60,12 @@ _ROOTS: dict[Any, Any] = {
 
 def _continued(expression: Any, t: Any) -> Any:
     """With x for asin(sin(x)) and cos(x) for sqrt(1 - sin(x)^2), the analytic continuations, which SymPy's branches aren't."""
-    if t.func not in _ROOTS:
+    if t.func not in _ROOTS_OF_SQUARES:
         return expression
     w = t.args[0]
     for function, inverse in _INVERSE_FUNCTIONS[t.func].items():
         expression = expression.xreplace({function(t, evaluate=False): inverse(w)})
-    square, other, sign = _ROOTS[t.func]
+    square, other, sign = _ROOTS_OF_SQUARES[t.func]
     for base, root in ((square(t), other(w) ** sign), (-square(t), sympy.I * other(w) ** sign)):
         powers = {e for e in expression.atoms(sympy.Pow) if e.base == base and (2 * e.exp).is_Integer}
         expression = expression.xreplace({e: root ** (2 * e.exp) for e in powers})

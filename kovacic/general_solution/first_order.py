@@ -19,7 +19,7 @@ from sympy import Dummy, Integer, Symbol, cancel, cosh, expand, powsimp, sinh
 from sympy.core.function import AppliedUndef
 
 from kovacic.closed_form.atoms import Atoms, display, is_seen_negative
-from kovacic.closed_form.cuts import with_roots_of_factors
+from kovacic.closed_form.cuts import with_positive_factors
 from kovacic.closed_form.product import product
 from kovacic.errors import InputError, VerificationFailed
 from kovacic.general_solution.antiderivatives import antiderivative
@@ -249,7 +249,7 @@ def solved_linear(equation: FirstOrderEquation, taken: Set[Expr] = frozenset()) 
     if start is not None and p == 0:
         h = _beside_value(h, x, start)
     particular = turned_at(place, _of_parts(in_parts(p, x), h, x, start), (-q,), p, x)
-    in_factors = particular if place is None else with_roots_of_factors(particular, x, place)
+    in_factors = particular if place is None else with_positive_factors(particular, x, place)
     if in_factors != particular and in_factors.is_rational_function(x):
         particular = cancel(in_factors)
     constant = _constant_through(equation, h, particular, equation.constant(taken))

@@ -17,7 +17,7 @@ from kovacic.algebra.poly import Poly
 from kovacic.algebra.ratfunc import RatFunc
 from kovacic.engine.places import Problem
 from kovacic.special import prices
-from kovacic.special.maps import irregular_places, parts_by_scale, value_at
+from kovacic.special.maps import irregular_places, parts_by_scale, value_at_point
 from kovacic.special.pullback import Pullback, StandardEquation, StandardForm, ValueAndSlope, standard_part
 
 if TYPE_CHECKING:
@@ -46,7 +46,7 @@ class Airy(StandardEquation):
             return
         for q, parts in parts_by_scale(problem, 3):
             f = sum((part.part for part in parts), RatFunc(q * 0))
-            c = value_at(standard_part(problem.S, f) / q - f, places[0])
+            c = value_at_point(standard_part(problem.S, f) / q - f, places[0])
             if c is not None:
                 yield Pullback(Airy(q), f + c)
 

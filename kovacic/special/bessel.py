@@ -35,8 +35,8 @@ from kovacic.special.maps import (
     HALF,
     Fibre,
     Number,
+    as_function_of_x,
     fibres,
-    in_x,
     irregular_places,
     leading_square,
     regular_points,
@@ -92,7 +92,7 @@ class Bessel(StandardEquation):
             yield Pullback(Bessel(zero, zero + 1, (nu_squared - 1) * Fraction(1, 4)), f)
 
     def written(self, writer: Writer, f: RatFunc) -> WrittenPair | None:
-        return written(writer, 4 * self.M + 1, f * self.r)
+        return written_pair(writer, 4 * self.M + 1, f * self.r)
 
     @property
     def parameters(self) -> list[fmpq]:
@@ -171,7 +171,7 @@ def _scale(f: RatFunc, place: Place) -> Poly | None:
     """The constant c for which c f has the leading coefficient at the pole that S shows; None if there is none."""
     p = place.factor
     d = place.order - 2
-    local = in_x(f, place)
+    local = as_function_of_x(f, place)
     scale = leading_square(place) * (local.den // p**d) * local.num.inverse_modulo(p) % p
     return scale if scale.degree == 0 else None
 
@@ -179,7 +179,7 @@ def _scale(f: RatFunc, place: Place) -> Poly | None:
 # ------------------------------------------------------------------------------------------ written
 
 
-def written(writer: Writer, nu_squared: Poly, t: RatFunc) -> WrittenPair:
+def written_pair(writer: Writer, nu_squared: Poly, t: RatFunc) -> WrittenPair:
     """u = sqrt(t) J_nu(2 sqrt t), or with I, K and -t where the constant factor of t is negative.
 
     Where t vanishes at a point that isn't `singular`, nu isn't an integer, and t^((1 +- nu)/2) 0F1(; 1 +- nu; -t) are analytic.

@@ -2,11 +2,11 @@
 
 An equation with Liouvillian solutions has several forms: elementary functions with their kin (Ei, erf, logarithms over roots);
 special functions, which are those of a standard equation with its actual parameters and, in case 3, Klein's; y1 times an
-integral that is left.  Each `PairForm` knows its kind and about its length from its data, before SymPy is asked for anything.
+integral that is left.  Each `PairForm` knows its kind and about its length from its data, before SymPy computes anything.
 
-The order: among the forms of at most `SHORT` characters, or `FACTOR` times the length of the shortest, an elementary one comes
-before special functions, and these come before an integral; among equals the shorter one.  Where the written pair loses more
-than half of 30 digits in the middle of the domain, a form of at most twice its length that doesn't comes first.
+The order: among the forms of at most `MOST_CHARACTERS` characters, or `FACTOR` times the length of the shortest, an elementary
+one comes before special functions, and these come before an integral; among equals the shorter one.  Where the written pair
+loses more than half of 30 digits in the middle of the domain, a form of at most twice its length that doesn't comes first.
 """
 
 from __future__ import annotations
@@ -32,30 +32,32 @@ from kovacic.closed_form.check import independent, is_nonzero, is_numerical_solu
 from kovacic.closed_form.cuts import arguments_with_cuts, common_place, real_at
 from kovacic.closed_form.form import EXACT, ClosedForm, one_exponential, pair_at, written
 from kovacic.closed_form.jets import jet
-from kovacic.closed_form.primitive import FACTOR, LONG, SHORT, OpenPrimitive
+from kovacic.closed_form.primitive import FACTOR, LONG, OpenPrimitive
 from kovacic.closed_form.product import written_length
 from kovacic.closed_form.structure import ClosedStructure, Covariants, Triangular, build
 from kovacic.closed_form.terminating import hypergeometric_pair
 from kovacic.compatibility import cached_property
 from kovacic.decision import Decision, TerminatingSeries
 from kovacic.errors import LimitExceeded, VerificationFailed
-from kovacic.limits import Budget, bounded_work, check_time
+from kovacic.limits import MOST_CHARACTERS, Budget, bounded_work, check_time
 from kovacic.numbers.numerals import as_text
 from kovacic.special.gauss import klein_pullback
 from kovacic.special.pullback import GaugeTransform, Pullback
 from kovacic.special.search import find, find_transform, pair_for
 from kovacic.special.writer import Wanted
 
-#: Units of work after which no pull-back is sought any more beside a form that is there.
+#: Units of work after which the search for a pull-back ends if another form is known.
 _SEARCH = 6000
 #: The working precision of the formula that is to be stable, in digits; half of them are to be left.
-_DIGITS = 30
+_STABLE_DIGITS = 30
 #: Characters that a term of a polynomial has at least, as + x**2.
 _TERM = 4
 #: Shorter pairs aren't asked: of the published ones none loses half of the digits, whatever its length.
 _ALWAYS_STABLE = 400
 
-UNSTABLE = f"of {_DIGITS} digits more than half are lost in these formulas by cancellation; `at` has proven values"
+UNSTABLE = (
+    f"of {_STABLE_DIGITS} digits more than half are lost in these formulas by cancellation; `at` has proven values"
+)
 
 
 class FormKind(IntEnum):
@@ -78,7 +80,7 @@ class PairForm:
 
 def best(forms: list[PairForm]) -> PairForm:
     """The preferred one by kind and length."""
-    bound = max(SHORT, FACTOR * min(form.length for form in forms))
+    bound = max(MOST_CHARACTERS, FACTOR * min(form.length for form in forms))
     return min((form for form in forms if form.length <= bound), key=lambda form: (form.kind, form.length))
 
 
@@ -162,7 +164,7 @@ class _Equation:
     def _is_long(self) -> bool:
         """True if the polynomial of the certificate alone takes more characters than any short form is preferred to."""
         semi = self.decision.semi_invariant
-        return semi is not None and sum(map(bool, semi.P)) > FACTOR * SHORT // (2 * _TERM)
+        return semi is not None and sum(map(bool, semi.P)) > FACTOR * MOST_CHARACTERS // (2 * _TERM)
 
     def chosen(self) -> ClosedForm:
         """The preferred pair, checked; or one that keeps its digits and isn't much longer; with a note if there is no such."""
@@ -173,7 +175,7 @@ class _Equation:
         forms = self._special_forms(self._source()) if is_first else self._own_forms()
         found = best(forms) if forms else None
         kinds = FormKind if is_first else (FormKind.ELEMENTARY,)
-        if found is None or found.length > SHORT or found.kind not in kinds:
+        if found is None or found.length > MOST_CHARACTERS or found.kind not in kinds:
             forms += self._own_forms() if is_first else self._special_forms(self._source())
         chosen, first = self._written_best(forms)
         most = 2 * chosen.length
@@ -202,7 +204,7 @@ class _Equation:
         return ClosedForm(*pair, Symbol(self.variable), self.gauge, EXACT, build=made, **known)
 
     def _own_forms(self) -> list[PairForm]:
-        """The forms of the structure itself, and y1 times an unevaluated integral beside a long evaluated one."""
+        """The forms of the structure itself, and y1 times an unevaluated integral as an alternative to a long evaluated one."""
         structure = self.structure
         check_time()
         if isinstance(structure, Covariants):
@@ -214,7 +216,7 @@ class _Equation:
         kind = FormKind.INTEGRAL if is_left else FormKind.ELEMENTARY
         length = structure.length
         forms = [PairForm(kind, length, partial(self._written, structure))]
-        if isinstance(structure, Triangular) and not is_left and length > SHORT:
+        if isinstance(structure, Triangular) and not is_left and length > MOST_CHARACTERS:
             left = replace(structure, primitive=OpenPrimitive(LONG.format(length)))
             forms.append(PairForm(FormKind.INTEGRAL, left.length, partial(self._written, left)))
         return forms
@@ -238,7 +240,7 @@ class _Equation:
         return [PairForm(FormKind.SPECIAL, 4 * written_length(parts), partial(self._in_special_functions, source))]
 
     def _in_special_functions(self, source: Pullback | GaugeTransform) -> ClosedForm | None:
-        """With y1 as it is where that is elementary and short; None if the two aren't known to be independent."""
+        """With y1 unchanged if it is elementary and short; None if the two aren't known to be independent."""
         found = pair_for(Wanted(self.S, self.gauge, self.variable, joined=True), source)
         if found is None:
             return None
@@ -268,7 +270,7 @@ class _Equation:
         while True:
             chosen = best(forms)
             form = chosen
-            if chosen.pair is not None and chosen.length > SHORT:
+            if chosen.pair is not None and chosen.length > MOST_CHARACTERS:
                 form = min(forms, key=lambda other: other.length)
             if chosen.pair is not None and form.pair is not None:
                 return chosen, chosen.pair
@@ -285,7 +287,7 @@ class _Equation:
         den = self.S.den
         if not isinstance(den, RationalPoly):
             return True
-        with working_digits(_DIGITS):
+        with working_digits(_STABLE_DIGITS):
             point = _middle_of_the_domain(den)
             return all(jet(y, pair.variable, point)[0].rel_accuracy_bits() > ctx.prec // 2 for y in pair)
 

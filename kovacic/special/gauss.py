@@ -74,7 +74,7 @@ if TYPE_CHECKING:
 _MOST_CHOICES = 32
 _HIDDEN = 3
 #: Of places between 0 and 1, in this order.
-_DENOMINATORS = (1, 2, 10, 100, 10**4, 10**8)
+_PLACE_DENOMINATORS = (1, 2, 10, 100, 10**4, 10**8)
 #: Points at which solutions are tested for realness.
 _SAMPLE = (Fraction(2, 7), Fraction(7, 2), Fraction(-2, 7))
 
@@ -271,7 +271,7 @@ class _GaussForm:
         if place is not None or not isinstance(middle, RationalPoly):
             return place
         halves = [zero.real for zero, _ in complex_zeros(middle.rep.numer()) if zero.imag == 0]
-        near = (Fraction(float(zero)).limit_denominator(most) for zero in halves for most in _DENOMINATORS)
+        near = (Fraction(float(zero)).limit_denominator(most) for zero in halves for most in _PLACE_DENOMINATORS)
         inside = (sympy.Rational(x) for x in chain(PLACES, near) if 0 < (self._at(x) or 0) < 1)
         return next(inside, None)
 
@@ -293,7 +293,7 @@ class _GaussForm:
     @property
     def term(self) -> WrittenTerm:
         """u, or a multiple."""
-        return self.factor, _named(self)[1]
+        return self.factor, _named_function(self)[1]
 
     def bracket(self, other: _GaussForm, W: Expr) -> Expr:
         """The bracket of u and the solution of another form in f, or in 1 - f, whose Wronskian in z = f is W."""
@@ -303,7 +303,7 @@ class _GaussForm:
             writer.constant((e + d - 2) * HALF) for e, d in ((self.alpha, alpha), (self.beta, beta))
         )  # minus the sums of the exponents
         z, w = writer.argument(self.f), writer.argument(1 - self.f)
-        multiple = _named(self)[0] * _named(other)[0]
+        multiple = _named_function(self)[0] * _named_function(other)[0]
         return W * multiple * z**at_zero * w**at_one * z.diff(writer.atoms.x)
 
     def bracket_of_parity(self, W: Expr = 1) -> Expr:
@@ -361,7 +361,7 @@ class _GaussForm:
         return is_cut, not f.is_polynomial, uneven, natural, -real, terms, not self.writer.is_negative(f.num.lc), str(f)
 
 
-def _named(form: _GaussForm) -> tuple[Expr, Expr]:
+def _named_function(form: _GaussForm) -> tuple[Expr, Expr]:
     """c and c 2F1, where it has a name: Jacobi's polynomials, K and E, and Legendre's P_nu, if SymPy keeps it."""
     import sympy
 
@@ -431,14 +431,14 @@ def _with_polynomial(form: _GaussForm) -> WrittenPair:
     """P_N^(a,b)(1 - 2 f) with a = -alpha, b = -beta, and a second solution."""
     writer = form.writer
     if form.alpha == form.beta:
-        return _gegenbauer(form)
+        return _gegenbauer_pair(form)
     if writer.is_integer(form.alpha):  # at infinity the polynomial has the exponent -N, and this one N + 1 + a + b
         second = _GaussForm(writer, 1 / form.f, -form.gamma, form.beta, form.alpha).shorter
         return writer.pair(form.term, second.term)
     return _at_one_point(form)
 
 
-def _gegenbauer(form: _GaussForm) -> WrittenPair:
+def _gegenbauer_pair(form: _GaussForm) -> WrittenPair:
     """C_N^(l)(1 - 2 f), l = 1/2 - alpha, or what is a multiple of it, and the solution of the other parity."""
     import sympy
 
@@ -512,11 +512,11 @@ def _values(mapped: tuple[Any, Any, Any, Any, Any]) -> StandardForm:
     if is_dihedral and e0 != 0:
         solutions = each(_root(e0), _root(-e0)) if e2 == half else _sine_and_cosine(e2)
         return StandardForm(n, d, ((upper, half / 2), (lower, half / 2)), solutions, (None, 1))
-    first = _hypergeometric(e0, e1, e2, mirrored=False)
+    first = _hypergeometric_solution(e0, e1, e2, mirrored=False)
     if not is_integer(e0):
-        second = _hypergeometric(-e0, e1, e2, mirrored=False)
+        second = _hypergeometric_solution(-e0, e1, e2, mirrored=False)
         return StandardForm(n, d, ((upper, right), (lower, right)), each(first, second), (None, 1))
-    second = _hypergeometric(e1, e0, e2, mirrored=True)
+    second = _hypergeometric_solution(e1, e0, e2, mirrored=True)
     independent = not any(ends((1 + e0 + e1 + e) / 2) for e in (e2, -e2))
     return StandardForm(n, d, ((upper, right), (upper, right)), each(first, second), (1, 1), independent)
 
@@ -546,7 +546,7 @@ def _sine_and_cosine(e: Any) -> StandardSolutions:
     return values
 
 
-def _hypergeometric(e0: Any, e1: Any, e2: Any, *, mirrored: bool) -> StandardSolution:
+def _hypergeometric_solution(e0: Any, e1: Any, e2: Any, *, mirrored: bool) -> StandardSolution:
     """2F1 with the exponent differences e0 at 0, e1 at 1, e2 at infinity, in z, or in 1 - z if it is mirrored."""
     a = (1 + e0 + e1 + e2) / 2
     b = (1 + e0 + e1 - e2) / 2

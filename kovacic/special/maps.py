@@ -85,7 +85,7 @@ class Number:
 
 
 #: Conjugate poles up to which roots are taken where the field has parameters: factoring there takes long.
-_WITH_PARAMETERS = 2
+_MOST_CONJUGATE_POLES = 2
 
 
 def irregular_places(problem: Problem) -> list[Place]:
@@ -100,18 +100,18 @@ def parts_by_scale(problem: Problem, n: int) -> Iterator[tuple[Poly, list[PolarP
     """
     places = irregular_places(problem)
     largest = max(place.degree for place in places)
-    most = problem.budget.limits.constants if problem.field.ground == QQ else _WITH_PARAMETERS
+    most = problem.budget.limits.constants if problem.field.ground == QQ else _MOST_CONJUGATE_POLES
     if largest > most:
         raise LimitExceeded(f"f has {largest} conjugate poles; roots are taken up to degree {most}", limit="constants")
     for q in scales(places, n):
-        parts = [found for place in places if (found := _ROOTS[n][1](place, q)) is not None]
+        parts = [found for place in places if (found := _NTH_ROOTS[n][1](place, q)) is not None]
         if len(parts) == len(places):
             yield q, parts
 
 
 @dataclass(frozen=True)
 class PolarPart:
-    """That of f, for a square root up to its sign, its order, and the residue of sqrt(S/q) dx, a constant in K[x]/p."""
+    """The polar part of f (a square root up to its sign), its order, and the residue of sqrt(S/q) dx, a constant in K[x]/p."""
 
     part: RatFunc
     order: int
@@ -135,7 +135,7 @@ def integral_of_square_root(place: Place, q: Poly) -> PolarPart | None:
         return None
     parts = decompose(RatFunc(s, p**m))
     residue = parts.residues[0].value if parts.residues else s.field.poly([])
-    return None if residue.degree > 0 else PolarPart(in_x(parts.exact, place), m - 1, residue)
+    return None if residue.degree > 0 else PolarPart(as_function_of_x(parts.exact, place), m - 1, residue)
 
 
 def leading_square(place: Place) -> Poly:
@@ -149,7 +149,7 @@ def square(place: Place) -> RatFunc:
     """The polar part of t with t'^2/t = -S + ... at a ramified place: (T'p - d T p')^2 = -T V modulo p^d for t = T/p^d."""
     p = place.factor
     d = place.order - 2
-    return in_x(RatFunc(expanded_square(place, d), p**d), place)
+    return as_function_of_x(RatFunc(expanded_square(place, d), p**d), place)
 
 
 def expanded_square(place: Place, precision: int) -> Poly:
@@ -173,10 +173,10 @@ def integral_of_cubic_root(place: Place, q: Poly) -> PolarPart | None:
     p = place.factor
     d = (place.order - 2) // 3
     W = root_modulo(expanded_square(place, d) * -9 / q, p, 3, d)
-    return None if W is None else PolarPart(in_x(RatFunc(W, p**d), place), d, p * 0)
+    return None if W is None else PolarPart(as_function_of_x(RatFunc(W, p**d), place), d, p * 0)
 
 
-def in_x(function: RatFunc, place: Place) -> RatFunc:
+def as_function_of_x(function: RatFunc, place: Place) -> RatFunc:
     """A function of the coordinate of the place as one of x."""
     if not place.at_infinity:
         return function
@@ -188,16 +188,16 @@ def in_x(function: RatFunc, place: Place) -> RatFunc:
 
 
 #: By n what shows q up to n-th powers at a place, and the part of the n-th root there.
-_ROOTS: dict[int, tuple[Callable[[Place], Poly], Callable[[Place, Poly], PolarPart | None]]] = {
+_NTH_ROOTS: dict[int, tuple[Callable[[Place], Poly], Callable[[Place, Poly], PolarPart | None]]] = {
     2: (lambda place: place.unit(1), integral_of_square_root),
     3: (lambda place: leading_square(place) * -9, integral_of_cubic_root),
 }
 
 
 def scales(places: list[Place], n: int) -> list[Poly]:
-    """What q can be, up to n-th powers: the leading coefficient at a place of degree 1; else 1, -1 and what norms tell."""
+    """Candidates for q, up to n-th powers: the leading coefficient at a place of degree 1; else 1, -1 and what norms tell."""
     place = min(places, key=lambda place: place.degree)
-    v = _ROOTS[n][0](place)
+    v = _NTH_ROOTS[n][0](place)
     field = place.num.field
     one = field.poly([1])
     if place.degree == 1:
@@ -251,7 +251,7 @@ def zeros(problem: Problem, polar: RatFunc, *, shifted: bool) -> Iterator[tuple[
     """
     seen = regular_points(problem, apparent=False)
     for point in seen or [*regular_points(problem, apparent=True), *unseen_points(polar)]:
-        value = value_at(polar, point)
+        value = value_at_point(polar, point)
         if value is None:
             continue
         check_time()
@@ -262,7 +262,7 @@ def zeros(problem: Problem, polar: RatFunc, *, shifted: bool) -> Iterator[tuple[
             yield from ((f, e_squared) for e_squared in _shifted_differences(point.square, k))
 
 
-def value_at(f: RatFunc, point: Point | Place) -> Poly | None:
+def value_at_point(f: RatFunc, point: Point | Place) -> Poly | None:
     """The value at all roots of a factor, or at infinity, if it is one and finite."""
     if point.at_infinity:
         if not f or f.degree < 0:
@@ -310,7 +310,7 @@ def coverings(
     for zeros, poles, rest in _distributed(points, apparent, hidden):
         f = RatFunc(zeros.polynomial, poles.polynomial)
         # the multiples of f that are 1 at the points of the rest, or have 1 for a critical value
-        values = dict.fromkeys(value_at(f, point) for point in rest[:1] or unseen_points(f))
+        values = dict.fromkeys(value_at_point(f, point) for point in rest[:1] or unseen_points(f))
         for g in [f / value for value in values if value]:
             number += 1
             count_work(_TRIAL)
@@ -378,7 +378,7 @@ def _distributed(points: list[Point], apparent: list[Point], hidden: int) -> Ite
 
 
 def _count(points: Iterable[Point]) -> int:
-    """How many points these are."""
+    """The number of points."""
     return sum(point.degree for point in points)
 
 

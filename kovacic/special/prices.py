@@ -1,4 +1,4 @@
-"""What values cost on each way, in milliseconds of processor time: by which the cheapest is chosen before it is computed.
+"""Costs of the evaluation methods, in milliseconds of processor time, by which the cheapest one is chosen in advance.
 
 The numbers were fitted to `benchmarks/routes.py --prices`, which measures them once more; only their ratios matter.
 """
@@ -60,11 +60,11 @@ def beside(size: int) -> float:
 TARGET = Price(0.027, 113, 2.0)
 """A target in a disc that is there."""
 TARGET_BESIDE = 4.0
-"""The factor for one beside the real axis."""
+"""The factor for one off the real axis."""
 FIRST = 0.3
-"""The start of a closed form, beside its targets."""
+"""The start of a closed form, without its targets."""
 CLOSED_BESIDE = 2.5
-"""The factor for a target of a closed form beside the real axis."""
+"""The factor for a target of a closed form off the real axis."""
 UNIT = 0.015
 """A unit of the work that the search for a pull-back counts."""
 
@@ -85,7 +85,7 @@ def decided_from(S: RatFunc) -> float:
 
 
 def sought_from(size: int) -> float:
-    """The same for the search for a pull-back, by the degrees of S together; where S is linear it is one of Airy's equation."""
+    """The cost of the search for a pull-back, by the degrees of S together; where S is linear it is one of Airy's equation."""
     return 1.5 if size <= 1 else 4.5
 
 
@@ -100,6 +100,6 @@ GAUSS_DIHEDRAL = Cost(Price(0.1, 85), 1_000_000_000)
 EXPONENTIALS = Price(0.056, 1000)
 """Two exponentials, with polynomials of degree 0."""
 COEFFICIENT = Price(0.002, 120)
-"""What each degree of the polynomial adds."""
+"""The cost of each degree of the polynomial."""
 DEGREES = 10.0
 """A polynomial that decides an equation is sought up to this degree for each millisecond that Taylor's method takes."""

@@ -1,4 +1,4 @@
-"""Standard equations, and pull-backs of them: what is searched for, and the identity by which it is verified.
+"""Standard equations, and their pull-backs: the objects of the search, and the identity that verifies them.
 
 If u'' = S0(z) u and z = f(x), then y = u(f)/sqrt(f') satisfies y'' = S y with
 
@@ -163,10 +163,10 @@ class StandardEquation(ABC):
     @property
     @abstractmethod
     def cost(self) -> Cost:
-        """What FLINT's functions cost beside Taylor's method."""
+        """The cost of FLINT's functions relative to Taylor's method."""
 
     def coordinate(self, n: Any, d: Any) -> int:
-        """Which coordinate serves best where f has the value n/d, as a number for `form`."""
+        """The best coordinate where f has the value n/d, as a number for `form`."""
         return 0
 
     @abstractmethod

@@ -55,10 +55,10 @@ if TYPE_CHECKING:
 EQUATIONS: tuple[type[StandardEquation], ...] = (Airy, Whittaker, Bessel, Gauss)
 #: Unknown coefficients of b, and orders of its poles, up to which the system is set up; with parameters.
 _UNKNOWNS = 125
-_WITH_PARAMETERS = 20
+_UNKNOWNS_WITH_PARAMETERS = 20
 
 
-def _candidates(
+def _pullback_candidates(
     problem: Problem, equations: list[type[StandardEquation]], *, extended: bool, shifted: bool = False
 ) -> Iterator[Pullback]:
     """Raises `LimitExceeded` in the end where a limit on constants kept one of the equations from being sought."""
@@ -100,14 +100,14 @@ def _transformation(problem: Problem, target: Problem) -> tuple[Poly, RatFunc, R
         options.append(possible)
     for orders in product(*options):
         is_square = not sum(least % 2 * place.degree for place, least in orders) % 2
-        found = _solved(problem.S, target.S, orders) if is_square else None
+        found = _solved_system(problem.S, target.S, orders) if is_square else None
         if found is not None:
             return found
     return None
 
 
 def _orders(first: Place, second: Place) -> list[_Order]:
-    """What is possible, for each parity; nothing where something isn't kept."""
+    """The possible orders for each parity; none if an invariant differs."""
     order = max(2, first.order, second.order)
     base = order - 4 if first.at_infinity else order
     found: dict[int, _Order] = {}
@@ -150,7 +150,7 @@ _Operator = list[RatFunc]
 """c_0 B + c_1 B' + ..., times a function u."""
 
 
-def _solved(S: RatFunc, T: RatFunc, orders: Sequence[_Order]) -> tuple[Poly, RatFunc, RatFunc] | None:
+def _solved_system(S: RatFunc, T: RatFunc, orders: Sequence[_Order]) -> tuple[Poly, RatFunc, RatFunc] | None:
     """m, a and b by (2), for b = u B with u = sqrt(m) R and a polynomial B of bounded degree."""
     one = S.field.poly([1])
     m = one
@@ -168,7 +168,7 @@ def _solved(S: RatFunc, T: RatFunc, orders: Sequence[_Order]) -> tuple[Poly, Rat
         size += abs(order) * place.degree
     degree = (degree - m.degree) // 2
     size += degree + 1
-    if degree < 0 or size > (_UNKNOWNS if S.field == QQ else _WITH_PARAMETERS):
+    if degree < 0 or size > (_UNKNOWNS if S.field == QQ else _UNKNOWNS_WITH_PARAMETERS):
         return None
     zero = RatFunc(one * 0)
     rate = half_rate(m) + R.derivative() / R  # u'/u
@@ -315,7 +315,11 @@ def find(S: RatFunc, budget: Budget, *, extended: bool = True) -> SpecialFunctio
             problem = analyse(S, budget)
             equations = _equations(problem)
             searched = tuple(equation.searched for equation in equations)
-            found = (pullback for pullback in _candidates(problem, equations, extended=extended) if pullback.gives(S))
+            found = (
+                pullback
+                for pullback in _pullback_candidates(problem, equations, extended=extended)
+                if pullback.gives(S)
+            )
             return SpecialFunctions(next(found, None), searched)
     except LimitExceeded as limit:
         return SpecialFunctions(None, searched, str(limit))
@@ -331,10 +335,10 @@ def pair_for(wanted: Wanted, source: Pullback | GaugeTransform) -> WrittenPair |
 
     writer = Writer(wanted, source.transform)
     found = source.pullback.equation.written(writer, source.pullback.f)
-    return None if found is None else _checked(found, writer)
+    return None if found is None else _checked_pair(found, writer)
 
 
-def _checked(pair: WrittenPair, writer: Writer) -> WrittenPair:
+def _checked_pair(pair: WrittenPair, writer: Writer) -> WrittenPair:
     """The pair in the user's symbols; raises `VerificationFailed` where one isn't a solution, to 50 digits at a point."""
     from kovacic.closed_form.check import is_numerical_solution
 
@@ -349,7 +353,7 @@ def _checked(pair: WrittenPair, writer: Writer) -> WrittenPair:
 def special_functions(request: Wanted, budget: Budget) -> SpecialFunctions:
     """Solutions of the equation of a request.
 
-    The pull-back is verified exactly, in rational functions; what is shown is checked at a point, to 50 digits.  Liouvillian
+    The pull-back is verified exactly, in rational functions; formulas are checked at a point, to 50 digits.  Liouvillian
     solutions aren't looked for, but where the group is reducible the two solutions may be dependent for some values of the
     parameters.
 
@@ -391,7 +395,7 @@ def find_transform(S: RatFunc, budget: Budget) -> GaugeTransform | None:
     tried = {S}
     with suppress(LimitExceeded), budget.watched(), bounded_work(_TRANSFORM_WORK):
         problem = analyse(S, budget)
-        for pullback in _candidates(problem, _equations(problem), extended=False, shifted=True):
+        for pullback in _pullback_candidates(problem, _equations(problem), extended=False, shifted=True):
             T = pullback.S
             if T in tried:
                 continue
@@ -439,8 +443,8 @@ def by_sign(request: Wanted, budget: Budget) -> BySign | None:
             best = max(_helpful(pullback, writer), key=lambda found: found.negative is not None, default=None)
             if best is None:
                 return None
-            natural = _checked(best.natural, writer)
-            negative = None if best.negative is None else _checked(best.negative, writer)
+            natural = _checked_pair(best.natural, writer)
+            negative = None if best.negative is None else _checked_pair(best.negative, writer)
     except LimitExceeded:
         return None
     return BySign(best.integer.xreplace(writer.own), natural, negative)

@@ -36,9 +36,9 @@ from kovacic.algebra.poly import Poly
 from kovacic.algebra.ratfunc import RatFunc
 from kovacic.closed_form.product import product as product_of
 from kovacic.engine.places import Problem
-from kovacic.limits import count_work
+from kovacic.limits import MOST_TRIALS, count_work
 from kovacic.special import prices
-from kovacic.special.bessel import Bessel, written
+from kovacic.special.bessel import Bessel, written_pair
 from kovacic.special.maps import HALF, Number, PolarPart, irregular_places, parts_by_scale, zeros
 from kovacic.special.pullback import (
     TRIAL,
@@ -55,9 +55,6 @@ from kovacic.special.pullback import (
 if TYPE_CHECKING:
     from kovacic.closed_form.atoms import Expr
     from kovacic.special.writer import Writer, WrittenFactor, WrittenPair, WrittenTerm
-
-#: Irregular places up to which all signs are tried where no residue tells them.
-_MOST_SIGNS = 10
 
 
 @dataclass(frozen=True)
@@ -86,10 +83,10 @@ class Whittaker(Bessel):
 
     def written(self, writer: Writer, f: RatFunc) -> WrittenPair:
         if not self.r:
-            return written(writer, self.M + Fraction(1, 4), f * f * self.q * Fraction(-1, 4))
+            return written_pair(writer, self.M + Fraction(1, 4), f * f * self.q * Fraction(-1, 4))
         form = _WhittakerForm.of(self, writer, f)
         for turned in (form, form.turned):
-            polynomial = _hermite(turned) or _laguerre(turned)
+            polynomial = _hermite(turned) or _laguerre_pair(turned)
             if polynomial is not None:
                 return polynomial
         return _kummer_or_tricomi(form)
@@ -162,7 +159,7 @@ def _signs(parts: list[PolarPart]) -> Iterator[Sequence[int]]:
     """The signs of the parts: their residues are proportional to the orders; all signs where the residues vanish."""
     rates = [part.residue * Fraction(1, part.order) for part in parts]
     if not any(rates):
-        if len(parts) <= _MOST_SIGNS:
+        if 2 ** (len(parts) - 1) <= MOST_TRIALS:
             yield from product((1,), *[(1, -1)] * (len(parts) - 1))
         return
     signs = {rates[0]: 1, -rates[0]: -1}
@@ -277,7 +274,7 @@ def _hermite(form: _WhittakerForm) -> WrittenPair | None:
     return writer.pair((before, sympy.hermite(N, root)), (before, other), lambda: bracket)
 
 
-def _laguerre(form: _WhittakerForm) -> WrittenPair | None:
+def _laguerre_pair(form: _WhittakerForm) -> WrittenPair | None:
     import sympy
 
     writer = form.writer
@@ -292,7 +289,7 @@ def _laguerre(form: _WhittakerForm) -> WrittenPair | None:
         if is_named:
             first = first[0], sympy.assoc_laguerre(N, a, form.z)
         if integer:  # (-z)^N/N! exp(-z/2) and exp(z/2) at infinity; L_N(0) = (a + 1)_N/N!
-            # a product of N factors is left as it is where N is a number, too large for a degree
+            # a product of N factors is left alone where N is a number, too large for a degree
             scale = sympy.factorial(N) if is_named else sympy.rf(a + 1, N, evaluate=not N.is_Number)
             return writer.pair(first, form.turned.tricomi, partial(mul, (-form.z) ** N / scale, form.slope))
         if is_named:

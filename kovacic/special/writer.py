@@ -31,7 +31,7 @@ from kovacic.special.maps import HALF, Number, half_rate
 
 @dataclass(frozen=True)
 class WrittenFactor:
-    """What stands before the special function: a product over the field, and what has irrational exponents."""
+    """The factors before the special function: a product over the field, and factors with irrational exponents."""
 
     product: Product
     others: tuple[Expr, ...]
@@ -43,7 +43,7 @@ class WrittenFactor:
 
 @dataclass(frozen=True)
 class WrittenPair:
-    """Two solutions, and what is known of them for all values of the letters; iterating gives y1 and y2.
+    """Two solutions, with facts about them that hold for all values of the letters; iterating gives y1 and y2.
 
     Attributes
     ----------

@@ -12,6 +12,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
+from itertools import product
 from operator import mul
 from typing import Any
 
@@ -20,7 +21,7 @@ from flint import acb, acb_series, arb, ctx
 
 from kovacic.algebra.precision import series_length, working_precision
 from kovacic.closed_form.jets import BallEvaluator
-from kovacic.errors import InputError, LimitExceeded
+from kovacic.errors import InputError
 from kovacic.limits import check_time, count_work
 from kovacic.sturm_liouville.problem import Span, Stretch, SturmProblem, ball, kept
 
@@ -31,10 +32,6 @@ _STEEPEST_DISC = 24
 _RADIUS_OVER_STEP = 8
 #: A lower bound of pi.
 _TURN = arb(157) / 50
-#: Columns, and rows, of boxes over half a disc.
-_COLUMNS = 4
-_UNBOUNDED_IN_BOXES = (sympy.exp, sympy.sin, sympy.cos, sympy.tan, sympy.cosh, sympy.sinh, sympy.tanh)
-_MAX_STEPS = 20_000
 _SMALLEST_RADIUS = arb(1) / 2**80
 
 
@@ -128,7 +125,7 @@ class _GermEvaluator(BallEvaluator):
         return BallEvaluator(self.values, analytic=self.analytic)(mean)
 
 
-def coefficients(e: Expr, x: Expr, x0: Any, terms: int) -> list[Any]:
+def taylor_coefficients(e: Expr, x: Expr, x0: Any, terms: int) -> list[Any]:
     """The Taylor coefficients of e about x0, without zeros at the end.  Raises `InputError` unless they are real."""
     with series_length(terms):
         try:
@@ -151,69 +148,52 @@ def not_analytic(x: Expr, x0: Any) -> InputError:
     return InputError(f"the coefficients aren't known to be analytic near {x} = {x0.mid().str(10, radius=False)}")
 
 
-def size(e: Expr, x: Expr, x0: Any, radius: Any) -> Any:
+def size_bound(e: Expr, x: Expr, x0: Any, radius: Any) -> Any:
     """An upper bound of |e| in a disc in which e is analytic; infinite if that isn't known.
 
-    Where one box isn't enough, as for 1/cosh(x), the upper half of the disc is in several: e(conj x) = conj e(x).
+    Where one box isn't enough, as for 1/cosh(x), the upper half of the disc is in 4 x 4 of them: e(conj x) = conj e(x).
     """
-    box = acb(x0 + arb(0, radius), arb(0, radius))
-    whole = abs(_GermEvaluator({x: box}, analytic=True)(e)).upper()
-    if whole.is_finite() or not e.has(*_UNBOUNDED_IN_BOXES):
-        return whole
-    half = radius / (2 * _COLUMNS)
-    largest = arb(0)
-    for row in range(1, 2 * _COLUMNS, 2):
-        for column in range(1, 2 * _COLUMNS, 2):
-            centre = x0 + half * (2 * column - 2 * _COLUMNS)
-            box = acb(centre + arb(0, 2 * half), half * row + arb(0, half))
-            largest = largest.max(abs(_GermEvaluator({x: box}, analytic=True)(e)).upper())
-            if not largest.is_finite():
-                return largest
-    return largest
+    most = abs(_GermEvaluator({x: acb(x0 + arb(0, radius), arb(0, radius))}, analytic=True)(e)).upper()
+    if most.is_finite():
+        return most
+    half = radius / 8
+    most = arb(0)
+    for row, column in product(range(1, 8, 2), repeat=2):
+        box = acb(x0 + half * (2 * column - 8) + arb(0, 2 * half), half * row + arb(0, half))
+        most = most.max(abs(_GermEvaluator({x: box}, analytic=True)(e)).upper())
+        if not most.is_finite():
+            break
+    return most
 
 
+@dataclass(frozen=True)
 class Road:
-    """The pieces of a problem, and steps along them for a range of E."""
+    """Steps along the pieces of a problem, for a range of E."""
 
-    def __init__(self, problem: SturmProblem, span: Span) -> None:
-        self.x = problem.x
-        self.pieces = problem.pieces
-        self.span = span
-
-    def value(self, x: Any, E: Any) -> Any:
-        """Q - E W near x, without a bound of the error: only to choose good points."""
-        for piece in self.pieces:
-            if piece.high.is_infinite or x < ball(piece.high):
-                break
-        at = BallEvaluator({self.x: acb(x)})
-        return (at(piece.Q) - E * at(piece.W)).real.mid()
+    problem: SturmProblem
+    span: Span
 
     @kept
     def steps(self, start: Any, stop: Any, prec: int) -> tuple[TaylorStep, ...]:
         """From one point to another, which may be balls around the exact ones."""
+        found: list[TaylorStep] = []
         with working_precision(prec):
-            return tuple(self._steps(start, stop, prec))
-
-    def _steps(self, start: Any, stop: Any, prec: int) -> Iterator[TaylorStep]:
-        here = start
-        radius = _RADIUS_OVER_STEP * abs(stop - start).upper()
-        for piece, last, kick in self._parts(start, stop):
-            for _ in range(_MAX_STEPS):
-                check_time()
-                count_work(prec)
-                step, is_last = self._step(piece, here, last, radius, prec)
-                yield replace(step, kick=kick) if is_last else step
-                radius = step.radius * 3 / 2
-                here = last if is_last else here + step.t
-                if is_last:
-                    break
-            else:
-                raise LimitExceeded(f"more than {_MAX_STEPS} steps are needed", limit="unknown_degree")
+            here, radius = start, _RADIUS_OVER_STEP * abs(stop - start).upper()
+            for piece, last, kick in self._parts(start, stop):
+                is_last = False
+                while not is_last:
+                    check_time()
+                    count_work(prec)
+                    step, is_last = self._step(piece, here, last, radius, prec)
+                    found.append(replace(step, kick=kick) if is_last else step)
+                    radius = step.radius * 3 / 2
+                    here = last if is_last else here + step.t
+        return tuple(found)
 
     def _parts(self, start: Any, stop: Any) -> Iterator[tuple[Stretch, Any, Any]]:
         """The pieces on the way, each with the point at which it is left, and the delta function there."""
         forwards = start < stop
-        pieces = self.pieces if forwards else self.pieces[::-1]
+        pieces = self.problem.pieces if forwards else self.problem.pieces[::-1]
         for number, piece in enumerate(pieces):
             end = piece.high if forwards else piece.low
             far = None if end.is_infinite else ball(end)
@@ -230,24 +210,24 @@ class Road:
         whole = _RADIUS_OVER_STEP * abs(distance).upper()
         radius = min(radius, whole)
         while True:
-            q = size(piece.Q, self.x, here, radius)
-            w = size(piece.W, self.x, here, radius)
+            q = size_bound(piece.Q, self.problem.x, here, radius)
+            w = size_bound(piece.W, self.problem.x, here, radius)
             k = (q + self.span.size * w).sqrt()
             if (k * radius).is_finite() and k * radius <= _STEEPEST_DISC:
                 break
             radius = radius * 3 / 4
             if radius < abs(distance) * _SMALLEST_RADIUS:
-                raise not_analytic(self.x, here)
+                raise not_analytic(self.problem.x, here)
         is_last = radius == whole
         t = distance if is_last else radius / _RADIUS_OVER_STEP * (1 if distance > 0 else -1)
         growth = (k * radius).exp()
         terms = 16 + prec // 3  # 8^12 is above exp(24)
         ratio = abs(t) / radius
         tail = (growth * ratio**terms * terms / (1 - ratio) ** 2).upper()
-        series = (coefficients(e, self.x, here, terms) for e in (piece.Q, piece.W))
+        series = (taylor_coefficients(e, self.problem.x, here, terms) for e in (piece.Q, piece.W))
         q_t, w_t = ([c * t ** (n + 2) for n, c in enumerate(s)] for s in series)
         q_t += [arb(0)] * (len(w_t) - len(q_t))
-        at = BallEvaluator({self.x: acb(here.union(here + t))})
+        at = BallEvaluator({self.problem.x: acb(here.union(here + t))})
         depth = (self.span.high * at(piece.W) - at(piece.Q)).real.upper()
         turn = (depth.sqrt() * abs(t)).upper() if depth > 0 else arb(0)
         return TaylorStep(t, radius, q_t, w_t, terms, tail, turn), is_last

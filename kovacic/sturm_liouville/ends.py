@@ -19,8 +19,11 @@ True
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from dataclasses import dataclass
 from functools import cached_property
+from itertools import zip_longest
+from operator import mul
 from typing import Any
 
 import mpmath
@@ -33,7 +36,8 @@ from sympy.simplify.fu import TR1, TR2
 from kovacic.algebra.precision import working_precision
 from kovacic.closed_form.jets import BallEvaluator
 from kovacic.errors import InputError, LimitExceeded
-from kovacic.sturm_liouville.discs import coefficients, germ, size
+from kovacic.limits import check_time
+from kovacic.sturm_liouville.discs import germ, size_bound, taylor_coefficients
 from kovacic.sturm_liouville.problem import Robin, Span, Stretch, SturmProblem, Wish, ball, dyadic_midpoint, kept, plain
 
 _INFINITY = arb.pos_inf()
@@ -41,18 +45,15 @@ _INFINITY = arb.pos_inf()
 _INTERVALS = MPIntervalContext()
 _INTERVALS.prec = 100
 _QUARTER_TURN = _INTERVALS.pi / 2
-#: Derivatives that are tried: cosh(x) - x^2 needs three.
-_MOST_DERIVATIVES = 4
+
 _HYPERBOLIC = [sympy.sinh, sympy.cosh, sympy.tanh, sympy.coth, sympy.sech, sympy.csch]
-#: Terms of a sum, up to which each is tried as the dominant one.
-_MOST_TERMS_OF_SUM = 12
 
 
-def lower_bound(e: Expr, x: Expr, c: Expr, *, derivatives: int = _MOST_DERIVATIVES) -> Any:
+def lower_bound(e: Expr, x: Expr, c: Expr, *, derivatives: int = 4) -> Any:
     """A number (an exact arb, maybe -oo) that isn't above any value of e on [c, oo).
 
     The expression as it stands, or with its dominant term as a factor where that isn't positive; and, where its derivative
-    isn't negative, its value at c.
+    isn't negative, its value at c: cosh(x) - x^2 needs three derivatives.
     """
     simple = _direct(e, x, c)
     best = simple if simple > 0 else simple.max(_dominated(e, x, c))
@@ -99,28 +100,19 @@ _PRINTER = MpmathPrinter({"fully_qualified_modules": False, "inline": True, "all
 
 
 def _dominated(e: Expr, x: Expr, c: Expr) -> Any:
-    """num/den, each as a term times 1 plus quotients of terms; for hyperbolic functions in exponentials."""
-    num, den = sympy.fraction(sympy.together(e.rewrite(_HYPERBOLIC, sympy.exp)))
-    best = -_INFINITY
-    for above in _by_its_terms(num):
-        for below in _by_its_terms(den):
-            leading = sympy.powsimp(above[0] / below[0])
-            best = max(best, _direct(leading * above[1] / below[1], x, c))
-    return best
-
-
-def _by_its_terms(e: Expr) -> list[tuple[Expr, Expr]]:
-    """(T, e/T) for each term T of e, with e/T expanded."""
-    terms = sympy.Add.make_args(sympy.expand(e))
-    if len(terms) > _MOST_TERMS_OF_SUM:
-        return [(e, sympy.Integer(1))]
-    return [(term, sympy.Add(*(sympy.powsimp(other / term) for other in terms))) for term in terms]
+    """num/den, each as its dominant term times 1 plus quotients of terms; for hyperbolic functions in exponentials."""
+    parts = sympy.fraction(sympy.together(e.rewrite(_HYPERBOLIC, sympy.exp)))
+    far = BallEvaluator({x: BallEvaluator({})(c) + 2**20})
+    dominant, sums = [], []
+    for part in parts:
+        terms = sympy.Add.make_args(sympy.expand(part))
+        dominant.append(max(terms, key=lambda term: abs(far(term)).mid()))
+        sums.append(sympy.Add(*(sympy.powsimp(term / dominant[-1]) for term in terms)))
+    return _direct(sympy.powsimp(dominant[0] / dominant[1]) * sums[0] / sums[1], x, c)
 
 
 Expr = Any
-State = tuple[Any, Any]
-#: Doublings of the distance at which the potential is sampled.
-_REACH = 60
+StartValues = tuple[Any, Any]
 
 
 @dataclass(frozen=True)
@@ -136,7 +128,7 @@ class RegularEnd:
     def position(self, span: Span, digits: int) -> Any:
         return ball(self.at)
 
-    def state(self, E: Any, span: Span, at: Any, *, high: bool) -> State:
+    def state(self, E: Any, span: Span, at: Any, *, high: bool) -> StartValues:
         """(beta, -alpha) up to a sign, with Y >= 0 near the end."""
         u, v = ball(self.beta), -ball(self.alpha)
         sign = -1 if u < 0 or (u == 0 and v * self.inwards < 0) else 1
@@ -173,12 +165,12 @@ class SingularEnd:
 
     def _variation(self, radius: Any, top: Any) -> Any:
         G = self.G - self.G.subs(self.t, 0)
-        return size(G, self.t, arb(0), radius) + top * size(self.H, self.t, arb(0), radius)
+        return size_bound(G, self.t, arb(0), radius) + top * size_bound(self.H, self.t, arb(0), radius)
 
     def position(self, span: Span, digits: int) -> Any:
         return ball(self.at) + self.inwards * self._radius(span.size) / 4
 
-    def state(self, E: Any, span: Span, at: Any, *, high: bool) -> State:
+    def state(self, E: Any, span: Span, at: Any, *, high: bool) -> StartValues:
         """Without the factor t^s.  n (n + 2 nu) a_n = sum of (G - E H)_k a_(n-k) over k > 0, and n (n + 2 nu) >= n^2.
 
         |a_n| R^n =: b_n <= (M/n^2) (b_0 + ... + b_(n-1)), and the product of all 1 + M/n^2 is at most exp(pi sqrt M).
@@ -187,17 +179,13 @@ class SingularEnd:
         radius = self._radius(span.size)
         t = radius / 4
         terms = ctx.prec // 2 + 20
-        G = coefficients(self.G, self.t, arb(0), terms)
-        H = coefficients(self.H, self.t, arb(0), terms)
+        G = taylor_coefficients(self.G, self.t, arb(0), terms)
+        H = taylor_coefficients(self.H, self.t, arb(0), terms)
         nu = ball(self.square).sqrt() if self.square != 0 else arb(0)
-        S = [arb(0)] * max(len(G), len(H))
-        for k in range(1, len(G)):
-            S[k] += G[k] * t**k
-        for k in range(1, len(H)):
-            S[k] -= E * H[k] * t**k
+        S = [(g - E * h) * t**k for k, (g, h) in enumerate(zip_longest(G, H, fillvalue=arb(0)))]
         a = [arb(1)]
         for n in range(1, terms):
-            a.append(sum(S[k] * a[n - k] for k in range(1, min(n, len(S) - 1) + 1)) / (n * (n + 2 * nu)))
+            a.append(sum(map(mul, S[1:], reversed(a)), arb(0)) / (n * (n + 2 * nu)))
         rest = arb(0, (8 * self._variation(radius, span.size) / arb(4) ** terms).upper())  # (4/3) M exp(2) / N < 8 M
         u = sum(a) + rest
         v = (arb(1) / 2 + nu) * u + sum(n * c for n, c in enumerate(a)) + rest
@@ -227,14 +215,11 @@ class CutEnd:
 
     @kept
     def _cut(self, top: Any, digits: int) -> Any:
-        first = self._positive_from(top)
+        tau = self._positive_from(top)
         action = arb(0)
-        tau = first
         needed = 1.16 * (digits + 3)
-        for _ in range(100_000):
-            root = self._S(tau, top).sqrt()
-            if not root > 0:
-                break
+        while (root := self._S(tau, top).sqrt()) > 0:
+            check_time()
             step = min(abs(tau) / 16 + arb(1) / 256, 1 / (2 * root)) if self.place.is_polynomial(self.tau) else tau / 32
             after = (tau + step).mid()
             action += root * abs(self._x(after) - self._x(tau))
@@ -271,7 +256,7 @@ class CutEnd:
         """A number from which on Q - top W > 0 is proven."""
         Q, W = self.of_tau
         excess = Q - dyadic_midpoint(top) * W
-        candidates = [self.origin + arb(2) ** k for k in range(-3, _REACH)]
+        candidates = [self.origin + arb(2) ** k for k in range(-3, 60)]
         signs = [bool(self._S(tau, top) > 0) for tau in candidates]
         for k, tau in enumerate(candidates):
             if all(signs[k : k + 12]) and lower_bound(excess, self.tau, dyadic_midpoint(tau)) > 0:
@@ -280,7 +265,7 @@ class CutEnd:
             f"it isn't proven that the potential is above {top.str(6, radius=False)} towards {self._name()}"
         )
 
-    def state(self, E: Any, span: Span, at: Any, *, high: bool) -> State:
+    def state(self, E: Any, span: Span, at: Any, *, high: bool) -> StartValues:
         """The steeper solution, which gives the lower count, or for `high` the flatter one; without bounds Y = 0 or Y' = 0."""
         low, above = self._potential_beyond(at)
         if high:
@@ -305,7 +290,7 @@ class ThresholdEnd:
     def position(self, span: Span, digits: int) -> Any:
         return self.at
 
-    def state(self, E: Any, span: Span, at: Any, *, high: bool) -> State:
+    def state(self, E: Any, span: Span, at: Any, *, high: bool) -> StartValues:
         return arb(1), -self.inwards / (2 * abs(self.at))
 
 
@@ -349,7 +334,7 @@ def end_of(problem: SturmProblem, side: int) -> End:
         with working_precision(64):
             length = (ball(piece.high) - ball(piece.low)).lower()
     found = SingularEnd(at, t, Q, W, inwards, length)
-    if _is_analytic_at_zero(Q, t) and _is_analytic_at_zero(W, t) and W.subs(t, 0) == 0:
+    if _are_analytic((Q, W), t, arb(0)) and W.subs(t, 0) == 0:
         square = found.square
         if square != 0 and not ball(square) > 0:
             said = f"at {problem.x} = {at} the exponents are 1/2 ± sqrt({square}), not known to be real"
@@ -376,15 +361,13 @@ def _times_square(e: Expr, t: Expr) -> Expr:
 
 def is_regular(piece: Stretch, problem: SturmProblem, at: Expr) -> bool:
     """True if the coefficients are analytic at this end."""
-    if at.is_infinite:
-        return False
     with working_precision(64):
-        sizes = [size(e, problem.x, ball(at), arb(1) / 2**40) for e in (piece.Q, piece.W, problem.B)]
-    return all(bound.is_finite() for bound in sizes)
+        return not at.is_infinite and _are_analytic((piece.Q, piece.W, problem.B), problem.x, ball(at))
 
 
-def _is_analytic_at_zero(e: Expr, t: Expr) -> bool:
-    return bool(size(e, t, arb(0), arb(1) / 2**40).is_finite())
+def _are_analytic(functions: Iterable[Expr], x: Expr, at: Any) -> bool:
+    """True if functions of x are analytic near a point."""
+    return all(size_bound(e, x, at, arb(1) / 2**40).is_finite() for e in functions)
 
 
 def _check_wish(end: SingularEnd, problem: SturmProblem, wish: Wish) -> None:

@@ -5,17 +5,17 @@ With Y'' = (Q - E W) Y, t = int sqrt(W) dx from the left end and Y = W^(-1/4) v 
 coefficients, Euler's equation and others.  With h = y/v a condition alpha y + beta y' = 0 is (alpha + beta h'/h) v
 + beta t' v_t = 0.
 
-A problem in pieces has an equation for its eigenvalues: solutions on both sides, matched;
-at c delta(x - p), Y' grows by c Y(p).  On each stretch Y'' = q Y, where q =
-a x + b depends on E.  For a = 0 the solutions are waves and exponentials, else Airy's functions of z = c (x + b/a) with c^3 =
-a, since then c^2 z = q.  At an infinite end the decaying solution is meant, at a finite one that with the condition there.  (Y,
-Y') is carried from the left end through the stretches, and E is an eigenvalue where it is a multiple of the solution that is
-meant at the right end.  If q is even about the middle, Y is even or odd, so that Y' or Y vanishes there.
+A problem in pieces has an equation for its eigenvalues, by matching solutions.  On each stretch Y'' = q Y, q = a x + b with b
+depending on E: waves and exponentials for a = 0, else Airy's functions of z = c (x + b/a), c^3 = a, since c^2 z = q; at
+c delta(x - p), Y' grows by c Y(p).  (Y, Y') is carried from the left end through the stretches, and E is an eigenvalue where it
+is a multiple of the solution that decays at the right end, or fulfils the condition there.  If q is even about the middle, Y is
+even or odd, so that Y' or Y vanishes there.
 """
 
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
+from itertools import compress
 from typing import Any
 
 import sympy
@@ -43,32 +43,6 @@ class EigenvalueFamily:
     zero: Expr = sympy.S.One
 
 
-@dataclass(frozen=True)
-class _Waves:
-    """y = h(x) v(t(x)), where v'' = -(E - q) v."""
-
-    x: Expr
-    t: Expr
-    h: Expr
-    q: Expr
-    ends: tuple[Expr, Expr]
-
-    @property
-    def length(self) -> Expr:
-        return sympy.simplify(self.t.subs(self.x, self.ends[1]))
-
-    def wish(self, condition: Robin, side: int) -> tuple[Expr, Expr]:
-        """A and B in A v + B v_t = 0."""
-        at = self.ends[side]
-        steepness = sympy.simplify((self.h.diff(self.x) / self.h).subs(self.x, at))
-        rate = sympy.simplify(self.t.diff(self.x).subs(self.x, at))
-        A = sympy.simplify(condition.alpha + condition.beta * steepness)
-        return A, sympy.simplify(condition.beta * rate)
-
-    def function(self, v: Expr, t: Expr) -> Expr:
-        return sympy.simplify(self.h) * v.subs(t, self.t)
-
-
 def family(
     x: Expr,
     B: Expr,
@@ -84,79 +58,70 @@ def family(
 
     `conditions` are those at the two ends, or 1 or -1 for periodic and antiperiodic ones; letters are taken to be positive.
     """
-    waves = _waves(x, B, c0, c1, ends)
-    if waves is None:
+    transformed = _transformed(x, B, c0, c1, ends)
+    if transformed is None:
         return None
-    t = sympy.Dummy("t", positive=True)
-    T = waves.length
-    if T.has(sympy.I, sympy.nan, sympy.zoo, sympy.oo, -sympy.oo):  # there is a singular point at an end or between
-        return None
+    t, h, q, T = transformed
+    rate = t.diff(x)
     if isinstance(conditions, int):
-        return _wrapped(waves, t, n, conditions)
-    left, right = (waves.wish(condition, side) for side, condition in enumerate(conditions))
+        if h.has(x) or rate.has(x):  # else y is periodic where v is
+            return None
+        first = int(conditions == -1)
+        root = (2 * n - first) * sympy.pi / T
+        functions = (h * sympy.cos(root * rate * x), h * sympy.sin(root * rate * x))
+        return EigenvalueFamily(sympy.simplify(root**2 + q), functions, n, first, shift=q)
+    wishes = []  # A and B in A v + B v_t = 0, at the left and the right end
+    for at, wish in zip(ends, conditions, strict=True):
+        steepness, slope = (sympy.simplify(e.subs(x, at)) for e in (h.diff(x) / h, rate))
+        wishes.append(tuple(map(sympy.simplify, (wish.alpha + wish.beta * steepness, wish.beta * slope))))
+    (A1, B1), (A2, B2) = wishes
     k = sympy.Dummy("k", positive=True)
-    if left[1] == 0:
+    if B1 == 0:
         v = sympy.sin(k * t)
-    elif left[0] == 0:
+    elif A1 == 0:
         v = sympy.cos(k * t)
     else:
-        v = k * sympy.cos(k * t) - left[0] / left[1] * sympy.sin(k * t)
-    if 0 in left and 0 in right:  # else the equation for k is transcendental
-        vanishes = left[1] == 0
-        first, angle = (int(vanishes), n * sympy.pi) if vanishes == (right[1] == 0) else (1, (2 * n - 1) * sympy.pi / 2)
-        root = angle / T
-        return EigenvalueFamily(
-            sympy.simplify(root**2 + waves.q), (waves.function(v.subs(k, root), t),), n, first, shift=waves.q
-        )
-    root = sympy.sqrt(parameter - waves.q)
-    equation = _wave_equation(left, right, root, T)
-    zero = sympy.factor(right[0] * (left[1] - left[0] * T) - right[1] * left[0])  # for v = B1 - A1 t, where k = 0
-    return EigenvalueFamily(parameter, (waves.function(v.subs(k, root), t),), n, 1, equation, waves.q, zero)
+        v = k * sympy.cos(k * t) - A1 / B1 * sympy.sin(k * t)
+    y = sympy.simplify(h) * v
+    if 0 in wishes[0] and 0 in wishes[1]:  # else the equation for k is transcendental
+        root = (n * sympy.pi if (B1 == 0) == (B2 == 0) else (2 * n - 1) * sympy.pi / 2) / T
+        first = int(B1 == 0 or B2 == 0)  # k = 0 belongs to y' = 0 at both ends
+        return EigenvalueFamily(sympy.simplify(root**2 + q), (y.subs(k, root),), n, first, shift=q)
+    root = sympy.sqrt(parameter - q)
+    # A2 v(T) + B2 v_t(T) = 0
+    sines, cosines = sympy.simplify(A1 * A2 + B1 * B2 * root**2), sympy.simplify(root * (A2 * B1 - A1 * B2))
+    equation = sympy.Eq(sines * sympy.sin(root * T), cosines * sympy.cos(root * T), evaluate=False)
+    if 0 in wishes[0]:  # the factors of the sine and the cosine are never both zero then
+        equation = sympy.Eq(sympy.tan(root * T), sympy.simplify(cosines / sines), evaluate=False)
+    zero = sympy.factor(A2 * (B1 - A1 * T) - B2 * A1)  # for v = B1 - A1 t, where k = 0
+    return EigenvalueFamily(parameter, (y.subs(k, root),), n, 1, equation, q, zero)
 
 
-def _waves(x: Expr, B: Expr, c0: Expr, c1: Expr, ends: tuple[Expr, Expr]) -> _Waves | None:
+def _transformed(x: Expr, B: Expr, c0: Expr, c1: Expr, ends: tuple[Expr, Expr]) -> tuple[Expr, Expr, Expr, Expr] | None:
+    """t, h and q in y = h(x) v(t(x)), v'' = -(E - q) v, with t = 0 at the left end, and t = T at the right one.
+
+    None unless q is a constant and T is finite.
+    """
     positive = {s: sympy.Symbol(s.name, positive=True) for s in (B + c0 + c1 + sum(ends)).free_symbols}
     back = {symbol: s for s, symbol in positive.items()}
     X = positive.get(x, x)
-    B, c0, c1, *bounds = (sympy.sympify(e).xreplace(positive) for e in (B, c0, c1, *ends))
+    B, c0, c1, first = (sympy.sympify(e).xreplace(positive) for e in (B, c0, c1, ends[0]))
     root = sympy.sqrt(sympy.factor(c1))
     if not root.is_positive and not root.is_number:
         return None
-    Q = B**2 / 4 + B.diff(X) / 2 - c0
     f = 1 / sympy.sqrt(root)
-    q = sympy.simplify(Q / c1 - f.diff(X, 2) / (f * c1))
+    q = sympy.simplify((B**2 / 4 + B.diff(X) / 2 - c0) / c1 - f.diff(X, 2) / (f * c1))
     if q.has(X):
         return None
     primitive, exponent = (sympy.integrate(sympy.simplify(e), X) for e in (root, -B / 2))
     if primitive.has(sympy.Integral) or exponent.has(sympy.Integral):
         return None
     h = sympy.powsimp(sympy.simplify(f * sympy.exp(exponent))).as_independent(X, as_Add=False)[1]
-    t = sympy.simplify(primitive - primitive.subs(X, bounds[0]))
+    t = sympy.simplify(primitive - primitive.subs(X, first))
     t, h, q = (e.xreplace(back) for e in (t, h, q))
-    return _Waves(x, t, h, q, ends)
-
-
-def _wave_equation(left: tuple[Expr, Expr], right: tuple[Expr, Expr], root: Expr, T: Expr) -> Expr:
-    """A2 v(T) + B2 v_t(T) = 0: (A1 A2 + B1 B2 k^2) sin(k T) = k (A2 B1 - A1 B2) cos(k T).
-
-    With A1 = 0 or B1 = 0 one may divide by the factor of the sine and the cosine, which are never both zero then.
-    """
-    (A1, B1), (A2, B2) = left, right
-    sines = sympy.simplify(A1 * A2 + B1 * B2 * root**2)
-    cosines = sympy.simplify(root * (A2 * B1 - A1 * B2))
-    if A1 == 0 or B1 == 0:
-        return sympy.Eq(sympy.tan(root * T), sympy.simplify(cosines / sines), evaluate=False)
-    return sympy.Eq(sines * sympy.sin(root * T), cosines * sympy.cos(root * T), evaluate=False)
-
-
-def _wrapped(waves: _Waves, t: Expr, n: Expr, wrap: int) -> EigenvalueFamily | None:
-    """Periodic conditions, for which y has to be v."""
-    rate = waves.t.diff(waves.x)
-    if waves.h.has(waves.x) or rate.has(waves.x):
-        return None
-    root = (2 * n if wrap == 1 else 2 * n - 1) * sympy.pi / waves.length
-    functions = tuple((waves.h * v).subs(t, rate * waves.x) for v in (sympy.cos(root * t), sympy.sin(root * t)))
-    return EigenvalueFamily(sympy.simplify(root**2 + waves.q), functions, n, 0 if wrap == 1 else 1, shift=waves.q)
+    T = sympy.simplify(t.subs(x, ends[1]))
+    # It isn't finite where there is a singular point at an end, or not real where there is one between.
+    return None if T.has(sympy.I, sympy.nan, sympy.zoo, sympy.oo, -sympy.oo) else (t, h, q, T)
 
 
 @dataclass(frozen=True)
@@ -170,35 +135,35 @@ class _LinearPiece:
     delta: Expr = sympy.S.Zero
     is_barrier: bool = False
 
-    def airy(self, x: Expr, first: Any, second: Any) -> tuple[Expr, Expr, Expr]:
-        """Two of Airy's functions at x, and dz/dx."""
-        c = sympy.real_root(self.a, 3)
-        z = sympy.expand(c * (x + self.b / self.a))
-        return first(z), second(z), c
+    @property
+    def scale(self) -> Expr:
+        """c = dz/dx, the cube root of a, or 1 for a = 0."""
+        return sympy.real_root(self.a, 3) if self.a != 0 else sympy.S.One
+
+    def solutions(self, x: Expr) -> tuple[tuple[Expr, Expr], tuple[Expr, Expr]]:
+        """Two solutions, each with its slope over c, at x: (1, 0) and (0, 1) at the low end, or Ai and Bi of z."""
+        if self.a == 0:
+            sign, cosine, sine = (1, sympy.cosh, sympy.sinh) if self.is_barrier else (-1, sympy.cos, sympy.sin)
+            k = sympy.sqrt(sign * self.b)
+            C, S = cosine(k * (x - self.low)), sine(k * (x - self.low))
+            return (C, sign * k * S), (S / k, C)
+        z = sympy.expand(self.scale * (x + self.b / self.a))
+        return (sympy.airyai(z), sympy.airyaiprime(z)), (sympy.airybi(z), sympy.airybiprime(z))
 
     def decaying(self, x: Expr, side: int) -> tuple[Expr, Expr]:
         """(Y, Y') at x of the solution that decays at -oo (side 0) or oo (side 1)."""
         if self.a == 0:
-            rate = sympy.sqrt(self.b)
-            return sympy.S.One, rate if side == 0 else -rate
-        Y, slope, c = self.airy(x, sympy.airyai, sympy.airyaiprime)
-        return Y, c * slope
+            return sympy.S.One, (1 - 2 * side) * sympy.sqrt(self.b)
+        Ai, slope = self.solutions(x)[0]
+        return Ai, self.scale * slope
 
-    def carried(self, start: tuple[Expr, Expr]) -> tuple[Expr, Expr]:
+    def carried(self, Y: Expr, slope: Expr) -> tuple[Expr, Expr]:
         """(Y, Y') at the high end, from those at the low one."""
-        Y, slope = start
-        slope += self.delta * Y
-        if self.a == 0:
-            sign, functions = (1, (sympy.cosh, sympy.sinh)) if self.is_barrier else (-1, (sympy.cos, sympy.sin))
-            k = sympy.sqrt(sign * self.b)
-            cosine, sine = (f(k * (self.high - self.low)) for f in functions)
-            return Y * cosine + slope * sine / k, slope * cosine + sign * k * Y * sine
-        Ai, dAi, c = self.airy(self.low, sympy.airyai, sympy.airyaiprime)
-        Bi, dBi, _ = self.airy(self.low, sympy.airybi, sympy.airybiprime)
-        first, second = Y * dBi - slope * Bi / c, slope * Ai / c - Y * dAi  # times 1/pi, the Wronskian of Ai and Bi
-        Ai, dAi, c = self.airy(self.high, sympy.airyai, sympy.airyaiprime)
-        Bi, dBi, _ = self.airy(self.high, sympy.airybi, sympy.airybiprime)
-        return first * Ai + second * Bi, c * (first * dAi + second * dBi)
+        (f, df), (g, dg) = self.solutions(self.low)
+        slope = (slope + self.delta * Y) / self.scale
+        first, second = Y * dg - slope * g, slope * f - Y * df  # times the Wronskian, 1 or 1/pi
+        (f, df), (g, dg) = self.solutions(self.high)
+        return first * f + second * g, self.scale * (first * df + second * dg)
 
 
 def matching_equations(problem: SturmProblem, E: Expr) -> tuple[Expr, ...]:
@@ -210,46 +175,47 @@ def matching_equations(problem: SturmProblem, E: Expr) -> tuple[Expr, ...]:
     >>> matching_equations(SturmProblem(x, stretches), E)
     (Eq(airyaiprime(-E), 0), Eq(airyai(-E), 0))
     """
-    x = problem.x
-    lines = []
-    # A level is below the limits of Q/W, where there are some.
-    outer = [
-        piece.Q / piece.W
-        for piece, end in zip((problem.pieces[0], problem.pieces[-1]), problem.ends, strict=True)
-        if end.is_infinite
-    ]
-    for piece in problem.pieces:
-        q = sympy.expand(piece.Q - E * piece.W)
-        if not q.is_polynomial(x) or sympy.degree(q, x) > 1:
-            return ()
-        is_barrier = not q.has(x) and any(
-            (piece.Q / piece.W - limit).is_nonnegative for limit in outer if not limit.has(x)
-        )
-        lines.append(_LinearPiece(piece.low, piece.high, q.coeff(x, 1), q.coeff(x, 0), piece.delta, is_barrier))
-    outwards = (-lines[0].a, lines[-1].a)
-    falls = [end.is_infinite and not slope.is_nonnegative for end, slope in zip(problem.ends, outwards, strict=True)]
-    first, last = (end.is_infinite for end in problem.ends)
-    if any(falls) or (first and last and len(lines) == 1):
+    is_open = [end.is_infinite for end in problem.ends]
+    lines = _linear_pieces(problem, E, is_open)
+    if not lines or (all(is_open) and len(lines) == 1):
         return ()
-    inner = lines[int(first) : len(lines) - int(last)]
     ends = []
     for side, condition in enumerate(problem.conditions):
         if isinstance(condition, Robin):
             ends.append((condition.beta, -condition.alpha))
         else:
             ends.append(lines[-side].decaying((lines[0].high, lines[-1].low)[side], side))
-    Y, slope = ends[0]
+    state, (Y2, slope2) = ends
+    inner = lines[is_open[0] : len(lines) - is_open[1]]
     middle = _middle(lines, problem)
     if middle is not None:
         inner = [replace(line, high=sympy.Min(line.high, middle)) for line in inner if line.low < middle]
     for line in inner:
-        Y, slope = line.carried((Y, slope))
+        state = line.carried(*state)
+    Y, slope = state
     if middle is not None:  # an even Y' changes its sign there, by the delta function
         half = sum((line.delta for line in lines if line.low == middle), sympy.S.Zero) / 2
         found = _zero_equation(slope + half * Y, E), _zero_equation(Y, E)
         return tuple(equation for equation in found if equation != sympy.false)
-    slope += lines[-1].delta * Y if last else 0
-    return (_zero_equation(Y * ends[1][1] - slope * ends[1][0], E),)
+    slope += lines[-1].delta * Y if is_open[1] else 0
+    return (_zero_equation(Y * slope2 - slope * Y2, E),)
+
+
+def _linear_pieces(problem: SturmProblem, E: Expr, is_open: list[bool]) -> list[_LinearPiece]:
+    """The stretches; none if one isn't linear, or q falls to -oo at one of the ends that are open."""
+    x = problem.x
+    heights = [piece.Q / piece.W for piece in problem.pieces]
+    # A level is below the limits of Q/W, where there are some.
+    limits = [limit for limit in compress((heights[0], heights[-1]), is_open) if not limit.has(x)]
+    lines = []
+    for piece, height in zip(problem.pieces, heights, strict=True):
+        q = sympy.expand(piece.Q - E * piece.W)
+        if not q.is_polynomial(x) or sympy.degree(q, x) > 1:
+            return []
+        is_barrier = not q.has(x) and any((height - limit).is_nonnegative for limit in limits)
+        lines.append(_LinearPiece(piece.low, piece.high, q.coeff(x, 1), q.coeff(x, 0), piece.delta, is_barrier))
+    outwards = compress((-lines[0].a, lines[-1].a), is_open)
+    return lines if all(slope.is_nonnegative for slope in outwards) else []
 
 
 def decay(problem: SturmProblem) -> tuple[Expr, Expr] | None:
@@ -290,13 +256,13 @@ def _middle(lines: list[_LinearPiece], problem: SturmProblem) -> Expr | None:
 
 
 #: Waves and exponentials, with their quotients.
-_WAVES = ((sympy.cos, sympy.sin, sympy.tan, sympy.cot), (sympy.cosh, sympy.sinh, sympy.tanh, sympy.coth))
+_WAVES_WITH_QUOTIENTS = ((sympy.cos, sympy.sin, sympy.tan, sympy.cot), (sympy.cosh, sympy.sinh, sympy.tanh, sympy.coth))
 
 
 def _zero_equation(function: Expr, E: Expr) -> Expr:
-    """function = 0 without constant factors; for two terms with waves k tan(k L) = ... or k cot(k L) = ..., what is shorter."""
+    """function = 0 without constant factors; for two terms with waves the shorter of k tan(k L) = ... and k cot(k L) = ..."""
     expression = function.as_independent(E, as_Add=False)[1]
-    for first, second, quotient, inverse in _WAVES:
+    for first, second, quotient, inverse in _WAVES_WITH_QUOTIENTS:
         angles = {wave.args[0] for wave in expression.atoms(first, second)}
         if len(angles) != 1:
             continue

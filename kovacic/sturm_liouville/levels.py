@@ -37,17 +37,16 @@ from kovacic.sturm_liouville.discs import Road, march
 from kovacic.sturm_liouville.ends import CutEnd, End, end_of
 from kovacic.sturm_liouville.problem import Span, SturmProblem, ball
 
-#: Parts of the interval, at whose ends the depth of the well is sampled; 65 avoids its middle.
-_DEPTH_SAMPLES = 65
-#: The share of the oscillations to the left of the point where the solutions are matched: no symmetric point.
-_MATCH = 0.43
-
 
 @dataclass(frozen=True)
-class Reading:
-    """N(E), None if the balls are too wide, and the approximate value of an analytic function that is 0 at the eigenvalues."""
+class Count:
+    """N at an exact number E, and the approximate value of an analytic function that is 0 at the eigenvalues.
 
-    count: int | None
+    `count` is None if the balls are too wide, and so is `mismatch` if they are much too wide.
+    """
+
+    E: Any
+    count: Any
     mismatch: Any
 
 
@@ -61,24 +60,24 @@ class SeparatedCounter:
         self.road = Road(problem, span)
         with working_precision(64 + 4 * digits):
             self.positions = tuple(end.position(span, digits) for end in ends)
-            self.middle = self._matching_point()
+            self.middle = self._matching_point(problem)
 
     @property
     def is_bracket(self) -> bool:
         """True if the upper and the lower count may differ."""
         return any(isinstance(end, CutEnd) for end in self.ends)
 
-    def _matching_point(self) -> Any:
-        """The point with the share `_MATCH` of the oscillations at the largest E to its left; any point would do."""
+    def _matching_point(self, problem: SturmProblem) -> Any:
+        """A point with some 43 % of the oscillations at the largest E to its left; any point would do, but symmetric ones."""
         low, high = (position.mid() for position in self.positions)
-        points = [(low + (high - low) * k / _DEPTH_SAMPLES).mid() for k in range(1, _DEPTH_SAMPLES)]
-        depths = [(-self.road.value(point, self.span.high)).max(arb(0)).sqrt() for point in points]
-        total = sum(depths)
-        if not total > 0:
-            return points[int(_DEPTH_SAMPLES * _MATCH)]
-        return next(p for p, so_far in zip(points, accumulate(depths), strict=True) if so_far > total * _MATCH)
+        points = [(low + (high - low) * k / 65).mid() for k in range(1, 65)]
+        depths = [(self.span.high * W - Q).max(arb(0)).sqrt() for Q, W in map(problem.around, points)]
+        if not sum(depths) > 0:
+            depths = [arb(1)] * len(points)
+        *_, total = so_far = [*accumulate(depths)]
+        return next(point for point, depth in zip(points, so_far, strict=True) if depth > total * 0.43)
 
-    def at(self, E: Any, prec: int, *, high: bool = False) -> Reading:
+    def at(self, E: Any, prec: int, *, high: bool = False) -> Count:
         """The lower count, or the upper one if `high`."""
         motions = []
         with working_precision(prec):
@@ -88,11 +87,11 @@ class SeparatedCounter:
                 motions.append(march(self.road.steps(position, self.middle, prec), u, v, E))
             left, right = motions
             if left is None or right is None:
-                return Reading(None, None)
+                return Count(E, None, None)
             mismatch = left.v * right.u - left.u * right.v
             against = mismatch * left.u * right.u
             zeros = left.zeros + right.zeros
-        return Reading(None if against.contains(0) else zeros + int(against < 0), mismatch.mid())
+        return Count(E, None if against.contains(0) else zeros + int(against < 0), mismatch.mid())
 
     def zeros(self, k: int) -> int:
         """Of the eigenfunction number k, inside the interval."""
@@ -109,26 +108,24 @@ class PeriodicCounter:
         self.digits = digits
         self.road = Road(problem, span)
 
-    def at(self, E: Any, prec: int, *, high: bool = False) -> Reading:
-        """The count; upper and lower one are the same."""
+    def at(self, E: Any, prec: int, *, high: bool = False) -> Count:
+        """The count; the upper and the lower one are equal."""
         with working_precision(prec):
             low, end = map(ball, self.problem.ends)
             first, last = (ball(self.problem.slope(at)) for at in self.problem.ends)
             steps = self.road.steps(low, end, prec)
             odd = march(steps, arb(0), arb(1), E)
             if odd is None:
-                return Reading(None, None)
+                return Count(E, None, None)
             c, dc = arb(1), first
             for step in steps:
                 c, dc = step.advance(c, dc, E)
             discriminant = c + odd.v - last * odd.u
             excess = discriminant - 2 * self.problem.wrap
-            mismatch = excess.mid()
-            if excess.contains(0):
-                return Reading(None, mismatch)
-            is_above = excess > 0
+        if excess.contains(0):
+            return Count(E, None, excess.mid())
         n = odd.zeros
-        return Reading(2 * ((n + 1) // 2) if is_above else 2 * (n // 2) + 1, mismatch)
+        return Count(E, 2 * ((n + 1) // 2) if excess > 0 else 2 * (n // 2) + 1, excess.mid())
 
     def zeros(self, k: int) -> int:
         """Of the eigenfunction number k in one period."""
@@ -233,7 +230,7 @@ class Eigenvalues(Sequence[Level]):
         """
         import numpy as np
 
-        x, y = samples(self.problem, self.levels[k].value)
+        x, y = wave_samples(self.problem, self.levels[k].value)
         return partial(np.interp, xp=np.array(x), fp=np.array(y), left=0.0, right=0.0)
 
     def to_dict(self) -> dict[str, Any]:
@@ -243,13 +240,9 @@ class Eigenvalues(Sequence[Level]):
 
 
 _PICTURE_BITS = 160
-#: Points of a step.
-_POINTS_OF_STEP = 32
-#: Points beyond a cut, at quarters of the length on which y decays.
-_POINTS_OF_TAIL = 40
 
 
-def samples(problem: SturmProblem, value: Ball) -> tuple[list[float], list[float]]:
+def wave_samples(problem: SturmProblem, value: Ball) -> tuple[list[float], list[float]]:
     """Points x in order, and y there, at most 1 in modulus.  Raises `InputError` for periodic conditions."""
     if problem.wrap:
         raise InputError("functions of periodic problems aren't drawn")
@@ -257,44 +250,36 @@ def samples(problem: SturmProblem, value: Ball) -> tuple[list[float], list[float
         E = problem.sign * ball_to_flint(value).real.mid()
         ends = end_of(problem, 0), end_of(problem, 1)
         counter = SeparatedCounter(problem, ends, Span(E, abs(E) + 1), digits=8)
-        sides = [_half_wave(counter, side, E) for side in (0, 1)]
-        left, right = sides
+        left, right = (_half_wave(counter, side, E) for side in (0, 1))
         k = 1 if abs(right[-1][1]) > abs(right[-1][2]) else 2  # Y or Y' is made continuous, whichever is larger
         scale = (left[-1][k] / right[-1][k]).mid()
         joined = left + [(x, scale * u, scale * v) for x, u, v in right[-2::-1]]
-        gauge = _gauge(problem)
-        values = [(x, u * gauge(x)) for x, u, _ in joined]
-        most = max(abs(y) for _, y in values)
-        return [float(x) for x, _ in values], [float(y / most) for _, y in values]
+        exponent = sympy.integrate(-problem.B / 2, problem.x)  # y/Y = exp(-int B/2)
+        if exponent.has(sympy.Integral):
+            raise InputError(f"the integral of {problem.B} isn't known")
+        gauges = (abs(BallEvaluator({problem.x: acb(x)})(sympy.exp(exponent))) for x, *_ in joined)
+        values = [u * gauge.mid() for (_, u, _), gauge in zip(joined, gauges, strict=True)]
+        most = max(map(abs, values))
+        return [float(x) for x, *_ in joined], [float(y / most) for y in values]
 
 
 def _half_wave(counter: SeparatedCounter, side: int, E: Any) -> list[tuple[Any, Any, Any]]:
     """(x, Y, Y') from an end to the matching point."""
-    x = counter.positions[side]
-    u, v = counter.ends[side].state(E, counter.span, x, high=False)
-    end = counter.ends[side]
+    x, end = counter.positions[side], counter.ends[side]
+    u, v = end.state(E, counter.span, x, high=False)
     found = []
     if isinstance(end, CutEnd) and end.place.is_polynomial(end.tau) and u.mid() != 0 and v.mid() != 0:
         # Beyond the cut of an infinite end y decays at the rate y'/y that it has there; the farthest point comes first.
         rate = abs(v.mid() / u.mid())
-        points = [(x.mid() - end.inwards * k / (4 * rate), (-arb(k) / 4).exp()) for k in range(_POINTS_OF_TAIL, 0, -1)]
-        found = [(at, u.mid() * factor, v.mid() * factor) for at, factor in points]
+        for quarter in range(40, 0, -1):
+            factor = (-arb(quarter) / 4).exp()
+            found.append((x.mid() - end.inwards * quarter / (4 * rate), u.mid() * factor, v.mid() * factor))
     found.append((x, u, v))
+    shares = [arb(k) / 32 for k in range(1, 32)]
     for step in counter.road.steps(x, counter.middle, _PICTURE_BITS):
         a = step.series(u, v, E)
-        shares = [arb(k) / _POINTS_OF_STEP for k in range(1, _POINTS_OF_STEP)]
         found += [(x + step.t * share, sum(c * share**n for n, c in enumerate(a)), arb(0)) for share in shares]
         u, v = (value.mid() for value in step.advance(u, v, E))
         x = (x + step.t).mid()
         found.append((x, u, v))
     return [(at.mid(), y.mid(), dy.mid()) for at, y, dy in found]
-
-
-def _gauge(problem: SturmProblem) -> Any:
-    """exp(-int B/2), y over Y."""
-    if problem.B == 0:
-        return lambda x: arb(1)
-    exponent = sympy.integrate(-problem.B / 2, problem.x)
-    if exponent.has(sympy.Integral):
-        raise InputError(f"the integral of {problem.B} isn't known")
-    return lambda x: abs(BallEvaluator({problem.x: acb(x)})(sympy.exp(exponent))).mid()

@@ -22,9 +22,7 @@ from kovacic.errors import InputError
 Expr = Any
 _T = TypeVar("_T")
 #: Functions in pieces.
-STEPS = (sympy.Abs, sympy.sign, sympy.Heaviside, sympy.Piecewise, sympy.Min, sympy.Max, sympy.DiracDelta)
-#: Bisections of an interval, before the weight counts as not shown to be positive on it: pieces of 1/16,000 of its length.
-_BISECTIONS = 14
+JUMPS = (sympy.Abs, sympy.sign, sympy.Heaviside, sympy.Piecewise, sympy.Min, sympy.Max, sympy.DiracDelta)
 
 
 @dataclass(frozen=True)
@@ -88,6 +86,13 @@ class SturmProblem:
     def ends(self) -> tuple[Expr, Expr]:
         return self.pieces[0].low, self.pieces[-1].high
 
+    def around(self, x: Any) -> tuple[Any, Any]:
+        """Q and W near a number, without a bound of the error."""
+        pieces = (p for p in self.pieces if p.high.is_infinite or x < ball(p.high))
+        piece = next(pieces, self.pieces[-1])
+        at = BallEvaluator({self.x: acb(x)})
+        return at(piece.Q).real.mid(), at(piece.W).real.mid()
+
     def slope(self, at: Expr) -> Expr:
         """B/2 at a point: y'/y = Y'/Y - B/2."""
         return (self.B / 2).subs(self.x, at)
@@ -116,7 +121,7 @@ def ball(e: Expr) -> Any:
     return found.real
 
 
-def pieces_of(Q: Expr, W: Expr, x: Expr, domain: tuple[Expr, Expr]) -> tuple[Stretch, ...]:
+def stretches_of(Q: Expr, W: Expr, x: Expr, domain: tuple[Expr, Expr]) -> tuple[Stretch, ...]:
     """Q and W between the points at which one of their absolute values, steps or cases changes.
 
     Raises `InputError` if these points can't be found, for a delta function at an end or in a product, and if W isn't shown to
@@ -141,7 +146,7 @@ def _delta_at(place: Expr, Q: Expr, x: Expr) -> Expr:
     for step in Q.atoms(sympy.DiracDelta):
         factor = sympy.expand(Q).coeff(step)
         rest = sympy.expand(Q - factor * step)
-        if len(step.args) > 1 or factor.has(*STEPS) or rest.has(step):
+        if len(step.args) > 1 or factor.has(*JUMPS) or rest.has(step):
             raise InputError(f"{step} is expected alone, or times a function without steps")
         (g,) = step.args
         if place.is_finite is not False and sympy.simplify(g.subs(x, place)) == 0:
@@ -151,7 +156,7 @@ def _delta_at(place: Expr, Q: Expr, x: Expr) -> Expr:
 
 def _breaks(e: Expr, x: Expr, domain: tuple[Expr, Expr]) -> list[Expr]:
     """The points strictly inside the domain, in order."""
-    steps = [step for step in e.atoms(*STEPS) if step.has(x)]
+    steps = [step for step in e.atoms(*JUMPS) if step.has(x)]
     switches = {switch for step in steps for switch in _branches(step)[0]}
     points = set()
     while any(switch.has(sympy.Abs) for switch in switches):  # |f| is f or -f
@@ -160,7 +165,7 @@ def _breaks(e: Expr, x: Expr, domain: tuple[Expr, Expr]) -> list[Expr]:
         if not switch.is_polynomial(x):
             raise InputError(f"it isn't known where {switch} changes its sign")
         polynomial = sympy.Poly(switch, x)
-        is_rational = all(c.is_Rational for c in polynomial.coeffs())
+        is_rational = polynomial.domain in (sympy.ZZ, sympy.QQ)
         roots = polynomial.real_roots() if is_rational else sympy.solve(switch, x)
         points |= {root for root in roots if root.is_real is not False}
     inside = [point for point in points if _is_below(domain[0], point) and _is_below(point, domain[1])]
@@ -168,7 +173,7 @@ def _breaks(e: Expr, x: Expr, domain: tuple[Expr, Expr]) -> list[Expr]:
 
 
 def _branches(step: Expr) -> tuple[Sequence[Expr], Sequence[Expr]]:
-    """Functions of which one changes its sign where a step does something, and what the step may be beside these places."""
+    """Functions of which one changes its sign where a step changes, and the values of the step between such places."""
     if isinstance(step, sympy.Piecewise):
         relations = [relation for _, condition in step.args for relation in condition.atoms(Relational)]
         return [relation.lhs - relation.rhs for relation in relations], [value for value, _ in step.args]
@@ -220,7 +225,7 @@ def dyadic_midpoint(value: Any) -> Expr:
 def _resolved(e: Expr, x: Expr, inside: Expr) -> Expr:
     """Without absolute values, signs, steps and cases, as they are around a point."""
     while True:
-        steps = [step for step in e.atoms(*STEPS) if step.has(x)]
+        steps = [step for step in e.atoms(*JUMPS) if step.has(x)]
         if not steps:
             return e
         innermost = min(steps, key=sympy.count_ops)
@@ -242,7 +247,7 @@ def _check_weight(piece: Stretch, x: Expr, inside: Expr) -> None:
     low, high = piece.low, piece.high
     if low.is_finite and high.is_finite:
         vanishes = [sympy.simplify(W.subs(x, end)) == 0 for end in (low, high)]
-        if _is_positive(W, x, (ball(low), ball(high)), vanishes, _BISECTIONS):
+        if _is_positive(W, x, (ball(low), ball(high)), vanishes, 14):
             return
     raise InputError(
         f"the coefficient of the parameter isn't known to be positive: {W}",
@@ -252,18 +257,17 @@ def _check_weight(piece: Stretch, x: Expr, inside: Expr) -> None:
 
 def _is_without_roots(piece: Stretch, x: Expr, inside: Expr) -> bool:
     """True if W is rational, positive at a point inside, and has neither zeros nor poles inside."""
+    if not piece.W.is_rational_function(x):
+        return False
     num, den = sympy.fraction(sympy.cancel(sympy.together(piece.W)))
-    polynomial = num * den
-    if not polynomial.is_polynomial(x) or not all(c.is_Rational for c in sympy.Poly(polynomial, x).coeffs()):
+    polynomial = sympy.Poly(num * den, x)
+    if polynomial.domain not in (sympy.ZZ, sympy.QQ) or not ball(piece.W.subs(x, inside)) > 0:
         return False
-    if not ball(piece.W.subs(x, inside)) > 0:
-        return False
-    roots = sympy.real_roots(sympy.Poly(polynomial, x)) if polynomial.has(x) else []
-    return not any(_is_below(piece.low, root) and _is_below(root, piece.high) for root in roots)
+    return not any(_is_below(piece.low, root) and _is_below(root, piece.high) for root in polynomial.real_roots())
 
 
 def _is_positive(W: Expr, x: Expr, ends: tuple[arb, arb], vanishes: Sequence[bool], halvings: int) -> bool:
-    """True if W > 0 in balls; next to an end where W vanishes, by the sign of its derivative."""
+    """True if W > 0 in balls, after that many halvings; next to an end where W vanishes, by the sign of its derivative."""
     low, high = ends
     whole = BallEvaluator({x: acb(low.union(high))}, analytic=True)
     if whole(W).real > 0:
@@ -286,13 +290,13 @@ def normal_form(
     if any(e.has(sympy.I) for e in coefficients):
         raise InputError("the coefficients aren't real")
     B = sympy.cancel(b / a) if (b / a).is_rational_function(x) else sympy.simplify(b / a)
-    if B.has(*STEPS):
+    if B.has(*JUMPS):
         raise InputError("the coefficient of y' is a function in pieces, for which eigenvalues aren't computed")
     Q = plain(B**2 / 4 + B.diff(x) / 2 - c0 / a, x)
     W = plain(c1 / a, x)
     inside = point_between(*domain)
     sign = 1 if ball(_resolved(W, x, inside).subs(x, inside)) > 0 else -1
-    return pieces_of(Q, sign * W, x, domain), B, sign
+    return stretches_of(Q, sign * W, x, domain), B, sign
 
 
 def plain(e: Expr, x: Expr) -> Expr:

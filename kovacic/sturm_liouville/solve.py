@@ -9,53 +9,31 @@ from __future__ import annotations
 from collections.abc import Iterator
 from dataclasses import dataclass, field, replace
 from functools import cached_property
+from itertools import count
 from typing import Any
 
 from flint import arb
 
 from kovacic.algebra.precision import working_precision
-from kovacic.closed_form.jets import BallEvaluator
 from kovacic.enclosure.ball import Ball, finite_ball
 from kovacic.errors import LimitExceeded
 from kovacic.limits import check_time
 from kovacic.sturm_liouville.ends import End, SingularEnd, at_threshold, end_of
-from kovacic.sturm_liouville.levels import Eigenvalues, Level, PeriodicCounter, SeparatedCounter
+from kovacic.sturm_liouville.levels import Count, Eigenvalues, Level, PeriodicCounter, SeparatedCounter
 from kovacic.sturm_liouville.problem import Span, SturmProblem, ball, kept
 
-#: Raises of the precision, by half each, until balls are narrow enough to count.
-_RAISES = 5
-#: Steps of regula falsi towards a level, and balls that are tried about it.
-_REFINEMENTS = 100
-_PROOFS = 8
-#: Doublings of the digits, to tell two levels apart or to cut an end nearer to infinity.
-_SEPARATIONS = 4
-#: Digits while the range is being looked for.
-_ROUGH_DIGITS = 4
-#: Steps of the range's upper end, each four times as far away.
+#: Attempts to count at a number, and to tell two levels apart or cut an end nearer to infinity.
+_COUNT_ATTEMPTS = 5
+#: Steps of the range's ends, each four times as far away.
 _RANGE_STEPS = 24
-#: Steps towards the essential spectrum, each to a quarter of the distance.
-_APPROACHES = 7
 #: Radii of a ball that are free of other levels on both sides of it: balls of neighbours are disjoint, also as printed.
 _FREE_RADII = 16
 #: Where an interval is divided; the next share is taken if a count fails, as it does at an eigenvalue.
 _SHARES = tuple(arb(n) / 64 for n in (31, 37, 23, 41))
-#: Bits of the count at the bottom of the essential spectrum, which has to be one of few levels.
-_TOTAL_BITS = 128
-#: Pairs of periodic levels often coincide: twice the digits are tried, not more.
-_PERIODIC_SEPARATIONS = 2
 
 
 class _Near(Exception):
     """A number is so near to an eigenvalue that it isn't known on which side it lies."""
-
-
-@dataclass(frozen=True)
-class Count:
-    """N at an exact number, and roughly a function that is zero at the eigenvalues."""
-
-    E: Any
-    count: int
-    mismatch: Any
 
 
 class Searcher:
@@ -68,22 +46,20 @@ class Searcher:
         self.unit = arb(0)
         self._known: dict[tuple[Any, bool], Count] = {}
 
-    def at(self, E: Any, *, high: bool = False, raises: int = _RAISES) -> Count:
-        """The count at E; raises `_Near` if E is too near to an eigenvalue."""
+    def at(self, E: Any, *, high: bool = False, attempts: int = _COUNT_ATTEMPTS) -> Count:
+        """The count at E, the precision raised by half at each attempt; raises `_Near` if E is too near to an eigenvalue."""
         key = (E.man_exp(), high)
-        if key not in self._known:
-            self._known[key] = self._counted(E, high, raises)
-        return self._known[key]
-
-    def _counted(self, E: Any, high: bool, raises: int) -> Count:
+        if key in self._known:
+            return self._known[key]
         bits = self.bits
-        for _ in range(raises):
+        for _ in range(attempts):
             check_time()
-            reading = self.counter.at(E, bits, high=high)
-            if reading.count is not None:
-                return Count(E, reading.count, reading.mismatch)
+            found: Count = self.counter.at(E, bits, high=high)
+            if found.count is not None:
+                self._known[key] = found
+                return found
             bits += max(bits // 2, 64)
-            if reading.mismatch is None:
+            if found.mismatch is None:  # other numbers need that, too
                 self.bits = bits
         raise _Near
 
@@ -146,7 +122,7 @@ class Searcher:
         if (a.count, b.count) != (k, k + 1):
             return None
         free = a.E, b.E
-        for _ in range(_PROOFS):
+        for _ in range(8):
             guess, a, b = self._refined(k, a, b, free)
             with working_precision(2 * self.bits):
                 radius = self._radius_inside(guess, free, a, b)
@@ -164,18 +140,19 @@ class Searcher:
         return None
 
     def _refined(self, k: int, a: Count, b: Count, free: tuple[Any, Any]) -> tuple[Any, Count, Count]:
-        """A number near the zero of the mismatch in (a, b): regula falsi with the weights of Anderson and Bjorck."""
+        """A number near the zero of the mismatch in (a, b): regula falsi with bisections."""
         fa, fb = a.mismatch, b.mismatch
         E = last = a.E
         side = 0
         with working_precision(2 * self.bits):
             before = b.E - a.E
-            for number in range(_REFINEMENTS):
+            for number in count():
                 E = ((a.E * fb - b.E * fa) / (fb - fa)).mid()
                 width = b.E - a.E
                 is_slow = number % 4 == 3 and width * 4 > before
                 if number % 4 == 3:
                     before = width
+                # Far from a level the mismatch is exponential in E: the zero of a chord would be next to one end.
                 is_steep = number < 4 and not abs(fa) / 1000 < abs(fb) < abs(fa) * 1000
                 if is_slow or is_steep or not a.E < E < b.E:
                     E = ((a.E + b.E) / 2).mid()
@@ -184,7 +161,7 @@ class Searcher:
                     break
                 last = E
                 try:
-                    c = self.at(self._rounded(E, radius / 64), raises=2)
+                    c = self.at(self._rounded(E, radius / 64), attempts=2)
                 except _Near:
                     break
                 if c.count <= k:
@@ -247,11 +224,9 @@ class Eigenproblem:
         if low.is_infinite or high.is_infinite:
             return arb(1)
         with working_precision(64):
-            middle = (ball(low) + (ball(high) - ball(low)) * 3 / 7).mid()
-            pieces = self.problem.pieces
-            piece = next((p for p in pieces if p.high.is_infinite or middle < ball(p.high)), pieces[-1])
-            weight = BallEvaluator({self.problem.x: middle})(piece.W).real
-            return (10 / ((ball(high) - ball(low)) ** 2 * weight)).mid()
+            length = ball(high) - ball(low)
+            _, W = self.problem.around((ball(low) + length * 3 / 7).mid())
+            return (10 / (length**2 * W)).mid()
 
     @property
     def total(self) -> int | None:
@@ -259,10 +234,11 @@ class Eigenproblem:
         first, second = (at_threshold(end, self.threshold) for end in self.ends)
         if first is None or second is None:
             return None
-        with working_precision(_TOTAL_BITS):
+        with working_precision(128):
             bottom = ball(self.threshold)
         counter = SeparatedCounter(self.problem, (first, second), Span(bottom.upper(), abs(bottom).upper()), digits=6)
-        return counter.at(bottom, _TOTAL_BITS, high=True).count
+        found: int | None = counter.at(bottom, 128, high=True).count
+        return found
 
     def levels(self, count: int, digits: int) -> Iterator[Level]:
         """The lowest levels, `count` at most.  Raises `InputError` and `LimitExceeded`."""
@@ -277,7 +253,8 @@ class Eigenproblem:
 
     def _next(self, k: int, low: Any, high: Any, digits: int) -> list[Level]:
         """Level k, or all that share its ball."""
-        for attempt in range(_PERIODIC_SEPARATIONS if self.problem.wrap else _SEPARATIONS):
+        # Pairs of periodic levels often coincide, whatever the number of digits.
+        for attempt in range(2 if self.problem.wrap else _COUNT_ATTEMPTS):
             searcher = self._searcher(high, max(abs(low), abs(high)), digits, digits * 2**attempt)
             below, above = searcher.range_with(low, high)
             ends = searcher.level(k, below, above)
@@ -301,7 +278,8 @@ class Eigenproblem:
         bottom = None if self.threshold is None else ball(self.threshold)
         low = self._free_of_levels(bottom)
         total = None
-        for number in range(_RANGE_STEPS if bottom is None else _APPROACHES):
+        # Each step towards the essential spectrum leaves a quarter of the distance, and needs a longer interval.
+        for number in range(_RANGE_STEPS if bottom is None else 7):
             with working_precision(64):
                 power = arb(4) ** number
                 E = self._short(self.scale * power * 15 / 16 if bottom is None else bottom - self.scale / (4 * power))
@@ -336,7 +314,7 @@ class Eigenproblem:
 
     def _rough(self, E: Any, low: Any, *, high: bool) -> Count:
         """The count at E, or a little below where E may be a level itself."""
-        searcher = self._searcher(E, max(abs(low), abs(E)), _ROUGH_DIGITS, _ROUGH_DIGITS)
+        searcher = self._searcher(E, max(abs(low), abs(E)), 4, 4)
         for shift in range(3):
             try:
                 return searcher.at(E if shift == 0 else self._short(E - self.scale * shift / 2**20), high=high)

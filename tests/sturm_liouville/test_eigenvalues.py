@@ -211,7 +211,7 @@ def test_the_command_prints_levels_and_reports_failure(capsys):
 
 
 def test_an_interrupted_command_prints_what_it_has_found(capsys, monkeypatch):
-    from kovacic.cli.main import INTERRUPTED, run
+    from kovacic.cli.main import Exit, run
     from kovacic.sturm_liouville.solve import Eigenproblem
 
     whole = Eigenproblem.levels
@@ -223,7 +223,7 @@ def test_an_interrupted_command_prints_what_it_has_found(capsys, monkeypatch):
             yield level
 
     monkeypatch.setattr(Eigenproblem, "levels", interrupted)
-    assert run(["eigenvalues", "y'' + lambda*y = 0", "--conditions", "y(0)=0, y(1)=0"]) == INTERRUPTED
+    assert run(["eigenvalues", "y'' + lambda*y = 0", "--conditions", "y(0)=0, y(1)=0"]) == Exit.INTERRUPTED
     assert capsys.readouterr().out.startswith("lambda = 9.8696")
 
 
@@ -318,3 +318,9 @@ def test_a_comb_of_delta_functions(strength: int, conditions: str, side: int) ->
 def test_a_delta_function_as_a_weight_is_refused() -> None:
     with pytest.raises(kovacic.InputError, match="as a weight"):
         kovacic.eigenvalues("y'' + E*DiracDelta(x - 1/2)*y = 0", "y(0) = 0, y(1) = 0", parameter="E")
+
+
+def test_a_level_far_from_the_ends_of_its_bracket():
+    """Where the mismatch is 10^12 times larger at one end, chords alone would stay next to the other one."""
+    found = schroedinger("1/(1 + x^2)", "y'(0) + 5*y(0) = 0", domain=(0, "oo"), count=1, digits=8)
+    check(found, ["-24.01812117"], digits=7)
