@@ -27,7 +27,7 @@ from kovacic.decision import Decision, Status, Structure
 from kovacic.equation import Equation
 from kovacic.errors import LimitExceeded
 from kovacic.galois.group import Group
-from kovacic.limits import DEFAULT_LIMITS, MOST_CHARACTERS, Budget, Limits, check_time
+from kovacic.limits import DEFAULT_LIMITS, MOST_CHARACTERS, MOST_TRIALS, Budget, Limits, check_time
 from kovacic.parametric import prose
 from kovacic.parametric.claims import (
     Claim,
@@ -540,6 +540,8 @@ def without_redundant(regions: Sequence[ParameterRegion], generic: RegionVerdict
         check_time()
         if _is_redundant(kept[k], kept[:k], kept[k + 1 :], generic):
             del kept[k]
+        elif len(regions) > MOST_TRIALS // 4:  # only the last ones: Heun's general equation has 250
+            break
     return tuple(kept)
 
 
