@@ -17,7 +17,7 @@ from kovacic.bound_states.levels import BoundState, Levels, Spectrum
 from kovacic.bound_states.question import number_beside
 from kovacic.bound_states.signs import Signs
 from kovacic.errors import InputError, LimitExceeded, VerificationFailed
-from kovacic.general_solution.zero import residual
+from kovacic.general_solution.zero import residual_at
 from kovacic.limits import MOST_TRIALS, Budget, Limits
 from kovacic.numbers.exact import whole
 from kovacic.sturm_liouville.ends import is_regular
@@ -153,7 +153,7 @@ def check_first_levels(found: Spectrum) -> None:
             has_no_balls = suppress(InputError, NotImplementedError, ZeroDivisionError, ValueError, TypeError)
             with has_no_balls, working_precision(192):
                 inside = ball(point_between(*(end.xreplace(at) for end in found.domain)))
-                error, _ = residual(acb(inside), x, state.wave, coefficients)
+                error, _ = residual_at(acb(inside), x, state.wave, coefficients)
             if not error.contains(0):
                 V = found.potential.xreplace(at)
                 raise VerificationFailed(

@@ -18,8 +18,8 @@ from kovacic.general_solution.first_order import FirstOrderEquation
 from kovacic.general_solution.question import Question, with_assumptions
 from kovacic.general_solution.substitution import size
 from kovacic.general_solution.validity import Validity, needed_for
-from kovacic.general_solution.zero import differs_from_zero, samples
-from kovacic.general_solution.zero_set import ZeroSet, poles_of
+from kovacic.general_solution.zero import differs_from_zero, letter_samples
+from kovacic.general_solution.zero_set import ZeroSet, gamma_zeros
 
 Expr = Any  # SymPy publishes no types
 #: The last answers, the newest first, for `validity` of their equations.
@@ -53,26 +53,17 @@ class Exceptional:
 
 @dataclass(frozen=True, repr=False)
 class ProblemAnswer:
-    """The answer to an equation with its right-hand side and its values.
+    """The answer to an equation with its right-hand side and its values."""
 
-    Attributes
-    ----------
-    eq : sympy.Eq
-        y(x) = ..., what `dsolve` returns.
-    notices : list of str
-        The warnings of `dsolve`.
-    unchecked : tuple of str
-        One sentence per check that could not be carried out.
-    known : mapping
-        Symbols that carry the assumptions, by the user's own.
-    exceptional : tuple of sympy.Expr
-        Exceptions of the pair from which a system or a Riccati equation has its solutions.
-    """
-
+    #: y(x) = ..., what `dsolve` returns.
     eq: Expr
+    #: The warnings of `dsolve`.
     notices: list[str]
+    #: One sentence per check that could not be carried out.
     unchecked: tuple[str, ...] = field(default=(), kw_only=True)
+    #: Symbols that carry the assumptions, by the user's own.
     known: Mapping[Expr, Expr] = field(default_factory=dict, kw_only=True)
+    #: Exceptions of the pair from which a system or a Riccati equation has its solutions.
     exceptional: tuple[Expr, ...] = field(default=(), kw_only=True)
 
     def __repr__(self) -> str:
@@ -204,7 +195,7 @@ def exceptional_cases(zero: Expr) -> Iterator[Exceptional]:
     number, signs = zero, []
     if isinstance(zero, sympy.sin):
         number, signs = zero.args[0] / sympy.pi, ["positive", "nonpositive"]
-    elif poles := poles_of(zero):
+    elif poles := gamma_zeros(zero):
         number, signs = poles[0], ["nonnegative" if poles[1] > 0 else "nonpositive"]
     if signs and number.is_Symbol:
         for sign in (sign for sign in signs if getattr(number, f"is_{sign}") is not False):
@@ -227,7 +218,7 @@ def vanishes_with(zero: Expr, *functions: Expr) -> bool:
     for case in exceptional_cases(zero):
         values = case.values or case.example
         there = [y.subs(values) for y in functions if values]
-        if not any(differs_from_zero(y, next(samples(y.free_symbols))) for y in there):
+        if not any(differs_from_zero(y, next(letter_samples(y.free_symbols))) for y in there):
             return True
     return False
 

@@ -34,7 +34,7 @@ from kovacic.general_solution.integrands import (
 )
 from kovacic.general_solution.substitution import inverted, size
 from kovacic.general_solution.waves import beside_waves, by_coefficients, common_factor, wave_changes
-from kovacic.general_solution.zero import ball, differs_from_zero, samples
+from kovacic.general_solution.zero import ball_of, differs_from_zero, letter_samples
 from kovacic.limits import check_time
 
 Expr = Any  # SymPy publishes no types
@@ -100,8 +100,8 @@ def _by_rules(given: Expr, x: Expr) -> Expr:
 def _holds_on_every_side(found: Expr, integrand: Expr, x: Expr) -> bool:
     """True if its derivative is the integrand at distant real points at which that is real."""
     difference = found.diff(x) - integrand
-    letters = next(samples(integrand.free_symbols - {x}))
-    values = {point: ball(integrand, {**letters, x: point}) for point in _REAL_POINTS}
+    letters = next(letter_samples(integrand.free_symbols - {x}))
+    values = {point: ball_of(integrand, {**letters, x: point}) for point in _REAL_POINTS}
     real = [point for point, value in values.items() if value is not None and value.imag.contains(0)]
     return not any(differs_from_zero(difference, {**letters, x: point}) for point in real)
 

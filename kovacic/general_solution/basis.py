@@ -29,8 +29,8 @@ from kovacic.closed_form.way_back import in_x
 from kovacic.equation import Equation
 from kovacic.general_solution.integrands import NUMBERS, radicands
 from kovacic.general_solution.substitution import finite_value, in_single_waves, size, slope
-from kovacic.general_solution.zero import generic_samples, points
-from kovacic.general_solution.zero_set import ZeroSet, without_implied
+from kovacic.general_solution.zero import generic_samples, quadrant_points
+from kovacic.general_solution.zero_set import ZeroSet, independent_exceptions
 from kovacic.limits import check_time, manageable
 from kovacic.reading.change_of_variable import function_of_x
 from kovacic.solution import Solution
@@ -46,7 +46,7 @@ _ANTIDERIVATIVES = (
 #: c for pairs turned to negative arguments: of u(-x) and v(-x) relative to u(x) and v(x), of I and K relative to J and Y.
 _TURNS = [sign * c for c in (S.One, sympy.pi / 2, 2 / sympy.pi) for sign in (1, -1)]
 #: Points at which the constant of a Wronskian is determined.
-_POINTS = [*map(sympy.Integer, (0, 1, -1, 2, 3, -2)), S.Half]
+_WRONSKIAN_POINTS = [*map(sympy.Integer, (0, 1, -1, 2, 3, -2)), S.Half]
 
 
 @dataclass(frozen=True)
@@ -63,7 +63,7 @@ class Basis:
     stated: Callable[[], Expr | None] | None = None
     #: Where one of these is zero a member has no value.
     undefined: tuple[Expr, ...] = ()
-    #: What the engine decided.
+    #: The answer of the engine.
     solution: Solution | None = None
     #: An integer that depends on parameters: these are the solutions where it isn't negative, `otherwise` those where it is.
     natural: Expr | None = None
@@ -91,16 +91,13 @@ class Basis:
             w = self.before.wronskian
             if self.place is not None:
                 w = all_turned(w, self.x, self.place, self.own)
-            W = multiple_of(w, self.y1, self.y2, self.x, self._integers)
+            # the pair is meant for integers, with `natural` not negative
+            letters = Tuple(self.y1, self.y2).free_symbols - {self.x}
+            integers = {s: self.own(s) for s in letters if self.own(s).is_integer}
+            values = next(generic_samples({*integers.values()}, self.natural), {})
+            values = {plain: s.xreplace(values) for plain, s in integers.items()}
+            W = multiple_of(w, self.y1, self.y2, self.x, values)
         return definition(self.y1, self.y2, self.x) if W is None else W
-
-    @property
-    def _integers(self) -> dict[Expr, Expr]:
-        """Values for the letters that stand for integers, with `natural` not negative."""
-        letters = Tuple(self.y1, self.y2).free_symbols - {self.x}
-        integers = {s: self.own(s) for s in letters if self.own(s).is_integer}
-        values = next(generic_samples({*integers.values()}, self.natural), {})
-        return {plain: s.xreplace(values) for plain, s in integers.items()}
 
     @property
     def constant(self) -> Expr:
@@ -118,7 +115,7 @@ class Basis:
     def exceptions(self) -> tuple[Expr, ...]:
         """Where one of these is zero the members are dependent, or one of them is undefined."""
         undefined = map(self.own, self.undefined) if self.natural is None else ()
-        return without_implied([*self.dependent, *undefined])
+        return independent_exceptions([*self.dependent, *undefined])
 
     def of(self, y1: Expr, y2: Expr) -> Basis:
         """The basis of two combinations of the members."""
@@ -192,13 +189,13 @@ def multiple_of(
 def _quotients(w: Expr, y1: Expr, y2: Expr, x: Expr) -> Iterator[Expr | None]:
     """W/w at the points where both have values; then at singular points, where powers of W and w cancel."""
     W = definition(y1, y2, x)
-    for point in _POINTS:
+    for point in _WRONSKIAN_POINTS:
         above, below = (finite_value(e, x, point) for e in (W, w))
         if below:
             yield above and above / below
     if manageable(W):
         joined = powsimp(sympy.expand(W / w))
-        yield from (finite_value(joined, x, point) for point in _POINTS)
+        yield from (finite_value(joined, x, point) for point in _WRONSKIAN_POINTS)
 
 
 def _is_wronskian(W: Expr, y1: Expr, y2: Expr, x: Expr, letters: Mapping[Expr, Expr] = MappingProxyType({})) -> bool:
@@ -207,7 +204,7 @@ def _is_wronskian(W: Expr, y1: Expr, y2: Expr, x: Expr, letters: Mapping[Expr, E
     powers = Tuple(W, y1, y2).atoms(Pow)
     has_branches = any(p.base.has(x) and not p.exp.is_Integer for p in powers)
     with working_digits(2 * DIGITS), suppress(NotImplementedError):
-        for point in points() if has_branches else islice(points(), 1):
+        for point in quadrant_points() if has_branches else islice(quadrant_points(), 1):
             (u, du, _), (v, dv, _), (w, _, _) = (jet(e, x, point) for e in (y1, y2, W))
             if not abs(u * dv - du * v - w) < arb(10) ** -DIGITS * (abs(u * dv) + abs(du * v)):
                 return False

@@ -30,19 +30,16 @@ from kovacic.general_solution.substitution import finite_value, slope
 from kovacic.general_solution.zero import (
     NOT_EVALUATED,
     agree,
-    ball,
+    ball_of,
     generic_samples,
     is_zero,
     known_jet,
     opposite,
-    samples,
 )
 from kovacic.limits import check_time, manageable
 from kovacic.reading.parser import excerpt
 
 Expr = Any  # SymPy publishes no types
-_ZERO = S.Zero
-_ONE = S.One
 #: Stands for the missing limit of a wave, or of a quotient of waves.
 OSCILLATING = sympy.AccumBounds(-1, 1)
 #: Distances from the point (their inverses, at infinity) at which a limit is compared with values, three at a time; the
@@ -53,10 +50,10 @@ _STAGES = (
 )
 #: Each distance stands for three, times these factors, since a wave may be small at one of them.
 _AROUND = (Rational(1), Rational(8, 7), Rational(17, 13))
-_DIGITS = 60
+_LIMIT_DIGITS = 60
 #: Smaller values may be nothing but rounding errors after cancellation.
-_NOISE = arb(10) ** (-_DIGITS // 2)
-_STEPS = (Heaviside, sympy.DiracDelta)
+_NOISE = arb(10) ** (-_LIMIT_DIGITS // 2)
+_DISCONTINUOUS = (Heaviside, sympy.DiracDelta)
 #: Functions whose series SymPy knows.
 _WITH_SERIES = (
     *(exp, log, sin, cos, sympy.tan, sympy.cot, sympy.sec, sympy.csc, sympy.asin, sympy.acos, sympy.atan, sympy.Abs),
@@ -92,7 +89,7 @@ def limit_at(expression: Expr, x: Expr, place: Approach) -> Expr:
     Raises `UnknownLimit` if it isn't found, or if values on the way don't confirm it.
 
     >>> x = sympy.Symbol("x")
-    >>> limit_at((1 - cos(x)) / x**2, x, Approach(_ZERO)), limit_at(sympy.airybi(x), x, Approach(oo))
+    >>> limit_at((1 - cos(x)) / x**2, x, Approach(S.Zero)), limit_at(sympy.airybi(x), x, Approach(oo))
     (1/2, oo)
     """
     check_time()
@@ -101,31 +98,26 @@ def limit_at(expression: Expr, x: Expr, place: Approach) -> Expr:
         return e
     t = sympy.Dummy("s", positive=True)
     way = place.in_terms_of(t)
-    jumps = e.atoms(*_STEPS)
+    jumps = dict.fromkeys(e.atoms(*_DISCONTINUOUS), S.Zero)
+    for step in e.atoms(Heaviside):  # its value on the way to the point, if the argument has a sign there
+        end = _by_sympy(step.args[0].subs(x, way), t)
+        jumps[step] = step if end is None or end == 0 else Heaviside(end)
     if jumps:  # what cancels beyond them has no value that could be compared
-        e = expand(e.xreplace({jump: _near_the_point(jump, jump.args[0].subs(x, way), t) for jump in jumps}))
+        e = expand(e.xreplace(jumps))
     if not e.has(*ANTIDERIVATIVES, sympy.RootSum):
-        for found in _candidates(e, x, place, t):
+        for found in _limit_candidates(e, x, place, t):
             if found is not None and _is_confirmed(found, e, x, place):
                 return found
     raise UnknownLimit(f"the limit of {excerpt(e, 60)} isn't known")
 
 
-def _candidates(e: Expr, x: Expr, place: Approach, t: Expr) -> Iterator[Expr | None]:
+def _limit_candidates(e: Expr, x: Expr, place: Approach, t: Expr) -> Iterator[Expr | None]:
     """Candidates for the limit: by Taylor series at a finite point, else by leading terms, of each summand or of the whole."""
     if not place.is_infinite:
         yield _quotient_of_analytic_functions(e, x, place.point)
     leading = _with_leading_terms(e.xreplace({x: place.in_terms_of(t)}), t)
     yield _classified(_term_by_term(leading, t))
     yield _classified(_by_sympy(leading, t))
-
-
-def _near_the_point(jump: Expr, argument: Expr, t: Expr) -> Expr:
-    """The value of a step or an impulse on the way to the point, if the argument has a sign there."""
-    if isinstance(jump, sympy.DiracDelta):
-        return _ZERO
-    end = _by_sympy(argument, t)
-    return jump if end is None or end == 0 else Heaviside(end)
 
 
 def _quotient_of_analytic_functions(e: Expr, x: Expr, point: Expr) -> Expr | None:
@@ -207,9 +199,11 @@ def _is_confirmed(found: Expr, e: Expr, x: Expr, place: Approach) -> bool:
 
     Not for all of them: what holds for generic letters needn't for small integers, as where 1/gamma(-m) is 0.
     """
-    known = filter(None, _sizes_near(e if found in (oo, OSCILLATING) else e - found, x, place))
+    rest = e if found in (oo, OSCILLATING) else e - found
+    known = filter(None, _sizes_near(rest, x, place))
     confirming = (sizes for sizes in known if all(_is_nearer(found, far, near) for far, near in pairwise(sizes)))
-    return len([*islice(confirming, 2)]) == 2
+    wanted = 2 if (rest.free_symbols | place.point.free_symbols) - {x} else 1
+    return len([*islice(confirming, wanted)]) == wanted
 
 
 def is_refuted(value: Expr | None, y: Expr, x: Expr, place: Approach) -> bool:
@@ -238,8 +232,8 @@ def _is_nearer(found: Expr, far: Any, near: Any) -> bool:
 
 def _size_near(e: Expr, x: Expr, place: Approach, t: Expr) -> Any:
     """The largest of some values about this distance; None if they aren't known well."""
-    with working_digits(_DIGITS):
-        points = [ball(place.in_terms_of(t * factor)) for factor in _AROUND]
+    with working_digits(_LIMIT_DIGITS):
+        points = [ball_of(place.in_terms_of(t * factor)) for factor in _AROUND]
         jets = [known_jet(e, x, point) for point in points if point is not None]
     if None in jets or len(jets) < len(_AROUND):
         return None
@@ -268,7 +262,7 @@ def _with_leading_terms(e: Expr, t: Expr) -> Expr:
         if end not in rules and end is not None and not end.is_finite:
             end = sympy.zoo  # in another direction
         if end in rules:
-            near = {oo: z, -oo: -z, _ONE: 1 - z, -_ONE: 1 + z}.get(end, z)
+            near = {oo: z, -oo: -z, S.One: 1 - z, -S.One: 1 + z}.get(end, z)
             leading = rules[end](*parameters, expand(near))
             known |= {} if leading is None else {f: leading}
     joined = sympy.powsimp(sympy.expand_power_base(e.xreplace(known))) if known else e
@@ -379,30 +373,25 @@ def _wave(wave: Any, nu: Expr, z: Expr) -> Expr:
 #: Leading terms by function, or by the numbers of parameters of a hypergeometric one, and by the limit of the argument.
 _LEADING: dict[Any, dict[Any, _LeadingTerm]] = {
     sympy.airyai: _airy(S.Half, -1, -Rational(1, 4), cos, -pi / 4),
-    sympy.airybi: _airy(_ONE, 1, -Rational(1, 4), cos, pi / 4),
+    sympy.airybi: _airy(S.One, 1, -Rational(1, 4), cos, pi / 4),
     sympy.airyaiprime: _airy(-S.Half, -1, Rational(1, 4), sin, -pi / 4),
-    sympy.airybiprime: _airy(_ONE, 1, Rational(1, 4), sin, pi / 4),
-    sympy.besselj: {oo: partial(_wave, cos), _ZERO: partial(_first_kind, -1)},
-    sympy.bessely: {oo: partial(_wave, sin), _ZERO: partial(_second_kind, -2 / pi)},
-    sympy.besseli: {oo: lambda nu, z: exp(z) / sqrt(2 * pi * z), _ZERO: partial(_first_kind, 1)},
-    sympy.besselk: {oo: lambda nu, z: exp(-z) * sqrt(pi / (2 * z)), _ZERO: partial(_second_kind, _ONE)},
-    sympy.jn: {_ZERO: lambda n, z: sqrt(pi / (2 * z)) * _first_kind(-1, n + Rational(1, 2), z)},
-    sympy.yn: {_ZERO: lambda n, z: sqrt(pi / (2 * z)) * _second_kind(-2 / pi, n + Rational(1, 2), z)},
+    sympy.airybiprime: _airy(S.One, 1, Rational(1, 4), sin, pi / 4),
+    sympy.besselj: {oo: partial(_wave, cos), S.Zero: partial(_first_kind, -1)},
+    sympy.bessely: {oo: partial(_wave, sin), S.Zero: partial(_second_kind, -2 / pi)},
+    sympy.besseli: {oo: lambda nu, z: exp(z) / sqrt(2 * pi * z), S.Zero: partial(_first_kind, 1)},
+    sympy.besselk: {oo: lambda nu, z: exp(-z) * sqrt(pi / (2 * z)), S.Zero: partial(_second_kind, S.One)},
+    sympy.jn: {S.Zero: lambda n, z: sqrt(pi / (2 * z)) * _first_kind(-1, n + Rational(1, 2), z)},
+    sympy.yn: {S.Zero: lambda n, z: sqrt(pi / (2 * z)) * _second_kind(-2 / pi, n + Rational(1, 2), z)},
     hermite: _polynomial_of_degree_N(lambda N: 2**N),
     sympy.laguerre: _polynomial_of_degree_N(lambda N: (-1) ** N / factorial(N)),
     sympy.assoc_laguerre: _polynomial_of_degree_N(lambda N: (-1) ** N / factorial(N)),
-    sympy.legendre: {-_ONE: lambda n, w: None if n.is_integer else sin(pi * n) / pi * log(w / 2)},
-    (0, 1): {_ZERO: _first_terms, oo: partial(_bessel_hyper, 1), -oo: partial(_bessel_hyper, -1)},
-    (1, 1): {_ZERO: _first_terms, oo: _kummer, -oo: _kummer_below},
-    (2, 0): {
-        _ZERO: _first_terms,
-        oo: partial(_tricomi, 1),
-        sympy.zoo: partial(_tricomi, 1),
-        -oo: partial(_tricomi, -1),
-    },
-    (2, 1): {_ZERO: _first_terms, _ONE: _gauss_at_one},
-    (2, 2): {_ZERO: _first_terms},
-    (1, 2): {_ZERO: _first_terms},
+    sympy.legendre: {-S.One: lambda n, w: None if n.is_integer else sin(pi * n) / pi * log(w / 2)},
+    (0, 1): {S.Zero: _first_terms, oo: partial(_bessel_hyper, 1), -oo: partial(_bessel_hyper, -1)},
+    (1, 1): {S.Zero: _first_terms, oo: _kummer, -oo: _kummer_below},
+    (2, 0): {S.Zero: _first_terms, **dict.fromkeys((oo, sympy.zoo), partial(_tricomi, 1)), -oo: partial(_tricomi, -1)},
+    (2, 1): {S.Zero: _first_terms, S.One: _gauss_at_one},
+    (2, 2): {S.Zero: _first_terms},
+    (1, 2): {S.Zero: _first_terms},
 }
 
 
@@ -418,17 +407,17 @@ def values_at(expression: Expr, x: Expr, point: Expr) -> tuple[Expr, Expr]:
     >>> values_at(x * exp(2 * x), x, S.One)
     (exp(2), 3*exp(2))
     """
-    return value_at(expression, x, point), value_at(expression, x, point, 1)
+    return value_or_limit(expression, x, point), value_or_limit(expression, x, point, 1)
 
 
-def value_at(expression: Expr, x: Expr, point: Expr, order: int = 0) -> Expr:
+def value_or_limit(expression: Expr, x: Expr, point: Expr, order: int = 0) -> Expr:
     """The value of the function (order 0) or of its slope (order 1), as for `values_at`."""
     check_time()
     e = sympy.sympify(expression, strict=True)
     if not e.has_free(x):
-        return _ZERO if order else e
+        return S.Zero if order else e
     # Steps and impulses have the values just before the point: neither has a slope there.
-    e = e.xreplace({jump: _just_before(e, jump, x, point, order) for jump in e.atoms(*_STEPS) if jump.has(x)})
+    e = e.xreplace({jump: _just_before(e, jump, x, point, order) for jump in e.atoms(*_DISCONTINUOUS) if jump.has(x)})
     if order:
         is_series_at_zero = any(f.argument.subs(x, point) == 0 for f in e.atoms(sympy.hyper))
         derivative = e.diff(x) if is_series_at_zero else slope(e, x)
@@ -440,7 +429,7 @@ def value_at(expression: Expr, x: Expr, point: Expr, order: int = 0) -> Expr:
         letter = sympy.Dummy()
         in_letter = e.xreplace({integral: letter})
         if integral.limits[0][1:] == (point, x) and have_values([in_letter.diff(letter)], x, point):
-            e = in_letter.xreplace({letter: _ZERO})
+            e = in_letter.xreplace({letter: S.Zero})
     # The limit from the right, if it is that from the left: a closed form with roots may be another solution there.
     with suppress(NotImplementedError):
         right, left = (limit_at(e, x, Approach(point, direction)) for direction in (1, -1))
@@ -455,7 +444,7 @@ def _checked_value(e: Expr, x: Expr, point: Expr) -> Expr | None:
     value = finite_value(e, x, point)
     if value is None or point.is_Rational or not point.is_number:
         return value
-    found = ball(value, next(samples(value.free_symbols)))
+    found = ball_of(value, next(generic_samples(value.free_symbols)))
     return value if found is None or found.is_finite() else None
 
 
@@ -478,14 +467,14 @@ def _contiguous(e: Expr, x: Expr, point: Expr) -> Iterator[tuple[Expr, Expr]]:
 def _just_before(e: Expr, jump: Expr, x: Expr, point: Expr, order: int) -> Expr:
     """The value of a step or an impulse just before the point; as H(u, 0) where parameters may put the point on the step."""
     if isinstance(jump, sympy.DiracDelta):
-        return _ZERO
+        return S.Zero
     place = jump_place(jump, x)
     is_one_before = place is not None and bool(place.slope.is_negative)  # H(s (x - a)) is 1 before a
     step = Heaviside(expand(jump.args[0].subs(x, point)), int(is_one_before))
     if place is None or not isinstance(step, Heaviside):
         return step
     # Neither the function nor its slope may jump where the step does.
-    across = (e.xreplace({jump: _ONE}) - e.xreplace({jump: _ZERO})).diff(x, order)
+    across = (e.xreplace({jump: S.One}) - e.xreplace({jump: S.Zero})).diff(x, order)
     value = finite_value(across, x, place.a)
     return Heaviside(step.args[0]) if value is not None and is_zero(value) else step
 
@@ -498,5 +487,5 @@ def have_values(expressions: Sequence[Expr], x: Expr, point: Expr) -> bool:
     False
     """
     with suppress(NotImplementedError):
-        return all(value_at(expression, x, point) is not None for expression in expressions)
+        return all(value_or_limit(expression, x, point) is not None for expression in expressions)
     return False

@@ -17,6 +17,7 @@ from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property, partial
 from itertools import chain, islice, pairwise
+from math import inf
 from types import MappingProxyType
 from typing import Any
 
@@ -35,26 +36,16 @@ from kovacic.errors import VerificationFailed
 from kovacic.general_solution.behaviour import Approach, have_values, is_refuted
 from kovacic.general_solution.question import Condition, Question
 from kovacic.general_solution.steps import JUMPING, between, break_points, in_steps, on_piece, split_at_jumps
-from kovacic.general_solution.zero import (
-    NOT_EVALUATED,
-    SAMPLES,
-    ball,
-    generic_samples,
-    known_jet,
-    opposite,
-    residual,
-    samples,
-)
+from kovacic.general_solution.zero import NOT_EVALUATED, ball_of, generic_samples, known_jet, opposite, residual_at
 from kovacic.limits import check_time
 
 Expr = Any  # SymPy publishes no types
 _NOT_FINITE = {sympy.nan, sympy.zoo, sympy.oo, -sympy.oo}
 #: A residual is taken for zero below this multiple of the size of its terms.
-_TOLERANCE = arb(10) ** (-DIGITS // 2)
+_RESIDUAL_TOLERANCE = arb(10) ** (-DIGITS // 2)
 
 #: Functions that aren't steps or impulses, and aren't analytic either.
 _CORNERS = tuple(function for function in JUMPING if function not in (sympy.Heaviside, sympy.DiracDelta))
-Acb = Any  # flint's acb
 #: Points beyond the first pole of tan(x/2) on either side, off the usual special points.
 _GRID_POINTS = tuple(fmpq(p, 100) for p in (-713, -437, -219, -83, 41, 127, 271, 483, 731))
 #: The precision in bits where jumps are looked for.
@@ -183,14 +174,14 @@ def _is_wrong_at(claim: SolutionClaim, start: Expr | None) -> bool:
     claim = claim.at(dict.fromkeys(definite, sympy.S.One))  # they are factors of y1 and y2
 
     def is_wrong(y: Expr, coefficients: Sequence[Expr], point: Any) -> bool:
-        miss, scale = residual(point, x, y, coefficients)
-        return bool(miss > _TOLERANCE * scale)
+        miss, scale = residual_at(point, x, y, coefficients)
+        return bool(miss > _RESIDUAL_TOLERANCE * scale)
 
     with working_digits(DIGITS):
         if not Tuple(*claim.coefficients).has(*JUMPING, AppliedUndef):
-            base = acb(fmpq(23, 71), fmpq(41, 89)) if start is None else ball(start)
+            base = acb(fmpq(23, 71), fmpq(41, 89)) if start is None else ball_of(start)
             return is_wrong(claim.y, claim.coefficients, base + arb(fmpq(3, 707)))  # the start itself may be special
-        claim = _sampled(claim)
+        claim = _with_sample_values(claim)
         breaks = break_points(Tuple(claim.y, claim.coefficients[-1]), x)
         points = between(breaks)
         whole = (_antiderivatives(claim.y, x), *claim.coefficients)
@@ -209,7 +200,7 @@ def _is_wrong_across(claim: SolutionClaim, point: Expr, *sides: Expr) -> bool:
     # nothing is known for impulses of higher order
     if apart is None or max((0, *chain.from_iterable(apart.impulses.values()))) >= len(rates):
         return False
-    at = ball(point)
+    at = ball_of(point)
     here = apart.impulses.get(point, {})
     # y jumps by the strength q of delta', and y' by that of delta less (b/a) q
     wanted = [jet(here.get(order, sympy.S.Zero), x, at)[0] for order in reversed(range(len(rates)))]
@@ -219,12 +210,12 @@ def _is_wrong_across(claim: SolutionClaim, point: Expr, *sides: Expr) -> bool:
     if Tuple(*y.atoms(Integral)).has(*JUMPING):  # of which no value is known on either side
         return False
     before, after = (jet(on_piece(y, x, side), x, at)[: len(rates)] for side in sides)
-    bound = _TOLERANCE * sum(map(abs, (*before, *after)), arb(1))
+    bound = _RESIDUAL_TOLERANCE * sum(map(abs, (*before, *after)), arb(1))
     sides_and_jump = zip(before, after, wanted, strict=True)
     return any(bool(abs(right - left - jump) > bound) for left, right, jump in sides_and_jump)
 
 
-def _sampled(claim: SolutionClaim) -> SolutionClaim:
+def _with_sample_values(claim: SolutionClaim) -> SolutionClaim:
     """The claim with values of the parameters, and with exponential functions for unknown ones on the right."""
     whole = Tuple(claim.y, *claim.coefficients)
     whole = whole.xreplace(next(generic_samples(whole.free_symbols - {claim.x})))
@@ -262,11 +253,11 @@ def _is_violated(claim: SolutionClaim, condition: Condition, numbers: dict[Expr,
     # parameters on which a step depends, with values on either side of it as a rule
     symbols = Tuple(*total.atoms(sympy.Heaviside)).free_symbols
     with working_digits(2 * DIGITS):
-        for steps in islice(samples(symbols), SAMPLES if symbols else 1):
+        for steps in generic_samples(symbols):
             found = jet(total.xreplace(steps), sympy.Dummy(), acb(0))[0]
             if not found.is_finite():
                 raise NotImplementedError("a value isn't finite")
-            if abs(found) > _TOLERANCE:
+            if abs(found) > _RESIDUAL_TOLERANCE:
                 return True
     return False
 
@@ -291,7 +282,7 @@ def jumps(y: Expr, x: Expr, coefficients: Sequence[Expr]) -> bool:
     with working_precision(_BITS_FOR_JUMPS):
         # The sign of a letter outside of functions and powers moves no jump.
         inside = Tuple(*y.atoms(sympy.Function, sympy.Pow), *coefficients).free_symbols
-        first = next(samples(y.free_symbols - {x}))
+        first = next(generic_samples(y.free_symbols - {x}))
         second = first | opposite({s: value for s, value in first.items() if s in inside})
         for numbers in [first, second][: 1 + (second != first)]:
             here = y.xreplace(numbers)
@@ -300,13 +291,6 @@ def jumps(y: Expr, x: Expr, coefficients: Sequence[Expr]) -> bool:
             if _Course(x, here.xreplace(sums), [e.xreplace(numbers) for e in coefficients]).jumps_somewhere():
                 return True
     return False
-
-
-def _is_beside_cut(cut: Acb) -> bool:
-    """True if a ball stays off the axis from -oo to 0, or is real and excludes 0."""
-    if not cut.is_finite() or cut.contains(0):
-        return False
-    return bool(cut.imag == 0 or not cut.imag.contains(0) or cut.real > 0)
 
 
 @dataclass(frozen=True)
@@ -331,9 +315,16 @@ class _Course:
         """The grid, and points on both sides of each real x at which a linear argument is real, or a tangent has a pole."""
         points = {*_GRID_POINTS}
         for e in self.y.atoms(sympy.Function, sympy.Pow):
-            place = _crossing(e, self.x)
-            if place is not None and not _GRID_POINTS[0] < place < _GRID_POINTS[-1]:
-                points |= {place - fmpq(37, 100), place + fmpq(37, 100)}
+            is_tangent = e.func in (sympy.tan, sympy.cot)
+            line = sympy.expand((e.args[0] if is_tangent else cut_of(e)) or 0)
+            if not line.is_polynomial(self.x) or sympy.degree(line, self.x) != 1:
+                continue
+            m, c = (complex(line.coeff(self.x, k)) for k in (1, 0))
+            # m x + c is real there, or about pi/2
+            place = (1.58 - c.real) / m.real if is_tangent else -c.imag / (m.imag or inf)
+            rounded = fmpq(round(100 * place), 100)
+            if not _GRID_POINTS[0] < rounded < _GRID_POINTS[-1]:
+                points |= {rounded - fmpq(37, 100), rounded + fmpq(37, 100)}
         return sorted(points)
 
     def _suspects(self, a: Any, b: Any, halvings: int) -> Iterator[tuple[Any, Any]]:
@@ -351,16 +342,20 @@ class _Course:
     def _is_analytic(self, a: Any, b: Any, functions: Sequence[Expr]) -> bool:
         """True if all functions are finite from a to b, with no argument on a cut, or continuous along one."""
         here = acb(arb(a).union(arb(b)))
-        arguments = (known_jet(cut, self.x, here) for cut in cuts_of(Tuple(*functions), self.x))
-        if not all(found and _is_beside_cut(found[0]) for found in arguments):
-            return False
+        for cut in cuts_of(Tuple(*functions), self.x):
+            found = known_jet(cut, self.x, here)
+            if not found or not found[0].is_finite() or found[0].contains(0):
+                return False
+            # off the axis from -oo to 0, or real: of balls, == and != may both be false
+            if not (found[0].imag == 0 or not found[0].imag.contains(0) or found[0].real > 0):
+                return False
         values = (known_jet(e, self.x, here) for e in functions)
         return all(found and found[0].is_finite() and found[1].is_finite() for found in values)
 
     def _differ(self, a: Any, b: Any, order: int) -> bool:
         """True if the values of y, or of y', at the ends of ever shorter intervals stay apart."""
 
-        def value(point: Any) -> Acb:
+        def value(point: Any) -> Any:
             found = known_jet(self.y, self.x, acb(arb(point)))
             return found[order] if found else acb("nan")
 
@@ -375,15 +370,3 @@ class _Course:
                 a, left = c, middle
         rest = abs(right - left)
         return bool(rest > first / 4) and bool(rest > arb(2) ** (-_BITS_FOR_JUMPS // 2) * (1 + abs(left)))
-
-
-def _crossing(e: Expr, x: Expr) -> Any:
-    """The x, rounded, at which an argument m x + c is real, or a tangent of it has its first pole; None for others."""
-    is_tangent = e.func in (sympy.tan, sympy.cot)
-    line = sympy.expand((e.args[0] if is_tangent else cut_of(e)) or 0)
-    if not line.is_polynomial(x) or sympy.degree(line, x) != 1:
-        return None
-    m, c = (complex(line.coeff(x, k)) for k in (1, 0))
-    if is_tangent:
-        return fmpq(round((1.58 - c.real) / m.real * 100), 100)
-    return fmpq(round(-c.imag / m.imag * 100), 100) if m.imag else None

@@ -52,7 +52,7 @@ class Row(NamedTuple):
         return self.u * c1 + self.v * c2 - self.r
 
 
-class Outcome(Enum):
+class CaseOutcome(Enum):
     """One solution or a family; none; or open, since it depends on more than the case says."""
 
     SOLUTIONS = "solutions"
@@ -68,7 +68,7 @@ class ParameterCase:
     """
 
     zeros: tuple[Expr, ...]
-    outcome: Outcome
+    outcome: CaseOutcome
     values: tuple[Expr, Expr] = (S.Zero, S.Zero)
     needed: tuple[Expr, ...] = ()
 
@@ -119,7 +119,7 @@ def determine(
     others = [row for row in rows if row is not first and row is not second]
     found = _split(_SolvedConditions((c1, c2), [row.rest(c1, c2) for row in others]))
     if when is Zero.SOMETIMES:  # then the case of rank one, as far as it follows from the minor's being zero
-        case = ParameterCase((), Outcome.OPEN)
+        case = ParameterCase((), CaseOutcome.OPEN)
         with suppress(NotImplementedError):  # undecided there, which says nothing about all other values
             of_rank_one = _of_rank_one(rows, names)
             if len(rows) == 2 and when_zero(of_rank_one.pivot) is not Zero.SOMETIMES:
@@ -186,11 +186,11 @@ def _norm(row: Row) -> Expr | None:
 
 def _split(found: _SolvedConditions) -> Determined:
     """The generic case, and particular parameters for which there are more solutions or fewer."""
-    particular = [ParameterCase((found.pivot,), Outcome.OPEN)] if when_zero(found.pivot) is Zero.SOMETIMES else []
+    particular = [ParameterCase((found.pivot,), CaseOutcome.OPEN)] if when_zero(found.pivot) is Zero.SOMETIMES else []
     whens = {value: when_zero(value) for value in found.needed}
     sometimes = tuple(value for value, when in whens.items() if when is Zero.SOMETIMES)
-    generic = ParameterCase(sometimes, Outcome.SOLUTIONS, found.values)
-    none = ParameterCase((), Outcome.NONE)
+    generic = ParameterCase(sometimes, CaseOutcome.SOLUTIONS, found.values)
+    none = ParameterCase((), CaseOutcome.NONE)
     if Zero.NEVER in whens.values():
         return Determined(none, particular)
     # generic parameters don't satisfy what only particular ones do
@@ -206,7 +206,7 @@ def tidy(value: Any) -> Any:
     is_opaque = value.has(sympy.RootSum, sympy.Integral) or not manageable(value)
     has_irrational_power = any(not power.exp.is_Rational and not power.base.is_Symbol for power in powers)
     is_product_of_powers = not value.free_symbols and functions <= {exp, log} and not value.has(sympy.Add)
-    if value.is_Rational or is_opaque or has_irrational_power or is_product_of_powers:
+    if is_opaque or has_irrational_power or is_product_of_powers:
         return value
     if not functions:
         shorten = sympy.cancel if value.free_symbols or value.has(sympy.E) else expand
@@ -214,9 +214,6 @@ def tidy(value: Any) -> Any:
     if not functions <= _ELEMENTARY:
         return min((value, expand(value), in_single_waves(value)), key=size)
     return min(map(TR2i, (value, sympy.cancel(value))), key=size)
-
-
-# ------------------------------------------------------------------------------------------- from conditions to rows
 
 
 def constants_of(
@@ -245,7 +242,7 @@ def constants_of(
     if scale.is_zero or scale.has(sympy.Function, sympy.Integral, question.x):  # it isn't elementary
         scale = S.One
     found = determine(rows, names, _wronskian(question, basis, rows, limits), scale)
-    found.particular.extend(ParameterCase((symbol,), Outcome.OPEN) for symbol in sorted(exceptional, key=str))
+    found.particular.extend(ParameterCase((symbol,), CaseOutcome.OPEN) for symbol in sorted(exceptional, key=str))
     return found._replace(rows=tuple(rows))
 
 
@@ -260,9 +257,6 @@ def _wronskian(question: Question, basis: Basis, rows: Sequence[Row], limits: di
     W = finite_value(question.own(basis.wronskian), question.x, first.point)
     # of y and y' it is W, of y' and y it is -W
     return determinant if W is None or determinant.is_Rational else (second.order - first.order) * W
-
-
-# ------------------------------------------------------------------------------------------------------------- limits
 
 
 def _limit_place(condition: Condition, limits: dict[Expr, Approach]) -> Approach | None:
@@ -317,7 +311,10 @@ class _Limit:
                 raise UnknownLimit("the slope of a combination of solutions of the same size isn't known")
             smaller = self.of(self.W / y2.diff(self.x))  # the limit of y1 - r y2
             if self.is_allowed(smaller):
-                first, found = smaller, [_without_gammas(ratio)]
+                # r C1 + C2 = 0, for r = p/q as p C1 + q C2 = 0 with 1/gamma, which has values everywhere, for gamma
+                p, q = sympy.fraction(sympy.powsimp(ratio))
+                gammas = Mul(*(f for f in ratio.atoms(gamma) if f.free_symbols))
+                first, found = smaller, [Row(p / gammas, q / gammas, S.Zero)]
         value = self.condition.value
         return found if value is None else [*found, Row(first, second, value - rest)]
 

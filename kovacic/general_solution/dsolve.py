@@ -39,17 +39,17 @@ from kovacic.general_solution.answer import (
 from kovacic.general_solution.basis import Basis
 from kovacic.general_solution.boundary_problems import eigenfunctions
 from kovacic.general_solution.check import check_answer
-from kovacic.general_solution.constants import Determined, Outcome, ParameterCase, constants_of
+from kovacic.general_solution.constants import CaseOutcome, Determined, ParameterCase, constants_of
 from kovacic.general_solution.first_order import FirstOrderEquation, read_first_order, solved_linear
 from kovacic.general_solution.homogeneous import find_basis, no_solution
 from kovacic.general_solution.particular import particular_solution, right_hand_side, with_letters_of_integration
 from kovacic.general_solution.places import (
     ImpulsesInside,
     basis_from,
+    basis_real_at,
     is_singular,
     limit_points,
     one_sided,
-    real_at,
     real_particular,
     start_of,
 )
@@ -63,7 +63,7 @@ from kovacic.general_solution.question import (
     known_letters,
     read_question,
     with_floats,
-    with_values,
+    with_given_values,
 )
 from kovacic.general_solution.riccati import solved_riccati
 from kovacic.general_solution.substitution import inverted, size
@@ -283,7 +283,7 @@ def answer_to(
     """
     # first, since the answer may take all of the time
     is_of_euler = isinstance(eq, str) and any(_has_euler(tokens) for tokens in Paste(eq).equations)
-    eq, ics, assume = with_values(eq, ics, assume, limits)
+    eq, ics, assume = with_given_values(eq, ics, assume, limits)
     answer = _Asked(limits, var, parameters, assume, special).answer(eq, func, ics)
     return replace(answer, notices=[f"{EULER} is Euler's number", *answer.notices]) if is_of_euler else answer
 
@@ -479,10 +479,10 @@ class _Family:
     def said(self, case: ParameterCase, answer: Expr, asked: _Asked) -> Iterable[str]:
         """Sentences about the solutions for particular parameters; the answer is for all others."""
         where = case.where(answer)
-        if case.outcome is Outcome.OPEN:
+        if case.outcome is CaseOutcome.OPEN:
             formula = self.question.written(answer).xreplace(self.question.renamed)
             return asked.where_zero(case.zeros, self.question.at, [formula], where)
-        if case.outcome is Outcome.NONE or not all(map(ZeroSet, case.needed)):
+        if case.outcome is CaseOutcome.NONE or not all(map(ZeroSet, case.needed)):
             return [f"{where}, where there is no solution"]
         value = self.member(case.values)
         free = [name for name in self.names if value.has(name)]
@@ -526,7 +526,7 @@ def _general(question: Question, basis: Basis) -> SecondOrderAnswer:
         return common_place(basis.x, cuts, arguments, own=basis.own) if is_fixed else sympy.S.Zero
 
     if basis.place is None or right != 0:
-        basis = real_at(basis, place(basis.y1, basis.y2))
+        basis = basis_real_at(basis, place(basis.y1, basis.y2))
     particular = particular_solution(basis, None)
     if particular != 0:
         particular = real_particular(question, basis, particular, place(basis.y1, basis.y2, particular))
@@ -550,7 +550,7 @@ def _determined(question: Question, basis: Basis, asked: _Asked) -> SecondOrderA
     value = in_book_form(value, question.x, family.names if value.has(*family.names) else ())
     cases = (case for case in determined.particular if case.is_possible)
     exceptions = [said for case in cases for said in family.said(case, value, asked)]
-    if generic.outcome is Outcome.NONE:
+    if generic.outcome is CaseOutcome.NONE:
         said = "there is no solution with these values: the conditions contradict one another"
         singular = [str(point) for point, place in limits.items() if not place.is_infinite]
         if singular:

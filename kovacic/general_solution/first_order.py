@@ -23,11 +23,11 @@ from kovacic.closed_form.cuts import with_positive_factors
 from kovacic.closed_form.product import product
 from kovacic.errors import InputError, VerificationFailed
 from kovacic.general_solution.antiderivatives import antiderivative
-from kovacic.general_solution.behaviour import have_values, value_at
+from kovacic.general_solution.behaviour import have_values, value_or_limit
 from kovacic.general_solution.check import SolutionClaim, is_finite, jumps
 from kovacic.general_solution.integrands import NUMBERS, ratfunc
 from kovacic.general_solution.particular import starting_at, turned_at, with_letters_of_integration
-from kovacic.general_solution.question import Condition, ConditionReader, conditions_at, exact, free_constants
+from kovacic.general_solution.question import Condition, ConditionReader, conditions_at, exact_decimals, free_constants
 from kovacic.general_solution.steps import JUMPING, Apart, in_parts
 from kovacic.general_solution.substitution import by_functions, changed_beside
 from kovacic.general_solution.textbook import in_book_form, in_hyperbolic_functions, sums
@@ -169,7 +169,7 @@ class FirstOrderEquation(OfFirstOrder):
 
 def is_unit(coefficient: Expr, x: Expr, point: Expr) -> bool:
     """True if the value at the point is finite, and not always zero."""
-    return have_values([coefficient], x, point) and not is_zero(value_at(coefficient, x, point))
+    return have_values([coefficient], x, point) and not is_zero(value_or_limit(coefficient, x, point))
 
 
 # ------------------------------------------------------------------------------------------------------------ reading
@@ -191,7 +191,7 @@ def read_first_order(
         else:
             eq = expression_of(source, limits)
     _require_first_order(isinstance(eq, sympy.Basic))
-    whole = exact(eq.lhs - eq.rhs if isinstance(eq, sympy.Equality) else eq)
+    whole = exact_decimals(eq.lhs - eq.rhs if isinstance(eq, sympy.Equality) else eq)
     function = func if isinstance(func, AppliedUndef) else function_of(whole)
     t = function.args[0]
     _require_first_order(len(function.args) == 1 and t.is_Symbol and str(var or t) == str(t) and is_finite(whole))
@@ -334,9 +334,9 @@ def _of_parts(p: Apart, h: Expr, x: Expr, start: Expr | None) -> Expr:
     total = _integrated(p.plain, h, x, start)
     for a, g in p.steps.items():
         response = _integrated(g, h, x, a)
-        total += sympy.Heaviside(x - a) * (response - h * value_at(response / h, x, a))
+        total += sympy.Heaviside(x - a) * (response - h * value_or_limit(response / h, x, a))
     for a, strengths in p.impulses.items():
-        total += sympy.Heaviside(x - a) * strengths[0] * h / value_at(h, x, a)
+        total += sympy.Heaviside(x - a) * strengths[0] * h / value_or_limit(h, x, a)
     return total
 
 
@@ -359,10 +359,10 @@ def _constant_through(equation: FirstOrderEquation, h: Expr, particular: Expr, f
     if a is None:
         return free
     if not equation.is_regular and not is_finite(h.subs(x, a)):
-        if is_finite(particular.subs(x, a)) and is_zero(v - value_at(particular, x, a)):
+        if is_finite(particular.subs(x, a)) and is_zero(v - value_or_limit(particular, x, a)):
             return _ZERO
         raise InputError(f"at most one solution is finite at {a}, a singular point of the equation")
-    rest, there = v - value_at(particular, x, a), value_at(h, x, a)
+    rest, there = v - value_or_limit(particular, x, a), value_or_limit(h, x, a)
     if equation.is_regular or not is_zero(there):
         return powsimp(rest / there)
     if is_zero(rest):

@@ -45,7 +45,7 @@ from kovacic.equation import Equation
 from kovacic.errors import LimitExceeded
 from kovacic.general_solution.antiderivatives import antiderivative
 from kovacic.general_solution.basis import Basis
-from kovacic.general_solution.behaviour import have_values, value_at, values_at
+from kovacic.general_solution.behaviour import have_values, value_or_limit, values_at
 from kovacic.general_solution.check import is_finite, jumps
 from kovacic.general_solution.constants import tidy
 from kovacic.general_solution.integrands import MOST_COMPLEX, NUMBERS, ChangeOfIntegrand, prepared_integrand, ratfunc
@@ -54,7 +54,7 @@ from kovacic.general_solution.substitution import by_functions, size
 from kovacic.general_solution.textbook import is_constant
 from kovacic.general_solution.undetermined import undetermined
 from kovacic.general_solution.waves import fractions_of_waves, in_waves
-from kovacic.general_solution.zero import points, residual
+from kovacic.general_solution.zero import quadrant_points, residual_at
 from kovacic.reading.change_of_variable import slope_squared
 
 Expr = Any  # SymPy publishes no types
@@ -173,7 +173,7 @@ def _step_response(g: Expr, basis: Basis, a: Expr) -> Expr:
 def _from_rest(p: Expr, basis: Basis, value: Expr, rate: Expr, a: Expr) -> Expr:
     """p - u for the solution u of the homogeneous equation with u(a) = value, u'(a) = rate."""
     x = basis.x
-    wronskian = tidy(value_at(basis.wronskian, x, a))  # a limit where t(x) alone is singular
+    wronskian = tidy(value_or_limit(basis.wronskian, x, a))  # a limit where t(x) alone is singular
     if wronskian == 0 or not is_finite(wronskian):
         raise NotImplementedError(f"the functions of the closed form are singular at {a}, where the solutions aren't")
     (u, du), (v, dv) = (values_at(y, x, a) for y in (basis.y1, basis.y2))
@@ -196,9 +196,9 @@ def _impulse_response(strengths: Mapping[int, Expr], basis: Basis, a: Expr) -> E
         singular += d * DiracDelta(x - a, order - 2)
         for rate, n in ((B, order - 1), (C, order - 2)):
             for k in range(n + 1):
-                rest[n - k] -= d * (-1) ** k * comb(n, k) * value_at(rate.diff(x, k), x, a)
+                rest[n - k] -= d * (-1) ** k * comb(n, k) * value_or_limit(rate.diff(x, k), x, a)
     value = rest[1]
-    slope = rest[0] - value_at(B, x, a) * value
+    slope = rest[0] - value_or_limit(B, x, a) * value
     return Heaviside(x - a) * _from_rest(sympy.Integer(0), basis, -tidy(value), -tidy(slope), a) + singular
 
 
@@ -356,6 +356,6 @@ def is_solution(y: Expr, coefficients: tuple[Expr, ...], right: Expr, x: Expr) -
         right = right.xreplace(sample)
     a, b, c = (sympy.S.Zero,) * (2 - len(coefficients)) + (sympy.S.One, *coefficients)
     with working_digits(DIGITS + 15), suppress(NotImplementedError):
-        found = (residual(point, x, y, (a, b, c, right)) for point in points())
+        found = (residual_at(point, x, y, (a, b, c, right)) for point in quadrant_points())
         return all(bool(miss < arb(10) ** -DIGITS * (1 + scale)) for miss, scale in found)
     return False

@@ -27,6 +27,7 @@ from kovacic.general_solution.particular import right_hand_side, starting_at, tu
 from kovacic.general_solution.question import Question
 from kovacic.general_solution.steps import is_analytic, jump_place, jump_points
 from kovacic.general_solution.validity import needs_of
+from kovacic.general_solution.waves import wave_zeros
 from kovacic.limits import MOST_TRIALS, check_time
 from kovacic.reading.change_of_variable import is_in_power, is_of_a_line
 
@@ -110,10 +111,10 @@ def start_of(question: Question, limits: dict[Expr, Approach]) -> Expr:
     """An ordinary point on the side that is meant: the first one with a condition, or one between singular points."""
     ordinary = [point for point in given_points(question) if point not in limits]
     if ordinary:
-        between = _suspects_between(question, ordinary) if question.equation.change is None else ()
+        between = _possible_poles_between(question, ordinary) if question.equation.change is None else ()
         # beyond a removable point of f/a solutions are continued from there
         return next((point for point in between if not is_singular(question, point)), ordinary[0])
-    poles = [*_suspects(question)]
+    poles = [*_possible_poles(question)]
     finite = [approach for approach in limits.values() if not approach.is_infinite]
     if not finite:  # an integer beyond all poles
         sign = sympy.sign(next(iter(limits)))
@@ -133,7 +134,7 @@ def check_between(question: Question, solutions: Sequence[Expr]) -> None:
     whole = Tuple(*map(question.own, solutions))
     if len(points) < 2 or (all(is_analytic(y, question.x) for y in whole) and not whole.has(Heaviside)):
         return
-    for point in _suspects_between(question, points):
+    for point in _possible_poles_between(question, points):
         if is_singular(question, point):
             raise _apart_error(point, points)
 
@@ -146,11 +147,11 @@ def _all_points(question: Question) -> list[Expr]:
 def basis_from(question: Question, basis: Basis, start: Expr) -> Basis:
     """Solutions that are real at `start`, with integrals that begin there.  Raises `InputError` as `check_between` does."""
     check_between(question, (basis.y1, basis.y2))
-    basis = real_at(basis, start)
+    basis = basis_real_at(basis, start)
     return basis.of(*(starting_at(y, question.x, start) for y in (basis.y1, basis.y2)))
 
 
-def real_at(basis: Basis, point: Expr) -> Basis:
+def basis_real_at(basis: Basis, point: Expr) -> Basis:
     """Two solutions that are real at the point if such are found; else the given ones."""
     if basis.equation.change is not None:
         return basis
@@ -171,15 +172,12 @@ def real_particular(question: Question, basis: Basis, particular: Expr, place: E
     return turned_at(place, particular, basis.rates, right_hand_side(equation), x, question.own)
 
 
-# --------------------------------------------------------------------------------------- singular points between them
-
-
 def one_sided(question: Question) -> tuple[Question, list[str]]:
     """The question on the side of a singular point on which values lie, else on the right, and notices of that.
 
     A step in a root or a denominator, at such a point, needs it: |x|^n is x^n for x > 0 only.
     """
-    h, x, said = question.equation.h, question.x, []
+    h, x, notices = question.equation.h, question.x, []
     parts = () if h is None else h.atoms(sympy.Pow, sympy.Function) - h.atoms(Heaviside, DiracDelta)
     steps = {step for step in Tuple(*parts).atoms(Heaviside) if step.has(x)}
     points = given_points(question)
@@ -189,10 +187,10 @@ def one_sided(question: Question) -> tuple[Question, list[str]]:
             continue
         is_left = bool(points) and (points[0] - place.a).is_negative is True
         h = h.xreplace({step: sympy.Integer(place.slope.is_positive is not is_left)})  # H(s (x - a)) on this side
-        said.append(f"this holds for {x} {'<' if is_left else '>'} {place.a}: the equation is singular there")
-    if not said:
+        notices.append(f"this holds for {x} {'<' if is_left else '>'} {place.a}: the equation is singular there")
+    if not notices:
         return question, []
-    return replace(question, equation=replace(question.equation, h=h), given=replace(question.given, h=h)), said
+    return replace(question, equation=replace(question.equation, h=h), given=replace(question.given, h=h)), notices
 
 
 def is_singular(question: Question, point: Expr) -> bool:
@@ -204,32 +202,32 @@ def is_singular(question: Question, point: Expr) -> bool:
     return (point == 0 and is_in_power(equation)) or not have_values(parts, x, point)
 
 
-def _suspects_between(question: Question, points: Sequence[Expr]) -> Iterator[Expr]:
+def _possible_poles_between(question: Question, points: Sequence[Expr]) -> Iterator[Expr]:
     """Points that may be singular, with some of the points on either side."""
-    suspects = _suspects(question, points)
+    suspects = _possible_poles(question, points)
     return (suspect for suspect in suspects if {1, -1} <= {sympy.sign(point - suspect) for point in points})
 
 
-def _suspects(question: Question, points: Sequence[Expr] = ()) -> Iterator[Expr]:
+def _possible_poles(question: Question, points: Sequence[Expr] = ()) -> Iterator[Expr]:
     """Zeros of denominators without parameters: those of polynomials, and others that lie between points."""
     equation, x = question.equation, question.x
     numbers = [point for point in points if point.is_number and point.is_finite]
-    if len(numbers) > 1 and not (is_in_power(equation) or is_of_a_line(equation)):
-        raise NotImplementedError("undecided: whether a singular point lies between the points that are given")
     if is_in_power(equation):
         yield S.Zero
+    elif len(numbers) > 1 and not is_of_a_line(equation):
+        raise NotImplementedError("undecided: whether a singular point lies between the points that are given")
     parts = Tuple(*monic_coefficients(equation, x), right_hand_side(equation))
     needs = (need.lhs for need in needs_of(question.own(parts)) if isinstance(need, sympy.Ne | sympy.StrictGreaterThan))
     zeros = {factor.as_base_exp()[0] for need in needs for factor in sympy.Mul.make_args(sympy.factor(need))}
     for zero in sorted(zeros, key=str):
         if zero.free_symbols == {x}:
-            yield from _zeros(zero, x, sympy.Min(*numbers), sympy.Max(*numbers))
+            yield from _denominator_zeros(zero, x, sympy.Min(*numbers), sympy.Max(*numbers))
 
 
-def _zeros(e: Expr, x: Expr, first: Expr, last: Expr) -> Iterator[Expr]:
-    """The real zeros of a polynomial; of others those between two numbers that SymPy finds, the first ones of many.
+def _denominator_zeros(e: Expr, x: Expr, first: Expr, last: Expr) -> Iterator[Expr]:
+    """The real zeros of a polynomial, or of the real part; of others those between two numbers, the first ones of many.
 
-    Those of the real part for complex values; none of an expression with several functions, other than exponentials.
+    If there are several functions, only for exponentials, and for waves of one angle.
     """
     t = sympy.Dummy(real=True)
     functions = {f for f in e.atoms(sympy.Function) if f.has(x)}
@@ -239,8 +237,12 @@ def _zeros(e: Expr, x: Expr, first: Expr, last: Expr) -> Iterator[Expr]:
         with suppress(NotImplementedError, sympy.PolynomialError):  # roots without a formula, coefficients such as pi
             yield from dict.fromkeys(sympy.real_roots(sympy.Poly(e, t, extension=True)))
             return
-    if len(functions) > 1 and {f.func for f in functions} != {sympy.exp}:
-        return  # of sin(3 x) and cos(5 x) it thinks for minutes
+    if len(functions) > 1 and {f.func for f in functions} != {
+        sympy.exp
+    }:  # SymPy takes minutes for sin(3 x) and cos(5 x)
+        with suppress(NotImplementedError, sympy.PolynomialError):
+            yield from wave_zeros(e, t, first, last)
+        return
     found, width = 0, 8  # twice as wide each time, since a wave has zeros without end
     while first < last and found < MOST_TRIALS:
         check_time()

@@ -24,7 +24,7 @@ from sympy.core.function import AppliedUndef, UndefinedFunction
 from kovacic.closed_form.atoms import Atoms
 from kovacic.equation import EULER, PI, Equation, Parsed, parameters_of
 from kovacic.errors import InputError, NotLinear
-from kovacic.general_solution.behaviour import value_at
+from kovacic.general_solution.behaviour import value_or_limit
 from kovacic.general_solution.integrands import NUMBERS
 from kovacic.general_solution.steps import JUMPING, in_steps
 from kovacic.limits import Limits
@@ -132,7 +132,7 @@ def read_question(
     renamed: dict[Expr, Expr] = {}
     if isinstance(eq, Basic):
         renamed = {s: Symbol(f"{s.name}_", **s.assumptions0) for s in eq.free_symbols if s.name in (PI, EULER)}
-        eq = exact(eq)
+        eq = exact_decimals(eq)
     eq, func, *sides = (
         given.xreplace(renamed) if isinstance(given, Basic) else given
         for given in (eq, func, *values, *values.values())
@@ -226,7 +226,7 @@ def apart(eq: Any, ics: Any) -> tuple[Any, Any]:
     return paste, values or ics
 
 
-def with_values(eq: Any, ics: Any, assume: Mapping[Any, Any] | None, limits: Limits) -> tuple[Any, Any, Any]:
+def with_given_values(eq: Any, ics: Any, assume: Mapping[Any, Any] | None, limits: Limits) -> tuple[Any, Any, Any]:
     """Texts of an equation and its conditions with values from the assumptions, and the others.  Raises `InputError`."""
     check_mapping(assume)
     values, others = values_among(assume or {})
@@ -242,7 +242,7 @@ def with_values(eq: Any, ics: Any, assume: Mapping[Any, Any] | None, limits: Lim
 def has_floats(eq: Any, values: Mapping[Any, Any]) -> bool:
     """True if an equation, or given values, contain floats."""
     parts = (eq, *values, *values.values())
-    return any(bool(e.atoms(Float)) if isinstance(e, Basic) else isinstance(e, float) for e in parts)
+    return any(isinstance(e, float) or (isinstance(e, Basic) and e.has(Float)) for e in parts)
 
 
 def with_floats(e: Expr) -> Expr:
@@ -347,8 +347,8 @@ class Condition:
         return replace(self, terms=tuple(terms), value=self.value and self.value.xreplace(others))
 
     def of(self, y: Expr, x: Expr) -> Expr:
-        """The sum of the terms for a function of x.  Raises `NotImplementedError` as `value_at` does."""
-        return sympy.Add(*(term.coefficient * value_at(y, x, term.point, term.order) for term in self.terms))
+        """The sum of the terms for a function of x.  Raises `NotImplementedError` as `value_or_limit` does."""
+        return sympy.Add(*(term.coefficient * value_or_limit(y, x, term.point, term.order) for term in self.terms))
 
     @property
     def is_value(self) -> bool:
@@ -473,13 +473,13 @@ class ConditionReader:
 def _exact(given: Any) -> Expr:
     """A SymPy expression; a float becomes the decimal that is written for it."""
     if isinstance(given, sympy.Expr):
-        return exact(given)
+        return exact_decimals(given)
     if is_complex(given):
         return _exact(given.real) + sympy.I * _exact(given.imag)
     return sympy.Rational(exact_real(exact_text(given, "the value"), "the value"))
 
 
-def exact(expression: Expr) -> Expr:
+def exact_decimals(expression: Expr) -> Expr:
     """The expression with exact decimals for floats."""
     floats = (number for number in expression.atoms(Float) if number.is_finite)
     return expression.xreplace({number: sympy.Rational(str(number)) for number in floats})

@@ -36,7 +36,7 @@ from kovacic.closed_form.product import product
 from kovacic.equation import Equation
 from kovacic.errors import InputError
 from kovacic.general_solution.antiderivatives import antiderivative
-from kovacic.general_solution.behaviour import value_at
+from kovacic.general_solution.behaviour import value_or_limit
 from kovacic.general_solution.first_order import (
     CheckedSolution,
     FirstOrderEquation,
@@ -144,7 +144,7 @@ def _solved_linear(
     solution, constants = with_letters_for_constants(answer, sympy.Tuple(linear, *start.items()).free_symbols)
     if a is not None and not start:  # those of C1 u1 + C2 u2 for which -u'/r is v u at a: one, or all
         basis = [solution.diff(constant) for constant in constants]
-        first, second = (value_at(-y.diff(x) / equation.r, x, a) - v * value_at(y, x, a) for y in basis)
+        first, second = (value_or_limit(-y.diff(x) / equation.r, x, a) - v * value_or_limit(y, x, a) for y in basis)
         if not (is_zero(first) and is_zero(second)):
             solution = second * basis[0] - first * basis[1]
     return solution, constants, answer

@@ -27,7 +27,7 @@ from sympy.logic.boolalg import And, Or
 from sympy.solvers.inequalities import solve_poly_inequality
 
 from kovacic.errors import InputError
-from kovacic.general_solution.zero import samples
+from kovacic.general_solution.zero import letter_samples
 
 Expr = Any  # SymPy publishes no types
 
@@ -201,7 +201,7 @@ def _in_heavisides(e: Expr, x: Expr) -> Expr:
         on = _indicator(condition, x)
         total = on * value + (1 - on) * total
     # with parameters that is tried at one value of each
-    missing = expand(total).diff(gap).subs(next(samples(e.free_symbols - {x})))
+    missing = expand(total).diff(gap).subs(next(letter_samples(e.free_symbols - {x})))
     has_gap = any(on_piece(missing, x, point) != 0 for point in between(break_points(missing, x)))
     if has_gap or total.has(sympy.nan):
         raise InputError(f"{e} has no value where no case holds", hint="add a last case, such as (0, True)")

@@ -23,8 +23,8 @@ from sympy.solvers.solveset import NonlinearError
 from kovacic.equation import eliminated
 from kovacic.errors import InputError, NotLinear
 from kovacic.general_solution.answer import vanishes_with
-from kovacic.general_solution.behaviour import value_at
-from kovacic.general_solution.constants import Outcome, Row, determine
+from kovacic.general_solution.behaviour import value_or_limit
+from kovacic.general_solution.constants import CaseOutcome, Row, determine
 from kovacic.general_solution.first_order import (
     LINEAR,
     CheckedSolution,
@@ -37,7 +37,7 @@ from kovacic.general_solution.first_order import (
     with_letters_for_constants,
     zeros_of,
 )
-from kovacic.general_solution.question import exact, free_constants
+from kovacic.general_solution.question import exact_decimals, free_constants
 from kovacic.general_solution.steps import JUMPING, in_steps, split_at_jumps
 from kovacic.general_solution.substitution import inverted, size, slope
 from kovacic.general_solution.textbook import in_book_form, sums
@@ -111,7 +111,7 @@ def read_system(equations: Sequence[Any], functions: Sequence[Any] | None) -> Li
         )
     if not all(isinstance(equation, sympy.Basic) for equation in equations):
         raise InputError("a system is two SymPy equations, or one text with a comma between them")
-    whole = [exact(e.lhs - e.rhs if isinstance(e, sympy.Equality) else e) for e in equations]
+    whole = [exact_decimals(e.lhs - e.rhs if isinstance(e, sympy.Equality) else e) for e in equations]
     x, y = _unknowns(whole, functions)
     t = x.args[0]
     try:
@@ -226,10 +226,10 @@ def _with_constants(system: LinearSystem, pair: Expr, constants: Sequence[Expr])
     c1, c2 = constants
     rows = []
     for f, condition in system.asked:
-        there = value_at(pair[system.functions.index(f)], system.x, condition.points[0])
+        there = value_or_limit(pair[system.functions.index(f)], system.x, condition.points[0])
         rows.append(Row(there.diff(c1), there.diff(c2), condition.value - there.subs({c1: 0, c2: 0})))
     generic, others, _ = determine(rows, (c1, c2))
-    if generic.outcome is Outcome.NONE:
+    if generic.outcome is CaseOutcome.NONE:
         raise InputError("there is no solution with these values: the conditions contradict one another")
     values = dict(zip(constants, generic.values, strict=True))
     zeros = [zero for case in others if case.is_possible for zero in case.zeros]

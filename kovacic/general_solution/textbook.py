@@ -34,7 +34,7 @@ from sympy.simplify.fu import TR2, TR5, TR6, TR2i, TR10i, hyper_as_trig
 from kovacic.closed_form.jets import jet
 from kovacic.general_solution.integrands import radicands
 from kovacic.general_solution.substitution import by_functions, changed_beside, expanded_size, in_single_waves
-from kovacic.general_solution.zero import is_positive_polynomial, is_zero, points
+from kovacic.general_solution.zero import is_positive_polynomial, is_zero, quadrant_points
 from kovacic.limits import MOST_SUBEXPRESSIONS
 from kovacic.special.choice import shortest
 
@@ -51,7 +51,7 @@ def in_book_form(value: Expr, x: Expr, free: Sequence[Expr] = ()) -> Expr:
     value = _with_equal_roots(_without_roots_of_squares(value, x, free))
     # |x| for 2 x H(x) - x in functions and powers, as in log|x|, also of a letter of integration
     inside = {e.args[0] for e in value.atoms(Pow, sympy.Function) if e.args[0].is_Add}
-    return value.xreplace({u: modulus for u in inside for t in u.free_symbols for modulus in _absolute(u, t)})
+    return value.xreplace({u: modulus for u in inside for t in u.free_symbols for modulus in _in_absolute_values(u, t)})
 
 
 def _without_roots_of_squares(value: Expr, x: Expr, free: Sequence[Expr]) -> Expr:
@@ -140,19 +140,19 @@ def without_homogeneous(particular: Expr, y1: Expr, y2: Expr, x: Expr) -> Expr:
     """The shortest of the particular solutions that differ from this one by a multiple of a term of its own."""
     if not particular.has(Add, sin, cos) or not _is_small(particular):
         return particular
-    forms = [particular, *_single_waves(particular, x), *_common_factors(particular, x), *_in_one_wave(particular)]
+    forms = [particular, *_single_waves(particular, x), *_factored_forms(particular, x), *_in_one_wave(particular)]
     for _, before, after in _before_and_after(particular, x):
         terms = Add.make_args(expand(after - before))
         own = [-term for term in terms if any(is_constant(term / y, x) for y in (y1, y2))]
         for h in (0, *own, Add(*own) / 2):
-            forms += _absolute(particular + h, x)
+            forms += _in_absolute_values(particular + h, x)
     return shortest(sorted(forms, key=lambda form: form.could_extract_minus_sign()))
 
 
 def is_constant(quotient: Expr, x: Expr) -> bool:
     """True if the expression is seen to be constant; a slope other than zero at one point refutes it first."""
     with suppress(NotImplementedError):
-        if quotient.has(x) and not jet(quotient, x, next(points()))[1].contains(0):
+        if quotient.has(x) and not jet(quotient, x, next(quadrant_points()))[1].contains(0):
             return False
     return not powsimp(expand(quotient)).has(x)
 
@@ -168,7 +168,7 @@ def _before_and_after(value: Expr, x: Expr) -> Iterator[tuple[Expr, Expr, Expr]]
         yield expand(x - steps[0].args[0]), before, after
 
 
-def _absolute(value: Expr, x: Expr) -> Iterator[Expr]:
+def _in_absolute_values(value: Expr, x: Expr) -> Iterator[Expr]:
     """(2), for steps at one point."""
     u = Dummy()
     for a, *parts in _before_and_after(value, x):
@@ -186,7 +186,7 @@ def _hyperbolic(value: Expr, x: Expr) -> Iterator[Expr]:
     if not is_in_sum and all(e.has(x) for e in value.atoms(exp)):  # a product has one exponential, and keeps it
         return
     exponents = {
-        e: by_functions(expand(e.as_base_exp()[1]), lambda factor: factor.is_Rational)
+        e: by_functions(expand(e.as_base_exp()[1]), lambda part: part.is_Rational)
         for e in value.atoms(exp, type(sympy.E))
     }
     unit: dict[Expr, int] = defaultdict(lambda: 1)
@@ -258,7 +258,7 @@ def _single_waves(value: Expr, x: Expr) -> Iterator[Expr]:
     """Products of waves as sums, if a term has two."""
     expanded = expand(value) if value.has(sin, cos) else value
     terms = map(Mul.make_args, Add.make_args(expanded))
-    if any(sum(isinstance(factor, sin | cos) for factor in term) > 1 for term in terms):
+    if any(sum(isinstance(part, sin | cos) for part in term) > 1 for term in terms):
         found = powsimp(in_single_waves(value))
         steps = sorted(value.atoms(Heaviside), key=str)
         yield found
@@ -309,8 +309,8 @@ def _quotients_in_factors(e: Expr) -> Iterator[Expr]:
     root = sqrt(u)
     rational = cancel(e / root)
     if not bases and rational.is_rational_function():
-        for quotient, factor in ((rational, root), (cancel(rational * u), 1 / root)):
-            yield sympy.factor(quotient).replace(lambda part: part.is_Add, _with_square) * factor
+        for quotient, scale in ((rational, root), (cancel(rational * u), 1 / root)):
+            yield sympy.factor(quotient).replace(lambda part: part.is_Add, _with_square) * scale
 
 
 def _with_square(total: Expr) -> Expr:
@@ -341,7 +341,7 @@ def sums(value: Expr, x: Expr) -> Iterator[Expr]:
         yield from sums(_also_hyperbolic(TR2, value), x)
     value = powsimp(value)
     expanded = powsimp(expand(value))
-    totals = by_functions(expanded, lambda factor: not factor.has(x))
+    totals = by_functions(expanded, lambda part: not part.has(x))
     by_function = Add(*(c * f if c.is_Rational else sympy.factor(cancel(c)) * f for f, c in totals.items()))
     yield from (value, expanded, by_function, _with_common_factors(by_function))
     if value.is_rational_function(x):
@@ -359,7 +359,7 @@ def as_quotient(value: Expr) -> Expr:
     return cancel(sympy.together(value))
 
 
-def _common_factors(value: Expr, x: Expr) -> Iterator[Expr]:
+def _factored_forms(value: Expr, x: Expr) -> Iterator[Expr]:
     """The value with common factors before the sum, and over one denominator; different exponentials stay different."""
     exponentials = [e for e in value.atoms(exp) if e.has(x)]
     yield changed_beside(exponentials, value, _with_common_factors)
@@ -374,4 +374,4 @@ def _with_common_factors(value: Expr) -> Expr:
     return value if is_unlike and number not in (1, -1) else found
 
 
-_SHAPE_RULES = (_absolute, _exchanged, _hyperbolic, _single_waves, _common_factors, sums, _tangents)
+_SHAPE_RULES = (_in_absolute_values, _exchanged, _hyperbolic, _single_waves, _factored_forms, sums, _tangents)

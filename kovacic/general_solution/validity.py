@@ -24,8 +24,8 @@ from sympy.solvers.inequalities import reduce_rational_inequalities
 from kovacic.closed_form.cuts import cut_of
 from kovacic.general_solution.substitution import in_single_waves, size
 from kovacic.general_solution.textbook import in_root
-from kovacic.general_solution.zero import agree, is_nowhere_zero, is_positive_polynomial, samples
-from kovacic.general_solution.zero_set import ZeroSet, inequality, poles_of, without_implied
+from kovacic.general_solution.zero import agree, is_nowhere_zero, is_positive_polynomial, letter_samples
+from kovacic.general_solution.zero_set import ZeroSet, gamma_zeros, independent_exceptions, inequality
 
 Expr = Any  # SymPy publishes no types
 
@@ -67,7 +67,7 @@ def needed_for(formulas: Iterable[Expr], x: Expr, exceptions: Iterable[Expr] = (
     numbers = (node for node in sympy.preorder_traversal(plain) if node.is_number)
     has_real_numbers = all(number.is_extended_real for number in numbers)
     # atan and asinh have their cuts on the imaginary axis, where a root of something negative lies
-    cuts = (_positive(cut_of(e)) for e in value.atoms(sympy.atan, sympy.asinh) if e.has(*roots))
+    cuts = (_positive_need(cut_of(e)) for e in value.atoms(sympy.atan, sympy.asinh) if e.has(*roots))
     needs = [need.xreplace(roots) for need in (*needs_of(value), *cuts)]
     exceptions = tuple(exceptions)
     found = _without_what_holds(needs, x, exceptions, has_real_parts=has_real_numbers)
@@ -86,7 +86,7 @@ def _without_what_holds(
     zeros = [e for e in exceptions if not is_nowhere_zero(e)]
     nonzero: list[Expr] = []
     for k in range(3):  # k > 0 from k sqrt(h k) > 0, and then h > 0 from h k > 0
-        truths = {part: _truth(part) for r in relations for part in _parts(r, relations, nonzero)}
+        truths = {part: _truth(part) for r in relations for part in _shorter_relations(r, relations, nonzero)}
         if False in truths.values():
             return None
         parts = [part for part, is_true in truths.items() if not is_true]
@@ -100,11 +100,11 @@ def _without_what_holds(
     implied = {Ne: _nonzero_beside(relations), GreaterThan: _positive_among(relations)}
     shorter = [_of_cosine(r) for r in relations if r.lhs not in implied.get(r.func, ())]
     real = _in_one_interval({(r.func, expand(r.lhs)): r for r in shorter}.values(), x)
-    unsaid = without_implied(e for e in nonzero if e not in said)
+    unsaid = independent_exceptions(e for e in nonzero if e not in said)
     return None if real is None else Validity(real, unsaid, has_real_parts)
 
 
-def _parts(relation: Expr, beside: Collection[Expr], nonzero: Collection[Expr]) -> list[Expr]:
+def _shorter_relations(relation: Expr, beside: Collection[Expr], nonzero: Collection[Expr]) -> list[Expr]:
     """Shorter relations equivalent to one, given others (`beside`) and what isn't zero, for real roots and powers.
 
     Factors of a known sign are left out: a^2 - x^2 > 0 for 1 - x^2/a^2 > 0; k > 0 and x > 0 for sqrt(k)*sqrt(x)*exp(x/2) > 0,
@@ -125,15 +125,15 @@ def _parts(relation: Expr, beside: Collection[Expr], nonzero: Collection[Expr]) 
     apart, rest = [], []
     for f in Mul.make_args(u.as_content_primitive()[1]):
         base, exponent = f.as_base_exp() if f.is_Pow else (f, S.One)
-        if _truth(_positive(f)) or (f in positive and not is_strict):
+        if _truth(_positive_need(f)) or (f in positive and not is_strict):
             continue
         if isinstance(f, sympy.Abs) or exponent.is_even:
             apart += [_nonzero(f.args[0])] * (is_strict and not exponent.is_negative)
         elif is_strict and (base in positive | known or not (exponent.is_integer or exponent.free_symbols)):
-            apart.append(_positive(base))
+            apart.append(_positive_need(base))
         else:
             rest.append(base if exponent.is_odd else f)
-    return [*apart, (_positive if is_strict else _not_negative)(Mul(*rest))]
+    return [*apart, (_positive_need if is_strict else _not_negative)(Mul(*rest))]
 
 
 def _positive_among(relations: Iterable[Expr]) -> set[Expr]:
@@ -151,7 +151,7 @@ def _for_real_letters(zero: Expr, known: Collection[Expr]) -> Sequence[Expr]:
 
     Nothing for 1/gamma(1 + sqrt(r)), and r for 1/gamma(sqrt(r)): a root isn't negative, and no pole if it isn't real.
     """
-    is_pole = poles_of(zero) is not None
+    is_pole = gamma_zeros(zero) is not None
     powers = (p for p in zero.atoms(Pow) if p.exp == S.Half and (is_pole or p.base in known))
     roots = {p: Dummy(nonnegative=True) for p in powers}
     letters = roots | _real_letters(zero)
@@ -180,7 +180,7 @@ def _without_even_roots(value: Expr, x: Expr) -> tuple[Expr, dict[Expr, Expr]]:
         s = Dummy(real=True)
         in_s = in_root(value, radicand, s)
         other = in_s.xreplace({s: -s})
-        small = {letter: 1 / (number + 1) for letter, number in next(samples(in_s.free_symbols)).items()}
+        small = {letter: 1 / (number + 1) for letter, number in next(letter_samples(in_s.free_symbols)).items()}
         equal = (agree(u.xreplace(small), v.xreplace(small)) for u, v in zip(in_s, other, strict=True))
         if in_s == other or (in_s.has(sympy.hyper) and all(equal)):
             value = in_s
@@ -280,18 +280,15 @@ def needs_of(e: Expr) -> Iterator[Expr]:
 
 
 def _of_power(e: Expr, exponent: Expr) -> Expr:
-    """What a power needs whose base and exponent are real and finite."""
+    """The need of a power with a real and finite base and exponent."""
     if e.base.is_number or (exponent.is_nonnegative and exponent.is_integer):
         return true
     if exponent.is_integer:
         return Ne(e.base, 0)
-    return (_not_negative if exponent.is_Rational and exponent > 0 else _positive)(e.base)
+    return (_not_negative if exponent.is_Rational and exponent > 0 else _positive_need)(e.base)
 
 
-# ----------------------------------------------------------------------------------------------------------- relations
-
-
-def _positive(u: Expr) -> Expr:
+def _positive_need(u: Expr) -> Expr:
     """u > 0, for a cut from 0 to -oo; u != 0, the branch point, for an argument with an i."""
     return _nonzero(u) if u.has(I) else StrictGreaterThan(u, 0, evaluate=False)
 
@@ -307,9 +304,6 @@ def _nonzero(u: Expr) -> Expr:
     return Ne(Mul(*(factor for factor in factors if not factor.is_number)), 0)
 
 
-# ----------------------------------------------------------------------------------------------------------- functions
-
-
 def _unless(is_entire: Any, need: Expr) -> Expr:
     """The need, except of an entire function."""
     return true if is_entire else need
@@ -319,7 +313,7 @@ def _of_elliptic_integral(e: Expr, last: Expr) -> Expr:
     """F, E and Pi up to phi, or pi/2: there 1 - m sin(phi)^2, and 1 - n sin(phi)^2, have no zero."""
     moduli = [last] + [e.args[0]] * isinstance(e, sympy.elliptic_pi)
     square = sin(e.args[-2]) ** 2 if len(e.args) > len(moduli) else 1
-    return And(*(_positive(1 - m * square) for m in moduli))
+    return And(*(_positive_need(1 - m * square) for m in moduli))
 
 
 def _of_hypergeometric(e: Expr, u: Expr) -> Expr:
@@ -327,7 +321,7 @@ def _of_hypergeometric(e: Expr, u: Expr) -> Expr:
     defined = (Ne(1 / sympy.gamma(c), 0) for c in e.bq if c.free_symbols)  # poles at 0, -1, ...
     is_polynomial = any(a.is_integer and a.is_nonpositive for a in e.ap)
     cut = 1 - u if len(e.ap) == len(e.bq) + 1 else -u
-    return And(_unless(is_polynomial or len(e.ap) <= len(e.bq), _positive(cut)), *defined)
+    return And(_unless(is_polynomial or len(e.ap) <= len(e.bq), _positive_need(cut)), *defined)
 
 
 #: The need of a power or a function e with the last argument u.
@@ -342,19 +336,21 @@ _NEEDS: dict[Any, Callable[[Expr, Expr], Expr]] = {
     # with a cut
     **dict.fromkeys(
         (sympy.log, sympy.Ci, sympy.expint, sympy.uppergamma, sympy.lowergamma, sympy.polylog, sympy.atanh),
-        lambda e, u: _positive(cut_of(e)),
+        lambda e, u: _positive_need(cut_of(e)),
     ),
-    **dict.fromkeys((sympy.bessely, sympy.besselk), lambda e, u: _positive(u)),
+    **dict.fromkeys((sympy.bessely, sympy.besselk), lambda e, u: _positive_need(u)),
     **dict.fromkeys((sympy.elliptic_k, sympy.elliptic_e, sympy.elliptic_f, sympy.elliptic_pi), _of_elliptic_integral),
     # J_n(u) is (u/2)^n times an entire function; y_n(u) is rational in u beside waves for an integer n
-    **dict.fromkeys((sympy.besselj, sympy.besseli, sympy.jn), lambda e, u: _unless(e.args[0].is_integer, _positive(u))),
-    sympy.yn: lambda e, u: _nonzero(u) if e.args[0].is_integer else _positive(u),
+    **dict.fromkeys(
+        (sympy.besselj, sympy.besseli, sympy.jn), lambda e, u: _unless(e.args[0].is_integer, _positive_need(u))
+    ),
+    sympy.yn: lambda e, u: _nonzero(u) if e.args[0].is_integer else _positive_need(u),
     # polynomials for an integer n; else u > -1
     **dict.fromkeys(
         (sympy.legendre, sympy.gegenbauer, sympy.jacobi, sympy.chebyshevt, sympy.chebyshevu),
-        lambda e, u: _unless(e.args[0].is_integer, _positive(u + 1)),
+        lambda e, u: _unless(e.args[0].is_integer, _positive_need(u + 1)),
     ),
     # P_n^m(u) = (1 - u^2)^(m/2) times a polynomial for integers n and m
-    sympy.assoc_legendre: lambda e, u: _unless(e.args[0].is_integer and e.args[1].is_even, _positive(1 - u**2)),
+    sympy.assoc_legendre: lambda e, u: _unless(e.args[0].is_integer and e.args[1].is_even, _positive_need(1 - u**2)),
     sympy.hyper: _of_hypergeometric,
 }

@@ -14,7 +14,7 @@ from itertools import product
 from typing import Any
 
 import sympy
-from sympy import Add, Dummy, I, S, atan, cancel, cos, expand, log, pi, sin, sqrt, tan
+from sympy import Add, Dummy, I, S, atan, cancel, cos, expand, log, pi, sin, sqrt, tan, together
 from sympy.simplify.fu import TR2, TR2i
 
 from kovacic.general_solution.integrands import ChangeOfIntegrand, UnknownIntegral, integral_of_fraction, require
@@ -22,9 +22,6 @@ from kovacic.general_solution.substitution import by_functions, in_single_waves
 from kovacic.general_solution.undetermined import undetermined
 
 Expr = Any  # SymPy publishes no types
-
-
-# ------------------------------------------------------------------------------------------------- changes of variable
 
 
 class WaveChange(ChangeOfIntegrand):
@@ -49,7 +46,7 @@ def _at_tangent(found: Expr, angle: Expr, u: Expr) -> Expr:
     in_cosine = Dummy()  # log(cos(angle)^2)
     known = {arc: _continuous_angle(arc.args[0], angle, u) for arc in found.atoms(atan)}
     for logarithm in found.atoms(log):
-        parts = sympy.fraction(sympy.together(logarithm.args[0]))
+        parts = sympy.fraction(together(logarithm.args[0]))
         if not all(part.is_polynomial(u) for part in parts):
             continue
         degrees = [sympy.degree(part, u) for part in parts]
@@ -120,7 +117,7 @@ def wave_changes(term: Expr, x: Expr) -> Iterator[WaveChange]:
         """For int f du with the sine and the cosine in u."""
         # with a root as a factor, as the rules for roots of polynomials know it
         in_u = cancel(f.subs({s: sine, c: cosine}) / theta.diff(x))
-        return WaveChange(sympy.together(in_u), u, wave)
+        return WaveChange(together(in_u), u, wave)
 
     is_odd_in_s, is_odd_in_c = (cancel(R + R.xreplace({wave: -wave})) == 0 for wave in (s, c))
     if is_odd_in_s:
@@ -147,6 +144,24 @@ def common_factor(multiples: Sequence[Expr]) -> Expr | None:
     if not ratios or not all(ratio.is_Rational for ratio in ratios):
         return None
     return multiples[0] * reduce(sympy.gcd, ratios)  # gcd_list stops at 1, though 1/2 may follow
+
+
+def wave_zeros(e: Expr, x: Expr, first: Expr, last: Expr) -> Iterator[Expr]:
+    """The zeros between two numbers of a polynomial in the waves of one angle over Q, by u = tan(theta/2), and theta = pi."""
+    found = _InOneAngle.of(e)
+    if found is None or not found.R.is_polynomial(found.s, found.c) or found.theta.diff(x).free_symbols:
+        return
+    R, s, c, theta = found.R, found.s, found.c, found.theta
+    u = Dummy(real=True)
+    in_u = sympy.numer(together(R.subs({s: 2 * u / (1 + u**2), c: (1 - u**2) / (1 + u**2)})))
+    angles = [2 * atan(root) for root in dict.fromkeys(sympy.real_roots(sympy.Poly(in_u, u, extension=True)))]
+    rate, phase = theta.diff(x), theta.subs(x, 0)
+    for angle in [*angles, pi] if R.subs({s: 0, c: -1}) == 0 else angles:
+        place, period = (angle - phase) / rate, abs(2 * pi / rate)
+        n = sympy.ceiling((first - place) / period)
+        while (zero := place + n * period) <= last:
+            yield zero
+            n += 1
 
 
 def rational_in_waves(e: Expr) -> list[Expr]:
@@ -207,9 +222,6 @@ def _of_square(R: Expr, u: Expr, v: Expr) -> tuple[Expr, Expr]:
     even = (cancel(part) for part in ((R + other) / 2, (R - other) / (2 * u)))
     A, B = (cancel(part.subs(u, sqrt(1 - v**2))) for part in even)
     return A, B
-
-
-# ------------------------------------------------------------------------------------------------ beside a single wave
 
 
 def beside_waves(term: Expr, x: Expr) -> Expr:

@@ -29,16 +29,27 @@ from kovacic.limits import manageable
 from kovacic.reading.parser import excerpt
 
 Expr = Any  # SymPy publishes no types
-#: What is raised for functions that can't be evaluated.
+#: Exceptions raised for functions that can't be evaluated.
 NOT_EVALUATED = (NotImplementedError, ZeroDivisionError, AttributeError, ValueError, TypeError)
 #: The largest product of the degrees of roots in an algebraic number whose minimal polynomial is computed: some 0.2 s.
 _LARGEST_PRODUCT_OF_DEGREES = 64
 #: Digits to which a number is compared with zero before it is rewritten at length.
 _PRECISE = 400
-#: How many values of the letters are tried.
-SAMPLES = 6
+#: The number of values of the letters that are tried.
+_LETTER_SAMPLES = 6
 #: Points x/101 + i y/89 in each quadrant and on the axis, where a formula is substituted: wrong branches of roots don't pass.
-_POINTS = [(137, 71), (-151, 83), (-97, -119), (163, -79), (23, 0), (67, 0), (173, 0), (431, 0), (-41, 0), (-257, 0)]
+_QUADRANT_POINTS = [
+    (137, 71),
+    (-151, 83),
+    (-97, -119),
+    (163, -79),
+    (23, 0),
+    (67, 0),
+    (173, 0),
+    (431, 0),
+    (-41, 0),
+    (-257, 0),
+]
 
 
 class Zero(Enum):
@@ -61,7 +72,7 @@ def when_zero(value: Expr) -> Zero:
         return Zero.ALWAYS
     if is_nowhere_zero(value):
         return Zero.NEVER
-    if any(differs_from_zero(value, sample) for sample in islice(samples(value.free_symbols), SAMPLES)):
+    if any(differs_from_zero(value, sample) for sample in islice(letter_samples(value.free_symbols), _LETTER_SAMPLES)):
         # A number that differs from zero is never zero; an expression in letters may be for other values of these.
         may_be_zero = value.free_symbols and not all(map(is_nowhere_zero, by_parity(value)))
         return Zero.SOMETIMES if may_be_zero else Zero.NEVER
@@ -77,12 +88,12 @@ def is_zero(value: Expr) -> bool:
 
 def is_nowhere_zero(value: Expr) -> bool:
     """True if no factor can be zero: by assumptions, or because the function has no zeros."""
-    bases = (factor.as_base_exp()[0] for factor in sympy.Mul.make_args(value))
-    return all(_NONZERO_IF.get(base.func, _is_nonzero_for_sympy)(base) for base in bases)
-
-
-def _is_nonzero_for_sympy(e: Expr) -> bool:
-    return manageable(e) and e.is_zero is False  # of a long sum SymPy would compute parts to ever more digits
+    for base in (factor.as_base_exp()[0] for factor in sympy.Mul.make_args(value)):
+        known = _NONZERO_IF.get(base.func)
+        # of a long sum SymPy would compute parts to ever more digits
+        if not (known(base) if known else manageable(base) and base.is_zero is False):
+            return False
+    return True
 
 
 def is_positive_polynomial(p: Expr, *, or_zero: bool = False) -> bool:
@@ -108,18 +119,12 @@ def is_positive_polynomial(p: Expr, *, or_zero: bool = False) -> bool:
     return len(letters) == 1 and bool(p.subs(letters[0], 0) > 0) and Poly(p, letters[0]).count_roots() == 0
 
 
-def _gamma_is_nonzero(f: Expr) -> bool:
-    """Gamma has no zeros; poles are excluded, too."""
-    argument = expand(f.args[0])
-    return bool(argument.is_positive or argument.is_integer is False)
-
-
 #: Functions, with a condition for one of them to be finite and not zero.
 _NONZERO_IF: dict[Any, Callable[[Expr], Any]] = {
     # K has no positive zero for a real order, I for one that isn't negative.
     sympy.besselk: lambda f: f.args[0].is_real and f.args[1].is_positive,
     sympy.besseli: lambda f: f.args[0].is_nonnegative and f.args[1].is_positive,
-    sympy.gamma: _gamma_is_nonzero,
+    sympy.gamma: lambda f: expand(f.args[0]).is_positive or expand(f.args[0]).is_integer is False,  # no pole
     sympy.cosh: lambda f: f.args[0].is_real,
     # Mathieu's even solution, and the slope of his odd one, at 0: where one vanished, the solution would be 0.
     **dict.fromkeys((sympy.mathieuc, sympy.mathieusprime), lambda f: f.args[-1] == 0),
@@ -139,20 +144,20 @@ def by_parity(value: Expr) -> list[Expr]:
     return [sympy.factor_terms(sympy.powsimp(part)) for part in parts]
 
 
-def samples(symbols: set[Expr]) -> Iterator[dict[Expr, Expr]]:
-    """Endless values of symbols that fit what is assumed of them: small numbers, the symbols in many orders."""
+def letter_samples(symbols: set[Expr]) -> Iterator[dict[Expr, Expr]]:
+    """Endless values of symbols that fit what is assumed of them: small numbers, the symbols in many orders; {} for none."""
     ordered = sorted(symbols, key=str)
-    for k in count():
+    for k in count() if symbols else (0,):
         # turned round k/2 times, and backwards for odd k: which of two is the larger one may matter
         start = k // 2 % max(len(ordered), 1)
-        turned = [*ordered[start:], *ordered[:start]][:: 1 - 2 * (k % 2)]
+        turned = [*ordered[start:], *ordered[:start]][:: (-1) ** k]
         yield {symbol: _sample_value(symbol, k + 3 * position) for position, symbol in enumerate(turned)}
 
 
 def generic_samples(symbols: set[Expr], natural: Expr | None = None) -> Iterator[dict[Expr, Expr]]:
-    """Some `samples` for which `natural` isn't negative, without the first one: the smallest integers are special."""
-    later = islice(samples(symbols), 1, 1 + 4 * SAMPLES)
-    return islice((one for one in later if natural is None or not natural.xreplace(one).is_negative), SAMPLES)
+    """Some `letter_samples` for which `natural` isn't negative, without the first one: the smallest integers are special."""
+    later = islice(letter_samples(symbols), int(bool(symbols)), 1 + 4 * _LETTER_SAMPLES)
+    return islice((one for one in later if natural is None or not natural.xreplace(one).is_negative), _LETTER_SAMPLES)
 
 
 def opposite(sample: dict[Expr, Expr]) -> dict[Expr, Expr]:
@@ -172,7 +177,7 @@ def _sample_value(symbol: Expr, k: int) -> Expr:
     return -value if symbol.is_nonpositive else value
 
 
-def ball(value: Expr, sample: dict[Expr, Expr] | None = None) -> Any:
+def ball_of(value: Expr, sample: dict[Expr, Expr] | None = None) -> Any:
     """The value of a constant as a ball, with the sample's values for letters; None if it can't be computed."""
     value = value.xreplace(sample or {})
     found = None if value.has(*ARBITRARY) else known_jet(value, Dummy(), acb(0))
@@ -190,7 +195,7 @@ def differs_from_zero(value: Expr, sample: dict[Expr, Expr]) -> bool:
     """True if some ball around the value excludes zero."""
     for digits in (DIGITS, _PRECISE):
         with working_digits(digits):
-            found = ball(value, sample)
+            found = ball_of(value, sample)
             if found is None or not found.is_finite():
                 return False
             if not found.contains(0):
@@ -202,7 +207,7 @@ def agree(value: Expr, other: Expr) -> bool:
     """True if two expressions for a constant, found at different points, agree to as many as `DIGITS` digits."""
     difference = value - other
     with working_digits(3 * DIGITS):
-        found = ball(difference, next(samples(difference.free_symbols)))
+        found = ball_of(difference, next(letter_samples(difference.free_symbols)))
         return found is not None and bool(abs(found) < arb(10) ** -DIGITS)
 
 
@@ -231,7 +236,7 @@ def is_algebraic_zero(value: Expr) -> bool:
     return bool(is_short and sympy.minimal_polynomial(value, x) == x)
 
 
-def residual(point: Any, x: Expr, y: Expr, coefficients: Sequence[Expr]) -> tuple[Any, Any]:
+def residual_at(point: Any, x: Expr, y: Expr, coefficients: Sequence[Expr]) -> tuple[Any, Any]:
     """|a y'' + b y' + c y - f| at a point, and the sum of the terms' absolute values.  Raises `NotImplementedError`."""
     a, b, c, f = (jet(e, x, point)[0] for e in coefficients)
     value, first, second = jet(y, x, point)
@@ -241,6 +246,6 @@ def residual(point: Any, x: Expr, y: Expr, coefficients: Sequence[Expr]) -> tupl
     return abs(sum(terms)), sum(map(abs, terms), arb(0))
 
 
-def points() -> Iterator[Any]:
-    """The points of `_POINTS`, in each quadrant and on the axis."""
-    return (acb(arb(fmpq(real, 101)), arb(fmpq(imaginary, 89))) for real, imaginary in _POINTS)
+def quadrant_points() -> Iterator[Any]:
+    """The points of `_QUADRANT_POINTS`, in each quadrant and on the axis."""
+    return (acb(arb(fmpq(real, 101)), arb(fmpq(imaginary, 89))) for real, imaginary in _QUADRANT_POINTS)

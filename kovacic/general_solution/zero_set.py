@@ -33,7 +33,7 @@ class ZeroSet:
     def factors(self) -> tuple[Expr, ...]:
         """The factors with letters that may be zero, each once, without powers and signs."""
         found = []
-        for factor in _bases(self.expression):
+        for factor in _vanishing_factors(self.expression):
             # the inverse of a gamma function is zero at its poles
             is_below = factor.is_Pow and factor.exp.is_negative and not factor.has(gamma)
             if factor.free_symbols and not is_below and not _has_no_zero(factor):
@@ -57,7 +57,7 @@ class ZeroSet:
     def equation(self, answer: Expr = sympy.S.Zero) -> str:
         """`k = 0`; in hyperbolic functions if the answer has these."""
         left = Mul(*self.factors)
-        if poles := poles_of(left):
+        if poles := gamma_zeros(left):
             return f"{poles[0]} is one of 0, {poles[1]}, {2 * poles[1]}, ..."
         if answer.has(sinh, cosh):
             factors = Mul.make_args(in_hyperbolic_functions(left))
@@ -65,7 +65,7 @@ class ZeroSet:
         return f"{-left if left.could_extract_minus_sign() else left} = 0"
 
 
-def poles_of(e: Expr) -> tuple[Expr, int] | None:
+def gamma_zeros(e: Expr) -> tuple[Expr, int] | None:
     """(n, 1) for 1/gamma(-n), which is zero at 0, 1, 2, ...; (n, -1) for 1/gamma(n); None for other expressions."""
     if not isinstance(1 / e, gamma):
         return None
@@ -75,11 +75,11 @@ def poles_of(e: Expr) -> tuple[Expr, int] | None:
 
 def inequality(e: Expr) -> str:
     """`k != 0`, or `n is none of 0, 1, 2, ...`."""
-    poles = poles_of(e)
+    poles = gamma_zeros(e)
     return f"{poles[0]} is none of 0, {poles[1]}, {2 * poles[1]}, ..." if poles else f"{e} != 0"
 
 
-def without_implied(exceptions: Iterable[Expr]) -> tuple[Expr, ...]:
+def independent_exceptions(exceptions: Iterable[Expr]) -> tuple[Expr, ...]:
     """The exceptions without c + m and 1/gamma(c + m), m an integer, beside sin(pi c); 1/gamma(c) for c and 1/gamma(c + 1)."""
     exceptions = tuple(dict.fromkeys(exceptions))
     for inverse in [e for e in exceptions if isinstance(1 / e, gamma)]:
@@ -90,36 +90,32 @@ def without_implied(exceptions: Iterable[Expr]) -> tuple[Expr, ...]:
     periodic = [e.args[0] / sympy.pi for e in exceptions if isinstance(e, sympy.sin)]
 
     def is_implied(e: Expr) -> bool:
-        number = (poles_of(e) or (e,))[0]
+        number = (gamma_zeros(e) or (e,))[0]
         return any(sympy.cancel(number - sign * c).is_Integer for c in periodic for sign in (1, -1))
 
     return tuple(dict.fromkeys(e for e in exceptions if not is_implied(e)))
 
 
-def _bases(zero: Expr) -> Iterator[Expr]:
+def _vanishing_factors(zero: Expr) -> Iterator[Expr]:
     """The factors, and b for b^c, which is zero for b = 0 alone if c is positive.
 
     With real a and b, a - b in the place of exp(a) - exp(b), and 2*n + 1 in that of 3*3^(2*n) - 1.
     """
-    for factor in Mul.make_args(_factored(zero)):
+    if manageable(zero):
+        above, below = sympy.fraction(together(zero))
+        above /= Mul(*(f for f in Mul.make_args(below) if isinstance(f, gamma)))  # 0 at its poles
+        zero = min(map(sympy.factor, (above, in_single_waves(above))), key=size)
+    if zero.has(exp):
+        zero = sympy.powsimp(zero, deep=True, combine="exp")  # exp(a) exp(-b)
+    for factor in Mul.make_args(zero):
         terms = sympy.Add.make_args(factor.rewrite(exp) if isinstance(factor, sinh) else factor)
         exponent = sympy.expand_log(sympy.log(-terms[0] / terms[1])) if len(terms) == 2 else sympy.I
         if factor.is_Pow and not isinstance(factor, exp) and not factor.exp.is_nonpositive:
-            yield from _bases(factor.base)
+            yield from _vanishing_factors(factor.base)
         elif exponent.is_real and all(f.is_number for f in exponent.atoms(sympy.log)):
-            yield from _bases(exponent)
+            yield from _vanishing_factors(exponent)
         else:
             yield factor
-
-
-def _factored(zero: Expr) -> Expr:
-    """The shorter of two products, one with waves of sums for products of waves; a long expression stays."""
-    if not manageable(zero):
-        return zero
-    above, below = sympy.fraction(together(zero))
-    above /= Mul(*(f for f in Mul.make_args(below) if isinstance(f, gamma)))  # 0 at its poles
-    factored = min(map(sympy.factor, (above, in_single_waves(above))), key=size)
-    return sympy.powsimp(factored, deep=True, combine="exp") if factored.has(exp) else factored  # exp(a) exp(-b)
 
 
 def _where_zero(e: Expr, base: Expr) -> Expr:

@@ -232,10 +232,19 @@ def test_values_are_those_of_an_integration(a2: str, a1: str, a0: str, f: str, i
         ("y'' = tan(3*x)", "y(0)=0, y(1)=1"),
         ("y'' + y = 1/(2*cos(x)^2 + 3*cos(x) - 2)", "y(0)=0, y(3)=1"),
         ("(x-1)^2*y'' - 2*y = 0", "y(0)=1, y(oo)=0"),
+        # several waves of one angle, and a pole in roots beside a root of x
+        ("y'' - y = 1/(sin(x) + cos(x))", "y(0)=1, y(3)=0"),
+        ("y'' - y = 1/(sin(2*x) - sin(x))", "y(1/2)=1, y(2)=0"),
+        ("y'' + y = sqrt(x + 2)/(x^3 - x - 1)", "y(0)=1, y(2)=0"),
     ],
     ordinary=3,
     long=3,
-    always=[("(exp(x) - 2)*y'' + y = 0", "y(-1)=1, y(1)=0"), ("(x-1)^2*y'' - 2*y = 0", "y(0)=1, y(oo)=0")],
+    always=[
+        ("(exp(x) - 2)*y'' + y = 0", "y(-1)=1, y(1)=0"),
+        ("(x-1)^2*y'' - 2*y = 0", "y(0)=1, y(oo)=0"),
+        ("y'' - y = 1/(sin(x) + cos(x))", "y(0)=1, y(3)=0"),
+        ("y'' + y = sqrt(x + 2)/(x^3 - x - 1)", "y(0)=1, y(2)=0"),
+    ],
 )
 def test_two_sides_of_a_singular_point(text: str, values: str) -> None:
     with pytest.raises(kovacic.InputError, match="a singular point of the equation lies between"):

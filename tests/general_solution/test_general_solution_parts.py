@@ -19,7 +19,7 @@ from kovacic import answer_to, dsolve
 from kovacic.general_solution.antiderivatives import antiderivative
 from kovacic.general_solution.behaviour import Approach, UnknownLimit, limit_at, values_at
 from kovacic.general_solution.check import is_finite
-from kovacic.general_solution.constants import Outcome, Row, determine
+from kovacic.general_solution.constants import CaseOutcome, Row, determine
 from kovacic.general_solution.particular import DefiniteIntegral
 from kovacic.general_solution.substitution import finite_value
 from kovacic.general_solution.undetermined import undetermined
@@ -144,9 +144,9 @@ def test_ranks(seed: int) -> None:
     generic, others, _ = determine(rows, (C1, C2))
     assert not others
     if spoiled:
-        assert generic.outcome is Outcome.NONE
+        assert generic.outcome is CaseOutcome.NONE
         return
-    assert generic.outcome is Outcome.SOLUTIONS
+    assert generic.outcome is CaseOutcome.SOLUTIONS
     assert all(size(row.rest(*generic.values).subs({C1: 3, C2: -2}), 30) < 1e-20 for row in rows)
     free = {C1, C2} & (generic.values[0].free_symbols | generic.values[1].free_symbols)
     assert len(free) == 2 - (rank if u or v else rank - 1)
