@@ -157,10 +157,7 @@ def echo(channel: Channel) -> None:
 
 
 def set_alarm(seconds: float) -> None:
-    """Let the system end this process if its parent, which kills it earlier, can't; 0 takes it back.
-
-    The default action isn't Python's, which would wait for the end of a call of C.
-    """
+    """Let the system end this process if its parent can't kill it before, even within a call of C; 0 takes it back."""
     if hasattr(signal, "setitimer"):
         signal.setitimer(signal.ITIMER_REAL, seconds)
 

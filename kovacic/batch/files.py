@@ -149,10 +149,7 @@ def _item_of(number: int, value: Any, text: str, var: str | None) -> Item:
 
 
 def _flaw_of(names: Sequence[str], *, others: bool = False) -> InputError | None:
-    """The error in the keys of an object or in the header of a table, which may have `others`; None if they are right.
-
-    Nothing is dropped silently: a repeated name, a second expression and an unknown key are refused.
-    """
+    """The error in the keys of an object, or of a table with `others`: a repeated name, two expressions, an unknown key."""
     for name, count in Counter(names).items():
         if count > 1:
             return InputError(f"two columns have the name {name!r}")
@@ -188,7 +185,7 @@ def _csv_items(lines: Iterator[Item], longest: int, var: str | None) -> Iterator
 
 
 def _header(cells: list[str], text: str, number: int) -> tuple[tuple[str, ...], InputError | None]:
-    """The first row as a header, if a key or nothing but words are among its cells, and what is wrong with it."""
+    """The first row as a header, if it has a key or consists of words, and the error in it."""
     if any(cell.strip() in _ITEM_KEYS for cell in text.split(";")) and ";" in text:
         return (), InputError("semicolons between cells", hint="write commas there, and points in decimals")
     is_of_words = all(map(str.isidentifier, cells)) and max(map(len, cells)) > 1
@@ -214,10 +211,9 @@ def _row_item(header: tuple[str, ...], number: int, cells: list[str], text: str,
 
 
 class _Rows:
-    """The rows of a CSV file, in which a cell between quotation marks may have several lines.
+    """The rows of a CSV file, in which a quoted cell may have several lines.
 
-    Where that makes no row, a quotation mark is unclosed: its line is refused, and the lines behind it are read anew, each for
-    itself, so that none is lost in a cell.
+    If that gives no row, a quotation mark is unclosed: its line is refused, and the following lines are read separately.
     """
 
     def __init__(self, lines: Iterator[Item], longest: int) -> None:
@@ -267,10 +263,7 @@ class _Rows:
 def answers(
     path: Path | None, line_of: Callable[[Record], str] = lambda record: record.json + "\n", *, head: str = ""
 ) -> Iterator[Callable[[Record], None]]:
-    """A function that appends the line of a record, by default its JSON, to this file or to standard output, flushed at once.
-
-    `head` is written before all of them.
-    """
+    """A function that appends the line of a record to a file or to standard output, and flushes it; `head` comes first."""
 
     def write(record: Record) -> None:
         stream.write(line_of(record))

@@ -213,10 +213,7 @@ def refused(item: Item, error: KovacicError, seconds: float = 0.0, *, shell: boo
 
 
 def stopped(item: Item, reason: str, seconds: float) -> Record:
-    """The record of an equation that is undecided because a limit was reached before the engine could say so; schema 1.
-
-    `S` is the text as given, because the process that read it has sent nothing.
-    """
+    """The record of an equation whose process was stopped at a limit; `S` is the text as given, since nothing was sent back."""
     data: dict[str, Any] = {
         "variable": item.var or "x",
         "S": item.text.strip(),
@@ -271,9 +268,6 @@ class Summary:
 
     @property
     def exit_status(self) -> int:
-        """As for `kovacic solve`: 4 if a self-check failed, else 2 if an input was bad, else 3 if one is undecided, else 0.
-
-        The answers of the interrupted run count: they are in the same file.
-        """
+        """As for `kovacic solve`; the answers of an interrupted run count, since they are in the same file."""
         occurring = self.counts + self.before
         return next((status for label, status in _EXIT_STATUS.items() if occurring[label]), 0)

@@ -136,11 +136,7 @@ def columns(grids: Sequence[Grid]) -> str:
 
 
 def row(record: Record) -> str:
-    """A record as a row of the table, a line of CSV; what doesn't exist is empty.
-
-    `degree` is that of omega, `order` that of the group where it is finite, `remark` the reason of an undecided point or
-    the error.
-    """
+    """A record as a line of CSV: the degree is that of omega, the remark the reason of an undecided point or the error."""
     data = record.data
     riccati = data.get("riccati") or {}
     group = data.get("group") or {}

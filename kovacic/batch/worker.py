@@ -39,10 +39,7 @@ def serve(channel: Channel) -> None:
 
 
 def solve_item(item: Item, job: Job, limits: Limits) -> Record:
-    """The record of one item, computed in this process; the limits are those of the job.
-
-    An answer is found and written within the time limit; an undecided one is written even after it.
-    """
+    """The record of one item, found and written within the time limit, or written after it if undecided."""
     start = time.perf_counter()
     budget = Budget(limits)
     try:

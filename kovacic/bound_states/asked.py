@@ -184,7 +184,7 @@ def _read(V: Any, var: str | None, energy: str, names: Sequence[str], limits: Li
             raise InputError(
                 "a potential is expected, and this is an equation", hint="give V of -y'' + V y = E y alone"
             )
-        expression, guesses = expression_of(source, SYMBOLIC_LIMITS, what="the potential"), source.guesses
+        expression, guesses = expression_of(source, what="the potential"), source.guesses
     else:
         given = V if hasattr(V, "free_symbols") else read_expression(exact_text(V, "the potential"))
         expression = given.xreplace({symbol: sympy.Symbol(symbol.name) for symbol in given.free_symbols})
@@ -241,8 +241,8 @@ def _variable_of(names: Sequence[str]) -> tuple[str, tuple[str, ...]]:
 def _schroedinger(text: str, var: str | None, energy: str, limits: Limits) -> _Read:
     """The equation in a text.  Raises `InputError` for one that isn't Schroedinger's."""
     source = source_of(text, var, limits, equation=True)
-    whole = expression_of(source, limits)
-    parts, _ = parts_of(source_of(whole, source.variable, limits, equation=True), limits)
+    whole = expression_of(source)
+    parts, _ = parts_of(source_of(whole, source.variable, limits, equation=True))
     a, b, c, rest = map(sympy.sympify, parts)
     if rest != 0 or sympy.simplify(b) != 0:
         raise InputError("an equation -k*psi'' + V*psi = E*psi is expected, without a first derivative")

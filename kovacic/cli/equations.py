@@ -36,10 +36,7 @@ if TYPE_CHECKING:
 @click.option("--no-solutions", is_flag=True, help="Only the verdict and omega: faster.")
 @click.option("--explain", "derived", is_flag=True, hidden=True)
 @click.option("--ics", multiple=True, hidden=True)
-@options.VAR
-@options.DECLARED
-@options.ASSUME
-@options.LIMIT
+@options.PROBLEM
 @click.pass_context
 def solve(
     context: click.Context,
@@ -72,7 +69,7 @@ def solve(
     if form != "text":
         named = {"json": "--json", "formula": "--latex"}
         options.refuse({"no_solutions", "derived"}, f"with {named.get(form, '--as')}")
-    if form in options.LANGUAGES:
+    if form in options.CODE_FORMS:
         options.refuse({"ics"}, "with --as")
     if derived:  # the former names of what explain and dsolve do
         options.refuse({"ics"}, "with --explain")
@@ -88,7 +85,7 @@ def solve(
             return (answer.to_json(full=full),)
         if form == "formula":
             return (answer._repr_latex_(),)
-        if form in options.LANGUAGES:
+        if form in options.CODE_FORMS:
             return _assignments(answer, form)
         solutions: Iterable[str] | None = None
         if not no_solutions:
@@ -146,10 +143,7 @@ def _inhomogeneous(answer: Solution) -> Iterator[str]:
     help='Conditions: "y(0)=1, y\'(0)=0", "y(0)=0, y(pi)=0", "y(0)=bounded, y(oo)=0".',
 )
 @click.option("--func", metavar="NAME", help="The unknown function, y or y(x), where other functions occur.")
-@options.VAR
-@options.DECLARED
-@options.ASSUME
-@options.LIMIT
+@options.PROBLEM
 def dsolve(equation: str, form: str, ics: str, **given: Any) -> int:
     """The general solution of a linear equation of second order; with values, or --ics, the one that has these.
 
@@ -222,26 +216,18 @@ def _solution_in_json(equation: str, ics: str, **given: Any) -> str:
             }
         else:
             shorter = in_special_functions(found, equation, ics=ics, **given)
+            exceptions = getattr(given_answer(found), "exceptions", ())  # values of letters with another solution
             data |= {
                 "unknown": str(found.lhs),
                 "solution": as_text(found.rhs),
                 "latex": as_latex(found),
                 "special": None if shorter is None else as_text(shorter.rhs),
                 "validity": needed,
-                "exceptions": _exception_lines(given_answer(found)),
+                "exceptions": [
+                    {"where": str(case), "solution": case.answer and as_text(case.answer.eq.rhs)} for case in exceptions
+                ],
             }
     return json_line(data | {"notices": [str(warning.message) for warning in noticed]})
-
-
-def _exception_lines(answer: Any) -> list[dict[str, str | None]]:
-    """The values of letters for which the solution is another one, and that, where it is known."""
-    from kovacic.numbers.numerals import as_text
-
-    found = []
-    for case in () if answer is None else answer.exceptions:
-        there = case.answer
-        found.append({"where": str(case), "solution": None if there is None else as_text(there.eq.rhs)})
-    return found
 
 
 @options.equation_command()
@@ -259,10 +245,7 @@ def _exception_lines(answer: Any) -> list[dict[str, str | None]]:
 )
 @click.option("--cite", is_flag=True, help="Only the references, as BibTeX.")
 @click.option("--no-solutions", is_flag=True, help="Leave the closed forms out.")
-@options.VAR
-@options.DECLARED
-@options.ASSUME
-@options.LIMIT
+@options.PROBLEM
 def explain(
     equations: tuple[str, ...],
     form: str,

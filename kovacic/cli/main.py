@@ -113,9 +113,8 @@ def main(arguments: Sequence[str] | None = None) -> None:
 def _open_closed_streams() -> None:
     """Replace the standard streams that the caller has closed (`<&-`, `>&-`, `2>&-`), which are None in Python.
 
-    Closed input fails when it is read and closed output when it is written to, as in C: hence the descriptors that are open
-    in the other direction only.  Closed standard error swallows everything; if it stayed closed, `print` would put messages
-    among the data, and an output file could get its number.
+    As in C, closed input fails when it is read and closed output when it is written to: these descriptors are open in the
+    other direction only.  Closed standard error swallows everything; else `print` would put messages among the data.
     """
     for descriptor, name, mode, access in (
         (0, "stdin", "r", os.O_WRONLY),

@@ -22,7 +22,7 @@ if TYPE_CHECKING:
     from kovacic.batch.records import Item, Record, Summary
     from kovacic.limits import Limits
 
-_OPTIONS = [
+_BATCH_OPTIONS = options.together(
     click.option("-j", "--jobs", type=click.IntRange(min=1), help="Worker processes; by default one for each core."),
     click.option(
         "--timeout", type=click.FloatRange(min=0, min_open=True), metavar="SECONDS", help="For each equation."
@@ -38,14 +38,7 @@ _OPTIONS = [
         help="On a terminal; by default if the answers go to a file or a pipe.",
     ),
     click.option("-q", "--quiet", is_flag=True, help="No summary."),
-]
-
-
-def _batch_options(command: options.CommandFunction) -> options.CommandFunction:
-    """The options of a command that answers many equations; `limits` and so on arrive as keywords."""
-    for option in reversed(_OPTIONS):
-        command = option(command)
-    return command
+)
 
 
 @click.command(cls=options.Command)
@@ -56,7 +49,7 @@ def _batch_options(command: options.CommandFunction) -> options.CommandFunction:
 @click.option("--ordered/--as-finished", default=True, show_default=True, help="The order of the answers.")
 @click.option("--group", is_flag=True, help="Add the differential Galois group to each answer.")
 @options.VAR
-@_batch_options
+@_BATCH_OPTIONS
 def batch(
     file: BinaryIO, output: Path | None, resume: bool, form: str | None, var: str | None, limits: Limits, **run: Any
 ) -> int:
@@ -101,7 +94,7 @@ def batch(
 @click.option("--map", "picture", type=options.PICTURE, help="Draw two parameters as a map (png, pdf, svg).")
 @click.option("--group/--no-group", default=True, show_default=True, help="The differential Galois group.")
 @click.option("--var", metavar="NAME", help="The name of the variable; by default x, or what isn't a parameter.")
-@_batch_options
+@_BATCH_OPTIONS
 def scan(
     expression: str,
     ranges: tuple[str, ...],
@@ -173,10 +166,9 @@ def _answer_all(
     quiet: bool,
     **run: Any,
 ) -> int:
-    """Write a record for every item that isn't done, and the summary at the end, also after an interruption; the exit status.
+    """Write a record for every item that isn't done, and in the end, even if interrupted, the summary; return the exit status.
 
-    `count` gives the number of items, if it can be known.  A line shows the progress, by default unless the answers themselves
-    appear on the terminal.
+    Progress is shown, by default unless the answers appear on the terminal; `count` gives the number of items, if known.
     """
     from kovacic.batch import Job, run_items
     from kovacic.batch.records import Summary

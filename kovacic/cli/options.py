@@ -11,7 +11,7 @@ from collections import Counter
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from contextlib import contextmanager, suppress
 from dataclasses import fields, replace
-from functools import partial, wraps
+from functools import partial, reduce, wraps
 from itertools import chain, islice, repeat
 from typing import TYPE_CHECKING, Any, TypeVar
 
@@ -61,7 +61,7 @@ DOCUMENTS = {".html": "html", ".md": "markdown", ".tex": "latex", ".txt": "text"
 
 
 #: Of `kovacic.as_code`.
-LANGUAGES = ("mathematica", "maple", "julia")
+CODE_FORMS = ("mathematica", "maple", "julia")
 
 
 def formats(
@@ -74,17 +74,17 @@ def formats(
     suffixes: Mapping[str, str] | None = None,
     default: str = "text",
 ) -> Callable[[CommandFunction], CommandFunction]:
-    """The options --json, --latex, --as and --format for the output of a command: those with a help text here.
+    """The options --json, --latex, --as and --format of a command, if they have a help text here; they exclude each other.
 
-    The command gets a single keyword `form`: "json"; "formula" for --latex; the language of --as; the value of --format or of
-    the suffix of --output; or the default.  Two of them at once are refused.
+    The command gets one keyword `form`: "json"; "formula" for --latex; the language of --as; the value of --format or of the
+    suffix of --output; or the default.
     """
     # The first one is applied last, and stands first in the help.
     options = []
     if choice:
         options.append(click.option("--format", "form", type=click.Choice(choices), help=choice))
     if code:
-        options.append(click.option("--as", "language", type=click.Choice(LANGUAGES), help=code))
+        options.append(click.option("--as", "language", type=click.Choice(CODE_FORMS), help=code))
     if latex:
         options.append(click.option("--latex", "as_formula", is_flag=True, help=latex))
     if json:
@@ -134,18 +134,15 @@ def _changed_limits(context: click.Context, _: click.Parameter, given: Sequence[
     from kovacic.limits import DEFAULT_LIMITS
 
     names = [field.name for field in fields(DEFAULT_LIMITS)]
-    form = f"NAME=VALUE, NAME one of {', '.join(names)}"
+    form = f"NAME=VALUE, NAME one of {', '.join(names)}, VALUE a positive number"
     changes: dict[str, Any] = {}
-    for name, value in _named_settings("--limit", given, form).items():
-        key = name.replace("-", "_")
-        if key not in names or key in changes:
-            raise click.UsageError(f"--limit {name}={value}: write {form}, each once")
-        try:
-            changes[key] = float(value) if key == "seconds" else int(value)
-        except ValueError:
-            raise click.UsageError(f"--limit {name}={value}: {value!r} isn't a number") from None
-        if not changes[key] > 0:
-            raise click.UsageError(f"--limit {name}={value}: a limit is positive")
+    for spelling, value in _named_settings("--limit", given, form).items():
+        name = spelling.replace("-", "_")
+        is_known = name in names and name not in changes
+        with suppress(ValueError):
+            changes[name] = float(value) if name == "seconds" else int(value)
+        if not (is_known and changes.get(name, 0) > 0):
+            raise click.UsageError(f"--limit {spelling}={value}: write {form}, each once")
     return replace(DEFAULT_LIMITS, **changes)
 
 
@@ -287,6 +284,19 @@ LIMIT = click.option(
 )
 
 
+def together(*options: Any) -> Callable[[CommandFunction], CommandFunction]:
+    """Several options as one decorator, in the order of the help."""
+
+    def decorate(command: CommandFunction) -> CommandFunction:
+        return reduce(lambda decorated, option: option(decorated), reversed(options), command)
+
+    return decorate
+
+
+#: The options of a command that reads equations.
+PROBLEM = together(VAR, DECLARED, ASSUME, LIMIT)
+
+
 def _watch(context: click.Context, _: click.Parameter, given: int) -> None:
     """Log the routes that are taken (-v), or every disc (-vv), to the error stream."""
     if given == 0:
@@ -363,10 +373,9 @@ def answer_each(
     gap: str,
     refuse: Callable[[str, KovacicError], None] | None = None,
 ) -> int:
-    """Solve every equation and print the lines that `show` makes of it, each as soon as it is found.
+    """Solve every equation and print the lines of `show`, each as soon as it is found; return the worst exit status.
 
-    `refuse` is called with each text that has no answer and the reason, which is printed in any case.  The status is that of
-    the most serious outcome.
+    `refuse` is called with each text without an answer and the error, which is printed in any case.
     """
     from kovacic.decision import Status
     from kovacic.solution import solve
@@ -426,6 +435,13 @@ def _expressions(arguments: Sequence[str]) -> Iterator[str]:
             yield from (text for line in sys.stdin if (text := line.strip()) and not text.startswith("#"))
         except OSError as error:
             raise InputError(f"standard input can't be read: {error.strerror}") from None
+
+
+def in_form(answer: Any, form: str, text: Callable[[], str]) -> str:
+    """The answer as JSON, as a formula, or else the text."""
+    if form == "json":
+        return str(answer.to_json())
+    return str(answer.latex()) if form == "formula" else fitted(text())
 
 
 def fitted(text: str) -> str:

@@ -65,13 +65,10 @@ def evaluate(equation: str, points: tuple[str, ...], frobenius: str | None, form
 
 def _values_in_list(text: str) -> list[str]:
     """The numbers between commas; those within parentheses, root(2, 3), separate nothing."""
-    parts = [""]
-    for character in text:
-        if character == "," and parts[-1].count("(") <= parts[-1].count(")"):
-            parts.append("")
-        else:
-            parts[-1] += character
-    return [part.strip() for part in parts]
+    from kovacic.reading.lexer import scanned
+    from kovacic.reading.notations import Tokens
+
+    return [text[part[0].start : part[-1].end] if part else "" for part in Tokens(scanned(text)).split()]
 
 
 @options.equation_command()
@@ -149,15 +146,14 @@ def conditions(equation: str, form: str, everything: bool, explained: bool, samp
     with options.waiting("searching"):
         answer = conditions(equation, **given)
         report = None if samples is None else answer.check(samples)
-        if form == "json":
-            shown = answer.to_json()
-        elif form == "formula":
-            shown = answer.latex()
-        elif form == "summary":
-            shown = answer.explain() if explained else answer.text(all=everything)
+        if form in ("text", "markdown", "latex", "html"):
+            theorem = answer.theorem(format=form).rstrip("\n")
+            shown = options.fitted(theorem) if form == "text" else theorem
         else:
-            shown = answer.theorem(format=form).rstrip("\n")
-    print(options.fitted(shown) if form in ("text", "summary") else shown)
+            shown = options.in_form(
+                answer, form, lambda: answer.explain() if explained else answer.text(all=everything)
+            )
+    print(shown)
     if report is not None:
         stream = sys.stdout if form == "summary" else sys.stderr
         found = "all agree" if report.inside + report.outside else "no point with these properties was found"
@@ -199,12 +195,7 @@ def spectrum(potential: str, start: str, stop: str, form: str, picture: str | No
 
     with options.waiting("searching"):
         answer = spectrum(potential, domain=(start, stop), **given)
-    if form == "json":
-        print(answer.to_json())
-    elif form == "formula":
-        print(answer.latex())
-    else:
-        print(options.fitted(answer.text(shell=True)))
+    print(options.in_form(answer, form, lambda: answer.text(shell=True)))
     if picture is not None:
         answer.plot().savefig(picture)
     return Exit.DECIDED if answer.is_decided or answer.numeric else Exit.UNDECIDED
@@ -220,12 +211,12 @@ def spectrum(potential: str, start: str, stop: str, form: str, picture: str | No
 @click.option("--to", "stop", metavar="B", help="The right end.")
 @click.option("--count", default=5, show_default=True, type=click.IntRange(min=1), help="How many eigenvalues.")
 @click.option("--digits", default=15, show_default=True, type=click.IntRange(min=1), help="Proven digits of each.")
-@click.option("--json", "as_json", is_flag=True, help="One line of JSON.")
+@options.formats(json="One line of JSON.")
 @options.PARAM
 @options.VAR
 @options.LIMIT
 def eigenvalues(
-    equation: str, start: str | None, stop: str | None, count: int, digits: int, as_json: bool, **given: Any
+    equation: str, start: str | None, stop: str | None, count: int, digits: int, form: str, **given: Any
 ) -> int:
     """The lowest eigenvalues of a boundary problem, each with a proven bound of its error, none left out.
 
@@ -256,5 +247,5 @@ def eigenvalues(
         finally:
             found = problem.answer()
             if found or problem.complete:
-                print(json_line({"schema": 1, "input": equation, **found.to_dict()}) if as_json else found)
+                print(json_line({"schema": 1, "input": equation, **found.to_dict()}) if form == "json" else found)
     return Exit.DECIDED if len(found) == count or found.complete else Exit.UNDECIDED

@@ -113,7 +113,7 @@ def as_written(equation: Any, var: Any, limits: Limits, names: Collection[str] =
     name = None if var is None else str(var)
     source = source_of(equation, name, limits, names=names)
     # a y'' + b y' + c y + rest = 0.
-    (a, b, c, rest), _ = parts_of(source, limits)
+    (a, b, c, rest), _ = parts_of(source)
     return Coefficients(sympy.Symbol(source.variable), b / a, c / a, -rest / a)
 
 

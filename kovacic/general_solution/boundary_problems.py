@@ -156,7 +156,7 @@ def _linear_in_parameter(
 ) -> tuple[Expr, tuple[Expr, Expr, Expr, Expr]]:
     """y(x) and a, b, c0, c1 of an equation that is linear in the parameter.  Raises `InputError`."""
     source = source_of(equation, var, limits, equation=True, names=words_among((parameter, *map(str, values))))
-    parts, _ = parts_of(source, limits)
+    parts, _ = parts_of(source)
     a, b, c, rest = (sympy.sympify(part).xreplace(values) for part in parts)
     x = Symbol(source.variable)
     symbol = _parameter_among(Tuple(a, b, c).free_symbols - {x}, parameter)

@@ -185,11 +185,11 @@ def read_first_order(
         source = source_of(eq, var, limits, unknown=unknown, equation=True, names=names)
         guesses = source.guesses
         if source.tokens is not None and "OPERATOR" in source.tokens.kinds:  # (D + 2) y = 0
-            (b, c, rest), _ = parts_of(source, limits, order=1)
+            (b, c, rest), _ = parts_of(source, order=1)
             func = sympy.Function(source.unknown)(Symbol(source.variable))
             eq = b * func.diff() + c * func + rest
         else:
-            eq = expression_of(source, limits)
+            eq = expression_of(source)
     _require_first_order(isinstance(eq, sympy.Basic))
     whole = exact_decimals(eq.lhs - eq.rhs if isinstance(eq, sympy.Equality) else eq)
     function = func if isinstance(func, AppliedUndef) else function_of(whole)

@@ -19,9 +19,8 @@ from kovacic.errors import InputError, LimitExceeded
 from kovacic.numbers.numerals import as_text, in_a_message, plain_text
 
 _DECIMAL_OR_FRACTION = re.compile(r"\s*([+-]?\d+)\s*/\s*(\d+)\s*|\s*([+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?)\s*")
-# Decimal exponents and characters of a number, beyond the limits of input: exact numbers of that size take seconds.
+# Largest exponent of a decimal: exact numbers of that size take seconds.
 _MAX_EXPONENT = 100_000
-_MAX_TEXT = 200_000
 
 Parts = tuple[Any, Any]
 """Real and imaginary part, FLINT's rationals."""
@@ -46,9 +45,8 @@ def exact(value: Any, name: str) -> Parts:
     reader = _NUMBER_READERS.get(_library(value), _of_python)
     parts = reader(value, name)
     if parts is None:
-        raise InputError(
-            f"{name} isn't a number that is known exactly: {plain_text(value)[:60]!r} ({type(value).__name__})"
-        )
+        what = f"{plain_text(value)[:60]!r} ({type(value).__name__})"
+        raise InputError(f"{name} isn't a number that is known exactly: {what}")
     return parts
 
 
@@ -119,29 +117,22 @@ def _is_duration(value: Any) -> bool:
 
 
 def _of_python(value: Any, name: str) -> Parts | None:
-    if isinstance(value, complex):
-        return _rational_of(value.real, name), _rational_of(value.imag, name)
-    if isinstance(value, int | float | Decimal | Rational):
-        return _rational_of(value, name), fmpq(0)
-    return None
+    if not isinstance(value, complex | float | Decimal | Rational):
+        return None
+    return _rational_of(value.real, name), _rational_of(value.imag, name)
 
 
 def _of_numpy(value: Any, name: str) -> Parts | None:
     kind = _numpy_kind(value)
-    if kind == "c":
+    if kind and kind in "iufc":
         return _rational_of(value.real[()], name), _rational_of(value.imag[()], name)
-    if kind and kind in "iuf":
-        return _rational_of(value[()], name), fmpq(0)
-    if kind and kind in "OU":
-        return exact(value.item(), name)
-    return None
+    return exact(value.item(), name) if kind and kind in "OU" else None
 
 
 def _of_mpmath(value: Any, name: str) -> Parts | None:
-    if hasattr(value, "_mpc_"):
-        real, imaginary = value._mpc_
-        return _mpf(real, name), _mpf(imaginary, name)
-    return (_mpf(value._mpf_, name), fmpq(0)) if hasattr(value, "_mpf_") else None
+    if not hasattr(value, "_mpf_") and not hasattr(value, "_mpc_"):
+        return None
+    return _mpf(value.real._mpf_, name), _mpf(value.imag._mpf_, name)
 
 
 def _of_sympy(value: Any, name: str) -> Parts | None:
@@ -202,11 +193,16 @@ def _rational_of(value: Any, name: str) -> Any:
 
 
 def _rational_of_text(text: str, name: str) -> Any:
-    match = _DECIMAL_OR_FRACTION.fullmatch(text) if len(text) <= _MAX_TEXT else None
+    match = _DECIMAL_OR_FRACTION.fullmatch(text)
     if match is None:
         raise InputError(f"{name} isn't a decimal number or a fraction p/q: {text[:60]!r}", hint="e.g. '0.1' or '1/3'")
     if match[3] is not None:
-        return _rational_of(Decimal(match[3]), name)
+        mantissa, _, scale = match[3].lstrip("+").lower().partition("e")
+        whole_part, _, decimals = mantissa.partition(".")
+        exponent = fmpz(scale.lstrip("+") or 0)
+        if abs(exponent) > _MAX_EXPONENT:
+            raise InputError(f"{name} = {text[:60]} has an exponent beyond {_MAX_EXPONENT}")
+        return fmpq(fmpz(whole_part + decimals)) * fmpq(10) ** int(exponent - len(decimals))
     above, below = (fmpz(part.lstrip("+")) for part in (match[1], match[2]))  # Python reads 4300 digits only
     if below == 0:
         raise InputError(f"{name} = {text[:60]} divides by zero")
@@ -245,10 +241,8 @@ def radical(value: Any, n: int = 2) -> Any:
     number, _ = sympify(value, strict=True).as_coeff_Mul(rational=True)
     bits = _size_in_bits(number)
     if bits > _LONGEST_RADICAND:
-        reason = (
-            f"a root of a number of {bits} bits, above the limit of {_LONGEST_RADICAND}, isn't written as a formula"
-        )
-        raise LimitExceeded(reason, limit="digits")
+        said = f"a root of a number of {bits} bits, above the limit of {_LONGEST_RADICAND}, isn't written as a formula"
+        raise LimitExceeded(said, limit="digits")
     return root(value, n)
 
 

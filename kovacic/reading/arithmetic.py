@@ -20,7 +20,6 @@ from kovacic.algebra.ratfunc import RatFunc
 from kovacic.algebra.rationals import RationalPoly
 from kovacic.errors import LimitExceeded
 from kovacic.limits import DEFAULT_LIMITS, Limits, check_time
-from kovacic.numbers.numerals import in_a_message
 
 T = TypeVar("T")
 
@@ -50,17 +49,14 @@ class NotAnInteger(ValueError):
 class Arithmetic:
     """Sums, products, quotients and powers within `limits`.
 
-    Every method raises `LimitExceeded` before it computes what would be too large, and `ZeroDivisionError` where the
-    result isn't defined.
+    Every method raises `LimitExceeded` before it computes a result that is too large, and `ZeroDivisionError` if there is none.
     """
 
     def __init__(self, limits: Limits = DEFAULT_LIMITS) -> None:
         self.limits = limits
 
     def integer(self, text: str) -> int:
-        digits = len(text.lstrip("+-"))
-        if digits > self.limits.digits:
-            raise LimitExceeded(f"{digits} digits, above the limit of {self.limits.digits}", limit="digits")
+        self.limits.demand("digits", len(text.lstrip("+-")), "{} digits")
         return int(fmpz(text.lstrip("+")))  # Python reads integers of at most 4300 digits
 
     def constant(self, numerator: Any, denominator: Any = 1) -> Value:
@@ -143,10 +139,7 @@ class Arithmetic:
     def power(self, base: Value, exponent: Value | int) -> Value:
         """`base ** exponent`; raises `NotAnInteger` if the exponent isn't an integer constant."""
         n = self._integer_of(exponent)
-        if abs(n) > self.limits.exponent:
-            raise LimitExceeded(
-                f"an exponent {in_a_message(n)}, above the limit of {self.limits.exponent}", limit="exponent"
-            )
+        self.limits.demand("exponent", abs(n), "an exponent of modulus {}")
         if isinstance(base, Monomial) and n > 0:
             height = max(abs(base.coefficient.p), base.coefficient.q)
             self._check(base.power * n, n * int(height - 1).bit_length())
@@ -160,7 +153,7 @@ class Arithmetic:
             base = self.rational(self.divide(ONE, base))
         if isinstance(base, Poly):
             return self._poly_power(base, n)
-        # Powers of what is in lowest terms are, too.
+        # Powers of a fraction in lowest terms are in lowest terms.
         power = RatFunc(self._poly_power(base.num, abs(n)), self._poly_power(base.den, abs(n)), reduced=True)
         return power.num if power.is_polynomial else power
 
@@ -208,20 +201,17 @@ class Arithmetic:
         return base**n
 
     def _check(self, degree: int, bits: int) -> None:
-        limits = self.limits
-        if degree > limits.degree:
-            raise LimitExceeded(f"a degree of up to {degree}, above the limit of {limits.degree}", limit="degree")
-        if bits > limits.bits:
-            raise LimitExceeded(f"coefficients of up to {bits} bits, above the limit of {limits.bits}", limit="bits")
-        most = _TOTAL_FACTOR * limits.bits
+        self.limits.demand("degree", degree, "a degree of up to {}")
+        self.limits.demand("bits", bits, "coefficients of up to {} bits")
+        most = _TOTAL_FACTOR * self.limits.bits
         if (degree + 1) * bits > most:
             size = f"up to {degree + 1} coefficients of up to {bits} bits"
             raise LimitExceeded(f"{size}, above the limit of {most} bits for all together", limit="bits")
 
     def _check_terms(self, *factors: tuple[Poly, int]) -> None:
-        """Refuses products of powers P^n, as pairs (P, n), with too many terms in x and the parameters.
+        """Refuse a product of powers P^n, given as pairs (P, n), with too many terms in x and the parameters.
 
-        (t_1 + ... + t_m)^n has at most C(n + m - 1, n) terms, and no product more than its degrees leave room for.
+        (t_1 + ... + t_m)^n has at most C(n + m - 1, n) terms; the degrees give another bound.
         """
         if all(isinstance(factor, RationalPoly) for factor, _ in factors):
             return  # the degree is checked
@@ -232,9 +222,7 @@ class Arithmetic:
             terms, of_factor = factor.extent()
             sparse *= comb(n + terms - 1, n)
             degrees = [n * d + e for d, e in zip_longest(of_factor, degrees, fillvalue=0)]
-        terms = min(sparse, prod(d + 1 for d in degrees))
-        if terms > self.limits.terms:
-            raise LimitExceeded(f"up to {terms:,} terms, above the limit of {self.limits.terms:,}", limit="terms")
+        self.limits.demand("terms", min(sparse, prod(d + 1 for d in degrees)), "up to {} terms")
 
     def _integer_of(self, exponent: Value | int) -> int:
         if isinstance(exponent, int):

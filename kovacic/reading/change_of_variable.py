@@ -77,10 +77,7 @@ def slope_squared(equation: Equation) -> Any:
 
 
 def without_change(given: Any) -> Any:
-    """The equation in t alone, of a read input; or the same answer about it.
-
-    Raises `NotRational` for a right-hand side that isn't rational in t.
-    """
+    """The equation in t alone, of a read input or an answer.  Raises `NotRational` if the right-hand side isn't rational."""
     if not is_of_a_line(given.equation):
         t = function_of_x(given.equation)
         raise NotRational(f"numbers where the variable is {t} aren't known", hint="dsolve has formulas")

@@ -61,18 +61,16 @@ class Constants:
     def parameter(self, name: str) -> Poly:
         """The parameter of this name.  Raises `Enlarged` where it is new."""
         if name not in self.parameters:
-            if len(self.parameters) >= self.limits.parameters:
-                raise LimitExceeded(f"more than {self.limits.parameters} parameters, the limit", limit="parameters")
+            self.limits.demand("parameters", len(self.parameters) + 1, "{} parameters or more")
             raise Enlarged(replace(self, parameters=(*self.parameters, name)))
         field = self.field
         constant: Poly = field.ground.generator(name)  # type: ignore[attr-defined]
         return constant.over(field)
 
     def radical(self, radicand: Poly, n: int, label: str) -> Poly | None:
-        """The principal n-th root of a number; None if it depends on parameters and isn't in the field.
+        """The principal n-th root of a number, or None if it depends on parameters and isn't in the field.
 
-        Raises `Enlarged` where a number's root isn't in the field, and `LimitExceeded` where the field with it would be
-        too large.
+        Raises `Enlarged` if a number's root isn't in the field, or `LimitExceeded` if the field with it is too large.
         """
         value = self._number(radicand)
         if value is None:
@@ -116,18 +114,15 @@ class Constants:
         return self._with_parameters(self._root(minimal.over(self.numbers), refined_root(minimal, approximation), ""))
 
     def _root(self, equation: Poly, target: Any, label: str, radical: tuple[Fraction, int] | None = None) -> Poly:
-        """The root nearest to `target` of a polynomial over the number field.
+        """The root nearest to `target` of a polynomial over the number field; `radical` is (radicand, index) of a root in Q.
 
-        `radical` is the radicand and the index, where it is a root of a rational number.  The field with a root that isn't
-        in this one has the generator `label`, where the polynomial is irreducible, or alpha.
+        A root that isn't in the field is called `label` if the polynomial is irreducible, else alpha.
         """
         factor = vanishing_factor(equation, target)
         if factor.degree == 1:
             return -factor[0]
         degree = factor.degree * self.numbers.absolute_degree
-        if degree > self.limits.constants:
-            said = f"constants in a field of degree {degree} over the rational numbers, above the limit of"
-            raise LimitExceeded(f"{said} {self.limits.constants}", limit="constants")
+        self.limits.demand("constants", degree, "constants in a field of degree {} over the rational numbers")
         is_irreducible = factor.degree == equation.degree
         name = label if label and is_irreducible else "alpha"
         theta, root = adjoined_root(factor, target, name)
@@ -182,10 +177,7 @@ class Enlarged(Exception):
 
 
 def with_root(numbers: Sequence[Poly], field: Field, other: AlgebraicField, limits: Limits) -> list[Poly]:
-    """Numbers of one field, and after them the generator of another one, in a field that has them all.
-
-    Raises `LimitExceeded` where its degree would be above the limit.
-    """
+    """Numbers of one field, followed by the generator of another one, in a common field within the limits."""
     near = acb(*(arb(fmpq(part.numerator, part.denominator)) for part in other.approximation or ()))
 
     def read(constants: Constants) -> list[Poly]:

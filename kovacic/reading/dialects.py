@@ -1,8 +1,8 @@
 """Notations of several tokens whose parts may be anything: fractions, roots, bars, functions without parentheses, derivatives.
 
-`in_own_notation` goes through the tokens once, from left to right.  A rule looks at the token that is next, takes what
-belongs to it, and writes tokens of the parser's grammar; what has to stand behind a bracket or a factor that is still to be
-read is kept in `closers` until then.  Linear time, no recursion; every token keeps its place in the user's text.
+`in_own_notation` goes through the tokens once, from left to right.  A rule looks at the next token, takes the tokens of its
+notation, and writes tokens of the parser's grammar; those that belong behind a bracket or factor still to be read wait in
+`closers`.  Every token keeps its place in the user's text.
 
 >>> in_own_notation("", Tokens(scanned(r"\\frac{d^2y}{dx^2} = x^{2} \\sin^2 \\omega x"))).pieces
 ['diff', '(', 'y', ',', 'x', ',', '2', ')', '=', 'x', '^', '(', '2', ')', 'sin', '(', 'omega', 'x', ')', '^', '2', '']
@@ -59,7 +59,7 @@ LAYOUT = frozenset(
 #: Commands about a name that is set upright, or in another style.
 _STYLES = frozenset(r"\operatorname \mathrm \mathop \mathit \mathbf \text \textrm \textit".split())  # noqa: SIM905
 FRACTIONS = frozenset({"\\frac", "\\dfrac", "\\tfrac", "\\cfrac"})
-#: What commands stand for.
+#: Tokens that commands stand for.
 _COMMANDS = {
     **dict.fromkeys(("\\cdot", "\\times"), ("SIGN", "*")),
     "\\div": ("SIGN", "/"),
@@ -174,18 +174,17 @@ _LEIBNIZ = re.compile(rf"d\^?([2-9]?)({LETTER}(?:_(?:[0-9]+|[A-Za-z]))?)?(?:{LET
 _INDEXED_OPERATOR = re.compile(r"d_([a-z])\1*")
 #: Tokens of the quotient of a derivative: a search to the end would take quadratic time.
 _LONGEST_QUOTIENT = 36
-#: What the argument of a function without parentheses ends with, as in cos omega t.
+#: Letters that end the argument of a function without parentheses, as in cos omega t.
 _VARIABLES = frozenset("xtzsr") | {"theta", "phi", "tau", "xi", "rho"}
 
 
 def in_own_notation(text: str, scan: Tokens, *, condition: bool = False) -> ParserTokens:
     """The tokens of an expression or equation, in which `NOTATIONS` are rewritten but for those that LaTeX hides.
 
-    Those of a `condition` have the unknown function at points.  Raises `ParseError` for what has no meaning in any notation.
+    In a `condition` the unknown function stands at points.  Raises `ParseError` for tokens without a meaning in any notation.
     """
-    if scan.has("\n"):
-        scan = Tokens(token for token in scan if token.kind != "NEWLINE")
-    latex = scan.has(("COMMAND",)) or _BRACES.search(scan.spaced) is not None
+    scan = Tokens(token for token in scan if token.kind != "NEWLINE")
+    latex = any(token.kind == "COMMAND" for token in scan) or _BRACES.search(scan.spaced) is not None
     if latex:
         scan = rewritten(_Latex(text, scan).ordinary(), LATEX)
     return _Translation(text, scan, latex=latex, condition=condition).tokens()
@@ -201,7 +200,7 @@ class _Translation:
     def __init__(self, text: str, scan: Tokens, *, latex: bool, condition: bool) -> None:
         self.text = text
         self.scan = scan
-        #: Of the tokens, and of nothing behind them.
+        #: The texts and kinds of the tokens, and empty ones behind the last token.
         self.texts = [*(token.text for token in scan), *[""] * 4]
         self.kinds = [*(token.kind for token in scan), *[""] * 4]
         self.latex = latex
@@ -211,7 +210,7 @@ class _Translation:
         #: The numbers in `found` of the parentheses that are open, and of the one that was closed last.
         self.opened: list[int] = []
         self.closed = 0
-        #: What is written before a token.
+        #: Tokens to be written before a token, by its number.
         self.closers: dict[int, list[tuple[str, str]]] = {}
         self.skipped: set[int] = set()
         self.partner = {k: last for k, last in scan.partners.items() if self.texts[k] != "|"}
@@ -249,7 +248,7 @@ class _Translation:
             self.write(kind, piece)
 
     def later(self, k: int, *tokens: tuple[str, str]) -> None:
-        """Tokens to be written before number k, and before what is to be written there already."""
+        """Write tokens before number k, ahead of those that wait there already."""
         self.closers[k] = [*tokens, *self.closers.get(k, [])]
 
     def head(self, name: str, token: Token) -> None:
@@ -351,7 +350,7 @@ class _Translation:
         return (None, x, order * int(power or 1), end) if (power or "1").isdigit() else None
 
     def method(self, token: Token) -> bool:
-        """y(x).diff(x, 2): what stands before the point is differentiated."""
+        """y(x).diff(x, 2): the operand before the point is differentiated."""
         if not self.found or self.texts[self.k + 1] not in DERIVATIVES or self.texts[self.k + 2] != "(":
             return False
         self.differentiate_last()
@@ -361,7 +360,7 @@ class _Translation:
         return True
 
     def primes(self, token: Token) -> bool:
-        """((1 - x^2) y')' and sin(x)': what stands before the primes is differentiated; y(x)'' is y''(x)."""
+        """((1 - x^2) y')' and sin(x)': the operand before the primes is differentiated; y(x)'' is y''(x)."""
         if not self.found or self.found[-1][0] != "RPAR" or self.texts[self.k - 1] not in CLOSING:
             return False
         kind, name, start, end = self.found[max(0, self.closed - 1)]
@@ -395,7 +394,7 @@ class _Translation:
             return False
         exponent, k = self.exponent(k)
         if exponent == "-1":
-            name = f"a{token.text}"  # what it means in books, and no reciprocal
+            name = f"a{token.text}"  # the inverse function, as in books, not the reciprocal
             if name not in FUNCTION_NAMES:
                 hint = f"write 1/{token.text}(x) for the reciprocal"
                 raise error_at(self.text, f"{token.text}^(-1) can be read in two ways", [token], hint)
@@ -471,23 +470,19 @@ class _Translation:
             self.skipped.add(self.partner[k])  # y{\left(x\right)}, as SymPy prints it
             return True
         if token.text == "{" and self.texts[max(0, k - 2) : k] == ["Piecewise", "["] and k - 1 in self.partner:
-            self.pieces(self.partner[k], self.partner[k - 1])
+            # Mathematica's Piecewise[{{1, x < 5}}, 2] is Piecewise((1, x < 5), (2, True)); the last value is 0 by default.
+            inner, outer = self.partner[k], self.partner[k - 1]
+            self.skipped.add(inner)
+            default = [("COMMA", ","), ("LPAR", "("), ("NUMBER", "0")]
+            if self.texts[inner + 1] == ",":
+                default = []
+                self.later(inner + 2, ("LPAR", "("))
+            self.later(outer, *default, ("COMMA", ","), ("OTHERWISE", "True"), ("RPAR", ")"))
             return True
         if self.is_application(token, k):
             self.found[-1] = self.found[-1]._replace(kind="HEAD")
         self.write("LPAR", "(", token)
         return True
-
-    def pieces(self, inner: int, outer: int) -> None:
-        """Mathematica's Piecewise[{{1, x < 5}}, 2] as Piecewise((1, x < 5), (2, True)); the last value is 0 by default.
-
-        Its braces and its brackets close at tokens `inner` and `outer`.
-        """
-        self.skipped.add(inner)
-        default = [] if self.texts[inner + 1] == "," else [("COMMA", ","), ("LPAR", "("), ("NUMBER", "0")]
-        if not default:
-            self.later(inner + 2, ("LPAR", "("))
-        self.later(outer, *default, ("COMMA", ","), ("OTHERWISE", "True"), ("RPAR", ")"))
 
     def is_application(self, token: Token, k: int) -> bool:
         """True if the parenthesis is the argument of the name before it."""
@@ -570,7 +565,7 @@ class _Translation:
 
 
 _TokenRule = Callable[[_Translation, Token], bool]
-#: What a sign, a command, a function or else a kind of token may begin, the first rule that applies.
+#: The rules for a sign, a command, a function, or else for a kind of token; the first one that applies is used.
 _TOKEN_RULES: dict[str, tuple[_TokenRule, ...]] = {
     **dict.fromkeys(("NUMBER", "SUPERSCRIPT", "SIGN"), (_Translation.ordinary,)),
     "WORD": (_Translation.derivative, _Translation.word),
@@ -590,5 +585,5 @@ _TOKEN_RULES: dict[str, tuple[_TokenRule, ...]] = {
 
 
 def tokenize(text: str) -> ParserTokens:
-    """The tokens of an expression.  Raises `ParseError` for what has no meaning."""
+    """The tokens of an expression.  Raises `ParseError` for tokens without a meaning."""
     return in_own_notation(text, rewritten(Tokens(scanned(text)), NOTATIONS))

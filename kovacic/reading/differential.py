@@ -16,7 +16,6 @@ from __future__ import annotations
 from collections.abc import Mapping
 from contextlib import suppress
 from dataclasses import dataclass
-from types import SimpleNamespace
 from typing import Any
 
 from kovacic.algebra.extension import AlgebraicField
@@ -24,7 +23,6 @@ from kovacic.algebra.poly import Field, Poly
 from kovacic.algebra.ratfunc import RatFunc
 from kovacic.equation import ENERGY, EULER, PI, UNKNOWN, Equation, over, parameters_of
 from kovacic.errors import NotLinear, NotRational, ParseError
-from kovacic.limits import Limits
 from kovacic.numbers.numerals import as_text
 from kovacic.reading.arithmetic import ONE, VARIABLE, ZERO, Arithmetic, Value
 from kovacic.reading.constants import Constants, read_with_constants
@@ -33,6 +31,7 @@ from kovacic.reading.expression import RationalReader, parse_with
 from kovacic.reading.lexer import DERIVATIVES, PRIME
 from kovacic.reading.linear import REST, DerivativeOperator, LinearArithmetic, LinearForm, differentiations, is_plain
 from kovacic.reading.names import KNOWN_NUMBERS, TRANSCENDENTAL_HINT, is_letter
+from kovacic.reading.naming import Source
 from kovacic.reading.parser import Site, parse
 
 
@@ -41,12 +40,13 @@ class EquationReader(RationalReader):
 
     arithmetic: LinearArithmetic
 
-    def __init__(self, source: Any, limits: Limits, constants: Constants) -> None:
+    def __init__(self, source: Source, constants: Constants) -> None:
         """The `source` says which names are declared, and whether g(x) is a function that is given."""
-        arithmetic = LinearArithmetic(limits, source.variable, source.unknown, self.coefficient)
+        arithmetic = LinearArithmetic(source.limits, source.variable, source.unknown, self.coefficient)
         super().__init__({source.variable: VARIABLE}, source.variable, arithmetic, constants)
         self.source = source
         self.unknown = source.unknown
+        self.functions = {source.unknown: None}
         # y is a parameter where the unknown function has another name.
         self.declared = {*source.declared, *([UNKNOWN] if source.unknown else [])}
         #: The letters that stand for numbers which aren't algebraic.
@@ -79,12 +79,12 @@ class EquationReader(RationalReader):
     def parts(self, value: Any) -> dict[int, Any]:
         """The coefficients of the derivatives, and the rest.  Raises `NotLinear` for an operator without an operand."""
         if isinstance(value, DerivativeOperator):
-            hint = f"write what it is applied to: (D^2 + 1) {self.unknown or UNKNOWN} = 0"
+            hint = f"write its operand: (D^2 + 1) {self.unknown or UNKNOWN} = 0"
             raise NotLinear(f"the operator d/d{self.variable} is applied to nothing", hint=hint)
         return {**value.parts} if isinstance(value, LinearForm) else {REST: value}
 
     def equation_of(self, value: Any, text: str | None) -> Equation:
-        """The equation that says that a linear form is zero; `text` is what it was read from."""
+        """The equation `value` = 0, for a linear form that was read from `text`."""
         parts = self.parts(value)
         rest = parts.pop(REST, ZERO)
         coefficients = {k: self.arithmetic.rational(c) for k, c in parts.items()}
@@ -156,10 +156,6 @@ class EquationReader(RationalReader):
         if not isinstance(left, LinearForm):  # f = a y'' + b y' + c y
             left, right = right, left
         return self.arithmetic.sum([left, self.arithmetic.negate(right)])
-
-    def follows_without_sign(self, name: str) -> bool:
-        """A coefficient may stand before the unknown function without a sign."""
-        return name.rstrip(PRIME) == self.unknown or name in DERIVATIVES
 
     def other_power(self, base: Any, exponent: Any, place: Any) -> Any:
         with suppress(NotRational):
@@ -268,8 +264,8 @@ def written_equation(text: str, variable: str, unknown: str, known: Constants) -
     def read(constants: Constants) -> Equation:
         field = constants.field
         plain, names = WrittenReader(field, generators(field), Arithmetic(constants.limits)).plain(text)
-        source = SimpleNamespace(variable=variable, unknown=unknown, declared=(), has_functions=False)
-        reader = EquationReader(source, constants.limits, constants)
+        source = Source(print, variable, unknown, limits=constants.limits)  # which isn't walked
+        reader = EquationReader(source, constants)
         reader.names = {**reader.names, **names}
         return reader.equation_of(parse(tokenize(plain), reader), plain)
 

@@ -32,7 +32,6 @@ from kovacic.algebra.poly import Poly
 from kovacic.algebra.ratfunc import RatFunc
 from kovacic.equation import UNKNOWN, Change, Equation, Parsed, lowered, over
 from kovacic.errors import NotRational
-from kovacic.limits import Limits
 from kovacic.numbers.numerals import as_text
 from kovacic.reading.naming import Source
 from kovacic.reading.source import parts_of, read_source, source_of_parts
@@ -40,18 +39,18 @@ from kovacic.reading.source import parts_of, read_source, source_of_parts
 _HINT = "coefficients are rational in x, or in exp(k*x) and sines, cosines, ... of rational multiples of k*x"
 
 
-def in_exponentials(source: Source, limits: Limits) -> Parsed | None:
-    """The equation (1) for an input with such coefficients; None for any other input.
+def in_exponentials(source: Source) -> Parsed | None:
+    """The equation (1), or None unless the coefficients are of this kind.
 
-    What isn't rational in exp(k x) on the right-hand side is kept as the equation's h, and with numbers that aren't algebraic
-    all of it.  Raises `NotRational` where both x and exp(k x) occur, and for rates whose quotient isn't rational.
+    Terms of the right-hand side that aren't rational in exp(k x) become the equation's h, or all of it if numbers occur that
+    aren't algebraic.  Raises `NotRational` where both x and exp(k x) occur, and for rates whose quotient isn't rational.
     """
     x = sympy.Symbol(source.variable)
-    parts, notices = parts_of(source, limits)
+    parts, notices = parts_of(source)
     rewritten = [_exponential_form(part, x) for part in parts]
     if all(part.is_rational_function(x) for part in rewritten[:3]):
         with suppress(NotRational):  # everything else cancels, or has the factor 0
-            return read_source(source_of_parts(rewritten, source), limits)
+            return read_source(source_of_parts(rewritten, source))
     exponentials = [{e for e in part.atoms(sympy.exp) if e.has(x)} for part in rewritten]
     of_coefficients = set().union(*exponentials[:3])
     if not of_coefficients:
@@ -68,10 +67,10 @@ def in_exponentials(source: Source, limits: Limits) -> Parsed | None:
         raise NotRational(said, hint=_HINT)
     right, h = _right_side(parts[3], x, common.powers)
     left = (k**2 * T**2 * a, k**2 * T * a + k * T * b, c)
-    read = read_in(T, (*left, -right), source, limits, taken=k.free_symbols)
+    read = read_in(T, (*left, -right), source, taken=k.free_symbols)
     if read.equation.h is not None:  # numbers such as pi and log(2) are among the factors: as a whole it stays in x
         h = -parts[3]
-        read = read_in(T, (*left, sympy.S.Zero), source, limits, taken=k.free_symbols)
+        read = read_in(T, (*left, sympy.S.Zero), source, taken=k.free_symbols)
     equation, t = read.equation, read.variable
     (p, q, f), function = _best(equation, k, x + common.offset)
     denominator = RatFunc(p.den * (q.den // p.den.gcd(q.den)))
@@ -83,17 +82,17 @@ def in_exponentials(source: Source, limits: Limits) -> Parsed | None:
     return found
 
 
-def read_in(T: Any, parts: Sequence[Any], source: Source, limits: Limits, *, taken: Collection[Any] = ()) -> Any:
+def read_in(T: Any, parts: Sequence[Any], source: Source, *, taken: Collection[Any] = ()) -> Any:
     """The equation with these coefficients in T, read in t, or in another letter that neither they have nor is `taken`."""
     symbols = {*taken, *sympy.Tuple(*parts).free_symbols}
     names = {source.variable, source.unknown, UNKNOWN, *(symbol.name for symbol in symbols)}
     t = sympy.Symbol(next(name for name in ("t", "s", "z", "w", "t_", "s_") if name not in names))
     renamed = source._replace(variable=t.name, unknown=source.unknown or UNKNOWN)
-    return read_source(source_of_parts([part.xreplace({T: t}) for part in parts], renamed), limits)
+    return read_source(source_of_parts([part.xreplace({T: t}) for part in parts], renamed))
 
 
 def _right_side(rest: Any, x: Any, powers: dict[Any, Any]) -> tuple[Any, Any]:
-    """Of the right-hand side -rest, the terms that are rational in T, and the others in x, None if there are none."""
+    """The terms of the right-hand side -rest that are rational in T, and the others in x, or None if there are no others."""
     in_T, in_x = [], []
     for term in sympy.Add.make_args(sympy.expand(-rest)):
         rewritten = _exponential_form(term, x).xreplace(powers)

@@ -16,7 +16,7 @@ from kovacic.errors import NotRational
 from kovacic.reading.arithmetic import VARIABLE, Arithmetic, NotAnInteger, Value
 from kovacic.reading.constants import Constants, Enlarged
 from kovacic.reading.dialects import tokenize
-from kovacic.reading.lexer import PRIME
+from kovacic.reading.lexer import DERIVATIVES, PRIME
 from kovacic.reading.names import (
     FUNCTION_NAMES,
     INSTEAD,
@@ -34,6 +34,7 @@ _SHOWN_DECIMALS = 3
 
 #: The functions that stand for roots, with their index (root has it as its second argument).
 ROOTS = {"sqrt": 2, "cbrt": 3, "root": 0}
+#: Roots of a higher index aren't tried: the polynomial x^n - a is factored, in a field whose degree is at most 24.
 _LARGEST_INDEX = 100
 
 _ALONE = "give S alone, the factor of y on the right of y'' = S(x) y"
@@ -66,6 +67,8 @@ class RationalReader:
         self.arithmetic = arithmetic
         self.constants = constants
         self.decimals: list[str] = []
+        #: The unknown functions, by their names.
+        self.functions: Mapping[str, Any] = {}
         #: Names that are parameters, whatever they look like.
         self.declared: Collection[str] = ()
 
@@ -113,8 +116,8 @@ class RationalReader:
         raise NotRational("an equation, where S alone is expected", hint=_ALONE)
 
     def follows_without_sign(self, name: str) -> bool:
-        """True if this name or call may be the second factor of an implicit product whose first factor ends in a name."""
-        return False
+        """True if this name or call may be the second factor of an implicit product: a coefficient stands before y or y'."""
+        return bool(self.functions) and (name.rstrip(PRIME) in self.functions or name in DERIVATIVES)
 
     def power(self, base: Value, exponent: Value, place: Any) -> Value:
         try:
@@ -130,7 +133,11 @@ class RationalReader:
             case (("sqrt" | "cbrt"), [value]):
                 return self._radical(value, ROOTS[name], site)
             case "root", [value, index]:
-                return self._radical(value, self._index(index), site)
+                number = self.arithmetic.number(index)
+                if number is None or number.denominator != 1 or not 1 < number <= _LARGEST_INDEX:
+                    said = f"the index of a root is an integer from 2 to {_LARGEST_INDEX}"
+                    raise NotRational(said, hint="root(2, 3) is the cube root of 2")
+                return self._radical(value, number.numerator, site)
             case (("Integer" | "S"), [value]) if self.arithmetic.number(value) is not None:
                 return value  # type: ignore[no-any-return]
             case "Rational", [_, _]:
@@ -141,13 +148,6 @@ class RationalReader:
             hint = f"for a product write {head}*({site.inside()})"
             raise NotRational(f"{head} is followed by a parenthesis like a function", hint=hint)
         raise NotRational(f"{site.text()} isn't a rational function of {self.variable}", hint=usage(head))
-
-    def _index(self, value: Value) -> int:
-        number = self.arithmetic.number(value)
-        if number is None or number.denominator != 1 or not 1 < number <= _LARGEST_INDEX:
-            said = f"the index of a root is an integer from 2 to {_LARGEST_INDEX}"
-            raise NotRational(said, hint="root(2, 3) is the cube root of 2")
-        return number.numerator
 
     def other_leaf(self, node: Any) -> Any:
         """The value of a SymPy expression that is no sum, product, power or algebraic number."""

@@ -1,7 +1,7 @@
 """Constants that aren't rational in symbols, sin(theta), exp(-b), a^(1/3), log(2), as letters: names of parameters.
 
 A letter stands for a maximal part without x of one of these kinds, and what a letter stands for may contain others: inner ones
-come first.  What depends on others algebraically is written by them where that is known:
+come first.  Known algebraic relations between constants are used:
 
     roots of one base        by the root with the common index; a symbol and its root by the root: a = t^2
     powers a^p, a^(2 p)      by the one with the greatest common divisor of the exponents, and so are exponentials; those of
@@ -24,16 +24,12 @@ from sympy.functions.elementary.hyperbolic import HyperbolicFunction
 from sympy.functions.elementary.trigonometric import TrigonometricFunction
 
 from kovacic.equation import UNKNOWN
+from kovacic.limits import check_time
 from kovacic.numbers.numerals import as_text
 from kovacic.reading.names import FUNCTION_NAMES, NUMBER_NAMES
 
 Expr = Any  # SymPy publishes no types
 Meanings = dict[Expr, Expr]  # of letters
-#: The most letters of an equation, and characters of their names.
-_MOST_LETTERS = 20
-_LONGEST_NAME = 30
-#: The largest number that is factored.
-_LARGEST_FACTORED = 10**12
 
 
 class Lettered(NamedTuple):
@@ -43,20 +39,21 @@ class Lettered(NamedTuple):
     meanings: Meanings
 
 
-def letters_for_constants(parts: Sequence[Expr], coefficients: int, x: Expr) -> Lettered | None:
-    """Expressions in which constants have become letters; None if the first ones, the `coefficients`, have none.
+def letters_for_constants(parts: Sequence[Expr], x: Expr) -> Lettered | None:
+    """Expressions in which constants have become letters; None if the first three, the coefficients, have none.
 
     >>> x, a, b = sympy.symbols("x a b")
-    >>> found = letters_for_constants((1 + sympy.sqrt(a), a * x, sympy.exp(2 * b)), 3, x)
+    >>> found = letters_for_constants((1 + sympy.sqrt(a), a * x, sympy.exp(2 * b)), x)
     >>> found.parts, sorted(found.meanings.items(), key=str)
     ((sqrt_a + 1, sqrt_a**2*x, exp_b**2), [(exp_b, exp(b)), (sqrt_a, sqrt(a))])
     """
     letters = _LetterTable(x, parts)
     found = tuple(parts)
-    for _ in range(_MOST_LETTERS):
+    while True:
+        check_time()
         # Beside pi, e becomes a letter, for the two numbers aren't known to be independent.
-        e_is_known = not sympy.Tuple(*found[:coefficients]).has(sympy.pi)
-        inner = {kernel for part in found[:coefficients] for kernel in _kernels(part, x, e_is_known=e_is_known)}
+        e_is_known = not sympy.Tuple(*found[:3]).has(sympy.pi)
+        inner = {kernel for part in found[:3] for kernel in _kernels(part, x, e_is_known=e_is_known)}
         if not inner:
             break
         found = letters.replaced(found, sorted(inner, key=sympy.default_sort_key))
@@ -87,12 +84,11 @@ def without_shifts(part: Expr, x: Expr) -> Expr:
 
 
 def _kernels(e: Expr, x: Expr, *, e_is_known: bool) -> list[Expr]:
-    """The constants in an expression that aren't rational in symbols and numbers, and have no such constants within them.
-
-    `e_is_known`: powers of Euler's number are none.
-    """
+    """The innermost constants that aren't rational in symbols and numbers (and powers of e, if `e_is_known`)."""
     base, exponent = e.as_base_exp()
-    arguments = [each for each in e.args if isinstance(each, sympy.Expr)]  # a derivative has a pair beside f(t)
+    arguments = [
+        each for each in e.args if isinstance(each, sympy.Expr)
+    ]  # a derivative also has a pair among its arguments
     inner = [kernel for argument in arguments for kernel in _kernels(argument, x, e_is_known=e_is_known)]
     if inner or e.has(x) or e.is_Symbol or e is sympy.pi or e.is_Add or e.is_Mul:
         return inner
@@ -102,7 +98,7 @@ def _kernels(e: Expr, x: Expr, *, e_is_known: bool) -> list[Expr]:
 
 
 class _LetterTable:
-    """Letters with what they stand for; new ones have names that nothing else has."""
+    """Letters with their meanings; a new letter has a name of its own."""
 
     def __init__(self, x: Expr, parts: Sequence[Expr]) -> None:
         self.taken = {symbol.name for symbol in sympy.Tuple(*parts).free_symbols} | {
@@ -114,9 +110,9 @@ class _LetterTable:
         self.meanings: Meanings = {}
 
     def letter(self, meaning: Expr) -> Expr:
-        """A new letter for what may contain others."""
+        """A new letter for a constant, which may contain other letters."""
         whole = meaning.xreplace(self.meanings)
-        name = re.sub(r"\W+", "_", as_text(whole)).strip("_")[:_LONGEST_NAME].rstrip("_")
+        name = re.sub(r"\W+", "_", as_text(whole)).strip("_")[:30].rstrip("_")
         if not name.isidentifier():
             name = f"c_{name}"
         while name in self.taken:
@@ -209,12 +205,13 @@ def _by_others(kernel: Expr, kernels: Sequence[Expr]) -> Expr:
             return sine(argument) ** of_sine * cosine(argument) ** of_cosine
     is_logarithm = isinstance(kernel, sympy.log)
     base, exponent = (kernel.args[0], 1) if is_logarithm else kernel.as_base_exp()
-    if not (base.is_Rational and max(abs(base), 1 / abs(base)) < _LARGEST_FACTORED):
+    if not base.is_Rational:
         return kernel
+    factors = sympy.factorrat(base, limit=10**6).items()  # a factor without primes below the limit stays
     if is_logarithm:  # log(12) = 2 log(2) + log(3)
-        return sympy.expand_log(kernel, factor=True)
+        return sympy.Add(*(k * sympy.log(prime) for prime, k in factors))
     # 12^a = 2^(2 a) 3^a
-    return sympy.Mul(*(prime ** (k * exponent) for prime, k in sympy.factorrat(base).items()))
+    return sympy.Mul(*(prime ** (k * exponent) for prime, k in factors))
 
 
 def _without_squared_waves(part: Expr, kernels: Sequence[Expr]) -> Expr:

@@ -12,8 +12,7 @@ from collections.abc import Sequence
 from itertools import groupby
 from typing import NamedTuple
 
-from kovacic.errors import LimitExceeded, ParseError
-from kovacic.limits import Limits
+from kovacic.errors import ParseError
 
 PRIME = "'"
 #: Derivatives by the time: ẋ.
@@ -26,10 +25,10 @@ _SUPERSCRIPTS = "⁺⁻⁰¹²³⁴⁵⁶⁷⁸⁹"
 SUPERSCRIPT_DIGITS = str.maketrans(_SUPERSCRIPTS, "+-0123456789")
 _LOWERED = "₀₁₂₃₄₅₆₇₈₉"
 _FRACTIONS = "½⅓⅔¼¾⅕⅖⅗⅘⅙⅚⅛⅜⅝⅞"
-#: What functions are called has dots for derivatives; others with dots are letters of an alphabet.
+#: Names of functions, on which dots are derivatives; other letters with dots belong to an alphabet.
 _DOTTED = frozenset("xyzuvwqrsθφψ")
 _DOTS = {"\u0307": DOTS, "\u0308": 2 * DOTS}
-#: What a character stands for; all else stands for itself.
+#: Replacements of characters.
 _CHARACTERS = {
     **dict.fromkeys("\u2010\u2011\u2012\u2013\u2014\u2015−", "-"),
     **dict.fromkeys("´‘’′ʹʼ", "'"),
@@ -140,14 +139,12 @@ _CHARACTER_HINTS = {
     '"': "primes belong to the unknown function of an equation, as in y''",
     "%": "write percentages as fractions, 1/100; a comment stands behind a space: % like this",
     "#": "a comment stands behind a space: # like this",
-    "?": "leave out what is no part of the equation",
+    "?": "leave out all but the equation",
     "°": "angles are in radians: 90 degrees are pi/2",
     "$": "leave the $ out, or put the whole text between two of them",
     ".": "decimals are written 1.5; a derivative is y.diff(x, 2), or y''",
     ":": "leave the colon out",
-    **dict.fromkeys(
-        "<>≤≥≠", "an equation has the sign =; what is known about a parameter is given apart, as assumption"
-    ),
+    **dict.fromkeys("<>≤≥≠", "an equation has the sign =; facts about a parameter are given apart, as assumptions"),
 }
 
 
@@ -165,15 +162,5 @@ def unexpected(text: str, token: Token) -> ParseError:
         hint = "write indices as ordinary digits: x1"
     elif char.isnumeric():
         hint = "write numbers with the digits 0 to 9: 1/2"
-    return ParseError(
-        f"unexpected character {shown}",
-        text=text,
-        position=token.start,
-        hint=hint or "there are numbers, names, + - * / ^ ( ) = and y''",
-    )
-
-
-def check_length(text: str, limits: Limits, *, what: str) -> None:
-    if len(text) > limits.text_length:
-        said = f"{what} has {len(text)} characters, above the limit of {limits.text_length}"
-        raise LimitExceeded(said, limit="text_length")
+    hint = hint or "there are numbers, names, + - * / ^ ( ) = and y''"
+    return error_at(text, f"unexpected character {shown}", [token._replace(end=token.start + 1)], hint)

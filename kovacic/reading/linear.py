@@ -1,4 +1,4 @@
-"""Arithmetic beyond rational functions: SymPy expressions, and what is linear in an unknown function and its derivatives.
+"""Arithmetic beyond rational functions: SymPy expressions, and linear forms in an unknown function and its derivatives.
 
 A value is what `arithmetic` knows, or a SymPy expression that isn't a number (right-hand sides contain exponentials), or a
 `LinearForm` sum_k c_k y^(k) + r, with c_k and r of these kinds.  The operations on SymPy's expressions are SymPy's own.
@@ -53,10 +53,9 @@ def is_plain(value: Any) -> bool:
 
 
 class LinearArithmetic(Arithmetic):
-    """Sums, products, quotients and powers of linear forms; `coefficient` says what a SymPy expression as a factor of y is.
+    """Sums, products, quotients and powers of linear forms; `coefficient` converts a SymPy expression that is a factor of y.
 
-    Raises `NotLinear` for a product of two forms with the unknown function, without a place in the text; and what
-    `coefficient` and `Arithmetic` raise.
+    Raises `NotLinear`, without a place in the text, for a product of two forms with the unknown function.
     """
 
     def __init__(
@@ -148,7 +147,7 @@ class LinearArithmetic(Arithmetic):
         return NotLinear(f"{what}: the equation isn't linear", hint=LINEAR_HINT)
 
     def _multiple(self, form: LinearForm, factor: Any) -> LinearForm:
-        """A form times what has no unknown function."""
+        """A form times a value free of the unknown function."""
         coefficient = self._coefficient_of(factor)
         return type(form)({k: self.multiply(c, coefficient) for k, c in form.parts.items()})
 
@@ -162,10 +161,7 @@ class LinearArithmetic(Arithmetic):
         return self.sum(terms)
 
     def called(self, head: str, arguments: Sequence[Any]) -> Any:
-        """A function of `FUNCTION_NAMES` or `SEVERAL_ARGUMENTS`, by SymPy; None for any other call.
-
-        The arguments of Piecewise are pairs.
-        """
+        """The value, by SymPy, of a function of `FUNCTION_NAMES` or `SEVERAL_ARGUMENTS`, or None for other names."""
         import sympy
 
         are_pairs = {isinstance(argument, tuple) for argument in arguments}

@@ -6,12 +6,12 @@ import re
 from collections.abc import Iterable
 
 #: The numbers that texts have, with SymPy's names; they are declared where they are parameters.
-KNOWN_NUMBERS = {"e": "E", "pi": "pi", "π": "pi", "I": "I", "EulerGamma": "EulerGamma", "Catalan": "Catalan"}
-KNOWN_NUMBERS["GoldenRatio"] = "GoldenRatio"
+KNOWN_NUMBERS = {"e": "E", "pi": "pi", "π": "pi", **{n: n for n in ("I", "EulerGamma", "Catalan", "GoldenRatio")}}
+INFINITIES = ("oo", "inf", "infty", "infinity", "Infinity")
 #: Names that stand for numbers unless the caller says that the variable has this name.
 NUMBER_NAMES = {
     **{name: f"the number {name}" for name in KNOWN_NUMBERS},
-    **dict.fromkeys(("oo", "zoo", "inf", "infinity", "Infinity"), "infinity"),
+    **dict.fromkeys((*INFINITIES, "zoo"), "infinity"),
     "I": "the imaginary unit",
     "e": "Euler's number",
     "π": "the number pi",
@@ -35,7 +35,7 @@ FUNCTION_NAMES["Gamma"] = "gamma"  # gamma(...) may be a product
 #: The functions of several arguments, by the names of SymPy's.
 SEVERAL_ARGUMENTS = {name: name for name in ("Max", "Min", "SingularityFunction", "Piecewise")}
 SEVERAL_ARGUMENTS |= {"max": "Max", "min": "Min"}
-#: What to write for functions that have other names here, some of which may be products: tg is tan, or t g.
+#: Spellings to suggest for names of other systems, some of which may be products: tg is tan, or t g.
 INSTEAD = {"tg": "tan(...)", "ctg": "cot(...)", "cotg": "cot(...)", "arctg": "atan(...)", "arcctg": "acot(...)"}
 INSTEAD |= {"sen": "sin(...)", "cosec": "csc(...)", "sh": "sinh(...)", "ch": "cosh(...)", "th": "tanh(...)"}
 INSTEAD |= dict.fromkeys(("EI", "IE"), "one letter for a stiffness, such as B")
@@ -64,7 +64,6 @@ STEP_LETTERS = frozenset({"H", "u", "theta", "Theta", "delta", "θ", "Θ", "δ"}
 LETTER = rf"(?:{'|'.join(sorted(GREEK | SPECIAL_LETTERS, key=len, reverse=True))}|[^\W\d_])"
 _LETTER_WITH_INDEX = re.compile(rf"{LETTER}(?:_\w+|\d+|\d*_)?")
 
-#: What to do with a transcendental number.
 TRANSCENDENTAL_HINT = "write a letter instead: a parameter with generic values, as every transcendental number is one"
 
 

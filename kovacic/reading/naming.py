@@ -19,6 +19,7 @@ from typing import Any, NamedTuple
 
 from kovacic.equation import DEFAULT_VARIABLE, ENERGY, EULER, UNKNOWN
 from kovacic.errors import InputError, ParseError
+from kovacic.limits import DEFAULT_LIMITS, Limits
 from kovacic.reading.lexer import DERIVATIVES, PRIME, Token
 from kovacic.reading.names import FUNCTION_NAMES, INSTEAD, LETTER, NUMBER_NAMES, is_function, is_letter, unglued
 from kovacic.reading.notations import ParserTokens, pattern
@@ -36,7 +37,7 @@ _NO_VARIABLES = frozenset({*NUMBER_NAMES, ENERGY, "e", "D"})
 OPERATOR = "D"
 _NAME = r"[^\W\d]\w*"
 _ROOT = pattern(r"\^ 1 / (\d+)")
-#: What has two readings, with what to write: e^2x is e^(2x) or e^2 x, 1e-3y is 0.001 y or e - 3 y.
+#: Patterns with two readings, the message and the hint: e^2x is e^(2x) or e^2 x, 1e-3y is 0.001 y or e - 3 y.
 _EXPONENT = (
     r"e \^ ((?:- )?[\d.]+)~(NAME)(?! \()",
     "{0} can be read in two ways",
@@ -76,6 +77,7 @@ class Source(NamedTuple):
     has_functions: bool = False
     #: Those of the notes that say what was guessed.
     guesses: tuple[str, ...] = ()
+    limits: Limits = DEFAULT_LIMITS
 
 
 @dataclass(frozen=True)
@@ -87,10 +89,7 @@ class Vocabulary:
     declared: frozenset[str] = frozenset()
 
     def of(self, tokens: ParserTokens, *, is_equation: bool, notes: Sequence[str] = ()) -> Source:
-        """An equation, or S alone, in which every name is known.  Raises `InputError` for unknown and for ambiguous names.
-
-        The `notes` say what was left out around it.
-        """
+        """The source of an equation, or of S alone.  Raises `InputError` for unknown and for ambiguous names."""
         y, has_operator = self._unknown_of(tokens) if is_equation else ("", False)
         if is_equation and "I" not in self.declared:
             _check_readings(tokens, *_STIFFNESS)
@@ -136,7 +135,7 @@ class Vocabulary:
         return y, has_operator
 
     def _imaginary_unit(self, tokens: ParserTokens, x: str, y: str) -> list[str]:
-        """Notes that i or j, or E beside y[x], undeclared, is a parameter; and that I isn't, before y'', as an inertia is."""
+        """Notes: undeclared i, j, and E in a text with y[x], are parameters, and I before y'' isn't a moment of inertia."""
         free = tokens.names.keys() - {x, y, *self.declared}
         found = [f"{name} is a parameter; the imaginary unit is I" for name in "ij" if name in free]
         if "E" in free and f"{y}[{x}]" in tokens.text:  # Mathematica's
@@ -204,7 +203,7 @@ class Vocabulary:
 
 
 def _guesses(tokens: ParserTokens) -> Iterator[str]:
-    """Notes on what may have been meant in another way: x^1/2 is x/2; sin x/2, without parentheses or a blank, (sin x)/2."""
+    """Notes on readings that may not be the intended ones: x^1/2 is x/2; sin x/2, without parentheses or a blank, (sin x)/2."""
     found = _ROOT.search(tokens.line)
     if found:
         yield "^1/{0} was read as (...)^1 divided by {0}; a root is written ^(1/{0})".format(found[1])
@@ -219,7 +218,7 @@ def _guesses(tokens: ParserTokens) -> Iterator[str]:
 def _check_readings(
     tokens: ParserTokens, readings: str, said: str, hint: str, ends: Sequence[str] = ("", ""), unknown: str = ""
 ) -> None:
-    """Raises `ParseError` for what has two readings, where it doesn't end with the unknown; `ends` are those of the hints."""
+    """Raises `ParseError` for a pattern with two readings, unless it ends with `unknown`; `ends` complete the hint."""
     for found in pattern(readings.replace("NAME", _NAME)).finditer(tokens.spaced) if "e" in tokens.text.lower() else ():
         parts = [part.replace(" ", "") for part in found.groups()]
         if parts[-1] != unknown:
@@ -230,10 +229,7 @@ def _check_readings(
 
 
 def _with_factors(tokens: ParserTokens, x: str, y: str) -> tuple[ParserTokens, list[str]]:
-    """With factors for heads that are no functions: n(n+1) is a product where n occurs without parentheses, too.
-
-    So is y(1 - y), of which a note says so: y is no argument of itself.
-    """
+    """With factors for heads that aren't functions: n(n+1) if n occurs without parentheses, and, with a note, y(1 - y)."""
     alone = {*tokens.names, x} - {*FUNCTION_NAMES, *DERIVATIVES}
     rows = list(tokens)
     bare = [k for k, token in enumerate(tokens) if token[:2] == ("NAME", y)]
@@ -275,7 +271,7 @@ def differentiated(tokens: ParserTokens, declared: Collection[str] = ()) -> list
 def _equation_variable(tokens: ParserTokens, y: str, declared: Collection[str]) -> tuple[str, list[str]]:
     """The variable of an equation, with a note where it was guessed.
 
-    It is the argument of the unknown function, or what is differentiated by, or time where the notation says so; else x or t
+    It is the argument of the unknown function, or the variable of a derivative, or time in dot notation; else x or t
     if it occurs; else the only usual letter that occurs as only a variable does; else x, and all names are parameters.
     """
     named = argument_of(tokens, y)
@@ -322,10 +318,7 @@ def argument_of(tokens: ParserTokens, unknown: str) -> str | None:
 
 
 def _positions(name: str, tokens: ParserTokens) -> Iterator[str]:
-    """Where a name stands: in a "function" or an exponent, as a "power", in a denominator or a "sum", or as a "factor".
-
-    Only a variable stands elsewhere than as a factor; of several kinds the first one counts.
-    """
+    """The first role of each occurrence: "function" (or exponent), "power", "sum" (or denominator), "factor"."""
     heads = {k: tokens.kinds[k - 1] == "CIRCUMFLEX" or is_function(tokens.pieces[k - 1]) for k in tokens.partners}
     for k in (k for k, token in enumerate(tokens) if token[:2] == ("NAME", name)):
         before, after = tokens.kinds[k - 1], tokens.kinds[k + 1]
@@ -341,9 +334,9 @@ def _positions(name: str, tokens: ParserTokens) -> Iterator[str]:
 
 
 def _varies(name: str, tokens: ParserTokens, names: Collection[str]) -> bool:
-    """True where a usual name of a variable occurs as only a variable does: more than once, or not as a factor.
+    """True if a usual name of a variable occurs more than once, or not as a factor: constants hardly do.
 
-    T, tau, rho, zeta, ... are often constants: they have to occur in a function, or as a power and otherwise.
+    T, tau, rho, zeta, ... are often constants: they must occur in a function, or both as a power and otherwise.
     """
     is_ratio = name in _DAMPING_RATIOS and any(other.startswith(_FREQUENCIES) for other in names)
     has_small = name.lower() != name and name.lower() in names

@@ -28,7 +28,7 @@ SOLVERS = frozenset(
     "DSolve NDSolve DSolveValue NDSolveValue dsolve desolve ode2 contrib_ode rhs kovacicsols".split()  # noqa: SIM905
 )
 _KNOWN_WORDS = FUNCTIONS | GREEK | SPECIAL_LETTERS | DERIVATIVES | SOLVERS | {"Eq", "Equality"}
-#: What patterns are written with: one space glues tokens together or not, ~ glues them, and · is a gap between them.
+#: Signs of patterns: a space stands between tokens with or without a gap, ~ between tokens without one, · for a gap.
 _PATTERN_SIGNS = {
     "OPEN": r"[(\[{]",
     "CLOSE": r"[)\]}]",
@@ -50,21 +50,9 @@ def pattern(text: str) -> re.Pattern[str]:
 class Tokens(list[Token]):
     """A sequence of tokens, never changed after creation, with the queries of rules."""
 
-    @cached_property
-    def marks(self) -> frozenset[str]:
-        """Texts and kinds of the tokens; PROSE marks an unknown word, "_" an index, "." a number such as "1."."""
-        found = set()
-        for kind, text, _, _ in self:
-            found |= {kind, text}
-            if kind == "WORD" and len(text) > 2:
-                found.add("PROSE" if text.isalpha() and text not in _KNOWN_WORDS else "_" if "_" in text else text)
-            elif kind == "NUMBER" and text[-1] == ".":
-                found.add(".")
-        return frozenset(found)
-
-    def has(self, marks: Collection[str]) -> bool:
-        """True if one of these marks occurs."""
-        return not self.marks.isdisjoint(marks)
+    def has(self, texts: Collection[str]) -> bool:
+        """True if one of these tokens occurs."""
+        return any(token.text in texts for token in self)
 
     @cached_property
     def spaced(self) -> str:
@@ -166,22 +154,17 @@ class ParserTokens(Tokens):
 
 
 class Rewrite(NamedTuple):
-    """A notation: where its `pattern` occurs, with one of its `marks`, tokens are replaced by the `result`."""
+    """A notation: where its `pattern` occurs, tokens are replaced by the `result`."""
 
     notation: str
-    marks: frozenset[str]
     text: str
     result: str | Callable[[Match], str] = ""
-    #: What the words of the first group become, which stay where they are.
+    #: If given, the result is the match itself, and the words of its first group get this kind.
     kind: str = ""
 
     @property
     def pattern(self) -> re.Pattern[str]:
-        """Compiled for the first text that has one of the marks."""
         return pattern(self.text)
-
-    def found_in(self, scan: Tokens) -> Match | None:
-        return self.pattern.search(scan.spaced) if scan.has(self.marks) else None
 
     def applied(self, scan: Tokens) -> Tokens:
         found = Tokens()
@@ -204,7 +187,7 @@ class Rewrite(NamedTuple):
 def rewritten(scan: Tokens, rules: Sequence[Rewrite]) -> Tokens:
     """The tokens after all rules, in their order."""
     for notation in rules:
-        if notation.found_in(scan):
+        if notation.pattern.search(scan.spaced):
             scan = notation.applied(scan)
     return scan
 
@@ -221,7 +204,7 @@ def _occurs(pattern: str, text: str) -> Match | None:
 
 
 def _primed_by_order(match: Match) -> str:
-    """y'' for an order n, one if none is said."""
+    """y'' for the order 2; the order is 1 if none is given."""
     return f"{match['y']} {PRIME * int(match['n'] or 1)}"
 
 
@@ -258,7 +241,7 @@ _OTHERWISE = ("otherwise", "else", "elsewhere")
 _CASE_WORDS = re.compile(rf"\\(?:text|textrm|mbox|mathrm) \{{ +(if|for|when|{'|'.join(_OTHERWISE)}) *(?:[.,] +)?\}}")
 
 
-#: What names of Mathematica's, Maple's and SymPy's are.
+#: Our names of functions of Mathematica, Maple and SymPy.
 _SYNONYMS = {
     "ArcSin": "asin",
     "ArcCos": "acos",
@@ -274,58 +257,46 @@ _SYNONYMS = {
 }
 
 
-def rule(notation: str, marks: str, text: str, result: str | Callable[[Match], str] = "", kind: str = "") -> Rewrite:
-    return Rewrite(notation, frozenset(marks.split(" ")), text, result, kind)
-
-
-#: MATLAB's D2y and the like.
-_MATLAB_SLOPES = " ".join(f"D{n}{y}" for n in ("", 2, 3, 4) for y in "xyzuvwqf")
 _PACKAGES = "sympy|sp|sm|sy|np|math|numpy"
 _SLOPE = r"(?:diff|Derivative) \( (LETTER) \( (LETTER) \) , \2 \)"
 _BEHIND_NAME = r"(?:(?<=\w\x20)|(?<=\w\x20\x20))"
 NOTATIONS = (
-    rule("Julia", "Differential", r"Differential \( (LETTER) \)(?= \()", r"d / d\1"),
-    rule("the name of a package", ".", rf"(?:{_PACKAGES}) \."),
-    rule("a quoted name", "PRIMES", rf"(?<!=\x20)(?<!=\x20\x20)(?:{'|'.join(MAKERS)}) \( ['\"] (\w+) ['\"] \)", r"\1"),
-    rule("Maple", "@@", r"OPEN D @@ (?P<n>\d) CLOSE OPEN (?P<y>LETTER) CLOSE", _primed_by_order),
-    rule("Mathematica", "Derivative", r"Derivative OPEN (?P<n>\d) CLOSE OPEN (?P<y>LETTER) CLOSE", _primed_by_order),
-    rule("Maple", "D", r"OPEN D OPEN D OPEN (LETTER) CLOSE CLOSE CLOSE(?= OPEN)", r"\1 ''"),
-    rule("Maple", "D", r"D OPEN D OPEN (LETTER) CLOSE CLOSE(?= OPEN)", r"\1 ''"),
-    rule("Maple", "D", r"OPEN D OPEN (LETTER) CLOSE CLOSE(?= OPEN)", r"\1 '"),
-    rule("Maple", "D", r"(?:OPEN D CLOSE|D) OPEN (LETTER) CLOSE(?= OPEN)", r"\1 '"),
-    rule("MATLAB", "diff", r"(?<!\.\x20)diff OPEN (?P<y>LETTER) , (?P<n>[1-4]) CLOSE", _primed_by_order),
-    rule("MATLAB", _MATLAB_SLOPES, r"D(?P<n>[2-4]?)(?P<y>[xyzuvwqf])", _by_time),
-    rule("SymPy", "subs", r"(LETTER)(?: \( LETTER \))? \. diff \( (LETTER)(?: , 1)? \) \. subs \( \2 ,", r"\1 ' ("),
-    rule("SymPy", "subs", rf"{_SLOPE} \. subs \( \2 ,", r"\1 ' ("),
-    rule("SymPy", "subs", r"(LETTER)(?: \( LETTER \))? \. subs \( LETTER ,", r"\1 ("),
-    rule("SymPy", "Subs", rf"Subs \( {_SLOPE} , \2 ,", r"\1 ' ("),
-    rule("SymPy", "Subs", rf"Subs \( {_SLOPE} , \( \2 , \) , \( (\S+) , \) \)", r"\1 ' ( \3 )"),
-    rule("Maple", "$", r"` \$ ` \( (LETTER) , (\d) \)", r"\1 , \2"),
-    rule("Maple", "$", r"([^\W\d]\w*) \$ (\d+)", r"\1 , \2"),
-    rule("Maxima", "diff", r"'(?= diff )"),
-    rule("Maxima", "%", r"%~(e|pi)", r"\1"),
-    rule("Maxima", "%", r"%~i", "I"),
-    rule("Mathematica", "Subscript", r"Subscript \[ (LETTER) , (\w+) \]", r"\1_\2"),
-    rule("functions", " ".join(_SYNONYMS), rf"(?:{'|'.join(_SYNONYMS)})(?= [(\[])", lambda match: _SYNONYMS[match[0]]),
-    rule("pi", "Pi π", "Pi|π", "pi"),
-    rule("Mathematica", "E", r"E \^", _power_of_e),
-    rule(
+    Rewrite("Julia", r"Differential \( (LETTER) \)(?= \()", r"d / d\1"),
+    Rewrite("the name of a package", rf"(?:{_PACKAGES}) \."),
+    Rewrite("a quoted name", rf"(?<!=\x20)(?<!=\x20\x20)(?:{'|'.join(MAKERS)}) \( ['\"] (\w+) ['\"] \)", r"\1"),
+    Rewrite("Maple", r"OPEN D @@ (?P<n>\d) CLOSE OPEN (?P<y>LETTER) CLOSE", _primed_by_order),
+    Rewrite("Mathematica", r"Derivative OPEN (?P<n>\d) CLOSE OPEN (?P<y>LETTER) CLOSE", _primed_by_order),
+    Rewrite("Maple", r"OPEN D OPEN D OPEN (LETTER) CLOSE CLOSE CLOSE(?= OPEN)", r"\1 ''"),
+    Rewrite("Maple", r"D OPEN D OPEN (LETTER) CLOSE CLOSE(?= OPEN)", r"\1 ''"),
+    Rewrite("Maple", r"OPEN D OPEN (LETTER) CLOSE CLOSE(?= OPEN)", r"\1 '"),
+    Rewrite("Maple", r"(?:OPEN D CLOSE|D) OPEN (LETTER) CLOSE(?= OPEN)", r"\1 '"),
+    Rewrite("MATLAB", r"(?<!\.\x20)diff OPEN (?P<y>LETTER) , (?P<n>[1-4]) CLOSE", _primed_by_order),
+    Rewrite("MATLAB", r"D(?P<n>[2-4]?)(?P<y>[xyzuvwqf])", _by_time),
+    Rewrite("SymPy", r"(LETTER)(?: \( LETTER \))? \. diff \( (LETTER)(?: , 1)? \) \. subs \( \2 ,", r"\1 ' ("),
+    Rewrite("SymPy", rf"{_SLOPE} \. subs \( \2 ,", r"\1 ' ("),
+    Rewrite("SymPy", r"(LETTER)(?: \( LETTER \))? \. subs \( LETTER ,", r"\1 ("),
+    Rewrite("SymPy", rf"Subs \( {_SLOPE} , \2 ,", r"\1 ' ("),
+    Rewrite("SymPy", rf"Subs \( {_SLOPE} , \( \2 , \) , \( (\S+) , \) \)", r"\1 ' ( \3 )"),
+    Rewrite("Maple", r"` \$ ` \( (LETTER) , (\d) \)", r"\1 , \2"),
+    Rewrite("Maple", r"([^\W\d]\w*) \$ (\d+)", r"\1 , \2"),
+    Rewrite("Maxima", r"'(?= diff )"),
+    Rewrite("Maxima", r"%~(e|pi)", r"\1"),
+    Rewrite("Maxima", r"%~i", "I"),
+    Rewrite("Mathematica", r"Subscript \[ (LETTER) , (\w+) \]", r"\1_\2"),
+    Rewrite("functions", rf"(?:{'|'.join(_SYNONYMS)})(?= [(\[])", lambda match: _SYNONYMS[match[0]]),
+    Rewrite("pi", "Pi|π", "pi"),
+    Rewrite("Mathematica", r"E \^", _power_of_e),
+    Rewrite(
         "raised primes",
-        "PRIMES",
         rf"{_BEHIND_NAME}\^ (?:OPEN ((?:['\"]+ )+)CLOSE|(['\"]+(?: '+)*))",
         lambda m: primes_of(m[1] or m[2]),
     ),
-    rule("indices", "_", r"(?P<y>[a-zA-Z])_(?P<x>[xytzsr])(?P<second>(?P=x))?", _by_index),
+    Rewrite("indices", r"(?P<y>[a-zA-Z])_(?P<x>[xytzsr])(?P<second>(?P=x))?", _by_index),
 )
 #: For what the commands of LaTeX have become signs and letters.
 LATEX = (
-    rule(
-        "dots",
-        r"\dot \ddot \dddot",
-        r"\\(d{1,3})ot (?:\{ (\S+) \}|(\S+))",
-        lambda m: f"{m[2] or m[3]} {DOTS * len(m[1])}",
-    ),
-    rule("an order", "{", rf"{_BEHIND_NAME}\^ \{{ \( ([1-4]) \) \}}", lambda match: PRIME * int(match[1])),
+    Rewrite("dots", r"\\(d{1,3})ot (?:\{ (\S+) \}|(\S+))", lambda m: f"{m[2] or m[3]} {DOTS * len(m[1])}"),
+    Rewrite("an order", rf"{_BEHIND_NAME}\^ \{{ \( ([1-4]) \) \}}", lambda match: PRIME * int(match[1])),
     *NOTATIONS,
 )
 
@@ -337,40 +308,28 @@ _END_OF_ARRAY = r"\\end \{ array \} \\right \."
 _NO_NAME = rf"(?!(?:{'|'.join(FUNCTION_NAMES)}|\w) \}})"
 #: Comments, breaks and layout, before all else.
 AROUND = (
-    rule("Julia", "@", r"@~(?:variables|parameters|independent_variables) [^\n;]*"),
-    rule("Julia", "~", r"\x7e", lambda m: "" if _occurs(r"(?<!\S)\\", m.string) else "="),
-    rule("within a line", "*", r"[(/]~\* .{0,2000}? \*~[)/]"),
-    rule("a whole line", "/ # %", rf"{_LINE}(?:/~/|#|%(?!~(?:e|i|pi|o\d*|i\d+)(?!\S)))[^\n]*"),
-    rule(
-        "behind a line",
-        "PROSE hi a an is no",
-        rf"(?:{_LINE}|(?<=\x20\x20))(?:/~/|#|%|-~-) (?:WORD|hi|an?|is|no)(?!\S)[^\n]*",
-    ),
-    rule(
+    Rewrite("Julia", r"@~(?:variables|parameters|independent_variables) [^\n;]*"),
+    Rewrite("Julia", r"\x7e", lambda m: "" if _occurs(r"(?<!\S)\\", m.string) else "="),
+    Rewrite("within a line", r"[(/]~\* .{0,2000}? \*~[)/]"),
+    Rewrite("a whole line", rf"{_LINE}(?:/~/|#|%(?!~(?:e|i|pi|o\d*|i\d+)(?!\S)))[^\n]*"),
+    Rewrite("behind a line", rf"(?:{_LINE}|(?<=\x20\x20))(?:/~/|#|%|-~-) (?:WORD|hi|an?|is|no)(?!\S)[^\n]*"),
+    Rewrite(
         "cases",
-        r"\begin",
         rf"(?:{_ARRAY}|\\begin \{{ cases \}}) +((?:(?!& ){_NO_END}){{0,2000}}& +{_NO_END}{{0,2000}})"
         rf"(?:{_END_OF_ARRAY}|\\end \{{ cases \}})",
         _cases,
     ),
-    rule("comparisons", r"\le \leq \ge \geq", r"\\([lg])eq?", lambda m: "<=" if m[1] == "l" else ">="),
-    rule(
-        "environments",
-        r"\begin \end \label \tag \ref",
-        rf"{_ARRAY}|{_END_OF_ARRAY}|\\(?:begin|end|label|tag|ref)(?: [^\s}}]+){{0,12}} \}}",
-        "\n",
-    ),
-    rule(
+    Rewrite("comparisons", r"\\([lg])eq?", lambda m: "<=" if m[1] == "l" else ">="),
+    Rewrite("environments", rf"{_ARRAY}|{_END_OF_ARRAY}|\\(?:begin|end|label|tag|ref)(?: [^\s}}]+){{0,12}} \}}", "\n"),
+    Rewrite(
         "words",
-        r"\text \textrm \mbox \textnormal",
         rf"{_NO_INDEX}\\(?:text|textrm|mbox|textnormal) \{{ {_NO_NAME}((?:(?:[^\W\d_]+|[^\w\s}}]) ){{0,99}})\}}",
         kind="TEXT",
     ),
-    rule("breaks", r"\\ \quad \qquad", r"\\\\|\\quad|\\qquad", "\n"),
-    rule("the end of a line", "\\", r"\\$"),
-    rule(
+    Rewrite("breaks", r"\\\\|\\quad|\\qquad", "\n"),
+    Rewrite("the end of a line", r"\\$"),
+    Rewrite(
         "dollars",
-        "$",
         r"(?<![^\W\d]\x20)(?<!`\x20)\$|\$(?! [\d`])",
         lambda match: "\n" if _occurs(r"\$.*\$", match.string) else "$" if match.start() == 0 else " ; ",  # Maxima's
     ),

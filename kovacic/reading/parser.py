@@ -9,7 +9,7 @@ A power or a superscript belongs to a number, a name, a parenthesis or a call: x
 expressions and pairs of expressions as its arguments; the second of a pair may be a comparison, 0 <= x < 1.  An equation
 has one equals sign, outside all parentheses.
 
-What the numbers, names and calls mean is a reader's affair: a rational function, an equation, a SymPy expression.
+Readers define the meaning of numbers, names and calls: a rational function, an equation, a SymPy expression.
 """
 
 from __future__ import annotations
@@ -72,10 +72,7 @@ class Site:
 
 
 def parse(tokens: ParserTokens, reader: Any) -> Any:
-    """The value of a text to a reader: a `RationalReader`, or what extends it.
-
-    Raises `ParseError` where it isn't an expression or equation, and what the reader raises, with the place in the text.
-    """
+    """The value of a text to a reader.  Raises `ParseError`, and the errors of the reader with their place in the text."""
     parser = _Parser(tokens, reader)
     site = parser.site
     try:
@@ -87,7 +84,7 @@ def parse(tokens: ParserTokens, reader: Any) -> Any:
 
 
 class Comparison(NamedTuple):
-    """values[0] signs[0] values[1] ...; without signs, what is always true."""
+    """values[0] signs[0] values[1] ...; without signs it is always true."""
 
     signs: tuple[str, ...]
     values: tuple[Any, ...] = ()
@@ -190,9 +187,9 @@ class _Parser:
         return True
 
     def power(self, k: int) -> bool:
-        """Of the operand that follows, or of the token itself, a superscript."""
+        """The exponent is the operand that follows, or the token itself, a superscript."""
         if self.kinds[k - 1] == "SUPERSCRIPT":  # x²^3
-            self.complete(k)  # what is wrong before it is found first
+            self.complete(k)  # so that an earlier error is reported first
             raise self.syntax_error(k)
         self.pending.append((_POWER, k))
         if self.kinds[k] == "CIRCUMFLEX":
@@ -335,8 +332,12 @@ class _Parser:
             if right.split and not is_product:
                 # (1/2m) y'': the quotient is the factor of a derivative.
                 is_factor = self.kinds[end] == "RPAR" and self.is_derivative(end + 1)
-                if not is_factor:
-                    raise _ambiguous(self.tokens, self.site, k, right.split)
+                if not is_factor:  # a/b c, where c begins with token `right.split`
+                    spans = ((left.begin, k), (right.begin, end), (right.begin, right.split), (right.split, end))
+                    above, below, first, rest = (excerpt(self.tokens.piece(*span)) for span in spans)
+                    hint = f"write {above}/({below}) or ({above}/{first})*{rest}"
+                    said = "a product without a sign after / can be read in two ways"
+                    raise self.tokens.error(ParseError, said, left.begin, end, hint=hint)
             operation = self.arithmetic.multiply if is_product else self.arithmetic.divide
             left.value = operation(left.value, right.value)
             left.split = 0
@@ -368,7 +369,7 @@ class _Parser:
         return tokens.error(ParseError, message, begin, last + 1, hint=hint)
 
 
-#: What a token does where an operand is expected; all others are misplaced there.
+#: The methods for tokens where an operand is expected; all other kinds are misplaced there.
 _PREFIX = {
     **dict.fromkeys(_ATOMS, _Parser.atom),
     "HEAD": _Parser.head,
@@ -377,7 +378,7 @@ _PREFIX = {
     "MINUS": _Parser.sign,
     "OTHERWISE": _Parser.otherwise,
 }
-#: What a token does after an operand.
+#: The methods for tokens after an operand.
 _INFIX = {
     **dict.fromkeys(_BINARY, _Parser.binary),
     "CIRCUMFLEX": _Parser.power,
@@ -408,22 +409,12 @@ def _check_neighbours(tokens: ParserTokens, reader: Any, begin: int, right: int)
     raise tokens.error(ParseError, message, left, right + 1, hint="write a product with *")
 
 
-def _ambiguous(tokens: ParserTokens, site: Site, slash: int, split: int) -> InputError:
-    """The error for a/b c, where c begins with token `split`."""
-    begin, right, end = site.span
-    spans = ((begin, slash), (right, end), (right, split), (split, end))
-    above, below, first, rest = (excerpt(tokens.piece(*span)) for span in spans)
-    hint = f"write {above}/({below}) or ({above}/{first})*{rest}"
-    message = "a product without a sign after / can be read in two ways"
-    return tokens.error(ParseError, message, begin, end, hint=hint)
-
-
 #: A message, the first and the last token that it is about, and a hint.
 _Fault = tuple[str, int, int, str | None]
 
 
 def _incomplete(tokens: ParserTokens, end: int, opened: Sequence[int]) -> _Fault:
-    """Of the end of the text."""
+    """The fault of a text that ends too early."""
     last = end - 1
     if tokens.kinds[last] in (*_BINARY_KINDS, "EQUAL", "COMMA"):
         return f"the expression ends after {tokens.pieces[last]!r}", last, last, "something is missing after it"
@@ -434,7 +425,7 @@ def _incomplete(tokens: ParserTokens, end: int, opened: Sequence[int]) -> _Fault
 
 
 def _comma(tokens: ParserTokens, k: int) -> _Fault:
-    """Of a comma outside calls, which may be that of a decimal, or separate values."""
+    """The fault of a comma outside calls: a decimal comma, or one that separates values."""
     begin, hint = k, "decimals are written with a point, and one expression is one S"
     if tokens.are(k - 1, "NUMBER", "COMMA", "NUMBER") and tokens[k - 1].end + 1 == tokens[k + 1].start:
         begin, whole, digits = k - 1, tokens.pieces[k - 1], tokens.pieces[k + 1]

@@ -9,7 +9,7 @@
 ['3. was taken for a number in a list', 'left out: Solve the equation']
 
 Comments, numbers of lists and equations, prose, dollar signs, environments of LaTeX, assignments and commands of other systems
-are what stands around an equation; values follow it, or are arguments of the command.  What the equation means is found by
+surround an equation; values follow it, or are arguments of the command.  The meaning of the equation is found by
 `dialects`, `source` and the parser.  Linear time.
 """
 
@@ -24,13 +24,23 @@ from typing import NamedTuple
 from kovacic.errors import ParseError
 from kovacic.reading.dialects import FRACTIONS, LAYOUT, in_own_notation
 from kovacic.reading.lexer import DERIVATIVES, PRIME, Token, error_at, scanned
-from kovacic.reading.names import is_function, is_letter
-from kovacic.reading.notations import AROUND, MAKERS, NOTATIONS, SOLVERS, ParserTokens, Tokens, pattern, rewritten, rule
+from kovacic.reading.names import INFINITIES, is_function, is_letter
+from kovacic.reading.notations import (
+    AROUND,
+    MAKERS,
+    NOTATIONS,
+    SOLVERS,
+    ParserTokens,
+    Rewrite,
+    Tokens,
+    pattern,
+    rewritten,
+)
 
 #: Words between an equation and its conditions.
 _BETWEEN = frozenset("and with where subject such given for if at when satisfying".split())  # noqa: SIM905
 _FILLERS = frozenset("to that the conditions condition initial boundary by values value".split())  # noqa: SIM905
-#: Statements that say what names are, and solve nothing.
+#: The first words of statements that declare names and solve nothing.
 _DECLARATIONS = frozenset("from import syms with restart clear clc depends assume var init_printing".split())  # noqa: SIM905
 _UNFINISHED = frozenset("+ - * / ^ ** = == , := .".split())  # noqa: SIM905
 _ASSIGNS = ("=", "==", ":=")
@@ -39,11 +49,11 @@ _WHOLE = frozenset({"Eq", "Equality"})
 _BEGINNINGS = ("WORD", "COMMAND", "NEWLINE", "TEXT", "NUMBER")
 _DISPLAYS = ("\\displaystyle", "\\boxed")
 _INEQUALITIES = frozenset({*"<>≠", "<=", ">="})
-_NAMED_POINTS = frozenset({"oo", "inf", "infty", "infinity", "Infinity", "pi", "\\pi"})
+_NAMED_POINTS = frozenset({*INFINITIES, "pi", "\\pi"})
 
 
 class PastedPiece(NamedTuple):
-    """A part of a text, and what it is.
+    """A part of a text and its role.
 
     The roles are equation, condition, name (of the unknown function or the variable in a command), command, declaration,
     number (in a list), prose, remark (an inequality).
@@ -54,7 +64,7 @@ class PastedPiece(NamedTuple):
 
 
 class PlacedValue(NamedTuple):
-    """A condition: y'(0), or what is linear in such, and its value."""
+    """A condition: y'(0), or a linear combination of such values, and the value it has."""
 
     place: str
     value: str
@@ -69,9 +79,7 @@ def _plain_tokens(text: str) -> Tokens:
     """The tokens in this package's notation, without comments, layout, and marks around the whole."""
     scan = rewritten(Tokens(scanned(text)), AROUND)
     is_displayed = scan.has(_DISPLAYS)  # as Wikipedia has its formulas
-    if scan.has(LAYOUT):
-        scan = Tokens(token for token in scan if token.text not in LAYOUT)
-    found = rewritten(scan, NOTATIONS)
+    found = rewritten(Tokens(token for token in scan if token.text not in LAYOUT), NOTATIONS)
     is_around = (is_displayed and found.is_enclosed) or _is_quoted(found)
     return Tokens(found[1:-1]) if is_around else found
 
@@ -109,7 +117,7 @@ def _line_separates(scan: Tokens, k: int, current: list[Token], is_complete: boo
     return following.has(SOLVERS) or _has_equals(following)
 
 
-#: What may separate statements, and when it does; Maple has colons behind them.
+#: Separators of statements, and the test whether one separates; Maple ends statements with colons.
 _SEPARATORS: dict[str, Callable[[Tokens, int, list[Token], bool], bool]] = {
     ";": lambda *_: True,
     ",": _comma_separates,
@@ -132,31 +140,27 @@ _NOTES = {
 _LABEL_WORDS = "Exercise|Problem|Example|Question|Equation|Task|Aufgabe|Ex|No|Nr"
 _SOME = r"(?:(?:[^\W\d]\S*|'~s|[-:,.]) ){0,40}"
 _NO_OPERATOR = r"(?! (?:==?|:=|[*/^)\[])(?!\S))"
+_UNKNOWN_WORD = pattern("WORD")
 _LABEL_NUMBERS = r"\d+(?:\.\d+)?|[a-i]|i{2,3}|iv|vi{1,3}"
-#: What is left out before or behind a statement, in this order, and as what; without a role it is layout.
+#: Patterns that are left out before or behind a statement, in this order, with their roles; layout has none.
 SURROUNDINGS = (
-    rule("the next sentence", ".", r"(?<=\.\x20\x20)[A-Z][a-z]*(?: (?:[^\W\d]+|[-,.!?']))+$", kind="prose"),
-    rule("the end of a sentence", ". : $ , ?", r"(?<!^)[.:$,?](?: [.:$,?])*$"),
-    rule("a prompt", "> sage In %", r"^(?:>(?: >){0,2}|sage :|In \[ \S+ \] :=|\( % \w+ \))"),
-    rule("1.", ".", r"^(?:\d+\.|[A-Z]\d+ \.)(?=\x20\x20)", kind="number"),
-    rule("1)", ")", r"^[^\s(]{1,2} \)(?= \S+ \S)", kind="number"),
-    rule("(1)", ")", rf"^\( (?:{_LABEL_NUMBERS}) \)(?=\x20\x20\S+ )", kind="number"),
-    rule(
-        "Problem 3:", ". : )", rf"^(?:WORD|{_LABEL_WORDS})(?: \.)? \d+(?:\.\d+)?(?:\.(?=\x20\x20)| [:.)])", kind="prose"
-    ),
-    rule(
-        "Problem 3", _LABEL_WORDS.replace("|", " "), rf"^(?:{_LABEL_WORDS})(?: \.)? \d+(?=\x20\x20\S+ )", kind="number"
-    ),
-    rule("a sentence", "PROSE", rf"^{_SOME}?WORD {_SOME}(?:WORD|of|to|is|by|(?<=\w\x20):){_NO_OPERATOR}", kind="prose"),
-    rule("a capital", "PROSE", rf"^(?=[A-Z][a-z]+ )WORD{_NO_OPERATOR}(?! \()", kind="prose"),
-    rule("the number behind an equation", ") ]", r"(?<=[^-+*/^=,:.\s]\x20\x20)OPEN \d+(?:\.\d+)? CLOSE$", kind="label"),
-    rule(
+    Rewrite("the next sentence", r"(?<=\.\x20\x20)[A-Z][a-z]*(?: (?:[^\W\d]+|[-,.!?']))+$", kind="prose"),
+    Rewrite("the end of a sentence", r"(?<!^)[.:$,?](?: [.:$,?])*$"),
+    Rewrite("a prompt", r"^(?:>(?: >){0,2}|sage :|In \[ \S+ \] :=|\( % \w+ \))"),
+    Rewrite("1.", r"^(?:\d+\.|[A-Z]\d+ \.)(?=\x20\x20)", kind="number"),
+    Rewrite("1)", r"^[^\s(]{1,2} \)(?= \S+ \S)", kind="number"),
+    Rewrite("(1)", rf"^\( (?:{_LABEL_NUMBERS}) \)(?=\x20\x20\S+ )", kind="number"),
+    Rewrite("Problem 3:", rf"^(?:WORD|{_LABEL_WORDS})(?: \.)? \d+(?:\.\d+)?(?:\.(?=\x20\x20)| [:.)])", kind="prose"),
+    Rewrite("Problem 3", rf"^(?:{_LABEL_WORDS})(?: \.)? \d+(?=\x20\x20\S+ )", kind="number"),
+    Rewrite("a sentence", rf"^{_SOME}?WORD {_SOME}(?:WORD|of|to|is|by|(?<=\w\x20):){_NO_OPERATOR}", kind="prose"),
+    Rewrite("a capital", rf"^(?=[A-Z][a-z]+ )WORD{_NO_OPERATOR}(?! \()", kind="prose"),
+    Rewrite("the number behind an equation", r"(?<=[^-+*/^=,:.\s]\x20\x20)OPEN \d+(?:\.\d+)? CLOSE$", kind="label"),
+    Rewrite(
         "a remark behind an equation",
-        "PROSE < > <= >= ≠",
         r"(?:(?<=\x200\x20\x20)|\n ?)\( (?:WORD(?: \S+){0,5}|\S+ (?:[<>]=?|≠) \S+) \)$",
         kind="prose",
     ),
-    rule("the end of a sentence", ". : ,", r"[.:,](?: [.:,])*$"),
+    Rewrite("the end of a sentence", r"[.:,](?: [.:,])*$"),
 )
 
 
@@ -220,7 +224,7 @@ class Paste:
     def without_surroundings(self, scan: Tokens) -> Tokens:
         """Without prompts, numbers of lists and equations, prose and punctuation."""
         for around in SURROUNDINGS if scan[0].text not in _DECLARATIONS else ():
-            match = around.found_in(scan)
+            match = around.pattern.search(scan.spaced)
             if match is None:
                 continue
             first, behind = scan.span(match)
@@ -244,7 +248,7 @@ class Paste:
         """Raises `ParseError` for (2) y'' + y = 0 on one line, where 2 may be a coefficient."""
         gap = self.text[number[-1].end : rest[0].start]
         label = next(token.text for token in number[::-1] if token.text != ")")
-        is_clear = label == "1" or rest[0].kind == "NUMBER" or Tokens(rest[:1]).has(("PROSE",))
+        is_clear = label == "1" or rest[0].kind == "NUMBER" or _UNKNOWN_WORD.match(rest.spaced)
         if is_clear or re.search(r"[\t\n]|\\\\|quad", gap):
             return
         said = f"{self.written(number)} may be the number of the equation, or a factor"
@@ -366,7 +370,7 @@ _COMMAND = pattern(rf"(?:\w+ [.\[]? ?)?(?:{'|'.join(SOLVERS)}) (?:\] |\[ \w+ \] 
 _EQUATION = pattern(r"==?|(?<!^)['\"˙]+|\\prime|\\d+ot|(?:diff|Diff|Derivative|D) OPEN")
 #: MATLAB's Dy = diff(y, t).
 _IDENTITY = pattern(r"(?P<y>LETTER) (?:˙+ = diff \( (?P=y) .*\)|˙ = (?P=y) '|˙˙ = (?P=y) '')")
-#: A name, or what is differentiated, with an argument.
+#: A name, or a derivative, with an argument.
 _CALL = pattern(r"(?:\\?[^\W\d]\S*(?: ['\"˙]+)?|\}) [(\[]")
 #: Primes that belong to no value: y'', y''(x).
 _PRIMES_ALONE = pattern(r"(?:''|\"|˙˙)(?! OPEN)")
@@ -397,7 +401,7 @@ def is_word(text: str) -> bool:
 
 
 def _has_equals(scan: Tokens, signs: Collection[str] = _ASSIGNS, depth: int = 0) -> bool:
-    """True if an equals sign, or another one, stands outside all brackets, or as deep as is said."""
+    """True if one of the signs stands in at most `depth` brackets."""
     has_sign = any(token.text in signs and scan.depths[k] <= depth for k, token in enumerate(scan))
     return has_sign or (bool(scan) and scan[0].text in _WHOLE)
 

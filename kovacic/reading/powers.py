@@ -21,7 +21,6 @@ from sympy.core.function import AppliedUndef
 
 from kovacic.equation import UNKNOWN, Change, Parsed
 from kovacic.errors import NotRational
-from kovacic.limits import Limits
 from kovacic.numbers.numerals import as_text
 from kovacic.reading.change_of_variable import function_of_x
 from kovacic.reading.exponentials import common_power, in_exponentials, read_in
@@ -31,13 +30,13 @@ from kovacic.reading.source import parts_of, source_of_parts
 Expr = Any  # SymPy publishes no types
 
 
-def in_powers(source: Source, limits: Limits) -> Parsed | None:
+def in_powers(source: Source) -> Parsed | None:
     """The equation (1) for an input with such coefficients; None if they aren't functions of one power.
 
     The right-hand side is kept as the equation's h.
     """
     x = sympy.Symbol(source.variable)
-    (a, b, c, rest), notices = parts_of(source, limits)
+    (a, b, c, rest), notices = parts_of(source)
     # Without functions, what isn't rational is a constant.
     if a == 0 or (a + b + c).has(AppliedUndef) or (b / a + c / a).is_rational_function(x):
         return None
@@ -45,7 +44,7 @@ def in_powers(source: Source, limits: Limits) -> Parsed | None:
     waves = [wave for wave in sympy.Tuple(b / a, c / a).atoms(*_WAVE_FUNCTIONS) if wave.has(x)]
     found = None
     with suppress(NotRational):
-        found = _of_waves(P, Q, waves, source, limits) if waves else _in_one_power(P, Q, source, limits)
+        found = _of_waves(P, Q, waves, source) if waves else _in_one_power(P, Q, source)
     if found is None:
         return None
     equation = replace(found.equation, h=sympy.expand(-rest / a) if rest != 0 else found.equation.h)
@@ -56,7 +55,7 @@ def in_powers(source: Source, limits: Limits) -> Parsed | None:
 _WAVE_FUNCTIONS = (sympy.exp, sympy.sin, sympy.cos, sympy.tan, sympy.sinh, sympy.cosh, sympy.tanh)
 
 
-def _in_one_power(P: Expr, Q: Expr, source: Source, limits: Limits) -> Any:
+def _in_one_power(P: Expr, Q: Expr, source: Source) -> Any:
     """theta^2 y + P theta y + Q y = 0 in T = x^k: with x = exp(s) powers of x are exponentials of s, and T is exp(k s)."""
     x, s, T = sympy.Symbol(source.variable), sympy.Dummy("s"), sympy.Dummy("T")
 
@@ -72,10 +71,10 @@ def _in_one_power(P: Expr, Q: Expr, source: Source, limits: Limits) -> Any:
     if offset != 0 or both.has(s):
         return None
     left = (k**2 * T**2, (k**2 + k * P) * T, Q, sympy.S.Zero)
-    return _with_change(read_in(T, left, source, limits), source, x**k)
+    return _with_change(read_in(T, left, source), source, x**k)
 
 
-def _of_waves(P: Expr, Q: Expr, waves: Sequence[Expr], source: Source, limits: Limits) -> Any:
+def _of_waves(P: Expr, Q: Expr, waves: Sequence[Expr], source: Source) -> Any:
     """In u = x^m, where the arguments of all waves contain x in x^m alone, and then in exp(c u)."""
     x = sympy.Symbol(source.variable)
     arguments = sympy.Tuple(*(wave.args[-1] for wave in waves))
@@ -90,7 +89,7 @@ def _of_waves(P: Expr, Q: Expr, waves: Sequence[Expr], source: Source, limits: L
     zeroth = sympy.cancel(Q / (m**2 * T**2))
     monic = [sympy.S.One, first.xreplace({T: u}), zeroth.xreplace({T: u}), sympy.S.Zero]
     renamed = source._replace(variable=u.name, unknown=source.unknown or UNKNOWN)
-    found: Any = in_exponentials(source_of_parts(monic, renamed), limits)
+    found: Any = in_exponentials(source_of_parts(monic, renamed))
     if found is None or found.equation.change is None:
         return None
     return _with_change(replace(found, notices=found.notices[1:]), source, function_of_x(found.equation).subs(u, x**m))

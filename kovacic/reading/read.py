@@ -4,14 +4,13 @@ from __future__ import annotations
 
 from collections.abc import Collection, Mapping, Sequence
 from dataclasses import replace
-from fractions import Fraction
 from typing import Any
 
 from kovacic.algebra.poly import Poly
 from kovacic.algebra.ratfunc import RatFunc
 from kovacic.algebra.rationals import QQ
 from kovacic.equation import DEFAULT_VARIABLE, PI, UNKNOWN, Equation, Parsed, parameters_of
-from kovacic.errors import InputError, LimitExceeded, NotLinear, NotRational
+from kovacic.errors import InputError, NotLinear, NotRational
 from kovacic.limits import DEFAULT_LIMITS, Limits
 from kovacic.numbers.exact import exact_real, exact_text, is_rational_number
 from kovacic.reading.naming import Source
@@ -48,7 +47,7 @@ def read_input(
     variable = _variable_name(var)
     if isinstance(S, str | Paste) or _is_sympy(S):
         source = source_of(S, variable, limits, unknown=unknown, equation=equation, names=names)
-        parsed = _with_note(_meaning(S, source, limits, exponentials=exponentials))
+        parsed = _with_note(_meaning(S, source, exponentials=exponentials))
         if parsed.equation is None:
             _check_unknown(parsed.variable, *parameters_of(parsed.S.field))
         lost = tuple(note for note in source.notes if note not in parsed.notices)
@@ -92,27 +91,24 @@ def declared(parameters: Collection[str], assume: Any = None) -> tuple[str, ...]
     return (*parameters, *map(str, assume if isinstance(assume, Mapping) else ()))
 
 
-def _meaning(given: Any, source: Source, limits: Limits, *, exponentials: bool) -> Parsed:
-    """The meaning of a source, made of the text or expression that was given.
-
-    With `exponentials`, coefficients that aren't rational are tried as functions of exp(k x), and constants as letters.
-    """
+def _meaning(given: Any, source: Source, *, exponentials: bool) -> Parsed:
+    """The meaning of a source; with `exponentials`, other coefficients are tried as functions of exp(k x) or with letters."""
     try:
-        return read_with_numbers(source, limits)
+        return read_with_numbers(source)
     except NotLinear:
         from kovacic.reading.functions import multiplied_out
 
-        found = multiplied_out(given, source, limits)
+        found = multiplied_out(given, source)
         if found is None:
             raise
-        plain = source_of(found, source.variable, limits, equation=True)
-        return _meaning(found, plain, limits, exponentials=exponentials)
+        plain = source_of(found, source.variable, source.limits, equation=True)
+        return _meaning(found, plain, exponentials=exponentials)
     except NotRational as error:
         if not exponentials:
             raise
         from kovacic.reading.functions import in_other_functions
 
-        return in_other_functions(source, limits, error)
+        return in_other_functions(source, error)
 
 
 def _with_note(parsed: Parsed) -> Parsed:
@@ -147,7 +143,7 @@ def read_coefficients(
         name = _variable_name(var) or only
         y = sympy.Function("y_" if "y" in symbols else "y")(symbols.get(name, sympy.Symbol(name)))
         equation = a * y.diff(y.args[0], 2) + b * y.diff() + c * y - f
-        return read_source(source_of(equation, None, unknown=y, equation=True), limits)
+        return read_source(source_of(equation, None, limits, unknown=y, equation=True))
     texts = [value.to_str() if isinstance(value, RatFunc) else exact_text(value, "a coefficient") for value in given]
     line = "({})*y'' + ({})*y' + ({})*y = {}".format(*texts)
     return read_input(line, var=var, limits=limits, names=names)
@@ -172,22 +168,16 @@ def _coefficient_polynomial(coefficients: Sequence[Any], what: str, limits: Limi
     if isinstance(coefficients, str | bytes) or not hasattr(coefficients, "__iter__"):
         hint = "give two sequences of numbers, low powers first: ([3, 0, 1], [1]) is x^2 + 3"
         raise InputError(f"the {what} is {type(coefficients).__name__!r}, not a sequence of coefficients", hint=hint)
-    if len(coefficients) > limits.degree + 1:
-        said = f"the {what} has {len(coefficients)} coefficients, above the limit of degree {limits.degree}"
-        raise LimitExceeded(said, limit="degree")
-    polynomial = QQ.poly([_exact_coefficient(value, power, what) for power, value in enumerate(coefficients)])
-    bits = polynomial.height_bits()
-    if bits > limits.bits:
-        said = f"the {what} has coefficients of {bits} bits, above the limit of {limits.bits}"
-        raise LimitExceeded(said, limit="bits")
+    limits.demand("degree", len(coefficients) - 1, f"the {what} has coefficients up to the degree {{}}")
+    exact = []
+    for power, value in enumerate(coefficients):
+        if not is_rational_number(value):
+            hint = "give integers, Fraction(1, 2) or sympy.Rational(1, 2)"
+            if isinstance(value, float):
+                hint = f"give Fraction({value!r}) if exactly this float is meant, or Fraction({str(value)!r}) for the decimal"
+            said = f"the coefficient of power {power} in the {what} is {excerpt(value)!r}, not a rational number"
+            raise NotRational(said, hint=hint)
+        exact.append(exact_real(value, f"the coefficient of power {power}"))
+    polynomial = QQ.poly(exact)
+    limits.demand("bits", polynomial.height_bits(), f"the {what} has coefficients of {{}} bits")
     return polynomial
-
-
-def _exact_coefficient(value: Any, power: int, what: str) -> Fraction:
-    if is_rational_number(value):
-        return exact_real(value, f"the coefficient of power {power}")
-    hint = "give integers, Fraction(1, 2) or sympy.Rational(1, 2)"
-    if isinstance(value, float):
-        hint = f"give Fraction({value!r}) if exactly this float is meant, or Fraction({str(value)!r}) for the decimal"
-    said = f"the coefficient of power {power} in the {what} is {excerpt(value)!r}, not a rational number"
-    raise NotRational(said, hint=hint)

@@ -1,4 +1,4 @@
-"""From what was given to what it means: one way for texts and for SymPy's expressions, for S alone and for equations.
+"""From the input to its meaning: one way for texts and for SymPy's expressions, for S alone and for equations.
 
 given -> `Source`, which can be walked -> a reader, which calculates -> `Parsed`
 """
@@ -16,9 +16,8 @@ from kovacic.limits import DEFAULT_LIMITS, Limits
 from kovacic.reading.arithmetic import ONE, VARIABLE, Arithmetic
 from kovacic.reading.constants import Constants, read_with_constants
 from kovacic.reading.expression import RationalReader
-from kovacic.reading.lexer import check_length, error_at
+from kovacic.reading.lexer import error_at
 from kovacic.reading.naming import Source, Vocabulary, chosen_variable
-from kovacic.reading.notations import ParserTokens
 from kovacic.reading.pieces import Paste, is_equation
 
 
@@ -38,34 +37,28 @@ def source_of(
     Raises `InputError`, with the position in a text, where it isn't known which name is the variable, and `LimitExceeded`.
     """
     if not isinstance(given, str | Paste):
-        return _sympy_source(given, variable, unknown, equation)
+        return _sympy_source(given, variable, unknown, equation)._replace(limits=limits)
     if isinstance(given, str):
-        check_length(given, limits, what="the text")
+        limits.demand("text_length", len(given), "the text has {} characters")
         given = Paste(given)
         values = given.scans("condition")
         if values:
             scan = given.scans("equation")[0]
             hint = f"give the equation: {given.text[scan[0].start : scan[-1].end]}"
             raise error_at(given.text, "initial values are accepted by `dsolve` only", values[0], hint)
-    tokens = _only_equation(given)
-    vocabulary = Vocabulary(variable or given.variable, unknown, frozenset(names))
-    return vocabulary.of(tokens, is_equation=equation or given.is_equation, notes=given.notes)
-
-
-def _only_equation(paste: Paste) -> ParserTokens:
-    """The tokens of the one equation that is in a text."""
-    scans = paste.scans("equation")
+    scans = given.scans("equation")
     if not scans:
         hint = "give S(x), for example x^2 + 3"
-        raise ParseError("there is no expression: the text is empty", text=paste.text, position=0, hint=hint)
+        raise ParseError("there is no expression: the text is empty", text=given.text, position=0, hint=hint)
     if len(scans) > 1:
         kind, other, hint = "expression", scans[1], "decimals are written with a point; one expression is one S"
-        if paste.is_equation:
+        if given.is_equation:
             kind, other = "equation", next((scan for scan in scans if not is_equation(scan)), scans[1])
             hint = "leave it out, or substitute the values of letters in the equation; initial values follow it as y(0) = 1"
-        raise error_at(paste.text, f"the text has this besides the {kind}", other, hint)
-    (tokens,) = paste.equations
-    return tokens
+        raise error_at(given.text, f"the text has more than the {kind}", other, hint)
+    vocabulary = Vocabulary(variable or given.variable, unknown, frozenset(names))
+    source = vocabulary.of(given.equations[0], is_equation=equation or given.is_equation, notes=given.notes)
+    return source._replace(limits=limits)
 
 
 def _sympy_source(given: Any, variable: str | None, unknown: Any, equation: bool) -> Source:
@@ -98,10 +91,10 @@ def _sympy_source(given: Any, variable: str | None, unknown: Any, equation: bool
     return Source(walk, x, str(function.func), declared=symbols)
 
 
-def read_with_numbers(source: Source, limits: Limits) -> Parsed:
+def read_with_numbers(source: Source) -> Parsed:
     """As `read_source`; S alone as y'' = S y, where pi or e occur in it."""
     try:
-        return read_source(source, limits)
+        return read_source(source)
     except NotRational:
         from kovacic.reading.linear import LinearForm
 
@@ -111,46 +104,42 @@ def read_with_numbers(source: Source, limits: Limits) -> Parsed:
 
         if not source.unknown:
             with suppress(InputError):
-                return read_source(source._replace(walk=walk, unknown=UNKNOWN), limits)
+                return read_source(source._replace(walk=walk, unknown=UNKNOWN))
         raise
 
 
-def read_source(source: Source, limits: Limits) -> Parsed:
+def read_source(source: Source) -> Parsed:
     """The meaning of a source: a rational function, or an equation.
 
-    Raises `NotRational` and `NotLinear` where it is neither, `ParseError` for what is no expression, with the position in a
-    text, and `LimitExceeded` before anything would become larger than the limits allow.
+    Raises `NotRational`, `NotLinear` and `ParseError`, with the position in a text, and `LimitExceeded`.
     """
     x = source.variable
 
     def read(constants: Constants) -> Parsed:
         if not source.unknown:
-            reader = RationalReader({x: VARIABLE}, x, Arithmetic(limits), constants)
+            reader = RationalReader({x: VARIABLE}, x, Arithmetic(source.limits), constants)
             reader.declared = source.declared
             S = lowered(over(reader.arithmetic.rational(source.walk(reader)), constants.field))
             return Parsed(S, x, (*source.notes, *reader.notices(), *constants.notices()))
         from kovacic.reading.differential import EquationReader
 
-        reader = EquationReader(source, limits, constants)
+        reader = EquationReader(source, constants)
         equation = reader.equation_of(source.walk(reader), source.text)
         notes = (*source.notes, *reader.notices(), *constants.notices(reader.letters))
         return Parsed(equation.S, x, notes, equation, tuple(reader.letters.items()))
 
-    return read_with_constants(read, Constants(limits))
+    return read_with_constants(read, Constants(source.limits))
 
 
-def parts_of(source: Source, limits: Limits, order: int = 2) -> tuple[Sequence[Any], list[str]]:
-    """a, b, c and r of a y'' + b y' + c y + r = 0, expressions of any functions, and what should be known of the reading.
-
-    Of b y' + c y + r = 0 for the order 1.
-    """
+def parts_of(source: Source, order: int = 2) -> tuple[Sequence[Any], list[str]]:
+    """a, b, c, r of a y'' + b y' + c y + r = 0 (or b, c, r for the order 1), expressions of any functions; and the notices."""
     import sympy
 
     from kovacic.reading.differential import EquationReader
     from kovacic.reading.linear import REST
     from kovacic.reading.symbolic import SYMBOLS
 
-    reader = EquationReader(source, limits, SYMBOLS)
+    reader = EquationReader(source, SYMBOLS)
     reader.arithmetic.coefficient = lambda expression: expression  # any one
     value = source.walk(reader)
     parts = reader.parts(value)
@@ -168,7 +157,8 @@ def source_of_parts(parts: Sequence[Any], source: Source) -> Source:
 
     a, b, c, rest = parts
     if not source.unknown:
-        return source_of(-c, source.variable)
+        return source_of(-c, source.variable, source.limits)
     x = sympy.Symbol(source.variable)
     y = sympy.Function(source.unknown)(x)
-    return source_of(a * y.diff(x, 2) + b * y.diff(x) + c * y + rest, source.variable, unknown=y, equation=True)
+    equation = a * y.diff(x, 2) + b * y.diff(x) + c * y + rest
+    return source_of(equation, source.variable, source.limits, unknown=y, equation=True)

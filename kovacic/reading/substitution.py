@@ -20,7 +20,7 @@ from kovacic.reading.names import words_among
 from kovacic.reading.read import read_input
 from kovacic.reading.source import source_of
 
-#: What is known about a parameter, in words and inequalities; anything else is its value.
+#: Facts about a parameter, in words and inequalities; any other text is its value.
 _FACT_WORDS = re.compile(r"(\s*([A-Za-z-]{2,}|([<>]=?|!=)\s*[^\s,<>=!]+),?)*\s*")
 #: `0 < E <= 20`: the lower end, two signs around a name, the upper end.
 _CHAIN = re.compile(r"\s*([^<>=!]+?)\s*([<>]=?)\s*(\w+)\s*([<>]=?)\s*([^<>=!]+?)\s*")
@@ -73,7 +73,7 @@ def number_text(value: Any, limits: Limits = DEFAULT_LIMITS) -> str:
 
 
 def relations(text: str) -> tuple[str, str] | None:
-    """The name in an inequality with two ends, and what it says of the name; None for any other text.
+    """The name in an inequality with two ends and its two bounds, or None for any other text.
 
     >>> relations("0 < E <= 20")
     ('E', '>0 <=20')

@@ -1,7 +1,7 @@
 """SymPy's expressions: walked by the readers that texts have (`walked`), and made out of texts (`read_expression`).
 
 An expression is walked as it stands, by an explicit stack.  SymPy simplifies nothing on the way: its `cancel` and `together`
-cost more than the whole decision.  What a text means is built by SymPy's own operators; nothing is ever executed.
+cost more than the whole decision.  The meaning of a text is built by SymPy's own operators; nothing is ever executed.
 
 >>> read_expression("3/2*cos(u) + sin(u)^2/4", names={"u": sympy.Symbol("u")})
 sin(u)**2/4 + 3*cos(u)/2
@@ -26,10 +26,10 @@ from kovacic.numbers.numerals import as_text
 from kovacic.reading.arithmetic import ONE, VARIABLE
 from kovacic.reading.dialects import tokenize
 from kovacic.reading.expression import RationalReader
-from kovacic.reading.lexer import DERIVATIVES, PRIME, check_length
+from kovacic.reading.lexer import DERIVATIVES, PRIME
 from kovacic.reading.linear import SYMBOLIC_LIMITS, LinearArithmetic, differentiations
-from kovacic.reading.names import FUNCTION_NAMES, KNOWN_NUMBERS, NUMBER_NAMES, POWER_CALLS, is_function
-from kovacic.reading.naming import Vocabulary, argument_of, differentiated
+from kovacic.reading.names import FUNCTION_NAMES, INFINITIES, KNOWN_NUMBERS, NUMBER_NAMES, POWER_CALLS, is_function
+from kovacic.reading.naming import Source, Vocabulary, argument_of, differentiated
 from kovacic.reading.parser import Site, excerpt, parse
 from kovacic.reading.pieces import Paste
 
@@ -40,8 +40,6 @@ SYMBOLS: Any = SimpleNamespace(
     algebraic=lambda node: node,
     radical=lambda radicand, n, _: sympy.root(sympy.Rational(radicand.field.rational_value(radicand)), n),
 )
-#: Spellings of infinity.
-_INFINITY_NAMES = dict.fromkeys(("oo", "inf", "infty", "infinity", "Infinity"), sympy.oo)
 #: Letters that are functions where they have an argument, and neither a product nor an unknown function is meant.
 _SYMBOLS_OF_FUNCTIONS = {"delta": "DiracDelta", "δ": "DiracDelta"}
 _NUMBER_VALUES = {name: getattr(sympy, number).expand(func=True) for name, number in KNOWN_NUMBERS.items()}
@@ -50,7 +48,7 @@ _NUMBER_VALUES = {name: getattr(sympy, number).expand(func=True) for name, numbe
 def walked(expression: Any, reader: RationalReader) -> Any:
     """The value of a SymPy expression; children are on the stack `values` before their parent is combined."""
     values: list[Any] = []
-    #: What is still to be done, the next thing last: (node, are the values of its children known?).
+    #: The nodes still to be visited, the next one last; True if the values of its children are on the stack.
     pending: list[tuple[Any, bool]] = [(expression, False)]
     while pending:
         node, is_ready = pending.pop()
@@ -146,7 +144,7 @@ def function_of(expression: Any) -> Any:
     return candidates.pop()
 
 
-#: What stands for the k-th derivative of an unknown function at a point, `at(point, k)`, by its name.
+#: By the name of an unknown function: `at(point, k)`, the symbol of its k-th derivative at a point.
 Unknowns = Mapping[str, Callable[[Any, int], Any]]
 
 
@@ -166,7 +164,7 @@ def read_expression(
     """
     reader = SymbolicReader(names, what, limits, values or {})
     if values:
-        reader.names = {**reader.names, **_INFINITY_NAMES}
+        reader.names = {**reader.names, **dict.fromkeys(INFINITIES, sympy.oo)}
     return reader.read(text)
 
 
@@ -177,13 +175,11 @@ def written_expression(text: str) -> Any:
     return reader.read(text.replace("gamma(", "Gamma("))
 
 
-def expression_of(source: Any, limits: Limits, *, what: str = "the equation") -> Any:
+def expression_of(source: Source, *, what: str = "the equation") -> Any:
     """An equation in a text as the SymPy expression that is zero, whether it is linear or not.  Raises `InputError`."""
-    reader = EquationsReader(source.variable, [source.unknown], limits, what, has_functions=source.has_functions)
+    reader = EquationsReader(source, [source.unknown], what)
     value = source.walk(reader)
-    if isinstance(value, sympy.Equality):
-        return value.lhs - value.rhs
-    return LinearArithmetic(limits).expression(value)
+    return value.lhs - value.rhs if isinstance(value, sympy.Equality) else reader.arithmetic.expression(value)
 
 
 class SystemReading(NamedTuple):
@@ -230,8 +226,8 @@ def read_equations(
         source = Vocabulary(chosen, unknowns[0], frozenset({*names, *unknowns})).of(tokens, is_equation=True)
         guesses |= dict.fromkeys(source.guesses)
         # Functions that aren't differentiated are given ones.
-        reader = EquationsReader(chosen, unknowns, limits, "the equation", has_functions=True)
-        equations.append(source.walk(reader))
+        source = source._replace(limits=limits, has_functions=True)
+        equations.append(source.walk(EquationsReader(source, unknowns, "the equation")))
     x = sympy.Symbol(chosen)
     functions = tuple(sympy.Function(name)(x) for name in unknowns)
     return SystemReading(tuple(equations), functions, paste.conditions, tuple(guesses))
@@ -245,11 +241,11 @@ class SymbolicReader(RationalReader):
     def __init__(self, names: Mapping[str, Any] | None, what: str, limits: Limits, unknowns: Unknowns) -> None:
         super().__init__({**_NUMBER_VALUES, **(names or {})}, "", LinearArithmetic(limits), SYMBOLS)
         self.any_name = names is None
-        self.unknowns = unknowns
+        self.functions = self.unknowns = unknowns
         self.what = what
 
     def read(self, text: str) -> Any:
-        check_length(text, self.arithmetic.limits, what=self.what)
+        self.arithmetic.limits.demand("text_length", len(text), f"{self.what} has {{}} characters")
         tokens = tokenize(text)
         if len(tokens.kinds) == 1:
             raise ParseError(f"there is no expression: {self.what} is empty", text=text, position=0)
@@ -261,9 +257,6 @@ class SymbolicReader(RationalReader):
         if not self.any_name or (name in NUMBER_NAMES and name not in KNOWN_NUMBERS):
             raise InputError(f"{self.what} can't contain {name}")
         return sympy.Symbol(name)
-
-    def follows_without_sign(self, name: str) -> bool:
-        return name.rstrip(PRIME) in self.unknowns
 
     def derivative(self, text: str) -> Any:
         raise InputError(f"{self.what} can't contain the derivative {text}")
@@ -293,22 +286,17 @@ class SymbolicReader(RationalReader):
 
 
 class EquationsReader(SymbolicReader):
-    """Reads equations in functions of one variable, the `unknowns`; with `has_functions`, others are given ones: g(x)."""
+    """Reads equations in the `unknowns`, functions of one variable; others, g(x), are given ones if the source has such."""
 
-    def __init__(
-        self, variable: str, unknowns: Collection[str], limits: Limits, what: str, *, has_functions: bool
-    ) -> None:
-        super().__init__(None, what, limits, {})
-        self.variable = variable
-        self.x = sympy.Symbol(variable)
+    def __init__(self, source: Source, unknowns: Collection[str], what: str) -> None:
+        super().__init__(None, what, source.limits, {})
+        self.variable = source.variable
+        self.x = sympy.Symbol(source.variable)
         self.functions = {name: sympy.Function(name)(self.x) for name in unknowns}
-        self.has_functions = has_functions
+        self.has_functions = source.has_functions
 
     def name(self, name: str) -> Any:
         return self.functions[name] if name in self.functions else super().name(name)
-
-    def follows_without_sign(self, name: str) -> bool:
-        return name.rstrip(PRIME) in self.functions or name in DERIVATIVES
 
     def derivative(self, text: str) -> Any:
         name = text.rstrip(PRIME)

@@ -15,11 +15,9 @@ from hypothesis import strategies as st
 
 import kovacic
 from kovacic import InputError, LimitExceeded, Limits, NotRational, ParseError
-from kovacic.reading import notations, pieces
 from kovacic.reading.arithmetic import VARIABLE, Arithmetic
 from kovacic.reading.dialects import tokenize
 from kovacic.reading.expression import parse_with
-from kovacic.reading.lexer import scanned
 from kovacic.reading.parser import Site, parse
 
 # Far from every root that the small numbers of the strategies produce.
@@ -811,37 +809,6 @@ def test_two_letters_in_an_exponent_are_refused_with_the_product_as_the_hint(tex
 
 def test_the_hint_for_two_letters_in_an_exponent_is_read() -> None:
     assert kovacic.dsolve("y'' = e^(a*x)", ics={"y(0)": 0, "y'(0)": 0}).rhs.has(sympy.exp)
-
-
-_WORDS = (
-    "D Dy D2y E Pi diff Derivative Subs subs Sin Function In sage Problem Solve the of is sp k_x y_xx y x n 2 1. 0."
-)
-_SIGNS = r"( ) [ ] { } ' '' ^ / * (* *) // # % -- @@ $ ` . : , ? > = == \begin \text \quad \\ \frac \dot"
-_TOKENS = [*_WORDS.split(), *_SIGNS.split(), "π", " ", "  ", "\n"]
-
-
-_TEXTS = st.lists(st.sampled_from(_TOKENS), max_size=12).map("".join) | st.lists(st.sampled_from(_TOKENS)).map(" ".join)
-
-
-@settings(max_examples=200)
-@given(_TEXTS)
-def test_a_rule_is_asked_wherever_its_pattern_occurs(text: str) -> None:
-    """Rules are chosen by the tokens of a text: no pattern occurs without one of the marks that its rule states."""
-    demand_the_marks_of_rules(text)
-
-
-@pytest.mark.slow
-@settings(max_examples=2000)
-@given(_TEXTS)
-def test_a_rule_is_asked_in_many_texts_wherever_its_pattern_occurs(text: str) -> None:
-    demand_the_marks_of_rules(text)
-
-
-def demand_the_marks_of_rules(text: str) -> None:
-    scan = notations.Tokens(scanned(text))
-    for rule in (*notations.NOTATIONS, *notations.LATEX, *notations.AROUND, *pieces.SURROUNDINGS):
-        if rule.pattern.search(scan.spaced):
-            assert scan.has(rule.marks), (rule, text)
 
 
 @pytest.mark.parametrize("text", ["√x²", "√x³ + 1", "∛x²", "√x^2", "√x(x+1)", "√2x", "√xt", "y'' = x√2y"])
