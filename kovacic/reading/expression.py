@@ -12,7 +12,7 @@ from typing import Any
 from kovacic.algebra.poly import Poly
 from kovacic.algebra.rationals import QQ
 from kovacic.equation import DEFAULT_VARIABLE, UNKNOWN
-from kovacic.errors import NotRational
+from kovacic.errors import InputError, NotRational
 from kovacic.reading.arithmetic import VARIABLE, Arithmetic, NotAnInteger, Value
 from kovacic.reading.constants import Constants, Enlarged
 from kovacic.reading.dialects import tokenize
@@ -36,8 +36,6 @@ _SHOWN_DECIMALS = 3
 ROOTS = {"sqrt": 2, "cbrt": 3, "root": 0}
 #: Roots of a higher index aren't tried: the polynomial x^n - a is factored, in a field whose degree is at most 24.
 _LARGEST_INDEX = 100
-
-_ALONE = "give S alone, the factor of y on the right of y'' = S(x) y"
 
 
 def parse_with(text: str, names: Mapping[str, Value], arithmetic: Arithmetic) -> Value:
@@ -106,14 +104,17 @@ class RationalReader:
             raise NotRational(f"the symbol y in a function of {self.variable}", hint=hint)
         return self.constants.parameter(name)
 
+    def refusal(self, why: str) -> InputError:
+        return NotRational(f"S {why}", hint="give S alone, the factor of y on the right of y'' = S(x) y")
+
     def derivative(self, text: str) -> Value:
-        raise NotRational(f"{excerpt(text)} is a derivative, and S contains none", hint=_ALONE)
+        raise self.refusal(f"can't contain the derivative {excerpt(text)}")
 
     def operator(self, variable: str) -> Value:
-        raise NotRational(f"d/d{variable} is a derivative, and S contains none", hint=_ALONE)
+        raise self.refusal(f"can't contain the operator d/d{variable}")
 
     def equation(self, left: Value, right: Value) -> Value:
-        raise NotRational("an equation, where S alone is expected", hint=_ALONE)
+        raise self.refusal("is an expression, not an equation")
 
     def follows_without_sign(self, name: str) -> bool:
         """True if this name or call may be the second factor of an implicit product: a coefficient stands before y or y'."""

@@ -255,17 +255,11 @@ class SymbolicReader(RationalReader):
         if name in self.names:
             return self.names[name]
         if not self.any_name or (name in NUMBER_NAMES and name not in KNOWN_NUMBERS):
-            raise InputError(f"{self.what} can't contain {name}")
+            raise self.refusal(f"can't contain {name}")
         return sympy.Symbol(name)
 
-    def derivative(self, text: str) -> Any:
-        raise InputError(f"{self.what} can't contain the derivative {text}")
-
-    def operator(self, variable: str) -> Any:
-        raise InputError(f"{self.what} can't contain the operator d/d{variable}", hint="write dy/dx, or y'")
-
-    def equation(self, left: Any, right: Any) -> Any:
-        raise InputError(f"{self.what} is an expression, not an equation")
+    def refusal(self, why: str) -> InputError:
+        return InputError(f"{self.what} {why}")
 
     def other_power(self, base: Any, exponent: Any, _: Any) -> Any:
         return self.arithmetic.symbolic_power(base, exponent)
