@@ -52,7 +52,6 @@ class OutputFile(click.Path):
 PICTURE = OutputFile((".png", ".svg", ".pdf"))
 
 _TABLE_ROW = re.compile(r"\S {2,}\S")
-_CODE = re.compile(r"\x1b\[\d*m")
 _CODES = {"title": "1", "good": "32", "bad": "31", "unsure": "33", "faint": "2"}
 
 
@@ -454,9 +453,9 @@ def fitted(text: str) -> str:
     lines = []
     for line in text.splitlines():
         indent = " " * (len(line) - len(line.lstrip()) + 2)
-        while len(_CODE.sub("", line)) > width and not _TABLE_ROW.search(line):
+        while len(click.unstyle(line)) > width and not _TABLE_ROW.search(line):
             end = len(line)
-            while end > 0 and len(_CODE.sub("", line[:end])) > width:
+            while end > 0 and len(click.unstyle(line[:end])) > width:
                 end = line.rfind(" ", len(indent), end)
             if end <= 0:  # a formula without spaces
                 break

@@ -87,9 +87,7 @@ def exact_text(value: Any, name: str) -> str:
     if _library(value) == "sympy":
         return as_text(value)
     number = exact_real(value, name)
-    if isinstance(value, float | Decimal) or _numpy_kind(value) == "f":
-        return str(value)
-    return str(fmpq(number.numerator, number.denominator))
+    return str(value) if isinstance(value, float | Decimal) or _numpy_kind(value) == "f" else as_text(number)
 
 
 def is_complex(value: Any) -> bool:
