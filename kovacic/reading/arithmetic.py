@@ -139,7 +139,7 @@ class Arithmetic:
     def power(self, base: Value, exponent: Value | int) -> Value:
         """`base ** exponent`; raises `NotAnInteger` if the exponent isn't an integer constant."""
         n = self._integer_of(exponent)
-        self.limits.demand("exponent", abs(n), "an exponent of modulus {}")
+        self.limits.demand("exponent", abs(n), "an exponent {}")
         if isinstance(base, Monomial) and n > 0:
             height = max(abs(base.coefficient.p), base.coefficient.q)
             self._check(base.power * n, n * int(height - 1).bit_length())
