@@ -33,7 +33,7 @@ class ZeroSet:
     def factors(self) -> tuple[Expr, ...]:
         """The factors with letters that may be zero, each once, without powers and signs."""
         found = []
-        for factor in _vanishing_factors(self.expression):
+        for factor in _factors_with_zeros(self.expression):
             # the inverse of a gamma function is zero at its poles
             is_below = factor.is_Pow and factor.exp.is_negative and not factor.has(gamma)
             if factor.free_symbols and not is_below and not _has_no_zero(factor):
@@ -96,7 +96,7 @@ def independent_exceptions(exceptions: Iterable[Expr]) -> tuple[Expr, ...]:
     return tuple(dict.fromkeys(e for e in exceptions if not is_implied(e)))
 
 
-def _vanishing_factors(zero: Expr) -> Iterator[Expr]:
+def _factors_with_zeros(zero: Expr) -> Iterator[Expr]:
     """The factors, and b for b^c, which is zero for b = 0 alone if c is positive.
 
     With real a and b, a - b in the place of exp(a) - exp(b), and 2*n + 1 in that of 3*3^(2*n) - 1.
@@ -111,9 +111,9 @@ def _vanishing_factors(zero: Expr) -> Iterator[Expr]:
         terms = sympy.Add.make_args(factor.rewrite(exp) if isinstance(factor, sinh) else factor)
         exponent = sympy.expand_log(sympy.log(-terms[0] / terms[1])) if len(terms) == 2 else sympy.I
         if factor.is_Pow and not isinstance(factor, exp) and not factor.exp.is_nonpositive:
-            yield from _vanishing_factors(factor.base)
+            yield from _factors_with_zeros(factor.base)
         elif exponent.is_real and all(f.is_number for f in exponent.atoms(sympy.log)):
-            yield from _vanishing_factors(exponent)
+            yield from _factors_with_zeros(exponent)
         else:
             yield factor
 
