@@ -192,9 +192,8 @@ class Pool(AbstractContextManager["Pool"]):
             heard = [event[0] for event in events if event is not None]
             late = [child for child in self._children if child not in heard and self._deadline(child) <= now]
             for event in events:
-                if (
-                    event is not None and event[0] in self._children
-                ):  # not an item of a stream, nor of a replaced process
+                # None announces an item of a stream; a replaced process isn't among the children any more.
+                if event is not None and event[0] in self._children:
                     yield from self._take_up(*event, source)
             for child in late:
                 if child.item is None:
