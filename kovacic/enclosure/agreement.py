@@ -1,9 +1,9 @@
 """Comparison of the monodromy with the differential Galois group: a numerical test of the engine, with proofs in balls.
 
-What a verdict means:
-- False is a proof that the group G isn't the one that was claimed.
-- True: nothing contradicts it, and everything that can be seen in matrices was seen (the reason says what that is).
-- None: the matrices can't tell, at this precision or at all.
+Verdicts:
+- False: a proof that the group G isn't the claimed one.
+- True: the matrices show everything about the claim that matrices can show (the reason says how much), and don't contradict it.
+- None: the matrices can't decide, at this precision or at all.
 
 Mathematics.  The monodromy group H is contained in G, and G is its Zariski closure where the equation is Fuchsian
 [Schlesinger].  The proper algebraic subgroups of SL2(C) are reducible, or contained in N(T), or one of the three primitive
@@ -158,11 +158,13 @@ def _by_enumeration(generators: list[acb_mat], group: Group, angles: Counter[Fra
             return Agreement(False, f"the monodromy group has an element whose trace isn't one of {group}")
         # If the claim holds, quotients of elements have the trace 2 only if they are 1.
         quotients = [candidate * _inverse(element) for element in elements]
-        beside = [_possible_angles(quotient, traces) for quotient in quotients]
-        equal = [quotient for quotient, angles_there in zip(quotients, beside, strict=True) if angles_there == [0]]
+        quotient_angles = [_possible_angles(quotient, traces) for quotient in quotients]
+        equal = [
+            quotient for quotient, found_angles in zip(quotients, quotient_angles, strict=True) if found_angles == [0]
+        ]
         if not all(map(_may_be_identity, equal)):
             return Agreement(False, f"the monodromy group has a unipotent element, unlike {group}")
-        may_be_equal = any(0 in angles_there for angles_there in beside)
+        may_be_equal = any(0 in found_angles for found_angles in quotient_angles)
         if len(possible) > 1 or (may_be_equal and not equal):
             return Agreement(None, "the matrices aren't known well enough to tell the elements apart")
         if not equal:
@@ -184,13 +186,13 @@ def _possible_angles(m: acb_mat, traces: dict[Fraction, acb]) -> list[Fraction]:
 
 @dataclass(frozen=True)
 class _Possible:
-    """Which of the conditions (1) the balls leave open, for matrices of the monodromy group: False is a proof."""
+    """The conditions (1) for matrices of the monodromy group: True if the balls leave them open, and False is a proof."""
 
     words: list[acb_mat]
 
     @cached_property
     def commutators(self) -> list[acb_mat]:
-        """Those of all pairs."""
+        """The commutators of all pairs."""
         return _commutators(self.words)
 
     @cached_property

@@ -2,9 +2,9 @@
 
 A way is covered by discs around points of it (`kovacic.enclosure.jets`).  In each of them balls that contain twice the disc
 show that the coefficients are analytic: a pole or a branch point on the way is never passed, since no disc contains it.  Discs
-become smaller towards one; where they would be as small as 2^-60 of what lies on either side, the way is refused.
+become smaller towards one; the way is refused once they would be as small as 2^-60 of the way on either side.
 
-Where the coefficients have values at an end of the way and aren't analytic there, as sqrt(x) at 0, a short piece beside it is
+If the coefficients have values at an end of the way but aren't analytic there, as sqrt(x) at 0, a short piece next to it is
 bounded: with |b| <= B, |c| <= C and |f| <= F on a piece of length r, for any s > 0 the vector (y, s y') has the derivative
 (s y'/s, -b (s y') - s c y + s f), and with K >= max(1/s, B + s C) it changes by at most
 
@@ -59,7 +59,7 @@ from kovacic.enclosure.way import Forecast, States, Traveller, Way, WayStep, spr
 from kovacic.errors import InputError, LimitExceeded
 from kovacic.limits import check_time, count_work
 
-# Steps as small as 2^-60 of what lies behind and ahead: a singular point is there.
+# Steps as small as 2^-60 of the ways behind and ahead mean that there is a singular point.
 _SMALLEST_STEP_BITS = 60
 _FEWEST_PERIODS = 4  # from which on they are taken in one step
 _PERIODIC = (sympy.sin, sympy.cos, sympy.tan, sympy.cot, sympy.sec, sympy.csc, sympy.exp)
@@ -79,13 +79,13 @@ class Edge:
 
     @classmethod
     def of(cls, functions: CoefficientField, enter: ExactPoint, leave: ExactPoint) -> Edge:
-        """With the bounds on a ball that contains the piece; raises InputError where there are none."""
+        """The piece with bounds on a ball that contains it; raises InputError if there are none."""
         middle = to_acb((enter + leave).scaled(fmpq(1, 2)))
         length = abs(to_acb(leave - enter)).upper()
         real = enter.is_real() and leave.is_real()
         values = functions.values(middle + around_zero(length, real=real))
         if not all(value.is_finite() for value in values):
-            raise InputError(f"the coefficients have no bound beside {enter} or {leave}, an end of the path")
+            raise InputError(f"the coefficients have no bound near {enter} or {leave}, an end of the path")
         # The coefficients are analytic inside the piece, so real on all of it where they are on a part.
         real = real and are_real(functions.values(middle + arb(0, length / 8)))
         return cls(leave, values, length, real)
@@ -171,7 +171,7 @@ class AnalyticWay(Way):
         return b, c, f, are_real(self.functions.values(ball))
 
     def walk(self, a: ExactPoint, b: ExactPoint, *, alone: bool = False) -> Iterator[WayStep]:
-        # A piece beside an end where the coefficients aren't analytic, as a share of the way.
+        # The length of a piece at an end where the coefficients aren't analytic, as a share of the way.
         edge = power_of_two(-self.prec - 16)
         length = b - a
         first = a if self.functions.is_regular(to_acb(a)) else a + length.scaled(edge)
@@ -208,7 +208,7 @@ class AnalyticWay(Way):
 
 
 def _check_size(a: ExactPoint, b: ExactPoint, t: Any, e: int, start: int) -> None:
-    """Raise InputError if steps are so small beside the ways behind and ahead that there must be a singular point."""
+    """Raise InputError if steps are so small compared with the ways behind and ahead that there must be a singular point."""
     # Nothing lies behind the first disc: there 2^-start of the way counts.
     shortest = min(t or power_of_two(-start), 1 - t)
     if power_of_two(2 * (e + _SMALLEST_STEP_BITS)) < (b - a).norm_squared() * shortest * shortest:
@@ -233,7 +233,7 @@ class PeriodicWay(AnalyticWay):
         return abs(in_balls(self.period, self.functions.coefficients.at(sympy.Integer(0))))
 
     def _periods(self, a: ExactPoint, b: ExactPoint) -> int:
-        """The approximate number of whole periods from a to b, negative to the left; 0 beside the real axis."""
+        """The approximate number of whole periods from a to b, negative to the left; 0 off the real axis."""
         if not (a.is_real() and b.is_real()):
             return 0
         with working_precision(64 + (b - a).height_bits()):
@@ -330,7 +330,7 @@ class ConstantWay(AnalyticWay):
                 begin[row, 0] = P(start) * (rate * start).exp()
                 P = P.derivative()
                 row += 1
-        # (v - u) A is halved until it is small, and as many squares make a ball a few times as wide each.
+        # (b - a) A is halved until it is small; then each of as many squarings makes the ball a few times as wide.
         growth = sum((abs(entry) for entry in A.entries()), arb(1)) * abs(to_acb(b - a))
         lost = 4 * max(0, upper_exponent(growth))
         if lost > _MOST_LOST_BITS:
@@ -366,7 +366,7 @@ def _right_side_terms(f: Any, x: Any) -> tuple[ExponentialTerm, ...] | None:
 
     The logarithmic derivative of w x^k exp(alpha x) is alpha + k/x; a constant quotient w proves that a term is one.
     """
-    weights: dict[Any, dict[int, Any]] = {}
+    polynomials: dict[Any, Any] = {}
     for term in (part for part in sympy.Add.make_args(sympy.expand(f.rewrite(sympy.exp))) if part != 0):
         rate = sympy.expand(term.diff(x) / term)
         k = rate.coeff(x, -1)
@@ -374,9 +374,8 @@ def _right_side_terms(f: Any, x: Any) -> tuple[ExponentialTerm, ...] | None:
         weight = term / (x**k * sympy.exp(alpha * x))
         if alpha.has(x) or weight.has(x) or not (k.is_Integer and k >= 0):
             return None
-        known = weights.setdefault(alpha, {})
-        known[int(k)] = known.get(int(k), sympy.Integer(0)) + weight
-    found = [(alpha, tuple(w.get(k, sympy.Integer(0)) for k in range(max(w) + 1))) for alpha, w in weights.items()]
+        polynomials[alpha] = polynomials.get(alpha, 0) + weight * x**k
+    found = [(alpha, tuple(sympy.Poly(P, x, domain="EX").all_coeffs()[::-1])) for alpha, P in polynomials.items()]
     return tuple(found) if sum(len(polynomial) for _, polynomial in found) <= _MOST_RIGHT_TERMS else None
 
 

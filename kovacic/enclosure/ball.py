@@ -35,19 +35,6 @@ Dyadic = tuple[int, int]  # a dyadic rational (m, e), the number m 2^e; m is odd
 _SHOWN_DIGITS = 40  # digits in the representation, and of exact numbers
 
 
-def dyadic(mantissa: int, exponent: int) -> Dyadic:
-    """The pair (m, e) with m odd that stands for mantissa * 2^exponent.
-
-    >>> dyadic(12, -3), dyadic(0, 5)
-    ((3, -1), (0, 0))
-    """
-    if mantissa == 0:
-        return (0, 0)
-    # m & -m is the lowest bit of m that is set, also for negative m.
-    shift = (mantissa & -mantissa).bit_length() - 1
-    return (mantissa >> shift, exponent + shift)
-
-
 def _to_float(number: Dyadic) -> float:
     """The double nearest to m 2^e; raises OverflowError beyond their range."""
     value = float(arb(number))
@@ -56,11 +43,11 @@ def _to_float(number: Dyadic) -> float:
     return value
 
 
-def _above(number: Dyadic) -> float:
-    """The double at or next above m 2^e."""
-    value = float(arb(number))
+def _above(number: arb) -> float:
+    """The double at or next above an exact number."""
+    value = float(number)
     # float() rounds to nearest; both numbers are exact, and so is their comparison.
-    return value if arb(value) >= arb(number) else math.nextafter(value, math.inf)
+    return value if arb(value) >= number else math.nextafter(value, math.inf)
 
 
 def _check_exponent(exponent: int) -> None:
@@ -154,7 +141,7 @@ class Ball:
         """
         m = whole(mantissa, "the mantissa", least=None)
         e = whole(exponent, "the exponent", least=None)
-        return cls(dyadic(m, e))
+        return cls(_dyadic(arb((m, e))))
 
     @classmethod
     def of(cls, value: object) -> Ball:
@@ -188,7 +175,7 @@ class Ball:
     @property
     def radius(self) -> float:
         """An upper bound of the radius as a double (inf beyond their range); `rad` is the radius itself."""
-        return _above(self.rad)
+        return _above(arb(self.rad))
 
     @property
     def mid(self) -> complex:
@@ -298,8 +285,8 @@ class Ball:
         import mpmath
 
         def interval(middle: Dyadic) -> Any:
-            low, high = (mpmath.libmp.from_man_exp(m, e) for m, e in _ends(middle, self.rad))
-            return mpmath.iv.make_mpf((low, high))
+            ends = map(_dyadic, _ends(middle, self.rad))
+            return mpmath.iv.make_mpf(tuple(mpmath.libmp.from_man_exp(m, e) for m, e in ends))
 
         return interval(self.re) if self.real else mpmath.iv.mpc(interval(self.re), interval(self.im))
 
@@ -393,9 +380,9 @@ class Ball:
         low, high = _ends(self.re, self.rad)
         other_low, other_high = _ends(second.re, second.rad)
         # Ends are exact, and so are these comparisons: certain for all numbers, or for none.
-        if relation(arb(high), arb(other_low)):
+        if relation(high, other_low):
             return True
-        return None if relation(arb(low), arb(other_high)) else False
+        return None if relation(low, other_high) else False
 
     def equals(self, other: object) -> bool | None:
         """True if the exact value is certainly this number.
@@ -425,7 +412,7 @@ class Ball:
         return self._as_number(*(format(_decimal(part), spec) for part in (self.re, self.im))) if spec else str(self)
 
     def __str__(self) -> str:
-        """All digits that are known, and a radius that covers what was rounded; 40 digits of an exact number."""
+        """All known digits and a radius that covers the rounding; 40 digits of an exact number."""
         re, im, radius = self._decimal_disc(self._shown_digits(2))
         middle = self._as_number(re, im)
         return middle if radius == "0" else f"{middle} ± {radius}"
@@ -455,7 +442,7 @@ class Ball:
         """A disc around this one in decimals: its midpoint to this number of digits, and a radius that covers the error."""
         with working_precision(int(digits * 3.33) + 100):
             re, im = (arb(part).str(digits, radius=False) for part in (self.re, self.im))
-            # What was rounded away is seen by reading the decimals back.
+            # Reading the decimals back shows the rounding error.
             radius = arb(self.rad) + abs(arb(re) - arb(self.re)) + abs(arb(im) - arb(self.im))
             return re, im, _rounded_up(radius.upper())
 
@@ -471,14 +458,10 @@ def _rounded_up(radius: arb) -> str:
     return next(text for text in nearby if arb(text).lower() >= radius)
 
 
-def _ends(middle: Dyadic, rad: Dyadic) -> tuple[Dyadic, Dyadic]:
-    """middle - rad and middle + rad, exactly."""
-    e = min(middle[1], rad[1])
-    _check_exponent(max(middle[1], rad[1]) - e)
-    # Both as integers over 2^-e, e the smaller exponent.
-    m = middle[0] << (middle[1] - e)
-    r = rad[0] << (rad[1] - e)
-    return dyadic(m - r, e), dyadic(m + r, e)
+def _ends(middle: Dyadic, rad: Dyadic) -> tuple[arb, arb]:
+    """middle - rad and middle + rad, exactly, or rounded outwards if their exponents are extremely far apart."""
+    with working_precision(4 * DEFAULT_LIMITS.bits):
+        return (arb(middle) - arb(rad)).lower(), (arb(middle) + arb(rad)).upper()
 
 
 def _decimal(number: Dyadic) -> Decimal:
@@ -492,7 +475,7 @@ def _decimal(number: Dyadic) -> Decimal:
 
 def _reaches(a: Ball, b: Ball, sign: int) -> bool:
     """True if the distance of the midpoints is at most the radius of a plus `sign` times that of b, decided exactly."""
-    for bits in (256, 4 * DEFAULT_LIMITS.bits):  # with so many bits nothing is rounded, unless the exponents are huge
+    for bits in (256, 4 * DEFAULT_LIMITS.bits):  # the latter suffice to be exact, unless the exponents are huge
         with working_precision(bits):
             reach = arb(a.rad) + sign * arb(b.rad)
             distance = (arb(a.re) - arb(b.re)) ** 2 + (arb(a.im) - arb(b.im)) ** 2
@@ -513,7 +496,7 @@ def ball_from_flint(value: acb | arb, route: Route | None = None) -> Ball | None
     # The disc around a rectangle: its radius is half the diagonal, rounded up.
     with working_precision(60):
         half_diagonal = a + b if a.is_zero() or b.is_zero() else (a * a + b * b).sqrt()
-        re, im, rad = map(_man_exp, (z.real.mid(), z.imag.mid(), half_diagonal.upper()))
+        re, im, rad = map(_dyadic, (z.real.mid(), z.imag.mid(), half_diagonal.upper()))
     return Ball(re, im, rad, bool(z.imag.is_zero()), route)
 
 
@@ -525,7 +508,8 @@ def finite_ball(value: acb | arb, route: Route | None = None) -> Ball:
     return ball
 
 
-def _man_exp(value: arb) -> Dyadic:
+def _dyadic(value: arb) -> Dyadic:
+    """The pair (m, e) of an exact number."""
     mantissa, exponent = value.man_exp()  # odd, or (0, 0)
     return int(mantissa), int(exponent)
 

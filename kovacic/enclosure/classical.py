@@ -22,6 +22,7 @@ from collections.abc import Callable
 from contextlib import suppress
 from dataclasses import dataclass
 from functools import cached_property, lru_cache
+from operator import mul
 from typing import Any
 
 from flint import acb, acb_poly, arb, ctx, fmpq, fmpq_poly
@@ -30,7 +31,7 @@ from kovacic.algebra.precision import working_precision
 from kovacic.algebra.ratfunc import RatFunc
 from kovacic.algebra.rationals import QQ
 from kovacic.enclosure.closed_form import CaseOneForm
-from kovacic.enclosure.frame import System, check_segment
+from kovacic.enclosure.frame import System, check_segment, isolated_zeros
 from kovacic.enclosure.log_derivative import log_derivative
 from kovacic.enclosure.matrices import Matrix, State, fundamental, inverse_matrix, multiply
 from kovacic.enclosure.points import ExactPoint, kept_at_precision, to_acb
@@ -43,7 +44,8 @@ from kovacic.special.search import find
 _LEG_BITS = 64  # in which the course of a leg is proven
 _MOST_FROM_ZERO = 2_000  # digits up to which the functions cost less than the series at a singular point (measured)
 _NO_GAUGE = RatFunc(QQ.poly([]))
-_LARGEST_PARAMETER = 1_000  # of special functions, up to which a call of FLINT, which can't be stopped, is short
+# Parameters up to which a call of FLINT, which can't be stopped, is short: at 2,000 bits 0.03 s, and 1.7 s for 10,000
+_LARGEST_PARAMETER = 1_000
 
 
 class NotServed(Exception):
@@ -81,16 +83,13 @@ class Classical:
         return self.pullback.equation.cost.target(digits)
 
     def lost_digits(self, start: ExactPoint | Singular) -> float:
-        """The approximate number of digits lost by Y(b) Y(a)^-1; none from a singular point on.
-
-        If both solutions are of the size g near a and their Wronskian isn't, the determinant loses the digits of g^2, and the
-        product of the matrices as many.
-        """
+        """The approximate number of digits that Y(b) Y(a)^-1 loses: those of y1 y2' in the determinant, and as many in the
+        product; none from a singular point on."""
         if isinstance(start, Singular):
             return 0.0
         with suppress(NotServed), working_precision(_LEG_BITS):
             y1, y2, dy1, dy2 = _solutions_at_start(self, start, False).at(start)
-            # The larger product in the Wronskian y1 dy2 - y2 dy1 is about g^2, which counts twice.
+            # The larger product in the Wronskian y1 dy2 - y2 dy1, which counts twice.
             product = abs(y1 * dy2).max(abs(y2 * dy1)).mid()
             return 2 * float(product.log()) / math.log(10) if product > 1 else 0.0
         return 0.0
@@ -115,10 +114,8 @@ class Classical:
         return _settled(lambda: self._leg(a, b), _sharper(ctx.prec))
 
     def frobenius(self, point: Singular, gauge: RatFunc, needed: tuple[bool, bool], x: ExactPoint) -> Matrix:
-        """The Frobenius basis of the user's equation at a rational zero of f, or its solutions that are needed, at x.
-
-        Raises NotServed at other points, and where a solution is needed that may have a logarithm.
-        """
+        """The needed solutions of the Frobenius basis of the user's equation at a rational zero of f, at x; raises NotServed at
+        other points, and if a needed solution may have a logarithm."""
         return _settled(lambda: _frobenius(self, point, gauge, needed).at(x), ctx.prec)
 
     def _leg(self, a: ExactPoint, b: ExactPoint) -> Matrix:
@@ -216,11 +213,10 @@ class Solutions:
         """The solutions that are needed (in the order of the exponents)."""
         n, d = form.n, form.d
         factors = []
+        t = fmpq_poly([-point.x, 1])
         for poly, powers in zip((n.derivative() * d - n * d.derivative(), n, d - n, d), form.exponents, strict=True):
-            if exponents is not None:
-                t = fmpq_poly([-point.x, 1])
-                while poly != 0 and poly(point.x) == 0:
-                    poly //= t
+            while exponents is not None and poly != 0 and poly(point.x) == 0:
+                poly //= t
             if poly.degree() > 0 and (poly == d or any(e != 0 for e in powers)):  # d: f has no pole on the way
                 factors.append((poly, poly.derivative(), powers))
         return cls(form, point, tuple(factors), exponents, gauge, needed)
@@ -254,9 +250,9 @@ class Solutions:
         found = []
         for i, (E, dE) in enumerate(form.values(acb(n / d), needed)):
             exponents = [powers[i] for _, _, powers in self.factors]
-            rate = sum((e * value for e, value in zip(exponents, rates, strict=True)), acb(0))
+            rate = sum(map(mul, exponents, rates), acb(0))
             # The product of the factors to their powers, 1 at the point, by sums of continued logarithms.
-            power = sum((e * log for e, log in zip(exponents, logs, strict=True)), acb(0)).exp()
+            power = sum(map(mul, exponents, logs), acb(0)).exp()
             found.append((E * power, (rate * E + slope * dE) * power))
         return found
 
@@ -271,12 +267,9 @@ class Solutions:
         first, second = self._states(x, self.needed[::-1])
         for (y, dy), exponent in zip((second, first), exponents, strict=True):
             # (t^e g y)' = t^e g (y' + (e/t + g'/g) y), and t^e follows.
-            dy = (dy + (exponent / t + rate) * y) * growth
-            y = y * growth
-            if x.is_real():
-                y = acb(y.real)
-                dy = acb(dy.real)
+            state = y * growth, (dy + (exponent / t + rate) * y) * growth
             power = power_of(t, exponent, t.log())
+            y, dy = (acb(part.real) if x.is_real() else part for part in state)
             columns.append((y * power, dy * power))
         return columns
 
@@ -308,10 +301,8 @@ def _followed(poly: fmpq_poly, a: ExactPoint, b: ExactPoint) -> acb:
             raise NotServed
         return ratio.log()
     with working_precision(_LEG_BITS):
-        x = to_acb(a)
-        y = to_acb(b)
-        zeros = System((), tuple(map(int, poly.numer().coeffs()))).roots("den", _LEG_BITS)
-        quotients = [((y - zeta) / (x - zeta), k) for zeta, k in zeros]
+        zeros = isolated_zeros(tuple(map(int, poly.numer().coeffs())), _LEG_BITS)
+        quotients = [((to_acb(b) - zeta) / (to_acb(a) - zeta), k) for zeta, k in zeros]
         if not all(_off(quotient) for quotient, _ in quotients):
             raise NotServed
         angle = sum((quotient.log().imag * k for quotient, k in quotients), arb(0))

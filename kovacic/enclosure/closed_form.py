@@ -86,7 +86,7 @@ def ball_value(function: RatFunc, c: acb | None, z: acb) -> acb:
 
 @dataclass(frozen=True, eq=False)
 class CaseOneForm:
-    """The certificate of case 1 that the legs are computed from, and what follows from it exactly, computed once."""
+    """The certificate of case 1 from which the legs are computed, with its exact consequences."""
 
     problem: NumericProblem
     square: SemiInvariant | None  # the product of both, or y1^2
@@ -176,9 +176,8 @@ def closed_form_of(problem: NumericProblem) -> CaseOneForm | None:
     decision = problem.decision
     if decision is None or decision.semi_invariant is None or decision.case != 1:
         return None
-    return CaseOneForm(
-        problem, decision.invariant, Exponential(decision.semi_invariant.theta, decision.semi_invariant.P)
-    )
+    y1 = decision.semi_invariant
+    return CaseOneForm(problem, decision.invariant, Exponential(y1.theta, y1.P))
 
 
 def exponential_solutions(problem: NumericProblem) -> list[Exponential]:

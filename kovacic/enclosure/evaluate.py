@@ -84,8 +84,8 @@ def evaluate(equation: object, x: object, *, derivative: bool = False, **keyword
     Returns
     -------
     Ball, tuple or array
-        A tuple for a sequence, in the same order; an array of balls of the same shape for an array (NaN stays NaN, and what is
-        masked masked).
+        A tuple for a sequence, in the same order; an array of balls of the same shape for an array (NaN stays NaN, masked
+        points stay masked).
 
     Raises
     ------
@@ -151,7 +151,7 @@ class Prepared:
     def __call__(self, x: object, *, derivative: bool = False, digits: int | None = None) -> Any:
         """A ball that contains y(x), or a pair with y'(x); a tuple or an array of these for many points.
 
-        What is returned and raised is as for `evaluate`.
+        Returns and raises the same as `evaluate`.
 
         Parameters
         ----------
@@ -218,15 +218,15 @@ def prepared(equation: object, **keywords: Unpack[Keywords]) -> Prepared:
     """A solution as a function whose values are balls: expansions made for one value serve the next ones.
 
     On intervals passed before, a value is that of a polynomial with its proven error, and takes some tenths of a millisecond.
-    The solution may be called from several threads, which wait for one another.  Raises what `evaluate` raises for the start;
-    calls return and raise what it does for their points.
+    The solution may be called from several threads, which wait for one another.  Raises the errors of `evaluate` for the start;
+    calls return and raise the same as `evaluate` for their points.
 
     Parameters
     ----------
     equation
         As for `evaluate`.
     initial, accuracy, path, params, var
-        The solution, its accuracy, and what each call may cost, as for `evaluate`.
+        The solution, its accuracy, and the limits of each call, as for `evaluate`.
 
     Examples
     --------

@@ -31,7 +31,7 @@ from kovacic.algebra.embedding import Zeros, complex_zeros
 from kovacic.algebra.precision import working_precision
 from kovacic.algebra.ratfunc import RatFunc
 from kovacic.algebra.rationals import RationalPoly, foresee_move, to_fraction
-from kovacic.enclosure.matrices import Affine, apply
+from kovacic.enclosure.matrices import Affine, apply, image
 from kovacic.enclosure.points import ExactPoint, midpoint, power_of_two, to_acb
 from kovacic.errors import InputError
 from kovacic.limits import check_time
@@ -98,7 +98,7 @@ class System:
     def roots(self, which: Which, prec: int) -> Zeros:
         """Enclosures of the zeros of numerator or denominator at about `prec` bits, with multiplicities."""
         # Rounded up to a power of two, so that nearby precisions share the cache.
-        return _isolated(getattr(self, which), max(64, 1 << (prec - 1).bit_length()))
+        return isolated_zeros(getattr(self, which), max(64, 1 << (prec - 1).bit_length()))
 
     def is_singular(self, point: ExactPoint) -> bool:
         """True if the point is a zero of the denominator, decided exactly."""
@@ -108,7 +108,8 @@ class System:
 
 
 @lru_cache(maxsize=64)
-def _isolated(coefficients: tuple[int, ...], prec: int) -> Zeros:
+def isolated_zeros(coefficients: tuple[int, ...], prec: int) -> Zeros:
+    """Enclosures of the zeros of a polynomial, kept for the next call at this precision."""
     with working_precision(prec):
         return complex_zeros(fmpz_poly(list(coefficients)))
 
@@ -198,7 +199,7 @@ def _first_meeting(system: System, a: ExactPoint, b: ExactPoint) -> tuple[str, f
         return None
     prec = 128
     while True:
-        zeros = _isolated(coefficients, prec)
+        zeros = isolated_zeros(coefficients, prec)
         with working_precision(prec):
             # Real zeros only: where both parts vanish at a real parameter.
             shares = [(z.real - first) / length for z, _ in zeros if z.imag.is_zero()]
@@ -328,10 +329,9 @@ def _defect_bound(p: GaussianParts, q_0: int, poles: list[tuple[arb, int]]) -> D
     growth: Any = (arb(1), arb(1))  # and for z'' = sigma z
     for j in range(rings):
         _, sigma = bounds(delta * (j + 1))
-        matrix, added = _over_a_ring(sigma, delta)
-        growth = apply(matrix, growth)
-        value, slope = apply(matrix, error)
-        error = value + added[0], slope + added[1]
+        ring = _over_a_ring(sigma, delta)
+        error = image(ring, error)
+        growth = apply(ring[0], growth)
     total = max(growth[0].upper(), growth[1].upper())
     return DefectBound((error[0] / least).upper(), (error[1] / least).upper(), log2(least), log2(total))
 

@@ -48,7 +48,7 @@ from flint import acb, acb_poly, arb, ctx, fmpq
 from kovacic.algebra.precision import working_precision
 from kovacic.enclosure.frame import log2
 from kovacic.enclosure.matrices import NOTHING, Matrix, State, fundamental
-from kovacic.enclosure.points import ExactPoint, around_zero, power_of_two
+from kovacic.enclosure.points import ExactPoint, are_real, around_zero, power_of_two
 from kovacic.enclosure.singular import Operator, Singular, power_of
 from kovacic.errors import InputError, LimitExceeded
 from kovacic.limits import MOST_TRIALS, check_time
@@ -82,10 +82,8 @@ class Majorant:
         return cls(rho, beta.upper(), gamma.upper(), inverse.upper())
 
     def growth(self, n: int, delta: arb, size: arb, t: arb) -> tuple[arb, arb]:
-        """(1 - t/rho)^(-1 - C/kappa) and kappa for the terms from n on.
-
-        `size` bounds |lambda|, and `delta` |delta| if its real part is negative; else it's 0, since |n + delta| >= n.
-        """
+        """(1 - t/rho)^(-1 - C/kappa) and kappa for the terms from n on; `size` bounds |lambda|, and `delta` |delta| if its real
+        part is negative, else it's 0, since |n + delta| >= n."""
         kappa = (1 - delta / n) / (1 + (2 + delta / n) / (n - delta))
         C = self.gamma / n + self.beta * (1 + (size + 1) / n)
         return (1 - t / self.rho) ** (-1 - C / kappa), kappa
@@ -210,8 +208,7 @@ class _Beginning:
 def limit(point: Singular, start: State) -> State:
     """y and y' at the point itself, for coordinates in the basis; raises InputError if one is infinite."""
     # At the point itself t is 0, and the direction of the way doesn't matter.
-    beside = point.near + ExactPoint(1)
-    last, bound = junction(point, beside, 64)
+    last, bound = junction(point, point.near + ExactPoint(1), 64)
     needed = [not coordinate.is_zero() for coordinate in start]
     total = NOTHING
     for k, solution in _expansions(point, last, bound, max(64, ctx.prec), needed).items():
@@ -254,7 +251,6 @@ class FrobeniusSeries:
     max(1, |log t|)."""
 
     exponent: Any
-    lam: Any
     U: acb_poly
     V: acb_poly
     errors: tuple[arb, arb]
@@ -271,12 +267,12 @@ class FrobeniusSeries:
 
     def at(self, t: acb, log: acb) -> tuple[acb, acb]:
         """y and theta y at t, with the logarithm of t."""
-        U, V, lam = self.U, self.V, acb(self.lam)
+        U, V, lam = self.U, self.V, acb(self.exponent)
         value = U(t) + V(t) * log
         # theta = t d/dt, and theta (t^lam log t) = t^lam (lam log t + 1).
         slope = lam * U(t) + t * U.derivative()(t)
         slope += (lam * V(t) + t * V.derivative()(t)) * log + V(t)
-        real = t.imag.is_zero() and value.imag.is_zero() and slope.imag.is_zero()
+        real = are_real([t, value, slope])
         # The errors are over max(1, |log t|).
         size = max(arb(1), abs(log).upper())
         tails = [around_zero((error * size).upper(), real=real) for error in self.errors]
@@ -309,7 +305,7 @@ def _expand(op: Operator, beginning: _Beginning, length: arb, bound: Majorant, p
         # F bounds sum n E_n t^n: the values are off by F/n at most, and theta y by F (1 + (|lambda| + 1)/n).
         if arb((1, -prec - 20)) > F:
             U, V = (acb_poly([pair[k] for pair in terms]) for k in (0, 1))
-            return FrobeniusSeries(beginning.exponent, lam, U, V, ((F / n).upper(), (F * (1 + (size + 1) / n)).upper()))
+            return FrobeniusSeries(beginning.exponent, U, V, ((F / n).upper(), (F * (1 + (size + 1) / n)).upper()))
         if n > cap:
             raise LimitExceeded(f"a Frobenius expansion needs more than {cap} terms", limit="unknown_degree")
 

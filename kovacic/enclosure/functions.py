@@ -5,8 +5,8 @@ t'^2 = k^2 sigma(t), sigma a polynomial, so that t'' = k^2 sigma'(t)/2,
 
     y'' + t' (p - sigma'/(2 sigma)) y' + k^2 sigma q y = k^2 sigma r,        y(x) = Y(t(x)).                              (1)
 
-The brackets are rational functions of t in lowest terms: what cancels there is no singular point.  Where t = tan(u) they are
-written in sin(u) and cos(u), since a pole of t alone is none of the equation.  Any other equation is taken as it was written.
+The brackets are rational functions of t in lowest terms, so that factors which cancel give no singular points.  For t = tan(u)
+they are written in sin(u) and cos(u), since a pole of t may be regular for the equation.  Other equations are taken as written.
 
 An equation that is rational in t = exp(k x + c) is evaluated in t.  The guarantee is that of `kovacic.enclosure.journey`, for
 y(x) = Y(t(x)).  Where k and x are real, t is real, positive and monotone: a segment of the x-axis is mapped onto a segment of
@@ -45,17 +45,14 @@ from kovacic.reading.source import parts_of, source_of
 def coefficients_of_any(equation: Any, params: Params, limits: Limits) -> Coefficients:
     """The coefficients of an equation that isn't rational: a text, a SymPy expression, or one that was read or solved.
 
-    Raises InputError for what isn't a linear equation of second order, or lacks values of its parameters.
+    Raises InputError unless it is a linear equation of second order with values for its parameters.
     """
     if isinstance(equation, Coefficients):
         return equation if equation.values else equation.given(params)
     if change_of(equation) is not None:
-        found = _of_parsed(equation)
-    elif isinstance(equation, str):
-        found = _coefficients_of_text(equation, limits)
-    else:
-        found = _of_input(equation, limits)
-    return found.given(params)
+        return _of_parsed(equation).given(params)
+    read = _coefficients_of_text if isinstance(equation, str) else _of_input
+    return read(equation, limits).given(params)
 
 
 _WITH_POLES = (sympy.tan, sympy.cot, sympy.sec, sympy.csc, sympy.tanh, sympy.coth, sympy.sech, sympy.csch)
@@ -212,23 +209,19 @@ def _without_factor(poly: Poly, factor: Poly) -> tuple[Poly, int]:
 
 
 def _in_sines(u: Any, function: RatFunc, atoms: Atoms) -> Any:
-    """A rational function of tan(u) by sin(u) and cos(u), where 1 + tan(u)^2 is a power of cos(u) alone."""
-    denominator, count = _without_factor(function.den, function.field.poly([1, 0, 1]))
-    # tan = sin/cos: a polynomial of degree n is a form of degree n in sin and cos, over cos^n; 1 + tan^2 = cos^-2.
-    powers = 2 * count + denominator.degree - function.num.degree
+    """A rational function of tan(u) by sin(u) and cos(u)."""
 
+    # tan = sin/cos: a polynomial of degree n is a form of degree n in sin and cos, over cos^n.
     def homogeneous(poly: Poly) -> Any:
-        """sum c_k sin(u)^k cos(u)^(n - k) by waves, since powers of both may cancel, which balls don't see."""
+        """sum c_k sin(u)^k cos(u)^(n - k) by waves: powers of both may cancel, as in sin^2 + cos^2, which balls don't see."""
         n = poly.degree
         e = sympy.Dummy("exp(iu)")
         sine, cosine = (e**2 - 1) / (2 * sympy.I), (e**2 + 1) / 2  # times e
         terms = (c * sine**k * cosine ** (n - k) for k, c in enumerate(atoms.coefficients(poly)) if c != 0)
         return _by_waves(sympy.Poly(sympy.Add(*terms), e).all_coeffs()[::-1], n, u)
 
-    return homogeneous(function.num) / homogeneous(denominator) * sympy.cos(u) ** powers
-
-
-_REALNESS_BITS = 64
+    n = function.den.degree - function.num.degree
+    return homogeneous(function.num) / homogeneous(function.den) * sympy.cos(u) ** n
 
 
 @dataclass(frozen=True)
@@ -271,7 +264,7 @@ class Substitution:
 
     def is_real(self, numbers: Sequence[Number]) -> bool:
         """True if these numbers, and t and its derivative there, are real."""
-        with working_precision(_REALNESS_BITS):
+        with working_precision(64):
             return are_real([f(x) for x in numbers for f in (to_ball, lambda x: to_ball(self.image(x)), self.slope)])
 
     def seen(self, target: Number, value: PointValue) -> PointValue:

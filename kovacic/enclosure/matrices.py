@@ -53,11 +53,16 @@ def apply(m: Matrix, v: State) -> State:
     return m[0] * v[0] + m[1] * v[1], m[2] * v[0] + m[3] * v[1]
 
 
+def image(affine: Affine, v: State) -> State:
+    """M v + p."""
+    y, dy = apply(affine[0], v)
+    return y + affine[1][0], dy + affine[1][1]
+
+
 def compose(second: Affine, first: Affine) -> Affine:
-    """The first map, then the second one."""
+    """The second map after the first one."""
     # M2 (M1 v + p1) + p2 = M2 M1 v + (M2 p1 + p2).
-    y, dy = apply(second[0], first[1])
-    return multiply(second[0], first[0]), (y + second[1][0], dy + second[1][1])
+    return multiply(second[0], first[0]), image(second, first[1])
 
 
 class MapProduct:
@@ -81,9 +86,8 @@ class MapProduct:
     def apply(self, state: State) -> State:
         """A_k ... A_1 v."""
         # The first parts are the earliest factors, which act first.
-        for _, (matrix, added) in self._parts:
-            y, dy = apply(matrix, state)
-            state = y + added[0], dy + added[1]
+        for _, part in self._parts:
+            state = image(part, state)
         return state
 
     def whole(self) -> Affine:

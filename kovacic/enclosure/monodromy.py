@@ -1,4 +1,4 @@
-"""Local exponents and monodromy matrices around the singular points, as enclosures, and what must hold between them.
+"""Local exponents and monodromy matrices around the singular points, as enclosures, and the relations between them.
 
 The guarantee: each ball contains the exact entry for the loop `loop`.
 
@@ -50,7 +50,7 @@ class LocalMonodromy:
     point : Ball
         The singular point.
     multiplicity : int
-        That of the pole of S.
+        The multiplicity of the pole of S.
     exponents : pair of Ball, or None
         The local exponents; None at an irregular singular point (multiplicity 3 or more).
     trace : Ball or None
