@@ -41,7 +41,6 @@ from kovacic.errors import InputError
 from kovacic.galois import Group, GroupKind
 from kovacic.limits import MOST_TRIALS, Limits
 
-_MATRIX_BITS = 400
 _LARGEST_POWER = 1 << 60  # FLINT takes exponents of a machine word, and balls of such powers say nothing
 _TWO = acb(2)
 _UNIT_MATRIX = acb_mat([[1, 0], [0, 1]])
@@ -112,7 +111,7 @@ def has_regular_places(problem: NumericProblem) -> bool:
 
 def verdict_on_matrices(local: tuple[LocalMonodromy, ...], group: Group, fuchsian: bool) -> Agreement:
     """The verdict from the matrices; `fuchsian` says that their Zariski closure is the group."""
-    with working_precision(_MATRIX_BITS):
+    with working_precision(400):
         generators = [item.acb_mat() for item in local]
         angles = _angles(group)
         if angles is not None:

@@ -74,10 +74,6 @@ class System:
         content = math.gcd(int(num.content()), int(den.content()))
         return cls(*(tuple(int(c) for c in (part // content).coeffs()) for part in (num, den)))
 
-    def polynomial(self, which: Which) -> acb_poly:
-        """Numerator or denominator, at the working precision in force."""
-        return acb_poly(list(getattr(self, which)))
-
     def along(self, which: Which, a: ExactPoint, step: ExactPoint) -> tuple[fmpq_poly, fmpq_poly]:
         """Real and imaginary part of numerator or denominator at a + t step, as polynomials in t over Q, by Horner's rule."""
         coefficients: tuple[int, ...] = getattr(self, which)
@@ -88,8 +84,7 @@ class System:
         y = fmpq_poly([a.y, step.y])
         if y == 0:
             return fmpq_poly(list(coefficients))(x), fmpq_poly([])
-        real = fmpq_poly([])
-        imag = fmpq_poly([])
+        real = imag = fmpq_poly([])
         for c in reversed(coefficients):
             check_time()
             real, imag = real * x - imag * y + c, real * y + imag * x
@@ -365,8 +360,8 @@ def largest_exponent(system: System, point: ExactPoint) -> int | None:
     with working_precision(_FRAME_BITS):
         here = to_acb(point)
         # A frame needs sigma < _MOST_GROWTH^2 for its sigma >= |p/q|, which is 4^e |S| at the point.
-        size = abs(system.polynomial("num")(here)).lower()
-        steepest = arb(_MOST_GROWTH**2) * abs(system.polynomial("den")(here)).upper()
+        size = abs(acb_poly(list(system.num))(here)).lower()
+        steepest = arb(_MOST_GROWTH**2) * abs(acb_poly(list(system.den))(here)).upper()
         return math.ceil(log2(steepest / size) / 2) if size > 0 and steepest > 0 else None
 
 
@@ -392,7 +387,7 @@ def foreseen_growth(rate: Callable[[acb], Any], a: ExactPoint, b: ExactPoint) ->
 
 def frequency(system: System) -> Callable[[acb], arb]:
     """|S|^(1/2) as a function."""
-    num, den = system.polynomial("num"), system.polynomial("den")
+    num, den = acb_poly(list(system.num)), acb_poly(list(system.den))
     return lambda x: abs(num(x) / den(x)).sqrt()
 
 

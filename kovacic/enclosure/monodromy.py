@@ -330,8 +330,7 @@ def _star(base: ExactPoint, places: _Places) -> tuple[list[Any], Any]:
     radii = []
     for z, largest in places:
         check_time()
-        distances = [_distance_below(z, base, other) for other in centres if other != z]
-        radii.append(min([largest, *distances]) / 2)
+        radii.append(min([largest, *(_distance_below(z, base, other) for other in centres if other != z)]) / 2)
     return radii, min(radius / largest for radius, (_, largest) in zip(radii, places, strict=True))
 
 
@@ -353,10 +352,9 @@ def _local(
         root, multiplicity = min(problem.poles(prec), key=lambda item: float((item[0] - near).abs_upper()))
         exponents = trace = None
         if multiplicity <= 2:
-            b = acb(0)
-            if multiplicity == 2:  # b = num/(den''/2) at the double zero
-                num, den = problem.polynomials()
-                b = 2 * num(root) / den.derivative().derivative()(root)
+            # b = num/(den''/2) at a double zero of den, and 0 at a simple one.
+            num, den = problem.polynomials()
+            b = 2 * num(root) / den.derivative().derivative()(root) if multiplicity == 2 else acb(0)
             # rho (rho - 1) = b: rho = 1/2 +- s, and Delta = 2 s.
             s = (arb(1) / 4 + b).sqrt()
             exponents = (finite_ball(arb(1) / 2 + s), finite_ball(arb(1) / 2 - s))
