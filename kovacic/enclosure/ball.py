@@ -141,7 +141,7 @@ class Ball:
         """
         m = whole(mantissa, "the mantissa", least=None)
         e = whole(exponent, "the exponent", least=None)
-        return cls(_dyadic(arb((m, e))))
+        return cls(_as_dyadic(arb((m, e))))
 
     @classmethod
     def of(cls, value: object) -> Ball:
@@ -285,7 +285,7 @@ class Ball:
         import mpmath
 
         def interval(middle: Dyadic) -> Any:
-            ends = map(_dyadic, _ends(middle, self.rad))
+            ends = map(_as_dyadic, _ends(middle, self.rad))
             return mpmath.iv.make_mpf(tuple(mpmath.libmp.from_man_exp(m, e) for m, e in ends))
 
         return interval(self.re) if self.real else mpmath.iv.mpc(interval(self.re), interval(self.im))
@@ -496,7 +496,7 @@ def ball_from_flint(value: acb | arb, route: Route | None = None) -> Ball | None
     # The disc around a rectangle: its radius is half the diagonal, rounded up.
     with working_precision(60):
         half_diagonal = a + b if a.is_zero() or b.is_zero() else (a * a + b * b).sqrt()
-        re, im, rad = map(_dyadic, (z.real.mid(), z.imag.mid(), half_diagonal.upper()))
+        re, im, rad = map(_as_dyadic, (z.real.mid(), z.imag.mid(), half_diagonal.upper()))
     return Ball(re, im, rad, bool(z.imag.is_zero()), route)
 
 
@@ -508,7 +508,7 @@ def finite_ball(value: acb | arb, route: Route | None = None) -> Ball:
     return ball
 
 
-def _dyadic(value: arb) -> Dyadic:
+def _as_dyadic(value: arb) -> Dyadic:
     """The pair (m, e) of an exact number."""
     mantissa, exponent = value.man_exp()  # odd, or (0, 0)
     return int(mantissa), int(exponent)

@@ -31,7 +31,7 @@ from kovacic.algebra.embedding import Zeros, complex_zeros
 from kovacic.algebra.precision import working_precision
 from kovacic.algebra.ratfunc import RatFunc
 from kovacic.algebra.rationals import RationalPoly, foresee_move, to_fraction
-from kovacic.enclosure.matrices import Affine, apply, image
+from kovacic.enclosure.matrices import Affine, apply, state_image
 from kovacic.enclosure.points import ExactPoint, midpoint, power_of_two, to_acb
 from kovacic.errors import InputError
 from kovacic.limits import check_time
@@ -325,7 +325,7 @@ def _defect_bound(p: GaussianParts, q_0: int, poles: list[tuple[arb, int]]) -> D
     for j in range(rings):
         _, sigma = bounds(delta * (j + 1))
         ring = _over_a_ring(sigma, delta)
-        error = image(ring, error)
+        error = state_image(ring, error)
         growth = apply(ring[0], growth)
     total = max(growth[0].upper(), growth[1].upper())
     return DefectBound((error[0] / least).upper(), (error[1] / least).upper(), log2(least), log2(total))

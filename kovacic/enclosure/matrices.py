@@ -53,7 +53,7 @@ def apply(m: Matrix, v: State) -> State:
     return m[0] * v[0] + m[1] * v[1], m[2] * v[0] + m[3] * v[1]
 
 
-def image(affine: Affine, v: State) -> State:
+def state_image(affine: Affine, v: State) -> State:
     """M v + p."""
     y, dy = apply(affine[0], v)
     return y + affine[1][0], dy + affine[1][1]
@@ -62,7 +62,7 @@ def image(affine: Affine, v: State) -> State:
 def compose(second: Affine, first: Affine) -> Affine:
     """The second map after the first one."""
     # M2 (M1 v + p1) + p2 = M2 M1 v + (M2 p1 + p2).
-    return multiply(second[0], first[0]), image(second, first[1])
+    return multiply(second[0], first[0]), state_image(second, first[1])
 
 
 class MapProduct:
@@ -87,7 +87,7 @@ class MapProduct:
         """A_k ... A_1 v."""
         # The first parts are the earliest factors, which act first.
         for _, part in self._parts:
-            state = image(part, state)
+            state = state_image(part, state)
         return state
 
     def whole(self) -> Affine:
