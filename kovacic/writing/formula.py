@@ -100,11 +100,6 @@ def separated(separator: str, parts: Iterable[str | Math]) -> list[str | Math]:
     return [piece for part in parts for piece in (separator, part)][1:]
 
 
-def _first_free(taken: set[str], *candidates: str) -> str:
-    numbered = (f"{candidates[-1]}{k}" for k in count(1))
-    return next(name for name in chain(candidates, numbered) if name not in taken)
-
-
 @dataclass(frozen=True)
 class Formulas:
     """The formulas of one answer: its variable is called `variable`, and `field` is that of the coefficients of S."""
@@ -115,12 +110,12 @@ class Formulas:
     @cached_property
     def symbol(self) -> str:
         """The name of omega's constants: the engine's, unless the user has given it to something else."""
-        return _first_free({self.variable, *parameters_of(self.field)}, _SYMBOL)
+        return free_name({self.variable, *parameters_of(self.field)}, _SYMBOL)
 
     @cached_property
     def unknown(self) -> str:
         """The name of omega in its polynomial."""
-        return _first_free({self.variable, *parameters_of(self.field)}, "w", "W", "w")
+        return free_name({self.variable, *parameters_of(self.field)}, "w", "W")
 
     def python(self, function: RatFunc | Poly) -> str:
         """A function or a polynomial in Python's syntax."""
@@ -189,9 +184,10 @@ class Formulas:
 
 
 def free_name(taken: Collection[object], *candidates: str) -> str:
-    """The first of the names that isn't taken by the user, as F may be by a force and y0 by a value."""
+    """The first of the names that isn't taken by the user, as F may be by a force; if all are, the first one with a number."""
     letters = {*map(str, taken)}
-    return next((name for name in candidates if name not in letters), candidates[0] + "_")
+    numbered = (f"{candidates[0]}{k}" for k in count(1))
+    return next(name for name in chain(candidates, numbered) if name not in letters)
 
 
 def shortened(text: str) -> str:
