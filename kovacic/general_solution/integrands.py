@@ -122,9 +122,11 @@ def integral_of_product(term: Expr, x: Expr) -> Expr:
         at = sympy.oo  # where sqrt(x^2 - 1) and the like are real
     elif polynomials and not any(p.free_symbols_in_domain for p in polynomials):
         at = common_place(x, {p: p.as_expr() for p in polynomials})
-    # the term is a constant times h, which has its logarithmic derivative
+    # the term is a constant times h, which has its logarithmic derivative; of t1 + t2 + ... that of t1 (1 + t2/t1 + ...)
+    first, *others = Add.make_args(term)
+    whole = Add(1, *((other / first).replace(exp, lambda u: exp(cancel(u))) for other in others))
     atoms = Atoms(x, at=at)
-    h = product(_as_ratfunc(relative_slope(term, x), x))
+    h = product(_as_ratfunc(relative_slope(first, x) + whole.diff(x) / whole, x))
     scale, shown = factors(h, atoms)
     # SymPy's arithmetic with algebraic numbers takes minutes
     found = None if sympy.Tuple(*shown).has(sympy.CRootOf) else integral(h, atoms)
@@ -154,6 +156,8 @@ def relative_slope(e: Expr, x: Expr) -> Expr:
     if e.is_Pow and not e.exp.has(x):
         return e.exp * relative_slope(e.base, x)
     rate = e.diff(x) / e
+    if e.is_polynomial(x):  # without gcds over fields of algebraic numbers
+        return rate
     return cancel(rate) if rate.is_rational_function(x) else powsimp(sympy.factor_terms(rate))
 
 

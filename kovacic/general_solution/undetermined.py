@@ -81,7 +81,7 @@ def _polynomials(right: Expr, x: Expr) -> dict[Expr, dict[int, Expr]] | None:
     if right.has(sin, cos):
         right = in_single_waves(right)
     result: dict[Expr, dict[int, Expr]] = defaultdict(lambda: defaultdict(lambda: sympy.S.Zero))
-    for summand in Add.make_args(right):
+    for summand in Add.make_args(right) if right != 0 else ():
         coefficient, rest = summand.as_independent(x, as_Add=False)
         degree, rate = 0, sympy.S.Zero
         for factor in sympy.Mul.make_args(rest):
