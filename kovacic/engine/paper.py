@@ -54,7 +54,8 @@ from kovacic.engine.riccati import numerators
 from kovacic.equation import parameters_of
 from kovacic.limits import MOST_TRIALS, check_time
 
-#: Of at most this number of families all are shown and tried.
+#: Families that are enumerated, or sums that are counted apart; of a few families all are shown and tried.
+_MOST_FAMILIES = 10 * MOST_TRIALS
 _FEW_FAMILIES = 8
 #: The highest order of a pole: longer singular parts fill a screen each.
 _HIGHEST_POLE_ORDER = 40
@@ -124,7 +125,7 @@ def search(problem: Problem, variable: str, m: int) -> Search | None:
         chosen_at.append(chosen)
     choices = tuple(chosen_at)
     total = prod(len(chosen) ** point.count for chosen, point in zip(choices, points, strict=True))
-    if prod(map(len, choices)) > MOST_TRIALS:
+    if prod(map(len, choices)) > _MOST_FAMILIES:
         return Search(m, points, choices, total, natural=_naturals(choices, points, m), families=None)
 
     every = [Family(*family) for family in families(choices, points, m, roots.field)]
@@ -159,7 +160,7 @@ def _naturals(choices: Sequence[Sequence[Choice]], points: Sequence[SingularPoin
             for ((d, all_even), count), (part, even) in product(sums.items(), parts):
                 longer[d + part, all_even and even] += count
             sums = longer
-            if len(sums) > MOST_TRIALS:
+            if len(sums) > _MOST_FAMILIES:
                 return None
     return sum(count for (d, all_even), count in sums.items() if is_natural(d) and not all_even)
 
