@@ -115,7 +115,7 @@ def limits_of(given: Any) -> Limits:
 #: Seconds for one equation where the limits don't say.
 DEFAULT_SECONDS = 600.0
 
-#: Subexpressions up to which SymPy is asked to rewrite an expression: it factors a random sum of 400 in 0.1 s, the median of 60.
+#: Subexpressions up to which SymPy is asked to rewrite an expression: it factors a random sum of 400 in 0.1 s, mostly.
 MOST_SUBEXPRESSIONS = 400
 
 #: Candidates (combinations of exponents, primes, special values) up to which a search tries each one.
