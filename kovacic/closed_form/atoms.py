@@ -70,11 +70,6 @@ def sign_of_root(value: Expr) -> int | None:
     return signs[0] * signs[1] or None
 
 
-def rational(value: Fraction | int) -> Expr:
-    """A SymPy rational number."""
-    return Rational(value.numerator, value.denominator)
-
-
 def hypergeometric(top: tuple[Expr, ...], bottom: tuple[Expr, ...], z: Expr) -> Expr:
     """SymPy's `hyper`, made without asking whether |z| <= 1, which takes milliseconds; parameters above and below cancel.
 
@@ -129,7 +124,7 @@ class Atoms:
         """A constant of the field."""
         fraction = value.field.rational_value(value)
         if fraction is not None:
-            return rational(fraction)
+            return Rational(fraction)
         if isinstance(value, FunctionPoly):
             return value.to_sympy(self.x)
         generator = self.generator(value.field)
@@ -151,10 +146,8 @@ class Atoms:
         return 1 / self.sqrt(c.inverse()), radical(shown)
 
     def sqrt_beside(self, value: Poly, g: Poly) -> Expr:
-        """A square root of a constant: a multiple of the s of `root_of` where letters stand before x in g."""
+        """A square root of a constant: a multiple of the s of `root_of`."""
         c = self.cleared(g)[0]
-        if c.field.rational_value(c) is not None:
-            return self.sqrt(value)
         c = -c if self.is_negative(c) else c
         return self.sqrt(value / c) / self.sqrt(c.inverse())
 
@@ -173,34 +166,24 @@ class Atoms:
         assert isinstance(field, AlgebraicField)
         key = (str(field.base), field.modulus.key())
         if key not in self._generators:
-            self.call(field, self._new_generator(field))
-            if self._generators[key].has(sympy.CRootOf):
-                self.notes.append(f"{field.name} stands for {self._generators[key]}")
+            written = self._generators[key] = self._new_generator(field)
+            if written.has(sympy.CRootOf):
+                self.notes.append(f"{field.name} stands for {written}")
         return self._generators[key]
-
-    def call(self, field: AlgebraicField, expression: Expr) -> None:
-        """Write the generator of an extension as this expression."""
-        self._generators[str(field.base), field.modulus.key()] = expression
 
     def _new_generator(self, field: AlgebraicField) -> Expr:
         modulus = field.modulus
         if modulus.degree == 2:
             middle = modulus[1] * Fraction(1, 2)
-            half = self.constant(middle)
             root = self.sqrt(middle * middle - modulus[0])
-            if _is_the_smaller_root(field):
-                return -half - root
-            return -half + root
-        radicand = (
-            None if any(modulus[k] for k in range(1, modulus.degree)) else modulus.field.rational_value(-modulus[0])
-        )
+            return (-root if _is_the_smaller_root(field) else root) - self.constant(middle)
         real, imaginary = field.approximation or (1, 0)  # the positive root where none in particular is meant
-        if radicand is not None and radicand > 0 and real > 0 and not imaginary:
-            return radical(rational(radicand), modulus.degree)
-        if (
-            isinstance(field.base, AlgebraicField) and field.ground == QQ
-        ):  # SymPy's roots are those of polynomials over Q
-            # Q(c) for a generator c of K(c): a real root of the modulus if there is one
+        radicand = modulus.field.rational_value(-modulus[0])
+        is_pure = not any(modulus[k] for k in range(1, modulus.degree))
+        if is_pure and (radicand or 0) > 0 and real > 0 and not imaginary:
+            return radical(Rational(radicand), modulus.degree)
+        if isinstance(field.base, AlgebraicField) and field.ground == QQ:
+            # SymPy takes polynomials over Q: Q(c) for a generator c of K(c), a real root of the modulus if there is one
             with working_precision(200):
                 roots = acb_poly([enclosure(c) for c in modulus]).roots()
                 target = min(roots, key=lambda root: (not root.imag.contains(0), float(root.real.mid())))
@@ -210,21 +193,15 @@ class Atoms:
 
     def coefficients(self, polynomial: Poly) -> list[Expr]:
         """The coefficients from low to high."""
-        if polynomial.field != QQ:
-            return [self.constant(c) for c in polynomial]
-        return [Rational(int(c.p), int(c.q)) for c in polynomial.rational_coefficients()]
+        return [self.constant(c) for c in polynomial]
 
     # ---------------------------------------------------------------------------------- rational functions
 
     def poly(self, polynomial: Poly, variable: Expr = None) -> Expr:
         """A polynomial, expanded; `variable` may be a root, for an element of K[x]/p."""
+        check_time()
         x = self.x if variable is None else variable
-        terms = []
-        for k, c in enumerate(self.coefficients(polynomial)):
-            check_time()
-            if c:
-                terms.append(c * x**k)
-        return Add(*terms)
+        return Add(*(c * x**k for k, c in enumerate(self.coefficients(polynomial)) if c))
 
     def cleared(self, polynomial: Poly) -> tuple[Poly, Poly]:
         """(c, p): the polynomial is c times p, whose coefficients are coprime integers.
@@ -252,8 +229,6 @@ class Atoms:
 
     def sum(self, r: RatFunc) -> Expr:
         """A rational function as polynomial part and proper fraction."""
-        if r.is_polynomial:
-            return self.poly(r.num)
         polynomial, rest = divmod(r.num, r.den)
         return self.poly(polynomial) + self.ratio(RatFunc(rest, r.den))
 
@@ -275,7 +250,7 @@ class Atoms:
         if square is None or square <= 0:
             return ()
         centre = -self.constant(p[1]) / 2
-        half = radical(rational(square)) / 2
+        half = radical(Rational(square)) / 2
         return centre - half, centre + half
 
     def log_sum(self, residue: Residue) -> Expr:
@@ -338,13 +313,12 @@ class Atoms:
     def root_sum(self, polynomial: Expr, body: Expr) -> Expr:
         """The sum of the body over the roots of a polynomial, both in the symbol `root`."""
         over = sympy.Poly(polynomial, self.root)
-        roots: list[Expr] = []
         if over.degree() == 2:
             a, b, c = over.all_coeffs()
             half = sympy.sqrt(sympy.factor(sympy.expand(b**2 - 4 * a * c))) / (2 * a)
             roots = [sympy.expand_mul(sign * half - b / (2 * a)) for sign in (1, -1)]
-        if roots and all(root.is_rational_function() for root in roots):
-            return Add(*(body.subs(self.root, root) for root in roots))
+            if all(root.is_rational_function() for root in roots):
+                return Add(*(body.subs(self.root, root) for root in roots))
         kind = RootSum if over.domain.is_EX else sympy.RootSum
         return kind(over, sympy.Lambda(self.root, body), auto=False)
 
@@ -361,7 +335,7 @@ def _is_the_smaller_root(field: AlgebraicField) -> bool:
 
 
 def display(y: Product, atoms: Atoms, *, around_zero: bool = False) -> Expr:
-    """A product, up to a constant factor."""
+    """A product up to a constant factor."""
     return Mul(*_shown(y, merged(y), atoms, around_zero=around_zero)[1])
 
 
@@ -388,25 +362,18 @@ def _shown(y: Product, found: list[Factor], atoms: Atoms, *, around_zero: bool) 
     shown: list[Expr] = []
     for group, exponent in grouped_factors(found):
         index = atoms.constant(exponent)
-        bases = []
-        for base in group:
-            is_turned = not index.is_Integer and atoms.is_turned(base, around_zero=around_zero)
-            turned += [index] * is_turned
-            shown_base = atoms.cleared(base)[1]
-            bases.append(atoms.poly(-shown_base if is_turned else shown_base))
-        shown.append(Mul(*bases) ** index)
+        if index.is_Integer:  # without a root
+            shown += [atoms.primitive(base)[1] ** index for base in group]
+            continue
+        turned += [index for base in group if atoms.is_turned(base, around_zero=around_zero)]
+        shown.append(Mul(*(atoms.base(base, around_zero=around_zero) for base in group)) ** index)
+    inner = []  # of the exponential function
     for residue in y.roots:
         roots = atoms.real_roots(residue.factor)
         shown += [(atoms.x - a) ** sympy.expand_mul(atoms.poly(residue.value, a)) for a in roots]
-    return turned, [*shown, _exponential(y, atoms)]
-
-
-def _exponential(y: Product, atoms: Atoms) -> Expr:
-    """The factor exp(rational function) of a product, with the sums over roots that aren't written as powers."""
-    inner = [atoms.log_sum(residue) for residue in y.roots if not atoms.real_roots(residue.factor)]
+        if not roots:
+            inner.append(atoms.log_sum(residue))
+    has_sums = bool(inner)
     if y.exponential.num.degree > 0 or not y.exponential.is_polynomial:
-        rational_part = atoms.sum(y.exponential)
-        if not inner:
-            return exp(rational_part, evaluate=False)
-        inner.append(rational_part)
-    return exp(Add(*inner))
+        inner.append(atoms.sum(y.exponential))
+    return turned, [*shown, exp(Add(*inner), evaluate=has_sums or not inner)]

@@ -17,8 +17,14 @@ from kovacic.closed_form.atoms import Atoms
 from kovacic.closed_form.curve import CurveIntegral
 from kovacic.closed_form.jets import jet
 from kovacic.closed_form.primitive import OpenPrimitive, Primitive
-from kovacic.closed_form.product import Product
-from kovacic.closed_form.structure import ClosedStructure, Conjugate, Diagonal, OnCurve, Triangular
+from kovacic.closed_form.structure import (
+    ClosedStructure,
+    Conjugate,
+    Diagonal,
+    OnCurve,
+    Triangular,
+    logarithmic_derivative,
+)
 from kovacic.errors import LimitExceeded
 from kovacic.limits import check_time
 
@@ -37,9 +43,9 @@ def is_exact_solution(form: ClosedStructure, S: RatFunc, gauge: RatFunc) -> bool
         second = form.second.logarithmic_derivative - gauge
         return first != second and _is_riccati_solution(first, S) and _is_riccati_solution(second, S)
     if isinstance(form, Triangular):
-        omega = form.first.logarithmic_derivative - gauge
-        same = omega == form.bare.logarithmic_derivative
-        return same and _is_riccati_solution(omega, S) and _is_inverse_square(form.primitive, form.bare)
+        omega = form.bare.logarithmic_derivative
+        is_solution = omega == form.first.logarithmic_derivative - gauge and _is_riccati_solution(omega, S)
+        return is_solution and _is_inverse_square(form.primitive, omega)
     assert isinstance(form, Conjugate | OnCurve)
     u, square = _mean_and_square(form)
     u = u - gauge
@@ -48,49 +54,36 @@ def is_exact_solution(form: ClosedStructure, S: RatFunc, gauge: RatFunc) -> bool
 
 
 def _is_riccati_solution(omega: RatFunc, S: RatFunc) -> bool:
-    """omega' + omega^2 = S, multiplied by the denominators."""
-    n = omega.num
-    d = omega.den
-    return (n.derivative() * d - n * d.derivative() + n * n) * S.den == S.num * (d * d)
+    return omega.derivative() + omega * omega == S
 
 
 def _mean_and_square(form: Conjugate | OnCurve) -> tuple[RatFunc, RatFunc]:
     """u and w^2: those of the common factor and of sqrt(delta) V' or kappa r/sqrt(g), and of the zeros A +- ...."""
     u = form.common.logarithmic_derivative
     if isinstance(form, Conjugate):
-        A = form.A
-        B = form.B
-        delta = form.delta
+        A, B, delta = form.A, form.B, form.delta
         norm = A * A - B * B * delta
         v = form.phase.derivative + RatFunc(A * B.derivative() - A.derivative() * B, norm)
-        return u + RatFunc(norm.derivative(), norm) / 2, v * v * delta
-    r = form.integral.integrand
-    g = form.integral.g
+        return u + logarithmic_derivative(norm) / 2, v * v * delta
+    r, g = form.integral.integrand, form.integral.g
     if form.zeros is not None:
-        norm = form.zeros.norm(g)
-        u = u + RatFunc(norm.derivative(), norm) / 2
+        u = u + logarithmic_derivative(form.zeros.norm(g)) / 2
         r = r + form.zeros.integrand(g)
     return u, r * r / g * form.kappa_squared
 
 
 def _is_complete(integral: CurveIntegral) -> bool:
     """True unless units stand for the residues and the rest with derivatives that don't add up to them."""
-    g = integral.g
-    return not integral.units or sum((u.integrand(g) for u in integral.units), RatFunc(g * 0)) == integral.without_exact
+    return not integral.units or integral.slope_of_units(integral.units) == integral.without_exact
 
 
-def _is_inverse_square(primitive: Primitive, bare: Product) -> bool:
-    """True if the derivative of the integral is y^-2, up to a constant."""
+def _is_inverse_square(primitive: Primitive, omega: RatFunc) -> bool:
+    """True if the derivative r k of the integral is y^-2 up to a constant: r'/r + k'/k = -2 omega for omega = y'/y."""
     if isinstance(primitive, OpenPrimitive):
         return True  # the integral is left unevaluated
-    if isinstance(primitive, CurveIntegral) and not _is_complete(primitive):
-        return False
     r = primitive.integrand
-    rate = bare.logarithmic_derivative * -2 - primitive.kernel_derivative
-    # r'/r = rate, multiplied by the denominators
-    n = r.num
-    d = r.den
-    return bool(r) and (n.derivative() * d - n * d.derivative()) * rate.den == rate.num * (n * d)
+    is_complete = not isinstance(primitive, CurveIntegral) or _is_complete(primitive)
+    return is_complete and bool(r) and r.derivative() == r * (omega * -2 - primitive.kernel_derivative)
 
 
 def residual(expression: Any, variable: Any, S: RatFunc, gauge: RatFunc, point: Any, *, inner: Any = None) -> Any:
@@ -119,7 +112,7 @@ def are_independent(y1: Any, y2: Any, variable: Any) -> bool:
 
 
 def independent(pairs: Sequence[tuple[Any, Any]], variable: Any) -> tuple[Any, Any] | None:
-    """A pair of which this is proven; one that takes few digits comes first."""
+    """A pair proven to be independent; one that takes few digits comes first."""
     # Where both solutions grow alike, y z' and y' z agree in many digits although W isn't 0.
     for digits in (DIGITS + 15, 4 * DIGITS, 10 * DIGITS):
         for pair in pairs:
@@ -142,7 +135,7 @@ def is_nonzero(expression: Any, variable: Any) -> bool:
 def is_numerical_solution(expression: Any, variable: Any, S: RatFunc, gauge: RatFunc) -> bool:
     """True if the expression satisfies the equation to 50 digits at a point with negative real and imaginary part.
 
-    Raises `LimitExceeded` where 4,800 digits don't tell.
+    Raises `LimitExceeded` if 4,800 digits don't decide.
     """
     # Legendre's Q_60 is the difference of two terms that agree in a hundred digits; hence the repetitions.  Functions of large
     # parameters, as 1F1(10^9; 1/2; -x^2), are such sums of many terms everywhere but near 0.
@@ -158,8 +151,7 @@ def is_numerical_solution(expression: Any, variable: Any, S: RatFunc, gauge: Rat
             bound = arb(10) ** -DIGITS
             if value < bound or value > bound:  # neither holds for a ball that contains the bound
                 return bool(value < bound)
-    said = f"the check of a written-out solution needs more than {digits} digits"
-    raise LimitExceeded(said, limit="digits")
+    raise LimitExceeded(f"the check of a written-out solution needs more than {digits} digits", limit="digits")
 
 
 def check_point() -> Any:

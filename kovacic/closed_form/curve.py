@@ -41,6 +41,7 @@ Reference: J. H. Davenport, On the Integration of Algebraic Functions (1981).
 from __future__ import annotations
 
 from collections import Counter
+from collections.abc import Iterable
 from dataclasses import dataclass, replace
 from fractions import Fraction
 
@@ -95,12 +96,16 @@ class CurveIntegral:
     @property
     def integrand(self) -> RatFunc:
         """r, recomputed from the result by equation (1)."""
-        return sum((residue.logarithmic for residue in self.residues), _twisted_slope(self.exact, self.g) + self.rest)
+        return self.without_exact + _twisted_slope(self.exact, self.g)
 
     @property
     def without_exact(self) -> RatFunc:
         """The integrand without the derivative of the exact part."""
-        return replace(self, exact=self.exact * 0).integrand
+        return sum((residue.logarithmic for residue in self.residues), RatFunc(self.rest))
+
+    def slope_of_units(self, units: Iterable[Unit]) -> RatFunc:
+        """r with r dx/s the derivative of the contributions of these units."""
+        return sum((u.integrand(self.g) for u in units), RatFunc(self.g * 0))
 
     @property
     def kernel_derivative(self) -> RatFunc:
@@ -188,9 +193,7 @@ def gathered_zeros(g: Poly, r: RatFunc, kappa_squared: Poly, P: Poly) -> Unit | 
         T = T * branch.inverse_modulo(P) % P * branch
         p = P * branch
     found = Unit(*_euclid(T, p), p, kappa_squared, Fraction(1))
-    if found.norm(g).monic() != p.monic():
-        return None
-    return found
+    return found if found.norm(g).monic() == p.monic() else None
 
 
 def _euclid(T: Poly, p: Poly) -> tuple[Poly, Poly]:
@@ -211,7 +214,7 @@ def completed(integral: CurveIntegral) -> CurveIntegral:
     """The integral with its units if it is elementary on a curve of positive genus, else with the reason why it is left."""
     if integral.is_elementary:
         return integral
-    found = _decide(replace(integral, exact=integral.exact * 0))
+    found = _decide(integral)
     if isinstance(found, str):
         g = integral.g
         return replace(integral, reason=found.format(g=g, genus=(g.degree - 1) // 2))
@@ -220,9 +223,8 @@ def completed(integral: CurveIntegral) -> CurveIntegral:
 
 def _decide(integral: CurveIntegral) -> tuple[Unit, ...] | str:
     g = integral.g
-    field = integral.g.field
     middle = Fraction(g.degree, 2) - 1
-    at_infinity = integral.rest[int(middle)] if middle.denominator == 1 else field.poly([])
+    at_infinity = integral.rest[int(middle)] if middle.denominator == 1 else g[0] * 0
     if integral.rest.degree > middle:
         return SECOND_KIND
     if not integral.residues and not at_infinity:
@@ -231,7 +233,7 @@ def _decide(integral: CurveIntegral) -> tuple[Unit, ...] | str:
     if tau_squared is None:
         return SEVERAL
     kappa_squared = tau_squared * Fraction(1, 16)
-    r = integral.integrand
+    r = integral.without_exact
     phi = RatFunc(g.derivative(), g) / 2 - r.derivative() / r
     S = phi.derivative() / 2 + phi * phi / 4 + r * r / g * kappa_squared
     # The form f: its zeros at ordinary points, where a residue belongs to the exponents 0 and 1, are P's.
@@ -258,8 +260,7 @@ def _common_tau(integral: CurveIntegral, at_infinity: Poly) -> Poly | None:
 
 def _logarithms_of_pieces(integral: CurveIntegral, f: CurveFunction, kappa_squared: Poly) -> tuple[Unit, ...] | str:
     """The logarithms of the pieces a + b y of f as those of a + b c kappa s: y = c kappa s, c a constant up to its sign."""
-    g = integral.g
-    c = f.h.field.sqrt((f.h.lc / kappa_squared[0]) / g.lc)
+    c = f.h.field.sqrt((f.h.lc / kappa_squared[0]) / integral.g.lc)
     if c is None:
         return UNDECIDED_CURVE
     exponents: Counter[tuple[Poly, Poly]] = Counter()
@@ -269,6 +270,6 @@ def _logarithms_of_pieces(integral: CurveIntegral, f: CurveFunction, kappa_squar
         found = tuple(
             Unit(a, b * sign, None, kappa_squared, Fraction(e, 2 * f.multiple)) for (a, b), e in exponents.items()
         )
-        if sum((unit.integrand(g) for unit in found), RatFunc(g * 0)) == integral.integrand:
+        if integral.slope_of_units(found) == integral.without_exact:
             return found
     return UNDECIDED_CURVE

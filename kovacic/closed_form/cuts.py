@@ -71,16 +71,13 @@ def arguments_with_cuts(y: Expr) -> dict[Expr, Expr]:
     """The functions and powers with cuts in an expression: these lie where the argument, or 1 - z in pFq, is negative."""
     found = {}
     for e in iterargs(y):
-        cut = None
         if isinstance(e, _TURNED_FUNCTIONS):
-            cut = cut_of(e)
+            found[e] = cut_of(e)
         elif isinstance(e, BesselBase):
-            cut = e.args[-1]
+            found[e] = e.args[-1]
         elif isinstance(e, sympy.hyper) and len(e.ap) > len(e.bq):
-            cut = 1 - e.argument
-        if cut is not None and cut.free_symbols:
-            found[e] = cut
-    return found
+            found[e] = 1 - e.argument
+    return {e: cut for e, cut in found.items() if cut is not None and cut.free_symbols}
 
 
 def all_turned(y: Expr, x: Expr, point: Expr, own: Own = sympy.sympify) -> Expr:
@@ -189,9 +186,8 @@ def real_at(
 
     if not place.is_real or not left(pair):
         return pair
-    makers: list[Callable[[], tuple[Expr, Expr]] | None] = [lambda: pair, anew]
     chosen, least = pair, sys.maxsize
-    for written in filter(None, makers):
+    for written in filter(None, (lambda: pair, anew)):
         y1, y2 = turned = tuple(all_turned(sympy.Tuple(*written()), x, place, own))
         count = left(turned)
         are_solutions = count < least and all(y in pair or is_numerical_solution(y, x, S, gauge) for y in turned)

@@ -84,9 +84,8 @@ def written(structure: ClosedStructure, S: RatFunc, gauge: RatFunc, variable: st
     atoms = Atoms(Symbol(variable))
     y1, y2, notes = expressions(structure, atoms)
     notes = (*notes, *atoms.notes)
-    form = ClosedForm(
-        one_exponential(y1), one_exponential(y2), atoms.x, gauge, EXACT, notes, build=partial(replace, structure)
-    )
+    pair = one_exponential(y1), one_exponential(y2)
+    form = ClosedForm(*pair, atoms.x, gauge, EXACT, notes, build=partial(replace, structure))
     check_time()
     passed = is_exact_solution(structure, S, gauge)
     if not passed or not all(is_numerical_solution(y, form.variable, S, gauge) for y in form):
@@ -124,6 +123,4 @@ def one_exponential(y: Expr) -> Expr:
             return product
         return Mul(*(factor for factor in product.args if not isinstance(factor, exp)), exp(Add(*inner)))
 
-    if len(y.atoms(exp)) < 2:
-        return y
-    return y.replace(lambda e: e.is_Mul, merged)
+    return y.replace(lambda e: e.is_Mul, merged) if len(y.atoms(exp)) > 1 else y

@@ -38,17 +38,16 @@ from collections.abc import Iterable
 from dataclasses import dataclass, field, replace
 from fractions import Fraction
 from functools import partial
-from math import gcd, lcm
 
 import sympy
-from sympy import Add, Ei, Integer, Mul, asin, atan, exp, log
+from sympy import Add, Ei, Integer, Mul, Rational, asin, atan, exp, log
 
 from kovacic.algebra.extension import AlgebraicField
 from kovacic.algebra.partial_fractions import Residue
 from kovacic.algebra.poly import Field, Poly
 from kovacic.algebra.ratfunc import RatFunc
 from kovacic.algebra.rationals import QQ
-from kovacic.closed_form.atoms import Atoms, Expr, discriminant, display, factors, hypergeometric, rational
+from kovacic.closed_form.atoms import Atoms, Expr, display, factors, hypergeometric
 from kovacic.closed_form.curve import CurveIntegral, Unit, integrate_on_curve, unit
 from kovacic.closed_form.primitive import (
     ExponentialPrimitive,
@@ -87,12 +86,12 @@ def curve_integral(integral: CurveIntegral, atoms: Atoms) -> tuple[Expr, Expr, t
 
     There sqrt(g) = i sqrt(-g), as for the powers of g in `kovacic.closed_form.atoms.factors`.
     """
-    scale: Expr = Integer(1)
-    if atoms.is_turned(integral.g):
+    is_turned = atoms.is_turned(integral.g)
+    if is_turned:
         integral = _turned(integral)
-        scale = -sympy.I
     terms = _curve_terms(integral, atoms, alone=False, exponents=False)
     terms.join_norms(atoms)
+    scale = -sympy.I if is_turned else Integer(1)
     return scale, Add(*terms.others, *(c * log(base) for c, base in terms.logarithms)), terms.notes
 
 
@@ -104,14 +103,20 @@ def _turned(integral: CurveIntegral) -> CurveIntegral:
 def exponentials(form: OnCurve, atoms: Atoms) -> tuple[Expr, Expr, tuple[str, ...]]:
     """The two solutions, with cos and sin where kappa is imaginary, and notes."""
     if atoms.at is None:
-        form = _oriented(form)
+        form = _oriented(form, atoms)
     elif atoms.is_turned(form.integral.g):
         form = _on_the_other_side(form)
     oscillates = atoms.is_negative(form.kappa_squared)
     kappa = atoms.sqrt(-form.kappa_squared if oscillates else form.kappa_squared)
     terms = _curve_terms(form.integral, atoms, alone=form.zeros is None, exponents=True)
-    common, other = _with_norms(form, terms, kappa, atoms)
-    A, B = _zero_factors(form, kappa, atoms)
+    common, other = _with_norms(form, terms, atoms)
+    # A and B kappa s of the gathered zeros A +- B kappa s, up to a common factor, without denominators
+    A, B = Integer(1), Integer(0)
+    if form.zeros is not None:
+        a, A = atoms.primitive(form.zeros.A)
+        b, B = atoms.primitive(form.zeros.B)
+        numbers, roots = (atoms.constant(b / a) * kappa * sqrt(atoms.poly(form.integral.g))).as_coeff_Mul()
+        A, B = numbers.q * A, numbers.p * B * roots
     if not terms.others and not terms.logarithms:
         return common * A, common * B, terms.notes
     inner = [_times_factor(kappa, term) for term in terms.others]
@@ -126,7 +131,7 @@ def exponentials(form: OnCurve, atoms: Atoms) -> tuple[Expr, Expr, tuple[str, ..
     return first, second, terms.notes
 
 
-def _with_norms(form: OnCurve, terms: _Terms, kappa: Expr, atoms: Atoms) -> tuple[Expr, Expr]:
+def _with_norms(form: OnCurve, terms: _Terms, atoms: Atoms) -> tuple[Expr, Expr]:
     """The common factor of both solutions, times prod p^(+-n kappa/tau) over the norms, which join its powers in the field."""
     ratio = terms.tau_squared and form.common.field.sqrt(form.kappa_squared / terms.tau_squared)
     if ratio is None:
@@ -134,23 +139,13 @@ def _with_norms(form: OnCurve, terms: _Terms, kappa: Expr, atoms: Atoms) -> tupl
         common = display(form.common, atoms)
         return common, common
     # Both square roots are written as positive numbers.
-    if atoms.is_negative(ratio):
-        ratio = -ratio
-    first, second = (
-        display(replace(form.common, powers=gathered_powers((*form.common.powers, *more))), atoms)
-        for more in ([Power(p, ratio * (sign * n)) for p, n in terms.norms] for sign in (1, -1))
-    )
-    return first, second
+    first, second = (-ratio, ratio) if atoms.is_negative(ratio) else (ratio, -ratio)
 
+    def with_powers(of_norms: Poly) -> Expr:
+        more = (Power(p, of_norms * n) for p, n in terms.norms)
+        return display(replace(form.common, powers=gathered_powers((*form.common.powers, *more))), atoms)
 
-def _zero_factors(form: OnCurve, kappa: Expr, atoms: Atoms) -> tuple[Expr, Expr]:
-    """A and B kappa s of the gathered zeros A +- B kappa s, up to a common factor, without denominators; 1 and 0 without."""
-    if form.zeros is None:
-        return Integer(1), Integer(0)
-    a, A = atoms.primitive(form.zeros.A)
-    b, B = atoms.primitive(form.zeros.B)
-    numbers, roots = (atoms.constant(b / a) * kappa * sqrt(atoms.poly(form.integral.g))).as_coeff_Mul()
-    return numbers.q * A, numbers.p * B * roots
+    return with_powers(first), with_powers(second)
 
 
 def _times_factor(factor: Expr, term: Expr) -> Expr:
@@ -162,14 +157,13 @@ def _times_factor(factor: Expr, term: Expr) -> Expr:
     return sympy.sqrtdenest(sympy.expand_mul(factor * number)) * rest
 
 
-def _oriented(form: OnCurve) -> OnCurve:
+def _oriented(form: OnCurve, atoms: Atoms) -> OnCurve:
     """With -g and -kappa^2 instead of g and kappa^2 if all logarithms are real where g is negative.
 
     Only for rational tau^2, and d = 2 with two real branch points and without a logarithm at infinity.
     """
     integral = form.integral
-    square = discriminant(integral.g)
-    if integral.rest or square is None or square <= 0:
+    if integral.rest or not atoms.real_roots(integral.g):
         return form
     units = [unit(integral.g, residue) for residue in integral.residues]
     values = [None if u is None else u.tau_squared.field.rational_value(u.tau_squared) for u in units]
@@ -218,7 +212,7 @@ def _append_rest(integral: CurveIntegral, atoms: Atoms, terms: _Terms, *, alone:
     roots = atoms.real_roots(g)
     is_alone = alone and not integral.exact and not integral.residues
     if is_alone and g[1] and roots:
-        # The square root of the base: its square has another sign of sqrt(g) in some regions, which is of no account alone.
+        # The square root of the base: its square has another sign of sqrt(g) in some regions, which doesn't matter here.
         terms.logarithms.append((2 * c, Add(*(sqrt(atoms.x - a) for a in roots))))
         return
     scale, root = atoms.root_of(g)
@@ -249,7 +243,7 @@ def _append_unit(u: Unit, root: Expr, atoms: Atoms, terms: _Terms, g: Poly, *, e
     """factor * log((A + B tau s)/sqrt(norm))/tau, or the arc tangent for tau^2 < 0."""
     has_norm = exponents or u.p is None  # which is a power of kappa/tau
     root_of = atoms.sqrt if has_norm else partial(atoms.sqrt_beside, g=g)
-    factor = rational(u.factor)
+    factor = Rational(u.factor)
     content, top = atoms.primitive(u.A)
     if atoms.is_negative(u.tau_squared):
         eta = root_of(-u.tau_squared)
@@ -269,11 +263,9 @@ def _append_unit(u: Unit, root: Expr, atoms: Atoms, terms: _Terms, g: Poly, *, e
 
 def _root_sum(integral: CurveIntegral, residue: Residue, root: Expr, atoms: Atoms) -> Expr:
     """The sum over the roots a of p of -(rho/sqrt(gamma)) log((L_a + sqrt(gamma) s)/(x - a))."""
-    p = residue.factor
-    a = atoms.root
+    p, a = residue.factor, atoms.root
     gamma = atoms.poly(integral.g % p, a)
-    slope = atoms.poly(integral.g.derivative() * Fraction(1, 2) % p, a)
-    tangent = gamma + slope * (atoms.x - a)
+    tangent = gamma + atoms.poly(integral.g.derivative() * Fraction(1, 2) % p, a) * (atoms.x - a)
     body = -atoms.poly(residue.value, a) / sqrt(gamma) * log((tangent + sqrt(gamma) * root) / (atoms.x - a))
     return atoms.root_sum(atoms.poly(p, a), body)
 
@@ -532,7 +524,7 @@ def _scaled_sum(terms: list[Scaled]) -> Expr:
         return terms[0][1]
     ratios = [c / terms[-1][0] for c, _ in terms]
     if all(ratio.is_Rational for ratio in ratios):
-        content = sympy.Rational(gcd(*(int(r.p) for r in ratios)), lcm(*(int(r.q) for r in ratios)))
+        content = sympy.gcd(ratios)
         ratios = [ratio / content for ratio in ratios]
     return Add(*(c * e for c, (_, e) in zip(ratios, terms, strict=True)))
 
@@ -549,8 +541,7 @@ def _terms(
     """y times the integral."""
     if isinstance(primitive, ExponentialPrimitive):
         return _exponential_integrals(y, primitive, first, atoms)
-    exact = primitive.parts.exact
-    residues = primitive.parts.residues
+    exact, residues = primitive.parts.exact, primitive.parts.residues
     if not residues:
         exact = normalised_constant(exact)
     terms = [_scaled(*factors(y, atoms, exact))] if exact else []
@@ -564,29 +555,29 @@ def logarithms(residues: Iterable[Residue], atoms: Atoms, y: Product | None = No
     It is real between the roots if 0 lies there, unless the roots in y aren't.
     """
     apart: dict[Poly, list[Poly]] = {}
-    pending = []
     for residue in residues:
-        if residue.is_constant:
-            apart.setdefault(residue.value, []).append(residue.factor)
-        else:
-            pending.append(residue)
-    pending = [Residue(p, value) for value, bases in apart.items() for p in joined(bases)] + pending
+        apart.setdefault(residue.value, []).append(residue.factor)
+    pending = [
+        Residue(p, value)
+        for value, bases in sorted(apart.items(), key=lambda group: group[0].degree > 0)  # constant residues first
+        for p in (bases if value.degree > 0 else joined(bases))
+    ]
     terms = []
     while pending:
         first = pending.pop()
         opposite = [other for other in pending if _is_at_a_point(other) and other.value == -first.value]
-        if opposite and _is_at_a_point(first):
-            pending.remove(opposite[0])
-            # rho log((x - a)/(x - b)), or of (x - a)/(b - x) where 0 lies between a and b
-            top, bottom = (atoms.primitive(residue.factor)[1] for residue in (first, opposite[0]))
-            at_zero = first.factor.field.rational_value(first.factor[0] * opposite[0].factor[0])
-            is_around_zero = at_zero is not None and at_zero < 0
-            positive = first if atoms.is_negative(first.factor[0]) else opposite[0]
-            if is_around_zero and (y is None or _are_real_before(-positive.factor[0], y, atoms)):
-                bottom = -bottom
-            terms.append(atoms.constant(first.value) * sympy.log(top / bottom, evaluate=False))
-        else:
+        if not opposite or not _is_at_a_point(first):
             terms.append(atoms.log_sum(first))
+            continue
+        pending.remove(opposite[0])
+        # rho log((x - a)/(x - b)), or of (x - a)/(b - x) where 0 lies between a and b
+        p, q = first.factor, opposite[0].factor
+        bottom = atoms.primitive(q)[1]
+        positive = p if atoms.is_negative(p[0]) else q
+        is_around_zero = (p.field.rational_value(p[0] * q[0]) or 0) < 0
+        if is_around_zero and (y is None or _are_real_before(-positive[0], y, atoms)):
+            bottom = -bottom
+        terms.append(atoms.constant(first.value) * log(atoms.primitive(p)[1] / bottom, evaluate=False))
     return terms[::-1]
 
 
@@ -617,7 +608,7 @@ def _exponential_integrals(y: Product, primitive: ExponentialPrimitive, first: F
         power = primitive.alpha + term.power
         b = term.b
         if atoms.at is not None and atoms.own(q.subs(atoms.x, atoms.at)).is_negative:  # by t = -q
-            scale = -scale * Integer(-1) ** rational(power)
+            scale = -scale * Integer(-1) ** Rational(power)
             b, q = b * (-1) ** term.n, -q
         c, function = _gamma(b, term.n, q, power, atoms)
         shift = exp(atoms.constant(term.e))
@@ -628,16 +619,15 @@ def _exponential_integrals(y: Product, primitive: ExponentialPrimitive, first: F
 
 def _sum_at_poles(residue: Residue, primitive: ExponentialPrimitive, atoms: Atoms) -> Expr:
     """The sum over conjugate poles as at `ExponentialPrimitive`, with a^n for the pole, so that z is a."""
-    t = primitive.t
-    E = primitive.E(t)
+    t, E = primitive.t, primitive.E(primitive.t)
     n = primitive.alpha.denominator
     a = atoms.root
     body = atoms.poly(residue.value, a**n)
     if E:
         body *= exp(atoms.poly(E.num, a)) * Ei(atoms.constant(E.num.lc) * (atoms.x - a))
     else:
-        root = atoms.poly(t.num) ** rational(Fraction(1, n)) * atoms.poly(t.den) ** rational(Fraction(-1, n))
-        body *= a ** int(primitive.alpha * n) * sympy.log(root - a)
+        root = atoms.poly(t.num) ** Rational(1, n) * atoms.poly(t.den) ** Rational(-1, n)
+        body *= a**primitive.alpha.numerator * log(root - a)
     return atoms.root_sum(atoms.poly(residue.factor, a**n), body)
 
 
@@ -647,15 +637,14 @@ def _gamma(factor: Poly, n: int, t: Expr, power: Fraction, atoms: Atoms) -> Scal
     In general it is t^(power + 1)/(n s) 1F1(s; s + 1; beta t^n), s = (power + 1)/n, which has no cuts but those of the power.
     """
     beta = atoms.constant(factor)
-    s = (power + 1) / n
-    if s == 0:
-        return sympy.Rational(1, n), Ei(beta * t**n)
-    if s == Fraction(1, 2):
+    order = Rational(power + 1) / n
+    if order == 0:
+        return Rational(1, n), Ei(beta * t**n)
+    if order == sympy.S.Half:
         is_positive = beta.is_real is not False and not atoms.is_negative(factor)
         root = atoms.sqrt(factor if is_positive else -factor)
         function = sympy.erfi if is_positive else sympy.erf
-        return 1 / (root * n), sqrt(sympy.pi) * function(root * t ** sympy.Rational(n, 2))
-    order = rational(s)
+        return 1 / (root * n), sqrt(sympy.pi) * function(root * t ** Rational(n, 2))
     if n == 1 and beta.is_negative:
         return -((-beta) ** -order), sympy.uppergamma(order, -beta * t)
-    return 1 / (n * order), t ** rational(power + 1) * hypergeometric((order,), (order + 1,), beta * t**n)
+    return 1 / (n * order), t ** Rational(power + 1) * hypergeometric((order,), (order + 1,), beta * t**n)

@@ -60,7 +60,7 @@ _U = sympy.Dummy("u")
 
 
 class BallEvaluator:
-    """The values of expressions at given values of some symbols; the values of subexpressions are cached.
+    """The values of expressions at given values of some symbols; those of subexpressions are cached.
 
     With `analytic` a value isn't finite where the expression isn't analytic on the balls, for quadratures.
     """
@@ -421,24 +421,14 @@ _BY_SERIES: dict[Any, Callable[..., Any]] = {
 
 
 def _hypergeometric_jet(e: Any, value: Callable[[Any], Acb], z: Acb) -> list[Acb]:
-    """The values of SymPy's `hyper` and its first two derivatives."""
-    top = [value(a) for a in e.ap]
-    bottom = [value(b) for b in e.bq]
-    series = _series_of(e, value)
+    """SymPy's `hyper` and its first two derivatives: F' = (prod a/prod b) F(a + 1; b + 1) [DLMF 16.3.1]."""
+    top, bottom, series = list(map(value, e.ap)), list(map(value, e.bq)), _series_of(e, value)
     found = []
     factor = acb(1)
-    leading = z * (1 - z) if len(top) == 2 else z
-    has_equation = len(top) < 3 and len(bottom) == 1 and not leading.contains(0)
-    for k in range(2 if has_equation else 3):
-        above = [a + k for a in top]
-        below = [b + k for b in bottom]
-        found.append(factor * series(above, below, z))
-        factor *= prod(above, start=acb(1)) / prod(below, start=acb(1))
-    if has_equation:
-        # z (1 - z) F'' + (c - (a + b + 1) z) F' - a b F = 0, and z F'' + (c - z) F' - a F = 0, z F'' + c F' - F = 0
-        value, slope = found
-        lower = bottom[0] - [acb(0), z, (sum(top) + 1) * z][len(top)]
-        found.append((prod(top, start=acb(1)) * value - lower * slope) / leading)
+    for _ in range(3):
+        found.append(factor * series(top, bottom, z))
+        factor *= prod(top, start=acb(1)) / prod(bottom, start=acb(1))
+        top, bottom = [a + 1 for a in top], [b + 1 for b in bottom]
     return found
 
 

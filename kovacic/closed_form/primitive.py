@@ -23,6 +23,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, replace
 from fractions import Fraction
+from math import floor
 
 from kovacic.algebra.factors import combination
 from kovacic.algebra.partial_fractions import Decomposition, Residue, decompose, prime_part, reduce_poles
@@ -152,10 +153,8 @@ def _exponential_integral(found: Residue, E: RatFunc) -> GammaTerm | None:
     """exp(e) Ei(E - e) with the residue, e the value of E at the pole; None if e or the residue isn't in K."""
     p = found.factor
     e = E.num * E.den.inverse_modulo(p) % p
-    if e.degree > 0 or found.value.degree > 0:
-        return None
-    multiplicity = (E - e).num.remove(p)[1]
-    if not multiplicity:
+    multiplicity = (E - e).num.remove(p)[1] if e.degree <= 0 else 0
+    if not multiplicity or not found.is_constant:
         return None
     one = E.field.poly([1])
     return GammaTerm(found.value * Fraction(1, multiplicity), E - e, one, e, 1, -1)
@@ -188,11 +187,7 @@ def _gamma_terms(beta: Poly, n: int, e: Poly, alpha: Fraction) -> Iterator[Gamma
 
 def _limit(E: RatFunc) -> list[Poly]:
     """The value at infinity, if E is finite there."""
-    if E.num.degree > E.den.degree:
-        return []
-    if E.num.degree < E.den.degree:
-        return [E.num * 0]
-    return [E.num.lc / E.den.lc]
+    return [] if E.num.degree > E.den.degree else [E.num[E.den.degree] / E.den.lc]
 
 
 def _squares(E: RatFunc) -> Iterator[tuple[RatFunc, Poly, Poly]]:
@@ -233,13 +228,9 @@ def _with_rational_part(
 
 def _denominator(functions: list[RatFunc], E: RatFunc, alpha: Fraction) -> Poly:
     """Of W: a pole of order m of E raises the order of a pole of W by m + 1, and a factor x^alpha by 1."""
-    field = E.field
-    x = field.poly([0, 1])
-    poles = field.factor(E.den)
-    if alpha and E.den[0]:
-        poles = [*poles, (x, 0)]
-    den = field.poly([1])
-    for p, m in poles:
+    den = E.field.poly([1])
+    of_root = [(E.field.poly([0, 1]), 0)] if alpha and E.den[0] else []
+    for p, m in (*E.field.factor(E.den), *of_root):
         order = max((f.den.remove(p)[1] for f in functions), default=0)
         den = den * p ** max(order - m - 1, 0)
     return den
@@ -307,7 +298,6 @@ def integrate(h: Product) -> Primitive:
 
 
 def _integral_or_reason(h: Product) -> Primitive | str:
-    """The integral, or why it is left."""
     if h.roots:
         return f"the exponents at the roots of {h.roots[0].factor} are different algebraic numbers"
     rational = RatFunc(h.field.poly([1]))
@@ -354,7 +344,7 @@ def _with_a_quotient(rational: RatFunc, first: _Root, second: _Root) -> Primitiv
     (p, alpha), (q, beta) = first, second
     x = RatFunc(p.field.poly([-p[0], q[0]]), p.field.poly([1, -q[1]]))  # t (q_1 x + q_0) = x + p_0
     r = rational(x) * RatFunc(q)(x) ** int(alpha + beta) * x.derivative()
-    shift = alpha.numerator // alpha.denominator + 1  # to an exponent between -1 and 0
+    shift = floor(alpha) + 1  # to an exponent between -1 and 0
     t = RatFunc(p.field.poly([0, 1]))
     found = integrate_exponential(r * t**shift, r * 0, alpha - shift)
     return found if isinstance(found, str) else replace(found, t=RatFunc(p, q))

@@ -49,12 +49,9 @@ class Product:
     @cached_property
     def logarithmic_derivative(self) -> RatFunc:
         """y'/y, computed from the factors."""
-        total = self.exponential.derivative()
-        for power in self.powers:
-            total = total + RatFunc(power.base.derivative() * power.exponent, power.base)
-        for residue in self.roots:
-            total = total + residue.logarithmic
-        return total
+        powers = (RatFunc(power.base.derivative() * power.exponent, power.base) for power in self.powers)
+        roots = (residue.logarithmic for residue in self.roots)
+        return sum((*powers, *roots), self.exponential.derivative())
 
     @property
     def length(self) -> int:
@@ -135,8 +132,8 @@ def merged(y: Product, extra: RatFunc | None = None, *, like: Product | None = N
     same everywhere; in a sum, all terms must use the same roots: those of the product `like`, from which the exponents
     differ by integers.
     """
-    alone = like is None and extra is None
-    keys = {} if alone else {power.base: power.exponent for power in (like or y).powers}
+    is_alone = like is None and extra is None
+    keys = {} if is_alone else {power.base: power.exponent for power in (like or y).powers}
     found = []
     rest = extra
     for power in y.powers:

@@ -170,7 +170,7 @@ def build(S: RatFunc, decision: Decision, gauge: RatFunc) -> ClosedStructure:
     if structure is Structure.REDUCIBLE:
         return _reducible(semi, decision.invariant, gauge)
     if structure is Structure.IMPRIMITIVE:
-        g, r, kappa_squared = curve_of(S, semi)
+        g, r, kappa_squared = curve_of_pair(S, semi)
         common = (semi.theta + gauge * 2) * Fraction(1, 2)
         zeros = gathered_zeros(g, r, kappa_squared, semi.P)
         if zeros is None or zeros.p is None:
@@ -192,9 +192,8 @@ def _reducible(semi: SemiInvariant, invariant: SemiInvariant | None, gauge: RatF
         second = invariant.logarithmic_derivative - semi.logarithmic_derivative
         if second != semi.logarithmic_derivative:
             zeros = invariant.P.exact_quotient(semi.P)
-            if zeros is None:
-                return Diagonal(first, product(second + gauge))
-            return Diagonal(first, product(invariant.theta - semi.theta + gauge, zeros))
+            theta = second if zeros is None else invariant.theta - semi.theta
+            return Diagonal(first, product(theta + gauge, zeros))
     bare = product(semi.theta, semi.P) if gauge else first
     return Triangular(first, bare, integrate_inverse_square(bare))
 
@@ -218,7 +217,7 @@ def _conjugate(semi: SemiInvariant, gauge: RatFunc) -> Conjugate:
     return Conjugate(product(u + gauge), delta, decompose(v), *split(semi.P))
 
 
-def curve_of(S: RatFunc, semi: SemiInvariant) -> tuple[Poly, RatFunc, Poly]:
+def curve_of_pair(S: RatFunc, semi: SemiInvariant) -> tuple[Poly, RatFunc, Poly]:
     """g, r, and kappa^2 with kappa^2 r^2/g = (4 S - 2 phi' - phi^2)/4 for phi = (y1 y2)'/(y1 y2)."""
     phi = semi.logarithmic_derivative
     field = phi.field

@@ -34,9 +34,13 @@ def in_x(equation: Equation, expression: Any) -> Any:
     if is_in_power(equation):
         return _in_powers_of_x(with_integrals, own, t.exp, x)
     result = _continued(with_integrals.xreplace({own: t}), t)
-    if t.func in _SINES:  # roots of t + 1 and t - 1 as powers that join where t is 1 or -1
-        roots = {e for e in result.atoms(sympy.Pow) if e.base in (t + 1, t - 1, 1 - t) and not e.exp.is_Integer}
-        return result.xreplace({e: _by_halves(t, e) for e in roots})
+    if t.func in _SINES:  # roots as powers that join where t is 1 or -1: t + 1 = 2 t(w/2)^2, t - 1 = 2 sign s(w/2)^2
+        half = t.args[0] / 2
+        s, sign = _SINES[t.func]
+        halves = {t + 1: (2, t.func(half)), t - 1: (2 * sign, s(half)), 1 - t: (-2 * sign, s(half))}
+        roots = [e for e in result.atoms(sympy.Pow) if e.base in halves and not e.exp.is_Integer]
+        pairs = ((e, *halves[e.base]) for e in roots)
+        return result.xreplace({e: sympy.Integer(c) ** e.exp * f ** (2 * e.exp) for e, c, f in pairs})
     return _with_joined_powers(result, x) if t.func is sympy.exp else result
 
 
@@ -106,9 +110,8 @@ def _in_powers_of_x(expression: Any, own: Any, k: Any, x: Any) -> Any:
 def _as_power(exponent: Any, s: Any, x: Any) -> Any:
     """exp(c s + r) = x^c exp(r) with s = log(x)."""
     terms = sympy.Add.make_args(sympy.expand(exponent))
-    linear = [term for term in terms if not sympy.cancel(term / s).has(s)]
-    rate = sympy.cancel(sympy.Add(*linear) / s)
-    return x**rate * sympy.exp(sympy.Add(*(term for term in terms if term not in linear)))
+    linear = sympy.Add(*(term for term in terms if not sympy.cancel(term / s).has(s)))
+    return x ** sympy.cancel(linear / s) * sympy.exp(sympy.Add(*terms) - linear)
 
 
 def with_roots_of_factors(expression: Any, x: Any) -> Any:
@@ -121,9 +124,9 @@ def with_roots_of_factors(expression: Any, x: Any) -> Any:
         is_root = power.exp.is_Rational and not power.exp.is_Integer
         if is_root and not power.has(x):
             factored = sympy.factor(power.base)
-            sums = [f for f in sympy.Mul.make_args(factored) if f.is_Add]
-            if sums and factored.as_coeff_Mul()[0] < 0:  # sqrt(1 - 4*b)/n, and no i
-                factored = sympy.Mul(-factored / sympy.Mul(*sums), sympy.expand(-sympy.Mul(*sums)))
+            sums = sympy.Mul(*(f for f in sympy.Mul.make_args(factored) if f.is_Add))
+            if sums != 1 and factored.as_coeff_Mul()[0] < 0:  # sqrt(1 - 4*b)/n, and no i
+                factored = sympy.Mul(-factored / sums, sympy.expand(-sums))
             forced[power] = sympy.powdenest(sympy.expand_power_base(factored**power.exp, force=True), force=True)
     return expression.xreplace(forced)
 
@@ -133,12 +136,11 @@ def _with_joined_powers(expression: Any, x: Any) -> Any:
 
     rules: list[tuple[Callable[[Any], bool], Callable[[Any], Any]]] = [
         (lambda e: e.func is sympy.log and e.args[0].func is sympy.exp, lambda e: e.args[0].exp),
-        # atan(exp(i w)) without pi/4: a solution stays one, as its continuations do
         (
             lambda e: (
                 e.func is sympy.atan and e.args[0].func is sympy.exp and not (e.args[0].exp / sympy.I).has(sympy.I)
             ),
-            lambda e: sympy.I / 4 * _log_of_sines(e.args[0].exp / sympy.I),
+            _atan_of_wave,
         ),
         # exponentials of waves
         (
@@ -164,19 +166,10 @@ def _with_joined_powers(expression: Any, x: Any) -> Any:
 _SINES = {sympy.cos: (sympy.sin, -1), sympy.cosh: (sympy.sinh, 1)}
 
 
-def _by_halves(t: Any, power: Any) -> Any:
-    """A power of t + 1 = 2 t(w/2)^2, of t - 1 or of 1 - t, for t = cos(w) or cosh(w)."""
-    half = t.args[0] / 2
-    if power.base == t + 1:
-        return sympy.Integer(2) ** power.exp * t.func(half) ** (2 * power.exp)
-    function, sign = _SINES[t.func]
-    factor = sympy.Integer(2 * sign if power.base == t - 1 else -2 * sign)
-    return factor**power.exp * function(half) ** (2 * power.exp)
-
-
-def _log_of_sines(w: Any) -> Any:
-    """log((1 + sin(w))/(1 - sin(w))), whose slope is 2/cos(w)."""
-    return sympy.log((1 + sympy.sin(w)) / (1 - sympy.sin(w)))
+def _atan_of_wave(e: Any) -> Any:
+    """atan(exp(i w)) = (i/4) log((1 + sin w)/(1 - sin w)) + pi/4, without the constant: a solution stays one."""
+    sine = sympy.sin(e.args[0].exp / sympy.I)
+    return sympy.I / 4 * sympy.log((1 + sine) / (1 - sine))
 
 
 def _by_half_angle(e: Any) -> Any:

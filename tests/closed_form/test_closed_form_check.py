@@ -36,7 +36,7 @@ from kovacic.closed_form.structure import (
     Diagonal,
     OnCurve,
     build,
-    curve_of,
+    curve_of_pair,
     logarithmic_derivative,
 )
 from kovacic.special.choice import solutions
@@ -326,7 +326,7 @@ def test_gathered_zeros_are_the_spread_ones() -> None:
     assert isinstance(form, OnCurve)
     assert form.zeros is not None
     assert answer.decision.semi_invariant is not None
-    g, r, kappa_squared = curve_of(answer.S, answer.decision.semi_invariant)
+    g, r, kappa_squared = curve_of_pair(answer.S, answer.decision.semi_invariant)
     norm = logarithmic_derivative(form.zeros.norm(g))
     spread = OnCurve(product(form.common.logarithmic_derivative + norm / 2), kappa_squared, integrate_on_curve(r, g))
     for curve in (form, spread):
