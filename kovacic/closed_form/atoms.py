@@ -171,6 +171,10 @@ class Atoms:
                 self.notes.append(f"{field.name} stands for {written}")
         return self._generators[key]
 
+    def call(self, field: AlgebraicField, expression: Expr) -> None:
+        """Write the generator of an extension as this expression."""
+        self._generators[str(field.base), field.modulus.key()] = expression
+
     def _new_generator(self, field: AlgebraicField) -> Expr:
         modulus = field.modulus
         if modulus.degree == 2:
