@@ -50,13 +50,15 @@ _WITH_LIMITS = (sympy.exp, sympy.log, sympy.atan, sympy.erf)
 
 
 def norm_of(wave: Any, x: Any, domain: tuple[Any, Any]) -> Any:
-    """The integral, None if the antiderivative isn't found, or its limits at the ends aren't.
+    """The integral of the squared wave; None if it has no known antiderivative with limits at the ends, or the time is over.
 
     >>> x = sympy.Symbol("x")
     >>> norm_of(sympy.exp(-1 / x) / x, x, (0, sympy.oo))
     1/2
     """
-    found = antiderivative(wave**2, x)
+    found = None
+    with suppress(LimitExceeded):
+        found = antiderivative(wave**2, x)
     if found is None or found.atoms(sympy.Function) - found.atoms(*_WITH_LIMITS):
         return None
     first, last = domain
@@ -100,7 +102,14 @@ def closed_forms(question: Examined, max_degree: int, limits: Limits) -> ClosedF
         question=question, conditions=conditions, window=window, max_degree=max_degree, complete=True
     )
     search.reason = search.with_parameters() if question.parameters else search.of_numbers()
+    # The norms come last: an integral that takes the rest of the time costs no level.
+    search.levels = {key: _with_norms(level, question) for key, level in search.levels.items()}
     return search
+
+
+def _with_norms(level: Algebraic, question: Examined) -> Algebraic:
+    x = sympy.Symbol(question.variable)
+    return replace(level, states=tuple(replace(s, norm=norm_of(s.wave, x, question.domain)) for s in level.states))
 
 
 def _solvable_conditions(question: SpectralProblem, limits: Limits) -> ParametricAnswer | None:
@@ -417,10 +426,7 @@ class _ClosedFormSearch(ClosedForms):
             range=tuple(map(question.plain, original.monotonic_range)),
             middle=middle,
         )
-        if question.parameters:
-            return level
-        states = level.states_at({}, self.E)
-        return replace(level, states=tuple(replace(s, norm=norm_of(s.wave, x, question.domain)) for s in states))
+        return level if question.parameters else replace(level, states=tuple(level.states_at({}, self.E)))
 
 
 def _factors_of(natural: Natural) -> list[Any]:

@@ -143,7 +143,7 @@ def read_question(
         raise InputError(f"{given.variable} is a number", hint="take another name for the variable")
     reader = ConditionReader(function)
     conditions = tuple(map(reader.read, sides, sides[len(values) :]))  # the left sides, then the right ones
-    symbols = {symbol.name: symbol for symbol in getattr(eq, "free_symbols", ())}
+    symbols = {symbol.name: symbol for symbol in sorted(getattr(eq, "free_symbols", ()), key=str)}
     own_names = parameters_of(given.S.field)
     letters = {name: Symbol(name) for name in own_names} | symbols
     known = known_letters(assume or {}, function.args[0], letters, conditions)
@@ -190,7 +190,10 @@ def known_letters(
     if of_x not in ("", "positive", ">0"):
         what = f"of the variable {x} it can only be assumed that it is positive"
         raise InputError(what, hint='assume={"x": "positive"}')
-    own = {symbol.name: symbol for condition in conditions for symbol in condition.free_symbols} | dict(letters)
+    own = dict(letters)
+    for condition in conditions:
+        for symbol in sorted(condition.free_symbols, key=str):
+            own.setdefault(symbol.name, symbol)
     own.pop(x.name, None)
     return with_assumptions(others, own) | ({x: Symbol(x.name, positive=True)} if of_x else {})
 

@@ -162,8 +162,14 @@ class PolynomialSolution:
         """The values at which y vanishes identically for the degree d; () if it never does."""
         if not self.jacobi or any(a.is_number and natural_value(-a - 1) is None for a in self.jacobi):
             return ()
+        # A sum of negative integers, and below -d, is at most -2.
+        total = sympy.expand(sum(self.jacobi))
+        if total.is_number and natural_value(-total - 2) is None:
+            return ()
         a, b = (caret(as_text(parameter)) for parameter in self.jacobi)
         name = str(self.degree) if self.degree.is_Symbol else d
+        if a == b:
+            return prose.phrase(f", unless `{a}` is an integer with `-{name} <= {a} < -{name}/2`")
         return prose.phrase(f", unless `{a}` and `{b}` are integers from `-{name}` to -1 with a sum below `-{name}`")
 
 

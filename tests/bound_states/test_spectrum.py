@@ -11,6 +11,7 @@ import mpmath
 import pytest
 import sympy
 from build import parametrize, read_expression, run, size
+from clocks import controlled
 from potentials import MORE, QUASI, TABLE, Solvable
 from scipy.integrate import quad
 from shooting import is_level, zeros
@@ -233,6 +234,23 @@ def test_a_level_at_the_edge_of_the_continuous_spectrum(V: str, domain: Any, wav
     scale = sympy.simplify(state.wave / read_expression(wave)) ** 2
     assert sympy.simplify(state.norm - scale * norm) == 0
     assert found.closed_forms_complete or V.startswith("5")
+
+
+def test_a_level_has_no_norm_if_the_time_ends_with_its_integral() -> None:
+    V, domain, _, norm = THRESHOLDS[0]
+    looks = []
+    for _ in range(2):  # the second search, with what is stored by then, is as long as the third one
+        with controlled() as hands:
+            known = kovacic.spectrum(V, domain=domain)
+        looks.append(hands.looks)
+    with controlled(looks_in_time=looks[-1] - 10) as hands:
+        late = kovacic.spectrum(V, domain=domain)
+    assert hands.late_looks > 0
+    (state,) = known.states()
+    assert state.norm == norm
+    (found,) = late.states()
+    assert (found.energy, found.wave, found.norm) == (state.energy, state.wave, None)
+    assert late.reason == known.reason
 
 
 def test_a_negative_letter_has_an_imaginary_root() -> None:

@@ -1069,3 +1069,10 @@ def test_logarithms_on_either_side_of_the_singular_point(text: str) -> None:
     """Undetermined coefficients in the logarithm of the distance, without integrals and complex numbers."""
     found = kovacic.answer_to(text).particular
     assert not found.has(sympy.Integral, sympy.I)
+
+
+def test_the_parameters_in_a_hint_have_an_order() -> None:
+    """Those of the equation as they stand there, then those of the conditions by name."""
+    with pytest.raises(kovacic.InputError) as refused:
+        dsolve("y'' = (k*x + b)*y", ics={"y(0)": "g*f + d*c", "y'(0)": "h*a"}, assume={"q": "integer"})
+    assert refused.value.hint == "the parameters are k, b, c, d, f, g, a, h"

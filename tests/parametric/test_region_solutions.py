@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import pickle
 from collections.abc import Callable
+from itertools import product
 from typing import Any
 
 import pytest
@@ -160,6 +161,24 @@ def test_regions_without_known_solutions_and_pickles(capsys: pytest.CaptureFixtu
     assert pickle.loads(pickle.dumps(bessel)).regions[0].solution() == bessel.regions[0].solution()
     assert run(["conditions", "--explain", "(4*n^2-1)/(4*x^2) - 1"]) == 0
     assert "where n - 1/2 is a natural number" in capsys.readouterr().out
+
+
+def test_where_a_jacobi_polynomial_vanishes_is_said_in_short() -> None:
+    """Of one parameter where both are the same, and nothing where they are opposite; checked at each number."""
+    region = kovacic.conditions("x*(1-x)*y'' + (c-2*x)*y' - m*y = 0", var="x").regions[0]
+    solutions = region.solution()
+    said = [str(solution).partition("natural number")[2] for solution in solutions]
+    assert said[0] == said[1] == ", unless c - 1 is an integer with -d <= c - 1 < -d/2"
+    assert said[-1] == said[-2] == ", unless 1 - c is an integer with -d <= 1 - c < -d/2"
+    assert said[2:-2] == [""] * 4
+    c, m = sympy.symbols("c m")
+    for solution, words in zip(solutions, said, strict=True):
+        a = solution.jacobi[0]
+        for d, number in product(range(5), range(-5, 7)):
+            there = {c: sympy.Integer(number)}
+            vanishes = bool(words) and -d <= a.xreplace(there) < -R(d, 2)
+            for value in sympy.solve(solution.degree.xreplace(there) - d, m):
+                assert (solution.at({**there, m: value}) is None) == vanishes
 
 
 def test_no_formula_is_offered_where_its_degree_is_never_natural() -> None:
