@@ -104,7 +104,7 @@ FUNCTIONS: dict[tuple[str, str], Rule] = {
     ("kovacic.verify.series", "solutions_at_ordinary_point"): _terms(2),
     ("kovacic.verify.series", "product_of_powers"): _terms(1),
     ("kovacic.verify.series", "solution_at_singular_point"): _terms(3),
-    ("kovacic.verify.series", "square_root"): _terms(2),
+    ("kovacic.verify.series", "square_root_of_series"): _terms(2),
     ("kovacic.verify.series", "nullity"): _rank,
 }
 METHODS: dict[tuple[str, str, str], Rule] = {

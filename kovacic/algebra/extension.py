@@ -19,6 +19,7 @@ from flint import fmpq, nmod_poly
 from kovacic.algebra import splitting
 from kovacic.algebra.homomorphism import BadPrimeError, Collector, Homomorphism
 from kovacic.algebra.lifting import Lifter, inverse_by_primes, lifted
+from kovacic.algebra.modular import integers_by_size
 from kovacic.algebra.poly import Field, Poly, Scalar
 from kovacic.algebra.rationals import QQ, RationalPoly
 from kovacic.algebra.traces import characteristic_polynomial, coefficients_from_traces, power_sums
@@ -101,13 +102,11 @@ class AlgebraicField(Field):
         if polynomial.degree <= 1:
             return [polynomial] if polynomial.degree == 1 else []
         x = self.poly([0, 1])
-        shift = 0
-        while True:
+        for shift in integers_by_size():
             shifted = polynomial(x - self.generator * shift)
             image = norm(shifted)
             if image.gcd(image.derivative()).degree == 0:
                 break
-            shift = -shift if shift > 0 else 1 - shift  # 0, 1, -1, 2, -2, ...
         back = x + self.generator * shift
         return [shifted.gcd(self.embed(factor))(back).monic() for factor, _ in self.base.factor(image)]
 
@@ -364,7 +363,7 @@ def adjoined_square_root(field: Field, value: Poly, *, as_radical: bool = False)
     return adjoined.generator * factor
 
 
-def root(value: Poly, n: int) -> Poly | None:
+def root_of_constant(value: Poly, n: int) -> Poly | None:
     """A square (n = 2) or cubic (n = 3) root of a constant of the field within it, None if there is none."""
     field = value.field
     if n == 2:
@@ -376,9 +375,9 @@ def root(value: Poly, n: int) -> Poly | None:
 def root_in_residue_field(value: Poly, p: Poly, n: int) -> Poly | None:
     """A square or cubic root in K[x]/p, None if there is none."""
     if p.degree == 1:
-        return root(value % p, n)
+        return root_of_constant(value % p, n)
     extension = AlgebraicField(value.field, p, "_a")
-    found = root(extension.element(value % p), n)
+    found = root_of_constant(extension.element(value % p), n)
     return None if found is None else value.field.poly([part[0] for part in found.over(extension).parts])
 
 

@@ -4,18 +4,12 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
 from functools import reduce
-from itertools import islice
 from operator import mul
 from typing import Any, NamedTuple
 
-from kovacic.algebra.homomorphism import BadPrimeError, Homomorphism
-from kovacic.algebra.lifting import Lifter
-from kovacic.algebra.poly import Field, Poly
+from kovacic.algebra.poly import Poly
 from kovacic.limits import check_time
 
-#: For this many factors of a denominator or more, leading terms are tried that are short enough for a few primes.
-_MANY_FACTORS = 50
-_PRIMES_FOR_LEADING_TERMS = 6
 #: Trees of products don't pay for fewer factors.
 _LEAST_FOR_A_TREE = 12
 
@@ -62,80 +56,11 @@ def expansions(num: Poly, den: Poly, factors: Sequence[tuple[Poly, int]]) -> lis
     moduli = [p ** max(1, k // 2) for p, k in factors]
     if len(factors) < _LEAST_FOR_A_TREE:
         return [(num % modulus, den // p**k % modulus) for (p, k), modulus in zip(factors, moduli, strict=True)]
-    one = num.field.poly([1])
+    # The sum of den/p^k over all factors is the cofactor of each factor modulo its power.
     tree = products([p**k for p, k in factors])
-    if len(factors) >= _MANY_FACTORS:
-        simple = _leading_terms(num, factors, moduli, tree)
-        if simple is not None:
-            return [(N, one) for N in simple]
-    cofactors = _over_common_denominator([one] * len(factors), tree)
+    cofactors = _over_common_denominator([num.field.poly([1])] * len(factors), tree)
     of_moduli = products(moduli)
     return list(zip(_remainders_in_tree(num, of_moduli), _remainders_in_tree(cofactors, of_moduli), strict=True))
-
-
-def _leading_terms(
-    num: Poly, factors: Sequence[tuple[Poly, int]], moduli: Sequence[Poly], tree: list[list[Poly]]
-) -> list[Poly] | None:
-    """The leading terms N, with q = 1, of the partial fractions, if they have small coefficients; else None.
-
-    They are found modulo a few primes: the remainders of num itself would be very long numbers.  They are right because num
-    and the sum of N den/p^k have the same remainder modulo all p^nu.
-    """
-    terms = [_LiftedTerm(num.field) for _ in factors]
-    for bundle in islice(num.field.bundles(), _PRIMES_FOR_LEADING_TERMS):
-        check_time()
-        try:
-            by_prime = [_leading_terms_modulo(h, num, factors, moduli) for h in bundle]
-            images = [[each[i] for each in by_prime] for i in range(len(terms))]
-            open_terms = [i for i, term in enumerate(terms) if not term.has(bundle, images[i])]
-        except BadPrimeError:
-            continue
-        for i in open_terms:
-            terms[i].add(bundle, images[i])
-        if open_terms:
-            continue
-        leading = [term.proposed for term in terms if term.proposed is not None]
-        if not (num - _over_common_denominator(leading, tree)) % product(moduli):
-            return leading
-    return None
-
-
-class _LiftedTerm:
-    """A polynomial that is lifted from its images modulo primes; `proposed` is the last proposal, None before there is any."""
-
-    def __init__(self, field: Field) -> None:
-        self.proposed: Poly | None = None
-        self._lifter = Lifter(field)
-
-    def has(self, bundle: Sequence[Homomorphism], images: Sequence[Any]) -> bool:
-        """True if the last proposal has these images, too."""
-        proposed = self.proposed
-        if proposed is None:
-            return False
-        return all(h(proposed) == image for h, image in zip(bundle, images, strict=True))
-
-    def add(self, bundle: Sequence[Homomorphism], images: Sequence[Any]) -> None:
-        """Propose another one, from these images and the former ones."""
-        proposal = self._lifter.add(bundle, [[image] for image in images])
-        self.proposed = proposal[0] if proposal else None
-
-
-def _leading_terms_modulo(
-    h: Homomorphism, num: Poly, factors: Sequence[tuple[Poly, int]], moduli: Sequence[Poly]
-) -> list[Any]:
-    """num/(den/p^k) modulo p^nu for all factors p^k, whose product den is, modulo the prime of h."""
-    image = h(num)
-    powers = [h(p) ** k for p, k in factors]
-    tree = products(powers)
-    terms = list[Any]()
-    cofactors = _over_common_denominator([powers[0] ** 0] * len(powers), tree)
-    remainders = _remainders_in_tree(image, tree)
-    for N, q, modulus in zip(remainders, _remainders_in_tree(cofactors, tree), map(h, moduli), strict=True):
-        common, inverse, _ = (q % modulus).xgcd(modulus)
-        if common.degree() > 0:
-            raise BadPrimeError("factors meet modulo this prime")
-        terms.append(N * inverse % modulus)
-    return terms
 
 
 def _over_common_denominator(values: Sequence[Any], tree: list[list[Any]]) -> Any:

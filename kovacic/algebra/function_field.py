@@ -23,7 +23,14 @@ from kovacic.algebra.interpolation import Evaluation, Samples
 from kovacic.algebra.lifting import primes
 from kovacic.algebra.poly import Field, Poly, Scalar
 from kovacic.algebra.rationals import QQ, RationalPoly, square_part
-from kovacic.algebra.sparse import by_power, constant_term, factorisation, laurent_constant, square_root, terms_of
+from kovacic.algebra.sparse import (
+    by_power,
+    constant_term,
+    factorisation,
+    laurent_constant,
+    sparse_square_root,
+    terms_of,
+)
 from kovacic.limits import check_time
 
 #: Samples modulo the first prime between those modulo the others, and how many of these each of them gets at first.
@@ -150,7 +157,7 @@ class FunctionField(Field):
         assert isinstance(constant, FunctionPoly)
         if not constant:
             return constant
-        roots = [square_root(part) for part in (constant.num, constant.den)]
+        roots = [sparse_square_root(part) for part in (constant.num, constant.den)]
         return None if roots[0] is None or roots[1] is None else self.make(roots[0], roots[1])
 
     def cleared(self, num: Poly, den: Poly) -> tuple[Poly, Poly]:

@@ -19,8 +19,9 @@ from kovacic.limits import check_time
 
 #: Primes are taken downwards from here: large enough that a bad one is rare, small enough for flint's fast arithmetic.
 _PRIMES_BELOW = 1 << 60
-#: Bits that a reconstruction must leave unused, so that a chance hit is improbable; exactness comes from verification.
-_UNUSED_BITS = 10
+#: Bits that a reconstruction, or a reduced vector of a lattice, must leave unused, so that a chance hit is improbable;
+#: exactness comes from verification.
+UNUSED_BITS = 10
 
 
 @lru_cache(maxsize=4096)
@@ -149,7 +150,7 @@ class Residues(Collector):
 def reconstruct_vector(residues: Sequence[int], modulus: int) -> tuple[list[int], int] | None:
     """Integers and one common denominator that give the residues, short enough for no others to be probable; else None."""
     # |n| d below this: among all pairs with a product up to B some B log B residues are hit by chance.
-    bound = modulus >> (_UNUSED_BITS + modulus.bit_length().bit_length())
+    bound = modulus >> (UNUSED_BITS + modulus.bit_length().bit_length())
     denominator = 1
     for residue in reversed(residues):
         value = residue * denominator % modulus

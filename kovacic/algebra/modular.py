@@ -6,6 +6,7 @@ A series to order L is a polynomial of degree below L; the prime must exceed eve
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
+from itertools import count
 from operator import mul
 from typing import Any
 
@@ -25,12 +26,14 @@ def reverse(polynomial: Any, degree: int) -> Any:
     return polynomial.reverse().left_shift(degree - polynomial.degree()) if polynomial else polynomial
 
 
+def integers_by_size() -> Iterator[int]:
+    """0, 1, -1, 2, -2, ..."""
+    return (n // 2 if n % 2 == 0 else -(n // 2) for n in count(1))
+
+
 def ordinary_point(den: Any) -> int:
-    """The integer of least absolute value at which den doesn't vanish, tried in the order 0, 1, -1, 2, ..."""
-    point = 0
-    while not den(point):
-        point = -point if point > 0 else 1 - point
-    return point
+    """The first of the integers 0, 1, -1, 2, ... at which den doesn't vanish."""
+    return next(point for point in integers_by_size() if den(point))
 
 
 def fundamental_system(num: Any, den: Any, order: int) -> tuple[Any, Any]:
@@ -169,7 +172,7 @@ def series_solution(second: Any, first: Any, zeroth: Any, order: int) -> Any:
     return nmod_poly(u[1:], p)
 
 
-def square_root(value: int, p: int) -> int | None:
+def square_root_modulo(value: int, p: int) -> int | None:
     """A square root modulo p, or None for a non-residue."""
     return None if fmpz(value).jacobi(p) == -1 else int(fmpz(value % p).sqrtmod(p))
 

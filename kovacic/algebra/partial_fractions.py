@@ -79,7 +79,7 @@ def reduce_poles(r: RatFunc, slope: RatFunc, apart: Poly | None = None) -> tuple
             part, r = _reduce_at(r, p, multiplicity, slope)
             W = W + part
     left = r.den if apart is None else prime_part(r.den, apart)
-    return W, r, tuple(Residue(p, residue(r, p)) for p, _ in r.field.factor(left))
+    return W, r, tuple(Residue(p, residue_at_simple_pole(r, p)) for p, _ in r.field.factor(left))
 
 
 def prime_part(polynomial: Poly, other: Poly) -> Poly:
@@ -89,7 +89,7 @@ def prime_part(polynomial: Poly, other: Poly) -> Poly:
     return polynomial
 
 
-def residue(r: RatFunc, p: Poly) -> Poly:
+def residue_at_simple_pole(r: RatFunc, p: Poly) -> Poly:
     """The residue at the roots of the irreducible p, once in the denominator, as an element of K[x]/p."""
     return r.num * (r.den // p * p.derivative()).inverse_modulo(p) % p
 

@@ -18,32 +18,22 @@ from kovacic.limits import check_duration, check_time, may_be_late, watched_seco
 
 #: The degree of a modulus up to which Euclid's algorithm over Q is the fastest way to an inverse.
 _EUCLID_OVER_Q = 16
-#: Above this degree it is tried first whether a polynomial to be factored is a power: gcds with derivatives are slow.
-_ROOT_DEGREE = 100
 #: Above this degree exact arithmetic takes long: it is estimated first, done modulo primes, or in another process.
 LARGE_DEGREE = 400
-#: Up to this degree they are factored at once, and up to this number of factors modulo a small prime; and FLINT's seconds at
-#: most for a degree between these, over its cube.
-_SHORT_DEGREE = 60
-_FEW_MODULAR_FACTORS = 16
+#: FLINT's seconds for factors over Z, at most, over the cube of the degree, where there are few factors modulo a prime.
 _FACTOR_SECONDS = 1e-7
-_SMALL_PRIME = 65267
+_FEW_MODULAR_FACTORS = 16
 #: Integers up to this size are factored, to write sqrt(8) as 2*sqrt(2); of larger ones, factors of up to `_SMOOTH_BITS` bits.
 _FACTORED_BITS = 160
 _SMOOTH_BITS = 15
-#: FLINT's time for a power per bit of the result, and for a gcd per bit of a coefficient and square of the degree.
-_POWER_SECONDS = 1.2e-9
-_GCD_SECONDS = 1.2e-11
-#: FLINT's time for a division over Z per bit of the products of coefficients.
-_QUOTIENT_SECONDS = 2e-11
-#: Above this degree products and divisions look at the clock.
+#: FLINT's seconds for each bit of the coefficients of a product (measured: 2e-9) or a power (1.2e-9).
+_PRODUCT_SECONDS = 1.6e-9
+#: FLINT's seconds for each bit of a coefficient times the squares of degrees: an exact division (2e-11), a gcd (1.2e-11).
+_QUOTIENT_SECONDS = 1.6e-11
+#: Above this degree products and divisions look at the clock, and powers are factored as such: gcds with derivatives are slow.
 _LOOK_DEGREE = 100
-#: A division by a divisor of degree n looks after each n/8 terms of the quotient, but not before 64.
+#: A division by a divisor of degree n looks after each n/8 terms of the quotient, but not before `_LOOK_DEGREE`.
 _PIECES_OF_A_DIVISION = 8
-_SHORTEST_PIECE = 64
-#: FLINT's time for a long product per bit of its coefficients.
-_PRODUCT_SECONDS = 2e-9
-_LONG_PRODUCT = 10**7
 #: The time that it takes to write down a polynomial around a rational point, over a power of the bits of all coefficients.
 _TRANSLATION_SECONDS = 2e-10
 _MOVE_POWER = 1.21
@@ -120,11 +110,9 @@ class RationalPoly(Poly):
     def __mul__(self, other: Poly | Scalar) -> RationalPoly:
         if type(other) is RationalPoly:
             if self.rep.degree() > _LOOK_DEGREE and other.rep.degree() > _LOOK_DEGREE:
-                check_time()
                 bits = (self.degree + other.degree) * (self.height_bits() + other.height_bits())
-                if bits > _LONG_PRODUCT:
-                    what = f"a product of polynomials of degree {self.degree} and {other.degree}"
-                    check_duration(_PRODUCT_SECONDS * bits, what)
+                what = f"a product of polynomials of degree {self.degree} and {other.degree}"
+                check_duration(_PRODUCT_SECONDS * bits, what)
             return RationalPoly(self.rep * other.rep)
         if type(other) is int:
             return RationalPoly(self.rep * other)
@@ -189,7 +177,7 @@ class RationalPoly(Poly):
         if exponent < 0:
             raise ValueError("a polynomial has no negative powers")
         if (degree := self.rep.degree() * exponent) > LARGE_DEGREE:
-            check_duration(_POWER_SECONDS * degree * exponent * self.height_bits(), f"a power of degree {degree}")
+            check_duration(_PRODUCT_SECONDS * degree * exponent * self.height_bits(), f"a power of degree {degree}")
         return RationalPoly(self.rep**exponent)
 
     def __bool__(self) -> bool:
@@ -202,7 +190,7 @@ class RationalPoly(Poly):
     def _gcd(self, other: RationalPoly) -> RationalPoly:
         if self.degree > LARGE_DEGREE and other.degree > LARGE_DEGREE:
             degree, least = sorted((self.degree, other.degree), reverse=True)
-            seconds = _GCD_SECONDS * degree**2 * min(self.height_bits(), other.height_bits())
+            seconds = _QUOTIENT_SECONDS * degree**2 * min(self.height_bits(), other.height_bits())
             if seconds > watched_seconds(inf):  # coprime ones take a moment only, and one prime tells
                 f, g = (nmod_poly(part.rep.numer().coeffs(), next(primes())) for part in (self, other))
                 common = int(f.gcd(g).degree())  # at least that over Q, unless p divides both leading coefficients
@@ -375,7 +363,7 @@ def _long_division(dividend: Any, divisor: Any) -> tuple[Any, Any]:
         return dividend.right_shift(size) / divisor[size], dividend.mul_low(fmpq_poly([1]), size)
     over_integers = divisor.numer().leading_coefficient() == 1
     above, below = (dividend.numer(), divisor.numer()) if over_integers else (dividend, divisor)
-    quotient, rest = _divided_in_pieces(above, below, max(size // _PIECES_OF_A_DIVISION, _SHORTEST_PIECE))
+    quotient, rest = _divided_in_pieces(above, below)
     if not over_integers:
         return quotient, rest
     scale = fmpq(1, dividend.denom())
@@ -398,13 +386,13 @@ def _exact_quotient(dividend: Any, divisor: Any) -> Any:
     check_duration(seconds, f"a division by a polynomial of degree {size} with {bits} bits")
     contents = dividend.content(), divisor.content()
     above, below = (part / content for part, content in zip((dividend, divisor), contents, strict=True))
-    quotient, rest = _divided_in_pieces(above, below, max(size // _PIECES_OF_A_DIVISION, _SHORTEST_PIECE))
+    quotient, rest = _divided_in_pieces(above, below)
     return None if rest else fmpq_poly(quotient) * fmpq(*contents)
 
 
-def _divided_in_pieces(dividend: Any, divisor: Any, size: int) -> tuple[Any, Any]:
-    """Quotient and remainder, `size` coefficients of the dividend at a time from the leading one on, each piece behind the rest
-    of the last."""
+def _divided_in_pieces(dividend: Any, divisor: Any) -> tuple[Any, Any]:
+    """Quotient and remainder, by some leading coefficients of the dividend at a time, each piece behind the last remainder."""
+    size = max(divisor.degree() // _PIECES_OF_A_DIVISION, _LOOK_DEGREE)
     coefficients = dividend.coeffs()
     ring = type(dividend)
     quotient = rest = ring([])
@@ -418,22 +406,20 @@ def _divided_in_pieces(dividend: Any, divisor: Any, size: int) -> tuple[Any, Any
 
 
 def _may_take_long(polynomial: Any) -> bool:
-    """True if the factorisation might overrun the time that is left; for a short polynomial its factors modulo p tell."""
+    """True if the factorisation might overrun the time that is left; its factors modulo a prime tell for moderate degrees."""
     degree = polynomial.degree()
-    if degree <= _SHORT_DEGREE:
-        return False
     if degree > LARGE_DEGREE:
         return watched_seconds(inf) < inf
     if not may_be_late(_FACTOR_SECONDS * degree**3):
         return False
-    _, factors = nmod_poly(polynomial, _SMALL_PRIME).factor()
+    _, factors = nmod_poly(polynomial, next(primes())).factor()
     return len(factors) > _FEW_MODULAR_FACTORS or any(k > 1 for _, k in factors)  # a few modulo p are soon put together
 
 
 def _factored_over_z(polynomial: Any) -> list[tuple[Any, int]]:
     """The factors; of a power of a squarefree polynomial, as which a prime shows it, those of its root."""
     degree = polynomial.degree()
-    if degree > _ROOT_DEGREE and (image := nmod_poly(polynomial, next(primes()))).degree() == degree:
+    if degree > _LOOK_DEGREE and (image := nmod_poly(polynomial, next(primes()))).degree() == degree:
         radical = image // image.gcd(image.derivative())
         n, rest = divmod(degree, radical.degree())
         leading = int(image.leading_coefficient())  # of the radical, too

@@ -99,7 +99,7 @@ def _factored_over_q(polynomial: Any) -> tuple[int, list[tuple[Any, int]]]:
     return constant_term(rest), factors
 
 
-def square_root(polynomial: Any) -> Any | None:
+def sparse_square_root(polynomial: Any) -> Any | None:
     """The square root with a positive leading coefficient, or None."""
     try:
         root = polynomial.sqrt()

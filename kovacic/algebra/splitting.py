@@ -16,7 +16,7 @@ from typing import Any
 from flint import fmpq, fmpq_poly, fmpz_mat, nmod_mat, nmod_poly
 
 from kovacic.algebra.homomorphism import BadPrimeError, Collector, ExtensionHomomorphism, Homomorphism
-from kovacic.algebra.lifting import chinese_remainders, primes
+from kovacic.algebra.lifting import UNUSED_BITS, chinese_remainders, primes
 from kovacic.algebra.modular import simple_roots
 from kovacic.algebra.poly import Field, Poly
 from kovacic.algebra.rationals import QQ, RationalHomomorphism
@@ -24,20 +24,18 @@ from kovacic.errors import LimitExceeded
 from kovacic.limits import check_time
 
 #: From this degree on a number field may have too few primes that split completely, as the first `_TRIED_PRIMES` show.
-_LARGE_DEGREE = 4
+_LEAST_RARE_DEGREE = 4
 _TRIED_PRIMES = 12
 #: Primes that are tried where a number field of such a degree has parameters.
 _MOST_PRIMES = 20000
-#: Bits that a reduced vector must leave unused, so that a chance hit is improbable; exactness comes from verification.
-_UNUSED_LATTICE_BITS = 12
 
 
-def homomorphisms_modulo(field: Any, p: int) -> Iterator[Homomorphism]:
+def number_field_homomorphisms(field: Any, p: int) -> Iterator[Homomorphism]:
     """All homomorphisms of a number field to F_p, unramified: simple roots of minimal polynomials that keep their degrees."""
     if field == QQ:
         yield RationalHomomorphism(p)
     elif field.ground == QQ:
-        for base in homomorphisms_modulo(field.base, p):
+        for base in number_field_homomorphisms(field.base, p):
             try:
                 roots = simple_roots(base.keeping_degree(field.modulus))
             except BadPrimeError:
@@ -48,7 +46,7 @@ def homomorphisms_modulo(field: Any, p: int) -> Iterator[Homomorphism]:
 @lru_cache(maxsize=64)
 def splits_rarely(base: Field, modulus: Poly) -> bool:
     """True for a number field of a large degree in which none of the first primes splits completely."""
-    if base != QQ or modulus.degree < _LARGE_DEGREE:
+    if base != QQ or modulus.degree < _LEAST_RARE_DEGREE:
         return False
     return not any(_splits(modulus, p) for p in islice(primes(), _TRIED_PRIMES))
 
@@ -223,6 +221,6 @@ class Ideals(Collector):
             ([int(reduced[i, k]) for k in range(n + 1)] for i in range(n + 1)), key=lambda v: sum(c * c for c in v)
         )
         size = max(abs(c) for c in shortest).bit_length()
-        if shortest[0] == 0 or (n + 1) * size + _UNUSED_LATTICE_BITS > self._modulus.bit_length():
+        if shortest[0] == 0 or (n + 1) * size + UNUSED_BITS > self._modulus.bit_length():
             return None
         return [fmpq(c, shortest[0]) for c in shortest[1:]]

@@ -22,7 +22,7 @@ from kovacic.errors import LimitExceeded, VerificationFailed
 from kovacic.limits import Budget
 
 _DECIDERS: dict[Structure, Callable[[Problem], Outcome]] = {
-    Structure.REDUCIBLE: reducible.decide,
+    Structure.REDUCIBLE: reducible.decide_rational_omega,
     Structure.IMPRIMITIVE: decide_imprimitive,
     Structure.TETRAHEDRAL: partial(decide_primitive, structure=Structure.TETRAHEDRAL),
     Structure.OCTAHEDRAL: partial(decide_primitive, structure=Structure.OCTAHEDRAL),
@@ -60,7 +60,7 @@ def decide_reducible(S: RatFunc, budget: Budget) -> Decision | None:
         problem = analyse(S, budget)
         if Structure.REDUCIBLE in excluded_by_local_data(problem):
             return None
-        outcome = reducible.decide(problem)
+        outcome = reducible.decide_rational_omega(problem)
         return _certified(problem, outcome, (), True) if isinstance(outcome, Found) else None
     except LimitExceeded:
         return None

@@ -21,7 +21,7 @@ from kovacic.algebra.rationals import LARGE_DEGREE
 from kovacic.engine.places import Kind, Place
 from kovacic.limits import check_time
 
-Number = int | Fraction | Poly
+ExactNumber = int | Fraction | Poly
 
 
 @dataclass(frozen=True)
@@ -41,7 +41,7 @@ class SingularPoint:
 class Choice:
     """alpha_c or e_c, and +-[sqrt r]_c as pairs (power of x - c, or of x at infinity; coefficient)."""
 
-    value: Number
+    value: ExactNumber
     singular: tuple[tuple[int, Poly], ...] = ()
 
 
@@ -63,13 +63,13 @@ class Roots:
         return found
 
 
-def is_natural(d: Number) -> bool:
+def is_natural(d: ExactNumber) -> bool:
     """True for 0, 1, 2, ..."""
     value = _as_rational(d)
     return value is not None and value >= 0 and value.denominator == 1
 
 
-def natural(d: Number) -> int:
+def natural(d: ExactNumber) -> int:
     """The number 0, 1, 2, ... as an integer."""
     value = _as_rational(d)
     assert value is not None
@@ -77,7 +77,7 @@ def natural(d: Number) -> int:
     return value.numerator
 
 
-def _as_rational(number: Number) -> Fraction | None:
+def _as_rational(number: ExactNumber) -> Fraction | None:
     return number.field.rational_value(number) if isinstance(number, Poly) else Fraction(number)
 
 
@@ -145,10 +145,10 @@ def weight(point: SingularPoint, m: int) -> Fraction | int:
 
 def families(
     choices: Sequence[Sequence[Choice]], points: Sequence[SingularPoint], m: int, field: Field
-) -> list[tuple[tuple[Choice, ...], Number]]:
+) -> list[tuple[tuple[Choice, ...], ExactNumber]]:
     """Step 2: all families, each with its d; conjugate poles that are taken together have equal exponents."""
-    zero: Number = field.poly([]) if m == 1 else 0
-    found: list[tuple[tuple[Choice, ...], Number]] = [((), zero)]
+    zero: ExactNumber = field.poly([]) if m == 1 else 0
+    found: list[tuple[tuple[Choice, ...], ExactNumber]] = [((), zero)]
     for point, chosen in zip(points, choices, strict=True):
         check_time()
         factor = weight(point, m) * point.count

@@ -36,7 +36,7 @@ from kovacic.engine.riccati import Form, numerators, singular_part
 _EXTRA_EQUATIONS = 6
 
 
-def least_valuation(place: Place, m: int, *, logarithms: bool = True) -> int | None:
+def least_invariant_valuation(place: Place, m: int, *, logarithms: bool = True) -> int | None:
     """The least valuation that a rational invariant of degree m can have at a place; None if there can be none.
 
     A form of degree m is a combination of y+^i y-^(m-i); with local exponents (1 +- Delta)/2 its rational members have
@@ -71,7 +71,7 @@ def bounds(problem: Problem, m: int, *, logarithms: bool = True) -> Bounds | Non
     valuations = list[int]()
     N = m
     for place in problem.places:
-        v = least_valuation(place, m, logarithms=logarithms)
+        v = least_invariant_valuation(place, m, logarithms=logarithms)
         if v is None:
             return None
         valuations.append(v)

@@ -22,7 +22,7 @@ from kovacic.algebra.poly import Poly
 from kovacic.decision import Exclusion, NoInvariant, Structure
 from kovacic.engine.invariants import invariants
 from kovacic.engine.places import Problem
-from kovacic.engine.riccati import Form, Found, Outcome, hessian, jacobian, normalised, root, singular_factor
+from kovacic.engine.riccati import Form, Found, Outcome, hessian, jacobian, normalised, root_of_form, singular_factor
 
 
 def decide_imprimitive(problem: Problem) -> Outcome:
@@ -33,7 +33,7 @@ def decide_imprimitive(problem: Problem) -> Outcome:
 
     def form() -> Form:
         squares = quartic if len(quartic) == 1 else _squares_in_pencil(problem, quartic)
-        roots = [root(square, 2, problem) for square in squares]
+        roots = [root_of_form(square, 2, problem) for square in squares]
         return min(roots, key=lambda f: f.P.degree)
 
     return Found(Structure.IMPRIMITIVE, form, quartic[0])
@@ -80,12 +80,12 @@ def _coordinates_in_pencil(problem: Problem, H: Form, basis: list[Form]) -> tupl
     return a, b
 
 
-INVARIANT_DEGREE = {Structure.TETRAHEDRAL: 6, Structure.OCTAHEDRAL: 8, Structure.ICOSAHEDRAL: 12}
+_LEAST_DEGREE = {Structure.TETRAHEDRAL: 6, Structure.OCTAHEDRAL: 8, Structure.ICOSAHEDRAL: 12}
 
 
 def decide_primitive(problem: Problem, structure: Structure) -> Outcome:
     """Find the omega of a primitive group, or exclude the group; the smaller ones must have been excluded before."""
-    found = invariants(problem, INVARIANT_DEGREE[structure])
+    found = invariants(problem, _LEAST_DEGREE[structure])
     if isinstance(found, NoInvariant):
         return (Exclusion(structure, (found,)),)
     if len(found) != 1:
@@ -111,11 +111,11 @@ def _tetrahedral(problem: Problem, F: Form) -> Form:
     b = rest.lc / pattern.lc if rest else problem.field.poly([])
     if not b or rest != pattern * b:
         raise AssertionError("T^2 = a H^3 + b F^4 holds for the tetrahedral group")
-    return root(Form(12, T.R, T.P + adjoined_square_root(problem.field, b) * G), 3, problem)
+    return root_of_form(Form(12, T.R, T.P + adjoined_square_root(problem.field, b) * G), 3, problem)
 
 
 _FORMS = {
     Structure.TETRAHEDRAL: _tetrahedral,
-    Structure.OCTAHEDRAL: lambda problem, F: root(hessian(F, problem), 2, problem),
+    Structure.OCTAHEDRAL: lambda problem, F: root_of_form(hessian(F, problem), 2, problem),
     Structure.ICOSAHEDRAL: lambda problem, F: normalised(F, problem),
 }

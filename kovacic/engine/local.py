@@ -27,7 +27,7 @@ from kovacic.algebra.modular import (
     reverse,
     series_solution,
     simple_roots,
-    square_root,
+    square_root_modulo,
     square_root_series,
     translate,
 )
@@ -164,7 +164,7 @@ class ModularChart:
     inverted: bool
 
 
-def chart(h: Homomorphism, problem: Problem, place: Place) -> ModularChart | None:
+def modular_chart(h: Homomorphism, problem: Problem, place: Place) -> ModularChart | None:
     """The chart at the least simple root of the place's factor; None if it has none in F_p."""
     # `opposite` is the weight of the place at t = infinity: of x = 0 for the place at infinity, else of infinity.
     if place.at_infinity:
@@ -199,7 +199,7 @@ def exponential_parts(equation: LocalEquation, place: Place, exponents: Sequence
     if place.kind is Kind.REGULAR:
         # (1 + Delta)/2 and (1 - Delta)/2 with Delta^2 = 1 + 4 s, s the leading coefficient.
         p = equation.p
-        delta = square_root(1 + 4 * int(ratio[0]), p) if place.delta is None else _modulo(place.delta, p)
+        delta = square_root_modulo(1 + 4 * int(ratio[0]), p) if place.delta is None else _modulo(place.delta, p)
         signs = [1] if place.logarithm or delta == 0 else [1, -1]
         half = pow(2, -1, p)
         parts = [] if delta is None else [nmod_poly([(1 + sign * delta) * half % p], p) for sign in signs]
@@ -222,7 +222,7 @@ def _irregular_parts(p: int, nu: int, ratio: Any) -> list[Any]:
     """
     if not int(ratio[0]):
         raise BadPrimeError("the leading coefficient at an irregular place vanishes")
-    root = square_root(int(ratio[0]), p)
+    root = square_root_modulo(int(ratio[0]), p)
     if root is None:
         return []
     half = pow(2, -1, p)

@@ -38,7 +38,7 @@ from kovacic.algebra.poly import Field, Poly
 from kovacic.engine.families import (
     SCALE,
     Choice,
-    Number,
+    ExactNumber,
     Roots,
     SingularPoint,
     families,
@@ -76,7 +76,7 @@ class Family:
     """
 
     choices: tuple[Choice, ...]
-    d: Number
+    d: ExactNumber
     theta: Any = None
     P: Poly | None = None
     conditions: tuple[Any, ...] = ()
@@ -150,13 +150,13 @@ def in_sympy(value: Any, x: Any) -> Any:
 def _naturals(choices: Sequence[Sequence[Choice]], points: Sequence[SingularPoint], m: int) -> int | None:
     """The number of families with a natural d, conjugate poles counted one by one; None for too many sums."""
     # By d, and whether all e are even so far, which for m = 2 excludes the family.
-    sums: Counter[tuple[Number, bool]] = Counter({(0, m == 2): 1})
+    sums: Counter[tuple[ExactNumber, bool]] = Counter({(0, m == 2): 1})
     for point, chosen in zip(points, choices, strict=True):
         factor = weight(point, m)
         parts = [(factor * choice.value, m == 2 and choice.value % 2 == 0) for choice in chosen]
         for _ in range(point.count):
             check_time()
-            longer: Counter[tuple[Number, bool]] = Counter()
+            longer: Counter[tuple[ExactNumber, bool]] = Counter()
             for ((d, all_even), count), (part, even) in product(sums.items(), parts):
                 longer[d + part, all_even and even] += count
             sums = longer

@@ -19,18 +19,18 @@ from typing import Any
 from kovacic.algebra.extension import adjoined_square_root
 from kovacic.algebra.homomorphism import BadPrimeError, Homomorphism
 from kovacic.algebra.lifting import Lifter
-from kovacic.algebra.poly import Field, Poly
+from kovacic.algebra.poly import Poly
 from kovacic.algebra.rationals import LARGE_DEGREE, QQ
 from kovacic.algebra.recurrence import polynomial_solution
 from kovacic.decision import Evidence, Exclusion, NoInvariant, NoRationalOmega, NoTerminatingSeries, Structure
 from kovacic.engine.invariants import invariants
 from kovacic.engine.local import (
     DegreeBound,
-    chart,
     degree_bound,
     exponential_parts,
     irrational_exponents,
     is_cheap,
+    modular_chart,
     omega_parts,
     rational_omega,
 )
@@ -40,11 +40,8 @@ from kovacic.engine.terminating import terminating_series
 from kovacic.errors import LimitExceeded
 from kovacic.limits import MOST_TRIALS, count_work
 
-#: Up to this degree P1 is lifted with R; above, its recurrence is faster.
-_LIFTED_DEGREE = 200
 
-
-def decide(problem: Problem) -> Outcome:
+def decide_rational_omega(problem: Problem) -> Outcome:
     """Find omega in C(x), or prove that there is none."""
     try:
         return _decide_within_limits(problem)
@@ -92,7 +89,7 @@ def _from_quadratic_invariant(problem: Problem, F: Form) -> Form:
 
     F' = Q0 X / D and sqrt(disc) = Q0 Y / D with F = Q0 P; so D omega = (X + Y) / (2 P), and the zeros of y1 are the common
     zeros of P and X - Y.  Over Q and for moderate degrees this is done exactly, else modulo primes; then R of
-    omega = R/D + P1'/P1 is lifted, and P1 if its degree is moderate (else it has a recurrence).
+    omega = R/D + P1'/P1 is lifted, and P1 follows from its recurrence.
     """
     F = normalised(F, problem)
     # The discriminant F'^2 - 2 F F'' + 4 S F^2 is Q0^2 (X^2 - 4 P A2)/D^2, a constant: one value of it is enough.
@@ -111,11 +108,6 @@ def _from_quadratic_invariant(problem: Problem, F: Form) -> Form:
     Y = w * weight
     if field == QQ and P.degree <= LARGE_DEGREE:
         return Form(1, *_first_factor(problem.D, P, X, Y, Fraction(1, 2)))
-    return _lifted_factor(problem, field, P, X, Y)
-
-
-def _lifted_factor(problem: Problem, field: Field, P: Poly, X: Poly, Y: Poly) -> Form:
-    """The form of degree 1 from its images modulo primes."""
     lifter = Lifter(field)
     for bundle in field.bundles():
         problem.budget.check()
@@ -123,16 +115,8 @@ def _lifted_factor(problem: Problem, field: Field, P: Poly, X: Poly, Y: Poly) ->
             parts = [_first_factor(h(problem.D), h.keeping_degree(P), h(X), h(Y), pow(2, -1, h.p)) for h in bundle]
         except BadPrimeError:
             continue
-        degrees = {zeros.degree() for _, zeros in parts}
-        if len(degrees) > 1:
-            continue
-        degree = degrees.pop()
-        proposal = lifter.add(bundle, parts if degree <= _LIFTED_DEGREE else [[R] for R, _ in parts])
-        if not proposal:
-            continue
-        R = proposal[0]
-        zeros = proposal[1] if degree <= _LIFTED_DEGREE else _polynomial_part(problem, R, degree)
-        if zeros and (form := Form(1, R, zeros)).is_form(problem):
+        form = _lifted_omega(problem, lifter, bundle, [(R, zeros.degree()) for R, zeros in parts])
+        if form is not None:
             return form
     raise AssertionError("the sequence of primes is infinite")
 
@@ -272,7 +256,7 @@ def _omega_modulo(
     `exponents` restricts the search to expansions with these, `sign` to a single one.  Raises `BadPrimeError` if
     the place has no root in F_p, or if there are two such omegas modulo p.
     """
-    c = chart(h, problem, place)
+    c = modular_chart(h, problem, place)
     if c is None:
         raise BadPrimeError("the place has no root modulo this prime")
     parts = exponential_parts(c.equation, place, exponents)

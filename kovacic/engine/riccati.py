@@ -95,7 +95,7 @@ def normalised(form: Form, problem: Problem) -> Form:
     return Form(form.degree, R, P)
 
 
-def root(form: Form, n: int, problem: Problem) -> Form:
+def root_of_form(form: Form, n: int, problem: Problem) -> Form:
     """The form of degree m/n whose n-th power is the given one up to a constant.
 
     The caller knows that it exists; an AssertionError says that it doesn't.
@@ -132,11 +132,14 @@ def singular_part(problem: Problem, valuations: Sequence[int]) -> Poly:
 
 def singular_factor(problem: Problem, R: Poly, power: int) -> Poly:
     """D^power / Q0 for Q0 = prod p^(v_p) with Q0'/Q0 = R/D, where no v_p exceeds power times the weight of p."""
-    parts = (place.factor ** (power * place.weight - residue(problem, R, place)) for place in problem.finite_places)
+    parts = (
+        place.factor ** (power * place.weight - logarithmic_residue(problem, R, place))
+        for place in problem.finite_places
+    )
     return product([problem.field.poly([1]), *parts])
 
 
-def residue(problem: Problem, R: Poly, place: Place) -> int:
+def logarithmic_residue(problem: Problem, R: Poly, place: Place) -> int:
     """The integer residue v of R/D at the roots of a factor p: R/D = v p'/p + something regular at p."""
     p = place.factor
     rest = R if place.weight == 1 else R.exact_quotient(p ** (place.weight - 1))

@@ -82,7 +82,9 @@ def search_series(problem: Problem) -> SeriesSearch | None:
     is_known = True
     for degree, theta in sorted(tried, key=lambda pair: pair[0]):
         problem.budget.check()
-        recurrences = ((centre, recurrence_about(centre, problem.S, theta)) for centre in _centres(problem, theta))
+        recurrences = (
+            (centre, recurrence_about(centre, problem.S, theta)) for centre in _possible_centres(problem, theta)
+        )
         centre, recurrence = next((pair for pair in recurrences if pair[1] is not None), (theta.num, None))
         if recurrence is None:
             is_known = False
@@ -102,7 +104,7 @@ def recurrence_about(centre: Poly, S: RatFunc, theta: RatFunc) -> TwoTerms | Non
     return TwoTerms.of(*(part(x + centre) for part in parts))
 
 
-def _centres(problem: Problem, theta: RatFunc) -> Iterator[Poly]:
+def _possible_centres(problem: Problem, theta: RatFunc) -> Iterator[Poly]:
     """Points about which a recurrence can have two terms: poles in K, the centre of all, or of theta's zeros, other poles."""
     D = problem.D
     poles = [place.factor for place in problem.finite_places]

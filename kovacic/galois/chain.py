@@ -24,13 +24,13 @@ from __future__ import annotations
 from collections.abc import Iterator
 from dataclasses import dataclass
 from fractions import Fraction
-from itertools import count
 from math import lcm
 from typing import Any, NamedTuple
 
 from flint import fmpq_mat, fmpz_mat
 
 from kovacic.algebra.extension import AlgebraicField
+from kovacic.algebra.modular import integers_by_size
 from kovacic.algebra.poly import Field, Poly
 from kovacic.algebra.ratfunc import RatFunc
 from kovacic.algebra.rationals import QQ
@@ -42,7 +42,7 @@ from kovacic.limits import check_time
 _LARGEST_HEIGHT = 50_000
 
 
-class Points(NamedTuple):
+class Divisor(NamedTuple):
     """The points over the roots of u, with y = v there: an effective divisor without two conjugate points.
 
     Over a field, or modulo a prime.
@@ -51,7 +51,7 @@ class Points(NamedTuple):
     u: Any
     v: Any
 
-    def plus(self, other: Points, h: Any) -> Points:
+    def plus(self, other: Divisor, h: Any) -> Divisor:
         """The sum of two divisors on y^2 = h, without pairs of conjugate points [Cantor]."""
         u1, v1 = self
         u2, v2 = other
@@ -59,7 +59,7 @@ class Points(NamedTuple):
         d, c1, c2 = d.xgcd(v1 + v2)
         u = u1 * u2 // (d * d)
         v = (c1 * e1 * u1 * v2 + c1 * e2 * u2 * v1 + c2 * (v1 * v2 + h)) // d % u
-        return Points(u, v)
+        return Divisor(u, v)
 
 
 @dataclass(frozen=True)
@@ -69,7 +69,7 @@ class Model:
     r: int
     h: Poly
     s: RatFunc
-    poles: tuple[tuple[Points, Fraction], ...]
+    poles: tuple[tuple[Divisor, Fraction], ...]
 
     @property
     def half(self) -> int:
@@ -107,8 +107,7 @@ def model_of(H: RatFunc) -> Model:
     """The curve in a coordinate in which the points at infinity aren't rational, and the poles of eta."""
     field = H.field
     # The first of 0, 1, -1, 2, ... at which H(r) is a number, not 0, without a root in the field.
-    for k in count():
-        r = (k + 1) // 2 * (-1) ** (k + 1)
+    for r in integers_by_size():
         above = H.num(field.poly([r]))
         below = H.den(field.poly([r]))
         if above and below and field.sqrt(above * below) is None:
@@ -136,7 +135,7 @@ def _squarefree_part(H: RatFunc) -> tuple[Poly, RatFunc]:
     return h, s
 
 
-def _pole_over(H: RatFunc, h: Poly, s: RatFunc, q: Poly) -> tuple[Points, Fraction]:
+def _pole_over(H: RatFunc, h: Poly, s: RatFunc, q: Poly) -> tuple[Divisor, Fraction]:
     """The point over the roots of q at which s y dt has a positive residue, and the residue: y = residue q'/(s q) there."""
     regular = s * q
     y = q.derivative() * regular.den * regular.num.inverse_modulo(q) % q  # for the residue 1
@@ -145,7 +144,7 @@ def _pole_over(H: RatFunc, h: Poly, s: RatFunc, q: Poly) -> tuple[Points, Fracti
     residue = rational_square_root(QQ.poly([square]))
     assert residue
     # y is proportional to the residue.
-    return Points(q, y * residue), residue
+    return Divisor(q, y * residue), residue
 
 
 def _in_x(model: Model, f: CurveFunction) -> CurveFunction:
@@ -168,7 +167,7 @@ def _in_x(model: Model, f: CurveFunction) -> CurveFunction:
 def _doubled(model: Model, multiples: list[int]) -> list[Piece] | None:
     """The pieces of a function with the divisor sum N_P P, up to functions of x alone; None if none was found."""
     one = model.h.field.poly([1])
-    total = Points(one, one * 0)
+    total = Divisor(one, one * 0)
     pieces: list[Piece] = []
     for digit in reversed(range(max(multiples).bit_length())):
         check_time()
@@ -184,7 +183,7 @@ def _doubled(model: Model, multiples: list[int]) -> list[Piece] | None:
     return None if total.u.degree else pieces
 
 
-def _small_divisor(model: Model, E: Points) -> tuple[Points, tuple[Poly, Poly] | None]:
+def _small_divisor(model: Model, E: Divisor) -> tuple[Divisor, tuple[Poly, Poly] | None]:
     """A divisor of the class of E, of degree deg h/2 at most, and (a, b) of the function a + b y that shows it."""
     if E.u.degree <= model.half:
         return E, None
@@ -196,11 +195,11 @@ def _small_divisor(model: Model, E: Points) -> tuple[Points, tuple[Poly, Poly] |
     ordinate = others * 0
     if others.degree:
         ordinate = -a * b.inverse_modulo(others) % others
-    conjugate = Points(others, ordinate)
-    return conjugate.plus(Points(common, E.v % common), model.h), (a, -b)
+    conjugate = Divisor(others, ordinate)
+    return conjugate.plus(Divisor(common, E.v % common), model.h), (a, -b)
 
 
-def _least_function(model: Model, E: Points) -> tuple[Poly, Poly]:
+def _least_function(model: Model, E: Divisor) -> tuple[Poly, Poly]:
     """(a, b) with a = b v modulo u, of the least max(deg a, deg b + deg h/2), and short."""
     first = E.u, E.u * 0
     for second in remainders(E.v, E.u):

@@ -59,7 +59,7 @@ def _group_of_series(problem: Problem, series: TerminatingSeries) -> Group | Non
     search = search_series(problem)
     if search is None or not (search.known and search.complete) or len(search.found) > 1:
         return None
-    residues = rational_residues(series.theta)
+    residues = residues_or_ground(series.theta)
     if isinstance(residues, Ground):
         return Group(GroupKind.BOREL, residues)
     return Group(GroupKind.ADDITIVE, Ground.RESIDUES, lcm(1, *(r.denominator for r in residues)))
@@ -67,7 +67,7 @@ def _group_of_series(problem: Problem, series: TerminatingSeries) -> Group | Non
 
 def _reducible_group(problem: Problem, f: SemiInvariant, F: SemiInvariant | None) -> Group:
     """The group by its rational forms of degree 2: none, y1^2 alone, y1 y2 alone, or all.  F is a known one, or None."""
-    residues = rational_residues(f.theta)
+    residues = residues_or_ground(f.theta)
     are_all_rational = False
     if F is None or _is_square_of_solution(problem, F):
         found = invariants(problem, 2)
@@ -95,7 +95,7 @@ def _is_square_of_solution(problem: Problem, F: SemiInvariant) -> bool:
     return A1 * A1 == 4 * A0 * A2
 
 
-def rational_residues(theta: RatFunc) -> list[Fraction] | Ground:
+def residues_or_ground(theta: RatFunc) -> list[Fraction] | Ground:
     """The residues of a rational function that has only simple poles with rational residues, else why that fails.
 
     A pole at infinity counts: theta must vanish there.  Residues of c p'/p are constant on p; others aren't rational.

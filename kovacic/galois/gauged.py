@@ -31,9 +31,9 @@ from kovacic.algebra.ratfunc import RatFunc
 from kovacic.algebra.rationals import QQ, to_fraction
 from kovacic.decision import CurveFunction, Decision, SemiInvariant
 from kovacic.engine.places import analyse
-from kovacic.galois.decide import rational_residues
+from kovacic.galois.decide import residues_or_ground
 from kovacic.galois.group import Ground, Group, GroupKind
-from kovacic.galois.imprimitive import SquareRootCurve, curve_of
+from kovacic.galois.imprimitive import SquareRootCurve, square_root_curve
 from kovacic.limits import Budget
 
 _COMMON_QUOTIENT = {GroupKind.TETRAHEDRAL: 3, GroupKind.OCTAHEDRAL: 2, GroupKind.ICOSAHEDRAL: 1}
@@ -94,7 +94,7 @@ def equation_group(S: RatFunc, decision: Decision, normal_form: Group, rho: RatF
     """The group of the equation with the gauge rho; None over a field with parameters if rho isn't zero."""
     if rho and S.field.ground != QQ:
         return None
-    residues = rational_residues(rho)
+    residues = residues_or_ground(rho)
     # The order of the gauge's own group; None if it is infinite.
     N = None if isinstance(residues, Ground) else lcm(1, *(residue.denominator for residue in residues))
     kind = normal_form.kind
@@ -172,7 +172,7 @@ def _finite_order(S: RatFunc, group: Group, f: SemiInvariant, rho: RatFunc, N: i
         return group.order * N
     if f.P.field != S.field:
         return None
-    curve = curve_of(analyse(S, Budget()), f)
+    curve = square_root_curve(analyse(S, Budget()), f)
     if curve.genus > 0:
         return _order_on_curve(group, f, rho, N)
     order = _torus([], _residues_on_curve(curve, rho)).order
@@ -245,7 +245,7 @@ def _is_square_on_curve(A: Poly, B: Poly, h: Poly) -> bool:
 
 def _is_integral(theta: RatFunc) -> bool:
     """True if exp(int theta) is a rational function: simple poles with integer residues only."""
-    residues = rational_residues(theta)
+    residues = residues_or_ground(theta)
     return not isinstance(residues, Ground) and all(r.denominator == 1 for r in residues)
 
 

@@ -43,12 +43,12 @@ from kovacic.algebra.modular import simple_roots
 from kovacic.algebra.poly import Field
 from kovacic.algebra.ratfunc import RatFunc
 from kovacic.algebra.rationals import QQ
-from kovacic.algebra.splitting import homomorphisms_modulo
+from kovacic.algebra.splitting import number_field_homomorphisms
 from kovacic.decision import SemiInvariant
 from kovacic.engine.places import Problem
-from kovacic.engine.riccati import residue
+from kovacic.engine.riccati import logarithmic_residue
 from kovacic.errors import LimitExceeded
-from kovacic.galois.chain import Points, function_of_order
+from kovacic.galois.chain import Divisor, function_of_order
 from kovacic.galois.group import Ground, Group, GroupKind
 from kovacic.limits import MOST_TRIALS
 
@@ -60,24 +60,24 @@ class Jacobian:
     h: Any
 
     @property
-    def zero(self) -> Points:
-        return Points(self.h**0, self.h * 0)
+    def zero(self) -> Divisor:
+        return Divisor(self.h**0, self.h * 0)
 
-    def point(self, u: Any, v: Any) -> Points:
+    def point(self, u: Any, v: Any) -> Divisor:
         """The class of the points (x, v(x)) at the roots of u.  Raises `ValueError` unless they lie on the curve."""
         if (self.h - v * v) % u:
             raise ValueError("the points don't lie on the curve")
         return self._reduced(_monic(u), v % u)
 
-    def add(self, first: Points, second: Points) -> Points:
+    def add(self, first: Divisor, second: Divisor) -> Divisor:
         """The sum of two classes."""
         return self._reduced(*first.plus(second, self.h))
 
-    def multiple(self, k: int, value: Points) -> Points:
+    def multiple(self, k: int, value: Divisor) -> Divisor:
         """k times a class, for an integer k of either sign."""
         if k < 0:
             k = -k
-            value = Points(value.u, -value.v)
+            value = Divisor(value.u, -value.v)
         result = self.zero
         while k:
             if k & 1:
@@ -86,7 +86,7 @@ class Jacobian:
             k >>= 1
         return result
 
-    def order(self, value: Points) -> int:
+    def order(self, value: Divisor) -> int:
         """The order of a class: of a multiple that is zero, without the prime factors that aren't needed."""
         order = self._vanishing_multiple(value)
         for q, _ in fmpz(order).factor():
@@ -94,7 +94,7 @@ class Jacobian:
                 order //= int(q)
         return order
 
-    def _vanishing_multiple(self, value: Points) -> int:
+    def _vanishing_multiple(self, value: Divisor) -> int:
         """Some n > 0 with n D = 0, from the interval of Hasse and Weil in which the number of all classes lies.
 
         n = least + i s - j for one of the giant steps i and of the s baby steps j [Shanks].
@@ -121,14 +121,14 @@ class Jacobian:
             current = self.add(current, giant)
         raise AssertionError("the number of classes is in the interval of Hasse and Weil")
 
-    def _reduced(self, u: Any, v: Any) -> Points:
+    def _reduced(self, u: Any, v: Any) -> Divisor:
         while 2 * u.degree() >= self.h.degree():
             u = _monic((self.h - v * v) // u)
             v = -v % u
-        return Points(u, v)
+        return Divisor(u, v)
 
 
-def _key(divisor: Points) -> tuple[Any, ...]:
+def _key(divisor: Divisor) -> tuple[Any, ...]:
     """The coefficients, which FLINT's polynomials can be told by in a dictionary."""
     return tuple(divisor.u), tuple(divisor.v)
 
@@ -179,7 +179,7 @@ def imprimitive_group(problem: Problem, f: SemiInvariant) -> Group:
         return Group(GroupKind.INFINITE_DIHEDRAL, Ground.IRRATIONAL_EXPONENT)
     if f.P.field != problem.field:  # three pairs of lines: only the quaternion group has them
         return Group(GroupKind.DICYCLIC, Ground.THREE_PAIRS, 2)
-    curve = curve_of(problem, f)
+    curve = square_root_curve(problem, f)
     l = lcm(1, *(r.denominator for r in curve.residues))  # noqa: E741 - as in the module's text
     if curve.genus == 0:
         return Group(GroupKind.DICYCLIC, Ground.GENUS_ZERO, l)
@@ -191,13 +191,13 @@ def imprimitive_group(problem: Problem, f: SemiInvariant) -> Group:
         return Group(GroupKind.IMPRIMITIVE, Ground.UNDETERMINED, max(l, 2))
 
 
-def curve_of(problem: Problem, f: SemiInvariant) -> SquareRootCurve:
+def square_root_curve(problem: Problem, f: SemiInvariant) -> SquareRootCurve:
     """The valuations of g = f^2 and the residues of eta."""
     R = 2 * (f.theta * problem.D).num
     points = []
     growth = 2 * f.P.degree
     for place in problem.finite_places:
-        e = residue(problem, R, place)
+        e = logarithmic_residue(problem, R, place)
         growth += e * place.degree
         if e:
             points.append(CurvePoint(place.factor, e, _residue_of_eta(e, place.delta)))
@@ -261,7 +261,7 @@ def _small_homomorphisms(field: Field, genus: int) -> Iterator[Homomorphism]:
     if field.ground != QQ:
         return iter(())
     primes = (p for p in count(5) if fmpz(p).is_prime())
-    tried = islice((h for p in primes for h in homomorphisms_modulo(field, p)), MOST_TRIALS)
+    tried = islice((h for p in primes for h in number_field_homomorphisms(field, p)), MOST_TRIALS)
     return takewhile(lambda h: h.p**genus <= 10**7, tried)
 
 

@@ -35,7 +35,7 @@ from kovacic.algebra.poly import Field, Poly
 from kovacic.algebra.ratfunc import RatFunc
 from kovacic.algebra.rationals import QQ
 from kovacic.algebra.sparse import by_power
-from kovacic.engine.invariants import bounds, least_valuation
+from kovacic.engine.invariants import bounds, least_invariant_valuation
 from kovacic.engine.local import irregular_difference_squared
 from kovacic.engine.places import Kind, Place, Problem, analyse
 from kovacic.engine.riccati import Form, singular_part
@@ -353,7 +353,7 @@ def zeros_of_forms(problem: Problem, m: int) -> Numbers | None:
             roots.append(ExponentRoot(place.difference_squared, largest))
             room -= largest
             continue
-        valuation = least_valuation(place, m, logarithms=False)
+        valuation = least_invariant_valuation(place, m, logarithms=False)
         if valuation is None:
             return None
         room -= valuation * place.degree

@@ -39,7 +39,7 @@ from fractions import Fraction
 from itertools import combinations
 from math import gcd, lcm
 
-from kovacic.algebra.extension import root, root_modulo
+from kovacic.algebra.extension import root_modulo, root_of_constant
 from kovacic.algebra.partial_fractions import decompose
 from kovacic.algebra.poly import Poly, Scalar
 from kovacic.algebra.ratfunc import RatFunc
@@ -201,7 +201,7 @@ def scales(places: list[Place], n: int) -> list[Poly]:
     field = place.num.field
     one = field.poly([1])
     if place.degree == 1:
-        return [v[0]] if root(v[0], n) is None else [one]
+        return [v[0]] if root_of_constant(v[0], n) is None else [one]
     scales = [one] if n == 3 else [one, -one]
     if place.degree == 2 and n == 2:
         # v = q w^2 has the norm (q N(w))^2, and (v + sqrt N(v))^2 = v (tr v + 2 sqrt N(v)).

@@ -18,7 +18,7 @@ from sympy import Mul, exp
 from sympy.polys.polyerrors import HeuristicGCDFailed
 from sympy.polys.polytools import parallel_poly_from_expr
 
-from kovacic.algebra.extension import root
+from kovacic.algebra.extension import root_of_constant
 from kovacic.algebra.poly import Poly
 from kovacic.algebra.ratfunc import RatFunc
 from kovacic.algebra.rationals import QQ
@@ -352,7 +352,7 @@ class Writer:
 
     def root(self, value: Poly, n: int) -> Expr:
         """A square (n = 2) or cubic (n = 3) root, in the field where it has one; a cubic one is real for real values."""
-        inside = root(value, n)
+        inside = root_of_constant(value, n)
         if inside is not None:
             return self.constant(inside)
         if n == 3 and self.is_negative(value):

@@ -33,12 +33,10 @@ from kovacic.limits import MOST_TRIALS
 from kovacic.verify.factors import factors_of
 from kovacic.verify.primes import BadPrimeError, Homomorphism, homomorphisms_modulo
 
-#: Primes are taken upwards from here.
-_PRIMES_FROM = 1 << 40
+#: Primes k l + 1 are taken upwards from here for a prime factor l of n; an l below it leaves them within a machine word.
+_PRIMES_FROM = 1 << 50
 #: Values of x that are tried under each homomorphism.
 _VALUES_OF_X = 40
-#: The largest prime factor of n for which there are such primes within a machine word.
-_LARGEST_FACTOR = 1 << 50
 
 
 def is_least_power(H: RatFunc, f: CurveFunction, n: int) -> bool:
@@ -51,7 +49,7 @@ def is_least_power(H: RatFunc, f: CurveFunction, n: int) -> bool:
     if G is None:
         return False
     primes = [int(q) for q, _ in fmpz(n).factor()]
-    if any(q > _LARGEST_FACTOR for q in primes):
+    if any(q > _PRIMES_FROM for q in primes):
         raise LimitExceeded("the order has a prime factor of more than 15 digits", limit="bits")
     return all(_is_no_power(f, G, q) for q in primes)
 

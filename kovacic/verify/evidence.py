@@ -110,7 +110,7 @@ def dimension_modulo(
     return nullity(forms, degree + 1, count)
 
 
-def ordinary_point(den: Any) -> int:
+def least_ordinary_point(den: Any) -> int:
     """The least natural number at which a polynomial modulo a prime doesn't vanish."""
     at = 0
     while not int(den(at)):
@@ -254,7 +254,7 @@ class Inspector:
         self.budget.check_degree(degree, f"an invariant of degree {m}")
 
         def is_small(h: Homomorphism) -> bool:
-            at = ordinary_point(h.keeping_degree(self.S.den))
+            at = least_ordinary_point(h.keeping_degree(self.S.den))
             return self._dimension(h, at, m, valuations, degree) <= bound
 
         return _under_some(islice(homomorphisms(self.S.field), _TRIED_FOR_A_DIMENSION), is_small)

@@ -20,7 +20,7 @@ from kovacic.verify.evidence import Inspector
 from kovacic.verify.factors import inverse
 from kovacic.verify.identity import form_numerators, is_rational, rational_residues
 from kovacic.verify.torsion import order_holds
-from kovacic.verify.zeros import residue
+from kovacic.verify.zeros import residue_by_digits
 
 #: The name of a family, as in `kovacic.galois.Kind`, and its parameter.
 _Named = tuple[str, int | None]
@@ -113,7 +113,7 @@ def _inverse_has_an_integral(inspector: Inspector, F: SemiInvariant) -> bool:
         rest, order = num.remove(point.factor)
         if order:
             modulus = point.factor**order
-            if residue(den * inverse(rest, modulus) % modulus, point.factor, order):
+            if residue_by_digits(den * inverse(rest, modulus) % modulus, point.factor, order):
                 return False
     return True
 

@@ -16,7 +16,7 @@ from flint import fmpz, nmod_poly
 
 from kovacic.verify.local import Point, solution_with_exponential_part
 from kovacic.verify.primes import BadPrimeError, Homomorphism, translated
-from kovacic.verify.series import rational_candidate, square_root
+from kovacic.verify.series import rational_candidate, square_root_of_series
 from kovacic.verify.zeros import ZeroCounts
 
 
@@ -88,7 +88,7 @@ def first_terms(at: Chart) -> Iterator[Any]:
     if at.nu > 1:
         middle = nmod_poly([at.nu * half], at.p).left_shift(at.nu - 1)
         for root in _square_roots(int(s[0]), at.p):
-            yield square_root(s, root, at.nu) + middle
+            yield square_root_of_series(s, root, at.nu) + middle
         return
     difference = at.place.difference
     if difference is None:

@@ -114,9 +114,9 @@ class AtRoot(Homomorphism):
 
 
 @lru_cache(maxsize=1024)
-def prime(index: int) -> int:
+def kernel_prime(index: int) -> int:
     """The kernel's prime number `index`, counted downwards from 2^62."""
-    candidate = _KERNEL_PRIMES_BELOW - 1 if index == 0 else prime(index - 1) - 2
+    candidate = _KERNEL_PRIMES_BELOW - 1 if index == 0 else kernel_prime(index - 1) - 2
     while not fmpz(candidate).is_prime():
         candidate -= 2
     return candidate
@@ -151,7 +151,7 @@ def homomorphisms(field: Field) -> Iterator[Homomorphism]:
     Each prime has one point only: whether a number is a square modulo p is the same at all points.
     """
     for index in count():
-        yield from homomorphisms_modulo(field, prime(index), points=1)
+        yield from homomorphisms_modulo(field, kernel_prime(index), points=1)
 
 
 def roots_modulo(polynomial: Poly, h: Homomorphism) -> list[int]:

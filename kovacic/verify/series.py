@@ -81,7 +81,7 @@ def solution_at_singular_point(second: Any, first: Any, zeroth: Any, count: int)
     return u
 
 
-def square_root(series: Any, root: int, count: int) -> Any:
+def square_root_of_series(series: Any, root: int, count: int) -> Any:
     """The square root with the constant term `root`, not 0, of a series, to `count` terms: coefficient by coefficient."""
     p = series.modulus()
     half = pow(2 * root, -1, p)

@@ -83,7 +83,7 @@ def _differential(H: RatFunc, homomorphism: Homomorphism) -> Differential:
     return Differential(h, T, M)
 
 
-def _class_of_poles(eta: Differential, residues: set[Fraction]) -> Points:
+def _class_of_poles(eta: Differential, residues: set[Fraction]) -> ReducedDivisor:
     """D: with 2 P for P - P', the sum of the 2 l Delta P."""
     curve = Curve(eta.h)
     l = lcm(*(residue.denominator for residue in residues))  # noqa: E741 - as in the module's text
@@ -103,7 +103,7 @@ def _class_of_poles(eta: Differential, residues: set[Fraction]) -> Points:
     return total
 
 
-def _pole_modulo(eta: Differential, q: Any, by_square: dict[int, Fraction]) -> tuple[Points, Fraction]:
+def _pole_modulo(eta: Differential, q: Any, by_square: dict[int, Fraction]) -> tuple[ReducedDivisor, Fraction]:
     """The points over the roots of q, a double factor of M, where the residue of eta is positive, and this residue."""
     p = q.modulus()
     y = q.derivative() * (eta.M // (q * q)) * _inverse_modulo(eta.T // q, q) % q  # where the residue is 1
@@ -111,7 +111,7 @@ def _pole_modulo(eta: Differential, q: Any, by_square: dict[int, Fraction]) -> t
     residue = by_square.get(int(square[0]))
     if square.degree() > 0 or residue is None:
         raise BadPrimeError("a residue is another one")
-    return Points(q, y * (residue.numerator * pow(residue.denominator, -1, p) % p)), residue
+    return ReducedDivisor(q, y * (residue.numerator * pow(residue.denominator, -1, p) % p)), residue
 
 
 def _inverse_modulo(value: Any, modulus: Any) -> Any:
@@ -119,7 +119,7 @@ def _inverse_modulo(value: Any, modulus: Any) -> Any:
     return (value % modulus).xgcd(modulus)[1]
 
 
-class Points(NamedTuple):
+class ReducedDivisor(NamedTuple):
     """The points over the roots of the monic u, with y = v there [Mumford]: an effective divisor without pairs P + P'."""
 
     u: Any
@@ -137,10 +137,10 @@ class Curve:
     h: Any
 
     @property
-    def zero(self) -> Points:
-        return Points(self.h**0, self.h * 0)
+    def zero(self) -> ReducedDivisor:
+        return ReducedDivisor(self.h**0, self.h * 0)
 
-    def multiple(self, n: int, E: Points) -> Points:
+    def multiple(self, n: int, E: ReducedDivisor) -> ReducedDivisor:
         """n E, reduced, for n > 0: by doubling, from the leading binary digit of n on."""
         total = self.zero
         for digit in f"{n:b}":
@@ -149,7 +149,7 @@ class Curve:
                 total = self.sum(total, E)
         return total
 
-    def sum(self, first: Points, second: Points) -> Points:
+    def sum(self, first: ReducedDivisor, second: ReducedDivisor) -> ReducedDivisor:
         """The sum without pairs P + P', which are over the roots of d, reduced [Cantor].
 
         The functions u1 u2, u1 (y - v2), u2 (y - v1) and (y - v1)(y - v2) vanish on the sum; what they generate
@@ -166,4 +166,4 @@ class Curve:
             others = (v * v - self.h) // u
             u = others * pow(int(others.leading_coefficient()), -1, u.modulus())
             v = -v % u
-        return Points(u, v)
+        return ReducedDivisor(u, v)

@@ -60,7 +60,7 @@ def residue_over_leading_root(N: Poly, q: Poly, p: Poly, nu: int) -> Poly:
         root = (root + root * (1 - unit * root * root % step) / 2) % step
         over_q = over_q * (2 - q * over_q % step) % step
     R = unit * root % modulus
-    return residue(R * over_q % modulus, p, nu)
+    return residue_by_digits(R * over_q % modulus, p, nu)
 
 
 def _newton_moduli(p: Poly, nu: int) -> Iterator[Poly]:
@@ -90,7 +90,7 @@ def _value_modulo(polynomial: Poly, theta: Poly, modulus: Poly) -> Poly:
     return value
 
 
-def residue(H: Poly, p: Poly, nu: int) -> Poly:
+def residue_by_digits(H: Poly, p: Poly, nu: int) -> Poly:
     """The residue of H/p^nu at the class of x in K[x]/p, by Hermite's reduction of the highest powers of p.
 
     B p'/p^e = (-B/((e-1) p^(e-1)))' + B'/((e-1) p^(e-1)) for e > 1: the remainder of a digit of H is carried to the next.
@@ -120,8 +120,6 @@ def _digits(H: Poly, p: Poly, count: int) -> list[Poly]:
 
 #: Values that are tested: one that isn't a square is one modulo all of the primes with a probability of 2^-40.
 _SQUARE_TESTS = 40
-#: Norms come first, which cost less than a hundredth of the roots at degree 60; two of them tell as a rule.
-_NORMS = 8
 
 
 @dataclass(frozen=True)
@@ -231,7 +229,8 @@ def is_no_square(element: Poly, p: Poly) -> bool:
     """
     if element.degree <= 0 and p.field.sqrt(element) is not None:  # which spares the tests
         return False
-    tests = chain(islice(_norms(element, p), _NORMS), islice(_values_at_roots(element, p), _SQUARE_TESTS))
+    # Norms come first: they cost less than a hundredth of the roots at degree 60, and two of them tell as a rule.
+    tests = chain(islice(_norms(element, p), _SQUARE_TESTS), islice(_values_at_roots(element, p), _SQUARE_TESTS))
     return any(fmpz(value).jacobi(h.p) == -1 for h, value in tests)
 
 

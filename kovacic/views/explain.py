@@ -17,7 +17,7 @@ from kovacic.algebra.ratfunc import RatFunc
 from kovacic.answer import Answer
 from kovacic.decision import Exclusion, NoInvariant, NoRationalOmega, SemiInvariant, Status, Structure
 from kovacic.engine.places import Problem
-from kovacic.engine.riccati import residue
+from kovacic.engine.riccati import logarithmic_residue
 from kovacic.equation import parameters_of
 from kovacic.errors import KovacicError, LimitExceeded
 from kovacic.limits import MOST_CHARACTERS, bounded_work
@@ -328,5 +328,5 @@ def rational_form(form: SemiInvariant, problem: Problem) -> RatFunc:
     R = (form.theta * problem.D).num
     F = RatFunc(form.P)
     for place in problem.finite_places:
-        F = F * RatFunc(place.factor) ** residue(problem, R, place)
+        F = F * RatFunc(place.factor) ** logarithmic_residue(problem, R, place)
     return F

@@ -28,7 +28,7 @@ from kovacic.decision import (
 )
 from kovacic.limits import Budget
 from kovacic.verify import GroupClaim
-from kovacic.verify.evidence import INVARIANT_DEGREE, Inspector, ordinary_point, room
+from kovacic.verify.evidence import INVARIANT_DEGREE, Inspector, least_ordinary_point, room
 from kovacic.verify.primes import homomorphisms, roots_modulo
 from kovacic.verify.zeros import zero_counts
 
@@ -71,7 +71,7 @@ def forged_evidence(S: RatFunc, structure: Structure) -> Iterator[tuple[Evidence
         bounds = room(points, m)
         degree = -1 if bounds is None else bounds[1]
         tried = primes if m == INVARIANT_DEGREE[structure] else primes[:1]
-        forms += [NoInvariant(m, p, ordinary_point(h(S.den)), degree) for p in tried]
+        forms += [NoInvariant(m, p, least_ordinary_point(h(S.den)), degree) for p in tried]
     counts = zero_counts(points)
     if counts is not None:
         omegas += [NoRationalOmega(counts.largest), *(NoRationalOmega(counts.largest, primes[0], n) for n in names)]

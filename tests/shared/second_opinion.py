@@ -55,7 +55,7 @@ from kovacic.enclosure.matrices import Matrix, adjugate, fundamental, matrix_pro
 from kovacic.enclosure.points import ExactPoint, as_point, to_acb
 from kovacic.enclosure.problem import as_problem
 from kovacic.engine.riccati import Form, normalised
-from kovacic.engine.riccati import root as root_of
+from kovacic.engine.riccati import root_of_form as root_of
 from kovacic.limits import check_time
 
 Found = TypeVar("Found")

@@ -41,7 +41,7 @@ from kovacic.verify.series import (
     rational_candidate,
     solution_at_singular_point,
     solutions_at_ordinary_point,
-    square_root,
+    square_root_of_series,
 )
 from kovacic.verify.torsion import order_holds
 from kovacic.verify.zeros import largest_natural_sum, residue_over_leading_root, zero_counts
@@ -75,7 +75,7 @@ def test_square_roots_of_series_have_their_squares(tail: list[int], count: int) 
     p = PRIMES[-1]
     series = nmod_poly([9, *(c % p for c in tail)], p)
     for root in (3, p - 3):
-        found = square_root(series, root, count)
+        found = square_root_of_series(series, root, count)
         assert int(found[0]) == root
         assert not (found * found - series).truncate(count)
 
