@@ -75,10 +75,10 @@ def closed_form(answer: Answer) -> ClosedForm | None:
 @limited
 def in_letters(answer: Answer) -> ClosedForm:
     """The closed form in the user's variable, and in the letters of S for constants."""
-    from kovacic.special.choice import solutions
+    from kovacic.special.choice import chosen_form
 
     is_changed = answer.change is not None
-    found = solutions(
+    found = chosen_form(
         answer.S, answer.decision, answer.gauge, answer.variable, Budget(answer.limits), is_changed=is_changed
     )
     return _in_given_variable(answer, found)  # type: ignore[no-any-return]

@@ -17,7 +17,6 @@ divided by its value and multiplied by t to the exponent it is the Frobenius sol
 from __future__ import annotations
 
 import math
-import sys
 from collections.abc import Callable
 from contextlib import suppress
 from dataclasses import dataclass
@@ -37,9 +36,9 @@ from kovacic.enclosure.matrices import Matrix, State, fundamental, inverse_matri
 from kovacic.enclosure.points import ExactPoint, kept_at_precision, to_acb
 from kovacic.enclosure.singular import Singular, power_of
 from kovacic.errors import LimitExceeded
-from kovacic.limits import MOST_TRIALS, Budget, Limits, bounded_work
+from kovacic.limits import MOST_TRIALS, Budget, Limits
 from kovacic.special.pullback import Pullback, StandardForm
-from kovacic.special.search import find
+from kovacic.special.search import SEARCH_WORK, find
 
 _LEG_BITS = 64  # in which the course of a leg is proven
 _MOST_FROM_ZERO = 2_000  # digits up to which the functions cost less than the series at a singular point (measured)
@@ -53,13 +52,12 @@ class NotServed(Exception):
 
 
 @lru_cache(maxsize=64)
-def classical_of(S: RatFunc, work: int = sys.maxsize) -> Classical | None:
+def classical_of(S: RatFunc, work: int = SEARCH_WORK) -> Classical | None:
     """The standard equation that S is pulled back from over Q, or None if none with short parameters is found in this work."""
     if S.field != QQ:
         return None
     budget = Budget(Limits(constants=1))
-    with bounded_work(work):
-        search = find(S, budget, extended=False)
+    search = find(S, budget, extended=False, work=work)
     if search.stopped and budget.seconds_left <= 0:  # an exception isn't kept
         raise LimitExceeded(search.stopped, limit="seconds")
     found = search.pullback

@@ -28,7 +28,7 @@ from kovacic.parametric.api import conditions_of
 from kovacic.parametric.assumptions import NOTHING_ASSUMED, Assumptions
 from kovacic.reading.change_of_variable import function_of_x, is_in_power, real_values, user_variable
 from kovacic.solution import Solution, solve
-from kovacic.special.choice import solutions
+from kovacic.special.choice import chosen_form
 from kovacic.special.mathieu import mathieu
 from kovacic.special.search import BySign, by_sign, special_functions
 from kovacic.special.writer import Wanted, WrittenPair
@@ -52,7 +52,7 @@ def find_basis(question: Question, budget: Budget, *, special: bool = False) -> 
         solution = solve(question.equation, assume=known.to_dict(), limits=limits)
     if solution.case is not None and not special:
         is_changed = question.equation.change is not None
-        form = solutions(
+        form = chosen_form(
             solution.S, solution.decision, solution.gauge, solution.variable, budget, is_changed=is_changed
         )
         # with what is assumed of letters

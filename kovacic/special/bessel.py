@@ -33,8 +33,9 @@ from kovacic.limits import count_work
 from kovacic.special import prices
 from kovacic.special.maps import (
     HALF,
+    TRIAL,
     Fibre,
-    Number,
+    Surd,
     as_function_of_x,
     fibres,
     irregular_places,
@@ -44,7 +45,6 @@ from kovacic.special.maps import (
     zeros,
 )
 from kovacic.special.pullback import (
-    TRIAL,
     Pullback,
     StandardEquation,
     StandardForm,
@@ -52,7 +52,7 @@ from kovacic.special.pullback import (
     ValueAndSlope,
     each,
     is_integer,
-    square_root,
+    principal_root,
 )
 
 if TYPE_CHECKING:
@@ -113,7 +113,7 @@ class Bessel(StandardEquation):
             n = -n
             r = -r
         half = fmpq(1, 2)
-        mu = square_root(4 * M + 1) / 2
+        mu = principal_root(4 * M + 1) / 2
         order, factor = (mu, q) if q else (2 * mu, -r)
 
         def first(order: Any) -> StandardSolution:
@@ -205,7 +205,7 @@ def written_pair(writer: Writer, nu_squared: Poly, t: RatFunc) -> WrittenPair:
         kinds, bracket = (sympy.besseli, sympy.besselk), -rate
     elif degree is not None:  # J_nu = sqrt(2 z/pi) j_n
         kinds, order, power, bracket = (sympy.jn, sympy.yn), degree, Fraction(3, 4), rate / z
-    before = writer.factor(t, [(Number(nu.part * 0 + power), t)])
+    before = writer.factor(t, [(Surd(nu.part * 0 + power), t)])
     first, second = ((before, kind(writer.constant(order), z, evaluate=False)) for kind in kinds)
     return writer.pair(first, second, lambda: bracket)
 

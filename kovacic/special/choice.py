@@ -1,4 +1,4 @@
-"""The form in which two solutions are written.  Every door shows what `solutions` chooses here; nothing else decides.
+"""The form in which two solutions are written.  Every door shows what `chosen_form` chooses here; nothing else decides.
 
 An equation with Liouvillian solutions has several forms: elementary functions with their kin (Ei, erf, logarithms over roots);
 special functions, which are those of a standard equation with its actual parameters and, in case 3, Klein's; y1 times an
@@ -39,15 +39,13 @@ from kovacic.closed_form.terminating import hypergeometric_pair
 from kovacic.compatibility import cached_property
 from kovacic.decision import Decision, TerminatingSeries
 from kovacic.errors import LimitExceeded, VerificationFailed
-from kovacic.limits import MOST_CHARACTERS, Budget, bounded_work, check_time
+from kovacic.limits import MOST_CHARACTERS, Budget, check_time
 from kovacic.numbers.numerals import as_text
 from kovacic.special.gauss import klein_pullback
 from kovacic.special.pullback import GaugeTransform, Pullback
 from kovacic.special.search import find, find_transform, pair_for
 from kovacic.special.writer import Wanted
 
-#: Units of work after which the search for a pull-back ends if another form is known.
-_SEARCH = 6000
 #: The working precision of the formula that is to be stable, in digits; half of them are to be left.
 _STABLE_DIGITS = 30
 #: Characters that a term of a polynomial has at least, as + x**2.
@@ -103,7 +101,7 @@ def shortest(forms: Sequence[Any]) -> Any:
     return forms[given.index(best(given))]
 
 
-def solutions(
+def chosen_form(
     S: RatFunc,
     decision: Decision,
     gauge: RatFunc,
@@ -123,7 +121,7 @@ def solutions(
 
     >>> import kovacic
     >>> answer = kovacic.solve("2/x^2 - 1")
-    >>> form = solutions(answer.S, answer.decision, answer.gauge)
+    >>> form = chosen_form(answer.S, answer.decision, answer.gauge)
     >>> form.y1, form.checked
     ((x*cos(x) - sin(x))/x, 'exact')
     """
@@ -214,23 +212,18 @@ class _Equation:
             return self._special_forms(pullback)
         is_left = isinstance(structure, Triangular) and isinstance(structure.primitive, OpenPrimitive)
         kind = FormKind.INTEGRAL if is_left else FormKind.ELEMENTARY
-        length = structure.length
-        forms = [PairForm(kind, length, partial(self._written, structure))]
-        if isinstance(structure, Triangular) and not is_left and length > MOST_CHARACTERS:
-            left = replace(structure, primitive=OpenPrimitive(LONG.format(length)))
-            forms.append(PairForm(FormKind.INTEGRAL, left.length, partial(self._written, left)))
-        return forms
-
-    def _written(self, structure: ClosedStructure) -> ClosedForm:
-        return written(structure, self.S, self.gauge, self.variable)
+        structures = [(kind, structure)]
+        if isinstance(structure, Triangular) and not is_left and structure.length > MOST_CHARACTERS:
+            left = replace(structure, primitive=OpenPrimitive(LONG.format(structure.length)))
+            structures.append((FormKind.INTEGRAL, left))
+        return [
+            PairForm(kind, form.length, partial(written, form, self.S, self.gauge, self.variable))
+            for kind, form in structures
+        ]
 
     def _source(self) -> Pullback | GaugeTransform | None:
         """A pull-back of a standard equation with its actual parameters, if it is found soon."""
-        with suppress(LimitExceeded), bounded_work(_SEARCH):
-            found = find(self.S, self.budget, extended=False).pullback
-            if found is not None:
-                return found
-        return find_transform(self.S, self.budget)
+        return find(self.S, self.budget, extended=False).pullback or find_transform(self.S, self.budget)
 
     def _special_forms(self, source: Pullback | GaugeTransform | None) -> list[PairForm]:
         """The solutions of that standard equation."""

@@ -35,7 +35,7 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 from fractions import Fraction
 from functools import partial
-from itertools import chain, islice, product
+from itertools import chain, product
 from math import nan
 from typing import TYPE_CHECKING, Any, ClassVar
 
@@ -51,7 +51,7 @@ from kovacic.compatibility import cached_property
 from kovacic.decision import Structure
 from kovacic.engine.places import Problem, analyse, rational_square_root
 from kovacic.special import prices
-from kovacic.special.maps import HALF, Number, Point, coverings, regular_points
+from kovacic.special.maps import HALF, Orbit, Surd, coverings, regular_points
 from kovacic.special.pullback import (
     Pullback,
     StandardEquation,
@@ -62,7 +62,7 @@ from kovacic.special.pullback import (
     each,
     ends,
     is_integer,
-    square_root,
+    principal_root,
 )
 
 if TYPE_CHECKING:
@@ -70,9 +70,6 @@ if TYPE_CHECKING:
     from kovacic.special.writer import Writer, WrittenFactor, WrittenPair, WrittenTerm
 
 
-#: Sets of exponent differences for which coverings are sought, and ramification points of f that may be among apparent ones.
-_MOST_CHOICES = 32
-_HIDDEN = 3
 #: Of places between 0 and 1, in this order.
 _PLACE_DENOMINATORS = (1, 2, 10, 100, 10**4, 10**8)
 #: Points at which solutions are tested for realness.
@@ -97,9 +94,7 @@ class Gauss(StandardEquation):
     def S(self) -> RatFunc:
         z = self.A.field.poly([0, 1])
         w = z - 1
-        A = self.A
-        B = self.B
-        C = self.C
+        A, B, C = self.A, self.B, self.C
         return RatFunc(w * w * (A - 1) + z * z * (B - 1) + z * w * (1 - A - B + C), z * z * w * w * 4)
 
     @classmethod
@@ -139,7 +134,7 @@ class Gauss(StandardEquation):
             return _at_one_point(first)
         return _at_two_points(first.regular, first.swapped.regular)
 
-    def integers(self, writer: Writer, f: RatFunc) -> Iterator[Number]:
+    def integers(self, writer: Writer, f: RatFunc) -> Iterator[Surd]:
         """Degrees of polynomials, and the exponent differences."""
         given = _GaussForm.of(self, writer, f)
         for form in given.arranged:
@@ -161,7 +156,7 @@ class Gauss(StandardEquation):
         return min(sizes, key=lambda item: float(item[0]))[1]
 
     def form(self, n: fmpq_poly, d: fmpq_poly, coordinate: int) -> StandardForm:
-        return _values(_maps(n, d, *map(square_root, self.parameters))[coordinate])
+        return _values(_maps(n, d, *map(principal_root, self.parameters))[coordinate])
 
 
 def klein_pullback(found: Covariants) -> Pullback:
@@ -172,11 +167,10 @@ def klein_pullback(found: Covariants) -> Pullback:
     return Pullback(Gauss(*squares), found.J)
 
 
-def _shifted(points: list[Point], apparent: list[Point]) -> Iterator[Pullback]:
+def _shifted(points: list[Orbit], apparent: list[Orbit]) -> Iterator[Pullback]:
     """For exponent differences that are the same up to signs and integers: those between 0 and 1, and those of S."""
-    choices = islice(product(*map(_reduced_differences, points)), _MOST_CHOICES)
-    hidden = min(sum(point.degree for point in apparent), _HIDDEN)
-    for chosen in dict.fromkeys([*choices, tuple(points)]):
+    hidden = sum(point.degree for point in apparent)  # ramification points of f may be among apparent ones
+    for chosen in chain(product(*map(_reduced_differences, points)), [points]):
         for f, *squares in coverings(list(chosen), [], hidden):
             yield Pullback(Gauss(*squares), f)
             # Contiguous functions have sums of all three that differ by even integers.
@@ -187,7 +181,7 @@ def _shifted(points: list[Point], apparent: list[Point]) -> Iterator[Pullback]:
                     yield Pullback(Gauss(*moved), f)
 
 
-def _reduced_differences(point: Point) -> list[Point]:
+def _reduced_differences(point: Orbit) -> list[Orbit]:
     """With the differences from 0 to 1 that are the same up to sign and integers, the smaller one first."""
     delta = rational_square_root(point.square)
     if delta is None:
@@ -206,9 +200,9 @@ class _GaussForm:
 
     writer: Writer
     f: RatFunc
-    alpha: Number
-    beta: Number
-    gamma: Number
+    alpha: Surd
+    beta: Surd
+    gamma: Surd
 
     @classmethod
     def of(cls, equation: Gauss, writer: Writer, f: RatFunc) -> _GaussForm:
@@ -325,11 +319,11 @@ class _GaussForm:
         return self.turned if is_pole else self
 
     @property
-    def upper(self) -> list[Number]:
+    def upper(self) -> list[Surd]:
         return [(1 - self.alpha - self.beta + sign * self.gamma) * HALF for sign in (-1, 1)]
 
     @property
-    def degree(self) -> Number:
+    def degree(self) -> Surd:
         """N with a = -N."""
         return (self.alpha + self.beta + self.gamma - 1) * HALF
 

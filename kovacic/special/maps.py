@@ -28,7 +28,7 @@ ramification elsewhere, which the apparent places show.
 
 Reference: M. van Hoeij & R. Vidunas, J. Algebra 441 (2015) 626-659 [vHV15], for the patterns of branching.
 
-A `Number` is a parameter of special functions, linear in square roots of constants of the field.
+A `Surd` is a parameter of special functions, linear in square roots of constants of the field.
 """
 
 from __future__ import annotations
@@ -53,39 +53,42 @@ HALF = Fraction(1, 2)
 
 
 @dataclass(frozen=True)
-class Number:
+class Surd:
     """part + sum of coefficient * sqrt(square) over `roots`, pairs (square, coefficient) of constants of one field."""
 
     part: Poly
     roots: tuple[tuple[Poly, Poly], ...] = ()
 
-    def __add__(self, other: Number | Poly | Scalar) -> Number:
-        if not isinstance(other, Number):
-            return Number(self.part + other, self.roots)
+    def __add__(self, other: Surd | Poly | Scalar) -> Surd:
+        if not isinstance(other, Surd):
+            return Surd(self.part + other, self.roots)
         total = dict(self.roots)
         for square, coefficient in other.roots:
             total[square] = coefficient + total.get(square, 0)
-        return Number(self.part + other.part, tuple((square, c) for square, c in total.items() if c))
+        return Surd(self.part + other.part, tuple((square, c) for square, c in total.items() if c))
 
     __radd__ = __add__
 
-    def __mul__(self, factor: Poly | Scalar) -> Number:
-        return Number(self.part * factor, tuple((square, c * factor) for square, c in self.roots))
+    def __mul__(self, factor: Poly | Scalar) -> Surd:
+        return Surd(self.part * factor, tuple((square, c * factor) for square, c in self.roots))
 
     __rmul__ = __mul__
 
-    def __neg__(self) -> Number:
+    def __neg__(self) -> Surd:
         return self * -1
 
-    def __sub__(self, other: Number | Poly | Scalar) -> Number:
+    def __sub__(self, other: Surd | Poly | Scalar) -> Surd:
         return self + -other
 
-    def __rsub__(self, other: Poly | Scalar) -> Number:
+    def __rsub__(self, other: Poly | Scalar) -> Surd:
         return -self + other
 
 
-#: Conjugate poles up to which roots are taken where the field has parameters: factoring there takes long.
+#: Conjugate poles up to which roots are taken where the field has parameters: for f = (x + b)/(x^3 + a x + 1) a cubic root
+#: takes minutes in which nothing checks the time.
 _MOST_CONJUGATE_POLES = 2
+#: Units of work for a trial of a function f; a point of a fibre, and a pair of fibres, are one unit.
+TRIAL = 30
 
 
 def irregular_places(problem: Problem) -> list[Place]:
@@ -214,8 +217,8 @@ def scales(places: list[Place], n: int) -> list[Poly]:
 
 
 @dataclass(frozen=True)
-class Point:
-    """All roots of a polynomial, or infinity, and the square of the exponent difference there."""
+class Orbit:
+    """Conjugate points: all roots of a polynomial, or infinity, with the square of the exponent difference there."""
 
     factor: Poly
     at_infinity: bool
@@ -226,21 +229,21 @@ class Point:
         return self.factor.degree
 
 
-def regular_points(problem: Problem, *, apparent: bool | None = None) -> list[Point]:
+def regular_points(problem: Problem, *, apparent: bool | None = None) -> list[Orbit]:
     """The regular places whose roots have one exponent difference: all, the apparent ones, or the others."""
     places = (place for place in problem.places if place.kind is Kind.REGULAR)
     return [
-        Point(place.factor, place.at_infinity, place.delta_squared)
+        Orbit(place.factor, place.at_infinity, place.delta_squared)
         for place in places
         if place.delta_squared is not None and apparent in (None, place.is_apparent)
     ]
 
 
-def unseen_points(f: RatFunc) -> list[Point]:
+def unseen_points(f: RatFunc) -> list[Orbit]:
     """The critical points of f, and infinity, as ordinary points."""
     one = f.field.poly([1])
-    critical = [Point(p, False, one) for p, _ in f.field.factor(f.derivative().num)]
-    return [*critical, Point(f.field.poly([0, 1]), True, one)]
+    critical = [Orbit(p, False, one) for p, _ in f.field.factor(f.derivative().num)]
+    return [*critical, Orbit(f.field.poly([0, 1]), True, one)]
 
 
 def zeros(problem: Problem, polar: RatFunc, *, shifted: bool) -> Iterator[tuple[RatFunc, Poly]]:
@@ -262,7 +265,7 @@ def zeros(problem: Problem, polar: RatFunc, *, shifted: bool) -> Iterator[tuple[
             yield from ((f, e_squared) for e_squared in _shifted_differences(point.square, k))
 
 
-def value_at_point(f: RatFunc, point: Point | Place) -> Poly | None:
+def value_at_point(f: RatFunc, point: Orbit | Place) -> Poly | None:
     """The value at all roots of a factor, or at infinity, if it is one and finite."""
     if point.at_infinity:
         if not f or f.degree < 0:
@@ -288,34 +291,20 @@ def _shifted_differences(square: Poly, k: int) -> Iterator[Poly]:
     yield from (e * e for e in found)
 
 
-#: What a function f costs, in pairs of fibres, about.
-_TRIAL = 20
-#: The most places that are distributed, up to which number apparent ones are among them, and the most functions f.
-_PLACES = 14
-_WITH_APPARENT = 7
-_TRIALS = 1000
-
-
 def coverings(
-    points: list[Point], apparent: list[Point], hidden: int = 0
+    points: list[Orbit], apparent: list[Orbit], hidden: int = 0
 ) -> Iterator[tuple[RatFunc, Poly, Poly, Poly]]:
     """f with the squares of the exponent differences at its zeros, at its ones and at its poles.
 
     Those that are possible for these singular points, of small degree first.  Apparent ones may lie anywhere; up to `hidden`
-    ramification points may lie at places that S doesn't show.  Raises `LimitExceeded` for too many functions.
+    ramification points may lie at places that S doesn't show.
     """
-    if len(points) > _PLACES:
-        return
-    number = 0
     for zeros, poles, rest in _distributed(points, apparent, hidden):
         f = RatFunc(zeros.polynomial, poles.polynomial)
         # the multiples of f that are 1 at the points of the rest, or have 1 for a critical value
         values = dict.fromkeys(value_at_point(f, point) for point in rest[:1] or unseen_points(f))
         for g in [f / value for value in values if value]:
-            number += 1
-            count_work(_TRIAL)
-            if number > _TRIALS:
-                raise LimitExceeded(f"there are more than {_TRIALS} functions f to try", limit="degree")
+            count_work(zeros.degree)  # what stands over 1 is factored
             yield g, zeros.square, _difference_at_ones(g, zeros.degree, [*points, *apparent]), poles.square
 
 
@@ -326,7 +315,7 @@ def coverings(
 class Fibre:
     """All points over one of 0, 1, infinity with their multiplicities, and the square of the exponent difference."""
 
-    multiplicities: tuple[tuple[Point, int], ...]
+    multiplicities: tuple[tuple[Orbit, int], ...]
     square: Poly
 
     @cached_property
@@ -334,7 +323,7 @@ class Fibre:
         return sum(k * point.degree for point, k in self.multiplicities)
 
     @cached_property
-    def points(self) -> frozenset[Point]:
+    def points(self) -> frozenset[Orbit]:
         return frozenset(point for point, _ in self.multiplicities)
 
     @property
@@ -347,18 +336,16 @@ class Fibre:
         return result
 
 
-def _distributed(points: list[Point], apparent: list[Point], hidden: int) -> Iterator[tuple[Fibre, Fibre, list[Point]]]:
+def _distributed(points: list[Orbit], apparent: list[Orbit], hidden: int) -> Iterator[tuple[Fibre, Fibre, list[Orbit]]]:
     """Fibres over 0 and infinity of one degree n that have no point in common, and the points that are left over 1."""
     among = [*points, *apparent]
-    if len(among) > _WITH_APPARENT:
-        among = points
     by_degree: dict[int, list[Fibre]] = {}
     # n + 2 points lie over 0, 1 and infinity, and as many more as there is ramification elsewhere
     elsewhere = sum(int(rational_square_root(point.square) or 1) * point.degree for point in apparent)
     least_degree = _count(points) - 2 - elsewhere - hidden
     for fibre in fibres(among, 2 * _count(among) - 4):
         check_time()
-        count_work(1)
+        count_work(len(fibre.multiplicities))
         if fibre.degree >= least_degree:
             by_degree.setdefault(fibre.degree, []).append(fibre)
     for n, found in sorted(by_degree.items()):
@@ -377,12 +364,12 @@ def _distributed(points: list[Point], apparent: list[Point], hidden: int) -> Ite
                 yield zeros, poles, rest
 
 
-def _count(points: Iterable[Point]) -> int:
+def _count(points: Iterable[Orbit]) -> int:
     """The number of points."""
     return sum(point.degree for point in points)
 
 
-def fibres(points: list[Point], most: int) -> Iterator[Fibre]:
+def fibres(points: list[Orbit], most: int) -> Iterator[Fibre]:
     """Every set of points that can be a whole fibre of a function of degree `most` or less, with its multiplicities."""
     for chosen in _commensurable(points, most):
         # The smallest natural numbers in the proportion of the exponent differences; where these are 0 the multiplicities are
@@ -397,7 +384,7 @@ def fibres(points: list[Point], most: int) -> Iterator[Fibre]:
             yield Fibre(multiplicities, square)
 
 
-def _commensurable(points: list[Point], most: int, chosen: tuple[Point, ...] = ()) -> Iterator[tuple[Point, ...]]:
+def _commensurable(points: list[Orbit], most: int, chosen: tuple[Orbit, ...] = ()) -> Iterator[tuple[Orbit, ...]]:
     """Sets of `most` points or fewer with rational quotients of their exponent differences: what has been chosen, and all that
     goes with it."""
     if chosen:
@@ -409,7 +396,7 @@ def _commensurable(points: list[Point], most: int, chosen: tuple[Point, ...] = (
             yield from _commensurable(points[k + 1 :], most, (*chosen, point))
 
 
-def _ratio(point: Point, other: Point) -> Fraction | None:
+def _ratio(point: Orbit, other: Orbit) -> Fraction | None:
     """The quotient of the exponent differences if it is rational; 1 where both vanish."""
     if point.square and other.square:
         return rational_square_root(point.square / other.square)
@@ -419,7 +406,7 @@ def _ratio(point: Point, other: Point) -> Fraction | None:
 # ------------------------------------------------------------------------------------------ fibres to f
 
 
-def _difference_at_ones(f: RatFunc, degree: int, points: list[Point]) -> Poly:
+def _difference_at_ones(f: RatFunc, degree: int, points: list[Orbit]) -> Poly:
     """The square of the exponent difference over 1, from that and the multiplicity of one point there.
 
     A point that isn't singular has the exponent difference 1.

@@ -30,12 +30,10 @@ from kovacic.algebra.ratfunc import RatFunc
 from kovacic.compatibility import cached_property
 from kovacic.engine.places import Problem
 from kovacic.limits import count_work
-from kovacic.special.maps import half_rate
+from kovacic.special.maps import TRIAL, half_rate
 
 if TYPE_CHECKING:
-    from flint import fmpq, fmpq_poly
-
-    from kovacic.special.maps import Number
+    from kovacic.special.maps import Surd
     from kovacic.special.prices import Cost
     from kovacic.special.writer import Writer, WrittenPair
 
@@ -44,7 +42,6 @@ StandardSolution = Callable[["acb"], ValueAndSlope]  # at z
 StandardSolutions = Callable[
     ["acb", Sequence[bool]], list[ValueAndSlope]
 ]  # for those of both that are needed, zeros for the other
-HALF = fmpq(1, 2)
 
 
 @dataclass(frozen=True)
@@ -70,7 +67,7 @@ class StandardForm:
     @property
     def exponents(self) -> list[tuple[Any, Any]]:
         """Those of W, n, d - n and d in either solution, f'^(-1/2) z^alpha (1 - z)^beta."""
-        rows = [(-HALF, alpha, beta, 1 - alpha - beta) for alpha, beta in self.powers]
+        rows = [(fmpq(-1, 2), alpha, beta, 1 - alpha - beta) for alpha, beta in self.powers]
         return list(zip(*rows, strict=True))
 
 
@@ -84,7 +81,7 @@ def each(*solutions: StandardSolution) -> StandardSolutions:
     return values
 
 
-def square_root(number: Any) -> Any:
+def principal_root(number: Any) -> Any:
     """The principal square root: a rational number where it is one, else a ball."""
     try:
         return number.sqrt()
@@ -100,10 +97,6 @@ def is_integer(number: Any) -> bool:
 def ends(a: Any) -> bool:
     """True if a hypergeometric series with this upper parameter is a polynomial."""
     return is_integer(a) and a <= 0
-
-
-#: What a trial of a function f costs, in units of work, about.
-TRIAL = 30
 
 
 class StandardEquation(ABC):
@@ -144,7 +137,7 @@ class StandardEquation(ABC):
         None if the assumptions leave open which are independent.
         """
 
-    def integers(self, writer: Writer, f: RatFunc) -> Iterator[Number]:
+    def integers(self, writer: Writer, f: RatFunc) -> Iterator[Surd]:
         """Numbers that may be integers, on whose signs it may depend what is written, the preferred ones first."""
         yield from ()
 

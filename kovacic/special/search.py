@@ -36,7 +36,6 @@ from kovacic.algebra.factors import dependence
 from kovacic.algebra.homomorphism import BadPrimeError
 from kovacic.algebra.poly import Poly
 from kovacic.algebra.ratfunc import RatFunc, over_one_denominator
-from kovacic.algebra.rationals import QQ
 from kovacic.engine.places import Place, Problem, analyse, rational_square_root
 from kovacic.errors import LimitExceeded, VerificationFailed
 from kovacic.limits import Budget, bounded_work, count_work
@@ -44,8 +43,8 @@ from kovacic.numbers.numerals import as_latex, as_text
 from kovacic.special.airy import Airy
 from kovacic.special.bessel import Bessel
 from kovacic.special.gauss import Gauss
-from kovacic.special.maps import half_rate, integral_of_square_root, irregular_places, scales
-from kovacic.special.pullback import TRIAL, GaugeTransform, Pullback, StandardEquation
+from kovacic.special.maps import TRIAL, half_rate, integral_of_square_root, irregular_places, scales
+from kovacic.special.pullback import GaugeTransform, Pullback, StandardEquation
 from kovacic.special.whittaker import Whittaker
 
 if TYPE_CHECKING:
@@ -53,9 +52,8 @@ if TYPE_CHECKING:
 
 #: In the order in which they are tried.
 EQUATIONS: tuple[type[StandardEquation], ...] = (Airy, Whittaker, Bessel, Gauss)
-#: Unknown coefficients of b, and orders of its poles, up to which the system is set up; with parameters.
-_UNKNOWNS = 125
-_UNKNOWNS_WITH_PARAMETERS = 20
+#: Units of work for the search for a pull-back, and for that for a gauge transformation: a second, or a thousand functions f.
+SEARCH_WORK = 30_000
 
 
 def _pullback_candidates(
@@ -168,8 +166,9 @@ def _solved_system(S: RatFunc, T: RatFunc, orders: Sequence[_Order]) -> tuple[Po
         size += abs(order) * place.degree
     degree = (degree - m.degree) // 2
     size += degree + 1
-    if degree < 0 or size > (_UNKNOWNS if S.field == QQ else _UNKNOWNS_WITH_PARAMETERS):
+    if degree < 0:
         return None
+    count_work(size * size)
     zero = RatFunc(one * 0)
     rate = half_rate(m) + R.derivative() / R  # u'/u
 
@@ -217,12 +216,6 @@ def _null_vector(columns: list[Poly]) -> list[Poly] | None:
             return None
         break
     return dependence(columns)
-
-
-#: What is sought where none of them is found.
-GAUGED = "a v + b v' over these"
-#: Units of work for that.
-_TRANSFORM_WORK = 30_000
 
 
 @dataclass(frozen=True)
@@ -297,11 +290,11 @@ class SpecialFunctions:
         return f"no special function was found; searched: {'; '.join(self.searched)}"
 
 
-def find(S: RatFunc, budget: Budget, *, extended: bool = True) -> SpecialFunctions:
+def find(S: RatFunc, budget: Budget, *, extended: bool = True, work: int = SEARCH_WORK) -> SpecialFunctions:
     """The first pull-back of one of the `EQUATIONS` that gives S, checked exactly; not yet written.
 
-    Without `extended`, functions f over a larger field than that of S aren't sought.  An exhausted budget is a value: `stopped`
-    is its sentence.
+    Without `extended`, functions f over a larger field than that of S aren't sought.  An exhausted budget, of time or of
+    units of `work`, is a value: `stopped` is its sentence.
 
     >>> from kovacic.algebra.rationals import QQ
     >>> x = RatFunc(QQ.poly([0, 1]))
@@ -311,7 +304,7 @@ def find(S: RatFunc, budget: Budget, *, extended: bool = True) -> SpecialFunctio
     """
     searched: tuple[str, ...] = ()
     try:
-        with budget.watched():
+        with budget.watched(), bounded_work(work):
             problem = analyse(S, budget)
             equations = _equations(problem)
             searched = tuple(equation.searched for equation in equations)
@@ -368,7 +361,7 @@ def special_functions(request: Wanted, budget: Budget) -> SpecialFunctions:
     source: Pullback | GaugeTransform | None = search.pullback
     if source is None and search.stopped is None:
         source = find_transform(request.S, budget)
-        search = replace(search, searched=(*search.searched, GAUGED))
+        search = replace(search, searched=(*search.searched, "a v + b v' over these"))
     if source is None:
         return search
     said = "the assumptions don't tell which solutions are independent"
@@ -393,14 +386,14 @@ def find_transform(S: RatFunc, budget: Budget) -> GaugeTransform | None:
     Airy's x x 0
     """
     tried = {S}
-    with suppress(LimitExceeded), budget.watched(), bounded_work(_TRANSFORM_WORK):
+    with suppress(LimitExceeded), budget.watched(), bounded_work(SEARCH_WORK):
         problem = analyse(S, budget)
         for pullback in _pullback_candidates(problem, _equations(problem), extended=False, shifted=True):
+            count_work(TRIAL)
             T = pullback.S
             if T in tried:
                 continue
             tried.add(T)
-            count_work(TRIAL)
             found = _transformation(problem, analyse(T, budget))
             transform = None if found is None else GaugeTransform(pullback, *found)
             if transform is not None and transform.gives(S):

@@ -36,12 +36,11 @@ from kovacic.algebra.poly import Poly
 from kovacic.algebra.ratfunc import RatFunc
 from kovacic.closed_form.product import product as product_of
 from kovacic.engine.places import Problem
-from kovacic.limits import MOST_TRIALS, count_work
+from kovacic.limits import count_work
 from kovacic.special import prices
 from kovacic.special.bessel import Bessel, written_pair
-from kovacic.special.maps import HALF, Number, PolarPart, irregular_places, parts_by_scale, zeros
+from kovacic.special.maps import HALF, TRIAL, PolarPart, Surd, irregular_places, parts_by_scale, zeros
 from kovacic.special.pullback import (
-    TRIAL,
     Pullback,
     StandardForm,
     StandardSolution,
@@ -49,7 +48,7 @@ from kovacic.special.pullback import (
     each,
     ends,
     is_integer,
-    square_root,
+    principal_root,
 )
 
 if TYPE_CHECKING:
@@ -91,7 +90,7 @@ class Whittaker(Bessel):
                 return polynomial
         return _kummer_or_tricomi(form)
 
-    def integers(self, writer: Writer, f: RatFunc) -> Iterator[Number]:
+    def integers(self, writer: Writer, f: RatFunc) -> Iterator[Surd]:
         """Degrees of Laguerre's polynomials."""
         if self.r:
             form = _WhittakerForm.of(self, writer, f)
@@ -106,7 +105,7 @@ class Whittaker(Bessel):
     def cost(self) -> prices.Cost:
         if not self.r:
             return super().cost
-        mu, kappa = (square_root(square) / 2 for square in self.parameters)
+        mu, kappa = (principal_root(square) / 2 for square in self.parameters)
         if any(ends(fmpq(1, 2) + sign * mu - kappa) for sign in (1, -1)):  # Laguerre's polynomial, and one series
             return prices.BESSEL
         return prices.TRICOMI if is_integer(2 * mu) else prices.WHITTAKER
@@ -118,8 +117,8 @@ class Whittaker(Bessel):
         if coordinate:
             n = -n
             r = -r
-        mu = square_root(4 * M + 1) / 2
-        rho = square_root(q)
+        mu = principal_root(4 * M + 1) / 2
+        rho = principal_root(q)
         kappa = r / (2 * rho)
         half = fmpq(1, 2)
 
@@ -159,8 +158,7 @@ def _signs(parts: list[PolarPart]) -> Iterator[Sequence[int]]:
     """The signs of the parts: their residues are proportional to the orders; all signs where the residues vanish."""
     rates = [part.residue * Fraction(1, part.order) for part in parts]
     if not any(rates):
-        if 2 ** (len(parts) - 1) <= MOST_TRIALS:
-            yield from product((1,), *[(1, -1)] * (len(parts) - 1))
+        yield from product((1,), *[(1, -1)] * (len(parts) - 1))
         return
     signs = {rates[0]: 1, -rates[0]: -1}
     if all(rate in signs for rate in rates):
@@ -176,9 +174,9 @@ class _WhittakerForm:
 
     writer: Writer
     f: RatFunc
-    q: Number
-    kappa: Number
-    mu: Number
+    q: Surd
+    kappa: Surd
+    mu: Surd
 
     @classmethod
     def of(cls, equation: Whittaker, writer: Writer, f: RatFunc) -> _WhittakerForm:
@@ -208,15 +206,15 @@ class _WhittakerForm:
     def z(self) -> Expr:
         return self.writer.multiple(self.q * 2, self.f)
 
-    def factor(self, power: Number) -> WrittenFactor:
+    def factor(self, power: Surd) -> WrittenFactor:
         """exp(-z/2) z^power, and what belongs to the pull-back."""
         return self.writer.factor(self.f, [(power, self.f)], (-self.q, self.f))
 
-    def kummer(self, mu: Number) -> WrittenTerm:
+    def kummer(self, mu: Surd) -> WrittenTerm:
         """M_mu."""
         return self.factor(mu + HALF), self.writer.hypergeometric((mu - self.kappa + HALF,), (2 * mu + 1,), self.z)
 
-    def bracket(self, mu: Number, multiple: Expr = 1) -> Expr:
+    def bracket(self, mu: Surd, multiple: Expr = 1) -> Expr:
         """The bracket of a multiple of M_mu and M_-mu, whose Wronskian in z is -2 mu."""
         import sympy
 

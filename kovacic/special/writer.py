@@ -1,6 +1,6 @@
 """Parts of the solutions as SymPy expressions: y = G u(f)/sqrt(f'), G the gauge factor, u a solution of the standard equation.
 
-Powers and exponentials with exponents in the field are gathered in one product; the others, whose exponents are a `Number`
+Powers and exponentials with exponents in the field are gathered in one product; the others, whose exponents are a `Surd`
 with square roots, stand beside it (`WrittenFactor`).
 """
 
@@ -11,7 +11,7 @@ from dataclasses import dataclass, field
 from fractions import Fraction
 from functools import partial, reduce
 from operator import mul
-from typing import Any, Protocol
+from typing import TYPE_CHECKING, Any
 
 import sympy
 from sympy import Mul, exp
@@ -26,7 +26,10 @@ from kovacic.closed_form.atoms import Atoms, Expr, antiderivative_parameters, di
 from kovacic.closed_form.product import Power, Product, product
 from kovacic.compatibility import cached_property
 from kovacic.numbers.exact import radical
-from kovacic.special.maps import HALF, Number, half_rate
+from kovacic.special.maps import HALF, Surd, half_rate
+
+if TYPE_CHECKING:
+    from kovacic.special.pullback import GaugeTransform
 
 
 @dataclass(frozen=True)
@@ -118,22 +121,6 @@ class Wanted:
     places: Sequence[Fraction] = ()
 
 
-class Combined(Protocol):
-    """sqrt(m) (a v + b v'): what a `pullback.GaugeTransform` makes of v."""
-
-    @property
-    def m(self) -> Poly: ...
-
-    @property
-    def a(self) -> RatFunc: ...
-
-    @property
-    def b(self) -> RatFunc: ...
-
-    @property
-    def factor(self) -> RatFunc: ...
-
-
 class Writer:
     """Writes in one variable, with the user's own symbols by name and what is assumed about them, what is `wanted`.
 
@@ -142,7 +129,7 @@ class Writer:
     f is.
     """
 
-    def __init__(self, wanted: Wanted, transform: Combined | None = None) -> None:
+    def __init__(self, wanted: Wanted, transform: GaugeTransform | None = None) -> None:
         self.wanted = wanted
         self.gauge = wanted.gauge
         self.places = wanted.places
@@ -154,8 +141,8 @@ class Writer:
         self.symbols = {sympy.Symbol(name): symbol for name, symbol in wanted.symbols.items()}
         self.known = self.symbols
         self._squares: list[Poly] = []
-        self._shown: dict[Number | Poly, Expr] = {}
-        self._natural: dict[Number, bool] = {}
+        self._shown: dict[Surd | Poly, Expr] = {}
+        self._natural: dict[Surd, bool] = {}
 
     @property
     def own(self) -> dict[Expr, Expr]:
@@ -182,7 +169,7 @@ class Writer:
         return None
 
     def factor(
-        self, f: RatFunc, powers: Sequence[tuple[Number, RatFunc]], exponent: tuple[Number, RatFunc] | None = None
+        self, f: RatFunc, powers: Sequence[tuple[Surd, RatFunc]], exponent: tuple[Surd, RatFunc] | None = None
     ) -> WrittenFactor:
         """G/sqrt(f') times the powers of rational functions, times the exponential of a multiple of one."""
         slope = f.derivative()
@@ -191,13 +178,13 @@ class Writer:
         for number, base in powers:
             rate = rate + base.derivative() / base * number.part
             if number.roots:
-                e = self.constant(Number(number.part * 0, number.roots))
+                e = self.constant(Surd(number.part * 0, number.roots))
                 others += [self.atoms.base(p, around_zero=False) ** (k * e) for p, k in base.multiplicities]
         if exponent is not None:
             number, function = exponent
             rate = rate + function.derivative() * number.part
             if number.roots:
-                others.append(exp(self.constant(Number(number.part * 0, number.roots)) * self.argument(function)))
+                others.append(exp(self.constant(Surd(number.part * 0, number.roots)) * self.argument(function)))
         return WrittenFactor(product(rate), tuple(others))
 
     def pair(
@@ -205,7 +192,7 @@ class Writer:
         first: WrittenTerm,
         second: WrittenTerm,
         bracket: Callable[[], Expr] | None = None,
-        undefined: Iterable[Number] = (),
+        undefined: Iterable[Surd] = (),
         *,
         real_at: Expr | None = None,
     ) -> WrittenPair:
@@ -245,7 +232,7 @@ class Writer:
         return powers * function, powers
 
     def _combined(
-        self, transform: Combined, before: WrittenFactor, function: Expr, atoms: Atoms
+        self, transform: GaugeTransform, before: WrittenFactor, function: Expr, atoms: Atoms
     ) -> tuple[Expr, Expr | None]:
         """P sqrt(m) ((a + b P'/P) F + b F') over a constant c for v = P F, F' = s F + t F1, F1 another function; P sqrt(m)/c.
 
@@ -275,25 +262,25 @@ class Writer:
 
     # ------------------------------------------------------------------------------------- constants
 
-    def square_root(self, square: Poly) -> Number:
+    def square_root(self, square: Poly) -> Surd:
         """A square root, in the field or as a multiple of an earlier one where that is possible; never with a minus sign."""
         zero = square * 0
         inside = square.field.sqrt(square)
         if inside is not None:
-            return Number(self._without_sign(inside))
+            return Surd(self._without_sign(inside))
         for known in self._squares:
             ratio = square.field.sqrt(square / known)
             if ratio is not None:
-                return Number(zero, ((known, self._without_sign(ratio)),))
+                return Surd(zero, ((known, self._without_sign(ratio)),))
         self._squares.append(square)
-        return Number(zero, ((square, zero + 1),))
+        return Surd(zero, ((square, zero + 1),))
 
     def _without_sign(self, value: Poly) -> Poly:
         return -value if self.is_negative(value) else value
 
-    def constant(self, value: Number | Poly) -> Expr:
+    def constant(self, value: Surd | Poly) -> Expr:
         if value not in self._shown:
-            if isinstance(value, Number):
+            if isinstance(value, Surd):
                 roots = [self.constant(c) * radical(self.constant(square)) for square, c in value.roots]
                 shown = sympy.Add(self.constant(value.part), *roots)
             else:
@@ -303,49 +290,27 @@ class Writer:
             self._shown[value] = shown
         return self._shown[value]
 
-    def is_integer(self, value: Number) -> bool:
+    def is_integer(self, value: Surd) -> bool:
         """True if it is provably an integer."""
-        known = None if value.roots else value.part.field.rational_value(value.part)
-        if known is not None:
-            return known.denominator == 1
         return bool(self.constant(value).xreplace(self.known).is_integer)
 
-    def has_letters(self, value: Number) -> bool:
+    def has_letters(self, value: Surd) -> bool:
         """True if the value depends on parameters."""
         return bool(self.constant(value).free_symbols)
 
-    def is_natural(self, value: Number) -> bool:
+    def is_natural(self, value: Surd) -> bool:
         """True if it is provably a nonnegative integer."""
         if value not in self._natural:
             shown = self.constant(value)
-            forms = [shown.xreplace(self.symbols)]
-            if self.known is not self.symbols:
-                forms.append(shown.xreplace(self.known))
-            self._natural[value] = any(map(self._is_natural, forms))
+            self._natural[value] = any(_is_natural(shown.xreplace(known)) for known in (self.symbols, self.known))
         return self._natural[value]
 
-    def _is_natural(self, value: Expr) -> bool:
-        """Of an expression in the user's symbols: a positive integer n is n' + 1 with a natural n'."""
-        if (value.free_symbols and not self.knows_integers) or not value.is_integer:
-            return False
-        positive = [symbol for symbol in value.free_symbols if symbol.is_integer and symbol.is_positive]
-        lower = {symbol: sympy.Dummy(integer=True, nonnegative=True) + 1 for symbol in positive}
-        return bool(sympy.expand(value.xreplace(lower)).is_nonnegative)
-
-    @property
-    def knows_integers(self) -> bool:
-        """True if a parameter is provably an integer."""
-        return any(symbol.is_integer for symbol in self.known.values())
-
-    def is_degree(self, value: Number) -> bool:
+    def is_degree(self, value: Surd) -> bool:
         """True if it is provably natural and depends on a parameter."""
-        return self.knows_integers and bool(self.constant(value).free_symbols) and self.is_natural(value)
+        return self.has_letters(value) and self.is_natural(value)
 
-    def is_negative(self, value: Number | Poly) -> bool:
+    def is_negative(self, value: Surd | Poly) -> bool:
         """True if it is known to be negative, or would be written with a minus sign where its sign isn't known."""
-        number = None if isinstance(value, Number) else value.field.rational_value(value)
-        if number is not None:
-            return number < 0
         shown = self.constant(value)
         known = shown.xreplace(self.symbols).is_negative
         return bool(shown.could_extract_minus_sign() if known is None else known)
@@ -369,7 +334,7 @@ class Writer:
     def rate(self, f: RatFunc) -> Expr:
         return self.atoms.factored(f.derivative() / f)
 
-    def multiple(self, number: Number, f: RatFunc) -> Expr:
+    def multiple(self, number: Surd, f: RatFunc) -> Expr:
         """A constant times a rational function."""
         return self.constant(number) * self.argument(f) if number.roots else self.argument(f * number.part)
 
@@ -385,7 +350,7 @@ class Writer:
         contents = [RatFunc(self.atoms.primitive(p)[0]) ** k for p, k in powers]
         return self.root(reduce(mul, contents, RatFunc(self.scale(f))).num, 2) * display(root, self.real)
 
-    def hypergeometric(self, top: Sequence[Number], bottom: Sequence[Number], z: Expr) -> Expr:
+    def hypergeometric(self, top: Sequence[Surd], bottom: Sequence[Surd], z: Expr) -> Expr:
         above, below = (tuple(self.constant(value) for value in values) for values in (top, bottom))
         return hypergeometric(above, below, z)
 
@@ -403,6 +368,15 @@ class Writer:
         c = sympy.cos(sympy.pi * N / 2)
         s = sympy.sin(sympy.pi * N / 2)
         return c * odd + s * even, value * c**2 - slope * s**2
+
+
+def _is_natural(value: Expr) -> bool:
+    """True if an expression in the user's symbols is provably natural: a positive integer n is n' + 1 with a natural n'."""
+    if not value.is_integer:
+        return False
+    positive = [symbol for symbol in value.free_symbols if symbol.is_integer and symbol.is_positive]
+    lower = {symbol: sympy.Dummy(integer=True, nonnegative=True) + 1 for symbol in positive}
+    return bool(sympy.expand(value.xreplace(lower)).is_nonnegative)
 
 
 def _by_rationality(product: Expr, x: Any) -> tuple[Expr, Expr]:

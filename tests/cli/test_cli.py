@@ -98,7 +98,7 @@ def test_the_verdict_does_not_wait_for_the_solutions(
     def late(*_: object, **options: object) -> None:
         raise kovacic.LimitExceeded("the time limit is exceeded", limit="seconds")
 
-    monkeypatch.setattr("kovacic.special.choice.solutions", late)
+    monkeypatch.setattr("kovacic.special.choice.chosen_form", late)
     run(["solve", "x^2 + 3"])
     lines = capsys.readouterr().out.splitlines()
     assert lines[0] == "y'' = (x^2 + 3) y"
@@ -462,7 +462,7 @@ def test_ctrl_c_is_status_130() -> None:
     [
         ("kovacic.general_solution.dsolve", ["dsolve", "y'' = y"]),
         ("kovacic.general_solution.dsolve", ["solve", "y'' = y + x"]),
-        ("kovacic.special.choice.solutions", ["solve", "1"]),
+        ("kovacic.special.choice.chosen_form", ["solve", "1"]),
         (
             "kovacic.enclosure.evaluate.evaluate",
             ["evaluate", "x", "--x0=0", "--y0=1", "--dy0=0", "--at=1"],

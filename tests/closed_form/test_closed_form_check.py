@@ -39,7 +39,7 @@ from kovacic.closed_form.structure import (
     curve_of_pair,
     logarithmic_derivative,
 )
-from kovacic.special.choice import solutions
+from kovacic.special.choice import chosen_form
 
 X = RatFunc(QQ.poly([0, 1]))
 ZERO, ONE = RatFunc(QQ.poly([])), QQ.poly([1])
@@ -282,13 +282,13 @@ def test_pairs_with_irrational_coefficients(text: str) -> None:
 def test_without_a_solution_there_is_nothing_to_write() -> None:
     airy = kovacic.solve("x")
     with pytest.raises(ValueError, match="no Liouvillian solution"):
-        solutions(airy.S, airy.decision, airy.gauge)
+        chosen_form(airy.S, airy.decision, airy.gauge)
 
 
 def test_the_gauge_can_be_given() -> None:
     answer = kovacic.solve("-1")
     gauge = RatFunc(answer.S.field.poly([-1]), answer.S.field.poly([0, 2]))
-    assert [str(y) for y in solutions(answer.S, answer.decision, gauge)] == ["cos(x)/sqrt(x)", "sin(x)/sqrt(x)"]
+    assert [str(y) for y in chosen_form(answer.S, answer.decision, gauge)] == ["cos(x)/sqrt(x)", "sin(x)/sqrt(x)"]
 
 
 def test_wrong_answers_do_not_pass_the_checks() -> None:

@@ -41,7 +41,7 @@ from kovacic.closed_form.primitive import (
 from kovacic.closed_form.product import product
 from kovacic.closed_form.structure import RATIOS, Covariants, build
 from kovacic.special import choice
-from kovacic.special.choice import solutions
+from kovacic.special.choice import chosen_form
 from kovacic.special.gauss import klein_pullback
 from kovacic.special.search import SpecialFunctions
 
@@ -210,10 +210,10 @@ def test_exact_check_notices_every_changed_part() -> None:
 @generated(5)
 @given(strategies.case_1_diagonal())
 def test_gauge_and_normal_form_agree(example: strategies.Example) -> None:
-    """y times the gauge factor solves the equation with that gauge; the check inside `solutions` fails otherwise."""
+    """y times the gauge factor solves the equation with that gauge; the check inside `chosen_form` fails otherwise."""
     assume(example.size <= 20)
     answer = kovacic.solve((example.S.num.coefficients(), example.S.den.coefficients()))  # type: ignore[attr-defined]
-    assert solutions(answer.S, answer.decision, 1 / (2 * X) - X).checked == "exact"
+    assert chosen_form(answer.S, answer.decision, 1 / (2 * X) - X).checked == "exact"
 
 
 @parametrize(
@@ -287,6 +287,6 @@ def test_the_absolute_invariant_pulls_the_equation_back(S: str, monkeypatch: pyt
     assert not klein_pullback(replace(found, J=1 - found.J)).gives(answer.S)
     monkeypatch.setattr(choice, "find", lambda *_, **__: SpecialFunctions(None, ()))
     monkeypatch.setattr(choice, "find_transform", lambda *_: None)
-    form = choice.solutions(answer.S, answer.decision, answer.gauge)
+    form = choice.chosen_form(answer.S, answer.decision, answer.gauge)
     assert all(y.has(sympy.hyper) for y in form)
     assert sum(len(str(y)) for y in form) < 250
