@@ -30,13 +30,6 @@ from kovacic.reading.linear import chosen_root
 Expr = Any  # SymPy publishes no types
 
 
-def discriminant(p: Poly) -> Fraction | None:
-    """The discriminant of a monic quadratic polynomial if it is rational; None for any other."""
-    if p.degree != 2:
-        return None
-    return p.field.rational_value(p[1] * p[1] - 4 * p[0])
-
-
 class RootSum(sympy.RootSum):  # type: ignore[misc]
     """SymPy's, for polynomials with irrational coefficients: SymPy compares these with a TypeError, and so can't add two."""
 
@@ -250,21 +243,19 @@ class Atoms:
 
     def real_roots(self, p: Poly) -> tuple[Expr, ...]:
         """The roots of a monic quadratic polynomial with a positive rational discriminant; none for any other."""
-        square = discriminant(p)
-        if square is None or square <= 0:
+        if p.degree != 2:
             return ()
+        square = p.field.rational_value(p[1] * p[1] - 4 * p[0]) or 0
         centre = -self.constant(p[1]) / 2
         half = radical(Rational(square)) / 2
-        return centre - half, centre + half
+        return (centre - half, centre + half) if square > 0 else ()
 
     def log_sum(self, residue: Residue) -> Expr:
         """sum over the roots a of p of residue(a) log(x - a) up to a constant; real for quadratic p over Q."""
-        p = residue.factor
-        value = residue.value
+        p, value = residue.factor, residue.value
         if residue.is_constant:
             return self.constant(value) * log(self.base(p, around_zero=True), evaluate=False)
-        roots = self.real_roots(p)
-        if roots:
+        if roots := self.real_roots(p):
             return Add(*(sympy.expand_mul(self.poly(value, a)) * log(self.x - a) for a in roots))
         if p.degree == 2:
             return self._log_sum_of_quadratic(p, value)
@@ -283,7 +274,7 @@ class Atoms:
         total = mean * log(shown)
         twice = self.poly(p.derivative() * A)
         w = (4 * p[0] - p[1] * p[1]) * A * A
-        if discriminant(p) is None and self.is_negative(w):
+        if self.is_negative(w):
             root = self.sqrt(-w)
             return total - self.constant(slope * w / (2 * A)) / root * log((twice - root) / (twice + root))
         root = self.sqrt(w)
@@ -329,13 +320,11 @@ class Atoms:
 
 def _is_the_smaller_root(field: AlgebraicField) -> bool:
     """True if the root meant, of a quadratic polynomial, is the one below the middle of both (or below the real axis)."""
-    if field.approximation is None:
-        return False
-    real, imaginary = field.approximation
-    if imaginary != 0:
-        return imaginary < 0
+    real, imaginary = field.approximation or (0, 0)
     middle = field.base.rational_value(field.modulus[1])
-    return middle is not None and real < -middle / 2
+    if imaginary or middle is None or field.approximation is None:
+        return imaginary < 0
+    return real < -middle / 2
 
 
 def display(y: Product, atoms: Atoms, *, around_zero: bool = False) -> Expr:

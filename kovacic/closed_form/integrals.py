@@ -158,15 +158,12 @@ def _times_factor(factor: Expr, term: Expr) -> Expr:
 
 
 def _oriented(form: OnCurve, atoms: Atoms) -> OnCurve:
-    """With -g and -kappa^2 instead of g and kappa^2 if all logarithms are real where g is negative.
-
-    Only for rational tau^2, and d = 2 with two real branch points and without a logarithm at infinity.
-    """
+    """With -g and -kappa^2 if all logarithms are real where g < 0: for rational tau^2, two real branch points and no rest."""
     integral = form.integral
     if integral.rest or not atoms.real_roots(integral.g):
         return form
     units = [unit(integral.g, residue) for residue in integral.residues]
-    values = [None if u is None else u.tau_squared.field.rational_value(u.tau_squared) for u in units]
+    values = [u and u.tau_squared.field.rational_value(u.tau_squared) for u in units]
     is_other = bool(values) and all(value is not None and value <= 0 for value in values)
     return _on_the_other_side(form) if is_other else form
 
@@ -550,7 +547,7 @@ def _terms(
 
 
 def logarithms(residues: Iterable[Residue], atoms: Atoms, y: Product | None = None) -> list[Expr]:
-    """Logarithms, to be multiplied with y; those of two linear factors with opposite residues as one, and of x - a and x + a.
+    """Logarithms, to be multiplied by y; one for two linear factors with opposite residues, and for x - a and x + a.
 
     It is real between the roots if 0 lies there, unless the roots in y aren't.
     """
@@ -582,7 +579,7 @@ def logarithms(residues: Iterable[Residue], atoms: Atoms, y: Product | None = No
 
 
 def _are_real_before(end: Poly, y: Product, atoms: Atoms) -> bool:
-    """False if a root in y, as it is written, isn't real to the left of a number and near it."""
+    """True if the roots in y, as written, are real to the left of a number and near it."""
     roots = (base for group, e in grouped_factors(merged(y)) if not atoms.constant(e).is_Integer for base in group)
     # Where it is zero the base is negative to the left, unless it is written with the other sign.
     return all(atoms.constant(base(end)).is_positive in (None, not atoms.is_turned(base)) for base in roots)

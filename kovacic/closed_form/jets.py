@@ -183,27 +183,16 @@ def _coarse_value(root: Any) -> complex:
     return complex(root.evalf(15))
 
 
-def _check_series() -> None:
-    """Raises `LimitExceeded` where there isn't the time for another operation with such a series."""
-    check_duration(_SERIES_SECONDS * ctx.cap * ctx.prec, f"a product of power series with {ctx.cap} terms")
+def _check_series(products: int = 1) -> None:
+    """Raise `LimitExceeded` if the time left is too short for this number of products of power series."""
+    check_duration(products * _SERIES_SECONDS * ctx.cap * ctx.prec, f"a product of power series with {ctx.cap} terms")
 
 
 def _whole_power(value: BallValue, exponent: int) -> BallValue:
-    """A power of a series by squarings, with a look at the clock between them."""
     if not isinstance(value, acb_series):
         return value**exponent
-    if exponent < 0:
-        power = _whole_power(value, -exponent)
-        return _quotient(1, power)
-    if exponent == 0:
-        return acb_series([1])
-    power = value
-    for digit in f"{exponent:b}"[1:]:
-        power = power * power
-        if digit == "1":
-            power = power * value
-        _check_series()
-    return power
+    _check_series(products=2 * exponent.bit_length())  # by squarings
+    return value**exponent if exponent >= 0 else _quotient(1, value**-exponent)
 
 
 Acb = Any  # flint's acb
@@ -230,10 +219,7 @@ ARBITRARY = (*ANTIDERIVATIVES, *MATHIEU)
 
 
 def jet(expression: Any, variable: Any, point: Acb) -> tuple[Acb, Acb, Acb]:
-    """(f, f', f'') at the point, in the current precision of flint.
-
-    Raises `NotImplementedError` for a function that no closed form of this package contains.
-    """
+    """(f, f', f'') at the point, in flint's current precision.  Raises `NotImplementedError` for unsupported functions."""
     series = acb_series([0], prec=3) + _Evaluator({variable: acb_series([point, 1], prec=3)})(expression)
     return series[0], series[1], 2 * series[2]
 
@@ -310,17 +296,15 @@ class _Evaluator(BallEvaluator):
     def _of_sign(self, e: Any) -> BallValue:
         """|f|, the sign of f or the step H(f): for a function of the variable, near a point where it isn't zero, and real."""
         value = self(e.args[0])
-        middle = value if isinstance(value, acb) else value[0]
         if isinstance(value, acb) and isinstance(e, sympy.Abs):
             return acb(abs(value))
+        middle = _lifted(value)[0]
         if middle.imag != 0 or middle.contains(0):
             raise NotImplementedError(f"{e} isn't evaluated here")
         sign = 1 if middle.real > 0 else -1
         if isinstance(e, sympy.Abs):
             return value * sign
-        if isinstance(e, sympy.Heaviside):
-            return acb(max(sign, 0))
-        return acb(sign)
+        return acb(max(sign, 0) if isinstance(e, sympy.Heaviside) else sign)
 
     def _roots(self, polynomial: Any) -> list[Acb]:
         """The complex roots, which are simple."""
@@ -380,19 +364,9 @@ _DERIVATIVES_AT: dict[Any, Callable[[Acb, Acb], list[Acb]]] = {
 }
 
 
-def _spherical(function: Any) -> Callable[..., Any]:
-    """sqrt(pi/(2 z)) C_(n + 1/2)(z)."""
-    return lambda n, z: sympy.sqrt(sympy.pi / (2 * z)) * function(n + sympy.S.Half, z)
-
-
-def _laguerre_at(n: Any, a: Any, z: Any) -> Any:
-    factor = sympy.gamma(n + a + 1) / sympy.gamma(n + 1) / sympy.gamma(a + 1)
-    return factor * sympy.hyper((-n,), (a + 1,), z)
-
-
-def _gegenbauer_at(n: Any, a: Any, z: Any) -> Any:
-    factor = sympy.gamma(n + 2 * a) / sympy.gamma(n + 1) / sympy.gamma(2 * a)
-    return factor * sympy.hyper((-n, n + 2 * a), (a + sympy.S.Half,), (1 - z) / 2)
+def _binomial(n: Any, a: Any) -> Any:
+    """n + a over a."""
+    return sympy.gamma(n + a + 1) / sympy.gamma(n + 1) / sympy.gamma(a + 1)
 
 
 def _associated_legendre(n: Any, m: Any, z: Any) -> Any:
@@ -400,50 +374,42 @@ def _associated_legendre(n: Any, m: Any, z: Any) -> Any:
     return factor * (1 - z**2) ** (m / 2) * sympy.hyper((m - n, n + m + 1), (m + 1,), (1 - z) / 2)
 
 
-def _jacobi(n: Any, a: Any, b: Any, z: Any) -> Any:
-    factor = sympy.gamma(n + a + 1) / sympy.gamma(n + 1) / sympy.gamma(a + 1)
-    return factor * sympy.hyper((-n, n + a + b + 1), (a + 1,), (1 - z) / 2)
-
-
 #: By Bessel's functions, and by hypergeometric series.
 _BY_SERIES: dict[Any, Callable[..., Any]] = {
     sympy.elliptic_k: lambda m: sympy.elliptic_k(m).rewrite(sympy.hyper),
     sympy.elliptic_e: lambda m: sympy.elliptic_e(m).rewrite(sympy.hyper),
-    sympy.jn: _spherical(sympy.besselj),
-    sympy.yn: _spherical(sympy.bessely),
-    sympy.laguerre: lambda n, z: _laguerre_at(n, sympy.S.Zero, z),
-    sympy.assoc_laguerre: _laguerre_at,
-    sympy.legendre: lambda n, z: _gegenbauer_at(n, sympy.S.Half, z),
-    sympy.gegenbauer: _gegenbauer_at,
+    sympy.jn: lambda n, z: sympy.jn(n, z).rewrite(sympy.besselj),
+    sympy.yn: lambda n, z: sympy.yn(n, z).rewrite(sympy.bessely),
+    sympy.laguerre: lambda n, z: sympy.hyper((-n,), (1,), z),
+    sympy.assoc_laguerre: lambda n, a, z: _binomial(n, a) * sympy.hyper((-n,), (a + 1,), z),
+    sympy.legendre: lambda n, z: sympy.hyper((-n, n + 1), (1,), (1 - z) / 2),
+    sympy.gegenbauer: lambda n, a, z: (
+        _binomial(n, 2 * a - 1) * sympy.hyper((-n, n + 2 * a), (a + sympy.S.Half,), (1 - z) / 2)
+    ),
     sympy.assoc_legendre: _associated_legendre,
-    sympy.jacobi: _jacobi,
+    sympy.jacobi: lambda n, a, b, z: _binomial(n, a) * sympy.hyper((-n, n + a + b + 1), (a + 1,), (1 - z) / 2),
 }
 
 
 def _hypergeometric_jet(e: Any, value: Callable[[Any], Acb], z: Acb) -> list[Acb]:
     """SymPy's `hyper` and its first two derivatives: F' = (prod a/prod b) F(a + 1; b + 1) [DLMF 16.3.1]."""
-    top, bottom, series = list(map(value, e.ap)), list(map(value, e.bq)), _series_of(e, value)
+    top, bottom = list(map(value, e.ap)), list(map(value, e.bq))
+    counts = len(top), len(bottom)
+    # Which differences of parameters are integers is taken from the expression, for balls don't show it.
+    exact = []
+    if counts == (2, 1):
+        (a, b), (c,) = e.ap, e.bq
+        exact = [sympy.expand(d).is_integer is True for d in (a - b, a - c, b - c, a + b - c)]
     found = []
     factor = acb(1)
     for _ in range(3):
-        found.append(factor * series(top, bottom, z))
+        if exact:
+            F = z.hypgeom_2f1(*top, *bottom, False, *exact)
+        elif counts == (2, 0):  # 2F0(a, b; z) = (-1/z)^a U(a, a - b + 1, -1/z)
+            F = (-1 / z) ** top[0] * (-1 / z).hypgeom_u(top[0], value(sympy.expand(e.ap[0] - e.ap[1] + 1)))
+        else:
+            F = z.hypgeom(top, bottom)
+        found.append(factor * F)
         factor *= prod(top, start=acb(1)) / prod(bottom, start=acb(1))
         top, bottom = [a + 1 for a in top], [b + 1 for b in bottom]
     return found
-
-
-def _series_of(e: Any, value: Callable[[Any], Acb]) -> Callable[[list[Acb], list[Acb], Acb], Acb]:
-    """(parameters above, below, z) -> the value; 2F0(a, b; z) = (-1/z)^a U(a, a - b + 1, -1/z).
-
-    Differences of parameters that are integers are taken from the expression, for balls don't show that they are.
-    """
-    counts = (len(e.ap), len(e.bq))
-    if counts == (2, 1):
-        a, b = e.ap
-        (c,) = e.bq
-        exact = [sympy.expand(d).is_integer is True for d in (a - b, a - c, b - c, a + b - c)]
-        return lambda above, below, z: z.hypgeom_2f1(*above, *below, False, *exact)
-    if counts == (2, 0):
-        difference = value(sympy.expand(e.ap[0] - e.ap[1] + 1))
-        return lambda above, below, z: (-1 / z) ** above[0] * (-1 / z).hypgeom_u(above[0], difference)
-    return lambda above, below, z: z.hypgeom(above, below)

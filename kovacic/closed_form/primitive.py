@@ -134,7 +134,7 @@ def _at_poles(
     terms: list[GammaTerm] = []
     poles: list[Residue] = []
     for found in residues:
-        if rest.den % found.factor:  # dealt with at another zero of E - e
+        if rest.den % found.factor:  # the pole went with another zero of E - e
             continue
         term = None if alpha else _exponential_integral(found, E)
         if term is not None:

@@ -173,16 +173,13 @@ def grouped_factors(found: Sequence[Factor]) -> list[tuple[list[Poly], Poly]]:
 
 def joined(bases: list[Poly]) -> list[Poly]:
     """With every pair x - a, x + a multiplied out."""
-    pending = list(bases)
-    result = []
-    while pending:
-        base = pending.pop(0)
+    result: list[Poly] = []
+    for base in bases:
         # x + a beside x - a, for a other than 0
-        is_line = base.degree == 1 and bool(base[0])
-        lines = (other for other in pending if is_line and other.degree == 1)
-        partner = next((other for other in lines if base[0] * other[1] == -other[0] * base[1]), None)
-        if partner is not None:
-            pending.remove(partner)
-            base = base * partner
-        result.append(base)
+        lines = [k for k, p in enumerate(result) if p.degree == base.degree == 1 and p[0]]
+        partner = next((k for k in lines if result[k][0] * base[1] == -base[0] * result[k][1]), None)
+        if partner is None:
+            result.append(base)
+        else:
+            result[partner] = result[partner] * base
     return result

@@ -58,9 +58,7 @@ def real_pair(form: Conjugate, atoms: Atoms) -> tuple[Expr, Expr]:
     """The real and the imaginary part of y+, each a solution."""
     s = atoms.sqrt(-form.delta)
     pair = _SurdPair(form.A, form.B, form.common.powers)
-    phase: list[Expr] = []
-    if form.phase.exact:
-        phase.append(s * atoms.sum(form.phase.exact))
+    phase = [s * atoms.sum(form.phase.exact)]
     for residue in form.phase.residues:
         turned = _half_turns(pair, form.delta, residue, phase=phase, atoms=atoms, s=s)
         if turned is None:
@@ -69,10 +67,8 @@ def real_pair(form: Conjugate, atoms: Atoms) -> tuple[Expr, Expr]:
             pair = turned
     common = display(replace(form.common, powers=gathered_powers(pair.powers)), atoms)
     content = atoms.primitive(pair.A or pair.B)[0]
-    A = pair.A / content
-    B = pair.B / content
-    first = atoms.poly(A)
-    second = s * atoms.poly(B)
+    first = atoms.poly(pair.A / content)
+    second = s * atoms.poly(pair.B / content)
     for p, sign in pair.halves:
         # exp(+-i phi/2) is a multiple of plus +- i minus, plus * minus = t.
         distance = atoms.poly(p.derivative() * Fraction(1, 2))
@@ -87,8 +83,7 @@ def real_pair(form: Conjugate, atoms: Atoms) -> tuple[Expr, Expr]:
             angle = -angle
             second = -second
         evaluate = angle.has(sympy.atan)  # everything else stays as it is
-        c = cos(angle, evaluate=evaluate)
-        t = sin(angle, evaluate=evaluate)
+        c, t = cos(angle, evaluate=evaluate), sin(angle, evaluate=evaluate)
         first, second = first * c - second * t, first * t + second * c
     return _without_content(first) * common, _without_content(second) * common
 
@@ -121,17 +116,14 @@ def _half_turns(
     if mean:
         phase.append(s * atoms.constant(mean) * sympy.log(atoms.primitive(p)[1]))
     sign = 1 if q > 0 else -1
-    half = abs(2 * q) % 2 == 1
-    turns = int(abs(q) - Fraction(int(half), 2))
+    turns, half = divmod(abs(2 * q), 2)
     re = p.derivative() * Fraction(1, 2)
     im = p.field.poly([sign * ratio / 2])
-    for _ in range(turns):
-        pair = replace(
-            pair, A=pair.A * re + pair.B * im * delta, B=pair.A * im + pair.B * re
-        )  # times re + sqrt(delta) im
+    A, B = pair.A, pair.B
+    for _ in range(int(turns)):  # times re + sqrt(delta) im
+        A, B = A * re + B * im * delta, A * im + B * re
     powers = (*pair.powers, Power(p, p.field.poly([-abs(q) / 2])))
-    halves = ((p, sign),) if half else ()
-    return replace(pair, powers=powers, halves=(*pair.halves, *halves))
+    return _SurdPair(A, B, powers, (*pair.halves, (p, sign)) if half else pair.halves)
 
 
 def conjugate_roots(form: Conjugate, atoms: Atoms) -> tuple[Expr, Expr]:
@@ -144,8 +136,8 @@ def conjugate_roots(form: Conjugate, atoms: Atoms) -> tuple[Expr, Expr]:
         inner = [s * atoms.sum(form.phase.exact)]
         for residue in form.phase.residues:
             if residue.is_constant:  # an exponent
-                exponents.setdefault(residue.factor, Integer(0))
-                exponents[residue.factor] += s * atoms.constant(residue.value)
+                known = exponents.get(residue.factor, Integer(0))
+                exponents[residue.factor] = known + s * atoms.constant(residue.value)
             else:
                 inner.append(s * atoms.log_sum(residue))
         powers = Mul(*(atoms.base(base, around_zero=False) ** sympy.expand_mul(e) for base, e in exponents.items()))

@@ -44,21 +44,14 @@ def in_x(equation: Equation, expression: Any) -> Any:
     return _with_joined_powers(result, x) if t.func is sympy.exp else result
 
 
-#: For t(w): what an inverse function of t is, a polynomial q(t), and the function s with q(t) = s^2, where w is between 0 and
-#: pi/2.  Both sides are analytic, so that what holds there for solutions holds wherever they are continued.
-_INVERSE_FUNCTIONS: dict[Any, dict[Any, Any]] = {
-    sympy.sin: {sympy.asin: lambda w: w, sympy.acos: lambda w: sympy.pi / 2 - w},
-    sympy.cos: {sympy.acos: lambda w: w, sympy.asin: lambda w: sympy.pi / 2 - w},
-    sympy.tan: {sympy.atan: lambda w: w},
-    sympy.sinh: {sympy.asinh: lambda w: w},
-    sympy.cosh: {sympy.acosh: lambda w: w},
-}
-_ROOTS_OF_SQUARES: dict[Any, Any] = {
-    sympy.sin: (lambda t: 1 - t**2, sympy.cos, 1),
-    sympy.cos: (lambda t: 1 - t**2, sympy.sin, 1),
-    sympy.tan: (lambda t: 1 + t**2, sympy.cos, -1),
-    sympy.sinh: (lambda t: 1 + t**2, sympy.cosh, 1),
-    sympy.cosh: (lambda t: t**2 - 1, sympy.sinh, 1),
+#: For t(w): the inverse function of t, a polynomial q(t), and the function s(w) with q(t) = s^2 for w between 0 and pi/2.
+#: Both sides are analytic, so that what holds there for solutions holds wherever they are continued.
+_ROOTS_OF_SQUARES: dict[Any, Callable[[Any, Any], tuple[Any, Any, Any]]] = {
+    sympy.sin: lambda t, w: (sympy.asin, 1 - t**2, sympy.cos(w)),
+    sympy.cos: lambda t, w: (sympy.acos, 1 - t**2, sympy.sin(w)),
+    sympy.tan: lambda t, w: (sympy.atan, 1 + t**2, 1 / sympy.cos(w)),
+    sympy.sinh: lambda t, w: (sympy.asinh, 1 + t**2, sympy.cosh(w)),
+    sympy.cosh: lambda t, w: (sympy.acosh, t**2 - 1, sympy.sinh(w)),
 }
 
 
@@ -67,10 +60,14 @@ def _continued(expression: Any, t: Any) -> Any:
     if t.func not in _ROOTS_OF_SQUARES:
         return expression
     w = t.args[0]
-    for function, inverse in _INVERSE_FUNCTIONS[t.func].items():
-        expression = expression.xreplace({function(t, evaluate=False): inverse(w)})
-    square, other, sign = _ROOTS_OF_SQUARES[t.func]
-    for base, root in ((square(t), other(w) ** sign), (-square(t), sympy.I * other(w) ** sign)):
+    inverse, square, s = _ROOTS_OF_SQUARES[t.func](t, w)
+    is_sine = t.func in (sympy.sin, sympy.cos)
+    known = {inverse(t, evaluate=False): w}
+    if is_sine:  # asin(cos(w)) = acos(sin(w)) = pi/2 - w
+        other = sympy.acos if inverse is sympy.asin else sympy.asin
+        known[other(t, evaluate=False)] = sympy.pi / 2 - w
+    expression = expression.xreplace(known)
+    for base, root in ((square, s), (-square, sympy.I * s)):
         powers = {e for e in expression.atoms(sympy.Pow) if e.base == base and (2 * e.exp).is_Integer}
         expression = expression.xreplace({e: root ** (2 * e.exp) for e in powers})
     if t.func is sympy.tan:  # sin(w) for cos(w) tan(w), and sin(2 w)/2 for sin(w) cos(w)
@@ -78,10 +75,10 @@ def _continued(expression: Any, t: Any) -> Any:
             lambda e: e.is_Mul and e.has(t), lambda e: min(TR8(TR2(e)), TR2(e), e, key=sympy.count_ops)
         )
     # cos(w) +- i sin(w) = exp(+-i w), and sin(w) +- i cos(w) = +-i exp(-+i w).  The constant is left out: a solution stays one
-    # where the logarithm of t +- i other(w), which isn't algebraic in t, is continued with another constant.
-    for i in (sympy.I, -sympy.I) if t.func in (sympy.sin, sympy.cos) else ():
+    # where the logarithm of t +- i s, which isn't algebraic in t, is continued with another constant.
+    for i in (sympy.I, -sympy.I) if is_sine else ():
         angle = i * w if t.func is sympy.cos else -i * w
-        base = t + i * other(w)
+        base = t + i * s
         powers = {e for e in expression.atoms(sympy.Pow) if e.base == base and not e.exp.is_Integer}
         expression = expression.xreplace({e: sympy.exp(e.exp * angle) for e in powers} | {sympy.log(base): angle})
     return expression
