@@ -163,7 +163,7 @@ def _oriented(form: OnCurve, atoms: Atoms) -> OnCurve:
     if integral.rest or not atoms.real_roots(integral.g):
         return form
     units = [unit(integral.g, residue) for residue in integral.residues]
-    values = [u and u.tau_squared.field.rational_value(u.tau_squared) for u in units]
+    values = [None if u is None else u.tau_squared.field.rational_value(u.tau_squared) for u in units]
     is_other = bool(values) and all(value is not None and value <= 0 for value in values)
     return _on_the_other_side(form) if is_other else form
 
