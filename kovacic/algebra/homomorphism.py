@@ -13,6 +13,10 @@ from typing import Any
 
 from flint import nmod_poly
 
+#: Primes from which a property is guessed where only speed depends on it: that an element with square norms is a square
+#: (wrong with probability 2^-12), or that a number field splits completely at few primes.
+SAMPLE_PRIMES = 12
+
 
 class BadPrimeError(Exception):
     """The prime divides a denominator, or loses structure that the caller relies on: take another one."""

@@ -18,13 +18,11 @@ from flint import nmod_poly
 
 from kovacic.algebra.homomorphism import BadPrimeError, Collector, Homomorphism
 from kovacic.algebra.lifting import chinese_remainders, reconstruct_vector
-from kovacic.algebra.modular import null_space
+from kovacic.algebra.modular import EXTRA_EQUATIONS, null_space
 from kovacic.algebra.poly import Poly
 from kovacic.algebra.rationals import RationalHomomorphism, RationalPoly
 from kovacic.errors import LimitExceeded
 
-#: Samples beyond the number of unknowns.
-_MORE_SAMPLES = 4
 #: The largest linear system: beyond it the answer has too many terms in the parameters.
 _LARGEST_SYSTEM = 2400
 
@@ -94,7 +92,7 @@ class Samples(Collector):
     def _proposal(self) -> list[Any] | None:
         for p, points in self._points.items():
             for index, unknown in enumerate(self._unknowns):
-                if p not in unknown.primes and len(points) >= unknown.size + _MORE_SAMPLES:
+                if p not in unknown.primes and len(points) >= unknown.size + EXTRA_EQUATIONS:
                     unknown.solve(p, points, [row[index] for row in self._values[p]])
         functions = []
         for unknown in self._unknowns:
@@ -119,7 +117,7 @@ class _Unknown:
     @property
     def needed(self) -> int:
         """Samples for the next degree."""
-        return 2 * len(list(_exponents_up_to(self.parameters, self.degree))) + _MORE_SAMPLES
+        return 2 * len(list(_exponents_up_to(self.parameters, self.degree))) + EXTRA_EQUATIONS
 
     @property
     def size(self) -> int:

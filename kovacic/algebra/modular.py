@@ -15,6 +15,9 @@ from flint import fmpz, fmpz_mod_poly_ctx, nmod_mat, nmod_poly
 from kovacic.algebra.homomorphism import BadPrimeError
 from kovacic.limits import check_duration, check_time
 
+#: Equations beyond the number of unknowns in a linear system modulo p, so that a chance solution is improbable.
+EXTRA_EQUATIONS = 4
+
 
 def translate(polynomial: Any, point: int) -> Any:
     """`polynomial(t + point)`."""

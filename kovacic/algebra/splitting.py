@@ -15,7 +15,7 @@ from typing import Any
 
 from flint import fmpq, fmpq_poly, fmpz_mat, nmod_mat, nmod_poly
 
-from kovacic.algebra.homomorphism import BadPrimeError, Collector, ExtensionHomomorphism, Homomorphism
+from kovacic.algebra.homomorphism import SAMPLE_PRIMES, BadPrimeError, Collector, ExtensionHomomorphism, Homomorphism
 from kovacic.algebra.lifting import UNUSED_BITS, chinese_remainders, primes
 from kovacic.algebra.modular import simple_roots
 from kovacic.algebra.poly import Field, Poly
@@ -23,9 +23,8 @@ from kovacic.algebra.rationals import QQ, RationalHomomorphism
 from kovacic.errors import LimitExceeded
 from kovacic.limits import check_time
 
-#: From this degree on a number field may have too few primes that split completely, as the first `_TRIED_PRIMES` show.
+#: From this degree on a number field may have too few primes that split completely, as the first ones show.
 _LEAST_RARE_DEGREE = 4
-_TRIED_PRIMES = 12
 #: Primes that are tried where a number field of such a degree has parameters.
 _MOST_PRIMES = 20000
 
@@ -48,7 +47,7 @@ def splits_rarely(base: Field, modulus: Poly) -> bool:
     """True for a number field of a large degree in which none of the first primes splits completely."""
     if base != QQ or modulus.degree < _LEAST_RARE_DEGREE:
         return False
-    return not any(_splits(modulus, p) for p in islice(primes(), _TRIED_PRIMES))
+    return not any(_splits(modulus, p) for p in islice(primes(), SAMPLE_PRIMES))
 
 
 def _splits(modulus: Poly, p: int) -> bool:

@@ -9,12 +9,9 @@ from math import lcm
 
 from flint import fmpz
 
-from kovacic.algebra.homomorphism import BadPrimeError
+from kovacic.algebra.homomorphism import SAMPLE_PRIMES, BadPrimeError
 from kovacic.algebra.poly import Poly
 from kovacic.limits import MOST_TRIALS
-
-#: Primes at which a norm is tested for being a square: one that isn't passes with probability 2^-24.
-_NORM_TESTS = 24
 
 
 def largest_integer_total(base: Fraction, choices: Iterable[Fraction]) -> int:
@@ -50,7 +47,7 @@ def is_provably_not_a_square(element: Poly, modulus: Poly) -> bool:
             return False
         if modulus.degree == 1:
             return True
-    for h in islice(field.homomorphisms(), _NORM_TESTS):
+    for h in islice(field.homomorphisms(), SAMPLE_PRIMES):
         try:
             residue = int(h.keeping_degree(modulus).resultant(h(element)))
         except BadPrimeError:

@@ -24,15 +24,12 @@ from typing import Any, NamedTuple
 from flint import Ordering, fmpq, fmpq_mat, fmpq_poly, fmpz_mpoly_ctx, fmpz_poly
 
 from kovacic.algebra.factors import product
-from kovacic.algebra.modular import ordinary_point
+from kovacic.algebra.modular import EXTRA_EQUATIONS, ordinary_point
 from kovacic.algebra.poly import Poly
 from kovacic.algebra.rationals import QQ, RationalPoly
 from kovacic.algebra.recurrence import RationalSeries
 from kovacic.algebra.sparse import constant_term
 from kovacic.engine.places import Kind, Place, Problem
-
-#: Coefficients beyond the degree that must vanish, besides one for each unknown.
-_EXTRA_COEFFICIENTS = 4
 
 
 def polynomial_invariant(problem: Problem, m: int, N: int, valuations: Sequence[int]) -> Poly | None:
@@ -84,7 +81,7 @@ def _local_solutions(problem: Problem, factors: Sequence[Any], N: int) -> tuple[
             if any(obstructions):
                 conditions.append(obstructions)
             solutions.append(_Solution(i, RationalSeries(len(others))))
-            end = N + 1 + len(solutions) + _EXTRA_COEFFICIENTS
+            end = N + 1 + len(solutions) + EXTRA_EQUATIONS
         i += 1
     conditions += [[solution.term(k) for solution in solutions] for k in range(N + 1, end)]
     return solutions, conditions

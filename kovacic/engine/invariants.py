@@ -18,6 +18,7 @@ from typing import Any, NamedTuple
 from kovacic.algebra.homomorphism import BadPrimeError, Homomorphism
 from kovacic.algebra.lifting import Lifter
 from kovacic.algebra.modular import (
+    EXTRA_EQUATIONS,
     echelon_by_degree,
     fundamental_system,
     null_space,
@@ -31,9 +32,6 @@ from kovacic.decision import NoInvariant
 from kovacic.engine.expansion import polynomial_invariant
 from kovacic.engine.places import Place, Problem
 from kovacic.engine.riccati import Form, numerators, singular_part
-
-#: Equations beyond the number of unknowns, so that accidental solutions are improbable.
-_EXTRA_EQUATIONS = 6
 
 
 def least_invariant_valuation(place: Place, m: int, *, logarithms: bool = True) -> int | None:
@@ -113,7 +111,7 @@ class _Search:
         self.valuations = valuations
         self.N = N
         self.R0 = singular_part(problem, valuations[:-1])
-        self.margin = _EXTRA_EQUATIONS
+        self.margin = EXTRA_EQUATIONS
         self.lifter = Lifter(problem.field)
         self.recurrence_tried = False
 

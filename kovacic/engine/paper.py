@@ -57,7 +57,7 @@ from kovacic.limits import MOST_TRIALS, check_time
 #: Families that are enumerated, or sums that are counted apart; of a few families all are shown and tried.
 _MOST_FAMILIES = 10 * MOST_TRIALS
 _FEW_FAMILIES = 8
-#: The highest order of a pole: longer singular parts fill a screen each.
+#: The highest order of a pole: longer singular parts fill a screen each, and (1 + x + x^2)/x^200 takes more than a minute.
 _HIGHEST_POLE_ORDER = 40
 #: The degree over Q of the coefficients of r.
 _HIGHEST_DEGREE = 6

@@ -31,12 +31,10 @@ from kovacic.decision import CurveFunction
 from kovacic.errors import LimitExceeded
 from kovacic.limits import MOST_TRIALS
 from kovacic.verify.factors import factors_of
-from kovacic.verify.primes import BadPrimeError, Homomorphism, homomorphisms_modulo
+from kovacic.verify.primes import SAMPLES, BadPrimeError, Homomorphism, homomorphisms_modulo
 
 #: Primes k l + 1 are taken upwards from here for a prime factor l of n; an l below it leaves them within a machine word.
 _PRIMES_FROM = 1 << 50
-#: Values of x that are tried under each homomorphism.
-_VALUES_OF_X = 40
 
 
 def is_least_power(H: RatFunc, f: CurveFunction, n: int) -> bool:
@@ -118,7 +116,7 @@ def _curve_values(f: CurveFunction, G: Poly, h: Homomorphism) -> Iterator[int]:
     if curve.gcd(curve.derivative()).degree() > 0:
         raise BadPrimeError("branch points meet")
     pieces = [(h(piece.a), h(piece.b), piece.exponent) for piece in f.pieces]
-    for x in range(_VALUES_OF_X):
+    for x in range(SAMPLES):
         square = fmpz(int(curve(x)))
         if square.jacobi(p) != 1:
             continue

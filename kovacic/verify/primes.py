@@ -26,6 +26,8 @@ from kovacic.algebra.rationals import RationalPoly
 
 #: The kernel's own primes are taken downwards from here; a record may name any prime below twice this.
 _KERNEL_PRIMES_BELOW = 1 << 62
+#: Samples (primes, values of x) for a test that each passes by chance with a probability of 1/2 at most.
+SAMPLES = 40
 #: Values of the parameters that are tried for one prime.
 _PARAMETER_POINTS = 64
 

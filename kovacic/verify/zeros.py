@@ -42,7 +42,7 @@ from kovacic.errors import VerificationFailed
 from kovacic.limits import MOST_TRIALS
 from kovacic.verify.factors import inverse
 from kovacic.verify.local import Point
-from kovacic.verify.primes import BadPrimeError, Homomorphism, homomorphisms, roots_modulo
+from kovacic.verify.primes import SAMPLES, BadPrimeError, Homomorphism, homomorphisms, roots_modulo
 
 
 def residue_over_leading_root(N: Poly, q: Poly, p: Poly, nu: int) -> Poly:
@@ -116,10 +116,6 @@ def _digits(H: Poly, p: Poly, count: int) -> list[Poly]:
     half = count // 2
     high, low = divmod(H, p**half)
     return _digits(low, p, half) + _digits(high, p, count - half)
-
-
-#: Values that are tested: one that isn't a square is one modulo all of the primes with a probability of 2^-40.
-_SQUARE_TESTS = 40
 
 
 @dataclass(frozen=True)
@@ -230,7 +226,7 @@ def is_no_square(element: Poly, p: Poly) -> bool:
     if element.degree <= 0 and p.field.sqrt(element) is not None:  # which spares the tests
         return False
     # Norms come first: they cost less than a hundredth of the roots at degree 60, and two of them tell as a rule.
-    tests = chain(islice(_norms(element, p), _SQUARE_TESTS), islice(_values_at_roots(element, p), _SQUARE_TESTS))
+    tests = chain(islice(_norms(element, p), SAMPLES), islice(_values_at_roots(element, p), SAMPLES))
     return any(fmpz(value).jacobi(h.p) == -1 for h, value in tests)
 
 
