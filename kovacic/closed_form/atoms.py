@@ -38,7 +38,7 @@ class RootSum(sympy.RootSum):  # type: ignore[misc]
 
 
 def is_seen_negative(value: Expr) -> bool:
-    """True if it is negative, with positive numbers for letters of unknown signs, as -a^2."""
+    """True if a value is negative once letters of unknown sign are taken as positive, as in -a^2."""
     unknown = {s: sympy.Dummy(positive=True) for s in value.free_symbols if s.is_positive is None}
     return bool(value.xreplace(unknown).is_negative)
 
@@ -350,7 +350,7 @@ def factors(
 
 
 def _shown(y: Product, found: list[Factor], atoms: Atoms, *, around_zero: bool) -> tuple[list[Expr], list[Expr]]:
-    """The exponents of bases with the other sign, and the factors of a product, up to contents."""
+    """The exponents of the bases written with the opposite sign, and the factors of a product without their contents."""
     turned: list[Expr] = []
     shown: list[Expr] = []
     for group, exponent in grouped_factors(found):

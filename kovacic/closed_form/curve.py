@@ -187,8 +187,8 @@ def gathered_zeros(g: Poly, r: RatFunc, kappa_squared: Poly, P: Poly) -> Unit | 
     T = r.num * kappa_squared * 2 * (r.den // P * P.derivative()).inverse_modulo(P) % P
     p = P
     if P.degree % 2 and g.degree == 2:
-        branch = next((line for line, _ in g.field.factor(g) if line.degree == 1), None)
-        if branch is None:
+        branch = g.field.factor(g)[0][0]
+        if branch.degree > 1:
             return None
         T = T * branch.inverse_modulo(P) % P * branch
         p = P * branch

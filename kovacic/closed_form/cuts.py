@@ -1,8 +1,7 @@
-"""Branch cuts: where the parts of a solution have them, and solutions that are real on the side of them that is meant.
+"""Branch cuts: where the parts of a solution have them, and solutions that are real on a given side.
 
-Solutions that are real where x - a is positive may not be where it is negative: log(u) = log(-u) + i pi and
-u^e = exp(i pi e) (-u)^e for u < 0.  Often log(-u) and (-u)^e in their places give a solution as well; elementary solutions
-are written anew, with roots that are real there.
+Solutions that are real where x - a > 0 needn't be where it is negative: log(u) = log(-u) + i pi and u^e = exp(i pi e) (-u)^e
+for u < 0.  Often log(-u) and (-u)^e in their place give a solution, too; else elementary ones are rewritten with real roots.
 """
 
 from __future__ import annotations
@@ -30,7 +29,7 @@ Expr = Any  # SymPy publishes no types
 Own = Callable[[Expr], Expr]
 #: Where a pair is to be real: after the usual points, beyond all singular ones.
 _TRIED_PLACES = (*map(sympy.Rational, PLACES), sympy.Integer(10**9), sympy.Integer(-(10**9)))
-#: Functions with branch cuts, and what lies on the negative axis where they have theirs, or None if nothing does.
+#: Functions with branch cuts, with the expression that is negative on the cut, or None if there is none.
 _CUTS: dict[Any, Callable[[Expr], Expr | None]] = {
     **dict.fromkeys(
         (sympy.log, sympy.Ei, sympy.Ci, sympy.expint, sympy.uppergamma, sympy.lowergamma), lambda e: e.args[-1]
@@ -42,7 +41,7 @@ _CUTS: dict[Any, Callable[[Expr], Expr | None]] = {
     # zero where the argument is: what has a sign isn't analytic there
     **dict.fromkeys((sympy.Abs, sympy.sign, sympy.Heaviside), lambda e: e.args[0] ** 2),
 }
-#: Parts of solutions that are real on one side of a singular point, beside Bessel's and hypergeometric functions.
+#: Parts of solutions that are real on one side of a singular point, apart from Bessel and hypergeometric functions.
 _TURNED_FUNCTIONS = (sympy.log, sympy.Ci, sympy.lowergamma, sympy.uppergamma, sympy.Pow)
 #: For Bessel's functions of i z those of z with the same span.
 _OF_IMAGINARY = {
@@ -144,12 +143,10 @@ def _is_below_zero(u: Expr, x: Expr, point: Expr, own: Own) -> bool:
 
 
 def common_place(x: Expr, *parts: Mapping[Expr, Expr], own: Own = sympy.sympify) -> Expr:
-    """The first of some points at which the fewest `arguments_with_cuts` lie on these, those of the first part before all: the
-    others can be turned there.
+    """The first of several points at which the fewest `arguments_with_cuts` lie on cuts; those of the first part count first.
 
-    After the usual points come those between zeros of arguments, as for sqrt(x - 3) and sqrt(4 - x).
+    The usual points come first, then those between zeros of arguments, as for sqrt(x - 3) and sqrt(4 - x).
     """
-
     shared = [Counter(arguments.values()) for arguments in parts]
 
     def points() -> Iterator[Expr]:
@@ -176,10 +173,7 @@ def real_at(
     anew: Callable[[], tuple[Expr, Expr]] | None = None,
     own: Own = sympy.sympify,
 ) -> tuple[Expr, Expr]:
-    """Two solutions with fewer arguments on cuts at the place, if such are found; else the given ones.
-
-    `anew` writes solutions whose roots are real there.
-    """
+    """Solutions with fewer arguments on cuts at the place, turned or from `anew`; the given pair if there are none."""
 
     def left(found: Sequence[Expr]) -> int:
         return len(negative_arguments(arguments_with_cuts(sympy.Tuple(*found)), x, place, own))

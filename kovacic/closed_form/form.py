@@ -38,7 +38,7 @@ class ClosedForm:
     gauge : RatFunc
         The logarithmic derivative of the factor that is in y1 and y2: 0 where S itself was given.
     checked : str
-        "exact": the equation was verified in rational functions; what is shown has been checked at a point, too.
+        "exact": the equation was verified in rational functions, and the displayed expressions at a point.
     notes : tuple of str
         Integrals that were left, with the reason, and caveats about the formulas.
     undefined : tuple of sympy.Expr

@@ -13,7 +13,7 @@ t (1 - t) (1 - m t) and t = sin(phi)^2, dt/W = 2 dphi/sqrt(1 - m sin(phi)^2), so
 
 For g and r that are even about c, (x - c)^2 takes the place of x: the roots of g themselves needn't lie in the field.
 
-One finite branch point a is enough beside infinity, where the other two may be conjugate: with A^2 = g'(a), x = a + A s the
+One finite branch point a besides infinity is enough, where the other two may be conjugate: with A^2 = g'(a), x = a + A s the
 curve is w^2 = s (s^2 + b s + 1), and with m = (2 - b)/4, s = tan(phi/2)^2, sin(phi)^2 = 4 s/(1 + s)^2, n = (1 + tau)^2/(4 tau),
 
     int ds/w = F(phi|m),       int s ds/w = F - 2 E + 2 w/(1 + s),
@@ -366,7 +366,7 @@ def _by_sine(curve: _Curve, atoms: Atoms) -> list[tuple[Poly, Expr]]:
 
 
 def _by_tangent(curve: _Curve, atoms: Atoms) -> list[tuple[Poly, Expr]]:
-    """By (2), from one branch point beside infinity: there goes a root of a quartic g; that of a cubic may be adjoined."""
+    """By (2), from a branch point and infinity, where a root of a quartic g is moved; a root of a cubic may be adjoined."""
     roots = curve.roots
     is_negative = False
     if curve.g.degree == 4:

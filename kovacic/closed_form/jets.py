@@ -71,7 +71,7 @@ class BallEvaluator:
         self._known: dict[Any, BallValue] = dict(values)
 
     def __call__(self, e: Any) -> BallValue:
-        """Raises `InputError` for functions that aren't known here."""
+        """Raises `InputError` for unsupported functions."""
         found = self._known.get(e)
         if found is None:
             check_time()
@@ -254,7 +254,7 @@ class _Evaluator(BallEvaluator):
         return self._special(e)
 
     def _special(self, e: Any) -> BallValue:
-        """A special function; a constant that is none of these by SymPy's numbers."""
+        """A special function, or another constant by SymPy's numbers."""
         if e.func in _POWER_SERIES:
             *parameters, last = map(self, e.args)
             return getattr(acb_series, _POWER_SERIES[e.func])(*parameters, _lifted(last))

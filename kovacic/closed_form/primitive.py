@@ -88,7 +88,7 @@ def _kernel_rate(E: RatFunc, alpha: Fraction) -> RatFunc:
 
 
 def monomial(E: RatFunc) -> tuple[Poly, int, Poly] | None:
-    """(beta, n, c) with E = beta x^n + c, None if it isn't so."""
+    """(beta, n, c) with E = beta x^n + c, or None if E isn't of this form."""
     c = E.num[0] if E.is_polynomial else E.num // E.den
     if c.degree > 0:
         return None
@@ -129,7 +129,7 @@ def integrate_exponential(r: RatFunc, E: RatFunc, alpha: Fraction = Fraction(0))
 def _at_poles(
     r: RatFunc, residues: Iterable[Residue], E: RatFunc, alpha: Fraction
 ) -> tuple[RatFunc, list[GammaTerm], list[Residue]] | None:
-    """The rest of r, terms with Ei for the residues, and conjugate poles; None if a residue fits none of these."""
+    """The rest of r, terms with Ei for the residues, and conjugate poles; None if a residue fits neither."""
     rest = r
     terms: list[GammaTerm] = []
     poles: list[Residue] = []
@@ -141,7 +141,7 @@ def _at_poles(
             terms.append(term)
             rest = rest - term.derivative
         elif E.is_polynomial and E.num.degree <= (0 if alpha else 1):
-            # Conjugate poles have terms of their own for E = beta x + constant, or for a constant E beside a power of x.
+            # Conjugate poles have terms of their own for E = beta x + constant, or for a constant E and a power of x.
             poles.append(found)
             rest = rest - found.logarithmic
         else:
@@ -161,7 +161,7 @@ def _exponential_integral(found: Residue, E: RatFunc) -> GammaTerm | None:
 
 
 def _gamma_candidates(E: RatFunc, alpha: Fraction) -> Iterator[GammaTerm]:
-    """The terms (1) that no pole tells of, with the coefficient 1."""
+    """The terms (1) that don't come from poles, with the coefficient 1."""
     one = E.field.poly([1])
     if not alpha:
         for e in _limit(E):
@@ -175,7 +175,7 @@ def _gamma_candidates(E: RatFunc, alpha: Fraction) -> Iterator[GammaTerm]:
 
 
 def _gamma_terms(beta: Poly, n: int, e: Poly, alpha: Fraction) -> Iterator[GammaTerm]:
-    """Those with 0 <= s < 1 for E = beta x^n + e; without alpha, s = 0 and s = 1/2 are Ei and error functions."""
+    """Terms with 0 <= s < 1 for E = beta x^n + e; for alpha = 0, s = 0 and s = 1/2 are Ei and error functions, found before."""
     x = RatFunc(beta.field.poly([0, 1]))
     one = beta.field.poly([1])
     known = () if alpha else (0, Fraction(1, 2))
@@ -327,7 +327,7 @@ def _without_exponential(rational: RatFunc, fractional: list[_Root]) -> Primitiv
     if not fractional:
         return RationalPrimitive(decompose(rational))
     if all(alpha.denominator == 2 for _, alpha in fractional):
-        g = rational.field.poly([1])  # on s^2 = g, g the product of what is under the roots
+        g = rational.field.poly([1])  # on s^2 = g, g the product of the radicands
         for p, alpha in fractional:
             g = g * p
             rational = rational * RatFunc(p) ** int(alpha + Fraction(1, 2))

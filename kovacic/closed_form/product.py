@@ -55,7 +55,7 @@ class Product:
 
     @property
     def length(self) -> int:
-        """About how many characters it takes, without writing it with SymPy."""
+        """The approximate length in characters, without SymPy."""
         return written_length(self.powers, self.roots, self.exponential)
 
     def to_power(self, n: int) -> Product:
@@ -65,10 +65,7 @@ class Product:
 
 
 def written_length(*parts: object) -> int:
-    """About how many characters these polynomials and rational functions take, and those that other objects consist of.
-
-    There are none for 0 and 1, and a sign beside others.
-    """
+    """The approximate length in characters of polynomials, rational functions and objects made of them; none for 0 and 1."""
     length = 0
     for part in parts:
         if isinstance(part, RatFunc):
@@ -175,7 +172,7 @@ def joined(bases: list[Poly]) -> list[Poly]:
     """With every pair x - a, x + a multiplied out."""
     result: list[Poly] = []
     for base in bases:
-        # x + a beside x - a, for a other than 0
+        # x + a joins x - a, for a other than 0
         lines = [k for k, p in enumerate(result) if p.degree == base.degree == 1 and p[0]]
         partner = next((k for k in lines if result[k][0] * base[1] == -base[0] * result[k][1]), None)
         if partner is None:

@@ -82,7 +82,7 @@ def real_pair(form: Conjugate, atoms: Atoms) -> tuple[Expr, Expr]:
         if angle.could_extract_minus_sign():  # the complex conjugates: y- instead of y+
             angle = -angle
             second = -second
-        evaluate = angle.has(sympy.atan)  # everything else stays as it is
+        evaluate = angle.has(sympy.atan)  # all other angles are left unevaluated
         c, t = cos(angle, evaluate=evaluate), sin(angle, evaluate=evaluate)
         first, second = first * c - second * t, first * t + second * c
     return _without_content(first) * common, _without_content(second) * common
@@ -100,12 +100,10 @@ def _half_turns(
     pair: _SurdPair, delta: Poly, residue: Residue, *, phase: list[Expr], atoms: Atoms, s: Expr
 ) -> _SurdPair | None:
     """The pair turned by exp(i q phi) of equation (1) if 2q is an integer; the logarithm, if any, joins the phase."""
-    p = residue.factor
-    value = residue.value
+    p, value = residue.factor, residue.value
     if p.degree != 2 or residue.is_constant or p.field != QQ:
         return None
-    discriminant = p[1] * p[1] - 4 * p[0]
-    ratio = rational_square_root(discriminant / delta)  # 2t/s, only if the roots are complex
+    ratio = rational_square_root((p[1] * p[1] - 4 * p[0]) / delta)  # 2t/s, only if the roots are complex
     if ratio is None:
         return None
     slope: Any = value.field.rational_value(value[1])
