@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from contextlib import suppress
-from itertools import product
 from typing import Any
 
 from flint import acb, acb_poly, arb, fmpq
@@ -115,12 +114,13 @@ def are_independent(y1: Any, y2: Any, variable: Any) -> bool:
 def independent(pairs: Sequence[tuple[Any, Any]], variable: Any) -> tuple[Any, Any] | None:
     """A pair proven to be independent; one that takes few digits comes first."""
     # Where both solutions grow alike, y z' and y' z agree in many digits although W isn't 0.
-    for digits, pair in product((DIGITS + 15, 4 * DIGITS, 10 * DIGITS), pairs):
-        with working_digits(digits), suppress(NotImplementedError):  # a function without balls
-            (y, dy, _), (z, dz, _) = (jet(expression, variable, check_point()) for expression in pair)
-            W = y * dz - dy * z
-            if W.is_finite() and not W.contains(0):
-                return pair
+    for digits in (DIGITS + 15, 4 * DIGITS, 10 * DIGITS):
+        for pair in pairs:
+            with working_digits(digits), suppress(NotImplementedError):  # a function without balls
+                (y, dy, _), (z, dz, _) = (jet(expression, variable, check_point()) for expression in pair)
+                W = y * dz - dy * z
+                if W.is_finite() and not W.contains(0):
+                    return pair
     return None
 
 
